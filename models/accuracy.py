@@ -1,0 +1,71 @@
+"""The accuracy ladder: four named levels, and the error each of them promises."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from .errors import InvalidParameter
+
+__all__ = ["DRAFT", "LEVELS", "PRECISE", "REFERENCE", "STANDARD", "Level", "Status", "level"]
+
+
+class Status(StrEnum):
+    """How a computation ended."""
+
+    OK = "ok"
+    FLOOR = "double-precision floor"
+    PROMISE_NOT_MET = "promise not met"
+
+
+@dataclass(frozen=True)
+class Level:
+    """One rung of the ladder.
+
+    Parameters
+    ----------
+    name : the word the user chooses.
+    promise : the largest global error a result may have, in units in which the state is O(1).
+        At `reference` it is nominal: the level goes to the floor of double precision, wherever
+        the motion puts that.
+    tolerance : the local error of one Taylor step, first attempt.
+    order : the order of the Taylor series.
+    """
+
+    name: str
+    promise: float
+    tolerance: float
+    order: int
+
+    @property
+    def is_floor(self) -> bool:
+        """True for the last rung, whose error round-off decides and not the step."""
+        return self.tolerance <= FLOOR_TOLERANCE
+
+    def tightened(self) -> Level:
+        """The same level with steps a hundred times more exact: what its error is measured against."""
+        if self.is_floor:
+            # Other steps and another order: what differs then is round-off.
+            return Level(self.name, self.promise, self.tolerance / 30.0, self.order - 3)
+        order = self.order if self.tolerance > 1e-11 else REFERENCE.order
+        return Level(self.name, self.promise, max(self.tolerance * 1e-2, FLOOR_TOLERANCE), order)
+
+
+FLOOR_TOLERANCE = 1e-17
+
+DRAFT = Level("draft", 1e-3, 1e-5, 10)
+STANDARD = Level("standard", 1e-6, 1e-8, 14)
+PRECISE = Level("precise", 1e-9, 1e-11, 18)
+REFERENCE = Level("reference", 1e-12, FLOOR_TOLERANCE, 24)
+
+LEVELS: dict[str, Level] = {rung.name: rung for rung in (DRAFT, STANDARD, PRECISE, REFERENCE)}
+
+
+def level(name: str) -> Level:
+    """The level of that name; raises `InvalidParameter` with the list of names."""
+    try:
+        return LEVELS[name]
+    except KeyError:
+        raise InvalidParameter(
+            f"There is no accuracy level of that name; choose one of {', '.join(LEVELS)}."
+        ) from None

@@ -1,0 +1,426 @@
+"""S8, S15: the circle map Θ(φ) of the Suslov–Hess torus as one matrix of SU(1,1).
+
+Section n3 = n3^(1) (the lower turning point), w = |w|(sin φ, cos φ), units b = 1.
+`eq0003` is a Riccati equation in e^{iφ}; with (w, n) a solution of `eq01` at a = 0 and
+W = w2 + i w1 it becomes the linear system
+    A' = −(ia/2)·conj(W B),   B' = −(ia/2)·conj(W A),   A(0) = 1, B(0) = 0,
+which is regular also where h + n3 → 0.  From the lower to the upper turning point it gives
+U = (A, B)·e^{iχ/2}, χ the angle through which W turns; time reversal with φ → −φ gives the way
+back, so that the whole map z → (αz+β)/(β̄z+ᾱ), z = e^{iφ}, is
+    α = A² − conj(B)²,   β = 2i Im(AB).
+β is imaginary: the fixed points are ±φ*, cos φ* = −Im α/Im β.  Not in the paper: see the README.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import brentq
+
+from .accuracy import Level, Status
+from .bifurcation import largest_f, period_from_gaps, roots, turning_points
+from .errors import InvalidParameter, WorkLimit
+from .jit import inner, kernel
+from .results import Array, Cost, frozen
+from .rigid_body import require_finite
+from .taylor import cauchy, horner, step_size
+
+__all__ = [
+    "CircleMap", "FixedPoint", "circle_map", "critical_a", "lock_boundary", "lock_boundary_f",
+    "lock_boundary_h", "rotation_number_grid", "trace_on_curve",
+]
+
+MAX_A = 1e6
+_MAX_STEPS = 200_000
+
+
+@inner
+def series(c, k, p):
+    """`eq01` at a = 0 (rows 0–4: w1, w2, n1, n2, n3) with A (5, 6) and B (7, 8): re, im."""
+    half_a, b = p
+    n = k + 1.0
+    c[0, k + 1] = -b * c[3, k] / n
+    c[1, k + 1] = b * c[2, k] / n
+    c[2, k + 1] = -cauchy(c, 4, 1, k) / n
+    c[3, k + 1] = cauchy(c, 0, 4, k) / n
+    c[4, k + 1] = (cauchy(c, 2, 1, k) - cauchy(c, 3, 0, k)) / n
+    # conj(W B) = re − i im with W = w2 + i w1; −i(re − i im) = −im − i re.
+    c[5, k + 1] = -half_a * (cauchy(c, 1, 8, k) + cauchy(c, 0, 7, k)) / n
+    c[6, k + 1] = -half_a * (cauchy(c, 1, 7, k) - cauchy(c, 0, 8, k)) / n
+    c[7, k + 1] = -half_a * (cauchy(c, 1, 6, k) + cauchy(c, 0, 5, k)) / n
+    c[8, k + 1] = -half_a * (cauchy(c, 1, 5, k) - cauchy(c, 0, 6, k)) / n
+
+
+@inner
+def monodromy(h, f, a, order, tolerance, max_steps):
+    """(Re α, Im α, Im β, L, ζ, steps): the first three times e^{−L}; ζ is arg α, lifted.
+
+    A, B are rescaled as they grow, so that a and h may be large; steps = −1: too many.
+    """
+    _, n1, _, g10, _, g20, w_low, v_low = roots(h, f)
+    half_period = 0.5 * period_from_gaps(g10, g20)
+    nu = math.sqrt(2.0 * (h + 1.0))
+    c = np.zeros((9, order + 1))
+    c[1, 0] = math.sqrt(2.0 * w_low) / nu
+    c[3, 0] = math.copysign(math.sqrt(v_low), f)
+    c[4, 0] = n1
+    c[5, 0] = 1.0
+    p = (0.5 * a, 1.0 / (nu * nu))
+    left = half_period * nu
+    log_scale = 0.0
+    arg_A = 0.0
+    steps = 0
+    while left > 0.0:
+        for k in range(order):
+            series(c, k, p)
+        s = step_size(c, 9, order, tolerance)
+        if not s > 0.0 or steps >= max_steps:
+            return 0.0, 0.0, 0.0, 0.0, 0.0, -1
+        s = min(s, left)
+        left -= s
+        re, im = c[5, 0], c[6, 0]
+        for i in range(9):
+            c[i, 0] += horner(c, i, order, s)
+        arg_A += math.atan2(re * c[6, 0] - im * c[5, 0], re * c[5, 0] + im * c[6, 0])
+        size = math.hypot(c[5, 0], c[6, 0])
+        if size > 16.0:
+            for i in range(5, 9):
+                c[i, 0] /= size
+            log_scale += math.log(size)
+        steps += 1
+    A = complex(c[5, 0], c[6, 0])
+    B = complex(c[7, 0], c[8, 0])
+    # W starts real and positive and turns by less than π on the way up: the principal value.
+    chi = math.atan2(c[0, 0], c[1, 0])
+    turn = complex(math.cos(0.5 * chi), math.sin(0.5 * chi))
+    A *= turn
+    B *= turn
+    alpha = A * A - (B * B).conjugate()
+    beta = 2.0 * (A * B).imag
+    ratio = (B.conjugate() / A) ** 2
+    zeta = 2.0 * (arg_A + 0.5 * chi) + math.atan2(-ratio.imag, 1.0 - ratio.real)
+    return alpha.real, alpha.imag, beta, 2.0 * log_scale, zeta, steps
+
+
+@inner
+def rotation_number(re, im, im_beta, log_scale, zeta):
+    """ρ from the lifted matrix: an integer where it locks, else k + arccos(±Re α)/π."""
+    discriminant = (im - im_beta) * (im + im_beta)
+    if discriminant <= 0.0:
+        return float(round(zeta / math.pi))
+    k = math.floor(zeta / math.pi)
+    sign = 1.0 - 2.0 * (int(k) % 2)
+    return k + math.atan2(math.sqrt(discriminant), sign * re) / math.pi
+
+
+@kernel
+def _monodromy(h, f, a, order, tolerance, max_steps):
+    return monodromy(h, f, a, order, tolerance, max_steps)
+
+
+@kernel
+def _rotation_numbers(h, f, a, order, tolerance, out):
+    """ρ at each (h[i], f[i]); f is drawn inside the region first."""
+    for i in range(h.size):
+        fm = largest_f(h[i])
+        fi = min(max(f[i], -fm), fm)
+        if fi == 0.0 and h[i] == 1.0:
+            fi = 1e-12
+        m = monodromy(h[i], fi, a, order, tolerance, 10_000)
+        out[i] = rotation_number(m[0], m[1], m[2], m[3], m[4])
+
+
+@inner
+def _lock_function(h, s, a, order, tolerance):
+    """Positive where the map is locked, at f = s f_max(h): (Im β² − Im α²)/|β|², bounded and smooth."""
+    m = monodromy(h, s * largest_f(h), a, order, tolerance, 10_000)
+    return (m[2] - m[1]) * (m[2] + m[1]) / (m[2] * m[2] + m[1] * m[1])
+
+
+@kernel
+def _lock_boundary(s, start, a, order, tolerance, out):
+    """h where |t| = 2 along f = s[i] f_max(h), followed from s ≈ 1 where it is h = start."""
+    e = start + 1.0
+    for i in range(s.size):
+        lo = e
+        hi = e
+        value = _lock_function(e - 1.0, s[i], a, order, tolerance)
+        factor = 1.02
+        for _ in range(60):
+            if value > 0.0:
+                lo = lo / factor
+                if _lock_function(lo - 1.0, s[i], a, order, tolerance) <= 0.0:
+                    break
+                hi = lo
+            else:
+                hi = hi * factor
+                if _lock_function(hi - 1.0, s[i], a, order, tolerance) > 0.0:
+                    break
+                lo = hi
+            factor *= 1.3
+        f_lo = _lock_function(lo - 1.0, s[i], a, order, tolerance)
+        f_hi = _lock_function(hi - 1.0, s[i], a, order, tolerance)
+        # The Illinois variant of regula falsi: the bracket always holds the boundary.
+        side = 0
+        for _ in range(60):
+            e = hi - f_hi * (hi - lo) / (f_hi - f_lo) if f_hi != f_lo else 0.5 * (lo + hi)
+            if hi - lo <= 1e-12 * hi:
+                break
+            value = _lock_function(e - 1.0, s[i], a, order, tolerance)
+            if abs(value) < 1e-13:
+                break
+            if value > 0.0:
+                hi, f_hi = e, value
+                if side == 1:
+                    f_lo *= 0.5
+                side = 1
+            else:
+                lo, f_lo = e, value
+                if side == -1:
+                    f_hi *= 0.5
+                side = -1
+        out[i] = e - 1.0
+
+
+@dataclass(frozen=True)
+class FixedPoint:
+    """A fixed point of Θ, that is a limit cycle.  The multiplier itself may exceed double range."""
+
+    phi: float
+    log_multiplier: float
+
+    @property
+    def stable(self) -> bool:
+        """True for the attracting one."""
+        return self.log_multiplier < 0.0
+
+    @property
+    def multiplier(self) -> float:
+        """dΘ/dφ at the fixed point; ∞ where it exceeds double range."""
+        return math.exp(self.log_multiplier) if self.log_multiplier < 709.0 else math.inf
+
+
+@dataclass(frozen=True)
+class CircleMap:
+    """Θ for one torus (a, h, f), units b = 1, angles in radians.
+
+    matrix : (Re α, Im α, Im β), each times e^{−log_scale}.
+    kind : "elliptic" (no cycle; conjugate to a rotation), "parabolic", "hyperbolic" (two cycles).
+    trace, log_trace : |2 Re α| and its logarithm (the trace is ∞ beyond double range).
+    rotation_number : lifted, turns per return; fixed_points : stable first.
+    """
+
+    a: float
+    h: float
+    f: float
+    level: str
+    matrix: tuple[float, float, float]
+    log_scale: float
+    kind: str
+    trace: float
+    log_trace: float
+    rotation_number: float
+    fixed_points: tuple[FixedPoint, ...]
+    period: float
+    status: Status
+    error_estimate: float
+    cost: Cost
+
+    def theta(self, phi: Array | Sequence[float]) -> Array:
+        """Θ(φ) in (−π, π]; same shape as φ."""
+        return _theta(self.matrix, np.asarray(phi, float))
+
+    def iterate(self, phi: float, count: int) -> Array:
+        """φ, Θ(φ), …, Θ^count(φ); shape (count + 1,)."""
+        orbit = np.empty(count + 1)
+        orbit[0] = math.remainder(phi, 2 * math.pi)
+        for i in range(count):
+            orbit[i + 1] = self.theta(orbit[i])
+        return frozen(orbit)
+
+
+def _theta(matrix: tuple[float, float, float], phi: Array) -> Array:
+    re, im, im_beta = matrix
+    z = np.exp(1j * phi)
+    numerator = complex(re, im) * z + 1j * im_beta
+    # The denominator is conj(numerator)·z, so the angle needs no division.
+    return np.angle(numerator**2 / (z * np.abs(numerator) ** 2))
+
+
+def _check(a: float) -> None:
+    require_finite(a=a)
+    if abs(a) > MAX_A:
+        raise InvalidParameter(f"a = {a:g} is too large: choose |a| ≤ {MAX_A:g}.")
+
+
+def _run(h: float, f: float, a: float, level: Level) -> tuple[tuple[float, ...], int]:
+    *m, steps = _monodromy(h, f, a, level.order, level.tolerance, _MAX_STEPS)
+    if steps < 0:
+        raise WorkLimit("This torus needs too many steps: choose smaller a, or (h, f) farther from (1, 0).")
+    return tuple(m), steps
+
+
+_PROBES = np.linspace(-math.pi, math.pi, 32, endpoint=False)
+
+
+def _difference(m: tuple[float, ...], n: tuple[float, ...]) -> float:
+    """How far two computed maps lie apart: in Θ over 32 phases, and in the trace."""
+    turned = _theta(m[:3], _PROBES) - _theta(n[:3], _PROBES)
+    angle = float(np.max(np.abs(np.angle(np.exp(1j * turned)))))
+    scale = math.exp(min(m[3], 700.0))
+    other = m[0] - n[0] * math.exp(n[3] - m[3])
+    return max(angle, 2 * abs(other) * scale / max(1.0, 2 * abs(m[0]) * scale))
+
+
+def _neighbour(h: float, f: float) -> tuple[float, float]:
+    """The next double in h, away from the separatrix, and in f, towards the inside of the region."""
+    return math.nextafter(h, math.inf if h >= 1.0 else -1.0) if h > -1.0 + 1e-9 else h, math.nextafter(f, 0.0)
+
+
+def circle_map(a: float, h: float, f: float, level: Level) -> CircleMap:
+    """The circle map of the torus (h, f) at this a.
+
+    The error estimate is the difference to a second computation with steps a hundred times more
+    exact and with h and f moved by one unit in the last place (as numbers they are known no
+    better), in Θ and (relatively, where it exceeds 1) in the trace.
+    Raises `OutsideRegion`, `Separatrix`, `InvalidParameter`, `WorkLimit`.
+    """
+    start = time.perf_counter()
+    a, h, f = float(a), float(h), float(f)
+    _check(a)
+    turning = turning_points(h, f)
+    current = level
+    coarse, total = _run(h, f, a, current)
+    while True:
+        tighter = current.tightened()
+        fine, steps = _run(*_neighbour(h, f), a, tighter)
+        total += steps
+        error = (4.0 if current.is_floor else 1.25) * _difference(coarse, fine) + 4e-16
+        if error <= level.promise or current.is_floor:
+            break
+        current, coarse = tighter, fine
+    re, im, im_beta, log_scale, zeta = coarse
+    if error <= level.promise:
+        status = Status.OK
+    else:
+        status = Status.FLOOR if level.is_floor else Status.PROMISE_NOT_MET
+
+    log_trace = math.log(2 * abs(re)) + log_scale if re else -math.inf
+    trace = math.exp(log_trace) if log_trace < 709.0 else math.inf
+    discriminant = (im_beta - im) * (im_beta + im)
+    fixed: tuple[FixedPoint, ...] = ()
+    if abs(trace - 2.0) <= 2 * error:
+        kind = "parabolic"
+        if im_beta:
+            fixed = (FixedPoint(math.acos(max(-1.0, min(1.0, -im / im_beta))), 0.0),)
+    elif discriminant > 0.0:
+        kind = "hyperbolic"
+        root = math.sqrt(discriminant)
+        log_multiplier = -2.0 * (log_scale + math.log(abs(re) + root))
+        # dΘ/dφ = (Re α + Im β sin φ*)^−2 at ±φ*: small where the two terms have one sign.
+        phi = math.copysign(math.atan2(root, -im * math.copysign(1.0, im_beta)), re * im_beta)
+        fixed = (FixedPoint(phi, log_multiplier), FixedPoint(-phi, -log_multiplier))
+    else:
+        kind = "elliptic"
+    rho = float(rotation_number(re, im, im_beta, log_scale, zeta))
+    wall_ms = (time.perf_counter() - start) * 1e3
+    return CircleMap(a, h, f, level.name, (re, im, im_beta), log_scale, kind, trace, log_trace, rho, fixed,
+                     turning.period, status, error, Cost(total, wall_ms))
+
+
+_POOL = ThreadPoolExecutor(max_workers=2, thread_name_prefix="grid")
+
+
+def rotation_number_grid(a: float, h: Sequence[float] | Array, f: Sequence[float] | Array, level: Level) -> Array:
+    """ρ on the grid h × f, shape (f.size, h.size), read-only.
+
+    Points outside the region take the value at its edge (the same h), so that a picture can be
+    cut exactly along `Geq3`.  ρ is odd in f, and only |f| is computed.  Two threads share the rows.
+    Raises `InvalidParameter`, `OutsideRegion`.
+    """
+    _check(a)
+    hs, fs = np.asarray(h, float), np.asarray(f, float)
+    if hs.ndim != 1 or fs.ndim != 1 or hs.size * fs.size > 1_000_000:
+        raise WorkLimit("A grid has at most a million points on two axes: choose fewer.")
+    if not (np.all(np.isfinite(hs)) and np.all(np.isfinite(fs)) and np.all(hs > -1.0)):
+        raise InvalidParameter("The grid needs finite values, and h > −1.")
+    magnitudes, back = np.unique(np.round(np.abs(fs), 13), return_inverse=True)
+    H, F = (x.ravel() for x in np.meshgrid(hs, magnitudes))
+    out = np.empty(H.size)
+
+    def part(i: int) -> None:
+        # Every second point: both threads get the same share of slow ones.
+        values = np.empty(H[i::2].size)
+        _rotation_numbers(H[i::2].copy(), F[i::2].copy(), float(a), level.order, level.tolerance, values)
+        out[i::2] = values
+
+    list(_POOL.map(part, (0, 1)))
+    return frozen(np.where(fs < 0, -1.0, 1.0)[:, None] * out.reshape(magnitudes.size, hs.size)[back])
+
+
+def trace_on_curve(a: float, n: float) -> float:
+    """t on the bifurcation curve at n3 = n: 2cos(π√(n²(1+a²)−a²)/√(1+3n²)), cosh if the root is imaginary."""
+    radicand = n * n * (1 + a * a) - a * a
+    argument = math.pi * math.sqrt(abs(radicand)) / math.sqrt(1 + 3 * n * n)
+    return 2.0 * (math.cos(argument) if radicand >= 0 else math.cosh(argument))
+
+
+def lock_boundary_end(a: float) -> float:
+    """h* = (1−2a²)/(2|a|√(1+a²)), where the lock boundary meets the curve.  a = 0: ∞, nothing locks."""
+    a = abs(a)
+    return math.inf if a == 0 else (1 - 2 * a * a) / (2 * a * math.hypot(1.0, a))
+
+
+def lock_boundary(a: float, level: Level, points: int = 48) -> Array:
+    """The curve |t| = 2 with f ≥ 0, from the bifurcation curve down to (1, 0); shape (n, 2), read-only.
+
+    The map is locked to the right of it.  Empty for a = 0 (no map locks).  Raises `InvalidParameter`.
+    """
+    _check(a)
+    end = lock_boundary_end(a)
+    if end > 1e6:
+        return frozen(np.empty((0, 2)))
+    s = np.cos(np.linspace(0.0, 0.5 * math.pi, points))[1:-1]
+    found = np.empty(s.size)
+    # Nearer to its root than 1e-9 the equation says nothing on the curve itself: that end is exact.
+    _lock_boundary(s, end, abs(float(a)), level.order, level.tolerance, found)
+    inside = np.column_stack([found, s * np.array([largest_f(h) for h in found])])
+    return frozen(np.vstack([[end, largest_f(end)], inside, [1.0, 0.0]]))
+
+
+def _locked(a: float, h: float, f: float, level: Level) -> float:
+    m = _monodromy(h, f, a, level.order, level.tolerance, _MAX_STEPS)
+    return (m[2] - m[1]) * (m[2] + m[1]) / (m[2] ** 2 + m[1] ** 2)
+
+
+def _root(function: Callable[[float], float], low: float, high: float, what: str) -> float:
+    if function(low) * function(high) > 0:
+        raise InvalidParameter(f"The lock boundary has no {what} between {low:g} and {high:g} here.")
+    return float(brentq(function, low, high, xtol=1e-15, rtol=1e-14))
+
+
+def lock_boundary_f(a: float, h: float, level: Level) -> float:
+    """The f > 0 with |t| = 2 at given a and h.  Raises `InvalidParameter` where there is none."""
+    _check(a)
+    top = turning_points(h, 0.0 if h != 1.0 else 0.5).f_max
+    return _root(lambda f: _locked(a, h, f, level), 1e-9 * top, top * (1 - 1e-9), "f")
+
+
+def lock_boundary_h(a: float, f: float, level: Level, low: float, high: float) -> float:
+    """The h between low and high with |t| = 2 at given a and f.  Raises `InvalidParameter`."""
+    _check(a)
+    return _root(lambda h: _locked(a, h, f, level), low, high, "h")
+
+
+def critical_a(h: float, f: float, level: Level, high: float = 10.0) -> float:
+    """The a in (0, high) at which the limit cycles of the torus (h, f) appear, |t| = 2.
+
+    Raises `OutsideRegion`, `Separatrix`, `InvalidParameter` where there is none.
+    """
+    turning_points(h, f)
+    return _root(lambda a: _locked(a, h, f, level), 1e-9, high, "a")

@@ -1,0 +1,181 @@
+"""S8: the Suslov–Hess case (`bizi1`, `bizi2`, `eq02`, `eq01`, `eq03`).
+
+I13 = 0, I11 I22 = I22² + I23², b1 = 0, I22 b2 + I23 b3 = 0.  A rotation about Ox1 through
+arctan a brings `Biz131` to `eq01`, state (w1, w2, n1, n2, n3), parameters (a, b).
+Corrections to the paper used here: b = −b3/√(I22²+I23²) (no further mg), w2 = ω2/√(1+a²),
+and E, F2 of `eq03` are those of S1 divided by I11.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .errors import InvalidParameter, NoField
+from .jit import inner, kernel
+from .results import Array
+from .rigid_body import BodyCheck, check_body, require_finite, require_positive_definite
+from .suslov import SuslovBody
+from .system import System
+from .taylor import cauchy, integrator
+
+__all__ = ["SYSTEM", "HessBody"]
+
+
+@dataclass(frozen=True)
+class HessBody:
+    """A body of the Hess case by its free parameters (I22, I23, b3).
+
+    Raises `InvalidParameter` (not finite, or so large that I11 or a overflows),
+    `NotPositiveDefinite` (I22 ≤ 0).
+    """
+
+    I22: float
+    I23: float
+    b3: float
+
+    def __post_init__(self) -> None:
+        require_finite(**vars(self))
+        require_positive_definite(1.0, self.I22)
+        if not (math.isfinite(self.a) and math.isfinite(self.I11) and math.isfinite(self.b)):
+            raise InvalidParameter("I23 is too large beside I22: choose I23/I22 below 1e150.")
+
+    @property
+    def a(self) -> float:
+        """a = I23/I22."""
+        return self.I23 / self.I22
+
+    @property
+    def b(self) -> float:
+        """b = −b3/√(I22² + I23²)."""
+        return -self.b3 / math.hypot(self.I22, self.I23)
+
+    @property
+    def I11(self) -> float:
+        """I11 = (I22² + I23²)/I22 (`bizi1`)."""
+        return self.I22 + self.I23 * self.a
+
+    @property
+    def b2(self) -> float:
+        """b2 = −I23 b3/I22 (`bizi2`)."""
+        return -self.a * self.b3
+
+    @property
+    def suslov(self) -> SuslovBody:
+        """The same body with all its parameters, for `Biz131`."""
+        return SuslovBody(self.I11, self.I22, 0.0, self.I23, 0.0, self.b2, self.b3)
+
+    @property
+    def check(self) -> BodyCheck:
+        """Whether this is a rigid body: under `bizi1` exactly for |a| < 1."""
+        return check_body(self.I11, self.I22, 0.0, self.I23)
+
+    @property
+    def frequency_unit(self) -> float:
+        """√|b|: in units b = 1 time is t√|b| and angular velocity w/√|b|.  Raises `NoField`."""
+        if self.b == 0.0:
+            raise NoField("b3 = 0: without a field h and f have no unit. Choose b3 other than 0.")
+        return math.sqrt(abs(self.b))
+
+    def to_reduced(self, states: Array) -> Array:
+        """(ω1, ω2, γ1, γ2, γ3) → (w1, w2, n1, n2, n3) of `eq02`; shape (..., 5)."""
+        w1, w2, g1, g2, g3 = np.moveaxis(np.asarray(states, float), -1, 0)
+        a, r = self.a, math.hypot(1.0, self.a)
+        return np.stack([w1, w2 / r, g1, (g2 + a * g3) / r, (g3 - a * g2) / r], axis=-1)
+
+    def from_reduced(self, states: Array) -> Array:
+        """The inverse of `to_reduced`."""
+        w1, w2, n1, n2, n3 = np.moveaxis(np.asarray(states, float), -1, 0)
+        a, r = self.a, math.hypot(1.0, self.a)
+        return np.stack([w1, w2 * r, n1, (n2 - a * n3) / r, (n3 + a * n2) / r], axis=-1)
+
+    def in_units_of_b(self, reduced: Array) -> Array:
+        """`eq01` with this b → with b = 1.  For b < 0 the vertical is turned over too, n → −n."""
+        nu = self.frequency_unit
+        sign = math.copysign(1.0, self.b)
+        return np.asarray(reduced, float) * np.array([1 / nu, 1 / nu, sign, sign, sign])
+
+    def from_units_of_b(self, reduced: Array) -> Array:
+        """The inverse of `in_units_of_b`."""
+        nu = self.frequency_unit
+        sign = math.copysign(1.0, self.b)
+        return np.asarray(reduced, float) * np.array([nu, nu, sign, sign, sign])
+
+
+def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
+    """The right-hand side of `eq01`."""
+    w1, w2, n1, n2, n3 = y
+    a, b = p
+    return (
+        -a * w2**2 - b * n2,
+        a * w1 * w2 + b * n1,
+        -(a * n2 + n3) * w2,
+        a * w2 * n1 + w1 * n3,
+        n1 * w2 - n2 * w1,
+    )
+
+
+def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
+    """`eq03`: E, F1 = n², F2 = w1 n1 + w2 n2."""
+    w1, w2, n1, n2, n3 = y
+    _, b = p
+    return {
+        "E": (w1**2 + w2**2) / 2 - b * n3,
+        "F1": n1**2 + n2**2 + n3**2,
+        "F2": w1 * n1 + w2 * n2,
+    }
+
+
+def frequency(y: Array, p: Array) -> float:
+    """ν = √(w² + 4|b||n|): no |w| of the motion exceeds it."""
+    return math.sqrt(y[0] ** 2 + y[1] ** 2 + 4 * abs(p[1]) * math.hypot(*y[2:5]))
+
+
+def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:
+    """Time in units of 1/ν: w → w/ν, b → b/ν²."""
+    y, p = y.copy(), p.copy()
+    y[:2] /= nu
+    p[1] /= nu * nu
+    return y, p
+
+
+@inner
+def series(c, k, p):
+    """Order k+1 of `eq01` from lower ones.  Row 5 is a w2, row 6 is a n2 + n3."""
+    a, b = p
+    c[5, k] = a * c[1, k]
+    c[6, k] = a * c[3, k] + c[4, k]
+    n = k + 1.0
+    c[0, k + 1] = (-cauchy(c, 1, 5, k) - b * c[3, k]) / n
+    c[1, k + 1] = (cauchy(c, 0, 5, k) + b * c[2, k]) / n
+    c[2, k + 1] = -cauchy(c, 6, 1, k) / n
+    c[3, k + 1] = (cauchy(c, 5, 2, k) + cauchy(c, 0, 4, k)) / n
+    c[4, k + 1] = (cauchy(c, 2, 1, k) - cauchy(c, 3, 0, k)) / n
+
+
+integrate = integrator(series, rows=7)
+
+
+@kernel
+def orbit(y, p, times, order, tolerance, max_steps, out):
+    """`integrate` for `eq01`."""
+    return integrate(y, (p[0], p[1]), times, order, tolerance, max_steps, out)
+
+
+SYSTEM = System(
+    name="hess",
+    title="Suslov–Hess case, reduced",
+    labels=("eq01", "eq03"),
+    variables=("w1", "w2", "n1", "n2", "n3"),
+    parameters=("a", "b"),
+    field=field,
+    integrals=integrals,
+    frequency=frequency,
+    rescale=rescale,
+    kernel=orbit,
+    example=((0.3, 0.9, 0.6, 0.0, 0.8), (0.75, 1.0)),
+)

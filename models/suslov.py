@@ -1,0 +1,138 @@
+"""S1: the Suslov problem with gravity (`Biz131`, `Biz11`).
+
+A rigid body with a fixed point, the constraint ω3 = 0 along e = e3, I12 = 0, potential (b, γ).
+State y = (ω1, ω2, γ1, γ2, γ3), parameters p = (I11, I22, I13, I23, b1, b2, b3).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .errors import InvalidParameter
+from .jit import inner, kernel
+from .results import Array
+from .rigid_body import require_finite, require_positive_definite
+from .system import System
+from .taylor import cauchy, integrator
+
+__all__ = ["SYSTEM", "SuslovBody", "unit_vector"]
+
+
+@dataclass(frozen=True)
+class SuslovBody:
+    """Inertia tensor (`Biz03`) and b = −mg r.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
+
+    I11: float
+    I22: float
+    I13: float
+    I23: float
+    b1: float = 0.0
+    b2: float = 0.0
+    b3: float = 0.0
+
+    def __post_init__(self) -> None:
+        require_finite(**vars(self))
+        require_positive_definite(self.I11, self.I22)
+
+    @property
+    def parameters(self) -> tuple[float, ...]:
+        """p = (I11, I22, I13, I23, b1, b2, b3)."""
+        return (self.I11, self.I22, self.I13, self.I23, self.b1, self.b2, self.b3)
+
+
+def unit_vector(gamma: Sequence[float]) -> tuple[tuple[float, float, float], str | None]:
+    """γ of length one, and a note if it had to be normalised.  Raises `InvalidParameter` for γ = 0."""
+    length = math.hypot(*gamma)
+    if not (math.isfinite(length) and length > 0):
+        raise InvalidParameter("γ must be a finite vector other than 0: it is the direction of the vertical.")
+    g1, g2, g3 = (g / length for g in gamma)
+    note = None if abs(length - 1) <= 1e-15 else f"γ had length {length:.12g}; it was normalised to 1."
+    return (g1, g2, g3), note
+
+
+def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
+    """The right-hand side of `Biz131`."""
+    w1, w2, g1, g2, g3 = y
+    I11, I22, I13, I23, b1, b2, b3 = p
+    s = I13 * w1 + I23 * w2
+    return (
+        (-w2 * s + b3 * g2 - b2 * g3) / I11,
+        (w1 * s + b1 * g3 - b3 * g1) / I22,
+        -g3 * w2,
+        g3 * w1,
+        g1 * w2 - g2 * w1,
+    )
+
+
+def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
+    """`Biz11`: energy E and F1 = γ²."""
+    w1, w2, g1, g2, g3 = y
+    I11, I22, _, _, b1, b2, b3 = p
+    return {
+        "E": (I11 * w1**2 + I22 * w2**2) / 2 + (b1 * g1 + b2 * g2 + b3 * g3),
+        "F1": g1**2 + g2**2 + g3**2,
+    }
+
+
+def frequency(y: Array, p: Array) -> float:
+    """ν = √(2(E+|b||γ|)/min(I11, I22)): no angular velocity of the motion exceeds it."""
+    I11, I22 = p[0], p[1]
+    field_strength = math.hypot(*p[4:7]) * math.hypot(*y[2:5])
+    kinetic_now = (I11 * y[0] ** 2 + I22 * y[1] ** 2) / 2
+    return math.sqrt(2 * (kinetic_now + 2 * field_strength) / min(I11, I22))
+
+
+def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:
+    """Time in units of 1/ν: ω → ω/ν, b → b/ν²."""
+    y, p = y.copy(), p.copy()
+    y[:2] /= nu
+    p[4:] /= nu * nu
+    return y, p
+
+
+@inner
+def series(c, k, p):
+    """Order k+1 of `Biz131` from lower ones.  Row 5 is s = I13 ω1 + I23 ω2."""
+    I11, I22, I13, I23, b1, b2, b3 = p
+    c[5, k] = I13 * c[0, k] + I23 * c[1, k]
+    n = k + 1.0
+    c[0, k + 1] = (-cauchy(c, 1, 5, k) + b3 * c[3, k] - b2 * c[4, k]) / (n * I11)
+    c[1, k + 1] = (cauchy(c, 0, 5, k) + b1 * c[4, k] - b3 * c[2, k]) / (n * I22)
+    c[2, k + 1] = -cauchy(c, 4, 1, k) / n
+    c[3, k + 1] = cauchy(c, 4, 0, k) / n
+    c[4, k + 1] = (cauchy(c, 2, 1, k) - cauchy(c, 3, 0, k)) / n
+
+
+integrate = integrator(series, rows=6)
+
+
+@kernel
+def orbit(y, p, times, order, tolerance, max_steps, out):
+    """`integrate` for `Biz131`."""
+    parameters = (p[0], p[1], p[2], p[3], p[4], p[5], p[6])
+    return integrate(y, parameters, times, order, tolerance, max_steps, out)
+
+
+SYSTEM = System(
+    name="suslov",
+    title="Suslov problem with gravity",
+    labels=("Biz131", "Biz11"),
+    variables=("ω1", "ω2", "γ1", "γ2", "γ3"),
+    parameters=("I11", "I22", "I13", "I23", "b1", "b2", "b3"),
+    field=field,
+    integrals=integrals,
+    frequency=frequency,
+    rescale=rescale,
+    kernel=orbit,
+    example=((0.8, -0.4, 0.6, 0.0, 0.8), (2.0, 1.0, 0.3, 0.5, 0.3, -0.5, 1.0)),
+)
+
+
+def state(omega: Sequence[float], gamma: Sequence[float]) -> Array:
+    """y from ω = (ω1, ω2) and γ."""
+    return np.array([*omega, *gamma], float)
