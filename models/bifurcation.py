@@ -58,10 +58,9 @@ def roots(h, f):
         h_plus = (h - 1.0) * (h + 1.0) / (2.0 * h + D)
     else:
         h_plus = (2.0 * h - D) / 3.0
-    if 3.0 - h + D > 1.0:
-        one_plus = 2.0 * (1.0 - h) / (3.0 - h + D)
-    else:
-        one_plus = (3.0 - h - D) / 3.0
+    # D − h, which cancels for large h.
+    D_less_h = 3.0 / (D + h) if h > 0.0 else D - h
+    one_plus = 2.0 * (1.0 - h) / (3.0 + D_less_h)
     below = max(0.0, f * f - 2.0 * h_plus * one_plus * (1.0 - n_m))
     # p = 0 is u³ − 3u + 2 = q; u = 2 cos α, q = 4 cos²(3α/2), 4 − q = 4 sin²(3α/2).
     alpha = 2.0 / 3.0 * math.atan2(math.sqrt(below), math.sqrt(above))
@@ -77,27 +76,36 @@ def roots(h, f):
     n2 = n1 + g21
     w1 = k + s1
     u1 = 2.0 - one_minus
-    if min(w1, u1) < 0.1 and abs(f) > 0.0:
-        # Near the poles or the rim |w| = 0 refine the small one of h+n1 and 1+n1 (Newton on p).
+    if f == 0.0:
+        w1 = max(0.0, h - 1.0)
+        u1 = max(0.0, 1.0 - h)
+        one_minus = min(2.0, 1.0 + h)
+        n1 = -min(1.0, h)
+    elif min(w1 / k, u1) < 0.1:
+        # Near the pole or the rim |w| = 0 what is small of h+n1 and 1+n1 has cancelled.  With v = 1−n1
+        # it solves x² ± (1−h)x = f²/2v; Newton on p then.  Never near the curve, a double root of p.
+        v = one_minus
+        x = f * f / v
+        root = math.sqrt((1.0 - h) * (1.0 - h) + 2.0 * x)
         if w1 < u1:
-            for _ in range(4):
+            w1 = x / ((1.0 - h) + root) if h < 1.0 else 0.5 * ((h - 1.0) + root)
+            for _ in range(2):
                 u = (1.0 - h) + w1
                 v = (1.0 + h) - w1
                 w1 -= (2.0 * w1 * u * v - f * f) / (2.0 * (u * v + w1 * v - w1 * u))
             u1 = (1.0 - h) + w1
+            one_minus = (1.0 + h) - w1
             n1 = w1 - h
         else:
-            for _ in range(4):
+            u1 = x / ((h - 1.0) + root) if h > 1.0 else 0.5 * ((1.0 - h) + root)
+            for _ in range(2):
                 w = (h - 1.0) + u1
                 v = 2.0 - u1
                 u1 -= (2.0 * w * u1 * v - f * f) / (2.0 * (u1 * v + w * v - w * u1))
             w1 = (h - 1.0) + u1
+            one_minus = 2.0 - u1
             n1 = u1 - 1.0
-    elif f == 0.0:
-        w1 = max(0.0, h - 1.0)
-        u1 = max(0.0, 1.0 - h)
-        n1 = -min(1.0, h)
-    v1 = u1 * (2.0 - u1)
+    v1 = u1 * one_minus
     return n1 - g10, n1, n2, g10, g21, g20, w1, v1
 
 
@@ -128,7 +136,8 @@ class TurningPoints:
     """Where n3 turns for given (h, f), units b = 1.
 
     roots : n0 < n1 ≤ n2 of 2(h+n)(1−n²) − f²; the motion has n1 ≤ n3 ≤ n2.
-    w_squared : |w|² at n1; period : one period of n3; f_max : the region's edge at this h.
+    w_squared : |w|² at n1; sine_squared : 1 − n1²; period : one period of n3;
+    f_max : the region's edge at this h.
     """
 
     h: float
@@ -142,7 +151,7 @@ class TurningPoints:
     @property
     def initial_rho(self) -> float:
         """ρ = |w| at n3 = n1."""
-        return math.sqrt(2.0 * self.w_squared)
+        return math.sqrt(self.w_squared)
 
     def state_at_lower_turn(self, phi: float) -> Array:
         """The state of `eq01` (b = 1) on the section n3 = n1 with w = ρ(sin φ, cos φ), shape (5,).
@@ -166,7 +175,7 @@ def _check_h(h: float) -> None:
 def f_max(h: float) -> float:
     """The largest |f| at this h (`Geq3`).  Raises `OutsideRegion` for h ≤ −1."""
     _check_h(h)
-    return float(largest_f(h))
+    return float(largest_f(float(h)))
 
 
 def turning_points(h: float, f: float) -> TurningPoints:
@@ -176,7 +185,8 @@ def turning_points(h: float, f: float) -> TurningPoints:
     """
     _check_h(h)
     require_finite(f=f)
-    fm, found, period = _f_max_and_roots(float(h), float(f))
+    h, f = float(h), float(f) + 0.0  # f = −0.0 is f = 0
+    fm, found, period = _f_max_and_roots(h, f)
     if abs(f) > fm * (1 + 1e-15):
         raise OutsideRegion(
             f"No motion has h = {h:.6g} and f = {f:.6g}: at this h choose |f| ≤ {fm:.6g}, or a larger h."
@@ -184,7 +194,7 @@ def turning_points(h: float, f: float) -> TurningPoints:
     n0, n1, n2, _, _, _, w1, v1 = found
     if not math.isfinite(period):
         raise Separatrix("h = 1, f = 0 is the separatrix: no return. Move h or f a little.")
-    return TurningPoints(h, f, (n0, n1, n2), w1, v1, period, fm)
+    return TurningPoints(h, f, (n0, n1, n2), 2.0 * w1, v1, period, fm)
 
 
 def curve_point(n: float) -> tuple[float, float]:
