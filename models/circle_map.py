@@ -23,7 +23,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from .accuracy import Level, Status
-from .bifurcation import largest_f, period_from_gaps, roots, turning_points
+from .bifurcation import f_max, largest_f, period_from_gaps, roots, turning_points
 from .errors import InvalidParameter, WorkLimit
 from .jit import inner, kernel
 from .results import Array, Cost, frozen
@@ -132,7 +132,7 @@ def _rotation_numbers(h, f, a, order, tolerance, out):
         if fi == 0.0 and h[i] == 1.0:
             fi = 1e-12
         m = monodromy(h[i], fi, a, order, tolerance, 10_000)
-        out[i] = rotation_number(m[0], m[1], m[2], m[3], m[4])
+        out[i] = rotation_number(m[0], m[1], m[2], m[3], m[4]) if m[5] >= 0 else math.nan
 
 
 @inner
@@ -249,7 +249,8 @@ def _theta(matrix: tuple[float, float, float], phi: Array) -> Array:
     z = np.exp(1j * phi)
     numerator = complex(re, im) * z + 1j * im_beta
     # The denominator is conj(numerator)·z, so the angle needs no division.
-    return np.angle(numerator**2 / (z * np.abs(numerator) ** 2))
+    angle = np.angle(numerator**2 / (z * np.abs(numerator) ** 2))
+    return np.where(angle == -math.pi, math.pi, angle)
 
 
 def _check(a: float) -> None:
@@ -259,7 +260,7 @@ def _check(a: float) -> None:
 
 
 def _run(h: float, f: float, a: float, level: Level) -> tuple[tuple[float, ...], int]:
-    *m, steps = _monodromy(h, f, a, level.order, level.tolerance, _MAX_STEPS)
+    *m, steps = _monodromy(float(h), float(f), float(a), level.order, level.tolerance, _MAX_STEPS)
     if steps < 0:
         raise WorkLimit("This torus needs too many steps: choose smaller a, or (h, f) farther from (1, 0).")
     return tuple(m), steps
@@ -291,7 +292,7 @@ def circle_map(a: float, h: float, f: float, level: Level) -> CircleMap:
     Raises `OutsideRegion`, `Separatrix`, `InvalidParameter`, `WorkLimit`.
     """
     start = time.perf_counter()
-    a, h, f = float(a), float(h), float(f)
+    a, h, f = float(a), float(h), float(f) + 0.0  # f = −0.0 is f = 0
     _check(a)
     turning = turning_points(h, f)
     current = level
@@ -303,7 +304,10 @@ def circle_map(a: float, h: float, f: float, level: Level) -> CircleMap:
         error = (4.0 if current.is_floor else 1.25) * _difference(coarse, fine) + 4e-16
         if error <= level.promise or current.is_floor:
             break
-        current, coarse = tighter, fine
+        # Not `fine`: that is the map of the neighbour.
+        current = tighter
+        coarse, steps = _run(h, f, a, current)
+        total += steps
     re, im, im_beta, log_scale, zeta = coarse
     if error <= level.promise:
         status = Status.OK
@@ -341,14 +345,14 @@ def rotation_number_grid(a: float, h: Sequence[float] | Array, f: Sequence[float
 
     Points outside the region take the value at its edge (the same h), so that a picture can be
     cut exactly along `Geq3`.  ρ is odd in f, and only |f| is computed.  Two threads share the rows.
-    Raises `InvalidParameter`, `OutsideRegion`.
+    Raises `InvalidParameter`, `WorkLimit`.
     """
     _check(a)
     hs, fs = np.asarray(h, float), np.asarray(f, float)
     if hs.ndim != 1 or fs.ndim != 1 or hs.size * fs.size > 1_000_000:
         raise WorkLimit("A grid has at most a million points on two axes: choose fewer.")
-    if not (np.all(np.isfinite(hs)) and np.all(np.isfinite(fs)) and np.all(hs > -1.0)):
-        raise InvalidParameter("The grid needs finite values, and h > −1.")
+    if not (np.all(np.isfinite(hs)) and np.all(np.isfinite(fs)) and np.all(hs > -1.0) and np.all(hs <= 1e12)):
+        raise InvalidParameter("The grid needs finite values, and −1 < h ≤ 1e12.")
     magnitudes, back = np.unique(np.round(np.abs(fs), 13), return_inverse=True)
     H, F = (x.ravel() for x in np.meshgrid(hs, magnitudes))
     out = np.empty(H.size)
@@ -360,14 +364,23 @@ def rotation_number_grid(a: float, h: Sequence[float] | Array, f: Sequence[float
         out[i::2] = values
 
     list(_POOL.map(part, (0, 1)))
+    if np.any(np.isnan(out)):
+        raise WorkLimit("This grid needs too many steps: choose smaller a, or smaller h.")
     return frozen(np.where(fs < 0, -1.0, 1.0)[:, None] * out.reshape(magnitudes.size, hs.size)[back])
 
 
 def trace_on_curve(a: float, n: float) -> float:
-    """t on the bifurcation curve at n3 = n: 2cos(π√(n²(1+a²)−a²)/√(1+3n²)), cosh if the root is imaginary."""
+    """t on the bifurcation curve at n3 = n: 2cos(π√(n²(1+a²)−a²)/√(1+3n²)), cosh if the root is imaginary.
+
+    ∞ beyond double range.  Raises `InvalidParameter` (a or n not finite, |a| too large).
+    """
+    _check(a)
+    require_finite(n=n)
     radicand = n * n * (1 + a * a) - a * a
     argument = math.pi * math.sqrt(abs(radicand)) / math.sqrt(1 + 3 * n * n)
-    return 2.0 * (math.cos(argument) if radicand >= 0 else math.cosh(argument))
+    if radicand >= 0:
+        return 2.0 * math.cos(argument)
+    return 2.0 * math.cosh(argument) if argument < 709.0 else math.inf
 
 
 def lock_boundary_end(a: float) -> float:
@@ -394,7 +407,7 @@ def lock_boundary(a: float, level: Level, points: int = 48) -> Array:
 
 
 def _locked(a: float, h: float, f: float, level: Level) -> float:
-    m = _monodromy(h, f, a, level.order, level.tolerance, _MAX_STEPS)
+    m, _ = _run(h, f, a, level)
     return (m[2] - m[1]) * (m[2] + m[1]) / (m[2] ** 2 + m[1] ** 2)
 
 
@@ -412,8 +425,11 @@ def lock_boundary_f(a: float, h: float, level: Level) -> float:
 
 
 def lock_boundary_h(a: float, f: float, level: Level, low: float, high: float) -> float:
-    """The h between low and high with |t| = 2 at given a and f.  Raises `InvalidParameter`."""
+    """The h between low and high with |t| = 2 at given a and f.  Raises `InvalidParameter`, `OutsideRegion`."""
     _check(a)
+    require_finite(f=f)
+    for h in (low, high):
+        f_max(h)
     return _root(lambda h: _locked(a, h, f, level), low, high, "h")
 
 
@@ -422,5 +438,6 @@ def critical_a(h: float, f: float, level: Level, high: float = 10.0) -> float:
 
     Raises `OutsideRegion`, `Separatrix`, `InvalidParameter` where there is none.
     """
+    _check(high)
     turning_points(h, f)
     return _root(lambda a: _locked(a, h, f, level), 1e-9, high, "a")
