@@ -32,6 +32,9 @@ def require_positive_definite(I11: float, I22: float) -> None:
             )
 
 
+SEARCH = {"xtol": 1e-300, "rtol": 1e-15, "maxiter": 1000}
+
+
 @dataclass(frozen=True)
 class BodyCheck:
     """Is this a rigid body's tensor?  `I33` is the admissible interval, or None if there is none."""
@@ -52,7 +55,8 @@ def check_body(I11: float, I22: float, I13: float, I23: float) -> BodyCheck:
     require_positive_definite(I11, I22)
     scale = max(I11, I22)
     s, d = (I11 + I22) / (2 * scale), (I11 - I22) / (2 * scale)
-    p, q = (I23 / scale) ** 2, (I13 / scale) ** 2
+    # Beyond 2 the answer is no in any case: the bound keeps squares in range.
+    p, q = min(abs(I23) / scale, 2.0) ** 2, min(abs(I13) / scale, 2.0) ** 2
 
     def g(y: float) -> float:
         return s - y - (p / (y + d) if p else 0.0) - (q / (y - d) if q else 0.0)
@@ -60,18 +64,15 @@ def check_body(I11: float, I22: float, I13: float, I23: float) -> BodyCheck:
     def slope(y: float) -> float:
         return -1.0 + (p / (y + d) ** 2 if p else 0.0) + (q / (y - d) ** 2 if q else 0.0)
 
-    low = abs(d) * (1 + 1e-15) + 1e-300
-    if slope(low) <= 0:
-        top = low
-    else:
-        top = brentq(slope, low, low + 2 * (math.sqrt(p) + math.sqrt(q)) + 1e-300, xtol=1e-300, rtol=1e-15)
+    low = abs(d) * (1 + 1e-15) + 1e-150  # clear of the poles, and its square of underflow
+    top = low if slope(low) <= 0 else brentq(slope, low, low + 2 * (math.sqrt(p) + math.sqrt(q)), **SEARCH)
     if not g(top) > 1e-15 * s:
         return BodyCheck(
             False, None,
             "Not a rigid body: for no I33 do the principal moments satisfy the triangle inequality. "
             "The equations are still shown.",
         )
-    lower = low if g(low) >= 0 else brentq(g, low, top, xtol=1e-300, rtol=1e-14)
-    upper = brentq(g, top, s + 1e-300, xtol=1e-300, rtol=1e-14) if g(s) < 0 else s
+    lower = abs(d) if g(low) >= 0 else brentq(g, low, top, **SEARCH)
+    upper = brentq(g, top, s, **SEARCH) if g(s) < 0 else s
     I33 = (2 * lower * scale, 2 * upper * scale)
     return BodyCheck(True, I33, f"A rigid body for I33 between {I33[0]:.4g} and {I33[1]:.4g}.")
