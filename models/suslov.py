@@ -80,8 +80,12 @@ def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
 
 
 def frequency(y: Array, p: Array) -> float:
-    """ν = √(2(E+|b||γ|)/min(I11, I22)): no angular velocity of the motion exceeds it."""
+    """ν = √(2(E+|b||γ|)/min(I11, I22)): no angular velocity of the motion exceeds it.
+
+    Raises `NotPositiveDefinite`.
+    """
     I11, I22 = p[0], p[1]
+    require_positive_definite(I11, I22)
     field_strength = math.hypot(*p[4:7]) * math.hypot(*y[2:5])
     kinetic_now = (I11 * y[0] ** 2 + I22 * y[1] ** 2) / 2
     return math.sqrt(2 * (kinetic_now + 2 * field_strength) / min(I11, I22))

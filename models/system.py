@@ -76,8 +76,8 @@ def _check_times(times: Array) -> None:
         raise InvalidParameter("The times must be one or more finite numbers.")
     if times.size > MAX_SAMPLES:
         raise WorkLimit(f"{times.size} times were asked for; at most {MAX_SAMPLES} are allowed.")
-    steps = np.diff(np.concatenate(([0.0], times)))
-    if np.any(steps < 0) and np.any(steps > 0):
+    before = np.concatenate(([0.0], times[:-1]))
+    if np.any(times < before) and np.any(times > before):
         raise InvalidParameter("The times must run away from 0, all forward or all backward.")
 
 
@@ -106,9 +106,14 @@ def solve(system: System, state: Sequence[float], parameters: Sequence[float],
     y, p = np.asarray(state, float), np.asarray(parameters, float)
     t = np.array(times, dtype=float, ndmin=1)
     _check_times(t)
+    for given, names in ((y, system.variables), (p, system.parameters)):
+        if given.shape != (len(names),):
+            raise InvalidParameter(f"{system.title} takes {len(names)} numbers here: {', '.join(names)}.")
     if not (np.all(np.isfinite(y)) and np.all(np.isfinite(p))):
         raise InvalidParameter("Every component of the state and every parameter must be a finite number.")
-    nu = system.frequency(y, p)
+    with np.errstate(over="ignore"):
+        nu = system.frequency(y, p)
+        scaled_times = t * (nu or 1.0)
     if not np.isfinite(nu):
         raise InvalidParameter("The motion is too fast for double precision: choose less extreme parameters.")
     nu = nu or 1.0
@@ -117,10 +122,10 @@ def solve(system: System, state: Sequence[float], parameters: Sequence[float],
     y1, p1 = system.rescale(y, p, nu)
 
     current = level
-    coarse, total = _run(system, y1, p1, t * nu, current)
+    coarse, total = _run(system, y1, p1, scaled_times, current)
     while True:
         tighter = current.tightened()
-        fine, steps = _run(system, y1, p1, t * nu, tighter)
+        fine, steps = _run(system, y1, p1, scaled_times, tighter)
         total += steps
         # Two runs at the floor differ by their round-off, which says less of the true error.
         safety = 4.0 if current.is_floor else 1.25
