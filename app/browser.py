@@ -1,0 +1,127 @@
+"""A headless Chromium: where it is, how to get one, how it is started, when the page in it is ready."""
+
+from __future__ import annotations
+
+import os
+import platform
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, BrowserType, Page
+
+__all__ = ["BrowserError", "find_browser", "install_browser", "launched", "wait_ready"]
+
+VARIABLE = "HESS_EXPLORER_BROWSER"
+_COMMANDS = ("chromium", "chromium-headless-shell", "google-chrome")
+_INSTALL_SECONDS = 900
+# Most are Playwright's defaults already; here they are a promise: the browser asks nothing of any other host.
+_QUIET = ("--disable-background-networking", "--disable-component-update", "--disable-domain-reliability",
+          "--no-pings")
+
+
+class BrowserError(RuntimeError):
+    """There is no usable browser; the text is a sentence for the user."""
+
+
+def find_browser(playwright_own: str) -> str | None:
+    """Path of a Chromium: the environment variable's, one on PATH, or Playwright's own; None if there is none.
+
+    Raises `BrowserError` if the environment variable names a file that is not there.
+    """
+    chosen = os.environ.get(VARIABLE)
+    if chosen:
+        path = shutil.which(chosen)
+        if path is None:
+            raise BrowserError(f"{VARIABLE} names {chosen!r}, which is no program: correct it or remove it.")
+        return path
+    for command in _COMMANDS:
+        path = shutil.which(command)
+        if path is not None:
+            return path
+    return playwright_own if Path(playwright_own).exists() else None
+
+
+def _is_root() -> bool:
+    return hasattr(os, "geteuid") and os.geteuid() == 0
+
+
+def _is_debian() -> bool:
+    try:
+        return platform.freedesktop_os_release().get("ID") == "debian"
+    except OSError:
+        return False
+
+
+def install_browser() -> None:
+    """Install a Chromium from Debian (as root there) or through Playwright.  Raises `BrowserError`."""
+    if _is_root() and _is_debian():
+        commands = [["apt-get", "update"],
+                    ["apt-get", "install", "-y", "--no-install-recommends", "chromium-headless-shell"]]
+    else:
+        commands = [[sys.executable, "-m", "playwright", "install", "--with-deps", "chromium"]]
+    for command in commands:
+        try:
+            subprocess.run(command, check=True, stdin=subprocess.DEVNULL, timeout=_INSTALL_SECONDS)
+        except (OSError, subprocess.SubprocessError) as error:
+            raise BrowserError(
+                f"No Chromium was found and `{' '.join(command)}` failed ({error}): "
+                f"install Chromium and name it in {VARIABLE}."
+            ) from error
+
+
+@contextmanager
+def launched(*, install: bool = False) -> Iterator[Browser]:
+    """A running headless browser; with `install` one is installed if there is none.  Raises `BrowserError`."""
+    try:
+        from playwright.sync_api import sync_playwright
+    except ImportError as error:
+        raise BrowserError("This needs Playwright: install it with `pip install playwright`.") from error
+    with sync_playwright() as playwright:
+        path = find_browser(playwright.chromium.executable_path)
+        if path is None and install:
+            install_browser()
+            path = find_browser(playwright.chromium.executable_path)
+        if path is None:
+            raise BrowserError(
+                f"No Chromium was found: install one (`playwright install chromium`) or name it in {VARIABLE}."
+            )
+        browser = _launch(playwright.chromium, path)
+        try:
+            yield browser
+        finally:
+            browser.close()
+
+
+def _launch(chromium: BrowserType, path: str) -> Browser:
+    from playwright.sync_api import Error
+
+    # Playwright's default is no sandbox; Chromium refuses to start with one as root only.
+    sandbox = not _is_root()
+    try:
+        return chromium.launch(executable_path=path, args=_QUIET, chromium_sandbox=sandbox)
+    except Error as error:
+        if sandbox and "sandbox" in error.message.lower():
+            # A container or kernel that forbids user namespaces; the page is our own, from this machine.
+            print("Chromium's sandbox is not available here: starting without it.", file=sys.stderr)
+            return chromium.launch(executable_path=path, args=_QUIET, chromium_sandbox=False)
+        raise BrowserError(f"{path} did not start ({error.message.splitlines()[0]}); choose another in {VARIABLE}.") \
+            from error
+
+
+def wait_ready(page: Page, after: int = -1, seconds: float = 60) -> None:
+    """Wait until the page has drawn a state with a number above `after`.
+
+    The page keeps both on its root element: data-ready="true" when everything asked for is drawn, data-state
+    counts the states drawn.  Raises Playwright's TimeoutError.
+    """
+    page.wait_for_function(
+        "after => { const d = document.documentElement.dataset;"
+        " return d.ready === 'true' && Number(d.state ?? 0) > after; }",
+        arg=after, timeout=1000 * seconds,
+    )

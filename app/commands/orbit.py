@@ -1,0 +1,85 @@
+"""`hess-explorer orbit suslov|hess`: states of one motion at given times (S1, S8)."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+from .arguments import number, samples, vector
+from .output import add_options, computing, write
+
+if TYPE_CHECKING:
+    from models import BodyCheck
+
+__all__ = ["add"]
+
+
+def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    orbit = commands.add_parser("orbit", help="states of one motion at given times")
+    systems = orbit.add_subparsers(required=True, metavar="SYSTEM")
+
+    suslov = systems.add_parser(
+        "suslov", help="the Suslov problem with gravity", description="Orbit of the Suslov problem with gravity.",
+        epilog="Example: hess-explorer orbit suslov --I 2,1,0.3,0.5 --b 0.3,-0.5,1 --omega 0.8,-0.4 "
+               "--gamma 0.3,0.2,0.93 --t 10,50")
+    suslov.add_argument("--I", type=vector("I11,I22,I13,I23"), required=True, metavar="I11,I22,I13,I23",
+                        help="inertia tensor (I12 = 0)")
+    suslov.add_argument("--b", type=vector("b1,b2,b3"), default=(0.0, 0.0, 0.0), metavar="b1,b2,b3",
+                        help="field (default 0,0,0)")
+    _add_motion(suslov, "w1,w2", "g1,g2,g3")
+    suslov.set_defaults(run=_run, system="suslov", parameters=_suslov_parameters)
+
+    hess = systems.add_parser(
+        "hess", help="the Suslov–Hess case, reduced",
+        description="Orbit of the Suslov–Hess case in its reduced variables (w1, w2, n1, n2, n3).",
+        epilog="Example: hess-explorer orbit hess --a 0.5 --b 1 --omega 0.7,1.1 --gamma 0.2,0.5,0.7 --t 10,50")
+    hess.add_argument("--a", type=number, required=True, help="inertia parameter a = I23/I22")
+    hess.add_argument("--b", type=number, required=True, help="field")
+    _add_motion(hess, "w1,w2", "n1,n2,n3")
+    hess.set_defaults(run=_run, system="hess", parameters=_hess_parameters)
+
+
+def _add_motion(parser: argparse.ArgumentParser, omega: str, gamma: str) -> None:
+    parser.add_argument("--omega", type=vector(omega), required=True, metavar=omega, help="angular velocity at t = 0")
+    parser.add_argument("--gamma", type=vector(gamma), required=True, metavar=gamma,
+                        help="the vertical at t = 0; brought to length 1")
+    parser.add_argument("--t", type=samples, required=True, metavar="TIMES",
+                        help="times away from 0, 10,50 or lo:hi:n")
+    add_options(parser)
+
+
+def _suslov_parameters(options: argparse.Namespace) -> tuple[tuple[float, ...], BodyCheck]:
+    from models import SuslovBody, check_body
+
+    return SuslovBody(*options.I, *options.b).parameters, check_body(*options.I)
+
+
+def _hess_parameters(options: argparse.Namespace) -> tuple[tuple[float, ...], BodyCheck]:
+    from models import HessBody
+
+    # (a, b) leave the scale of the inertia open: I22 = 1 speaks for all of them.
+    return (options.a, options.b), HessBody(I22=1.0, I23=options.a, b3=0.0).check
+
+
+def _run(options: argparse.Namespace) -> None:
+    with computing():
+        from models import level, solve, systems, unit_vector
+
+        system = systems()[options.system]
+        parameters, body = options.parameters(options)
+        gamma, note = unit_vector(options.gamma)
+        result = solve(system, (*options.omega, *gamma), parameters, options.t, level(options.accuracy))
+    facts = {
+        "variables": list(system.variables),
+        "error_estimate": result.error_estimate,
+        "drift": dict(result.drift),
+        "status": str(result.status),
+        "level": result.level,
+        "steps": result.cost.steps,
+        "wall_ms": result.cost.wall_ms,
+        "is_body": body.is_body,
+        "body": body.sentence,
+    }
+    write(options, {"t": result.times.tolist(), "y": result.states.tolist()}, ("t", *system.variables), facts,
+          notes=[*result.notes, *([note] if note else [])])

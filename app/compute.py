@@ -1,0 +1,94 @@
+"""The process-wide cache of results: bounded by bytes, one computation for concurrent misses."""
+
+from __future__ import annotations
+
+import dataclasses
+import logging
+import threading
+from collections import OrderedDict
+from collections.abc import Callable, Hashable
+from concurrent.futures import Future
+from typing import Any
+
+import numpy as np
+
+__all__ = ["CACHE", "ResultCache", "size_of", "warm"]
+
+logger = logging.getLogger("hess_explorer")
+
+_OVERHEAD = 512
+
+
+def size_of(value: Any) -> int:
+    """Bytes held by a result: its arrays, wherever they are in dataclasses and tuples, and a flat rate each."""
+    if isinstance(value, np.ndarray):
+        return value.nbytes + _OVERHEAD
+    if isinstance(value, (tuple, list)):
+        return _OVERHEAD + sum(size_of(item) for item in value)
+    if dataclasses.is_dataclass(value):
+        return _OVERHEAD + sum(size_of(getattr(value, field.name)) for field in dataclasses.fields(value))
+    return 64
+
+
+class ResultCache:
+    """Results by function and arguments; the least recently used go first.
+
+    Safe to use from several threads.  Functions must be pure, arguments hashable, results frozen.
+    A computation that raises is not kept: everyone who waited for it gets the error.
+    """
+
+    def __init__(self, capacity: int) -> None:
+        self.capacity = capacity
+        self.bytes = 0
+        self.hits = 0
+        self.misses = 0
+        self._lock = threading.Lock()
+        self._entries: OrderedDict[Hashable, tuple[Future[Any], int]] = OrderedDict()
+
+    def get(self, function: Callable[..., Any], *arguments: Hashable) -> tuple[Any, bool]:
+        """The result of function(*arguments), and whether it was there already."""
+        key = (function.__module__, function.__qualname__, arguments)
+        with self._lock:
+            entry = self._entries.get(key)
+            if entry is not None:
+                self.hits += 1
+                self._entries.move_to_end(key)
+                future = entry[0]
+            else:
+                self.misses += 1
+                future = Future()
+                self._entries[key] = (future, 0)
+        if entry is not None:
+            return future.result(), True
+        try:
+            value = function(*arguments)
+        except BaseException as error:
+            with self._lock:
+                self._entries.pop(key, None)
+            future.set_exception(error)
+            raise
+        size = size_of(value)
+        with self._lock:
+            # While we computed, the entry may have been pushed out: then it is not counted.
+            if key in self._entries:
+                self._entries[key] = (future, size)
+                self.bytes += size
+                self._shrink()
+        future.set_result(value)
+        return value, False
+
+    def _shrink(self) -> None:
+        while self.bytes > self.capacity and self._entries:
+            _, (_, size) = self._entries.popitem(last=False)
+            self.bytes -= size
+
+
+CACHE = ResultCache(64 * 2**20)
+
+
+def warm() -> None:
+    """Compile (or load) every kernel that a scene needs, by computing its default state once."""
+    from app.scenes import scenes
+
+    for scene in scenes().values():
+        scene.compute(scene.defaults())

@@ -1,0 +1,112 @@
+"""Widgets made from a scene's parameters: a slider and an entry box for each number."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import panel_material_ui as pmui
+
+from app.state import Choice, Number, Spec, Value, Values
+
+__all__ = ["Controls"]
+
+Change = Callable[[Values, bool], None]
+
+
+class _NumberControl:
+    """A slider for the hand and a box for exact values; typed values may exceed the slider's range."""
+
+    def __init__(self, spec: Number, value: float, change: Change) -> None:
+        self.spec = spec
+        self._change = change
+        self._showing = False
+        self.slider = pmui.FloatSlider(
+            label=spec.label, value=value, start=min(spec.low, value), end=max(spec.high, value), step=spec.step,
+            show_value=False, size="small", tooltips=False, description=spec.help, sizing_mode="stretch_width",
+            margin=(0, 4),
+        )
+        self.slider._debounce = 0
+        self.box = pmui.TextInput(
+            label=spec.symbol, value=repr(value), size="small", width=112, margin=(4, 0, 0, 4),
+        )
+        self.box._debounce = 0
+        self.root = pmui.Row(
+            self.slider, self.box, css_classes=[f"param-{spec.name}"], sizing_mode="stretch_width", margin=0,
+        )
+        self.slider.param.watch(lambda event: self._moved(event.new, True), "value")
+        self.slider.param.watch(lambda event: self._moved(event.new, False), "value_throttled")
+        self.box.param.watch(self._typed, "value")
+
+    def _moved(self, value: float | None, moving: bool) -> None:
+        if not self._showing and value is not None:
+            self._change({self.spec.name: value}, moving)
+
+    def _typed(self, event: Any) -> None:
+        if self._showing:
+            return
+        try:
+            value = float(str(event.new).strip().replace("−", "-").replace(",", "."))
+        except ValueError:
+            self.box.param.update(error_state=True)
+            return
+        self._change({self.spec.name: value}, False)
+
+    def show(self, value: Value, limits: tuple[float, float, float] | None) -> None:
+        """Display a value, and the slider range that goes with it."""
+        number = float(value)
+        low, high, step = limits or (self.spec.low, self.spec.high, self.spec.step)
+        self._showing = True
+        try:
+            self.slider.param.update(start=min(low, number), end=max(high, number), step=step, value=number)
+            self.box.param.update(value=repr(number), error_state=False)
+        finally:
+            self._showing = False
+
+
+class _ChoiceControl:
+    """A menu."""
+
+    def __init__(self, spec: Choice, value: str, change: Change) -> None:
+        self._showing = False
+        self.root = pmui.Select(
+            label=spec.label, value=value, options=list(spec.options), description=spec.help, size="small",
+            css_classes=[f"param-{spec.name}"], sizing_mode="stretch_width", margin=(8, 4),
+        )
+
+        def chosen(event: Any) -> None:
+            if not self._showing:
+                change({spec.name: event.new}, False)
+
+        self.root.param.watch(chosen, "value")
+
+    def show(self, value: Value, _: tuple[float, float, float] | None) -> None:
+        """Display a value."""
+        self._showing = True
+        try:
+            self.root.value = str(value)
+        finally:
+            self._showing = False
+
+
+def _control(spec: Spec, value: Value, change: Change) -> _NumberControl | _ChoiceControl:
+    if isinstance(spec, Number):
+        return _NumberControl(spec, float(value), change)
+    return _ChoiceControl(spec, str(value), change)
+
+
+class Controls:
+    """All controls of a scene, by parameter name."""
+
+    def __init__(self, specs: tuple[Spec, ...], values: Values, change: Change) -> None:
+        self._controls = {spec.name: _control(spec, values[spec.name], change) for spec in specs}
+
+    @property
+    def roots(self) -> list[Any]:
+        """The widgets in the order of the parameters."""
+        return [control.root for control in self._controls.values()]
+
+    def show(self, values: Values, limits: dict[str, tuple[float, float, float]]) -> None:
+        """Display these values."""
+        for name, control in self._controls.items():
+            control.show(values[name], limits.get(name))

@@ -1,0 +1,84 @@
+"""What a scene is: its parameters, what it computes, its pictures, its words."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+from app.components import Text
+from app.state import Spec, Value, Values
+
+__all__ = ["Picture", "Preset", "Report", "Scene", "Stage"]
+
+
+@dataclass(frozen=True)
+class Preset:
+    """A named state: the differences from the scene's defaults."""
+
+    name: str
+    values: Values
+
+
+@dataclass(frozen=True)
+class Picture:
+    """One picture on the page: what is drawn, and its title in words and numbers."""
+
+    name: str
+    root: Any
+    caption: Text
+
+
+@dataclass(frozen=True)
+class Report:
+    """What the page says beside the pictures: derived quantities, the status line, notes."""
+
+    derived: Sequence[tuple[str, str]]
+    status: str
+    notes: Sequence[str] = field(default=())
+
+
+class Stage(Protocol):
+    """The pictures of one session."""
+
+    pictures: Sequence[Picture]
+    dots: Mapping[str, tuple[str, str]]
+    """For the player: source of a moving point → columns of the source `orbit`."""
+
+    angles: Sequence[str]
+    """Those of the columns that are angles."""
+
+    def show(self, result: Any, hold_axes: bool) -> Report:
+        """Draw a result."""
+
+    def fail(self, sentence: str) -> None:
+        """Draw nothing but this sentence."""
+
+    def pick(self, picture: str, x: float, y: float) -> Values:
+        """The values that a click at (x, y) of a picture chooses."""
+
+
+@dataclass(frozen=True)
+class Scene:
+    """One scene of the explorer.
+
+    admit(values) : values that are possible together, and notes on what was changed.
+    limits(values) : slider ranges (low, high, step) that depend on other values.
+    compute(values) : the result, from admitted values; raises `ModelError`.
+    stage() : new pictures for one session.
+    """
+
+    name: str
+    title: str
+    summary: str
+    specs: tuple[Spec, ...]
+    presets: tuple[Preset, ...]
+    words: str
+    admit: Callable[[Values], tuple[dict[str, Value], list[str]]]
+    limits: Callable[[Values], Mapping[str, tuple[float, float, float]]]
+    compute: Callable[[Values], Any]
+    stage: Callable[[], Stage]
+
+    def defaults(self) -> dict[str, Value]:
+        """The state a newcomer sees."""
+        return {spec.name: spec.default for spec in self.specs}

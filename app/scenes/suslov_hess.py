@@ -1,0 +1,395 @@
+"""The Suslov–Hess case (S8): torus, Poisson sphere, bifurcation diagram, circle map."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from app.components import Text
+from app.compute import CACHE
+from app.scenes.base import Picture, Preset, Report, Scene
+from app.state import Choice, Number, Value, Values
+from app.views.bifurcation_diagram import BifurcationDiagram, window
+from app.views.circle_map import CircleMapView
+from app.views.omega_plane import OmegaPlane
+from app.views.poisson_sphere import PoissonSphere
+from app.words import number
+from models.accuracy import DRAFT, LEVELS, STANDARD, Level, level
+from models.bifurcation import TurningPoints, curve, f_max, turning_points
+from models.circle_map import CircleMap, circle_map, lock_boundary, rotation_number_grid
+from models.errors import Separatrix
+from models.hess import HessBody
+from models.results import Array
+from models.torus import Track, annulus, cycles, track
+
+GRID = (100, 75)
+MAX_A = 100.0
+_COBWEB = 60
+
+SPECS = (
+    Number("I22", "I₂₂", "Inertia I₂₂", 0.8, 0.2, 3.0, 0.01, 1e-3, 1e3,
+           "Moment of inertia about the second body axis. I₁₁ follows from it and I₂₃."),
+    Number("I23", "I₂₃", "Inertia I₂₃", 0.6, -2.0, 2.0, 0.01, -1e3, 1e3,
+           "Product of inertia. a = I₂₃/I₂₂ tilts the circular section; a = 0 decouples the motion."),
+    Number("b3", "b₃", "Centre of mass b₃", -1.0, -3.0, -0.05, 0.01, -1e3, -1e-3,
+           "Third component of b = −mg r. It sets the unit of time; b₂ follows from it."),
+    Number("h", "h", "Energy h", 1.5, -0.99, 4.0, 0.01, -1.0 + 1e-9, 1e6,
+           "Energy integral in units b = 1: h > −1; the separatrix is at h = 1, f = 0."),
+    Number("f", "f", "Area integral f", 0.6, -3.0, 3.0, 0.01, -1e4, 1e4,
+           "Area integral in units b = 1. Its range follows h."),
+    Number("phi0", "φ₀", "Phase φ₀", 0.5, -3.14, 3.14, 0.01, -math.pi, math.pi,
+           "Phase of the orbit on the section n₃ = n₃⁽¹⁾, in radians."),
+    Number("span", "t", "Time span", 40.0, 1.0, 200.0, 1.0, 0.01, 1e5,
+           "How long the orbit is followed, in the time of the body (at most 100 returns)."),
+    Choice("accuracy", "Accuracy", tuple(LEVELS), "standard",
+           "Promised error: draft 1e-3, standard 1e-6, precise 1e-9, reference the floor of double precision."),
+)
+
+PRESETS = (
+    Preset("Two limit cycles", {}),
+    Preset("No cycle: every orbit winds", {"h": 0.2, "f": 0.5}),
+    Preset("At the lock boundary (a = 0.5)", {"I22": 1.0, "I23": 0.5, "h": 0.5, "f": 1.01563456028796105}),
+    Preset("Pendulum, f = 0: multiplier e^(2πa)", {"h": 1.5, "f": 0.0, "I22": 1.0, "I23": 0.3}),
+    Preset("Oscillation, f → 0: Θ∘Θ = id", {"h": 0.3, "f": 1e-8}),
+    Preset("Separatrix: no return", {"h": 1.0, "f": 0.0}),
+    Preset("On the bifurcation curve", {"h": 0.25, "f": f_max(0.25)}),
+    Preset("Strong contraction, a = 3 (not a body)", {"I22": 0.5, "I23": 1.5}),
+)
+
+WORDS = r"""
+### What you see
+A rigid body turns about a fixed point under its weight, and a wheel-like constraint forbids spin about one body axis:
+\(\omega_3 = 0\). In the **Hess case** the centre of mass lies on the perpendicular to a circular section of the
+gyration ellipsoid. Then there is a second integral \(F_2=(\mathbf I\omega,\gamma)\), and every motion lives on a
+torus. One number, \(a=I_{23}/I_{22}\), decides what happens there.
+
+1. **Angular velocity.** The energy leaves a ring; the orbit fills it, or tends to the green limit cycle.
+2. **Poisson sphere.** The vertical as the body sees it, between two parallels about the axis \(n_3\).
+3. **Bifurcation diagram.** All possible \((h,f)\); grey has no motion. Colour is the rotation number
+   \(\rho\); in the violet zone it is locked at 0 and there are two limit cycles.
+   The moving point stands at height \(\pm\sqrt{f^2+\dot n_3^2}\): it touches the cross each time \(n_3\) turns.
+4. **Circle map.** Where the orbit is after one period of \(n_3\), against where it was.
+
+### Try this
+- Drag in the bifurcation diagram across the black line into the violet zone: two cycles are born together.
+- Choose *Pendulum, f = 0*: the multiplier is \(e^{2\pi a}\), whatever \(h\) is.
+- Click the circle map near the hollow point: the orbit stays near the unstable cycle before it leaves.
+- Press Space, then ← and →.
+
+### The equations (section 2, case 3 of the paper)
+\[\dot w_1=-a w_2^2-b n_2,\quad \dot w_2=a w_1w_2+b n_1,\]
+\[\dot n_1=-(a n_2+n_3)w_2,\quad \dot n_2=a w_2 n_1+w_1 n_3,\quad \dot n_3=n_1w_2-n_2w_1,\]
+\[h=\tfrac12(w_1^2+w_2^2)-b n_3,\qquad f=w_1n_1+w_2n_2,\qquad n^2=1,\]
+\[\dot n_3^2=2(h+n_3)(1-n_3^2)-f^2,\qquad \dot\varphi=-\frac{f}{2(h+n_3)}-a\cos\varphi\sqrt{2(h+n_3)}.\]
+\(h\) and \(f\) are in units \(b=1\): \(t\to t\sqrt b\), \(w\to w/\sqrt b\), \(h\to h/b\), \(f\to f/\sqrt b\).
+
+**The circle map is a Möbius map**, \(z\mapsto(\alpha z+\beta)/(\bar\beta z+\bar\alpha)\) with \(z=e^{i\varphi}\), so one
+small matrix gives all of it; with \(t=2\,\mathrm{Re}\,\alpha\): \(|t|<2\) no cycle, \(|t|>2\) exactly two, with
+multipliers \(e^{\pm2\,\mathrm{arccosh}(|t|/2)}\). Therefore \(\rho\) locks at integers only: the graph of \(\rho\) is no
+Cantor ladder. This is computed here; the paper leaves it open.
+
+### Where this page departs from the printed paper
+- eq. `Geq3` reads \(h=(1-3n_3^2)/(2n_3)\) (printed: a cube).
+- `bizi2`: \(b=-b_3/\sqrt{I_{22}^2+I_{23}^2}\) (printed with a second \(mg\)); `eq02`: \(w_2=\omega_2/\sqrt{1+a^2}\)
+  (printed: \(\omega_1\)).
+- `eq03`: \(E\) and \(F_2\) are those of the Suslov problem divided by \(I_{11}\).
+- A tensor with \(|a|\ge1\) belongs to no rigid body (the triangle inequality fails for every \(I_{33}\)); it is
+  shown all the same, and said.
+"""
+
+
+@dataclass(frozen=True)
+class HessResult:
+    """All that the pictures need.  `turning`, `map` are None on the separatrix."""
+
+    values: Values
+    body: HessBody
+    turning: TurningPoints | None
+    track: Track
+    map: CircleMap | None
+    iterates: Array | None
+    cycles: tuple[Track, Track] | None
+    boundary: Array
+    curve: Array
+    grid: Array
+    cached: bool
+    wall_ms: float
+
+
+def admit(values: Values) -> tuple[dict[str, Value], list[str]]:
+    """|a| ≤ 100, and f inside the region of this h."""
+    out, notes = dict(values), []
+    bound = MAX_A * float(out["I22"])
+    if abs(float(out["I23"])) > bound:
+        out["I23"] = math.copysign(bound, float(out["I23"]))
+        notes.append(f"a = I₂₃/I₂₂ is kept within ±{MAX_A:g}: I₂₃ is {number(out['I23'])} now.")
+    largest = f_max(float(out["h"]))
+    if abs(float(out["f"])) > largest:
+        out["f"] = math.copysign(largest, float(out["f"]))
+        notes.append(f"At h = {number(float(out['h']))} only |f| ≤ {number(largest)} is possible: f is at that edge now.")
+    return out, notes
+
+
+def limits(values: Values) -> Mapping[str, tuple[float, float, float]]:
+    """The slider of f spans the region at this h, in round steps."""
+    largest = f_max(float(values["h"]))
+    step = 10.0 ** (math.floor(math.log10(largest)) - 2)
+    end = math.floor(largest / step) * step
+    return {"f": (-end, end, step)}
+
+
+def _grid(a: float, x: tuple[float, float], y: tuple[float, float], accuracy: Level) -> Array:
+    """ρ at the centres of the cells of the window; fewer cells where a makes each one dear."""
+    share = min(1.0, math.sqrt(10.0 / max(abs(a), 1e-9)))
+    m, n = (max(8, round(size * share)) for size in GRID)
+    h = x[0] + (np.arange(m) + 0.5) * (x[1] - x[0]) / m
+    f = y[0] + (np.arange(n) + 0.5) * (y[1] - y[0]) / n
+    return rotation_number_grid(a, np.maximum(h, -1.0 + 1e-6), f, accuracy)
+
+
+def compute(values: Values) -> HessResult:
+    """Everything the four pictures need, from admitted values; each part is cached by itself."""
+    start = time.perf_counter()
+    misses = 0
+
+    def cached(function: Any, *arguments: Hashable) -> Any:
+        nonlocal misses
+        value, hit = CACHE.get(function, *arguments)
+        misses += not hit
+        return value
+
+    I22, I23, b3, h, f, phi0, span = (float(values[spec.name]) for spec in SPECS[:-1])
+    accuracy = level(str(values["accuracy"]))
+    body = HessBody(I22, I23, b3)
+    x, y = window(h)
+    turning: TurningPoints | None = None
+    theta: CircleMap | None = None
+    pair: tuple[Track, Track] | None = None
+    iterates: Array | None = None
+    try:
+        turning = turning_points(h, f)
+        theta = cached(circle_map, body.a, h, f, accuracy)
+        if theta.kind == "hyperbolic":
+            pair = cached(cycles, body, h, f, theta.fixed_points[0], accuracy)
+    except Separatrix:
+        pass
+    orbit = cached(track, body, h, f, phi0, span, accuracy)
+    if theta is not None:
+        returns = math.ceil(orbit.orbit.times[-1] / theta.period)
+        iterates = theta.iterate(phi0, max(1, returns))
+    return HessResult(
+        values=values, body=body, turning=turning, track=orbit, map=theta, iterates=iterates, cycles=pair,
+        boundary=cached(lock_boundary, body.a, STANDARD), curve=cached(curve, x[1]),
+        grid=cached(_grid, body.a, x, y, DRAFT), cached=misses == 0,
+        wall_ms=(time.perf_counter() - start) * 1e3,
+    )
+
+
+def _nice_above(value: float) -> float:
+    """The next of 1, 1.5, 2, 3, 4, 5, 6, 8 times a power of ten."""
+    power = 10.0 ** math.floor(math.log10(value))
+    return power * next(step for step in (1, 1.5, 2, 3, 4, 5, 6, 8, 10) if step * power >= value * (1 - 1e-12))
+
+
+def _half_width(result: HessResult) -> float:
+    """The frame of the (ω1, ω2)-plane: room for every h of the slider, so that it can stay."""
+    body = result.body
+    largest = math.sqrt(2.0 * (window(float(result.values["h"]))[0][1] + 1.0))
+    return _nice_above(1.02 * body.frequency_unit * math.hypot(1.0, body.a) * largest)
+
+
+class HessStage:
+    """The four pictures of one session."""
+
+    dots: Mapping[str, tuple[str, str]] = {
+        "omega-point": ("omega1", "omega2"),
+        "bifurcation-point": ("h", "reach"),
+        "circle-point": ("phi_start", "phi"),
+    }
+    angles: Sequence[str] = ("phi", "phi_start")
+
+    def __init__(self) -> None:
+        self.omega = OmegaPlane()
+        self.sphere = PoissonSphere()
+        self.diagram = BifurcationDiagram()
+        self.circle = CircleMapView()
+        self._drawn: dict[str, Any] = {}
+        self.pictures = tuple(
+            Picture(name, view.root, Text(tag="h2", look="caption"))
+            for name, view in (
+                ("omega", self.omega), ("sphere", self.sphere), ("bifurcation", self.diagram), ("circle", self.circle),
+            )
+        )
+
+    def _once(self, name: str, *things: Any) -> bool:
+        """Whether something else than last time is to be drawn under this name."""
+        before = self._drawn.get(name)
+        self._drawn[name] = things
+        return before is None or len(before) != len(things) or any(
+            a is not b and (isinstance(a, np.ndarray) or a != b) for a, b in zip(before, things, strict=True)
+        )
+
+    def show(self, result: HessResult, hold_axes: bool) -> Report:
+        """Draw everything that has changed."""
+        h, f = float(result.values["h"]), float(result.values["f"])
+        self._show_motion(result, h, f)
+        half_width = _half_width(result)
+        inner, outer = annulus(result.body, h, result.turning)
+        self.omega.show_region(inner, outer, half_width)
+        x, y = window(h)
+        if not hold_axes:
+            self.omega.fit(half_width)
+            self.diagram.fit(x, y)
+        if self._once("curve", result.curve):
+            self.diagram.show_region(result.curve, x, y)
+        if self._once("grid", result.grid):
+            self.diagram.show_rotation(result.grid, x, y)
+        if self._once("boundary", result.boundary, x):
+            self.diagram.show_lock(result.boundary, x, y)
+        if self._once("here", h, f):
+            self.diagram.show_here(h, f)
+        if result.map is None or result.iterates is None:
+            self.circle.show_nothing("Separatrix: no return")
+        elif self._once("map", result.map, result.iterates):
+            self.circle.show(result.map, result.iterates[: _COBWEB + 1])
+        for picture, text in zip(self.pictures, _captions(result), strict=True):
+            if picture.caption.text != text:
+                picture.caption.text = text
+        return Report(_derived(result), _status(result), _notes(result))
+
+    def _show_motion(self, result: HessResult, h: float, f: float) -> None:
+        track_ = result.track
+        if self._once("track", track_, result.iterates):
+            n3 = track_.n3
+            reach = math.copysign(1.0, f) * np.sqrt(np.maximum(0.0, 2.0 * (h + n3) * (1.0 - n3 * n3)))
+            phi_start = track_.phi
+            if result.map is not None and result.iterates is not None:
+                index = np.floor(track_.orbit.times / result.map.period).astype(int)
+                phi_start = result.iterates[np.minimum(index, len(result.iterates) - 1)]
+            self.omega.show_orbit(
+                track_, phi=track_.phi.astype(np.float32), phi_start=phi_start.astype(np.float32),
+                h=np.full(n3.size, h, np.float32), reach=reach.astype(np.float32),
+            )
+        if self._once("cycles", result.cycles):
+            self.omega.show_cycles(result.cycles)
+        body, sign = result.body, math.copysign(1.0, result.body.b)
+        r = math.hypot(1.0, body.a)
+        heights = (-1.0, 1.0) if result.turning is None else result.turning.roots[1:]
+        self.sphere.show_axis((0.0, -sign * body.a / r, sign / r), [x for x in heights if abs(x) < 1 - 1e-9])
+
+    def fail(self, sentence: str) -> None:
+        """Empty pictures, and the sentence where the eye is."""
+        self._drawn.clear()
+        self.omega.clear("forbidden", "orbit", "stable", "unstable", "point")
+        self.diagram.clear("here", "locked", "boundary", "point")
+        self.circle.show_nothing(sentence)
+        for picture in self.pictures:
+            picture.caption.text = sentence
+
+    def pick(self, picture: str, x: float, y: float) -> Values:
+        """A click in the diagram chooses (h, f), in the circle map φ0."""
+        if picture == "bifurcation":
+            return {"h": x, "f": y}
+        if picture == "circle":
+            return {"phi0": x}
+        return {}
+
+
+def _captions(result: HessResult) -> tuple[str, str, str, str]:
+    h, f = float(result.values["h"]), float(result.values["f"])
+    theta, turning = result.map, result.turning
+    where = f"h = {number(h)}, f = {number(f)}"
+    if theta is None or turning is None:
+        return (
+            "Angular velocity (ω₁, ω₂)\nThe orbit leaves the origin and comes back to it in infinite time.",
+            "Poisson sphere\nFrom the upper equilibrium and back to it.",
+            f"Bifurcation diagram\n{where}: the separatrix.",
+            "Circle map\nSeparatrix: no return.",
+        )
+    n1, n2 = turning.roots[1:]
+    low, high = turning.initial_rho, math.sqrt(2 * max(0.0, h + n2))
+    rho = number(theta.rotation_number)
+    trace = number(theta.trace, 5)
+    if theta.kind == "hyperbolic":
+        orbit = "The orbit tends to the stable limit cycle"
+        zone = "locked, two limit cycles"
+        stable, unstable = theta.fixed_points
+        last = f"hyperbolic, |trace| {trace}, ρ = {rho}; multipliers {number(stable.multiplier)}, {number(unstable.multiplier)}"
+    elif theta.kind == "parabolic":
+        orbit = "The two limit cycles have merged"
+        zone = "on the lock boundary"
+        last = f"parabolic, |trace| {trace}, ρ = {rho}; multiplier 1"
+    else:
+        orbit = "The orbit winds round the torus, no limit cycle"
+        zone = f"not locked, ρ = {rho}"
+        last = f"elliptic, |trace| {trace}, ρ = {rho}; no fixed point"
+    return (
+        f"Angular velocity (ω₁, ω₂)\n{orbit}; |w| from {number(low)} to {number(high)}.",
+        f"Poisson sphere\nThe vertical γ, between heights n₃ = {number(n1)} and {number(n2)}.",
+        f"Bifurcation diagram\n{where}: {zone}.",
+        f"Circle map\n{last}.",
+    )
+
+
+def _derived(result: HessResult) -> list[tuple[str, str]]:
+    body = result.body
+    check = body.check
+    rows = [
+        ("a = I₂₃/I₂₂", number(body.a, 6)), ("b", number(body.b, 6)),
+        ("I₁₁", number(body.I11, 6)), ("b₂", number(body.b2, 6)),
+        ("E = I₁₁ b h", number(body.I11 * body.b * float(result.values["h"]), 6)),
+        ("F₂ = I₁₁ √b f", number(body.I11 * body.frequency_unit * float(result.values["f"]), 6)),
+        ("A rigid body?", "yes" if check.is_body else "no (|a| ≥ 1)"),
+    ]
+    if check.I33 is not None:
+        rows.append(("I₃₃ from … to", f"{number(check.I33[0])} … {number(check.I33[1])}"))
+    if result.map is not None:
+        rows.append(("Period of n₃", number(result.map.period / body.frequency_unit, 6)))
+    return rows
+
+
+def _status(result: HessResult) -> str:
+    orbit = result.track.orbit
+    parts = [
+        f"{orbit.level}: orbit {orbit.states.shape[0]} points, {orbit.cost.steps} Taylor steps, "
+        f"error ≤ {orbit.error_estimate:.1e} ({orbit.status})",
+        "drift " + " ".join(f"{name} {drift:.0e}" for name, drift in orbit.drift.items()),
+    ]
+    if result.map is not None:
+        parts.append(f"circle map {result.map.cost.steps} steps, error ≤ {result.map.error_estimate:.1e} ({result.map.status})")
+    else:
+        parts.append("circle map: separatrix, no return")
+    parts.append(f"{result.wall_ms:.1f} ms, {'cached' if result.cached else 'computed'}")
+    return " · ".join(parts).replace("e-", "e−")
+
+
+def _notes(result: HessResult) -> list[str]:
+    notes = []
+    check = result.body.check
+    if not check.is_body:
+        notes.append(check.sentence)
+    shown = float(result.track.times[-1])
+    if shown < float(result.values["span"]) * (1 - 1e-9):
+        notes.append(f"The orbit is shown up to t = {number(shown)}: more returns than fit into a picture.")
+    if float(result.values["f"]) == 0.0 and result.map is not None and float(result.values["h"]) < 1.0:
+        notes.append("At f = 0, h < 1 the angle φ jumps where w = 0: the circle map is its limit f → 0.")
+    return notes
+
+
+SCENE = Scene(
+    name="suslov-hess",
+    title="The Suslov–Hess case",
+    summary="A heavy rigid body with ω₃ = 0 whose motions live on tori: rotation, locking, limit cycles.",
+    specs=SPECS,
+    presets=PRESETS,
+    words=WORDS,
+    admit=admit,
+    limits=limits,
+    compute=compute,
+    stage=HessStage,
+)

@@ -1,0 +1,108 @@
+"""Parameters of a page: their specification, and their form in the URL.
+
+The URL holds the whole state under a version.  Nothing in it is trusted: each key is checked
+and clamped by itself, and what had to be changed is said in a note.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from urllib.parse import parse_qsl, urlencode
+
+__all__ = ["CLIENT", "MAX_QUERY", "VERSION", "Choice", "Number", "Spec", "Value", "Values", "decode", "encode"]
+
+VERSION = "1"
+MAX_QUERY = 2000
+
+Value = float | str
+Values = Mapping[str, Value]
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number with a slider from `low` to `high`; values from `lowest` to `highest` may be typed."""
+
+    name: str
+    symbol: str
+    label: str
+    default: float
+    low: float
+    high: float
+    step: float
+    lowest: float
+    highest: float
+    help: str = ""
+
+    def read(self, text: str) -> tuple[float, str | None]:
+        """The value that a text from outside means, and a note where it had to be changed."""
+        try:
+            value = float(text)
+        except ValueError:
+            return self.default, f"{self.symbol} was not a number and is {self.default:g} now."
+        return self.admit(value)
+
+    def admit(self, value: float) -> tuple[float, str | None]:
+        """The value clamped to what may be, and a note where it was."""
+        if not math.isfinite(value):
+            return self.default, f"{self.symbol} was not finite and is {self.default:g} now."
+        clamped = min(max(value, self.lowest), self.highest)
+        if clamped != value:
+            return clamped, f"{self.symbol} must lie between {self.lowest:g} and {self.highest:g}: it is {clamped:g} now."
+        return value, None
+
+
+@dataclass(frozen=True)
+class Choice:
+    """One of a fixed list of names."""
+
+    name: str
+    label: str
+    options: tuple[str, ...]
+    default: str
+    help: str = ""
+
+    def read(self, text: str) -> tuple[str, str | None]:
+        """The option of that name, or the default and a note (which does not repeat the text)."""
+        if text in self.options:
+            return text, None
+        return self.default, f"{self.label} was not one of {', '.join(self.options)}: it is {self.default} now."
+
+
+Spec = Number | Choice
+
+CLIENT: tuple[Number, ...] = (
+    Number("t", "t", "Time", 0.0, 0.0, 1000.0, 0.0, 0.0, 1e6),
+    Number("speed", "speed", "Speed", 1.0, 0.25, 8.0, 0.0, 0.25, 8.0),
+    Number("az", "azimuth", "Azimuth of the sphere", 0.6, -math.pi, math.pi, 0.0, -math.pi, math.pi),
+    Number("el", "elevation", "Elevation of the sphere", 0.35, -math.pi / 2, math.pi / 2, 0.0, -math.pi / 2, math.pi / 2),
+)
+"""Keys of the URL that the browser itself keeps: they need no computation."""
+
+
+def _text(value: Value) -> str:
+    return value if isinstance(value, str) else repr(float(value))
+
+
+def encode(values: Values) -> str:
+    """The query of these values, version first."""
+    return urlencode([("v", VERSION), *((name, _text(value)) for name, value in values.items())])
+
+
+def decode(query: str, specs: Sequence[Spec]) -> tuple[dict[str, Value], list[str]]:
+    """The values of all specs from a query, defaults where it has none, and notes on what was changed."""
+    values: dict[str, Value] = {spec.name: spec.default for spec in specs}
+    notes: list[str] = []
+    if len(query) > MAX_QUERY:
+        return values, [f"The link was longer than {MAX_QUERY} characters and was not read."]
+    given = dict(parse_qsl(query.lstrip("?"), keep_blank_values=True, max_num_fields=200))
+    if given.get("v", VERSION) != VERSION:
+        notes.append("The link is of another version of this page: what it says may mean something else here.")
+    for spec in specs:
+        if spec.name in given:
+            value, note = spec.read(given[spec.name])
+            values[spec.name] = value
+            if note:
+                notes.append(note)
+    return values, notes

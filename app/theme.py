@@ -1,0 +1,14 @@
+"""Colours, lines and sizes: one thing has one look in every picture (Okabe and Ito's palette)."""
+
+from __future__ import annotations
+
+ORBIT = "#0072B2"
+STABLE = "#009E73"
+UNSTABLE = "#D55E00"
+MAP = "#CC79A7"
+POINT = "#F0E442"
+FORBIDDEN = "#8C8C8C"
+LOCKED = "#B9A7D6"
+MUTED = "#808080"
+NUMBER_MAP = "cividis"
+FONT_SIZE = "14px"

@@ -1,0 +1,74 @@
+"""The circle map Θ(φ) on the square (−π, π]², its fixed points and a cobweb."""
+
+from __future__ import annotations
+
+import math
+
+import holoviews as hv
+import numpy as np
+
+from app import theme
+from app.views.figure import Figure, moving_point
+from models.circle_map import CircleMap
+from models.results import Array
+
+_TICKS = [(-math.pi, "−π"), (-math.pi / 2, "−π/2"), (0.0, "0"), (math.pi / 2, "π/2"), (math.pi, "π")]
+_GRID = np.linspace(-math.pi, math.pi, 193)
+
+
+def graph(circle_map: CircleMap) -> tuple[Array, Array]:
+    """φ and Θ, continued without jumps, at points that are close together on the curve also where it is steep.
+
+    The reversor gives the inverse, Θ⁻¹(ψ) = −Θ(−ψ): values at even φ and at even Θ are joined.
+    """
+    phi = np.unique(np.concatenate([_GRID, -circle_map.theta(-_GRID)]))
+    theta = np.unwrap(circle_map.theta(phi))
+    return phi, theta
+
+
+def cobweb(iterates: Array) -> tuple[Array, Array]:
+    """The staircase (φ0, φ0) → (φ0, φ1) → (φ1, φ1) → …"""
+    return np.repeat(iterates, 2)[:-1], np.repeat(iterates, 2)[1:]
+
+
+class CircleMapView(Figure):
+    """Θ, the diagonal, stable (filled) and unstable (hollow) fixed points, the cobweb.  A click picks φ0."""
+
+    def __init__(self) -> None:
+        side = (-math.pi, math.pi)
+
+        def line(label: str, **opts: object) -> hv.Curve:
+            return hv.Curve([], "phi", "theta", label=label).opts(**opts)
+
+        def dots(label: str, **opts: object) -> hv.Points:
+            return hv.Points([], ["phi", "theta"], label=label).opts(size=12, line_width=3, **opts)
+
+        overlay = (
+            hv.Curve([(-math.pi, -math.pi), (math.pi, math.pi)], "phi", "theta", label="diagonal").opts(
+                color=theme.MUTED, line_dash="dotted", line_width=1.5)
+            * line("cobweb", color=theme.ORBIT, line_width=1)
+            * hv.Path([], label="map").opts(color=theme.MAP, line_width=2.5)
+            * dots("stable", color=theme.STABLE, line_color=theme.STABLE)
+            * dots("unstable", fill_alpha=0, color=theme.UNSTABLE, line_color=theme.UNSTABLE)
+            * moving_point("point")
+        ).opts(xticks=_TICKS, yticks=_TICKS)
+        super().__init__("circle", overlay, ("φ", "Θ(φ)"), side, side, picks=("tap",))
+
+    def show(self, circle_map: CircleMap, iterates: Array) -> None:
+        """One map, with the cobweb through its iterates."""
+        self.say("")
+        phi, theta = graph(circle_map)
+        phi32, theta32 = phi.astype(np.float32), theta.astype(np.float32)
+        turn = np.float32(2 * math.pi)
+        # The graph and its copies one turn up and down: the frame cuts out the square.
+        self.assign("map", xs=[phi32] * 3, ys=[theta32, theta32 - turn, theta32 + turn])
+        xs, ys = cobweb(iterates)
+        self.assign("cobweb", phi=xs.astype(np.float32), theta=ys.astype(np.float32))
+        self.clear("stable", "unstable")
+        for point in circle_map.fixed_points:
+            self.assign("stable" if point.log_multiplier <= 0 else "unstable", phi=[point.phi], theta=[point.phi])
+
+    def show_nothing(self, sentence: str) -> None:
+        """There is no map; the sentence says why."""
+        self.clear("map", "cobweb", "stable", "unstable")
+        self.say(sentence)

@@ -1,0 +1,156 @@
+// Play, pause, step, speed and the time slider.  The moving point is computed here, from the
+// samples of the orbit that the page already has: no traffic while it plays.
+// Sends "hess:time" {t, state} to whoever draws the point, and moves the one-point sources.
+
+const SPEEDS = [0.25, 0.5, 1, 2, 4, 8]
+const ICONS = {
+  play: "M8 5v14l11-7z",
+  pause: "M6 5h4v14H6zm8 0h4v14h-4z",
+  back: "M6 6h2v12H6zm3.5 6 8.5 6V6z",
+  forward: "M16 6h2v12h-2zM6 18l8.5-6L6 6z",
+}
+
+function button(name, label, onClick) {
+  const item = document.createElement("button")
+  item.type = "button"
+  item.className = `transport param-${name}`
+  item.innerHTML = `<svg viewBox="0 0 24 24" width="22" height="22" aria-hidden="true"><path fill="currentColor"/></svg>`
+  item.addEventListener("click", onClick)
+  const set = (icon, text) => {
+    item.querySelector("path").setAttribute("d", ICONS[icon])
+    item.setAttribute("aria-label", text)
+    item.title = text
+  }
+  set(name, label)
+  return [item, set]
+}
+
+export function render({ model, view, el }) {
+  const bar = document.createElement("div")
+  bar.className = "player"
+  bar.setAttribute("role", "group")
+  bar.setAttribute("aria-label", "Motion in time")
+  const slider = document.createElement("input")
+  slider.type = "range"
+  slider.className = "param-t"
+  slider.min = 0
+  slider.step = "any"
+  slider.setAttribute("aria-label", "Time t")
+  const output = document.createElement("output")
+  const speed = document.createElement("select")
+  speed.className = "param-speed"
+  speed.setAttribute("aria-label", "Speed")
+  speed.title = "Speed: units of t per second"
+  for (const value of SPEEDS) speed.add(new Option(`${value}×`, value))
+  speed.value = SPEEDS.includes(model.speed) ? model.speed : 1
+
+  let source = null
+  let t = model.t
+  let playing = false
+  let last = null
+
+  const end = () => {
+    const times = source?.data.t
+    return times?.length ? times[times.length - 1] : 0
+  }
+  const announce = (detail) => document.dispatchEvent(new CustomEvent("hess:url", { detail }))
+
+  function stateAt(time) {
+    const data = source.data
+    const n = data.t.length
+    const position = Math.max(0, Math.min(n - 1, time / (data.t[1] - data.t[0])))
+    const i = Math.min(n - 2, Math.floor(position))
+    const s = position - i
+    const state = {}
+    for (const name of Object.keys(data)) {
+      const [a, b] = [data[name][i], data[name][i + 1]]
+      // An angle that crosses ±π between two samples is not interpolated.
+      const jump = model.angles.includes(name) && Math.abs(b - a) > 1
+      state[name] = jump ? (s < 0.5 ? a : b) : a + s * (b - a)
+    }
+    return state
+  }
+
+  function show() {
+    const usable = source !== null && source.data.t?.length > 1
+    const state = usable ? stateAt(t) : null
+    const document_ = view.model.document
+    for (const [name, [x, y]] of Object.entries(model.dots)) {
+      const dot = document_?.get_model_by_name(name)
+      if (dot != null) dot.setv({ data: state ? { x: [state[x]], y: [state[y]] } : { x: [], y: [] } }, { sync: false })
+    }
+    slider.value = t
+    output.textContent = `t = ${t.toFixed(2)}`
+    slider.setAttribute("aria-valuetext", `t = ${t.toFixed(2)} of ${end().toFixed(2)}`)
+    document.dispatchEvent(new CustomEvent("hess:time", { detail: { t, state } }))
+  }
+
+  function move(to) {
+    t = Math.max(0, Math.min(end(), to))
+    show()
+  }
+
+  function frame(now) {
+    if (!playing) return
+    if (last !== null) {
+      const next = t + (Number(speed.value) * Math.min(100, now - last)) / 1000
+      move(next >= end() ? 0 : next)
+    }
+    last = now
+    requestAnimationFrame(frame)
+  }
+
+  function play(on) {
+    playing = on
+    last = null
+    setPlay(on ? "pause" : "play", on ? "Pause (Space)" : "Play (Space)")
+    bar.dataset.playing = on
+    if (on) requestAnimationFrame(frame)
+    else announce({ t: t.toFixed(3) })
+  }
+
+  const step = (direction) => {
+    play(false)
+    move(t + direction * end() / 200)
+    announce({ t: t.toFixed(3) })
+  }
+
+  const [back] = button("back", "Step back (←)", () => step(-1))
+  const [toggle, setPlay] = button("play", "Play (Space)", () => play(!playing))
+  const [forward] = button("forward", "Step forward (→)", () => step(1))
+  slider.addEventListener("input", () => { play(false); move(Number(slider.value)) })
+  slider.addEventListener("change", () => announce({ t: t.toFixed(3) }))
+  speed.addEventListener("change", () => announce({ speed: speed.value }))
+  bar.append(back, toggle, forward, slider, output, speed)
+  el.append(bar)
+
+  // Space and arrows, unless the key already means something where the focus is.
+  const onKey = (event) => {
+    const target = event.composedPath()[0]
+    if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey) return
+    if (target instanceof HTMLElement && target.closest("input, textarea, select, button, a, [role=combobox], [role=option], [role=slider], [contenteditable]")) return
+    if (event.key === " ") play(!playing)
+    else if (event.key === "ArrowLeft") step(-1)
+    else if (event.key === "ArrowRight") step(1)
+    else return
+    event.preventDefault()
+  }
+  document.addEventListener("keydown", onKey)
+
+  const onData = () => {
+    slider.max = end()
+    if (t > end()) t = end()
+    show()
+  }
+  const watch = () => {
+    source = view.model.document?.get_model_by_name("data-orbit") ?? null
+    if (source === null) return void requestAnimationFrame(watch)
+    source.change.connect(onData)
+    onData()
+  }
+  watch()
+  return () => {
+    playing = false
+    document.removeEventListener("keydown", onKey)
+  }
+}
