@@ -91,30 +91,28 @@ def launched(*, install: bool = False) -> Iterator[Browser]:
             raise BrowserError(
                 f"No Chromium was found: install one (`playwright install chromium`) or name it in {VARIABLE}."
             )
-        browser = _launch(playwright.chromium, path)
+        # Chromium refuses to run as root with its sandbox.
+        browser = _launch(playwright.chromium, path, sandbox=not _is_root())
         try:
             yield browser
         finally:
             browser.close()
 
 
-def _launch(chromium: BrowserType, path: str) -> Browser:
+def _launch(chromium: BrowserType, path: str, *, sandbox: bool) -> Browser:
     from playwright.sync_api import Error
 
-    # Playwright's default is no sandbox; Chromium refuses to start with one as root only.
-    sandbox = not _is_root()
     try:
         return chromium.launch(executable_path=path, args=_QUIET, chromium_sandbox=sandbox)
     except Error as error:
         if sandbox and "sandbox" in error.message.lower():
             # A container or kernel that forbids user namespaces; the page is our own, from this machine.
-            print("Chromium's sandbox is not available here: starting without it.", file=sys.stderr)
-            return chromium.launch(executable_path=path, args=_QUIET, chromium_sandbox=False)
-        raise BrowserError(f"{path} did not start ({error.message.splitlines()[0]}); choose another in {VARIABLE}.") \
-            from error
+            return _launch(chromium, path, sandbox=False)
+        why = error.message.splitlines()[0]
+        raise BrowserError(f"{path} did not start ({why}); choose another in {VARIABLE}.") from error
 
 
-def wait_ready(page: Page, after: int = -1, seconds: float = 60) -> None:
+def wait_ready(page: Page, after: int = -1, seconds: float = 120) -> None:
     """Wait until the page has drawn a state with a number above `after`.
 
     The page keeps both on its root element: data-ready="true" when everything asked for is drawn, data-state

@@ -14,7 +14,7 @@ from pathlib import Path
 
 from .browser import BrowserError, launched, wait_ready
 
-__all__ = ["ServerError", "running_server", "screenshot"]
+__all__ = ["ServerError", "running_server", "screenshot", "wait_alive"]
 
 _START_SECONDS = 60
 
@@ -40,7 +40,8 @@ def _is_alive(port: int) -> bool:
         connection.close()
 
 
-def _wait_alive(process: subprocess.Popen[bytes], port: int, log: Path) -> None:
+def wait_alive(process: subprocess.Popen[bytes], port: int, log: Path) -> None:
+    """Wait until the server of this process answers.  Raises `ServerError` with the last line of its log."""
     deadline = time.monotonic() + _START_SECONDS
     while not _is_alive(port):
         if process.poll() is not None or time.monotonic() > deadline:
@@ -61,7 +62,7 @@ def running_server(log: Path) -> Iterator[str]:
     with log.open("wb") as out, subprocess.Popen(command, cwd=Path(__file__).resolve().parents[1],
                                                  stdout=out, stderr=subprocess.STDOUT) as process:
         try:
-            _wait_alive(process, port, log)
+            wait_alive(process, port, log)
             yield f"http://127.0.0.1:{port}"
         finally:
             process.terminate()

@@ -63,7 +63,7 @@ def write(options: argparse.Namespace, series: Mapping[str, Sequence[Any]], colu
     facts : everything else.  Raises `CommandError` if the file cannot be written.
     """
     strict = {key: _strict(value) for key, value in facts.items()}
-    lost = [f"{key} is beyond the range of double precision here and is null."
+    lost = [f"{key}: what is null there lies beyond the range of double precision."
             for key, value in facts.items() if strict[key] != value]
     strict["notes"] = [*notes, *lost]
     if options.format == "json":

@@ -1,0 +1,26 @@
+FROM python:3.12-slim
+
+COPY pyproject.toml README.md LICENSE /src/
+COPY app /src/app
+COPY models /src/models
+COPY static /src/static
+RUN pip install --no-cache-dir /src
+
+RUN useradd --create-home explorer
+USER explorer
+# Away from /src: what runs is the installed package.
+WORKDIR /home/explorer
+
+# The kernels are compiled here, by the user who runs them: the cache must be writable for Numba to use it.
+# It holds for the CPU it was made on; on another kind the container compiles once more as it starts.
+ENV NUMBA_CACHE_DIR=/home/explorer/.cache
+RUN python -c "from app.compute import warm; warm()"
+
+EXPOSE 5006
+HEALTHCHECK --start-period=30s --timeout=5s \
+    CMD ["python", "-c", "from urllib.request import urlopen; urlopen('http://127.0.0.1:5006/liveness', timeout=4)"]
+# What the server takes as Ctrl-C.
+STOPSIGNAL SIGINT
+# Served under another name or port: --allow-origin HOST:PORT as it stands in the browser's address bar.
+CMD ["hess-explorer", "serve", "--address", "0.0.0.0", "--port", "5006", "--no-browser", \
+     "--allow-origin", "localhost:5006"]

@@ -1,0 +1,80 @@
+"""The explorer as its users meet it: a served page in a real browser."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import pytest
+
+from app.browser import launched, wait_ready
+from app.screenshot import running_server
+
+__all__ = ["wait_ready"]
+
+
+@pytest.fixture(scope="session")
+def browser():
+    """A headless Chromium: found, or else installed, or else every test that needs it fails."""
+    with launched(install=True) as running:
+        yield running
+
+
+@pytest.fixture(scope="session")
+def server(tmp_path_factory):
+    """Base URL of a server for the whole run; what it logs is checked when it has ended."""
+    log = tmp_path_factory.mktemp("server") / "server.log"
+    with running_server(log) as base:
+        yield base
+    said = log.read_text(errors="replace")
+    assert not re.search(r"Traceback|\b(ERROR|CRITICAL)\b", said), said
+
+
+@pytest.fixture(scope="session")
+def artefacts():
+    """Folder for screenshots: tests/artefacts, which git ignores."""
+    folder = Path(__file__).parent / "artefacts"
+    folder.mkdir(exist_ok=True)
+    return folder
+
+
+@pytest.fixture
+def open_page(browser, server):
+    """open_page(query="", size=(1600, 950), **context_options) → a page that is ready, in a context of its own.
+
+    When the test ends no page may have reported an error or asked another host for anything.  Warnings of the
+    console are kept in `open_page.warnings`.
+    """
+    host = urlsplit(server).netloc
+    contexts, errors, warnings, outside = [], [], [], []
+
+    def on_console(message):
+        kept = {"error": errors, "warning": warnings}.get(message.type)
+        if kept is not None:
+            kept.append(message.text)
+
+    def on_url(url):
+        parts = urlsplit(url)
+        # data: and blob: URLs have no host.
+        if parts.netloc not in ("", host):
+            outside.append(url)
+
+    def open_one(query="", size=(1600, 950), **context_options):
+        context = browser.new_context(viewport={"width": size[0], "height": size[1]}, **context_options)
+        contexts.append(context)
+        context.on("console", on_console)
+        context.on("weberror", lambda error: errors.append(str(error.error)))
+        context.on("request", lambda request: on_url(request.url))
+        page = context.new_page()
+        page.on("websocket", lambda socket: on_url(socket.url))
+        page.goto(f"{server}/?{query}" if query else server)
+        wait_ready(page)
+        return page
+
+    open_one.warnings = warnings
+    yield open_one
+    for context in contexts:
+        context.close()
+    assert not errors, errors
+    assert not outside, outside
