@@ -41,7 +41,10 @@ class Player(JSComponent):
 class Ready(JSComponent):
     """Keeps `<html data-ready data-state>` and the address bar; tells the server what is painted."""
 
-    sequence = param.Dict(default={"number": 0, "answers": 0}, doc="Number of the state, last request in it.")
+    sequence = param.Dict(
+        default={"number": 0, "answers": 0, "tree": {}},
+        doc="Number of the state, last request answered by it, and the tree of its data (see `app.wire`).")
+    block = param.Bytes(default=b"", doc="The numbers of that tree.")
     query = param.String(default="", doc="The state as a URL query.")
     client = param.Dict(default={}, doc="URL keys that the browser itself keeps: t, speed, az, el.")
     requested = param.Integer(default=0, doc="Changes by the user so far; written by the browser.")

@@ -11,6 +11,9 @@ from app.state import Choice, Number, Spec, Value, Values
 
 __all__ = ["Controls"]
 
+# The knob follows the hand at once; an animation of its own would make the browser paint all the time.
+_STILL = {"& .MuiSlider-thumb, & .MuiSlider-track": {"transition": "none"}}
+
 Change = Callable[[Values, bool], None]
 
 
@@ -21,14 +24,15 @@ class _NumberControl:
         self.spec = spec
         self._change = change
         self._showing = False
+        self._shown: tuple[float, ...] = ()
         self.slider = pmui.FloatSlider(
             label=spec.label, value=value, start=min(spec.low, value), end=max(spec.high, value), step=spec.step,
             show_value=False, size="small", tooltips=False, description=spec.help, sizing_mode="stretch_width",
-            margin=(0, 4),
+            margin=(0, 4), sx=_STILL,
         )
         self.slider._debounce = 0
         self.box = pmui.TextInput(
-            label=spec.symbol, value=repr(value), size="small", width=112, margin=(4, 0, 0, 4),
+            label=spec.symbol, value=repr(value), size="small", width=104, margin=(4, 6, 0, 0),
         )
         self.box._debounce = 0
         self.root = pmui.Row(
@@ -56,6 +60,10 @@ class _NumberControl:
         """Display a value, and the slider range that goes with it."""
         number = float(value)
         low, high, step = limits or (self.spec.low, self.spec.high, self.spec.step)
+        shown = (number, low, high, step)
+        if shown == self._shown and not self.box.error_state:
+            return
+        self._shown = shown
         self._showing = True
         try:
             self.slider.param.update(start=min(low, number), end=max(high, number), step=step, value=number)
@@ -82,6 +90,8 @@ class _ChoiceControl:
 
     def show(self, value: Value, _: tuple[float, float, float] | None) -> None:
         """Display a value."""
+        if self.root.value == value:
+            return
         self._showing = True
         try:
             self.root.value = str(value)

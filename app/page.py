@@ -6,6 +6,7 @@ from typing import Any
 
 import panel as pn
 import panel_material_ui as pmui
+from panel.util import edit_readonly
 
 from app.components import STATIC, Player, Ready, Text
 from app.controls import Controls
@@ -86,7 +87,7 @@ def page() -> pmui.Page:
 
     session.attach(pn.state.curdoc)
     cells = [_cell(picture) for picture in stage.pictures]
-    return pmui.Page(
+    result = pmui.Page(
         title=f"Hess Explorer · {scene.title}",
         meta_name="Hess Explorer",
         meta_description=scene.summary,
@@ -103,12 +104,18 @@ def page() -> pmui.Page:
                              stylesheets=[PAGE_CSS], margin=(0, 8)),
             ready,
         ],
+        busy_indicator=None,
     )
+    # The page's own busy flag is sent with every event and makes Panel walk through all models each
+    # time (100 ms); `data-ready` says the same.
+    with edit_readonly(result):
+        result.busy = False
+    return result
 
 
 def _cell(picture: Any) -> pn.Column:
     root = picture.root
-    body = root if isinstance(root, pn.viewable.Viewable) else pn.pane.Bokeh(root, sizing_mode="stretch_both")
+    body = root if isinstance(root, pn.viewable.Viewable) else pn.pane.Bokeh(root, sizing_mode="stretch_width", margin=0)
     return pn.Column(
         picture.caption, body, css_classes=["picture", f"picture-{picture.name}"], stylesheets=[PAGE_CSS],
         sizing_mode="stretch_width",

@@ -17,6 +17,7 @@ from panel.io.document import unlocked
 from app.components import Ready
 from app.scenes.base import Report, Scene, Stage
 from app.state import Number, Value, Values, encode
+from app.wire import Wire
 from models.errors import ModelError
 
 __all__ = ["Session"]
@@ -50,6 +51,7 @@ class Session:
         self._link_notes = notes
         self._report = report
         self._hold_axes = False
+        self._wire = Wire()
         self._document: Document | None = None
         self._scheduled = False
         self._number = 0
@@ -62,10 +64,14 @@ class Session:
     def attach(self, document: Document) -> None:
         """Draw the first state into this document; later changes are scheduled on it."""
         self._draw()
+        self._number = 1
+        self.ready.sequence = {"number": 1, "answers": 0, "tree": {}}
+        self.stage.connect(self._wire)
         self._document = document
 
     def change(self, values: Values, hold_axes: bool = False) -> None:
         """The user wants these values; `hold_axes` while a slider is being moved."""
+        before = dict(self._wanted)
         self._link_notes = []
         for name, value in values.items():
             spec = self._specs.get(name)
@@ -75,8 +81,9 @@ class Session:
                     self._link_notes.append(note)
             elif spec is not None:
                 self._wanted[name], _ = spec.read(str(value))
+        # When a slider is let go its value is sent again: then only the axes may have to follow.
+        self._dirty |= self._wanted != before or (self._hold_axes and not hold_axes)
         self._hold_axes = hold_axes
-        self._dirty = True
         self._schedule()
 
     def reset(self) -> None:
@@ -90,13 +97,16 @@ class Session:
     def _schedule(self) -> None:
         if self._document is not None and not self._scheduled:
             self._scheduled = True
-            self._document.add_next_tick_callback(self._update)
+            # The browser sends a value and right after it the number of the request: answer both at once.
+            self._document.add_timeout_callback(self._update, 2)
 
     def _update(self) -> None:
         self._scheduled = False
         waiting = self._number - self.ready.painted >= IN_FLIGHT
         if self._dirty and waiting and time.monotonic() - self._sent_at < PATIENCE:
-            return  # `painted` brings us back
+            # `painted` brings us back, or a browser that does not answer is given up.
+            self._document.add_timeout_callback(self._schedule, int(1000 * PATIENCE))
+            return
         answered = self.ready.sequence["answers"] == self.ready.requested
         if not self._dirty and answered:
             return
@@ -104,7 +114,8 @@ class Session:
             if self._dirty:
                 self._draw()
             self._number += 1
-            self.ready.sequence = {"number": self._number, "answers": self.ready.requested}
+            tree, self.ready.block = self._wire.pack()
+            self.ready.sequence = {"number": self._number, "answers": self.ready.requested, "tree": tree}
         self._sent_at = time.monotonic()
 
     def _draw(self) -> None:
@@ -123,6 +134,3 @@ class Session:
             report = Report([], sentence)
         self._report(admitted, Report(report.derived, report.status, [*self._link_notes, *notes, *report.notes]))
         self.ready.query = encode(admitted)
-        if self._document is None:
-            self._number += 1
-            self.ready.sequence = {"number": self._number, "answers": 0}

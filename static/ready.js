@@ -3,7 +3,7 @@
 // data-state counts the painted states.  The server sends the next state only when the last one
 // is painted ("painted"), so nothing queues however fast a slider is dragged.
 
-const USER_CHANGES = new Set(["value", "clicks", "picked"])
+const USER_CHANGES = new Set(["value", "value_throttled", "clicks", "picked"])
 const URL_PAUSE = 400
 
 export function render({ model, view }) {
@@ -35,20 +35,42 @@ export function render({ model, view }) {
   // A plot has something to paint while it holds invalidated parts.
   const busy = () => spherePending || plots().some((plot) => plot._invalidate_all || plot._invalidated_painters.size > 0)
 
-  const onSequence = () => {
-    const { number, answers } = model.sequence
-    if (number === 0) return
-    const deadline = performance.now() + 2000
-    const check = () => {
-      // A hidden tab paints nothing: do not hold the server for it.
-      if (busy() && !document.hidden && performance.now() < deadline) return void requestAnimationFrame(check)
-      root.dataset.state = String(number)
-      if (answers >= requested && number === model.sequence.number && !busy()) root.dataset.ready = "true"
-      model.painted = number
+  // One tree and one block of single-precision numbers → the columns of the sources.
+  function unpack(tree, block) {
+    const place = (item) => {
+      if (Array.isArray(item)) return item.map(place)
+      if (typeof item === "object" && item !== null) return new Float32Array(block, 4 * item.at, item.n)
+      return item
     }
-    if (document.hidden) check()
-    else requestAnimationFrame(check)
+    for (const [name, columns] of Object.entries(tree)) {
+      const data = Object.fromEntries(Object.entries(columns).map(([key, column]) => [key, place(column)]))
+      bokeh().get_model_by_name(name).setv({ data }, { sync: false })
+    }
+  }
+
+  let waiting = false
+  let deadline = 0
+
+  const settle = () => {
+    const { number, answers } = model.sequence
+    // A hidden tab paints nothing, and a broken picture must not hold up the server for ever.
+    if (busy() && !document.hidden && performance.now() < deadline) return void requestAnimationFrame(settle)
+    waiting = false
+    root.dataset.state = String(number)
+    if (answers >= requested && !busy()) root.dataset.ready = "true"
+    model.painted = number
+  }
+
+  const onSequence = () => {
+    const { number, tree } = model.sequence
+    if (number === 0) return
+    unpack(tree, model.block)
     writeUrl()
+    deadline = performance.now() + 2000
+    if (waiting) return
+    waiting = true
+    if (document.hidden) setTimeout(settle, 0)
+    else requestAnimationFrame(settle)
   }
 
   let timer = null

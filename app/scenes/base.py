@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 from app.components import Text
+from app.wire import Wire
 from app.state import Spec, Value, Values
 
 __all__ = ["Picture", "Preset", "Report", "Scene", "Stage"]
@@ -42,6 +43,10 @@ class Stage(Protocol):
     """The pictures of one session."""
 
     pictures: Sequence[Picture]
+
+    def connect(self, wire: Wire) -> None:
+        """From now on new data go by this wire."""
+
     dots: Mapping[str, tuple[str, str]]
     """For the player: source of a moving point → columns of the source `orbit`."""
 

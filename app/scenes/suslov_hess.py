@@ -18,6 +18,7 @@ from app.views.bifurcation_diagram import BifurcationDiagram, window
 from app.views.circle_map import CircleMapView
 from app.views.omega_plane import OmegaPlane
 from app.views.poisson_sphere import PoissonSphere
+from app.wire import Wire
 from app.words import number
 from models.accuracy import DRAFT, LEVELS, STANDARD, Level, level
 from models.bifurcation import TurningPoints, curve, f_max, turning_points
@@ -32,9 +33,9 @@ MAX_A = 100.0
 _COBWEB = 60
 
 SPECS = (
-    Number("I22", "I₂₂", "Inertia I₂₂", 0.8, 0.2, 3.0, 0.01, 1e-3, 1e3,
+    Number("I22", "I₂₂", "Inertia I₂₂", 0.96, 0.2, 3.0, 0.01, 1e-3, 1e3,
            "Moment of inertia about the second body axis. I₁₁ follows from it and I₂₃."),
-    Number("I23", "I₂₃", "Inertia I₂₃", 0.6, -2.0, 2.0, 0.01, -1e3, 1e3,
+    Number("I23", "I₂₃", "Inertia I₂₃", 0.28, -2.0, 2.0, 0.01, -1e3, 1e3,
            "Product of inertia. a = I₂₃/I₂₂ tilts the circular section; a = 0 decouples the motion."),
     Number("b3", "b₃", "Centre of mass b₃", -1.0, -3.0, -0.05, 0.01, -1e3, -1e-3,
            "Third component of b = −mg r. It sets the unit of time; b₂ follows from it."),
@@ -64,41 +65,41 @@ PRESETS = (
 WORDS = r"""
 ### What you see
 A rigid body turns about a fixed point under its weight, and a wheel-like constraint forbids spin about one body axis:
-\(\omega_3 = 0\). In the **Hess case** the centre of mass lies on the perpendicular to a circular section of the
-gyration ellipsoid. Then there is a second integral \(F_2=(\mathbf I\omega,\gamma)\), and every motion lives on a
-torus. One number, \(a=I_{23}/I_{22}\), decides what happens there.
+\\(\omega_3 = 0\\). In the **Hess case** the centre of mass lies on the perpendicular to a circular section of the
+gyration ellipsoid. Then there is a second integral \\(F_2=(\mathbf I\omega,\gamma)\\), and every motion lives on a
+torus. One number, \\(a=I_{23}/I_{22}\\), decides what happens there.
 
 1. **Angular velocity.** The energy leaves a ring; the orbit fills it, or tends to the green limit cycle.
-2. **Poisson sphere.** The vertical as the body sees it, between two parallels about the axis \(n_3\).
-3. **Bifurcation diagram.** All possible \((h,f)\); grey has no motion. Colour is the rotation number
-   \(\rho\); in the violet zone it is locked at 0 and there are two limit cycles.
-   The moving point stands at height \(\pm\sqrt{f^2+\dot n_3^2}\): it touches the cross each time \(n_3\) turns.
-4. **Circle map.** Where the orbit is after one period of \(n_3\), against where it was.
+2. **Poisson sphere.** The vertical as the body sees it, between two parallels about the axis \\(n_3\\).
+3. **Bifurcation diagram.** All possible \\((h,f)\\); grey has no motion. Colour is the rotation number
+   \\(\rho\\); in the violet zone it is locked at 0 and there are two limit cycles.
+   The moving point stands at height \\(\pm\sqrt{f^2+\dot n_3^2}\\): it touches the ring each time \\(n_3\\) turns.
+4. **Circle map.** Where the orbit is after one period of \\(n_3\\), against where it was.
 
 ### Try this
 - Drag in the bifurcation diagram across the black line into the violet zone: two cycles are born together.
-- Choose *Pendulum, f = 0*: the multiplier is \(e^{2\pi a}\), whatever \(h\) is.
+- Choose *Pendulum, f = 0*: the multiplier is \\(e^{2\pi a}\\), whatever \\(h\\) is.
 - Click the circle map near the hollow point: the orbit stays near the unstable cycle before it leaves.
 - Press Space, then ← and →.
 
 ### The equations (section 2, case 3 of the paper)
-\[\dot w_1=-a w_2^2-b n_2,\quad \dot w_2=a w_1w_2+b n_1,\]
-\[\dot n_1=-(a n_2+n_3)w_2,\quad \dot n_2=a w_2 n_1+w_1 n_3,\quad \dot n_3=n_1w_2-n_2w_1,\]
-\[h=\tfrac12(w_1^2+w_2^2)-b n_3,\qquad f=w_1n_1+w_2n_2,\qquad n^2=1,\]
-\[\dot n_3^2=2(h+n_3)(1-n_3^2)-f^2,\qquad \dot\varphi=-\frac{f}{2(h+n_3)}-a\cos\varphi\sqrt{2(h+n_3)}.\]
-\(h\) and \(f\) are in units \(b=1\): \(t\to t\sqrt b\), \(w\to w/\sqrt b\), \(h\to h/b\), \(f\to f/\sqrt b\).
+\\[\dot w_1=-a w_2^2-b n_2,\quad \dot w_2=a w_1w_2+b n_1,\\]
+\\[\dot n_1=-(a n_2+n_3)w_2,\quad \dot n_2=a w_2 n_1+w_1 n_3,\quad \dot n_3=n_1w_2-n_2w_1,\\]
+\\[h=\tfrac12(w_1^2+w_2^2)-b n_3,\qquad f=w_1n_1+w_2n_2,\qquad n^2=1,\\]
+\\[\dot n_3^2=2(h+n_3)(1-n_3^2)-f^2,\qquad \dot\varphi=-\frac{f}{2(h+n_3)}-a\cos\varphi\sqrt{2(h+n_3)}.\\]
+\\(h\\) and \\(f\\) are in units \\(b=1\\): \\(t\to t\sqrt b\\), \\(w\to w/\sqrt b\\), \\(h\to h/b\\), \\(f\to f/\sqrt b\\).
 
-**The circle map is a Möbius map**, \(z\mapsto(\alpha z+\beta)/(\bar\beta z+\bar\alpha)\) with \(z=e^{i\varphi}\), so one
-small matrix gives all of it; with \(t=2\,\mathrm{Re}\,\alpha\): \(|t|<2\) no cycle, \(|t|>2\) exactly two, with
-multipliers \(e^{\pm2\,\mathrm{arccosh}(|t|/2)}\). Therefore \(\rho\) locks at integers only: the graph of \(\rho\) is no
+**The circle map is a Möbius map**, \\(z\mapsto(\alpha z+\beta)/(\bar\beta z+\bar\alpha)\\) with \\(z=e^{i\varphi}\\), so one
+small matrix gives all of it; with \\(t=2\,\mathrm{Re}\,\alpha\\): \\(|t|<2\\) no cycle, \\(|t|>2\\) exactly two, with
+multipliers \\(e^{\pm2\,\mathrm{arccosh}(|t|/2)}\\). Therefore \\(\rho\\) locks at integers only: the graph of \\(\rho\\) is no
 Cantor ladder. This is computed here; the paper leaves it open.
 
 ### Where this page departs from the printed paper
-- eq. `Geq3` reads \(h=(1-3n_3^2)/(2n_3)\) (printed: a cube).
-- `bizi2`: \(b=-b_3/\sqrt{I_{22}^2+I_{23}^2}\) (printed with a second \(mg\)); `eq02`: \(w_2=\omega_2/\sqrt{1+a^2}\)
-  (printed: \(\omega_1\)).
-- `eq03`: \(E\) and \(F_2\) are those of the Suslov problem divided by \(I_{11}\).
-- A tensor with \(|a|\ge1\) belongs to no rigid body (the triangle inequality fails for every \(I_{33}\)); it is
+- eq. `Geq3` reads \\(h=(1-3n_3^2)/(2n_3)\\) (printed: a cube).
+- `bizi2`: \\(b=-b_3/\sqrt{I_{22}^2+I_{23}^2}\\) (printed with a second \\(mg\\)); `eq02`: \\(w_2=\omega_2/\sqrt{1+a^2}\\)
+  (printed: \\(\omega_1\\)).
+- `eq03`: \\(E\\) and \\(F_2\\) are those of the Suslov problem divided by \\(I_{11}\\).
+- A tensor with \\(|a|\ge1\\) belongs to no rigid body (the triangle inequality fails for every \\(I_{33}\\)); it is
   shown all the same, and said.
 """
 
@@ -226,12 +227,19 @@ class HessStage:
             )
         )
 
+    def connect(self, wire: Wire) -> None:
+        """From now on new data go by this wire."""
+        for view in (self.omega, self.diagram, self.circle):
+            view.wire = wire
+
     def _once(self, name: str, *things: Any) -> bool:
         """Whether something else than last time is to be drawn under this name."""
         before = self._drawn.get(name)
         self._drawn[name] = things
-        return before is None or len(before) != len(things) or any(
-            a is not b and (isinstance(a, np.ndarray) or a != b) for a, b in zip(before, things, strict=True)
+        return before is None or any(
+            # Results are compared by identity: the cache returns the same one for the same question.
+            new is not old and (not isinstance(new, float | tuple) or new != old)
+            for new, old in zip(things, before, strict=True)
         )
 
     def show(self, result: HessResult, hold_axes: bool) -> Report:
@@ -275,7 +283,7 @@ class HessStage:
                 track_, phi=track_.phi.astype(np.float32), phi_start=phi_start.astype(np.float32),
                 h=np.full(n3.size, h, np.float32), reach=reach.astype(np.float32),
             )
-        if self._once("cycles", result.cycles):
+        if self._once("cycles", *(result.cycles or (None, None))):
             self.omega.show_cycles(result.cycles)
         body, sign = result.body, math.copysign(1.0, result.body.b)
         r = math.hypot(1.0, body.a)
@@ -286,7 +294,7 @@ class HessStage:
         """Empty pictures, and the sentence where the eye is."""
         self._drawn.clear()
         self.omega.clear("forbidden", "orbit", "stable", "unstable", "point")
-        self.diagram.clear("here", "locked", "boundary", "point")
+        self.diagram.clear("here", "here-too", "locked", "boundary", "point")
         self.circle.show_nothing(sentence)
         for picture in self.pictures:
             picture.caption.text = sentence

@@ -33,6 +33,9 @@ class BifurcationDiagram(Figure):
         def line(label: str, **opts: object) -> hv.Path:
             return hv.Path([], label=label).opts(**opts)
 
+        def ring(label: str, **opts: object) -> hv.Points:
+            return hv.Points([], ["h", "f"], label=label).opts(size=21, fill_alpha=0, **opts)
+
         overlay = (
             hv.Image(np.zeros((2, 2)), bounds=(x[0], y[0], x[1], y[1]), label="rotation").opts(
                 cmap=theme.NUMBER_MAP, clim=(-0.5, 0.5), colorbar=False)
@@ -42,11 +45,12 @@ class BifurcationDiagram(Figure):
             * line("curve", color="black", line_width=2)
             * hv.Points([(1.0, 0.0), (-1.0, 0.0)], ["h", "f"], label="special").opts(
                 marker="diamond", color="white", line_color="black", size=11)
-            * hv.Points([], ["h", "f"], label="here").opts(
-                marker="cross", color="white", line_color="white", line_width=3, size=20)
+            * ring("here", line_color="white", line_width=6)
+            * ring("here-too", line_color="black", line_width=2.5)
             * moving_point("point")
         )
-        super().__init__("bifurcation", overlay, ("h", "f"), x, y, picks=("tap", "pan"))
+        super().__init__("bifurcation", overlay, ("h", "f"), x, y, picks=("tap", "pan"),
+                         overlays=("here", "here-too", "point"))
 
     def fit(self, x: tuple[float, float], y: tuple[float, float]) -> None:
         """Other axes."""
@@ -62,8 +66,9 @@ class BifurcationDiagram(Figure):
 
     def show_rotation(self, grid: Array, x: tuple[float, float], y: tuple[float, float]) -> None:
         """The rotation number at the centres of a grid of cells that fills the window."""
-        self.assign("rotation", image=[grid.astype(np.float32)], x=[x[0]], y=[y[0]],
-                    dw=[x[1] - x[0]], dh=[y[1] - y[0]])
+        self.sources["rotation"].data = {
+            "image": [grid.astype(np.float32)], "x": [x[0]], "y": [y[0]], "dw": [x[1] - x[0]], "dh": [y[1] - y[0]],
+        }
 
     def show_lock(self, boundary: Array, x: tuple[float, float], y: tuple[float, float]) -> None:
         """The zone right of |t| = 2 (between it and the curve) and its boundary; `boundary` has f ≥ 0."""
@@ -80,4 +85,5 @@ class BifurcationDiagram(Figure):
 
     def show_here(self, h: float, f: float) -> None:
         """The torus on show."""
-        self.assign("here", h=[h], f=[f])
+        for label in ("here", "here-too"):
+            self.assign(label, h=[h], f=[f])

@@ -11,6 +11,7 @@ from bokeh.models import ColumnDataSource, CustomJS
 from bokeh.plotting import figure as BokehFigure
 
 from app import theme
+from app.wire import Wire
 
 __all__ = ["Figure", "moving_point"]
 
@@ -41,11 +42,15 @@ class Figure:
     overlay : labelled elements; their labels name the sources.
     x_range, y_range : the axes, which stay until `set_ranges`.
     picks : Bokeh events ("tap", "pan") that choose a point; the browser sends it with the state.
+    overlays : elements on a canvas of their own: when only they change, the rest is not painted again.
     """
 
     def __init__(self, name: str, overlay: hv.Overlay, labels: tuple[str, str],
-                 x_range: tuple[float, float], y_range: tuple[float, float], picks: Sequence[str] = ()) -> None:
+                 x_range: tuple[float, float], y_range: tuple[float, float], picks: Sequence[str] = (),
+                 overlays: Sequence[str] = ("point",)) -> None:
         self.name = name
+        self.wire: Wire | None = None
+        self._sentence = ""
         overlay = overlay * hv.Labels([], ["x", "y"], "text", label="message").opts(
             text_color=theme.MUTED, text_font_style="bold", text_font_size="15px")
         plot = renderer.get_plot(overlay.opts(
@@ -55,35 +60,37 @@ class Figure:
         ))
         self.root: BokehFigure = plot.state
         self.root.name = name
-        self.root.min_border = 4
+        self.root.update(min_border=4, sizing_mode="stretch_width", aspect_ratio=1)
         self.sources: dict[str, ColumnDataSource] = {}
         for element, drawn in zip(overlay, plot.subplots.values(), strict=True):
             source = drawn.handles["source"]
             source.name = f"{name}-{element.label}"
             self.sources[element.label] = source
-            if element.label == "point":
+            if element.label in overlays:
                 drawn.handles["glyph_renderer"].level = "overlay"
         for event in picks:
             self.root.js_on_event(event, CustomJS(args={"name": name}, code=_PICK))
 
     def assign(self, label: str, **columns: Any) -> None:
-        """New data for one element."""
-        self.sources[label].data = columns
+        """New data for one element: at once before the page exists, afterwards by the wire."""
+        source = self.sources[label]
+        if self.wire is None:
+            source.data = columns
+        else:
+            self.wire.put(source.name, columns)
 
     def clear(self, *labels: str) -> None:
         """No data for these elements: nothing stale stays beside new parameters."""
         for label in labels:
-            source = self.sources[label]
-            source.data = {column: [] for column in source.data}
+            self.assign(label, **{column: [] for column in self.sources[label].data})
 
     def say(self, sentence: str) -> None:
         """A sentence in the middle of the picture; empty for none."""
         x, y = self.root.x_range, self.root.y_range
         middle = {"x": [(x.start + x.end) / 2], "y": [(y.start + y.end) / 2], "text": [sentence]}
-        if sentence:
-            self.assign("message", **middle)
-        elif len(self.sources["message"].data["text"]):
-            self.clear("message")
+        if sentence != self._sentence:
+            self._sentence = sentence
+            self.assign("message", **(middle if sentence else {"x": [], "y": [], "text": []}))
 
     def set_ranges(self, x: tuple[float, float], y: tuple[float, float]) -> None:
         """Other axes; assigning the same ones does nothing."""

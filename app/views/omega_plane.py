@@ -25,7 +25,7 @@ class OmegaPlane(Figure):
             return hv.Curve([], "omega1", "omega2", label=label).opts(**opts)
 
         overlay = (
-            hv.Polygons([], label="forbidden").opts(color=theme.FORBIDDEN, alpha=0.45, line_color=theme.MUTED)
+            hv.Polygons([], label="forbidden").opts(color=theme.FORBIDDEN, line_color=theme.MUTED)
             * line("orbit", color=theme.ORBIT, line_width=1.3)
             * line("stable", color=theme.STABLE, line_width=3)
             * line("unstable", color=theme.UNSTABLE, line_width=3, line_dash="dashed")

@@ -1,0 +1,50 @@
+"""How new data reach the pictures: all columns of one state in one message.
+
+Bokeh sends every array of a source as a message of its own, some fifty per state.  Here the
+arrays become one block of bytes, and their places in it a small tree of numbers, which the
+browser turns back into the sources' columns ("ready.js").
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+__all__ = ["Wire"]
+
+
+class Wire:
+    """Collects the columns of the sources that change, and packs them."""
+
+    def __init__(self) -> None:
+        self._pending: dict[str, dict[str, Any]] = {}
+
+    def put(self, source: str, columns: dict[str, Any]) -> None:
+        """New columns for the source of that name; the last ones put before `pack` count."""
+        self._pending[source] = columns
+
+    def pack(self) -> tuple[dict[str, Any], bytes]:
+        """The tree and the block of all that was put, and forget it.
+
+        In the tree an array is {"at": first, "n": length}, counted in single-precision numbers;
+        lists and short plain values stand as they are.
+        """
+        blocks: list[np.ndarray] = []
+        position = 0
+
+        def place(item: Any) -> Any:
+            nonlocal position
+            if isinstance(item, np.ndarray):
+                block = np.ascontiguousarray(item, dtype="<f4")
+                blocks.append(block)
+                position += block.size
+                return {"at": position - block.size, "n": block.size}
+            return [place(part) for part in item] if isinstance(item, list) else item
+
+        tree = {
+            source: {name: place(column) for name, column in columns.items()}
+            for source, columns in self._pending.items()
+        }
+        self._pending = {}
+        return tree, b"".join(block.tobytes() for block in blocks)
