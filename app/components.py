@@ -39,26 +39,25 @@ class Player(JSComponent):
 
 
 class Ready(JSComponent):
-    """Keeps `<html data-ready data-state>` and the address bar; tells the server what is painted."""
+    """Keeps `<html data-ready data-state>` and the address bar.
 
-    sequence = param.Dict(
-        default={"number": 0, "answers": 0, "tree": {}},
-        doc="Number of the state, last request answered by it, and the tree of its data (see `app.wire`).")
+    Messages from the browser, for `on_msg`: {"requested": n} after every change by the user,
+    {"painted": n} for every painted state, {"picked": [picture, x, y]} for a click in a picture.
+    """
+
+    state = param.String(default="", doc="JSON: number of the state, last request that it answers, URL query, "
+                         "and the tree of its data (see `app.wire`).")
     block = param.Bytes(default=b"", doc="The numbers of that tree.")
-    query = param.String(default="", doc="The state as a URL query.")
     client = param.Dict(default={}, doc="URL keys that the browser itself keeps: t, speed, az, el.")
-    requested = param.Integer(default=0, doc="Changes by the user so far; written by the browser.")
-    painted = param.Integer(default=0, doc="Number of the last painted state; written by the browser.")
-    picked = param.List(default=[], doc="Last pick in a picture: [picture, x, y, count]; written by the browser.")
 
     _esm = STATIC / "ready.js"
-    _debounce = 0
 
 
 class Text(JSComponent):
     """A piece of text that changes often; whatever it contains, it is shown as text."""
 
-    text = param.String(default="")
+    key = param.String(default="", doc="By this the wire finds it.")
+    text = param.String(default="", doc="What it says at first.")
     tag = param.Selector(default="p", objects=["p", "h2", "div"], doc="The element.")
     look = param.Selector(default="", objects=["", "caption", "status", "notes", "derived"], doc="Its style.")
     live = param.Boolean(default=False, doc="Whether screen readers are told of changes.")

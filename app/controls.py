@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import panel_material_ui as pmui
@@ -14,7 +14,17 @@ __all__ = ["Controls"]
 # The knob follows the hand at once; an animation of its own would make the browser paint all the time.
 _STILL = {"& .MuiSlider-thumb, & .MuiSlider-track": {"transition": "none"}}
 
-Change = Callable[[Values, bool], None]
+Change = Callable[[Values], None]
+
+
+class HandSlider(pmui.FloatSlider):
+    """A slider whose second, throttled value stays in the browser: each event costs Panel some milliseconds."""
+
+    _debounce = 0
+
+    @property
+    def _linked_properties(self) -> tuple[str, ...]:
+        return tuple(name for name in super()._linked_properties if name != "value_throttled")
 
 
 class _NumberControl:
@@ -25,12 +35,11 @@ class _NumberControl:
         self._change = change
         self._showing = False
         self._shown: tuple[float, ...] = ()
-        self.slider = pmui.FloatSlider(
+        self.slider = HandSlider(
             label=spec.label, value=value, start=min(spec.low, value), end=max(spec.high, value), step=spec.step,
             show_value=False, size="small", tooltips=False, description=spec.help, sizing_mode="stretch_width",
             margin=(0, 4), sx=_STILL,
         )
-        self.slider._debounce = 0
         self.box = pmui.TextInput(
             label=spec.symbol, value=repr(value), size="small", width=104, margin=(4, 6, 0, 0),
         )
@@ -38,13 +47,12 @@ class _NumberControl:
         self.root = pmui.Row(
             self.slider, self.box, css_classes=[f"param-{spec.name}"], sizing_mode="stretch_width", margin=0,
         )
-        self.slider.param.watch(lambda event: self._moved(event.new, True), "value")
-        self.slider.param.watch(lambda event: self._moved(event.new, False), "value_throttled")
+        self.slider.param.watch(self._moved, "value")
         self.box.param.watch(self._typed, "value")
 
-    def _moved(self, value: float | None, moving: bool) -> None:
-        if not self._showing and value is not None:
-            self._change({self.spec.name: value}, moving)
+    def _moved(self, event: Any) -> None:
+        if not self._showing and event.new is not None:
+            self._change({self.spec.name: event.new})
 
     def _typed(self, event: Any) -> None:
         if self._showing:
@@ -54,7 +62,7 @@ class _NumberControl:
         except ValueError:
             self.box.param.update(error_state=True)
             return
-        self._change({self.spec.name: value}, False)
+        self._change({self.spec.name: value})
 
     def show(self, value: Value, limits: tuple[float, float, float] | None) -> None:
         """Display a value, and the slider range that goes with it."""
@@ -84,7 +92,7 @@ class _ChoiceControl:
 
         def chosen(event: Any) -> None:
             if not self._showing:
-                change({spec.name: event.new}, False)
+                change({spec.name: event.new})
 
         self.root.param.watch(chosen, "value")
 
@@ -116,7 +124,7 @@ class Controls:
         """The widgets in the order of the parameters."""
         return [control.root for control in self._controls.values()]
 
-    def show(self, values: Values, limits: dict[str, tuple[float, float, float]]) -> None:
+    def show(self, values: Values, limits: Mapping[str, tuple[float, float, float]]) -> None:
         """Display these values."""
         for name, control in self._controls.items():
             control.show(values[name], limits.get(name))

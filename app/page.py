@@ -11,9 +11,9 @@ from panel.util import edit_readonly
 from app.components import STATIC, Player, Ready, Text
 from app.controls import Controls
 from app.scenes import scenes
-from app.scenes.base import Report
 from app.session import Session
-from app.state import CLIENT, Choice, Value, decode
+from app.state import CLIENT, Choice, decode
+from app.words import with_formulas
 
 __all__ = ["page"]
 
@@ -55,18 +55,12 @@ def page() -> pmui.Page:
 
     stage = scene.stage()
     ready = Ready(client={name: repr(value) for name, value in client.items()}, width=0, height=0, margin=0)
-    status = Text(look="status", live=True, sizing_mode="stretch_width")
-    remarks = Text(look="notes", live=True, sizing_mode="stretch_width")
-    derived = Text(look="derived", tag="div", sizing_mode="stretch_width", margin=(8, 4))
+    status = Text(key="status", look="status", live=True, sizing_mode="stretch_width")
+    remarks = Text(key="notes", look="notes", live=True, sizing_mode="stretch_width")
+    derived = Text(key="derived", look="derived", tag="div", sizing_mode="stretch_width", margin=(8, 4))
 
-    def show(values: dict[str, Value], report: Report) -> None:
-        controls.show(values, dict(scene.limits(values)))
-        status.text = report.status
-        remarks.text = "\n".join(report.notes)
-        derived.text = "\n".join(f"{name} = {value}".replace("? =", "?") for name, value in report.derived)
-
-    session = Session(scene, stage, ready, state, notes, show)
-    controls = Controls(scene.specs, session.scene.admit(state)[0], session.change)
+    session = Session(scene, stage, ready, state, notes, lambda values: controls.show(values, scene.limits(values)))
+    controls = Controls(scene.specs, scene.admit(state)[0], session.change)
     sphere = next(picture.root for picture in stage.pictures if picture.name == "sphere")
     sphere.param.update(azimuth=client["az"], elevation=client["el"])
     player = Player(
@@ -100,7 +94,7 @@ def page() -> pmui.Page:
             pn.pane.HTML(LEGEND, stylesheets=[PAGE_CSS], sizing_mode="stretch_width", margin=(0, 8)),
             player,
             pn.Column(status, remarks, sizing_mode="stretch_width", margin=(4, 8)),
-            pn.pane.Markdown(scene.words, sizing_mode="stretch_width", css_classes=["words"],
+            pn.pane.Markdown(with_formulas(scene.words), sizing_mode="stretch_width", css_classes=["words"],
                              stylesheets=[PAGE_CSS], margin=(0, 8)),
             ready,
         ],

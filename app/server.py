@@ -26,7 +26,7 @@ def serve(port: int, address: str, show: bool, origins: Sequence[str]) -> None:
     whose pages may open a websocket, besides this machine's own.
     """
     logging.getLogger("hess_explorer").setLevel(logging.INFO)
-    pn.extension("mathjax")
+    pn.extension()
     # Kernels are compiled while the browser loads the page.
     threading.Thread(target=warm, name="warm", daemon=True).start()
     pn.serve(

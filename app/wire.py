@@ -15,17 +15,22 @@ __all__ = ["Wire"]
 
 
 class Wire:
-    """Collects the columns of the sources that change, and packs them."""
+    """Collects the columns and texts that change, and packs them."""
 
     def __init__(self) -> None:
         self._pending: dict[str, dict[str, Any]] = {}
+        self._texts: dict[str, str] = {}
 
     def put(self, source: str, columns: dict[str, Any]) -> None:
         """New columns for the source of that name; the last ones put before `pack` count."""
         self._pending[source] = columns
 
+    def say(self, key: str, text: str) -> None:
+        """A new text for the component `Text` of that key."""
+        self._texts[key] = text
+
     def pack(self) -> tuple[dict[str, Any], bytes]:
-        """The tree and the block of all that was put, and forget it.
+        """The tree {"sources": …, "texts": …} and the block of all that was put, and forget it.
 
         In the tree an array is {"at": first, "n": length}, counted in single-precision numbers;
         lists and short plain values stand as they are.
@@ -42,9 +47,10 @@ class Wire:
                 return {"at": position - block.size, "n": block.size}
             return [place(part) for part in item] if isinstance(item, list) else item
 
-        tree = {
+        sources = {
             source: {name: place(column) for name, column in columns.items()}
             for source, columns in self._pending.items()
         }
-        self._pending = {}
+        tree = {"sources": sources, "texts": self._texts}
+        self._pending, self._texts = {}, {}
         return tree, b"".join(block.tobytes() for block in blocks)

@@ -60,6 +60,7 @@ export function render({ model, view, el }) {
   }
 
   function draw() {
+    if (!requested) return
     requested = false
     const ratio = window.devicePixelRatio || 1
     const size = Math.round(width * ratio)
@@ -193,6 +194,7 @@ export function render({ model, view, el }) {
     request()
   }
   document.addEventListener("hess:time", onTime)
+  document.addEventListener("hess:paint", draw)
   const scheme = new MutationObserver(request)
   scheme.observe(document.documentElement, { attributes: true, attributeFilter: ["data-theme", "class", "style"] })
   scheme.observe(document.body, { attributes: true, attributeFilter: ["data-theme", "class", "style"] })
@@ -216,6 +218,7 @@ export function render({ model, view, el }) {
   watch()
   return () => {
     document.removeEventListener("hess:time", onTime)
+    document.removeEventListener("hess:paint", draw)
     scheme.disconnect()
     resize.disconnect()
   }

@@ -28,13 +28,14 @@ class Picture:
     name: str
     root: Any
     caption: Text
+    """Its key is the picture's name."""
 
 
 @dataclass(frozen=True)
 class Report:
     """What the page says beside the pictures: derived quantities, the status line, notes."""
 
-    derived: Sequence[tuple[str, str]]
+    derived: Sequence[str]
     status: str
     notes: Sequence[str] = field(default=())
 

@@ -65,41 +65,41 @@ PRESETS = (
 WORDS = r"""
 ### What you see
 A rigid body turns about a fixed point under its weight, and a wheel-like constraint forbids spin about one body axis:
-\\(\omega_3 = 0\\). In the **Hess case** the centre of mass lies on the perpendicular to a circular section of the
-gyration ellipsoid. Then there is a second integral \\(F_2=(\mathbf I\omega,\gamma)\\), and every motion lives on a
-torus. One number, \\(a=I_{23}/I_{22}\\), decides what happens there.
+$\omega_3 = 0$. In the **Hess case** the centre of mass lies on the perpendicular to a circular section of the
+gyration ellipsoid. Then there is a second integral $F_2=(\mathbf I\omega,\gamma)$, and every motion lives on a
+torus. One number, $a=I_{23}/I_{22}$, decides what happens there.
 
 1. **Angular velocity.** The energy leaves a ring; the orbit fills it, or tends to the green limit cycle.
-2. **Poisson sphere.** The vertical as the body sees it, between two parallels about the axis \\(n_3\\).
-3. **Bifurcation diagram.** All possible \\((h,f)\\); grey has no motion. Colour is the rotation number
-   \\(\rho\\); in the violet zone it is locked at 0 and there are two limit cycles.
-   The moving point stands at height \\(\pm\sqrt{f^2+\dot n_3^2}\\): it touches the ring each time \\(n_3\\) turns.
-4. **Circle map.** Where the orbit is after one period of \\(n_3\\), against where it was.
+2. **Poisson sphere.** The vertical as the body sees it, between two parallels about the axis $n_3$.
+3. **Bifurcation diagram.** All possible $(h,f)$; grey has no motion. Colour is the rotation number
+   $\rho$; in the violet zone it is locked at 0 and there are two limit cycles.
+   The moving point stands at height $\pm\sqrt{f^2+\dot n_3^2}$: it touches the ring each time $n_3$ turns.
+4. **Circle map.** Where the orbit is after one period of $n_3$, against where it was.
 
 ### Try this
 - Drag in the bifurcation diagram across the black line into the violet zone: two cycles are born together.
-- Choose *Pendulum, f = 0*: the multiplier is \\(e^{2\pi a}\\), whatever \\(h\\) is.
+- Choose *Pendulum, f = 0*: the multiplier is $e^{2\pi a}$, whatever $h$ is.
 - Click the circle map near the hollow point: the orbit stays near the unstable cycle before it leaves.
 - Press Space, then ← and →.
 
 ### The equations (section 2, case 3 of the paper)
-\\[\dot w_1=-a w_2^2-b n_2,\quad \dot w_2=a w_1w_2+b n_1,\\]
-\\[\dot n_1=-(a n_2+n_3)w_2,\quad \dot n_2=a w_2 n_1+w_1 n_3,\quad \dot n_3=n_1w_2-n_2w_1,\\]
-\\[h=\tfrac12(w_1^2+w_2^2)-b n_3,\qquad f=w_1n_1+w_2n_2,\qquad n^2=1,\\]
-\\[\dot n_3^2=2(h+n_3)(1-n_3^2)-f^2,\qquad \dot\varphi=-\frac{f}{2(h+n_3)}-a\cos\varphi\sqrt{2(h+n_3)}.\\]
-\\(h\\) and \\(f\\) are in units \\(b=1\\): \\(t\to t\sqrt b\\), \\(w\to w/\sqrt b\\), \\(h\to h/b\\), \\(f\to f/\sqrt b\\).
+$$\dot w_1=-a w_2^2-b n_2,\quad \dot w_2=a w_1w_2+b n_1,$$
+$$\dot n_1=-(a n_2+n_3)w_2,\quad \dot n_2=a w_2 n_1+w_1 n_3,\quad \dot n_3=n_1w_2-n_2w_1,$$
+$$h=\tfrac12(w_1^2+w_2^2)-b n_3,\qquad f=w_1n_1+w_2n_2,\qquad n^2=1,$$
+$$\dot n_3^2=2(h+n_3)(1-n_3^2)-f^2,\qquad \dot\varphi=-\frac{f}{2(h+n_3)}-a\cos\varphi\sqrt{2(h+n_3)}.$$
+$h$ and $f$ are in units $b=1$: $t\to t\sqrt b$, $w\to w/\sqrt b$, $h\to h/b$, $f\to f/\sqrt b$.
 
-**The circle map is a Möbius map**, \\(z\mapsto(\alpha z+\beta)/(\bar\beta z+\bar\alpha)\\) with \\(z=e^{i\varphi}\\), so one
-small matrix gives all of it; with \\(t=2\,\mathrm{Re}\,\alpha\\): \\(|t|<2\\) no cycle, \\(|t|>2\\) exactly two, with
-multipliers \\(e^{\pm2\,\mathrm{arccosh}(|t|/2)}\\). Therefore \\(\rho\\) locks at integers only: the graph of \\(\rho\\) is no
+**The circle map is a Möbius map**, $z\mapsto(\alpha z+\beta)/(\bar\beta z+\bar\alpha)$ with $z=e^{i\varphi}$, so one
+small matrix gives all of it; with $t=2\,\mathrm{Re}\,\alpha$: $|t|<2$ no cycle, $|t|>2$ exactly two, with
+multipliers $e^{\pm2\,\mathrm{arccosh}(|t|/2)}$. Therefore $\rho$ locks at integers only: the graph of $\rho$ is no
 Cantor ladder. This is computed here; the paper leaves it open.
 
 ### Where this page departs from the printed paper
-- eq. `Geq3` reads \\(h=(1-3n_3^2)/(2n_3)\\) (printed: a cube).
-- `bizi2`: \\(b=-b_3/\sqrt{I_{22}^2+I_{23}^2}\\) (printed with a second \\(mg\\)); `eq02`: \\(w_2=\omega_2/\sqrt{1+a^2}\\)
-  (printed: \\(\omega_1\\)).
-- `eq03`: \\(E\\) and \\(F_2\\) are those of the Suslov problem divided by \\(I_{11}\\).
-- A tensor with \\(|a|\ge1\\) belongs to no rigid body (the triangle inequality fails for every \\(I_{33}\\)); it is
+- eq. `Geq3` reads $h=(1-3n_3^2)/(2n_3)$ (printed: a cube).
+- `bizi2`: $b=-b_3/\sqrt{I_{22}^2+I_{23}^2}$ (printed with a second $mg$); `eq02`: $w_2=\omega_2/\sqrt{1+a^2}$
+  (printed: $\omega_1$).
+- `eq03`: $E$ and $F_2$ are those of the Suslov problem divided by $I_{11}$.
+- A tensor with $|a|\ge1$ belongs to no rigid body (the triangle inequality fails for every $I_{33}$); it is
   shown all the same, and said.
 """
 
@@ -220,8 +220,9 @@ class HessStage:
         self.diagram = BifurcationDiagram()
         self.circle = CircleMapView()
         self._drawn: dict[str, Any] = {}
+        self._wire: Wire | None = None
         self.pictures = tuple(
-            Picture(name, view.root, Text(tag="h2", look="caption"))
+            Picture(name, view.root, Text(key=name, tag="h2", look="caption"))
             for name, view in (
                 ("omega", self.omega), ("sphere", self.sphere), ("bifurcation", self.diagram), ("circle", self.circle),
             )
@@ -229,6 +230,7 @@ class HessStage:
 
     def connect(self, wire: Wire) -> None:
         """From now on new data go by this wire."""
+        self._wire = wire
         for view in (self.omega, self.diagram, self.circle):
             view.wire = wire
 
@@ -265,10 +267,15 @@ class HessStage:
             self.circle.show_nothing("Separatrix: no return")
         elif self._once("map", result.map, result.iterates):
             self.circle.show(result.map, result.iterates[: _COBWEB + 1])
-        for picture, text in zip(self.pictures, _captions(result), strict=True):
-            if picture.caption.text != text:
-                picture.caption.text = text
+        self._say(_captions(result))
         return Report(_derived(result), _status(result), _notes(result))
+
+    def _say(self, captions: Sequence[str]) -> None:
+        for picture, text in zip(self.pictures, captions, strict=True):
+            if self._wire is not None:
+                self._wire.say(picture.name, text)
+            else:
+                picture.caption.text = text
 
     def _show_motion(self, result: HessResult, h: float, f: float) -> None:
         track_ = result.track
@@ -296,8 +303,7 @@ class HessStage:
         self.omega.clear("forbidden", "orbit", "stable", "unstable", "point")
         self.diagram.clear("here", "here-too", "locked", "boundary", "point")
         self.circle.show_nothing(sentence)
-        for picture in self.pictures:
-            picture.caption.text = sentence
+        self._say((sentence,) * len(self.pictures))
 
     def pick(self, picture: str, x: float, y: float) -> Values:
         """A click in the diagram chooses (h, f), in the circle map φ0."""
@@ -344,20 +350,23 @@ def _captions(result: HessResult) -> tuple[str, str, str, str]:
     )
 
 
-def _derived(result: HessResult) -> list[tuple[str, str]]:
+def _derived(result: HessResult) -> list[str]:
     body = result.body
     check = body.check
+    h, f = float(result.values["h"]), float(result.values["f"])
     rows = [
-        ("a = I₂₃/I₂₂", number(body.a, 6)), ("b", number(body.b, 6)),
-        ("I₁₁", number(body.I11, 6)), ("b₂", number(body.b2, 6)),
-        ("E = I₁₁ b h", number(body.I11 * body.b * float(result.values["h"]), 6)),
-        ("F₂ = I₁₁ √b f", number(body.I11 * body.frequency_unit * float(result.values["f"]), 6)),
-        ("A rigid body?", "yes" if check.is_body else "no (|a| ≥ 1)"),
+        f"a = I₂₃/I₂₂ = {number(body.a, 6)}",
+        f"b = {number(body.b, 6)}",
+        f"I₁₁ = {number(body.I11, 6)}",
+        f"b₂ = {number(body.b2, 6)}",
+        f"E = I₁₁ b h = {number(body.I11 * body.b * h, 6)}",
+        f"F₂ = I₁₁ √b f = {number(body.I11 * body.frequency_unit * f, 6)}",
+        f"A rigid body? {'yes' if check.is_body else 'no: |a| ≥ 1'}",
     ]
     if check.I33 is not None:
-        rows.append(("I₃₃ from … to", f"{number(check.I33[0])} … {number(check.I33[1])}"))
+        rows.append(f"I₃₃ from {number(check.I33[0])} to {number(check.I33[1])}")
     if result.map is not None:
-        rows.append(("Period of n₃", number(result.map.period / body.frequency_unit, 6)))
+        rows.append(f"Period of n₃ = {number(result.map.period / body.frequency_unit, 6)}")
     return rows
 
 

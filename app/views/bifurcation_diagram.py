@@ -50,7 +50,7 @@ class BifurcationDiagram(Figure):
             * moving_point("point")
         )
         super().__init__("bifurcation", overlay, ("h", "f"), x, y, picks=("tap", "pan"),
-                         overlays=("here", "here-too", "point"))
+                         still=("rotation", "locked", "boundary", "forbidden", "curve", "special"))
 
     def fit(self, x: tuple[float, float], y: tuple[float, float]) -> None:
         """Other axes."""

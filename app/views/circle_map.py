@@ -51,8 +51,8 @@ class CircleMapView(Figure):
             * dots("stable", color=theme.STABLE, line_color=theme.STABLE)
             * dots("unstable", fill_alpha=0, color=theme.UNSTABLE, line_color=theme.UNSTABLE)
             * moving_point("point")
-        ).opts(xticks=_TICKS, yticks=_TICKS)
-        super().__init__("circle", overlay, ("φ", "Θ(φ)"), side, side, picks=("tap",))
+        )
+        super().__init__("circle", overlay, ("φ", "Θ(φ)"), side, side, picks=("tap",), still=("diagonal",), ticks=_TICKS)
 
     def show(self, circle_map: CircleMap, iterates: Array) -> None:
         """One map, with the cobweb through its iterates."""

@@ -42,12 +42,14 @@ class Figure:
     overlay : labelled elements; their labels name the sources.
     x_range, y_range : the axes, which stay until `set_ranges`.
     picks : Bokeh events ("tap", "pan") that choose a point; the browser sends it with the state.
-    overlays : elements on a canvas of their own: when only they change, the rest is not painted again.
+    ticks : positions and labels on both axes, where the usual ones would not do.
+    still : elements that seldom change.  All others are painted on a canvas of their own, so that a
+        new state does not paint axes and background again.
     """
 
     def __init__(self, name: str, overlay: hv.Overlay, labels: tuple[str, str],
                  x_range: tuple[float, float], y_range: tuple[float, float], picks: Sequence[str] = (),
-                 overlays: Sequence[str] = ("point",)) -> None:
+                 still: Sequence[str] = (), ticks: Sequence[tuple[float, str]] | None = None) -> None:
         self.name = name
         self.wire: Wire | None = None
         self._sentence = ""
@@ -57,6 +59,7 @@ class Figure:
             xlabel=labels[0], ylabel=labels[1], xlim=x_range, ylim=y_range, toolbar=None, default_tools=[],
             show_legend=False, responsive=True, min_height=200, min_width=200,
             fontsize={"labels": theme.FONT_SIZE, "ticks": "12px"}, title="",
+            **({} if ticks is None else {"xticks": list(ticks), "yticks": list(ticks)}),
         ))
         self.root: BokehFigure = plot.state
         self.root.name = name
@@ -66,7 +69,7 @@ class Figure:
             source = drawn.handles["source"]
             source.name = f"{name}-{element.label}"
             self.sources[element.label] = source
-            if element.label in overlays:
+            if element.label not in still:
                 drawn.handles["glyph_renderer"].level = "overlay"
         for event in picks:
             self.root.js_on_event(event, CustomJS(args={"name": name}, code=_PICK))
