@@ -7,7 +7,7 @@ from pathlib import Path
 import param
 from panel.custom import JSComponent
 
-__all__ = ["STATIC", "Player", "Ready", "Sphere", "Text"]
+__all__ = ["STATIC", "NumberControl", "Player", "Ready", "Sphere", "Text"]
 
 STATIC = Path(__file__).resolve().parent.parent / "static"
 _CSS = (STATIC / "components.css").read_text(encoding="utf-8")
@@ -41,8 +41,8 @@ class Player(JSComponent):
 class Ready(JSComponent):
     """Keeps `<html data-ready data-state>` and the address bar.
 
-    Messages from the browser, for `on_msg`: {"requested": n} after every change by the user,
-    {"painted": n} for every painted state, {"picked": [picture, x, y]} for a click in a picture.
+    It sends messages, for `on_msg`: {"requested": n, "held": whether a slider is held, "values": {name:
+    number, …}, "picked": [picture, x, y] or null} asks for the state after the user's n-th change.
     """
 
     state = param.String(default="", doc="JSON: number of the state, last request that it answers, URL query, "
@@ -51,6 +51,23 @@ class Ready(JSComponent):
     client = param.Dict(default={}, doc="URL keys that the browser itself keeps: t, speed, az, el.")
 
     _esm = STATIC / "ready.js"
+
+
+class NumberControl(JSComponent):
+    """A slider and a box for one parameter.
+
+    Written for this page because a slider must cost nothing while it is dragged: the change travels
+    with the request for the next state, and no widget framework runs in between.
+    """
+
+    name = param.String(default="", constant=True, doc="The parameter.")
+    label = param.String(default="")
+    symbol = param.String(default="")
+    help = param.String(default="", doc="What it means and which values it may take.")
+    shown = param.List(default=[], doc="[value, low, high, step] shown first.")
+
+    _esm = STATIC / "number.js"
+    _stylesheets = [_CSS]
 
 
 class Text(JSComponent):

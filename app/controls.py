@@ -1,4 +1,4 @@
-"""Widgets made from a scene's parameters: a slider and an entry box for each number."""
+"""The controls of a scene, made from its parameters."""
 
 from __future__ import annotations
 
@@ -7,124 +7,47 @@ from typing import Any
 
 import panel_material_ui as pmui
 
-from app.state import Choice, Number, Spec, Value, Values
+from app.components import NumberControl
+from app.state import Number, Spec, Value, Values
 
-__all__ = ["Controls"]
-
-# The knob follows the hand at once; an animation of its own would make the browser paint all the time.
-_STILL = {"& .MuiSlider-thumb, & .MuiSlider-track": {"transition": "none"}}
-
-Change = Callable[[Values], None]
+__all__ = ["Controls", "slider_limits"]
 
 
-class HandSlider(pmui.FloatSlider):
-    """A slider whose second, throttled value stays in the browser: each event costs Panel some milliseconds."""
-
-    _debounce = 0
-
-    @property
-    def _linked_properties(self) -> tuple[str, ...]:
-        return tuple(name for name in super()._linked_properties if name != "value_throttled")
-
-
-class _NumberControl:
-    """A slider for the hand and a box for exact values; typed values may exceed the slider's range."""
-
-    def __init__(self, spec: Number, value: float, change: Change) -> None:
-        self.spec = spec
-        self._change = change
-        self._showing = False
-        self._shown: tuple[float, ...] = ()
-        self.slider = HandSlider(
-            label=spec.label, value=value, start=min(spec.low, value), end=max(spec.high, value), step=spec.step,
-            show_value=False, size="small", tooltips=False, description=spec.help, sizing_mode="stretch_width",
-            margin=(0, 4), sx=_STILL,
-        )
-        self.box = pmui.TextInput(
-            label=spec.symbol, value=repr(value), size="small", width=104, margin=(4, 6, 0, 0),
-        )
-        self.box._debounce = 0
-        self.root = pmui.Row(
-            self.slider, self.box, css_classes=[f"param-{spec.name}"], sizing_mode="stretch_width", margin=0,
-        )
-        self.slider.param.watch(self._moved, "value")
-        self.box.param.watch(self._typed, "value")
-
-    def _moved(self, event: Any) -> None:
-        if not self._showing and event.new is not None:
-            self._change({self.spec.name: event.new})
-
-    def _typed(self, event: Any) -> None:
-        if self._showing:
-            return
-        try:
-            value = float(str(event.new).strip().replace("−", "-").replace(",", "."))
-        except ValueError:
-            self.box.param.update(error_state=True)
-            return
-        self._change({self.spec.name: value})
-
-    def show(self, value: Value, limits: tuple[float, float, float] | None) -> None:
-        """Display a value, and the slider range that goes with it."""
-        number = float(value)
-        low, high, step = limits or (self.spec.low, self.spec.high, self.spec.step)
-        shown = (number, low, high, step)
-        if shown == self._shown and not self.box.error_state:
-            return
-        self._shown = shown
-        self._showing = True
-        try:
-            self.slider.param.update(start=min(low, number), end=max(high, number), step=step, value=number)
-            self.box.param.update(value=repr(number), error_state=False)
-        finally:
-            self._showing = False
-
-
-class _ChoiceControl:
-    """A menu."""
-
-    def __init__(self, spec: Choice, value: str, change: Change) -> None:
-        self._showing = False
-        self.root = pmui.Select(
-            label=spec.label, value=value, options=list(spec.options), description=spec.help, size="small",
-            css_classes=[f"param-{spec.name}"], sizing_mode="stretch_width", margin=(8, 4),
-        )
-
-        def chosen(event: Any) -> None:
-            if not self._showing:
-                change({spec.name: event.new})
-
-        self.root.param.watch(chosen, "value")
-
-    def show(self, value: Value, _: tuple[float, float, float] | None) -> None:
-        """Display a value."""
-        if self.root.value == value:
-            return
-        self._showing = True
-        try:
-            self.root.value = str(value)
-        finally:
-            self._showing = False
-
-
-def _control(spec: Spec, value: Value, change: Change) -> _NumberControl | _ChoiceControl:
-    if isinstance(spec, Number):
-        return _NumberControl(spec, float(value), change)
-    return _ChoiceControl(spec, str(value), change)
+def slider_limits(spec: Number, limits: Mapping[str, tuple[float, float, float]]) -> tuple[float, float, float]:
+    """(low, high, step) of a slider: the scene's where they depend on the state, else the parameter's own."""
+    return limits.get(spec.name, (spec.low, spec.high, spec.step))
 
 
 class Controls:
-    """All controls of a scene, by parameter name."""
+    """A slider with a box for each number, a menu for each choice.
 
-    def __init__(self, specs: tuple[Spec, ...], values: Values, change: Change) -> None:
-        self._controls = {spec.name: _control(spec, values[spec.name], change) for spec in specs}
+    Numbers are changed by the browser's request for a state, and shown by the wire; menus are
+    ordinary widgets, which call `change`.
+    """
 
-    @property
-    def roots(self) -> list[Any]:
-        """The widgets in the order of the parameters."""
-        return [control.root for control in self._controls.values()]
+    def __init__(self, specs: tuple[Spec, ...], values: Values, limits: Mapping[str, tuple[float, float, float]],
+                 change: Callable[[Values], None]) -> None:
+        self._menus: dict[str, pmui.Select] = {}
+        self.roots: list[Any] = []
+        for spec in specs:
+            classes = [f"param-{spec.name}"]
+            if isinstance(spec, Number):
+                self.roots.append(NumberControl(
+                    name=spec.name, label=spec.label, symbol=spec.symbol, help=spec.help, css_classes=classes,
+                    shown=[float(values[spec.name]), *slider_limits(spec, limits)],
+                    sizing_mode="stretch_width", margin=(3, 8),
+                ))
+            else:
+                menu = pmui.Select(
+                    label=spec.label, value=str(values[spec.name]), options=list(spec.options), size="small",
+                    description=spec.help, css_classes=classes, sizing_mode="stretch_width", margin=(10, 8),
+                )
+                menu.param.watch(lambda event, name=spec.name: change({name: event.new}), "value")
+                self._menus[spec.name] = menu
+                self.roots.append(menu)
 
-    def show(self, values: Values, limits: Mapping[str, tuple[float, float, float]]) -> None:
-        """Display these values."""
-        for name, control in self._controls.items():
-            control.show(values[name], limits.get(name))
+    def show(self, values: Mapping[str, Value]) -> None:
+        """Bring the menus up to date."""
+        for name, menu in self._menus.items():
+            if menu.value != values[name]:
+                menu.value = str(values[name])

@@ -59,8 +59,9 @@ def page() -> pmui.Page:
     remarks = Text(key="notes", look="notes", live=True, sizing_mode="stretch_width")
     derived = Text(key="derived", look="derived", tag="div", sizing_mode="stretch_width", margin=(8, 4))
 
-    session = Session(scene, stage, ready, state, notes, lambda values: controls.show(values, scene.limits(values)))
-    controls = Controls(scene.specs, scene.admit(state)[0], session.change)
+    session = Session(scene, stage, ready, state, notes, lambda values: controls.show(values))
+    admitted = scene.admit(state)[0]
+    controls = Controls(scene.specs, admitted, scene.limits(admitted), session.change)
     sphere = next(picture.root for picture in stage.pictures if picture.name == "sphere")
     sphere.param.update(azimuth=client["az"], elevation=client["el"])
     player = Player(
@@ -79,7 +80,7 @@ def page() -> pmui.Page:
     link = pmui.Button(label="Copy link", variant="outlined", size="small", css_classes=["param-link"], color="light")
     link.jscallback(clicks=COPY)
 
-    session.attach(pn.state.curdoc)
+    session.attach()
     cells = [_cell(picture) for picture in stage.pictures]
     result = pmui.Page(
         title=f"Hess Explorer · {scene.title}",

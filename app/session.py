@@ -1,7 +1,6 @@
 """One user's session: the single place where a change becomes a computation and a picture.
 
-A change only notes what is wanted.  The newest state is computed and sent when the browser has
-painted the one before the last: a fast drag skips states, it never queues them.
+A fast drag skips states, it never queues them: see `Session`.
 """
 
 from __future__ import annotations
@@ -9,14 +8,13 @@ from __future__ import annotations
 import json
 import logging
 import math
-import time
 from collections.abc import Callable
 from typing import Any
 
-from bokeh.document import Document
 from panel.io.document import unlocked
 
 from app.components import Ready
+from app.controls import slider_limits
 from app.scenes.base import Report, Scene, Stage
 from app.state import Number, Value, Values, encode
 from app.wire import Wire
@@ -26,24 +24,18 @@ __all__ = ["Session"]
 
 logger = logging.getLogger("hess_explorer")
 
-IN_FLIGHT = 2
-"""States sent and not yet painted, at most."""
-
-PATIENCE = 1.0
-"""Seconds after which a browser that does not answer is no longer waited for."""
-
 
 class Session:
     """Wanted values → admitted values → result → pictures.
 
-    A change by `change` or `reset` only notes what is wanted.  The browser sends a request after
-    each change; that, or a state painted, is what makes `update` compute and send.
+    A change by `change` or `reset` only notes what is wanted.  The browser asks for the state behind
+    its last change, and not again before that is painted: so nothing queues, and the newest state wins.
 
     Parameters
     ----------
     scene : what is shown; stage : its pictures.
     values : the state to begin with; notes : what had to be changed in the link.
-    show : called with the admitted values inside each update, to bring the controls up to date.
+    show : called with the admitted values inside each update, to bring the menus up to date.
     """
 
     def __init__(self, scene: Scene, stage: Stage, ready: Ready, values: Values, notes: list[str],
@@ -51,30 +43,22 @@ class Session:
         self.scene = scene
         self.stage = stage
         self.ready = ready
+        self.wire = Wire()
         self.values: dict[str, Value] = {}
         self._specs = {spec.name: spec for spec in scene.specs}
         self._wanted = dict(values)
         self._link_notes = notes
         self._show = show
-        self._hold_axes = False
+        self._held = False
         self._dirty = True
-        self.wire = Wire()
-        self._document: Document | None = None
         self._number = 0
-        self._painted = 0
-        self._requested = 0
-        self._answered = 0
-        self._sent_at = 0.0
-        self._later: Any = None
         ready.on_msg(lambda event: self._receive(event.data))
 
-    def attach(self, document: Document) -> None:
-        """Draw the first state into this document; later ones are sent to its browser."""
+    def attach(self) -> None:
+        """Draw the first state; later ones are sent to the browser."""
         self._draw()
-        self._number = 1
-        self._send()
+        self._send(0)
         self.stage.connect(self.wire)
-        self._document = document
 
     def change(self, values: Values) -> None:
         """The user wants these values."""
@@ -94,63 +78,47 @@ class Session:
         """Back to the scene's defaults."""
         self.change(self.scene.defaults())
 
-    def update(self) -> None:
-        """Compute and send what is wanted, unless the browser is still busy with earlier states."""
-        waiting = self._number - self._painted >= IN_FLIGHT
-        if self._dirty and waiting and time.monotonic() - self._sent_at < PATIENCE:
-            if self._later is None and self._document is not None:
-                # "painted" brings us back; a browser that never says it is given up.
-                self._later = self._document.add_timeout_callback(self._give_up, int(1100 * PATIENCE))
-            return
-        if not self._dirty and self._answered == self._requested:
-            return
-        with unlocked():
-            if self._dirty:
-                self._draw()
-            self._number += 1
-            self._answered = self._requested
-            self._send()
-        self._sent_at = time.monotonic()
-
-    def _give_up(self) -> None:
-        self._later = None
-        self.update()
-
-    def _send(self) -> None:
-        tree, block = self.wire.pack()
-        state = json.dumps({
-            "number": self._number, "answers": self._answered, "query": encode(self.values), "tree": tree,
-        })
-        # In this order: the state says how to read the block.
-        self.ready.block = block
-        self.ready.state = state
-
     def _receive(self, message: Any) -> None:
         """A message of the browser: nothing in it is trusted."""
         if not isinstance(message, dict):
             return
+        values = message.get("values")
+        if isinstance(values, dict):
+            self.change({
+                name: float(value) for name, value in values.items()
+                if isinstance(self._specs.get(name), Number) and isinstance(value, int | float)
+            })
         picked = message.get("picked")
         if isinstance(picked, list) and len(picked) == 3 and isinstance(picked[0], str):
             x, y = (float(z) if isinstance(z, int | float) else math.nan for z in picked[1:])
             if math.isfinite(x) and math.isfinite(y):
                 self.change(self.stage.pick(picked[0], x, y))
-        requested, painted = message.get("requested"), message.get("painted")
+        requested = message.get("requested")
         if isinstance(requested, int):
-            self._requested = requested
             held = message.get("held") is True
-            # When a slider is let go, the axes may have to follow.
-            self._dirty |= self._hold_axes and not held
-            self._hold_axes = held
-        if isinstance(painted, int):
-            self._painted = min(painted, self._number)
-        self.update()
+            # When a slider is let go, axes and other controls may have to follow.
+            self._dirty |= self._held and not held
+            self._held = held
+            with unlocked():
+                if self._dirty:
+                    self._draw()
+                self._send(requested)
+
+    def _send(self, answers: int) -> None:
+        self._number += 1
+        tree, block = self.wire.pack()
+        # In this order: the state says how to read the block.
+        self.ready.block = block
+        self.ready.state = json.dumps({
+            "number": self._number, "answers": answers, "query": encode(self.values), "tree": tree,
+        })
 
     def _draw(self) -> None:
         self._dirty = False
         admitted, notes = self.scene.admit(self._wanted)
         self.values = admitted
         try:
-            report = self.stage.show(self.scene.compute(admitted), self._hold_axes)
+            report = self.stage.show(self.scene.compute(admitted), hold_axes=self._held)
         except ModelError as error:
             self.stage.fail(str(error))
             report = Report([], str(error))
@@ -159,7 +127,13 @@ class Session:
             sentence = "This state could not be computed. Press Reset, and please report the link."
             self.stage.fail(sentence)
             report = Report([], sentence)
-        self._show(admitted)
+        # Under a drag the controls wait, unless the state had to differ from what they say.
+        if not self._held or notes:
+            limits = self.scene.limits(admitted)
+            for spec in self._specs.values():
+                if isinstance(spec, Number):
+                    self.wire.show_number(spec.name, float(admitted[spec.name]), slider_limits(spec, limits))
+            self._show(admitted)
         self.wire.say("status", report.status)
         self.wire.say("notes", "\n".join([*self._link_notes, *notes, *report.notes]))
         self.wire.say("derived", "\n".join(report.derived))

@@ -7,6 +7,7 @@ browser turns back into the sources' columns ("ready.js").
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -15,11 +16,12 @@ __all__ = ["Wire"]
 
 
 class Wire:
-    """Collects the columns and texts that change, and packs them."""
+    """Collects the columns, texts and numbers that change, and packs them."""
 
     def __init__(self) -> None:
         self._pending: dict[str, dict[str, Any]] = {}
         self._texts: dict[str, str] = {}
+        self._numbers: dict[str, list[float]] = {}
 
     def put(self, source: str, columns: dict[str, Any]) -> None:
         """New columns for the source of that name; the last ones put before `pack` count."""
@@ -29,8 +31,12 @@ class Wire:
         """A new text for the component `Text` of that key."""
         self._texts[key] = text
 
+    def show_number(self, name: str, value: float, limits: Sequence[float]) -> None:
+        """What the control of a number shows: its value and (low, high, step) of its slider."""
+        self._numbers[name] = [value, *limits]
+
     def pack(self) -> tuple[dict[str, Any], bytes]:
-        """The tree {"sources": …, "texts": …} and the block of all that was put, and forget it.
+        """The tree {"sources": …, "texts": …, "numbers": …} and the block of all that was put, and forget it.
 
         In the tree an array is {"at": first, "n": length}, counted in single-precision numbers;
         lists and short plain values stand as they are.
@@ -51,6 +57,6 @@ class Wire:
             source: {name: place(column) for name, column in columns.items()}
             for source, columns in self._pending.items()
         }
-        tree = {"sources": sources, "texts": self._texts}
-        self._pending, self._texts = {}, {}
+        tree = {"sources": sources, "texts": self._texts, "numbers": self._numbers}
+        self._pending, self._texts, self._numbers = {}, {}, {}
         return tree, b"".join(block.tobytes() for block in blocks)

@@ -1,7 +1,7 @@
 // Tells when the pictures of the current state are painted, and keeps the URL.
 // <html data-ready> is "false" from a change by the user until the answer to it is on the screen;
-// data-state counts the painted states.  The server sends the next state only when the last one
-// is painted, so nothing queues however fast a slider is dragged.
+// data-state counts the painted states.  The next state is asked for only when the last one is
+// painted, so nothing queues however fast a slider is dragged.
 
 const USER_CHANGES = new Set(["value", "clicks"])
 const URL_PAUSE = 400
@@ -12,26 +12,39 @@ export function render({ model, view }) {
   let state = null
   let requested = 0
   let asking = false
+  let asked = null
   let held = false
+  let values = {}
+  let picked = null
   let spherePending = false
   root.dataset.ready = "false"
   root.dataset.state = "0"
 
   const bokeh = () => view.model.document
+  // One request at a time: the next one goes when the answer to the last is painted.
+  const ask = () => {
+    if (asked !== null || asking) return
+    asking = true
+    // Behind the change itself on its way to the server.
+    queueMicrotask(() => {
+      asking = false
+      asked = requested
+      model.send_msg({ requested, held, values, picked })
+      values = {}
+      picked = null
+    })
+  }
   const request = () => {
     root.dataset.ready = "false"
     requested += 1
-    // Behind the change itself on its way to the server.
-    if (asking) return
-    asking = true
-    queueMicrotask(() => { asking = false; model.send_msg({ requested, held }) })
+    ask()
   }
   const onChange = (event) => {
     if (event.sync && USER_CHANGES.has(event.attr)) request()
   }
   // While a pointer holds a slider the axes hold still; letting go is a request of its own.
   document.addEventListener("pointerdown", (event) => {
-    held = event.composedPath().some((item) => item.classList?.contains("MuiSlider-root"))
+    held = event.composedPath().some((item) => item.classList?.contains("hand"))
   }, true)
   for (const name of ["pointerup", "pointercancel"]) {
     document.addEventListener(name, () => {
@@ -40,13 +53,18 @@ export function render({ model, view }) {
       request()
     }, true)
   }
+  document.addEventListener("hess:change", (event) => {
+    Object.assign(values, event.detail)
+    request()
+  })
   document.addEventListener("hess:pick", (event) => {
     if (!event.detail.slice(1).every(Number.isFinite)) return
-    model.send_msg({ picked: event.detail })
+    picked = event.detail
     request()
   })
 
   let plots = []
+  const updates = new Set()
   const findPlots = () => {
     const found = []
     const visit = (item) => {
@@ -57,8 +75,8 @@ export function render({ model, view }) {
     return found
   }
 
-  // A plot has something to paint while it holds invalidated parts.
-  const busy = () => spherePending || plots.some((plot) => plot._invalidate_all || plot._invalidated_painters.size > 0)
+  const unpainted = (plot) => plot._invalidate_all || plot._invalidated_painters.size > 0
+  const busy = () => spherePending || plots.some(unpainted)
 
   // One tree and one block of single-precision numbers → the columns of the sources.
   function unpack(tree, block) {
@@ -75,6 +93,7 @@ export function render({ model, view }) {
   }
 
   let waiting = false
+  let applied = false
   let giveUp = null
 
   const settle = () => {
@@ -82,24 +101,35 @@ export function render({ model, view }) {
     waiting = false
     clearTimeout(giveUp)
     root.dataset.state = String(number)
-    if (answers >= requested && !busy()) root.dataset.ready = "true"
-    model.send_msg({ painted: number })
+    asked = null
+    if (answers < requested) ask()
+    else if (!busy()) root.dataset.ready = "true"
   }
   // Called whenever one of the pictures has been painted.
-  const onPainted = () => { if (waiting && !busy()) settle() }
+  const onPainted = () => { if (waiting && applied && !busy()) settle() }
 
   const onState = () => {
     state = JSON.parse(model.state)
     unpack(state.tree, model.block)
+    // A control that has been moved on since is not moved back.
+    if (state.answers === requested) {
+      document.dispatchEvent(new CustomEvent("hess:numbers", { detail: state.tree.numbers }))
+    }
     writeUrl()
-    if (waiting) return
     waiting = true
-    // A hidden tab paints nothing, and a broken picture must not hold up the server for ever.
+    applied = false
+    clearTimeout(giveUp)
+    // A hidden tab paints nothing, and a broken picture must not hold up the page for ever.
     giveUp = setTimeout(settle, document.hidden ? 0 : 2000)
-    // Paint now rather than in the next frame: when that comes, all is ready for it.
-    document.dispatchEvent(new CustomEvent("hess:paint"))
-    for (const plot of plots) if (plot._invalidated_painters.size > 0) plot.paint()
-    onPainted()
+    // Bokeh takes new data in promises.  When they are through, paint at once rather than in the next
+    // frame: when that comes, all is ready for it.
+    Promise.all(updates).then(() => {
+      if (updates.size > 0) return
+      applied = true
+      document.dispatchEvent(new CustomEvent("hess:paint"))
+      for (const plot of plots) if (unpainted(plot) && !plot._invalidate_all) plot.paint()
+      onPainted()
+    })
   }
 
   let timer = null
@@ -125,10 +155,24 @@ export function render({ model, view }) {
     plots = findPlots()
     for (const plot of plots) {
       plot.repainted.connect(onPainted)
+      // Bokeh's own repaint measures all axis labels first, also when `onState` has painted already.
+      const repaint = plot.repaint.bind(plot)
+      plot.repaint = () => { if (unpainted(plot)) repaint() }
       // Bokeh does not cut what is on the overlay canvas to the frame; all our moving elements are there.
       for (const part of plot.computed_renderer_views) {
+        const update = part.update_data?.bind(part)
+        if (update !== undefined) {
+          part.update_data = (indices) => {
+            const done = update(indices)
+            updates.add(done)
+            return done.finally(() => updates.delete(done))
+          }
+        }
         if (part.model.level === "overlay") Object.defineProperty(part, "needs_clip", { value: true, configurable: true })
       }
+      // Its first picture was not cut: wipe it, rims included.
+      const { el } = plot.canvas_view.overlays
+      el.width = el.width
       plot.request_paint()
     }
   }

@@ -73,7 +73,7 @@ torus. One number, $a=I_{23}/I_{22}$, decides what happens there.
 2. **Poisson sphere.** The vertical as the body sees it, between two parallels about the axis $n_3$.
 3. **Bifurcation diagram.** All possible $(h,f)$; grey has no motion. Colour is the rotation number
    $\rho$; in the violet zone it is locked at 0 and there are two limit cycles.
-   The moving point stands at height $\pm\sqrt{f^2+\dot n_3^2}$: it touches the ring each time $n_3$ turns.
+   The moving point stands at height $\pm(f^2+\dot n_3^2)^{1/2}$: it touches the ring each time $n_3$ turns.
 4. **Circle map.** Where the orbit is after one period of $n_3$, against where it was.
 
 ### Try this
@@ -86,8 +86,8 @@ torus. One number, $a=I_{23}/I_{22}$, decides what happens there.
 $$\dot w_1=-a w_2^2-b n_2,\quad \dot w_2=a w_1w_2+b n_1,$$
 $$\dot n_1=-(a n_2+n_3)w_2,\quad \dot n_2=a w_2 n_1+w_1 n_3,\quad \dot n_3=n_1w_2-n_2w_1,$$
 $$h=\tfrac12(w_1^2+w_2^2)-b n_3,\qquad f=w_1n_1+w_2n_2,\qquad n^2=1,$$
-$$\dot n_3^2=2(h+n_3)(1-n_3^2)-f^2,\qquad \dot\varphi=-\frac{f}{2(h+n_3)}-a\cos\varphi\sqrt{2(h+n_3)}.$$
-$h$ and $f$ are in units $b=1$: $t\to t\sqrt b$, $w\to w/\sqrt b$, $h\to h/b$, $f\to f/\sqrt b$.
+$$\dot n_3^2=2(h+n_3)(1-n_3^2)-f^2,\qquad \dot\varphi=-\frac{f}{2(h+n_3)}-a\,(2(h+n_3))^{1/2}\cos\varphi.$$
+$h$ and $f$ are in units $b=1$: $t\to b^{1/2}t$, $w\to b^{-1/2}w$, $h\to h/b$, $f\to b^{-1/2}f$.
 
 **The circle map is a Möbius map**, $z\mapsto(\alpha z+\beta)/(\bar\beta z+\bar\alpha)$ with $z=e^{i\varphi}$, so one
 small matrix gives all of it; with $t=2\,\mathrm{Re}\,\alpha$: $|t|<2$ no cycle, $|t|>2$ exactly two, with
@@ -96,7 +96,7 @@ Cantor ladder. This is computed here; the paper leaves it open.
 
 ### Where this page departs from the printed paper
 - eq. `Geq3` reads $h=(1-3n_3^2)/(2n_3)$ (printed: a cube).
-- `bizi2`: $b=-b_3/\sqrt{I_{22}^2+I_{23}^2}$ (printed with a second $mg$); `eq02`: $w_2=\omega_2/\sqrt{1+a^2}$
+- `bizi2`: $b=-b_3(I_{22}^2+I_{23}^2)^{-1/2}$ (printed with a second $mg$); `eq02`: $w_2=\omega_2(1+a^2)^{-1/2}$
   (printed: $\omega_1$).
 - `eq03`: $E$ and $F_2$ are those of the Suslov problem divided by $I_{11}$.
 - A tensor with $|a|\ge1$ belongs to no rigid body (the triangle inequality fails for every $I_{33}$); it is
