@@ -222,7 +222,7 @@ class HessStage:
         self._drawn: dict[str, Any] = {}
         self._wire: Wire | None = None
         self.pictures = tuple(
-            Picture(name, view.root, Text(key=name, tag="h2", look="caption"))
+            Picture(name, view.root, Text(key=name, tag="h2", look="caption", sizing_mode="stretch_width", margin=(0, 4)))
             for name, view in (
                 ("omega", self.omega), ("sphere", self.sphere), ("bifurcation", self.diagram), ("circle", self.circle),
             )

@@ -1,0 +1,109 @@
+"""S8: orbits and limit cycles on one torus M²(h, f), in the variables of `Biz131`.
+
+h and f are in units b = 1 (`eq03`); time and angular velocity are the body's own.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from .accuracy import Level
+from .bifurcation import TurningPoints, turning_points
+from .circle_map import FixedPoint
+from .errors import Separatrix
+from .hess import SYSTEM, HessBody
+from .results import Array, Orbit, frozen
+from .rigid_body import require_finite
+from .system import solve
+
+__all__ = ["Track", "annulus", "cycles", "track"]
+
+MAX_RETURNS = 100
+_CYCLE_SAMPLES = 241
+
+
+@dataclass(frozen=True)
+class Track:
+    """One orbit on a torus.
+
+    times : (n,), even, in the body's units; omega : (n, 2); gamma : (n, 3);
+    phi : (n,) the angle of (w2, w1) in (−π, π]; n3 : (n,); orbit : the computation in units b = 1.
+    """
+
+    times: Array
+    omega: Array
+    gamma: Array
+    phi: Array
+    n3: Array
+    orbit: Orbit
+
+
+def _in_body_units(body: HessBody, orbit: Orbit) -> Track:
+    w1, w2 = orbit.states[:, 0], orbit.states[:, 1]
+    states = body.from_reduced(body.from_units_of_b(orbit.states))
+    return Track(
+        times=frozen(orbit.times / body.frequency_unit),
+        omega=frozen(states[:, :2].copy()),
+        gamma=frozen(states[:, 2:].copy()),
+        phi=frozen(np.arctan2(w1, w2)),
+        n3=frozen(orbit.states[:, 4].copy()),
+        orbit=orbit,
+    )
+
+
+def _solve_reduced(body: HessBody, start: Array, times: Array, level: Level) -> Track:
+    return _in_body_units(body, solve(SYSTEM, start, (body.a, 1.0), times, level))
+
+
+def track(body: HessBody, h: float, f: float, phi0: float, span: float, level: Level) -> Track:
+    """The orbit that starts at n3 = n3^(1) with phase φ0, over `span` of the body's time.
+
+    The span is cut at `MAX_RETURNS` periods of n3.  On the separatrix (h = 1, f = 0), which never
+    comes to its lower turning point, the orbit starts at the top of n3 instead.
+    Raises `OutsideRegion`, `NoField`, `InvalidParameter`.
+    """
+    require_finite(phi0=phi0, span=span)
+    length = span * body.frequency_unit
+    fastest = 0.12 / math.sqrt(2.0 * (h + 1.0)) if h > -1.0 else 1.0
+    try:
+        turning: TurningPoints = turning_points(h, f)
+        start = turning.state_at_lower_turn(phi0)
+        length = min(length, MAX_RETURNS * turning.period)
+        spacing = min(turning.period / 100.0, fastest)
+    except Separatrix:
+        start = np.array([2.0 * math.sin(phi0), 2.0 * math.cos(phi0), 0.0, 0.0, 1.0])
+        length = min(length, 20.0)
+        spacing = fastest
+    count = int(min(4000, max(100, math.ceil(length / spacing)))) + 1
+    return _solve_reduced(body, start, np.linspace(0.0, length, count), level)
+
+
+def cycles(body: HessBody, h: float, f: float, stable: FixedPoint, level: Level) -> tuple[Track, Track]:
+    """The stable and the unstable limit cycle, over one period each.
+
+    Only the stable one is integrated; the other is its image under the reversor
+    (w1, n1, t) → (−w1, −n1, −t) of `eq01`, so that no instability touches it.
+    """
+    turning = turning_points(h, f)
+    times = np.linspace(0.0, turning.period, _CYCLE_SAMPLES)
+    orbit = solve(SYSTEM, turning.state_at_lower_turn(stable.phi), (body.a, 1.0), times, level)
+    mirrored = orbit.states[::-1] * np.array([-1.0, 1.0, -1.0, 1.0, 1.0])
+    image = Orbit(orbit.system, orbit.level, orbit.times, frozen(mirrored), orbit.status,
+                  orbit.error_estimate, orbit.drift, orbit.cost)
+    return _in_body_units(body, orbit), _in_body_units(body, image)
+
+
+def annulus(body: HessBody, h: float, turning: TurningPoints | None) -> tuple[Array, Array]:
+    """The inner and outer ellipse in the (ω1, ω2)-plane that bound the motion, shape (181, 2) each.
+
+    |w|² = 2(h + n3) between its turning points; on the separatrix (`turning` None) between 0 and 4.
+    """
+    inner, outer = (
+        (0.0, 2.0) if turning is None else (turning.initial_rho, math.sqrt(2.0 * max(0.0, h + turning.roots[2])))
+    )
+    s = np.linspace(0.0, 2.0 * math.pi, 181)
+    unit = body.frequency_unit * np.column_stack([np.sin(s), math.hypot(1.0, body.a) * np.cos(s)])
+    return frozen(inner * unit), frozen(outer * unit)
