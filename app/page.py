@@ -12,7 +12,7 @@ from app.components import STATIC, Player, Ready, Text
 from app.controls import Controls
 from app.scenes import scenes
 from app.session import Session
-from app.state import CLIENT, Choice, decode
+from app.state import CLIENT, Choice, Values, decode
 from app.words import with_formulas
 
 __all__ = ["page"]
@@ -32,6 +32,8 @@ LEGEND = """
 <li><span class="box rho"></span>ρ from −½ to ½</li>
 </ul>
 """
+
+CHOOSE = "Choose an example…"
 
 COPY = "navigator.clipboard?.writeText(window.location.href)"
 
@@ -59,7 +61,17 @@ def page() -> pmui.Page:
     remarks = Text(key="notes", look="notes", live=True, sizing_mode="stretch_width")
     derived = Text(key="derived", look="derived", tag="div", sizing_mode="stretch_width", margin=(8, 4))
 
-    session = Session(scene, stage, ready, state, notes, lambda values: controls.show(values))
+    def show_menus(values: Values) -> None:
+        controls.show(values)
+        examples.value = next(
+            (preset.name for preset in scene.presets if scene.example(preset).items() <= values.items()), CHOOSE)
+
+    def choose(name: str) -> None:
+        for preset in scene.presets:
+            if preset.name == name:
+                session.change(scene.example(preset))
+
+    session = Session(scene, stage, ready, state, notes, show_menus)
     admitted = scene.admit(state)[0]
     controls = Controls(scene.specs, admitted, scene.limits(admitted), session.change)
     sphere = next(picture.root for picture in stage.pictures if picture.name == "sphere")
@@ -69,15 +81,14 @@ def page() -> pmui.Page:
         dots={name: list(columns) for name, columns in stage.dots.items()}, margin=(0, 8),
     )
 
-    presets = {preset.name: preset for preset in scene.presets}
-    preset = pmui.Select(
-        label="Example", options=list(presets), value=scene.presets[0].name, size="small",
-        css_classes=["param-preset"], sizing_mode="stretch_width", margin=(8, 4),
+    examples = pmui.Select(
+        label="Example", options=[CHOOSE, *(preset.name for preset in scene.presets)], size="small",
+        css_classes=["param-preset"], sizing_mode="stretch_width", margin=(8, 8),
     )
-    preset.param.watch(lambda event: session.change({**scene.defaults(), **presets[event.new].values}), "value")
-    reset = pmui.Button(label="Reset", variant="outlined", size="small", css_classes=["param-reset"], color="light")
+    examples.param.watch(lambda event: choose(event.new), "value")
+    reset = pmui.Button(label="Reset", variant="outlined", size="small", css_classes=["param-reset"])
     reset.on_click(lambda _: session.reset())
-    link = pmui.Button(label="Copy link", variant="outlined", size="small", css_classes=["param-link"], color="light")
+    link = pmui.Button(label="Copy link", variant="outlined", size="small", css_classes=["param-link"])
     link.jscallback(clicks=COPY)
 
     session.attach()
@@ -87,13 +98,12 @@ def page() -> pmui.Page:
         meta_name="Hess Explorer",
         meta_description=scene.summary,
         dark_theme=dark,
-        header=[pn.Row(reset, link, align="end")],
-        sidebar=[preset, *controls.roots, derived],
+        sidebar=[preset, *controls.roots, pn.Row(reset, link, margin=(8, 4)), derived],
         sidebar_width=300,
         main=[
             pn.Column(*cells, css_classes=["pictures"], stylesheets=[PAGE_CSS], sizing_mode="stretch_width"),
             pn.pane.HTML(LEGEND, stylesheets=[PAGE_CSS], sizing_mode="stretch_width", margin=(0, 8)),
-            player,
+            pn.Column(player, css_classes=["dock"], stylesheets=[PAGE_CSS], sizing_mode="stretch_width"),
             pn.Column(status, remarks, sizing_mode="stretch_width", margin=(4, 8)),
             pn.pane.Markdown(with_formulas(scene.words), sizing_mode="stretch_width", css_classes=["words"],
                              stylesheets=[PAGE_CSS], margin=(0, 8)),

@@ -21,6 +21,7 @@ export function render({ model, view }) {
   root.dataset.state = "0"
 
   const bokeh = () => view.model.document
+  const page = () => bokeh().roots().find((top) => top.data?.attributes.dark_theme !== undefined).data
   // One request at a time: the next one goes when the answer to the last is painted.
   const ask = () => {
     if (asked !== null || asking) return
@@ -41,6 +42,7 @@ export function render({ model, view }) {
   }
   const onChange = (event) => {
     if (event.sync && USER_CHANGES.has(event.attr)) request()
+    if (event.attr === "dark_theme") writeUrl()
   }
   // While a pointer holds a slider the axes hold still; letting go is a request of its own.
   document.addEventListener("pointerdown", (event) => {
@@ -138,7 +140,7 @@ export function render({ model, view }) {
     timer = setTimeout(() => {
       timer = null
       const extra = Object.entries(own).map(([key, value]) => `&${key}=${encodeURIComponent(value)}`).join("")
-      const query = `?${state.query}${extra}`
+      const query = `?${state.query}${extra}${page().dark_theme ? "&theme=dark" : ""}`
       if (query !== window.location.search) window.history.replaceState(null, "", query)
     }, URL_PAUSE)
   }
@@ -181,6 +183,10 @@ export function render({ model, view }) {
     // The first paint is over when Bokeh says so; after that our own marks hold.
     if (bokeh() == null || !bokeh().is_idle) return void requestAnimationFrame(start)
     bokeh().on_change(onChange)
+    // On a phone the controls would cover the pictures: there they open by the menu button.
+    if (window.innerWidth < 800) {
+      page().sidebar_open = false
+    }
     prepare()
     onState()
   }

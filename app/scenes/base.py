@@ -8,7 +8,7 @@ from typing import Any, Protocol
 
 from app.components import Text
 from app.wire import Wire
-from app.state import Spec, Value, Values
+from app.state import Number, Spec, Value, Values
 
 __all__ = ["Picture", "Preset", "Report", "Scene", "Stage"]
 
@@ -88,3 +88,8 @@ class Scene:
     def defaults(self) -> dict[str, Value]:
         """The state a newcomer sees."""
         return {spec.name: spec.default for spec in self.specs}
+
+    def example(self, preset: Preset) -> dict[str, Value]:
+        """All numbers of a preset; choices such as the accuracy stay as they are."""
+        numbers = {spec.name: spec.default for spec in self.specs if isinstance(spec, Number)}
+        return {**numbers, **preset.values}

@@ -26,7 +26,7 @@ from models.circle_map import CircleMap, circle_map, lock_boundary, rotation_num
 from models.errors import Separatrix
 from models.hess import HessBody
 from models.results import Array
-from models.torus import Track, annulus, cycles, track
+from models.torus import MAX_RETURNS, Track, annulus, cycles, track
 
 GRID = (100, 75)
 MAX_A = 100.0
@@ -320,8 +320,8 @@ def _captions(result: HessResult) -> tuple[str, str, str, str]:
     where = f"h = {number(h)}, f = {number(f)}"
     if theta is None or turning is None:
         return (
-            "Angular velocity (ω₁, ω₂)\nThe orbit leaves the origin and comes back to it in infinite time.",
-            "Poisson sphere\nFrom the upper equilibrium and back to it.",
+            "Angular velocity (ω₁, ω₂)\nThe orbit needs infinite time to come to rest.",
+            "Poisson sphere\nTowards the upper equilibrium, n₃ = −1.",
             f"Bifurcation diagram\n{where}: the separatrix.",
             "Circle map\nSeparatrix: no return.",
         )
@@ -342,6 +342,8 @@ def _captions(result: HessResult) -> tuple[str, str, str, str]:
         orbit = "The orbit winds round the torus, no limit cycle"
         zone = f"not locked, ρ = {rho}"
         last = f"elliptic, |trace| {trace}, ρ = {rho}; no fixed point"
+    if n2 - n1 < 1e-6:
+        orbit = "On the bifurcation curve the torus is a circle"
     return (
         f"Angular velocity (ω₁, ω₂)\n{orbit}; |w| from {number(low)} to {number(high)}.",
         f"Poisson sphere\nThe vertical γ, between heights n₃ = {number(n1)} and {number(n2)}.",
@@ -392,7 +394,8 @@ def _notes(result: HessResult) -> list[str]:
         notes.append(check.sentence)
     shown = float(result.track.times[-1])
     if shown < float(result.values["span"]) * (1 - 1e-9):
-        notes.append(f"The orbit is shown up to t = {number(shown)}: more returns than fit into a picture.")
+        reason = "after that it is at rest to the eye" if result.map is None else f"{MAX_RETURNS} returns"
+        notes.append(f"The orbit is shown up to t = {number(shown)}: {reason}.")
     if float(result.values["f"]) == 0.0 and result.map is not None and float(result.values["h"]) < 1.0:
         notes.append("At f = 0, h < 1 the angle φ jumps where w = 0: the circle map is its limit f → 0.")
     return notes
