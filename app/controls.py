@@ -8,9 +8,10 @@ from typing import Any
 import panel_material_ui as pmui
 
 from app.components import NumberControl
+from app.scenes.base import Scene
 from app.state import Number, Spec, Value, Values
 
-__all__ = ["Controls", "slider_limits"]
+__all__ = ["Controls", "ExampleMenu", "slider_limits"]
 
 
 def slider_limits(spec: Number, limits: Mapping[str, tuple[float, float, float]]) -> tuple[float, float, float]:
@@ -51,3 +52,22 @@ class Controls:
         for name, menu in self._menus.items():
             if menu.value != values[name]:
                 menu.value = str(values[name])
+
+
+class ExampleMenu:
+    """A menu of the scene's presets; it says "Choose…" as soon as the state is none of them."""
+
+    CHOOSE = "Choose an example…"
+
+    def __init__(self, scene: Scene, change: Callable[[Values], None]) -> None:
+        self._examples = {preset.name: scene.example(preset) for preset in scene.presets}
+        self.root = pmui.Select(
+            label="Example", options=[self.CHOOSE, *self._examples], size="small", css_classes=["param-preset"],
+            sizing_mode="stretch_width", margin=(8, 8),
+        )
+        self.root.param.watch(lambda event: change(self._examples.get(event.new, {})), "value")
+
+    def show(self, values: Values) -> None:
+        """Name the example that these values are."""
+        self.root.value = next(
+            (name for name, example in self._examples.items() if example.items() <= values.items()), self.CHOOSE)

@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+import logging
 from typing import Any
+from urllib.parse import urlencode
 
 import panel as pn
 import panel_material_ui as pmui
 from panel.util import edit_readonly
 
 from app.components import STATIC, Player, Ready, Text
-from app.controls import Controls
+from app.controls import Controls, ExampleMenu
 from app.scenes import scenes
+from app.scenes.base import Picture, Scene, Stage
 from app.session import Session
 from app.state import CLIENT, Choice, Values, decode
 from app.words import with_formulas
 
 __all__ = ["page"]
+
+logger = logging.getLogger("hess_explorer")
 
 THEME = Choice("theme", "Theme", ("light", "dark"), "light")
 
@@ -33,80 +38,67 @@ LEGEND = """
 </ul>
 """
 
-CHOOSE = "Choose an example…"
-
 COPY = "navigator.clipboard?.writeText(window.location.href)"
+
+WIDE: dict[str, Any] = {"sizing_mode": "stretch_width"}
+
+
+def page() -> Any:
+    """A new page for one session, in the state that its URL describes."""
+    try:
+        return _page(next(iter(scenes().values())), _query())
+    except Exception:
+        logger.exception("the page could not be built")
+        return pn.pane.Str("The page could not be built. Open it without the part of its address after “?”.")
 
 
 def _query() -> str:
+    """The query of the request that opened this session."""
     context = pn.state.curdoc.session_context if pn.state.curdoc else None
-    request = getattr(context, "request", None)
-    arguments = getattr(request, "arguments", None) or {}
-    return "&".join(
-        f"{name}={values[0].decode('utf-8', 'replace')}" for name, values in arguments.items() if values
-    )
+    arguments = getattr(getattr(context, "request", None), "arguments", None) or {}
+    return urlencode([(name, given[0].decode("utf-8", "replace")) for name, given in arguments.items() if given])
 
 
-def page() -> pmui.Page:
-    """A new page for one session, in the state that its URL describes."""
-    scene = next(iter(scenes().values()))
-    specs = (*scene.specs, *CLIENT, THEME)
-    state, notes = decode(_query(), specs)
+def _page(scene: Scene, query: str) -> pmui.Page:
+    state, notes = decode(query, (*scene.specs, *CLIENT, THEME))
     client = {spec.name: float(state.pop(spec.name)) for spec in CLIENT}
     dark = state.pop("theme") == "dark"
 
     stage = scene.stage()
+    stage.look_from(client["az"], client["el"])
     ready = Ready(client={name: repr(value) for name, value in client.items()}, width=0, height=0, margin=0)
-    status = Text(key="status", look="status", live=True, sizing_mode="stretch_width")
-    remarks = Text(key="notes", look="notes", live=True, sizing_mode="stretch_width")
-    derived = Text(key="derived", look="derived", tag="div", sizing_mode="stretch_width", margin=(8, 4))
 
     def show_menus(values: Values) -> None:
         controls.show(values)
-        examples.value = next(
-            (preset.name for preset in scene.presets if scene.example(preset).items() <= values.items()), CHOOSE)
-
-    def choose(name: str) -> None:
-        for preset in scene.presets:
-            if preset.name == name:
-                session.change(scene.example(preset))
+        examples.show(values)
 
     session = Session(scene, stage, ready, state, notes, show_menus)
-    admitted = scene.admit(state)[0]
+    admitted, _ = scene.admit(state)
     controls = Controls(scene.specs, admitted, scene.limits(admitted), session.change)
-    sphere = next(picture.root for picture in stage.pictures if picture.name == "sphere")
-    sphere.param.update(azimuth=client["az"], elevation=client["el"])
-    player = Player(
-        t=client["t"], speed=client["speed"], angles=list(stage.angles), sizing_mode="stretch_width",
-        dots={name: list(columns) for name, columns in stage.dots.items()}, margin=(0, 8),
-    )
-
-    examples = pmui.Select(
-        label="Example", options=[CHOOSE, *(preset.name for preset in scene.presets)], size="small",
-        css_classes=["param-preset"], sizing_mode="stretch_width", margin=(8, 8),
-    )
-    examples.param.watch(lambda event: choose(event.new), "value")
-    reset = pmui.Button(label="Reset", variant="outlined", size="small", css_classes=["param-reset"])
-    reset.on_click(lambda _: session.reset())
-    link = pmui.Button(label="Copy link", variant="outlined", size="small", css_classes=["param-link"])
-    link.jscallback(clicks=COPY)
-
+    examples = ExampleMenu(scene, session.change)
     session.attach()
-    cells = [_cell(picture) for picture in stage.pictures]
+
     result = pmui.Page(
         title=f"Hess Explorer · {scene.title}",
         meta_name="Hess Explorer",
         meta_description=scene.summary,
         dark_theme=dark,
-        sidebar=[preset, *controls.roots, pn.Row(reset, link, margin=(8, 4)), derived],
+        sidebar=[
+            examples.root,
+            *controls.roots,
+            _buttons(session),
+            Text(key="derived", look="derived", tag="div", margin=(8, 8), **WIDE),
+        ],
         sidebar_width=300,
         main=[
-            pn.Column(*cells, css_classes=["pictures"], stylesheets=[PAGE_CSS], sizing_mode="stretch_width"),
-            pn.pane.HTML(LEGEND, stylesheets=[PAGE_CSS], sizing_mode="stretch_width", margin=(0, 8)),
-            pn.Column(player, css_classes=["dock"], stylesheets=[PAGE_CSS], sizing_mode="stretch_width"),
-            pn.Column(status, remarks, sizing_mode="stretch_width", margin=(4, 8)),
-            pn.pane.Markdown(with_formulas(scene.words), sizing_mode="stretch_width", css_classes=["words"],
-                             stylesheets=[PAGE_CSS], margin=(0, 8)),
+            *_pictures(stage, client),
+            pn.Column(
+                Text(key="status", look="status", live=True, **WIDE),
+                Text(key="notes", look="notes", live=True, **WIDE),
+                margin=(4, 8), **WIDE,
+            ),
+            pn.pane.Markdown(
+                with_formulas(scene.words), css_classes=["words"], stylesheets=[PAGE_CSS], margin=(0, 8), **WIDE),
             ready,
         ],
         busy_indicator=None,
@@ -118,10 +110,29 @@ def page() -> pmui.Page:
     return result
 
 
-def _cell(picture: Any) -> pn.Column:
-    root = picture.root
-    body = root if isinstance(root, pn.viewable.Viewable) else pn.pane.Bokeh(root, sizing_mode="stretch_width", margin=0)
-    return pn.Column(
-        picture.caption, body, css_classes=["picture", f"picture-{picture.name}"], stylesheets=[PAGE_CSS],
-        sizing_mode="stretch_width",
+def _buttons(session: Session) -> pn.Row:
+    reset = pmui.Button(label="Reset", variant="outlined", size="small", css_classes=["param-reset"])
+    reset.on_click(lambda _: session.reset())
+    link = pmui.Button(label="Copy link", variant="outlined", size="small", css_classes=["param-link"])
+    link.jscallback(clicks=COPY)
+    return pn.Row(reset, link, margin=(8, 4))
+
+
+def _pictures(stage: Stage, client: dict[str, float]) -> list[Any]:
+    """The pictures, their legend and the player."""
+    player = Player(
+        t=client["t"], speed=client["speed"], angles=list(stage.angles),
+        dots={name: list(columns) for name, columns in stage.dots.items()}, margin=(0, 8), **WIDE,
     )
+    return [
+        pn.Column(*map(_cell, stage.pictures), css_classes=["pictures"], stylesheets=[PAGE_CSS], **WIDE),
+        pn.pane.HTML(LEGEND, stylesheets=[PAGE_CSS], margin=(0, 8), **WIDE),
+        pn.Column(player, css_classes=["dock"], stylesheets=[PAGE_CSS], **WIDE),
+    ]
+
+
+def _cell(picture: Picture) -> pn.Column:
+    root = picture.root
+    body = root if isinstance(root, pn.viewable.Viewable) else pn.pane.Bokeh(root, margin=0, **WIDE)
+    classes = ["picture", f"picture-{picture.name}"]
+    return pn.Column(picture.caption, body, css_classes=classes, stylesheets=[PAGE_CSS], **WIDE)

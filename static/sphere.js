@@ -47,7 +47,7 @@ export function render({ model, view, el }) {
   el.append(canvas, tip)
   const ctx = canvas.getContext("2d")
   const lines = graticule()
-  const home = [model.azimuth, model.elevation]
+  const home = [0.6, 0.35]
   let turn = [model.azimuth, model.elevation]
   let point = null
   let requested = false

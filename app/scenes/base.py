@@ -54,6 +54,9 @@ class Stage(Protocol):
     angles: Sequence[str]
     """Those of the columns that are angles."""
 
+    def look_from(self, azimuth: float, elevation: float) -> None:
+        """The first direction of sight of what can be turned, in radians."""
+
     def show(self, result: Any, hold_axes: bool) -> Report:
         """Draw a result."""
 

@@ -234,6 +234,10 @@ class HessStage:
         for view in (self.omega, self.diagram, self.circle):
             view.wire = wire
 
+    def look_from(self, azimuth: float, elevation: float) -> None:
+        """The first direction of sight on the sphere."""
+        self.sphere.look_from(azimuth, elevation)
+
     def _once(self, name: str, *things: Any) -> bool:
         """Whether something else than last time is to be drawn under this name."""
         before = self._drawn.get(name)

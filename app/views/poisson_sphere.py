@@ -13,6 +13,10 @@ class PoissonSphere:
     def __init__(self) -> None:
         self.root = Sphere(sizing_mode="stretch_width", css_classes=["picture-sphere"])
 
+    def look_from(self, azimuth: float, elevation: float) -> None:
+        """The direction of sight, in radians."""
+        self.root.param.update(azimuth=azimuth, elevation=elevation)
+
     def show_axis(self, axis: Sequence[float], heights: Sequence[float]) -> None:
         """The axis to the centre of mass, and the parallels between which the motion stays."""
         axis, heights = [float(x) for x in axis], [float(x) for x in heights]
