@@ -29,7 +29,7 @@ shares = st.one_of(
     st.floats(-1.0, 1.0), st.floats(-140.0, -1.0).map(lambda e: 10.0**e), tiny.map(lambda e: 1 - e), st.just(1.0),
 )
 # f² must not underflow; f = 0 at h = 1 is the separatrix.
-tori = st.tuples(energies, shares).filter(lambda torus: abs(torus[1]) > 1e-140 or torus[0] != 1.0 and torus[1] == 0)
+tori = st.tuples(energies, shares).filter(lambda t: abs(t[1]) > 1e-140 or (t[1] == 0 and t[0] != 1.0))
 
 CASES = [
     (0.5, 0.5), (1.5, 0.6), (-0.5, -0.2), (3.0, 1e-12), (0.3, 1e-12), (0.3, 1e-300), (2.0, 1e-300), (2.0, 0.0),
