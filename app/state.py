@@ -49,7 +49,7 @@ class Number:
             return self.default, f"{self.symbol} was not finite and is {self.default:g} now."
         clamped = min(max(value, self.lowest), self.highest)
         if clamped != value:
-            return clamped, f"{self.symbol} must lie between {self.lowest:g} and {self.highest:g}: it is {clamped:g} now."
+            return clamped, f"{self.symbol} lies between {self.lowest:g} and {self.highest:g}: it is {clamped:g} now."
         return value, None
 
 
@@ -75,8 +75,8 @@ Spec = Number | Choice
 CLIENT: tuple[Number, ...] = (
     Number("t", "t", "Time", 0.0, 0.0, 1000.0, 0.0, 0.0, 1e6),
     Number("speed", "speed", "Speed", 1.0, 0.25, 8.0, 0.0, 0.25, 8.0),
-    Number("az", "azimuth", "Azimuth of the sphere", 0.6, -math.pi, math.pi, 0.0, -math.pi, math.pi),
-    Number("el", "elevation", "Elevation of the sphere", 0.35, -math.pi / 2, math.pi / 2, 0.0, -math.pi / 2, math.pi / 2),
+    Number("az", "azimuth", "Azimuth of the sphere", 0.6, -3.1415927, 3.1415927, 0.0, -3.1415927, 3.1415927),
+    Number("el", "elevation", "Elevation of the sphere", 0.35, -1.5707963, 1.5707963, 0.0, -1.5707963, 1.5707963),
 )
 """Keys of the URL that the browser itself keeps: they need no computation."""
 

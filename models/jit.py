@@ -38,7 +38,7 @@ def _source_hash() -> str:
 def _writable_cache_folder() -> Path | None:
     """The first folder for compiled kernels that can be written, or None (then compile each time)."""
     chosen = os.environ.get("NUMBA_CACHE_DIR") or os.environ.get("XDG_CACHE_HOME")
-    home = Path(os.path.expanduser("~")) / ".cache"
+    home = Path("~").expanduser() / ".cache"
     for base in filter(None, (chosen, home, tempfile.gettempdir())):
         folder = Path(base) / "hess-explorer" / _source_hash()
         try:

@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 from app.components import Text
-from app.wire import Wire
 from app.state import Number, Spec, Value, Values
+from app.wire import Wire
 
-__all__ = ["Picture", "Preset", "Report", "Scene", "Stage"]
+__all__ = ["Picture", "Preset", "Report", "Scene", "Stage", "caption"]
 
 
 @dataclass(frozen=True)
@@ -29,6 +29,11 @@ class Picture:
     root: Any
     caption: Text
     """Its key is the picture's name."""
+
+
+def caption(name: str) -> Text:
+    """An empty caption for the picture of that name."""
+    return Text(key=name, tag="h2", look="caption", sizing_mode="stretch_width", margin=(0, 4))
 
 
 @dataclass(frozen=True)

@@ -6,13 +6,13 @@ import math
 import time
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from app.components import Text
 from app.compute import CACHE
-from app.scenes.base import Picture, Preset, Report, Scene
+from app.scenes.base import Picture, Preset, Report, Scene, caption
 from app.state import Choice, Number, Value, Values
 from app.views.bifurcation_diagram import BifurcationDiagram, window
 from app.views.circle_map import CircleMapView
@@ -62,46 +62,7 @@ PRESETS = (
     Preset("Strong contraction, a = 3 (not a body)", {"I22": 0.5, "I23": 1.5}),
 )
 
-WORDS = r"""
-### What you see
-A rigid body turns about a fixed point under its weight, and a wheel-like constraint forbids spin about one body axis:
-$\omega_3 = 0$. In the **Hess case** the centre of mass lies on the perpendicular to a circular section of the
-gyration ellipsoid. Then there is a second integral $F_2=(\mathbf I\omega,\gamma)$, and every motion lives on a
-torus. One number, $a=I_{23}/I_{22}$, decides what happens there.
-
-1. **Angular velocity.** The energy leaves a ring; the orbit fills it, or tends to the green limit cycle.
-2. **Poisson sphere.** The vertical as the body sees it, between two parallels about the axis $n_3$.
-3. **Bifurcation diagram.** All possible $(h,f)$; grey has no motion. Colour is the rotation number
-   $\rho$; in the violet zone it is locked at 0 and there are two limit cycles.
-   The moving point stands at height $\pm(f^2+\dot n_3^2)^{1/2}$: it touches the ring each time $n_3$ turns.
-4. **Circle map.** Where the orbit is after one period of $n_3$, against where it was.
-
-### Try this
-- Drag in the bifurcation diagram across the black line into the violet zone: two cycles are born together.
-- Choose *Pendulum, f = 0*: the multiplier is $e^{2\pi a}$, whatever $h$ is.
-- Click the circle map near the hollow point: the orbit stays near the unstable cycle before it leaves.
-- Press Space, then ← and →.
-
-### The equations (section 2, case 3 of the paper)
-$$\dot w_1=-a w_2^2-b n_2,\quad \dot w_2=a w_1w_2+b n_1,$$
-$$\dot n_1=-(a n_2+n_3)w_2,\quad \dot n_2=a w_2 n_1+w_1 n_3,\quad \dot n_3=n_1w_2-n_2w_1,$$
-$$h=\tfrac12(w_1^2+w_2^2)-b n_3,\qquad f=w_1n_1+w_2n_2,\qquad n^2=1,$$
-$$\dot n_3^2=2(h+n_3)(1-n_3^2)-f^2,\qquad \dot\varphi=-\frac{f}{2(h+n_3)}-a\,(2(h+n_3))^{1/2}\cos\varphi.$$
-$h$ and $f$ are in units $b=1$: $t\to b^{1/2}t$, $w\to b^{-1/2}w$, $h\to h/b$, $f\to b^{-1/2}f$.
-
-**The circle map is a Möbius map**, $z\mapsto(\alpha z+\beta)/(\bar\beta z+\bar\alpha)$ with $z=e^{i\varphi}$, so one
-small matrix gives all of it; with $t=2\,\mathrm{Re}\,\alpha$: $|t|<2$ no cycle, $|t|>2$ exactly two, with
-multipliers $e^{\pm2\,\mathrm{arccosh}(|t|/2)}$. Therefore $\rho$ locks at integers only: the graph of $\rho$ is no
-Cantor ladder. This is computed here; the paper leaves it open.
-
-### Where this page departs from the printed paper
-- eq. `Geq3` reads $h=(1-3n_3^2)/(2n_3)$ (printed: a cube).
-- `bizi2`: $b=-b_3(I_{22}^2+I_{23}^2)^{-1/2}$ (printed with a second $mg$); `eq02`: $w_2=\omega_2(1+a^2)^{-1/2}$
-  (printed: $\omega_1$).
-- `eq03`: $E$ and $F_2$ are those of the Suslov problem divided by $I_{11}$.
-- A tensor with $|a|\ge1$ belongs to no rigid body (the triangle inequality fails for every $I_{33}$); it is
-  shown all the same, and said.
-"""
+WORDS = Path(__file__).with_suffix(".md").read_text(encoding="utf-8")
 
 
 @dataclass(frozen=True)
@@ -132,7 +93,8 @@ def admit(values: Values) -> tuple[dict[str, Value], list[str]]:
     largest = f_max(float(out["h"]))
     if abs(float(out["f"])) > largest:
         out["f"] = math.copysign(largest, float(out["f"]))
-        notes.append(f"At h = {number(float(out['h']))} only |f| ≤ {number(largest)} is possible: f is at that edge now.")
+        where = f"At h = {number(float(out['h']))} only |f| ≤ {number(largest)} is possible"
+        notes.append(f"{where}: f is at that edge now.")
     return out, notes
 
 
@@ -222,7 +184,7 @@ class HessStage:
         self._drawn: dict[str, Any] = {}
         self._wire: Wire | None = None
         self.pictures = tuple(
-            Picture(name, view.root, Text(key=name, tag="h2", look="caption", sizing_mode="stretch_width", margin=(0, 4)))
+            Picture(name, view.root, caption(name))
             for name, view in (
                 ("omega", self.omega), ("sphere", self.sphere), ("bifurcation", self.diagram), ("circle", self.circle),
             )
@@ -337,7 +299,8 @@ def _captions(result: HessResult) -> tuple[str, str, str, str]:
         orbit = "The orbit tends to the stable limit cycle"
         zone = "locked, two limit cycles"
         stable, unstable = theta.fixed_points
-        last = f"hyperbolic, |trace| {trace}, ρ = {rho}; multipliers {number(stable.multiplier)}, {number(unstable.multiplier)}"
+        multipliers = f"{number(stable.multiplier)}, {number(unstable.multiplier)}"
+        last = f"hyperbolic, |trace| {trace}, ρ = {rho}; multipliers {multipliers}"
     elif theta.kind == "parabolic":
         orbit = "The two limit cycles have merged"
         zone = "on the lock boundary"
@@ -384,7 +347,8 @@ def _status(result: HessResult) -> str:
         "drift " + " ".join(f"{name} {drift:.0e}" for name, drift in orbit.drift.items()),
     ]
     if result.map is not None:
-        parts.append(f"circle map {result.map.cost.steps} steps, error ≤ {result.map.error_estimate:.1e} ({result.map.status})")
+        theta = result.map
+        parts.append(f"circle map {theta.cost.steps} steps, error ≤ {theta.error_estimate:.1e} ({theta.status})")
     else:
         parts.append("circle map: separatrix, no return")
     parts.append(f"{result.wall_ms:.1f} ms, {'cached' if result.cached else 'computed'}")

@@ -17,7 +17,7 @@ _GRID = np.linspace(-math.pi, math.pi, 193)
 
 
 def graph(circle_map: CircleMap) -> tuple[Array, Array]:
-    """φ and Θ, continued without jumps, at points that are close together on the curve also where it is steep.
+    """φ and Θ, continued without jumps, at points close together on the curve also where it is steep.
 
     The reversor gives the inverse, Θ⁻¹(ψ) = −Θ(−ψ): values at even φ and at even Θ are joined.
     """
@@ -52,7 +52,8 @@ class CircleMapView(Figure):
             * dots("unstable", fill_alpha=0, color=theme.UNSTABLE, line_color=theme.UNSTABLE)
             * moving_point("point")
         )
-        super().__init__("circle", overlay, ("φ", "Θ(φ)"), side, side, picks=("tap",), still=("diagonal",), ticks=_TICKS)
+        labels = ("φ", "Θ(φ)")
+        super().__init__("circle", overlay, labels, side, side, picks=("tap",), still=("diagonal",), ticks=_TICKS)
 
     def show(self, circle_map: CircleMap, iterates: Array) -> None:
         """One map, with the cobweb through its iterates."""

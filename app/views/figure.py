@@ -8,7 +8,7 @@ from typing import Any
 import holoviews as hv
 import numpy as np
 from bokeh.models import ColumnDataSource, CustomJS
-from bokeh.plotting import figure as BokehFigure
+from bokeh.plotting import figure
 
 from app import theme
 from app.wire import Wire
@@ -61,7 +61,7 @@ class Figure:
             fontsize={"labels": theme.FONT_SIZE, "ticks": "12px"}, title="",
             **({} if ticks is None else {"xticks": list(ticks), "yticks": list(ticks)}),
         ))
-        self.root: BokehFigure = plot.state
+        self.root: figure = plot.state
         self.root.name = name
         self.root.update(min_border=4, sizing_mode="stretch_width", aspect_ratio=1)
         self.sources: dict[str, ColumnDataSource] = {}
