@@ -7,18 +7,10 @@
 
 from .accuracy import LEVELS, Level, Status, level
 from .bifurcation import TurningPoints, curve, curve_point, f_max, turning_points
-from .circle_map import (
-    CircleMap,
-    FixedPoint,
-    circle_map,
-    critical_a,
-    lock_boundary,
-    lock_boundary_f,
-    rotation_number_grid,
-    trace_on_curve,
-)
+from .circle_map import CircleMap, FixedPoint, circle_map
 from .errors import ModelError
 from .hess import HessBody
+from .locking import critical_a, lock_boundary, lock_boundary_f, rotation_number_grid, trace_on_curve
 from .results import Cost, Orbit
 from .rigid_body import BodyCheck, check_body
 from .suslov import SuslovBody, unit_vector

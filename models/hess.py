@@ -18,7 +18,7 @@ import numpy as np
 from .errors import InvalidParameter, NoField
 from .jit import inner, kernel
 from .results import Array
-from .rigid_body import BodyCheck, check_body, require_finite, require_positive_definite
+from .rigid_body import BodyCheck, body_check, require_finite, require_positive_definite
 from .suslov import SuslovBody
 from .system import System
 from .taylor import cauchy, integrator
@@ -71,8 +71,10 @@ class HessBody:
 
     @property
     def check(self) -> BodyCheck:
-        """Whether this is a rigid body: under `bizi1` exactly for |a| < 1."""
-        return check_body(self.I11, self.I22, 0.0, self.I23)
+        """Whether this is a rigid body: under `bizi1` exactly for |a| < 1, with a² ≤ I33/I22 ≤ 2 − a²."""
+        if abs(self.a) < 1.0:
+            return body_check((self.a**2 * self.I22, (2.0 - self.a**2) * self.I22))
+        return body_check(None)
 
     @property
     def frequency_unit(self) -> float:

@@ -9,11 +9,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from scipy.optimize import brentq
-
 from .errors import InvalidParameter, NotPositiveDefinite
 
-__all__ = ["BodyCheck", "check_body", "require_finite", "require_positive_definite"]
+__all__ = ["BodyCheck", "body_check", "check_body", "require_finite", "require_positive_definite"]
 
 
 def require_finite(**values: float) -> None:
@@ -44,6 +42,17 @@ class BodyCheck:
     sentence: str
 
 
+def body_check(I33: tuple[float, float] | None) -> BodyCheck:
+    """The answer in words, from the admissible interval of I33 (None: there is none)."""
+    if I33 is None:
+        return BodyCheck(
+            False, None,
+            "Not a rigid body: for no I33 do the principal moments satisfy the triangle inequality. "
+            "The equations are still shown.",
+        )
+    return BodyCheck(True, I33, f"A rigid body for I33 between {I33[0]:.4g} and {I33[1]:.4g}.")
+
+
 def check_body(I11: float, I22: float, I13: float, I23: float) -> BodyCheck:
     """The values of I33 for which ½ tr I − I ≥ 0.
 
@@ -58,6 +67,9 @@ def check_body(I11: float, I22: float, I13: float, I23: float) -> BodyCheck:
     # Beyond 2 the answer is no in any case: the bound keeps squares in range.
     p, q = min(abs(I23) / scale, 2.0) ** 2, min(abs(I13) / scale, 2.0) ** 2
 
+    # Here and not above: the import takes 0.3 s, and a page of the Hess case has a closed form.
+    from scipy.optimize import brentq
+
     def g(y: float) -> float:
         return s - y - (p / (y + d) if p else 0.0) - (q / (y - d) if q else 0.0)
 
@@ -67,12 +79,7 @@ def check_body(I11: float, I22: float, I13: float, I23: float) -> BodyCheck:
     low = abs(d) * (1 + 1e-15) + 1e-150  # clear of the poles, and its square of underflow
     top = low if slope(low) <= 0 else brentq(slope, low, low + 2 * (math.sqrt(p) + math.sqrt(q)), **SEARCH)
     if not g(top) > 1e-15 * s:
-        return BodyCheck(
-            False, None,
-            "Not a rigid body: for no I33 do the principal moments satisfy the triangle inequality. "
-            "The equations are still shown.",
-        )
+        return body_check(None)
     lower = abs(d) if g(low) >= 0 else brentq(g, low, top, **SEARCH)
     upper = brentq(g, top, s, **SEARCH) if g(s) < 0 else s
-    I33 = (2 * lower * scale, 2 * upper * scale)
-    return BodyCheck(True, I33, f"A rigid body for I33 between {I33[0]:.4g} and {I33[1]:.4g}.")
+    return body_check((2 * lower * scale, 2 * upper * scale))

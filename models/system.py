@@ -81,9 +81,9 @@ def _check_times(times: Array) -> None:
         raise InvalidParameter("The times must run away from 0, all forward or all backward.")
 
 
-def _run(system: System, y: Array, p: Array, times: Array, level: Level) -> tuple[Array, int]:
+def _run(system: System, y: Array, p: Array, times: Array, level: Level, max_steps: int) -> tuple[Array, int]:
     out = np.empty((times.size, y.size))
-    steps = system.kernel(y, p, times, level.order, level.tolerance, MAX_STEPS, out)
+    steps = system.kernel(y, p, times, level.order, level.tolerance, max_steps, out)
     if steps == STEP_LIMIT_REACHED:
         raise WorkLimit(
             f"This time span needs more than {MAX_STEPS} steps: choose a shorter one, or a cheaper level."
@@ -122,10 +122,10 @@ def solve(system: System, state: Sequence[float], parameters: Sequence[float],
     y1, p1 = system.rescale(y, p, nu)
 
     current = level
-    coarse, total = _run(system, y1, p1, scaled_times, current)
+    coarse, total = _run(system, y1, p1, scaled_times, current, MAX_STEPS)
     while True:
         tighter = current.tightened()
-        fine, steps = _run(system, y1, p1, scaled_times, tighter)
+        fine, steps = _run(system, y1, p1, scaled_times, tighter, MAX_STEPS - total)
         total += steps
         # Two runs at the floor differ by their round-off, which says less of the true error.
         safety = 4.0 if current.is_floor else 1.25

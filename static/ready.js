@@ -70,6 +70,7 @@ export function render({ model, view }) {
   const findPlots = () => {
     const found = []
     const visit = (item) => {
+      if (item == null) return
       if (item.request_paint !== undefined && item.repainted !== undefined) found.push(item)
       for (const child of item.children_views?.() ?? []) visit(child)
     }

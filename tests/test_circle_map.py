@@ -26,8 +26,8 @@ from models import (
     turning_points,
 )
 from models.accuracy import LEVELS, Status
-from models.circle_map import lock_boundary_end, lock_boundary_h
 from models.errors import InvalidParameter, ModelError, OutsideRegion, Separatrix, WorkLimit
+from models.locking import lock_boundary_end, lock_boundary_h
 
 HESS = systems()["hess"]
 REFERENCE, STANDARD, DRAFT = level("reference"), level("standard"), level("draft")

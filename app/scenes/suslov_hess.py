@@ -22,9 +22,10 @@ from app.wire import Wire
 from app.words import number
 from models.accuracy import DRAFT, LEVELS, STANDARD, Level, level
 from models.bifurcation import TurningPoints, curve, f_max, turning_points
-from models.circle_map import CircleMap, circle_map, lock_boundary, rotation_number_grid
+from models.circle_map import CircleMap, circle_map
 from models.errors import Separatrix
 from models.hess import HessBody
+from models.locking import lock_boundary, rotation_number_grid
 from models.results import Array
 from models.torus import MAX_RETURNS, Track, annulus, cycles, track
 

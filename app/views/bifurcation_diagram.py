@@ -6,7 +6,7 @@ import holoviews as hv
 import numpy as np
 
 from app import theme
-from app.views.figure import Figure, moving_point
+from app.views.figure import Figure
 from models.results import Array
 
 
@@ -29,28 +29,21 @@ class BifurcationDiagram(Figure):
 
     def __init__(self) -> None:
         x, y = window(0.0)
-
-        def line(label: str, **opts: object) -> hv.Path:
-            return hv.Path([], label=label).opts(**opts)
-
-        def ring(label: str, **opts: object) -> hv.Points:
-            return hv.Points([], ["h", "f"], label=label).opts(size=21, fill_alpha=0, **opts)
-
-        overlay = (
-            hv.Image(np.zeros((2, 2)), bounds=(x[0], y[0], x[1], y[1]), label="rotation").opts(
-                cmap=theme.NUMBER_MAP, clim=(-0.5, 0.5), colorbar=False)
-            * hv.Polygons([], label="locked").opts(color=theme.LOCKED, line_alpha=0)
-            * line("boundary", color="black", line_width=2)
-            * hv.Polygons([], label="forbidden").opts(color=theme.FORBIDDEN, alpha=1.0, line_alpha=0)
-            * line("curve", color="black", line_width=2)
-            * hv.Points([(1.0, 0.0), (-1.0, 0.0)], ["h", "f"], label="special").opts(
-                marker="diamond", color="white", line_color="black", size=11)
-            * ring("here", line_color="white", line_width=6)
-            * ring("here-too", line_color="black", line_width=2.5)
-            * moving_point("point")
-        )
-        super().__init__("bifurcation", overlay, ("h", "f"), x, y, picks=("tap", "pan"),
-                         still=("rotation", "locked", "boundary", "forbidden", "curve", "special"))
+        colours = hv.Image(np.zeros((2, 2)), bounds=(x[0], y[0], x[1], y[1])).opts(
+            cmap=theme.NUMBER_MAP, clim=(-0.5, 0.5))
+        super().__init__("bifurcation", colours, ("h", "f"), x, y, picks=("tap", "pan"))
+        areas = {"moving": False, "line_alpha": 0}
+        self.add("locked", "multi_polygons", ("xs", "ys"), color=theme.LOCKED, **areas)
+        self.add("boundary", "multi_line", ("xs", "ys"), moving=False, color="black", line_width=2)
+        self.add("forbidden", "multi_polygons", ("xs", "ys"), color=theme.FORBIDDEN, **areas)
+        self.add("curve", "multi_line", ("xs", "ys"), moving=False, color="black", line_width=2)
+        self.add("special", "scatter", ("h", "f"), moving=False, marker="diamond", color="white",
+                 line_color="black", size=11)
+        self.assign("special", h=[1.0, -1.0], f=[0.0, 0.0])
+        # A ring that is seen on any colour: white, and black on it.
+        self.add("here", "scatter", ("h", "f"), size=21, fill_alpha=0, line_color="white", line_width=6)
+        self.add("here-too", "scatter", ("h", "f"), size=21, fill_alpha=0, line_color="black", line_width=2.5)
+        self.add_point_and_message()
 
     def fit(self, x: tuple[float, float], y: tuple[float, float]) -> None:
         """Other axes."""
@@ -66,7 +59,7 @@ class BifurcationDiagram(Figure):
 
     def show_rotation(self, grid: Array, x: tuple[float, float], y: tuple[float, float]) -> None:
         """The rotation number at the centres of a grid of cells that fills the window."""
-        self.sources["rotation"].data = {
+        self.background.data = {
             "image": [grid.astype(np.float32)], "x": [x[0]], "y": [y[0]], "dw": [x[1] - x[0]], "dh": [y[1] - y[0]],
         }
 

@@ -8,7 +8,7 @@ import holoviews as hv
 import numpy as np
 
 from app import theme
-from app.views.figure import Figure, moving_point
+from app.views.figure import Figure
 from models.circle_map import CircleMap
 from models.results import Array
 
@@ -36,24 +36,15 @@ class CircleMapView(Figure):
 
     def __init__(self) -> None:
         side = (-math.pi, math.pi)
-
-        def line(label: str, **opts: object) -> hv.Curve:
-            return hv.Curve([], "phi", "theta", label=label).opts(**opts)
-
-        def dots(label: str, **opts: object) -> hv.Points:
-            return hv.Points([], ["phi", "theta"], label=label).opts(size=12, line_width=3, **opts)
-
-        overlay = (
-            hv.Curve([(-math.pi, -math.pi), (math.pi, math.pi)], "phi", "theta", label="diagonal").opts(
-                color=theme.MUTED, line_dash="dotted", line_width=1.5)
-            * line("cobweb", color=theme.ORBIT, line_width=1)
-            * hv.Path([], label="map").opts(color=theme.MAP, line_width=2.5)
-            * dots("stable", color=theme.STABLE, line_color=theme.STABLE)
-            * dots("unstable", fill_alpha=0, color=theme.UNSTABLE, line_color=theme.UNSTABLE)
-            * moving_point("point")
-        )
-        labels = ("φ", "Θ(φ)")
-        super().__init__("circle", overlay, labels, side, side, picks=("tap",), still=("diagonal",), ticks=_TICKS)
+        diagonal = hv.Curve([(-math.pi, -math.pi), (math.pi, math.pi)], "phi", "theta").opts(
+            color=theme.MUTED, line_dash="dotted", line_width=1.5)
+        super().__init__("circle", diagonal, ("φ", "Θ(φ)"), side, side, picks=("tap",), ticks=_TICKS)
+        here = ("phi", "theta")
+        self.add("cobweb", "line", here, color=theme.ORBIT, line_width=1)
+        self.add("map", "multi_line", ("xs", "ys"), color=theme.MAP, line_width=2.5)
+        self.add("stable", "scatter", here, size=12, line_width=3, color=theme.STABLE)
+        self.add("unstable", "scatter", here, size=12, line_width=3, fill_alpha=0, line_color=theme.UNSTABLE)
+        self.add_point_and_message()
 
     def show(self, circle_map: CircleMap, iterates: Array) -> None:
         """One map, with the cobweb through its iterates."""

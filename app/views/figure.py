@@ -1,4 +1,4 @@
-"""Planar pictures: declared once with HoloViews, drawn by Bokeh, afterwards only their data change."""
+"""Planar pictures: axes and background by HoloViews, what changes as Bokeh glyphs whose data are assigned."""
 
 from __future__ import annotations
 
@@ -13,12 +13,11 @@ from bokeh.plotting import figure
 from app import theme
 from app.wire import Wire
 
-__all__ = ["Figure", "moving_point"]
+__all__ = ["Figure", "columns_of"]
 
 hv.extension("bokeh", logo=False)
-renderer = hv.renderer("bokeh")
-renderer.webgl = False  # costs several times the canvas at these sizes
-
+_renderer = hv.renderer("bokeh")
+_renderer.webgl = False  # costs several times the canvas at these sizes
 
 _PICK = """
     const detail = [name, cb_obj.x, cb_obj.y]
@@ -26,74 +25,80 @@ _PICK = """
 """
 
 
-def moving_point(name: str) -> hv.Points:
-    """An empty one-point element; the player moves it."""
-    return hv.Points([], ["x", "y"], label=name).opts(
-        color=theme.POINT, line_color="black", line_width=1.5, size=13
-    )
-
-
 class Figure:
-    """A square picture made of one HoloViews overlay, whose sources are then assigned to.
+    """A square picture.
+
+    Every layer has a source of its own, named "<picture>-<layer>".  Layers are drawn in the order
+    in which they are added; those that change with every state lie on a canvas of their own
+    (`moving`), so that a new state does not paint axes and background again.
 
     Parameters
     ----------
     name : identifier, also of the picture's root model.
-    overlay : labelled elements; their labels name the sources.
-    x_range, y_range : the axes, which stay until `set_ranges`.
+    background : the HoloViews element that is drawn once, under everything.
+    labels, x_range, y_range : the axes, which stay until `set_ranges`.
     picks : Bokeh events ("tap", "pan") that choose a point; the browser sends it with the state.
     ticks : positions and labels on both axes, where the usual ones would not do.
-    still : elements that seldom change.  All others are painted on a canvas of their own, so that a
-        new state does not paint axes and background again.
     """
 
-    def __init__(self, name: str, overlay: hv.Overlay, labels: tuple[str, str],
+    def __init__(self, name: str, background: hv.Element, labels: tuple[str, str],
                  x_range: tuple[float, float], y_range: tuple[float, float], picks: Sequence[str] = (),
-                 still: Sequence[str] = (), ticks: Sequence[tuple[float, str]] | None = None) -> None:
+                 ticks: Sequence[tuple[float, str]] | None = None) -> None:
         self.name = name
         self.wire: Wire | None = None
         self._sentence = ""
-        overlay = overlay * hv.Labels([], ["x", "y"], "text", label="message").opts(
-            text_color=theme.MUTED, text_font_style="bold", text_font_size="15px")
-        plot = renderer.get_plot(overlay.opts(
+        plot = _renderer.get_plot(background.opts(
             xlabel=labels[0], ylabel=labels[1], xlim=x_range, ylim=y_range, toolbar=None, default_tools=[],
-            show_legend=False, responsive=True, min_height=200, min_width=200,
-            fontsize={"labels": theme.FONT_SIZE, "ticks": "12px"}, title="",
+            responsive=True, min_height=200, min_width=200, title="",
+            fontsize={"labels": theme.FONT_SIZE, "ticks": "12px"},
             **({} if ticks is None else {"xticks": list(ticks), "yticks": list(ticks)}),
         ))
         self.root: figure = plot.state
-        self.root.name = name
-        self.root.update(min_border=4, sizing_mode="stretch_width", aspect_ratio=1)
+        self.root.update(name=name, min_border=4, sizing_mode="stretch_width", aspect_ratio=1)
+        self.background: ColumnDataSource = plot.handles["source"]
         self.sources: dict[str, ColumnDataSource] = {}
-        for element, drawn in zip(overlay, plot.subplots.values(), strict=True):
-            source = drawn.handles["source"]
-            source.name = f"{name}-{element.label}"
-            self.sources[element.label] = source
-            if element.label not in still:
-                drawn.handles["glyph_renderer"].level = "overlay"
         for event in picks:
             self.root.js_on_event(event, CustomJS(args={"name": name}, code=_PICK))
 
-    def assign(self, label: str, **columns: Any) -> None:
-        """New data for one element: at once before the page exists, afterwards by the wire."""
-        source = self.sources[label]
+    def add(self, layer: str, glyph: str, columns: Sequence[str], moving: bool = True, **style: Any) -> None:
+        """A layer of Bokeh glyphs ("line", "multi_line", "multi_polygons", "scatter", "text"), empty at first.
+
+        `columns` are those of its positions; further columns may be assigned with them.
+        """
+        source = ColumnDataSource({column: [] for column in columns}, name=f"{self.name}-{layer}")
+        names = ("xs", "ys") if glyph.startswith("multi") else ("x", "y")
+        positions = dict(zip(names, columns, strict=False))
+        level = "overlay" if moving else "glyph"
+        getattr(self.root, glyph)(source=source, level=level, **positions, **style)
+        self.sources[layer] = source
+
+    def add_point_and_message(self) -> None:
+        """The last layers of every picture: the moving point, and a sentence where there is nothing to see."""
+        self.add("point", "scatter", ("x", "y"), color=theme.POINT, line_color="black", line_width=1.5, size=13)
+        self.add("message", "text", ("x", "y", "text"), text_color=theme.MUTED, text_font_style="bold",
+                 text_font_size="15px", text_align="center", text_baseline="middle")
+
+    def assign(self, layer: str, **columns: Any) -> None:
+        """New data for one layer: at once before the page exists, afterwards by the wire."""
+        source = self.sources[layer]
         if self.wire is None:
             source.data = columns
         else:
             self.wire.put(source.name, columns)
 
-    def clear(self, *labels: str) -> None:
-        """No data for these elements: nothing stale stays beside new parameters."""
-        for label in labels:
-            self.assign(label, **{column: [] for column in self.sources[label].data})
+    def clear(self, *layers: str) -> None:
+        """No data for these layers: nothing stale stays beside new parameters."""
+        for layer in layers:
+            self.assign(layer, **{column: [] for column in self.sources[layer].data})
 
     def say(self, sentence: str) -> None:
         """A sentence in the middle of the picture; empty for none."""
         x, y = self.root.x_range, self.root.y_range
-        middle = {"x": [(x.start + x.end) / 2], "y": [(y.start + y.end) / 2], "text": [sentence]}
         if sentence != self._sentence:
             self._sentence = sentence
-            self.assign("message", **(middle if sentence else {"x": [], "y": [], "text": []}))
+            self.clear("message")
+            if sentence:
+                self.assign("message", x=[(x.start + x.end) / 2], y=[(y.start + y.end) / 2], text=[sentence])
 
     def set_ranges(self, x: tuple[float, float], y: tuple[float, float]) -> None:
         """Other axes; assigning the same ones does nothing."""

@@ -6,34 +6,30 @@ import holoviews as hv
 import numpy as np
 
 from app import theme
-from app.views.figure import Figure, columns_of, moving_point
+from app.views.figure import Figure, columns_of
 from models.results import Array
 from models.torus import Track
 
-ORBIT_COLUMNS = ("omega1", "omega2", "g1", "g2", "g3")
+COLUMNS = ("omega1", "omega2", "g1", "g2", "g3")
 
 
 def _track_columns(track: Track) -> dict[str, Array]:
-    return dict(columns_of(np.hstack([track.omega, track.gamma]), ORBIT_COLUMNS))
+    return dict(columns_of(np.hstack([track.omega, track.gamma]), COLUMNS))
 
 
 class OmegaPlane(Figure):
     """Grey: |ω| that the energy forbids.  The sources `orbit`, `stable`, `unstable` feed the sphere too."""
 
     def __init__(self) -> None:
-        def line(label: str, **opts: object) -> hv.Curve:
-            return hv.Curve([], "omega1", "omega2", label=label).opts(**opts)
-
-        overlay = (
-            hv.Polygons([], label="forbidden").opts(color=theme.FORBIDDEN, line_color=theme.MUTED)
-            * line("orbit", color=theme.ORBIT, line_width=1.3)
-            * line("stable", color=theme.STABLE, line_width=3)
-            * line("unstable", color=theme.UNSTABLE, line_width=3, line_dash="dashed")
-            * moving_point("point")
-        )
-        super().__init__("omega", overlay, ("ω₁", "ω₂"), (-4.0, 4.0), (-4.0, 4.0))
-        for label in ("orbit", "stable", "unstable"):
-            self.sources[label].name = f"data-{label}"
+        axes = hv.Curve([(0.0, 0.0)], "omega1", "omega2")
+        super().__init__("omega", axes, ("ω₁", "ω₂"), (-4.0, 4.0), (-4.0, 4.0))
+        self.add("forbidden", "multi_polygons", ("xs", "ys"), color=theme.FORBIDDEN, line_color=theme.MUTED)
+        self.add("orbit", "line", COLUMNS, color=theme.ORBIT, line_width=1.3)
+        self.add("stable", "line", COLUMNS, color=theme.STABLE, line_width=3)
+        self.add("unstable", "line", COLUMNS, color=theme.UNSTABLE, line_width=3, line_dash="dashed")
+        self.add_point_and_message()
+        for layer in ("orbit", "stable", "unstable"):
+            self.sources[layer].name = f"data-{layer}"
 
     def show_region(self, inner: Array, outer: Array, half_width: float) -> None:
         """The allowed ring between two ellipses; the frame is ± half_width."""
