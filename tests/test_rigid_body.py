@@ -104,6 +104,17 @@ def test_under_bizi1_a_body_exists_exactly_for_a_below_one(I22, a):
     assert HessBody(I22, a * I22, 1.0).check.is_body == (abs(a) < 1.0)
 
 
+@PROPERTY
+@given(st.floats(1e-3, 1e3), st.floats(-0.999, 0.999))
+def test_under_bizi1_the_interval_of_I33_has_a_closed_form(I22, a):
+    # y = I33/2 has g(y) = 0 at a²I22/2 and (2 − a²)I22/2; the general search knows nothing of it.
+    body = HessBody(I22, a * I22, 1.0)
+    found = check_body(body.I11, body.I22, 0.0, body.I23)
+    for interval in (body.check.I33, found.I33):
+        assert np.array(interval) / I22 == pytest.approx([a * a, 2 - a * a], rel=0, abs=1e-9)
+    assert body.check.is_body == found.is_body
+
+
 @pytest.mark.parametrize(
     ("given_tensor", "interval"),
     [

@@ -324,6 +324,17 @@ def test_times_that_cannot_be_computed_raise_a_sentence(system, times, error, wo
 
 
 @every_system
+def test_all_runs_of_one_request_share_one_budget_of_steps(system, monkeypatch):
+    freely = solve(system, *system.example, [100.0], level("standard"))
+    # Enough for the first run alone and for the second alone, but not for both.
+    monkeypatch.setattr("models.system.MAX_STEPS", int(0.75 * freely.cost.steps))
+    with pytest.raises(WorkLimit, match="choose a shorter one"):
+        solve(system, *system.example, [100.0], level("standard"))
+    monkeypatch.setattr("models.system.MAX_STEPS", freely.cost.steps + 2)
+    assert np.array_equal(solve(system, *system.example, [100.0], level("standard")).states, freely.states)
+
+
+@every_system
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
 @pytest.mark.parametrize("place", [0, -1])
 def test_states_and_parameters_that_are_not_finite_raise_a_sentence(system, bad, place):
