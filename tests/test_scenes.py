@@ -1,0 +1,514 @@
+"""Conformance of every registered scene, the words of the Suslov–Hess scene, and sessions without a browser."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import logging
+import math
+import re
+from functools import cache
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from bokeh.model import Model
+from bokeh.models import ColumnDataSource
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from mechanics import PROPERTY
+from test_wire import read
+
+from app.scenes import scenes
+from app.scenes.base import Report
+from app.session import Session
+from app.state import Number, decode
+from app.wire import Wire
+from app.words import with_formulas
+from models import circle_map, f_max, level
+from models.errors import InvalidParameter
+
+SCENES = scenes()
+HESS = SCENES["suslov-hess"]
+every_scene = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
+every_preset = pytest.mark.parametrize(
+    ("scene", "preset"), [(scene, preset) for scene in SCENES.values() for preset in scene.presets],
+    ids=[f"{name}: {preset.name}" for name, scene in SCENES.items() for preset in scene.presets],
+)
+
+
+def preset_values(scene, name):
+    preset = next(preset for preset in scene.presets if preset.name.startswith(name))
+    return {**scene.defaults(), **preset.values}
+
+
+def sources_of(stage):
+    """The data of every source of a stage's planar pictures; those without a name are told apart by their columns."""
+    return {
+        model.name or f"{picture.name}: {' '.join(sorted(model.data))}": dict(model.data)
+        for picture in stage.pictures if isinstance(picture.root, Model)
+        for model in picture.root.references() if isinstance(model, ColumnDataSource)
+    }
+
+
+def flat(item):
+    """The numbers and texts in a column, however deeply nested, in order."""
+    if isinstance(item, (list, tuple)) or (isinstance(item, np.ndarray) and item.dtype == object):
+        return [value for part in item for value in flat(part)]
+    return np.asarray(item).ravel().tolist()
+
+
+def contents(sources):
+    return {name: {key: flat(column) for key, column in columns.items()} for name, columns in sources.items()}
+
+
+def assert_finite(sources):
+    for name, columns in contents(sources).items():
+        for key, values in columns.items():
+            assert all(isinstance(value, str) or math.isfinite(value) for value in values), (name, key)
+
+
+def shown(scene, values, stage=None, hold_axes=False):
+    stage = stage or scene.stage()
+    return stage, stage.show(scene.compute(scene.admit(values)[0]), hold_axes)
+
+
+@every_scene
+def test_the_defaults_are_admitted_unchanged(scene):
+    assert scene.admit(scene.defaults()) == (scene.defaults(), [])
+    for name, (low, high, step) in scene.limits(scene.defaults()).items():
+        assert low < scene.defaults()[name] < high
+        assert step > 0
+
+
+@every_scene
+def test_a_scene_explains_itself_and_each_of_its_parameters(scene):
+    assert scene.title
+    assert scene.summary.endswith(".")
+    assert len({spec.name for spec in scene.specs}) == len(scene.specs)
+    for spec in scene.specs:
+        assert spec.label, spec.name
+        assert len(spec.help.split()) > 4, spec.name
+        assert spec.help.endswith((".", ")")), spec.name
+        assert spec.label.isprintable()
+    assert len({preset.name for preset in scene.presets}) == len(scene.presets) > 2
+
+
+@every_scene
+def test_every_formula_of_the_words_becomes_mathml(scene):
+    formulas = re.findall(r"\$+.+?\$+", scene.words, re.DOTALL)
+    html = with_formulas(scene.words)
+    assert html.count("<math") == len(formulas) > 5
+    assert "$" not in html
+    # What the converter does not know it passes on as a command.
+    assert not re.search(r"\\[A-Za-z]+", html)
+
+
+@every_preset
+def test_a_preset_is_possible_as_it_stands_and_is_drawn(scene, preset):
+    values = {**scene.defaults(), **preset.values}
+    assert set(preset.values) <= set(scene.defaults())
+    assert scene.admit(values) == (values, [])
+    stage, report = shown(scene, values)
+    assert isinstance(report, Report)
+    assert report.status
+    assert report.derived
+    assert_finite(sources_of(stage))
+    for picture in stage.pictures:
+        assert re.search(r"\w.*\n.*\w", picture.caption.text), picture.name
+        assert "nan" not in picture.caption.text.lower()
+
+
+@every_preset
+def test_the_wire_carries_the_same_data_as_a_first_page(scene, preset):
+    values = {**scene.defaults(), **preset.values}
+    first, _ = shown(scene, values)
+    stage, wire = scene.stage(), Wire()
+    # Another state before, with other axes, so that everything has to change.
+    shown(scene, {**values, "h": 30.0, "f": 1.0, "phi0": -1.0, "I22": 1.3, "I23": -0.4}, stage)
+    stage.connect(wire)
+    shown(scene, values, stage)
+    tree, block = wire.pack()
+    later = sources_of(stage)
+    for name, columns in tree["sources"].items():
+        later[name] = {key: read(column, block) for key, column in columns.items()}
+    expected, found = contents(sources_of(first)), contents(later)
+    assert expected.keys() == found.keys()
+    for name, columns in expected.items():
+        for key, column in columns.items():
+            same = column if "text" in key else pytest.approx(column, rel=1e-6, abs=1e-6)
+            assert found[name][key] == same, (name, key)
+    assert {picture.name: picture.caption.text for picture in first.pictures} == tree["texts"]
+
+
+@every_scene
+def test_axes_stay_while_a_slider_is_held_and_fit_when_it_is_let_go(scene):
+    stage, _ = shown(scene, scene.defaults())
+    other = {**scene.defaults(), "b3": -2.9, "h": 100.0, "f": -5.0}
+
+    def ranges():
+        return [
+            (axis.start, axis.end) for picture in stage.pictures if isinstance(picture.root, Model)
+            for axis in (picture.root.x_range, picture.root.y_range)
+        ]
+
+    before = ranges()
+    shown(scene, other, stage, hold_axes=True)
+    assert ranges() == before
+    shown(scene, other, stage)
+    assert ranges() != before
+
+
+@every_scene
+def test_going_back_draws_the_same_pictures_again(scene):
+    stage, report = shown(scene, scene.defaults())
+    first = contents(sources_of(stage))
+    for preset in scene.presets:
+        shown(scene, {**scene.defaults(), **preset.values}, stage)
+        _, again = shown(scene, scene.defaults(), stage)
+        assert contents(sources_of(stage)) == first, preset.name
+        assert again.derived == report.derived
+
+
+@every_scene
+def test_a_stage_that_fails_shows_the_sentence_and_nothing_of_another_state(scene):
+    stage, _ = shown(scene, scene.defaults())
+    before = contents(sources_of(stage))
+    shown(scene, {**scene.defaults(), "I22": 1.3, "I23": -0.4, "h": 0.2, "f": 0.1, "phi0": -1.0}, stage)
+    after = contents(sources_of(stage))
+    depends = {name for name in before if before[name] != after[name]}
+    assert len(depends) > 5
+    stage.fail("No motion here.")
+    left = contents(sources_of(stage))
+    assert {name for name in depends if any(left[name].values())} == set()
+    assert any("No motion here." in values for columns in left.values() for values in columns.values())
+    for picture in stage.pictures:
+        assert picture.caption.text == "No motion here."
+    # And the next state is drawn whole.
+    shown(scene, scene.defaults(), stage)
+    assert contents(sources_of(stage)) == before
+
+
+@cache
+def lasting_stage(name):
+    return SCENES[name].stage()
+
+
+@every_scene
+@settings(PROPERTY, max_examples=100)
+@given(data=st.data())
+def test_every_admissible_state_is_computed_and_drawn_without_a_number_that_is_none(scene, data):
+    values = {
+        spec.name: data.draw(
+            st.one_of(st.floats(spec.low, spec.high), st.floats(spec.lowest, spec.highest))
+            if isinstance(spec, Number) else st.sampled_from(spec.options), label=spec.name)
+        for spec in scene.specs
+    }
+    stage, _ = shown(scene, values, lasting_stage(scene.name))
+    assert_finite(sources_of(stage))
+
+
+def test_on_the_separatrix_only_the_circle_map_is_silent():
+    stage, report = shown(HESS, preset_values(HESS, "Separatrix"))
+    data = sources_of(stage)
+    assert flat(data["circle-message"]["text"]) == ["Separatrix: no return"]
+    for name in ("map", "cobweb", "stable", "unstable"):
+        assert flat(list(data[f"circle-{name}"].values())) == []
+    captions = {picture.name: picture.caption.text for picture in stage.pictures}
+    assert "no return" in captions["circle"]
+    assert "no return" in report.status
+    # The others go on: an orbit that loses its speed on the way to the upper equilibrium n3 = −1, w = 0.
+    orbit = data["data-orbit"]
+    assert len(orbit["t"]) > 100
+    assert math.hypot(orbit["omega1"][0], orbit["omega2"][0]) > 1.9
+    assert math.hypot(orbit["omega1"][-1], orbit["omega2"][-1]) < 1e-3
+    assert flat(data["bifurcation-here"]["h"]) == [1.0]
+    assert flat(data["bifurcation-here"]["f"]) == [0.0]
+
+
+def test_off_the_separatrix_the_circle_map_comes_back():
+    stage, _ = shown(HESS, preset_values(HESS, "Separatrix"))
+    shown(HESS, HESS.defaults(), stage)
+    data = sources_of(stage)
+    assert flat(data["circle-message"]["text"]) == []
+    assert len(flat(data["circle-map"]["xs"])) > 500
+    a = 0.28 / 0.96
+    stable, unstable = circle_map(a, 1.5, 0.6, level("reference")).fixed_points
+    assert flat(data["circle-stable"]["phi"]) == pytest.approx([stable.phi], abs=1e-5)
+    assert flat(data["circle-unstable"]["phi"]) == pytest.approx([unstable.phi], abs=1e-5)
+
+
+# Label of the paper, and the equation as it must be and as it was printed.
+CORRECTIONS = [
+    (r"h=\(1-3n_3\^2\)/\(2n_3\)", r"3n_3\^3"),
+    (r"b=-b_3\(I_\{22\}\^2\+I_\{23\}\^2\)\^\{-1/2\}", r"b=-m"),
+    (r"w_2=\\omega_2\(1\+a\^2\)\^\{-1/2\}", r"w_2=\\omega_1"),
+    (r"\$E\$ and \$F_2\$ are those of the Suslov problem divided by \$I_\{11\}\$", r"multiplied by"),
+    (r"\|a\|\\ge1", r"\|a\|\\ge2"),
+]
+
+
+@pytest.mark.parametrize(("correct", "printed"), CORRECTIONS)
+def test_the_words_give_the_corrected_equation(correct, printed):
+    assert re.search(correct, HESS.words)
+    assert not re.search(printed, HESS.words)
+
+
+def test_a_body_that_is_none_is_shown_and_said():
+    _, report = shown(HESS, preset_values(HESS, "Strong contraction"))
+    assert any("Not a rigid body" in note for note in report.notes)
+    assert any(re.search(r"rigid body\? no", row) for row in report.derived)
+    _, report = shown(HESS, HESS.defaults())
+    assert not any("Not a rigid body" in note for note in report.notes)
+    assert any(re.search(r"rigid body\? yes", row) for row in report.derived)
+
+
+# --- Sessions: what the browser may send -------------------------------------------------------------
+
+
+class Browser:
+    """The other end of a session's wire: sends what it likes, reads what comes, as a browser does."""
+
+    def __init__(self, scene, values=None, notes=()):
+        self.menus = []
+        self.scene = scene
+        self.stage = scene.stage()
+        self.texts, self.numbers, self.data = {}, {}, {}
+        self._receive = None
+        self.block = b""
+        self.session = Session(scene, self.stage, self, values or scene.defaults(), list(notes), self.menus.append)
+        self.session.attach()
+
+    def on_msg(self, callback):
+        self._receive = callback
+
+    def send(self, message):
+        self._receive(SimpleNamespace(data=message))
+
+    @property
+    def state(self):
+        return self._state
+
+    @state.setter
+    def state(self, text):
+        # JSON.parse in a browser refuses NaN and Infinity.
+        self._state = json.loads(text, parse_constant=pytest.fail)
+        tree = self._state["tree"]
+        self.texts.update(tree["texts"])
+        self.numbers.update(tree["numbers"])
+        for name, columns in tree["sources"].items():
+            self.data[name] = {key: read(column, self.block) for key, column in columns.items()}
+
+    def ask(self, requested=1, **message):
+        self.send({"requested": requested, "held": False, "values": {}, "picked": None, **message})
+        return self.state
+
+    def assert_admissible(self):
+        values = self.session.values
+        assert set(values) == {spec.name for spec in self.scene.specs}
+        for spec in self.scene.specs:
+            value = values[spec.name]
+            if isinstance(spec, Number):
+                assert isinstance(value, float)
+                assert spec.lowest <= value <= spec.highest
+            else:
+                assert value in spec.options
+        # The link says the same.
+        assert decode(self.state["query"], self.scene.specs) == (values, [])
+
+
+@pytest.fixture(scope="module")
+def browser():
+    return Browser(HESS)
+
+
+names = st.sampled_from([*HESS.defaults(), "theme", "t", "__class__", "requested", ""])
+huge = st.sampled_from([10**400, -(10**400)])
+numbers = st.one_of(st.floats(), st.integers(-5, 5), st.booleans(), huge, st.none(), st.text(max_size=5))
+garbage = st.recursive(
+    numbers, lambda part: st.one_of(st.lists(part, max_size=4), st.dictionaries(names, part, max_size=4)), max_leaves=8)
+messages = st.one_of(
+    garbage,
+    st.fixed_dictionaries({}, optional={
+        "requested": numbers, "held": garbage,
+        "values": st.one_of(garbage, st.dictionaries(names, numbers)),
+        "picked": st.one_of(garbage, st.tuples(
+            st.sampled_from(["bifurcation", "circle", "omega", "sphere", ""]), numbers, numbers).map(list)),
+    }),
+)
+
+
+@PROPERTY
+@given(message=messages)
+def test_no_message_raises_or_makes_a_state_inadmissible(browser, message):
+    browser.send(message)
+    state = browser.ask(requested=7)
+    browser.assert_admissible()
+    assert state["answers"] == 7
+
+
+@pytest.mark.parametrize("message", [
+    {}, [], "reset", None, 3, [1, 2], {"values": "h"}, {"values": [["h", 1]]}, {"values": {"h": "2.5"}},
+    {"values": {"h": None, "f": [1], "nobody": 1.0, "accuracy": 2}}, {"picked": ["circle"]},
+    {"picked": ["circle", "1", "1"]}, {"picked": ["bifurcation", math.nan, 0.0]}, {"picked": ["sphere", 1.0, 1.0]},
+    {"picked": [["bifurcation"], 1.0, 1.0]}, {"requested": "2"}, {"requested": None, "held": "yes"},
+])
+def test_a_message_that_means_nothing_changes_nothing(message):
+    browser = Browser(HESS)
+    browser.send(message)
+    state = browser.ask()
+    assert browser.session.values == HESS.defaults()
+    assert state["number"] == 2
+    assert browser.texts["notes"] == ""
+
+
+@pytest.mark.parametrize(("values", "expected"), [
+    ({"h": -5.0}, {"h": -1.0 + 1e-9}),
+    ({"h": 1e300}, {"h": 1e6}),
+    ({"h": math.nan}, {"h": 1.5}),
+    ({"I22": -1.0}, {"I22": 1e-3}),
+    ({"I22": 0.5, "I23": 900.0}, {"I22": 0.5, "I23": 50.0}),
+    ({"f": -math.inf}, {"f": 0.6}),
+    ({"h": 0.25, "f": 77.0}, {"h": 0.25, "f": f_max(0.25)}),
+])
+def test_a_number_from_the_wire_is_clamped_by_itself_with_a_note(values, expected):
+    browser = Browser(HESS)
+    browser.ask(values={**values, "phi0": -1.0})
+    found = browser.session.values
+    assert {name: found[name] for name in expected} == pytest.approx(expected, rel=1e-12)
+    assert found["phi0"] == -1.0
+    assert browser.texts["notes"] != ""
+    assert browser.numbers["phi0"][0] == -1.0
+    for name, value in expected.items():
+        assert browser.numbers[name][0] == pytest.approx(value, rel=1e-12)
+
+
+def test_a_change_is_drawn_with_the_request_and_not_before():
+    browser = Browser(HESS)
+    before = browser.state
+    browser.session.change({"h": 0.5})
+    assert browser.state is before
+    state = browser.ask(requested=3)
+    assert (state["number"], state["answers"]) == (before["number"] + 1, 3)
+    assert decode(state["query"], HESS.specs)[0]["h"] == 0.5
+    assert flat(browser.data["bifurcation-here"]["h"]) == [0.5]
+    assert np.all(browser.data["data-orbit"]["h"] == 0.5)
+
+
+def test_a_request_without_a_change_computes_nothing():
+    calls = []
+
+    def compute(values):
+        calls.append(values)
+        return HESS.compute(values)
+
+    browser = Browser(dataclasses.replace(HESS, compute=compute))
+    for requested in (1, 2, 3):
+        state = browser.ask(requested)
+        assert state["answers"] == requested
+        assert state["tree"]["sources"] == {}
+    assert len(calls) == 1
+    browser.ask(4, values={"h": 2.0})
+    browser.ask(5, values={"h": 2.0})
+    assert len(calls) == 2
+
+
+def test_reset_brings_back_the_defaults():
+    browser = Browser(HESS)
+    browser.ask(values={"h": 0.2, "f": 0.1, "I22": 2.0, "phi0": 3.0, "span": 7.0})
+    browser.session.change({"accuracy": "draft"})
+    browser.ask()
+    assert browser.session.values != HESS.defaults()
+    browser.session.reset()
+    browser.ask()
+    assert browser.session.values == HESS.defaults()
+    assert {name: shown_[0] for name, shown_ in browser.numbers.items()} == {
+        name: value for name, value in HESS.defaults().items() if name != "accuracy"}
+    assert browser.menus[-1]["accuracy"] == "standard"
+
+
+def test_f_returns_to_what_was_wanted_when_h_allows_it_again():
+    browser = Browser(HESS)
+    browser.ask(values={"f": 1.2})
+    browser.ask(values={"h": -0.5})
+    assert browser.session.values["f"] == pytest.approx(f_max(-0.5))
+    assert "f is at that edge" in browser.texts["notes"]
+    browser.ask(values={"h": 1.5})
+    assert browser.session.values["f"] == 1.2
+    assert browser.texts["notes"] == ""
+
+
+def test_a_value_that_is_refused_twice_is_corrected_twice():
+    browser = Browser(HESS)
+    for _ in range(2):
+        browser.numbers.clear()
+        browser.ask(values={"f": 99.0})
+        assert browser.session.values["f"] == pytest.approx(f_max(1.5))
+        # The box says 99 now: only this message puts it right.
+        assert browser.numbers["f"][0] == pytest.approx(f_max(1.5))
+
+
+def test_controls_wait_while_a_slider_is_held_and_follow_when_it_is_let_go():
+    browser = Browser(HESS)
+    browser.numbers.clear()
+    browser.ask(1, values={"h": 0.5}, held=True)
+    assert browser.numbers == {}
+    browser.ask(2)
+    assert browser.numbers["h"][0] == 0.5
+    assert browser.numbers["f"][2] <= f_max(0.5)
+
+
+def test_notes_of_the_link_are_shown_until_the_first_change():
+    browser = Browser(HESS, notes=["h was not a number and is 1.5 now."])
+    assert browser.texts["notes"] == "h was not a number and is 1.5 now."
+    browser.ask(values={"f": 0.5})
+    assert browser.texts["notes"] == ""
+
+
+@pytest.mark.parametrize(("error", "sentence"), [
+    (InvalidParameter("This is beyond us: choose less."), "This is beyond us: choose less."),
+    (ZeroDivisionError("secret <b>internals</b>"), "This state could not be computed."),
+])
+def test_a_computation_that_raises_draws_the_sentence_in_empty_pictures(error, sentence, caplog):
+    def compute(values):
+        if values["h"] == 3.0:
+            raise error
+        return HESS.compute(values)
+
+    browser = Browser(dataclasses.replace(HESS, compute=compute))
+    with caplog.at_level(logging.ERROR):
+        browser.ask(values={"h": 3.0})
+    for name in ("omega", "sphere", "bifurcation", "circle"):
+        assert browser.texts[name].startswith(sentence)
+    assert browser.texts["status"].startswith(sentence)
+    assert flat(browser.data["circle-message"]["text"])[0].startswith(sentence)
+    assert "secret" not in json.dumps(browser.texts)
+    for name in ("data-orbit", "data-stable", "data-unstable", "circle-map", "circle-cobweb", "circle-stable",
+                 "circle-unstable", "bifurcation-here", "bifurcation-here-too"):
+        assert flat(list(browser.data[name].values())) == [], name
+    # What nobody expected is logged, with the state that makes it happen again.
+    expected_error = isinstance(error, InvalidParameter)
+    assert len(caplog.records) == (0 if expected_error else 1)
+    assert expected_error or "h=3.0" in caplog.text
+    browser.ask(values={"h": 2.0})
+    assert not browser.texts["omega"].startswith(sentence)
+    assert len(browser.data["data-orbit"]["t"]) > 100
+    assert flat(browser.data["circle-message"]["text"]) == []
+
+
+def test_a_first_state_that_cannot_be_computed_is_said_too(caplog):
+    def compute(values):
+        raise InvalidParameter("This is beyond us: choose less.")
+
+    browser = Browser(dataclasses.replace(HESS, compute=compute))
+    assert browser.texts["status"] == "This is beyond us: choose less."
+    assert flat(sources_of(browser.stage)["circle-message"]["text"]) == ["This is beyond us: choose less."]
+    assert flat(sources_of(browser.stage)["data-orbit"].get("omega1", [])) == []
+
+
+def test_two_sessions_share_nothing_but_results():
+    one, other = Browser(HESS), Browser(HESS)
+    one.ask(values={"h": 0.3})
+    other.ask()
+    assert other.session.values == HESS.defaults()
+    assert "bifurcation-here" not in other.data
