@@ -40,6 +40,9 @@ LEGEND = """
 
 COPY = "navigator.clipboard?.writeText(window.location.href)"
 
+# The system's font: the fourteen files of another one would come before the first picture.
+FONT = "system-ui, sans-serif"
+
 WIDE: dict[str, Any] = {"sizing_mode": "stretch_width"}
 
 
@@ -83,6 +86,7 @@ def _page(scene: Scene, query: str) -> pmui.Page:
         meta_name="Hess Explorer",
         meta_description=scene.summary,
         dark_theme=dark,
+        theme_config={"typography": {"fontFamily": FONT}},
         sidebar=[
             examples.root,
             *controls.roots,

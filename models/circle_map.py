@@ -28,7 +28,7 @@ from .results import Array, Cost, frozen
 from .rigid_body import require_finite
 from .taylor import cauchy, horner, step_size
 
-__all__ = ["CircleMap", "FixedPoint", "circle_map", "matrix_of", "monodromy", "rotation_number"]
+__all__ = ["CircleMap", "FixedPoint", "circle_map", "matrices", "monodromy", "rotation_numbers"]
 
 MAX_A = 1e6
 _MAX_STEPS = 200_000
@@ -75,7 +75,7 @@ def monodromy(h, f, a, order, tolerance, max_steps):
             series(c, k, p)
         s = step_size(c, 9, order, tolerance)
         if not s > 0.0 or steps >= max_steps:
-            return 0.0, 0.0, 0.0, 0.0, 0.0, -1
+            return 0.0, 0.0, 0.0, 0.0, 0.0, -1.0
         s = min(s, left)
         left -= s
         re, im = c[5, 0], c[6, 0]
@@ -99,23 +99,38 @@ def monodromy(h, f, a, order, tolerance, max_steps):
     beta = 2.0 * (A * B).imag
     ratio = (B.conjugate() / A) ** 2
     zeta = 2.0 * (arg_A + 0.5 * chi) + math.atan2(-ratio.imag, 1.0 - ratio.real)
-    return alpha.real, alpha.imag, beta, 2.0 * log_scale, zeta, steps
-
-
-@inner
-def rotation_number(re, im, im_beta, log_scale, zeta):
-    """ρ from the lifted matrix: an integer where it locks, else k + arccos(±Re α)/π."""
-    discriminant = (im - im_beta) * (im + im_beta)
-    if discriminant <= 0.0:
-        return float(round(zeta / math.pi))
-    k = math.floor(zeta / math.pi)
-    sign = 1.0 - 2.0 * (int(k) % 2)
-    return k + math.atan2(math.sqrt(discriminant), sign * re) / math.pi
+    return alpha.real, alpha.imag, beta, 2.0 * log_scale, zeta, float(steps)
 
 
 @kernel
-def _monodromy(h, f, a, order, tolerance, max_steps):
-    return monodromy(h, f, a, order, tolerance, max_steps)
+def _matrices(h, f, a, order, tolerance, max_steps, out):
+    """`monodromy` of each torus (h[i], f[i]) into out[i]."""
+    for i in range(h.size):
+        row = monodromy(h[i], f[i], a, order, tolerance, max_steps)
+        for j in range(6):
+            out[i, j] = row[j]
+
+
+def matrices(h: Array, f: Array, a: float, level: Level) -> Array:
+    """(Re α, Im α, Im β, L, ζ, steps) as in `monodromy` for each torus (h[i], f[i]); shape (n, 6).
+
+    All (h[i], f[i]) must lie in the region.  Raises `WorkLimit`.
+    """
+    out = np.empty((h.size, 6))
+    _matrices(h, f, float(a), level.order, level.tolerance, _MAX_STEPS, out)
+    if np.any(out[:, 5] < 0):
+        raise WorkLimit("These tori need too many steps: choose smaller a, or (h, f) farther from (1, 0).")
+    return out
+
+
+def rotation_numbers(rows: Array) -> Array:
+    """ρ from the rows of `matrices`: an integer where it locks, else k + arccos(±Re α)/π; shape (n,)."""
+    re, im, im_beta, _, zeta, _ = rows.T
+    discriminant = (im - im_beta) * (im + im_beta)
+    k = np.floor(zeta / np.pi)
+    sign = 1.0 - 2.0 * (k % 2)
+    turning = k + np.arctan2(np.sqrt(np.maximum(discriminant, 0.0)), sign * re) / np.pi
+    return np.where(discriminant > 0.0, turning, np.round(zeta / np.pi))
 
 
 @dataclass(frozen=True)
@@ -191,20 +206,12 @@ def check_a(a: float) -> None:
         raise InvalidParameter(f"a = {a:g} is too large: choose |a| ≤ {MAX_A:g}.")
 
 
-def matrix_of(h: float, f: float, a: float, level: Level) -> tuple[tuple[float, ...], int]:
-    """(Re α, Im α, Im β, L, ζ) as in `monodromy`, and the steps it took.  Raises `WorkLimit`."""
-    *m, steps = _monodromy(float(h), float(f), float(a), level.order, level.tolerance, _MAX_STEPS)
-    if steps < 0:
-        raise WorkLimit("This torus needs too many steps: choose smaller a, or (h, f) farther from (1, 0).")
-    return tuple(m), steps
-
-
 _PROBES = np.linspace(-math.pi, math.pi, 32, endpoint=False)
 
 
-def _difference(m: tuple[float, ...], n: tuple[float, ...]) -> float:
+def _difference(m: Array, n: Array) -> float:
     """How far two computed maps lie apart: in Θ over 32 phases, and in the trace."""
-    turned = _theta(m[:3], _PROBES) - _theta(n[:3], _PROBES)
+    turned = _theta(tuple(m[:3]), _PROBES) - _theta(tuple(n[:3]), _PROBES)
     angle = float(np.max(np.abs(np.angle(np.exp(1j * turned)))))
     scale = math.exp(min(m[3], 700.0))
     other = m[0] - n[0] * math.exp(n[3] - m[3])
@@ -228,20 +235,26 @@ def circle_map(a: float, h: float, f: float, level: Level) -> CircleMap:
     a, h, f = float(a), float(h), float(f) + 0.0  # f = −0.0 is f = 0
     check_a(a)
     turning = turning_points(h, f)
+    neighbour = _neighbour(h, f)
+
+    def run(at: tuple[float, float], rung: Level) -> Array:
+        return matrices(np.array([at[0]]), np.array([at[1]]), a, rung)[0]
+
     current = level
-    coarse, total = matrix_of(h, f, a, current)
+    coarse = run((h, f), current)
+    total = coarse[5]
     while True:
         tighter = current.tightened()
-        fine, steps = matrix_of(*_neighbour(h, f), a, tighter)
-        total += steps
+        fine = run(neighbour, tighter)
+        total += fine[5]
         error = (4.0 if current.is_floor else 1.25) * _difference(coarse, fine) + 4e-16
         if error <= level.promise or current.is_floor:
             break
         # Not `fine`: that is the map of the neighbour.
         current = tighter
-        coarse, steps = matrix_of(h, f, a, current)
-        total += steps
-    re, im, im_beta, log_scale, zeta = coarse
+        coarse = run((h, f), current)
+        total += coarse[5]
+    re, im, im_beta, log_scale = (float(x) for x in coarse[:4])
     if error <= level.promise:
         status = Status.OK
     else:
@@ -264,7 +277,7 @@ def circle_map(a: float, h: float, f: float, level: Level) -> CircleMap:
         fixed = (FixedPoint(phi, log_multiplier), FixedPoint(-phi, -log_multiplier))
     else:
         kind = "elliptic"
-    rho = float(rotation_number(re, im, im_beta, log_scale, zeta))
+    rho = float(rotation_numbers(coarse[None])[0])
     wall_ms = (time.perf_counter() - start) * 1e3
     return CircleMap(a, h, f, level.name, (re, im, im_beta), log_scale, kind, trace, log_trace, rho, fixed,
-                     turning.period, status, error, Cost(total, wall_ms))
+                     turning.period, status, error, Cost(int(total), wall_ms))

@@ -14,9 +14,8 @@ import numpy as np
 
 from .accuracy import Level
 from .bifurcation import f_max, largest_f, turning_points
-from .circle_map import check_a, matrix_of, monodromy, rotation_number
+from .circle_map import check_a, matrices, rotation_numbers
 from .errors import InvalidParameter, WorkLimit
-from .jit import inner, kernel
 from .results import Array, frozen
 from .rigid_body import require_finite
 
@@ -26,68 +25,34 @@ __all__ = [
 ]
 
 
-@kernel
-def _rotation_numbers(h, f, a, order, tolerance, out):
-    """ρ at each (h[i], f[i]); f is drawn inside the region first."""
-    for i in range(h.size):
-        fm = largest_f(h[i])
-        fi = min(max(f[i], -fm), fm)
-        if fi == 0.0 and h[i] == 1.0:
-            fi = 1e-12
-        m = monodromy(h[i], fi, a, order, tolerance, 10_000)
-        out[i] = rotation_number(m[0], m[1], m[2], m[3], m[4]) if m[5] >= 0 else math.nan
+def _f_max(h: Array) -> Array:
+    """`f_max` of an array."""
+    return np.array([largest_f(x) for x in h])
 
 
-@inner
-def _lock_function(h, s, a, order, tolerance):
-    """Positive where the map is locked, at f = s f_max(h): (Im β² − Im α²)/|β|², bounded and smooth."""
-    m = monodromy(h, s * largest_f(h), a, order, tolerance, 10_000)
-    return (m[2] - m[1]) * (m[2] + m[1]) / (m[2] * m[2] + m[1] * m[1])
+def _locked(h: Array, f: Array, a: float, level: Level) -> Array:
+    """(Im β² − Im α²)/(Im β² + Im α²): positive where the map is locked, 0 where |t| = 2, bounded and smooth."""
+    _, im, im_beta, *_ = matrices(h, f, a, level).T
+    return (im_beta - im) * (im_beta + im) / (im_beta**2 + im**2)
 
 
-@kernel
-def _lock_boundary(s, start, a, order, tolerance, out):
-    """h where |t| = 2 along f = s[i] f_max(h), followed from s ≈ 1 where it is h = start."""
-    e = start + 1.0
-    for i in range(s.size):
-        lo = e
-        hi = e
-        value = _lock_function(e - 1.0, s[i], a, order, tolerance)
-        factor = 1.02
-        for _ in range(60):
-            if value > 0.0:
-                lo = lo / factor
-                if _lock_function(lo - 1.0, s[i], a, order, tolerance) <= 0.0:
-                    break
-                hi = lo
-            else:
-                hi = hi * factor
-                if _lock_function(hi - 1.0, s[i], a, order, tolerance) > 0.0:
-                    break
-                lo = hi
-            factor *= 1.3
-        f_lo = _lock_function(lo - 1.0, s[i], a, order, tolerance)
-        f_hi = _lock_function(hi - 1.0, s[i], a, order, tolerance)
-        # The Illinois variant of regula falsi: the bracket always holds the boundary.
-        side = 0
-        for _ in range(60):
-            e = hi - f_hi * (hi - lo) / (f_hi - f_lo) if f_hi != f_lo else 0.5 * (lo + hi)
-            if hi - lo <= 1e-12 * hi:
-                break
-            value = _lock_function(e - 1.0, s[i], a, order, tolerance)
-            if abs(value) < 1e-13:
-                break
-            if value > 0.0:
-                hi, f_hi = e, value
-                if side == 1:
-                    f_lo *= 0.5
-                side = 1
-            else:
-                lo, f_lo = e, value
-                if side == -1:
-                    f_hi *= 0.5
-                side = -1
-        out[i] = e - 1.0
+def _rising_roots(function: Callable[[Array], Array], low: Array, high: Array) -> Array:
+    """Where the components of `function` change from − to +, by regula falsi (Illinois) on all at once."""
+    f_low, f_high = function(low), function(high)
+    side = np.zeros(low.size)
+    x = low
+    for _ in range(80):
+        x = high - f_high * (high - low) / (f_high - f_low)
+        f_x = function(x)
+        if np.all(np.abs(f_x) < 1e-13):
+            break
+        up = f_x > 0.0
+        f_low = np.where(up & (side > 0), 0.5 * f_low, f_low)
+        f_high = np.where(~up & (side < 0), 0.5 * f_high, f_high)
+        high, f_high = np.where(up, x, high), np.where(up, f_x, f_high)
+        low, f_low = np.where(up, low, x), np.where(up, f_low, f_x)
+        side = np.where(up, 1.0, -1.0)
+    return x
 
 
 _POOL = ThreadPoolExecutor(max_workers=2, thread_name_prefix="grid")
@@ -108,17 +73,15 @@ def rotation_number_grid(a: float, h: Sequence[float] | Array, f: Sequence[float
         raise InvalidParameter("The grid needs finite values, and −1 < h ≤ 1e12.")
     magnitudes, back = np.unique(np.round(np.abs(fs), 13), return_inverse=True)
     H, F = (x.ravel() for x in np.meshgrid(hs, magnitudes))
+    F = np.minimum(F, _f_max(H))
+    F[(F == 0.0) & (H == 1.0)] = 1e-12
     out = np.empty(H.size)
 
     def part(i: int) -> None:
         # Every second point: both threads get the same share of slow ones.
-        values = np.empty(H[i::2].size)
-        _rotation_numbers(H[i::2].copy(), F[i::2].copy(), float(a), level.order, level.tolerance, values)
-        out[i::2] = values
+        out[i::2] = rotation_numbers(matrices(H[i::2].copy(), F[i::2].copy(), a, level))
 
     list(_POOL.map(part, (0, 1)))
-    if np.any(np.isnan(out)):
-        raise WorkLimit("This grid needs too many steps: choose smaller a, or smaller h.")
     return frozen(np.where(fs < 0, -1.0, 1.0)[:, None] * out.reshape(magnitudes.size, hs.size)[back])
 
 
@@ -152,16 +115,19 @@ def lock_boundary(a: float, level: Level, points: int = 48) -> Array:
     if end > 1e6:
         return frozen(np.empty((0, 2)))
     s = np.cos(np.linspace(0.0, 0.5 * math.pi, points))[1:-1]
-    found = np.empty(s.size)
-    # The end on the curve has a closed form; s = 1 itself would ask for a torus that is a circle.
-    _lock_boundary(s, end, abs(float(a)), level.order, level.tolerance, found)
-    inside = np.column_stack([found, s * np.array([largest_f(h) for h in found])])
+
+    def locked(e: Array) -> Array:
+        return _locked(e - 1.0, s * _f_max(e - 1.0), abs(float(a)), level)
+
+    # In e = h + 1 the boundary lies between half the smaller and twice the larger of its ends.
+    ends = (end + 1.0, 2.0)
+    e = _rising_roots(locked, np.full(s.size, 0.5 * min(ends)), np.full(s.size, 2.0 * max(ends)))
+    inside = np.column_stack([e - 1.0, s * _f_max(e - 1.0)])
     return frozen(np.vstack([[end, largest_f(end)], inside, [1.0, 0.0]]))
 
 
-def _locked(a: float, h: float, f: float, level: Level) -> float:
-    m, _ = matrix_of(h, f, a, level)
-    return (m[2] - m[1]) * (m[2] + m[1]) / (m[2] ** 2 + m[1] ** 2)
+def _locked_at(h: float, f: float, a: float, level: Level) -> float:
+    return float(_locked(np.array([h]), np.array([f]), float(a), level)[0])
 
 
 def _root(function: Callable[[float], float], low: float, high: float, what: str) -> float:
@@ -176,7 +142,7 @@ def lock_boundary_f(a: float, h: float, level: Level) -> float:
     """The f > 0 with |t| = 2 at given a and h.  Raises `InvalidParameter` where there is none."""
     check_a(a)
     top = turning_points(h, 0.0 if h != 1.0 else 0.5).f_max
-    return _root(lambda f: _locked(a, h, f, level), 1e-9 * top, top * (1 - 1e-9), "f")
+    return _root(lambda f: _locked_at(h, f, a, level), 1e-9 * top, top * (1 - 1e-9), "f")
 
 
 def lock_boundary_h(a: float, f: float, level: Level, low: float, high: float) -> float:
@@ -185,7 +151,7 @@ def lock_boundary_h(a: float, f: float, level: Level, low: float, high: float) -
     require_finite(f=f)
     for h in (low, high):
         f_max(h)
-    return _root(lambda h: _locked(a, h, f, level), low, high, "h")
+    return _root(lambda h: _locked_at(h, f, a, level), low, high, "h")
 
 
 def critical_a(h: float, f: float, level: Level, high: float = 10.0) -> float:
@@ -195,4 +161,4 @@ def critical_a(h: float, f: float, level: Level, high: float = 10.0) -> float:
     """
     check_a(high)
     turning_points(h, f)
-    return _root(lambda a: _locked(a, h, f, level), 1e-9, high, "a")
+    return _root(lambda a: _locked_at(h, f, a, level), 1e-9, high, "a")
