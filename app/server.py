@@ -37,6 +37,7 @@ def serve(port: int, address: str, show: bool, origins: Sequence[str]) -> None:
         show=show,
         websocket_origin=[f"localhost:{port}", f"127.0.0.1:{port}", *origins],
         liveness=True,
+        verbose=False,
         websocket_max_message_size=MESSAGE_LIMIT,
         unused_session_lifetime_milliseconds=UNUSED_SESSION_MS,
         check_unused_sessions_milliseconds=UNUSED_SESSION_MS // 4,
