@@ -21,7 +21,7 @@ from app.views.poisson_sphere import PoissonSphere
 from app.wire import Wire
 from app.words import number
 from models.accuracy import DRAFT, LEVELS, STANDARD, Level, level
-from models.bifurcation import TurningPoints, curve, f_max, turning_points
+from models.bifurcation import TurningPoints, curve, curve_point, f_max, turning_points
 from models.circle_map import CircleMap, circle_map
 from models.errors import Separatrix
 from models.hess import HessBody
@@ -59,7 +59,7 @@ PRESETS = (
     Preset("Pendulum, f = 0: multiplier e^(2πa)", {"h": 1.5, "f": 0.0, "I22": 1.0, "I23": 0.3}),
     Preset("Oscillation, f → 0: Θ∘Θ = id", {"h": 0.3, "f": 1e-8}),
     Preset("Separatrix: no return", {"h": 1.0, "f": 0.0}),
-    Preset("On the bifurcation curve", {"h": 0.25, "f": f_max(0.25)}),
+    Preset("On the bifurcation curve", dict(zip("hf", curve_point(0.5), strict=True))),
     Preset("Strong contraction, a = 3 (not a body)", {"I22": 0.5, "I23": 1.5}),
 )
 
@@ -231,6 +231,7 @@ class HessStage:
         if self._once("here", h, f):
             self.diagram.show_here(h, f)
         if result.map is None or result.iterates is None:
+            self._drawn.pop("map", None)
             self.circle.show_nothing("Separatrix: no return")
         elif self._once("map", result.map, result.iterates):
             self.circle.show(result.map, result.iterates[: _COBWEB + 1])
