@@ -264,7 +264,7 @@ def circle_map(a: float, h: float, f: float, level: Level) -> CircleMap:
     trace = math.exp(log_trace) if log_trace < 709.0 else math.inf
     discriminant = (im_beta - im) * (im_beta + im)
     fixed: tuple[FixedPoint, ...] = ()
-    if abs(trace - 2.0) <= 2 * error:
+    if abs(trace - 2.0) <= 2 * min(error, 1e-3):
         kind = "parabolic"
         if im_beta:
             fixed = (FixedPoint(math.acos(max(-1.0, min(1.0, -im / im_beta))), 0.0),)

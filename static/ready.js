@@ -101,12 +101,13 @@ export function render({ model, view }) {
 
   const settle = () => {
     const { number, answers } = state
-    waiting = false
     clearTimeout(giveUp)
     root.dataset.state = String(number)
     asked = null
+    // What could not be painted yet (a hidden tab) is still waited for, but holds up nothing.
+    waiting = busy()
     if (answers < requested) ask()
-    else if (!busy()) root.dataset.ready = "true"
+    else if (!waiting) root.dataset.ready = "true"
   }
   // Called whenever one of the pictures has been painted.
   const onPainted = () => { if (waiting && applied && !busy()) settle() }

@@ -64,7 +64,7 @@ export function render({ model, view, el }) {
     requested = false
     const ratio = window.devicePixelRatio || 1
     const size = Math.round(width * ratio)
-    if (size === 0) return
+    if (size === 0) return void document.dispatchEvent(new CustomEvent("hess:sphere-painted"))
     if (canvas.width !== size) canvas.width = canvas.height = size
     const text = getComputedStyle(canvas).color
     const [az, elev] = turn
