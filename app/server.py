@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import logging
 import threading
 from collections.abc import Sequence
@@ -19,6 +20,15 @@ MESSAGE_LIMIT = 256 * 1024
 UNUSED_SESSION_MS = 60_000
 
 
+def _warm() -> None:
+    """Compile or load the kernels, and from then on collect garbage, but not among what is there already."""
+    try:
+        warm()
+    finally:
+        gc.freeze()
+        gc.enable()
+
+
 def serve(port: int, address: str, show: bool, origins: Sequence[str]) -> None:
     """Serve the explorer until interrupted.
 
@@ -28,7 +38,7 @@ def serve(port: int, address: str, show: bool, origins: Sequence[str]) -> None:
     logging.getLogger("hess_explorer").setLevel(logging.INFO)
     pn.extension()
     # Kernels are compiled while the browser loads the page.
-    threading.Thread(target=warm, name="warm", daemon=True).start()
+    threading.Thread(target=_warm, name="warm", daemon=True).start()
     pn.serve(
         {"/": page},
         title="Hess Explorer",

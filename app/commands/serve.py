@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import errno
+import gc
 import os
 import re
 import socket
@@ -44,6 +45,9 @@ def _run(options: argparse.Namespace) -> None:
     print(f"Hess Explorer runs at {url} (Ctrl-C ends it).", flush=True)
     if options.browser and not show:
         print(f"There is no browser to open here: open {url} in one.", flush=True)
+    # What is made by importing stays as long as the process: the collector would only walk through it
+    # again and again (0.25 s).  `app.server` turns it on again.
+    gc.disable()
     with suppress(KeyboardInterrupt):
         from app.server import serve
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import holoviews as hv
 import numpy as np
+from bokeh.models import ColumnDataSource, LinearColorMapper
 
 from app import theme
-from app.views.figure import Figure
+from app.views.figure import Figure, curve
 from models.results import Array
 
 
@@ -29,9 +29,11 @@ class BifurcationDiagram(Figure):
 
     def __init__(self) -> None:
         x, y = window(0.0)
-        colours = hv.Image(np.zeros((2, 2)), bounds=(x[0], y[0], x[1], y[1])).opts(
-            cmap=theme.NUMBER_MAP, clim=(-0.5, 0.5))
-        super().__init__("bifurcation", colours, ("h", "f"), x, y, picks=("tap", "pan"))
+        super().__init__("bifurcation", curve([0.0], [0.0], ("h", "f")), ("h", "f"), x, y, picks=("tap", "pan"))
+        # A Bokeh image: HoloViews' own would make it import pandas.
+        self._rotation = ColumnDataSource({"image": [], "x": [], "y": [], "dw": [], "dh": []})
+        self.root.image("image", "x", "y", "dw", "dh", source=self._rotation, level="image",
+                        color_mapper=LinearColorMapper(theme.NUMBER_MAP, low=-0.5, high=0.5))
         areas = {"moving": False, "line_alpha": 0}
         self.add("locked", "multi_polygons", ("xs", "ys"), color=theme.LOCKED, **areas)
         self.add("boundary", "multi_line", ("xs", "ys"), moving=False, color="black", line_width=2)
@@ -59,7 +61,7 @@ class BifurcationDiagram(Figure):
 
     def show_rotation(self, grid: Array, x: tuple[float, float], y: tuple[float, float]) -> None:
         """The rotation number at the centres of a grid of cells that fills the window."""
-        self.background.data = {
+        self._rotation.data = {
             "image": [grid.astype(np.float32)], "x": [x[0]], "y": [y[0]], "dw": [x[1] - x[0]], "dh": [y[1] - y[0]],
         }
 

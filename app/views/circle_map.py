@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 
-import holoviews as hv
 import numpy as np
 
 from app import theme
-from app.views.figure import Figure
+from app.views.figure import Figure, curve
 from models.circle_map import CircleMap
 from models.results import Array
 
@@ -36,8 +35,7 @@ class CircleMapView(Figure):
 
     def __init__(self) -> None:
         side = (-math.pi, math.pi)
-        diagonal = hv.Curve([(-math.pi, -math.pi), (math.pi, math.pi)], "phi", "theta").opts(
-            color=theme.MUTED, line_dash="dotted", line_width=1.5)
+        diagonal = curve(side, side, ("phi", "theta")).opts(color=theme.MUTED, line_dash="dotted", line_width=1.5)
         super().__init__("circle", diagonal, ("φ", "Θ(φ)"), side, side, picks=("tap",), ticks=_TICKS)
         here = ("phi", "theta")
         self.add("cobweb", "line", here, color=theme.ORBIT, line_width=1)

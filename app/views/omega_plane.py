@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import holoviews as hv
 import numpy as np
 
 from app import theme
-from app.views.figure import Figure, columns_of
+from app.views.figure import Figure, columns_of, curve
 from models.results import Array
 from models.torus import Track
 
@@ -21,7 +20,7 @@ class OmegaPlane(Figure):
     """Grey: |ω| that the energy forbids.  The sources `orbit`, `stable`, `unstable` feed the sphere too."""
 
     def __init__(self) -> None:
-        axes = hv.Curve([(0.0, 0.0)], "omega1", "omega2")
+        axes = curve([0.0], [0.0], ("omega1", "omega2"))
         super().__init__("omega", axes, ("ω₁", "ω₂"), (-4.0, 4.0), (-4.0, 4.0))
         self.add("forbidden", "multi_polygons", ("xs", "ys"), color=theme.FORBIDDEN, line_color=theme.MUTED)
         self.add("orbit", "line", COLUMNS, color=theme.ORBIT, line_width=1.3)
