@@ -130,7 +130,7 @@ def rotation_numbers(rows: Array) -> Array:
     k = np.floor(zeta / np.pi)
     sign = 1.0 - 2.0 * (k % 2)
     turning = k + np.arctan2(np.sqrt(np.maximum(discriminant, 0.0)), sign * re) / np.pi
-    return np.where(discriminant > 0.0, turning, np.round(zeta / np.pi))
+    return np.where(discriminant > 0.0, turning, np.round(zeta / np.pi)) + 0.0  # no −0.0
 
 
 @dataclass(frozen=True)
@@ -278,6 +278,8 @@ def circle_map(a: float, h: float, f: float, level: Level) -> CircleMap:
     else:
         kind = "elliptic"
     rho = float(rotation_numbers(coarse[None])[0])
+    if kind == "parabolic":
+        rho = round(rho) + 0.0
     wall_ms = (time.perf_counter() - start) * 1e3
     return CircleMap(a, h, f, level.name, (re, im, im_beta), log_scale, kind, trace, log_trace, rho, fixed,
                      turning.period, status, error, Cost(int(total), wall_ms))
