@@ -250,6 +250,9 @@ def test_every_position_of_the_f_slider_is_possible(h, share):
     # And it leaves out no more than a step at either end.
     assert largest_f(h) - mpf(high) < step * (1 + 1e-9)
     assert 100 <= 2 * high / step <= 2001
+    # Round numbers, so that what the slider writes into the box is one too, and f = 0 is among it.
+    assert high == float(f"{high:.4g}")
+    assert step == float(f"{step:.1g}")
 
 
 @every_scene
