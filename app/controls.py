@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
 import panel_material_ui as pmui
@@ -29,6 +30,8 @@ class Controls:
     def __init__(self, specs: tuple[Spec, ...], values: Values, limits: Mapping[str, tuple[float, float, float]],
                  change: Callable[[Values], None]) -> None:
         self._menus: dict[str, pmui.Select] = {}
+        self._shown = dict(values)
+        self._change = change
         self.roots: list[Any] = []
         for spec in specs:
             classes = [f"param-{spec.name}"]
@@ -43,15 +46,20 @@ class Controls:
                     label=spec.label, value=str(values[spec.name]), options=list(spec.options), size="small",
                     description=spec.help, css_classes=classes, sizing_mode="stretch_width", margin=(10, 8),
                 )
-                menu.param.watch(lambda event, name=spec.name: change({name: event.new}), "value")
+                menu.param.watch(partial(self._chosen, spec.name), "value")
                 self._menus[spec.name] = menu
                 self.roots.append(menu)
 
+    def _chosen(self, name: str, event: Any) -> None:
+        # What we show ourselves is no choice of the user's.
+        if event.new != self._shown[name]:
+            self._change({name: event.new})
+
     def show(self, values: Mapping[str, Value]) -> None:
         """Bring the menus up to date."""
+        self._shown = dict(values)
         for name, menu in self._menus.items():
-            if menu.value != values[name]:
-                menu.value = str(values[name])
+            menu.value = str(values[name])
 
 
 class ExampleMenu:
@@ -65,9 +73,16 @@ class ExampleMenu:
             label="Example", options=[self.CHOOSE, *self._examples], size="small", css_classes=["param-preset"],
             sizing_mode="stretch_width", margin=(8, 8),
         )
-        self.root.param.watch(lambda event: change(self._examples.get(event.new, {})), "value")
+        self._shown = self.CHOOSE
+        self._change = change
+        self.root.param.watch(self._chosen, "value")
+
+    def _chosen(self, event: Any) -> None:
+        if event.new != self._shown and event.new in self._examples:
+            self._change(self._examples[event.new])
 
     def show(self, values: Values) -> None:
         """Name the example that these values are."""
-        self.root.value = next(
+        self._shown = next(
             (name for name, example in self._examples.items() if example.items() <= values.items()), self.CHOOSE)
+        self.root.value = self._shown

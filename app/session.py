@@ -25,6 +25,14 @@ __all__ = ["Session"]
 logger = logging.getLogger("hess_explorer")
 
 
+def _float(value: Any) -> float:
+    """A number from the browser; NaN for whatever is none."""
+    try:
+        return float(value) if isinstance(value, int | float) else math.nan
+    except OverflowError:
+        return math.nan
+
+
 class Session:
     """Wanted values → admitted values → result → pictures.
 
@@ -72,7 +80,8 @@ class Session:
                     self._link_notes.append(note)
             elif spec is not None:
                 self._wanted[name], _ = spec.read(str(value))
-        self._dirty |= self._wanted != before or bool(self._link_notes)
+        # Also where the state stays but a control shows something else: it must be put right.
+        self._dirty |= self._wanted != before or any(self.values.get(name) != value for name, value in values.items())
 
     def reset(self) -> None:
         """Back to the scene's defaults."""
@@ -85,12 +94,11 @@ class Session:
         values = message.get("values")
         if isinstance(values, dict):
             self.change({
-                name: float(value) for name, value in values.items()
-                if isinstance(self._specs.get(name), Number) and isinstance(value, int | float)
+                name: _float(value) for name, value in values.items() if isinstance(self._specs.get(name), Number)
             })
         picked = message.get("picked")
         if isinstance(picked, list) and len(picked) == 3 and isinstance(picked[0], str):
-            x, y = (float(z) if isinstance(z, int | float) else math.nan for z in picked[1:])
+            x, y = map(_float, picked[1:])
             if math.isfinite(x) and math.isfinite(y):
                 self.change(self.stage.pick(picked[0], x, y))
         requested = message.get("requested")

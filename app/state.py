@@ -75,8 +75,8 @@ Spec = Number | Choice
 CLIENT: tuple[Number, ...] = (
     Number("t", "t", "Time", 0.0, 0.0, 1000.0, 0.0, 0.0, 1e6),
     Number("speed", "speed", "Speed", 1.0, 0.25, 8.0, 0.0, 0.25, 8.0),
-    Number("az", "azimuth", "Azimuth of the sphere", 0.6, -3.1415927, 3.1415927, 0.0, -3.1415927, 3.1415927),
-    Number("el", "elevation", "Elevation of the sphere", 0.35, -1.5707963, 1.5707963, 0.0, -1.5707963, 1.5707963),
+    Number("az", "azimuth", "Azimuth of the sphere", 0.6, -3.142, 3.142, 0.0, -3.142, 3.142),
+    Number("el", "elevation", "Elevation of the sphere", 0.35, -1.571, 1.571, 0.0, -1.571, 1.571),
 )
 """Keys of the URL that the browser itself keeps: they need no computation."""
 
@@ -96,7 +96,7 @@ def decode(query: str, specs: Sequence[Spec]) -> tuple[dict[str, Value], list[st
     notes: list[str] = []
     if len(query) > MAX_QUERY:
         return values, [f"The link was longer than {MAX_QUERY} characters and was not read."]
-    given = dict(parse_qsl(query.lstrip("?"), keep_blank_values=True, max_num_fields=200))
+    given = dict(parse_qsl(query.lstrip("?"), keep_blank_values=True))
     if given.get("v", VERSION) != VERSION:
         notes.append("The link is of another version of this page: what it says may mean something else here.")
     for spec in specs:

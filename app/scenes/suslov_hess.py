@@ -102,8 +102,9 @@ def admit(values: Values) -> tuple[dict[str, Value], list[str]]:
 def limits(values: Values) -> Mapping[str, tuple[float, float, float]]:
     """The slider of f spans the region at this h, in round steps."""
     largest = f_max(float(values["h"]))
-    step = 10.0 ** (math.floor(math.log10(largest)) - 2)
-    end = math.floor(largest / step) * step
+    digits = 2 - math.floor(math.log10(largest))
+    step = float(f"1e{-digits}")
+    end = round(math.floor(largest / step) * step, digits)
     return {"f": (-end, end, step)}
 
 
@@ -270,6 +271,7 @@ class HessStage:
         self._drawn.clear()
         self.omega.clear("forbidden", "orbit", "stable", "unstable", "point")
         self.diagram.clear("here", "here-too", "locked", "boundary", "point")
+        self.diagram.show_no_rotation()
         self.circle.show_nothing(sentence)
         self._say((sentence,) * len(self.pictures))
 

@@ -65,6 +65,10 @@ class BifurcationDiagram(Figure):
             "image": [grid.astype(np.float32)], "x": [x[0]], "y": [y[0]], "dw": [x[1] - x[0]], "dh": [y[1] - y[0]],
         }
 
+    def show_no_rotation(self) -> None:
+        """No colours."""
+        self._rotation.data = {name: [] for name in self._rotation.data}
+
     def show_lock(self, boundary: Array, x: tuple[float, float], y: tuple[float, float]) -> None:
         """The zone right of |t| = 2 (between it and the curve) and its boundary; `boundary` has f ≥ 0."""
         if len(boundary) == 0:
