@@ -75,8 +75,8 @@ Spec = Number | Choice
 CLIENT: tuple[Number, ...] = (
     Number("t", "t", "Time", 0.0, 0.0, 1000.0, 0.0, 0.0, 1e6),
     Number("speed", "speed", "Speed", 1.0, 0.25, 8.0, 0.0, 0.25, 8.0),
-    Number("az", "azimuth", "Azimuth of the sphere", 0.6, -3.142, 3.142, 0.0, -3.142, 3.142),
-    Number("el", "elevation", "Elevation of the sphere", 0.35, -1.571, 1.571, 0.0, -1.571, 1.571),
+    Number("az", "azimuth", "Azimuth of the sphere", 0.6, -3.1416, 3.1416, 0.0, -3.1416, 3.1416),
+    Number("el", "elevation", "Elevation of the sphere", 0.35, -1.5708, 1.5708, 0.0, -1.5708, 1.5708),
 )
 """Keys of the URL that the browser itself keeps: they need no computation."""
 

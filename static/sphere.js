@@ -165,7 +165,7 @@ export function render({ model, view, el }) {
     const limit = Math.PI / 2
     const wrapped = Math.atan2(Math.sin(azimuth), Math.cos(azimuth))
     turn = [wrapped, Math.max(-limit, Math.min(limit, elevation))]
-    document.dispatchEvent(new CustomEvent("hess:url", { detail: { az: turn[0].toFixed(3), el: turn[1].toFixed(3) } }))
+    document.dispatchEvent(new CustomEvent("hess:url", { detail: { az: turn[0].toFixed(4), el: turn[1].toFixed(4) } }))
     request()
   }
 

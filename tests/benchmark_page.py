@@ -1,0 +1,173 @@
+"""How fast the page is: `python tests/benchmark_page.py` prints a table; nothing here is asserted.
+
+Slider to four painted pictures: from the key's event to `data-ready`, in the page's own time, for moves
+one after the other.  Drag: the mouse moves every 16 ms whether or not the page follows.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import math
+import os
+import platform
+import socket
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from datetime import date
+from importlib.metadata import version
+from pathlib import Path
+
+import numpy as np
+from playwright.async_api import Page, async_playwright
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from app.browser import find_browser
+from models import level, rotation_number_grid
+
+ROOT = Path(__file__).resolve().parents[1]
+MOVES = 45
+READY = "document.documentElement.dataset.ready === 'true'"
+STATE = "Number(document.documentElement.dataset.state)"
+
+RECORD = """() => {
+    let start = null
+    document.addEventListener("keydown", () => { start = performance.now() }, true)
+    new MutationObserver(() => {
+        if (start !== null && document.documentElement.dataset.ready === "true") {
+            window.times.push(performance.now() - start)
+            start = null
+        }
+    }).observe(document.documentElement, { attributes: true, attributeFilter: ["data-ready"] })
+}"""
+
+
+@contextmanager
+def server(environment: dict[str, str]) -> Iterator[str]:
+    """The command of the README in a process of its own."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    command = [sys.executable, "-m", "app", "serve", "--port", str(port), "--no-browser"]
+    with subprocess.Popen(command, cwd=ROOT, env=environment, stdout=subprocess.DEVNULL,
+                          stderr=subprocess.DEVNULL) as process:
+        try:
+            yield f"http://127.0.0.1:{port}"
+        finally:
+            process.terminate()
+
+
+async def open_page(page: Page, url: str) -> None:
+    """Open the page as soon as the server listens, and wait until its pictures are painted."""
+    port = int(url.rsplit(":", 1)[1])
+    while True:
+        try:
+            socket.create_connection(("127.0.0.1", port), 0.2).close()
+            break
+        except OSError:
+            await asyncio.sleep(0.02)
+    await page.goto(url)
+    await page.wait_for_function(READY, timeout=60_000)
+
+
+async def slider_latencies(page: Page, name: str) -> list[float]:
+    """Milliseconds from each of `MOVES` key presses on a slider to its painted pictures."""
+    await page.evaluate("window.times = []")
+    await page.locator(f".param-{name} input[type=range]").focus()
+    for i in range(MOVES):
+        await page.keyboard.press("ArrowRight")
+        await page.wait_for_function(f"window.times.length === {i + 1}", timeout=10_000)
+        await asyncio.sleep(0.03)
+    return sorted(await page.evaluate("window.times"))
+
+
+async def drag(page: Page, name: str) -> tuple[float, float, int]:
+    """States painted per second in a drag of 3 s, ms from its end to rest, states painted after its end."""
+    box = await page.locator(f".param-{name} input[type=range]").bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    await page.mouse.move(x, y)
+    await page.mouse.down()
+    before, start = await page.evaluate(STATE), time.perf_counter()
+    moves = []
+    for n in range(int(3 / 0.016)):
+        moves.append(asyncio.create_task(page.mouse.move(x + 40 * math.sin(n / 12), y)))
+        await asyncio.sleep(0.016)
+    await asyncio.gather(*moves)
+    during, end = await page.evaluate(STATE), time.perf_counter()
+    await page.mouse.up()
+    await page.wait_for_function(READY)
+    after = await page.evaluate(STATE)
+    return (during - before) / (end - start), (time.perf_counter() - end) * 1e3, after - during
+
+
+def grid_milliseconds() -> float:
+    """Median of 20: the rotation number on 100 × 75 points of (h, f)."""
+    h, f = np.linspace(-0.99, 4.0, 100), np.linspace(-3.0, 3.0, 75)
+    rotation_number_grid(0.75, h, f, level("draft"))
+    times = []
+    for _ in range(20):
+        start = time.perf_counter()
+        rotation_number_grid(0.75, h, f, level("draft"))
+        times.append((time.perf_counter() - start) * 1e3)
+    return statistics.median(times)
+
+
+def processor() -> str:
+    """The processor's name, as far as the system tells it."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text().splitlines()
+    except OSError:
+        return platform.processor() or platform.machine()
+    return next((line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), "unknown")
+
+
+async def measure() -> None:
+    """Print the table."""
+    rows: list[tuple[str, str, str]] = []
+    async with async_playwright() as playwright:
+        arguments = ["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else []
+        browser = await playwright.chromium.launch(
+            executable_path=find_browser(playwright.chromium.executable_path), args=arguments)
+        with tempfile.TemporaryDirectory() as folder:
+            environment = {**os.environ, "NUMBA_CACHE_DIR": folder}
+            for label, bar in (("first start, nothing compiled", "≤ 10 s"), ("start afterwards", "≤ 4 s")):
+                seconds = []
+                for _ in range(1 if "first" in label else 3):
+                    start = time.perf_counter()
+                    with server(environment) as url:
+                        page = await browser.new_page(viewport={"width": 1600, "height": 950})
+                        await open_page(page, url)
+                        seconds.append(time.perf_counter() - start)
+                        await page.close()
+                rows.append((f"command to painted pictures, {label}", f"{statistics.median(seconds):.2f} s", bar))
+            with server(environment) as url:
+                page = await browser.new_page(viewport={"width": 1600, "height": 950})
+                await open_page(page, url)
+                await asyncio.sleep(1.5)
+                await page.evaluate(RECORD)
+                for name in ("h", "I23"):
+                    times = await slider_latencies(page, name)
+                    high = times[math.ceil(0.95 * len(times)) - 1]
+                    rows.append((f"slider {name} to four painted pictures, {len(times)} moves",
+                                 f"median {statistics.median(times):.1f} ms, 95th percentile {high:.1f} ms",
+                                 "≤ 33 ms, ≤ 66 ms"))
+                for name in ("h", "I23"):
+                    rate, rest, queued = await drag(page, name)
+                    rows.append((f"drag of {name}, 3 s", f"{rate:.1f} states a second, at rest {rest:.0f} ms after it "
+                                 f"({queued} more states)", "≥ 25 a second"))
+        await browser.close()
+    rows.append(("rotation number on 100 × 75 (h, f)", f"{grid_milliseconds():.1f} ms", "≤ 100 ms"))
+    versions = ", ".join(f"{name} {version(name)}" for name in ("panel", "bokeh", "holoviews", "numba", "numpy"))
+    print(f"{date.today()}, {processor()}, {os.cpu_count()} cores, Python {platform.python_version()}, {versions}\n")
+    print("| what | measured | asked |\n|---|---|---|")
+    for row in rows:
+        print("| " + " | ".join(row) + " |")
+
+
+if __name__ == "__main__":
+    asyncio.run(measure())
