@@ -76,7 +76,7 @@ class Text(JSComponent):
     key = param.String(default="", doc="By this the wire finds it.")
     text = param.String(default="", doc="What it says at first.")
     tag = param.Selector(default="p", objects=["p", "h2", "div"], doc="The element.")
-    look = param.Selector(default="", objects=["", "caption", "status", "notes", "derived"], doc="Its style.")
+    look = param.Selector(default="", objects=["", "caption", "status", "notes", "derived", "help"], doc="Its style.")
     live = param.Boolean(default=False, doc="Whether screen readers are told of changes.")
 
     _esm = STATIC / "text.js"

@@ -8,7 +8,7 @@ from typing import Any
 
 import panel_material_ui as pmui
 
-from app.components import NumberControl
+from app.components import NumberControl, Text
 from app.scenes.base import Scene
 from app.state import Number, Spec, Value, Values
 
@@ -44,11 +44,11 @@ class Controls:
             else:
                 menu = pmui.Select(
                     label=spec.label, value=str(values[spec.name]), options=list(spec.options), size="small",
-                    description=spec.help, css_classes=classes, sizing_mode="stretch_width", margin=(10, 8),
+                    css_classes=classes, sizing_mode="stretch_width", margin=(10, 8, 0, 8),
                 )
                 menu.param.watch(partial(self._chosen, spec.name), "value")
                 self._menus[spec.name] = menu
-                self.roots.append(menu)
+                self.roots += [menu, Text(text=spec.help, look="help", sizing_mode="stretch_width", margin=(2, 8))]
 
     def _chosen(self, name: str, event: Any) -> None:
         # What we show ourselves is no choice of the user's.

@@ -94,6 +94,7 @@ def _page(scene: Scene, query: str) -> pmui.Page:
             Text(key="derived", look="derived", tag="div", margin=(8, 8), **WIDE),
         ],
         sidebar_width=300,
+        sidebar_resizable=False,  # its handle has a name but no role
         main=[
             *_pictures(stage, client),
             pn.Column(
@@ -105,7 +106,7 @@ def _page(scene: Scene, query: str) -> pmui.Page:
                 with_formulas(scene.words), css_classes=["words"], stylesheets=[PAGE_CSS], margin=(0, 8), **WIDE),
             ready,
         ],
-        busy_indicator=None,
+        sx={"& .MuiLinearProgress-root": {"display": "none"}},  # has no name, and `data-ready` says the same
     )
     # The page's own busy flag is sent with every event and makes Panel walk through all models each
     # time (100 ms); `data-ready` says the same.

@@ -49,7 +49,7 @@ SPECS = (
     Number("span", "t", "Time span", 40.0, 1.0, 200.0, 1.0, 0.01, 1e5,
            "How long the orbit is followed, in the time of the body (at most 100 returns)."),
     Choice("accuracy", "Accuracy", tuple(LEVELS), "standard",
-           "Promised error: draft 1e-3, standard 1e-6, precise 1e-9, reference the floor of double precision."),
+           "Promised error: draft 1e-3, standard 1e-6, precise 1e-9; reference: the floor of double precision."),
 )
 
 PRESETS = (
