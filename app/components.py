@@ -42,7 +42,8 @@ class Ready(JSComponent):
     """Keeps `<html data-ready data-state>` and the address bar.
 
     It sends messages, for `on_msg`: {"requested": n, "held": whether a slider is held, "values": {name:
-    number, …}, "picked": [picture, x, y] or null} asks for the state after the user's n-th change.
+    number, …}, "picked": [picture, x, y] or null, "reset": whether Reset was pressed} asks for the state after
+    the user's n-th change.
     """
 
     state = param.String(default="", doc="JSON: number of the state, last request that it answers, URL query, "

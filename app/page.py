@@ -38,8 +38,6 @@ LEGEND = """
 </ul>
 """
 
-COPY = "navigator.clipboard?.writeText(window.location.href)"
-
 # The system's font: the fourteen files of another one would come before the first picture.
 FONT = "system-ui, sans-serif"
 
@@ -90,7 +88,7 @@ def _page(scene: Scene, query: str) -> pmui.Page:
         sidebar=[
             examples.root,
             *controls.roots,
-            _buttons(session),
+            _buttons(),
             Text(key="derived", look="derived", tag="div", margin=(8, 8), **WIDE),
         ],
         sidebar_width=300,
@@ -115,12 +113,13 @@ def _page(scene: Scene, query: str) -> pmui.Page:
     return result
 
 
-def _buttons(session: Session) -> pn.Row:
-    reset = pmui.Button(label="Reset", variant="outlined", size="small", css_classes=["param-reset"])
-    reset.on_click(lambda _: session.reset())
-    link = pmui.Button(label="Copy link", variant="outlined", size="small", css_classes=["param-link"])
-    link.jscallback(clicks=COPY)
-    return pn.Row(reset, link, margin=(8, 4))
+def _buttons() -> pn.Row:
+    """What they do is in "ready.js": a reset goes with the request for its state, the link is the browser's."""
+    return pn.Row(
+        pmui.Button(label="Reset", variant="outlined", size="small", css_classes=["param-reset"]),
+        pmui.Button(label="Copy link", variant="outlined", size="small", css_classes=["param-link"]),
+        margin=(8, 4),
+    )
 
 
 def _pictures(stage: Stage, client: dict[str, float]) -> list[Any]:

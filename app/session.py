@@ -91,6 +91,8 @@ class Session:
         """A message of the browser: nothing in it is trusted."""
         if not isinstance(message, dict):
             return
+        if message.get("reset") is True:
+            self.reset()
         values = message.get("values")
         if isinstance(values, dict):
             self.change({

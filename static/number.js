@@ -45,7 +45,7 @@ export function render({ model, el }) {
     change(Number(slider.value))
   })
   const commit = () => {
-    const text = box.value.trim().replace("−", "-").replace(",", ".")
+    const text = box.value.trim().replaceAll("−", "-").replace(",", ".")
     const value = Number(text)
     const valid = text !== "" && Number.isFinite(value)
     box.setAttribute("aria-invalid", String(!valid))
@@ -56,7 +56,10 @@ export function render({ model, el }) {
   box.addEventListener("change", commit)
   box.addEventListener("input", () => box.setCustomValidity(""))
   box.addEventListener("keydown", (event) => {
-    if (event.key === "Escape") box.value = String(shown)
+    if (event.key !== "Escape") return
+    box.value = String(shown)
+    box.setCustomValidity("")
+    box.removeAttribute("aria-invalid")
   })
   const onNumbers = (event) => { if (name in event.detail) show(event.detail[name]) }
   document.addEventListener("hess:numbers", onNumbers)

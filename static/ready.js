@@ -3,7 +3,6 @@
 // data-state counts the painted states.  The next state is asked for only when the last one is
 // painted, so nothing queues however fast a slider is dragged.
 
-const USER_CHANGES = new Set(["value", "clicks"])
 const URL_PAUSE = 400
 
 export function render({ model, view }) {
@@ -16,6 +15,7 @@ export function render({ model, view }) {
   let held = false
   let values = {}
   let picked = null
+  let reset = false
   let spherePending = false
   root.dataset.ready = "false"
   root.dataset.state = "0"
@@ -30,9 +30,10 @@ export function render({ model, view }) {
     queueMicrotask(() => {
       asking = false
       asked = requested
-      model.send_msg({ requested, held, values, picked })
+      model.send_msg({ requested, held, values, picked, reset })
       values = {}
       picked = null
+      reset = false
     })
   }
   const request = () => {
@@ -41,7 +42,8 @@ export function render({ model, view }) {
     ask()
   }
   const onChange = (event) => {
-    if (event.sync && USER_CHANGES.has(event.attr)) request()
+    // A menu.  Numbers, picks and buttons come as events of the page.
+    if (event.sync && event.attr === "value") request()
     if (event.attr === "dark_theme") writeUrl()
   }
   // While a pointer holds a slider the axes hold still; letting go is a request of its own.
@@ -63,6 +65,19 @@ export function render({ model, view }) {
     if (!event.detail.slice(1).every(Number.isFinite)) return
     picked = event.detail
     request()
+  })
+
+  document.addEventListener("click", (event) => {
+    const on = (name) => event.composedPath().some((item) => item.classList?.contains(name))
+    if (on("param-reset")) {
+      values = {}
+      reset = true
+      request()
+    } else if (on("param-link")) {
+      // The link of what is on the screen, not of what the address bar has come to.
+      writeUrlNow()
+      navigator.clipboard?.writeText(window.location.href)
+    }
   })
 
   let plots = []
@@ -137,15 +152,14 @@ export function render({ model, view }) {
   }
 
   let timer = null
-  const writeUrl = () => {
-    if (timer !== null) return
-    timer = setTimeout(() => {
-      timer = null
-      const extra = Object.entries(own).map(([key, value]) => `&${key}=${encodeURIComponent(value)}`).join("")
-      const query = `?${state.query}${extra}${page().dark_theme ? "&theme=dark" : ""}`
-      if (query !== window.location.search) window.history.replaceState(null, "", query)
-    }, URL_PAUSE)
+  const writeUrlNow = () => {
+    clearTimeout(timer)
+    timer = null
+    const extra = Object.entries(own).map(([key, value]) => `&${key}=${encodeURIComponent(value)}`).join("")
+    const query = `?${state.query}${extra}${page().dark_theme ? "&theme=dark" : ""}`
+    if (query !== window.location.search) window.history.replaceState(null, "", query)
   }
+  const writeUrl = () => { timer ??= setTimeout(writeUrlNow, URL_PAUSE) }
   const onUrl = (event) => {
     Object.assign(own, event.detail)
     writeUrl()

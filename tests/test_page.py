@@ -378,7 +378,7 @@ def test_the_link_follows_what_the_user_does_and_opens_the_same_page_elsewhere(e
     explorer.page.locator(".param-speed").select_option("2")
     explorer.sphere.press("ArrowUp")
     explorer.wait_url(I22="1.25", I23="-0.5", h="0.75", span="15.0", f="0.001", accuracy="reference")
-    explorer.wait_url(t="7.500", speed="2", az="0.600", el=f"{0.35 + math.pi / 36:.3f}")
+    explorer.wait_url(t="7.500", speed="2", az="0.6000", el=f"{0.35 + math.pi / 36:.4f}")
 
     other = Explorer(open_page(urlsplit(explorer.page.url).query), explorer.base)
     assert_linked(other, {"I22": 1.25, "I23": -0.5, "h": 0.75, "span": 15.0, "f": 1e-3})
