@@ -3,14 +3,41 @@
 from __future__ import annotations
 
 import io
+import re
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 from PIL import Image, ImageStat
+from test_page import DEFAULTS, PICTURES, Explorer
+
+from app.browser import wait_ready
+from app.scenes import scenes
 
 SIZES = {"wide": (1600, 950), "laptop": (1280, 720), "phone": (390, 844)}
 COLUMNS = {"wide": 4, "laptop": 2, "phone": 1}
-PICTURES = ("omega", "sphere", "bifurcation", "circle")
+PRESETS = scenes()["suslov-hess"].presets
+every_size = pytest.mark.parametrize("size", SIZES)
+every_theme = pytest.mark.parametrize("theme", ["light", "dark"])
+
+
+@pytest.fixture(scope="module")
+def look_at(browser, server):
+    """look_at(size, theme) → that page in its default state, opened once for all tests that only look."""
+    seen = {}
+
+    def open_once(size="wide", theme="light"):
+        if (size, theme) not in seen:
+            width, height = SIZES[size]
+            context = browser.new_context(viewport={"width": width, "height": height})
+            seen[size, theme] = Explorer(context.new_page(), server).open("theme=dark" if theme == "dark" else "")
+        page = seen[size, theme].page
+        page.locator(".MuiBackdrop-root").first.wait_for(state="hidden")
+        return page
+
+    yield open_once
+    for explorer in seen.values():
+        explorer.assert_quiet()
+        explorer.page.context.close()
 
 
 def drawing(page, name):
@@ -19,9 +46,9 @@ def drawing(page, name):
     return page.locator(f".picture-{name} {inside}").first.bounding_box()
 
 
-@pytest.mark.parametrize("size", SIZES)
-def test_pictures_stand_in_as_many_columns_as_fit_and_are_square(open_page, size):
-    page = open_page(size=SIZES[size])
+@every_size
+def test_pictures_stand_in_as_many_columns_as_fit_and_are_square(look_at, size):
+    page = look_at(size)
     boxes = [drawing(page, name) for name in PICTURES]
     for box in boxes:
         assert box["width"] == pytest.approx(box["height"], abs=4)
@@ -39,19 +66,36 @@ def test_pictures_stand_in_as_many_columns_as_fit_and_are_square(open_page, size
             assert box["x"] == pytest.approx(boxes[0]["x"], abs=2)
 
 
-@pytest.mark.parametrize("size", SIZES)
-def test_nothing_is_wider_than_the_window(open_page, size):
-    page = open_page(size=SIZES[size])
+@every_size
+def test_nothing_is_wider_than_the_window(look_at, size):
+    page = look_at(size)
     assert page.evaluate("document.documentElement.scrollWidth") <= SIZES[size][0]
 
 
-@pytest.mark.parametrize("size", SIZES)
-@pytest.mark.parametrize("query", ["", "h=0.2&f=0.5", "h=1&f=0", "h=0.25&f=1.0606601717798212", "I22=0.5&I23=1.5"])
-def test_every_caption_fits_into_its_place(open_page, size, query):
-    page = open_page(query, size=SIZES[size])
-    for name in PICTURES:
-        caption = page.locator(f".picture-{name} h2")
-        assert caption.evaluate("item => item.scrollHeight - item.clientHeight") <= 1, caption.inner_text()
+@every_size
+def test_every_caption_fits_into_its_place(look_at, size):
+    page = look_at(size)
+    # Every example, the default state last.
+    for preset in [*PRESETS[1:], PRESETS[0]]:
+        numbers = {name: value for name, value in {**DEFAULTS, **preset.values}.items() if name != "accuracy"}
+        before = int(page.evaluate("document.documentElement.dataset.state"))
+        page.evaluate("detail => document.dispatchEvent(new CustomEvent('hess:change', { detail }))", numbers)
+        wait_ready(page, after=before, seconds=10)
+        for name in PICTURES:
+            caption = page.locator(f".picture-{name} h2")
+            assert caption.evaluate("item => item.scrollHeight - item.clientHeight") <= 1, caption.inner_text()
+
+
+def test_on_a_phone_ready_means_that_the_pictures_can_be_seen(open_page):
+    page = open_page(size=SIZES["phone"])
+    box = drawing(page, "omega")
+    # A screenshot is taken now: no drawer and no veil may be over the picture any more.
+    covering = page.evaluate(
+        """([x, y]) => document.elementsFromPoint(x, y)
+          .flatMap((item) => [item, ...(item.shadowRoot?.elementsFromPoint(x, y) ?? [])])
+          .map((item) => item.className).filter((name) => /Backdrop|Drawer-paper/.test(name))""",
+        [box["x"] + box["width"] / 2, box["y"] + box["height"] / 2])
+    assert covering == []
 
 
 def test_on_a_phone_the_controls_are_behind_the_menu_button(open_page):
@@ -75,38 +119,106 @@ def axis_colour(page):
     }""")
 
 
-def test_dark_is_dark_and_its_axes_can_be_read(open_page):
-    light, dark = open_page(), open_page("theme=dark")
+def test_dark_is_dark_and_its_axes_can_be_read(look_at):
+    light, dark = look_at(), look_at(theme="dark")
     assert brightness(light) > 200
     assert brightness(dark) < 60
     assert axis_colour(light) != axis_colour(dark)
 
 
-def test_the_button_turns_the_page_dark_and_the_link_says_so(open_page):
+def luminance(colour):
+    """Relative luminance of an (r, g, b), 0 to 1, as WCAG defines it."""
+    parts = [c / 255 / 12.92 if c / 255 <= 0.04045 else ((c / 255 + 0.055) / 1.055) ** 2.4 for c in colour[:3]]
+    return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2]
+
+
+def contrast(one, other):
+    light, dark = sorted((luminance(one), luminance(other)), reverse=True)
+    return (light + 0.05) / (dark + 0.05)
+
+
+TEXTS = """() => {
+  const canvas = document.createElement("canvas").getContext("2d")
+  const rgb = (colour) => {
+    canvas.fillStyle = colour
+    canvas.fillRect(0, 0, 1, 1)
+    return [...canvas.getImageData(0, 0, 1, 1).data].slice(0, 3)
+  }
+  return ["omega", "bifurcation", "circle"].flatMap((name) => {
+    const { below, left } = Bokeh.documents[0].get_model_by_name(name)
+    return [below[0], left[0]].flatMap((axis) => [axis.major_label_text_color, axis.axis_label_text_color].map(rgb))
+  })
+}"""
+
+
+@every_theme
+def test_every_text_of_the_pictures_stands_out_from_what_is_behind_it(look_at, theme):
+    page = look_at(theme=theme)
+    shot = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
+    box = drawing(page, "bifurcation")
+    behind = shot.getpixel((int(box["x"] + 3), int(box["y"] + box["height"] - 3)))
+    texts = page.evaluate(TEXTS)
+    assert len(texts) == 12
+    for colour in texts:
+        assert contrast(colour, behind) >= 4.5, (colour, behind)
+    # The sphere writes in the colour of the page's text.
+    colour = page.locator("canvas.sphere").evaluate("item => getComputedStyle(item).color")
+    box = drawing(page, "sphere")
+    behind = shot.getpixel((int(box["x"] + 3), int(box["y"] + 3)))
+    assert contrast([int(part) for part in re.findall(r"\d+", colour)[:3]], behind) >= 4.5
+
+
+def test_the_button_turns_the_page_dark_and_the_link_says_so(open_page, look_at):
     page = open_page()
     page.get_by_role("button", name="theme").click()
     page.wait_for_function("location.search.includes('theme=dark')")
     assert brightness(page) < 60
-    assert axis_colour(page) == axis_colour(open_page("theme=dark"))
+    assert axis_colour(page) == axis_colour(look_at(theme="dark"))
 
 
-@pytest.mark.parametrize("size", SIZES)
-@pytest.mark.parametrize("theme", ["light", "dark"])
-def test_a_screenshot_of_every_size_and_theme_is_kept(open_page, artefacts, size, theme):
-    page = open_page(f"theme={theme}", size=SIZES[size])
+@every_size
+@every_theme
+def test_a_screenshot_of_every_size_and_theme_is_kept(look_at, artefacts, size, theme):
+    page = look_at(size, theme)
     picture = page.screenshot(path=artefacts / f"{size}-{theme}.png")
     colours = Image.open(io.BytesIO(picture)).convert("RGB").getcolors(1 << 24)
     assert len(colours) > 500
 
 
-@pytest.mark.parametrize("theme", ["light", "dark"])
-def test_no_rule_of_wcag_is_broken(open_page, theme):
-    page = open_page(f"theme={theme}")
+def assert_accessible(page):
     found = Axe().run(page, options={"runOnly": ["wcag2a", "wcag2aa"]})
     broken = [(rule["id"], node["target"], node["html"][:200])
               for rule in found.response["violations"] for node in rule["nodes"]]
     assert not broken, broken
     assert len(found.response["passes"]) > 10
+
+
+@every_theme
+def test_no_rule_of_wcag_is_broken(open_page, theme):
+    # A state with a note, so that all there can be is there.
+    page = open_page(f"theme={theme}&I22=0.5&I23=1.5")
+    assert page.locator(".text.notes").is_visible()
+    assert_accessible(page)
+
+
+def test_no_rule_of_wcag_is_broken_on_a_phone_with_the_controls_away_or_there(open_page):
+    page = open_page(size=SIZES["phone"])
+    page.locator(".MuiBackdrop-root").wait_for(state="hidden")
+    assert_accessible(page)
+    page.get_by_role("button").first.click()
+    page.locator(".MuiBackdrop-root").wait_for(state="visible")
+    page.wait_for_function("() => document.getAnimations().every((one) => one.playState !== 'running')")
+    assert_accessible(page)
+
+
+def test_a_box_that_holds_no_number_says_so_to_everyone(open_page):
+    page = open_page()
+    box = page.locator(".param-h input[type=text]")
+    box.fill("abc")
+    box.press("Enter")
+    assert box.get_attribute("aria-invalid") == "true"
+    assert "number" in box.evaluate("item => item.validationMessage")
+    assert_accessible(page)
 
 
 def test_every_control_is_reached_by_the_tab_key(open_page):
