@@ -195,14 +195,22 @@ export function render({ model, view }) {
     }
   }
 
+  const covered = () => Object.values(window.Bokeh.index).some((top) => {
+    const veil = top.shadow_el?.querySelector(".MuiBackdrop-root")
+    return veil != null && getComputedStyle(veil).visibility !== "hidden"
+  })
+
   const start = () => {
     // The first paint is over when Bokeh says so; after that our own marks hold.
     if (bokeh() == null || !bokeh().is_idle) return void requestAnimationFrame(start)
     bokeh().on_change(onChange)
     // On a phone the controls would cover the pictures: there they open by the menu button.
-    if (window.innerWidth < 800) {
-      page().sidebar_open = false
-    }
+    if (window.innerWidth < 800) page().sidebar_open = false
+    begin()
+  }
+  const begin = () => {
+    // Until the drawer that closes has left the pictures.
+    if (covered() && performance.now() < 10_000) return void requestAnimationFrame(begin)
     prepare()
     onState()
   }

@@ -62,7 +62,7 @@ class Explorer:
     def fresh(self):
         """The default state, at t = 0, at rest, the sphere turned back: as if opened anew, but sooner."""
         url = self.page.url
-        if not url.startswith(self.base) or "theme=dark" in url or not self.ready or self.text("notes"):
+        if not url.startswith(self.base) or "theme=dark" in url or not self.ready:
             return self.open()
         if self.playing:
             self.page.locator(".param-play").click()
@@ -74,6 +74,8 @@ class Explorer:
         before = self.state
         ready = self.page.evaluate(ENTER, [(name, DEFAULTS[name]) for name in SLIDERS])
         wait_ready(self.page, after=before - (ready == "true"))
+        if self.text("notes"):
+            return self.open()
         self.page.evaluate("document.activeElement?.blur()")
         self.page.mouse.move(5, 5)
         return self
@@ -392,6 +394,13 @@ def test_the_link_follows_what_the_user_does_and_opens_the_same_page_elsewhere(e
     for name in PICTURES:
         assert other.caption(name) == explorer.caption(name)
     assert other.text("status").split(" · ")[:3] == explorer.text("status").split(" · ")[:3]
+
+
+def test_a_speed_that_the_player_does_not_offer_is_put_right_in_the_link_too(explorer):
+    explorer.open("speed=3&h=0.75")
+    shown = explorer.page.locator(".param-speed").input_value()
+    found = explorer.wait_url(h="0.75")
+    assert float(found.get("speed", "1")) == float(shown)
 
 
 def test_a_link_made_at_the_pole_of_the_sphere_opens_without_a_note(explorer):

@@ -321,7 +321,15 @@ def assert_on_orbit(explorer, values):
     return t
 
 
+def wait_silence(explorer):
+    """Let the server's last acknowledgements arrive."""
+    frames = None
+    while frames != (frames := len(explorer.received)):
+        wait_frames(explorer, 12)
+
+
 def test_play_moves_the_point_in_all_four_pictures_without_the_server(explorer):
+    wait_silence(explorer)
     state, sent, received = explorer.state, len(explorer.sent), len(explorer.received)
     _, before = moment(explorer)
     spot = yellow(explorer)

@@ -13,6 +13,7 @@ from PIL import Image
 from test_page import DEFAULTS, PICTURES, Explorer, assert_orbit, body_of, default_state, exact_states, one_tab
 
 from app import theme
+from app.browser import wait_ready
 from app.scenes import scenes
 from models import circle_map, f_max, level, solve, systems, trace_on_curve, turning_points
 
@@ -141,6 +142,13 @@ def test_a_click_in_the_circle_map_chooses_the_phase_under_it(explorer, phi):
     assert (cobweb["phi"][0], cobweb["theta"][0]) == pytest.approx((chosen, chosen), abs=1e-6)
 
 
+def test_two_clicks_in_quick_succession_both_count(explorer):
+    (first, _), (second, (wide, _)) = at(explorer, "bifurcation", 1.8, 0.3), at(explorer, "bifurcation", 2.6, -0.4)
+    click(explorer, *first)
+    explorer.change(explorer.page.mouse.click, *second)
+    assert explorer.here()[0] == pytest.approx(2.6, abs=wide)
+
+
 def test_a_click_in_the_plane_of_angular_velocity_chooses_nothing(explorer):
     before = explorer.state
     (x, y), _ = at(explorer, "omega", 1.0, 1.0)
@@ -203,25 +211,53 @@ def test_the_sphere_turns_with_the_arrow_keys_up_to_the_pole_and_home_again(expl
     assert explorer.time == 0.0
 
 
-def test_the_sphere_turns_under_a_finger(open_page, server):
+class Finger:
+    """One finger on the screen of a phone."""
+
+    def __init__(self, page):
+        self.page = page
+        self.session = page.context.new_cdp_session(page)
+
+    def send(self, kind, *points):
+        touches = [{"x": x, "y": y} for x, y in points]
+        self.session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": touches})
+
+    def drag(self, item, dx, dy):
+        """From the middle of an item; returns how far the page has scrolled under it."""
+        item.scroll_into_view_if_needed()
+        scrolled = self.scrolled
+        box = item.bounding_box()
+        x, y = box["x"] + box["width"] / 2, min(box["y"] + box["height"] / 2, 650)
+        self.send("touchStart", (x, y))
+        for share in (0.2, 0.4, 0.6, 0.8, 1.0):
+            self.send("touchMove", (x + dx * share, y + dy * share))
+            self.page.evaluate("new Promise((done) => requestAnimationFrame(done))")
+        self.send("touchEnd")
+        return self.scrolled - scrolled
+
+    @property
+    def scrolled(self):
+        return self.page.locator(".main-content").evaluate("item => item.scrollTop")
+
+
+@pytest.fixture
+def phone(open_page, server):
     explorer = Explorer(open_page(size=(390, 844), has_touch=True, is_mobile=True), server)
     explorer.page.locator(".MuiBackdrop-root").wait_for(state="hidden")
-    explorer.sphere.scroll_into_view_if_needed()
-    scrolled = explorer.page.evaluate("document.scrollingElement.scrollTop")
-    box = explorer.sphere.bounding_box()
-    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-    touch = explorer.page.context.new_cdp_session(explorer.page)
+    return explorer
 
-    def send(kind, *points):
-        touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [{"x": px, "y": py} for px, py in points]})
 
-    send("touchStart", (x, y))
-    for share in (0.25, 0.5, 0.75, 1.0):
-        send("touchMove", (x - 40 * share, y + 30 * share))
-    send("touchEnd")
-    assert_turned(explorer, HOME[0] + 40 / radius(explorer), HOME[1] + 30 / radius(explorer))
-    # And not the page under it.
-    assert explorer.page.evaluate("document.scrollingElement.scrollTop") == scrolled
+def test_the_sphere_turns_under_a_finger_and_the_page_stays(phone):
+    assert Finger(phone.page).drag(phone.sphere, -40, 30) == 0
+    assert_turned(phone, HOME[0] + 40 / radius(phone), HOME[1] + 30 / radius(phone))
+
+
+def test_a_finger_that_scrolls_the_page_over_the_diagram_chooses_nothing(phone):
+    before = phone.here()
+    finger = Finger(phone.page)
+    scrolled = finger.drag(phone.page.locator(".picture-bifurcation canvas").first, 0, -120)
+    wait_ready(phone.page)
+    assert scrolled == 0 or phone.here() == before
 
 
 def on_sphere(gamma, turn):
