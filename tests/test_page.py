@@ -481,6 +481,17 @@ def test_a_script_in_any_key_of_a_link_is_neither_run_nor_shown(explorer, payloa
     assert "pwned" not in urlencode(explorer.wait_url(v="1"))
 
 
+def test_whatever_a_text_of_the_page_is_told_to_say_it_shows_as_text(explorer):
+    payload = "<img src=x onerror=window.pwned=1><b>bold</b>"
+    explorer.page.evaluate(
+        "text => document.dispatchEvent(new CustomEvent('hess:text', { detail: { status: text, omega: text } }))", payload)
+    assert explorer.text("status") == payload
+    assert explorer.caption("omega") == payload
+    assert explorer.page.locator(".text img, .text b").count() == 0
+    assert explorer.page.evaluate("window.pwned") is None
+    explorer.open()
+
+
 def test_a_link_that_is_too_long_shows_the_defaults_and_a_note(explorer):
     explorer.open(f"h=2.5&x={'7' * MAX_QUERY}")
     assert explorer.shown("h")[0] == 1.5
