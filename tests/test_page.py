@@ -483,8 +483,8 @@ def test_a_script_in_any_key_of_a_link_is_neither_run_nor_shown(explorer, payloa
 
 def test_whatever_a_text_of_the_page_is_told_to_say_it_shows_as_text(explorer):
     payload = "<img src=x onerror=window.pwned=1><b>bold</b>"
-    explorer.page.evaluate(
-        "text => document.dispatchEvent(new CustomEvent('hess:text', { detail: { status: text, omega: text } }))", payload)
+    said = {"status": payload, "omega": payload}
+    explorer.page.evaluate("detail => document.dispatchEvent(new CustomEvent('hess:text', { detail }))", said)
     assert explorer.text("status") == payload
     assert explorer.caption("omega") == payload
     assert explorer.page.locator(".text img, .text b").count() == 0
