@@ -34,6 +34,8 @@ class Player(JSComponent):
     dots = param.Dict(default={}, doc="Source name → the columns of `orbit` that are its x and y.")
     angles = param.List(default=[], doc="Columns that are angles and may jump by 2π.")
 
+    SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
+
     _esm = STATIC / "player.js"
     _stylesheets = [_CSS]
 

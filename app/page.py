@@ -63,6 +63,7 @@ def _query() -> str:
 def _page(scene: Scene, query: str) -> pmui.Page:
     state, notes = decode(query, (*scene.specs, *CLIENT, THEME))
     client = {spec.name: float(state.pop(spec.name)) for spec in CLIENT}
+    client["speed"] = min(Player.SPEEDS, key=lambda speed: abs(speed - client["speed"]))
     dark = state.pop("theme") == "dark"
 
     stage = scene.stage()

@@ -13,6 +13,7 @@ export function render({ model, view }) {
   let asking = false
   let asked = null
   let held = false
+  let touched = false
   let values = {}
   let picked = null
   let reset = false
@@ -48,6 +49,7 @@ export function render({ model, view }) {
   }
   // While a pointer holds a slider the axes hold still; letting go is a request of its own.
   document.addEventListener("pointerdown", (event) => {
+    touched = event.pointerType === "touch"
     held = event.composedPath().some((item) => item.classList?.contains("hand"))
   }, true)
   for (const name of ["pointerup", "pointercancel"]) {
@@ -62,8 +64,10 @@ export function render({ model, view }) {
     request()
   })
   document.addEventListener("hess:pick", (event) => {
-    if (!event.detail.slice(1).every(Number.isFinite)) return
-    picked = event.detail
+    const { pick, drag } = event.detail
+    // A finger that moves scrolls the page.
+    if ((drag && touched) || !Array.isArray(pick) || !pick.slice(1).every(Number.isFinite)) return
+    picked = pick
     request()
   })
 

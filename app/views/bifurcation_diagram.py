@@ -29,7 +29,8 @@ class BifurcationDiagram(Figure):
 
     def __init__(self) -> None:
         x, y = window(0.0)
-        super().__init__("bifurcation", curve([0.0], [0.0], ("h", "f")), ("h", "f"), x, y, picks=("tap", "pan"))
+        axes = curve([0.0], [0.0], ("h", "f"))
+        super().__init__("bifurcation", axes, ("h", "f"), x, y, picks=("tap", "doubletap", "pan"))
         # A Bokeh image: HoloViews' own would make it import pandas.
         self._rotation = ColumnDataSource({"image": [], "x": [], "y": [], "dw": [], "dh": []})
         self.root.image("image", "x", "y", "dw", "dh", source=self._rotation, level="image",

@@ -36,7 +36,7 @@ class CircleMapView(Figure):
     def __init__(self) -> None:
         side = (-math.pi, math.pi)
         diagonal = curve(side, side, ("phi", "theta")).opts(color=theme.MUTED, line_dash="dotted", line_width=1.5)
-        super().__init__("circle", diagonal, ("φ", "Θ(φ)"), side, side, picks=("tap",), ticks=_TICKS)
+        super().__init__("circle", diagonal, ("φ", "Θ(φ)"), side, side, picks=("tap", "doubletap"), ticks=_TICKS)
         here = ("phi", "theta")
         self.add("cobweb", "line", here, color=theme.ORBIT, line_width=1)
         self.add("map", "multi_line", ("xs", "ys"), color=theme.MAP, line_width=2.5)

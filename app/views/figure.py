@@ -20,7 +20,7 @@ _renderer = hv.renderer("bokeh")
 _renderer.webgl = False  # costs several times the canvas at these sizes
 
 _PICK = """
-    const detail = [name, cb_obj.x, cb_obj.y]
+    const detail = { pick: [name, cb_obj.x, cb_obj.y], drag: cb_obj.event_name === "pan" }
     document.dispatchEvent(new CustomEvent("hess:pick", { detail }))
 """
 
