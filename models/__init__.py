@@ -8,17 +8,21 @@
 from .accuracy import LEVELS, Level, Status, level
 from .bifurcation import TurningPoints, curve, curve_point, f_max, turning_points
 from .circle_map import CircleMap, FixedPoint, circle_map
+from .ensemble import ensemble
 from .errors import ModelError
 from .hess import HessBody
 from .locking import critical_a, lock_boundary, lock_boundary_f, rotation_number_grid, trace_on_curve
-from .results import Cost, Orbit
+from .orbit import solve
+from .results import Cost, Ensemble, Orbit, Section
 from .rigid_body import BodyCheck, check_body
+from .section import Plane, section, sections
 from .suslov import SuslovBody, unit_vector
-from .system import System, solve, systems
+from .system import System, systems
 
 __all__ = [
-    "LEVELS", "BodyCheck", "CircleMap", "Cost", "FixedPoint", "HessBody", "Level", "ModelError", "Orbit",
-    "Status", "SuslovBody", "System", "TurningPoints", "check_body", "circle_map", "critical_a", "curve",
-    "curve_point", "f_max", "level", "lock_boundary", "lock_boundary_f", "rotation_number_grid", "solve",
-    "systems", "trace_on_curve", "turning_points", "unit_vector",
+    "LEVELS", "BodyCheck", "CircleMap", "Cost", "Ensemble", "FixedPoint", "HessBody", "Level", "ModelError",
+    "Orbit", "Plane", "Section", "Status", "SuslovBody", "System", "TurningPoints", "check_body", "circle_map",
+    "critical_a", "curve", "curve_point", "ensemble", "f_max", "level", "lock_boundary", "lock_boundary_f",
+    "rotation_number_grid", "section", "sections", "solve", "systems", "trace_on_curve", "turning_points",
+    "unit_vector",
 ]

@@ -26,7 +26,8 @@ from .errors import InvalidParameter, WorkLimit
 from .jit import inner, kernel
 from .results import Array, Cost, frozen
 from .rigid_body import require_finite
-from .taylor import cauchy, horner, step_size
+from .taylor import Quadratic, columns_of, convolution, expansion, step_of, workspace
+from .unrolled import evaluation
 
 __all__ = ["CircleMap", "FixedPoint", "circle_map", "matrices", "monodromy", "rotation_numbers"]
 
@@ -35,20 +36,33 @@ _MAX_STEPS = 200_000
 
 
 @inner
-def series(c, k, p):
-    """`eq01` at a = 0 (rows 0–4: w1, w2, n1, n2, n3) with A (5, 6) and B (7, 8): re, im."""
+def rates(y, q, p):
+    """`eq01` at a = 0 with A = a1 + i a2 and B = b1 + i b2, in terms of their products."""
+    _, _, n1, n2, _, _, _, _, _ = y
     half_a, b = p
-    n = k + 1.0
-    c[0, k + 1] = -b * c[3, k] / n
-    c[1, k + 1] = b * c[2, k] / n
-    c[2, k + 1] = -cauchy(c, 4, 1, k) / n
-    c[3, k + 1] = cauchy(c, 0, 4, k) / n
-    c[4, k + 1] = (cauchy(c, 2, 1, k) - cauchy(c, 3, 0, k)) / n
-    # conj(W B) = re − i im with W = w2 + i w1; −i(re − i im) = −im − i re.
-    c[5, k + 1] = -half_a * (cauchy(c, 1, 8, k) + cauchy(c, 0, 7, k)) / n
-    c[6, k + 1] = -half_a * (cauchy(c, 1, 7, k) - cauchy(c, 0, 8, k)) / n
-    c[7, k + 1] = -half_a * (cauchy(c, 1, 6, k) + cauchy(c, 0, 5, k)) / n
-    c[8, k + 1] = -half_a * (cauchy(c, 1, 5, k) - cauchy(c, 0, 6, k)) / n
+    n3w2, w1n3, n1w2, n2w1, w2b2, w1b1, w2b1, w1b2, w2a2, w1a1, w2a1, w1a2 = q
+    return (
+        -b * n2,
+        b * n1,
+        -n3w2,
+        w1n3,
+        n1w2 - n2w1,
+        # conj(W B) = re − i im with W = w2 + i w1; −i(re − i im) = −im − i re.
+        -half_a * (w2b2 + w1b1),
+        -half_a * (w2b1 - w1b2),
+        -half_a * (w2a2 + w1a1),
+        -half_a * (w2a1 - w1a2),
+    )
+
+
+QUADRATIC = Quadratic(
+    "w1 w2 n1 n2 n3 a1 a2 b1 b2",
+    "n3*w2 w1*n3 n1*w2 n2*w1 w2*b2 w1*b1 w2*b1 w1*b2 w2*a2 w1*a1 w2*a1 w1*a2",
+    rates, parameters=2,
+)
+_columns = columns_of(QUADRATIC)
+_expand, _convolve = expansion(QUADRATIC), convolution(QUADRATIC)
+_evaluate = evaluation(9)
 
 
 @inner
@@ -60,38 +74,39 @@ def monodromy(h, f, a, order, tolerance, max_steps):
     _, n1, _, g10, _, g20, w_low, v_low = roots(h, f)
     half_period = 0.5 * period_from_gaps(g10, g20)
     nu = math.sqrt(2.0 * (h + 1.0))
-    c = np.zeros((9, order + 1))
-    c[1, 0] = math.sqrt(2.0 * w_low) / nu
-    c[3, 0] = math.copysign(math.sqrt(v_low), f)
-    c[4, 0] = n1
-    c[5, 0] = 1.0
+    c, left_factors, right_factors, inverses = workspace(order, 9, _columns)
+    increments = np.zeros(9)
+    c[0, 1] = math.sqrt(2.0 * w_low) / nu
+    c[0, 3] = math.copysign(math.sqrt(v_low), f)
+    c[0, 4] = n1
+    c[0, 5] = 1.0
     p = (0.5 * a, 1.0 / (nu * nu))
     left = half_period * nu
     log_scale = 0.0
     arg_A = 0.0
     steps = 0
     while left > 0.0:
-        for k in range(order):
-            series(c, k, p)
-        s = step_size(c, 9, order, tolerance)
+        _expand(c, left_factors, right_factors, inverses, p, rates, _convolve)
+        s = step_of(c, 9, tolerance)
         if not s > 0.0 or steps >= max_steps:
             return 0.0, 0.0, 0.0, 0.0, 0.0, -1.0
         s = min(s, left)
         left -= s
-        re, im = c[5, 0], c[6, 0]
+        re, im = c[0, 5], c[0, 6]
+        _evaluate(c, s, increments)
         for i in range(9):
-            c[i, 0] += horner(c, i, order, s)
-        arg_A += math.atan2(re * c[6, 0] - im * c[5, 0], re * c[5, 0] + im * c[6, 0])
-        size = math.hypot(c[5, 0], c[6, 0])
+            c[0, i] += increments[i]
+        arg_A += math.atan2(re * c[0, 6] - im * c[0, 5], re * c[0, 5] + im * c[0, 6])
+        size = math.hypot(c[0, 5], c[0, 6])
         if size > 16.0:
             for i in range(5, 9):
-                c[i, 0] /= size
+                c[0, i] /= size
             log_scale += math.log(size)
         steps += 1
-    A = complex(c[5, 0], c[6, 0])
-    B = complex(c[7, 0], c[8, 0])
+    A = complex(c[0, 5], c[0, 6])
+    B = complex(c[0, 7], c[0, 8])
     # W starts real and positive and turns by less than π on the way up: the principal value.
-    chi = math.atan2(c[0, 0], c[1, 0])
+    chi = math.atan2(c[0, 0], c[0, 1])
     turn = complex(math.cos(0.5 * chi), math.sin(0.5 * chi))
     A *= turn
     B *= turn

@@ -15,13 +15,15 @@ from typing import Any
 
 import numpy as np
 
+from .crossings import crossing_finder
 from .errors import InvalidParameter, NoField
 from .jit import inner, kernel
+from .lanes import ensemble_integrator
 from .results import Array
 from .rigid_body import BodyCheck, body_check, require_finite, require_positive_definite
 from .suslov import SuslovBody
 from .system import System
-from .taylor import cauchy, integrator
+from .taylor import Quadratic, orbit_integrator
 
 __all__ = ["SYSTEM", "HessBody"]
 
@@ -146,26 +148,43 @@ def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:
 
 
 @inner
-def series(c, k, p):
-    """Order k+1 of `eq01` from lower ones.  Row 5 is a w2, row 6 is a n2 + n3."""
+def rates(y, q, p):
+    """`eq01` in terms of its products."""
+    _, _, n1, n2, _ = y
     a, b = p
-    c[5, k] = a * c[1, k]
-    c[6, k] = a * c[3, k] + c[4, k]
-    n = k + 1.0
-    c[0, k + 1] = (-cauchy(c, 1, 5, k) - b * c[3, k]) / n
-    c[1, k + 1] = (cauchy(c, 0, 5, k) + b * c[2, k]) / n
-    c[2, k + 1] = -cauchy(c, 6, 1, k) / n
-    c[3, k + 1] = (cauchy(c, 5, 2, k) + cauchy(c, 0, 4, k)) / n
-    c[4, k + 1] = (cauchy(c, 2, 1, k) - cauchy(c, 3, 0, k)) / n
+    w2w2, w1w2, n2w2, n3w2, n1w2, w1n3, n2w1 = q
+    return (
+        -b * n2 - a * w2w2,
+        b * n1 + a * w1w2,
+        -n3w2 - a * n2w2,
+        w1n3 + a * n1w2,
+        n1w2 - n2w1,
+    )
 
 
-integrate = integrator(series, rows=7)
+QUADRATIC = Quadratic("w1 w2 n1 n2 n3", "w2*w2 w1*w2 n2*w2 n3*w2 n1*w2 w1*n3 n2*w1", rates, parameters=2)
+_orbit = orbit_integrator(QUADRATIC)
+_ensemble = ensemble_integrator(QUADRATIC)
+_cross = crossing_finder(QUADRATIC)
 
 
 @kernel
 def orbit(y, p, times, order, tolerance, max_steps, out):
-    """`integrate` for `eq01`."""
-    return integrate(y, (p[0], p[1]), times, order, tolerance, max_steps, out)
+    """One orbit of `eq01`, see `orbit_integrator`."""
+    return _orbit(y, p, times, order, tolerance, max_steps, out)
+
+
+
+@kernel
+def ensemble(states, p, times, order, tolerance, max_steps, out):
+    """Many orbits of `eq01`, see `ensemble_integrator`."""
+    return _ensemble(states, p, times, order, tolerance, max_steps, out)
+
+
+@kernel
+def cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states):
+    """Crossings of a plane by one orbit of `eq01`, see `crossing_finder`."""
+    return _cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states)
 
 
 SYSTEM = System(
@@ -178,6 +197,8 @@ SYSTEM = System(
     integrals=integrals,
     frequency=frequency,
     rescale=rescale,
-    kernel=orbit,
+    orbit=orbit,
+    ensemble=ensemble,
+    cross=cross,
     example=((0.3, 0.9, 0.6, 0.0, 0.8), (0.75, 1.0)),
 )

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
@@ -18,6 +17,7 @@ from .circle_map import check_a, matrices, rotation_numbers
 from .errors import InvalidParameter, WorkLimit
 from .results import Array, frozen
 from .rigid_body import require_finite
+from .threads import share
 
 __all__ = [
     "critical_a", "lock_boundary", "lock_boundary_end", "lock_boundary_f", "lock_boundary_h", "rotation_number_grid",
@@ -55,14 +55,11 @@ def _rising_roots(function: Callable[[Array], Array], low: Array, high: Array) -
     return x
 
 
-_POOL = ThreadPoolExecutor(max_workers=2, thread_name_prefix="grid")
-
-
 def rotation_number_grid(a: float, h: Sequence[float] | Array, f: Sequence[float] | Array, level: Level) -> Array:
     """ρ on the grid h × f, shape (f.size, h.size), read-only.
 
     Points outside the region take the value at its edge (the same h), so that a picture can be
-    cut exactly along `Geq3`.  ρ is odd in f, and only |f| is computed.  Two threads share the rows.
+    cut exactly along `Geq3`.  ρ is odd in f, and only |f| is computed.  Two threads share the points.
     Raises `InvalidParameter`, `WorkLimit`.
     """
     check_a(a)
@@ -81,7 +78,7 @@ def rotation_number_grid(a: float, h: Sequence[float] | Array, f: Sequence[float
         # Every second point: both threads get the same share of slow ones.
         out[i::2] = rotation_numbers(matrices(H[i::2].copy(), F[i::2].copy(), a, level))
 
-    list(_POOL.map(part, (0, 1)))
+    share(part, 2)
     return frozen(np.where(fs < 0, -1.0, 1.0)[:, None] * out.reshape(magnitudes.size, hs.size)[back])
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from .accuracy import Status
 
-__all__ = ["Array", "Cost", "Orbit", "frozen"]
+__all__ = ["Array", "Cost", "Ensemble", "Orbit", "Section", "frozen"]
 
 Array = NDArray[np.float64]
 
@@ -47,3 +47,35 @@ class Orbit:
     drift: Mapping[str, float]
     cost: Cost
     notes: tuple[str, ...] = field(default=())
+
+
+@dataclass(frozen=True)
+class Ensemble:
+    """Many trajectories sampled at the same times.
+
+    times : (m,); states : (n, m, d); errors : (n,) the largest estimated error of each orbit;
+    drift : for each integral the largest over all orbits, as in `Orbit`.
+    """
+
+    system: str
+    level: str
+    times: Array
+    states: Array
+    status: Status
+    errors: Array
+    drift: Mapping[str, float]
+    cost: Cost
+
+
+@dataclass(frozen=True)
+class Section:
+    """The crossings of a plane by one orbit: times (n,), states (n, d), the rest as in `Orbit`."""
+
+    system: str
+    level: str
+    times: Array
+    states: Array
+    status: Status
+    error_estimate: float
+    drift: Mapping[str, float]
+    cost: Cost

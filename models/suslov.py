@@ -13,12 +13,14 @@ from typing import Any
 
 import numpy as np
 
+from .crossings import crossing_finder
 from .errors import InvalidParameter
 from .jit import inner, kernel
+from .lanes import ensemble_integrator
 from .results import Array
 from .rigid_body import require_finite, require_positive_definite
 from .system import System
-from .taylor import cauchy, integrator
+from .taylor import Quadratic, orbit_integrator
 
 __all__ = ["SYSTEM", "SuslovBody", "unit_vector"]
 
@@ -100,26 +102,44 @@ def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:
 
 
 @inner
-def series(c, k, p):
-    """Order k+1 of `Biz131` from lower ones.  Row 5 is s = I13 ω1 + I23 ω2."""
+def rates(y, q, p):
+    """`Biz131` in terms of its products."""
+    _, _, g1, g2, g3 = y
     I11, I22, I13, I23, b1, b2, b3 = p
-    c[5, k] = I13 * c[0, k] + I23 * c[1, k]
-    n = k + 1.0
-    c[0, k + 1] = (-cauchy(c, 1, 5, k) + b3 * c[3, k] - b2 * c[4, k]) / (n * I11)
-    c[1, k + 1] = (cauchy(c, 0, 5, k) + b1 * c[4, k] - b3 * c[2, k]) / (n * I22)
-    c[2, k + 1] = -cauchy(c, 4, 1, k) / n
-    c[3, k + 1] = cauchy(c, 4, 0, k) / n
-    c[4, k + 1] = (cauchy(c, 2, 1, k) - cauchy(c, 3, 0, k)) / n
+    w1w2, w2w2, w1w1, g3w2, g3w1, g1w2, g2w1 = q
+    return (
+        (b3 * g2 - b2 * g3 - I13 * w1w2 - I23 * w2w2) * (1.0 / I11),
+        (b1 * g3 - b3 * g1 + I13 * w1w1 + I23 * w1w2) * (1.0 / I22),
+        -g3w2,
+        g3w1,
+        g1w2 - g2w1,
+    )
 
 
-integrate = integrator(series, rows=6)
+QUADRATIC = Quadratic("w1 w2 g1 g2 g3", "w1*w2 w2*w2 w1*w1 g3*w2 g3*w1 g1*w2 g2*w1", rates, parameters=7)
+_orbit = orbit_integrator(QUADRATIC)
+_ensemble = ensemble_integrator(QUADRATIC)
+_cross = crossing_finder(QUADRATIC)
 
 
 @kernel
 def orbit(y, p, times, order, tolerance, max_steps, out):
-    """`integrate` for `Biz131`."""
-    parameters = (p[0], p[1], p[2], p[3], p[4], p[5], p[6])
-    return integrate(y, parameters, times, order, tolerance, max_steps, out)
+    """One orbit of `Biz131`, see `orbit_integrator`."""
+    return _orbit(y, p, times, order, tolerance, max_steps, out)
+
+
+
+@kernel
+def ensemble(states, p, times, order, tolerance, max_steps, out):
+    """Many orbits of `Biz131`, see `ensemble_integrator`."""
+    return _ensemble(states, p, times, order, tolerance, max_steps, out)
+
+
+
+@kernel
+def cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states):
+    """Crossings of a plane by one orbit of `Biz131`, see `crossing_finder`."""
+    return _cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states)
 
 
 SYSTEM = System(
@@ -132,7 +152,9 @@ SYSTEM = System(
     integrals=integrals,
     frequency=frequency,
     rescale=rescale,
-    kernel=orbit,
+    orbit=orbit,
+    ensemble=ensemble,
+    cross=cross,
     example=((0.8, -0.4, 0.6, 0.0, 0.8), (2.0, 1.0, 0.3, 0.5, 0.3, -0.5, 1.0)),
 )
 

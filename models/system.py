@@ -2,14 +2,13 @@
 
 A system is one module of this package with a `SYSTEM`.  Its field and integrals are written
 in plain arithmetic, so that floats, arrays, symbols and multiple-precision numbers all pass
-through them; its kernel is the compiled Taylor series of the same field.
+through them; its kernels are compiled from the same field as a `Quadratic`.
 """
 
 from __future__ import annotations
 
 import importlib
 import pkgutil
-import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -17,15 +16,10 @@ from typing import Any
 
 import numpy as np
 
-from .accuracy import Level, Status
-from .errors import InvalidParameter, WorkLimit
-from .results import Array, Cost, Orbit, frozen
-from .taylor import STEP_LIMIT_REACHED
+from .errors import InvalidParameter
+from .results import Array
 
-__all__ = ["MAX_SAMPLES", "MAX_STEPS", "System", "solve", "systems"]
-
-MAX_STEPS = 1_000_000
-MAX_SAMPLES = 200_000
+__all__ = ["Problem", "System", "systems"]
 
 
 @dataclass(frozen=True)
@@ -37,7 +31,8 @@ class System:
     field(y, p), integrals(y, p) : plain arithmetic on sequences.
     frequency(y, p) : a bound ν on every |ω|; time is measured in 1/ν when integrating.
     rescale(y, p, ν) : state and parameters in units of time 1/ν.
-    kernel(y, p, times, order, tolerance, max_steps, out) → steps : the compiled series.
+    orbit, ensemble, cross : the compiled kernels, see `taylor.orbit_integrator`,
+        `lanes.ensemble_integrator`, `crossings.crossing_finder`.
     example : a state and parameters to try.
     """
 
@@ -50,7 +45,9 @@ class System:
     integrals: Callable[[Sequence[Any], Sequence[Any]], Mapping[str, Any]]
     frequency: Callable[[Array, Array], float]
     rescale: Callable[[Array, Array, float], tuple[Array, Array]]
-    kernel: Callable[..., int]
+    orbit: Callable[..., int]
+    ensemble: Callable[..., int]
+    cross: Callable[..., tuple[int, int]]
     example: tuple[tuple[float, ...], tuple[float, ...]]
 
     @property
@@ -71,82 +68,33 @@ def systems() -> dict[str, System]:
     return found
 
 
-def _check_times(times: Array) -> None:
-    if times.ndim != 1 or times.size == 0 or not np.all(np.isfinite(times)):
-        raise InvalidParameter("The times must be one or more finite numbers.")
-    if times.size > MAX_SAMPLES:
-        raise WorkLimit(f"{times.size} times were asked for; at most {MAX_SAMPLES} are allowed.")
-    before = np.concatenate(([0.0], times[:-1]))
-    if np.any(times < before) and np.any(times > before):
-        raise InvalidParameter("The times must run away from 0, all forward or all backward.")
+@dataclass(frozen=True)
+class Problem:
+    """Initial states of a system in units in which they are O(1).
 
-
-def _run(system: System, y: Array, p: Array, times: Array, level: Level, max_steps: int) -> tuple[Array, int]:
-    out = np.empty((times.size, y.size))
-    steps = system.kernel(y, p, times, level.order, level.tolerance, max_steps, out)
-    if steps == STEP_LIMIT_REACHED:
-        raise WorkLimit(
-            f"This time span needs more than {MAX_STEPS} steps: choose a shorter one, or a cheaper level."
-        )
-    if not np.all(np.isfinite(out)):
-        raise InvalidParameter("The motion left the range of double precision: choose less extreme parameters.")
-    return out, steps
-
-
-def solve(system: System, state: Sequence[float], parameters: Sequence[float],
-          times: Sequence[float] | Array, level: Level) -> Orbit:
-    """The orbit at the given times, with an error measured and not assumed.
-
-    The motion is computed twice, the second time with steps a hundred times more exact; the
-    difference is the error estimate of the first.  If that exceeds the level's promise the
-    second run takes its place and is measured in turn, down to the floor of double precision.
-    Raises `InvalidParameter` (not finite, times out of order), `WorkLimit`.
+    states : (n, d); parameters : (q,); nu : the unit of time is 1/ν; scale : (d,), what the states are
+    to be multiplied with to be in the user's units.
     """
-    start = time.perf_counter()
-    y, p = np.asarray(state, float), np.asarray(parameters, float)
-    t = np.array(times, dtype=float, ndmin=1)
-    _check_times(t)
-    for given, names in ((y, system.variables), (p, system.parameters)):
-        if given.shape != (len(names),):
-            raise InvalidParameter(f"{system.title} takes {len(names)} numbers here: {', '.join(names)}.")
-    if not (np.all(np.isfinite(y)) and np.all(np.isfinite(p))):
-        raise InvalidParameter("Every component of the state and every parameter must be a finite number.")
-    with np.errstate(over="ignore"):
-        nu = system.frequency(y, p)
-        scaled_times = t * (nu or 1.0)
-    if not np.isfinite(nu):
-        raise InvalidParameter("The motion is too fast for double precision: choose less extreme parameters.")
-    nu = nu or 1.0
-    scale = np.ones(y.size)
-    scale[: system.angular_velocities] = nu
-    y1, p1 = system.rescale(y, p, nu)
 
-    current = level
-    coarse, total = _run(system, y1, p1, scaled_times, current, MAX_STEPS)
-    while True:
-        tighter = current.tightened()
-        fine, steps = _run(system, y1, p1, scaled_times, tighter, MAX_STEPS - total)
-        total += steps
-        # Two runs at the floor differ by their round-off, which says less of the true error.
-        safety = 4.0 if current.is_floor else 1.25
-        difference = np.abs(coarse - fine)
-        error = safety * float(difference.max()) + 2e-16
-        if error <= level.promise or current.is_floor:
-            break
-        current, coarse = tighter, fine
-    if error <= level.promise:
-        status = Status.OK
-    else:
-        status = Status.FLOOR if level.is_floor else Status.PROMISE_NOT_MET
+    states: Array
+    parameters: Array
+    nu: float
+    scale: Array
 
-    states = coarse * scale
-    initial = system.integrals(y, p)
-    along = system.integrals(states.T, p)
-    drift = {
-        name: float(np.max(np.abs(along[name] - value))) / max(1.0, abs(float(value)))
-        for name, value in initial.items()
-    }
-    wall_ms = (time.perf_counter() - start) * 1e3
-    absolute = safety * float((difference * scale).max()) + 2e-16 * max(1.0, nu)
-    return Orbit(system.name, level.name, frozen(t), frozen(states), status, absolute, drift,
-                 Cost(total, wall_ms))
+    @classmethod
+    def of(cls, system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float]) -> Problem:
+        """Check states (n, d) and parameters and scale them.  Raises `InvalidParameter`."""
+        given, p = np.array(states, float, ndmin=2), np.asarray(parameters, float)
+        for shape, names in ((given.shape[1:], system.variables), (p.shape, system.parameters)):
+            if shape != (len(names),):
+                raise InvalidParameter(f"{system.title} takes {len(names)} numbers here: {', '.join(names)}.")
+        if not (np.all(np.isfinite(given)) and np.all(np.isfinite(p))):
+            raise InvalidParameter("Every component of the state and every parameter must be a finite number.")
+        with np.errstate(over="ignore"):
+            nu = max((system.frequency(y, p) for y in given), default=0.0) or 1.0
+        if not np.isfinite(nu):
+            raise InvalidParameter("The motion is too fast for double precision: choose less extreme parameters.")
+        scale = np.ones(len(system.variables))
+        scale[: system.angular_velocities] = nu
+        scaled = np.array([system.rescale(y, p, nu)[0] for y in given]).reshape(given.shape)
+        return cls(scaled, system.rescale(np.zeros(len(scale)), p, nu)[1], nu, scale)

@@ -15,9 +15,9 @@ from .bifurcation import TurningPoints, turning_points
 from .circle_map import FixedPoint
 from .errors import Separatrix
 from .hess import SYSTEM, HessBody
+from .orbit import solve
 from .results import Array, Orbit, frozen
 from .rigid_body import require_finite
-from .system import solve
 
 __all__ = ["Track", "annulus", "cycles", "track"]
 

@@ -20,7 +20,7 @@ import app.screenshot
 from app.__main__ import main
 from app.browser import BrowserError
 from app.screenshot import running_server
-from models.system import MAX_SAMPLES
+from models.orbit import MAX_SAMPLES
 
 ROOT = Path(__file__).resolve().parents[1]
 CIRCLE_MAP = ["circle-map", "--h", "1.5", "--f", "0.6", "--a", "0.5", "--phi", "0,1,2", "--accuracy", "reference"]

@@ -8,6 +8,7 @@ import pytest
 
 from models import level, solve, systems, taylor
 from models.accuracy import LEVELS
+from models.unrolled import evaluation
 
 SYSTEMS = systems()
 every_system = pytest.mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)
@@ -31,19 +32,21 @@ def truth(request):
 
 
 @pytest.mark.parametrize("order", ORDERS)
-def test_the_local_error_of_one_step_has_the_order_of_the_series(truth, order, monkeypatch):
+def test_the_local_error_of_one_step_has_the_order_of_the_series(truth, order):
     system, state, parameters, exact = truth
-    module = sys.modules[system.field.__module__]
+    field = sys.modules[system.field.__module__].QUADRATIC
     # In multiple precision, so that round-off does not end the slope: the same source, uncompiled.
-    monkeypatch.setattr(module, "cauchy", taylor.cauchy.py_func)
     with mpmath.workdps(75):
-        c = np.full((len(state) + 12, order + 1), mpmath.mpf(0), dtype=object)
-        c[: len(state), 0] = state
-        for k in range(order):
-            module.series.py_func(c, k, parameters)
+        c, left, right = (np.full((order + 1, columns), mpmath.mpf(0)) for columns in (len(state), 8, 8))
+        inverses = np.array([1 / mpmath.mpf(k + 1) for k in range(order)])
+        c[0] = state
+        taylor.expansion(field).py_func(
+            c, left, right, inverses, parameters, field.rates.py_func, taylor.convolution(field).py_func)
         errors = []
         for h in STEPS:
-            step = [c[i, 0] + taylor.horner.py_func(c, i, order, mpmath.mpf(h)) for i in range(len(state))]
+            increments = [0] * len(state)
+            evaluation(len(state)).py_func(c, mpmath.mpf(h), increments)
+            step = [c[0, i] + increments[i] for i in range(len(state))]
             errors.append(max(abs(left - right) for left, right in zip(step, exact[h], strict=True)))
     assert slope(STEPS, errors) == pytest.approx(order + 1, abs=0.1)
 
@@ -51,7 +54,7 @@ def test_the_local_error_of_one_step_has_the_order_of_the_series(truth, order, m
 def global_error(system, order, tolerance, end=10.0):
     state, parameters = (np.array(values) for values in system.example)
     out = np.empty((1, state.size))
-    steps = system.kernel(state, parameters, np.array([end]), order, tolerance, 100_000, out)
+    steps = system.orbit(state, parameters, np.array([end]), order, tolerance, 100_000, out)
     return np.max(np.abs(out - solve(system, state, parameters, [end], level("reference")).states)), steps
 
 

@@ -59,7 +59,7 @@ def vector(names: str) -> Callable[[str], tuple[float, ...]]:
 
 def samples(text: str) -> list[float]:
     """A comma list, or `lo:hi:n` for n evenly spaced numbers from lo to hi."""
-    from models.system import MAX_SAMPLES
+    from models.orbit import MAX_SAMPLES
 
     if ":" not in text:
         parts = text.split(",")

@@ -1,0 +1,187 @@
+"""Crossings of a plane by one orbit: the roots of each step's own polynomial, none lost, none doubled.
+
+On a step the height e(s) over the plane is a polynomial, |e″| ≤ D on the whole of it.  A piece of width w
+lies within D w²/8 of its chord, and its slope within D w/2 of the chord's.  So a piece that ends on the
+side where it began, farther away than that, holds no root; one that changes sides more steeply than that
+holds exactly one; any other is halved.  The side of the plane is carried from step to step, so that a
+crossing where two steps meet is seen exactly once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from .jit import inner
+from .taylor import STEP_LIMIT_REACHED, Quadratic, columns_of, compensated, convolution, expansion, step_of, workspace
+from .unrolled import evaluation
+
+__all__ = ["crossing_finder"]
+
+_DEPTH = 45
+"""Halvings after which a piece is a point, for double precision."""
+
+
+@inner
+def value_and_slope(e, s):
+    """e(s) and e′(s) of the polynomial with coefficients e[0 …]."""
+    value = 0.0
+    slope = 0.0
+    for k in range(e.size - 1, -1, -1):
+        slope = slope * s + value
+        value = value * s + e[k]
+    return value, slope
+
+
+@inner
+def largest_bend(e, h):
+    """D: a bound of |e″| on [0, h], Σ k(k−1)|e_k| h^(k−2)."""
+    even = 0.0
+    odd = 0.0
+    last = e.size - 1
+    for k in range(last - last % 2, 1, -2):
+        even = even * (h * h) + k * (k - 1.0) * abs(e[k])
+        if k < last:
+            odd = odd * (h * h) + k * (k + 1.0) * abs(e[k + 1])
+    return even + odd * h
+
+
+@inner
+def root_between(e, low, high, s, below, bend):
+    """The one root of e in [low, high], from s on: Newton's method, kept inside by bisection.
+
+    below : whether e is negative at `low`.
+    """
+    width = high - low
+    for _ in range(100):
+        value, slope = value_and_slope(e, s)
+        if (value < 0.0) == below:
+            low = s
+        else:
+            high = s
+        following = s - value / slope if slope != 0.0 else low
+        if not low < following < high:
+            following = 0.5 * (low + high)
+        step = following - s
+        # What Newton's next step would still find is about D step²/(2 |e′|).
+        if bend * step * step <= 1e-16 * abs(slope) * width or high - low <= 1e-16 * high:
+            return following
+        s = following
+    return s
+
+
+@inner
+def roots_on_step(e, h, below, end, below_at_end, roots, pieces):
+    """The roots of e on [0, h] from left to right into `roots`; how many.
+
+    below, below_at_end : whether the orbit is below the plane at the two ends; end : e(h).
+    pieces : scratch (`_DEPTH` + 2, 2), the right ends of the pieces not yet looked at, and e there.
+    """
+    bend = largest_bend(e, h)
+    found = 0
+    left = 0.0
+    at_left = e[0]
+    waiting = 1
+    pieces[0, 0] = h
+    pieces[0, 1] = end
+    while waiting > 0:
+        right, at_right = pieces[waiting - 1]
+        below_right = below_at_end if waiting == 1 else at_right < 0.0
+        width = right - left
+        rise = at_right - at_left
+        same_side = below == below_right
+        if same_side:
+            clear = min(abs(at_left), abs(at_right)) > 0.125 * bend * width * width
+        else:
+            clear = abs(rise) > 0.5 * bend * width * width
+        if clear or waiting > _DEPTH:
+            if not same_side:
+                guess = left - at_left * width / rise if rise != 0.0 else left
+                roots[found] = root_between(e, left, right, guess, below, bend)
+                found += 1
+            left, at_left, below = right, at_right, below_right
+            waiting -= 1
+        else:
+            middle = left + 0.5 * width
+            pieces[waiting, 0] = middle
+            pieces[waiting, 1] = value_and_slope(e, middle)[0]
+            waiting += 1
+    return found
+
+
+def crossing_finder(field: Quadratic) -> Callable[..., Any]:
+    """The compiled search for the crossings of a plane by one orbit.
+
+    cross(state, parameters, normal, offset, sense, end, order, tolerance, max_steps, times, states): the
+    crossings of normal·y = offset after t = 0 and up to t = `end` (of either sign) into `times` (n,) and
+    `states` (n, d), until those are full; sense 1: from below, −1: from above (as time grows), 0: both.
+    An orbit that starts on the plane has not crossed it there.
+    Returns (crossings, steps); crossings is `STEP_LIMIT_REACHED` when that is so.
+    """
+    n, columns, rates = field.dimension, columns_of(field), field.rates
+    expand, convolve = expansion(field), convolution(field)
+    evaluate = evaluation(n)
+
+    @inner
+    def cross(state, parameters, normal, offset, sense, end, order, tolerance, max_steps, times, states):
+        c, left, right, inverses = workspace(order, n, columns)
+        e = np.zeros(order + 1)
+        roots = np.zeros(order + 1)
+        pieces = np.zeros((_DEPTH + 2, 2))
+        y = state.copy()
+        low = np.zeros(n)
+        increments = np.zeros(n)
+        t = 0.0
+        t_low = 0.0
+        direction = 1.0 if end >= 0.0 else -1.0
+        below = False
+        crossings = 0
+        steps = 0
+        while True:
+            for i in range(n):
+                c[0, i] = y[i]
+            expand(c, left, right, inverses, parameters, rates, convolve)
+            sign = 1.0
+            for k in range(order + 1):
+                height = 0.0
+                for i in range(n):
+                    height += c[k, i] * normal[i]
+                e[k] = sign * height
+                sign *= direction
+            e[0] -= offset
+            if steps == 0:
+                # Round-off must not make a crossing of a start that was meant to be on the plane.
+                on_plane = abs(e[0]) <= 1e-14 * (1.0 + abs(offset))
+                below = (e[1] if on_plane else e[0]) < 0.0
+            h = step_of(c, n, tolerance)
+            remaining = direction * ((end - t) - t_low)
+            last = h >= remaining
+            h = min(h, remaining)
+            steps += 1
+            if steps > max_steps or not (h > 0.0 or last):
+                return STEP_LIMIT_REACHED, steps
+            evaluate(c, direction * h, increments)
+            at_end = -offset
+            for i in range(n):
+                y[i], low[i] = compensated(y[i], low[i], increments[i])
+                at_end += y[i] * normal[i]
+            below_at_end = at_end < 0.0
+            for root in range(roots_on_step(e, h, below, at_end, below_at_end, roots, pieces)):
+                if sense == 0 or (sense * direction > 0.0) == below:
+                    s = direction * roots[root]
+                    times[crossings] = t + (t_low + s)
+                    evaluate(c, s, increments)
+                    for i in range(n):
+                        states[crossings, i] = c[0, i] + increments[i]
+                    crossings += 1
+                    if crossings == times.size:
+                        return crossings, steps
+                below = not below
+            below = below_at_end
+            if last:
+                return crossings, steps
+            t, t_low = compensated(t, t_low, direction * h)
+
+    return cross

@@ -1,0 +1,183 @@
+"""Many orbits of one system: eight at a time, each with its own steps, on as many threads as wanted.
+
+The recursion of `taylor` with eight orbits in the place of one number, which the processor computes
+together.  A lane whose orbit is done takes the next one, so that no lane waits for another.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from .jit import inner
+from .taylor import STEP_LIMIT_REACHED, Quadratic, compensated, step_size
+from .unrolled import compiled
+
+__all__ = ["LANES", "ensemble_integrator"]
+
+LANES = 8
+
+
+def expansion_of_lanes(field: Quadratic) -> Callable[..., Any]:
+    """expand(c, q, parameters, order): the Taylor coefficients c[k, variable, lane] of all lanes; scratch q[product, lane]."""
+    rates, m, n = field.rates, len(field.pairs), field.dimension
+    convolve = _convolutions(field)
+    # Of all lanes first everything is read, then everything written: so the compiler may do it together.
+    differentiate = compiled(f"""
+def function(c, q, k, parameters, rates):
+    p = ({", ".join(f"parameters[{i}]" for i in range(field.parameters))},)
+    s = 1.0 / (k + 1.0)
+    {_for_lanes(lambda lane: f"y{lane} = rates(({', '.join(f'c[k, {i}, {lane}]' for i in range(n))},), "
+                f"({', '.join(f'q[{j}, {lane}]' for j in range(m))},), p)")}
+    {_for_lanes(lambda lane: "; ".join(f"c[k + 1, {i}, {lane}] = y{lane}[{i}] * s" for i in range(n)))}
+""")
+
+    @inner
+    def expand(c, q, parameters, order):
+        for k in range(order):
+            convolve(c, q, k)
+            differentiate(c, q, k, parameters, rates)
+
+    return expand
+
+
+def _for_lanes(statement: Callable[[int], str]) -> str:
+    return "; ".join(map(statement, range(LANES)))
+
+
+def _convolutions(field: Quadratic) -> Callable[..., Any]:
+    """The function of (c, q, k) that sets q[j, lane] = Σ_m c[m, left, lane] c[k−m, right, lane] for each product j.
+
+    Every coefficient is read once for all products.
+    """
+    rows = sorted({row for pair in field.pairs for row in pair})
+    lanes = range(LANES)
+
+    def lines(template: str) -> str:
+        return "\n        ".join(
+            template.format(j=j, a=a, b=b, lane=lane) for j, (a, b) in enumerate(field.pairs) for lane in lanes)
+
+    def read(name: str, order: str) -> str:
+        return "\n        ".join(f"{name}{row}_{lane} = c[{order}, {row}, {lane}]" for row in rows for lane in lanes)
+
+    return compiled(f"""
+def function(c, q, k):
+    m = k // 2
+    if 2 * m == k:
+        {read("x", "m")}
+        {lines("s{j}_{lane} = x{a}_{lane} * x{b}_{lane}")}
+    else:
+        {lines("s{j}_{lane} = 0.0")}
+    for m in range((k - 1) // 2, -1, -1):
+        n = k - m
+        {read("x", "m")}
+        {read("y", "n")}
+        {lines("s{j}_{lane} += x{a}_{lane} * y{b}_{lane}")}
+        {lines("s{j}_{lane} += y{a}_{lane} * x{b}_{lane}")}
+    if True:
+        {lines("q[{j}, {lane}] = s{j}_{lane}")}
+""")
+
+
+def ensemble_integrator(field: Quadratic) -> Callable[..., Any]:
+    """The compiled solver of many orbits.
+
+    integrate(states, parameters, times, order, tolerance, max_steps, out): the orbits that start at the rows of
+    `states` (orbits, d), at the given times (n,), monotonic, all ≥ 0 or all ≤ 0, into `out` (orbits, n, d).
+    Returns the number of steps of all orbits, or `STEP_LIMIT_REACHED` when one took more than `max_steps`.
+    """
+    n, m = field.dimension, len(field.pairs)
+    expand = expansion_of_lanes(field)
+    largest = compiled(f"""
+def function(c, k, out):
+    {_for_lanes(lambda lane: f"a{lane} = 0.0")}
+    for i in range({n}):
+        {_for_lanes(lambda lane: f"a{lane} = max(a{lane}, abs(c[k, i, {lane}]))")}
+    {_for_lanes(lambda lane: f"out[{lane}] = a{lane}")}
+""")
+    values = compiled(f"""
+def function(c, i, s):
+    {_for_lanes(lambda lane: f"a{lane} = 0.0")}
+    for k in range(c.shape[0] - 1, 0, -1):
+        {_for_lanes(lambda lane: f"a{lane} = (a{lane} + c[k, i, {lane}]) * s[{lane}]")}
+    return ({", ".join(f"a{lane}" for lane in range(LANES))},)
+""")
+    add = compiled(f"""
+def function(y, low, s, compensated):
+    {_for_lanes(lambda lane: f"a{lane}, b{lane} = compensated(y[{lane}], low[{lane}], s[{lane}])")}
+    {_for_lanes(lambda lane: f"y[{lane}] = a{lane}")}
+    {_for_lanes(lambda lane: f"low[{lane}] = b{lane}")}
+""")
+
+    @inner
+    def value(c, i, lane, s):
+        total = 0.0
+        for k in range(c.shape[0] - 1, 0, -1):
+            total = (total + c[k, i, lane]) * s
+        return total
+
+    @inner
+    def integrate(states, parameters, times, order, tolerance, max_steps, out):
+        c = np.zeros((order + 1, n, LANES))
+        q = np.zeros((m, LANES))
+        low = np.zeros((n, LANES))
+        last = np.zeros(LANES)
+        previous = np.zeros(LANES)
+        step = np.zeros(LANES)
+        t = np.zeros(LANES)
+        t_low = np.zeros(LANES)
+        orbit = np.full(LANES, -1)
+        sample = np.zeros(LANES, np.int64)
+        steps = np.zeros(LANES, np.int64)
+        count = times.size
+        direction = 1.0 if times[count - 1] >= 0.0 else -1.0
+        following = 0
+        running = 0
+        total = 0
+        while True:
+            for lane in range(LANES):
+                if orbit[lane] < 0 and following < states.shape[0]:
+                    orbit[lane] = following
+                    for i in range(n):
+                        c[0, i, lane] = states[following, i]
+                        low[i, lane] = 0.0
+                    t[lane] = 0.0
+                    t_low[lane] = 0.0
+                    sample[lane] = 0
+                    steps[lane] = 0
+                    following += 1
+                    running += 1
+            if running == 0:
+                return total
+            expand(c, q, parameters, order)
+            largest(c, order, last)
+            largest(c, order - 1, previous)
+            for lane in range(LANES):
+                step[lane] = 0.0
+                if orbit[lane] < 0:
+                    continue
+                h = step_size(last[lane], previous[lane], order, tolerance)
+                while sample[lane] < count:
+                    s = (times[sample[lane]] - t[lane]) - t_low[lane]
+                    if direction * s > h:
+                        break
+                    for i in range(n):
+                        increment = low[i, lane] + value(c, i, lane, s)
+                        out[orbit[lane], sample[lane], i] = c[0, i, lane] + increment
+                    sample[lane] += 1
+                steps[lane] += 1
+                if sample[lane] == count:
+                    total += steps[lane]
+                    orbit[lane] = -1
+                    running -= 1
+                    continue
+                if steps[lane] > max_steps or not (h > 0.0):
+                    return STEP_LIMIT_REACHED
+                step[lane] = direction * h
+                t[lane], t_low[lane] = compensated(t[lane], t_low[lane], step[lane])
+            for i in range(n):
+                add(c[0, i], low[i], values(c, i, step), compensated)
+
+    return integrate

@@ -1,0 +1,22 @@
+"""Work shared by two threads: kernels release the interpreter's lock."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+
+__all__ = ["THREADS", "share"]
+
+THREADS = min(8, os.cpu_count() or 1)
+
+_pool = ThreadPoolExecutor(max_workers=THREADS, thread_name_prefix="kernel")
+
+
+def share(work: Callable[[int], None], parts: int, threads: int = THREADS) -> None:
+    """work(0), …, work(parts − 1), on that many threads; the first error of a part is raised."""
+    if threads == 1 or parts == 1:
+        for part in range(parts):
+            work(part)
+    else:
+        list(_pool.map(work, range(parts)))
