@@ -201,17 +201,25 @@ class CircleMap:
         orbit = np.empty(count + 1)
         orbit[0] = math.remainder(phi, 2 * math.pi)
         for i in range(count):
-            orbit[i + 1] = self.theta(orbit[i])
+            _theta_of(*self.matrix, orbit[i : i + 1], orbit[i + 1 : i + 2])
         return frozen(orbit)
 
 
+@kernel
+def _theta_of(re, im, im_beta, phi, out):
+    """Θ(φ) = 2 arg(αz + β) − φ with z = e^{iφ}, in (−π, π]."""
+    for i in range(phi.size):
+        c = math.cos(phi[i])
+        s = math.sin(phi[i])
+        angle = 2.0 * math.atan2(re * s + im * c + im_beta, re * c - im * s) - phi[i]
+        angle -= 2.0 * math.pi * np.rint(angle / (2.0 * math.pi))
+        out[i] = math.pi if angle <= -math.pi else min(angle, math.pi)
+
+
 def _theta(matrix: tuple[float, float, float], phi: Array) -> Array:
-    re, im, im_beta = matrix
-    z = np.exp(1j * phi)
-    numerator = complex(re, im) * z + 1j * im_beta
-    # The denominator is conj(numerator)·z, so the angle needs no division.
-    angle = np.angle(numerator**2 / (z * np.abs(numerator) ** 2))
-    return np.where(angle == -math.pi, math.pi, angle)
+    out = np.empty(phi.size)
+    _theta_of(*matrix, phi.ravel(), out)
+    return out.reshape(phi.shape)
 
 
 def check_a(a: float) -> None:

@@ -21,7 +21,7 @@ LANES = 8
 
 
 def expansion_of_lanes(field: Quadratic) -> Callable[..., Any]:
-    """expand(c, q, parameters, order): the Taylor coefficients c[k, variable, lane] of all lanes; scratch q[product, lane]."""
+    """expand(c, q, parameters, order): the Taylor coefficients c[k, variable, lane]; q[product, lane] is scratch."""
     rates, m, n = field.rates, len(field.pairs), field.dimension
     convolve = _convolutions(field)
     # Of all lanes first everything is read, then everything written: so the compiler may do it together.

@@ -25,8 +25,8 @@ from .jit import inner
 from .unrolled import compiled, evaluation
 
 __all__ = [
-    "STEP_LIMIT_REACHED", "Quadratic", "columns_of", "compensated", "convolution", "expansion", "orbit_integrator", "step_of",
-    "step_size", "workspace",
+    "STEP_LIMIT_REACHED", "Quadratic", "columns_of", "compensated", "convolution", "expansion", "orbit_integrator",
+    "step_of", "step_size", "workspace",
 ]
 
 STEP_LIMIT_REACHED = -1

@@ -143,7 +143,8 @@ for name, system in models.systems().items():
     starts = [[x * (1 + 0.01 * i) for x in state] for i in range(11)]
     many = models.ensemble(system, starts, parameters, [0.5, 1.0], level("standard"))
     results[f"{name} ensemble"] = [x.hex() for x in many.states.ravel().tolist()]
-    plane = models.Plane((1.0,) + (0.0,) * (len(state) - 1), sense=0)
+    last = models.solve(system, state, parameters, [0.1 * i for i in range(201)], level("draft")).states[:, -1]
+    plane = models.Plane((0.0,) * (len(state) - 1) + (1.0,), offset=0.5 * (last.min() + last.max()), sense=0)
     found = models.section(system, state, parameters, plane, 20.0, level("standard"))
     assert len(found.times) > 1
     results[f"{name} section"] = [x.hex() for x in [*found.times.tolist(), *found.states.ravel().tolist()]]
