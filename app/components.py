@@ -7,7 +7,7 @@ from pathlib import Path
 import param
 from panel.custom import JSComponent
 
-__all__ = ["STATIC", "NumberControl", "Player", "Ready", "Sphere", "Text"]
+__all__ = ["STATIC", "NumberControl", "Player", "Ready", "SceneMenu", "Sphere", "Text"]
 
 STATIC = Path(__file__).resolve().parent.parent / "static"
 _CSS = (STATIC / "components.css").read_text(encoding="utf-8")
@@ -40,16 +40,26 @@ class Player(JSComponent):
     _stylesheets = [_CSS]
 
 
+class SceneMenu(JSComponent):
+    """The scenes as pictures to choose from; a choice travels with the request for its first state."""
+
+    scenes = param.List(default=[], doc="{name, title, summary, picture, origin} of each.")
+    shown = param.String(default="", doc="The name of the one on show.")
+
+    _esm = STATIC / "scenes.js"
+    _stylesheets = [_CSS]
+
+
 class Ready(JSComponent):
     """Keeps `<html data-ready data-state>` and the address bar.
 
     It sends messages, for `on_msg`: {"requested": n, "held": whether a slider is held, "values": {name:
-    number, …}, "picked": [picture, x, y] or null, "reset": whether Reset was pressed} asks for the state after
-    the user's n-th change.
+    number, …}, "picked": [picture, x, y] or null, "reset": whether Reset was pressed, "scene": the scene chosen or
+    null, "hidden": [the pictures out of sight, …]} asks for the state after the user's n-th change.
     """
 
     state = param.String(default="", doc="JSON: number of the state, last request that it answers, URL query, "
-                         "and the tree of its data (see `app.wire`).")
+                         "the tree of its data (see `app.wire`), scene and number of its Bokeh plots.")
     block = param.Bytes(default=b"", doc="The numbers of that tree.")
     client = param.Dict(default={}, doc="URL keys that the browser itself keeps: t, speed, az, el.")
 

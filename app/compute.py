@@ -77,6 +77,12 @@ class ResultCache:
         future.set_result(value)
         return value, False
 
+    def metrics(self) -> str:
+        """One line "name value …" for the log."""
+        with self._lock:
+            return (f"cache_hits {self.hits} cache_misses {self.misses} cache_entries {len(self._entries)} "
+                    f"cache_bytes {self.bytes}")
+
     def _shrink(self) -> None:
         while self.bytes > self.capacity and self._entries:
             _, (_, size) = self._entries.popitem(last=False)
@@ -91,4 +97,4 @@ def warm() -> None:
     from app.scenes import scenes
 
     for scene in scenes().values():
-        scene.compute(scene.defaults())
+        scene.compute(scene.defaults(), scene.pictures, False)

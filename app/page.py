@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from collections.abc import Callable
 from typing import Any
 from urllib.parse import urlencode
 
@@ -10,7 +11,7 @@ import panel as pn
 import panel_material_ui as pmui
 from panel.util import edit_readonly
 
-from app.components import STATIC, Player, Ready, Text
+from app.components import STATIC, Player, Ready, SceneMenu, Text
 from app.controls import Controls, ExampleMenu
 from app.scenes import scenes
 from app.scenes.base import Picture, Scene, Stage
@@ -26,18 +27,6 @@ THEME = Choice("theme", "Theme", ("light", "dark"), "light")
 
 PAGE_CSS = (STATIC / "page.css").read_text(encoding="utf-8")
 
-LEGEND = """
-<ul class="legend" aria-label="Legend">
-<li><span class="line orbit"></span>orbit</li>
-<li><span class="line stable"></span>stable cycle</li>
-<li><span class="line unstable"></span>unstable cycle</li>
-<li><span class="dot point"></span>moving point</li>
-<li><span class="box forbidden"></span>impossible</li>
-<li><span class="box locked"></span>locked</li>
-<li><span class="box rho"></span>ρ from −½ to ½</li>
-</ul>
-"""
-
 # The system's font: the fourteen files of another one would come before the first picture.
 FONT = "system-ui, sans-serif"
 
@@ -47,7 +36,7 @@ WIDE: dict[str, Any] = {"sizing_mode": "stretch_width"}
 def page() -> Any:
     """A new page for one session, in the state that its URL describes."""
     try:
-        return _page(next(iter(scenes().values())), _query())
+        return _page(_query())
     except Exception:
         logger.exception("the page could not be built")
         return pn.pane.Str("The page could not be built. Open it without the part of its address after “?”.")
@@ -60,58 +49,62 @@ def _query() -> str:
     return urlencode([(name, given[0].decode("utf-8", "replace")) for name, given in arguments.items() if given])
 
 
-def _page(scene: Scene, query: str) -> pmui.Page:
-    state, notes = decode(query, (*scene.specs, *CLIENT, THEME))
+def _page(query: str) -> pmui.Page:
+    choice = Choice("scene", "Scene", tuple(scenes()), next(iter(scenes())))
+    chosen, _ = decode(query, (choice,))
+    scene = scenes()[str(chosen["scene"])]
+    # A scene's own notes on the link; that of another version is among them.
+    state, notes = decode(query, (choice, *scene.specs, *CLIENT, THEME))
     client = {spec.name: float(state.pop(spec.name)) for spec in CLIENT}
     client["speed"] = min(Player.SPEEDS, key=lambda speed: abs(speed - client["speed"]))
     dark = state.pop("theme") == "dark"
 
-    stage = scene.stage()
-    stage.look_from(client["az"], client["el"])
     ready = Ready(client={name: repr(value) for name, value in client.items()}, width=0, height=0, margin=0)
-
-    def show_menus(values: Values) -> None:
-        controls.show(values)
-        examples.show(values)
-
-    session = Session(scene, stage, ready, state, notes, show_menus)
-    admitted, _ = scene.admit(state)
-    controls = Controls(scene.specs, admitted, scene.limits(admitted), session.change)
-    examples = ExampleMenu(scene, session.change)
-    session.attach()
-
+    menu = SceneMenu(scenes=[_entry(one) for one in scenes().values()], shown=scene.name, **WIDE)
+    controls_column, main_column = pn.Column(**WIDE), pn.Column(**WIDE)
     result = pmui.Page(
-        title=f"Hess Explorer · {scene.title}",
         meta_name="Hess Explorer",
         meta_description=scene.summary,
         dark_theme=dark,
         theme_config={"typography": {"fontFamily": FONT}},
-        sidebar=[
-            examples.root,
-            *controls.roots,
-            _buttons(),
-            Text(key="derived", look="derived", tag="div", margin=(8, 8), **WIDE),
-        ],
+        sidebar=[menu, controls_column],
         sidebar_width=300,
         sidebar_resizable=False,  # its handle has a name but no role
-        main=[
-            *_pictures(stage, client),
-            pn.Column(
-                Text(key="status", look="status", live=True, **WIDE),
-                Text(key="notes", look="notes", live=True, **WIDE),
-                margin=(4, 8), **WIDE,
-            ),
-            pn.pane.Markdown(
-                with_formulas(scene.words), css_classes=["words"], stylesheets=[PAGE_CSS], margin=(0, 8), **WIDE),
-            ready,
-        ],
+        main=[main_column, ready],
         sx={"& .MuiLinearProgress-root": {"display": "none"}},  # has no name, and `data-ready` says the same
     )
+
+    def build(scene: Scene, values: Values, change: Callable[[Values], None]) -> tuple[Stage, Callable[[Values], None]]:
+        stage = scene.stage()
+        stage.look_from(client["az"], client["el"])
+        controls = Controls(scene.specs, values, scene.limits(values), change)
+        examples = ExampleMenu(scene, change)
+        controls_column.objects = [
+            examples.root, *controls.roots, _buttons(),
+            Text(key="derived", look="derived", tag="div", margin=(8, 8), **WIDE),
+        ]
+        main_column.objects = _main(scene, stage, client)
+        menu.shown = scene.name
+        result.title = f"Hess Explorer · {scene.title}"
+
+        def show_menus(values: Values) -> None:
+            controls.show(values)
+            examples.show(values)
+
+        return stage, show_menus
+
+    Session(ready, build, scene, state, notes)
     # The page's own busy flag is sent with every event and makes Panel walk through all models each
     # time (100 ms); `data-ready` says the same.
     with edit_readonly(result):
         result.busy = False
     return result
+
+
+def _entry(scene: Scene) -> dict[str, str | None]:
+    """What the menu of scenes says of one."""
+    return {"name": scene.name, "title": scene.title, "summary": scene.summary, "picture": scene.thumbnail,
+            "origin": scene.origin}
 
 
 def _buttons() -> pn.Row:
@@ -123,16 +116,23 @@ def _buttons() -> pn.Row:
     )
 
 
-def _pictures(stage: Stage, client: dict[str, float]) -> list[Any]:
-    """The pictures, their legend and the player."""
+def _main(scene: Scene, stage: Stage, client: dict[str, float]) -> list[Any]:
+    """The pictures, their legend, the player, the status line, the words."""
     player = Player(
         t=client["t"], speed=client["speed"], angles=list(stage.angles),
         dots={name: list(columns) for name, columns in stage.dots.items()}, margin=(0, 8), **WIDE,
     )
     return [
         pn.Column(*map(_cell, stage.pictures), css_classes=["pictures"], stylesheets=[PAGE_CSS], **WIDE),
-        pn.pane.HTML(LEGEND, stylesheets=[PAGE_CSS], margin=(0, 8), **WIDE),
+        pn.pane.HTML(scene.legend, stylesheets=[PAGE_CSS], margin=(0, 8), **WIDE),
         pn.Column(player, css_classes=["dock"], stylesheets=[PAGE_CSS], **WIDE),
+        pn.Column(
+            Text(key="status", look="status", live=True, **WIDE),
+            Text(key="notes", look="notes", live=True, **WIDE),
+            margin=(4, 8), **WIDE,
+        ),
+        pn.pane.Markdown(
+            with_formulas(scene.words), css_classes=["words"], stylesheets=[PAGE_CSS], margin=(0, 8), **WIDE),
     ]
 
 

@@ -8,15 +8,17 @@ from __future__ import annotations
 import json
 import logging
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from typing import Any
 
 from panel.io.document import unlocked
 
 from app.components import Ready
+from app.compute import CACHE
 from app.controls import slider_limits
+from app.scenes import scenes
 from app.scenes.base import Report, Scene, Stage
-from app.state import Number, Value, Values, encode
+from app.state import Number, Values, encode
 from app.wire import Wire
 from models.errors import ModelError
 
@@ -33,6 +35,9 @@ def _float(value: Any) -> float:
         return math.nan
 
 
+Build = Callable[[Scene, Values, Callable[[Values], None]], tuple[Stage, Callable[[Values], None]]]
+
+
 class Session:
     """Wanted values → admitted values → result → pictures.
 
@@ -41,31 +46,34 @@ class Session:
 
     Parameters
     ----------
-    scene : what is shown; stage : its pictures.
-    values : the state to begin with; notes : what had to be changed in the link.
-    show : called with the admitted values inside each update, to bring the menus up to date.
+    ready : its messages ask for states, and it receives them.
+    build(scene, values, change) : puts new pictures and controls of a scene on the page, with these admitted
+        values, whose menus call `change`; returns the pictures and what is to be called with the admitted
+        values of each later state.
+    scene : what is shown first; values : the state to begin with; notes : what had to be changed in the link.
     """
 
-    def __init__(self, scene: Scene, stage: Stage, ready: Ready, values: Values, notes: list[str],
-                 show: Callable[[dict[str, Value]], None]) -> None:
-        self.scene = scene
-        self.stage = stage
+    def __init__(self, ready: Ready, build: Build, scene: Scene, values: Values, notes: list[str]) -> None:
         self.ready = ready
         self.wire = Wire()
-        self.values: dict[str, Value] = {}
-        self._specs = {spec.name: spec for spec in scene.specs}
-        self._wanted = dict(values)
-        self._link_notes = notes
-        self._show = show
+        self._build = build
         self._held = False
-        self._dirty = True
         self._number = 0
+        self._enter(scene, values, notes)
+        self._send(0)
         ready.on_msg(lambda event: self._receive(event.data))
 
-    def attach(self) -> None:
-        """Draw the first state; later ones are sent to the browser."""
+    def _enter(self, scene: Scene, values: Values, notes: list[str]) -> None:
+        """Another scene, in which parameters of the same name keep their values."""
+        self.scene = scene
+        self._specs = {spec.name: spec for spec in scene.specs}
+        self._wanted = scene.defaults() | {name: values[name] for name in self._specs if name in values}
+        self._link_notes = notes
+        self.values = scene.admit(self._wanted)[0]
+        self._shown: Collection[str] = scene.pictures
+        self.stage, self._show = self._build(scene, self.values, self.change)
+        # The first state is part of the new pictures, later ones go by the wire.
         self._draw()
-        self._send(0)
         self.stage.connect(self.wire)
 
     def change(self, values: Values) -> None:
@@ -103,10 +111,19 @@ class Session:
             x, y = map(_float, picked[1:])
             if math.isfinite(x) and math.isfinite(y):
                 self.change(self.stage.pick(picked[0], x, y))
+        scene = scenes().get(message["scene"]) if isinstance(message.get("scene"), str) else None
+        if scene is not None and scene is not self.scene:
+            self._enter(scene, self._wanted, [])
+        hidden = message.get("hidden")
+        if isinstance(hidden, list):
+            shown = [name for name in self.scene.pictures if name not in hidden]
+            # What comes into sight must be of this state.
+            self._dirty |= not set(shown) <= set(self._shown)
+            self._shown = shown
         requested = message.get("requested")
         if isinstance(requested, int):
             held = message.get("held") is True
-            # When a slider is let go, axes and other controls may have to follow.
+            # When a slider is let go, accuracy, axes and other controls may have to follow.
             self._dirty |= self._held and not held
             self._held = held
             with unlocked():
@@ -120,7 +137,8 @@ class Session:
         # In this order: the state says how to read the block.
         self.ready.block = block
         self.ready.state = json.dumps({
-            "number": self._number, "answers": answers, "query": encode(self.values), "tree": tree,
+            "number": self._number, "answers": answers, "query": encode(self.scene.name, self.values), "tree": tree,
+            "scene": self.scene.name, "plots": list(self.stage.plots),
         })
 
     def _draw(self) -> None:
@@ -128,12 +146,13 @@ class Session:
         admitted, notes = self.scene.admit(self._wanted)
         self.values = admitted
         try:
-            report = self.stage.show(self.scene.compute(admitted), hold_axes=self._held)
+            result = self.scene.compute(admitted, self._shown, self._held)
+            report = self.stage.show(result, hold_axes=self._held)
         except ModelError as error:
             self.stage.fail(str(error))
             report = Report([], str(error))
         except Exception:
-            logger.exception("a computation failed at %s", encode(admitted))
+            logger.exception("a computation failed at %s", encode(self.scene.name, admitted))
             sentence = "This state could not be computed. Press Reset, and please report the link."
             self.stage.fail(sentence)
             report = Report([], sentence)
@@ -144,6 +163,6 @@ class Session:
                 if isinstance(spec, Number):
                     self.wire.show_number(spec.name, float(admitted[spec.name]), slider_limits(spec, limits))
             self._show(admitted)
-        self.wire.say("status", report.status)
+        self.wire.say("status", f"{report.status} · cache {CACHE.hits} hits, {CACHE.misses} misses")
         self.wire.say("notes", "\n".join([*self._link_notes, *notes, *report.notes]))
         self.wire.say("derived", "\n".join(report.derived))

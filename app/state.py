@@ -85,9 +85,9 @@ def _text(value: Value) -> str:
     return value if isinstance(value, str) else repr(float(value))
 
 
-def encode(values: Values) -> str:
-    """The query of these values, version first."""
-    return urlencode([("v", VERSION), *((name, _text(value)) for name, value in values.items())])
+def encode(scene: str, values: Values) -> str:
+    """The query of these values of a scene, version first."""
+    return urlencode([("v", VERSION), ("scene", scene), *((name, _text(value)) for name, value in values.items())])
 
 
 def decode(query: str, specs: Sequence[Spec]) -> tuple[dict[str, Value], list[str]]:

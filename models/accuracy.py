@@ -7,7 +7,7 @@ from enum import StrEnum
 
 from .errors import InvalidParameter
 
-__all__ = ["DRAFT", "LEVELS", "PRECISE", "REFERENCE", "STANDARD", "Level", "Status", "level"]
+__all__ = ["DRAFT", "LEVELS", "PRECISE", "REFERENCE", "STANDARD", "Level", "Status", "cheapest", "level"]
 
 
 class Status(StrEnum):
@@ -53,9 +53,9 @@ class Level:
 
 FLOOR_TOLERANCE = 1e-17
 
-DRAFT = Level("draft", 1e-3, 1e-5, 10)
-STANDARD = Level("standard", 1e-6, 1e-8, 14)
-PRECISE = Level("precise", 1e-9, 1e-11, 18)
+DRAFT = Level("draft", 1e-3, 1e-5, 12)
+STANDARD = Level("standard", 1e-6, 1e-8, 16)
+PRECISE = Level("precise", 1e-9, 1e-11, 20)
 REFERENCE = Level("reference", 1e-12, FLOOR_TOLERANCE, 24)
 
 LEVELS: dict[str, Level] = {rung.name: rung for rung in (DRAFT, STANDARD, PRECISE, REFERENCE)}
@@ -69,3 +69,8 @@ def level(name: str) -> Level:
         raise InvalidParameter(
             f"There is no accuracy level of that name; choose one of {', '.join(LEVELS)}."
         ) from None
+
+
+def cheapest(error: float) -> Level:
+    """The first rung that promises this error or less; the last one if none does."""
+    return next((rung for rung in LEVELS.values() if rung.promise <= error), REFERENCE)

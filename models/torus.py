@@ -18,18 +18,27 @@ from .hess import SYSTEM, HessBody
 from .orbit import solve
 from .results import Array, Orbit, frozen
 from .rigid_body import require_finite
+from .sampling import sample_times
 
-__all__ = ["Track", "annulus", "cycles", "track"]
+__all__ = [
+    "HALF_A_PIXEL", "PIXELS", "SAGITTA", "Track", "annulus", "cycles", "pixels_per_unit", "start_of_track", "track",
+]
 
 MAX_RETURNS = 100
-_CYCLE_SAMPLES = 241
+PIXELS = 600.0
+"""Width of the pictures that the samples are meant for; a wider one shows proportionally more."""
+SAGITTA = 0.25
+"""The largest distance between the orbit and what is drawn, in those pixels."""
+HALF_A_PIXEL = 1.0 / PIXELS
+"""Half a pixel, in units in which the state is O(1) and fills the picture."""
+_MOST = 6000
 
 
 @dataclass(frozen=True)
 class Track:
     """One orbit on a torus.
 
-    times : (n,), even, in the body's units; omega : (n, 2); gamma : (n, 3);
+    times : (n,), in the body's units; omega : (n, 2); gamma : (n, 3);
     phi : (n,) the angle of (w2, w1) in (−π, π]; n3 : (n,); orbit : the computation in units b = 1.
     """
 
@@ -58,40 +67,59 @@ def _solve_reduced(body: HessBody, start: Array, times: Array, level: Level) -> 
     return _in_body_units(body, solve(SYSTEM, start, (body.a, 1.0), times, level))
 
 
-def track(body: HessBody, h: float, f: float, phi0: float, span: float, level: Level) -> Track:
-    """The orbit that starts at n3 = n3^(1) with phase φ0, over `span` of the body's time.
+def start_of_track(body: HessBody, h: float, f: float, phi0: float, span: float) -> tuple[Array, float]:
+    """State (5,) and time span, in units b = 1, of the orbit with phase φ0 that `track` follows.
 
-    The span is cut at `MAX_RETURNS` periods of n3.  On the separatrix (h = 1, f = 0), which never
-    comes to its lower turning point, the orbit starts at the top of n3 instead.
+    It starts at n3 = n3^(1), and the span is cut at `MAX_RETURNS` periods of n3.  On the separatrix
+    (h = 1, f = 0), which never comes to its lower turning point, it starts at the top of n3 instead.
     Raises `OutsideRegion`, `NoField`, `InvalidParameter`.
     """
     require_finite(phi0=phi0, span=span)
     length = span * body.frequency_unit
-    fastest = 0.12 / math.sqrt(2.0 * (h + 1.0)) if h > -1.0 else 1.0
     try:
         turning: TurningPoints = turning_points(h, f)
-        start = turning.state_at_lower_turn(phi0)
-        length = min(length, MAX_RETURNS * turning.period)
-        spacing = min(turning.period / 100.0, fastest)
     except Separatrix:
-        start = np.array([2.0 * math.sin(phi0), 2.0 * math.cos(phi0), 0.0, 0.0, 1.0])
-        length = min(length, 20.0)
-        spacing = fastest
-    count = int(min(4000, max(100, math.ceil(length / spacing)))) + 1
-    return _solve_reduced(body, start, np.linspace(0.0, length, count), level)
+        return np.array([2.0 * math.sin(phi0), 2.0 * math.cos(phi0), 0.0, 0.0, 1.0]), min(length, 20.0)
+    return turning.state_at_lower_turn(phi0), min(length, MAX_RETURNS * turning.period)
 
 
-def cycles(body: HessBody, h: float, f: float, stable: FixedPoint, level: Level) -> tuple[Track, Track]:
+def pixels_per_unit(body: HessBody, half_width: float) -> Array:
+    """Pixels for a unit of w1, w2, n1, n2, n3 (units b = 1) in pictures of `PIXELS`; shape (5,).
+
+    In them ω reaches to ± half_width, and γ to the sphere's rim.
+    """
+    radius = 0.5 * PIXELS
+    w = radius * body.frequency_unit / half_width
+    return np.array([w, w * math.hypot(1.0, body.a), radius, radius, radius])
+
+
+def track(body: HessBody, h: float, f: float, phi0: float, span: float, level: Level, half_width: float) -> Track:
+    """The orbit of `start_of_track` over `span` of the body's time, sampled for the pictures of `pixels_per_unit`.
+
+    Raises `OutsideRegion`, `NoField`, `InvalidParameter`.
+    """
+    start, length = start_of_track(body, h, f, phi0, span)
+    return _solve_reduced(body, start, _times(body, start, length, half_width), level)
+
+
+def _times(body: HessBody, start: Array, length: float, half_width: float) -> Array:
+    weights = pixels_per_unit(body, half_width)
+    return sample_times(SYSTEM, start, np.array([body.a, 1.0]), length, weights, SAGITTA, _MOST)
+
+
+def cycles(body: HessBody, h: float, f: float, stable: FixedPoint, level: Level, half_width: float
+           ) -> tuple[Track, Track]:
     """The stable and the unstable limit cycle, over one period each.
 
-    Only the stable one is integrated; the other is its image under the reversor
+    Sampled as `track`.  Only the stable one is integrated; the other is its image under the reversor
     (w1, n1, t) → (−w1, −n1, −t) of `eq01`, so that no instability touches it.
     """
     turning = turning_points(h, f)
-    times = np.linspace(0.0, turning.period, _CYCLE_SAMPLES)
-    orbit = solve(SYSTEM, turning.state_at_lower_turn(stable.phi), (body.a, 1.0), times, level)
+    start = turning.state_at_lower_turn(stable.phi)
+    times = _times(body, start, turning.period, half_width)
+    orbit = solve(SYSTEM, start, (body.a, 1.0), times, level)
     mirrored = orbit.states[::-1] * np.array([-1.0, 1.0, -1.0, 1.0, 1.0])
-    image = Orbit(orbit.system, orbit.level, orbit.times, frozen(mirrored), orbit.status,
+    image = Orbit(orbit.system, orbit.level, frozen(turning.period - orbit.times[::-1]), frozen(mirrored), orbit.status,
                   orbit.error_estimate, orbit.drift, orbit.cost)
     return _in_body_units(body, orbit), _in_body_units(body, image)
 

@@ -58,9 +58,15 @@ export function render({ model, view, el }) {
   function stateAt(time) {
     const data = source.data
     const n = data.t.length
-    const position = Math.max(0, Math.min(n - 1, time / (data.t[1] - data.t[0])))
-    const i = Math.min(n - 2, Math.floor(position))
-    const s = position - i
+    // The last sample not after this time: samples lie closer where the curve bends.
+    let i = 0
+    let above = n - 1
+    while (above - i > 1) {
+      const middle = (i + above) >> 1
+      if (data.t[middle] <= time) i = middle
+      else above = middle
+    }
+    const s = Math.max(0, Math.min(1, (time - data.t[i]) / (data.t[i + 1] - data.t[i])))
     const state = {}
     for (const name of Object.keys(data)) {
       const [a, b] = [data[name][i], data[name][i + 1]]
@@ -142,7 +148,9 @@ export function render({ model, view, el }) {
     if (t > end()) t = end()
     show()
   }
+  let gone = false
   const watch = () => {
+    if (gone) return
     source = view.model.document?.get_model_by_name("data-orbit") ?? null
     if (source === null) return void requestAnimationFrame(watch)
     source.change.connect(onData)
@@ -150,7 +158,9 @@ export function render({ model, view, el }) {
   }
   watch()
   return () => {
+    gone = true
     playing = false
+    source?.change.disconnect(onData)
     document.removeEventListener("keydown", onKey)
   }
 }

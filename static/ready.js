@@ -17,6 +17,8 @@ export function render({ model, view }) {
   let values = {}
   let picked = null
   let reset = false
+  let chosen = null
+  let scene = null
   let spherePending = false
   root.dataset.ready = "false"
   root.dataset.state = "0"
@@ -31,10 +33,11 @@ export function render({ model, view }) {
     queueMicrotask(() => {
       asking = false
       asked = requested
-      model.send_msg({ requested, held, values, picked, reset })
+      model.send_msg({ requested, held, values, picked, reset, scene: chosen, hidden: [...hidden] })
       values = {}
       picked = null
       reset = false
+      chosen = null
     })
   }
   const request = () => {
@@ -71,6 +74,24 @@ export function render({ model, view }) {
     request()
   })
 
+  document.addEventListener("hess:scene", (event) => {
+    chosen = event.detail
+    request()
+  })
+
+  // Pictures out of sight are not computed; what comes into sight is asked for.
+  const hidden = new Set()
+  const sight = new IntersectionObserver((entries) => {
+    let appeared = false
+    for (const { target, isIntersecting } of entries) {
+      const name = pictureOf(target)
+      if (isIntersecting) appeared = hidden.delete(name) || appeared
+      else hidden.add(name)
+    }
+    if (appeared) request()
+  }, { rootMargin: "100px" })
+  const pictureOf = (cell) => [...cell.classList].find((name) => name.startsWith("picture-")).slice("picture-".length)
+
   document.addEventListener("click", (event) => {
     const on = (name) => event.composedPath().some((item) => item.classList?.contains(name))
     if (on("param-reset")) {
@@ -86,11 +107,13 @@ export function render({ model, view }) {
 
   let plots = []
   const updates = new Set()
-  const findPlots = () => {
-    const found = []
+  // The views of all plots, and the cells of all pictures.
+  const findPictures = () => {
+    const found = { plots: [], cells: [] }
     const visit = (item) => {
       if (item == null) return
-      if (item.request_paint !== undefined && item.repainted !== undefined) found.push(item)
+      if (item.request_paint !== undefined && item.repainted !== undefined) found.plots.push(item)
+      if (item.el?.classList.contains("picture")) found.cells.push(item.el)
       for (const child of item.children_views?.() ?? []) visit(child)
     }
     for (const top of Object.values(window.Bokeh.index)) visit(top)
@@ -132,8 +155,14 @@ export function render({ model, view }) {
   const onPainted = () => { if (waiting && applied && !busy()) settle() }
 
   const onState = () => {
+    const block = model.block
     state = JSON.parse(model.state)
-    unpack(state.tree, model.block)
+    if (state.scene !== scene) whenBuilt(() => show(block))
+    else show(block)
+  }
+
+  const show = (block) => {
+    unpack(state.tree, block)
     // A control that has been moved on since is not moved back.
     if (state.answers === requested) {
       document.dispatchEvent(new CustomEvent("hess:numbers", { detail: state.tree.numbers }))
@@ -172,9 +201,11 @@ export function render({ model, view }) {
   document.addEventListener("hess:sphere-invalid", () => { spherePending = true })
   document.addEventListener("hess:sphere-painted", () => { spherePending = false; onPainted() })
 
-  model.on("state", onState)
-  const prepare = () => {
-    plots = findPlots()
+  const prepare = (found) => {
+    plots = found.plots
+    hidden.clear()
+    sight.disconnect()
+    for (const cell of found.cells) sight.observe(cell)
     for (const plot of plots) {
       plot.repainted.connect(onPainted)
       // Bokeh's own repaint measures all axis labels first, also when `onState` has painted already.
@@ -204,20 +235,29 @@ export function render({ model, view }) {
     return veil != null && getComputedStyle(veil).visibility !== "hidden"
   })
 
+  // Calls back when all plots of the scene of this state are there, have been painted once, and nothing covers them.
+  const whenBuilt = (callback) => {
+    const found = findPictures()
+    const names = found.plots.map((plot) => plot.model.name).sort().join()
+    const built = names === [...state.plots].sort().join() && found.plots.every((plot) => plot.has_finished())
+    if (!built || (covered() && performance.now() < 10_000)) {
+      return void requestAnimationFrame(() => whenBuilt(callback))
+    }
+    scene = state.scene
+    prepare(found)
+    callback()
+  }
   const start = () => {
-    // The first paint is over when Bokeh says so; after that our own marks hold.
     if (bokeh() == null || !bokeh().is_idle) return void requestAnimationFrame(start)
     bokeh().on_change(onChange)
     // On a phone the controls would cover the pictures: there they open by the menu button.
     if (window.innerWidth < 800) page().sidebar_open = false
-    begin()
-  }
-  const begin = () => {
-    // Until the drawer that closes has left the pictures.
-    if (covered() && performance.now() < 10_000) return void requestAnimationFrame(begin)
-    prepare()
+    started = true
     onState()
   }
+  // The first state is read when the page stands, even if the user was faster and it is no longer the first.
+  let started = false
+  model.on("state", () => { if (started) onState() })
   start()
   return () => document.removeEventListener("hess:url", onUrl)
 }

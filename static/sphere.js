@@ -209,7 +209,9 @@ export function render({ model, view, el }) {
   model.on("heights", request)
   showMessage()
   // The sources belong to other pictures: they are in the document once all of it is built.
+  let gone = false
   const watch = () => {
+    if (gone) return
     const found = ["orbit", "stable", "unstable"].map(source)
     if (found.some((item) => item == null)) return void requestAnimationFrame(watch)
     for (const item of found) item.change.connect(request)
@@ -217,6 +219,7 @@ export function render({ model, view, el }) {
   }
   watch()
   return () => {
+    gone = true
     document.removeEventListener("hess:time", onTime)
     document.removeEventListener("hess:paint", draw)
     scheme.disconnect()

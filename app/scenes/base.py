@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 from app.components import Text
 from app.state import Number, Spec, Value, Values
 from app.wire import Wire
+from models.system import System
 
-__all__ = ["Picture", "Preset", "Report", "Scene", "Stage", "caption"]
+__all__ = ["Motion", "Picture", "Preset", "Report", "Scene", "Stage", "caption"]
 
 
 @dataclass(frozen=True)
@@ -59,6 +60,9 @@ class Stage(Protocol):
     angles: Sequence[str]
     """Those of the columns that are angles."""
 
+    plots: Sequence[str]
+    """Names of those of the pictures that are Bokeh's: the browser waits until it has found them."""
+
     def look_from(self, azimuth: float, elevation: float) -> None:
         """The first direction of sight of what can be turned, in radians."""
 
@@ -73,13 +77,35 @@ class Stage(Protocol):
 
 
 @dataclass(frozen=True)
+class Motion:
+    """One motion of a system: what "Speed and accuracy" looks into.
+
+    system, state, parameters, span : as for `models.solve`, in the units of the computation.
+    weights : (d,) from the variables to the scene's pictures, in pixels for a unit.
+    unit : the time of the page in these units of time, so that t = time of the computation × unit.
+    """
+
+    system: System
+    state: tuple[float, ...]
+    parameters: tuple[float, ...]
+    span: float
+    weights: tuple[float, ...]
+    unit: float
+
+
+@dataclass(frozen=True)
 class Scene:
     """One scene of the explorer.
 
+    pictures : their names.  A picture that cannot be seen is not computed.
     admit(values) : values that are possible together, and notes on what was changed.
     limits(values) : slider ranges (low, high, step) that depend on other values.
-    compute(values) : the result, from admitted values; raises `ModelError`.
+    compute(values, shown, dragging) : what the pictures `shown` need, from admitted values; while a slider is
+        dragged at the cheapest accuracy that is right to a pixel.  Raises `ModelError`.
     stage() : new pictures for one session.
+    legend : HTML; thumbnail : the inside of a 48 × 32 SVG for the menu of scenes.
+    motion(values) : the motion on show, for the scene "Speed and accuracy" of this one.
+    origin : the name of the scene whose motion this one looks into.
     """
 
     name: str
@@ -88,10 +114,15 @@ class Scene:
     specs: tuple[Spec, ...]
     presets: tuple[Preset, ...]
     words: str
+    pictures: tuple[str, ...]
     admit: Callable[[Values], tuple[dict[str, Value], list[str]]]
     limits: Callable[[Values], Mapping[str, tuple[float, float, float]]]
-    compute: Callable[[Values], Any]
+    compute: Callable[[Values, Collection[str], bool], Any]
     stage: Callable[[], Stage]
+    legend: str
+    thumbnail: str
+    motion: Callable[[Values], Motion] | None = None
+    origin: str | None = None
 
     def defaults(self) -> dict[str, Value]:
         """The state a newcomer sees."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Collection, Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from app.compute import CACHE
-from app.scenes.base import Picture, Preset, Report, Scene, caption
+from app.scenes.base import Motion, Picture, Preset, Report, Scene, caption
 from app.state import Choice, Number, Value, Values
 from app.views.bifurcation_diagram import BifurcationDiagram, window
 from app.views.circle_map import CircleMapView
@@ -20,14 +20,14 @@ from app.views.omega_plane import OmegaPlane
 from app.views.poisson_sphere import PoissonSphere
 from app.wire import Wire
 from app.words import number
-from models.accuracy import DRAFT, LEVELS, STANDARD, Level, level
+from models.accuracy import DRAFT, LEVELS, STANDARD, Level, cheapest, level
 from models.bifurcation import TurningPoints, curve, curve_point, f_max, turning_points
 from models.circle_map import CircleMap, circle_map
 from models.errors import Separatrix
-from models.hess import HessBody
+from models.hess import SYSTEM, HessBody
 from models.locking import lock_boundary, rotation_number_grid
 from models.results import Array
-from models.torus import MAX_RETURNS, Track, annulus, cycles, track
+from models.torus import HALF_A_PIXEL, MAX_RETURNS, Track, annulus, cycles, pixels_per_unit, start_of_track, track
 
 GRID = (100, 75)
 MAX_A = 100.0
@@ -63,23 +63,52 @@ PRESETS = (
     Preset("Strong contraction, a = 3 (not a body)", {"I22": 0.5, "I23": 1.5}),
 )
 
+LEGEND = """
+<ul class="legend" aria-label="Legend">
+<li><span class="line orbit"></span>orbit</li>
+<li><span class="line stable"></span>stable cycle</li>
+<li><span class="line unstable"></span>unstable cycle</li>
+<li><span class="dot point"></span>moving point</li>
+<li><span class="box forbidden"></span>impossible</li>
+<li><span class="box locked"></span>locked</li>
+<li><span class="box rho"></span>ρ from −½ to ½</li>
+</ul>
+"""
+
+THUMBNAIL = """
+<ellipse cx="24" cy="16" rx="21" ry="14" fill="none" stroke="#808080"/>
+<ellipse cx="24" cy="16" rx="7" ry="4.5" fill="none" stroke="#808080"/>
+<ellipse cx="22" cy="15" rx="12" ry="9" fill="none" stroke="#009E73" stroke-width="2"/>
+<ellipse cx="27" cy="17" rx="14" ry="10" fill="none" stroke="#D55E00" stroke-width="2" stroke-dasharray="3 2"/>
+"""
+
 WORDS = Path(__file__).with_suffix(".md").read_text(encoding="utf-8")
 
 
 @dataclass(frozen=True)
+class Zones:
+    """What the bifurcation diagram shows for all (h, f)."""
+
+    boundary: Array
+    curve: Array
+    grid: Array
+
+
+@dataclass(frozen=True)
 class HessResult:
-    """All that the pictures need.  `turning`, `map` are None on the separatrix."""
+    """What the pictures that are seen need.
+
+    `turning`, `map` are None on the separatrix; `track`, `cycles`, `zones` where no picture asks for them.
+    """
 
     values: Values
     body: HessBody
     turning: TurningPoints | None
-    track: Track
+    track: Track | None
     map: CircleMap | None
     iterates: Array | None
     cycles: tuple[Track, Track] | None
-    boundary: Array
-    curve: Array
-    grid: Array
+    zones: Zones | None
     cached: bool
     wall_ms: float
 
@@ -117,8 +146,8 @@ def _grid(a: float, x: tuple[float, float], y: tuple[float, float], accuracy: Le
     return rotation_number_grid(a, np.maximum(h, -1.0 + 1e-6), f, accuracy)
 
 
-def compute(values: Values) -> HessResult:
-    """Everything the four pictures need, from admitted values; each part is cached by itself."""
+def compute(values: Values, shown: Collection[str], dragging: bool) -> HessResult:
+    """What the pictures shown need, from admitted values; each part is cached by itself."""
     start = time.perf_counter()
     misses = 0
 
@@ -130,29 +159,45 @@ def compute(values: Values) -> HessResult:
 
     I22, I23, b3, h, f, phi0, span = (float(values[spec.name]) for spec in SPECS[:-1])
     accuracy = level(str(values["accuracy"]))
+    if dragging:
+        accuracy = min(accuracy, cheapest(HALF_A_PIXEL), key=lambda rung: rung.order)
     body = HessBody(I22, I23, b3)
-    x, y = window(h)
+    width = half_width(body, h)
     turning: TurningPoints | None = None
     theta: CircleMap | None = None
     pair: tuple[Track, Track] | None = None
+    orbit: Track | None = None
     iterates: Array | None = None
+    zones: Zones | None = None
     try:
         turning = turning_points(h, f)
         theta = cached(circle_map, body.a, h, f, accuracy)
-        if theta.kind == "hyperbolic":
-            pair = cached(cycles, body, h, f, theta.fixed_points[0], accuracy)
+        if theta.kind == "hyperbolic" and not {"omega", "sphere"}.isdisjoint(shown):
+            pair = cached(cycles, body, h, f, theta.fixed_points[0], accuracy, width)
     except Separatrix:
         pass
-    orbit = cached(track, body, h, f, phi0, span, accuracy)
-    if theta is not None:
-        returns = math.ceil(orbit.orbit.times[-1] / theta.period)
-        iterates = theta.iterate(phi0, max(1, returns))
+    if shown:
+        orbit = cached(track, body, h, f, phi0, span, accuracy, width)
+        if theta is not None:
+            returns = math.ceil(orbit.orbit.times[-1] / theta.period)
+            iterates = theta.iterate(phi0, max(1, returns))
+    if "bifurcation" in shown:
+        x, y = window(h)
+        zones = Zones(boundary=cached(lock_boundary, body.a, STANDARD), curve=cached(curve, x[1]),
+                      grid=cached(_grid, body.a, x, y, DRAFT))
     return HessResult(
         values=values, body=body, turning=turning, track=orbit, map=theta, iterates=iterates, cycles=pair,
-        boundary=cached(lock_boundary, body.a, STANDARD), curve=cached(curve, x[1]),
-        grid=cached(_grid, body.a, x, y, DRAFT), cached=misses == 0,
-        wall_ms=(time.perf_counter() - start) * 1e3,
+        zones=zones, cached=misses == 0, wall_ms=(time.perf_counter() - start) * 1e3,
     )
+
+
+def motion(values: Values) -> Motion:
+    """The orbit on show, in units b = 1.  Raises `ModelError`."""
+    I22, I23, b3, h, f, phi0, span = (float(values[spec.name]) for spec in SPECS[:-1])
+    body = HessBody(I22, I23, b3)
+    state, length = start_of_track(body, h, f, phi0, span)
+    weights = pixels_per_unit(body, half_width(body, h))
+    return Motion(SYSTEM, tuple(state), (body.a, 1.0), length, tuple(weights), 1.0 / body.frequency_unit)
 
 
 def _nice_above(value: float) -> float:
@@ -161,10 +206,9 @@ def _nice_above(value: float) -> float:
     return power * next(step for step in (1, 1.5, 2, 3, 4, 5, 6, 8, 10) if step * power >= value * (1 - 1e-12))
 
 
-def _half_width(result: HessResult) -> float:
+def half_width(body: HessBody, h: float) -> float:
     """The frame of the (ω1, ω2)-plane: room for every h of the slider, so that it can stay."""
-    body = result.body
-    largest = math.sqrt(2.0 * (window(float(result.values["h"]))[0][1] + 1.0))
+    largest = math.sqrt(2.0 * (window(h)[0][1] + 1.0))
     return _nice_above(1.02 * body.frequency_unit * math.hypot(1.0, body.a) * largest)
 
 
@@ -177,6 +221,7 @@ class HessStage:
         "circle-point": ("phi_start", "phi"),
     }
     angles: Sequence[str] = ("phi", "phi_start")
+    plots: Sequence[str] = ("omega", "bifurcation", "circle")
 
     def __init__(self) -> None:
         self.omega = OmegaPlane()
@@ -215,20 +260,17 @@ class HessStage:
     def show(self, result: HessResult, hold_axes: bool) -> Report:
         """Draw everything that has changed."""
         h, f = float(result.values["h"]), float(result.values["f"])
-        self._show_motion(result, h, f)
-        half_width = _half_width(result)
-        inner, outer = annulus(result.body, h, result.turning)
-        self.omega.show_region(inner, outer, half_width)
+        width = half_width(result.body, h)
         x, y = window(h)
+        if result.track is not None:
+            self._show_motion(result, result.track, h, f)
+        inner, outer = annulus(result.body, h, result.turning)
+        self.omega.show_region(inner, outer, width)
         if not hold_axes:
-            self.omega.fit(half_width)
+            self.omega.fit(width)
             self.diagram.fit(x, y)
-        if self._once("curve", result.curve):
-            self.diagram.show_region(result.curve, x, y)
-        if self._once("grid", result.grid):
-            self.diagram.show_rotation(result.grid, x, y)
-        if self._once("boundary", result.boundary, x):
-            self.diagram.show_lock(result.boundary, x, y)
+        if result.zones is not None:
+            self._show_zones(result.zones, x, y)
         if self._once("here", h, f):
             self.diagram.show_here(h, f)
         if result.map is None or result.iterates is None:
@@ -246,8 +288,15 @@ class HessStage:
             else:
                 picture.caption.text = text
 
-    def _show_motion(self, result: HessResult, h: float, f: float) -> None:
-        track_ = result.track
+    def _show_zones(self, zones: Zones, x: tuple[float, float], y: tuple[float, float]) -> None:
+        if self._once("curve", zones.curve):
+            self.diagram.show_region(zones.curve, x, y)
+        if self._once("grid", zones.grid):
+            self.diagram.show_rotation(zones.grid, x, y)
+        if self._once("boundary", zones.boundary, x):
+            self.diagram.show_lock(zones.boundary, x, y)
+
+    def _show_motion(self, result: HessResult, track_: Track, h: float, f: float) -> None:
         if self._once("track", track_, result.iterates):
             n3 = track_.n3
             reach = math.copysign(1.0, f) * np.sqrt(np.maximum(0.0, 2.0 * (h + n3) * (1.0 - n3 * n3)))
@@ -344,12 +393,14 @@ def _derived(result: HessResult) -> list[str]:
 
 
 def _status(result: HessResult) -> str:
-    orbit = result.track.orbit
-    parts = [
-        f"{orbit.level}: orbit {orbit.states.shape[0]} points, {orbit.cost.steps} Taylor steps, "
-        f"error ≤ {orbit.error_estimate:.1e} ({orbit.status})",
-        "drift " + " ".join(f"{name} {drift:.0e}" for name, drift in orbit.drift.items()),
-    ]
+    parts = []
+    if result.track is not None:
+        orbit = result.track.orbit
+        parts += [
+            f"{orbit.level}: orbit {orbit.states.shape[0]} points, {orbit.cost.steps} Taylor steps, "
+            f"error ≤ {orbit.error_estimate:.1e} ({orbit.status})",
+            "drift " + " ".join(f"{name} {drift:.0e}" for name, drift in orbit.drift.items()),
+        ]
     if result.map is not None:
         theta = result.map
         parts.append(f"circle map {theta.cost.steps} steps, error ≤ {theta.error_estimate:.1e} ({theta.status})")
@@ -364,7 +415,7 @@ def _notes(result: HessResult) -> list[str]:
     check = result.body.check
     if not check.is_body:
         notes.append(check.sentence)
-    shown = float(result.track.times[-1])
+    shown = math.inf if result.track is None else float(result.track.times[-1])
     if shown < float(result.values["span"]) * (1 - 1e-9):
         reason = "after that it is at rest to the eye" if result.map is None else f"{MAX_RETURNS} returns"
         notes.append(f"The orbit is shown up to t = {number(shown)}: {reason}.")
@@ -382,6 +433,10 @@ SCENE = Scene(
     words=WORDS,
     admit=admit,
     limits=limits,
+    pictures=("omega", "sphere", "bifurcation", "circle"),
     compute=compute,
     stage=HessStage,
+    legend=LEGEND,
+    thumbnail=THUMBNAIL,
+    motion=motion,
 )

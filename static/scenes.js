@@ -1,0 +1,36 @@
+// The menu of scenes, by their pictures.  A choice goes to "ready.js" by the event "hess:scene".
+
+export function render({ model, el }) {
+  const bar = document.createElement("div")
+  bar.className = "scenes"
+  bar.setAttribute("role", "group")
+  bar.setAttribute("aria-label", "Scene")
+  el.append(bar)
+
+  function show() {
+    const here = model.scenes.find((scene) => scene.name === model.shown)
+    const base = here?.origin ?? model.shown
+    // Of what looks into another scene only that of the scene on show is offered.
+    const offered = model.scenes.filter((scene) => scene.origin === null || scene.origin === base)
+    bar.replaceChildren(...offered.map((scene) => {
+      const item = document.createElement("button")
+      item.type = "button"
+      item.className = `scene param-scene-${scene.name}`
+      item.title = scene.summary
+      item.setAttribute("aria-pressed", String(scene.name === model.shown))
+      const picture = document.createElementNS("http://www.w3.org/2000/svg", "svg")
+      picture.setAttribute("viewBox", "0 0 48 32")
+      picture.setAttribute("aria-hidden", "true")
+      picture.innerHTML = scene.picture
+      const title = document.createElement("span")
+      title.textContent = scene.title
+      item.append(picture, title)
+      item.addEventListener("click", () => {
+        if (scene.name !== model.shown) document.dispatchEvent(new CustomEvent("hess:scene", { detail: scene.name }))
+      })
+      return item
+    }))
+  }
+  model.on("shown", show)
+  show()
+}
