@@ -1,0 +1,159 @@
+"""Errors and times: every setting once, the cheapest that keeps each error asked for, and these timed in turn."""
+
+from __future__ import annotations
+
+import gc
+import statistics
+import time
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+from .method import Method, Run, Setting, named
+from .works import Work
+
+__all__ = ["FULL", "QUICK", "Effort", "Sample", "Timing", "cheapest", "climb", "measure", "race"]
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How long to measure.  Times in seconds.
+
+    tries : runs of each setting; slow : a run that takes longer ends its ladder; budget : for all settings of one
+    method in one work; turns : rounds of the race; turn : length of a turn of one run in it (at least one run is
+    made); share : after that long a run is out of the race.
+    """
+
+    tries: int
+    slow: float
+    budget: float
+    turns: int
+    turn: float
+    share: float
+
+
+FULL = Effort(tries=3, slow=3.0, budget=20.0, turns=15, turn=0.02, share=1.0)
+QUICK = Effort(tries=1, slow=0.5, budget=1.0, turns=2, turn=0.0, share=0.1)
+
+
+@dataclass(frozen=True)
+class Sample:
+    """One setting of a method: its error, the fastest of its first runs in seconds, and the run for more."""
+
+    setting: Setting
+    error: float
+    seconds: float
+    run: Run
+
+
+@dataclass(frozen=True)
+class Timing:
+    """Of one run in the race: minimum and median in seconds, and how many runs there were."""
+
+    minimum: float
+    median: float
+    runs: int
+
+
+def cheapest(samples: Iterable[Sample], target: float) -> Sample | None:
+    """The fastest sample whose error is at most the target, or None."""
+    return min((sample for sample in samples if sample.error <= target), key=lambda sample: sample.seconds,
+               default=None)
+
+
+def climb(work: Work, method: Method, effort: Effort) -> tuple[list[Sample], list[str]]:
+    """One sample for each setting, and a sentence for each that was left out because it would take too long."""
+    samples: list[Sample] = []
+    notes: list[str] = []
+    spent = 0.0
+    for ladder in method.ladders(work):
+        for i, setting in enumerate(ladder):
+            if spent > effort.budget:
+                notes.append(_left_out(method, work, ladder[i:], f"its other settings took {spent:.0f} s"))
+                break
+            run = method.prepare(work, setting)
+            seconds = []
+            for _ in range(effort.tries):
+                start = time.perf_counter()
+                result = run()
+                seconds.append(time.perf_counter() - start)
+                spent += seconds[-1]
+                if seconds[-1] > effort.slow:
+                    break
+            samples.append(Sample(setting, work.error(result), min(seconds), run))
+            if min(seconds) > effort.slow and i + 1 < len(ladder):
+                notes.append(_left_out(method, work, ladder[i + 1:],
+                                       f"{named(setting)} takes {min(seconds):.1f} s"))
+                break
+    return samples, notes
+
+
+def _left_out(method: Method, work: Work, settings: Sequence[Setting], why: str) -> str:
+    return f"{method.name}, work {work.name}: left out {named(settings[0])} to {named(settings[-1])}, as {why}."
+
+
+def race(runs: Sequence[Run], effort: Effort) -> list[Timing]:
+    """Time the runs in turn, so that whatever else the machine does meets all of them."""
+    seconds: list[list[float]] = [[] for _ in runs]
+    collecting = gc.isenabled()
+    gc.disable()
+    try:
+        for _ in range(effort.turns):
+            for run, own in zip(runs, seconds, strict=True):
+                if sum(own) < effort.share:
+                    _turn(run, own, effort.turn)
+    finally:
+        if collecting:
+            gc.enable()
+    return [Timing(min(own), statistics.median(own), len(own)) for own in seconds]
+
+
+def _turn(run: Run, seconds: list[float], length: float) -> None:
+    begin = time.perf_counter()
+    while True:
+        start = time.perf_counter()
+        run()
+        now = time.perf_counter()
+        seconds.append(now - start)
+        if now - begin >= length:
+            return
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """The setting that a method needs for one target, and how long it takes."""
+
+    sample: Sample
+    timing: Timing
+
+
+@dataclass(frozen=True)
+class Measured:
+    """One work: the samples of each method, what each needs for each target (where it reaches it), sentences."""
+
+    work: Work
+    samples: Mapping[str, Sequence[Sample]]
+    chosen: Mapping[str, Mapping[float, Chosen]]
+    notes: Sequence[str]
+
+
+def measure(work: Work, methods: Sequence[Method], targets: Sequence[float], effort: Effort,
+            progress: Callable[[str], None]) -> Measured:
+    """All methods in one work."""
+    samples: dict[str, list[Sample]] = {}
+    notes: list[str] = []
+    for method in methods:
+        if work.name in method.without:
+            notes.append(f"{method.name}, work {work.name}: {method.without[work.name]}.")
+            continue
+        progress(f"work {work.name}: the settings of {method.name}")
+        samples[method.name], said = climb(work, method, effort)
+        notes += said
+    best = {(name, target): sample for name, found in samples.items() for target in targets
+            if (sample := cheapest(found, target)) is not None}
+    # One setting may be the cheapest for several targets.
+    runners = list({id(sample): sample for sample in best.values()}.values())
+    progress(f"work {work.name}: {len(runners)} runs in turn")
+    timings = dict(zip(map(id, runners), race([sample.run for sample in runners], effort), strict=True))
+    chosen = {name: {target: Chosen(best[name, target], timings[id(best[name, target])])
+                     for target in targets if (name, target) in best} for name in samples}
+    return Measured(work, samples, chosen, notes)

@@ -1,0 +1,73 @@
+"""What takes part in the benchmark: one way to do the works, at settings from coarse to fine."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from importlib import metadata
+from typing import Protocol
+
+import numpy as np
+
+from .works import Array, Work
+
+__all__ = [
+    "OURS", "Ladder", "Method", "Prepare", "Run", "Setting", "half_decades", "named", "short",
+    "version",
+]
+
+OURS = "Hess Explorer"
+"""The method that the others are compared with."""
+
+Setting = tuple[str | int | float, ...]
+"""What distinguishes two runs of a method: names, orders, tolerances."""
+Ladder = tuple[Setting, ...]
+"""Settings from coarse to fine: each costs more than the one before."""
+Run = Callable[[], Array]
+"""Does the work once more from its initial data; what need not be done again for other data is done before."""
+
+
+class Prepare(Protocol):
+    """prepare(work, setting, threads) → run.  Compiles, so that no run does."""
+
+    def __call__(self, work: Work, setting: Setting, threads: int = 1) -> Run:
+        """The prepared run."""
+
+
+@dataclass(frozen=True)
+class Method:
+    """One participant.
+
+    name, version : as they are shown; ladders(work) : its settings; prepare : see `Prepare`.
+    without : the works it does not do, and why; threaded : the works for which `prepare` heeds `threads`.
+    """
+
+    name: str
+    version: str
+    ladders: Callable[[Work], Sequence[Ladder]]
+    prepare: Prepare
+    without: Mapping[str, str] = field(default_factory=dict)
+    threaded: frozenset[str] = frozenset()
+
+
+def short(x: float) -> str:
+    """An error or a tolerance as a text: "3.2e-7"."""
+    return np.format_float_scientific(x, precision=1, trim="-", exp_digits=1)
+
+
+def named(setting: Setting) -> str:
+    """The setting as a text: "18, 1e-11"."""
+    return ", ".join(short(part) if isinstance(part, float) else str(part) for part in setting)
+
+
+def half_decades(coarsest: int, finest: int) -> tuple[float, ...]:
+    """10^−coarsest, …, 10^−finest, two a decade."""
+    return tuple(float(f"{10 ** (-k / 2):.1e}") for k in range(2 * coarsest, 2 * finest + 1))
+
+
+def version(distribution: str) -> str:
+    """The installed version; "not installed" for what runs from its source folder."""
+    try:
+        return metadata.version(distribution)
+    except metadata.PackageNotFoundError:
+        return "not installed"

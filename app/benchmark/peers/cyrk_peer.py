@@ -1,0 +1,85 @@
+"""CyRK: its C++ Runge–Kutta methods, called from Numba code."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import cache
+from typing import Any
+
+import numba
+import numpy as np
+from CyRK import cyjit, nbsolve2_ivp
+
+from ..method import Ladder, Method, Run, Setting, half_decades, version
+from ..moebius import half_period, start, theta_after
+from ..works import Array, MapWork, MotionWork, Work
+from .compiled import rates
+
+__all__ = ["METHOD"]
+
+
+def _ladders(work: Work) -> Sequence[Ladder]:
+    return [tuple((name, tolerance) for tolerance in half_decades(3, 14)) for name in ("DOP853", "Vern8")]
+
+
+@cache
+def _right_hand_side(work: MapWork | MotionWork) -> Any:
+    """The C function, kept: its address is good as long as it lives."""
+    field = rates(work)
+
+    @cyjit
+    def right_hand_side(dy, t, y, args):
+        field(y, dy)
+
+    return right_hand_side
+
+
+@numba.njit
+def _solve(address, method, initial, times, tolerance, out):
+    """States at the times, the first of which is 0: out[i] (n, d) for each initial[i] (d,)."""
+    span = (0.0, times[-1])
+    for i in range(len(initial)):
+        solution = nbsolve2_ivp(address, span, initial[i], method=method, t_eval=times, rtol=tolerance, atol=tolerance)
+        if solution.success:
+            out[i] = solution.y.T
+        else:
+            out[i] = np.nan
+        solution.free()
+
+
+def _run(work: MapWork | MotionWork, initial: Array, times: Array, setting: Setting,
+         finish: Callable[[Array], Array]) -> Run:
+    method, tolerance = setting
+    address, out = _right_hand_side(work).address, np.empty((len(initial), len(times), initial.shape[1]))
+
+    def run() -> Array:
+        _solve(address, method, initial, times, tolerance, out)
+        return finish(out)
+
+    return run
+
+
+def _dense(work: MotionWork, setting: Setting) -> Run:
+    return _run(work, work.initial, work.times, setting, lambda out: out[0])
+
+
+def _ends(work: MotionWork, setting: Setting) -> Run:
+    return _run(work, work.initial, work.times, setting, lambda out: out[:, -1])
+
+
+def _circle_map(work: MapWork, setting: Setting) -> Run:
+    theta = theta_after(work.phi)
+    return _run(work, start(work)[None], np.array([half_period(work)]), setting, lambda out: theta(out[0, -1]))
+
+
+_WAYS: dict[str, Callable[..., Run]] = {"A": _dense, "A2": _ends, "B": _ends, "B2": _ends, "C": _circle_map}
+
+
+def _prepare(work: Work, setting: Setting, threads: int = 1) -> Run:
+    run = _WAYS[work.name](work, setting)
+    run()
+    return run
+
+
+METHOD = Method("CyRK", version("CyRK"), _ladders, _prepare,
+                without={"D": "its functions for Numba have no events"})

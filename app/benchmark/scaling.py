@@ -1,0 +1,53 @@
+"""How much faster two threads are than one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .measure import Effort, Measured, Timing, race
+from .method import Method, Setting
+from .works import Work, works
+
+__all__ = ["Scaling", "scaling"]
+
+
+@dataclass(frozen=True)
+class Scaling:
+    """One method in one work (`title`), at one setting, on one and on two threads."""
+
+    title: str
+    method: str
+    setting: Setting
+    one: Timing
+    two: Timing
+
+    @property
+    def factor(self) -> float:
+        """One thread's time over that of two."""
+        return self.one.minimum / self.two.minimum
+
+
+def _many(work: Work) -> Work:
+    """What can be shared between threads: the work itself, and for D, one orbit, the sections of 64."""
+    if work.name != "D":
+        return work
+    return replace(work, title="crossings of γ3 = 0 by 64 random orbits up to t = 200",
+                   initial=works()["B2"].initial[:64], times=np.array([200.0]))
+
+
+def scaling(measured: Sequence[Measured], methods: Sequence[Method], effort: Effort,
+            progress: Callable[[str], None]) -> list[Scaling]:
+    """Every method in the works that it can share between threads, at its setting for the smallest error it reached."""
+    found = []
+    for one in measured:
+        for method in methods:
+            chosen = one.chosen.get(method.name)
+            if one.work.name in method.threaded and chosen:
+                progress(f"work {one.work.name}: {method.name} on two threads")
+                work, setting = _many(one.work), chosen[min(chosen)].sample.setting
+                timings = race([method.prepare(work, setting, threads) for threads in (1, 2)], effort)
+                found.append(Scaling(f"{work.name}: {work.title}", method.name, setting, *timings))
+    return found

@@ -1,0 +1,34 @@
+"""How many threads there are: one for every library, and work shared between threads on purpose."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+
+__all__ = ["one_each", "shared"]
+
+_ONE_THREAD = {
+    "OMP_NUM_THREADS": "1",
+    "OPENBLAS_NUM_THREADS": "1",
+    "MKL_NUM_THREADS": "1",
+    "PJRT_NPROC": "1",  # the pool of XLA
+    "XLA_FLAGS": "--xla_cpu_multi_thread_eigen=false",
+}
+
+
+def one_each() -> None:
+    """Tell the libraries to use one thread each; they listen only when they are first imported."""
+    os.environ.update(_ONE_THREAD)
+
+
+def shared(part: Callable[[int], None], threads: int) -> Callable[[], None]:
+    """What calls part(0), …, part(threads − 1), each in a thread of its own; without any thread if it is one."""
+    if threads == 1:
+        return lambda: part(0)
+    pool = ThreadPoolExecutor(threads)
+
+    def run() -> None:
+        list(pool.map(part, range(threads)))
+
+    return run
