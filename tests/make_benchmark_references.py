@@ -167,10 +167,14 @@ def ensemble(p: Sequence[float], initial: np.ndarray, digits: Digits) -> list[li
 
 def circle_map(h: Fraction, f: Fraction, a: Fraction, phi: Iterable[float], digits: Digits) -> list[int]:
     """Θ(φ) of the torus (h, f), units b = 1: the matrix from the lower to the upper turning point, and back."""
-    with mpmath.workprec(digits.bits):
+    # Twice the bits: an angle near 0 has half of those of its cosine.
+    with mpmath.workprec(2 * digits.bits):
         h_, f_ = (mpmath.mpf(x.numerator) / x.denominator for x in (h, f))
-        # 2(h+n)(1−n²) − f² = 0
-        n0, n1, n2 = sorted(mpmath.polyroots([-2, -2 * h_, 2, 2 * h_ - f_**2], maxsteps=500, extraprec=500))
+        # 2(h+n)(1−n²) = f² is t³ + pt + q = 0 for t = n + h/3.
+        p, q = -1 - h_**2 / 3, 2 * h_**3 / 27 - 2 * h_ / 3 + f_**2 / 2
+        angle = mpmath.acos(3 * q / (2 * p) * mpmath.sqrt(-3 / p)) / 3
+        n0, n1, n2 = sorted(
+            2 * mpmath.sqrt(-p / 3) * mpmath.cos(angle - 2 * k * mpmath.pi / 3) - h_ / 3 for k in range(3))
         half_period = mpmath.sqrt(2 / (n2 - n0)) * mpmath.ellipk((n2 - n1) / (n2 - n0))
         w = mpmath.sqrt(2 * (h_ + n1))
 

@@ -171,6 +171,19 @@ def test_a_slow_setting_ends_its_ladder_and_no_other():
     assert re.fullmatch(r"m, work C: left out slow, 2 to slow, 2, as slow, 1 takes 0\.0 s\.", notes[0])
 
 
+@pytest.mark.parametrize(("enough", "runs"), [(0.0, 1), (60.0, 3)])
+def test_a_setting_is_run_three_times_unless_that_takes_long(enough, runs):
+    work, calls = works()["C"], []
+
+    def run():
+        calls.append(1)
+        return work.reference
+
+    method = Method("m", "1", lambda work: [((1,),)], lambda work, setting, threads=1: run)
+    climb(work, method, replace(FULL, enough=enough))
+    assert len(calls) == runs
+
+
 def test_what_is_over_the_budget_is_left_out_with_a_sentence():
     work = works()["C"]
     settings = [("a", 1), ("a", 2), ("b", 1)]

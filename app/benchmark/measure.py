@@ -18,12 +18,13 @@ __all__ = ["FULL", "QUICK", "Effort", "Sample", "Timing", "cheapest", "climb", "
 class Effort:
     """How long to measure.  Times in seconds.
 
-    tries : runs of each setting; slow : a run that takes longer ends its ladder; budget : for all settings of one
-    method in one work; turns : rounds of the race; turn : length of a turn of one run in it (at least one run is
-    made); share : after that long a run is out of the race.
+    tries : runs of each setting; enough : after that long no further one; slow : a run that takes longer ends its
+    ladder; budget : for all settings of one method in one work; turns : rounds of the race; turn : length of a turn
+    of one run in it (at least one run is made); share : after that long a run is out of the race.
     """
 
     tries: int
+    enough: float
     slow: float
     budget: float
     turns: int
@@ -31,8 +32,8 @@ class Effort:
     share: float
 
 
-FULL = Effort(tries=3, slow=3.0, budget=20.0, turns=15, turn=0.02, share=1.0)
-QUICK = Effort(tries=1, slow=0.5, budget=1.0, turns=2, turn=0.0, share=0.1)
+FULL = Effort(tries=3, enough=0.1, slow=3.0, budget=20.0, turns=15, turn=0.02, share=1.0)
+QUICK = Effort(tries=1, enough=0.0, slow=0.5, budget=1.0, turns=2, turn=0.0, share=0.1)
 
 
 @dataclass(frozen=True)
@@ -76,9 +77,9 @@ def climb(work: Work, method: Method, effort: Effort) -> tuple[list[Sample], lis
                 start = time.perf_counter()
                 result = run()
                 seconds.append(time.perf_counter() - start)
-                spent += seconds[-1]
-                if seconds[-1] > effort.slow:
+                if sum(seconds) > effort.enough:
                     break
+            spent += sum(seconds)
             samples.append(Sample(setting, work.error(result), min(seconds), run))
             if min(seconds) > effort.slow and i + 1 < len(ladder):
                 notes.append(_left_out(method, work, ladder[i + 1:],

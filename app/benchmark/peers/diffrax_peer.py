@@ -21,7 +21,7 @@ __all__ = ["METHOD"]
 
 jax.config.update("jax_enable_x64", True)
 
-_SOLVERS = {"Tsit5": diffrax.Tsit5, "Dopri8": diffrax.Dopri8}
+_SOLVERS = {"Dopri8": diffrax.Dopri8, "Tsit5": diffrax.Tsit5}
 _MAX_STEPS = 1_000_000
 
 

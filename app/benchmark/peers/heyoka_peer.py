@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from copy import deepcopy
 
 import heyoka
 import numpy as np
@@ -71,7 +72,7 @@ def _ensemble(work: MotionWork, setting: Setting, threads: int) -> Run:
     blocks = [work.initial[i:i + width].T.copy() for i in range(0, len(work.initial), width)]
     out = np.empty_like(work.initial)
     first = heyoka.taylor_adaptive_batch(_motion_equations(work), blocks[0], **_options(setting))
-    integrators = [first, *(heyoka.taylor_adaptive_batch(first) for _ in range(threads - 1))]
+    integrators = [first, *(deepcopy(first) for _ in range(threads - 1))]
 
     def part(thread: int) -> None:
         integrator = integrators[thread]
