@@ -11,4 +11,6 @@ FORBIDDEN = "#A8A8A8"
 LOCKED = "#B9A7D6"
 MUTED = "#808080"
 NUMBER_MAP = "Cividis256"
+LEVELS = {"draft": "#E69F00", "standard": "#0072B2", "precise": "#009E73", "reference": "#CC79A7"}
+DASHES = {"draft": "dotted", "standard": "solid", "precise": "dashed", "reference": "dotdash"}
 FONT_SIZE = "14px"

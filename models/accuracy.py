@@ -43,11 +43,13 @@ class Level:
         return self.tolerance <= FLOOR_TOLERANCE
 
     def tightened(self) -> Level:
-        """The same level with steps a hundred times more exact: what its error is measured against."""
+        """The same level with steps a hundred times more exact: what its error is measured against.
+
+        The order is another one too: so a motion that fits into one step is not compared with itself.
+        """
         if self.is_floor:
-            # Other steps and another order: what differs then is round-off.
             return Level(self.name, self.promise, self.tolerance / 30.0, self.order - 3)
-        order = self.order if self.tolerance > 1e-11 else REFERENCE.order
+        order = self.order + 4 if self.tolerance > 1e-11 else REFERENCE.order
         return Level(self.name, self.promise, max(self.tolerance * 1e-2, FLOOR_TOLERANCE), order)
 
 

@@ -188,8 +188,10 @@ def turning_points(h: float, f: float) -> TurningPoints:
     h, f = float(h), float(f) + 0.0  # f = −0.0 is f = 0
     fm, found, period = _f_max_and_roots(h, f)
     if abs(f) > fm * (1 + 1e-15):
+        # The bound is shown a little below, so that what is shown is accepted.
         raise OutsideRegion(
-            f"No motion has h = {h:.6g} and f = {f:.6g}: at this h choose |f| ≤ {fm:.6g}, or a larger h."
+            f"No motion has h = {h:.15g} and f = {f:.15g}: at this h choose |f| ≤ {fm * (1 - 1e-11):.12g}, "
+            "or a larger h."
         )
     n0, n1, n2, _, _, _, w1, v1 = found
     if not math.isfinite(period):

@@ -21,7 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .accuracy import Level, Status
-from .bifurcation import period_from_gaps, roots, turning_points
+from .bifurcation import largest_f, period_from_gaps, roots, turning_points
 from .errors import InvalidParameter, WorkLimit
 from .jit import inner, kernel
 from .results import Array, Cost, frozen
@@ -114,6 +114,9 @@ def monodromy(h, f, a, order, tolerance, max_steps):
     beta = 2.0 * (A * B).imag
     ratio = (B.conjugate() / A) ** 2
     zeta = 2.0 * (arg_A + 0.5 * chi) + math.atan2(-ratio.imag, 1.0 - ratio.real)
+    if f == 0.0 and h < 1.0:
+        # The limit f → 0+, in which Re α vanishes: its two parts are too large to cancel by themselves.
+        return 0.0, alpha.imag, beta, 2.0 * log_scale, -0.5 * math.pi, float(steps)
     return alpha.real, alpha.imag, beta, 2.0 * log_scale, zeta, float(steps)
 
 
@@ -138,14 +141,25 @@ def matrices(h: Array, f: Array, a: float, level: Level) -> Array:
     return out
 
 
+def discriminants(rows: Array) -> Array:
+    """(Re α)² − |det| = (Im β)² − (Im α)², times e^{−2L}, from the rows of `matrices`: positive where it locks.
+
+    Where Im α and Im β are large and nearly equal, the first form is exact and the second is not.
+    """
+    re, im, im_beta, log_scale, *_ = np.moveaxis(rows, -1, 0)
+    unit = np.exp(-log_scale)
+    cancels = im**2 + im_beta**2 > 1e4 * (re**2 + unit**2)
+    return np.where(cancels, (re - unit) * (re + unit), (im_beta - im) * (im_beta + im))
+
+
 def rotation_numbers(rows: Array) -> Array:
     """ρ from the rows of `matrices`: an integer where it locks, else k + arccos(±Re α)/π; shape (n,)."""
-    re, im, im_beta, _, zeta, _ = rows.T
-    discriminant = (im - im_beta) * (im + im_beta)
+    re, _, _, _, zeta, _ = rows.T
+    discriminant = discriminants(rows)
     k = np.floor(zeta / np.pi)
     sign = 1.0 - 2.0 * (k % 2)
-    turning = k + np.arctan2(np.sqrt(np.maximum(discriminant, 0.0)), sign * re) / np.pi
-    return np.where(discriminant > 0.0, turning, np.round(zeta / np.pi)) + 0.0  # no −0.0
+    turning = k + np.arctan2(np.sqrt(np.maximum(-discriminant, 0.0)), sign * re) / np.pi
+    return np.where(discriminant < 0.0, turning, np.round(zeta / np.pi)) + 0.0  # no −0.0
 
 
 @dataclass(frozen=True)
@@ -236,14 +250,28 @@ def _difference(m: Array, n: Array) -> float:
     """How far two computed maps lie apart: in Θ over 32 phases, and in the trace."""
     turned = _theta(tuple(m[:3]), _PROBES) - _theta(tuple(n[:3]), _PROBES)
     angle = float(np.max(np.abs(np.angle(np.exp(1j * turned)))))
-    scale = math.exp(min(m[3], 700.0))
     other = m[0] - n[0] * math.exp(n[3] - m[3])
-    return max(angle, 2 * abs(other) * scale / max(1.0, 2 * abs(m[0]) * scale))
+    return max(angle, 2 * abs(other) * _weight(m))
+
+
+def _weight(m: Array) -> float:
+    """From an error of Re α e^{−L} to one of the trace, relative where that exceeds 1."""
+    scale = math.exp(min(m[3], 700.0))
+    return scale / max(1.0, 2 * abs(m[0]) * scale)
+
+
+def _rounding(m: Array) -> float:
+    """What round-off does to the trace where its large parts cancel, as below the separatrix with a large a."""
+    return 2 * 8e-16 * (math.hypot(m[0], m[1]) + abs(m[2])) * _weight(m) if m[0] else 0.0
 
 
 def _neighbour(h: float, f: float) -> tuple[float, float]:
-    """The next double in h, away from the separatrix, and in f, towards the inside of the region."""
-    return math.nextafter(h, math.inf if h >= 1.0 else -1.0) if h > -1.0 + 1e-9 else h, math.nextafter(f, 0.0)
+    """The next double in f, towards the inside of the region, and in h.
+
+    Near the edge h moves inwards as well, else away from the separatrix.
+    """
+    upwards = h >= 1.0 or abs(f) > 0.5 * largest_f(h)
+    return math.nextafter(h, math.inf if upwards else -1.0) if h > -1.0 + 1e-9 else h, math.nextafter(f, 0.0)
 
 
 def circle_map(a: float, h: float, f: float, level: Level) -> CircleMap:
@@ -270,7 +298,7 @@ def circle_map(a: float, h: float, f: float, level: Level) -> CircleMap:
         tighter = current.tightened()
         fine = run(neighbour, tighter)
         total += fine[5]
-        error = (4.0 if current.is_floor else 1.25) * _difference(coarse, fine) + 4e-16
+        error = (4.0 if current.is_floor else 1.25) * _difference(coarse, fine) + _rounding(coarse) + 4e-16
         if error <= level.promise or current.is_floor:
             break
         # Not `fine`: that is the map of the neighbour.
@@ -285,7 +313,7 @@ def circle_map(a: float, h: float, f: float, level: Level) -> CircleMap:
 
     log_trace = math.log(2 * abs(re)) + log_scale if re else -math.inf
     trace = math.exp(log_trace) if log_trace < 709.0 else math.inf
-    discriminant = (im_beta - im) * (im_beta + im)
+    discriminant = float(discriminants(coarse))
     fixed: tuple[FixedPoint, ...] = ()
     if abs(trace - 2.0) <= 2 * min(error, 1e-3):
         kind = "parabolic"

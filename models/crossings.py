@@ -54,6 +54,7 @@ def root_between(e, low, high, s, below, bend):
 
     below : whether e is negative at `low`.
     """
+    first, end = low, high
     width = high - low
     for _ in range(100):
         value, slope = value_and_slope(e, s)
@@ -61,14 +62,13 @@ def root_between(e, low, high, s, below, bend):
             low = s
         else:
             high = s
-        following = s - value / slope if slope != 0.0 else low
-        if not low < following < high:
-            following = 0.5 * (low + high)
-        step = following - s
+        step = -value / slope if slope != 0.0 else width
         # What Newton's next step would still find is about D step²/(2 |e′|).
-        if bend * step * step <= 1e-16 * abs(slope) * width or high - low <= 1e-16 * high:
-            return following
-        s = following
+        if bend * step * step <= 1e-16 * abs(slope) * width:
+            return min(max(s + step, first), end)
+        s = s + step if low < s + step < high else 0.5 * (low + high)
+        if high - low <= 1e-16 * end:
+            return s
     return s
 
 

@@ -25,6 +25,9 @@ __all__ = [
 ]
 
 
+_MAX_A_OF_BOUNDARY = 1e5
+
+
 def _f_max(h: Array) -> Array:
     """`f_max` of an array."""
     return np.array([largest_f(x) for x in h])
@@ -68,15 +71,24 @@ def rotation_number_grid(a: float, h: Sequence[float] | Array, f: Sequence[float
         raise WorkLimit("A grid has at most a million points on two axes: choose fewer.")
     if not (np.all(np.isfinite(hs)) and np.all(np.isfinite(fs)) and np.all(hs > -1.0) and np.all(hs <= 1e12)):
         raise InvalidParameter("The grid needs finite values, and −1 < h ≤ 1e12.")
-    magnitudes, back = np.unique(np.round(np.abs(fs), 13), return_inverse=True)
+    # f and −f may differ in the last places where an axis was made by additions.
+    mantissas, exponents = np.frexp(np.abs(fs))
+    magnitudes, back = np.unique(np.ldexp(np.round(mantissas, 13), exponents), return_inverse=True)
     H, F = (x.ravel() for x in np.meshgrid(hs, magnitudes))
     F = np.minimum(F, _f_max(H))
     F[(F == 0.0) & (H == 1.0)] = 1e-12
     out = np.empty(H.size)
 
+    # Near the separatrix the motion takes long, and the saddle magnifies every error.
+    near = np.abs(H - 1.0) + F < 1e-3
+    exact = level.tightened().tightened()
+
     def part(i: int) -> None:
         # Every second point: both threads get the same share of slow ones.
-        out[i::2] = rotation_numbers(matrices(H[i::2].copy(), F[i::2].copy(), a, level))
+        own = np.arange(H.size) % 2 == i
+        for points, rung in ((own & ~near, level), (own & near, exact)):
+            if points.any():
+                out[points] = rotation_numbers(matrices(H[points], F[points], a, rung))
 
     share(part, 2)
     return frozen(np.where(fs < 0, -1.0, 1.0)[:, None] * out.reshape(magnitudes.size, hs.size)[back])
@@ -105,9 +117,11 @@ def lock_boundary_end(a: float) -> float:
 def lock_boundary(a: float, level: Level, points: int = 48) -> Array:
     """The curve |t| = 2 with f ≥ 0, from the bifurcation curve down to (1, 0); shape (n, 2), read-only.
 
-    The map is locked to the right of it.  Empty for a = 0 (no map locks).  Raises `InvalidParameter`.
+    The map is locked to the right of it.  Empty for a = 0 (no map locks).  Raises `InvalidParameter` (|a| > 1e5).
     """
     check_a(a)
+    if abs(a) > _MAX_A_OF_BOUNDARY:
+        raise InvalidParameter(f"a = {a:g} is too large for the lock boundary: choose |a| ≤ {_MAX_A_OF_BOUNDARY:g}.")
     end = lock_boundary_end(a)
     if end > 1e6:
         return frozen(np.empty((0, 2)))

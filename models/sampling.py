@@ -22,14 +22,14 @@ _MOST_COARSE = 40_000
 
 def sample_times(system: System, state: Array, parameters: Array, span: float, weights: Array, sagitta: float,
                  most: int) -> Array:
-    """Times from 0 to `span` > 0, both included, at which to sample the orbit from `state`; at most `most`.
+    """At most `most` times from 0 to `span` (not 0), both included, at which to sample the orbit from `state`.
 
     weights (d,) : from the variables to the picture, such as pixels for a unit; sagitta : the largest
     distance between curve and chord, in the same units.  Where the orbit cannot be followed the
     times are even, and its computation proper will say why.
     """
     problem = Problem.of(system, state, parameters)
-    count = int(min(_MOST_COARSE, max(64.0, span * problem.nu / _COARSE))) + 1
+    count = int(min(_MOST_COARSE, max(64.0, abs(span) * problem.nu / _COARSE))) + 1
     even = np.linspace(0.0, span, count)
     states = np.empty((count, problem.scale.size))
     steps = system.orbit(problem.states[0], problem.parameters, even * problem.nu, DRAFT.order, DRAFT.tolerance,
@@ -39,8 +39,8 @@ def sample_times(system: System, state: Array, parameters: Array, span: float, w
     rates = np.array(system.field((states * problem.scale).T, parameters))
     accelerations = np.gradient(rates, span / (count - 1), axis=1) * weights[:, None]
     density = np.sqrt(np.linalg.norm(accelerations, axis=0) / (8.0 * sagitta))
-    density = np.maximum(density, 16.0 / span)  # a point at rest too is a curve of some samples
-    needed = np.concatenate([[0.0], np.cumsum(0.5 * (density[1:] + density[:-1]) * (span / (count - 1)))])
+    density = np.maximum(density, 16.0 / abs(span))  # a point at rest too is a curve of some samples
+    needed = np.concatenate([[0.0], np.cumsum(0.5 * (density[1:] + density[:-1]) * (abs(span) / (count - 1)))])
     samples = int(min(most - 1, np.ceil(needed[-1]))) + 1
     times = np.interp(np.linspace(0.0, needed[-1], samples), needed, even)
     times[0], times[-1] = 0.0, span

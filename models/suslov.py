@@ -81,13 +81,19 @@ def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
     }
 
 
+_MAX_RATIO = 1e20
+"""Beyond it the slow motion would drown in units of the fast one."""
+
+
 def frequency(y: Array, p: Array) -> float:
     """ν = √(2(E+|b||γ|)/min(I11, I22)): no angular velocity of the motion exceeds it.
 
-    Raises `NotPositiveDefinite`.
+    Raises `NotPositiveDefinite`, `InvalidParameter`.
     """
     I11, I22 = p[0], p[1]
     require_positive_definite(I11, I22)
+    if not 1.0 / _MAX_RATIO <= I11 / I22 <= _MAX_RATIO:
+        raise InvalidParameter(f"The moments I11 and I22 are too different: choose a ratio below {_MAX_RATIO:g}.")
     field_strength = math.hypot(*p[4:7]) * math.hypot(*y[2:5])
     kinetic_now = (I11 * y[0] ** 2 + I22 * y[1] ** 2) / 2
     return math.sqrt(2 * (kinetic_now + 2 * field_strength) / min(I11, I22))

@@ -76,6 +76,10 @@ export function render({ model, view }) {
 
   document.addEventListener("hess:scene", (event) => {
     chosen = event.detail
+    // The old pictures' sources stay in the document for a while: their names are for the new ones.
+    for (const plot of plots) {
+      for (const { data_source } of plot.model.renderers) data_source?.setv({ name: null }, { sync: false })
+    }
     request()
   })
 

@@ -237,8 +237,8 @@ def test_the_special_points_are_the_two_equilibria():
     [
         (-1.0, 0.0, OutsideRegion, "choose h > −1"),
         (-7.0, 0.0, OutsideRegion, "choose h > −1"),
-        (0.0, 0.9, OutsideRegion, r"choose \|f\| ≤ 0.877383"),
-        (0.0, -0.9, OutsideRegion, r"choose \|f\| ≤ 0.877383"),
+        (0.0, 0.9, OutsideRegion, r"choose \|f\| ≤ 0.87738267"),
+        (0.0, -0.9, OutsideRegion, r"choose \|f\| ≤ 0.87738267"),
         (2.0, 1e300, OutsideRegion, r"choose \|f\|"),
         (1.0, 0.0, Separatrix, "no return"),
         (1.0, -0.0, Separatrix, "no return"),

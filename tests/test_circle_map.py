@@ -506,7 +506,7 @@ def test_exactly_on_the_lock_boundary_the_map_is_parabolic_with_one_fixed_point(
         (1e7, 1.5, 0.6, InvalidParameter, "choose .a. ≤ 1e"),
         (-1e7, 1.5, 0.6, InvalidParameter, "choose .a. ≤ 1e"),
         (0.5, -1.0, 0.0, OutsideRegion, "Choose h > −1"),
-        (0.5, 0.0, 2.0, OutsideRegion, r"choose .f. ≤ 0\.877383"),
+        (0.5, 0.0, 2.0, OutsideRegion, r"choose .f. ≤ 0\.87738267"),
         (0.5, 1.0, 0.0, Separatrix, "no return"),
         (1e6, 1e8, 0.6, WorkLimit, "choose smaller a"),
     ],

@@ -291,7 +291,7 @@ def in_the_body(body, states):
 def on_a_torus(name, body, h, phi, span, **options):
     """`track` on the torus f = 0, from n3 = −1 (on the separatrix from n3 = 1)."""
     def error(grade):
-        found = track(body, h, 0.0, phi, span / math.sqrt(abs(body.b)), level(grade))
+        found = track(body, h, 0.0, phi, span / math.sqrt(abs(body.b)), level(grade), 4.0)
         times = found.orbit.times[::40]
         start = 0 if h == 1 else -mpmath.ellipk(2 / (mpmath.mpf(h) + 1)) * mpmath.sqrt(2 / (mpmath.mpf(h) + 1))
         exact = in_the_body(body, oracle.pendulum(body.a, h, phi, times, since=start))
@@ -306,7 +306,8 @@ def the_cycles(name, body, h, **options):
         stable = circle_map(body.a, h, 0.0, level(grade)).fixed_points[0]
         start = -mpmath.ellipk(2 / (mpmath.mpf(h) + 1)) * mpmath.sqrt(2 / (mpmath.mpf(h) + 1))
         errors = []
-        for found, phi in zip(cycles(body, h, 0.0, stable, level(grade)), (-math.pi / 2, math.pi / 2), strict=True):
+        pair = cycles(body, h, 0.0, stable, level(grade), 4.0)
+        for found, phi in zip(pair, (-math.pi / 2, math.pi / 2), strict=True):
             exact = in_the_body(body, oracle.pendulum(body.a, h, phi, found.orbit.times[::40], since=start))
             errors.append(orbit_error(np.hstack([found.omega, found.gamma])[::40], exact))
         return max(errors)
@@ -446,7 +447,9 @@ ROWS = [
     at_rest("at rest, n3 = −1, t = −1e6", HESS, -1.0, (0.75, 1.0)),
     # orbits of Biz131
     an_orbit("I11/I22 = 1e6", SUSLOV, (1e-3, 1.0, 0.6, 0.0, 0.8), with_field(HEAVY), [1.0, 10.0]),
-    an_orbit("I11/I22 = 1e6, all energy in ω1", SUSLOV, (1.0, 0.0, 0.6, 0.0, 0.8), with_field(HEAVY), [0.1, 1.0]),
+    # ω2 may come to √(2E/I22) = 1000: that is the unit in which the state is O(1).
+    an_orbit("I11/I22 = 1e6, all energy in ω1", SUSLOV, (1.0, 0.0, 0.6, 0.0, 0.8), with_field(HEAVY), [0.1, 1.0],
+             speed=1000.0),
     an_orbit("I11/I22 = 1e-6", SUSLOV, (1.0, 1e-3, 0.6, 0.0, 0.8), with_field(swapped(HEAVY)), [1.0, 10.0]),
     an_orbit("I22 = 1e-6", SUSLOV, (0.1, 10.0, 0.6, 0.0, 0.8), with_field(LIGHT), [0.001, 0.02]),
     an_orbit("I11 = 1e-6", SUSLOV, (10.0, 0.1, 0.6, 0.0, 0.8), with_field(swapped(LIGHT)), [0.001, 0.02]),
@@ -519,11 +522,11 @@ REFUSALS = [
     Refusal("Biz131, I22 = −1e-12", lambda grade: solve(SUSLOV, START, (2.0, -1e-12, *GENERIC[2:]), [1.0], grade),
             NotPositiveDefinite, "I22 = -1e-12.*choose I22 > 0"),
     Refusal("Biz131, I11 = 1e-300", lambda grade: solve(SUSLOV, START, (1e-300, *GENERIC[1:]), [1.0], grade),
-            InvalidParameter, "less extreme"),
+            InvalidParameter, "choose a ratio"),
     Refusal("a body with I22 = 0", lambda _: SuslovBody(1.0, 0.0, 0.0, 0.0), NotPositiveDefinite, "choose I22 > 0"),
     Refusal("check_body, I11 = −1e-12", lambda _: check_body(-1e-12, 1.0, 0.0, 0.0), NotPositiveDefinite,
             "choose I11 > 0"),
-    Refusal("track, b3 = 0", lambda grade: track(HessBody(1.0, 0.5, 0.0), 1.5, 0.6, 0.0, 10.0, grade), NoField,
+    Refusal("track, b3 = 0", lambda grade: track(HessBody(1.0, 0.5, 0.0), 1.5, 0.6, 0.0, 10.0, grade, 4.0), NoField,
             "b3 = 0.*Choose b3 other than 0"),
 ]
 

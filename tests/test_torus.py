@@ -24,7 +24,7 @@ def states_of(orbit):
 @pytest.mark.parametrize("body", BODIES)
 @pytest.mark.parametrize(("h", "f"), TORI)
 def test_a_track_solves_the_suslov_problem_of_its_body(body, h, f):
-    orbit = track(body, h, f, 0.7, 12.0, REFERENCE)
+    orbit = track(body, h, f, 0.7, 12.0, REFERENCE, 4.0)
     suslov = systems()["suslov"]
     parameters = body.suslov.parameters
     solved = solve_ivp(lambda _, y: suslov.field(y, parameters), (0.0, orbit.times[-1]), states_of(orbit)[0],
@@ -35,7 +35,7 @@ def test_a_track_solves_the_suslov_problem_of_its_body(body, h, f):
 @pytest.mark.parametrize("body", BODIES)
 @pytest.mark.parametrize(("h", "f"), TORI)
 def test_a_track_lies_on_its_torus(body, h, f):
-    orbit = track(body, h, f, -2.0, 20.0, REFERENCE)
+    orbit = track(body, h, f, -2.0, 20.0, REFERENCE, 4.0)
     w1, w2, n1, n2, n3 = body.in_units_of_b(body.to_reduced(states_of(orbit))).T
     assert np.abs((w1**2 + w2**2) / 2 - n3 - h).max() < 1e-12
     assert np.abs(w1 * n1 + w2 * n2 - f).max() < 1e-12
@@ -45,7 +45,7 @@ def test_a_track_lies_on_its_torus(body, h, f):
 
 
 def test_a_track_starts_on_the_section_with_its_phase():
-    orbit = track(BODIES[0], 1.5, 0.6, 0.7, 5.0, REFERENCE)
+    orbit = track(BODIES[0], 1.5, 0.6, 0.7, 5.0, REFERENCE, 4.0)
     assert orbit.phi[0] == pytest.approx(0.7, abs=1e-14)
     assert orbit.n3[0] == turning_points(1.5, 0.6).roots[1]
 
@@ -55,7 +55,7 @@ def test_cycles_close_and_the_unstable_one_is_a_solution_too(body):
     theta = circle_map(body.a, 1.5, 0.6, REFERENCE)
     assert theta.kind == "hyperbolic"
     suslov = systems()["suslov"]
-    for cycle in cycles(body, 1.5, 0.6, theta.fixed_points[0], REFERENCE):
+    for cycle in cycles(body, 1.5, 0.6, theta.fixed_points[0], REFERENCE, 4.0):
         states = states_of(cycle)
         assert np.abs(states[-1] - states[0]).max() < 1e-10 * max(1.0, np.abs(states).max())
         solved = solve_ivp(lambda _, y: suslov.field(y, body.suslov.parameters), (0.0, cycle.times[-1]), states[0],
@@ -65,7 +65,7 @@ def test_cycles_close_and_the_unstable_one_is_a_solution_too(body):
 
 def test_the_cycles_cross_the_section_at_the_fixed_points():
     theta = circle_map(BODIES[0].a, 1.5, 0.6, REFERENCE)
-    stable, unstable = cycles(BODIES[0], 1.5, 0.6, theta.fixed_points[0], REFERENCE)
+    stable, unstable = cycles(BODIES[0], 1.5, 0.6, theta.fixed_points[0], REFERENCE, 4.0)
     assert stable.phi[0] == pytest.approx(theta.fixed_points[0].phi, abs=1e-12)
     assert unstable.phi[0] == pytest.approx(theta.fixed_points[1].phi, abs=1e-9)
 
@@ -73,13 +73,13 @@ def test_the_cycles_cross_the_section_at_the_fixed_points():
 def test_a_long_span_is_cut_at_the_most_returns():
     body = BODIES[0]
     period = turning_points(1.5, 0.6).period / body.frequency_unit
-    orbit = track(body, 1.5, 0.6, 0.0, 1e5, level("draft"))
+    orbit = track(body, 1.5, 0.6, 0.0, 1e5, level("draft"), 4.0)
     assert orbit.times[-1] == pytest.approx(MAX_RETURNS * period)
-    assert np.ptp(np.diff(orbit.times)) < 1e-9 * orbit.times[-1]
+    assert np.all(np.diff(orbit.times) > 0)
 
 
 def test_on_the_separatrix_the_orbit_comes_to_rest():
-    orbit = track(BODIES[0], 1.0, 0.0, 0.4, 100.0, REFERENCE)
+    orbit = track(BODIES[0], 1.0, 0.0, 0.4, 100.0, REFERENCE, 4.0)
     assert orbit.n3[0] == 1.0
     assert orbit.n3[-1] == pytest.approx(-1.0, abs=1e-10)
     assert np.hypot(*orbit.omega[-1]) < 1e-5
@@ -90,7 +90,7 @@ def test_on_the_separatrix_the_orbit_comes_to_rest():
 def test_the_ring_holds_the_orbit_and_is_touched_by_it(body, h, f):
     turning = turning_points(h, f)
     inner, outer = annulus(body, h, turning)
-    omega = track(body, h, f, 0.3, 40.0, REFERENCE).omega
+    omega = track(body, h, f, 0.3, 40.0, REFERENCE, 4.0).omega
     radius = np.hypot(omega[:, 0], omega[:, 1] / math.hypot(1.0, body.a))
     low, high = np.hypot(inner[:, 0], inner[:, 1] / math.hypot(1.0, body.a)).max(), outer[:, 0].max()
     assert radius.min() >= low - 1e-9
@@ -101,8 +101,8 @@ def test_the_ring_holds_the_orbit_and_is_touched_by_it(body, h, f):
 
 def test_impossible_tori_are_refused_with_a_sentence():
     with pytest.raises(OutsideRegion, match="choose"):
-        track(BODIES[0], 0.0, 5.0, 0.0, 1.0, REFERENCE)
+        track(BODIES[0], 0.0, 5.0, 0.0, 1.0, REFERENCE, 4.0)
     with pytest.raises(OutsideRegion, match="h > −1"):
-        track(BODIES[0], -2.0, 0.0, 0.0, 1.0, REFERENCE)
+        track(BODIES[0], -2.0, 0.0, 0.0, 1.0, REFERENCE, 4.0)
     with pytest.raises(NoField, match="b3"):
-        track(HessBody(1.0, 0.5, 0.0), 1.5, 0.6, 0.0, 1.0, REFERENCE)
+        track(HessBody(1.0, 0.5, 0.0), 1.5, 0.6, 0.0, 1.0, REFERENCE, 4.0)

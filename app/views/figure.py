@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -44,16 +45,19 @@ class Figure:
     labels, x_range, y_range : the axes, which stay until `set_ranges`.
     picks : Bokeh events ("tap", "pan") that choose a point; the browser sends it with the state.
     ticks : positions and labels on both axes, where the usual ones would not do.
+    log : the axes that are logarithmic, "x", "y" or "xy".
     """
 
     def __init__(self, name: str, background: hv.Element, labels: tuple[str, str],
                  x_range: tuple[float, float], y_range: tuple[float, float], picks: Sequence[str] = (),
-                 ticks: Sequence[tuple[float, str]] | None = None) -> None:
+                 ticks: Sequence[tuple[float, str]] | None = None, log: str = "") -> None:
         self.name = name
+        self._log = log
         self.wire: Wire | None = None
         self._sentence = ""
         plot = _renderer.get_plot(background.opts(
             xlabel=labels[0], ylabel=labels[1], xlim=x_range, ylim=y_range, toolbar=None, default_tools=[],
+            logx="x" in log, logy="y" in log,
             responsive=True, min_height=200, min_width=200, title="",
             fontsize={"labels": theme.FONT_SIZE, "ticks": "12px"},
             **({} if ticks is None else {"xticks": list(ticks), "yticks": list(ticks)}),
@@ -102,13 +106,18 @@ class Figure:
             self._sentence = sentence
             self.clear("message")
             if sentence:
-                self.assign("message", x=[(x.start + x.end) / 2], y=[(y.start + y.end) / 2], text=[sentence])
+                self.assign("message", x=[_middle(x, "x" in self._log)], y=[_middle(y, "y" in self._log)],
+                            text=[sentence])
 
     def set_ranges(self, x: tuple[float, float], y: tuple[float, float]) -> None:
         """Other axes; assigning the same ones does nothing."""
         for axis, (start, end) in ((self.root.x_range, x), (self.root.y_range, y)):
             if (axis.start, axis.end) != (start, end):
                 axis.update(start=start, end=end)
+
+
+def _middle(axis: Any, log: bool) -> float:
+    return math.sqrt(axis.start * axis.end) if log else (axis.start + axis.end) / 2
 
 
 def columns_of(array: np.ndarray, names: Sequence[str]) -> Mapping[str, np.ndarray]:
