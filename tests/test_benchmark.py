@@ -314,7 +314,7 @@ def test_names_of_settings_and_versions():
     assert named((18, 1e-11)) == "18, 1e-11"
     assert named((3.2e-7, "high accuracy")) == "3.2e-7, high accuracy"
     assert half_decades(2, 3) == (1e-2, 3.2e-3, 1e-3)
-    assert version("no-such-distribution") == "not installed"
+    assert version("no-such-distribution") == "from its source folder"
     assert re.match(r"\d+\.\d+", version("numpy"))
 
 

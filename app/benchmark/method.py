@@ -66,8 +66,8 @@ def half_decades(coarsest: int, finest: int) -> tuple[float, ...]:
 
 
 def version(distribution: str) -> str:
-    """The installed version; "not installed" for what runs from its source folder."""
+    """The installed version, or that there is none."""
     try:
         return metadata.version(distribution)
     except metadata.PackageNotFoundError:
-        return "not installed"
+        return "from its source folder"
