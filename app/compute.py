@@ -97,4 +97,6 @@ def warm() -> None:
     from app.scenes import scenes
 
     for scene in scenes().values():
-        scene.compute(scene.defaults(), scene.pictures, False)
+        # A scene that looks into another one uses that one's kernels.
+        if scene.origin is None:
+            scene.compute(scene.defaults(), scene.pictures, False)

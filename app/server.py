@@ -5,11 +5,12 @@ from __future__ import annotations
 import gc
 import logging
 import threading
+import time
 from collections.abc import Sequence
 
 import panel as pn
 
-from app.compute import warm
+from app.compute import CACHE, warm
 from app.page import page
 
 __all__ = ["serve"]
@@ -18,6 +19,9 @@ MESSAGE_LIMIT = 256 * 1024
 """Bytes of one websocket message from the browser: slider values and clicks are far smaller."""
 
 UNUSED_SESSION_MS = 60_000
+REPORT_SECONDS = 60
+
+logger = logging.getLogger("hess_explorer")
 
 
 def _warm() -> None:
@@ -29,16 +33,29 @@ def _warm() -> None:
         gc.enable()
 
 
+def _report() -> None:
+    """Now and then a line "metrics name value …" in the log, when something has changed."""
+    last = ""
+    while True:
+        line = CACHE.metrics()
+        if line != last:
+            logger.info("metrics %s", line)
+        last = line
+        time.sleep(REPORT_SECONDS)
+
+
 def serve(port: int, address: str, show: bool, origins: Sequence[str]) -> None:
     """Serve the explorer until interrupted.
 
     Parameters: `address` to listen on; `show` opens the browser; `origins` are the HOST:PORT pairs
     whose pages may open a websocket, besides this machine's own.
     """
-    logging.getLogger("hess_explorer").setLevel(logging.INFO)
+    logging.basicConfig(format="%(asctime)s %(name)s %(message)s")
+    logger.setLevel(logging.INFO)
     pn.extension()
     # Kernels are compiled while the browser loads the page.
     threading.Thread(target=_warm, name="warm", daemon=True).start()
+    threading.Thread(target=_report, name="report", daemon=True).start()
     pn.serve(
         {"/": page},
         title="Hess Explorer",
