@@ -29,7 +29,10 @@ from .rigid_body import require_finite
 from .taylor import Quadratic, columns_of, convolution, expansion, step_of, workspace
 from .unrolled import evaluation
 
-__all__ = ["CircleMap", "FixedPoint", "circle_map", "matrices", "monodromy", "rotation_numbers"]
+__all__ = [
+    "CircleMap", "FixedPoint", "Phases", "circle_map", "discriminants", "matrices", "monodromy", "rotation_numbers",
+    "theta_at",
+]
 
 MAX_A = 1e6
 _MAX_STEPS = 200_000
@@ -234,6 +237,42 @@ def _theta(matrix: tuple[float, float, float], phi: Array) -> Array:
     out = np.empty(phi.size)
     _theta_of(*matrix, phi.ravel(), out)
     return out.reshape(phi.shape)
+
+
+@dataclass(frozen=True)
+class Phases:
+    """Angles φ (n,) at which many maps are wanted, with their sines and cosines."""
+
+    phi: Array
+    cos: Array
+    sin: Array
+
+    @classmethod
+    def of(cls, phi: Array | Sequence[float]) -> Phases:
+        """From the angles alone."""
+        angles = np.array(phi, float)
+        return cls(angles, np.cos(angles), np.sin(angles))
+
+
+@kernel
+def _images(h, f, a, order, tolerance, max_steps, cos, sin, x, y):
+    """x + iy = αz + β, whose argument is (Θ + φ)/2; returns the steps."""
+    re, im, im_beta, _, _, steps = monodromy(h, f, a, order, tolerance, max_steps)
+    for i in range(cos.size):
+        x[i] = re * cos[i] - im * sin[i]
+        y[i] = re * sin[i] + im * cos[i] + im_beta
+    return steps
+
+
+def theta_at(phases: Phases, a: float, h: float, f: float, level: Level) -> Array:
+    """Θ at these angles, up to whole turns, at the level's tolerance; no error estimate.  Raises `WorkLimit`."""
+    x, y = np.empty_like(phases.cos), np.empty_like(phases.cos)
+    if _images(h, f, a, level.order, level.tolerance, _MAX_STEPS, phases.cos, phases.sin, x, y) < 0:
+        raise WorkLimit("This torus needs too many steps: choose smaller a, or (h, f) farther from (1, 0).")
+    theta = np.arctan2(y, x, out=y)
+    theta *= 2.0
+    theta -= phases.phi
+    return theta
 
 
 def check_a(a: float) -> None:

@@ -31,7 +31,7 @@ def function(c, q, k, parameters, rates):
     s = 1.0 / (k + 1.0)
     {_for_lanes(lambda lane: f"y{lane} = rates(({', '.join(f'c[k, {i}, {lane}]' for i in range(n))},), "
                 f"({', '.join(f'q[{j}, {lane}]' for j in range(m))},), p)")}
-    {_for_lanes(lambda lane: "; ".join(f"c[k + 1, {i}, {lane}] = y{lane}[{i}] * s" for i in range(n)))}
+    {"; ".join(_for_lanes(lambda lane: f"c[k + 1, {i}, {lane}] = y{lane}[{i}] * s") for i in range(n))}
 """)
 
     @inner
@@ -50,14 +50,16 @@ def _for_lanes(statement: Callable[[int], str]) -> str:
 def _convolutions(field: Quadratic) -> Callable[..., Any]:
     """The function of (c, q, k) that sets q[j, lane] = Σ_m c[m, left, lane] c[k−m, right, lane] for each product j.
 
-    Every coefficient is read once for all products.
+    Every coefficient is read once for all products; of a square half the sum is enough.
     """
     rows = sorted({row for pair in field.pairs for row in pair})
     lanes = range(LANES)
+    squares = [(j, a, b) for j, (a, b) in enumerate(field.pairs) if a == b]
+    others = [(j, a, b) for j, (a, b) in enumerate(field.pairs) if a != b]
 
-    def lines(template: str) -> str:
+    def lines(template: str, products: list[tuple[int, int, int]]) -> str:
         return "\n        ".join(
-            template.format(j=j, a=a, b=b, lane=lane) for j, (a, b) in enumerate(field.pairs) for lane in lanes)
+            template.format(j=j, a=a, b=b, lane=lane) for j, a, b in products for lane in lanes) or "pass"
 
     def read(name: str, order: str) -> str:
         return "\n        ".join(f"{name}{row}_{lane} = c[{order}, {row}, {lane}]" for row in rows for lane in lanes)
@@ -67,17 +69,19 @@ def function(c, q, k):
     m = k // 2
     if 2 * m == k:
         {read("x", "m")}
-        {lines("s{j}_{lane} = x{a}_{lane} * x{b}_{lane}")}
+        {lines("s{j}_{lane} = 0.5 * x{a}_{lane} * x{b}_{lane}", squares)}
+        {lines("s{j}_{lane} = x{a}_{lane} * x{b}_{lane}", others)}
     else:
-        {lines("s{j}_{lane} = 0.0")}
+        {lines("s{j}_{lane} = 0.0", squares + others)}
     for m in range((k - 1) // 2, -1, -1):
         n = k - m
         {read("x", "m")}
         {read("y", "n")}
-        {lines("s{j}_{lane} += x{a}_{lane} * y{b}_{lane}")}
-        {lines("s{j}_{lane} += y{a}_{lane} * x{b}_{lane}")}
+        {lines("s{j}_{lane} += x{a}_{lane} * y{b}_{lane}", squares + others)}
+        {lines("s{j}_{lane} += y{a}_{lane} * x{b}_{lane}", others)}
     if True:
-        {lines("q[{j}, {lane}] = s{j}_{lane}")}
+        {lines("q[{j}, {lane}] = 2.0 * s{j}_{lane}", squares)}
+        {lines("q[{j}, {lane}] = s{j}_{lane}", others)}
 """)
 
 

@@ -8,16 +8,15 @@ import numpy as np
 
 from models import systems
 from models.accuracy import Level
-from models.circle_map import matrices
+from models.circle_map import Phases, theta_at
 
-from .method import OURS, Ladder, Method, Run, Setting, version
-from .moebius import theta_of_matrix
+from .method import OURS, Ladder, Method, Run, Setting, half_decades, version
 from .threads import shared
 from .works import Array, MapWork, MotionWork, Work
 
 __all__ = ["METHOD"]
 
-_ORDERS = (8, 10, 12, 14, 16, 18, 20, 24)
+_ORDERS = (8, 10, 12, 14, 16, 18, 20, 22, 24)
 _MAX_STEPS = 1_000_000
 # Orbits of one call: enough to fill the lanes of the kernel, few enough for two threads to end together.
 _BLOCK = 64
@@ -25,7 +24,7 @@ _MAX_CROSSINGS = 1000
 
 
 def _ladders(work: Work) -> Sequence[Ladder]:
-    return [tuple((order, float(f"1e-{k}")) for k in range(2, 18)) for order in _ORDERS]
+    return [tuple((order, tolerance) for tolerance in half_decades(2, 17)) for order in _ORDERS]
 
 
 def _orbit(work: MotionWork, order: int, tolerance: float, threads: int) -> Run:
@@ -80,12 +79,11 @@ def _ensemble(work: MotionWork, order: int, tolerance: float, threads: int) -> R
 
 def _circle_map(work: MapWork, order: int, tolerance: float, threads: int) -> Run:
     """C."""
-    h, f, z = np.array([work.h]), np.array([work.f]), np.exp(1j * work.phi)
+    phases = Phases.of(work.phi)
     level = Level("benchmark", 0.0, tolerance, order)
 
     def run() -> Array:
-        re, im, im_beta = matrices(h, f, work.a, level)[0, :3].tolist()
-        return theta_of_matrix(complex(re, im), im_beta, work.phi, z)
+        return theta_at(phases, work.a, work.h, work.f, level)
 
     return run
 

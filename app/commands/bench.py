@@ -10,7 +10,7 @@ from pathlib import Path
 
 from . import CommandError
 from .arguments import number, shown
-from .output import _print, write_file
+from .output import show, write_file
 
 __all__ = ["add"]
 
@@ -73,7 +73,7 @@ def _run(options: argparse.Namespace) -> None:
     from app.benchmark.run import run
 
     report = run(options.works, options.targets, options.quick, _progress)
-    _print(as_text(report).encode())
+    show(as_text(report).encode())
     if options.json is not None:
         text = json.dumps(as_json(report), ensure_ascii=False, allow_nan=False, indent=1)
         write_file(options.json, f"{text}\n".encode())

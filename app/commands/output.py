@@ -14,7 +14,7 @@ from typing import Any
 
 from . import CommandError
 
-__all__ = ["add_options", "computing", "write", "write_file"]
+__all__ = ["add_options", "computing", "show", "write", "write_file"]
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -77,7 +77,7 @@ def write(options: argparse.Namespace, series: Mapping[str, Sequence[Any]], colu
     if options.out is not None:
         write_file(options.out, text.encode())
     else:
-        _print(text.encode())
+        show(text.encode())
 
 
 def _json(value: Any) -> str:
@@ -89,8 +89,8 @@ def _row(cells: Sequence[Any]) -> str:
     return ",".join(map(repr, flat))
 
 
-def _print(data: bytes) -> None:
-    """Bytes, because names like ω1 are UTF-8 whatever the terminal's encoding is."""
+def show(data: bytes) -> None:
+    """Write to standard output.  Bytes, because names like ω1 are UTF-8 whatever the terminal's encoding is."""
     try:
         sys.stdout.buffer.write(data)
         sys.stdout.flush()
