@@ -24,14 +24,16 @@ def expansion_of_lanes(field: Quadratic) -> Callable[..., Any]:
     """expand(c, q, parameters, order): the Taylor coefficients c[k, variable, lane]; q[product, lane] is scratch."""
     rates, m, n = field.rates, len(field.pairs), field.dimension
     convolve = _convolutions(field)
+    states = [", ".join(f"c[k, {i}, {lane}]" for i in range(n)) for lane in range(LANES)]
+    products = [", ".join(f"q[{j}, {lane}]" for j in range(m)) for lane in range(LANES)]
+    results = [f"c[k + 1, {i}, {lane}] = y{lane}[{i}] * s" for i in range(n) for lane in range(LANES)]
     # Of all lanes first everything is read, then everything written: so the compiler may do it together.
     differentiate = compiled(f"""
 def function(c, q, k, parameters, rates):
     p = ({", ".join(f"parameters[{i}]" for i in range(field.parameters))},)
     s = 1.0 / (k + 1.0)
-    {_for_lanes(lambda lane: f"y{lane} = rates(({', '.join(f'c[k, {i}, {lane}]' for i in range(n))},), "
-                f"({', '.join(f'q[{j}, {lane}]' for j in range(m))},), p)")}
-    {"; ".join(_for_lanes(lambda lane: f"c[k + 1, {i}, {lane}] = y{lane}[{i}] * s") for i in range(n))}
+    {_for_lanes(lambda lane: f"y{lane} = rates(({states[lane]},), ({products[lane]},), p)")}
+    {"; ".join(results)}
 """)
 
     @inner

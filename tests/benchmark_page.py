@@ -28,6 +28,7 @@ from playwright.async_api import Page, async_playwright
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from app.browser import find_browser
+from app.scenes import scenes
 from models import level, rotation_number_grid
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -117,6 +118,62 @@ def grid_milliseconds() -> float:
     return statistics.median(times)
 
 
+def state_milliseconds() -> tuple[float, float, float]:
+    """Medians of 20: the computation of a new state with all pictures; with a new φ0 only; of one asked for before."""
+    scene = next(iter(scenes().values()))
+    values = scene.defaults()
+    medians = []
+    for key in ("I23", "phi0", None):
+        times = []
+        for i in range(20):
+            now = values if key is None else {**values, key: 0.1 + 0.01 * i}
+            start = time.perf_counter()
+            scene.compute(now, scene.pictures, False)
+            times.append((time.perf_counter() - start) * 1e3)
+        medians.append(statistics.median(times))
+    return medians[0], medians[1], medians[2]
+
+
+COMPILE = """
+import sys, time
+import numpy as np
+import models
+from models import hess, circle_map
+start = time.perf_counter()
+which, level = sys.argv[1], models.level("draft")
+system = models.systems()["hess"]
+state, parameters = system.example
+if which == "orbit": models.solve(system, state, parameters, [1.0], level)
+if which == "ensemble": models.ensemble(system, [state], parameters, [1.0], level)
+if which == "section": models.section(system, state, parameters, models.Plane((1.0, 0, 0, 0, 0)), 1.0, level)
+if which == "circle map": models.circle_map(0.5, 1.5, 0.6, level).theta([0.0])
+print(time.perf_counter() - start)
+"""
+
+
+def compile_seconds(kernel: str) -> tuple[float, float]:
+    """Seconds until a kernel has given its first result: compiled from nothing, and loaded from the cache."""
+    with tempfile.TemporaryDirectory() as folder:
+        environment = {**os.environ, "NUMBA_CACHE_DIR": folder, "PYTHONPATH": str(ROOT)}
+        seconds = [
+            float(subprocess.run([sys.executable, "-c", COMPILE, kernel], env=environment, capture_output=True,
+                                 text=True, check=True).stdout) for _ in range(2)]
+    return seconds[0], seconds[1]
+
+
+async def scene_changes(page: Page) -> list[float]:
+    """Milliseconds of ten changes of scene, from the click to the painted pictures."""
+    names = list(scenes())[:2]
+    times = []
+    for i in range(10):
+        start = time.perf_counter()
+        await page.locator(f".param-scene-{names[(i + 1) % 2]}").click()
+        await page.wait_for_function(READY)
+        times.append((time.perf_counter() - start) * 1e3)
+        await asyncio.sleep(0.3)
+    return sorted(times)
+
+
 def processor() -> str:
     """The processor's name, as far as the system tells it."""
     try:
@@ -160,7 +217,16 @@ async def measure() -> None:
                     rate, rest, queued = await drag(page, name)
                     rows.append((f"drag of {name}, 3 s", f"{rate:.1f} states a second, at rest {rest:.0f} ms after it "
                                  f"({queued} more states)", "≥ 25 a second"))
+                times = await scene_changes(page)
+                rows.append(("change of scene to painted pictures, 10 times",
+                             f"median {statistics.median(times):.0f} ms, largest {times[-1]:.0f} ms", ""))
         await browser.close()
+    for kernel in ("orbit", "circle map", "ensemble", "section"):
+        compiled, loaded = compile_seconds(kernel)
+        rows.append((f"kernel of the {kernel}: compiled, loaded", f"{compiled:.1f} s, {loaded:.2f} s", ""))
+    new, moved, cached = state_milliseconds()
+    rows.append(("computing a state: new body, new phase, from the cache",
+                 f"{new:.2f} ms, {moved:.2f} ms, {cached:.2f} ms", ""))
     rows.append(("rotation number on 100 × 75 (h, f)", f"{grid_milliseconds():.1f} ms", "≤ 100 ms"))
     versions = ", ".join(f"{name} {version(name)}" for name in ("panel", "bokeh", "holoviews", "numba", "numpy"))
     print(f"{date.today()}, {processor()}, {os.cpu_count()} cores, Python {platform.python_version()}, {versions}\n")
