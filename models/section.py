@@ -55,8 +55,12 @@ def section(system: System, state: Sequence[float] | Array, parameters: Sequence
         raise WorkLimit(f"The number of crossings lies between 1 and {MAX_CROSSINGS}.")
     problem = Problem.of(system, [state], parameters)
     # In the scaled variables, and with a normal of length 1.
-    normal = np.array(plane.normal) * problem.scale
+    largest = max(map(abs, plane.normal))
+    normal = np.array(plane.normal) / largest * problem.scale
     length = float(np.linalg.norm(normal))
+    offset = plane.offset / largest / length
+    if not math.isfinite(offset):
+        raise InvalidParameter("The offset of the plane is too large beside its normal: choose a smaller one.")
     total = 0
 
     def run(rung: Level) -> tuple[Array, Array]:
@@ -64,7 +68,7 @@ def section(system: System, state: Sequence[float] | Array, parameters: Sequence
         times = np.empty(crossings)
         states = np.empty((crossings, problem.scale.size))
         found, steps = system.cross(
-            problem.states[0], problem.parameters, normal / length, plane.offset / length, plane.sense,
+            problem.states[0], problem.parameters, normal / length, offset, plane.sense,
             end * problem.nu, rung.order, rung.tolerance, MAX_STEPS - total, times, states)
         if found == STEP_LIMIT_REACHED:
             raise WorkLimit(f"This section needs more than {MAX_STEPS} steps: choose a shorter time span.")
