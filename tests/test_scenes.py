@@ -9,17 +9,20 @@ import math
 import re
 from functools import cache
 from types import SimpleNamespace
+from urllib.parse import parse_qs
 
 import numpy as np
 import pytest
 from bokeh.model import Model
-from bokeh.models import ColumnDataSource
+from bokeh.models import ColumnDataSource, LogScale
+from bokeh.models.glyphs import Line, Scatter
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mechanics import PROPERTY
 from test_wire import read
 
-from app.scenes import scenes
+from app import session
+from app.scenes import scenes, speed_accuracy
 from app.scenes.base import Report
 from app.session import Session
 from app.state import Number, decode
@@ -30,6 +33,7 @@ from models.errors import InvalidParameter
 
 SCENES = scenes()
 HESS = SCENES["suslov-hess"]
+ACCURACY = SCENES["suslov-hess-accuracy"]
 every_scene = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
 every_preset = pytest.mark.parametrize(
     ("scene", "preset"), [(scene, preset) for scene in SCENES.values() for preset in scene.presets],
@@ -69,8 +73,9 @@ def assert_finite(sources):
 
 
 def shown(scene, values, stage=None, hold_axes=False):
+    """The stage, with all pictures of these values drawn on it, and its report."""
     stage = stage or scene.stage()
-    return stage, stage.show(scene.compute(scene.admit(values)[0]), hold_axes)
+    return stage, stage.show(scene.compute(scene.admit(values)[0], scene.pictures, False), hold_axes)
 
 
 @every_scene
@@ -95,10 +100,47 @@ def test_a_scene_explains_itself_and_each_of_its_parameters(scene):
 
 
 @every_scene
+def test_a_scene_names_its_pictures_in_the_order_in_which_they_stand(scene):
+    stage = scene.stage()
+    assert tuple(picture.name for picture in stage.pictures) == scene.pictures
+    assert len(set(scene.pictures)) == len(scene.pictures)
+    assert [picture.caption.key for picture in stage.pictures] == list(scene.pictures)
+    # The browser waits for these to be painted.
+    assert list(stage.plots) == [picture.root.name for picture in stage.pictures if isinstance(picture.root, Model)]
+
+
+@every_scene
+def test_every_source_has_a_name_of_its_own_and_the_player_finds_its_columns(scene):
+    stage, _ = shown(scene, scene.defaults())
+    named = [
+        model.name for picture in stage.pictures if isinstance(picture.root, Model)
+        for model in picture.root.references() if isinstance(model, ColumnDataSource) and model.name
+    ]
+    assert len(set(named)) == len(named)
+    orbit = sources_of(stage)["data-orbit"]
+    needed = {"t", *stage.angles, *(column for columns in stage.dots.values() for column in columns)}
+    assert needed <= set(orbit)
+    assert len({len(column) for column in orbit.values()}) == 1
+    assert set(stage.dots) <= set(named)
+
+
+@every_scene
+def test_a_scene_that_looks_into_another_one_has_its_parameters(scene):
+    if scene.origin is None:
+        looking = [one for one in SCENES.values() if one.origin == scene.name]
+        assert len(looking) == (scene.motion is not None)
+        return
+    origin = SCENES[scene.origin]
+    assert origin.motion is not None
+    assert (scene.specs, scene.presets) == (origin.specs, origin.presets)
+    assert scene.motion is None
+
+
+@every_scene
 def test_every_formula_of_the_words_becomes_mathml(scene):
     formulas = re.findall(r"\$+.+?\$+", scene.words, re.DOTALL)
     html = with_formulas(scene.words)
-    assert html.count("<math") == len(formulas) > 5
+    assert html.count("<math") == len(formulas) > (5 if scene.origin is None else 0)
     assert "$" not in html
     # What the converter does not know it passes on as a command.
     assert not re.search(r"\\[A-Za-z]+", html)
@@ -134,6 +176,7 @@ def test_the_wire_carries_the_same_data_as_a_first_page(scene, preset):
         later[name] = {key: read(column, block) for key, column in columns.items()}
     expected, found = contents(sources_of(first)), contents(later)
     assert expected.keys() == found.keys()
+    assert len(tree["sources"]) > 5
     for name, columns in expected.items():
         for key, column in columns.items():
             same = column if "text" in key else pytest.approx(column, rel=1e-6, abs=1e-6)
@@ -189,23 +232,98 @@ def test_a_stage_that_fails_shows_the_sentence_and_nothing_of_another_state(scen
     assert contents(sources_of(stage)) == before
 
 
+def somewhere(spec):
+    """Values that may be typed: from the slider, from everywhere, and close to either end, to 0 and to ±1."""
+    if not isinstance(spec, Number):
+        return st.sampled_from(spec.options)
+    distance = st.floats(-16.0, math.log10(spec.highest - spec.lowest)).map(lambda exponent: 10.0**exponent)
+    return st.one_of(
+        st.floats(spec.low, spec.high),
+        st.floats(spec.lowest, spec.highest),
+        st.sampled_from([0.0, 1.0, spec.default, spec.lowest, spec.highest]),
+        st.builds(lambda start, way: start + way, st.sampled_from([spec.lowest, -1.0, 0.0, 1.0]), distance),
+        st.builds(lambda start, way: start - way, st.sampled_from([spec.highest, 1.0, 0.0, -1.0]), distance),
+    ).map(lambda value: min(max(value, spec.lowest), spec.highest))
+
+
 @cache
 def lasting_stage(name):
-    return SCENES[name].stage()
+    """A stage that has shown a state, and the wire by which it sends the next ones."""
+    stage, _ = shown(SCENES[name], SCENES[name].defaults())
+    wire = Wire()
+    stage.connect(wire)
+    return stage, wire
 
 
-@every_scene
-@settings(PROPERTY, max_examples=100)
+def assert_within_the_axes(stage, data):
+    """Every line and marker of these sources lies in its picture; so on a logarithmic axis it is positive."""
+    seen = set()
+    for picture in stage.pictures:
+        for renderer in getattr(picture.root, "renderers", ()):
+            glyph, name = renderer.glyph, renderer.data_source.name
+            # The line that marks a limit runs out of the picture on purpose.
+            if not isinstance(glyph, Line | Scatter) or name not in data or name.endswith("-limit"):
+                continue
+            seen.add(name)
+            for column, axis, scale in ((glyph.x, picture.root.x_range, picture.root.x_scale),
+                                        (glyph.y, picture.root.y_range, picture.root.y_scale)):
+                values, low, high = np.asarray(flat(data[name][column])), axis.start, axis.end
+                if isinstance(scale, LogScale):
+                    assert np.all(values > 0.0), (name, column)
+                    values, low, high = np.log10(values), math.log10(low), math.log10(high)
+                # What comes by the wire is in single precision.
+                room = 1e-6 * max(abs(low), abs(high))
+                assert np.all((values >= low - room) & (values <= high + room)), (name, column)
+    assert seen
+
+
+def assert_drawn(scene, values, dragging):
+    """Any values are admitted, computed and drawn: finite numbers, in the pictures' axes, and words beside them."""
+    stage, wire = lasting_stage(scene.name)
+    admitted, _ = scene.admit(values)
+    report = stage.show(scene.compute(admitted, scene.pictures, dragging), False)
+    tree, block = wire.pack()
+    json.dumps(tree, allow_nan=False)
+    assert np.all(np.isfinite(np.frombuffer(block, "<f4")))
+    data = {name: {key: read(column, block) for key, column in columns.items()}
+            for name, columns in tree["sources"].items()}
+    assert_within_the_axes(stage, data)
+    for said in (*tree["texts"].values(), report.status, *report.derived, *report.notes):
+        assert re.search(r"\w", said)
+        assert not re.search(r"\bnan\b|\binf\b", said, re.IGNORECASE), said
+    assert set(tree["texts"]) == set(scene.pictures)
+    orbit = data.get("data-orbit")
+    if orbit is not None:
+        assert orbit["t"][0] == 0.0
+        assert np.all(np.diff(orbit["t"]) >= 0.0)
+        assert 0.0 < orbit["t"][-1] <= admitted["span"] * (1.0 + 1e-6)
+
+
+def own(looking):
+    return pytest.mark.parametrize("scene", [
+        pytest.param(scene, id=name) for name, scene in SCENES.items() if (scene.origin is not None) == looking])
+
+
+@own(looking=False)
+@settings(PROPERTY, max_examples=250)
+@given(data=st.data(), dragging=st.booleans())
+def test_every_admissible_state_is_computed_and_drawn_without_a_number_that_is_none(scene, data, dragging):
+    assert_drawn(scene, {spec.name: data.draw(somewhere(spec), label=spec.name) for spec in scene.specs}, dragging)
+
+
+@own(looking=True)
+@settings(PROPERTY, max_examples=80)
 @given(data=st.data())
-def test_every_admissible_state_is_computed_and_drawn_without_a_number_that_is_none(scene, data):
-    values = {
-        spec.name: data.draw(
-            st.one_of(st.floats(spec.low, spec.high), st.floats(spec.lowest, spec.highest))
-            if isinstance(spec, Number) else st.sampled_from(spec.options), label=spec.name)
-        for spec in scene.specs
-    }
-    stage, _ = shown(scene, values, lasting_stage(scene.name))
-    assert_finite(sources_of(stage))
+def test_the_errors_of_every_admissible_state_are_computed_and_drawn_too(scene, data):
+    # Under a drag: without SciPy's methods, which take long.
+    assert_drawn(scene, {spec.name: data.draw(somewhere(spec), label=spec.name) for spec in scene.specs}, True)
+
+
+def test_at_the_separatrix_and_far_from_it_the_slow_methods_run_without_a_warning_too():
+    for change in ({"h": 1.0, "f": 0.0}, {"h": 1e6, "span": 0.01}, {"I22": 0.1, "I23": 10.0, "span": 1.0},
+                   {"h": -1.0 + 1e-9, "f": 0.0}, {"f": 1e4}):
+        values = {**ACCURACY.defaults(), **change}
+        assert_drawn(ACCURACY, values, False)
 
 
 def test_on_the_separatrix_only_the_circle_map_is_silent():
@@ -270,14 +388,17 @@ class Browser:
     """The other end of a session's wire: sends what it likes, reads what comes, as a browser does."""
 
     def __init__(self, scene, values=None, notes=()):
-        self.menus = []
-        self.scene = scene
-        self.stage = scene.stage()
         self.texts, self.numbers, self.data = {}, {}, {}
         self._receive = None
         self.block = b""
-        self.session = Session(scene, self.stage, self, values or scene.defaults(), list(notes), self.menus.append)
-        self.session.attach()
+        self.built = []
+        self.session = Session(self, self._build, scene, values or scene.defaults(), list(notes))
+
+    def _build(self, scene, values, change):
+        """The page of a scene: `built` lists all so far, `menus` what the menus of the last one were told."""
+        self.scene, self.stage, self.menus, self.choose = scene, scene.stage(), [], change
+        self.built.append((scene.name, dict(values)))
+        return self.stage, self.menus.append
 
     def on_msg(self, callback):
         self._receive = callback
@@ -315,14 +436,19 @@ class Browser:
                 assert value in spec.options
         # The link says the same.
         assert decode(self.state["query"], self.scene.specs) == (values, [])
+        assert parse_qs(self.state["query"])["scene"] == [self.scene.name] == [self.state["scene"]]
 
 
 @pytest.fixture(scope="module")
 def browser():
-    return Browser(HESS)
+    with pytest.MonkeyPatch.context() as patch:
+        # Many states of "Speed and accuracy" are met here: without SciPy's methods.
+        patch.setattr(speed_accuracy, "others_take_long", lambda *_: True)
+        yield Browser(HESS)
 
 
 names = st.sampled_from([*HESS.defaults(), "theme", "t", "__class__", "requested", ""])
+pictures = st.sampled_from([*HESS.pictures, *ACCURACY.pictures, "point", ""])
 huge = st.sampled_from([10**400, -(10**400)])
 numbers = st.one_of(st.floats(), st.integers(-5, 5), st.booleans(), huge, st.none(), st.text(max_size=5))
 garbage = st.recursive(
@@ -332,8 +458,10 @@ messages = st.one_of(
     st.fixed_dictionaries({}, optional={
         "requested": numbers, "held": garbage,
         "values": st.one_of(garbage, st.dictionaries(names, numbers)),
-        "picked": st.one_of(garbage, st.tuples(
-            st.sampled_from(["bifurcation", "circle", "omega", "sphere", ""]), numbers, numbers).map(list)),
+        "picked": st.one_of(garbage, st.tuples(pictures, numbers, numbers).map(list)),
+        "reset": garbage,
+        "scene": st.one_of(garbage, st.sampled_from(list(SCENES))),
+        "hidden": st.one_of(garbage, st.lists(pictures, max_size=8)),
     }),
 )
 
@@ -352,14 +480,18 @@ def test_no_message_raises_or_makes_a_state_inadmissible(browser, message):
     {"values": {"h": None, "f": [1], "nobody": 1.0, "accuracy": 2}}, {"picked": ["circle"]},
     {"picked": ["circle", "1", "1"]}, {"picked": ["bifurcation", math.nan, 0.0]}, {"picked": ["sphere", 1.0, 1.0]},
     {"picked": [["bifurcation"], 1.0, 1.0]}, {"requested": "2"}, {"requested": None, "held": "yes"},
+    {"reset": 1}, {"reset": "yes"}, {"scene": "nowhere"}, {"scene": ["suslov-hess-accuracy"]}, {"scene": None},
+    {"scene": "suslov-hess"}, {"scene": 0}, {"picked": ["precision", 1e-3, 1.0]},
 ])
 def test_a_message_that_means_nothing_changes_nothing(message):
     browser = Browser(HESS)
     browser.send(message)
     state = browser.ask()
     assert browser.session.values == HESS.defaults()
+    assert browser.session.scene is HESS
     assert state["number"] == 2
     assert browser.texts["notes"] == ""
+    assert [name for name, _ in browser.built] == [HESS.name]
 
 
 @pytest.mark.parametrize(("values", "expected"), [
@@ -398,9 +530,9 @@ def test_a_change_is_drawn_with_the_request_and_not_before():
 def test_a_request_without_a_change_computes_nothing():
     calls = []
 
-    def compute(values):
+    def compute(values, shown, dragging):
         calls.append(values)
-        return HESS.compute(values)
+        return HESS.compute(values, shown, dragging)
 
     browser = Browser(dataclasses.replace(HESS, compute=compute))
     for requested in (1, 2, 3):
@@ -470,10 +602,10 @@ def test_notes_of_the_link_are_shown_until_the_first_change():
     (ZeroDivisionError("secret <b>internals</b>"), "This state could not be computed."),
 ])
 def test_a_computation_that_raises_draws_the_sentence_in_empty_pictures(error, sentence, caplog):
-    def compute(values):
+    def compute(values, shown, dragging):
         if values["h"] == 3.0:
             raise error
-        return HESS.compute(values)
+        return HESS.compute(values, shown, dragging)
 
     browser = Browser(dataclasses.replace(HESS, compute=compute))
     with caplog.at_level(logging.ERROR):
@@ -497,11 +629,11 @@ def test_a_computation_that_raises_draws_the_sentence_in_empty_pictures(error, s
 
 
 def test_a_first_state_that_cannot_be_computed_is_said_too(caplog):
-    def compute(values):
+    def compute(values, shown, dragging):
         raise InvalidParameter("This is beyond us: choose less.")
 
     browser = Browser(dataclasses.replace(HESS, compute=compute))
-    assert browser.texts["status"] == "This is beyond us: choose less."
+    assert re.fullmatch(r"This is beyond us: choose less\. · cache \d+ hits, \d+ misses", browser.texts["status"])
     assert flat(sources_of(browser.stage)["circle-message"]["text"]) == ["This is beyond us: choose less."]
     assert flat(sources_of(browser.stage)["data-orbit"].get("omega1", [])) == []
 
@@ -512,3 +644,105 @@ def test_two_sessions_share_nothing_but_results():
     other.ask()
     assert other.session.values == HESS.defaults()
     assert "bifurcation-here" not in other.data
+
+
+# --- Sessions: from one scene to another -------------------------------------------------------------
+
+
+@pytest.fixture
+def quick(monkeypatch):
+    """Without the methods of SciPy."""
+    monkeypatch.setattr(speed_accuracy, "others_take_long", lambda *_: True)
+
+
+@pytest.mark.usefixtures("quick")
+def test_another_scene_keeps_the_values_and_brings_its_own_pictures():
+    browser = Browser(HESS)
+    browser.ask(1, values={"h": 0.5, "f": 0.3, "phi0": -1.0})
+    before = browser.session.values
+    state = browser.ask(2, scene=ACCURACY.name)
+    assert browser.session.values == before
+    assert browser.built[-1] == (ACCURACY.name, before)
+    browser.assert_admissible()
+    assert (state["scene"], state["plots"], state["answers"]) == (ACCURACY.name, list(ACCURACY.pictures), 2)
+    # Its first state is in its pictures, and nothing of the old ones is sent any more.
+    assert state["tree"]["sources"] == {}
+    assert len(sources_of(browser.stage)["data-orbit"]["t"]) > 100
+    assert not any("ω" in text for key, text in state["tree"]["texts"].items() if key in HESS.pictures)
+    state = browser.ask(3, values={"phi0": 2.0})
+    assert {name.split("-")[0] for name in state["tree"]["sources"]} <= {*ACCURACY.pictures, "data"}
+    assert "growth-standard" in state["tree"]["sources"]
+    # And back, with what was changed there.
+    state = browser.ask(4, scene=HESS.name)
+    assert [name for name, _ in browser.built] == [HESS.name, ACCURACY.name, HESS.name]
+    assert browser.session.values == {**before, "phi0": 2.0}
+    assert state["plots"] == ["omega", "bifurcation", "circle"]
+    assert sources_of(browser.stage)["data-orbit"]["phi"][0] == pytest.approx(2.0)
+
+
+@pytest.mark.usefixtures("quick")
+def test_values_that_come_with_a_scene_count_in_it():
+    browser = Browser(HESS, notes=["h was not a number and is 1.5 now."])
+    browser.ask(1, scene=ACCURACY.name, values={"h": 0.25, "f": 77.0})
+    assert browser.session.scene is ACCURACY
+    assert browser.session.values["h"] == 0.25
+    assert browser.session.values["f"] == pytest.approx(f_max(0.25))
+    assert browser.built[-1][1]["f"] == pytest.approx(f_max(0.25))
+    assert "f is at that edge" in browser.texts["notes"]
+    assert "not a number" not in browser.texts["notes"]
+
+
+@pytest.mark.usefixtures("quick")
+def test_the_scene_that_is_on_show_is_not_built_again():
+    browser = Browser(HESS)
+    for requested in (1, 2):
+        browser.ask(requested, scene=ACCURACY.name)
+        assert [name for name, _ in browser.built] == [HESS.name, ACCURACY.name]
+    browser.ask(3, scene="nowhere")
+    assert len(browser.built) == 2
+
+
+def test_a_parameter_that_only_the_new_scene_has_takes_its_default(monkeypatch):
+    extra = Number("extra", "x", "Extra", 2.0, 1.0, 3.0, 0.1, 0.0, 4.0)
+    other = dataclasses.replace(HESS, name="other", specs=(*HESS.specs[1:], extra), admit=lambda values: (values, []),
+                                compute=lambda values, *rest: HESS.compute(HESS.defaults() | values, *rest))
+    monkeypatch.setattr(session, "scenes", lambda: {HESS.name: HESS, other.name: other})
+    browser = Browser(HESS)
+    browser.ask(1, values={"h": 0.5, "I22": 1.25})
+    browser.ask(2, scene="other")
+    common = {name: value for name, value in HESS.defaults().items() if name != "I22"}
+    assert browser.session.values == {**common, "h": 0.5, "extra": 2.0}
+    # What the other scene does not know it does not keep.
+    browser.ask(3, values={"extra": 3.5, "I22": 2.0})
+    assert browser.session.values["extra"] == 3.5
+    browser.ask(4, scene=HESS.name)
+    assert browser.session.values == {**HESS.defaults(), "h": 0.5}
+
+
+def test_a_scene_that_cannot_be_computed_is_entered_with_its_sentence(monkeypatch):
+    def compute(values, shown, dragging):
+        raise InvalidParameter("This is beyond us: choose less.")
+
+    broken = dataclasses.replace(ACCURACY, compute=compute)
+    monkeypatch.setattr(session, "scenes", lambda: {HESS.name: HESS, broken.name: broken})
+    browser = Browser(HESS)
+    state = browser.ask(1, scene=broken.name)
+    assert state["scene"] == broken.name
+    assert browser.texts["status"].startswith("This is beyond us")
+    for name in ACCURACY.pictures:
+        assert flat(sources_of(browser.stage)[f"{name}-message"]["text"]) == ["This is beyond us: choose less."]
+    for picture in browser.stage.pictures:
+        assert picture.caption.text == "This is beyond us: choose less."
+    browser.ask(2, scene=HESS.name)
+    assert not browser.texts["status"].startswith("This is beyond us")
+
+
+def test_a_click_on_the_cost_of_a_level_chooses_it():
+    browser = Browser(ACCURACY)
+    browser.ask(1, picked=["precision", 3e-10, 0.5])
+    assert browser.session.values == {**ACCURACY.defaults(), "accuracy": "precise"}
+    assert browser.menus[-1]["accuracy"] == "precise"
+    assert browser.texts["precision"].startswith("Cost against error\nprecise: ")
+    assert "precise chosen" in browser.texts["status"]
+    browser.ask(2, picked=["growth", 10.0, 1e-3])
+    assert browser.session.values["accuracy"] == "precise"
