@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
@@ -13,7 +14,7 @@ from hypothesis import strategies as st
 from mechanics import PROPERTY
 
 from app.compute import CACHE, ResultCache, size_of
-from app.scenes import scenes
+from app.scenes import scenes, speed_accuracy, suslov_hess
 from models.results import frozen
 
 KILOBYTE = 1024
@@ -165,6 +166,19 @@ def test_what_is_held_is_what_is_counted_and_never_exceeds_the_capacity(capacity
     assert cache.bytes == sum(size_of(last[key]) for key in held)
 
 
+def test_the_metrics_say_what_was_asked_and_what_is_held():
+    cache, function = ResultCache(2**20), Counted()
+    for key in (1, 2, 1, 1, 3):
+        cache.get(function, key)
+    with pytest.raises(ZeroDivisionError):
+        cache.get(lambda: 1 // 0)
+    words = cache.metrics().split()
+    assert dict(zip(words[::2], map(int, words[1::2]), strict=True)) == {
+        "cache_hits": 2, "cache_misses": 4, "cache_entries": 3,
+        "cache_bytes": 3 * size_of(Result("", np.zeros(KILOBYTE, np.uint8)))}
+    assert len(cache.metrics().splitlines()) == 1
+
+
 def test_a_result_larger_than_the_cache_is_given_but_not_kept():
     cache, function = ResultCache(10 * KILOBYTE), Counted()
     cache.get(function, "small")
@@ -193,6 +207,8 @@ def arrays_in(value):
     elif isinstance(value, (tuple, list)):
         for item in value:
             yield from arrays_in(item)
+    elif isinstance(value, Mapping):
+        yield from arrays_in(list(value.values()))
     elif hasattr(value, "__dataclass_fields__"):
         for name in value.__dataclass_fields__:
             yield from arrays_in(getattr(value, name))
@@ -201,7 +217,7 @@ def arrays_in(value):
 @pytest.mark.parametrize("name", scenes())
 def test_every_array_that_a_scene_shares_is_read_only(name):
     scene = scenes()[name]
-    arrays = list(arrays_in(scene.compute(scene.defaults())))
+    arrays = list(arrays_in(scene.compute(scene.defaults(), scene.pictures, False)))
     assert len(arrays) > 5
     for array in arrays:
         with pytest.raises(ValueError, match="read-only"):
@@ -211,11 +227,28 @@ def test_every_array_that_a_scene_shares_is_read_only(name):
 def test_a_scene_asked_twice_computes_nothing_and_shares_its_arrays():
     scene = scenes()["suslov-hess"]
     values = {**scene.defaults(), "h": 0.7123, "phi0": -1.25}
-    first = scene.compute(values)
+    first = scene.compute(values, scene.pictures, False)
     misses = CACHE.misses
-    second = scene.compute(values)
+    second = scene.compute(values, scene.pictures, False)
     assert CACHE.misses == misses
     assert second.cached
     assert not first.cached
     assert second.track is first.track
-    assert second.grid is first.grid
+    assert second.map is first.map
+    assert second.cycles is first.cycles
+    assert second.zones.grid is first.zones.grid
+    assert second.zones.boundary is first.zones.boundary
+    assert second.zones.curve is first.zones.curve
+
+
+@pytest.mark.parametrize("name", [
+    pytest.param(name, marks=[pytest.mark.xfail(reason="size_of does not look into mappings", strict=True)]
+                 if scene.origin else []) for name, scene in scenes().items()])
+def test_the_cache_counts_at_least_the_bytes_of_a_scenes_arrays(name, monkeypatch):
+    cache = ResultCache(2**30)
+    scene = scenes()[name]
+    for module in (suslov_hess, speed_accuracy):
+        monkeypatch.setattr(module, "CACHE", cache)
+    result = scene.compute(scene.defaults(), scene.pictures, False)
+    held = {id(array): array.nbytes for array in arrays_in(result)}
+    assert sum(held.values()) <= cache.bytes <= 2 * sum(held.values()) + 64 * KILOBYTE

@@ -49,14 +49,26 @@ def understood(spec, text):
     return value if spec.lowest <= value <= spec.highest else None
 
 
+CHOICE = Choice("scene", "Scene", tuple(SCENES), next(iter(SCENES)))
+
+
 @PROPERTY
-@given(states(SPECS))
-def test_what_is_encoded_is_decoded_unchanged_and_without_a_note(values):
-    query = encode(values)
+@given(st.sampled_from(list(SCENES)), states(SPECS))
+def test_what_is_encoded_is_decoded_unchanged_and_without_a_note(name, values):
+    query = encode(name, values)
     assert decode(query, SPECS) == (values, [])
     assert decode(f"?{query}", SPECS) == (values, [])
-    assert parse_qsl(query)[0] == ("v", VERSION)
+    assert decode(query, (CHOICE, *SPECS)) == ({"scene": name, **values}, [])
+    assert parse_qsl(query)[:2] == [("v", VERSION), ("scene", name)]
     assert len(query) <= MAX_QUERY
+
+
+def test_a_scene_that_is_none_becomes_the_first_one_with_a_note():
+    for text in ("nowhere", "", "SUSLOV-HESS", "<b>"):
+        values, notes = decode(f"scene={quote(text)}&h=2.5", (CHOICE, *SPECS))
+        assert values == {"scene": next(iter(SCENES)), **DEFAULTS, "h": 2.5}
+        assert len(notes) == 1
+        assert "Scene" in notes[0]
 
 
 DEFAULTS = {spec.name: spec.default for spec in SPECS}
@@ -126,7 +138,7 @@ def test_there_is_one_note_for_each_key_whose_value_had_to_be_changed(given_text
     st.sampled_from(["nan", "inf", "-inf", "1e999", "-1e999", "", "<b>", "1e7", "-1e7"]), st.text(max_size=12)))
 def test_a_key_that_makes_no_sense_leaves_the_others_alone(spec, values, text):
     assume(understood(spec, text) is None)
-    query = encode({**values, spec.name: text})
+    query = encode(SCENE.name, {**values, spec.name: text})
     assume(len(query) <= MAX_QUERY)
     read, notes = decode(query, SPECS)
     assert is_admissible(spec, read.pop(spec.name))
