@@ -32,9 +32,10 @@ class Chart(Figure):
         self._floor = y_range[0]
         axes = curve([x_range[0]], [y_range[0]], ("x", "y"))
         super().__init__(name, axes, labels, x_range, y_range, log="xy" if log_x else "y")
-        # Half as many labels as Bokeh would set: powers of ten are wide.
-        for axis in (*self.root.xaxis, *self.root.yaxis):
-            axis.ticker.desired_num_ticks = 5
+        # Fewer labels than Bokeh would set: powers of ten are wide.
+        self.root.yaxis.ticker.desired_num_ticks = 5
+        if log_x:
+            self.root.xaxis.ticker = [1e-16, 1e-12, 1e-8, 1e-4, 1.0]
         self.add("limit", "line", ("x", "y"), color=theme.MUTED, line_dash="dotted", line_width=2)
         for one in series:
             self.add(one.name, "line", ("x", "y"), color=one.color, line_dash=one.dash, line_width=2)
