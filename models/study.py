@@ -46,9 +46,16 @@ class WorkPoint:
     error: float
 
 
-def _truth(system: System, state: Sequence[float], parameters: Sequence[float], times: Array) -> Array:
-    """The motion at the floor of double precision, in other steps than those of the level `reference`."""
-    return solve(system, state, parameters, times, REFERENCE.tightened()).states
+def _truth(name: str, state: Sequence[float], parameters: Sequence[float], span: float, samples: int
+           ) -> tuple[System, Array, Array, Array]:
+    """System, even times, the motion at them, and the units in which it is O(1).
+
+    It is computed at the floor of double precision, in other steps than those of the level `reference`.
+    """
+    system = systems()[name]
+    times = np.linspace(0.0, span, samples)
+    states = solve(system, state, parameters, times, REFERENCE.tightened()).states
+    return system, times, states, Problem.of(system, state, parameters).scale
 
 
 def growth(name: str, state: tuple[float, ...], parameters: tuple[float, ...], span: float,
@@ -58,16 +65,13 @@ def growth(name: str, state: tuple[float, ...], parameters: tuple[float, ...], s
     name : of the system; weights (d,) : pixels for a unit of each variable.
     Raises `InvalidParameter`, `WorkLimit`.
     """
-    system = systems()[name]
-    times = np.linspace(0.0, span, samples)
-    truth = _truth(system, state, parameters, times)
-    problem = Problem.of(system, state, parameters)
+    system, times, truth, scale = _truth(name, state, parameters, span, samples)
     first = system.angular_velocities
     errors, pixels, drifts = {}, {}, {}
     for level in LEVELS.values():
         states = solve(system, state, parameters, times, level).states
         difference = np.abs(states - truth)
-        errors[level.name] = frozen(np.max(difference / problem.scale, axis=1))
+        errors[level.name] = frozen(np.max(difference / scale, axis=1))
         weighted = difference * np.asarray(weights)
         pixels[level.name] = frozen(np.maximum(np.linalg.norm(weighted[:, :first], axis=1),
                                                np.linalg.norm(weighted[:, first:], axis=1)))
@@ -92,10 +96,7 @@ def _best_of(run: Callable[[], Array], repeats: int) -> tuple[float, Array]:
 def measure_levels(name: str, state: tuple[float, ...], parameters: tuple[float, ...], span: float, samples: int
                    ) -> tuple[WorkPoint, ...]:
     """Cost and error of each level, its error estimate included, here and now.  Raises as `growth`."""
-    system = systems()[name]
-    times = np.linspace(0.0, span, samples)
-    truth = _truth(system, state, parameters, times)
-    scale = Problem.of(system, state, parameters).scale
+    system, times, truth, scale = _truth(name, state, parameters, span, samples)
     points = []
     for level in LEVELS.values():
         ms, states = _best_of(lambda: solve(system, state, parameters, times, level).states, 3)  # noqa: B023
@@ -113,10 +114,7 @@ def measure_others(name: str, state: tuple[float, ...], parameters: tuple[float,
     """The same for SciPy's methods with the plain field, at three tolerances each; without error estimates."""
     from scipy.integrate import solve_ivp  # 0.3 s of import that other scenes do not need
 
-    system = systems()[name]
-    times = np.linspace(0.0, span, samples)
-    truth = _truth(system, state, parameters, times)
-    scale = Problem.of(system, state, parameters).scale
+    system, times, truth, scale = _truth(name, state, parameters, span, samples)
     points = []
     for method in SLOW_METHODS:
         for tolerance in _TOLERANCES:
