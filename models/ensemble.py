@@ -58,7 +58,7 @@ def ensemble(system: System, states: Sequence[Sequence[float]] | Array, paramete
         raise InvalidParameter("An ensemble needs at least one initial state.")
     if count * t.size * dimension > MAX_NUMBERS:
         raise WorkLimit(f"{count} orbits at {t.size} times are too many: choose fewer of one or the other.")
-    scaled_times = t * problem.nu
+    scaled_times = problem.times(t)
 
     out, total = _run(system, problem, problem.states, scaled_times, level, threads)
     errors = np.full(count, np.inf)

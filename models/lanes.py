@@ -6,6 +6,7 @@ together.  A lane whose orbit is done takes the next one, so that no lane waits 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -22,7 +23,7 @@ LANES = 8
 _ONE = int(np.float64(1.0).view(np.int64))
 """The bits of 1.0, whose logarithm is 0."""
 _TINY = 1e-280
-"""For a motion at rest, whose coefficients vanish."""
+"""In the place of the coefficients of a motion at rest."""
 
 
 def expansion_of_lanes(field: Quadratic) -> Callable[..., Any]:
@@ -102,7 +103,7 @@ def steps_of_lanes(last, previous, order, tolerance, ratios, bits, h, h_bits):
         logarithm = min((bits[0, lane] - _ONE) / order, (bits[1, lane] - _ONE) / (order - 1.0))
         h_bits[lane] = int(logarithm) + _ONE
     for lane in range(LANES):
-        h[lane] *= 0.97
+        h[lane] = math.inf if last[lane] + previous[lane] == 0.0 else 0.97 * h[lane]
 
 
 def ensemble_integrator(field: Quadratic) -> Callable[..., Any]:

@@ -78,8 +78,7 @@ def solve(system: System, state: Sequence[float] | Array, parameters: Sequence[f
     start = time.perf_counter()
     t = checked_times(times)
     problem = Problem.of(system, [state], parameters)
-    with np.errstate(over="ignore"):
-        scaled_times = t * problem.nu
+    scaled_times = problem.times(t)
 
     current = level
     coarse, total = _run(system, problem, scaled_times, current, MAX_STEPS)

@@ -98,3 +98,8 @@ class Problem:
         scale[: system.angular_velocities] = nu
         scaled = np.array([system.rescale(y, p, nu)[0] for y in given]).reshape(given.shape)
         return cls(scaled, system.rescale(np.zeros(len(scale)), p, nu)[1], nu, scale)
+
+    def times(self, t: Array) -> Array:
+        """The times (m,) in units of 1/ν; ∞ where that leaves double range, which no budget of steps reaches."""
+        with np.errstate(over="ignore"):
+            return t * self.nu
