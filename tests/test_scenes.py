@@ -246,6 +246,11 @@ def somewhere(spec):
     ).map(lambda value: min(max(value, spec.lowest), spec.highest))
 
 
+def in_sight(scene):
+    """All pictures, as mostly, or some of them."""
+    return st.one_of(st.just(set(scene.pictures)), st.sets(st.sampled_from(scene.pictures)))
+
+
 @cache
 def lasting_stage(name):
     """A stage that has shown a state, and the wire by which it sends the next ones."""
@@ -274,24 +279,25 @@ def assert_within_the_axes(stage, data):
                 # What comes by the wire is in single precision.
                 room = 1e-6 * max(abs(low), abs(high))
                 assert np.all((values >= low - room) & (values <= high + room)), (name, column)
-    assert seen
+    return seen
 
 
-def assert_drawn(scene, values, dragging):
+def assert_drawn(scene, values, seen, dragging):
     """Any values are admitted, computed and drawn: finite numbers, in the pictures' axes, and words beside them."""
     stage, wire = lasting_stage(scene.name)
     admitted, _ = scene.admit(values)
-    report = stage.show(scene.compute(admitted, scene.pictures, dragging), False)
+    report = stage.show(scene.compute(admitted, seen, dragging), False)
     tree, block = wire.pack()
     json.dumps(tree, allow_nan=False)
     assert np.all(np.isfinite(np.frombuffer(block, "<f4")))
     data = {name: {key: read(column, block) for key, column in columns.items()}
             for name, columns in tree["sources"].items()}
-    assert_within_the_axes(stage, data)
+    drawn = assert_within_the_axes(stage, data)
+    assert len(drawn) > 2 or not seen
     for said in (*tree["texts"].values(), report.status, *report.derived, *report.notes):
         assert re.search(r"\w", said)
         assert not re.search(r"\bnan\b|\binf\b", said, re.IGNORECASE), said
-    assert set(tree["texts"]) == set(scene.pictures)
+    assert set(seen) <= set(tree["texts"]) <= set(scene.pictures)
     orbit = data.get("data-orbit")
     if orbit is not None:
         assert orbit["t"][0] == 0.0
@@ -308,22 +314,24 @@ def own(looking):
 @settings(PROPERTY, max_examples=250)
 @given(data=st.data(), dragging=st.booleans())
 def test_every_admissible_state_is_computed_and_drawn_without_a_number_that_is_none(scene, data, dragging):
-    assert_drawn(scene, {spec.name: data.draw(somewhere(spec), label=spec.name) for spec in scene.specs}, dragging)
+    values = {spec.name: data.draw(somewhere(spec), label=spec.name) for spec in scene.specs}
+    assert_drawn(scene, values, data.draw(in_sight(scene), label="in sight"), dragging)
 
 
 @own(looking=True)
 @settings(PROPERTY, max_examples=80)
 @given(data=st.data())
 def test_the_errors_of_every_admissible_state_are_computed_and_drawn_too(scene, data):
+    values = {spec.name: data.draw(somewhere(spec), label=spec.name) for spec in scene.specs}
     # Under a drag: without SciPy's methods, which take long.
-    assert_drawn(scene, {spec.name: data.draw(somewhere(spec), label=spec.name) for spec in scene.specs}, True)
+    assert_drawn(scene, values, data.draw(in_sight(scene), label="in sight"), True)
 
 
 def test_at_the_separatrix_and_far_from_it_the_slow_methods_run_without_a_warning_too():
     for change in ({"h": 1.0, "f": 0.0}, {"h": 1e6, "span": 0.01}, {"I22": 0.1, "I23": 10.0, "span": 1.0},
                    {"h": -1.0 + 1e-9, "f": 0.0}, {"f": 1e4}):
         values = {**ACCURACY.defaults(), **change}
-        assert_drawn(ACCURACY, values, False)
+        assert_drawn(ACCURACY, values, ACCURACY.pictures, False)
 
 
 def test_on_the_separatrix_only_the_circle_map_is_silent():
