@@ -13,6 +13,7 @@ from models.ensemble import MAX_NUMBERS
 from models.errors import InvalidParameter, ModelError, NotPositiveDefinite, WorkLimit
 from models.lanes import LANES
 from models.orbit import MAX_SAMPLES
+from models.taylor import STEP_LIMIT_REACHED
 
 SYSTEMS = systems()
 every_system = pytest.mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)
@@ -340,6 +341,20 @@ def test_a_span_that_needs_too_many_steps_raises_a_sentence(system, threads, end
     monkeypatch.setattr(sys.modules["models.ensemble"], "MAX_STEPS", 1000)
     with pytest.raises(WorkLimit, match="more than 1000 steps: choose a shorter time span"):
         ensemble(system, starts(system, 70), system.example[1], [end], level("draft"), threads=threads)
+
+
+@every_system
+def test_the_limit_of_steps_is_for_each_orbit_and_the_cost_is_of_all(system):
+    states, parameters = starts(system, 50, seed=12), np.array(system.example[1])
+
+    def steps(some, limit):
+        out = np.empty((len(some), 1, len(system.variables)))
+        return system.ensemble(some, parameters, np.array([20.0]), 14, 1e-8, limit, out)
+
+    each = [steps(states[i : i + 1], 10_000) for i in range(50)]
+    assert min(each) < max(each)
+    assert steps(states, max(each)) == sum(each)
+    assert steps(states, max(each) - 2) == STEP_LIMIT_REACHED
 
 
 @every_system
