@@ -2,7 +2,12 @@
 // "hess:change" {name: value}; what the server says of all numbers comes by "hess:numbers"
 // {name: [value, low, high, step]}.
 
-export function render({ model, el }) {
+export function render({ model, view, el }) {
+  // Listeners go with the view: when it is removed, or rendered once more.
+  view.living?.abort()
+  view.living = new AbortController()
+  model.on("remove", () => view.living.abort())
+  const { signal } = view.living
   const { name, label, symbol, help } = model
   const frame = document.createElement("div")
   frame.className = "number"
@@ -62,7 +67,7 @@ export function render({ model, el }) {
     box.removeAttribute("aria-invalid")
   })
   const onNumbers = (event) => { if (name in event.detail) show(event.detail[name]) }
-  document.addEventListener("hess:numbers", onNumbers)
+  document.addEventListener("hess:numbers", onNumbers, { signal })
   show(model.shown)
-  return () => document.removeEventListener("hess:numbers", onNumbers)
+  document.dispatchEvent(new CustomEvent("hess:mounted", { detail: { kind: "numbers", key: name, show } }))
 }

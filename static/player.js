@@ -26,6 +26,11 @@ function button(name, label, onClick) {
 }
 
 export function render({ model, view, el }) {
+  // Listeners go with the view: when it is removed, or rendered once more.
+  view.living?.abort()
+  view.living = new AbortController()
+  model.on("remove", () => view.living.abort())
+  const { signal } = view.living
   const bar = document.createElement("div")
   bar.className = "player"
   bar.setAttribute("role", "group")
@@ -42,10 +47,15 @@ export function render({ model, view, el }) {
   speed.setAttribute("aria-label", "Speed")
   speed.title = "Speed: units of t per second"
   for (const value of SPEEDS) speed.add(new Option(`${value}×`, value))
-  speed.value = SPEEDS.includes(model.speed) ? model.speed : 1
 
   let source = null
   let t = model.t
+  const begin = (own) => {
+    t = Number(own.t)
+    speed.value = SPEEDS.includes(Number(own.speed)) ? Number(own.speed) : 1
+  }
+  begin(model)
+  document.dispatchEvent(new CustomEvent("hess:mounted", { detail: { kind: "client", show: begin } }))
   let playing = false
   let last = null
 
@@ -141,26 +151,25 @@ export function render({ model, view, el }) {
     else return
     event.preventDefault()
   }
-  document.addEventListener("keydown", onKey)
+  document.addEventListener("keydown", onKey, { signal })
+  // The player of the next scene goes on from here.
+  document.addEventListener("hess:scene", () => { if (playing) play(false) }, { signal })
 
   const onData = () => {
     slider.max = end()
     if (t > end()) t = end()
     show()
   }
-  let gone = false
   const watch = () => {
-    if (gone) return
+    if (signal.aborted) return
     source = view.model.document?.get_model_by_name("data-orbit") ?? null
     if (source === null) return void requestAnimationFrame(watch)
     source.change.connect(onData)
     onData()
   }
   watch()
-  return () => {
-    gone = true
+  signal.addEventListener("abort", () => {
     playing = false
     source?.change.disconnect(onData)
-    document.removeEventListener("keydown", onKey)
-  }
+  })
 }

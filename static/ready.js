@@ -19,6 +19,7 @@ export function render({ model, view }) {
   let reset = false
   let chosen = null
   let scene = null
+  let entered = null
   let spherePending = false
   root.dataset.ready = "false"
   root.dataset.state = "0"
@@ -27,12 +28,14 @@ export function render({ model, view }) {
   const page = () => bokeh().roots().find((top) => top.data?.attributes.dark_theme !== undefined).data
   // One request at a time: the next one goes when the answer to the last is painted.
   const ask = () => {
-    if (asked !== null || asking) return
+    if (scene === null || asked !== null || asking) return
     asking = true
     // Behind the change itself on its way to the server.
     queueMicrotask(() => {
       asking = false
       asked = requested
+      if (chosen === entered) chosen = null
+      if (chosen !== null) leave()
       model.send_msg({ requested, held, values, picked, reset, scene: chosen, hidden: [...hidden] })
       values = {}
       picked = null
@@ -75,12 +78,27 @@ export function render({ model, view }) {
   })
 
   document.addEventListener("hess:scene", (event) => {
+    if (event.detail === (chosen ?? entered)) return
     chosen = event.detail
-    // The old pictures' sources stay in the document for a while: their names are for the new ones.
+    request()
+  })
+  const leave = () => {
+    entered = chosen
+    latest = { texts: {}, numbers: {} }
+    // The old pictures stay in the document for a while: their names are for the new ones.
     for (const plot of plots) {
+      plot.model.setv({ name: null }, { sync: false })
       for (const { data_source } of plot.model.renderers) data_source?.setv({ name: null }, { sync: false })
     }
-    request()
+  }
+
+  // What is built later than a state (controls in a drawer that opens, a player of another scene) learns here what it
+  // has missed.
+  let latest = { texts: {}, numbers: {} }
+  document.addEventListener("hess:mounted", (event) => {
+    const { kind, key, show } = event.detail
+    const known = kind === "client" ? own : latest[kind][key]
+    if (known !== undefined) show(known)
   })
 
   // Pictures out of sight are not computed; what comes into sight is asked for.
@@ -93,7 +111,7 @@ export function render({ model, view }) {
       else hidden.add(name)
     }
     if (appeared) request()
-  }, { rootMargin: "100px" })
+  }, { rootMargin: "100px", scrollMargin: "100px" })
   const pictureOf = (cell) => [...cell.classList].find((name) => name.startsWith("picture-")).slice("picture-".length)
 
   document.addEventListener("click", (event) => {
@@ -138,6 +156,8 @@ export function render({ model, view }) {
       const data = Object.fromEntries(Object.entries(columns).map(([key, column]) => [key, place(column)]))
       bokeh().get_model_by_name(name).setv({ data }, { sync: false })
     }
+    Object.assign(latest.texts, tree.texts)
+    Object.assign(latest.numbers, tree.numbers)
     document.dispatchEvent(new CustomEvent("hess:text", { detail: tree.texts }))
   }
 
@@ -197,11 +217,10 @@ export function render({ model, view }) {
     if (query !== window.location.search) window.history.replaceState(null, "", query)
   }
   const writeUrl = () => { timer ??= setTimeout(writeUrlNow, URL_PAUSE) }
-  const onUrl = (event) => {
+  document.addEventListener("hess:url", (event) => {
     Object.assign(own, event.detail)
     writeUrl()
-  }
-  document.addEventListener("hess:url", onUrl)
+  })
   document.addEventListener("hess:sphere-invalid", () => { spherePending = true })
   document.addEventListener("hess:sphere-painted", () => { spherePending = false; onPainted() })
 
@@ -244,7 +263,7 @@ export function render({ model, view }) {
     const found = findPictures()
     const names = found.plots.map((plot) => plot.model.name).sort().join()
     const built = names === [...state.plots].sort().join() && found.plots.every((plot) => plot.has_finished())
-    if (!built || (covered() && performance.now() < 10_000)) {
+    if (!built || (scene === null && covered() && performance.now() < 10_000)) {
       return void requestAnimationFrame(() => whenBuilt(callback))
     }
     scene = state.scene
@@ -258,10 +277,10 @@ export function render({ model, view }) {
     if (window.innerWidth < 800) page().sidebar_open = false
     started = true
     onState()
+    entered = state.scene
   }
   // The first state is read when the page stands, even if the user was faster and it is no longer the first.
   let started = false
   model.on("state", () => { if (started) onState() })
   start()
-  return () => document.removeEventListener("hess:url", onUrl)
 }

@@ -12,10 +12,12 @@ export function render({ model, el }) {
     const base = here?.origin ?? model.shown
     // Of what looks into another scene only that of the scene on show is offered.
     const offered = model.scenes.filter((scene) => scene.origin === null || scene.origin === base)
+    const focused = bar.getRootNode().activeElement?.dataset.scene
     bar.replaceChildren(...offered.map((scene) => {
       const item = document.createElement("button")
       item.type = "button"
       item.className = `scene param-scene-${scene.name}`
+      item.dataset.scene = scene.name
       item.title = scene.summary
       item.setAttribute("aria-pressed", String(scene.name === model.shown))
       const picture = document.createElementNS("http://www.w3.org/2000/svg", "svg")
@@ -26,10 +28,11 @@ export function render({ model, el }) {
       title.textContent = scene.title
       item.append(picture, title)
       item.addEventListener("click", () => {
-        if (scene.name !== model.shown) document.dispatchEvent(new CustomEvent("hess:scene", { detail: scene.name }))
+        document.dispatchEvent(new CustomEvent("hess:scene", { detail: scene.name }))
       })
       return item
     }))
+    if (focused !== undefined) bar.querySelector(`[data-scene="${focused}"]`)?.focus()
   }
   model.on("shown", show)
   show()

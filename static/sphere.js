@@ -35,6 +35,11 @@ function graticule() {
 }
 
 export function render({ model, view, el }) {
+  // Listeners go with the view: when it is removed, or rendered once more.
+  view.living?.abort()
+  view.living = new AbortController()
+  model.on("remove", () => view.living.abort())
+  const { signal } = view.living
   const canvas = document.createElement("canvas")
   canvas.className = "sphere"
   canvas.tabIndex = 0
@@ -49,6 +54,8 @@ export function render({ model, view, el }) {
   const lines = graticule()
   const home = [0.6, 0.35]
   let turn = [model.azimuth, model.elevation]
+  const begin = ({ az, el }) => { turn = [Number(az), Number(el)] }
+  document.dispatchEvent(new CustomEvent("hess:mounted", { detail: { kind: "client", show: begin } }))
   let point = null
   let requested = false
   let width = 0
@@ -193,8 +200,8 @@ export function render({ model, view, el }) {
     point = event.detail.state ? ["g1", "g2", "g3"].map((name) => event.detail.state[name]) : null
     request()
   }
-  document.addEventListener("hess:time", onTime)
-  document.addEventListener("hess:paint", draw)
+  document.addEventListener("hess:time", onTime, { signal })
+  document.addEventListener("hess:paint", draw, { signal })
   const scheme = new MutationObserver(request)
   scheme.observe(document.documentElement, { attributes: true, attributeFilter: ["data-theme", "class", "style"] })
   scheme.observe(document.body, { attributes: true, attributeFilter: ["data-theme", "class", "style"] })
@@ -209,20 +216,16 @@ export function render({ model, view, el }) {
   model.on("heights", request)
   showMessage()
   // The sources belong to other pictures: they are in the document once all of it is built.
-  let gone = false
   const watch = () => {
-    if (gone) return
+    if (signal.aborted) return
     const found = ["orbit", "stable", "unstable"].map(source)
     if (found.some((item) => item == null)) return void requestAnimationFrame(watch)
     for (const item of found) item.change.connect(request)
     request()
   }
   watch()
-  return () => {
-    gone = true
-    document.removeEventListener("hess:time", onTime)
-    document.removeEventListener("hess:paint", draw)
+  signal.addEventListener("abort", () => {
     scheme.disconnect()
     resize.disconnect()
-  }
+  })
 }

@@ -234,6 +234,6 @@ def test_every_control_is_reached_by_the_tab_key(open_page):
                 names.push(...[...(at.classList ?? [])].filter((name) => /^param-|^sphere$/.test(name)))
             return names
         }"""))
-    wanted = {"param-preset", "param-accuracy", "param-reset", "param-link", "param-play", "param-t", "param-speed",
-              "sphere", *(f"param-{name}" for name in ("I22", "I23", "b3", "h", "f", "phi0", "span"))}
+    wanted = {"param-scene-suslov-hess", "param-scene-suslov-hess-accuracy", "param-preset", "param-accuracy", "param-reset", "param-link", "param-play",
+              "param-t", "param-speed", "sphere", *(f"param-{name}" for name in ("I22", "I23", "b3", "h", "f", "phi0", "span"))}
     assert wanted <= reached, wanted - reached
