@@ -42,9 +42,9 @@ def largest_bend(e, h):
     odd = 0.0
     last = e.size - 1
     for k in range(last - last % 2, 1, -2):
-        even = even * (h * h) + k * (k - 1.0) * abs(e[k])
+        even = even * h * h + k * (k - 1.0) * abs(e[k])
         if k < last:
-            odd = odd * (h * h) + k * (k + 1.0) * abs(e[k + 1])
+            odd = odd * h * h + k * (k + 1.0) * abs(e[k + 1])
     return even + odd * h
 
 
@@ -80,6 +80,13 @@ def roots_on_step(e, h, below, end, below_at_end, roots, pieces):
     pieces : scratch (`_DEPTH` + 2, 2), the right ends of the pieces not yet looked at, and e there.
     """
     bend = largest_bend(e, h)
+    if below == below_at_end and min(abs(e[0]), abs(end)) > 0.125 * bend * h * h:
+        return 0
+    # What is lower than this may be round-off: it is on the side on which the orbit was.
+    noise = 0.0
+    for k in range(e.size - 1, -1, -1):
+        noise = noise * h + abs(e[k])
+    noise *= 4e-16
     found = 0
     left = 0.0
     at_left = e[0]
@@ -88,7 +95,10 @@ def roots_on_step(e, h, below, end, below_at_end, roots, pieces):
     pieces[0, 1] = end
     while waiting > 0:
         right, at_right = pieces[waiting - 1]
-        below_right = below_at_end if waiting == 1 else at_right < 0.0
+        if waiting == 1:
+            below_right = below_at_end
+        else:
+            below_right = at_right < 0.0 if abs(at_right) > noise else below
         width = right - left
         rise = at_right - at_left
         same_side = below == below_right
@@ -96,7 +106,7 @@ def roots_on_step(e, h, below, end, below_at_end, roots, pieces):
             clear = min(abs(at_left), abs(at_right)) > 0.125 * bend * width * width
         else:
             clear = abs(rise) > 0.5 * bend * width * width
-        if clear or waiting > _DEPTH:
+        if clear or 0.125 * bend * width * width <= noise or waiting > _DEPTH:
             if not same_side:
                 guess = left - at_left * width / rise if rise != 0.0 else left
                 roots[found] = root_between(e, left, right, guess, below, bend)
@@ -154,7 +164,14 @@ def crossing_finder(field: Quadratic) -> Callable[..., Any]:
             if steps == 0:
                 # Round-off must not make a crossing of a start that was meant to be on the plane.
                 on_plane = abs(e[0]) <= 1e-14 * (1.0 + abs(offset))
-                below = (e[1] if on_plane else e[0]) < 0.0
+                below = e[0] < 0.0
+                if on_plane:
+                    if end == 0.0:
+                        return 0, 1
+                    for k in range(1, order + 1):
+                        if abs(e[k]) > 1e-14:
+                            below = e[k] < 0.0
+                            break
             h = step_of(c, n, tolerance)
             remaining = direction * ((end - t) - t_low)
             last = h >= remaining

@@ -86,7 +86,8 @@ def section(system: System, state: Sequence[float] | Array, parameters: Sequence
         difference = np.abs(coarse[:both] - fine[:both])
         error = safety * float(difference.max(initial=0.0)) + 2e-16
         # One crossing more or less only at the very end of the span.
-        same = abs(len(coarse) - len(fine)) <= 1
+        extra = np.concatenate((coarse_times[both:], fine_times[both:]))
+        same = len(extra) == 0 or (len(extra) == 1 and abs(extra[0] - end * problem.nu) <= 10 * level.promise)
         if (same and error <= level.promise) or current.is_floor:
             break
         current, coarse, coarse_times = tighter, fine, fine_times
