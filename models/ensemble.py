@@ -79,10 +79,7 @@ def ensemble(system: System, states: Sequence[Sequence[float]] | Array, paramete
         out[todo] = fine[missed]
 
     out *= problem.scale
-    drift: dict[str, float] = {}
-    for y0, along in zip(np.array(states, float, ndmin=2), out, strict=True):
-        for name, value in drift_of(system, y0, along, np.asarray(parameters, float)).items():
-            drift[name] = max(drift.get(name, 0.0), value)
+    drift = drift_of(system, np.array(states, float, ndmin=2), out, np.asarray(parameters, float))
     wall_ms = (time.perf_counter() - start) * 1e3
     return Ensemble(system.name, level.name, frozen(t), frozen(out), status_of(float(scaled_errors.max()), level),
                     frozen(errors), drift, Cost(total, wall_ms))

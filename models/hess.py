@@ -134,9 +134,9 @@ def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
     }
 
 
-def frequency(y: Array, p: Array) -> float:
-    """ν = √(w² + 4|b||n|): no |w| of the motion exceeds it."""
-    return math.sqrt(y[0] ** 2 + y[1] ** 2 + 4 * abs(p[1]) * math.hypot(*y[2:5]))
+def frequency(y: Array, p: Array) -> Array | float:
+    """ν = √(w² + 4|b||n|) of a state (5,) or many (5, n): no |w| of the motion exceeds it."""
+    return np.sqrt(y[0] ** 2 + y[1] ** 2 + 4 * abs(p[1]) * np.sqrt(y[2] ** 2 + y[3] ** 2 + y[4] ** 2))
 
 
 def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:

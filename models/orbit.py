@@ -46,13 +46,18 @@ def status_of(error: float, level: Level) -> Status:
 
 
 def drift_of(system: System, start: Array, states: Array, parameters: Array) -> dict[str, float]:
-    """For each integral max |F(y) − F(start)|, relative to |F(start)| where that exceeds 1; states (..., d)."""
-    initial = system.integrals(start, parameters)
+    """For each integral max |F(y) − F(start)|, relative to |F(start)| where that exceeds 1.
+
+    start (d,) and states (m, d) of one orbit, or (n, d) and (n, m, d) of many, of which the largest counts.
+    """
+    initial = system.integrals(np.moveaxis(start, -1, 0), parameters)
     along = system.integrals(np.moveaxis(states, -1, 0), parameters)
-    return {
-        name: float(np.max(np.abs(along[name] - value), initial=0.0)) / max(1.0, abs(float(value)))
-        for name, value in initial.items()
-    }
+    drift = {}
+    for name, value in initial.items():
+        origin = np.asarray(value)[..., None]
+        change = np.abs(along[name] - origin) / np.maximum(1.0, np.abs(origin))
+        drift[name] = float(np.max(change, initial=0.0))
+    return drift
 
 
 def _run(system: System, problem: Problem, times: Array, level: Level, max_steps: int) -> tuple[Array, int]:

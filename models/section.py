@@ -21,6 +21,10 @@ __all__ = ["MAX_CROSSINGS", "Plane", "section", "sections"]
 
 MAX_CROSSINGS = 100_000
 MAX_STEPS = 10_000_000
+_ROOM = 1000
+"""Crossings for which there is room at first: few orbits have more."""
+_SHARE = 4
+"""Orbits of one piece of work."""
 
 
 @dataclass(frozen=True)
@@ -38,6 +42,98 @@ class Plane:
             raise InvalidParameter("The sense of a crossing is 1 (from below), −1 (from above) or 0 (both).")
 
 
+@dataclass(frozen=True)
+class _Search:
+    """What is looked for, in units in which the states are O(1), with a normal of length 1."""
+
+    system: System
+    problem: Problem
+    normal: Array
+    offset: float
+    sense: int
+    end: float
+    level: Level
+    crossings: int
+
+    @classmethod
+    def of(cls, system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float], plane: Plane,
+           end: float, level: Level, crossings: int) -> _Search:
+        """Check everything.  Raises `InvalidParameter`, `WorkLimit`."""
+        if len(plane.normal) != len(system.variables):
+            raise InvalidParameter(f"The normal of the plane has {len(system.variables)} components here.")
+        if not math.isfinite(end):
+            raise InvalidParameter("The end of the time span must be finite.")
+        if not 1 <= crossings <= MAX_CROSSINGS:
+            raise WorkLimit(f"The number of crossings lies between 1 and {MAX_CROSSINGS}.")
+        problem = Problem.of(system, states, parameters)
+        largest = max(map(abs, plane.normal))
+        normal = np.array(plane.normal) / largest * problem.scale
+        length = float(np.linalg.norm(normal))
+        offset = plane.offset / largest / length
+        if not math.isfinite(offset):
+            raise InvalidParameter("The offset of the plane is too large beside its normal: choose a smaller one.")
+        return cls(system, problem, normal / length, offset, plane.sense, end * problem.nu, level, crossings)
+
+    def run(self, i: int, rung: Level, max_steps: int) -> tuple[Array, Array, int]:
+        """Times, states and steps of the crossings of orbit i at one tolerance."""
+        room, total = min(self.crossings, _ROOM), 0
+        while True:
+            times, states = np.empty(room), np.empty((room, self.problem.scale.size))
+            found, steps = self.system.cross(
+                self.problem.states[i], self.problem.parameters, self.normal, self.offset, self.sense, self.end,
+                rung.order, rung.tolerance, max_steps - total, times, states)
+            if found == STEP_LIMIT_REACHED:
+                raise WorkLimit(f"This section needs more than {MAX_STEPS} steps: choose a shorter time span.")
+            total += steps
+            if found < room or room == self.crossings:
+                break
+            room = min(self.crossings, 10 * room)
+        require_finite_states(states[:found])
+        return times[:found].copy(), states[:found].copy(), total
+
+    def measured(self, i: int) -> _Found:
+        """The crossings of orbit i, and how far they are from those of a more exact run."""
+        start = time.perf_counter()
+        current = self.level
+        coarse_times, coarse, total = self.run(i, current, MAX_STEPS)
+        while True:
+            tighter = current.tightened()
+            fine_times, fine, steps = self.run(i, tighter, MAX_STEPS - total)
+            total += steps
+            both = min(len(coarse), len(fine))
+            safety = 4.0 if current.is_floor else 1.25
+            difference = safety * np.abs(coarse[:both] - fine[:both])
+            error = float(difference.max(initial=0.0)) + 2e-16
+            # One crossing more or less only at the very end of the span.
+            extra = np.concatenate((coarse_times[both:], fine_times[both:]))
+            same = len(extra) == 0 or (len(extra) == 1 and abs(extra[0] - self.end) <= 10 * self.level.promise)
+            if (same and error <= self.level.promise) or current.is_floor:
+                break
+            current, coarse, coarse_times = tighter, fine, fine_times
+        wall_ms = (time.perf_counter() - start) * 1e3
+        return _Found(coarse_times, coarse, difference, error if same else math.inf, Cost(total, wall_ms))
+
+    def result(self, i: int, start: Array, parameters: Array, found: _Found) -> Section:
+        """The crossings of orbit i, which starts at `start` (d,), in the user's units."""
+        nu, scale = self.problem.nu, self.problem.scale
+        states = found.states * scale
+        absolute = float((found.difference * scale).max(initial=0.0)) + 2e-16 * max(1.0, nu)
+        drift = drift_of(self.system, start, states, parameters)
+        return Section(self.system.name, self.level.name, frozen(found.times / nu), frozen(states),
+                       status_of(found.error, self.level), absolute, drift, found.cost)
+
+
+@dataclass(frozen=True)
+class _Found:
+    """Times (n,), states (n, d), their estimated errors (m, d), the largest (∞: other crossings), and the cost."""
+
+    times: Array
+    states: Array
+    difference: Array
+    error: float
+    cost: Cost
+
+
 def section(system: System, state: Sequence[float] | Array, parameters: Sequence[float], plane: Plane,
             end: float, level: Level, crossings: int = MAX_CROSSINGS) -> Section:
     """The first `crossings` crossings of the plane after t = 0 and up to t = `end` (which may be negative).
@@ -46,68 +142,19 @@ def section(system: System, state: Sequence[float] | Array, parameters: Sequence
     crossing by crossing; a run that finds other crossings than the more exact one is replaced by it.
     Raises `InvalidParameter`, `WorkLimit`.
     """
-    start = time.perf_counter()
-    if len(plane.normal) != len(system.variables):
-        raise InvalidParameter(f"The normal of the plane has {len(system.variables)} components here.")
-    if not math.isfinite(end):
-        raise InvalidParameter("The end of the time span must be finite.")
-    if not 1 <= crossings <= MAX_CROSSINGS:
-        raise WorkLimit(f"The number of crossings lies between 1 and {MAX_CROSSINGS}.")
-    problem = Problem.of(system, [state], parameters)
-    # In the scaled variables, and with a normal of length 1.
-    largest = max(map(abs, plane.normal))
-    normal = np.array(plane.normal) / largest * problem.scale
-    length = float(np.linalg.norm(normal))
-    offset = plane.offset / largest / length
-    if not math.isfinite(offset):
-        raise InvalidParameter("The offset of the plane is too large beside its normal: choose a smaller one.")
-    total = 0
-
-    def run(rung: Level) -> tuple[Array, Array]:
-        nonlocal total
-        times = np.empty(crossings)
-        states = np.empty((crossings, problem.scale.size))
-        found, steps = system.cross(
-            problem.states[0], problem.parameters, normal / length, offset, plane.sense,
-            end * problem.nu, rung.order, rung.tolerance, MAX_STEPS - total, times, states)
-        if found == STEP_LIMIT_REACHED:
-            raise WorkLimit(f"This section needs more than {MAX_STEPS} steps: choose a shorter time span.")
-        total += steps
-        require_finite_states(states[:found])
-        return times[:found].copy(), states[:found].copy()
-
-    current = level
-    coarse_times, coarse = run(current)
-    while True:
-        tighter = current.tightened()
-        fine_times, fine = run(tighter)
-        both = min(len(coarse), len(fine))
-        safety = 4.0 if current.is_floor else 1.25
-        difference = np.abs(coarse[:both] - fine[:both])
-        error = safety * float(difference.max(initial=0.0)) + 2e-16
-        # One crossing more or less only at the very end of the span.
-        extra = np.concatenate((coarse_times[both:], fine_times[both:]))
-        same = len(extra) == 0 or (len(extra) == 1 and abs(extra[0] - end * problem.nu) <= 10 * level.promise)
-        if (same and error <= level.promise) or current.is_floor:
-            break
-        current, coarse, coarse_times = tighter, fine, fine_times
-
-    states = coarse * problem.scale
-    absolute = safety * float((difference * problem.scale).max(initial=0.0)) + 2e-16 * max(1.0, problem.nu)
-    drift = drift_of(system, np.asarray(state, float), states, np.asarray(parameters, float))
-    wall_ms = (time.perf_counter() - start) * 1e3
-    return Section(system.name, level.name, frozen(coarse_times / problem.nu), frozen(states),
-                   status_of(error if same else math.inf, level), absolute, drift, Cost(total, wall_ms))
+    return sections(system, [state], parameters, plane, end, level, crossings, threads=1)[0]
 
 
 def sections(system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float], plane: Plane,
              end: float, level: Level, crossings: int = MAX_CROSSINGS, threads: int = THREADS) -> list[Section]:
-    """`section` for each row of `states` (n, d), on all cores."""
-    starts = np.array(states, float, ndmin=2)
-    found: list[Section | None] = [None] * len(starts)
+    """`section` for each row of `states` (n, d), on all cores, with the fastest motion's unit of time for all."""
+    search = _Search.of(system, states, parameters, plane, end, level, crossings)
+    found: dict[int, _Found] = {}
 
     def part(i: int) -> None:
-        found[i] = section(system, starts[i], parameters, plane, end, level, crossings)
+        for orbit in range(i * _SHARE, min((i + 1) * _SHARE, len(search.problem.states))):
+            found[orbit] = search.measured(orbit)
 
-    share(part, len(starts), threads)
-    return [one for one in found if one is not None]
+    share(part, -(-len(search.problem.states) // _SHARE), threads)
+    starts, p = np.array(states, float, ndmin=2), np.asarray(parameters, float)
+    return [search.result(i, starts[i], p, found[i]) for i in range(len(starts))]

@@ -85,8 +85,8 @@ _MAX_RATIO = 1e20
 """Beyond it the slow motion would drown in units of the fast one."""
 
 
-def frequency(y: Array, p: Array) -> float:
-    """ν = √(2(E+|b||γ|)/min(I11, I22)): no angular velocity of the motion exceeds it.
+def frequency(y: Array, p: Array) -> Array | float:
+    """ν = √(2(E+|b||γ|)/min(I11, I22)) of a state (5,) or many (5, n): no angular velocity of the motion exceeds it.
 
     Raises `NotPositiveDefinite`, `InvalidParameter`.
     """
@@ -94,9 +94,9 @@ def frequency(y: Array, p: Array) -> float:
     require_positive_definite(I11, I22)
     if not 1.0 / _MAX_RATIO <= I11 / I22 <= _MAX_RATIO:
         raise InvalidParameter(f"The moments I11 and I22 are too different: choose a ratio below {_MAX_RATIO:g}.")
-    field_strength = math.hypot(*p[4:7]) * math.hypot(*y[2:5])
+    field_strength = math.hypot(*p[4:7]) * np.sqrt(y[2] ** 2 + y[3] ** 2 + y[4] ** 2)
     kinetic_now = (I11 * y[0] ** 2 + I22 * y[1] ** 2) / 2
-    return math.sqrt(2 * (kinetic_now + 2 * field_strength) / min(I11, I22))
+    return np.sqrt(2 * (kinetic_now + 2 * field_strength) / min(I11, I22))
 
 
 def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:

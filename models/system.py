@@ -29,8 +29,8 @@ class System:
     name, title : identifier and words; labels : the paper's equations.
     variables, parameters : the names of the components of y and p.
     field(y, p), integrals(y, p) : plain arithmetic on sequences.
-    frequency(y, p) : a bound ν on every |ω|; time is measured in 1/ν when integrating.
-    rescale(y, p, ν) : state and parameters in units of time 1/ν.
+    frequency(y, p) : a bound ν on every |ω|, of y (d,) or (d, n); time is measured in 1/ν when integrating.
+    rescale(y, p, ν) : states (d,) or (d, n) and parameters in units of time 1/ν.
     orbit, ensemble, cross : the compiled kernels, see `taylor.orbit_integrator`,
         `lanes.ensemble_integrator`, `crossings.crossing_finder`.
     example : a state and parameters to try.
@@ -43,7 +43,7 @@ class System:
     parameters: tuple[str, ...]
     field: Callable[[Sequence[Any], Sequence[Any]], tuple[Any, ...]]
     integrals: Callable[[Sequence[Any], Sequence[Any]], Mapping[str, Any]]
-    frequency: Callable[[Array, Array], float]
+    frequency: Callable[[Array, Array], Array | float]
     rescale: Callable[[Array, Array, float], tuple[Array, Array]]
     orbit: Callable[..., int]
     ensemble: Callable[..., int]
@@ -91,13 +91,13 @@ class Problem:
         if not (np.all(np.isfinite(given)) and np.all(np.isfinite(p))):
             raise InvalidParameter("Every component of the state and every parameter must be a finite number.")
         with np.errstate(over="ignore"):
-            nu = max((system.frequency(y, p) for y in given), default=0.0) or 1.0
+            nu = float(np.max(system.frequency(given.T, p), initial=0.0)) or 1.0
         if not np.isfinite(nu):
             raise InvalidParameter("The motion is too fast for double precision: choose less extreme parameters.")
         scale = np.ones(len(system.variables))
         scale[: system.angular_velocities] = nu
-        scaled = np.array([system.rescale(y, p, nu)[0] for y in given]).reshape(given.shape)
-        return cls(scaled, system.rescale(np.zeros(len(scale)), p, nu)[1], nu, scale)
+        states, parameters = system.rescale(given.T, p, nu)
+        return cls(np.ascontiguousarray(states.T), parameters, nu, scale)
 
     def times(self, t: Array) -> Array:
         """The times (m,) in units of 1/ν; ∞ where that leaves double range, which no budget of steps reaches."""
