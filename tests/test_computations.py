@@ -253,6 +253,25 @@ def test_hiding_a_picture_computes_nothing_until_something_changes(cache, seen):
     assert state["tree"]["sources"] == {}
 
 
+def test_what_a_change_leaves_as_it_was_is_not_sent_again(cache):
+    browser = Browser(HESS)
+    browser.ask(1, values={"span": 41.0})
+    for requested, values in enumerate(({"phi0": 0.6}, {"f": 0.61}, {"b3": -1.2}), 2):
+        sent = browser.ask(requested, values=values)["tree"]["sources"]
+        zones = {f"bifurcation-{layer}" for layer in ("locked", "boundary", "curve", "forbidden")}
+        assert not zones & set(sent)
+        assert ("data-stable" in sent) == ("phi0" not in values)
+        assert ("bifurcation-here" in sent) == ("f" in values)
+
+
+@pytest.mark.xfail(reason="the iterates are other arrays in every result, and with them orbit and map", strict=True)
+def test_what_comes_into_sight_does_not_bring_the_others_with_it(cache):
+    browser = Browser(HESS)
+    browser.ask(1, hidden=["bifurcation"])
+    sent = browser.ask(2, hidden=[])["tree"]["sources"]
+    assert not {"data-orbit", "circle-map"} & set(sent)
+
+
 @pytest.mark.xfail(reason="without iterates the circle map is taken for that of the separatrix", strict=True)
 def test_a_picture_that_is_not_computed_claims_no_separatrix(cache):
     stage = HESS.stage()
@@ -296,7 +315,7 @@ def test_a_picture_alone_in_sight_is_drawn_as_among_the_others(scene):
 
 
 @every_scene
-@pytest.mark.parametrize("change", [{"h": 1.25}, {"h": 1.0, "f": 0.0}, {"h": 30.0, "I22": 2.0}], ids=str)
+@pytest.mark.parametrize("change", [{"h": 1.25}, {"h": 1.0, "f": 0.0}, {"h": 30.0}], ids=str)
 def test_what_was_hidden_is_of_the_present_state_when_it_is_seen_again(scene, change):
     values = {**scene.defaults(), **change, "span": 9.0}
     whole = scene.stage()
