@@ -91,7 +91,7 @@ def test_close_to_the_separatrix_the_samples_lie_where_the_orbit_bends_too(h, f,
 
 
 @pytest.mark.xfail(reason="the first look is too coarse where a is large: all rates grow with a", strict=True)
-@pytest.mark.parametrize("a", [5.0, 10.0, 30.0, 100.0])
+@pytest.mark.parametrize("a", [10.0, 30.0, 100.0])
 def test_with_a_large_a_the_samples_are_close_enough_too(a):
     errors = [error_of_track(HessBody(1.0, a, -1.0), h, f, phi0, 40.0)
               for h, f in ((1.5, 0.6), (0.2, 0.5), (3.0, -1.0)) for phi0 in (-2.0, 0.5)]

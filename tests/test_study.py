@@ -125,7 +125,7 @@ def test_pixels_are_distances_in_the_pictures_of_the_scene(change):
         # The sphere has a radius of half the picture.
         pixels = np.maximum(np.linalg.norm(apart[:, :2], axis=1) * PIXELS / width,
                             np.linalg.norm(apart[:, 2:], axis=1) * PIXELS / 2.0)
-        assert found.pixels[name] == pytest.approx(pixels, abs=0.1 * pixels.max())
+        assert found.pixels[name] == pytest.approx(pixels, abs=0.01 * pixels.max())
 
 
 def test_a_draft_is_right_to_a_pixel_over_the_first_view():
