@@ -157,7 +157,8 @@ export function render({ model, view, el }) {
 
   const onData = () => {
     slider.max = end()
-    if (t > end()) t = end()
+    // Where there is nothing to see the time waits.
+    if (end() > 0 && t > end()) t = end()
     show()
   }
   const watch = () => {

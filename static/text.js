@@ -15,6 +15,7 @@ export function render({ model, view, el }) {
   }
   const onText = (event) => { if (model.key in event.detail) show(event.detail[model.key]) }
   document.addEventListener("hess:text", onText, { signal })
+  model.on("text", () => show(model.text))
   show(model.text)
   document.dispatchEvent(new CustomEvent("hess:mounted", { detail: { kind: "texts", key: model.key, show } }))
   el.append(item)

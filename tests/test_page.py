@@ -56,7 +56,7 @@ class Explorer:
         page.on("websocket", on_socket)
 
     def open(self, query="", seconds=60):
-        self.page.goto(f"{self.base}/?{query}" if query else self.base)
+        self.page.goto(f"{self.base}/?{query}" if query else self.base, timeout=1000 * seconds)
         wait_ready(self.page, seconds=seconds)
         return self
 
@@ -178,7 +178,7 @@ class Explorer:
         """Do something that asks for a new state, and wait until it is painted."""
         before = self.state
         action(*arguments)
-        wait_ready(self.page, after=before, seconds=10)
+        wait_ready(self.page, after=before, seconds=30)
 
     def enter(self, scene):
         """Choose a scene from the menu."""
@@ -198,6 +198,8 @@ class Explorer:
         """Choose an option of a menu (a list that opens)."""
         self.page.locator(f".param-{menu} [role=combobox]").click()
         self.page.locator("[role=listbox] li").get_by_text(option, exact=True).click()
+        # Until then it lies over the page.
+        self.page.locator("[role=listbox]").wait_for(state="hidden")
 
     def set_time(self, t):
         """Move the time slider."""

@@ -8,29 +8,31 @@ import re
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 from PIL import Image, ImageStat
-from test_page import DEFAULTS, PICTURES, Explorer
+from test_page import DEFAULTS, HESS, SLIDERS, STUDY, Explorer
 
 from app.browser import wait_ready
 from app.scenes import scenes
 
 SIZES = {"wide": (1600, 950), "laptop": (1280, 720), "phone": (390, 844)}
 COLUMNS = {"wide": 4, "laptop": 2, "phone": 1}
-PRESETS = scenes()["suslov-hess"].presets
+PRESETS = scenes()[HESS].presets
 every_size = pytest.mark.parametrize("size", SIZES)
 every_theme = pytest.mark.parametrize("theme", ["light", "dark"])
+every_scene = pytest.mark.parametrize("scene", [HESS, STUDY])
 
 
 @pytest.fixture(scope="module")
 def look_at(browser, server):
-    """look_at(size, theme) → that page in its default state, opened once for all tests that only look."""
+    """look_at(size, theme, scene) → that page in its default state, opened once for all tests that only look."""
     seen = {}
 
-    def open_once(size="wide", theme="light"):
-        if (size, theme) not in seen:
+    def open_once(size="wide", theme="light", scene=HESS):
+        key = (size, theme, scene)
+        if key not in seen:
             width, height = SIZES[size]
             context = browser.new_context(viewport={"width": width, "height": height})
-            seen[size, theme] = Explorer(context.new_page(), server).open("theme=dark" if theme == "dark" else "")
-        page = seen[size, theme].page
+            seen[key] = Explorer(context.new_page(), server).open(f"scene={scene}&theme={theme}")
+        page = seen[key].page
         page.locator(".MuiBackdrop-root").first.wait_for(state="hidden")
         return page
 
@@ -47,9 +49,10 @@ def drawing(page, name):
 
 
 @every_size
-def test_pictures_stand_in_as_many_columns_as_fit_and_are_square(look_at, size):
-    page = look_at(size)
-    boxes = [drawing(page, name) for name in PICTURES]
+@every_scene
+def test_pictures_stand_in_as_many_columns_as_fit_and_are_square(look_at, size, scene):
+    page = look_at(size, scene=scene)
+    boxes = [drawing(page, name) for name in scenes()[scene].pictures]
     for box in boxes:
         assert box["width"] == pytest.approx(box["height"], abs=4)
         assert box["width"] >= 290
@@ -67,21 +70,49 @@ def test_pictures_stand_in_as_many_columns_as_fit_and_are_square(look_at, size):
 
 
 @every_size
-def test_nothing_is_wider_than_the_window(look_at, size):
-    page = look_at(size)
+@every_scene
+def test_nothing_is_wider_than_the_window(look_at, size, scene):
+    page = look_at(size, scene=scene)
     assert page.evaluate("document.documentElement.scrollWidth") <= SIZES[size][0]
+    assert page.locator(".main-content").evaluate("item => item.scrollWidth - item.clientWidth") <= 0
+
+
+# What must keep clear of each other: in the main part and beside it.
+PARTS = (
+    "h2.caption, .bk-Figure, canvas.sphere, .legend li, .text.status, .words",
+    ".scene, .param-preset, .number, .param-accuracy, .text.help, .param-reset, .param-link, .text.derived",
+)
 
 
 @every_size
-def test_every_caption_fits_into_its_place(look_at, size):
-    page = look_at(size)
+@every_scene
+def test_nothing_covers_anything_else_and_no_text_is_cut_off(look_at, size, scene):
+    page = look_at(size, scene=scene)
+    for selector in PARTS:
+        parts = [(item.get_attribute("class"), item.bounding_box()) for item in page.locator(selector).all()]
+        # On a phone the controls are not there.
+        assert len(parts) >= 12 or size == "phone"
+        for i, (name, box) in enumerate(parts):
+            for other, its in parts[:i]:
+                apart = (box["x"] + box["width"] <= its["x"] + 0.5 or its["x"] + its["width"] <= box["x"] + 0.5
+                         or box["y"] + box["height"] <= its["y"] + 0.5 or its["y"] + its["height"] <= box["y"] + 0.5)
+                assert apart, (name, other)
+    for text in page.locator(".text, .scene, .legend li").all():
+        over = text.evaluate("item => [item.scrollHeight - item.clientHeight, item.scrollWidth - item.clientWidth]")
+        assert max(over) <= 1, (text.text_content(), over)
+
+
+@every_size
+@every_scene
+def test_every_caption_fits_into_its_place(look_at, size, scene):
+    page = look_at(size, scene=scene)
     # Every example, the default state last.
     for preset in [*PRESETS[1:], PRESETS[0]]:
         numbers = {name: value for name, value in {**DEFAULTS, **preset.values}.items() if name != "accuracy"}
         before = int(page.evaluate("document.documentElement.dataset.state"))
         page.evaluate("detail => document.dispatchEvent(new CustomEvent('hess:change', { detail }))", numbers)
         wait_ready(page, after=before, seconds=10)
-        for name in PICTURES:
+        for name in scenes()[scene].pictures:
             caption = page.locator(f".picture-{name} h2")
             assert caption.evaluate("item => item.scrollHeight - item.clientHeight") <= 1, caption.inner_text()
 
@@ -112,18 +143,18 @@ def brightness(page):
     return ImageStat.Stat(Image.open(io.BytesIO(page.screenshot())).convert("L")).median[0]
 
 
-def axis_colour(page):
-    return page.evaluate("""() => {
-        const figure = Bokeh.documents[0].get_model_by_name("omega")
-        return figure.below[0].major_label_text_color
-    }""")
+def axis_colour(page, name="omega"):
+    return page.evaluate(
+        "name => Bokeh.documents[0].get_model_by_name(name).below[0].major_label_text_color", name)
 
 
-def test_dark_is_dark_and_its_axes_can_be_read(look_at):
-    light, dark = look_at(), look_at(theme="dark")
+@every_scene
+def test_dark_is_dark_and_its_axes_can_be_read(look_at, scene):
+    light, dark = look_at(scene=scene), look_at(theme="dark", scene=scene)
     assert brightness(light) > 200
     assert brightness(dark) < 60
-    assert axis_colour(light) != axis_colour(dark)
+    name = scenes()[scene].pictures[0]
+    assert axis_colour(light, name) != axis_colour(dark, name)
 
 
 def luminance(colour):
@@ -137,14 +168,14 @@ def contrast(one, other):
     return (light + 0.05) / (dark + 0.05)
 
 
-TEXTS = """() => {
+TEXTS = """names => {
   const canvas = document.createElement("canvas").getContext("2d")
   const rgb = (colour) => {
     canvas.fillStyle = colour
     canvas.fillRect(0, 0, 1, 1)
     return [...canvas.getImageData(0, 0, 1, 1).data].slice(0, 3)
   }
-  return ["omega", "bifurcation", "circle"].flatMap((name) => {
+  return names.flatMap((name) => {
     const { below, left } = Bokeh.documents[0].get_model_by_name(name)
     return [below[0], left[0]].flatMap((axis) => [axis.major_label_text_color, axis.axis_label_text_color].map(rgb))
   })
@@ -152,15 +183,19 @@ TEXTS = """() => {
 
 
 @every_theme
-def test_every_text_of_the_pictures_stands_out_from_what_is_behind_it(look_at, theme):
-    page = look_at(theme=theme)
+@every_scene
+def test_every_text_of_the_pictures_stands_out_from_what_is_behind_it(look_at, theme, scene):
+    page = look_at(theme=theme, scene=scene)
     shot = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
-    box = drawing(page, "bifurcation")
+    planar = [name for name in scenes()[scene].pictures if name != "sphere"]
+    box = drawing(page, planar[-1])
     behind = shot.getpixel((int(box["x"] + 3), int(box["y"] + box["height"] - 3)))
-    texts = page.evaluate(TEXTS)
-    assert len(texts) == 12
+    texts = page.evaluate(TEXTS, planar)
+    assert len(texts) == 4 * len(planar)
     for colour in texts:
         assert contrast(colour, behind) >= 4.5, (colour, behind)
+    if scene != HESS:
+        return
     # The sphere writes in the colour of the page's text.
     colour = page.locator("canvas.sphere").evaluate("item => getComputedStyle(item).color")
     box = drawing(page, "sphere")
@@ -178,9 +213,10 @@ def test_the_button_turns_the_page_dark_and_the_link_says_so(open_page, look_at)
 
 @every_size
 @every_theme
-def test_a_screenshot_of_every_size_and_theme_is_kept(look_at, artefacts, size, theme):
-    page = look_at(size, theme)
-    picture = page.screenshot(path=artefacts / f"{size}-{theme}.png")
+@every_scene
+def test_a_screenshot_of_every_size_and_theme_is_kept(look_at, artefacts, size, theme, scene):
+    page = look_at(size, theme, scene)
+    picture = page.screenshot(path=artefacts / f"{scene}-{size}-{theme}.png")
     colours = Image.open(io.BytesIO(picture)).convert("RGB").getcolors(1 << 24)
     assert len(colours) > 500
 
@@ -194,15 +230,17 @@ def assert_accessible(page):
 
 
 @every_theme
-def test_no_rule_of_wcag_is_broken(open_page, theme):
+@every_scene
+def test_no_rule_of_wcag_is_broken(open_page, theme, scene):
     # A state with a note, so that all there can be is there.
-    page = open_page(f"theme={theme}&I22=0.5&I23=1.5")
+    page = open_page(f"scene={scene}&theme={theme}&I22=0.5&I23=1.5&h=banana")
     assert page.locator(".text.notes").is_visible()
     assert_accessible(page)
 
 
-def test_no_rule_of_wcag_is_broken_on_a_phone_with_the_controls_away_or_there(open_page):
-    page = open_page(size=SIZES["phone"])
+@every_scene
+def test_no_rule_of_wcag_is_broken_on_a_phone_with_the_controls_away_or_there(open_page, scene):
+    page = open_page(f"scene={scene}", size=SIZES["phone"])
     page.locator(".MuiBackdrop-root").wait_for(state="hidden")
     assert_accessible(page)
     page.get_by_role("button").first.click()
@@ -234,6 +272,6 @@ def test_every_control_is_reached_by_the_tab_key(open_page):
                 names.push(...[...(at.classList ?? [])].filter((name) => /^param-|^sphere$/.test(name)))
             return names
         }"""))
-    wanted = {"param-scene-suslov-hess", "param-scene-suslov-hess-accuracy", "param-preset", "param-accuracy", "param-reset", "param-link", "param-play",
-              "param-t", "param-speed", "sphere", *(f"param-{name}" for name in ("I22", "I23", "b3", "h", "f", "phi0", "span"))}
+    wanted = {"param-preset", "param-accuracy", "param-reset", "param-link", "param-play", "param-t", "param-speed",
+              "sphere", *(f"param-scene-{name}" for name in (HESS, STUDY)), *(f"param-{name}" for name in SLIDERS)}
     assert wanted <= reached, wanted - reached

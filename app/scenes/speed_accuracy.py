@@ -103,7 +103,8 @@ class StudyStage:
         self.precision = Chart(
             "precision", ("largest error", "milliseconds"), (_FLOOR, 10.0), (1e-2, 1e4),
             [Series("Taylor", theme.ORBIT, marker="circle"),
-             *(Series(name, colour, "dashed", "square") for name, colour in _OTHERS.items())], log_x=True)
+             *(Series(name, colour, "dashed", "square") for name, colour in _OTHERS.items())],
+            log_x=True, picks=("tap", "doubletap"))
         self.growth = Chart("growth", ("t", "error"), span, (_FLOOR, 10.0), levels)
         self.drift = Chart("drift", ("t", "relative drift"), span, (_FLOOR, 10.0), [
             Series(f"integral-{i}", colour, dash)
@@ -114,6 +115,7 @@ class StudyStage:
         self.growth.add("orbit", "line", ("t", "growth"), line_alpha=0)
         self.growth.sources["orbit"].name = "data-orbit"
         self._wire: Wire | None = None
+        self._points: Sequence[WorkPoint] = ()
         self.pictures = tuple(
             Picture(name, chart.root, caption(name)) for name, chart in zip(PICTURES, self.charts, strict=True))
 
@@ -141,6 +143,7 @@ class StudyStage:
         return Report(_derived(study), _status(study, chosen), [study.reason] if study.reason else [])
 
     def _show_precision(self, points: Sequence[WorkPoint], chosen: str) -> None:
+        self._points = points
         self.precision.say("")
         for method in ("Taylor", *SLOW_METHODS):
             own = [point for point in points if point.method == method]
@@ -180,25 +183,27 @@ class StudyStage:
 
     def fail(self, sentence: str) -> None:
         """Empty pictures, and the sentence where the eye is."""
+        self._points = ()
         for chart in self.charts:
             chart.show_nothing(sentence)
         self._say(dict.fromkeys(PICTURES, sentence))
 
     def pick(self, picture: str, x: float, y: float) -> Values:
-        """A click on a level's point chooses that level by its error."""
-        if picture != "precision" or not x > 0.0:
+        """A click beside a level's point chooses that level."""
+        levels = [point for point in self._points if point.method == "Taylor"]
+        if picture != "precision" or not x > 0.0 or not levels:
             return {}
-        nearest = min(LEVELS.values(), key=lambda rung: abs(math.log10(rung.promise / x)))
-        return {"accuracy": nearest.name}
+        nearest = min(levels, key=lambda point: abs(math.log10(max(point.error, _FLOOR) / x)))
+        return {"accuracy": nearest.setting}
 
 
 def _precision_caption(points: Sequence[WorkPoint], chosen: str) -> str:
     here = next(point for point in points if point.setting == chosen)
-    text = f"Cost against error\n{chosen}: {number(here.ms, 2)} ms for an error of {number(here.error, 2)}"
+    text = f"Cost against error\n{chosen}: {number(here.ms, 2)} ms, error {number(here.error, 2)}"
     equal = [point for point in points if point.method != "Taylor" and point.error <= here.error * 10.0]
     if equal:
         other = min(equal, key=lambda point: point.ms)
-        text += f"; {other.method} takes {number(other.ms / here.ms, 2)} times as long for {number(other.error, 2)}"
+        text += f"; {other.method}: {number(other.ms / here.ms, 2)} × as long, {number(other.error, 2)}"
     return text + "."
 
 

@@ -28,10 +28,10 @@ class Chart(Figure):
     """Some series in one frame, the vertical axis logarithmic; `log_x`: the horizontal one too."""
 
     def __init__(self, name: str, labels: tuple[str, str], x_range: tuple[float, float], y_range: tuple[float, float],
-                 series: Sequence[Series], log_x: bool = False) -> None:
+                 series: Sequence[Series], log_x: bool = False, picks: Sequence[str] = ()) -> None:
         self._floor = y_range[0]
         axes = curve([x_range[0]], [y_range[0]], ("x", "y"))
-        super().__init__(name, axes, labels, x_range, y_range, log="xy" if log_x else "y")
+        super().__init__(name, axes, labels, x_range, y_range, picks=picks, log="xy" if log_x else "y")
         # Fewer labels than Bokeh would set: powers of ten are wide.
         self.root.yaxis.ticker.desired_num_ticks = 5
         if log_x:
