@@ -6,7 +6,7 @@ import dataclasses
 import logging
 import threading
 from collections import OrderedDict
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Mapping
 from concurrent.futures import Future
 from typing import Any
 
@@ -20,11 +20,13 @@ _OVERHEAD = 512
 
 
 def size_of(value: Any) -> int:
-    """Bytes held by a result: its arrays, wherever they are in dataclasses and tuples, and a flat rate each."""
+    """Bytes held by a result: its arrays, wherever they are in dataclasses, mappings, tuples, and a rate for each."""
     if isinstance(value, np.ndarray):
         return value.nbytes + _OVERHEAD
     if isinstance(value, (tuple, list)):
         return _OVERHEAD + sum(size_of(item) for item in value)
+    if isinstance(value, Mapping):
+        return _OVERHEAD + sum(size_of(item) for item in value.values())
     if dataclasses.is_dataclass(value):
         return _OVERHEAD + sum(size_of(getattr(value, field.name)) for field in dataclasses.fields(value))
     return 64

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .accuracy import DRAFT
+from .accuracy import PRECISE
 from .orbit import MAX_STEPS
 from .results import Array
 from .system import Problem, System
@@ -18,6 +18,7 @@ __all__ = ["sample_times"]
 _COARSE = 0.2
 """Spacing of the first look, in units in which the fastest angular velocity is 1."""
 _MOST_COARSE = 40_000
+_LOOKS_PER_STEP = 16
 
 
 def sample_times(system: System, state: Array, parameters: Array, span: float, weights: Array, sagitta: float,
@@ -30,12 +31,18 @@ def sample_times(system: System, state: Array, parameters: Array, span: float, w
     """
     problem = Problem.of(system, state, parameters)
     count = int(min(_MOST_COARSE, max(64.0, abs(span) * problem.nu / _COARSE))) + 1
-    even = np.linspace(0.0, span, count)
-    states = np.empty((count, problem.scale.size))
-    steps = system.orbit(problem.states[0], problem.parameters, even * problem.nu, DRAFT.order, DRAFT.tolerance,
-                         MAX_STEPS, states)
-    if steps < 0 or not np.all(np.isfinite(states)):
-        return np.linspace(0.0, span, min(most, count))
+    while True:
+        even = np.linspace(0.0, span, count)
+        states = np.empty((count, problem.scale.size))
+        steps = system.orbit(problem.states[0], problem.parameters, even * problem.nu, PRECISE.order,
+                             PRECISE.tolerance, MAX_STEPS, states)
+        if steps < 0 or not np.all(np.isfinite(states)):
+            return np.linspace(0.0, span, min(most, count))
+        # Where the steps are short the motion is quicker than its angular velocity: look again, closer.
+        needed_count = min(_MOST_COARSE, _LOOKS_PER_STEP * steps) + 1
+        if count >= needed_count:
+            break
+        count = needed_count
     rates = np.array(system.field((states * problem.scale).T, parameters))
     accelerations = np.gradient(rates, span / (count - 1), axis=1) * weights[:, None]
     density = np.sqrt(np.linalg.norm(accelerations, axis=0) / (8.0 * sagitta))

@@ -241,9 +241,7 @@ def test_a_scene_asked_twice_computes_nothing_and_shares_its_arrays():
     assert second.zones.curve is first.zones.curve
 
 
-@pytest.mark.parametrize("name", [
-    pytest.param(name, marks=[pytest.mark.xfail(reason="size_of does not look into mappings", strict=True)]
-                 if scene.origin else []) for name, scene in scenes().items()])
+@pytest.mark.parametrize("name", scenes())
 def test_the_cache_counts_at_least_the_bytes_of_a_scenes_arrays(name, monkeypatch):
     cache = ResultCache(2**30)
     scene = scenes()[name]

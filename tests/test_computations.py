@@ -264,7 +264,6 @@ def test_what_a_change_leaves_as_it_was_is_not_sent_again(cache):
         assert ("bifurcation-here" in sent) == ("f" in values)
 
 
-@pytest.mark.xfail(reason="the iterates are other arrays in every result, and with them orbit and map", strict=True)
 def test_what_comes_into_sight_does_not_bring_the_others_with_it(cache):
     browser = Browser(HESS)
     browser.ask(1, hidden=["bifurcation"])
@@ -272,7 +271,6 @@ def test_what_comes_into_sight_does_not_bring_the_others_with_it(cache):
     assert not {"data-orbit", "circle-map"} & set(sent)
 
 
-@pytest.mark.xfail(reason="without iterates the circle map is taken for that of the separatrix", strict=True)
 def test_a_picture_that_is_not_computed_claims_no_separatrix(cache):
     stage = HESS.stage()
     stage.show(compute(HESS, HESS.defaults()), False)

@@ -285,6 +285,7 @@ def assert_within_the_axes(stage, data):
 def assert_drawn(scene, values, seen, dragging):
     """Any values are admitted, computed and drawn: finite numbers, in the pictures' axes, and words beside them."""
     stage, wire = lasting_stage(scene.name)
+    getattr(stage, "_drawn", {}).clear()  # the same state again is to be drawn again
     admitted, _ = scene.admit(values)
     report = stage.show(scene.compute(admitted, seen, dragging), False)
     tree, block = wire.pack()

@@ -273,10 +273,10 @@ class HessStage:
             self._show_zones(result.zones, x, y)
         if self._once("here", h, f):
             self.diagram.show_here(h, f)
-        if result.map is None or result.iterates is None:
+        if result.map is None:
             self._drawn.pop("map", None)
             self.circle.show_nothing("Separatrix: no return")
-        elif self._once("map", result.map, result.iterates):
+        elif result.iterates is not None and self._once("map", result.map, result.track):
             self.circle.show(result.map, result.iterates[: _COBWEB + 1])
         self._say(_captions(result))
         return Report(_derived(result), _status(result), _notes(result))
@@ -297,7 +297,7 @@ class HessStage:
             self.diagram.show_lock(zones.boundary, x, y)
 
     def _show_motion(self, result: HessResult, track_: Track, h: float, f: float) -> None:
-        if self._once("track", track_, result.iterates):
+        if self._once("track", track_, result.map):
             n3 = track_.n3
             reach = math.copysign(1.0, f) * np.sqrt(np.maximum(0.0, 2.0 * (h + n3) * (1.0 - n3 * n3)))
             phi_start = track_.phi
