@@ -157,6 +157,18 @@ def test_dark_is_dark_and_its_axes_can_be_read(look_at, scene):
     assert axis_colour(light, name) != axis_colour(dark, name)
 
 
+def test_a_scene_that_is_entered_is_as_dark_as_the_page(open_page, look_at):
+    page = open_page("theme=dark")
+    for scene in (STUDY, HESS):
+        before = int(page.evaluate("document.documentElement.dataset.state"))
+        page.locator(f".param-scene-{scene}").click()
+        wait_ready(page, after=before)
+        for name in scenes()[scene].pictures:
+            if name != "sphere":
+                assert axis_colour(page, name) == axis_colour(look_at(theme="dark", scene=scene), name), name
+        assert brightness(page) < 60
+
+
 def luminance(colour):
     """Relative luminance of an (r, g, b), 0 to 1, as WCAG defines it."""
     parts = [c / 255 / 12.92 if c / 255 <= 0.04045 else ((c / 255 + 0.055) / 1.055) ** 2.4 for c in colour[:3]]

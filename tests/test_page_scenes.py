@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from test_page import DEFAULTS, HESS, STUDY, Explorer, assert_orbit, body_of, default_state, exact_states, flat, one_tab
 from test_page_controls import wait_frames, wait_time
-from test_page_pictures import HOME, STEP, assert_turned, frame
+from test_page_pictures import HOME, STEP, assert_turned, at, frame
 from test_scenes import contents, sources_of
 
 from app.browser import wait_ready
@@ -85,6 +85,12 @@ def listeners(explorer):
         "includeCommandLineAPI": True, "returnByValue": True})
     session.detach()
     return json.loads(answer["result"]["value"])
+
+
+def kept(explorer):
+    """(hits, misses) of the cache, as the status line says."""
+    hits, misses = re.search(r"cache (\d+) hits, (\d+) misses", explorer.text("status")).groups()
+    return int(hits), int(misses)
 
 
 # --- The menu of scenes ------------------------------------------------------------------------------
@@ -206,6 +212,10 @@ def test_ten_changes_in_quick_succession_leave_one_scene_and_nothing_of_the_othe
     explorer.page.keyboard.press("ArrowRight")
     assert explorer.time == pytest.approx(0.2, rel=1e-5)
     explorer.wait_url(scene=HESS, h="0.75", t="0.200")
+    (x, y), (wide, high) = at(explorer, "bifurcation", 0.5, 0.4)
+    explorer.change(explorer.page.mouse.click, x, y)
+    assert explorer.state == before + 3
+    assert explorer.here() == (pytest.approx(0.5, abs=wide), pytest.approx(0.4, abs=high))
 
 
 def clicks(explorer, *names, change=None):
@@ -246,6 +256,18 @@ def test_values_that_change_on_the_way_to_another_scene_arrive_there(explorer):
     assert explorer.scene == STUDY
     assert_drawn(explorer, STUDY, {**DEFAULTS, "h": 0.9, "phi0": 1.0})
     assert explorer.shown("h") == (0.9, 0.9)
+
+
+def test_a_state_that_was_seen_before_is_not_computed_again(explorer, study):
+    for page in (explorer, study):
+        page.change(lambda page=page: page.slide(phi0=2.34))
+        _, misses = kept(page)
+        page.change(lambda page=page: page.slide(phi0=2.36))
+        hits, more = kept(page)
+        assert more > misses
+        page.change(lambda page=page: page.slide(phi0=2.34))
+        assert kept(page)[0] > hits
+        assert kept(page)[1] == more
 
 
 def test_a_link_leads_into_a_scene(explorer):
