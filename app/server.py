@@ -11,7 +11,9 @@ from collections.abc import Sequence
 import panel as pn
 
 from app.compute import CACHE, warm
+from app.description import describe
 from app.page import page
+from app.scenes import scenes
 
 __all__ = ["serve"]
 

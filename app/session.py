@@ -15,7 +15,8 @@ from panel.io.document import unlocked
 
 from app.components import Ready
 from app.compute import CACHE
-from app.controls import slider_limits
+from app.controls import show_controls
+from app.description import describe
 from app.scenes import scenes
 from app.scenes.base import Report, Scene, Stage
 from app.state import Number, Values, encode
@@ -35,31 +36,29 @@ def _float(value: Any) -> float:
         return math.nan
 
 
-Build = Callable[[Scene, Values, Callable[[Values], None]], tuple[Stage, Callable[[Values], None]]]
-
-
 class Session:
     """Wanted values → admitted values → result → pictures.
 
-    A change by `change` or `reset` only notes what is wanted.  The browser asks for the state behind
-    its last change, and not again before that is painted: so nothing queues, and the newest state wins.
+    A change only notes what is wanted.  The browser asks for the state behind its last change, and not again
+    before that is painted: so nothing queues, and the newest state wins.
 
     Parameters
     ----------
     ready : its messages ask for states, and it receives them.
-    build(scene, values, change) : puts new pictures and controls of a scene on the page, with these admitted
-        values, whose menus call `change`; returns the pictures and what is to be called with the admitted
-        values of each later state.
+    entered(scene) : is called when a scene is entered.
     scene : what is shown first; values : the state to begin with; notes : what had to be changed in the link.
     """
 
-    def __init__(self, ready: Ready, build: Build, scene: Scene, values: Values, notes: list[str]) -> None:
+    def __init__(self, ready: Ready, entered: Callable[[Scene], None], scene: Scene, values: Values,
+                 notes: list[str]) -> None:
         self.ready = ready
         self.wire = Wire()
-        self._build = build
+        self._entered = entered
+        self._stages: dict[str, Stage] = {}
         self._held = False
         self._number = 0
         self._enter(scene, values, notes)
+        self._draw()
         self._send(0)
         ready.on_msg(lambda event: self._receive(event.data))
 
@@ -69,12 +68,14 @@ class Session:
         self._specs = {spec.name: spec for spec in scene.specs}
         self._wanted = scene.defaults() | {name: values[name] for name in self._specs if name in values}
         self._link_notes = notes
-        self.values = scene.admit(self._wanted)[0]
         self._shown: Collection[str] = scene.pictures
-        self.stage, self._show = self._build(scene, self.values, self.change)
-        # The first state is part of the new pictures, later ones go by the wire.
-        self._draw()
-        self.stage.connect(self.wire)
+        # The browser keeps the pictures of all scenes that it has seen, and a stage knows what it has drawn on them.
+        if scene.name not in self._stages:
+            self._stages[scene.name] = scene.stage(self.wire)
+            self.ready.scene = describe(scene.name)
+        self.stage = self._stages[scene.name]
+        self._dirty = True
+        self._entered(scene)
 
     def change(self, values: Values) -> None:
         """The user wants these values."""
@@ -83,7 +84,7 @@ class Session:
         for name, value in values.items():
             spec = self._specs.get(name)
             if isinstance(spec, Number):
-                self._wanted[name], note = spec.admit(float(value))
+                self._wanted[name], note = spec.admit(_float(value))
                 if note:
                     self._link_notes.append(note)
             elif spec is not None:
@@ -101,32 +102,33 @@ class Session:
             return
         if message.get("reset") is True:
             self.reset()
+        for preset in self.scene.presets:
+            if preset.name == message.get("preset"):
+                self.change(self.scene.example(preset))
         values = message.get("values")
         if isinstance(values, dict):
-            self.change({
-                name: _float(value) for name, value in values.items() if isinstance(self._specs.get(name), Number)
-            })
+            self.change({name: value for name, value in values.items() if name in self._specs})
         picked = message.get("picked")
         if isinstance(picked, list) and len(picked) == 3 and isinstance(picked[0], str):
             x, y = map(_float, picked[1:])
             if math.isfinite(x) and math.isfinite(y):
                 self.change(self.stage.pick(picked[0], x, y))
-        scene = scenes().get(message["scene"]) if isinstance(message.get("scene"), str) else None
-        if scene is not None and scene is not self.scene:
-            self._enter(scene, self._wanted, [])
-        hidden = message.get("hidden")
-        if isinstance(hidden, list):
-            shown = [name for name in self.scene.pictures if name not in hidden]
-            # What comes into sight must be of this state.
-            self._dirty |= not set(shown) <= set(self._shown)
-            self._shown = shown
         requested = message.get("requested")
-        if isinstance(requested, int):
-            held = message.get("held") is True
-            # When a slider is let go, accuracy, axes and other controls may have to follow.
-            self._dirty |= self._held and not held
-            self._held = held
-            with unlocked():
+        with unlocked():
+            scene = scenes().get(message["scene"]) if isinstance(message.get("scene"), str) else None
+            if scene is not None and scene is not self.scene:
+                self._enter(scene, self._wanted, [])
+            hidden = message.get("hidden")
+            if isinstance(hidden, list):
+                shown = [name for name in self.scene.pictures if name not in hidden]
+                # What comes into sight must be of this state.
+                self._dirty |= not set(shown) <= set(self._shown)
+                self._shown = shown
+            if isinstance(requested, int):
+                held = message.get("held") is True
+                # When a slider is let go, accuracy, axes and other controls may have to follow.
+                self._dirty |= self._held and not held
+                self._held = held
                 if self._dirty:
                     self._draw()
                 self._send(requested)
@@ -138,7 +140,7 @@ class Session:
         self.ready.block = block
         self.ready.state = json.dumps({
             "number": self._number, "answers": answers, "query": encode(self.scene.name, self.values), "tree": tree,
-            "scene": self.scene.name, "plots": list(self.stage.plots),
+            "scene": self.scene.name,
         })
 
     def _draw(self) -> None:
@@ -158,11 +160,7 @@ class Session:
             report = Report([], sentence)
         # Under a drag the controls wait, unless the state had to differ from what they say.
         if not self._held or notes:
-            limits = self.scene.limits(admitted)
-            for spec in self._specs.values():
-                if isinstance(spec, Number):
-                    self.wire.show_number(spec.name, float(admitted[spec.name]), slider_limits(spec, limits))
-            self._show(admitted)
+            show_controls(self.scene, admitted, self.wire)
         self.wire.say("status", f"{report.status} · cache {CACHE.hits} hits, {CACHE.misses} misses")
         self.wire.say("notes", "\n".join([*self._link_notes, *notes, *report.notes]))
         self.wire.say("derived", "\n".join(report.derived))

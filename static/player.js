@@ -48,14 +48,15 @@ export function render({ model, view, el }) {
   speed.title = "Speed: units of t per second"
   for (const value of SPEEDS) speed.add(new Option(`${value}×`, value))
 
+  let scene = { dots: {}, angles: [] }
   let source = null
-  let t = model.t
+  let watching = null
+  let t = 0
   const begin = (own) => {
     t = Number(own.t)
     speed.value = SPEEDS.includes(Number(own.speed)) ? Number(own.speed) : 1
   }
-  begin(model)
-  document.dispatchEvent(new CustomEvent("hess:mounted", { detail: { kind: "client", show: begin } }))
+  document.addEventListener("hess:client", (event) => begin(event.detail), { signal })
   let playing = false
   let last = null
 
@@ -81,7 +82,7 @@ export function render({ model, view, el }) {
     for (const name of Object.keys(data)) {
       const [a, b] = [data[name][i], data[name][i + 1]]
       // An angle that crosses ±π between two samples is not interpolated.
-      const jump = model.angles.includes(name) && Math.abs(b - a) > 1
+      const jump = scene.angles.includes(name) && Math.abs(b - a) > 1
       state[name] = jump ? (s < 0.5 ? a : b) : a + s * (b - a)
     }
     return state
@@ -90,10 +91,8 @@ export function render({ model, view, el }) {
   function show() {
     const usable = source !== null && source.data.t?.length > 1
     const state = usable ? stateAt(t) : null
-    const document_ = view.model.document
-    for (const [name, [x, y]] of Object.entries(model.dots)) {
-      const dot = document_?.get_model_by_name(name)
-      if (dot != null) dot.setv({ data: state ? { x: [state[x]], y: [state[y]] } : { x: [], y: [] } }, { sync: false })
+    for (const [name, [x, y]] of Object.entries(scene.dots)) {
+      window.hess.source(name).put(state ? { x: [state[x]], y: [state[y]] } : { x: [], y: [] })
     }
     slider.value = t
     output.textContent = `t = ${t.toFixed(2)}`
@@ -161,16 +160,17 @@ export function render({ model, view, el }) {
     if (end() > 0 && t > end()) t = end()
     show()
   }
-  const watch = () => {
-    if (signal.aborted) return
-    source = view.model.document?.get_model_by_name("data-orbit") ?? null
-    if (source === null) return void requestAnimationFrame(watch)
-    source.change.connect(onData)
+  const onEnter = (event) => {
+    watching?.abort()
+    watching = new AbortController()
+    scene = event.detail
+    source = window.hess.source("data-orbit") ?? null
+    source?.watch(onData, watching.signal)
     onData()
   }
-  watch()
+  document.addEventListener("hess:enter", onEnter, { signal })
   signal.addEventListener("abort", () => {
     playing = false
-    source?.change.disconnect(onData)
+    watching?.abort()
   })
 }

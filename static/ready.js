@@ -1,9 +1,10 @@
-// Tells when the pictures of the current state are painted, and keeps the URL.
+// Asks for states, fills the pictures with them, tells when they are painted, and keeps the URL.
 // <html data-ready> is "false" from a change by the user until the answer to it is on the screen;
 // data-state counts the painted states.  The next state is asked for only when the last one is
 // painted, so nothing queues however fast a slider is dragged.
 
 const URL_PAUSE = 400
+const PATIENCE = 400
 
 export function render({ model, view }) {
   const root = document.documentElement
@@ -14,44 +15,40 @@ export function render({ model, view }) {
   let asked = null
   let held = false
   let touched = false
+  let wish = {}
   let values = {}
-  let picked = null
-  let reset = false
   let chosen = null
   let scene = null
-  let entered = null
-  let spherePending = false
+  let sign = null
   root.dataset.ready = "false"
   root.dataset.state = "0"
 
+  const tell = (name, detail) => document.dispatchEvent(new CustomEvent(name, { detail }))
   const bokeh = () => view.model.document
   const page = () => bokeh().roots().find((top) => top.data?.attributes.dark_theme !== undefined).data
+
   // One request at a time: the next one goes when the answer to the last is painted.
   const ask = () => {
     if (scene === null || asked !== null || asking) return
     asking = true
-    // Behind the change itself on its way to the server.
     queueMicrotask(() => {
       asking = false
       asked = requested
-      if (chosen === entered) chosen = null
-      if (chosen !== null) leave()
-      model.send_msg({ requested, held, values, picked, reset, scene: chosen, hidden: [...hidden] })
+      const entering = chosen !== null && chosen !== scene.name
+      model.send_msg({
+        requested, held, values, ...wish, scene: entering ? chosen : null, hidden: entering ? [] : [...hidden],
+      })
       values = {}
-      picked = null
-      reset = false
+      wish = {}
       chosen = null
+      clearTimeout(sign)
+      sign = setTimeout(() => tell("hess:texts", { busy: "Computing… A scene is compiled when it is first used." }), PATIENCE)
     })
   }
   const request = () => {
     root.dataset.ready = "false"
     requested += 1
     ask()
-  }
-  const onChange = (event) => {
-    // A menu.  Numbers, picks and buttons come as events of the page.
-    if (event.sync && event.attr === "value") request()
-    if (event.attr === "dark_theme") writeUrl()
   }
   // While a pointer holds a slider the axes hold still; letting go is a request of its own.
   document.addEventListener("pointerdown", (event) => {
@@ -69,36 +66,38 @@ export function render({ model, view }) {
     Object.assign(values, event.detail)
     request()
   })
+  // What was changed before an example or a reset counts no more.
+  const wishFor = (what) => {
+    values = {}
+    wish = what
+    request()
+  }
+  document.addEventListener("hess:preset", (event) => wishFor({ preset: event.detail }))
+  document.addEventListener("hess:reset", () => wishFor({ reset: true }))
   document.addEventListener("hess:pick", (event) => {
     const { pick, drag } = event.detail
     // A finger that moves scrolls the page.
     if ((drag && touched) || !Array.isArray(pick) || !pick.slice(1).every(Number.isFinite)) return
-    picked = pick
+    wish.picked = pick
     request()
   })
-
   document.addEventListener("hess:scene", (event) => {
-    if (event.detail === (chosen ?? entered)) return
+    if (event.detail === (chosen ?? state?.scene)) return
     chosen = event.detail
     request()
   })
-  const leave = () => {
-    entered = chosen
-    latest = { texts: {}, numbers: {} }
-    // The old pictures stay in the document for a while: their names are for the new ones.
-    for (const plot of plots) {
-      plot.model.setv({ name: null }, { sync: false })
-      for (const { data_source } of plot.model.renderers) data_source?.setv({ name: null }, { sync: false })
-    }
-  }
+  document.addEventListener("hess:link", () => {
+    // The link of what is on the screen, not of what the address bar has come to.
+    writeUrlNow()
+    navigator.clipboard?.writeText(window.location.href)
+  })
 
-  // What is built later than a state (controls in a drawer that opens, a player of another scene) learns here what it
-  // has missed.
-  let latest = { texts: {}, numbers: {} }
+  // What is mounted later than a state (controls in a drawer that opens) learns here what it has missed.
+  let latest = { scene: null, texts: {}, controls: {} }
   document.addEventListener("hess:mounted", (event) => {
     const { kind, key, show } = event.detail
-    const known = kind === "client" ? own : latest[kind][key]
-    if (known !== undefined) show(known)
+    const known = kind === "client" ? own : kind === "texts" ? latest.texts[key] : latest[kind]
+    if (known != null) show(known)
   })
 
   // Pictures out of sight are not computed; what comes into sight is asked for.
@@ -106,132 +105,27 @@ export function render({ model, view }) {
   const sight = new IntersectionObserver((entries) => {
     let appeared = false
     for (const { target, isIntersecting } of entries) {
-      const name = pictureOf(target)
+      const { name } = target.dataset
       if (isIntersecting) appeared = hidden.delete(name) || appeared
       else hidden.add(name)
     }
     if (appeared) request()
   }, { rootMargin: "100px", scrollMargin: "100px" })
-  const pictureOf = (cell) => [...cell.classList].find((name) => name.startsWith("picture-")).slice("picture-".length)
 
-  document.addEventListener("click", (event) => {
-    const on = (name) => event.composedPath().some((item) => item.classList?.contains(name))
-    if (on("param-reset")) {
-      values = {}
-      reset = true
-      request()
-    } else if (on("param-link")) {
-      // The link of what is on the screen, not of what the address bar has come to.
-      writeUrlNow()
-      navigator.clipboard?.writeText(window.location.href)
-    }
-  })
-
-  let plots = []
   const updates = new Set()
-  // The views of all plots, and the cells of all pictures.
-  const findPictures = () => {
-    const found = { plots: [], cells: [] }
-    const visit = (item) => {
-      if (item == null) return
-      if (item.request_paint !== undefined && item.repainted !== undefined) found.plots.push(item)
-      if (item.el?.classList.contains("picture")) found.cells.push(item.el)
-      for (const child of item.children_views?.() ?? []) visit(child)
-    }
-    for (const top of Object.values(window.Bokeh.index)) visit(top)
-    return found
-  }
-
+  const canvases = new Set()
   const unpainted = (plot) => plot._invalidate_all || plot._invalidated_painters.size > 0
-  const busy = () => spherePending || plots.some(unpainted)
-
-  // One tree and one block of single-precision numbers → the columns of the sources.
-  function unpack(tree, block) {
-    const place = (item) => {
-      if (Array.isArray(item)) return item.map(place)
-      if (typeof item === "object" && item !== null) return new Float32Array(block, 4 * item.at, item.n)
-      return item
-    }
-    for (const [name, columns] of Object.entries(tree.sources)) {
-      const data = Object.fromEntries(Object.entries(columns).map(([key, column]) => [key, place(column)]))
-      bokeh().get_model_by_name(name).setv({ data }, { sync: false })
-    }
-    Object.assign(latest.texts, tree.texts)
-    Object.assign(latest.numbers, tree.numbers)
-    document.dispatchEvent(new CustomEvent("hess:text", { detail: tree.texts }))
-  }
-
-  let waiting = false
-  let applied = false
-  let giveUp = null
-
-  const settle = () => {
-    const { number, answers } = state
-    clearTimeout(giveUp)
-    root.dataset.state = String(number)
-    asked = null
-    // What could not be painted yet (a hidden tab) is still waited for, but holds up nothing.
-    waiting = busy()
-    if (answers < requested) ask()
-    else if (!waiting) root.dataset.ready = "true"
-  }
-  // Called whenever one of the pictures has been painted.
-  const onPainted = () => { if (waiting && applied && !busy()) settle() }
-
-  const onState = () => {
-    const block = model.block
-    state = JSON.parse(model.state)
-    if (state.scene !== scene) whenBuilt(() => show(block))
-    else show(block)
-  }
-
-  const show = (block) => {
-    unpack(state.tree, block)
-    // A control that has been moved on since is not moved back.
-    if (state.answers === requested) {
-      document.dispatchEvent(new CustomEvent("hess:numbers", { detail: state.tree.numbers }))
-    }
-    writeUrl()
-    waiting = true
-    applied = false
-    clearTimeout(giveUp)
-    // A hidden tab paints nothing, and a broken picture must not hold up the page for ever.
-    giveUp = setTimeout(settle, document.hidden ? 0 : 2000)
-    // Bokeh takes new data in promises.  When they are through, paint at once rather than in the next
-    // frame: when that comes, all is ready for it.
-    Promise.all(updates).then(() => {
-      if (updates.size > 0) return
-      applied = true
-      document.dispatchEvent(new CustomEvent("hess:paint"))
-      for (const plot of plots) if (unpainted(plot) && !plot._invalidate_all) plot.paint()
-      onPainted()
-    })
-  }
-
-  let timer = null
-  const writeUrlNow = () => {
-    clearTimeout(timer)
-    timer = null
-    const extra = Object.entries(own).map(([key, value]) => `&${key}=${encodeURIComponent(value)}`).join("")
-    const query = `?${state.query}${extra}${page().dark_theme ? "&theme=dark" : ""}`
-    if (query !== window.location.search) window.history.replaceState(null, "", query)
-  }
-  const writeUrl = () => { timer ??= setTimeout(writeUrlNow, URL_PAUSE) }
-  document.addEventListener("hess:url", (event) => {
-    Object.assign(own, event.detail)
-    writeUrl()
+  const busy = () => canvases.size > 0 || scene.plots.some(unpainted)
+  document.addEventListener("hess:canvas-invalid", (event) => { canvases.add(event.detail) })
+  document.addEventListener("hess:canvas-painted", (event) => {
+    canvases.delete(event.detail)
+    onPainted()
   })
-  document.addEventListener("hess:sphere-invalid", () => { spherePending = true })
-  document.addEventListener("hess:sphere-painted", () => { spherePending = false; onPainted() })
 
   const prepare = (found) => {
-    plots = found.plots
-    hidden.clear()
-    sight.disconnect()
-    for (const cell of found.cells) sight.observe(cell)
-    for (const plot of plots) {
-      plot.repainted.connect(onPainted)
-      // Bokeh's own repaint measures all axis labels first, also when `onState` has painted already.
+    for (const plot of found.plots) {
+      plot.repainted.connect(() => onPainted())
+      // Bokeh's own repaint measures all axis labels first, also when `show` has painted already.
       const repaint = plot.repaint.bind(plot)
       plot.repaint = () => { if (unpainted(plot)) repaint() }
       // Bokeh does not cut what is on the overlay canvas to the frame; all our moving elements are there.
@@ -253,34 +147,126 @@ export function render({ model, view }) {
     }
   }
 
+  // One tree and one block of single-precision numbers → the columns of the sources, axes, texts, controls.
+  function unpack(tree, block) {
+    const { ndarray } = Bokeh.require("core/util/ndarray")
+    const place = (item) => {
+      if (Array.isArray(item)) return item.map(place)
+      if (typeof item !== "object" || item === null) return item
+      const array = new Float32Array(block, 4 * item.at, item.n)
+      return item.shape === undefined ? array : ndarray(array, { dtype: "float32", shape: item.shape })
+    }
+    for (const [name, [x0, x1, y0, y1]] of Object.entries(tree.ranges)) {
+      const { model: plot } = scene.plots.find((one) => one.model.name === name)
+      plot.x_range.setv({ start: x0, end: x1 })
+      plot.y_range.setv({ start: y0, end: y1 })
+    }
+    for (const [name, columns] of Object.entries(tree.sources)) {
+      scene.sources.get(name).put(Object.fromEntries(Object.entries(columns).map(([key, column]) => [key, place(column)])))
+    }
+    Object.assign(latest.texts, tree.texts)
+    Object.assign(latest.controls, tree.controls)
+    tell("hess:texts", tree.texts)
+    // A control that has been moved on since is not moved back.
+    if (state.answers === requested) tell("hess:controls", tree.controls)
+  }
+
+  const descriptions = new Map()
+  let arriving = Promise.resolve()
+  // States come one by one; the pictures of a new scene are built behind those of the old one.
+  const onState = () => {
+    const [text, block] = [model.state, model.block]
+    if (model.scene !== "" && !descriptions.has(model.scene)) {
+      const description = JSON.parse(model.scene)
+      descriptions.set(model.scene, description).set(description.name, description)
+    }
+    const next = JSON.parse(text)
+    arriving = arriving.then(async () => {
+      if (scene?.name !== next.scene && !window.hess.has(next.scene)) prepare(await window.hess.build(descriptions.get(next.scene)))
+      state = next
+      if (scene?.name !== state.scene) enter()
+      show(block)
+    })
+  }
+  const enter = () => {
+    scene = window.hess.enter(state.scene)
+    latest = { scene: descriptions.get(state.scene), texts: {}, controls: {} }
+    hidden.clear()
+    sight.disconnect()
+    for (const cell of scene.cells) sight.observe(cell)
+    root.dataset.scene = scene.name
+    tell("hess:enter", latest.scene)
+  }
+
+  let waiting = false
+  let applied = false
+  let giveUp = null
+  const settle = () => {
+    const { number, answers } = state
+    clearTimeout(giveUp)
+    root.dataset.state = String(number)
+    clearTimeout(sign)
+    tell("hess:texts", { busy: "" })
+    asked = null
+    // What could not be painted yet (a hidden tab) is still waited for, but holds up nothing.
+    waiting = busy()
+    if (answers < requested) ask()
+    else if (!waiting) root.dataset.ready = "true"
+  }
+  // Called whenever one of the pictures has been painted.
+  const onPainted = () => { if (waiting && applied && !busy()) settle() }
+
+  const show = (block) => {
+    unpack(state.tree, block)
+    writeUrl()
+    waiting = true
+    applied = false
+    clearTimeout(giveUp)
+    // A hidden tab paints nothing, and a broken picture must not hold up the page for ever.
+    giveUp = setTimeout(settle, document.hidden ? 0 : 2000)
+    // Bokeh takes new data in promises.  When they are through, paint at once rather than in the next
+    // frame: when that comes, all is ready for it.
+    const paint = () => Promise.all(updates).then(() => {
+      if (updates.size > 0) return
+      applied = true
+      tell("hess:paint")
+      for (const plot of scene.plots) if (unpainted(plot) && !plot._invalidate_all) plot.paint()
+      onPainted()
+    })
+    paint()
+  }
+
+  let timer = null
+  const writeUrlNow = () => {
+    clearTimeout(timer)
+    timer = null
+    const extra = Object.entries(own).map(([key, value]) => `&${key}=${encodeURIComponent(value)}`).join("")
+    const query = `?${state.query}${extra}${page().dark_theme ? "&theme=dark" : ""}`
+    if (query !== window.location.search) window.history.replaceState(null, "", query)
+  }
+  const writeUrl = () => { timer ??= setTimeout(writeUrlNow, URL_PAUSE) }
+  document.addEventListener("hess:url", (event) => {
+    Object.assign(own, event.detail)
+    writeUrl()
+  })
+
   const covered = () => Object.values(window.Bokeh.index).some((top) => {
     const veil = top.shadow_el?.querySelector(".MuiBackdrop-root")
     return veil != null && getComputedStyle(veil).visibility !== "hidden"
   })
-
-  // Calls back when all plots of the scene of this state are there, have been painted once, and nothing covers them.
-  const whenBuilt = (callback) => {
-    const found = findPictures()
-    const names = found.plots.map((plot) => plot.model.name).sort().join()
-    const built = names === [...state.plots].sort().join() && found.plots.every((plot) => plot.has_finished())
-    if (!built || (scene === null && covered() && performance.now() < 10_000)) {
-      return void requestAnimationFrame(() => whenBuilt(callback))
-    }
-    scene = state.scene
-    prepare(found)
-    callback()
-  }
+  // The first state is read when the page stands, even if the user was faster and it is no longer the first.
   const start = () => {
-    if (bokeh() == null || !bokeh().is_idle) return void requestAnimationFrame(start)
-    bokeh().on_change(onChange)
+    if (bokeh() == null || !bokeh().is_idle || window.hess === undefined) return void requestAnimationFrame(start)
     // On a phone the controls would cover the pictures: there they open by the menu button.
     if (window.innerWidth < 800) page().sidebar_open = false
-    started = true
-    onState()
-    entered = state.scene
+    uncover()
   }
-  // The first state is read when the page stands, even if the user was faster and it is no longer the first.
-  let started = false
-  model.on("state", () => { if (started) onState() })
+  const uncover = () => {
+    if (covered() && performance.now() < 10_000) return void requestAnimationFrame(uncover)
+    bokeh().on_change((event) => { if (event.attr === "dark_theme") writeUrl() })
+    tell("hess:client", own)
+    model.on("state", onState)
+    onState()
+  }
   start()
 }

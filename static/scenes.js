@@ -1,15 +1,19 @@
 // The menu of scenes, by their pictures.  A choice goes to "ready.js" by the event "hess:scene".
 
-export function render({ model, el }) {
+export function render({ model, view, el }) {
+  view.living?.abort()
+  view.living = new AbortController()
+  model.on("remove", () => view.living.abort())
+  const { signal } = view.living
   const bar = document.createElement("div")
   bar.className = "scenes"
   bar.setAttribute("role", "group")
   bar.setAttribute("aria-label", "Scene")
   el.append(bar)
 
-  function show() {
-    const here = model.scenes.find((scene) => scene.name === model.shown)
-    const base = here?.origin ?? model.shown
+  function show({ name }) {
+    const here = model.scenes.find((scene) => scene.name === name)
+    const base = here?.origin ?? name
     // Of what looks into another scene only that of the scene on show is offered.
     const offered = model.scenes.filter((scene) => scene.origin === null || scene.origin === base)
     const focused = bar.getRootNode().activeElement?.dataset.scene
@@ -19,7 +23,7 @@ export function render({ model, el }) {
       item.className = `scene param-scene-${scene.name}`
       item.dataset.scene = scene.name
       item.title = scene.summary
-      item.setAttribute("aria-pressed", String(scene.name === model.shown))
+      item.setAttribute("aria-pressed", String(scene.name === name))
       const picture = document.createElementNS("http://www.w3.org/2000/svg", "svg")
       picture.setAttribute("viewBox", "0 0 48 32")
       picture.setAttribute("aria-hidden", "true")
@@ -34,6 +38,6 @@ export function render({ model, el }) {
     }))
     if (focused !== undefined) bar.querySelector(`[data-scene="${focused}"]`)?.focus()
   }
-  model.on("shown", show)
-  show()
+  document.addEventListener("hess:enter", (event) => show(event.detail), { signal })
+  document.dispatchEvent(new CustomEvent("hess:mounted", { detail: { kind: "scene", show } }))
 }

@@ -1,8 +1,17 @@
 // The Poisson sphere: orthographic, on a 2D canvas.  Drag, arrow keys and touch turn it;
 // what lies on the far side is drawn first and dimmed.
-// Reads the Bokeh sources "data-orbit", "data-stable", "data-unstable" (columns g1, g2, g3).
+// Draws the tracks of its options from their sources (columns g1, g2, g3); its own source, of the picture's name, holds
+// axis [3], label, circles [[axis, height, look]], marks [[γ, look, label]].
 
-const COLOURS = { orbit: "#0072B2", stable: "#009E73", unstable: "#D55E00", point: "#F0E442" }
+const LOOKS = {
+  orbit: { colour: "#0072B2", dash: [], weight: 1.3 },
+  second: { colour: "#CC79A7", dash: [], weight: 1.3 },
+  stable: { colour: "#009E73", dash: [], weight: 3 },
+  unstable: { colour: "#D55E00", dash: [7, 5], weight: 3 },
+  limit: { colour: null, dash: [2, 3], weight: 1 },
+  muted: { colour: "#808080", dash: [], weight: 1 },
+}
+const POINT = "#F0E442"
 const RADIUS = 0.84
 const STEP = Math.PI / 36
 
@@ -34,44 +43,38 @@ function graticule() {
   return lines
 }
 
-export function render({ model, view, el }) {
-  // Listeners go with the view: when it is removed, or rendered once more.
-  view.living?.abort()
-  view.living = new AbortController()
-  model.on("remove", () => view.living.abort())
-  const { signal } = view.living
+function sphere(el, options, source, signal, isShown) {
   const canvas = document.createElement("canvas")
   canvas.className = "sphere"
   canvas.tabIndex = 0
   canvas.setAttribute("role", "application")
   canvas.setAttribute("aria-roledescription", "rotatable sphere")
   canvas.setAttribute("aria-label", "Poisson sphere: arrow keys turn it, Home turns it back")
-  const tip = document.createElement("div")
-  tip.className = "message"
-  tip.setAttribute("role", "status")
-  el.append(canvas, tip)
+  el.append(canvas)
   const ctx = canvas.getContext("2d")
   const lines = graticule()
   const home = [0.6, 0.35]
-  let turn = [model.azimuth, model.elevation]
+  let turn = home
   const begin = ({ az, el }) => { turn = [Number(az), Number(el)] }
   document.dispatchEvent(new CustomEvent("hess:mounted", { detail: { kind: "client", show: begin } }))
   let point = null
   let requested = false
   let width = 0
 
-  const source = (name) => view.model.document?.get_model_by_name(`data-${name}`)
+  const own = source(options.name)
   const columns = (name) => {
-    const data = source(name)?.data
-    return data?.g1 ? [data.g1, data.g2, data.g3] : null
+    const data = source(name).data
+    return data.g1 ? [data.g1, data.g2, data.g3] : null
   }
+
+  const painted = () => document.dispatchEvent(new CustomEvent("hess:canvas-painted", { detail: canvas }))
 
   function draw() {
     if (!requested) return
     requested = false
     const ratio = window.devicePixelRatio || 1
     const size = Math.round(width * ratio)
-    if (size === 0) return void document.dispatchEvent(new CustomEvent("hess:sphere-painted"))
+    if (size === 0) return void painted()
     if (canvas.width !== size) canvas.width = canvas.height = size
     const text = getComputedStyle(canvas).color
     const [az, elev] = turn
@@ -94,6 +97,12 @@ export function render({ model, view, el }) {
         drawing = visible
       }
       ctx.stroke()
+    }
+
+    function use({ colour, dash, weight }) {
+      ctx.setLineDash(dash.map((d) => d * ratio))
+      ctx.lineWidth = weight * ratio
+      ctx.strokeStyle = colour ?? text
     }
 
     function axis(x, y, z, label, near) {
@@ -119,27 +128,34 @@ export function render({ model, view, el }) {
       axis(1, 0, 0, "γ₁", near)
       axis(0, 1, 0, "γ₂", near)
       axis(0, 0, 1, "γ₃", near)
-      if (model.axis.length === 3) {
-        const [a, b, c] = model.axis
-        axis(a, b, c, "n₃", near)
-        ctx.setLineDash([2 * ratio, 3 * ratio])
-        for (const height of model.heights) stroke(circle(model.axis, height), near)
-        ctx.setLineDash([])
+      if (own.data.axis?.length === 3) axis(...own.data.axis, own.data.label, near)
+      for (const [a, b, c, height, look] of own.data.circles ?? []) {
+        use(LOOKS[look])
+        stroke(circle([a, b, c], height), near)
       }
       ctx.globalAlpha = alpha
-      for (const [name, dash, weight] of [["orbit", [], 1.3], ["stable", [], 3], ["unstable", [7, 5], 3]]) {
+      for (const [name, look] of Object.entries(options.tracks)) {
         const track = columns(name)
         if (track === null || track[0].length < 2) continue
-        ctx.setLineDash(dash.map((d) => d * ratio))
-        ctx.lineWidth = weight * ratio
-        ctx.strokeStyle = COLOURS[name]
+        use(LOOKS[look])
         stroke(track, near)
       }
       ctx.setLineDash([])
+      for (const [x, y, z, look, label] of own.data.marks ?? []) {
+        if (depth(x, y, z) >= 0 !== near) continue
+        ctx.beginPath()
+        ctx.arc(px(x, y), py(x, y, z), 5 * ratio, 0, 2 * Math.PI)
+        ctx.lineWidth = 2.5 * ratio
+        ctx.strokeStyle = ctx.fillStyle = LOOKS[look].colour ?? text
+        if (look !== "unstable") ctx.fill()
+        ctx.stroke()
+        ctx.fillStyle = text
+        ctx.fillText(label, px(1.15 * x, 1.15 * y), py(1.15 * x, 1.15 * y, 1.15 * z))
+      }
       if (point !== null && depth(...point) >= 0 === near) {
         ctx.beginPath()
         ctx.arc(px(point[0], point[1]), py(...point), 6.5 * ratio, 0, 2 * Math.PI)
-        ctx.fillStyle = COLOURS.point
+        ctx.fillStyle = POINT
         ctx.fill()
         ctx.lineWidth = 1.5 * ratio
         ctx.strokeStyle = text
@@ -158,13 +174,13 @@ export function render({ model, view, el }) {
     layer(true)
     ctx.globalAlpha = 1
     canvas.dataset.turn = turn.map((x) => x.toFixed(4)).join(" ")
-    document.dispatchEvent(new CustomEvent("hess:sphere-painted"))
+    painted()
   }
 
   function request() {
     if (requested) return
     requested = true
-    document.dispatchEvent(new CustomEvent("hess:sphere-invalid"))
+    document.dispatchEvent(new CustomEvent("hess:canvas-invalid", { detail: canvas }))
     requestAnimationFrame(draw)
   }
 
@@ -197,6 +213,7 @@ export function render({ model, view, el }) {
   })
 
   const onTime = (event) => {
+    if (!isShown()) return
     point = event.detail.state ? ["g1", "g2", "g3"].map((name) => event.detail.state[name]) : null
     request()
   }
@@ -210,20 +227,8 @@ export function render({ model, view, el }) {
     request()
   })
   resize.observe(canvas)
-  const showMessage = () => { tip.textContent = model.message; tip.hidden = model.message === "" }
-  model.on("message", showMessage)
-  model.on("axis", request)
-  model.on("heights", request)
-  showMessage()
-  // The sources belong to other pictures: they are in the document once all of it is built.
-  const watch = () => {
-    if (signal.aborted) return
-    const found = ["orbit", "stable", "unstable"].map(source)
-    if (found.some((item) => item == null)) return void requestAnimationFrame(watch)
-    for (const item of found) item.change.connect(request)
-    request()
-  }
-  watch()
+  for (const name of [options.name, ...Object.keys(options.tracks)]) source(name).watch(request, signal)
+  request()
   signal.addEventListener("abort", () => {
     scheme.disconnect()
     resize.disconnect()

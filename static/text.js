@@ -14,9 +14,8 @@ export function render({ model, view, el }) {
     item.hidden = text === ""
   }
   const onText = (event) => { if (model.key in event.detail) show(event.detail[model.key]) }
-  document.addEventListener("hess:text", onText, { signal })
-  model.on("text", () => show(model.text))
-  show(model.text)
+  document.addEventListener("hess:texts", onText, { signal })
+  show("")
   document.dispatchEvent(new CustomEvent("hess:mounted", { detail: { kind: "texts", key: model.key, show } }))
   el.append(item)
 }

@@ -6,12 +6,11 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
-from app.components import Text
 from app.state import Number, Spec, Value, Values
 from app.wire import Wire
 from models.system import System
 
-__all__ = ["Motion", "Picture", "Preset", "Report", "Scene", "Stage", "caption"]
+__all__ = ["Motion", "Picture", "Preset", "Report", "Scene", "Stage"]
 
 
 @dataclass(frozen=True)
@@ -22,19 +21,15 @@ class Preset:
     values: Values
 
 
-@dataclass(frozen=True)
-class Picture:
-    """One picture on the page: what is drawn, and its title in words and numbers."""
+class Picture(Protocol):
+    """One picture on the page; its caption is the text of that name."""
 
     name: str
-    root: Any
-    caption: Text
-    """Its key is the picture's name."""
+    kind: str
+    """Who draws it in the browser: "plot" is Bokeh, others are in "pictures.js"."""
 
-
-def caption(name: str) -> Text:
-    """An empty caption for the picture of that name."""
-    return Text(key=name, tag="h2", look="caption", sizing_mode="stretch_width", margin=(0, 4))
+    def describe(self) -> dict[str, Any]:
+        """Name, kind, and what else the browser needs to know before the first data."""
 
 
 @dataclass(frozen=True)
@@ -47,27 +42,18 @@ class Report:
 
 
 class Stage(Protocol):
-    """The pictures of one session."""
+    """The pictures of a scene in one session; what they show goes by the wire that they were made with."""
 
     pictures: Sequence[Picture]
 
-    def connect(self, wire: Wire) -> None:
-        """From now on new data go by this wire."""
-
     dots: Mapping[str, tuple[str, str]]
-    """For the player: source of a moving point → columns of the source `orbit`."""
+    """For the player: source of a moving point → columns of the source `data-orbit`."""
 
     angles: Sequence[str]
     """Those of the columns that are angles."""
 
-    plots: Sequence[str]
-    """Names of those of the pictures that are Bokeh's: the browser waits until it has found them."""
-
-    def look_from(self, azimuth: float, elevation: float) -> None:
-        """The first direction of sight of what can be turned, in radians."""
-
     def show(self, result: Any, hold_axes: bool) -> Report:
-        """Draw a result."""
+        """Draw a result, and say the captions."""
 
     def fail(self, sentence: str) -> None:
         """Draw nothing but this sentence."""
@@ -102,7 +88,7 @@ class Scene:
     limits(values) : slider ranges (low, high, step) that depend on other values.
     compute(values, shown, dragging) : what the pictures `shown` need, from admitted values; while a slider is
         dragged at the cheapest accuracy that is right to a pixel.  Raises `ModelError`.
-    stage() : new pictures for one session.
+    stage(wire) : the pictures of one session.
     legend : HTML; thumbnail : the inside of a 48 × 32 SVG for the menu of scenes.
     motion(values) : the motion on show, for the scene "Speed and accuracy" of this one.
     origin : the name of the scene whose motion this one looks into.
@@ -118,7 +104,7 @@ class Scene:
     admit: Callable[[Values], tuple[dict[str, Value], list[str]]]
     limits: Callable[[Values], Mapping[str, tuple[float, float, float]]]
     compute: Callable[[Values, Collection[str], bool], Any]
-    stage: Callable[[], Stage]
+    stage: Callable[[Wire], Stage]
     legend: str
     thumbnail: str
     motion: Callable[[Values], Motion] | None = None

@@ -13,7 +13,7 @@ import numpy as np
 
 from app import theme
 from app.compute import CACHE
-from app.scenes.base import Motion, Picture, Report, Scene, caption
+from app.scenes.base import Motion, Report, Scene
 from app.state import Values
 from app.views.chart import Chart, Series
 from app.wire import Wire
@@ -95,38 +95,26 @@ class StudyStage:
         "growth-point": ("t", "growth"), "drift-point": ("t", "drift"), "pixels-point": ("t", "pixels"),
     }
     angles: Sequence[str] = ()
-    plots: Sequence[str] = PICTURES
 
-    def __init__(self) -> None:
+    def __init__(self, wire: Wire) -> None:
+        self.wire = wire
         levels = [Series(name, theme.LEVELS[name], theme.DASHES[name]) for name in LEVELS]
         span = (0.0, 40.0)
         self.precision = Chart(
-            "precision", ("largest error", "milliseconds"), (_FLOOR, 10.0), (1e-2, 1e4),
+            wire, "precision", ("largest error", "milliseconds"), (_FLOOR, 10.0), (1e-2, 1e4),
             [Series("Taylor", theme.ORBIT, marker="circle"),
              *(Series(name, colour, "dashed", "square") for name, colour in _OTHERS.items())],
             log_x=True, picks=("tap", "doubletap"))
-        self.growth = Chart("growth", ("t", "error"), span, (_FLOOR, 10.0), levels)
-        self.drift = Chart("drift", ("t", "relative drift"), span, (_FLOOR, 10.0), [
+        self.growth = Chart(wire, "growth", ("t", "error"), span, (_FLOOR, 10.0), levels)
+        self.drift = Chart(wire, "drift", ("t", "relative drift"), span, (_FLOOR, 10.0), [
             Series(f"integral-{i}", colour, dash)
             for i, (colour, dash) in enumerate(zip(_INTEGRAL_COLORS, _INTEGRAL_DASHES, strict=True))])
-        self.pixels = Chart("pixels", ("t", "error in pixels"), span, (1e-14, 1e4), levels)
+        self.pixels = Chart(wire, "pixels", ("t", "error in pixels"), span, (1e-14, 1e4), levels)
         self.charts = (self.precision, self.growth, self.drift, self.pixels)
         # The player reads the time of the moving points from the source of that name.
-        self.growth.add("orbit", "line", ("t", "growth"), line_alpha=0)
-        self.growth.sources["orbit"].name = "data-orbit"
-        self._wire: Wire | None = None
+        self.growth.add("orbit", "line", ("t", "growth"), source="data-orbit", line_alpha=0)
         self._points: Sequence[WorkPoint] = ()
-        self.pictures = tuple(
-            Picture(name, chart.root, caption(name)) for name, chart in zip(PICTURES, self.charts, strict=True))
-
-    def connect(self, wire: Wire) -> None:
-        """From now on new data go by this wire."""
-        self._wire = wire
-        for chart in self.charts:
-            chart.wire = wire
-
-    def look_from(self, azimuth: float, elevation: float) -> None:
-        """Nothing here can be turned."""
+        self.pictures = self.charts
 
     def show(self, study: Study, hold_axes: bool) -> Report:
         """Draw what was measured."""
@@ -157,7 +145,7 @@ class StudyStage:
         for chart in self.charts[1:]:
             chart.say("")
             if not hold_axes:
-                chart.set_ranges((0.0, float(t[-1])), (chart.root.y_range.start, chart.root.y_range.end))
+                chart.set_ranges((0.0, float(t[-1])), chart.y_range)
         for name in LEVELS:
             self.growth.show(name, t, errors.errors[name])
             self.pixels.show(name, t, errors.pixels[name])
@@ -173,13 +161,8 @@ class StudyStage:
             pixels=self.pixels.clipped(errors.pixels[chosen]))
 
     def _say(self, captions: Mapping[str, str]) -> None:
-        for picture in self.pictures:
-            if picture.name not in captions:
-                continue
-            if self._wire is not None:
-                self._wire.say(picture.name, captions[picture.name])
-            else:
-                picture.caption.text = captions[picture.name]
+        for name, text in captions.items():
+            self.wire.say(name, text)
 
     def fail(self, sentence: str) -> None:
         """Empty pictures, and the sentence where the eye is."""

@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 
 from app.compute import CACHE
-from app.scenes.base import Motion, Picture, Preset, Report, Scene, caption
+from app.scenes.base import Motion, Preset, Report, Scene
 from app.state import Choice, Number, Value, Values
 from app.views.bifurcation_diagram import BifurcationDiagram, window
 from app.views.circle_map import CircleMapView
 from app.views.omega_plane import OmegaPlane
-from app.views.poisson_sphere import PoissonSphere
+from app.views.poisson_sphere import Circle, PoissonSphere
 from app.wire import Wire
 from app.words import number
 from models.accuracy import DRAFT, LEVELS, STANDARD, Level, cheapest, level
@@ -221,31 +221,15 @@ class HessStage:
         "circle-point": ("phi_start", "phi"),
     }
     angles: Sequence[str] = ("phi", "phi_start")
-    plots: Sequence[str] = ("omega", "bifurcation", "circle")
 
-    def __init__(self) -> None:
-        self.omega = OmegaPlane()
-        self.sphere = PoissonSphere()
-        self.diagram = BifurcationDiagram()
-        self.circle = CircleMapView()
+    def __init__(self, wire: Wire) -> None:
+        self.wire = wire
+        self.omega = OmegaPlane(wire)
+        self.sphere = PoissonSphere(wire, {f"data-{name}": name for name in ("orbit", "stable", "unstable")})
+        self.diagram = BifurcationDiagram(wire)
+        self.circle = CircleMapView(wire)
         self._drawn: dict[str, Any] = {}
-        self._wire: Wire | None = None
-        self.pictures = tuple(
-            Picture(name, view.root, caption(name))
-            for name, view in (
-                ("omega", self.omega), ("sphere", self.sphere), ("bifurcation", self.diagram), ("circle", self.circle),
-            )
-        )
-
-    def connect(self, wire: Wire) -> None:
-        """From now on new data go by this wire."""
-        self._wire = wire
-        for view in (self.omega, self.diagram, self.circle):
-            view.wire = wire
-
-    def look_from(self, azimuth: float, elevation: float) -> None:
-        """The first direction of sight on the sphere."""
-        self.sphere.look_from(azimuth, elevation)
+        self.pictures = (self.omega, self.sphere, self.diagram, self.circle)
 
     def _once(self, name: str, *things: Any) -> bool:
         """Whether something else than last time is to be drawn under this name."""
@@ -268,7 +252,7 @@ class HessStage:
         self.omega.show_region(inner, outer, width)
         if not hold_axes:
             self.omega.fit(width)
-            self.diagram.fit(x, y)
+            self.diagram.set_ranges(x, y)
         if result.zones is not None:
             self._show_zones(result.zones, x, y)
         if self._once("here", h, f):
@@ -283,10 +267,7 @@ class HessStage:
 
     def _say(self, captions: Sequence[str]) -> None:
         for picture, text in zip(self.pictures, captions, strict=True):
-            if self._wire is not None:
-                self._wire.say(picture.name, text)
-            else:
-                picture.caption.text = text
+            self.wire.say(picture.name, text)
 
     def _show_zones(self, zones: Zones, x: tuple[float, float], y: tuple[float, float]) -> None:
         if self._once("curve", zones.curve):
@@ -313,14 +294,15 @@ class HessStage:
         body, sign = result.body, math.copysign(1.0, result.body.b)
         r = math.hypot(1.0, body.a)
         heights = (-1.0, 1.0) if result.turning is None else result.turning.roots[1:]
-        self.sphere.show_axis((0.0, -sign * body.a / r, sign / r), [x for x in heights if abs(x) < 1 - 1e-9])
+        n3 = (0.0, -sign * body.a / r, sign / r)
+        self.sphere.show(n3, "n₃", [Circle(n3, x, "limit") for x in heights if abs(x) < 1 - 1e-9])
 
     def fail(self, sentence: str) -> None:
         """Empty pictures, and the sentence where the eye is."""
         self._drawn.clear()
-        self.omega.clear("forbidden", "orbit", "stable", "unstable", "point")
-        self.diagram.clear("here", "here-too", "locked", "boundary", "point")
-        self.diagram.show_no_rotation()
+        for plane in (self.omega, self.diagram):
+            plane.clear_all()
+        self.sphere.show_nothing()
         self.circle.show_nothing(sentence)
         self._say((sentence,) * len(self.pictures))
 

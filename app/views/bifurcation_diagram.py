@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from bokeh.models import ColumnDataSource, LinearColorMapper
 
 from app import theme
-from app.views.figure import Figure, curve
+from app.views.figure import Figure
+from app.wire import Wire
 from models.results import Array
 
 
@@ -27,14 +27,9 @@ def _largest_f(h: float) -> float:
 class BifurcationDiagram(Figure):
     """Colours: rotation number ρ.  One tone where it is locked.  Grey: no motion.  A click picks (h, f)."""
 
-    def __init__(self) -> None:
-        x, y = window(0.0)
-        axes = curve([0.0], [0.0], ("h", "f"))
-        super().__init__("bifurcation", axes, ("h", "f"), x, y, picks=("tap", "doubletap", "pan"))
-        # A Bokeh image: HoloViews' own would make it import pandas.
-        self._rotation = ColumnDataSource({"image": [], "x": [], "y": [], "dw": [], "dh": []})
-        self.root.image("image", "x", "y", "dw", "dh", source=self._rotation, level="image",
-                        color_mapper=LinearColorMapper(theme.NUMBER_MAP, low=-0.5, high=0.5))
+    def __init__(self, wire: Wire) -> None:
+        super().__init__(wire, "bifurcation", ("h", "f"), *window(0.0), picks=("tap", "doubletap", "pan"))
+        self.add_image("rotation", theme.NUMBER_MAP, -0.5, 0.5)
         areas = {"moving": False, "line_alpha": 0}
         self.add("locked", "multi_polygons", ("xs", "ys"), color=theme.LOCKED, **areas)
         self.add("boundary", "multi_line", ("xs", "ys"), moving=False, color="black", line_width=2)
@@ -42,15 +37,10 @@ class BifurcationDiagram(Figure):
         self.add("curve", "multi_line", ("xs", "ys"), moving=False, color="black", line_width=2)
         self.add("special", "scatter", ("h", "f"), moving=False, marker="diamond", color="white",
                  line_color="black", size=11)
-        self.assign("special", h=[1.0, -1.0], f=[0.0, 0.0])
         # A ring that is seen on any colour: white, and black on it.
         self.add("here", "scatter", ("h", "f"), size=21, fill_alpha=0, line_color="white", line_width=6)
         self.add("here-too", "scatter", ("h", "f"), size=21, fill_alpha=0, line_color="black", line_width=2.5)
         self.add_point_and_message()
-
-    def fit(self, x: tuple[float, float], y: tuple[float, float]) -> None:
-        """Other axes."""
-        self.set_ranges(x, y)
 
     def show_region(self, curve: Array, x: tuple[float, float], y: tuple[float, float]) -> None:
         """Everything outside `Geq3` grey, and the curve itself.  `curve` is its upper branch."""
@@ -59,16 +49,11 @@ class BifurcationDiagram(Figure):
         ys = np.concatenate([[0.0], f, [y[1], y[1]]])
         self.assign("forbidden", xs=[[[xs]], [[xs]]], ys=[[[ys]], [[-ys]]])
         self.assign("curve", xs=[h, h], ys=[f, -f])
+        self.assign("special", h=[1.0, -1.0], f=[0.0, 0.0])
 
     def show_rotation(self, grid: Array, x: tuple[float, float], y: tuple[float, float]) -> None:
         """The rotation number at the centres of a grid of cells that fills the window."""
-        self._rotation.data = {
-            "image": [grid.astype(np.float32)], "x": [x[0]], "y": [y[0]], "dw": [x[1] - x[0]], "dh": [y[1] - y[0]],
-        }
-
-    def show_no_rotation(self) -> None:
-        """No colours."""
-        self._rotation.data = {name: [] for name in self._rotation.data}
+        self.assign("rotation", image=[grid], x=[x[0]], y=[y[0]], dw=[x[1] - x[0]], dh=[y[1] - y[0]])
 
     def show_lock(self, boundary: Array, x: tuple[float, float], y: tuple[float, float]) -> None:
         """The zone right of |t| = 2 (between it and the curve) and its boundary; `boundary` has f ≥ 0."""

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from app import theme
-from app.views.figure import Figure, curve
+from app.views.figure import Figure
+from app.wire import Wire
 from models.results import Array
 
 __all__ = ["Chart", "Series"]
@@ -27,15 +28,13 @@ class Series:
 class Chart(Figure):
     """Some series in one frame, the vertical axis logarithmic; `log_x`: the horizontal one too."""
 
-    def __init__(self, name: str, labels: tuple[str, str], x_range: tuple[float, float], y_range: tuple[float, float],
-                 series: Sequence[Series], log_x: bool = False, picks: Sequence[str] = ()) -> None:
+    def __init__(self, wire: Wire, name: str, labels: tuple[str, str], x_range: tuple[float, float],
+                 y_range: tuple[float, float], series: Sequence[Series], log_x: bool = False,
+                 picks: Sequence[str] = ()) -> None:
         self._floor = y_range[0]
-        axes = curve([x_range[0]], [y_range[0]], ("x", "y"))
-        super().__init__(name, axes, labels, x_range, y_range, picks=picks, log="xy" if log_x else "y")
         # Fewer labels than Bokeh would set: powers of ten are wide.
-        self.root.yaxis.ticker.desired_num_ticks = 5
-        if log_x:
-            self.root.xaxis.ticker = [1e-16, 1e-12, 1e-8, 1e-4, 1.0]
+        super().__init__(wire, name, labels, x_range, y_range, picks=picks, log="xy" if log_x else "y",
+                         x_ticks=[1e-16, 1e-12, 1e-8, 1e-4, 1.0] if log_x else None, y_tick_count=5)
         self.add("limit", "line", ("x", "y"), color=theme.MUTED, line_dash="dotted", line_width=2)
         for one in series:
             self.add(one.name, "line", ("x", "y"), color=one.color, line_dash=one.dash, line_width=2)
@@ -63,8 +62,3 @@ class Chart(Figure):
     def choose(self, x: float, y: float) -> None:
         """A ring round one point."""
         self.assign("chosen", x=[x], y=[max(y, self._floor)])
-
-    def show_nothing(self, sentence: str) -> None:
-        """Nothing but the reason."""
-        self.clear(*(layer for layer in self.sources if layer != "message"))
-        self.say(sentence)

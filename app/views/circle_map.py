@@ -7,7 +7,8 @@ import math
 import numpy as np
 
 from app import theme
-from app.views.figure import Figure, curve
+from app.views.figure import Figure
+from app.wire import Wire
 from models.circle_map import CircleMap
 from models.results import Array
 
@@ -33,11 +34,11 @@ def cobweb(iterates: Array) -> tuple[Array, Array]:
 class CircleMapView(Figure):
     """Θ, the diagonal, stable (filled) and unstable (hollow) fixed points, the cobweb.  A click picks φ0."""
 
-    def __init__(self) -> None:
+    def __init__(self, wire: Wire) -> None:
         side = (-math.pi, math.pi)
-        diagonal = curve(side, side, ("phi", "theta")).opts(color=theme.MUTED, line_dash="dotted", line_width=1.5)
-        super().__init__("circle", diagonal, ("φ", "Θ(φ)"), side, side, picks=("tap", "doubletap"), ticks=_TICKS)
+        super().__init__(wire, "circle", ("φ", "Θ(φ)"), side, side, picks=("tap", "doubletap"), ticks=_TICKS)
         here = ("phi", "theta")
+        self.add("diagonal", "line", here, moving=False, color=theme.MUTED, line_dash="dotted", line_width=1.5)
         self.add("cobweb", "line", here, color=theme.ORBIT, line_width=1)
         self.add("map", "multi_line", ("xs", "ys"), color=theme.MAP, line_width=2.5)
         self.add("stable", "scatter", here, size=12, line_width=3, color=theme.STABLE)
@@ -47,6 +48,7 @@ class CircleMapView(Figure):
     def show(self, circle_map: CircleMap, iterates: Array) -> None:
         """One map, with the cobweb through its iterates."""
         self.say("")
+        self.assign("diagonal", phi=[-math.pi, math.pi], theta=[-math.pi, math.pi])
         phi, theta = graph(circle_map)
         phi32, theta32 = phi.astype(np.float32), theta.astype(np.float32)
         turn = np.float32(2 * math.pi)
@@ -57,8 +59,3 @@ class CircleMapView(Figure):
         self.clear("stable", "unstable")
         for point in circle_map.fixed_points:
             self.assign("stable" if point.log_multiplier <= 0 else "unstable", phi=[point.phi], theta=[point.phi])
-
-    def show_nothing(self, sentence: str) -> None:
-        """There is no map; the sentence says why."""
-        self.clear("map", "cobweb", "stable", "unstable")
-        self.say(sentence)

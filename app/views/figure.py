@@ -1,20 +1,24 @@
-"""Planar pictures: axes and background by HoloViews, what changes as Bokeh glyphs whose data are assigned."""
+"""Planar pictures: axes and background by HoloViews, what changes as Bokeh glyphs whose data are assigned.
+
+A picture is built once in a process, empty; the browser gets it as JSON and fills it with what goes by the wire.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import holoviews as hv
 import numpy as np
-from bokeh.models import ColumnDataSource, CustomJS
+from bokeh.models import ColumnDataSource, CustomJS, LinearColorMapper
 from bokeh.plotting import figure
 
 from app import theme
 from app.wire import Wire
 
-__all__ = ["Figure", "columns_of", "curve"]
+__all__ = ["Figure", "columns_of"]
 
 hv.extension("bokeh", logo=False)
 _renderer = hv.renderer("bokeh")
@@ -25,10 +29,22 @@ _PICK = """
     document.dispatchEvent(new CustomEvent("hess:pick", { detail }))
 """
 
+_POSITIONS = {
+    "multi_line": ("xs", "ys"), "multi_polygons": ("xs", "ys"), "text": ("x", "y", "text"),
+    "image": ("image", "x", "y", "dw", "dh"), "segment": ("x0", "y0", "x1", "y1"),
+}
+"""Those of a glyph's properties that are columns; (x, y) for all others."""
 
-def curve(x: Sequence[float], y: Sequence[float], names: tuple[str, str]) -> hv.Curve:
-    """A HoloViews curve on plain arrays (any other form of data makes HoloViews import pandas: 0.25 s)."""
-    return hv.Curve(dict(zip(names, map(np.asarray, (x, y)), strict=True)), *names, datatype=["dictionary"])
+Range = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class _Layer:
+    source: str
+    glyph: str
+    columns: tuple[str, ...]
+    level: str
+    style: Mapping[str, Any]
 
 
 class Figure:
@@ -40,45 +56,47 @@ class Figure:
 
     Parameters
     ----------
-    name : identifier, also of the picture's root model.
-    background : the HoloViews element that is drawn once, under everything.
+    wire : what new data and axes go by.
+    name : identifier.
     labels, x_range, y_range : the axes, which stay until `set_ranges`.
     picks : Bokeh events ("tap", "pan") that choose a point; the browser sends it with the state.
     ticks : positions and labels on both axes, where the usual ones would not do.
     log : the axes that are logarithmic, "x", "y" or "xy".
+    x_ticks : positions on the horizontal axis; y_tick_count : how many labels the vertical one wants.
     """
 
-    def __init__(self, name: str, background: hv.Element, labels: tuple[str, str],
-                 x_range: tuple[float, float], y_range: tuple[float, float], picks: Sequence[str] = (),
-                 ticks: Sequence[tuple[float, str]] | None = None, log: str = "") -> None:
-        self.name = name
-        self._log = log
-        self.wire: Wire | None = None
-        self._sentence = ""
-        plot = _renderer.get_plot(background.opts(
-            xlabel=labels[0], ylabel=labels[1], xlim=x_range, ylim=y_range, toolbar=None, default_tools=[],
-            logx="x" in log, logy="y" in log,
-            responsive=True, min_height=200, min_width=200, title="",
-            fontsize={"labels": theme.FONT_SIZE, "ticks": "12px"},
-            **({} if ticks is None else {"xticks": list(ticks), "yticks": list(ticks)}),
-        ))
-        self.root: figure = plot.state
-        self.root.update(name=name, min_border=4, sizing_mode="stretch_width", aspect_ratio=1)
-        self.sources: dict[str, ColumnDataSource] = {}
-        for event in picks:
-            self.root.js_on_event(event, CustomJS(args={"name": name}, code=_PICK))
+    kind = "plot"
 
-    def add(self, layer: str, glyph: str, columns: Sequence[str], moving: bool = True, **style: Any) -> None:
+    def __init__(self, wire: Wire, name: str, labels: tuple[str, str], x_range: Range, y_range: Range,
+                 picks: Sequence[str] = (), ticks: Sequence[tuple[float, str]] | None = None, log: str = "",
+                 x_ticks: Sequence[float] | None = None, y_tick_count: int | None = None) -> None:
+        self.wire = wire
+        self.name = name
+        self.x_range, self.y_range = x_range, y_range
+        self._labels, self._picks, self._ticks, self._log = labels, picks, ticks, log
+        self._x_ticks, self._y_tick_count = x_ticks, y_tick_count
+        self._first_ranges = (x_range, y_range)
+        self._layers: dict[str, _Layer] = {}
+        self._columns: dict[str, tuple[str, ...]] = {}
+        self._sentence = ""
+
+    def add(self, layer: str, glyph: str, columns: Sequence[str], moving: bool = True, source: str | None = None,
+            **style: Any) -> None:
         """A layer of Bokeh glyphs ("line", "multi_line", "multi_polygons", "scatter", "text"), empty at first.
 
-        `columns` are those of its positions; further columns may be assigned with them.
+        `columns` are those of its positions; further columns may be assigned with them.  `source`: another name
+        for its data than "<picture>-<layer>".
         """
-        source = ColumnDataSource({column: [] for column in columns}, name=f"{self.name}-{layer}")
-        names = ("xs", "ys") if glyph.startswith("multi") else ("x", "y")
-        positions = dict(zip(names, columns, strict=False))
-        level = "overlay" if moving else "glyph"
-        getattr(self.root, glyph)(source=source, level=level, **positions, **style)
-        self.sources[layer] = source
+        self._layers[layer] = _Layer(source or f"{self.name}-{layer}", glyph, tuple(columns),
+                                     "overlay" if moving else "glyph", style)
+        self._columns[layer] = tuple(columns)
+
+    def add_image(self, layer: str, palette: str, low: float, high: float) -> None:
+        """A layer of numbers on a grid, under all others (not HoloViews', which would import pandas)."""
+        columns = _POSITIONS["image"]
+        style = {"palette": palette, "low": low, "high": high}
+        self._layers[layer] = _Layer(f"{self.name}-{layer}", "image", columns, "image", style)
+        self._columns[layer] = columns
 
     def add_point_and_message(self) -> None:
         """The last layers of every picture: the moving point, and a sentence where there is nothing to see."""
@@ -86,38 +104,80 @@ class Figure:
         self.add("message", "text", ("x", "y", "text"), text_color=theme.MUTED, text_font_style="bold",
                  text_font_size="15px", text_align="center", text_baseline="middle")
 
+    def build(self) -> figure:
+        """The picture as a Bokeh model, with empty sources."""
+        (x, y), labels = self._first_ranges, self._labels
+        # Plain arrays: any other form of data makes HoloViews import pandas (0.25 s).
+        point = {"x": np.array([x[0]]), "y": np.array([y[0]])}
+        background = hv.Curve(point, "x", "y", datatype=["dictionary"])
+        plot = _renderer.get_plot(background.opts(
+            xlabel=labels[0], ylabel=labels[1], xlim=x, ylim=y, toolbar=None, default_tools=[],
+            logx="x" in self._log, logy="y" in self._log,
+            responsive=True, min_height=200, min_width=200, title="",
+            fontsize={"labels": theme.FONT_SIZE, "ticks": "12px"},
+            **({} if self._ticks is None else {"xticks": list(self._ticks), "yticks": list(self._ticks)}),
+        ))
+        root: figure = plot.state
+        # The page shines through, whatever its theme.
+        root.update(name=self.name, min_border=4, sizing_mode="stretch_width", aspect_ratio=1,
+                    background_fill_alpha=0, border_fill_alpha=0)
+        if self._x_ticks is not None:
+            root.xaxis.ticker = list(self._x_ticks)
+        if self._y_tick_count is not None:
+            root.yaxis.ticker.desired_num_ticks = self._y_tick_count
+        for layer in self._layers.values():
+            source = ColumnDataSource({column: [] for column in layer.columns}, name=layer.source)
+            positions = dict(zip(_POSITIONS.get(layer.glyph, ("x", "y")), layer.columns, strict=False))
+            style = dict(layer.style)
+            if layer.glyph == "image":
+                style = {"color_mapper": LinearColorMapper(**style)}
+            getattr(root, layer.glyph)(source=source, level=layer.level, **positions, **style)
+        for event in self._picks:
+            root.js_on_event(event, CustomJS(args={"name": self.name}, code=_PICK))
+        return root
+
+    def describe(self) -> dict[str, Any]:
+        """What the browser needs to know besides the model."""
+        return {"name": self.name, "kind": self.kind}
+
     def assign(self, layer: str, **columns: Any) -> None:
-        """New data for one layer: at once before the page exists, afterwards by the wire."""
-        source = self.sources[layer]
-        if self.wire is None:
-            source.data = columns
-        else:
-            self.wire.put(source.name, columns)
+        """New data for one layer."""
+        self._columns[layer] = tuple(columns)
+        self.wire.put(self._layers[layer].source, columns)
 
     def clear(self, *layers: str) -> None:
         """No data for these layers: nothing stale stays beside new parameters."""
         for layer in layers:
-            self.assign(layer, **{column: [] for column in self.sources[layer].data})
+            self.assign(layer, **{column: [] for column in self._columns[layer]})
+
+    def clear_all(self) -> None:
+        """No data at all."""
+        self._sentence = ""
+        self.clear(*self._layers)
 
     def say(self, sentence: str) -> None:
         """A sentence in the middle of the picture; empty for none."""
-        x, y = self.root.x_range, self.root.y_range
         if sentence != self._sentence:
             self._sentence = sentence
             self.clear("message")
             if sentence:
-                self.assign("message", x=[_middle(x, "x" in self._log)], y=[_middle(y, "y" in self._log)],
-                            text=[sentence])
+                self.assign("message", x=[_middle(self.x_range, "x" in self._log)],
+                            y=[_middle(self.y_range, "y" in self._log)], text=[sentence])
 
-    def set_ranges(self, x: tuple[float, float], y: tuple[float, float]) -> None:
-        """Other axes; assigning the same ones does nothing."""
-        for axis, (start, end) in ((self.root.x_range, x), (self.root.y_range, y)):
-            if (axis.start, axis.end) != (start, end):
-                axis.update(start=start, end=end)
+    def show_nothing(self, sentence: str) -> None:
+        """Nothing but the reason."""
+        self.clear_all()
+        self.say(sentence)
+
+    def set_ranges(self, x: Range, y: Range) -> None:
+        """Other axes; the same ones do nothing."""
+        if (x, y) != (self.x_range, self.y_range):
+            self.x_range, self.y_range = x, y
+            self.wire.put_ranges(self.name, x, y)
 
 
-def _middle(axis: Any, log: bool) -> float:
-    return math.sqrt(axis.start * axis.end) if log else (axis.start + axis.end) / 2
+def _middle(axis: Range, log: bool) -> float:
+    return math.sqrt(axis[0] * axis[1]) if log else (axis[0] + axis[1]) / 2
 
 
 def columns_of(array: np.ndarray, names: Sequence[str]) -> Mapping[str, np.ndarray]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from app import theme
-from app.views.figure import Figure, columns_of, curve
+from app.views.figure import Figure, columns_of
+from app.wire import Wire
 from models.results import Array
 from models.torus import Track
 
@@ -19,16 +20,14 @@ def _track_columns(track: Track) -> dict[str, Array]:
 class OmegaPlane(Figure):
     """Grey: |ω| that the energy forbids.  The sources `orbit`, `stable`, `unstable` feed the sphere too."""
 
-    def __init__(self) -> None:
-        axes = curve([0.0], [0.0], ("omega1", "omega2"))
-        super().__init__("omega", axes, ("ω₁", "ω₂"), (-4.0, 4.0), (-4.0, 4.0))
+    def __init__(self, wire: Wire) -> None:
+        super().__init__(wire, "omega", ("ω₁", "ω₂"), (-4.0, 4.0), (-4.0, 4.0))
         self.add("forbidden", "multi_polygons", ("xs", "ys"), color=theme.FORBIDDEN, line_color=theme.MUTED)
-        self.add("orbit", "line", COLUMNS, color=theme.ORBIT, line_width=1.3)
-        self.add("stable", "line", COLUMNS, color=theme.STABLE, line_width=3)
-        self.add("unstable", "line", COLUMNS, color=theme.UNSTABLE, line_width=3, line_dash="dashed")
+        self.add("orbit", "line", COLUMNS, source="data-orbit", color=theme.ORBIT, line_width=1.3)
+        self.add("stable", "line", COLUMNS, source="data-stable", color=theme.STABLE, line_width=3)
+        self.add("unstable", "line", COLUMNS, source="data-unstable", color=theme.UNSTABLE, line_width=3,
+                 line_dash="dashed")
         self.add_point_and_message()
-        for layer in ("orbit", "stable", "unstable"):
-            self.sources[layer].name = f"data-{layer}"
 
     def show_region(self, inner: Array, outer: Array, half_width: float) -> None:
         """The allowed ring between two ellipses; the frame is ± half_width."""
