@@ -99,6 +99,4 @@ def warm() -> None:
     from app.scenes import scenes
 
     for scene in scenes().values():
-        # A scene that looks into another one uses that one's kernels.
-        if scene.origin is None:
-            scene.compute(scene.defaults(), scene.pictures, False)
+        scene.compute(scene.defaults(), scene.pictures, False)

@@ -27,9 +27,11 @@ logger = logging.getLogger("hess_explorer")
 
 
 def _warm() -> None:
-    """Compile or load the kernels, and from then on collect garbage, but not among what is there already."""
+    """Compile or load the kernels, build the pictures; then collect garbage again, but not among all these."""
     try:
         warm()
+        for name in scenes():
+            describe(name)
     finally:
         gc.freeze()
         gc.enable()
