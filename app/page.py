@@ -74,7 +74,7 @@ def _page(query: str) -> pmui.Page:
             Text(key="status", look="status", live=True, margin=(4, 8, 0, 8), **WIDE),
             Text(key="notes", look="notes", live=True, margin=(0, 8, 4, 8), **WIDE),
             Prose(part="words", margin=(0, 8), **WIDE),
-            Text(key="busy", look="busy", live=True, width=0, height=0, margin=0),
+            Text(key="busy", look="busy", live=True, css_classes=["floating"], width=0, height=0, margin=0),
             ready,
         ],
         sx={"& .MuiLinearProgress-root": {"display": "none"}},  # has no name, and `data-ready` says the same
