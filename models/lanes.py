@@ -27,24 +27,59 @@ _TINY = 1e-280
 
 
 def expansion_of_lanes(field: Quadratic) -> Callable[..., Any]:
-    """expand(c, q, parameters, order, rates, convolve): the Taylor coefficients c[k, variable, lane].
+    """expand(c, q, parameters, order, rates, convolve): the Taylor coefficients c[k, series, lane].
 
-    q[product, lane] is scratch; convolve : see `convolution_of_lanes`.
+    q[product or constant, lane] is scratch; convolve : see `convolution_of_lanes`.
     """
-    m, n = len(field.pairs), field.dimension
-    states = [", ".join(f"c[k, {i}, {lane}]" for i in range(n)) for lane in range(LANES)]
-    products = [", ".join(f"q[{j}, {lane}]" for j in range(m)) for lane in range(LANES)]
+    m, n, known, count = len(field.pairs), field.dimension, field.known, scratch_rows(field)
+
+    def series(order: str, known: int, lane: int | str) -> str:
+        return ", ".join(f"c[{order}, {i}, {lane}]" for i in range(known)) + ","
+
+    def call(name: str, known: int, lane: int | str) -> str:
+        products = ", ".join(f"q[{j}, {lane}]" for j in range(m))
+        constants = "".join(f"q[{i}, {lane}], " for i in range(m, count))
+        return f"{name}(({series('k', known, lane)}), ({products},), p + ({constants}))"
+
+    def constants() -> str:
+        kept = "; ".join(f"q[{i}, lane] = y[{i - m}]" for i in range(m, count))
+        return f"""
+    for lane in range({LANES}):
+        y = constants(({series('0', n, 'lane')}), p)
+        {kept}"""
+
+    def stage(i: int) -> str:
+        since, now = known[i : i + 2]
+        ends = [(j, series, a + b - series) for series in range(since, now)
+                for j, (a, b) in enumerate(field.pairs) if series in (a, b)]
+        return f"""
+        for lane in range({LANES}):
+            y = {call(f"stage{i}", since, "lane")}
+            {"; ".join(f"c[k, {i}, lane] = y[{i - since}]" for i in range(since, now))}
+            {"; ".join(f"q[{j}, lane] += y[{i - since}] * c[0, {other}, lane]" for j, i, other in ends)}"""
+
+    def stages() -> str:
+        return "".join(map(stage, range(len(field.stages))))
+
     results = [f"c[k + 1, {i}, {lane}] = y{lane}[{i}] * s" for i in range(n) for lane in range(LANES)]
+    unknown = "; ".join(f"c[k, {i}, {lane}] = 0.0" for i in range(n, known[-1]) for lane in range(LANES))
     # Of all lanes first everything is read, then everything written: so the compiler may do it together.
     return compiled(f"""
 def function(c, q, parameters, order, rates, convolve):
     p = ({", ".join(f"parameters[{i}]" for i in range(field.parameters))},)
+    {constants() if field.constants else "pass"}
     for k in range(order):
+        {unknown or "pass"}
         convolve(c, q, k)
-        s = 1.0 / (k + 1.0)
-        {_for_lanes(lambda lane: f"y{lane} = rates(({states[lane]},), ({products[lane]},), p)")}
+        s = 1.0 / (k + 1.0){stages()}
+        {_for_lanes(lambda lane: f"y{lane} = " + call("rates", known[-1], lane))}
         {"; ".join(results)}
-""")
+""", **field.helpers)
+
+
+def scratch_rows(field: Quadratic) -> int:
+    """Rows of the q of `expansion_of_lanes`."""
+    return len(field.pairs) + (len(field.constants[0].split()) if field.constants else 0)
 
 
 def _for_lanes(statement: Callable[[int], str]) -> str:
@@ -54,12 +89,19 @@ def _for_lanes(statement: Callable[[int], str]) -> str:
 def convolution_of_lanes(field: Quadratic) -> Callable[..., Any]:
     """The function of (c, q, k) that sets q[j, lane] = Σ_m c[m, left, lane] c[k−m, right, lane] for each product j.
 
-    Every coefficient is read once for all products; of a square half the sum is enough.
+    Every coefficient is read once for eight products, as many sums as the processor has room for; of a square half
+    the sum is enough.
     """
-    rows = sorted({row for pair in field.pairs for row in pair})
+    products = [(j, a, b) for j, (a, b) in enumerate(field.pairs)]
+    return compiled("\n".join(["def function(c, q, k):", *(
+        _sums(products[i : i + LANES]) for i in range(0, len(products), LANES))]))
+
+
+def _sums(products: list[tuple[int, int, int]]) -> str:
+    rows = sorted({row for _, a, b in products for row in (a, b)})
     lanes = range(LANES)
-    squares = [(j, a, b) for j, (a, b) in enumerate(field.pairs) if a == b]
-    others = [(j, a, b) for j, (a, b) in enumerate(field.pairs) if a != b]
+    squares = [(j, a, b) for j, a, b in products if a == b]
+    others = [(j, a, b) for j, a, b in products if a != b]
 
     def lines(template: str, products: list[tuple[int, int, int]]) -> str:
         return "\n        ".join(
@@ -68,8 +110,7 @@ def convolution_of_lanes(field: Quadratic) -> Callable[..., Any]:
     def read(name: str, order: str) -> str:
         return "\n        ".join(f"{name}{row}_{lane} = c[{order}, {row}, {lane}]" for row in rows for lane in lanes)
 
-    return compiled(f"""
-def function(c, q, k):
+    return f"""
     m = k // 2
     if 2 * m == k:
         {read("x", "m")}
@@ -86,7 +127,7 @@ def function(c, q, k):
     if True:
         {lines("q[{j}, {lane}] = 2.0 * s{j}_{lane}", squares)}
         {lines("q[{j}, {lane}] = s{j}_{lane}", others)}
-""")
+"""
 
 
 @inner
@@ -113,7 +154,7 @@ def ensemble_integrator(field: Quadratic) -> Callable[..., Any]:
     `states` (orbits, d), at the given times (n,), monotonic, all ≥ 0 or all ≤ 0, into `out` (orbits, n, d).
     Returns the number of steps of all orbits, or `STEP_LIMIT_REACHED` when one took more than `max_steps`.
     """
-    n, m = field.dimension, len(field.pairs)
+    n, series, rows = field.dimension, field.known[-1], scratch_rows(field)
     rates, expand, convolve = field.rates, expansion_of_lanes(field), convolution_of_lanes(field)
     largest = compiled(f"""
 def function(c, k, out):
@@ -145,8 +186,8 @@ def function(y, low, s, compensated):
 
     @inner
     def integrate(states, parameters, times, order, tolerance, max_steps, out):
-        c = np.zeros((order + 1, n, LANES))
-        q = np.zeros((m, LANES))
+        c = np.zeros((order + 1, series, LANES))
+        q = np.zeros((rows, LANES))
         low = np.zeros((n, LANES))
         last = np.zeros(LANES)
         previous = np.zeros(LANES)

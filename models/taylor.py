@@ -9,6 +9,11 @@ from which all kernels are made: one orbit here, many orbits in `ensemble`, cros
 `section`.  Being linear, it holds for the Taylor coefficients of every order too, with those of the
 products, q_k = Σ_m left_m right_(k−m), and gives (k+1) y_(k+1).
 
+A field with a denominator has auxiliary series too, found at every order in stages: each is linear in the
+variables, in what earlier stages found, and in products of all these.  A product holds the terms of
+coefficients that are known by then.  So a quotient z = r/d is a stage as well: with d·z among the products,
+d_0 z_k = r_k − (d z)_k, in which the term d_0 z_k is still missing.
+
 The state is expected in units in which it is O(1), so tolerances are absolute.
 """
 
@@ -17,6 +22,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import accumulate
 from typing import Any
 
 import numpy as np
@@ -38,12 +44,18 @@ class Quadratic:
 
     variables : their names, "w1 w2 …"; products : those that occur, "w1*w1 w1*w2 …";
     rates : the compiled function of the module's docstring; parameters : how many p has.
+    stages : the auxiliary series, the names of each stage and its compiled function (y, q, p) → their values;
+        `rates` and later stages find them at the end of y.  No auxiliary series is squared.
+    constants : the names of what stays the same during a step and its compiled function (y, p) → their values;
+        all other functions find them at the end of p.
     """
 
     variables: str
     products: str
     rates: Callable[..., Any]
     parameters: int
+    stages: tuple[tuple[str, Callable[..., Any]], ...] = ()
+    constants: tuple[str, Callable[..., Any]] | None = None
 
     @property
     def dimension(self) -> int:
@@ -51,11 +63,22 @@ class Quadratic:
         return len(self.variables.split())
 
     @property
+    def known(self) -> list[int]:
+        """How many series, variables first, are known before the first stage and after each."""
+        return list(accumulate((len(names.split()) for names, _ in self.stages), initial=self.dimension))
+
+    @property
     def pairs(self) -> list[tuple[int, int]]:
-        """The indices of the two variables of each product."""
-        names = self.variables.split()
+        """The indices of the two series of each product."""
+        names = " ".join([self.variables, *(names for names, _ in self.stages)]).split()
         factors = (product.split("*") for product in self.products.split())
         return [(names.index(left), names.index(right)) for left, right in factors]
+
+    @property
+    def helpers(self) -> dict[str, Callable[..., Any]]:
+        """The functions besides `rates`, by the names they have in generated source."""
+        named = {f"stage{i}": rule for i, (_, rule) in enumerate(self.stages)}
+        return {**named, "constants": self.constants[1]} if self.constants else named
 
 
 def expansion(field: Quadratic) -> Callable[..., Any]:
@@ -65,28 +88,47 @@ def expansion(field: Quadratic) -> Callable[..., Any]:
     c[1 … order, variable].  left, right : those of the factors of the products once more, side by side;
     inverses : 1/(k+1) for k = 0 … order−1.
     """
-    pairs, n = field.pairs, field.dimension
+    pairs, n, known = field.pairs, field.dimension, field.known
     variables = range(n)
 
-    def keep(order: str, y: str) -> str:
+    def keep(order: str, y: str, since: int, count: int) -> str:
+        """Of the `count` series known now, `since` of them before."""
         return "; ".join(
-            f"left[{order}, {j}] = {y}[{a}]; right[{order}, {j}] = {y}[{b}]" for j, (a, b) in enumerate(pairs))
+            f"left[{order}, {j}] = {y}[{a}]; right[{order}, {j}] = {y}[{b}]"
+            for j, (a, b) in enumerate(pairs) if since <= max(a, b) < count) or "pass"
+
+    def first_products(count: int) -> str:
+        return ", ".join(f"y0[{a}] * y0[{b}]" if max(a, b) < count else "0.0" for a, b in pairs) + ","
+
+    def products(count: int) -> str:
+        def ends(a: int, b: int) -> str:
+            return (f" + y0[{a}] * y[{b}]" if b < count else "") + (f" + y[{a}] * y0[{b}]" if a < count else "")
+
+        return ", ".join(f"s[{j}]{ends(a, b)}" for j, (a, b) in enumerate(pairs)) + ","
+
+    def stages(order: str, y: str, products: Callable[[int], str]) -> str:
+        return "".join(f"""
+        q = ({products(known[i])})
+        {y} = {y} + stage{i}({y}, q, p)
+        {keep(order, y, known[i], known[i + 1])}""" for i in range(len(field.stages)))
 
     return compiled(f"""
 def function(c, left, right, inverses, parameters, rates, convolve):
     p = ({", ".join(f"parameters[{i}]" for i in range(field.parameters))},)
     y0 = ({", ".join(f"c[0, {i}]" for i in variables)},)
-    {keep("0", "y0")}
-    y = rates(y0, ({", ".join(f"y0[{a}] * y0[{b}]" for a, b in pairs)},), p)
+    {"p = p + constants(y0, p)" if field.constants else "pass"}
+    {keep("0", "y0", 0, n)}
+    if True:{stages("0", "y0", first_products) or " pass"}
+    y = rates(y0, ({first_products(known[-1])}), p)
     {"; ".join(f"c[1, {i}] = y[{i}]" for i in variables)}
     for k in range(1, inverses.size):
-        {keep("k", "y")}
-        s = convolve(left, right, k)
-        q = ({", ".join(f"s[{j}] + y0[{a}] * y[{b}] + y[{a}] * y0[{b}]" for j, (a, b) in enumerate(pairs))},)
+        {keep("k", "y", 0, n)}
+        s = convolve(left, right, k){stages("k", "y", products)}
+        q = ({products(known[-1])})
         y = rates(y, q, p)
         y = ({", ".join(f"y[{i}] * inverses[k]" for i in variables)},)
         {"; ".join(f"c[k + 1, {i}] = y[{i}]" for i in variables)}
-""")
+""", **field.helpers)
 
 
 def convolution(field: Quadratic) -> Callable[..., Any]:

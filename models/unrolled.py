@@ -14,9 +14,9 @@ from .jit import inner
 __all__ = ["compiled", "evaluation"]
 
 
-def compiled(source: str) -> Callable[..., Any]:
-    """The compiled function of that name, `function`, in this source."""
-    namespace: dict[str, Any] = {}
+def compiled(source: str, **names: Callable[..., Any]) -> Callable[..., Any]:
+    """The compiled function of that name, `function`, in this source, which may call what `names` holds."""
+    namespace: dict[str, Any] = dict(names)
     exec(source, namespace)
     return inner(namespace["function"])
 

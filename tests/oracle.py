@@ -7,7 +7,7 @@ section to the section, fix a Möbius map; and closed forms where there are any.
 
 import decimal
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal
 from functools import reduce
 from operator import mul
@@ -135,6 +135,13 @@ def taylor(field, y, p, times, order, tolerance):
             t[moving] = np.where(h == left, target[moving], t[moving] + h)
         out.append(y.copy())
     return np.array(out)
+
+
+def uncompiled(field):
+    """The description of a field with plain functions, which take numbers of any kind."""
+    constants = field.constants and (field.constants[0], field.constants[1].py_func)
+    stages = tuple((names, rule.py_func) for names, rule in field.stages)
+    return replace(field, rates=field.rates.py_func, stages=stages, constants=constants)
 
 
 def as_decimals(values):

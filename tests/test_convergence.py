@@ -5,6 +5,7 @@ import sys
 import mpmath
 import numpy as np
 import pytest
+from oracle import uncompiled
 
 from models import level, solve, systems, taylor
 from models.accuracy import LEVELS
@@ -34,14 +35,15 @@ def truth(request):
 @pytest.mark.parametrize("order", ORDERS)
 def test_the_local_error_of_one_step_has_the_order_of_the_series(truth, order):
     system, state, parameters, exact = truth
-    field = sys.modules[system.field.__module__].QUADRATIC
+    field = uncompiled(sys.modules[system.field.__module__].QUADRATIC)
     # In multiple precision, so that round-off does not end the slope: the same source, uncompiled.
     with mpmath.workdps(75):
-        c, left, right = (np.full((order + 1, columns), mpmath.mpf(0)) for columns in (len(state), 8, 8))
+        c, left, right = (np.full((order + 1, columns), mpmath.mpf(0))
+                          for columns in (len(state), *[taylor.columns_of(field)] * 2))
         inverses = np.array([1 / mpmath.mpf(k + 1) for k in range(order)])
         c[0] = state
         taylor.expansion(field).py_func(
-            c, left, right, inverses, parameters, field.rates.py_func, taylor.convolution(field).py_func)
+            c, left, right, inverses, parameters, field.rates, taylor.convolution(field).py_func)
         errors = []
         for h in STEPS:
             increments = [0] * len(state)

@@ -28,6 +28,8 @@ omegas = st.tuples(spread(-3, 1), spread(-3, 1))
 
 PARAMETERS = {
     "suslov": st.tuples(*[spread(-3, 3).map(abs)] * 2, *[spread(-3, 3)] * 2, *[spread(-3, 2)] * 3),
+    "ball": st.tuples(*[spread(-3, 3).map(abs)] * 2, *[spread(-3, 3)] * 2, spread(-3, 3).map(abs),
+                      *[spread(-3, 2)] * 3),
     "hess": st.tuples(spread(-4, 2), spread(-3, 2)),
 }
 
@@ -38,6 +40,8 @@ def test_every_system_has_its_parameters_drawn():
 
 MILD = {
     "suslov": st.tuples(*[st.floats(0.3, 3.0)] * 2, *[st.floats(-0.3, 0.3)] * 2, *[st.floats(-1.0, 1.0)] * 3),
+    "ball": st.tuples(*[st.floats(0.3, 3.0)] * 2, *[st.floats(-0.3, 0.3)] * 2, st.floats(0.0, 3.0),
+                      *[st.floats(-1.0, 1.0)] * 3),
     "hess": st.tuples(st.floats(-0.5, 0.5), st.floats(0.3, 1.0)),
 }
 

@@ -18,15 +18,17 @@ every_system = pytest.mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)
 every_level = pytest.mark.parametrize("name", LEVELS)
 
 # Without a field and without coupling ω stays as it is and γ turns about it.
-FREE = {"suslov": (2.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0), "hess": (0.0, 0.0)}
+FREE = {"suslov": (2.0, 1.0, *[0.0] * 5), "ball": (2.0, 1.0, *[0.0] * 6), "hess": (0.0, 0.0)}
 # States that stay for ever.
 EQUILIBRIA = {
     "suslov": ((0.0, 0.0, 0.0, 0.0, 1.0), (2.0, 1.0, 0.3, 0.5, 0.0, 0.0, 1.0)),
+    "ball": ((0.0, 0.0, 0.0, 0.0, 1.0), (2.0, 1.0, 0.3, 0.5, 2.0, 0.0, 0.0, 1.0)),
     "hess": ((0.0, 0.0, 0.0, 0.0, 1.0), (0.75, 1.0)),
 }
 # Motions that stay in the plane where the first component is 0.
 PENDULA = {
     "suslov": ((0.0, 0.5, 0.6, 0.0, 0.8), (2.0, 1.0, 0.3, 0.0, 0.0, 0.0, 1.0)),
+    "ball": ((0.0, 0.5, 0.6, 0.0, 0.8), (2.0, 1.0, 0.3, 0.0, 2.0, 0.0, 0.0, 1.0)),
     "hess": ((0.0, 0.5, 0.6, 0.0, 0.8), (0.0, 1.0)),
 }
 
