@@ -14,13 +14,8 @@ __all__ = ["scenes"]
 
 @cache
 def scenes() -> dict[str, Scene]:
-    """All scenes by name."""
-    found = {}
-    for module in pkgutil.iter_modules(__path__):
-        scene = getattr(importlib.import_module(f"{__name__}.{module.name}"), "SCENE", None)
-        if isinstance(scene, Scene):
-            found[scene.name] = scene
-            if scene.motion is not None:
-                own = looking_into(scene)
-                found[own.name] = own
-    return found
+    """All scenes by name, in the order of the menu."""
+    modules = (importlib.import_module(f"{__name__}.{module.name}") for module in pkgutil.iter_modules(__path__))
+    own = [module.SCENE for module in modules if isinstance(getattr(module, "SCENE", None), Scene)]
+    own += [looking_into(scene) for scene in own if scene.motion is not None]
+    return {scene.name: scene for scene in sorted(own, key=lambda scene: scene.place)}

@@ -92,6 +92,7 @@ class Scene:
     legend : HTML; thumbnail : the inside of a 48 × 32 SVG for the menu of scenes.
     motion(values) : the motion on show, for the scene "Speed and accuracy" of this one.
     origin : the name of the scene whose motion this one looks into.
+    place : its place in the menu; the first one opens the page.
     """
 
     name: str
@@ -109,6 +110,7 @@ class Scene:
     thumbnail: str
     motion: Callable[[Values], Motion] | None = None
     origin: str | None = None
+    place: int = 0
 
     def defaults(self) -> dict[str, Value]:
         """The state a newcomer sees."""

@@ -250,4 +250,5 @@ def looking_into(origin: Scene) -> Scene:
         legend=LEGEND,
         thumbnail=THUMBNAIL,
         origin=origin.name,
+        place=origin.place,
     )

@@ -421,4 +421,5 @@ SCENE = Scene(
     legend=LEGEND,
     thumbnail=THUMBNAIL,
     motion=motion,
+    place=1,
 )
