@@ -351,8 +351,9 @@ def rotation(body: SuslovBody, omega: Sequence[float], times: Sequence[float] | 
     before = float(of.turned(u0, arc))
     outside = -of.K * (_elapsed_size(u0, u, elapsed) + _tail(u) - _tail(u0)) + arc * of.c * (_gd(u) - _gd(u0))
     limits = _gamma_row(A[1:3], B[1:3] * np.exp(1j * before)) @ _axes(of).T
-    A = A[3:] * np.exp(-0.5j * outside)
-    B = B[3:] * np.exp(0.5j * (outside + 2.0 * before))
+    # One factor for both: in Γ, which has AB, it cancels however large the angle is.
+    half = np.exp(-0.5j * outside)
+    A, B = A[3:] * half, B[3:] * half.conj() * np.exp(1j * before)
     found = _axes(of) @ _matrices(A, B) @ _axes(of).T
 
     # Beyond the steps: ω0, K and u0 are known to a few units in the last place.
@@ -431,7 +432,7 @@ def free_motion(body: SuslovBody, omega: Sequence[float], gamma: Sequence[float]
     of = turned.passage.shape
     states = np.hstack([turned.omega, vertical])
     start = np.array([*map(float, omega), *unit])
-    with np.errstate(over="ignore"):
+    with np.errstate(over="ignore", invalid="ignore"):
         drift = drift_of(SYSTEM, start, states, np.array(body.parameters))
         integral = additional_integral.of_body(body)
         if integral is not None:
