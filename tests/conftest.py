@@ -11,7 +11,12 @@ import pytest
 from app.browser import launched, wait_ready
 from app.screenshot import running_server
 
-__all__ = ["wait_ready"]
+__all__ = ["scene_of", "wait_ready"]
+
+
+def scene_of(query):
+    """The query, in the Suslov–Hess scene if it names none: which scene is the first one is no matter here."""
+    return query if "scene=" in query else f"scene=suslov-hess&{query}".rstrip("&")
 
 
 @pytest.fixture(scope="session")
@@ -43,6 +48,8 @@ def artefacts():
 def open_page(browser, server):
     """open_page(query="", size=(1600, 950), **context_options) → a page that is ready, in a context of its own.
 
+    A query that names no scene is one of the Suslov–Hess scene.
+
     When the test ends no page may have reported an error or asked another host for anything.  Warnings of the
     console are kept in `open_page.warnings`.
     """
@@ -68,7 +75,7 @@ def open_page(browser, server):
         context.on("request", lambda request: on_url(request.url))
         page = context.new_page()
         page.on("websocket", lambda socket: on_url(socket.url))
-        page.goto(f"{server}/?{query}" if query else server)
+        page.goto(f"{server}/?{scene_of(query)}")
         wait_ready(page)
         return page
 

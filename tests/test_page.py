@@ -11,14 +11,17 @@ from urllib.parse import parse_qsl, quote, urlencode, urlsplit
 
 import numpy as np
 import pytest
+from conftest import scene_of
 
 from app.browser import wait_ready
 from app.scenes import scenes
 from app.screenshot import running_server
-from app.state import MAX_QUERY
+from app.state import MAX_QUERY, Number
 from models import HessBody, level, solve, systems, turning_points
 
 HESS, STUDY = "suslov-hess", "suslov-hess-accuracy"
+FIRST = next(iter(scenes()))
+"""The scene of a page whose address names none."""
 DEFAULTS = scenes()[HESS].defaults()
 PICTURES = ("omega", "sphere", "bifurcation", "circle")
 SLIDERS = {"I22": 0.01, "I23": 0.01, "b3": 0.01, "h": 0.01, "f": 0.01, "phi0": 0.01, "span": 1.0}
@@ -57,7 +60,12 @@ class Explorer:
         page.on("websocket", on_socket)
 
     def open(self, query="", seconds=60):
-        self.page.goto(f"{self.base}/?{query}" if query else self.base, timeout=1000 * seconds)
+        """The page of a query; one that names no scene is one of the Suslov–Hess scene."""
+        return self.goto(f"/?{scene_of(query)}", seconds)
+
+    def goto(self, address, seconds=60):
+        """The page of exactly this address."""
+        self.page.goto(self.base + address, timeout=1000 * seconds)
         wait_ready(self.page, seconds=seconds)
         return self
 
@@ -67,7 +75,7 @@ class Explorer:
         # Whatever a test that failed still held.
         self.page.mouse.up()
         if not url.startswith(self.base) or "theme=dark" in url or not self.ready or self.scene != scene:
-            return self.open("" if scene == HESS else f"scene={scene}")
+            return self.open(f"scene={scene}")
         if self.playing:
             self.page.locator(".param-play").click()
         self.page.locator(".param-speed").select_option("1")
@@ -80,7 +88,7 @@ class Explorer:
         ready = self.page.evaluate(ENTER, [(name, DEFAULTS[name]) for name in SLIDERS])
         wait_ready(self.page, after=before - (ready == "true"))
         if self.text("notes"):
-            return self.open("" if scene == HESS else f"scene={scene}")
+            return self.open(f"scene={scene}")
         self.page.evaluate("document.activeElement?.blur()")
         self.page.mouse.move(5, 5)
         return self
@@ -572,9 +580,26 @@ def test_whatever_a_text_of_the_page_is_told_to_say_it_shows_as_text(explorer):
     explorer.open()
 
 
+def assert_defaults(explorer, scene):
+    """The page shows the default state of this scene."""
+    assert explorer.scene == scene
+    for spec in scenes()[scene].specs:
+        if isinstance(spec, Number):
+            assert explorer.shown(spec.name) == (spec.default, spec.default), spec.name
+        else:
+            assert explorer.chosen(spec.name) == spec.default, spec.name
+
+
+def test_an_address_without_a_link_opens_the_first_scene_in_its_default_state(explorer):
+    explorer.goto("/")
+    assert_defaults(explorer, FIRST)
+    assert explorer.text("notes") == ""
+    assert explorer.wait_url(v="1")["scene"] == FIRST
+
+
 def test_a_link_that_is_too_long_shows_the_defaults_and_a_note(explorer):
-    explorer.open(f"h=2.5&x={'7' * MAX_QUERY}")
-    assert explorer.shown("h")[0] == 1.5
+    explorer.goto(f"/?scene={HESS}&h=2.5&x={'7' * MAX_QUERY}")
+    assert_defaults(explorer, FIRST)
     assert str(MAX_QUERY) in explorer.text("notes")
 
 

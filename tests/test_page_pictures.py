@@ -28,7 +28,7 @@ a = DEFAULTS["I23"] / DEFAULTS["I22"]
 
 def choose(explorer, name):
     """Choose an example, unless the page shows it already, and return its values."""
-    if explorer.page.locator(".param-preset [role=combobox]").inner_text() != name:
+    if explorer.chosen("preset") != name:
         explorer.change(explorer.choose, "preset", name)
     return PRESETS[name]
 
@@ -37,16 +37,10 @@ def choose(explorer, name):
 
 def frame(explorer, name):
     """The rectangle between the axes of a planar picture, in pixels of the page: left, top, right, bottom."""
-    explorer.page.locator(f".picture-{name}").first.scroll_into_view_if_needed()
+    explorer.picture(name).scroll_into_view_if_needed()
     return explorer.page.evaluate(
         """name => {
-          let found = null
-          const visit = (view) => {
-            if (view == null || found !== null) return
-            if (view.model?.name === name && view.frame !== undefined) found = view
-            for (const child of view.children_views?.() ?? []) visit(child)
-          }
-          for (const top of Object.values(Bokeh.index)) visit(top)
+          const found = window.hess.plots.find(({ model }) => model.name === name)
           const [{ x, y }, { x0, y0, x1, y1 }] = [found.el.getBoundingClientRect(), found.frame.bbox]
           return [x + x0, y + y0, x + x1, y + y1]
         }""", name)
@@ -255,7 +249,7 @@ def test_the_sphere_turns_under_a_finger_and_the_page_stays(phone):
 def test_a_finger_that_scrolls_the_page_over_the_diagram_chooses_nothing(phone):
     before = phone.here()
     finger = Finger(phone.page)
-    scrolled = finger.drag(phone.page.locator(".picture-bifurcation canvas").first, 0, -120)
+    scrolled = finger.drag(phone.picture("bifurcation").locator("canvas").first, 0, -120)
     wait_ready(phone.page)
     assert scrolled == 0 or phone.here() == before
 
@@ -487,8 +481,7 @@ def test_the_edge_of_the_region_is_the_corrected_curve(explorer):
 def test_the_colours_are_rotation_numbers(explorer):
     image = explorer.page.evaluate(
         """() => {
-          const plot = Bokeh.documents[0].get_model_by_name("bifurcation")
-          const { data } = plot.renderers.map((item) => item.data_source).find((source) => source.data.image)
+          const { data } = window.hess.source("bifurcation-rotation")
           const grid = data.image[0]
           return { values: Array.from(grid.flat?.(2) ?? grid, Number), shape: grid.shape,
                    x: data.x[0], y: data.y[0], dw: data.dw[0], dh: data.dh[0] }
@@ -561,7 +554,7 @@ def painted(pixels, colour):
 
 def canvas_of(explorer, name):
     """The pixels of a picture, its axes included."""
-    box = explorer.page.locator(f".picture-{name} canvas").first.bounding_box()
+    box = explorer.picture(name).locator("canvas").first.bounding_box()
     return picture(explorer, (box["x"], box["y"], box["width"], box["height"]))
 
 
