@@ -191,8 +191,8 @@ def arcs(body: SuslovBody, h: float, count: int = 91) -> tuple[Array, Array]:
     """
     of, r = shape(body), _radius(h)
     beta = np.linspace(-0.5 * math.pi, 0.5 * math.pi, count)
-    rate = _rate(body, of, r)
-    return tuple(frozen(rate * _omega(of, arc, np.sin(beta), np.cos(beta))) for arc in (1, -1))  # type: ignore[return-value]
+    rate, sin, cos = _rate(body, of, r), np.sin(beta), np.cos(beta)
+    return frozen(rate * _omega(of, 1, sin, cos)), frozen(rate * _omega(of, -1, sin, cos))
 
 
 def _omega(of: Shape, arc: int, tanh: Array, sech: Array) -> Array:
@@ -287,7 +287,7 @@ def propagate(of: Shape, arc: int, u: Array, rung: Level) -> tuple[Complex, Comp
 
 
 def turning(of: Shape, arc: int, u: Array, level: Level) -> tuple[Complex, Complex, float, int]:
-    """A and B at each u (m,), the estimated error of the rotation they stand for, and the steps of all runs.
+    """A and B at each u (m,), the estimated error of the rotation from one of these u to another, and all steps.
 
     Computed twice, the second time more exactly, as in `orbit.solve`.  Raises `WorkLimit`.
     """
@@ -298,9 +298,9 @@ def turning(of: Shape, arc: int, u: Array, level: Level) -> tuple[Complex, Compl
         fine_A, fine_B, steps = propagate(of, arc, u, tighter)
         total += steps
         safety = 4.0 if current.is_floor else 1.25
-        # A rotation is quadratic in A and B.
+        # A rotation is quadratic in A and B, and both its ends have errors.
         difference = np.abs(A - fine_A) + np.abs(B - fine_B)
-        error = 2.0 * safety * float(difference.max()) + 1e-15 * (1.0 + of.size)
+        error = 4.0 * safety * float(difference.max()) + 1e-15 * (1.0 + of.size)
         if error <= level.promise or current.is_floor:
             return A, B, error, total
         current, A, B = tighter, fine_A, fine_B
