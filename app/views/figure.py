@@ -60,7 +60,7 @@ class Figure:
     name : identifier.
     labels, x_range, y_range : the axes, which stay until `set_ranges`.
     picks : Bokeh events ("tap", "pan") that choose a point; the browser sends it with the state.
-    ticks : positions and labels on both axes, where the usual ones would not do.
+    ticks : positions and labels on both axes, where the usual ones would not do; y_ticks : others on the vertical one.
     log : the axes that are logarithmic, "x", "y" or "xy".
     x_ticks : positions on the horizontal axis; y_tick_count : how many labels the vertical one wants.
     """
@@ -69,11 +69,13 @@ class Figure:
 
     def __init__(self, wire: Wire, name: str, labels: tuple[str, str], x_range: Range, y_range: Range,
                  picks: Sequence[str] = (), ticks: Sequence[tuple[float, str]] | None = None, log: str = "",
+                 y_ticks: Sequence[tuple[float, str]] | None = None,
                  x_ticks: Sequence[float] | None = None, y_tick_count: int | None = None) -> None:
         self.wire = wire
         self.name = name
         self.x_range, self.y_range = x_range, y_range
-        self._labels, self._picks, self._ticks, self._log = labels, picks, ticks, log
+        self._labels, self._picks, self._log = labels, picks, log
+        self._ticks, self._y_ticks = ticks, y_ticks or ticks
         self._x_ticks, self._y_tick_count = x_ticks, y_tick_count
         self._first_ranges = (x_range, y_range)
         self._layers: dict[str, _Layer] = {}
@@ -115,7 +117,7 @@ class Figure:
             logx="x" in self._log, logy="y" in self._log,
             responsive=True, min_height=200, min_width=200, title="",
             fontsize={"labels": theme.FONT_SIZE, "ticks": "12px"},
-            **({} if self._ticks is None else {"xticks": list(self._ticks), "yticks": list(self._ticks)}),
+            **({} if self._ticks is None else {"xticks": list(self._ticks), "yticks": list(self._y_ticks or ())}),
         ))
         root: figure = plot.state
         # The page shines through, whatever its theme.

@@ -23,8 +23,9 @@ class Graph(Figure):
 
     def __init__(self, wire: Wire, name: str, labels: tuple[str, str], x_range: Range, y_range: Range,
                  series: Sequence[Series], picks: Sequence[str] = (),
-                 ticks: Sequence[tuple[float, str]] | None = None) -> None:
-        super().__init__(wire, name, labels, x_range, y_range, picks=picks, ticks=ticks)
+                 ticks: Sequence[tuple[float, str]] | None = None,
+                 y_ticks: Sequence[tuple[float, str]] | None = None) -> None:
+        super().__init__(wire, name, labels, x_range, y_range, picks=picks, ticks=ticks, y_ticks=y_ticks)
         self.add("levels", "segment", ("x0", "y0", "x1", "y1"), color=theme.MUTED, line_dash="dotted", line_width=1.5)
         for one in series:
             self.add(one.name, "multi_line", ("xs", "ys"), color=one.color, line_dash=one.dash, line_width=2)
