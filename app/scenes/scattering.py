@@ -241,7 +241,7 @@ class ScatteringStage:
 
 def _captions(result: ScatteringResult, theta_plus: float) -> tuple[str, str, str, str]:
     low, high = float(result.curve.min()), float(result.curve.max())
-    spread = f"θ⁺ = {number(low)} for every φ" if high - low < 1e-6 else f"θ⁺ from {number(low)} to {number(high)}"
+    spread = f"θ⁺ = {number(low)} for every φ" if high - low < 1e-4 else f"θ⁺ from {number(low)} to {number(high)}"
     difference = abs(result.map.cos_chi - result.closed)
     return (
         f"θ⁺ against the phase φ\nθ⁻ = {number(float(result.values['theta']))}: {spread} (dotted: θ⁻, π − θ⁻).",

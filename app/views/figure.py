@@ -6,6 +6,7 @@ A picture is built once in a process, empty; the browser gets it as JSON and fil
 from __future__ import annotations
 
 import math
+import textwrap
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -164,7 +165,7 @@ class Figure:
             self.clear("message")
             if sentence:
                 self.assign("message", x=[_middle(self.x_range, "x" in self._log)],
-                            y=[_middle(self.y_range, "y" in self._log)], text=[sentence])
+                            y=[_middle(self.y_range, "y" in self._log)], text=[textwrap.fill(sentence, 36)])
 
     def show_nothing(self, sentence: str) -> None:
         """Nothing but the reason."""
