@@ -72,8 +72,7 @@ def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
     s = I13 * w1 + I23 * w2
     F1, F2 = -s * w2 + b3 * g2 - b2 * g3, s * w1 + b1 * g3 - b3 * g1
     A11, A12, A22 = I11 + D * (g2**2 + g3**2), -D * g1 * g2, I22 + D * (g1**2 + g3**2)
-    # det Î = A11 A22 − A12², multiplied out
-    det = I11 * I22 + D * I11 * (g1**2 + g3**2) + D * I22 * (g2**2 + g3**2) + D**2 * g3**2 * (g1**2 + g2**2 + g3**2)
+    det = determinant((g1, g2, g3), p)
     return (
         (A22 * F1 - A12 * F2) / det,
         (A11 * F2 - A12 * F1) / det,
@@ -81,6 +80,13 @@ def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
         g3 * w1,
         g1 * w2 - g2 * w1,
     )
+
+
+def determinant(gamma: Sequence[Any], p: Sequence[Any]) -> Any:
+    """det Î of `eq29`, multiplied out."""
+    g1, g2, g3 = gamma
+    I11, I22, D = p[0], p[1], p[4]
+    return I11 * I22 + D * (I11 * (g1**2 + g3**2) + I22 * (g2**2 + g3**2) + D * g3**2 * (g1**2 + g2**2 + g3**2))
 
 
 def kinetic_energy(y: Sequence[Any], p: Sequence[Any]) -> Any:

@@ -1,4 +1,4 @@
-"""`hess-explorer orbit suslov|hess`: states of one motion at given times (S1, S8)."""
+"""`hess-explorer orbit suslov|ball|hess`: states of one motion at given times (S1, S8, S9)."""
 
 from __future__ import annotations
 
@@ -23,12 +23,19 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         "suslov", help="the Suslov problem with gravity", description="Orbit of the Suslov problem with gravity.",
         epilog="Example: hess-explorer orbit suslov --I 2,1,0.3,0.5 --b 0.3,-0.5,1 --omega 0.8,-0.4 "
                "--gamma 0.3,0.2,0.93 --t 10,50")
-    suslov.add_argument("--I", type=vector("I11,I22,I13,I23"), required=True, metavar="I11,I22,I13,I23",
-                        help="inertia tensor (I12 = 0)")
-    suslov.add_argument("--b", type=vector("b1,b2,b3"), default=(0.0, 0.0, 0.0), metavar="b1,b2,b3",
-                        help="field (default 0,0,0)")
+    _add_body(suslov)
     _add_motion(suslov, "w1,w2", "g1,g2,g3")
     suslov.set_defaults(run=_run, system="suslov", parameters=_suslov_parameters)
+
+    ball = systems.add_parser(
+        "ball", help="the Chaplygin ball with Suslov's constraint",
+        description="Orbit of the Chaplygin ball with Suslov's constraint.",
+        epilog="Example: hess-explorer orbit ball --I 1,1.5,0.7,1.2 --D 10 --omega=-1.2,0.8 --gamma 0.3,0.5,0.8 "
+               "--t 5,20")
+    _add_body(ball)
+    ball.add_argument("--D", type=number, required=True, help="𝒟 = (R/R_s)² I_s of the ball inside, 0 or more")
+    _add_motion(ball, "w1,w2", "g1,g2,g3")
+    ball.set_defaults(run=_run, system="ball", parameters=_ball_parameters)
 
     hess = systems.add_parser(
         "hess", help="the Suslov–Hess case, reduced",
@@ -38,6 +45,13 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     hess.add_argument("--b", type=number, required=True, help="field")
     _add_motion(hess, "w1,w2", "n1,n2,n3")
     hess.set_defaults(run=_run, system="hess", parameters=_hess_parameters)
+
+
+def _add_body(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--I", type=vector("I11,I22,I13,I23"), required=True, metavar="I11,I22,I13,I23",
+                        help="inertia tensor (I12 = 0)")
+    parser.add_argument("--b", type=vector("b1,b2,b3"), default=(0.0, 0.0, 0.0), metavar="b1,b2,b3",
+                        help="field (default 0,0,0)")
 
 
 def _add_motion(parser: argparse.ArgumentParser, omega: str, gamma: str) -> None:
@@ -53,6 +67,13 @@ def _suslov_parameters(options: argparse.Namespace) -> tuple[tuple[float, ...], 
     from models import SuslovBody, check_body
 
     return SuslovBody(*options.I, *options.b).parameters, check_body(*options.I)
+
+
+def _ball_parameters(options: argparse.Namespace) -> tuple[tuple[float, ...], BodyCheck]:
+    from models import check_body
+    from models.chaplygin_ball import BallBody
+
+    return BallBody(*options.I, options.D, *options.b).parameters, check_body(*options.I)
 
 
 def _hess_parameters(options: argparse.Namespace) -> tuple[tuple[float, ...], BodyCheck]:
