@@ -1,0 +1,360 @@
+"""The Chaplygin ball with Suslov's constraint and no field (S9): the strip, Nˢ and Nᵘ, scattering."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Collection, Hashable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from app import theme
+from app.compute import CACHE
+from app.scenes.base import Motion, Preset, Report, Scene
+from app.state import Choice, Number, Value, Values
+from app.views.chart import Series
+from app.views.graph import Graph
+from app.views.poisson_sphere import Circle, Mark, PoissonSphere
+from app.views.scattering_map import ANGLE_TICKS, POLAR_TICKS
+from app.views.velocity_plane import VelocityPlane, nice_above, sphere_columns
+from app.wire import Wire
+from app.words import number
+from models.accuracy import DRAFT, LEVELS, Level, cheapest, level
+from models.ball_scattering import BallScattering, ball_scattering
+from models.chaplygin_ball import SYSTEM, BallBody
+from models.ensemble import ensemble
+from models.errors import WorkLimit
+from models.orbit import solve
+from models.results import Array, Orbit
+from models.sampling import sample_times
+from models.scattering import scattering
+from models.strip import Strip, line_of_rest, omega_of_energy, spread_states
+from models.suslov import SuslovBody
+from models.torus import HALF_A_PIXEL, PIXELS, SAGITTA
+
+_MOST = 4000
+_ORBITS = 18
+_PHASES = 97
+_PHASES_IN_A_DRAG = 33
+_ANGLES = np.linspace(0.0, 2.0 * math.pi, 181)
+
+SPECS = (
+    Number("I11", "I₁₁", "Inertia I₁₁", 1.0, 0.2, 5.0, 0.01, 1e-3, 1e3, "Moment of inertia about the first body axis."),
+    Number("I22", "I₂₂", "Inertia I₂₂", 1.5, 0.2, 5.0, 0.01, 1e-3, 1e3,
+           "Moment of inertia about the second body axis."),
+    Number("I13", "I₁₃", "Inertia I₁₃", 0.7, -2.0, 2.0, 0.01, -1e3, 1e3,
+           "Product of inertia; with I₂₃ it sets the line I₁₃ω₁ + I₂₃ω₂ = 0."),
+    Number("I23", "I₂₃", "Inertia I₂₃", 1.2, -2.0, 2.0, 0.01, -1e3, 1e3,
+           "Product of inertia; not 0 together with I₁₃."),
+    Number("D", "𝒟", "Ball inside, 𝒟", 10.0, 0.0, 20.0, 0.05, 0.0, 1e6,
+           "𝒟 = (R/Rₛ)² Iₛ of the ball that rolls inside; 0 is the free Suslov problem."),
+    Number("h", "h", "Energy h", 10.0, 0.1, 20.0, 0.1, 1e-6, 1e6,
+           "E = h > 0: every such energy is possible. It sets the size of the strip and the unit of time."),
+    Number("theta", "θ⁻", "Angle θ⁻ of the circle left", 1.2, 0.0, 3.14, 0.01, 0.0, math.pi,
+           "The angle between ξ and γ at the start of the chosen orbit."),
+    Number("phi", "φ", "Phase φ of the chosen orbit", 0.5, -3.14, 3.14, 0.01, -math.pi, math.pi,
+           "Where on that circle γ starts, in radians."),
+    Number("digits", "−lg δ", "Distance δ of the start, digits", 4.0, 1.0, 8.0, 0.05, 1.0, 12.0,
+           "The chosen orbit starts δ = 10^−digits of |ω| away from Nᵘ."),
+    Number("span", "t", "Time span", 60.0, 1.0, 400.0, 1.0, 0.01, 1e4, "How long the chosen orbit is followed."),
+    Choice("accuracy", "Accuracy", tuple(LEVELS), "standard",
+           "Promised error: draft 1e-3, standard 1e-6, precise 1e-9; reference: the floor of double precision."),
+)
+
+PRESETS = (
+    Preset("Projections of trajectories, 𝒟 = 10, h = 10 (figure)", {}),
+    Preset("𝒟 = 0: the free Suslov problem", {"D": 0.0, "span": 15.0}),
+    Preset("𝒟 = 0.5, close to it", {"D": 0.5, "span": 15.0}),
+    Preset("𝒟 = 2, I₁₃ = 0, k = 1 of S3: no longer flat", {
+        "I11": 1.64, "I22": 1.0, "I13": 0.0, "I23": 0.8, "D": 2.0, "theta": 1.0, "span": 30.0}),
+    Preset("𝒟 = 0, I₁₃ = 0, k = 1: complete reversal", {
+        "I11": 1.64, "I22": 1.0, "I13": 0.0, "I23": 0.8, "D": 0.0, "theta": 1.0, "span": 15.0}),
+)
+
+LEGEND = """
+<ul class="legend" aria-label="Legend">
+<li><span class="line orbit"></span>orbits; the chosen one bold</li>
+<li><span class="line stable"></span>Nˢ, circle joined</li>
+<li><span class="line unstable"></span>Nᵘ, circle left</li>
+<li><span class="line second"></span>θ⁺ for 𝒟 = 0</li>
+<li><span class="dot point"></span>moving point</li>
+<li><span class="box forbidden"></span>impossible</li>
+</ul>
+"""
+
+THUMBNAIL = """
+<ellipse cx="24" cy="16" rx="20" ry="13" fill="none" stroke="#808080"/>
+<ellipse cx="24" cy="16" rx="8" ry="5" fill="#A8A8A8" stroke="#808080"/>
+<path d="M31 12 43 6" stroke="#D55E00" stroke-width="3" stroke-dasharray="3 2"/>
+<path d="M17 20 5 26" stroke="#009E73" stroke-width="3"/>
+<path d="M36 9C33 1 22 6 14 10S8 20 10 23" fill="none" stroke="#0072B2" stroke-width="2"/>
+"""
+
+WORDS = Path(__file__).with_suffix(".md").read_text(encoding="utf-8")
+
+
+@dataclass(frozen=True)
+class BallResult:
+    """`crowd`: tracks (m, 2) of ω over the strip; `map`: θ⁺ over the phases, None where it took too long."""
+
+    values: Values
+    body: BallBody
+    strip: Strip
+    orbit: Orbit | None
+    crowd: tuple[Array, ...]
+    map: BallScattering | None
+    free: Array | None
+    reason: str
+    cached: bool
+    wall_ms: float
+
+
+def body_of(values: Values) -> BallBody:
+    """The ball.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
+    return BallBody(*(float(values[name]) for name in ("I11", "I22", "I13", "I23", "D")))
+
+
+def admit(values: Values) -> tuple[dict[str, Value], list[str]]:
+    """Everything is possible together."""
+    return dict(values), []
+
+
+def limits(values: Values) -> Mapping[str, tuple[float, float, float]]:
+    """No slider depends on another."""
+    return {}
+
+
+def half_width(body: BallBody, h: float) -> float:
+    """The frame of the (ω1, ω2)-plane: room for σ1."""
+    return nice_above(1.1 * math.sqrt(2.0 * h / min(body.I11, body.I22)))
+
+
+def _start(body: BallBody, h: float, theta: float, phi: float, digits: float) -> tuple[float, ...]:
+    """E = h, γ on the circle θ⁻ about ξ, ω along ξ + δη."""
+    xi, eta = line_of_rest(body)
+    across = math.sin(theta) * math.cos(phi)
+    gamma = (math.cos(theta) * xi[0] + across * eta[0], math.cos(theta) * xi[1] + across * eta[1],
+             math.sin(theta) * math.sin(phi))
+    omega = omega_of_energy(body, tuple(xi + 10.0 ** -digits * eta), gamma, h)
+    return (*omega, *map(float, gamma))
+
+
+def _weights(body: BallBody, h: float) -> Array:
+    radius = 0.5 * PIXELS
+    w = radius / half_width(body, h)
+    return np.array([w, w, radius, radius, radius])
+
+
+def _orbit(body: BallBody, h: float, start: tuple[float, ...], span: float, accuracy: Level) -> Orbit:
+    times = sample_times(SYSTEM, np.array(start), np.array(body.parameters), span, _weights(body, h), SAGITTA, _MOST)
+    return solve(SYSTEM, start, body.parameters, times, accuracy)
+
+
+def _crowd(body: BallBody, h: float, count: int) -> tuple[Array, ...]:
+    """ω (m, 2) of orbits through states spread over the strip, followed both ways until they have all but arrived."""
+    states = spread_states(body, h, count)
+    xi, _ = line_of_rest(body)
+    moment = body.I11 * xi[0] ** 2 + body.I22 * xi[1] ** 2
+    speed = math.sqrt(2.0 * h / min(body.I11, body.I22))
+    # The slowest rate at which orbits leave and arrive; a turn of γ in some forty samples, but not too many of them.
+    rate = math.hypot(body.I13, body.I23) * math.sqrt(2.0 * h * moment) / (body.I11 + body.D) / (body.I22 + body.D)
+    end = min(1.5 / rate, 100.0 / speed)
+    times = np.linspace(0.0, end, int(min(600.0, max(60.0, end * speed / 0.15))) + 1)[1:]
+    there = ensemble(SYSTEM, states, body.parameters, times, DRAFT).states[:, :, :2]
+    back = ensemble(SYSTEM, states, body.parameters, -times, DRAFT).states[:, ::-1, :2]
+    return tuple(np.concatenate([back[i], states[i : i + 1, :2], there[i]]) for i in range(count))
+
+
+def _free_curve(body: BallBody, theta: float, digits: float, phis: tuple[float, ...]) -> Array:
+    """θ⁺ of the free Suslov problem of the same tensor."""
+    free = SuslovBody(body.I11, body.I22, body.I13, body.I23)
+    return scattering(free, LEVELS["standard"], 1, 10.0 ** -digits).theta_plus(theta, np.array(phis))
+
+
+def compute(values: Values, shown: Collection[str], dragging: bool) -> BallResult:
+    """The chosen orbit, a crowd over the strip, and the map of the phases."""
+    began = time.perf_counter()
+    misses = 0
+
+    def cached(function: Any, *arguments: Hashable) -> Any:
+        nonlocal misses
+        value, hit = CACHE.get(function, *arguments)
+        misses += not hit
+        return value
+
+    accuracy = level(str(values["accuracy"]))
+    if dragging:
+        accuracy = min(accuracy, cheapest(HALF_A_PIXEL), key=lambda rung: rung.order)
+    body = body_of(values)
+    h, theta_minus, phi, digits, span = (float(values[name]) for name in ("h", "theta", "phi", "digits", "span"))
+    strip = Strip(body, h)
+    start = _start(body, h, theta_minus, phi, digits)
+    orbit = cached(_orbit, body, h, start, span, accuracy) if shown else None
+    crowd = cached(_crowd, body, h, 8 if dragging else _ORBITS) if "omega" in shown else ()
+    found: BallScattering | None = None
+    free: Array | None = None
+    reason = ""
+    if "curve" in shown:
+        phis = tuple(np.linspace(-math.pi, math.pi, _PHASES_IN_A_DRAG if dragging else _PHASES).tolist())
+        try:
+            rung = LEVELS["draft"] if dragging else min(accuracy, LEVELS["standard"], key=lambda one: one.order)
+            found = cached(ball_scattering, body, theta_minus, phis, h, 10.0 ** -digits, rung)
+            free = cached(_free_curve, body, theta_minus, digits, phis)
+        except WorkLimit as error:
+            reason = f"The map of the phases is left out: {error}"
+    return BallResult(values, body, strip, orbit, crowd, found, free, reason, misses == 0,
+                      (time.perf_counter() - began) * 1e3)
+
+
+def motion(values: Values) -> Motion:
+    """The chosen orbit, for "Speed and accuracy".  Raises `ModelError`."""
+    body, h = body_of(values), float(values["h"])
+    start = _start(body, h, *(float(values[name]) for name in ("theta", "phi", "digits")))
+    return Motion(SYSTEM, start, body.parameters, float(values["span"]), tuple(_weights(body, h)), 1.0)
+
+
+class BallStage:
+    """The four pictures of one session."""
+
+    dots: Mapping[str, tuple[str, str]] = {"omega-point": ("omega1", "omega2"), "Gamma-point": ("t", "Gamma")}
+    angles: Sequence[str] = ()
+
+    def __init__(self, wire: Wire) -> None:
+        self.wire = wire
+        self.omega = VelocityPlane(wire, picks=())
+        self.sphere = PoissonSphere(wire, {"data-orbit": "orbit"})
+        self.curve = Graph(wire, "curve", ("φ", "θ⁺"), (-math.pi, math.pi), (0.0, math.pi),
+                           [Series("free", theme.MAP, "dashed"), Series("ball", theme.ORBIT)],
+                           picks=("tap", "doubletap", "pan"), ticks=ANGLE_TICKS, y_ticks=POLAR_TICKS)
+        self.Gamma = Graph(wire, "Gamma", ("t", "Γ"), (0.0, 60.0), (-1.05, 1.05), [Series("first", theme.ORBIT)])
+        self.pictures = (self.omega, self.sphere, self.curve, self.Gamma)
+
+    def show(self, result: BallResult, hold_axes: bool) -> Report:
+        """Draw the strip, the orbits, the circles and the map."""
+        h = float(result.values["h"])
+        width = half_width(result.body, h)
+        if not hold_axes:
+            self.omega.fit(width)
+            self.Gamma.set_ranges((0.0, float(result.values["span"])), (-1.05, 1.05))
+        for view in (self.omega, self.curve, self.Gamma):
+            view.say("")
+        xi = line_of_rest(result.body)[0]
+        self._show_plane(result, width)
+        theta_minus = float(result.values["theta"])
+        ends = [Circle((*xi, 0.0), math.cos(theta_minus), "unstable")]
+        Gamma = None
+        if result.orbit is not None:
+            Gamma = result.orbit.states[:, 2:4] @ xi
+            ends.append(Circle((*xi, 0.0), float(np.clip(Gamma[-1], -1.0, 1.0)), "stable"))
+            self.Gamma.show("first", result.orbit.times, Gamma)
+            self.Gamma.show_levels([float(Gamma[0]), float(Gamma[-1])])
+        self.sphere.show((*xi, 0.0), "ξ", ends, [Mark((*xi, 0.0), "muted"), Mark((*-xi, 0.0), "muted")])
+        self._show_curve(result)
+        for name, text in _captions(result, Gamma).items():
+            self.wire.say(name, text)
+        return Report(_derived(result), _status(result), [result.reason] if result.reason else [])
+
+    def _show_plane(self, result: BallResult, width: float) -> None:
+        self.omega.show_strip(result.strip.sigma2(_ANGLES), result.strip.sigma1(_ANGLES), width)
+        for name, ends in (("stable", result.strip.stable), ("unstable", result.strip.unstable)):
+            self.omega.assign(name, x=ends[:, 0].tolist(), y=ends[:, 1].tolist())
+        if result.crowd:
+            self.omega.show_arcs(result.crowd, width)
+        if result.orbit is not None:
+            states = result.orbit.states
+            xi = line_of_rest(result.body)[0]
+            self.omega.assign(
+                "orbit", t=result.orbit.times.astype(np.float32), Gamma=(states[:, 2:4] @ xi).astype(np.float32),
+                **sphere_columns(states[:, :2], states[:, 2:]))
+
+    def _show_curve(self, result: BallResult) -> None:
+        if result.map is None or result.free is None:
+            if result.reason:
+                self.curve.show_nothing(result.reason)
+            return
+        phis = result.map.phis
+        self.curve.show("ball", phis, result.map.theta_plus)
+        self.curve.show("free", phis, result.free)
+        theta_minus, phi = float(result.values["theta"]), float(result.values["phi"])
+        self.curve.show_levels([theta_minus, math.pi - theta_minus])
+        self.curve.choose(phi, float(np.interp(phi, phis, result.map.theta_plus)))
+
+    def fail(self, sentence: str) -> None:
+        """Empty pictures, and the sentence where the eye is."""
+        for view in (self.omega, self.curve, self.Gamma):
+            view.show_nothing(sentence)
+        self.sphere.show_nothing()
+        for picture in self.pictures:
+            self.wire.say(picture.name, sentence)
+
+    def pick(self, picture: str, x: float, y: float) -> Values:
+        """A click on the curve chooses the phase."""
+        return {"phi": x} if picture == "curve" else {}
+
+
+def _captions(result: BallResult, Gamma: Array | None) -> dict[str, str]:
+    theta_minus = float(result.values["theta"])
+    captions = {
+        "omega": "Angular velocity (ω₁, ω₂)\nEvery orbit crosses the strip between σ₂ and σ₁ from Nᵘ to Nˢ."}
+    if Gamma is not None:
+        left, joined = number(float(Gamma[0])), number(float(Gamma[-1]))
+        captions["sphere"] = f"Poisson sphere\nFrom the circle Γ = {left} about ξ to Γ = {joined} at the end."
+        captions["Gamma"] = f"Γ = (ξ, γ) against time\nFrom {left} to {joined}."
+    if result.map is not None:
+        low, high = float(result.map.theta_plus.min()), float(result.map.theta_plus.max())
+        spread = f"θ⁺ = {number(low)} for every φ" if high - low < 1e-4 else f"θ⁺ from {number(low)} to {number(high)}"
+        captions["curve"] = f"θ⁺ against the phase φ\nθ⁻ = {number(theta_minus)}: {spread}; dashed: 𝒟 = 0."
+    elif result.reason:
+        captions["curve"] = f"θ⁺ against the phase φ\n{result.reason}"
+    return captions
+
+
+def _derived(result: BallResult) -> list[str]:
+    body, strip = result.body, result.strip
+    xi = line_of_rest(body)[0]
+    outer_ends, inner_ends = (ellipse([0.0, math.pi / 2]) for ellipse in (strip.sigma1, strip.sigma2))
+    inner, outer = (float(np.hypot(*end)) for end in strip.unstable)
+    return [
+        f"σ₁: |ω₁| ≤ {number(float(outer_ends[0, 0]))}, |ω₂| ≤ {number(float(outer_ends[1, 1]))}",
+        f"σ₂: |ω₁| ≥ {number(float(inner_ends[0, 0]))} at ω₂ = 0, |ω₂| ≥ {number(float(inner_ends[1, 1]))} at ω₁ = 0",
+        f"|ω| on Nˢ and Nᵘ from {number(inner)} to {number(outer)}",
+        f"ξ = ({number(xi[0])}, {number(xi[1])}, 0)",
+        f"δ = {number(10.0 ** -float(result.values['digits']), 3)}",
+    ]
+
+
+def _status(result: BallResult) -> str:
+    parts = []
+    if result.orbit is not None:
+        orbit = result.orbit
+        parts += [
+            f"{orbit.level}: orbit {orbit.times.size} points, {orbit.cost.steps} Taylor steps, "
+            f"error ≤ {orbit.error_estimate:.1e} ({orbit.status})",
+            "drift " + " ".join(f"{name} {drift:.0e}" for name, drift in orbit.drift.items()),
+        ]
+    if result.map is not None:
+        parts.append(f"{result.map.phis.size} phases, error ≤ {float(result.map.errors.max()):.1e}")
+    parts.append(f"{result.wall_ms:.1f} ms, {'cached' if result.cached else 'computed'}")
+    return " · ".join(parts).replace("e-", "e−")
+
+
+SCENE = Scene(
+    name="chaplygin-ball",
+    title="Chaplygin ball",
+    summary="A ball rolls inside the body: every orbit crosses a strip between two ellipses, from Nᵘ to Nˢ.",
+    specs=SPECS,
+    presets=PRESETS,
+    words=WORDS,
+    admit=admit,
+    limits=limits,
+    pictures=("omega", "sphere", "curve", "Gamma"),
+    compute=compute,
+    stage=BallStage,
+    legend=LEGEND,
+    thumbnail=THUMBNAIL,
+    motion=motion,
+    place=9,
+)
