@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,7 +17,7 @@ from .system import Problem, System
 from .taylor import STEP_LIMIT_REACHED
 from .threads import THREADS, share
 
-__all__ = ["MAX_CROSSINGS", "Plane", "section", "sections"]
+__all__ = ["MAX_CROSSINGS", "Plane", "Points", "section", "section_points", "sections"]
 
 MAX_CROSSINGS = 100_000
 MAX_STEPS = 10_000_000
@@ -158,3 +158,41 @@ def sections(system: System, states: Sequence[Sequence[float]] | Array, paramete
     share(part, -(-len(search.problem.states) // _SHARE), threads)
     starts, p = np.array(states, float, ndmin=2), np.asarray(parameters, float)
     return [search.result(i, starts[i], p, found[i]) for i in range(len(starts))]
+
+
+@dataclass(frozen=True)
+class Points:
+    """Crossings of many orbits, each followed once: states, a list of (n, d); drift : of each integral, the largest.
+
+    They lie on the plane and on their levels of the integrals.  Whether each is where its own orbit is, nobody can
+    say of chaotic motions after some time, and nothing is said here: see `section` for that.
+    """
+
+    states: list[Array]
+    drift: Mapping[str, float]
+    cost: Cost
+
+
+def section_points(system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float],
+                   plane: Plane, end: float, level: Level, crossings: int, threads: int = THREADS) -> Points:
+    """For pictures: the first `crossings` crossings of each orbit, rows of `states` (n, d), in one run.
+
+    Raises `InvalidParameter`, `WorkLimit`.
+    """
+    begun = time.perf_counter()
+    search = _Search.of(system, states, parameters, plane, end, level, crossings)
+    count = len(search.problem.states)
+    found: dict[int, tuple[Array, int]] = {}
+
+    def part(i: int) -> None:
+        for orbit in range(i * _SHARE, min((i + 1) * _SHARE, count)):
+            _, points, steps = search.run(orbit, level, MAX_STEPS)
+            found[orbit] = (points * search.problem.scale, steps)
+
+    share(part, -(-count // _SHARE), threads)
+    starts, p = np.array(states, float, ndmin=2), np.asarray(parameters, float)
+    drifts = [drift_of(system, starts[i], found[i][0], p) for i in range(count) if len(found[i][0])]
+    drift = {name: max(one[name] for one in drifts) for name in (drifts[0] if drifts else ())}
+    wall_ms = (time.perf_counter() - begun) * 1e3
+    return Points([frozen(found[i][0]) for i in range(count)], drift,
+                  Cost(sum(steps for _, steps in found.values()), wall_ms))

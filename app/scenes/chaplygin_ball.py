@@ -49,7 +49,7 @@ SPECS = (
            "Product of inertia; with I₂₃ it sets the line I₁₃ω₁ + I₂₃ω₂ = 0."),
     Number("I23", "I₂₃", "Inertia I₂₃", 1.2, -2.0, 2.0, 0.01, -1e3, 1e3,
            "Product of inertia; not 0 together with I₁₃."),
-    Number("D", "𝒟", "Ball inside, 𝒟", 10.0, 0.0, 20.0, 0.05, 0.0, 1e6,
+    Number("D", "𝒟", "Ball inside, 𝒟", 10.0, 0.0, 20.0, 0.05, 0.0, 300.0,
            "𝒟 = (R/Rₛ)² Iₛ of the ball that rolls inside; 0 is the free Suslov problem."),
     Number("h", "h", "Energy h", 10.0, 0.1, 20.0, 0.1, 1e-6, 1e6,
            "E = h > 0: every such energy is possible. It sets the size of the strip and the unit of time."),
