@@ -11,12 +11,12 @@ from collections import Counter
 import numpy as np
 import pytest
 import scipy.integrate
-from bokeh.model import Model
-from test_scenes import ACCURACY, HESS, SCENES, Browser, contents, sources_of
+from bokeh.models import ColumnDataSource
+from test_scenes import ACCURACY, HESS, SCENES, Board, Browser, contents, elsewhere, modules_of_scenes, plots_of
 
 from app import session
 from app.compute import ResultCache, warm
-from app.scenes import speed_accuracy, suslov_hess
+from app.scenes import suslov_hess
 
 every_scene = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
 
@@ -64,7 +64,7 @@ class Recorder(ResultCache):
 def cache(monkeypatch):
     """A cache of its own, empty, in place of the process's."""
     recorder = Recorder()
-    for module in (suslov_hess, speed_accuracy, session):
+    for module in (*modules_of_scenes(), session):
         monkeypatch.setattr(module, "CACHE", recorder)
     return recorder
 
@@ -131,12 +131,10 @@ CHANGES = [
 def test_a_change_computes_what_depends_on_it_and_going_back_nothing(cache, change, expected):
     browser = Browser(HESS)
     cache.take()
-    browser.choose(change)
-    browser.ask(1)
+    browser.ask(1, values=change)
     assert cache.take() == expected
     assert browser.session.values == {**HESS.defaults(), **change}
-    browser.choose(change)
-    browser.ask(2)
+    browser.ask(2, values=change)
     assert cache.take() == set()
     browser.ask(3, reset=True)
     assert browser.session.values == HESS.defaults()
@@ -159,8 +157,9 @@ PRESETS = {
 def test_a_preset_computes_what_is_new_in_it(cache, preset):
     browser = Browser(HESS)
     cache.take()
-    browser.choose(HESS.example(preset))
-    browser.ask(1)
+    browser.ask(1, preset=preset.name)
+    assert browser.session.values == {**HESS.defaults(), **preset.values}
+    assert browser.controls["preset"] == preset.name
     assert [cache.take()] == [expected for name, expected in PRESETS.items() if preset.name.startswith(name)]
 
 
@@ -189,7 +188,7 @@ def test_a_drag_is_computed_as_a_draft_and_again_as_chosen_when_it_ends(cache, c
     assert cache.levels() == ({} if chosen == "draft" else dict.fromkeys(MOTION, chosen))
     assert browser.texts["status"].startswith(f"{chosen}: orbit")
     assert browser.session.values["accuracy"] == chosen
-    assert browser.menus[-1]["accuracy"] == chosen
+    assert browser.controls["accuracy"] == chosen
 
 
 @pytest.mark.parametrize("chosen", ["draft", "standard", "precise", "reference"])
@@ -272,10 +271,10 @@ def test_what_comes_into_sight_does_not_bring_the_others_with_it(cache):
 
 
 def test_a_picture_that_is_not_computed_claims_no_separatrix(cache):
-    stage = HESS.stage()
-    stage.show(compute(HESS, HESS.defaults()), False)
-    stage.show(compute(HESS, {**HESS.defaults(), "h": 1.25}, set()), False)
-    assert list(sources_of(stage)["circle-message"]["text"]) == []
+    board = Board(HESS)
+    board.show(compute(HESS, HESS.defaults()))
+    board.show(compute(HESS, {**HESS.defaults(), "h": 1.25}, set()))
+    assert list(board.sources["circle-message"]["text"]) == []
 
 
 def test_at_the_separatrix_too_what_is_hidden_is_not_computed(cache):
@@ -288,62 +287,61 @@ def test_at_the_separatrix_too_what_is_hidden_is_not_computed(cache):
 # --- Pictures in sight look as if all were ---------------------------------------------------------------
 
 
-def own_sources(stage, name):
-    """The data of one picture, and of the orbit, which every picture's moving point needs."""
-    root = next(picture.root for picture in stage.pictures if picture.name == name)
-    every = sources_of(stage)
-    if not isinstance(root, Model):
-        return {key: every[key] for key in ("data-orbit", "data-stable", "data-unstable")}
-    own = {model.name for model in root.references()}
-    return {key: data for key, data in every.items() if key in own or key.startswith(f"{name}: ")}
+def own_sources(board, name):
+    """The data of one picture, those that others hold for it among them."""
+    own = {name, *board.tracks.get(name, ())}
+    if name in plots_of(board.scene.name):
+        references = plots_of(board.scene.name)[name].references()
+        own |= {model.name for model in references if isinstance(model, ColumnDataSource)}
+    return {key: data for key, data in board.sources.items() if key in own}
 
 
-@every_scene
-def test_a_picture_alone_in_sight_is_drawn_as_among_the_others(scene):
-    values = {**scene.defaults(), "h": 1.25, "phi0": -1.0, "I23": 0.35, "span": 9.0}
-    whole = scene.stage()
-    whole.show(compute(scene, values), False)
-    captions = {picture.name: picture.caption.text for picture in whole.pictures}
-    stage = scene.stage()
+# Another state for each scene, and more of those of the scenes whose pictures are computed one by one.
+STATES = [(scene, elsewhere(scene)) for scene in SCENES.values()] + [
+    (scene, {**scene.defaults(), **change, "span": 9.0}) for scene in (HESS, ACCURACY)
+    for change in ({"h": 1.25, "phi0": -1.0, "I23": 0.35}, {"h": 1.0, "f": 0.0}, {"h": 30.0})]
+every_other = pytest.mark.parametrize(
+    ("scene", "values"), STATES, ids=[f"{scene.name}-{i}" for i, (scene, _) in enumerate(STATES)])
+
+
+@every_other
+def test_a_picture_alone_in_sight_is_drawn_as_among_the_others(scene, values):
+    whole, board = Board(scene), Board(scene)
+    whole.show(compute(scene, values))
     for name in scene.pictures:
-        stage.show(compute(scene, scene.defaults()), False)
-        stage.show(compute(scene, values, {name}), False)
-        assert contents(own_sources(stage, name)) == contents(own_sources(whole, name)), name
-        assert {picture.name: picture.caption.text for picture in stage.pictures}[name] == captions[name]
+        board.show(compute(scene, scene.defaults()))
+        board.show(compute(scene, values, {name}))
+        assert contents(own_sources(board, name)) == contents(own_sources(whole, name)), name
+        assert board.captions[name] == whole.captions[name]
 
 
-@every_scene
-@pytest.mark.parametrize("change", [{"h": 1.25}, {"h": 1.0, "f": 0.0}, {"h": 30.0}], ids=str)
-def test_what_was_hidden_is_of_the_present_state_when_it_is_seen_again(scene, change):
-    values = {**scene.defaults(), **change, "span": 9.0}
-    whole = scene.stage()
-    report = whole.show(compute(scene, values), False)
-    expected = contents(sources_of(whole))
-    stage = scene.stage()
+@every_other
+def test_what_was_hidden_is_of_the_present_state_when_it_is_seen_again(scene, values):
+    whole, board = Board(scene), Board(scene)
+    report = whole.show(compute(scene, values))
+    expected = contents(whole.sources)
     every = set(scene.pictures)
     for seen in (set(), *({name} for name in every), *(every - {name} for name in every)):
-        stage.show(compute(scene, scene.defaults()), False)
-        hidden = stage.show(compute(scene, values, seen), False)
+        board.show(compute(scene, scene.defaults()))
+        hidden = board.show(compute(scene, values, seen))
         assert hidden.status
         assert hidden.derived == report.derived
-        stage.show(compute(scene, values), False)
-        assert contents(sources_of(stage)) == expected, seen
-        assert [picture.caption.text for picture in stage.pictures] == [
-            picture.caption.text for picture in whole.pictures]
+        board.show(compute(scene, values))
+        assert contents(board.sources) == expected, seen
+        assert board.captions == whole.captions
 
 
 @every_scene
 def test_an_error_while_pictures_are_hidden_leaves_none_of_them_behind(scene):
-    whole = scene.stage()
-    whole.show(compute(scene, scene.defaults()), False)
-    expected = contents(sources_of(whole))
-    stage = scene.stage()
+    whole, board = Board(scene), Board(scene)
+    whole.show(compute(scene, scene.defaults()))
+    expected = contents(whole.sources)
     for seen in (set(), *({name} for name in scene.pictures)):
-        stage.show(compute(scene, {**scene.defaults(), "h": 0.5, "f": 0.3}), False)
-        stage.fail("Not this one.")
-        stage.show(compute(scene, scene.defaults(), seen), False)
-        stage.show(compute(scene, scene.defaults()), False)
-        assert contents(sources_of(stage)) == expected, seen
+        board.show(compute(scene, elsewhere(scene)))
+        board.fail("Not this one.")
+        board.show(compute(scene, scene.defaults(), seen))
+        board.show(compute(scene, scene.defaults()))
+        assert contents(board.sources) == expected, seen
 
 
 # --- Speed and accuracy ------------------------------------------------------------------------------------
@@ -370,11 +368,9 @@ STUDY_CHANGES = [
 def test_a_change_measures_the_motion_anew_where_it_is_another_one(cache, change, expected):
     browser = Browser(ACCURACY, SHORT)
     cache.take()
-    browser.choose(change)
-    browser.ask(1)
+    browser.ask(1, values=change)
     assert cache.take() == expected
-    browser.choose(SHORT)
-    browser.ask(2)
+    browser.ask(2, values=SHORT)
     assert cache.take() == set()
 
 
@@ -513,7 +509,7 @@ def test_all_hidden_the_state_still_follows_and_is_said(cache):
     assert browser.session.values["h"] == 1.25
     assert "h = 1.25" in browser.texts["bifurcation"]
     assert browser.texts["status"].startswith("circle map ")
-    assert "data-orbit" not in browser.data
+    assert "data-orbit" not in browser.screen.fresh
     browser.ask(3, hidden=[])
     assert cache.take() == {TRACK, CYCLES}
     assert np.all(browser.data["data-orbit"]["h"] == np.float32(1.25))
@@ -530,8 +526,9 @@ def test_the_status_line_counts_what_was_asked_of_the_cache(cache):
     assert cache.metrics().startswith(f"cache_hits {hits} cache_misses {misses} cache_entries {misses} ")
 
 
-def test_warming_up_computes_the_scenes_of_their_own_and_measures_nothing(cache):
+def test_warming_up_computes_the_first_state_of_every_scene(cache):
     warm()
-    assert cache.take() == MOTION | ZONES
-    Browser(HESS)
-    assert cache.take() == set()
+    cache.calls.clear()
+    for scene in SCENES.values():
+        Browser(scene)
+        assert cache.take() == set(), scene.name

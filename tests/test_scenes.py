@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import dataclasses
+import importlib
 import json
 import logging
 import math
+import pkgutil
 import re
 from functools import cache
 from types import SimpleNamespace
 from urllib.parse import parse_qs
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from bokeh.model import Model
+from bokeh.document import Document
 from bokeh.models import ColumnDataSource, LogScale
 from bokeh.models.glyphs import Line, Scatter
 from hypothesis import given, settings
@@ -21,7 +24,9 @@ from hypothesis import strategies as st
 from mechanics import PROPERTY
 from test_wire import read
 
+import app.scenes
 from app import session
+from app.description import describe
 from app.scenes import scenes, speed_accuracy
 from app.scenes.base import Report
 from app.session import Session
@@ -29,11 +34,13 @@ from app.state import Number, decode
 from app.wire import Wire
 from app.words import with_formulas
 from models import circle_map, f_max, level
-from models.errors import InvalidParameter
+from models.errors import InvalidParameter, ModelError
 
 SCENES = scenes()
 HESS = SCENES["suslov-hess"]
 ACCURACY = SCENES["suslov-hess-accuracy"]
+# A state with other axes than the default one.
+OTHERS = {HESS.name: {"b3": -2.9, "h": 100.0, "f": -5.0, "phi0": -1.0, "I22": 1.3, "I23": -0.4}}
 every_scene = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
 every_preset = pytest.mark.parametrize(
     ("scene", "preset"), [(scene, preset) for scene in SCENES.values() for preset in scene.presets],
@@ -46,13 +53,94 @@ def preset_values(scene, name):
     return {**scene.defaults(), **preset.values}
 
 
-def sources_of(stage):
-    """The data of every source of a stage's planar pictures; those without a name are told apart by their columns."""
-    return {
-        model.name or f"{picture.name}: {' '.join(sorted(model.data))}": dict(model.data)
-        for picture in stage.pictures if isinstance(picture.root, Model)
-        for model in picture.root.references() if isinstance(model, ColumnDataSource)
-    }
+def modules_of_scenes():
+    """The modules that compute for scenes, each with the process's cache."""
+    modules = (importlib.import_module(f"app.scenes.{one.name}") for one in pkgutil.iter_modules(app.scenes.__path__))
+    return [module for module in modules if hasattr(module, "CACHE")]
+
+
+@cache
+def description(name):
+    """What the browser gets of a scene, once."""
+    return json.loads(describe(name))
+
+
+@cache
+def plots_of(name):
+    """The empty pictures of a scene that Bokeh draws, by name, as the browser reads them."""
+    document = Document.from_json(json.loads(description(name)["document"]))
+    return {root.name: root for root in document.roots}
+
+
+@cache
+def empty_sources(name):
+    """The sources of a scene's pictures before there are data: those of its plots, and one for each other picture."""
+    # HoloViews has one of its own for the background of each.
+    found = [model for root in plots_of(name).values() for model in root.references()
+             if isinstance(model, ColumnDataSource) and model.name is not None]
+    assert len({model.name for model in found}) == len(found)
+    others = {picture["name"]: {} for picture in description(name)["pictures"] if picture["kind"] != "plot"}
+    empty = {model.name: dict(model.data) for model in found}
+    assert not any(column for columns in empty.values() for column in columns.values())
+    assert not set(empty) & set(others)
+    return {**empty, **others}
+
+
+class Screen:
+    """What the browser has of a scene: the data, axes and texts that came by the wire, the newest of each."""
+
+    def __init__(self, name):
+        self.sources = dict(empty_sources(name))
+        self.ranges = {
+            plot: [root.x_range.start, root.x_range.end, root.y_range.start, root.y_range.end]
+            for plot, root in plots_of(name).items()}
+        self.texts, self.controls = {}, {}
+        self.fresh = {}
+
+    def take(self, tree, block):
+        """What came; `fresh` are the sources among it.  Names that the browser does not know are errors."""
+        assert set(tree) == {"sources", "ranges", "texts", "controls"}
+        assert np.all(np.isfinite(np.frombuffer(block, "<f4")))
+        self.fresh = {name: {key: read(column, block) for key, column in columns.items()}
+                      for name, columns in tree["sources"].items()}
+        assert set(self.fresh) <= set(self.sources)
+        assert set(tree["ranges"]) <= set(self.ranges)
+        self.sources.update(self.fresh)
+        self.ranges.update(tree["ranges"])
+        self.texts.update(tree["texts"])
+        self.controls.update(tree["controls"])
+
+
+class Board(Screen):
+    """A stage and what is to be seen of it in the browser."""
+
+    def __init__(self, scene):
+        super().__init__(scene.name)
+        self.scene, self.wire = scene, Wire()
+        self.stage = scene.stage(self.wire)
+
+    def receive(self):
+        tree, block = self.wire.pack()
+        # JSON in a browser refuses NaN and Infinity.
+        self.take(json.loads(json.dumps(tree, allow_nan=False)), block)
+
+    def show(self, result, hold_axes=False):
+        report = self.stage.show(result, hold_axes)
+        self.receive()
+        return report
+
+    def fail(self, sentence):
+        self.stage.fail(sentence)
+        self.receive()
+
+    @property
+    def tracks(self):
+        """The sources that pictures draw which have none of their own for them."""
+        return {one["name"]: list(one["tracks"]) for one in description(self.scene.name)["pictures"] if "tracks" in one}
+
+    @property
+    def captions(self):
+        return {name: self.texts.get(name) for name in self.scene.pictures}
 
 
 def flat(item):
@@ -66,16 +154,10 @@ def contents(sources):
     return {name: {key: flat(column) for key, column in columns.items()} for name, columns in sources.items()}
 
 
-def assert_finite(sources):
-    for name, columns in contents(sources).items():
-        for key, values in columns.items():
-            assert all(isinstance(value, str) or math.isfinite(value) for value in values), (name, key)
-
-
-def shown(scene, values, stage=None, hold_axes=False):
-    """The stage, with all pictures of these values drawn on it, and its report."""
-    stage = stage or scene.stage()
-    return stage, stage.show(scene.compute(scene.admit(values)[0], scene.pictures, False), hold_axes)
+def shown(scene, values, board=None, hold_axes=False):
+    """The board, with all pictures of these values drawn on it, and the report."""
+    board = board or Board(scene)
+    return board, board.show(scene.compute(scene.admit(values)[0], scene.pictures, False), hold_axes)
 
 
 @every_scene
@@ -93,35 +175,80 @@ def test_a_scene_explains_itself_and_each_of_its_parameters(scene):
     assert len({spec.name for spec in scene.specs}) == len(scene.specs)
     for spec in scene.specs:
         assert spec.label, spec.name
-        assert len(spec.help.split()) > 4, spec.name
+        assert len(spec.help.split()) > 2, spec.name
         assert spec.help.endswith((".", ")")), spec.name
         assert spec.label.isprintable()
     assert len({preset.name for preset in scene.presets}) == len(scene.presets) > 2
+    for preset in scene.presets:
+        assert preset.name.isprintable()
+        assert preset.name
+
+
+@every_scene
+def test_a_legend_is_a_list_and_a_thumbnail_a_drawing(scene):
+    legend = ElementTree.fromstring(scene.legend.strip())
+    assert (legend.tag, legend.get("aria-label")) == ("ul", "Legend")
+    assert len(legend) > 2
+    for item in legend:
+        assert item.tag == "li"
+        assert re.search(r"\w", "".join(item.itertext()))
+    drawing = ElementTree.fromstring(f"<svg>{scene.thumbnail}</svg>")
+    assert len(drawing) > 2
 
 
 @every_scene
 def test_a_scene_names_its_pictures_in_the_order_in_which_they_stand(scene):
-    stage = scene.stage()
+    stage = scene.stage(Wire())
     assert tuple(picture.name for picture in stage.pictures) == scene.pictures
     assert len(set(scene.pictures)) == len(scene.pictures)
-    assert [picture.caption.key for picture in stage.pictures] == list(scene.pictures)
-    # The browser waits for these to be painted.
-    assert list(stage.plots) == [picture.root.name for picture in stage.pictures if isinstance(picture.root, Model)]
+    # A caption is the text of its picture's name: the other texts of the page have others.
+    assert not set(scene.pictures) & {"status", "notes", "derived", "busy"}
 
 
 @every_scene
-def test_every_source_has_a_name_of_its_own_and_the_player_finds_its_columns(scene):
-    stage, _ = shown(scene, scene.defaults())
-    named = [
-        model.name for picture in stage.pictures if isinstance(picture.root, Model)
-        for model in picture.root.references() if isinstance(model, ColumnDataSource) and model.name
-    ]
-    assert len(set(named)) == len(named)
-    orbit = sources_of(stage)["data-orbit"]
-    needed = {"t", *stage.angles, *(column for columns in stage.dots.values() for column in columns)}
-    assert needed <= set(orbit)
+def test_the_description_of_a_scene_has_all_that_the_browser_needs(scene):
+    found = description(scene.name)
+    assert describe(scene.name) is describe(scene.name)
+    assert (found["name"], found["title"]) == (scene.name, scene.title)
+    assert [picture["name"] for picture in found["pictures"]] == list(scene.pictures)
+    assert list(plots_of(scene.name)) == [one["name"] for one in found["pictures"] if one["kind"] == "plot"]
+    assert [control["name"] for control in found["controls"]] == [spec.name for spec in scene.specs]
+    for control, spec in zip(found["controls"], scene.specs, strict=True):
+        assert (control["label"], control["help"]) == (spec.label, spec.help)
+        if isinstance(spec, Number):
+            assert (control["kind"], control["symbol"]) == ("number", spec.symbol)
+        else:
+            assert (control["kind"], control["options"]) == ("choice", list(spec.options))
+    assert found["presets"] == [preset.name for preset in scene.presets]
+    assert found["legend"] == scene.legend
+    assert len(re.sub(r"<[^>]*>", "", found["words"])) > 200
+    assert "$" not in found["words"]
+    assert not re.search(r"<script|\son\w+=|javascript:|https?://(?!www\.w3\.org)", found["words"] + found["legend"])
+
+
+@every_scene
+def test_the_pictures_of_a_description_are_empty_and_belong_to_no_session(scene):
+    for root in plots_of(scene.name).values():
+        assert root.js_event_callbacks.keys() <= {"tap", "doubletap", "pan"}
+        assert not root.tools
+        assert root.toolbar_location is None
+    assert "data-orbit" in empty_sources(scene.name) or not description(scene.name)["dots"]
+
+
+@every_scene
+def test_the_player_and_the_sphere_find_their_columns(scene):
+    board, _ = shown(scene, scene.defaults())
+    dots, angles = board.stage.dots, board.stage.angles
+    assert description(scene.name)["dots"] == {source: list(columns) for source, columns in dots.items()}
+    assert description(scene.name)["angles"] == list(angles)
+    assert set(dots) <= set(board.sources)
+    if not dots:
+        return
+    orbit = board.sources["data-orbit"]
+    assert {"t", *angles, *(column for columns in dots.values() for column in columns)} <= set(orbit)
     assert len({len(column) for column in orbit.values()}) == 1
-    assert set(stage.dots) <= set(named)
+    for track in (track for one in description(scene.name)["pictures"] for track in one.get("tracks", ())):
+        assert {"g1", "g2", "g3"} <= set(board.sources[track])
 
 
 @every_scene
@@ -151,85 +278,93 @@ def test_a_preset_is_possible_as_it_stands_and_is_drawn(scene, preset):
     values = {**scene.defaults(), **preset.values}
     assert set(preset.values) <= set(scene.defaults())
     assert scene.admit(values) == (values, [])
-    stage, report = shown(scene, values)
+    board, report = shown(scene, values)
     assert isinstance(report, Report)
     assert report.status
     assert report.derived
-    assert_finite(sources_of(stage))
-    for picture in stage.pictures:
-        assert re.search(r"\w.*\n.*\w", picture.caption.text), picture.name
-        assert "nan" not in picture.caption.text.lower()
+    assert all(re.search(r"\w", text) for text in (report.status, *report.derived, *report.notes))
+    for name, caption in board.captions.items():
+        title, sentence = caption.split("\n")
+        assert re.search(r"\w", title), name
+        assert re.search(r"\w.*\.$", sentence), name
+        # A title and two lines below it.
+        assert len(title) < 40, name
+        assert len(sentence) <= 110, (name, sentence)
+        assert not re.search(r"\bnan\b|\binf\b", caption, re.IGNORECASE)
+
+
+def elsewhere(scene):
+    """Another state than the default one, that of the example which differs in most numbers."""
+    return {**scene.defaults(), **max(scene.presets, key=lambda preset: len(preset.values)).values}
 
 
 @every_preset
-def test_the_wire_carries_the_same_data_as_a_first_page(scene, preset):
+def test_a_state_looks_the_same_whatever_was_shown_before(scene, preset):
     values = {**scene.defaults(), **preset.values}
-    first, _ = shown(scene, values)
-    stage, wire = scene.stage(), Wire()
-    # Another state before, with other axes, so that everything has to change.
-    shown(scene, {**values, "h": 30.0, "f": 1.0, "phi0": -1.0, "I22": 1.3, "I23": -0.4}, stage)
-    stage.connect(wire)
-    shown(scene, values, stage)
-    tree, block = wire.pack()
-    later = sources_of(stage)
-    for name, columns in tree["sources"].items():
-        later[name] = {key: read(column, block) for key, column in columns.items()}
-    expected, found = contents(sources_of(first)), contents(later)
-    assert expected.keys() == found.keys()
-    assert len(tree["sources"]) > 5
-    for name, columns in expected.items():
-        for key, column in columns.items():
-            same = column if "text" in key else pytest.approx(column, rel=1e-6, abs=1e-6)
-            assert found[name][key] == same, (name, key)
-    assert {picture.name: picture.caption.text for picture in first.pictures} == tree["texts"]
+    first, report = shown(scene, values)
+    board, _ = shown(scene, {**elsewhere(scene), **OTHERS.get(scene.origin or scene.name, {})})
+    _, again = shown(scene, values, board)
+    assert contents(board.sources) == contents(first.sources)
+    assert board.ranges == first.ranges
+    if scene.origin is None:
+        assert board.captions == first.captions
+    assert again.derived == report.derived
+    assert len(first.fresh) > 3
 
 
 @every_scene
 def test_axes_stay_while_a_slider_is_held_and_fit_when_it_is_let_go(scene):
-    stage, _ = shown(scene, scene.defaults())
-    other = {**scene.defaults(), "b3": -2.9, "h": 100.0, "f": -5.0}
-
-    def ranges():
-        return [
-            (axis.start, axis.end) for picture in stage.pictures if isinstance(picture.root, Model)
-            for axis in (picture.root.x_range, picture.root.y_range)
-        ]
-
-    before = ranges()
-    shown(scene, other, stage, hold_axes=True)
-    assert ranges() == before
-    shown(scene, other, stage)
-    assert ranges() != before
+    board, _ = shown(scene, scene.defaults())
+    before = dict(board.ranges)
+    found = []
+    for values in (elsewhere(scene), {**scene.defaults(), **OTHERS.get(scene.origin or scene.name, {})}):
+        shown(scene, values, board, hold_axes=True)
+        assert board.ranges == before
+        shown(scene, values, board)
+        found.append(dict(board.ranges))
+        shown(scene, scene.defaults(), board)
+        assert board.ranges == before
+    assert (scene.origin or scene.name) not in OTHERS or any(ranges != before for ranges in found)
 
 
 @every_scene
 def test_going_back_draws_the_same_pictures_again(scene):
-    stage, report = shown(scene, scene.defaults())
-    first = contents(sources_of(stage))
+    board, report = shown(scene, scene.defaults())
+    first = contents(board.sources)
     for preset in scene.presets:
-        shown(scene, {**scene.defaults(), **preset.values}, stage)
-        _, again = shown(scene, scene.defaults(), stage)
-        assert contents(sources_of(stage)) == first, preset.name
+        shown(scene, {**scene.defaults(), **preset.values}, board)
+        _, again = shown(scene, scene.defaults(), board)
+        assert contents(board.sources) == first, preset.name
         assert again.derived == report.derived
 
 
 @every_scene
+def test_the_same_state_again_is_drawn_the_same(scene):
+    board, _ = shown(scene, scene.defaults())
+    before = contents(board.sources), board.ranges, board.captions
+    shown(scene, scene.defaults(), board)
+    assert (contents(board.sources), board.ranges, board.captions) == before
+
+
+@every_scene
 def test_a_stage_that_fails_shows_the_sentence_and_nothing_of_another_state(scene):
-    stage, _ = shown(scene, scene.defaults())
-    before = contents(sources_of(stage))
-    shown(scene, {**scene.defaults(), "I22": 1.3, "I23": -0.4, "h": 0.2, "f": 0.1, "phi0": -1.0}, stage)
-    after = contents(sources_of(stage))
-    depends = {name for name in before if before[name] != after[name]}
-    assert len(depends) > 5
-    stage.fail("No motion here.")
-    left = contents(sources_of(stage))
-    assert {name for name in depends if any(left[name].values())} == set()
+    board, _ = shown(scene, scene.defaults())
+    before = contents(board.sources)
+    depends = set()
+    for preset in scene.presets[1:]:
+        shown(scene, {**scene.defaults(), **preset.values}, board)
+        after = contents(board.sources)
+        depends |= {name for name in before if before[name] != after[name]}
+    assert len(depends) > 3
+    board.fail("No motion here.")
+    left = contents(board.sources)
+    for name in depends:
+        assert name.endswith("-message") or not [x for values in left[name].values() for x in values if x != ""], name
     assert any("No motion here." in values for columns in left.values() for values in columns.values())
-    for picture in stage.pictures:
-        assert picture.caption.text == "No motion here."
+    assert set(board.captions.values()) == {"No motion here."}
     # And the next state is drawn whole.
-    shown(scene, scene.defaults(), stage)
-    assert contents(sources_of(stage)) == before
+    shown(scene, scene.defaults(), board)
+    assert contents(board.sources) == before
 
 
 def somewhere(spec):
@@ -252,58 +387,52 @@ def in_sight(scene):
 
 
 @cache
-def lasting_stage(name):
-    """A stage that has shown a state, and the wire by which it sends the next ones."""
-    stage, _ = shown(SCENES[name], SCENES[name].defaults())
-    wire = Wire()
-    stage.connect(wire)
-    return stage, wire
+def lasting_board(name):
+    """A board that has shown a state."""
+    return shown(SCENES[name], SCENES[name].defaults())[0]
 
 
-def assert_within_the_axes(stage, data):
-    """Every line and marker of these sources lies in its picture; so on a logarithmic axis it is positive."""
+def assert_within_the_axes(board):
+    """Every line and marker of what is fresh lies in its picture; so on a logarithmic axis it is positive."""
     seen = set()
-    for picture in stage.pictures:
-        for renderer in getattr(picture.root, "renderers", ()):
+    for plot, root in plots_of(board.scene.name).items():
+        x0, x1, y0, y1 = board.ranges[plot]
+        for renderer in root.renderers:
             glyph, name = renderer.glyph, renderer.data_source.name
             # The line that marks a limit runs out of the picture on purpose.
-            if not isinstance(glyph, Line | Scatter) or name not in data or name.endswith("-limit"):
+            if not isinstance(glyph, Line | Scatter) or name not in board.fresh or name.endswith("-limit"):
                 continue
             seen.add(name)
-            for column, axis, scale in ((glyph.x, picture.root.x_range, picture.root.x_scale),
-                                        (glyph.y, picture.root.y_range, picture.root.y_scale)):
-                values, low, high = np.asarray(flat(data[name][column])), axis.start, axis.end
+            for column, low, high, scale in ((glyph.x, x0, x1, root.x_scale), (glyph.y, y0, y1, root.y_scale)):
+                values, ends = np.asarray(flat(board.fresh[name][column.field])), np.array([low, high])
                 if isinstance(scale, LogScale):
                     assert np.all(values > 0.0), (name, column)
-                    values, low, high = np.log10(values), math.log10(low), math.log10(high)
+                    values, ends = np.log10(values), np.log10(ends)
                 # What comes by the wire is in single precision.
-                room = 1e-6 * max(abs(low), abs(high))
-                assert np.all((values >= low - room) & (values <= high + room)), (name, column)
+                room = 1e-6 * np.max(np.abs(ends))
+                assert np.all((values >= ends[0] - room) & (values <= ends[1] + room)), (name, column)
     return seen
 
 
 def assert_drawn(scene, values, seen, dragging):
     """Any values are admitted, computed and drawn: finite numbers, in the pictures' axes, and words beside them."""
-    stage, wire = lasting_stage(scene.name)
-    getattr(stage, "_drawn", {}).clear()  # the same state again is to be drawn again
+    board = lasting_board(scene.name)
+    getattr(board.stage, "_drawn", {}).clear()  # the same state again is to be drawn again
     admitted, _ = scene.admit(values)
-    report = stage.show(scene.compute(admitted, seen, dragging), False)
-    tree, block = wire.pack()
-    json.dumps(tree, allow_nan=False)
-    assert np.all(np.isfinite(np.frombuffer(block, "<f4")))
-    data = {name: {key: read(column, block) for key, column in columns.items()}
-            for name, columns in tree["sources"].items()}
-    drawn = assert_within_the_axes(stage, data)
-    assert len(drawn) > 2 or not seen
-    for said in (*tree["texts"].values(), report.status, *report.derived, *report.notes):
+    board.texts.clear()
+    report = board.show(scene.compute(admitted, seen, dragging))
+    drawn = assert_within_the_axes(board)
+    whole = set(seen) == set(scene.pictures) or (scene.origin or scene.name) == HESS.name
+    assert len(drawn) > 2 or not (whole and seen)
+    for said in (*board.texts.values(), report.status, *report.derived, *report.notes):
         assert re.search(r"\w", said)
         assert not re.search(r"\bnan\b|\binf\b", said, re.IGNORECASE), said
-    assert set(seen) <= set(tree["texts"]) <= set(scene.pictures)
-    orbit = data.get("data-orbit")
+    assert set(seen) <= set(board.texts) <= set(scene.pictures)
+    orbit = board.fresh.get("data-orbit")
     if orbit is not None:
         assert orbit["t"][0] == 0.0
         assert np.all(np.diff(orbit["t"]) >= 0.0)
-        assert 0.0 < orbit["t"][-1] <= admitted["span"] * (1.0 + 1e-6)
+        assert 0.0 < orbit["t"][-1] <= admitted.get("span", math.inf) * (1.0 + 1e-6)
 
 
 def own(looking):
@@ -336,13 +465,12 @@ def test_at_the_separatrix_and_far_from_it_the_slow_methods_run_without_a_warnin
 
 
 def test_on_the_separatrix_only_the_circle_map_is_silent():
-    stage, report = shown(HESS, preset_values(HESS, "Separatrix"))
-    data = sources_of(stage)
+    board, report = shown(HESS, preset_values(HESS, "Separatrix"))
+    data = board.sources
     assert flat(data["circle-message"]["text"]) == ["Separatrix: no return"]
     for name in ("map", "cobweb", "stable", "unstable"):
         assert flat(list(data[f"circle-{name}"].values())) == []
-    captions = {picture.name: picture.caption.text for picture in stage.pictures}
-    assert "no return" in captions["circle"]
+    assert "no return" in board.captions["circle"]
     assert "no return" in report.status
     # The others go on: an orbit that loses its speed on the way to the upper equilibrium n3 = −1, w = 0.
     orbit = data["data-orbit"]
@@ -354,9 +482,9 @@ def test_on_the_separatrix_only_the_circle_map_is_silent():
 
 
 def test_off_the_separatrix_the_circle_map_comes_back():
-    stage, _ = shown(HESS, preset_values(HESS, "Separatrix"))
-    shown(HESS, HESS.defaults(), stage)
-    data = sources_of(stage)
+    board, _ = shown(HESS, preset_values(HESS, "Separatrix"))
+    shown(HESS, HESS.defaults(), board)
+    data = board.sources
     assert flat(data["circle-message"]["text"]) == []
     assert len(flat(data["circle-map"]["xs"])) > 500
     a = 0.28 / 0.96
@@ -397,17 +525,14 @@ class Browser:
     """The other end of a session's wire: sends what it likes, reads what comes, as a browser does."""
 
     def __init__(self, scene, values=None, notes=()):
-        self.texts, self.numbers, self.data = {}, {}, {}
         self._receive = None
         self.block = b""
-        self.built = []
-        self.session = Session(self, self._build, scene, values or scene.defaults(), list(notes))
+        self.entered, self.described, self.screens = [], [], {}
+        self.session = Session(self, self.enter, scene, values or scene.defaults(), list(notes))
 
-    def _build(self, scene, values, change):
-        """The page of a scene: `built` lists all so far, `menus` what the menus of the last one were told."""
-        self.scene, self.stage, self.menus, self.choose = scene, scene.stage(), [], change
-        self.built.append((scene.name, dict(values)))
-        return self.stage, self.menus.append
+    def enter(self, scene):
+        self.scene = scene
+        self.entered.append(scene.name)
 
     def on_msg(self, callback):
         self._receive = callback
@@ -423,11 +548,31 @@ class Browser:
     def state(self, text):
         # JSON.parse in a browser refuses NaN and Infinity.
         self._state = json.loads(text, parse_constant=pytest.fail)
-        tree = self._state["tree"]
-        self.texts.update(tree["texts"])
-        self.numbers.update(tree["numbers"])
-        for name, columns in tree["sources"].items():
-            self.data[name] = {key: read(column, self.block) for key, column in columns.items()}
+        name = self._state["scene"]
+        # It was described before.
+        assert name in self.described
+        self.screen = self.screens.setdefault(name, Screen(name))
+        self.screen.take(self._state["tree"], self.block)
+
+    def __setattr__(self, name, value):
+        if name == "scene" and isinstance(value, str):
+            self.described.append(json.loads(value)["name"])
+        else:
+            super().__setattr__(name, value)
+
+    @property
+    def data(self):
+        """The columns of the scene on show."""
+        return self.screen.sources
+
+    @property
+    def texts(self):
+        return self.screen.texts
+
+    @property
+    def controls(self):
+        """[value, low, high, step] of the numbers, the options of the menus."""
+        return self.screen.controls
 
     def ask(self, requested=1, **message):
         self.send({"requested": requested, "held": False, "values": {}, "picked": None, **message})
@@ -469,6 +614,7 @@ messages = st.one_of(
         "values": st.one_of(garbage, st.dictionaries(names, numbers)),
         "picked": st.one_of(garbage, st.tuples(pictures, numbers, numbers).map(list)),
         "reset": garbage,
+        "preset": st.one_of(garbage, st.sampled_from([one.name for scene in SCENES.values() for one in scene.presets])),
         "scene": st.one_of(garbage, st.sampled_from(list(SCENES))),
         "hidden": st.one_of(garbage, st.lists(pictures, max_size=8)),
     }),
@@ -489,7 +635,9 @@ def test_no_message_raises_or_makes_a_state_inadmissible(browser, message):
     {"values": {"h": None, "f": [1], "nobody": 1.0, "accuracy": 2}}, {"picked": ["circle"]},
     {"picked": ["circle", "1", "1"]}, {"picked": ["bifurcation", math.nan, 0.0]}, {"picked": ["sphere", 1.0, 1.0]},
     {"picked": [["bifurcation"], 1.0, 1.0]}, {"requested": "2"}, {"requested": None, "held": "yes"},
-    {"reset": 1}, {"reset": "yes"}, {"scene": "nowhere"}, {"scene": ["suslov-hess-accuracy"]}, {"scene": None},
+    {"reset": 1}, {"reset": "yes"}, {"preset": "nobody"}, {"preset": 1}, {"preset": ["Separatrix: no return"]},
+    {"preset": None}, {"values": {"preset": "Separatrix: no return", "scene": "suslov-hess-accuracy"}},
+    {"scene": "nowhere"}, {"scene": ["suslov-hess-accuracy"]}, {"scene": None},
     {"scene": "suslov-hess"}, {"scene": 0}, {"picked": ["precision", 1e-3, 1.0]},
 ])
 def test_a_message_that_means_nothing_changes_nothing(message):
@@ -500,7 +648,7 @@ def test_a_message_that_means_nothing_changes_nothing(message):
     assert browser.session.scene is HESS
     assert state["number"] == 2
     assert browser.texts["notes"] == ""
-    assert [name for name, _ in browser.built] == [HESS.name]
+    assert browser.entered == browser.described == [HESS.name]
 
 
 @pytest.mark.parametrize(("values", "expected"), [
@@ -519,9 +667,9 @@ def test_a_number_from_the_wire_is_clamped_by_itself_with_a_note(values, expecte
     assert {name: found[name] for name in expected} == pytest.approx(expected, rel=1e-12)
     assert found["phi0"] == -1.0
     assert browser.texts["notes"] != ""
-    assert browser.numbers["phi0"][0] == -1.0
+    assert browser.controls["phi0"][0] == -1.0
     for name, value in expected.items():
-        assert browser.numbers[name][0] == pytest.approx(value, rel=1e-12)
+        assert browser.controls[name][0] == pytest.approx(value, rel=1e-12)
 
 
 def test_a_change_is_drawn_with_the_request_and_not_before():
@@ -563,9 +711,8 @@ def test_reset_brings_back_the_defaults():
     browser.session.reset()
     browser.ask()
     assert browser.session.values == HESS.defaults()
-    assert {name: shown_[0] for name, shown_ in browser.numbers.items()} == {
-        name: value for name, value in HESS.defaults().items() if name != "accuracy"}
-    assert browser.menus[-1]["accuracy"] == "standard"
+    shown_ = {name: one if isinstance(one, str) else one[0] for name, one in browser.controls.items()}
+    assert shown_ == {**HESS.defaults(), "preset": HESS.presets[0].name}
 
 
 def test_f_returns_to_what_was_wanted_when_h_allows_it_again():
@@ -582,21 +729,21 @@ def test_f_returns_to_what_was_wanted_when_h_allows_it_again():
 def test_a_value_that_is_refused_twice_is_corrected_twice():
     browser = Browser(HESS)
     for _ in range(2):
-        browser.numbers.clear()
+        browser.controls.clear()
         browser.ask(values={"f": 99.0})
         assert browser.session.values["f"] == pytest.approx(f_max(1.5))
         # The box says 99 now: only this message puts it right.
-        assert browser.numbers["f"][0] == pytest.approx(f_max(1.5))
+        assert browser.controls["f"][0] == pytest.approx(f_max(1.5))
 
 
 def test_controls_wait_while_a_slider_is_held_and_follow_when_it_is_let_go():
     browser = Browser(HESS)
-    browser.numbers.clear()
+    browser.controls.clear()
     browser.ask(1, values={"h": 0.5}, held=True)
-    assert browser.numbers == {}
+    assert browser.controls == {}
     browser.ask(2)
-    assert browser.numbers["h"][0] == 0.5
-    assert browser.numbers["f"][2] <= f_max(0.5)
+    assert browser.controls["h"][0] == 0.5
+    assert browser.controls["f"][2] <= f_max(0.5)
 
 
 def test_notes_of_the_link_are_shown_until_the_first_change():
@@ -643,8 +790,8 @@ def test_a_first_state_that_cannot_be_computed_is_said_too(caplog):
 
     browser = Browser(dataclasses.replace(HESS, compute=compute))
     assert re.fullmatch(r"This is beyond us: choose less\. · cache \d+ hits, \d+ misses", browser.texts["status"])
-    assert flat(sources_of(browser.stage)["circle-message"]["text"]) == ["This is beyond us: choose less."]
-    assert flat(sources_of(browser.stage)["data-orbit"].get("omega1", [])) == []
+    assert flat(browser.data["circle-message"]["text"]) == ["This is beyond us: choose less."]
+    assert flat(browser.data["data-orbit"].get("omega1", [])) == []
 
 
 def test_two_sessions_share_nothing_but_results():
@@ -652,7 +799,8 @@ def test_two_sessions_share_nothing_but_results():
     one.ask(values={"h": 0.3})
     other.ask()
     assert other.session.values == HESS.defaults()
-    assert "bifurcation-here" not in other.data
+    assert other.state["tree"]["sources"] == {}
+    assert flat(other.data["bifurcation-here"]["h"]) == [1.5]
 
 
 # --- Sessions: from one scene to another -------------------------------------------------------------
@@ -671,22 +819,27 @@ def test_another_scene_keeps_the_values_and_brings_its_own_pictures():
     before = browser.session.values
     state = browser.ask(2, scene=ACCURACY.name)
     assert browser.session.values == before
-    assert browser.built[-1] == (ACCURACY.name, before)
+    assert browser.entered[-1] == ACCURACY.name
     browser.assert_admissible()
-    assert (state["scene"], state["plots"], state["answers"]) == (ACCURACY.name, list(ACCURACY.pictures), 2)
-    # Its first state is in its pictures, and nothing of the old ones is sent any more.
-    assert state["tree"]["sources"] == {}
-    assert len(sources_of(browser.stage)["data-orbit"]["t"]) > 100
-    assert not any("ω" in text for key, text in state["tree"]["texts"].items() if key in HESS.pictures)
+    assert (state["scene"], state["answers"]) == (ACCURACY.name, 2)
+    # Its data are in the answer that enters it, and nothing of the old pictures is sent any more.
+    assert len(browser.screen.fresh["data-orbit"]["t"]) > 100
+    assert {name.split("-")[0] for name in browser.screen.fresh} <= {*ACCURACY.pictures, "data"}
+    assert set(state["tree"]["texts"]) == {*ACCURACY.pictures, "status", "notes", "derived"}
+    assert set(browser.controls) == {*(spec.name for spec in ACCURACY.specs), "preset"}
     state = browser.ask(3, values={"phi0": 2.0})
     assert {name.split("-")[0] for name in state["tree"]["sources"]} <= {*ACCURACY.pictures, "data"}
     assert "growth-standard" in state["tree"]["sources"]
     # And back, with what was changed there.
     state = browser.ask(4, scene=HESS.name)
-    assert [name for name, _ in browser.built] == [HESS.name, ACCURACY.name, HESS.name]
+    assert browser.entered == [HESS.name, ACCURACY.name, HESS.name]
     assert browser.session.values == {**before, "phi0": 2.0}
-    assert state["plots"] == ["omega", "bifurcation", "circle"]
-    assert sources_of(browser.stage)["data-orbit"]["phi"][0] == pytest.approx(2.0)
+    assert browser.data["data-orbit"]["phi"][0] == pytest.approx(2.0)
+    # The browser has kept its pictures: what has not changed there is not sent again.
+    assert "bifurcation-boundary" not in state["tree"]["sources"]
+    whole, _ = shown(HESS, browser.session.values)
+    assert contents(browser.data) == contents(whole.sources)
+    assert set(state["tree"]["texts"]) == {*HESS.pictures, "status", "notes", "derived"}
 
 
 @pytest.mark.usefixtures("quick")
@@ -696,7 +849,6 @@ def test_values_that_come_with_a_scene_count_in_it():
     assert browser.session.scene is ACCURACY
     assert browser.session.values["h"] == 0.25
     assert browser.session.values["f"] == pytest.approx(f_max(0.25))
-    assert browser.built[-1][1]["f"] == pytest.approx(f_max(0.25))
     assert "f is at that edge" in browser.texts["notes"]
     assert "not a number" not in browser.texts["notes"]
 
@@ -706,16 +858,48 @@ def test_the_scene_that_is_on_show_is_not_built_again():
     browser = Browser(HESS)
     for requested in (1, 2):
         browser.ask(requested, scene=ACCURACY.name)
-        assert [name for name, _ in browser.built] == [HESS.name, ACCURACY.name]
+        assert browser.entered == browser.described == [HESS.name, ACCURACY.name]
     browser.ask(3, scene="nowhere")
-    assert len(browser.built) == 2
+    assert len(browser.entered) == 2
+
+
+@pytest.mark.usefixtures("quick")
+def test_a_scene_is_described_once_however_often_it_is_entered():
+    browser = Browser(HESS)
+    for requested in range(1, 7):
+        browser.ask(requested, scene=(ACCURACY, HESS)[requested % 2 - 1].name)
+    assert browser.entered == [HESS.name] + [ACCURACY.name, HESS.name] * 3
+    assert browser.described == [HESS.name, ACCURACY.name]
+
+
+@pytest.mark.usefixtures("quick")
+def test_from_any_scene_to_any_other_and_back_everything_is_of_the_state():
+    browser = Browser(HESS)
+    others = [name for name in SCENES if name != HESS.name]
+    for requested, name in enumerate([name for other in others for name in (other, HESS.name)], 1):
+        state = browser.ask(requested, scene=name)
+        browser.assert_admissible()
+        assert (state["scene"], state["answers"]) == (name, requested)
+        scene = SCENES[name]
+        assert {*scene.pictures, "status", "notes", "derived"} == set(state["tree"]["texts"])
+        assert set(state["tree"]["controls"]) == {*(spec.name for spec in scene.specs), "preset"}
+        whole = Board(scene)
+        try:
+            shown(scene, browser.session.values, whole)
+        except ModelError as error:
+            # The values of the other scene need not suit this one.
+            assert browser.texts["status"].startswith(str(error))
+            assert {browser.texts[picture] for picture in scene.pictures} == {str(error)}
+            continue
+        assert contents(browser.data) == contents(whole.sources), name
+        assert browser.screen.ranges == whole.ranges, name
 
 
 def test_a_parameter_that_only_the_new_scene_has_takes_its_default(monkeypatch):
     extra = Number("extra", "x", "Extra", 2.0, 1.0, 3.0, 0.1, 0.0, 4.0)
     other = dataclasses.replace(HESS, name="other", specs=(*HESS.specs[1:], extra), admit=lambda values: (values, []),
                                 compute=lambda values, *rest: HESS.compute(HESS.defaults() | values, *rest))
-    monkeypatch.setattr(session, "scenes", lambda: {HESS.name: HESS, other.name: other})
+    monkeypatch.setitem(SCENES, other.name, other)
     browser = Browser(HESS)
     browser.ask(1, values={"h": 0.5, "I22": 1.25})
     browser.ask(2, scene="other")
@@ -739,9 +923,8 @@ def test_a_scene_that_cannot_be_computed_is_entered_with_its_sentence(monkeypatc
     assert state["scene"] == broken.name
     assert browser.texts["status"].startswith("This is beyond us")
     for name in ACCURACY.pictures:
-        assert flat(sources_of(browser.stage)[f"{name}-message"]["text"]) == ["This is beyond us: choose less."]
-    for picture in browser.stage.pictures:
-        assert picture.caption.text == "This is beyond us: choose less."
+        assert flat(browser.data[f"{name}-message"]["text"]) == ["This is beyond us: choose less."]
+        assert browser.texts[name] == "This is beyond us: choose less."
     browser.ask(2, scene=HESS.name)
     assert not browser.texts["status"].startswith("This is beyond us")
 
@@ -750,7 +933,7 @@ def test_a_click_on_the_cost_of_a_level_chooses_it():
     browser = Browser(ACCURACY)
     browser.ask(1, picked=["precision", 3e-10, 0.5])
     assert browser.session.values == {**ACCURACY.defaults(), "accuracy": "precise"}
-    assert browser.menus[-1]["accuracy"] == "precise"
+    assert browser.controls["accuracy"] == "precise"
     assert browser.texts["precision"].startswith("Cost against error\nprecise: ")
     assert "precise chosen" in browser.texts["status"]
     browser.ask(2, picked=["growth", 10.0, 1e-3])

@@ -271,5 +271,5 @@ def test_every_position_of_the_f_slider_is_possible(h, share):
 def test_every_slider_spans_values_that_may_be_typed_and_holds_the_default(scene):
     for spec in scene.specs:
         if isinstance(spec, Number):
-            assert spec.lowest <= spec.low < spec.default < spec.high <= spec.highest
+            assert spec.lowest <= spec.low <= spec.default < spec.high <= spec.highest
             assert 0 < spec.step < spec.high - spec.low

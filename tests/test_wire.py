@@ -18,28 +18,29 @@ def read(item, block):
     if isinstance(item, list):
         return [read(part, block) for part in item]
     if isinstance(item, dict):
-        assert set(item) == {"at", "n"}
-        return np.frombuffer(block, "<f4", count=item["n"], offset=4 * item["at"])
+        assert {"at", "n"} <= set(item) <= {"at", "n", "shape"}
+        array = np.frombuffer(block, "<f4", count=item["n"], offset=4 * item["at"])
+        return array.reshape(item["shape"]) if "shape" in item else array
     return item
 
 
 def unpack(wire):
-    """The columns by source, the texts and the numbers, after a journey as JSON."""
+    """The columns by source, the texts and what controls show, after a journey as JSON."""
     tree, block = wire.pack()
     assert isinstance(block, bytes)
     tree = json.loads(json.dumps(tree, allow_nan=False))
-    assert set(tree) == {"sources", "texts", "numbers"}
+    assert set(tree) == {"sources", "ranges", "texts", "controls"}
     columns = {
         source: {name: read(column, block) for name, column in columns.items()}
         for source, columns in tree["sources"].items()
     }
-    return columns, tree["texts"], tree["numbers"], block
+    return columns, tree["texts"], tree["controls"], block
 
 
 def same(left, right):
     """Equal shapes of lists, and equal single-precision numbers at their ends."""
     if isinstance(left, np.ndarray):
-        return isinstance(right, np.ndarray) and np.array_equal(left.astype("<f4").ravel(), right, equal_nan=True)
+        return isinstance(right, np.ndarray) and np.array_equal(left.astype("<f4"), right, equal_nan=True)
     if isinstance(left, list):
         return isinstance(right, list) and len(left) == len(right) and all(map(same, left, right))
     return type(left) is type(right) and left == right
@@ -97,12 +98,19 @@ def test_arrays_of_any_layout_arrive_in_order():
     wire.put("grid", {"rows": grid, "columns": grid.T, "every-other": grid[:, ::2], "back": grid[::-1, 1],
                       "integers": np.arange(3), "big-endian": np.arange(3.0).astype(">f8")})
     found, _, _, _ = unpack(wire)
-    assert found["grid"]["rows"].tolist() == list(range(12))
-    assert found["grid"]["columns"].tolist() == [0, 4, 8, 1, 5, 9, 2, 6, 10, 3, 7, 11]
-    assert found["grid"]["every-other"].tolist() == [0, 2, 4, 6, 8, 10]
+    assert found["grid"]["rows"].tolist() == grid.tolist()
+    assert found["grid"]["columns"].tolist() == [[0, 4, 8], [1, 5, 9], [2, 6, 10], [3, 7, 11]]
+    assert found["grid"]["every-other"].tolist() == [[0, 2], [4, 6], [8, 10]]
     assert found["grid"]["back"].tolist() == [9, 5, 1]
     assert found["grid"]["integers"].tolist() == [0, 1, 2]
     assert found["grid"]["big-endian"].tolist() == [0, 1, 2]
+
+
+def test_a_grid_tells_its_shape_and_a_row_of_numbers_none():
+    wire = Wire()
+    wire.put("grid", {"image": [np.zeros((75, 100))], "x": np.zeros(3)})
+    columns = wire.pack()[0]["sources"]["grid"]
+    assert columns == {"image": [{"at": 0, "n": 7500, "shape": [75, 100]}], "x": {"at": 7500, "n": 3}}
 
 
 def test_polygons_with_holes_arrive_as_nested_lists():
@@ -143,13 +151,35 @@ def test_the_numbers_of_controls_keep_double_precision(value, limits):
     assert unpack(wire)[2] == {"h": [value, *limits]}
 
 
+@PROPERTY
+@given(st.dictionaries(st.text(max_size=8), st.text(max_size=40)))
+def test_the_options_of_menus_arrive_as_they_are(options):
+    wire = Wire()
+    for name, option in options.items():
+        wire.show_choice(name, "something older")
+        wire.show_choice(name, option)
+    assert unpack(wire)[2] == options
+
+
+@PROPERTY
+@given(st.tuples(*[st.floats(-1e300, 1e300)] * 4))
+def test_axes_arrive_in_double_precision_and_the_last_ones_count(ends):
+    wire = Wire()
+    wire.put_ranges("omega", (0.0, 1.0), (0.0, 1.0))
+    wire.put_ranges("omega", ends[:2], ends[2:])
+    tree = json.loads(json.dumps(wire.pack()[0], allow_nan=False))
+    assert tree["ranges"] == {"omega": list(ends)}
+
+
 def test_what_was_packed_is_not_sent_again():
     wire = Wire()
     wire.put("orbit", {"x": np.arange(5.0)})
+    wire.put_ranges("omega", (0.0, 1.0), (0.0, 1.0))
     wire.say("status", "done")
     wire.show_number("h", 1.5, (-1.0, 4.0, 0.01))
+    wire.show_choice("accuracy", "draft")
     wire.pack()
-    assert wire.pack() == ({"sources": {}, "texts": {}, "numbers": {}}, b"")
+    assert wire.pack() == ({"sources": {}, "ranges": {}, "texts": {}, "controls": {}}, b"")
 
 
 def test_what_is_put_after_packing_does_not_change_what_was_packed():
@@ -160,4 +190,4 @@ def test_what_is_put_after_packing_does_not_change_what_was_packed():
     wire.say("status", "second")
     wire.show_number("h", 2.0, (0.0, 2.0, 0.1))
     assert tree["texts"] == {"status": "first"}
-    assert tree["numbers"] == {"h": [1.0, 0.0, 2.0, 0.1]}
+    assert tree["controls"] == {"h": [1.0, 0.0, 2.0, 0.1]}
