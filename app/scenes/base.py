@@ -31,6 +31,9 @@ class Picture(Protocol):
     def describe(self) -> dict[str, Any]:
         """Name, kind, and what else the browser needs to know before the first data."""
 
+    def show_nothing(self, sentence: str) -> None:
+        """Draw nothing but the reason."""
+
 
 @dataclass(frozen=True)
 class Report:

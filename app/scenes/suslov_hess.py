@@ -3,31 +3,30 @@
 from __future__ import annotations
 
 import math
-import time
-from collections.abc import Collection, Hashable, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from app.compute import CACHE
 from app.scenes.base import Motion, Preset, Report, Scene
-from app.state import Choice, Number, Value, Values
+from app.scenes.parts import ACCURACY, Work, orbit_status, refuse
+from app.state import Number, Value, Values
 from app.views.bifurcation_diagram import BifurcationDiagram, window
 from app.views.circle_map import CircleMapView
 from app.views.omega_plane import OmegaPlane
 from app.views.poisson_sphere import Circle, PoissonSphere
 from app.wire import Wire
 from app.words import number
-from models.accuracy import DRAFT, LEVELS, STANDARD, Level, cheapest, level
+from models.accuracy import DRAFT, STANDARD, Level
 from models.bifurcation import TurningPoints, curve, curve_point, f_max, turning_points
 from models.circle_map import CircleMap, circle_map
 from models.errors import Separatrix
 from models.hess import SYSTEM, HessBody
 from models.locking import lock_boundary, rotation_number_grid
 from models.results import Array
-from models.torus import HALF_A_PIXEL, MAX_RETURNS, Track, annulus, cycles, pixels_per_unit, start_of_track, track
+from models.torus import MAX_RETURNS, Track, annulus, cycles, pixels_per_unit, start_of_track, track
 
 GRID = (100, 75)
 MAX_A = 100.0
@@ -48,8 +47,7 @@ SPECS = (
            "Phase of the orbit on the section n₃ = n₃⁽¹⁾, in radians."),
     Number("span", "t", "Time span", 40.0, 1.0, 200.0, 1.0, 0.01, 1e5,
            "How long the orbit is followed, in the time of the body (at most 100 returns)."),
-    Choice("accuracy", "Accuracy", tuple(LEVELS), "standard",
-           "Promised error: draft 1e-3, standard 1e-6, precise 1e-9; reference: the floor of double precision."),
+    ACCURACY,
 )
 
 PRESETS = (
@@ -109,8 +107,7 @@ class HessResult:
     iterates: Array | None
     cycles: tuple[Track, Track] | None
     zones: Zones | None
-    cached: bool
-    wall_ms: float
+    ended: str
 
 
 def admit(values: Values) -> tuple[dict[str, Value], list[str]]:
@@ -148,19 +145,9 @@ def _grid(a: float, x: tuple[float, float], y: tuple[float, float], accuracy: Le
 
 def compute(values: Values, shown: Collection[str], dragging: bool) -> HessResult:
     """What the pictures shown need, from admitted values; each part is cached by itself."""
-    start = time.perf_counter()
-    misses = 0
-
-    def cached(function: Any, *arguments: Hashable) -> Any:
-        nonlocal misses
-        value, hit = CACHE.get(function, *arguments)
-        misses += not hit
-        return value
-
+    work = Work(values, dragging)
+    accuracy = work.level
     I22, I23, b3, h, f, phi0, span = (float(values[spec.name]) for spec in SPECS[:-1])
-    accuracy = level(str(values["accuracy"]))
-    if dragging:
-        accuracy = min(accuracy, cheapest(HALF_A_PIXEL), key=lambda rung: rung.order)
     body = HessBody(I22, I23, b3)
     width = half_width(body, h)
     turning: TurningPoints | None = None
@@ -171,23 +158,23 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> HessResul
     zones: Zones | None = None
     try:
         turning = turning_points(h, f)
-        theta = cached(circle_map, body.a, h, f, accuracy)
+        theta = work.get(circle_map, body.a, h, f, accuracy)
         if theta.kind == "hyperbolic" and not {"omega", "sphere"}.isdisjoint(shown):
-            pair = cached(cycles, body, h, f, theta.fixed_points[0], accuracy, width)
+            pair = work.get(cycles, body, h, f, theta.fixed_points[0], accuracy, width)
     except Separatrix:
         pass
     if shown:
-        orbit = cached(track, body, h, f, phi0, span, accuracy, width)
+        orbit = work.get(track, body, h, f, phi0, span, accuracy, width)
         if theta is not None:
             returns = math.ceil(orbit.orbit.times[-1] / theta.period)
             iterates = theta.iterate(phi0, max(1, returns))
     if "bifurcation" in shown:
         x, y = window(h)
-        zones = Zones(boundary=cached(lock_boundary, body.a, STANDARD), curve=cached(curve, x[1]),
-                      grid=cached(_grid, body.a, x, y, DRAFT))
+        zones = Zones(boundary=work.get(lock_boundary, body.a, STANDARD), curve=work.get(curve, x[1]),
+                      grid=work.get(_grid, body.a, x, y, DRAFT))
     return HessResult(
         values=values, body=body, turning=turning, track=orbit, map=theta, iterates=iterates, cycles=pair,
-        zones=zones, cached=misses == 0, wall_ms=(time.perf_counter() - start) * 1e3,
+        zones=zones, ended=work.ended(),
     )
 
 
@@ -300,11 +287,7 @@ class HessStage:
     def fail(self, sentence: str) -> None:
         """Empty pictures, and the sentence where the eye is."""
         self._drawn.clear()
-        for plane in (self.omega, self.diagram):
-            plane.clear_all()
-        self.sphere.show_nothing()
-        self.circle.show_nothing(sentence)
-        self._say((sentence,) * len(self.pictures))
+        refuse(self.pictures, self.wire, sentence)
 
     def pick(self, picture: str, x: float, y: float) -> Values:
         """A click in the diagram chooses (h, f), in the circle map φ0."""
@@ -377,18 +360,13 @@ def _derived(result: HessResult) -> list[str]:
 def _status(result: HessResult) -> str:
     parts = []
     if result.track is not None:
-        orbit = result.track.orbit
-        parts += [
-            f"{orbit.level}: orbit {orbit.states.shape[0]} points, {orbit.cost.steps} Taylor steps, "
-            f"error ≤ {orbit.error_estimate:.1e} ({orbit.status})",
-            "drift " + " ".join(f"{name} {drift:.0e}" for name, drift in orbit.drift.items()),
-        ]
+        parts += orbit_status(result.track.orbit)
     if result.map is not None:
         theta = result.map
         parts.append(f"circle map {theta.cost.steps} steps, error ≤ {theta.error_estimate:.1e} ({theta.status})")
     else:
         parts.append("circle map: separatrix, no return")
-    parts.append(f"{result.wall_ms:.1f} ms, {'cached' if result.cached else 'computed'}")
+    parts.append(result.ended)
     return " · ".join(parts).replace("e-", "e−")
 
 

@@ -59,6 +59,6 @@ class PoissonSphere:
             self._shown = plain
             self.wire.put(self.name, plain)
 
-    def show_nothing(self) -> None:
-        """Neither axis nor circles nor marks."""
+    def show_nothing(self, sentence: str = "") -> None:
+        """Neither axis nor circles nor marks; tracks are their own pictures' to clear, the reason its caption's."""
         self.show()

@@ -1,0 +1,67 @@
+"""What the scenes of orbits have in common: accuracy, cache, status line, refusal."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from typing import Any, Protocol
+
+from app.compute import CACHE
+from app.scenes.base import Picture
+from app.state import Choice, Values
+from app.wire import Wire
+from models.accuracy import LEVELS, Level, Status, cheapest, level
+from models.results import Array, Cost
+from models.torus import HALF_A_PIXEL
+
+__all__ = ["ACCURACY", "Work", "orbit_status", "refuse"]
+
+ACCURACY = Choice("accuracy", "Accuracy", tuple(LEVELS), "standard",
+                  "Promised error: draft 1e-3, standard 1e-6, precise 1e-9; reference: the floor of double precision.")
+
+
+class Work:
+    """The computation of one state: at which level, and what came from the cache."""
+
+    def __init__(self, values: Values, dragging: bool) -> None:
+        self._start = time.perf_counter()
+        self._misses = 0
+        chosen = level(str(values["accuracy"]))
+        # While a slider is dragged, the cheapest that is right to a pixel.
+        self.level: Level = min(chosen, cheapest(HALF_A_PIXEL), key=lambda rung: rung.order) if dragging else chosen
+
+    def get(self, function: Callable[..., Any], *arguments: Hashable) -> Any:
+        """The cached result of function(*arguments)."""
+        value, hit = CACHE.get(function, *arguments)
+        self._misses += not hit
+        return value
+
+    def ended(self) -> str:
+        """For the status line: how long it took until now, and whether anything was computed."""
+        ms = (time.perf_counter() - self._start) * 1e3
+        return f"{ms:.1f} ms, {'computed' if self._misses else 'cached'}"
+
+
+class _Motion(Protocol):
+    times: Array
+    level: str
+    status: Status
+    error_estimate: float
+    drift: Mapping[str, float]
+    cost: Cost
+
+
+def orbit_status(orbit: _Motion) -> list[str]:
+    """For the status line: size, cost, error and drift of an orbit."""
+    return [
+        f"{orbit.level}: orbit {orbit.times.size} points, {orbit.cost.steps} Taylor steps, "
+        f"error ≤ {orbit.error_estimate:.1e} ({orbit.status})",
+        "drift " + " ".join(f"{name} {drift:.0e}" for name, drift in orbit.drift.items()),
+    ]
+
+
+def refuse(pictures: Sequence[Picture], wire: Wire, sentence: str) -> None:
+    """Empty pictures, and the sentence where the eye is."""
+    for picture in pictures:
+        picture.show_nothing(sentence)
+        wire.say(picture.name, sentence)
