@@ -24,14 +24,14 @@ from app.words import number
 from models import additional_integral
 from models.accuracy import LEVELS, Level, cheapest, level
 from models.errors import InvalidParameter
-from models.free_suslov import Equilibria, FreeMotion, arcs, equilibria, free_motion, sample_times
+from models.free_suslov import Equilibria, FreeMotion, arcs, equilibria, free_motion, passage, rotation, sample_times
 from models.results import Array
 from models.suslov import SYSTEM, SuslovBody
 from models.torus import HALF_A_PIXEL, PIXELS, SAGITTA
 
 _MOST = 4000
-_LEVELS = (0.25, 0.6, 1.0, 1.6)
-"""Energies of the ellipses drawn, in that of the orbit."""
+_LEVELS = (0.25, 0.6, 1.6)
+"""Energies of the other ellipses drawn, in that of the orbit."""
 
 SPECS = (
     Number("I22", "I₂₂", "Inertia I₂₂", 1.0, 0.2, 3.0, 0.01, 1e-3, 1e3,
@@ -50,27 +50,35 @@ SPECS = (
     Number("phi", "φ", "Phase φ(0)", 1.2672, -3.14, 3.14, 0.01, -math.pi, math.pi,
            "Where γ starts on that circle, in radians."),
     Number("phi2", "φ′", "Phase of the second orbit", -0.6, -3.14, 3.14, 0.01, -math.pi, math.pi,
-           "A second orbit starts on the same circle, with the same ω."),
+           "A second orbit with the same ω leaves the same circle Γ⁻, turned along it by φ′ − φ."),
     Number("span", "t", "Time span", 30.0, 1.0, 100.0, 1.0, 0.01, 1e5, "How long the orbit is followed."),
     Choice("across", "γ₁ against", ("time", "phase"), "time", "The horizontal axis of the third picture: t or φ."),
     Choice("accuracy", "Accuracy", tuple(LEVELS), "standard",
            "Promised error: draft 1e-3, standard 1e-6, precise 1e-9; reference: the floor of double precision."),
 )
 
-_ON_CIRCLE = {"w1": 2.0, "w2": 1e-3, "Gamma": -0.44, "phi": math.atan2(0.85, 0.28), "phi2": math.atan2(0.53, 0.72)}
+# The figure's caption: tan φ = 0.85/0.28 and 0.53/0.72.
+_ON_CIRCLE = {"w1": 2.0, "w2": 1e-3, "Gamma": -0.44, "phi": 1.2526, "phi2": 0.6346}
+
+
+def _portrait(I13: float, I23: float) -> Values:
+    """Next to the unstable half, whose direction is (I23, −I13)."""
+    return {"I13": I13, "I23": I23, "k": 1.0, "w1": math.copysign(1.4, I23), "w2": math.copysign(0.9, -I13),
+            "Gamma": 0.7, "phi": 0.5, "span": 20.0}
+
 
 PRESETS = (
-    Preset("γ₁(t): I₁₁ = 2.44, I₂₃ = 0.5 (figure)", {}),
-    Preset("γ₁(φ): the same orbit (figure)", {"across": "phase"}),
+    Preset("γ₁(t): I₁₁ = 2.44, I₂₃ = 0.5 (figure 3)", {"across": "time"}),
+    Preset("γ₁(φ): the same orbit (figure 3)", {"across": "phase"}),
     Preset("Γ(t), k = 1: F₂ exists, Γ⁺ = −Γ⁻", {**_ON_CIRCLE, "k": 1.0}),
     Preset("Γ(t), k = 3: F₂ exists, Γ⁺ = −Γ⁻", {**_ON_CIRCLE, "k": 3.0}),
     Preset("Γ(t), k = 1.5: two phases, two circles", {**_ON_CIRCLE, "k": 1.5}),
     Preset("Γ(t), I₁₃ ≠ 0: two phases, two circles", {
-        "I13": 0.4, "I23": 0.6, "k": 1.2, "w1": 3.0, "w2": -2.001, "Gamma": -0.47, "phi": 3.1, "phi2": 0.9}),
-    Preset("Portrait, I₁₃ > 0, I₂₃ < 0 (figure)", {
-        "I13": 0.4, "I23": -0.5, "k": 1.0, "w1": 1.5, "w2": 0.3, "Gamma": 0.3, "phi": 0.5, "span": 20.0}),
-    Preset("Portrait, I₁₃ > 0, I₂₃ > 0", {
-        "I13": 0.4, "I23": 0.5, "k": 1.0, "w1": 1.5, "w2": 0.3, "Gamma": 0.3, "phi": 0.5, "span": 20.0}),
+        "I13": 0.4, "I23": 0.6, "k": 1.2, "w1": 3.0, "w2": -2.001, "Gamma": -0.4647, "phi": math.pi, "phi2": 1.634}),
+    Preset("Portrait, I₁₃ > 0, I₂₃ < 0 (figure 2)", _portrait(0.4, -0.5)),
+    Preset("Portrait, I₁₃ > 0, I₂₃ > 0", _portrait(0.4, 0.5)),
+    Preset("Portrait, I₁₃ < 0, I₂₃ < 0", _portrait(-0.4, -0.5)),
+    Preset("Portrait, I₁₃ < 0, I₂₃ > 0", _portrait(-0.4, 0.5)),
     Preset("Started 1e-300 from the line", {"w2": 1e-300, "span": 750.0}),
 )
 
@@ -81,7 +89,8 @@ LEGEND = """
 <li><span class="line stable"></span>stable half, circle joined</li>
 <li><span class="line unstable"></span>unstable half, circle left</li>
 <li><span class="dot point"></span>moving point</li>
-<li><span class="line muted"></span>energy levels; levels of F₂</li>
+<li><span class="dot" style="background: #808080"></span>fixed points Γ = ±1</li>
+<li><span class="line muted"></span>energy levels; level of F₂</li>
 </ul>
 """
 
@@ -115,6 +124,9 @@ class FreeResult:
 def body_of(values: Values) -> SuslovBody:
     """The body with I11 from k.  Raises `NotPositiveDefinite`, `InvalidParameter`."""
     I22, I13, I23, k = (float(values[name]) for name in ("I22", "I13", "I23", "k"))
+    if I13 == I23 == 0.0:
+        raise InvalidParameter(
+            "I₁₃ = I₂₃ = 0: without a field ω does not change, and there is no ξ. Choose one of them other than 0.")
     I11 = I22 + k * abs(k) * (I13 * I13 + I23 * I23) / I22
     if I11 <= 0.0:
         raise InvalidParameter(
@@ -148,7 +160,11 @@ def _half_width(body: SuslovBody, h: float) -> float:
 def _start(values: Values) -> tuple[SuslovBody, tuple[float, float], float, Equilibria]:
     body = body_of(values)
     omega = (float(values["w1"]), float(values["w2"]))
+    # It refuses what is no motion in the words of ω, as here the energy is none of the controls.
+    passage(body, omega)
     h = 0.5 * (body.I11 * omega[0] ** 2 + body.I22 * omega[1] ** 2)
+    if h == 0.0:
+        raise InvalidParameter("The energy of so small an ω is 0 in double precision: choose a larger one.")
     return body, omega, h, equilibria(body, h)
 
 
@@ -157,6 +173,17 @@ def _motion(body: SuslovBody, omega: tuple[float, float], gamma: tuple[float, fl
     radius = 0.5 * PIXELS
     times = sample_times(body, omega, span, (radius / half_width, radius), SAGITTA, _MOST)
     return free_motion(body, omega, gamma, times, accuracy)
+
+
+def _second_motion(body: SuslovBody, omega: tuple[float, float], gamma: tuple[float, float, float], turn: float,
+                   span: float, half_width: float, accuracy: Level) -> FreeMotion:
+    """The motion that comes from the same circle Γ⁻ as that of γ, turned along it by `turn`."""
+    # Γ⁻ = (n, γ(0)).
+    n = rotation(body, omega, [span], accuracy).limits[0]
+    n = n / np.linalg.norm(n)
+    g = np.array(gamma)
+    g = n * (n @ g) + math.cos(turn) * (g - n * (n @ g)) + math.sin(turn) * np.cross(n, g)
+    return _motion(body, omega, (float(g[0]), float(g[1]), float(g[2])), span, half_width, accuracy)
 
 
 def compute(values: Values, shown: Collection[str], dragging: bool) -> FreeResult:
@@ -175,10 +202,10 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> FreeResul
         accuracy = min(accuracy, cheapest(HALF_A_PIXEL), key=lambda rung: rung.order)
     body, omega, h, points = _start(values)
     width = _half_width(body, h)
-    orbit, second = (
-        cached(_motion, body, omega, gamma_of(points, float(values["Gamma"]), float(values[phase])),
-               float(values["span"]), width, accuracy)
-        for phase in ("phi", "phi2"))
+    phi, span = float(values["phi"]), float(values["span"])
+    gamma = gamma_of(points, float(values["Gamma"]), phi)
+    orbit = cached(_motion, body, omega, gamma, span, width, accuracy)
+    second = cached(_second_motion, body, omega, gamma, float(values["phi2"]) - phi, span, width, accuracy)
     return FreeResult(
         values=values, body=body, h=h, points=points, arcs=arcs(body, h), orbit=orbit, second=second,
         integral=additional_integral.of_body(body), cached=misses == 0, wall_ms=(time.perf_counter() - start) * 1e3)
@@ -206,7 +233,7 @@ class FreeStage:
         self.omega = VelocityPlane(wire)
         self.sphere = PoissonSphere(wire, {"data-orbit": "orbit", "data-second": "second"})
         both = [Series("second", theme.MAP, "dotdash"), Series("first", theme.ORBIT)]
-        self.gamma1 = Graph(wire, "gamma1", ("t, or φ", "γ₁"), (0.0, 30.0), (-1.05, 1.05), both)
+        self.gamma1 = Graph(wire, "gamma1", (" ", "γ₁"), (0.0, 30.0), (-1.05, 1.05), both)
         self.Gamma = Graph(wire, "Gamma", ("t", "Γ"), (0.0, 30.0), (-1.05, 1.05), both)
         self.pictures = (self.omega, self.sphere, self.gamma1, self.Gamma)
 
@@ -216,16 +243,15 @@ class FreeStage:
         width = _half_width(result.body, result.h)
         span = float(result.values["span"])
         by_phase = result.values["across"] == "phase"
+        period = 2.0 * math.pi if by_phase else None
         if not hold_axes:
             self.omega.fit(width)
             self.Gamma.set_ranges((0.0, span), (-1.05, 1.05))
             self.gamma1.set_ranges((-math.pi, math.pi) if by_phase else (0.0, span), (-1.05, 1.05))
         for graph in (self.gamma1, self.Gamma, self.omega):
             graph.say("")
-        x, y = np.cos(_CIRCLE), np.sin(_CIRCLE)
-        ellipse = math.sqrt(2.0 * result.h) * np.column_stack(
-            [x / math.sqrt(result.body.I11), y / math.sqrt(result.body.I22)])
-        self.omega.show_levels([math.sqrt(share) * ellipse for share in _LEVELS])
+        self.gamma1.name_across("φ" if by_phase else "t")
+        self.omega.show_levels([math.sqrt(share) * arc for share in _LEVELS for arc in result.arcs], width)
         self.omega.show_line(points.stable, points.unstable, width)
         self.omega.show_arcs(result.arcs, width)
         across = orbit.phase if by_phase else orbit.times
@@ -233,7 +259,7 @@ class FreeStage:
                           across=across.astype(np.float32), **sphere_columns(orbit.omega, orbit.gamma))
         self.omega.assign("second", **sphere_columns(second.omega, second.gamma))
         for name, one in (("first", orbit), ("second", second)):
-            self.gamma1.show(name, one.phase if by_phase else one.times, one.gamma[:, 0], math.pi if by_phase else None)
+            self.gamma1.show(name, one.phase if by_phase else one.times, one.gamma[:, 0], period)
             self.Gamma.show(name, one.times, one.Gamma)
         self.Gamma.show_levels([*orbit.limits, second.limits[1]])
         self._show_sphere(result)
@@ -246,11 +272,11 @@ class FreeStage:
         circles = [Circle(xi, result.orbit.limits[0], "unstable"), Circle(xi, result.orbit.limits[1], "stable"),
                    Circle(xi, result.second.limits[1], "stable")]
         if result.integral is not None:
-            f = result.integral(result.orbit.omega[0], result.orbit.gamma[0])
+            f = _level_of_F2(result)
             for omega in result.arcs[0 if result.orbit.passage.arc > 0 else 1][5:-5:8]:
                 V = result.integral.vector(omega)
                 length = float(np.linalg.norm(V))
-                circles.append(Circle(V / length, float(f) / length, "muted"))
+                circles.append(Circle(V / length, f / length, "muted"))
         marks = [Mark(xi, "muted"), Mark(-xi, "muted")]
         self.sphere.show(xi, "ξ", circles, marks)
 
@@ -267,20 +293,28 @@ class FreeStage:
         return {"w1": x, "w2": y} if picture == "omega" else {}
 
 
-_CIRCLE = np.linspace(0.0, 2.0 * math.pi, 121)
-
-
 def _captions(result: FreeResult) -> tuple[str, str, str, str]:
     orbit, second, points = result.orbit, result.second, result.points
-    came, went = map(number, orbit.limits)
+    came, went, other = (number(Gamma) for Gamma in (*orbit.limits, second.limits[1]))
     by = "phase φ about ξ" if result.values["across"] == "phase" else "time"
     return (
         f"Angular velocity (ω₁, ω₂)\nFrom the unstable to the stable point at rate ω₀ = {number(points.rate)}, "
         f"E = {number(result.h)}.",
-        f"Poisson sphere\nFrom the circle Γ⁻ = {came} about ξ to Γ⁺ = {went}; second: {number(second.limits[1])}.",
+        f"Poisson sphere\n{_circles(result, came, went, other)}",
         f"γ₁ against {by}\nIn the end γ turns about ξ at {number(points.speed)} radians a unit of time.",
-        f"Γ = (ξ, γ) against time\nFrom Γ⁻ = {came} to Γ⁺ = {went} and {number(second.limits[1])} (dotted).",
+        f"Γ = (ξ, γ) against time\nFrom Γ⁻ = {came} to Γ⁺ = {went} and {other} (dotted).",
     )
+
+
+def _circles(result: FreeResult, came: str, went: str, other: str) -> str:
+    if result.integral is None:
+        return f"From the circle Γ⁻ = {came} about ξ to Γ⁺ = {went} and {other}."
+    return f"F₂ = {number(_level_of_F2(result))}: both from the cycle C⁻, Γ = {came}, to C⁺, Γ = {went}."
+
+
+def _level_of_F2(result: FreeResult) -> float:
+    assert result.integral is not None
+    return float(result.integral(result.orbit.omega[0], result.orbit.gamma[0]))
 
 
 def _derived(result: FreeResult) -> list[str]:
@@ -297,8 +331,7 @@ def _derived(result: FreeResult) -> list[str]:
     if result.integral is None:
         rows.append("F₂: none known (I₁₃ = 0 and k odd, or the like)")
     else:
-        f = float(result.integral(result.orbit.omega[0], result.orbit.gamma[0]))
-        rows.append(f"F₂, degree {result.integral.k} in ω: f = {number(f, 6)}")
+        rows.append(f"F₂, degree {result.integral.k} in ω: f = {number(_level_of_F2(result), 6)}")
         rows.append(f"F₂ at the fixed points: ±{number(abs(result.integral.at_fixed_points(result.h)[0]), 6)}")
     return rows
 

@@ -20,7 +20,7 @@ from app.views.chart import Series
 from app.views.graph import Graph
 from app.views.poisson_sphere import Circle, Mark, PoissonSphere
 from app.views.scattering_map import ANGLE_TICKS, POLAR_TICKS, ScatteringMap
-from app.views.velocity_plane import sphere_columns
+from app.views.velocity_plane import nice_above, sphere_columns
 from app.wire import Wire
 from app.words import number
 from models.accuracy import LEVELS, cheapest, level
@@ -31,10 +31,12 @@ from models.scattering import Scattering, cos_chi, scattering, start
 from models.suslov import SYSTEM, SuslovBody
 from models.torus import HALF_A_PIXEL, PIXELS, SAGITTA
 
-_GRID = (120, 60)
+_GRIDS = {False: (240, 120), True: (120, 60)}
+"""Cells of the map; fewer while a slider is dragged."""
+
 _PHASES = np.linspace(-math.pi, math.pi, 361)
-_ORDERS = np.linspace(0.0, 7.0, 141)
 _MOST = 4000
+_MOST_DIGITS = 12.0
 
 SPECS = (
     Number("I22", "I₂₂", "Inertia I₂₂", 1.0, 0.2, 3.0, 0.01, 1e-3, 1e3,
@@ -55,7 +57,7 @@ SPECS = (
 )
 
 PRESETS = (
-    Preset("I₁₁ = 3.56, I₂₃ = 0.8, θ⁻ = π/2 (figure)", {}),
+    Preset("I₁₁ = 3.56, I₂₃ = 0.8, θ⁻ = π/2 (figure 5)", {}),
     Preset("k = 1: complete reversal, the curve is flat", {"k": 1.0, "theta": 1.0}),
     Preset("k = 3: complete reversal again", {"k": 3.0, "I23": 0.4, "theta": 1.0}),
     Preset("k = 2, small θ⁻", {"theta": 0.3}),
@@ -66,10 +68,11 @@ PRESETS = (
 LEGEND = """
 <ul class="legend" aria-label="Legend">
 <li><span class="line orbit"></span>orbit; θ⁺(φ)</li>
-<li><span class="line second"></span>closed form</li>
+<li><span class="line second" style="border-top-style: dashed"></span>closed form</li>
 <li><span class="line stable"></span>circle joined</li>
 <li><span class="line unstable"></span>circle left</li>
 <li><span class="dot point"></span>moving point</li>
+<li><span class="dot" style="background: #808080"></span>fixed points Γ = ±1</li>
 <li><span class="box rho"></span>θ⁺ from 0 to π</li>
 </ul>
 """
@@ -85,11 +88,15 @@ WORDS = Path(__file__).with_suffix(".md").read_text(encoding="utf-8")
 
 @dataclass(frozen=True)
 class ScatteringResult:
-    """`orders`: cos χ at every k of `_ORDERS`, NaN-free pairs (k, cos χ); `grid`, `orbit` where a picture asks."""
+    """`map` is of the start that is shown, `limit` of δ → 0; `closed`: the closed form of its cos χ.
+
+    `orders`: pairs (k, cos χ); `grid`, `orders`, `orbit` where a picture asks.
+    """
 
     values: Values
     body: SuslovBody
     map: Scattering
+    limit: Scattering
     closed: float
     curve: Array
     grid: Array | None
@@ -101,21 +108,28 @@ class ScatteringResult:
 
 
 def admit(values: Values) -> tuple[dict[str, Value], list[str]]:
-    """Everything is possible together; what is not says so when it is computed."""
-    return dict(values), []
+    """Next to a slanting line a double keeps the start to 1e-16 only; on an axis it may be as close as it likes."""
+    if float(values["I13"]) * float(values["I23"]) == 0.0 or float(values["digits"]) <= _MOST_DIGITS:
+        return dict(values), []
+    return {**values, "digits": _MOST_DIGITS}, [
+        f"With I₁₃I₂₃ ≠ 0 a start is known to 1e−16 only: its distance is 1e−{_MOST_DIGITS:g} now."]
 
 
-def _grid_of(found: Scattering) -> Array:
-    m, n = _GRID
+def _grid_of(found: Scattering, m: int, n: int) -> Array:
     phi = -math.pi + (np.arange(m) + 0.5) * (2 * math.pi / m)
     theta_minus = (np.arange(n) + 0.5) * (math.pi / n)
     return found.theta_plus(theta_minus[:, None], phi[None, :])
 
 
-def _orders(I22: float, I13: float, I23: float) -> Array:
+def _range_of_k(k: float) -> tuple[int, int]:
+    """The horizontal axis of cos χ."""
+    return min(0, math.floor(k)), max(7, math.ceil(k))
+
+
+def _orders(I22: float, I13: float, I23: float, low: int, high: int) -> Array:
     """(k, cos χ) in rows, where k gives a body that is in bounds."""
     rows = []
-    for k in _ORDERS:
+    for k in np.linspace(low, high, 20 * (high - low) + 1):
         try:
             rows.append((k, cos_chi(body_of({"I22": I22, "I13": I13, "I23": I23, "k": float(k)}))))
         except ModelError:
@@ -163,10 +177,11 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> Scatterin
     body, h, omega, gamma = _start(values)
     found = cached(scattering, body, accuracy, 1, 10.0 ** -float(values["digits"]))
     return ScatteringResult(
-        values=values, body=body, map=found, closed=cos_chi(body),
+        values=values, body=body, map=found, limit=cached(scattering, body, accuracy), closed=cos_chi(body),
         curve=found.theta_plus(float(values["theta"]), _PHASES),
-        grid=cached(_grid_of, found) if "map" in shown else None,
-        orders=cached(_orders, *(float(values[name]) for name in ("I22", "I13", "I23"))) if "chi" in shown else None,
+        grid=cached(_grid_of, found, *_GRIDS[dragging]) if "map" in shown else None,
+        orders=cached(_orders, *(float(values[name]) for name in ("I22", "I13", "I23")),
+                      *_range_of_k(float(values["k"]))) if "chi" in shown else None,
         orbit=cached(_orbit, body, omega, gamma, _span(values), accuracy) if shown else None,
         points=equilibria(body, h), cached=misses == 0, wall_ms=(time.perf_counter() - began) * 1e3)
 
@@ -199,7 +214,7 @@ class ScatteringStage:
 
     def show(self, result: ScatteringResult, hold_axes: bool) -> Report:
         """Draw the curve, the map, cos χ and the orbit."""
-        theta_minus, phi = float(result.values["theta"]), float(result.values["phi"])
+        theta_minus, phi, k = (float(result.values[name]) for name in ("theta", "phi", "k"))
         for view in (self.curve, self.map, self.chi):
             view.say("")
         self.curve.show("theta", _PHASES, result.curve)
@@ -211,10 +226,10 @@ class ScatteringStage:
         self.map.choose(phi, theta_minus)
         if result.orders is not None:
             self.chi.show("closed", result.orders[:, 0], result.orders[:, 1])
-        k = float(result.values["k"])
-        if not hold_axes:
-            self.chi.set_ranges((min(0.0, math.floor(k)), max(7.0, math.ceil(k))), (-1.05, 1.05))
-        self.chi.choose(k, result.map.cos_chi)
+            if not hold_axes:
+                reach = nice_above(max(0.01, 1.0 + float(result.orders[:, 1].max(initial=result.limit.cos_chi))))
+                self.chi.set_ranges(_range_of_k(k), (-1.0 - 0.05 * reach, -1.0 + 1.05 * reach))
+        self.chi.choose(k, result.limit.cos_chi)
         orbit, xi = result.orbit, result.points.xi
         if orbit is not None:
             self.chi.assign("orbit", t=orbit.times.astype(np.float32),
@@ -242,12 +257,12 @@ class ScatteringStage:
 def _captions(result: ScatteringResult, theta_plus: float) -> tuple[str, str, str, str]:
     low, high = float(result.curve.min()), float(result.curve.max())
     spread = f"θ⁺ = {number(low)} for every φ" if high - low < 1e-4 else f"θ⁺ from {number(low)} to {number(high)}"
-    difference = abs(result.map.cos_chi - result.closed)
+    computed = result.limit.cos_chi
     return (
         f"θ⁺ against the phase φ\nθ⁻ = {number(float(result.values['theta']))}: {spread} (dotted: θ⁻, π − θ⁻).",
-        f"θ⁺ over (φ, θ⁻)\nAll of it from one rotation, by χ = {number(math.acos(result.map.cos_chi))}.",
-        f"cos χ against k\nComputed {number(result.map.cos_chi, 6)}; closed form {number(result.closed, 6)}, "
-        f"difference {number(difference, 2)}.",
+        f"θ⁺ over (φ, θ⁻)\nAll of it from one rotation, which turns ξ by χ = {number(math.acos(computed))}.",
+        f"cos χ against k\nComputed {number(computed, 6)}; closed form {number(result.closed, 6)}, "
+        f"difference {number(abs(computed - result.closed), 2)}.",
         f"Poisson sphere\nφ = {number(float(result.values['phi']))}: from θ⁻ = {number(float(result.values['theta']))} "
         f"to θ⁺ = {number(theta_plus)}.",
     )
@@ -259,7 +274,7 @@ def _derived(result: ScatteringResult) -> list[str]:
     return [
         f"I₁₁ = {number(result.body.I11, 6)}",
         f"k² = {number(k * abs(k), 6)}",
-        f"cos χ = {number(result.map.cos_chi, 12)}",
+        f"cos χ = {number(result.limit.cos_chi, 12)}",
         f"φ* = {number(result.map.phi_star, 6)}",
         f"δ = {number(10.0 ** -float(result.values['digits']), 3)}",
         f"ξ = ({number(xi[0])}, {number(xi[1])}, 0)",
@@ -279,9 +294,10 @@ def _status(result: ScatteringResult) -> str:
 
 
 def _notes(result: ScatteringResult) -> list[str]:
-    if result.body.I13 * result.body.I23 != 0.0 and float(result.values["digits"]) > 8.0:
-        return ["With I₁₃I₂₃ ≠ 0 a start so close to the line is known as a double to 1e−16 only: the time of the "
-                "passage is shifted, θ⁺ is not."]
+    digits = float(result.values["digits"])
+    if result.body.I13 * result.body.I23 != 0.0 and digits > 8.0:
+        return ["With I₁₃I₂₃ ≠ 0 the start of the orbit is rounded to 1e−16: its passage is a little early or late, "
+                f"and its Γ⁺ is off by up to 1e−{16.0 - digits:.0f}."]
     return []
 
 

@@ -35,12 +35,14 @@ class VelocityPlane(Figure):
         self.add("forbidden", "multi_polygons", ("xs", "ys"), color=theme.FORBIDDEN, line_color=theme.MUTED)
         self.add("levels", "multi_line", ("xs", "ys"), color=theme.MUTED, line_width=1)
         self.add("arcs", "multi_line", ("xs", "ys"), color=theme.ORBIT, line_width=1, line_alpha=0.5)
-        self.add("arrows", "scatter", ("x", "y", "angle"), marker="triangle", angle="angle", size=9, color=theme.ORBIT,
-                 line_alpha=0, fill_alpha=0.6)
+        self.add("level-arrows", "scatter", ("x", "y", "angle"), marker="triangle", angle="angle", size=8,
+                 color=theme.MUTED, line_alpha=0)
         self.add("stable", "line", ("x", "y"), color=theme.STABLE, line_width=3)
         self.add("unstable", "line", ("x", "y"), color=theme.UNSTABLE, line_width=3, line_dash="dashed")
         self.add("second", "line", COLUMNS, source="data-second", color=theme.MAP, line_width=2, line_dash="dotdash")
         self.add("orbit", "line", COLUMNS, source="data-orbit", color=theme.ORBIT, line_width=2.5)
+        self.add("arrows", "scatter", ("x", "y", "angle"), marker="triangle", angle="angle", size=10, color=theme.ORBIT,
+                 line_alpha=0, fill_alpha=0.8)
         self.add("stable-point", "scatter", ("x", "y"), size=11, line_width=3, color=theme.STABLE)
         self.add("unstable-point", "scatter", ("x", "y"), size=11, line_width=3, fill_alpha=0,
                  line_color=theme.UNSTABLE)
@@ -58,23 +60,13 @@ class VelocityPlane(Figure):
         arcs = [arc for arc in arcs if len(arc) > 1]
         self.assign("arcs", xs=[arc[:, 0].astype(np.float32) for arc in arcs],
                     ys=[arc[:, 1].astype(np.float32) for arc in arcs])
-        x, y, angle = [], [], []
-        for arc in arcs:
-            length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(arc, axis=0), axis=1))])
-            if length[-1] < 0.02 * half_width:
-                continue
-            i = min(int(np.searchsorted(length, 0.5 * length[-1])), len(arc) - 1)
-            step = arc[i] - arc[i - 1]
-            x.append(float(arc[i, 0]))
-            y.append(float(arc[i, 1]))
-            # A triangle points upwards at angle 0.
-            angle.append(float(np.arctan2(step[1], step[0]) - np.pi / 2))
-        self.assign("arrows", x=x, y=y, angle=angle)
+        self.assign("arrows", **_arrows(arcs, half_width))
 
-    def show_levels(self, levels: Sequence[Array]) -> None:
-        """Closed curves (m, 2) of constant energy."""
+    def show_levels(self, levels: Sequence[Array], half_width: float) -> None:
+        """Curves (m, 2) of other energies, passed from their first to their last point, with arrows."""
         self.assign("levels", xs=[level[:, 0].astype(np.float32) for level in levels],
                     ys=[level[:, 1].astype(np.float32) for level in levels])
+        self.assign("level-arrows", **_arrows(levels, half_width))
 
     def show_strip(self, inner: Array, outer: Array, half_width: float) -> None:
         """All but the ring between two closed curves (m, 2) is grey."""
@@ -86,3 +78,19 @@ class VelocityPlane(Figure):
     def fit(self, half_width: float) -> None:
         """Axes ± half_width."""
         self.set_ranges((-half_width, half_width), (-half_width, half_width))
+
+
+def _arrows(curves: Sequence[Array], half_width: float) -> dict[str, list[float]]:
+    """An arrow in the middle of each curve (m, 2) that is long enough for one."""
+    x, y, angle = [], [], []
+    for curve in curves:
+        length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(curve, axis=0), axis=1))])
+        if length[-1] < 0.02 * half_width:
+            continue
+        i = min(int(np.searchsorted(length, 0.5 * length[-1])), len(curve) - 1)
+        step = curve[i] - curve[i - 1]
+        x.append(float(curve[i, 0]))
+        y.append(float(curve[i, 1]))
+        # A triangle points upwards at angle 0.
+        angle.append(float(np.arctan2(step[1], step[0]) - np.pi / 2))
+    return {"x": x, "y": y, "angle": angle}
