@@ -233,6 +233,8 @@ class HessStage:
         h, f = float(result.values["h"]), float(result.values["f"])
         width = half_width(result.body, h)
         x, y = window(h)
+        for plane in (self.omega, self.diagram):
+            plane.say("")
         if result.track is not None:
             self._show_motion(result, result.track, h, f)
         inner, outer = annulus(result.body, h, result.turning)
