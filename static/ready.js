@@ -18,6 +18,7 @@ export function render({ model, view }) {
   let wish = {}
   let values = {}
   let chosen = null
+  let bound = null
   let scene = null
   let sign = null
   root.dataset.ready = "false"
@@ -62,12 +63,16 @@ export function render({ model, view }) {
       request()
     }, true)
   }
+  // Control → the request by which it was changed last.
+  const moved = new Map()
   document.addEventListener("hess:change", (event) => {
     Object.assign(values, event.detail)
+    for (const name of Object.keys(event.detail)) moved.set(name, requested + 1)
     request()
   })
   // What was changed before an example or a reset counts no more.
   const wishFor = (what) => {
+    moved.set("preset", requested + 1)
     values = {}
     wish = what
     request()
@@ -82,8 +87,9 @@ export function render({ model, view }) {
     request()
   })
   document.addEventListener("hess:scene", (event) => {
-    if (event.detail === (chosen ?? state?.scene)) return
-    chosen = event.detail
+    // The scene chosen last, though its pictures may still be on their way.
+    if (event.detail === (bound ?? state?.scene)) return
+    chosen = bound = event.detail
     request()
   })
   document.addEventListener("hess:link", () => {
@@ -168,7 +174,8 @@ export function render({ model, view }) {
     Object.assign(latest.controls, tree.controls)
     tell("hess:texts", tree.texts)
     // A control that has been moved on since is not moved back.
-    if (state.answers === requested) tell("hess:controls", tree.controls)
+    const settled = Object.entries(tree.controls).filter(([name]) => !(moved.get(name) > state.answers))
+    tell("hess:controls", Object.fromEntries(settled))
   }
 
   const descriptions = new Map()
