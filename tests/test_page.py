@@ -271,8 +271,46 @@ def default_state(tab):
     tab.assert_quiet()
 
 
-# Each module of browser tests makes its own fixtures of these two.
+class Line:
+    """Between a page and its server: can hold back what the server says."""
+
+    def __init__(self, page):
+        self._socket, self._held, self._holding = None, [], False
+        page.route_web_socket(re.compile(r"/ws"), self._connect)
+
+    def _connect(self, socket):
+        self._socket = socket
+        socket.connect_to_server().on_message(self._hear)
+
+    def _hear(self, message):
+        if self._holding:
+            self._held.append(message)
+        else:
+            self._socket.send(message)
+
+    def hold(self):
+        self._holding = True
+
+    def release(self):
+        self._holding = False
+        while self._held:
+            self._socket.send(self._held.pop(0))
+
+
+def page_on_a_line(browser, server):
+    """(explorer, line): the page in its default state, and what is between it and the server."""
+    context = browser.new_context(viewport={"width": 1600, "height": 950})
+    page = context.new_page()
+    line = Line(page)
+    explorer = Explorer(page, server).open()
+    yield explorer, line
+    explorer.assert_quiet()
+    context.close()
+
+
+# Each module of browser tests makes its own fixtures of these.
 tab = pytest.fixture(scope="module")(one_tab)
+on_a_line = pytest.fixture(page_on_a_line)
 explorer = pytest.fixture(default_state)
 
 
@@ -387,22 +425,13 @@ def test_changes_of_several_sliders_at_once_are_one_state(explorer):
     assert_orbit(explorer, {**DEFAULTS, **values})
 
 
-def test_an_answer_that_takes_long_is_said_to_be_under_way(browser, server):
-    context = browser.new_context(viewport={"width": 1600, "height": 950})
-    page = context.new_page()
-    line, holding, held = [], [], []
-
-    def between(socket):
-        line.append(socket)
-        beyond = socket.connect_to_server()
-        beyond.on_message(lambda message: held.append(message) if holding else socket.send(message))
-
-    page.route_web_socket(re.compile(r"/ws"), between)
-    explorer = Explorer(page, server).open()
+def test_an_answer_that_takes_long_is_said_to_be_under_way(on_a_line):
+    explorer, line = on_a_line
+    page = explorer.page
     sign = page.locator(".text.busy")
     assert sign.is_hidden()
     assert sign.get_attribute("role") == "status"
-    holding.append(True)
+    line.hold()
     before = explorer.state
     explorer.slide(h=0.9)
     sign.wait_for(state="visible")
@@ -412,9 +441,7 @@ def test_an_answer_that_takes_long_is_said_to_be_under_way(browser, server):
     assert min(box["width"], box["height"]) > 20
     assert 0 < box["x"] < box["x"] + box["width"] <= 1600
     assert 0 < box["y"] < box["y"] + box["height"] <= 950
-    holding.clear()
-    while held:
-        line[-1].send(held.pop(0))
+    line.release()
     wait_ready(page, after=before)
     assert sign.is_hidden()
     assert_orbit(explorer, {**DEFAULTS, "h": 0.9})
@@ -427,8 +454,6 @@ def test_an_answer_that_takes_long_is_said_to_be_under_way(browser, server):
         explorer.change(lambda h=h: explorer.slide(h=h))
     page.evaluate("new Promise((done) => setTimeout(done, 600))")
     assert page.evaluate("said") == []
-    explorer.assert_quiet()
-    context.close()
 
 
 # --- The link ----------------------------------------------------------------------------------------
@@ -580,14 +605,15 @@ def test_whatever_a_text_of_the_page_is_told_to_say_it_shows_as_text(explorer):
     explorer.open()
 
 
-def assert_defaults(explorer, scene):
-    """The page shows the default state of this scene."""
+def assert_defaults(explorer, scene, **others):
+    """The page shows the default state of this scene, but for the values of others that it knows."""
     assert explorer.scene == scene
     for spec in scenes()[scene].specs:
+        value = others.get(spec.name, spec.default)
         if isinstance(spec, Number):
-            assert explorer.shown(spec.name) == (spec.default, spec.default), spec.name
+            assert explorer.shown(spec.name) == (value, value), spec.name
         else:
-            assert explorer.chosen(spec.name) == spec.default, spec.name
+            assert explorer.chosen(spec.name) == value, spec.name
 
 
 def test_an_address_without_a_link_opens_the_first_scene_in_its_default_state(explorer):

@@ -420,7 +420,14 @@ def assert_drawn(scene, values, seen, dragging):
     getattr(board.stage, "_drawn", {}).clear()  # the same state again is to be drawn again
     admitted, _ = scene.admit(values)
     board.texts.clear()
-    report = board.show(scene.compute(admitted, seen, dragging))
+    try:
+        result = scene.compute(admitted, seen, dragging)
+    except ModelError as error:
+        # Every state of the Suslov–Hess case can be computed.
+        assert (scene.origin or scene.name) != HESS.name
+        assert str(error).endswith(".")
+        return
+    report = board.show(result)
     drawn = assert_within_the_axes(board)
     whole = set(seen) == set(scene.pictures) or (scene.origin or scene.name) == HESS.name
     assert len(drawn) > 2 or not (whole and seen)
@@ -435,26 +442,40 @@ def assert_drawn(scene, values, seen, dragging):
         assert 0.0 < orbit["t"][-1] <= admitted.get("span", math.inf) * (1.0 + 1e-6)
 
 
-def own(looking):
-    return pytest.mark.parametrize("scene", [
-        pytest.param(scene, id=name) for name, scene in SCENES.items() if (scene.origin is not None) == looking])
-
-
-@own(looking=False)
 @settings(PROPERTY, max_examples=250)
 @given(data=st.data(), dragging=st.booleans())
-def test_every_admissible_state_is_computed_and_drawn_without_a_number_that_is_none(scene, data, dragging):
+def test_every_admissible_state_is_computed_and_drawn_without_a_number_that_is_none(data, dragging):
+    values = {spec.name: data.draw(somewhere(spec), label=spec.name) for spec in HESS.specs}
+    assert_drawn(HESS, values, data.draw(in_sight(HESS), label="in sight"), dragging)
+
+
+@pytest.mark.parametrize("scene", [
+    pytest.param(scene, id=name) for name, scene in SCENES.items() if scene.origin is None and scene is not HESS])
+@settings(PROPERTY, max_examples=40)
+@given(data=st.data(), dragging=st.booleans())
+def test_an_admissible_state_of_the_other_scenes_is_drawn_whole_or_refused_with_a_sentence(scene, data, dragging):
     values = {spec.name: data.draw(somewhere(spec), label=spec.name) for spec in scene.specs}
     assert_drawn(scene, values, data.draw(in_sight(scene), label="in sight"), dragging)
 
 
-@own(looking=True)
-@settings(PROPERTY, max_examples=80)
-@given(data=st.data())
-def test_the_errors_of_every_admissible_state_are_computed_and_drawn_too(scene, data):
+def assert_errors_drawn(scene, data):
     values = {spec.name: data.draw(somewhere(spec), label=spec.name) for spec in scene.specs}
     # Under a drag: without SciPy's methods, which take long.
     assert_drawn(scene, values, data.draw(in_sight(scene), label="in sight"), True)
+
+
+@settings(PROPERTY, max_examples=80)
+@given(data=st.data())
+def test_the_errors_of_every_admissible_state_are_computed_and_drawn_too(data):
+    assert_errors_drawn(ACCURACY, data)
+
+
+@pytest.mark.parametrize("scene", [
+    pytest.param(scene, id=name) for name, scene in SCENES.items() if scene.origin not in (None, HESS.name)])
+@settings(PROPERTY, max_examples=20)
+@given(data=st.data())
+def test_the_errors_of_the_other_scenes_are_drawn_too_or_refused_with_a_sentence(scene, data):
+    assert_errors_drawn(scene, data)
 
 
 def test_at_the_separatrix_and_far_from_it_the_slow_methods_run_without_a_warning_too():
