@@ -13,11 +13,16 @@ from .orbit import solve
 from .results import Array, frozen
 from .system import Problem, System, systems
 
-__all__ = ["SLOW_METHODS", "Growth", "WorkPoint", "growth", "measure_levels", "measure_others", "others_take_long"]
+__all__ = [
+    "SLOW_METHODS", "Growth", "WorkPoint", "growth", "longest_span", "measure_levels", "measure_others",
+    "others_take_long",
+]
 
 SLOW_METHODS = ("DOP853", "LSODA")
 _TOLERANCES = (1e-4, 1e-7, 1e-10)
 _LONGEST_FOR_OTHERS = 150.0
+_LONGEST = 5000.0
+"""Spans in units of 1/ν: SciPy's methods, and the levels, take a second or so up to there."""
 """In units of time in which the fastest angular velocity is 1: about a quarter of a second for both of them."""
 
 
@@ -102,6 +107,11 @@ def measure_levels(name: str, state: tuple[float, ...], parameters: tuple[float,
         ms, states = _best_of(lambda: solve(system, state, parameters, times, level).states, 3)  # noqa: B023
         points.append(WorkPoint("Taylor", level.name, ms, float(np.max(np.abs(states - truth) / scale))))
     return tuple(points)
+
+
+def longest_span(name: str, state: Sequence[float], parameters: Sequence[float]) -> float:
+    """How long the motion can be studied within about a second.  Raises `InvalidParameter`."""
+    return _LONGEST / Problem.of(systems()[name], state, parameters).nu
 
 
 def others_take_long(name: str, state: Sequence[float], parameters: Sequence[float], span: float) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Collection, Hashable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -20,13 +20,24 @@ from app.wire import Wire
 from app.words import number
 from models.accuracy import LEVELS, level
 from models.results import Array
-from models.study import SLOW_METHODS, Growth, WorkPoint, growth, measure_levels, measure_others, others_take_long
+from models.study import (
+    SLOW_METHODS,
+    Growth,
+    WorkPoint,
+    growth,
+    longest_span,
+    measure_levels,
+    measure_others,
+    others_take_long,
+)
 
 __all__ = ["looking_into"]
 
 PICTURES = ("precision", "growth", "drift", "pixels")
 SAMPLES = 400
 _FLOOR = 1e-17
+_SLOW_MS = 6.0
+"""Where a level takes so long, SciPy's methods, hundreds of times slower, take seconds."""
 _INTEGRAL_COLORS = ("#0072B2", "#009E73", "#D55E00", "#CC79A7")
 _INTEGRAL_DASHES = ("solid", "dashed", "dotdash", "dotted")
 _OTHERS = {"DOP853": "#808080", "LSODA": "#56B4E9"}
@@ -57,13 +68,13 @@ WORDS = Path(__file__).with_suffix(".md").read_text(encoding="utf-8")
 
 @dataclass(frozen=True)
 class Study:
-    """`points`, `growth` are None where no picture asks for them; `reason`: why SciPy's methods are left out."""
+    """`points`, `growth` are None where no picture asks for them; `notes`: what was left out, and why."""
 
     values: Values
     motion: Motion
     points: tuple[WorkPoint, ...] | None
     growth: Growth | None
-    reason: str
+    notes: tuple[str, ...]
     wall_ms: float
 
 
@@ -71,21 +82,25 @@ def _compute(origin: Scene, values: Values, shown: Collection[str], dragging: bo
     start = time.perf_counter()
     assert origin.motion is not None
     motion = origin.motion(values)
+    notes: list[str] = []
+    longest = longest_span(motion.system.name, motion.state, motion.parameters)
+    if motion.span > longest:
+        motion = replace(motion, span=longest)
+        notes.append(f"Measured up to t = {number(longest * motion.unit)}: a longer span takes seconds.")
     key = (motion.system.name, motion.state, motion.parameters, motion.span)
 
     def cached(function: Any, *arguments: Hashable) -> Any:
         return CACHE.get(function, *arguments)[0]
 
     points: tuple[WorkPoint, ...] | None = None
-    reason = ""
     if "precision" in shown:
         points = cached(measure_levels, *key, SAMPLES)
-        if others_take_long(*key):
-            reason = "SciPy's methods are left out: over so long a span they take seconds. Choose a shorter one."
+        if others_take_long(*key) or max(point.ms for point in points) > _SLOW_MS:
+            notes.append("SciPy's methods are left out: over so long a span they take seconds. Choose a shorter one.")
         elif not dragging:
             points += cached(measure_others, *key, SAMPLES)
     errors = cached(growth, *key, motion.weights, SAMPLES) if {"growth", "drift", "pixels"} & set(shown) else None
-    return Study(values, motion, points, errors, reason, (time.perf_counter() - start) * 1e3)
+    return Study(values, motion, points, errors, tuple(notes), (time.perf_counter() - start) * 1e3)
 
 
 class StudyStage:
@@ -128,7 +143,7 @@ class StudyStage:
             self._show_growth(study.growth, t, chosen, hold_axes)
             captions |= _growth_captions(study.growth, t, chosen)
         self._say(captions)
-        return Report(_derived(study), _status(study, chosen), [study.reason] if study.reason else [])
+        return Report(_derived(study), _status(study, chosen), study.notes)
 
     def _show_precision(self, points: Sequence[WorkPoint], chosen: str) -> None:
         self._points = points
