@@ -154,7 +154,7 @@ def gamma_of(points: Equilibria, Gamma: float, phi: float) -> tuple[float, float
 
 
 def _half_width(body: SuslovBody, h: float) -> float:
-    return nice_above(1.15 * math.sqrt(2.0 * h / min(body.I11, body.I22)))
+    return nice_above(1.3 * math.sqrt(2.0 * h / min(body.I11, body.I22)))
 
 
 def _start(values: Values) -> tuple[SuslovBody, tuple[float, float], float, Equilibria]:

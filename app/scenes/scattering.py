@@ -208,8 +208,8 @@ class ScatteringStage:
         self.chi = Graph(wire, "chi", ("k", "cos χ"), (0.0, 7.0), (-1.05, 1.05),
                          [Series("closed", theme.MAP, "dashed")], picks=("tap", "doubletap", "pan"))
         self.sphere = PoissonSphere(wire, {"data-orbit": "orbit"})
-        # The player reads the orbit from the source of that name.
-        self.chi.add("orbit", "line", ("t", "Gamma"), source="data-orbit", line_alpha=0)
+        # The sphere and the player read the orbit from the source of that name; the map does not show it.
+        self.map.add("orbit", "line", ("phase", "polar"), source="data-orbit", visible=False)
         self.pictures = (self.curve, self.map, self.chi, self.sphere)
 
     def show(self, result: ScatteringResult, hold_axes: bool) -> Report:
@@ -227,14 +227,14 @@ class ScatteringStage:
         if result.orders is not None:
             self.chi.show("closed", result.orders[:, 0], result.orders[:, 1])
             if not hold_axes:
-                reach = nice_above(max(0.01, 1.0 + float(result.orders[:, 1].max(initial=result.limit.cos_chi))))
+                reach = nice_above(max(1e-3, 1.0 + float(result.orders[:, 1].max(initial=result.limit.cos_chi))))
                 self.chi.set_ranges(_range_of_k(k), (-1.0 - 0.05 * reach, -1.0 + 1.05 * reach))
-        self.chi.choose(k, result.limit.cos_chi)
+            self.chi.choose(k, result.limit.cos_chi)
         orbit, xi = result.orbit, result.points.xi
         if orbit is not None:
-            self.chi.assign("orbit", t=orbit.times.astype(np.float32),
-                            Gamma=orbit.Gamma.astype(np.float32),
-                            **sphere_columns(orbit.omega, orbit.gamma))
+            polar = np.arccos(np.clip(orbit.Gamma, -1.0, 1.0))
+            self.map.assign("orbit", t=orbit.times.astype(np.float32), phase=orbit.phase.astype(np.float32),
+                            polar=polar.astype(np.float32), **sphere_columns(orbit.omega, orbit.gamma))
         self.sphere.show(xi, "ξ", [Circle(xi, math.cos(theta_minus), "unstable"),
                                    Circle(xi, math.cos(theta_plus), "stable")], [Mark(xi, "muted"), Mark(-xi, "muted")])
         for picture, text in zip(self.pictures, _captions(result, theta_plus), strict=True):

@@ -49,8 +49,9 @@ class VelocityPlane(Figure):
         self.add_point_and_message()
 
     def show_line(self, stable: Array, unstable: Array, half_width: float) -> None:
-        """The line of equilibria: its stable and unstable half, and those two of its points (2,)."""
-        far = 3.0 * half_width / max(float(np.hypot(*stable)), 1e-300)
+        """The line of equilibria to the edge: its stable and unstable half, and those two of its points (2,)."""
+        # Axes that are held may be the larger ones.
+        far = max(half_width, self.x_range[1]) / max(float(np.max(np.abs(stable))), 1e-300)
         for name, point in (("stable", stable), ("unstable", unstable)):
             self.assign(name, x=[0.0, far * float(point[0])], y=[0.0, far * float(point[1])])
             self.assign(f"{name}-point", x=[float(point[0])], y=[float(point[1])])
