@@ -50,7 +50,7 @@ SPECS = (
            "The angle between ξ and γ at the start, in radians."),
     Number("phi", "φ", "Phase φ of the orbit shown", 0.5, -3.14, 3.14, 0.01, -math.pi, math.pi,
            "Where on that circle γ starts, in radians."),
-    Number("digits", "−lg δ", "Distance δ of the start, digits", 5.301, 1.0, 12.0, 0.05, 0.5, 300.0,
+    Number("digits", "−lg δ", "Distance δ of the start, digits", 5.30103, 1.0, 12.0, 0.05, 0.5, 300.0,
            "The start is δ = 10^−digits of |ω| away from the unstable point; it only shifts the phase."),
     Choice("accuracy", "Accuracy", tuple(LEVELS), "standard",
            "Promised error: draft 1e-3, standard 1e-6, precise 1e-9; reference: the floor of double precision."),
