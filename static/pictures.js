@@ -25,7 +25,7 @@ class OfBokeh {
   }
 }
 
-const KINDS = { sphere }
+const KINDS = { sphere, cloud: cloudPlane }
 
 export function render({ model, view, el }) {
   // Rendered once more: the same pictures in the new place.

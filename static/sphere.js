@@ -1,7 +1,8 @@
 // The Poisson sphere: orthographic, on a 2D canvas.  Drag, arrow keys and touch turn it;
 // what lies on the far side is drawn first and dimmed.
 // Draws the tracks of its options from their sources (columns g1, g2, g3); its own source, of the picture's name, holds
-// axis [3], label, circles [[axis, height, look]], marks [[γ, look, label]].
+// axis [3], label, circles [[axis, height, look]], marks [[γ, look, label]].  The option `clouds` names a source of
+// clouds of points ("cloud.js").
 
 const LOOKS = {
   orbit: { colour: "#0072B2", dash: [], weight: 1.3 },
@@ -62,6 +63,7 @@ function sphere(el, options, source, signal, isShown) {
   let width = 0
 
   const own = source(options.name)
+  const clouds = options.clouds === undefined ? null : sphereClouds(source(options.clouds))
   const columns = (name) => {
     const data = source(name).data
     return data.g1 ? [data.g1, data.g2, data.g3] : null
@@ -140,6 +142,7 @@ function sphere(el, options, source, signal, isShown) {
         use(LOOKS[look])
         stroke(track, near)
       }
+      clouds?.paint(ctx, size, ratio, px, py, depth, near)
       ctx.setLineDash([])
       for (const [x, y, z, look, label] of own.data.marks ?? []) {
         if (depth(x, y, z) >= 0 !== near) continue
@@ -214,7 +217,9 @@ function sphere(el, options, source, signal, isShown) {
 
   const onTime = (event) => {
     if (!isShown()) return
-    point = event.detail.state ? ["g1", "g2", "g3"].map((name) => event.detail.state[name]) : null
+    const { t, state } = event.detail
+    point = state?.g1 === undefined ? null : ["g1", "g2", "g3"].map((name) => state[name])
+    if (clouds !== null) clouds.t = t
     request()
   }
   document.addEventListener("hess:time", onTime, { signal })
@@ -227,7 +232,8 @@ function sphere(el, options, source, signal, isShown) {
     request()
   })
   resize.observe(canvas)
-  for (const name of [options.name, ...Object.keys(options.tracks)]) source(name).watch(request, signal)
+  const watched = [options.name, ...Object.keys(options.tracks), ...(clouds === null ? [] : [options.clouds])]
+  for (const name of watched) source(name).watch(request, signal)
   request()
   signal.addEventListener("abort", () => {
     scheme.disconnect()
