@@ -8,17 +8,18 @@ import re
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 from PIL import Image, ImageStat
-from test_page import DEFAULTS, HESS, SLIDERS, STUDY, Explorer
+from test_page import HESS, SLIDERS, STUDY, Explorer
 
 from app.browser import wait_ready
 from app.scenes import scenes
+from app.wire import Wire
 
 SIZES = {"wide": (1600, 950), "laptop": (1280, 720), "phone": (390, 844)}
 COLUMNS = {"wide": 4, "laptop": 2, "phone": 1}
-PRESETS = scenes()[HESS].presets
 every_size = pytest.mark.parametrize("size", SIZES)
 every_theme = pytest.mark.parametrize("theme", ["light", "dark"])
-every_scene = pytest.mark.parametrize("scene", [HESS, STUDY])
+SCENES = [name for name, scene in scenes().items() if scene.origin in (None, HESS)]
+every_scene = pytest.mark.parametrize("scene", SCENES)
 
 
 @pytest.fixture(scope="module")
@@ -42,10 +43,15 @@ def look_at(browser, server):
         explorer.page.context.close()
 
 
+def planar(scene):
+    """The names of the pictures that Bokeh draws."""
+    return [picture.name for picture in scenes()[scene].stage(Wire()).pictures if picture.kind == "plot"]
+
+
 def drawing(page, name):
     """The bounding box of a picture without its caption."""
-    inside = "canvas.sphere" if name == "sphere" else ".bk-Figure"
-    return page.locator(f".picture-{name} {inside}").first.bounding_box()
+    inside = ":is(canvas.sphere, .bk-Figure)"
+    return page.locator(f".gallery:not(.away) .picture-{name} {inside}").first.bounding_box()
 
 
 @every_size
@@ -80,7 +86,7 @@ def test_nothing_is_wider_than_the_window(look_at, size, scene):
 # What must keep clear of each other: in the main part and beside it.
 PARTS = (
     "h2.caption, .bk-Figure, canvas.sphere, .legend li, .text.status, .words",
-    ".scene, .param-preset, .number, .param-accuracy, .text.help, .param-reset, .param-link, .text.derived",
+    ".scene, .menu, .number, .text.help, .param-reset, .param-link, .text.derived",
 )
 
 
@@ -107,13 +113,13 @@ def test_nothing_covers_anything_else_and_no_text_is_cut_off(look_at, size, scen
 def test_every_caption_fits_into_its_place(look_at, size, scene):
     page = look_at(size, scene=scene)
     # Every example, the default state last.
-    for preset in [*PRESETS[1:], PRESETS[0]]:
-        numbers = {name: value for name, value in {**DEFAULTS, **preset.values}.items() if name != "accuracy"}
+    presets = scenes()[scene].presets
+    for preset in [*presets[1:], presets[0]]:
         before = int(page.evaluate("document.documentElement.dataset.state"))
-        page.evaluate("detail => document.dispatchEvent(new CustomEvent('hess:change', { detail }))", numbers)
-        wait_ready(page, after=before, seconds=10)
+        page.evaluate("detail => document.dispatchEvent(new CustomEvent('hess:preset', { detail }))", preset.name)
+        wait_ready(page, after=before, seconds=30)
         for name in scenes()[scene].pictures:
-            caption = page.locator(f".picture-{name} h2")
+            caption = page.locator(f".gallery:not(.away) .picture-{name} h2")
             assert caption.evaluate("item => item.scrollHeight - item.clientHeight") <= 1, caption.inner_text()
 
 
@@ -145,7 +151,7 @@ def brightness(page):
 
 def axis_colour(page, name="omega"):
     return page.evaluate(
-        "name => Bokeh.documents[0].get_model_by_name(name).below[0].major_label_text_color", name)
+        "name => hess.plots.find(({ model }) => model.name === name).model.below[0].major_label_text_color", name)
 
 
 @every_scene
@@ -153,7 +159,7 @@ def test_dark_is_dark_and_its_axes_can_be_read(look_at, scene):
     light, dark = look_at(scene=scene), look_at(theme="dark", scene=scene)
     assert brightness(light) > 200
     assert brightness(dark) < 60
-    name = scenes()[scene].pictures[0]
+    name = planar(scene)[0]
     assert axis_colour(light, name) != axis_colour(dark, name)
 
 
@@ -163,9 +169,8 @@ def test_a_scene_that_is_entered_is_as_dark_as_the_page(open_page, look_at):
         before = int(page.evaluate("document.documentElement.dataset.state"))
         page.locator(f".param-scene-{scene}").click()
         wait_ready(page, after=before)
-        for name in scenes()[scene].pictures:
-            if name != "sphere":
-                assert axis_colour(page, name) == axis_colour(look_at(theme="dark", scene=scene), name), name
+        for name in planar(scene):
+            assert axis_colour(page, name) == axis_colour(look_at(theme="dark", scene=scene), name), name
         assert brightness(page) < 60
 
 
@@ -188,7 +193,7 @@ TEXTS = """names => {
     return [...canvas.getImageData(0, 0, 1, 1).data].slice(0, 3)
   }
   return names.flatMap((name) => {
-    const { below, left } = Bokeh.documents[0].get_model_by_name(name)
+    const { below, left } = window.hess.plots.find(({ model }) => model.name === name).model
     return [below[0], left[0]].flatMap((axis) => [axis.major_label_text_color, axis.axis_label_text_color].map(rgb))
   })
 }"""
@@ -199,17 +204,17 @@ TEXTS = """names => {
 def test_every_text_of_the_pictures_stands_out_from_what_is_behind_it(look_at, theme, scene):
     page = look_at(theme=theme, scene=scene)
     shot = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
-    planar = [name for name in scenes()[scene].pictures if name != "sphere"]
-    box = drawing(page, planar[-1])
+    names = planar(scene)
+    box = drawing(page, names[-1])
     behind = shot.getpixel((int(box["x"] + 3), int(box["y"] + box["height"] - 3)))
-    texts = page.evaluate(TEXTS, planar)
-    assert len(texts) == 4 * len(planar)
+    texts = page.evaluate(TEXTS, names)
+    assert len(texts) == 4 * len(names)
     for colour in texts:
         assert contrast(colour, behind) >= 4.5, (colour, behind)
-    if scene != HESS:
+    if "sphere" not in scenes()[scene].pictures:
         return
     # The sphere writes in the colour of the page's text.
-    colour = page.locator("canvas.sphere").evaluate("item => getComputedStyle(item).color")
+    colour = page.locator(".picture-sphere canvas.sphere").evaluate("item => getComputedStyle(item).color")
     box = drawing(page, "sphere")
     behind = shot.getpixel((int(box["x"] + 3), int(box["y"] + 3)))
     assert contrast([int(part) for part in re.findall(r"\d+", colour)[:3]], behind) >= 4.5
@@ -225,7 +230,8 @@ def test_the_button_turns_the_page_dark_and_the_link_says_so(open_page, look_at)
 
 @pytest.mark.parametrize(("scene", "size", "theme"), [
     *((HESS, size, theme) for size in SIZES for theme in ("light", "dark")),
-    *((STUDY, size, "light") for size in SIZES), (STUDY, "wide", "dark"),
+    *((scene, size, "light") for scene in SCENES if scene != HESS for size in SIZES),
+    *((scene, "wide", "dark") for scene in SCENES if scene != HESS),
 ])
 def test_a_screenshot_of_every_size_and_theme_is_kept(look_at, artefacts, size, theme, scene):
     page = look_at(size, theme, scene)
@@ -289,5 +295,5 @@ def test_every_control_is_reached_by_the_tab_key(open_page):
             return names
         }"""))
     wanted = {"param-preset", "param-accuracy", "param-reset", "param-link", "param-play", "param-t", "param-speed",
-              "sphere", *(f"param-scene-{name}" for name in (HESS, STUDY)), *(f"param-{name}" for name in SLIDERS)}
+              "sphere", *(f"param-scene-{name}" for name in SCENES), *(f"param-{name}" for name in SLIDERS)}
     assert wanted <= reached, wanted - reached
