@@ -4,6 +4,13 @@ On N^u and N^s, ω = ±uξ is constant and γ turns about ξ on a circle, cos θ
 leaves N^u and approaches N^s at the rate, with J = √(I13² + I23²) and I_ξ = I11 ξ1² + I22 ξ2²,
 
     λ = J √(2h (I_ξ + 𝒟 sin²θ)) / det Î,   u = √(2h / (I_ξ + 𝒟 sin²θ)).
+
+A motion whose ω is still δu away from the line, ω = u(ξ + δη) + …, has left its circle by a first-order term in δ,
+found by integrating back along N^u, where φ decreases at the rate u.  With μ(φ) = λ/u and
+
+    H(φ) = ∫_0^∞ exp(iφ + is − ∫_0^s μ(φ + s') ds') ds
+
+γ is γ_circle + δ v, (v, ξ) = −sin θ Im H, (v, η) + i(v, e3) = i cos θ e^{iφ} H̄.
 """
 
 from __future__ import annotations
@@ -18,15 +25,18 @@ import numpy as np
 from .accuracy import REFERENCE, Level, Status
 from .chaplygin_ball import SYSTEM, BallBody, determinant, kinetic_energy
 from .ensemble import ensemble
-from .errors import InvalidParameter
+from .errors import InvalidParameter, WorkLimit
 from .orbit import status_of
 from .results import Array, Cost, frozen
 from .rigid_body import require_finite
 from .strip import Strip, line_of_rest
 
-__all__ = ["BallScattering", "ball_scattering"]
+__all__ = ["BallScattering", "ball_scattering", "starts"]
 
-_PHASES = np.linspace(0.0, 2.0 * math.pi, 256, endpoint=False)
+MOST_STEPS = 20_000_000
+_MOST_SWING = 300.0
+_STEPS = 2.0
+"""Taylor steps of both runs in the time 1/ν, at a tolerance of 1e-9 and the order of `REFERENCE`."""
 
 
 @dataclass(frozen=True)
@@ -45,6 +55,13 @@ class BallScattering:
     cost: Cost
 
 
+def _phases(body: BallBody) -> Array:
+    """Phases all round, so many that λ is resolved where γ passes the plane γ3 = 0: its peak is √(I/(I+𝒟)) wide."""
+    width = 1.0 / math.sqrt(1.0 + body.D / min(body.I11, body.I22))
+    count = 2 ** math.ceil(math.log2(min(64.0 / width, 8192.0)))
+    return np.linspace(0.0, 2.0 * math.pi, count, endpoint=False)
+
+
 def _circle(body: BallBody, theta: Array | float, phi: Array) -> Array:
     """γ = cos θ ξ + sin θ (cos φ η + sin φ e3), shape (..., 3)."""
     xi, eta = line_of_rest(body)
@@ -53,24 +70,70 @@ def _circle(body: BallBody, theta: Array | float, phi: Array) -> Array:
                      np.sin(theta) * np.sin(phi)], axis=-1)
 
 
+def _moment(body: BallBody, theta: Array | float) -> Array:
+    """(ξ, Îξ) on the circles θ."""
+    xi, _ = line_of_rest(body)
+    return body.I11 * xi[0] ** 2 + body.I22 * xi[1] ** 2 + body.D * np.sin(theta) ** 2
+
+
+def _growth(body: BallBody, theta: Array, phi: Array) -> Array:
+    """μ = λ/u on the circles θ (m,) at the phases φ (n,), shape (m, n)."""
+    gamma = np.moveaxis(_circle(body, theta[:, None], phi), -1, 0)
+    return math.hypot(body.I13, body.I23) * _moment(body, theta)[:, None] / determinant(gamma, body.parameters)
+
+
+def _lag(body: BallBody, theta: float, phis: Array) -> Array | None:
+    """H of the phases φ (n,); None where e^∫μ is beyond double range."""
+    grid = _phases(body)
+    growth = np.fft.fft(_growth(body, np.array([theta]), grid)[0]) / grid.size
+    order = np.fft.fftfreq(grid.size, 1.0 / grid.size)
+    mean = growth[0].real
+    wave = np.divide(growth, 1j * order, out=np.zeros_like(growth), where=order != 0.0)
+    # The integral of μ less its mean, and what is left to integrate: a periodic function times e^(−mean s).
+    swing = np.fft.ifft(wave * grid.size).real
+    if np.ptp(swing) > _MOST_SWING:
+        return None
+    parts = np.fft.fft(np.exp(1j * grid - swing)) / grid.size / (mean - 1j * order)
+    swings, rest = (np.exp(1j * np.outer(phis, order)) @ np.column_stack([wave, parts])).T
+    return np.exp(swings.real) * rest
+
+
+def starts(strip: Strip, theta: float, phis: Array, distance: float) -> tuple[Array, Array]:
+    """States (n, 5) of motions that come from the circle θ of N^u, with phases φ (n,), ω along ξ + distance·η.
+
+    And their errors (n,): how far from θ, in radians, the circles may be from which they truly come.  γ is at φ on the
+    circle but for a term of the order of `distance`, which the module's docstring derives.
+    """
+    body = strip.body
+    xi, eta = line_of_rest(body)
+    lag = _lag(body, theta, phis)
+    reach = 1.0 / float(_growth(body, np.array([theta]), _phases(body)).min())
+    H = np.zeros(phis.size, complex) if lag is None else lag
+    z = math.sin(theta) * np.exp(1j * phis) + 1j * distance * math.cos(theta) * np.exp(1j * phis) * H.conj()
+    across = np.column_stack([math.cos(theta) - distance * math.sin(theta) * H.imag, z.real, z.imag])
+    across /= np.linalg.norm(across, axis=1)[:, None]
+    gamma = across @ np.array([[*xi, 0.0], [*eta, 0.0], [0.0, 0.0, 1.0]])
+    direction = xi + distance * eta
+    omega = direction * np.sqrt(strip.h / kinetic_energy((*direction, *gamma.T), body.parameters))[:, None]
+    left = abs(distance) * reach if lag is None else (distance * (1.0 + np.abs(H))) ** 2
+    return np.hstack([omega, gamma]), left + 2e-16 / abs(distance) * reach
+
+
 def _speed_and_rate(strip: Strip, theta: Array) -> tuple[Array, Array]:
     """u and the mean of λ over one turn, on the circles θ (m,)."""
-    body = strip.body
-    xi, _ = line_of_rest(body)
-    moment = body.I11 * xi[0] ** 2 + body.I22 * xi[1] ** 2 + body.D * np.sin(theta) ** 2
-    gamma = np.moveaxis(_circle(body, theta[:, None], _PHASES), -1, 0)
-    slowness = np.mean(1.0 / determinant(gamma, body.parameters), axis=1)
-    return np.sqrt(2.0 * strip.h / moment), math.hypot(body.I13, body.I23) * np.sqrt(2.0 * strip.h * moment) * slowness
+    speeds = np.sqrt(2.0 * strip.h / _moment(strip.body, theta))
+    return speeds, speeds * np.mean(_growth(strip.body, theta, _phases(strip.body)), axis=1)
 
 
 def ball_scattering(body: BallBody, theta_minus: float, phis: Sequence[float] | Array, h: float, distance: float,
-                    level: Level) -> BallScattering:
-    """θ⁺ for each phase φ of γ(0) = cos θ⁻ ξ + sin θ⁻ (cos φ η + sin φ e3), η = e3 × ξ.
+                    level: Level, most_steps: float = MOST_STEPS) -> BallScattering:
+    """θ⁺ for each phase φ of γ(0) ≈ cos θ⁻ ξ + sin θ⁻ (cos φ η + sin φ e3), η = e3 × ξ; see `starts`.
 
     The motion starts with ω along ξ + distance·η and E = h, and is followed until γ has settled on a circle of N^s.
     distance : of either sign, for the two sides of N^u, 0 < |distance| ≤ 0.1.  The curve θ⁺(φ) of other distances is
     the same but for a shift of φ, the farther out the more turns γ has made; and for an error of the order of
-    `distance` itself, which the estimates contain.
+    `distance`², which the estimates contain.
+    most_steps : what it may take, as estimated before.
     Raises `InvalidParameter`, `WorkLimit`.
     """
     start = time.perf_counter()
@@ -85,23 +148,25 @@ def ball_scattering(body: BallBody, theta_minus: float, phis: Sequence[float] | 
     if not 1e-15 <= abs(distance) <= 0.1:
         raise InvalidParameter(f"The distance from N^u is {distance:g}: choose it from 1e-15 to 0.1, or minus that.")
 
-    gamma = _circle(body, theta_minus, phis)
-    direction = xi + distance * eta
-    omega = direction * np.sqrt(h / kinetic_energy((*direction, *gamma.T), body.parameters))[:, None]
-    speeds, rates = _speed_and_rate(strip, np.array([theta_minus, *np.linspace(0.0, math.pi, 33)]))
+    states, before = starts(strip, theta_minus, phis, distance)
+    _, rates = _speed_and_rate(strip, np.array([theta_minus, *np.linspace(0.0, math.pi, 33)]))
     # Out of N^u at the rate of θ⁻, into N^s at that of the slowest circle; in between about e^1.4 each.
     span = math.log(4.0 / abs(distance)) / rates[0] + math.log(40.0 / level.promise) / rates.min()
     # Steps must be exact beside the small distance too, which decides when γ leaves; and other errors need room.
     rung = Level(level.name, 0.5 * level.promise, max(0.01 * abs(distance) * level.promise, REFERENCE.tolerance),
                  REFERENCE.order)
-    found = ensemble(SYSTEM, np.hstack([omega, gamma]), body.parameters, [span], rung)
+    nu = float(np.max(SYSTEM.frequency(states.T, np.array(body.parameters))))
+    steps = _STEPS * (1e-9 / rung.tolerance) ** (1.0 / rung.order) * (nu + rates.max()) * span * phis.size
+    if steps > most_steps:
+        raise WorkLimit(f"γ settles on its circle so slowly that θ⁺ takes some {steps:.0e} steps: choose larger I13 or "
+                        "I23, or a smaller 𝒟.")
+    found = ensemble(SYSTEM, states, body.parameters, [span], rung)
     end = found.states[:, 0]
     along, across = end[:, 2:4] @ xi, np.hypot(end[:, 2:4] @ eta, end[:, 4])
     theta_plus = np.arctan2(across, along)
 
-    # What γ still turns towards ξ, ∫ (ω, η) dt ≈ (ω, η)/λ; the same before the start, whose own distance is rounded.
+    # What γ still turns towards ξ, ∫ (ω, η) dt ≈ (ω, η)/λ.
     _, last = _speed_and_rate(strip, theta_plus)
-    before = (abs(distance) + 2e-16 / abs(distance)) * speeds[0] / rates[0]
     errors = found.errors + before + np.abs(end[:, :2] @ eta) / last
     wall_ms = (time.perf_counter() - start) * 1e3
     return BallScattering(float(theta_minus), frozen(phis), frozen(theta_plus), frozen(errors), level.name,

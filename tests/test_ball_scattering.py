@@ -8,9 +8,10 @@ from scipy.integrate import solve_ivp
 
 from models import level
 from models.accuracy import LEVELS, Status
-from models.ball_scattering import ball_scattering
+from models.ball_scattering import ball_scattering, starts
 from models.chaplygin_ball import SYSTEM, BallBody
-from models.errors import InvalidParameter
+from models.errors import InvalidParameter, WorkLimit
+from models.strip import Strip
 
 PHASES = np.linspace(0.0, 2.0 * math.pi, 128, endpoint=False)
 CAPTION = BallBody(1.0, 1.5, 0.7, 1.2, 10.0)
@@ -62,35 +63,66 @@ def test_what_the_inner_ball_does_falls_with_it():
 @pytest.mark.parametrize("name", LEVELS)
 def test_scattering_agrees_with_a_plain_integrator(body, name):
     theta, phi, h, distance = 1.1, 0.7, 10.0, 1e-6
-    length = math.hypot(body.I13, body.I23)
-    xi, eta = (np.array([body.I23, -body.I13, 0.0]) / length, np.array([body.I13, body.I23, 0.0]) / length)
-    gamma = math.cos(theta) * xi + math.sin(theta) * (math.cos(phi) * eta + math.sin(phi) * np.eye(3)[2])
-    direction = (xi + distance * eta)[:2]
-    kinetic = SYSTEM.integrals((*direction, *gamma), body.parameters)["E"]
-    state = np.array([*(direction * math.sqrt(h / kinetic)), *gamma])
+    xi = np.array([body.I23, -body.I13]) / math.hypot(body.I13, body.I23)
+    (state,), _ = starts(Strip(body, h), theta, np.array([phi]), distance)
     run = solve_ivp(lambda _, y: SYSTEM.field(y, body.parameters), (0.0, 400.0), state, method="DOP853", rtol=1e-13,
                     atol=1e-20)
-    theta_plus = math.acos(run.y[2:, -1] @ xi)
+    theta_plus = math.acos(run.y[2:4, -1] @ xi)
     found = ball_scattering(body, theta, [phi], h, distance, level(name))
     # From the same state; what the start's own distance does is the matter of the next test.
     assert abs(found.theta_plus[0] - theta_plus) <= max(1e-8, 0.5 * level(name).promise)
     assert found.errors[0] >= abs(found.theta_plus[0] - theta_plus)
 
 
-def test_the_true_circle_of_the_start_is_within_the_error():
-    theta, distance = 1.1, 1e-4
-    found = ball_scattering(CAPTION, theta, PHASES[::16], 10.0, distance, level("draft"))
-    length = math.hypot(CAPTION.I13, CAPTION.I23)
-    xi, eta = np.array([CAPTION.I23, -CAPTION.I13]) / length, np.array([CAPTION.I13, CAPTION.I23]) / length
-    for phi, error in zip(found.phis, found.errors, strict=True):
-        across = math.sin(theta) * math.cos(phi)
-        gamma = [*(math.cos(theta) * xi + across * eta), math.sin(theta) * math.sin(phi)]
-        direction = xi + distance * eta
-        kinetic = SYSTEM.integrals((*direction, *gamma), CAPTION.parameters)["E"]
-        state = [*(direction * math.sqrt(10.0 / kinetic)), *gamma]
-        back = solve_ivp(lambda _, y: SYSTEM.field(y, CAPTION.parameters), (0.0, -60.0), state, method="DOP853",
-                         rtol=1e-11, atol=1e-14).y[:, -1]
-        assert abs(math.acos(back[2:4] @ xi) - theta) <= error
+BODIES = [CAPTION, BallBody(1.64, 1.0, 0.0, 0.8, 2.0), BallBody(2.0, 1.0, -0.3, 0.5, 0.0),
+          BallBody(0.3, 1.5, 3.0, 4.0, 30.0)]
+
+
+@pytest.mark.parametrize("body", BODIES, ids=lambda body: f"D={body.D:g}")
+@pytest.mark.parametrize("theta", [0.0, 0.4, 1.1, math.pi / 2, 2.9])
+def test_the_start_is_where_motions_of_its_circle_pass_but_for_the_square_of_the_distance(body, theta):
+    xi = np.array([body.I23, -body.I13]) / math.hypot(body.I13, body.I23)
+    phases = np.array([-2.5, 0.0, 0.7, 2.0])
+    worst = []
+    for distance in (1e-2, -1e-3):
+        states, errors = starts(Strip(body, 10.0), theta, phases, distance)
+        away = []
+        for state, phi, error in zip(states, phases, errors, strict=True):
+            assert SYSTEM.integrals(state, body.parameters) == pytest.approx({"E": 10.0, "F1": 1.0}, rel=1e-13)
+            assert state[0] * -xi[1] + state[1] * xi[0] == pytest.approx(distance * (state[:2] @ xi), rel=1e-12)
+            across = math.sin(theta) * math.cos(phi)
+            circle = [math.cos(theta) * xi[0] - across * xi[1], math.cos(theta) * xi[1] + across * xi[0],
+                      math.sin(theta) * math.sin(phi)]
+            assert np.linalg.norm(state[2:] - circle) <= 1.5 * abs(distance)
+            back = solve_ivp(lambda _, y: SYSTEM.field(y, body.parameters), (0.0, -50.0), state, method="DOP853",
+                             rtol=1e-11, atol=1e-14).y[:, -1]
+            along, up = back[2:4] @ xi, math.hypot(back[3] * xi[0] - back[2] * xi[1], back[4])
+            away.append(abs(math.atan2(up, along) - theta))
+            assert away[-1] <= error
+        worst.append(max(away))
+    # A hundred times less at a tenth of the distance, as far as the integrator sees.
+    assert worst[1] <= worst[0] / 50 + 1e-9
+    assert worst[0] < 1e-4
+
+
+def test_what_would_take_too_long_is_refused_before_it_is_begun():
+    slow = BallBody(1.0, 1.5, 1e-3, 0.0, 300.0)
+    with pytest.raises(WorkLimit, match=r"some \de\+\d\d steps: choose larger I13"):
+        ball_scattering(slow, 1.0, PHASES, 10.0, 1e-12, level("standard"))
+    with pytest.raises(WorkLimit, match="smaller 𝒟"):
+        ball_scattering(CAPTION, 1.0, PHASES, 10.0, 1e-4, level("standard"), most_steps=1000)
+    # What is allowed is what it takes, roughly.
+    found = ball_scattering(CAPTION, 1.0, PHASES, 10.0, 1e-4, level("standard"), most_steps=300_000)
+    assert found.cost.steps < 300_000
+
+
+@pytest.mark.parametrize("D", [0.0, 300.0])
+def test_where_the_line_is_left_within_a_fraction_of_a_turn_the_errors_say_what_is_known(D):
+    # ∫μ beyond double range: no first-order term, and no NaN either.
+    body = BallBody(1e-3, 1.0, 800.0, 600.0, D)
+    states, errors = starts(Strip(body, 1.0), 1.0, PHASES, 1e-5)
+    assert np.all(np.isfinite(states))
+    assert np.all((errors > 0.0) & (errors < 1e-2))
 
 
 def test_errors_fall_with_the_distance_until_it_is_rounded():
