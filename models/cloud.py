@@ -40,6 +40,8 @@ from .threads import THREADS, share
 __all__ = ["Cloud", "carried", "divergence", "frame_times", "histogram", "occupation", "patch", "shell"]
 
 _SHARE = 64
+_CLOSEST = 1e-300
+"""Below, doubles have fewer digits."""
 _CHECKED = 16
 """Of so many points one is computed twice, for the error."""
 _MOST_NUMBERS = 1_500_000
@@ -279,7 +281,7 @@ def _run(states: Array, p: Array, times: Array, level: Level, max_steps: int) ->
             f"Points of this cloud need more than {max_steps} steps each: choose a shorter time span, a smaller 𝒟 or "
             "fewer points.")
     require_finite_states(out)
-    if not np.all(out[..., 1]):
+    if not np.all(np.abs(out[..., 1]) > _CLOSEST):
         raise WorkLimit("The cloud comes closer to N than double precision can say: choose a shorter time span.")
     out[..., 1] = np.log(np.abs(out[..., 1]))
     return out, int(steps.sum())
