@@ -34,6 +34,7 @@ from models import (
     systems,
 )
 from models.accuracy import Status
+from models.additional_integral import I11_of, additional_integral
 from models.errors import (
     InvalidParameter,
     ModelError,
@@ -43,6 +44,8 @@ from models.errors import (
     Separatrix,
     WorkLimit,
 )
+from models.free_suslov import equilibria, free_motion
+from models.scattering import scattering
 from models.torus import cycles, track
 
 HESS, SUSLOV = systems()["hess"], systems()["suslov"]
@@ -315,10 +318,120 @@ def the_cycles(name, body, h, **options):
     return Row(f"cycles: {name}", "closed form, great circle", error, **options)
 
 
+def settled_turning(body, omega, times, digits=30):
+    """The motion without a field long after (before) its passage: then γ turns about ω^(±), which has energy E(ω)."""
+    near = math.copysign(80.0, times[0]) / free_rate(body, omega)
+    state = oracle.orbit_in_decimals(SUSLOV, [*omega, *UP], body.parameters, [near], digits)[0]
+    with mpmath.workdps(40):
+        I11, I22, I13, I23, w1, w2 = map(mpmath.mpf, (*body.parameters[:4], *omega))
+        # biz138, its denominator corrected.
+        size = mpmath.sqrt((I11 * w1**2 + I22 * w2**2) / (I11 * I23**2 + I22 * I13**2)) * (-1 if times[0] > 0 else 1)
+        point = mpmath.matrix([size * I23, -size * I13, 0])
+        speed, gamma = mpmath.norm(point), mpmath.matrix([mpmath.mpf(str(x)) for x in state[2:]])
+        axis = point / speed
+        along = axis * mpmath.fdot(axis, gamma)
+        across = mpmath.matrix([gamma[1] * axis[2] - gamma[2] * axis[1], gamma[2] * axis[0] - gamma[0] * axis[2],
+                                gamma[0] * axis[1] - gamma[1] * axis[0]])
+        rows = []
+        for t in times:
+            angle = speed * (mpmath.mpf(t) - mpmath.mpf(near))
+            turned = along + (gamma - along) * mpmath.cos(angle) + across * mpmath.sin(angle)
+            rows.append([float(point[0]), float(point[1]), *map(float, turned)])
+    return np.array(rows)
+
+
+def free_rate(body, omega):
+    """ω0 of the paper."""
+    I11, I22, I13, I23, *_ = body.parameters
+    return math.sqrt((I22 * I13**2 + I11 * I23**2) * (I11 * omega[0] ** 2 + I22 * omega[1] ** 2)) / (I11 * I22)
+
+
+@cache
+def free_in_decimals(tensor, omega, times):
+    """States from γ = UP, by the field of `Biz131`."""
+    return oracle.orbit_in_decimals(SUSLOV, [*omega, *UP], SuslovBody(*tensor).parameters, times, 30)
+
+
+def free(name, tensor, omega, times, truth=None, against="Taylor series of `Biz131`, 30 digits", **options):
+    """A motion without a field, from γ = UP."""
+    body = SuslovBody(*tensor)
+    once = cache(lambda: truth(body, omega, times) if truth else free_in_decimals(tensor, omega, tuple(times)))
+
+    def error(grade):
+        found = free_motion(body, omega, UP, times, level(grade))
+        return orbit_error(np.hstack([found.omega, found.gamma]), once())
+
+    return Row(f"free Suslov: {name}", against, error, **options)
+
+
+def free_refusal(name, tensor, omega, words, error=InvalidParameter, times=(1.0,)):
+    """Of a motion without a field."""
+    return Refusal(f"free Suslov, {name}",
+                   lambda grade: free_motion(SuslovBody(*tensor), omega, UP, times, grade), error, words)
+
+
+def free_F2(name, k, omega, **options):
+    """F2, in units of its value where |Γ| = 1."""
+    body = SuslovBody(I11_of(k, 1.0, 0.5), 1.0, 0.0, 0.5)
+    integral = additional_integral(k, body)
+
+    def error(grade):
+        rate = free_rate(body, omega)
+        found = free_motion(body, omega, UP, np.linspace(0.0, 60.0 / rate, 200), level(grade))
+        h = 0.5 * (body.I11 * omega[0] ** 2 + body.I22 * omega[1] ** 2)
+        top, _ = integral.at_fixed_points(h)
+        return float(np.max(np.abs(integral(found.omega, found.gamma) - integral(omega, UP)))) / abs(top)
+
+    return Row(f"free Suslov, drift of F2: {name}", "its start", error, **options)
+
+
+def cos_chi_in_decimals(I11, I22, I13, I23):
+    """From the monodromy round the singular points of the passage, as in the README; 60 digits."""
+    with mpmath.workdps(60):
+        I11, I22, I13, I23 = map(mpmath.mpf, (I11, I22, I13, I23))
+        J = mpmath.hypot(I13, I23)
+        w, kappa = (I22 * I13**2 + I11 * I23**2) / J**2, mpmath.sqrt(I11 * I22) / J
+        K, c = kappa**2 * J / w, kappa * I13 * I23 * (I22 - I11) / (J**2 * w)
+        if c == 0:
+            # The notes' formula.
+            k = mpmath.sqrt(mpmath.mpc(kappa**2 - K**2))
+            return float(mpmath.re(2 * mpmath.cos(mpmath.pi * k / 2) ** 2 / mpmath.cosh(mpmath.pi * K / 2) ** 2) - 1)
+        C = mpmath.cos(mpmath.pi / 2 * mpmath.sqrt(kappa**2 - (K + 1j * c) ** 2))
+        return float(2 * ((C.real / mpmath.cosh(mpmath.pi * K / 2)) ** 2
+                          + (C.imag / mpmath.sinh(mpmath.pi * K / 2)) ** 2) - 1)
+
+
+def the_angle(name, tensor, **options):
+    """cos χ on both arcs."""
+    def error(grade):
+        exact = cos_chi_in_decimals(*tensor)
+        return max(abs(scattering(SuslovBody(*tensor), level(grade), arc).cos_chi - exact) for arc in (1, -1))
+
+    return Row(f"scattering, cos χ: {name}", "closed form", error, **options)
+
+
+def circle_joined(name, tensor, omega, times, **options):
+    """Γ⁺ of the orbit that starts next to the unstable point, with its δ, θ⁻ and φ; it has settled at the last time."""
+    body = SuslovBody(*tensor)
+    line = equilibria(body, 0.5 * (body.I11 * omega[0] ** 2 + body.I22 * omega[1] ** 2))
+    xi, eta = line.xi, np.array([body.I13, body.I23]) / math.hypot(body.I13, body.I23)
+    across = float(np.dot(omega, eta))
+    theta, phi = math.acos(np.dot(UP, xi)), math.atan2(UP[2], np.dot(UP[:2], eta))
+
+    def error(grade):
+        found = scattering(body, level(grade), 1 if across > 0 else -1, abs(across) / line.speed)
+        end = free_in_decimals(tensor, omega, tuple(times))[-1].astype(float)
+        return abs(float(found.Gamma_plus(theta, phi)) - float(end[2:] @ xi))
+
+    return Row(f"scattering, Γ⁺: {name}", "Taylor series of `Biz131`, 30 digits", error, **options)
+
+
 # ---- the rows ---------------------------------------------------------------------------------------------------
 
 GENERIC = (2.0, 1.0, 0.3, 0.5, 0.3, -0.5, 1.0)
 START = (0.8, -0.4, 0.6, 0.0, 0.8)
+UP = (0.6, 0.0, 0.8)
+FIGURE_3, SLANTING = (2.44, 1.0, 0.0, 0.5), (2.0, 1.0, 0.3, 0.5)
 HESS_START = (0.3, 0.9, 0.6, 0.0, 0.8)
 GRAZING = (2.0, 0.0, 5e-7, 0.0, 1.0)  # h = 1, f = 1e-6
 BOTTOM = -1 + 1e-12
@@ -495,6 +608,41 @@ ROWS = [
     drift("t = 1e5", HESS, HESS_START, (0.75, 1.0), 1e5, floor=1e-11),
     drift("t = 1e5", SUSLOV, START, GENERIC, 1e5, floor=1e-11),
     drift("t = −1e5", SUSLOV, START, GENERIC, -1e5, floor=1e-11),
+    # motions without a field
+    free("1e-300 off the line", FIGURE_3, (2.0, 1e-300), [1.0, 690.0, 692.0, 740.0]),
+    free("1e-300 off the line, the other arc", FIGURE_3, (2.0, -1e-300), [1.0, 690.0, 692.0, 740.0]),
+    free("5e-324 off the line", FIGURE_3, (2.0, 5e-324), [700.0, 746.0, 760.0]),
+    free("1e-300 off the line, I23 = 0", (1.0, 2.44, 0.5, 0.0), (1e-300, -2.0), [1.0, 690.0, 692.0, 740.0]),
+    free("1e-300 off the stable half, backward", FIGURE_3, (-2.0, 1e-300), [-1.0, -690.0, -692.0, -720.0]),
+    free("1e-16 off a slanting line", SLANTING, (0.5, -0.3 + 1e-16), [1.0, 100.0, 130.0, 160.0]),
+    free("k = 15", (57.25, 1.0, 0.0, 0.5), (2.0, 1e-3), [1.0, 10.0, 30.0]),
+    free("k = 50", (626.0, 1.0, 0.0, 0.5), (2.0, 1e-3), [1.0, 10.0, 30.0]),
+    free("I11/I22 = 1e6", (1e6, 1.0, 0.3, 0.5), (1e-3, 1.0), [1.0, 10.0]),
+    free("I11/I22 = 1e-6", (1e-6, 1.0, 0.3, 0.5), (0.1, 10.0), [0.001, 0.002]),
+    free("I22 = 1e6, a body", (1.0, 1e6, 200.0, 500.0), (1.0, 1e-3), [1.0, 10.0]),
+    free("ω = 1e6", SLANTING, (0.8e6, -0.2e6), [1e-6, 1e-5, 2e-5]),
+    free("ω = 1e-6", SLANTING, (0.8e-6, -0.2e-6), [1e6, 1e7, 2e7]),
+    free("I13, I23 = 0.01", (1.0, 1.0, 0.006, 0.008), (0.7, 0.7), [1.0, 100.0, 300.0]),
+    free("t = 1e3", SLANTING, (0.8, -0.2), [1e3], settled_turning, "closed form, after the passage"),
+    free("t = 1e8", SLANTING, (0.8, -0.2), [1e8], settled_turning, "closed form, after the passage", floor=1e-7,
+         because="the last place of ω times 1e8 radians"),
+    free("t = −1e8", SLANTING, (0.8, -0.2), [-1e8], settled_turning, "closed form, before the passage", floor=1e-7,
+         because="the last place of ω times 1e8 radians"),
+    free_F2("k = 15", 15, (2.0, 1e-3)),
+    free_F2("k = 15, 1e-300 off the line", 15, (2.0, 1e-300)),
+    free_F2("k = 15, ω = 1e6", 15, (1e6, 0.3e6)),
+    free_F2("k = 15, ω = 1e-6", 15, (1e-6, 0.3e-6)),
+    the_angle("k = 14.5", (1.0 + 14.5**2 * 0.25, 1.0, 0.0, 0.5)),
+    the_angle("k = 15", (57.25, 1.0, 0.0, 0.5)),
+    the_angle("I11/I22 = 1e6", (1e6, 1.0, 0.0, 1.0)),
+    the_angle("I11/I22 = 1e-6", (1e-6, 1.0, 0.0, 1.0)),
+    the_angle("I11/I22 = 1e6, slanting", (1e6, 1.0, 300.0, 0.5)),
+    the_angle("I11/I22 = 1e-6, slanting", (1.0, 1e6, 0.5, 300.0)),
+    the_angle("I23 = 1e-3", (2.0, 1.0, 0.0, 1e-3)),
+    the_angle("I23 = 3e-4, slanting", (2.0, 1.0, 2e-4, 3e-4)),
+    the_angle("I13, I23 = 1e6", (1.0, 2.0, 1e6, -1e6)),
+    circle_joined("δ = 5e-301", FIGURE_3, (2.0, 1e-300), [1.0, 690.0, 692.0, 740.0]),
+    circle_joined("δ = 5e-301, the other arc", FIGURE_3, (2.0, -1e-300), [1.0, 690.0, 692.0, 740.0]),
 ]
 
 REFUSALS = [
@@ -526,6 +674,22 @@ REFUSALS = [
     Refusal("a body with I22 = 0", lambda _: SuslovBody(1.0, 0.0, 0.0, 0.0), NotPositiveDefinite, "choose I22 > 0"),
     Refusal("check_body, I11 = −1e-12", lambda _: check_body(-1e-12, 1.0, 0.0, 0.0), NotPositiveDefinite,
             "choose I11 > 0"),
+    free_refusal("I13 = I23 = 0", (2.0, 1.0, 0.0, 0.0), (1.0, 0.5), "Choose I13 or I23 other than 0"),
+    free_refusal("on the line of equilibria", FIGURE_3, (2.0, 0.0), "on the line of equilibria.*Move ω off the line"),
+    free_refusal("ω = 0", FIGURE_3, (0.0, 0.0), "at rest.*Choose ω1 or ω2 other than 0"),
+    free_refusal("ω = 1e160", FIGURE_3, (1e160, 1e160), "choose a less extreme ω", times=[1e-160]),
+    free_refusal("t = 1e308", SLANTING, (1.0, 0.5), "choose a shorter one", times=[1e308, 1.7e308]),
+    free_refusal("b3 = 1e-300", (*SLANTING, 0.0, 0.0, 1e-300), (1.0, 0.5), "Set b1 = b2 = b3 = 0"),
+    free_refusal("I23 = 1e-5", (2.0, 1.0, 0.0, 1e-5), (1.0, 0.5), "choose larger I13, I23", WorkLimit),
+    Refusal("free Suslov, h = 0", lambda _: equilibria(SuslovBody(*FIGURE_3), 0.0), InvalidParameter, "choose h > 0"),
+    Refusal("F2, k = 17", lambda _: additional_integral(17, SuslovBody(*FIGURE_3)), InvalidParameter,
+            "choose an odd k from 1 to 15"),
+    Refusal("scattering, I13 = I23 = 0", lambda grade: scattering(SuslovBody(2.0, 1.0, 0.0, 0.0), grade),
+            InvalidParameter, "Choose I13 or I23 other than 0"),
+    Refusal("scattering, I23 = 1e-300", lambda grade: scattering(SuslovBody(2.0, 1.0, 0.0, 1e-300), grade), WorkLimit,
+            "choose larger I13, I23"),
+    Refusal("scattering, δ = 0", lambda grade: scattering(SuslovBody(*SLANTING), grade, 1, 0.0), InvalidParameter,
+            "choose one above 0 and up to"),
     Refusal("track, b3 = 0", lambda grade: track(HessBody(1.0, 0.5, 0.0), 1.5, 0.6, 0.0, 10.0, grade, 4.0), NoField,
             "b3 = 0.*Choose b3 other than 0"),
 ]
