@@ -65,6 +65,19 @@ class Strip:
         """Points (n, 2) of the inner ellipse σ2, as `sigma1` with I + 𝒟."""
         return self._ellipse(angles, self.body.D)
 
+    def spread(self, count: int) -> Array:
+        """States (count, 5) with E = h whose ω are spread evenly over the strip."""
+        states = np.empty((count, 5))
+        for i in range(count):
+            angle, turn = 2.0 * math.pi * _GOLDEN * i, 2.0 * math.pi * math.sqrt(2.0) * i
+            along = np.array([math.cos(angle), math.sin(angle), 0.0])
+            # From γ along ω, on σ1, to γ across ω, on σ2.
+            sine = math.sqrt((i + 0.5) / count)
+            across = math.cos(turn) * np.array([-along[1], along[0], 0.0]) + math.sin(turn) * np.array([0.0, 0.0, 1.0])
+            gamma = math.sqrt(1.0 - sine * sine) * along + sine * across
+            states[i] = *omega_of_energy(self.body, along[:2], gamma, self.h), *gamma
+        return states
+
     @property
     def unstable(self) -> Array:
         """N^u in the (ω1, ω2) plane: its ends on σ2 and on σ1, (2, 2).  Raises `InvalidParameter`."""

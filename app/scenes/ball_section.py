@@ -20,7 +20,7 @@ from app.views.section_plane import SectionPlane
 from app.views.velocity_plane import VelocityPlane, nice_above, sphere_columns
 from app.wire import Wire
 from app.words import number
-from models.accuracy import LEVELS, STANDARD, Level, cheapest, level
+from models.accuracy import DRAFT, LEVELS, STANDARD, Level, cheapest, level
 from models.ball_section import ball_section, cells, coordinates, forbidden_band, seeds, state_at
 from models.chaplygin_ball import SYSTEM, BallBody
 from models.orbit import solve
@@ -145,18 +145,22 @@ def limits(values: Values) -> Mapping[str, tuple[float, float, float]]:
     return {}
 
 
-def _half_width(body: BallBody, E: float) -> float:
-    return nice_above(1.05 * math.sqrt(2.0 * (E - lowest_energy(body)) / min(body.I11, body.I22)))
+def _half_width(omega: Array) -> float:
+    """Room for these ω (n, 2)."""
+    return nice_above(1.05 * max(1e-9, float(np.hypot(*omega.T).max())))
 
 
-def _weights(body: BallBody, E: float) -> Array:
+def _weights(body: BallBody, start: tuple[float, ...], span: float) -> Array:
+    """Pixels for a unit of each variable, as large as the orbit will be drawn.  Raises `ModelError`."""
+    coarse = solve(SYSTEM, start, body.parameters, np.linspace(0.0, span, 129), DRAFT)
     radius = 0.5 * PIXELS
-    w = radius / _half_width(body, E)
+    w = radius / _half_width(coarse.states[:, :2])
     return np.array([w, w, radius, radius, radius])
 
 
-def _orbit(body: BallBody, E: float, start: tuple[float, ...], span: float, accuracy: Level) -> Orbit:
-    times = sample_times(SYSTEM, np.array(start), np.array(body.parameters), span, _weights(body, E), SAGITTA, _MOST)
+def _orbit(body: BallBody, start: tuple[float, ...], span: float, accuracy: Level) -> Orbit:
+    weights = _weights(body, start, span)
+    times = sample_times(SYSTEM, np.array(start), np.array(body.parameters), span, weights, SAGITTA, _MOST)
     return solve(SYSTEM, start, body.parameters, times, accuracy)
 
 
@@ -192,7 +196,7 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> SectionRe
     start = state_at(body, E, float(values["psi"]), float(values["delta"]))
     crossings = min(int(float(values["count"])), _CROSSINGS_IN_A_DRAG if dragging else 2000)
     later = values["drop"] != "all"
-    orbit = cached(_orbit, body, E, start, float(values["span"]), accuracy) if shown else None
+    orbit = cached(_orbit, body, start, float(values["span"]), accuracy) if shown else None
     others = own = None
     drift: dict[str, float] = {}
     steps = 0
@@ -211,7 +215,8 @@ def motion(values: Values) -> Motion:
     body = body_of(values)
     E = _energy(body, float(values["h"]))
     start = state_at(body, E, float(values["psi"]), float(values["delta"]))
-    return Motion(SYSTEM, start, body.parameters, float(values["span"]), tuple(_weights(body, E)), 1.0)
+    span = float(values["span"])
+    return Motion(SYSTEM, start, body.parameters, span, tuple(_weights(body, start, span)), 1.0)
 
 
 class SectionStage:
@@ -234,8 +239,8 @@ class SectionStage:
         """Draw the section, the returns and the chosen orbit."""
         for view in (self.section, self.returns, self.omega):
             view.say("")
-        if not hold_axes:
-            self.omega.fit(_half_width(result.body, result.E))
+        if not hold_axes and result.orbit is not None:
+            self.omega.fit(_half_width(result.orbit.states[:, :2]))
         if result.others is not None and result.own is not None:
             self.section.show(result.others, result.own)
             band = forbidden_band(result.body, result.E)
@@ -279,13 +284,14 @@ def _captions(result: SectionResult) -> dict[str, str]:
     body = result.body
     captions = {
         "omega": f"Angular velocity (ω₁, ω₂)\nThe chosen orbit, E = {number(result.E)}.",
-        "sphere": "Poisson sphere\nThe vertical γ along the chosen orbit; r: the centre of mass.",
+        "sphere": "Poisson sphere\nThe vertical γ along the chosen orbit" + (
+            "; r: the centre of mass." if any(body.parameters[5:]) else "; no field, b = 0."),
     }
     if result.own is not None:
         volume = "the flow keeps volume" if body.I13 == body.I23 == 0.0 else "volume is not kept"
-        captions["section"] = (f"Section γ₃ = 0, growing\nThe chosen orbit: {len(result.own)} points in "
+        captions["section"] = (f"Section: γ₃ grows through 0\nThe chosen orbit: {len(result.own)} points in "
                                f"{cells(result.own, _CELLS) if len(result.own) else 0} of {_CELLS**2} cells; {volume}.")
-        captions["returns"] = "First return\nψ against the next ψ: a curve for regular motion, a cloud for chaos."
+        captions["returns"] = "First return\nψ and the next ψ: a point if closed, a curve if regular, a cloud in chaos."
     return captions
 
 

@@ -23,7 +23,7 @@ from app.views.velocity_plane import VelocityPlane, nice_above, sphere_columns
 from app.wire import Wire
 from app.words import number
 from models.accuracy import DRAFT, LEVELS, Level, cheapest, level
-from models.ball_scattering import BallScattering, ball_scattering
+from models.ball_scattering import BallScattering, ball_scattering, starts
 from models.chaplygin_ball import SYSTEM, BallBody
 from models.ensemble import ensemble
 from models.errors import WorkLimit
@@ -31,7 +31,7 @@ from models.orbit import solve
 from models.results import Array, Orbit
 from models.sampling import sample_times
 from models.scattering import scattering
-from models.strip import Strip, line_of_rest, omega_of_energy, spread_states
+from models.strip import Strip, line_of_rest
 from models.suslov import SuslovBody
 from models.torus import HALF_A_PIXEL, PIXELS, SAGITTA
 
@@ -39,6 +39,7 @@ _MOST = 4000
 _ORBITS = 18
 _PHASES = 97
 _PHASES_IN_A_DRAG = 33
+_MOST_STEPS = 3e6
 _ANGLES = np.linspace(0.0, 2.0 * math.pi, 181)
 
 SPECS = (
@@ -57,7 +58,7 @@ SPECS = (
            "The angle between ξ and γ at the start of the chosen orbit."),
     Number("phi", "φ", "Phase φ of the chosen orbit", 0.5, -3.14, 3.14, 0.01, -math.pi, math.pi,
            "Where on that circle γ starts, in radians."),
-    Number("digits", "−lg δ", "Distance δ of the start, digits", 4.0, 1.0, 8.0, 0.05, 1.0, 12.0,
+    Number("digits", "−lg δ", "Distance δ of the start, digits", 4.0, 2.0, 8.0, 0.05, 2.0, 12.0,
            "The chosen orbit starts δ = 10^−digits of |ω| away from Nᵘ."),
     Number("span", "t", "Time span", 60.0, 1.0, 400.0, 1.0, 0.01, 1e4, "How long the chosen orbit is followed."),
     Choice("accuracy", "Accuracy", tuple(LEVELS), "standard",
@@ -79,7 +80,7 @@ LEGEND = """
 <li><span class="line orbit"></span>orbits; the chosen one bold</li>
 <li><span class="line stable"></span>Nˢ, circle joined</li>
 <li><span class="line unstable"></span>Nᵘ, circle left</li>
-<li><span class="line second"></span>θ⁺ for 𝒟 = 0</li>
+<li><span class="line second" style="border-top-style: dashed"></span>θ⁺ for 𝒟 = 0</li>
 <li><span class="dot point"></span>moving point</li>
 <li><span class="box forbidden"></span>impossible</li>
 </ul>
@@ -98,13 +99,16 @@ WORDS = Path(__file__).with_suffix(".md").read_text(encoding="utf-8")
 
 @dataclass(frozen=True)
 class BallResult:
-    """`crowd`: tracks (m, 2) of ω over the strip; `map`: θ⁺ over the phases, None where it took too long."""
+    """`crowd`: tracks (m, 2) of ω over the strip, and where on each its arrow is.
+
+    `map`: θ⁺ over the phases; None where it would take too long, for this `reason`.
+    """
 
     values: Values
     body: BallBody
     strip: Strip
     orbit: Orbit | None
-    crowd: tuple[Array, ...]
+    crowd: tuple[tuple[Array, int], ...]
     map: BallScattering | None
     free: Array | None
     reason: str
@@ -133,13 +137,9 @@ def half_width(body: BallBody, h: float) -> float:
 
 
 def _start(body: BallBody, h: float, theta: float, phi: float, digits: float) -> tuple[float, ...]:
-    """E = h, γ on the circle θ⁻ about ξ, ω along ξ + δη."""
-    xi, eta = line_of_rest(body)
-    across = math.sin(theta) * math.cos(phi)
-    gamma = (math.cos(theta) * xi[0] + across * eta[0], math.cos(theta) * xi[1] + across * eta[1],
-             math.sin(theta) * math.sin(phi))
-    omega = omega_of_energy(body, tuple(xi + 10.0 ** -digits * eta), gamma, h)
-    return (*omega, *map(float, gamma))
+    """E = h, ω along ξ + δη, γ where motions from the circle θ⁻ about ξ then are."""
+    states, _ = starts(Strip(body, h), theta, np.array([phi]), 10.0 ** -digits)
+    return tuple(map(float, states[0]))
 
 
 def _weights(body: BallBody, h: float) -> Array:
@@ -153,19 +153,34 @@ def _orbit(body: BallBody, h: float, start: tuple[float, ...], span: float, accu
     return solve(SYSTEM, start, body.parameters, times, accuracy)
 
 
-def _crowd(body: BallBody, h: float, count: int) -> tuple[Array, ...]:
-    """ω (m, 2) of orbits through states spread over the strip, followed both ways until they have all but arrived."""
-    states = spread_states(body, h, count)
-    xi, _ = line_of_rest(body)
-    moment = body.I11 * xi[0] ** 2 + body.I22 * xi[1] ** 2
+def _crowd(body: BallBody, h: float, count: int) -> tuple[tuple[Array, int], ...]:
+    """Orbits through states spread over the strip, followed both ways until they have all but arrived."""
+    strip = Strip(body, h)
+    states = strip.spread(count)
+    _, eta = line_of_rest(body)
+    tick = 2.0 * half_width(body, h) / PIXELS
     speed = math.sqrt(2.0 * h / min(body.I11, body.I22))
-    # The slowest rate at which orbits leave and arrive; a turn of γ in some forty samples, but not too many of them.
-    rate = math.hypot(body.I13, body.I23) * math.sqrt(2.0 * h * moment) / (body.I11 + body.D) / (body.I22 + body.D)
-    end = min(1.5 / rate, 100.0 / speed)
-    times = np.linspace(0.0, end, int(min(600.0, max(60.0, end * speed / 0.15))) + 1)[1:]
+    # The slowest rate at which orbits leave and arrive, at γ = e3 and ω on σ1; not too many turns of γ.
+    rate = math.hypot(body.I13, body.I23) * float(np.hypot(*strip.unstable[1]))
+    end = min(8.0 * (body.I11 + body.D) * (body.I22 + body.D) / (rate * max(body.I11, body.I22)), 250.0 / speed)
+    times = np.linspace(0.0, end, int(min(1200.0, max(60.0, end * speed / 0.2))) + 1)[1:]
+    tracks = []
     there = ensemble(SYSTEM, states, body.parameters, times, DRAFT).states[:, :, :2]
-    back = ensemble(SYSTEM, states, body.parameters, -times, DRAFT).states[:, ::-1, :2]
-    return tuple(np.concatenate([back[i], states[i : i + 1, :2], there[i]]) for i in range(count))
+    back = ensemble(SYSTEM, states, body.parameters, -times, DRAFT).states[:, :, :2]
+    for i in range(count):
+        before, after = (_as_far_as_the_line(states[i, :2], half[i], eta, tick) for half in (back, there))
+        track = np.concatenate([before[:0:-1], after])
+        length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(track, axis=0), axis=1))])
+        # A point for each pixel is enough.
+        kept = np.unique(np.floor(length / tick), return_index=True)[1]
+        tracks.append((track[kept], int(np.searchsorted(kept, len(before) - 1))))
+    return tuple(tracks)
+
+
+def _as_far_as_the_line(first: Array, others: Array, eta: Array, tick: float) -> Array:
+    track = np.vstack([first, others])
+    away = np.flatnonzero(np.abs(track @ eta) > tick)
+    return track[: away[-1] + 2] if away.size else track[:1]
 
 
 def _free_curve(body: BallBody, theta: float, digits: float, phis: tuple[float, ...]) -> Array:
@@ -201,7 +216,7 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> BallResul
         phis = tuple(np.linspace(-math.pi, math.pi, _PHASES_IN_A_DRAG if dragging else _PHASES).tolist())
         try:
             rung = LEVELS["draft"] if dragging else min(accuracy, LEVELS["standard"], key=lambda one: one.order)
-            found = cached(ball_scattering, body, theta_minus, phis, h, 10.0 ** -digits, rung)
+            found = cached(ball_scattering, body, theta_minus, phis, h, 10.0 ** -digits, rung, _MOST_STEPS)
             free = cached(_free_curve, body, theta_minus, digits, phis)
         except WorkLimit as error:
             reason = f"The map of the phases is left out: {error}"
@@ -250,7 +265,7 @@ class BallStage:
             Gamma = result.orbit.states[:, 2:4] @ xi
             ends.append(Circle((*xi, 0.0), float(np.clip(Gamma[-1], -1.0, 1.0)), "stable"))
             self.Gamma.show("first", result.orbit.times, Gamma)
-            self.Gamma.show_levels([float(Gamma[0]), float(Gamma[-1])])
+            self.Gamma.show_levels([math.cos(theta_minus), float(Gamma[-1])])
         self.sphere.show((*xi, 0.0), "ξ", ends, [Mark((*xi, 0.0), "muted"), Mark((*-xi, 0.0), "muted")])
         self._show_curve(result)
         for name, text in _captions(result, Gamma).items():
@@ -262,7 +277,9 @@ class BallStage:
         for name, ends in (("stable", result.strip.stable), ("unstable", result.strip.unstable)):
             self.omega.assign(name, x=ends[:, 0].tolist(), y=ends[:, 1].tolist())
         if result.crowd:
-            self.omega.show_arcs(result.crowd, width)
+            self.omega.show_arcs([track for track, _ in result.crowd], width)
+            # Not in the middle of each, where all of them are slow, but where the strip is covered evenly.
+            self.omega.assign("arrows", **_arrows(result.crowd))
         if result.orbit is not None:
             states = result.orbit.states
             xi = line_of_rest(result.body)[0]
@@ -295,13 +312,26 @@ class BallStage:
         return {"phi": x} if picture == "curve" else {}
 
 
+def _arrows(crowd: Sequence[tuple[Array, int]]) -> dict[str, list[float]]:
+    """Triangles, which point upwards at angle 0, along the tracks."""
+    columns: dict[str, list[float]] = {"x": [], "y": [], "angle": []}
+    for track, place in crowd:
+        if len(track) > 2:
+            i = min(max(place, 1), len(track) - 2)
+            x, y = track[i]
+            step = track[i + 1] - track[i - 1]
+            for name, value in (("x", x), ("y", y), ("angle", math.atan2(step[1], step[0]) - 0.5 * math.pi)):
+                columns[name].append(float(value))
+    return columns
+
+
 def _captions(result: BallResult, Gamma: Array | None) -> dict[str, str]:
     theta_minus = float(result.values["theta"])
     captions = {
         "omega": "Angular velocity (ω₁, ω₂)\nEvery orbit crosses the strip between σ₂ and σ₁ from Nᵘ to Nˢ."}
     if Gamma is not None:
-        left, joined = number(float(Gamma[0])), number(float(Gamma[-1]))
-        captions["sphere"] = f"Poisson sphere\nFrom the circle Γ = {left} about ξ to Γ = {joined} at the end."
+        left, joined = number(math.cos(theta_minus)), number(float(Gamma[-1]))
+        captions["sphere"] = f"Poisson sphere\nFrom Γ = {left} (the circle left) to Γ = {joined} at the end."
         captions["Gamma"] = f"Γ = (ξ, γ) against time\nFrom {left} to {joined}."
     if result.map is not None:
         low, high = float(result.map.theta_plus.min()), float(result.map.theta_plus.max())
