@@ -57,7 +57,10 @@ function sphere(el, options, source, signal, isShown) {
   const home = [0.6, 0.35]
   let turn = home
   const begin = ({ az, el }) => { turn = [Number(az), Number(el)] }
-  document.dispatchEvent(new CustomEvent("hess:mounted", { detail: { kind: "client", show: begin } }))
+  const look = () => document.dispatchEvent(new CustomEvent("hess:mounted", { detail: { kind: "client", show: begin } }))
+  look()
+  // The sphere of another scene may have been turned since.
+  document.addEventListener("hess:enter", () => { if (isShown()) look() }, { signal })
   let point = null
   let requested = false
   let width = 0
