@@ -458,6 +458,8 @@ def test_an_answer_that_takes_long_is_said_to_be_under_way(on_a_line):
 
 # --- The link ----------------------------------------------------------------------------------------
 
+OTHER_KEYS = ("v", "scene", "accuracy", "theme")
+"""Those of the keys of a link that hold no numbers."""
 LINKED = {"I22": 1.25, "I23": -0.5, "b3": -2.5, "h": 0.75, "f": -0.4, "phi0": -2.0, "span": 15.0}
 
 
@@ -482,8 +484,8 @@ def test_a_link_restores_the_whole_state(explorer):
     assert explorer.text("notes") == ""
     # And the page says so in its own words, losing nothing.
     found = explorer.wait_url(v="1", accuracy="precise", theme="dark")
-    numbers = {name: float(text) for name, text in found.items() if name not in ("v", "accuracy", "theme")}
-    assert numbers == {name: float(value) for name, value in query.items() if name not in ("v", "accuracy", "theme")}
+    numbers = {name: float(text) for name, text in found.items() if name not in OTHER_KEYS}
+    assert numbers == {name: float(value) for name, value in query.items() if name not in OTHER_KEYS}
 
 
 def test_the_link_follows_what_the_user_does_and_opens_the_same_page_elsewhere(explorer, open_page):

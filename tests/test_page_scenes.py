@@ -33,6 +33,7 @@ from test_scenes import contents, shown
 from app.browser import wait_ready
 from app.scenes import scenes
 from app.screenshot import running_server
+from app.wire import Wire
 from models import level, solve, systems
 from models.accuracy import LEVELS
 
@@ -248,6 +249,31 @@ def test_ten_changes_in_quick_succession_leave_one_scene_and_nothing_of_the_othe
     explorer.change(explorer.page.mouse.click, x, y)
     assert explorer.state == before + 3
     assert explorer.here() == (pytest.approx(0.5, abs=wide), pytest.approx(0.4, abs=high))
+
+
+SPHERES = [name for name, scene in SCENES.items()
+           if scene.origin is None and any(one.kind == "sphere" for one in scene.stage(Wire()).pictures)]
+
+
+def test_the_spheres_of_all_scenes_are_seen_from_the_same_side_as_the_link_says(explorer):
+    sphere = explorer.picture("sphere").locator("canvas")
+
+    def turn():
+        return tuple(map(float, sphere.get_attribute("data-turn").split()))
+
+    assert len(SPHERES) > 1
+    last = HOME
+    for name in [*SPHERES, *SPHERES]:
+        if name != explorer.scene:
+            explorer.enter(name)
+        assert turn() == pytest.approx(last, abs=2e-4), name
+        sphere.press("ArrowLeft")
+        sphere.press("ArrowDown")
+        wait_frames(explorer, 3)
+        last = (last[0] + STEP, last[1] - STEP)
+        assert turn() == pytest.approx(last, abs=3e-4), name
+        explorer.wait_url(az=f"{turn()[0]:.4f}", el=f"{turn()[1]:.4f}")
+        last = turn()
 
 
 def clicks(explorer, *names, change=None):
