@@ -32,6 +32,8 @@ from models.torus import HALF_A_PIXEL, PIXELS, SAGITTA
 _MOST = 4000
 _LEVELS = (0.25, 0.6, 1.6)
 """Energies of the other ellipses drawn, in that of the orbit."""
+_ROOM_BELOW = (-1.25, 1.05)
+"""The axis of γ₁, with room for the name of the other axis."""
 
 SPECS = (
     Number("I22", "I₂₂", "Inertia I₂₂", 1.0, 0.2, 3.0, 0.01, 1e-3, 1e3,
@@ -233,7 +235,7 @@ class FreeStage:
         self.omega = VelocityPlane(wire)
         self.sphere = PoissonSphere(wire, {"data-orbit": "orbit", "data-second": "second"})
         both = [Series("second", theme.MAP, "dotdash"), Series("first", theme.ORBIT)]
-        self.gamma1 = Graph(wire, "gamma1", (" ", "γ₁"), (0.0, 30.0), (-1.05, 1.05), both)
+        self.gamma1 = Graph(wire, "gamma1", (" ", "γ₁"), (0.0, 30.0), _ROOM_BELOW, both)
         self.Gamma = Graph(wire, "Gamma", ("t", "Γ"), (0.0, 30.0), (-1.05, 1.05), both)
         self.pictures = (self.omega, self.sphere, self.gamma1, self.Gamma)
 
@@ -247,7 +249,7 @@ class FreeStage:
         if not hold_axes:
             self.omega.fit(width)
             self.Gamma.set_ranges((0.0, span), (-1.05, 1.05))
-            self.gamma1.set_ranges((-math.pi, math.pi) if by_phase else (0.0, span), (-1.05, 1.05))
+            self.gamma1.set_ranges((-math.pi, math.pi) if by_phase else (0.0, span), _ROOM_BELOW)
         for graph in (self.gamma1, self.Gamma, self.omega):
             graph.say("")
         self.gamma1.name_across("φ" if by_phase else "t")

@@ -57,7 +57,7 @@ SPECS = (
 )
 
 PRESETS = (
-    Preset("I₁₁ = 3.56, I₂₃ = 0.8, θ⁻ = π/2 (figure 5)", {}),
+    Preset("I₁₁ = 3.56, θ⁻ = π/2 (figure 5)", {}),
     Preset("k = 1: complete reversal, the curve is flat", {"k": 1.0, "theta": 1.0}),
     Preset("k = 3: complete reversal again", {"k": 3.0, "I23": 0.4, "theta": 1.0}),
     Preset("k = 2, small θ⁻", {"theta": 0.3}),
