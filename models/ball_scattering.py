@@ -35,6 +35,10 @@ __all__ = ["BallScattering", "ball_scattering", "starts"]
 
 MOST_STEPS = 20_000_000
 _MOST_SWING = 300.0
+_MOST_TURN = 0.3
+"""Where γ has turned farther from its circle than this, the first order in the distance means nothing."""
+_TINY = 1e-280
+"""In the place of a rate whose inverse is beyond double range."""
 _STEPS = 2.0
 """Taylor steps of both runs in the time 1/ν, at a tolerance of 1e-9 and the order of `REFERENCE`."""
 
@@ -79,7 +83,8 @@ def _moment(body: BallBody, theta: Array | float) -> Array:
 def _growth(body: BallBody, theta: Array, phi: Array) -> Array:
     """μ = λ/u on the circles θ (m,) at the phases φ (n,), shape (m, n)."""
     gamma = np.moveaxis(_circle(body, theta[:, None], phi), -1, 0)
-    return math.hypot(body.I13, body.I23) * _moment(body, theta)[:, None] / determinant(gamma, body.parameters)
+    growth = math.hypot(body.I13, body.I23) * _moment(body, theta)[:, None] / determinant(gamma, body.parameters)
+    return np.maximum(growth, _TINY)
 
 
 def _lag(body: BallBody, theta: float, phis: Array) -> Array | None:
@@ -108,15 +113,16 @@ def starts(strip: Strip, theta: float, phis: Array, distance: float) -> tuple[Ar
     xi, eta = line_of_rest(body)
     lag = _lag(body, theta, phis)
     reach = 1.0 / float(_growth(body, np.array([theta]), _phases(body)).min())
-    H = np.zeros(phis.size, complex) if lag is None else lag
+    known = lag is not None and abs(distance) * float(np.max(np.abs(lag))) < _MOST_TURN
+    H = lag if known else np.zeros(phis.size, complex)
     z = math.sin(theta) * np.exp(1j * phis) + 1j * distance * math.cos(theta) * np.exp(1j * phis) * H.conj()
     across = np.column_stack([math.cos(theta) - distance * math.sin(theta) * H.imag, z.real, z.imag])
     across /= np.linalg.norm(across, axis=1)[:, None]
     gamma = across @ np.array([[*xi, 0.0], [*eta, 0.0], [0.0, 0.0, 1.0]])
     direction = xi + distance * eta
     omega = direction * np.sqrt(strip.h / kinetic_energy((*direction, *gamma.T), body.parameters))[:, None]
-    left = abs(distance) * reach if lag is None else (distance * (1.0 + np.abs(H))) ** 2
-    return np.hstack([omega, gamma]), left + 2e-16 / abs(distance) * reach
+    left = (distance * (1.0 + np.abs(H))) ** 2 if known else abs(distance) * reach
+    return np.hstack([omega, gamma]), np.minimum(left + 2e-16 / abs(distance) * reach, math.pi) + np.zeros(phis.size)
 
 
 def _speed_and_rate(strip: Strip, theta: Array) -> tuple[Array, Array]:

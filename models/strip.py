@@ -69,7 +69,7 @@ class Strip:
         """States (count, 5) with E = h whose ω are spread evenly over the strip."""
         states = np.empty((count, 5))
         for i in range(count):
-            angle, turn = 2.0 * math.pi * _GOLDEN * i, 2.0 * math.pi * math.sqrt(2.0) * i
+            angle, turn = 2.0 * math.pi * _GOLDEN * (i + 0.5), 2.0 * math.pi * math.sqrt(2.0) * i
             along = np.array([math.cos(angle), math.sin(angle), 0.0])
             # From γ along ω, on σ1, to γ across ω, on σ2.
             sine = math.sqrt((i + 0.5) / count)

@@ -160,9 +160,10 @@ def _crowd(body: BallBody, h: float, count: int) -> tuple[tuple[Array, int], ...
     _, eta = line_of_rest(body)
     tick = 2.0 * half_width(body, h) / PIXELS
     speed = math.sqrt(2.0 * h / min(body.I11, body.I22))
-    # The slowest rate at which orbits leave and arrive, at γ = e3 and ω on σ1; not too many turns of γ.
-    rate = math.hypot(body.I13, body.I23) * float(np.hypot(*strip.unstable[1]))
-    end = min(8.0 * (body.I11 + body.D) * (body.I22 + body.D) / (rate * max(body.I11, body.I22)), 250.0 / speed)
+    # No slower than this they leave and arrive, from one pixel to the next one; but not too many turns of γ.
+    moment = 2.0 * h / float(np.sum(strip.unstable[1] ** 2))
+    rate = math.hypot(body.I13, body.I23) * math.sqrt(2.0 * h * moment) / (body.I11 + body.D) / (body.I22 + body.D)
+    end = min(10.0 / max(rate, 1e-290), 250.0 / speed)
     times = np.linspace(0.0, end, int(min(1200.0, max(60.0, end * speed / 0.2))) + 1)[1:]
     tracks = []
     there = ensemble(SYSTEM, states, body.parameters, times, DRAFT).states[:, :, :2]
