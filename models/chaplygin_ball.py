@@ -24,7 +24,7 @@ import numpy as np
 from .crossings import crossing_finder
 from .errors import InvalidParameter
 from .jit import inner, kernel
-from .lanes import ensemble_integrator
+from .lanes import one_by_one
 from .results import Array
 from .rigid_body import require_finite, require_positive_definite
 from .system import System
@@ -195,7 +195,6 @@ QUADRATIC = Quadratic(
     constants=("1/J1 1/J2 𝒟γ² 1/d", constants),
 )
 _orbit = orbit_integrator(QUADRATIC)
-_ensemble = ensemble_integrator(QUADRATIC)
 _cross = crossing_finder(QUADRATIC)
 
 
@@ -205,9 +204,12 @@ def orbit(y, p, times, order, tolerance, max_steps, out):
     return _orbit(y, p, times, order, tolerance, max_steps, out)
 
 
+_ensemble = one_by_one(orbit)
+
+
 @kernel
 def ensemble(states, p, times, order, tolerance, max_steps, out):
-    """Many orbits of `eq29`, see `ensemble_integrator`."""
+    """Many orbits of `eq29`, see `one_by_one`."""
     return _ensemble(states, p, times, order, tolerance, max_steps, out)
 
 

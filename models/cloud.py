@@ -30,11 +30,11 @@ from .accuracy import Level, Status
 from .chaplygin_ball import BallBody
 from .errors import InvalidParameter, WorkLimit
 from .jit import inner, kernel
-from .lanes import ensemble_integrator
+from .lanes import one_by_one
 from .orbit import checked_times, require_finite_states, status_of
 from .results import Array, Cost, frozen
 from .rigid_body import require_finite
-from .taylor import STEP_LIMIT_REACHED, Quadratic
+from .taylor import STEP_LIMIT_REACHED, Quadratic, orbit_integrator
 from .threads import THREADS, share
 
 __all__ = ["Cloud", "carried", "divergence", "frame_times", "histogram", "occupation", "patch", "shell"]
@@ -48,7 +48,7 @@ _MOST_NUMBERS = 1_500_000
 """Of all frames, in single precision 6 MB."""
 _LEAST_FRAMES = 9
 _TURN, _CHANGE = 0.9, 0.55
-"""Between two frames: of γ in radians, and of ln|s|.  So cubic curves are right to about a quarter of a pixel."""
+"""Between two frames: of γ in radians, and of ln|s|.  So cubic curves are right to less than a pixel."""
 _MOST_STEPS, _LEAST_STEPS = 6_000_000, 100
 """Of all points together, some seconds; and of one."""
 _SPARSE = 1.5
@@ -108,7 +108,7 @@ QUADRATIC = Quadratic(
     stages=(("w1 w2 d f1 f2", velocities), ("z", quotient), ("hx hy", turning)),
     constants=("1/J1 1/J2 𝒟γ² 1/d", constants),
 )
-_ensemble = ensemble_integrator(QUADRATIC)
+_ensemble = one_by_one(orbit_integrator(QUADRATIC))
 
 
 @kernel
