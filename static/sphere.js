@@ -110,13 +110,13 @@ function sphere(el, options, source, signal, isShown) {
       ctx.strokeStyle = colour ?? text
     }
 
-    function axis(x, y, z, label, near, reach = 1.2) {
+    function axis(x, y, z, label, near, aside = 0) {
       if (depth(x, y, z) >= 0 !== near) return
       ctx.beginPath()
       ctx.moveTo(px(x, y), py(x, y, z))
       ctx.lineTo(px(1.12 * x, 1.12 * y), py(1.12 * x, 1.12 * y, 1.12 * z))
       ctx.stroke()
-      ctx.fillText(label, px(reach * x, reach * y), py(reach * x, reach * y, reach * z))
+      ctx.fillText(label, px(1.2 * x, 1.2 * y) + aside * ratio, py(1.2 * x, 1.2 * y, 1.2 * z) + aside * ratio)
     }
 
     function layer(near) {
@@ -133,7 +133,7 @@ function sphere(el, options, source, signal, isShown) {
       axis(1, 0, 0, "γ₁", near)
       axis(0, 1, 0, "γ₂", near)
       axis(0, 0, 1, "γ₃", near)
-      if (own.data.axis?.length === 3) axis(...own.data.axis, own.data.label, near, 1.34)
+      if (own.data.axis?.length === 3) axis(...own.data.axis, own.data.label, near, 13)
       for (const [a, b, c, height, look] of own.data.circles ?? []) {
         use(LOOKS[look])
         stroke(circle([a, b, c], height), near)

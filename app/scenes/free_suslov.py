@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import math
-import time
-from collections.abc import Collection, Hashable, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from app import theme
-from app.compute import CACHE
 from app.scenes.base import Motion, Preset, Report, Scene
+from app.scenes.parts import ACCURACY, Work, orbit_status, refuse
 from app.state import Choice, Number, Value, Values
 from app.views.chart import Series
 from app.views.graph import Graph
@@ -22,12 +20,12 @@ from app.views.velocity_plane import VelocityPlane, nice_above, sphere_columns
 from app.wire import Wire
 from app.words import number
 from models import additional_integral
-from models.accuracy import LEVELS, Level, cheapest, level
+from models.accuracy import Level
 from models.errors import InvalidParameter
 from models.free_suslov import Equilibria, FreeMotion, arcs, equilibria, free_motion, passage, rotation, sample_times
 from models.results import Array
 from models.suslov import SYSTEM, SuslovBody
-from models.torus import HALF_A_PIXEL, PIXELS, SAGITTA
+from models.torus import PIXELS, SAGITTA
 
 _MOST = 4000
 _LEVELS = (0.25, 0.6, 1.6)
@@ -55,8 +53,7 @@ SPECS = (
            "A second orbit with the same ω leaves the same circle Γ⁻, turned along it by φ′ − φ."),
     Number("span", "t", "Time span", 30.0, 1.0, 100.0, 1.0, 0.01, 1e5, "How long the orbit is followed."),
     Choice("across", "γ₁ against", ("time", "phase"), "time", "The horizontal axis of the third picture: t or φ."),
-    Choice("accuracy", "Accuracy", tuple(LEVELS), "standard",
-           "Promised error: draft 1e-3, standard 1e-6, precise 1e-9; reference: the floor of double precision."),
+    ACCURACY,
 )
 
 # The figure's caption: tan φ = 0.85/0.28 and 0.53/0.72.
@@ -119,8 +116,7 @@ class FreeResult:
     orbit: FreeMotion
     second: FreeMotion
     integral: additional_integral.AdditionalIntegral | None
-    cached: bool
-    wall_ms: float
+    ended: str
 
 
 def body_of(values: Values) -> SuslovBody:
@@ -190,27 +186,17 @@ def _second_motion(body: SuslovBody, omega: tuple[float, float], gamma: tuple[fl
 
 def compute(values: Values, shown: Collection[str], dragging: bool) -> FreeResult:
     """Two orbits from one circle of γ."""
-    start = time.perf_counter()
-    misses = 0
-
-    def cached(function: Any, *arguments: Hashable) -> Any:
-        nonlocal misses
-        value, hit = CACHE.get(function, *arguments)
-        misses += not hit
-        return value
-
-    accuracy = level(str(values["accuracy"]))
-    if dragging:
-        accuracy = min(accuracy, cheapest(HALF_A_PIXEL), key=lambda rung: rung.order)
+    work = Work(values, dragging)
+    accuracy = work.level
     body, omega, h, points = _start(values)
     width = _half_width(body, h)
     phi, span = float(values["phi"]), float(values["span"])
     gamma = gamma_of(points, float(values["Gamma"]), phi)
-    orbit = cached(_motion, body, omega, gamma, span, width, accuracy)
-    second = cached(_second_motion, body, omega, gamma, float(values["phi2"]) - phi, span, width, accuracy)
+    orbit = work.get(_motion, body, omega, gamma, span, width, accuracy)
+    second = work.get(_second_motion, body, omega, gamma, float(values["phi2"]) - phi, span, width, accuracy)
     return FreeResult(
         values=values, body=body, h=h, points=points, arcs=arcs(body, h), orbit=orbit, second=second,
-        integral=additional_integral.of_body(body), cached=misses == 0, wall_ms=(time.perf_counter() - start) * 1e3)
+        integral=additional_integral.of_body(body), ended=work.ended())
 
 
 def motion(values: Values) -> Motion:
@@ -284,11 +270,7 @@ class FreeStage:
 
     def fail(self, sentence: str) -> None:
         """Empty pictures, and the sentence where the eye is."""
-        for view in (self.omega, self.gamma1, self.Gamma):
-            view.show_nothing(sentence)
-        self.sphere.show_nothing()
-        for picture in self.pictures:
-            self.wire.say(picture.name, sentence)
+        refuse(self.pictures, self.wire, sentence)
 
     def pick(self, picture: str, x: float, y: float) -> Values:
         """A click in the plane chooses ω(0)."""
@@ -339,13 +321,7 @@ def _derived(result: FreeResult) -> list[str]:
 
 
 def _status(result: FreeResult) -> str:
-    orbit = result.orbit
-    return " · ".join([
-        f"{orbit.level}: {orbit.times.size} points, {orbit.cost.steps} Taylor steps, "
-        f"error ≤ {orbit.error_estimate:.1e} ({orbit.status})",
-        "drift " + " ".join(f"{name} {drift:.0e}" for name, drift in orbit.drift.items()),
-        f"{result.wall_ms:.1f} ms, {'cached' if result.cached else 'computed'}",
-    ]).replace("e-", "e−")
+    return " · ".join([*orbit_status(result.orbit), result.ended]).replace("e-", "e−")
 
 
 def _notes(result: FreeResult) -> list[str]:

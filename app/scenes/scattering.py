@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-import time
-from collections.abc import Collection, Hashable, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,10 +11,10 @@ from typing import Any
 import numpy as np
 
 from app import theme
-from app.compute import CACHE
 from app.scenes.base import Motion, Preset, Report, Scene
 from app.scenes.free_suslov import body_of, limits
-from app.state import Choice, Number, Value, Values
+from app.scenes.parts import ACCURACY, Work, refuse
+from app.state import Number, Value, Values
 from app.views.chart import Series
 from app.views.graph import Graph
 from app.views.poisson_sphere import Circle, Mark, PoissonSphere
@@ -23,13 +22,12 @@ from app.views.scattering_map import ANGLE_TICKS, POLAR_TICKS, ScatteringMap
 from app.views.velocity_plane import nice_above, sphere_columns
 from app.wire import Wire
 from app.words import number
-from models.accuracy import LEVELS, cheapest, level
 from models.errors import ModelError
 from models.free_suslov import Equilibria, FreeMotion, equilibria, free_motion, sample_times
 from models.results import Array
 from models.scattering import Scattering, cos_chi, scattering, start
 from models.suslov import SYSTEM, SuslovBody
-from models.torus import HALF_A_PIXEL, PIXELS, SAGITTA
+from models.torus import PIXELS, SAGITTA
 
 _GRIDS = {False: (240, 120), True: (120, 60)}
 """Cells of the map; fewer while a slider is dragged."""
@@ -52,8 +50,7 @@ SPECS = (
            "Where on that circle γ starts, in radians."),
     Number("digits", "−lg δ", "Distance δ of the start, digits", 5.30103, 1.0, 12.0, 0.05, 0.5, 300.0,
            "The start is δ = 10^−digits of |ω| away from the unstable point; it only shifts the phase."),
-    Choice("accuracy", "Accuracy", tuple(LEVELS), "standard",
-           "Promised error: draft 1e-3, standard 1e-6, precise 1e-9; reference: the floor of double precision."),
+    ACCURACY,
 )
 
 PRESETS = (
@@ -103,8 +100,7 @@ class ScatteringResult:
     orders: Array | None
     orbit: FreeMotion | None
     points: Equilibria
-    cached: bool
-    wall_ms: float
+    ended: str
 
 
 def admit(values: Values) -> tuple[dict[str, Value], list[str]]:
@@ -162,28 +158,18 @@ def _orbit(body: SuslovBody, omega: tuple[float, float], gamma: tuple[float, flo
 
 def compute(values: Values, shown: Collection[str], dragging: bool) -> ScatteringResult:
     """One rotation gives the curve and the map; the orbit is that of the phase chosen."""
-    began = time.perf_counter()
-    misses = 0
-
-    def cached(function: Any, *arguments: Hashable) -> Any:
-        nonlocal misses
-        value, hit = CACHE.get(function, *arguments)
-        misses += not hit
-        return value
-
-    accuracy = level(str(values["accuracy"]))
-    if dragging:
-        accuracy = min(accuracy, cheapest(HALF_A_PIXEL), key=lambda rung: rung.order)
+    work = Work(values, dragging)
+    accuracy = work.level
     body, h, omega, gamma = _start(values)
-    found = cached(scattering, body, accuracy, 1, 10.0 ** -float(values["digits"]))
+    found = work.get(scattering, body, accuracy, 1, 10.0 ** -float(values["digits"]))
     return ScatteringResult(
-        values=values, body=body, map=found, limit=cached(scattering, body, accuracy), closed=cos_chi(body),
+        values=values, body=body, map=found, limit=work.get(scattering, body, accuracy), closed=cos_chi(body),
         curve=found.theta_plus(float(values["theta"]), _PHASES),
-        grid=cached(_grid_of, found, *_GRIDS[dragging]) if "map" in shown else None,
-        orders=cached(_orders, *(float(values[name]) for name in ("I22", "I13", "I23")),
+        grid=work.get(_grid_of, found, *_GRIDS[dragging]) if "map" in shown else None,
+        orders=work.get(_orders, *(float(values[name]) for name in ("I22", "I13", "I23")),
                       *_range_of_k(float(values["k"]))) if "chi" in shown else None,
-        orbit=cached(_orbit, body, omega, gamma, _span(values), accuracy) if shown else None,
-        points=equilibria(body, h), cached=misses == 0, wall_ms=(time.perf_counter() - began) * 1e3)
+        orbit=work.get(_orbit, body, omega, gamma, _span(values), accuracy) if shown else None,
+        points=equilibria(body, h), ended=work.ended())
 
 
 def motion(values: Values) -> Motion:
@@ -243,11 +229,7 @@ class ScatteringStage:
 
     def fail(self, sentence: str) -> None:
         """Empty pictures, and the sentence where the eye is."""
-        for view in (self.curve, self.map, self.chi):
-            view.show_nothing(sentence)
-        self.sphere.show_nothing()
-        for picture in self.pictures:
-            self.wire.say(picture.name, sentence)
+        refuse(self.pictures, self.wire, sentence)
 
     def pick(self, picture: str, x: float, y: float) -> Values:
         """A click on the curve chooses φ, on the map φ and θ⁻, on the graph of cos χ the k."""
@@ -289,7 +271,7 @@ def _status(result: ScatteringResult) -> str:
     if result.orbit is not None:
         parts.append(f"orbit {result.orbit.times.size} points, error ≤ {result.orbit.error_estimate:.1e}")
         parts.append("drift " + " ".join(f"{name} {drift:.0e}" for name, drift in result.orbit.drift.items()))
-    parts.append(f"{result.wall_ms:.1f} ms, {'cached' if result.cached else 'computed'}")
+    parts.append(result.ended)
     return " · ".join(parts).replace("e-", "e−")
 
 

@@ -165,7 +165,7 @@ class Figure:
             self.clear("message")
             if sentence:
                 self.assign("message", x=[_middle(self.x_range, "x" in self._log)],
-                            y=[_middle(self.y_range, "y" in self._log)], text=[textwrap.fill(sentence, 36)])
+                            y=[_middle(self.y_range, "y" in self._log)], text=[textwrap.fill(sentence, 24)])
 
     def show_nothing(self, sentence: str) -> None:
         """Nothing but the reason."""
