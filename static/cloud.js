@@ -2,17 +2,13 @@
 // of kind "cloud" draw them over the (ω1, ω2)-plane, with the line of equilibria; "sphere.js" draws the same clouds.
 //
 // The source holds, for each of its clouds i, `frames<i>`: numbers [frame][column][point] at the even `times`, columns
-// (x, y, γ1, γ2, γ3).  Without `signs<i>` x, y are ω1, ω2; with them they are (ω, ξ) and ln|s|, s = I13ω1 + I23ω2, and
-// `signs<i>` those of s; `axes` = [J, I13/J, I23/J].  `sense`: 1, or −1 where the motion is seen backward in time.
-
-// Slopes of a column by five frames, exact for polynomials of degree 4; the rows are for the frames at the ends too.
-const SLOPES = [
-  [-25, 48, -36, 16, -3], [-3, -10, 18, -6, 1], [1, -8, 0, 8, -1], [-1, 6, -18, 10, 3], [3, -16, 36, -48, 25],
-].map((row) => row.map((weight) => weight / 12))
+// (x, y, γ1, γ2, γ3).  Without `signs<i>` x, y are ω1, ω2, of a motion with I13 = I23 = 0 in the field b3; with them
+// they are (ω, ξ) and ln|s|, s = I13ω1 + I23ω2, without a field, and `signs<i>` the signs of s.
+// `body` = [I11, I22, I13, I23, 𝒟, b3]; `sense`: 1, or −1 where the motion is seen backward in time.
 
 class Cloud {
-  constructor(frames, signs, axes, times, sense) {
-    Object.assign(this, { frames, signs, axes, times, sense })
+  constructor(frames, signs, body, times, sense) {
+    Object.assign(this, { frames, signs, body, times, sense })
     this.count = frames.length / (5 * times.length)
     this.size = 5 * this.count
     this.step = times[1] - times[0]
@@ -22,6 +18,11 @@ class Cloud {
     this.ends = [0, 1].map(() => ({ x: column(), y: column(), w1: column(), w2: column() }))
     this.left = -1
     this.t = null
+  }
+
+  get axes() {
+    const J = Math.hypot(this.body[2], this.body[3])
+    return [J, this.body[2] / J, this.body[3] / J]
   }
 
   velocities(x, y, w1, w2) {
@@ -34,22 +35,28 @@ class Cloud {
     }
   }
 
+  // ω and the slopes of x and y at a frame, by `eq29`: ω̇ = s h with h = Î⁻¹(−ω2, ω1), so that d ln|s|/dt = (I13, I23)·h;
+  // or Îω̇ = (b3γ2, −b3γ1).
   prepare(frame, end) {
-    const { frames, count, size, times } = this
-    const first = Math.max(0, Math.min(times.length - 5, frame - 2))
-    const weights = SLOPES[frame - first]
-    for (const [slope, column] of [[end.x, 0], [end.y, 1]]) {
-      slope.fill(0)
-      for (let k = 0; k < 5; k++) {
-        const at = (first + k) * size + column * count
-        for (let i = 0; i < count; i++) slope[i] += weights[k] * frames[at + i]
-      }
-    }
+    const { frames, count, size, signs, body } = this
+    const [I11, I22, I13, I23, D, b3] = body
+    const [, n1, n2] = this.axes
     const at = frame * size
     this.velocities(frames.subarray(at, at + count), frames.subarray(at + count, at + 2 * count), end.w1, end.w2)
+    for (let i = 0; i < count; i++) {
+      const [g1, g2, g3] = [frames[at + 2 * count + i], frames[at + 3 * count + i], frames[at + 4 * count + i]]
+      const [a11, a12, a22] = [I11 + D * (g2 * g2 + g3 * g3), -D * g1 * g2, I22 + D * (g1 * g1 + g3 * g3)]
+      const det = a11 * a22 - a12 * a12
+      const free = signs !== undefined
+      const [f1, f2] = free ? [-end.w2[i], end.w1[i]] : [b3 * g2, -b3 * g1]
+      const [h1, h2] = [(a22 * f1 - a12 * f2) / det, (a11 * f2 - a12 * f1) / det]
+      const s = free ? signs[i] * Math.exp(frames[at + count + i]) : 1
+      end.x[i] = free ? s * (n2 * h1 - n1 * h2) : h1
+      end.y[i] = free ? I13 * h1 + I23 * h2 : h2
+    }
   }
 
-  // Cubic curves between two frames: γ̇ = γ × ω is known there, x and y have their slopes.
+  // Cubic curves between two frames, where all slopes are known: γ̇ = γ × ω.
   moveTo(t) {
     if (t === this.t) return
     this.t = t
@@ -61,16 +68,16 @@ class Cloud {
       this.prepare(left + 1, this.ends[1])
     }
     const u = Math.max(0, Math.min(1, (t - times[left]) / step))
-    const [b, d] = [u * u * (3 - 2 * u), u * u * (u - 1)]
-    const [a, c] = [1 - b, u * (1 - u) * (1 - u)]
-    const [e, f] = [c * step * this.sense, d * step * this.sense]
+    const b = u * u * (3 - 2 * u)
+    const a = 1 - b
+    const [e, f] = [u * (1 - u) * (1 - u) * step * this.sense, u * u * (u - 1) * step * this.sense]
     const [from, to] = this.ends
     const at = left * size
     for (let i = 0; i < count; i++) {
       const p = at + i
       const q = p + size
-      this.x[i] = a * frames[p] + b * frames[q] + c * from.x[i] + d * to.x[i]
-      this.y[i] = a * frames[p + count] + b * frames[q + count] + c * from.y[i] + d * to.y[i]
+      this.x[i] = a * frames[p] + b * frames[q] + e * from.x[i] + f * to.x[i]
+      this.y[i] = a * frames[p + count] + b * frames[q + count] + e * from.y[i] + f * to.y[i]
       const [p1, p2, p3] = [frames[p + 2 * count], frames[p + 3 * count], frames[p + 4 * count]]
       const [q1, q2, q3] = [frames[q + 2 * count], frames[q + 3 * count], frames[q + 4 * count]]
       const [v1, v2, w1, w2] = [from.w1[i], from.w2[i], to.w1[i], to.w2[i]]
@@ -96,7 +103,7 @@ function cloudsOf(source) {
     if (data !== source.data) {
       data = source.data
       clouds = [0, 1].filter((i) => data[`frames${i}`]?.length > 0).map((i) => (
-        new Cloud(data[`frames${i}`], data[`signs${i}`], data.axes, data.times, data.sense)))
+        new Cloud(data[`frames${i}`], data[`signs${i}`], data.body, data.times, data.sense)))
     }
     for (const cloud of clouds) cloud.moveTo(t)
     return clouds

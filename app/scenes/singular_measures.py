@@ -64,14 +64,17 @@ SPECS = (
     ACCURACY,
 )
 
+_CHOICES = {"start": "energy shell", "direction": "forward", "beside": "nothing", "along": "divergence"}
+"""An example sets all that it is about: choices stay as they are otherwise."""
+
 PRESETS = (
-    Preset("Free Suslov problem: on the average 1/|s|", {}),
-    Preset("Backward: onto the unstable half", {"direction": "backward"}),
-    Preset("A small patch and its volume", {"start": "small patch", "along": "volume"}),
+    Preset("Free Suslov problem: on the average 1/|s|", _CHOICES),
+    Preset("Backward: onto the unstable half", {**_CHOICES, "direction": "backward"}),
+    Preset("A small patch and its volume", {**_CHOICES, "start": "small patch", "along": "volume"}),
     Preset("Beside: on a principal axis volume is kept", {
-        "start": "small patch", "beside": "principal axis", "along": "volume"}),
+        **_CHOICES, "start": "small patch", "beside": "principal axis", "along": "volume"}),
     Preset("Chaplygin ball, 𝒟 = 3: γ gathers too", {
-        "I11": 1.0, "I22": 1.5, "I13": 0.7, "I23": 1.2, "D": 3.0, "h": 3.0, "span": 11.0}),
+        **_CHOICES, "I11": 1.0, "I22": 1.5, "I13": 0.7, "I23": 1.2, "D": 3.0, "h": 3.0, "span": 11.0}),
 )
 
 LEGEND = """
@@ -234,7 +237,8 @@ class CloudStage:
             lowest = max(_SMALLEST, float(np.quantile(cloud.log_s[:, -1], 0.02)))
             self.density.fit((math.exp(lowest), math.exp(float(density.log_s[-1]))), density.height)
         bins = (float(density.log_s[0]) - 0.5 * _BIN, _BIN, density.log_s.size)
-        self.omega.show(cloud, h, bins, None if result.other is None else result.other.states)
+        self.omega.show(cloud, h, bins, None if result.other is None else result.other.states,
+                        float(result.values["b3"]))
         xi, _ = line_of_rest(result.body)
         self.sphere.show([*map(float, xi), 0.0], "ξ")
         self.density.say("")

@@ -51,11 +51,15 @@ class CloudPlane:
         """Axes ± half, from the next clouds on."""
         self._half = half
 
-    def show(self, cloud: Cloud, h: float, bins: tuple[float, float, int], other: Array | None) -> None:
-        """A cloud; σ1, σ2 and the line of equilibria at the energy h; a second cloud, states (n, m, 5)."""
+    def show(self, cloud: Cloud, h: float, bins: tuple[float, float, int], other: Array | None, b3: float) -> None:
+        """A cloud; σ1, σ2 and the line of equilibria at the energy h; a second cloud, states (n, m, 5).
+
+        bins : first edge, width and number of those of ln|s|, for the density at the moving time.
+        b3 : the field in which the second cloud moves, with I13 = I23 = 0.
+        """
         body = cloud.body
         strip = Strip(body, h)
-        xi, eta = line_of_rest(body)
+        xi, _ = line_of_rest(body)
         far = 3.0 * self._half * xi
         edges = [strip.sigma1(_ANGLES)] + ([strip.sigma2(_ANGLES)] if body.D else [])
         curves = [["muted", *edge.T.astype(np.float32)] for edge in edges]
@@ -67,7 +71,7 @@ class CloudPlane:
         self.wire.put(self.name, {
             "times": np.abs(cloud.times).astype(np.float32), "sense": -1 if cloud.times[-1] < 0.0 else 1,
             "frames0": _frames([cloud.along, cloud.log_s, *np.moveaxis(cloud.gamma, -1, 0)]),
-            "signs0": cloud.signs.astype(np.float32), "axes": [math.hypot(body.I13, body.I23), *map(float, eta)],
+            "signs0": cloud.signs.astype(np.float32), "body": [body.I11, body.I22, body.I13, body.I23, body.D, b3],
             "half": self._half, "curves": curves, "points": points, "bins": list(bins), **second})
 
     def show_nothing(self, sentence: str) -> None:
