@@ -41,7 +41,7 @@ def _orbit(work: MotionWork, order: int, tolerance: float, threads: int) -> Run:
 
 
 def _free_ensemble(work: MotionWork, order: int, tolerance: float, threads: int) -> Run:
-    """B: all orbits have one ω, and γ̇ = γ × ω is linear, so three of them carry every γ (`models/free_suslov.py`)."""
+    """B: all orbits have one ω, and γ̇ = γ × ω is linear, so three of them carry every γ."""
     integrate = systems()["suslov"].ensemble
     p, gamma = np.array(work.parameters), work.initial[:, 2:]
     axes = np.hstack([np.tile(work.initial[0, :2], (3, 1)), np.eye(3)])
