@@ -13,10 +13,10 @@ import numpy as np
 
 from .accuracy import Level
 from .chaplygin_ball import SYSTEM, BallBody
-from .errors import InvalidParameter
+from .errors import InvalidParameter, WorkLimit
 from .results import Array
 from .rigid_body import require_finite
-from .section import Plane, Points, section_points
+from .section import MAX_STEPS, Plane, Points, section_points
 from .strip import omega_of_energy
 
 __all__ = ["EQUATOR", "ball_section", "cells", "coordinates", "forbidden_band", "seeds", "state_at"]
@@ -71,14 +71,19 @@ def seeds(body: BallBody, h: float, count: int) -> list[tuple[float, ...]]:
     return found
 
 
-def ball_section(body: BallBody, h: float, starts: Sequence[Sequence[float]], crossings: int, level: Level) -> Points:
+def ball_section(body: BallBody, h: float, starts: Sequence[Sequence[float]], crossings: int, level: Level,
+                 most_steps: int = MAX_STEPS) -> Points:
     """The first crossings of each orbit that starts on the section, on all cores, states as in `section_points`.
 
-    Raises `InvalidParameter`, `WorkLimit`.
+    most_steps : of one orbit.  Raises `InvalidParameter`, `WorkLimit`.
     """
     speed = math.sqrt(2.0 * (h + math.hypot(*body.parameters[5:])) / min(body.I11, body.I22))
     end = crossings * _TURNS * math.sqrt(1.0 + body.D / min(body.I11, body.I22)) / speed
-    return section_points(SYSTEM, starts, body.parameters, EQUATOR, end, level, crossings)
+    try:
+        return section_points(SYSTEM, starts, body.parameters, EQUATOR, end, level, crossings, most_steps=most_steps)
+    except WorkLimit:
+        raise WorkLimit(f"{crossings} crossings take an orbit more than {most_steps} steps here: choose fewer of them, "
+                        "or smaller I13 and I23.") from None
 
 
 def cells(points: Array, across: int = 32) -> int:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -23,6 +23,8 @@ MAX_CROSSINGS = 100_000
 MAX_STEPS = 10_000_000
 _ROOM = 1000
 """Crossings for which there is room at first: few orbits have more."""
+_PARTS = 8
+"""Those of the time of a section of many orbits."""
 _SHARE = 4
 """Orbits of one piece of work."""
 
@@ -74,13 +76,14 @@ class _Search:
             raise InvalidParameter("The offset of the plane is too large beside its normal: choose a smaller one.")
         return cls(system, problem, normal / length, offset, plane.sense, end * problem.nu, level, crossings)
 
-    def run(self, i: int, rung: Level, max_steps: int) -> tuple[Array, Array, int]:
-        """Times, states and steps of the crossings of orbit i at one tolerance."""
+    def run(self, i: int, rung: Level, max_steps: int, start: Array | None = None) -> tuple[Array, Array, int]:
+        """Times, states and steps of the crossings of orbit i, or of the one from `start`, at one tolerance."""
+        start = self.problem.states[i] if start is None else start
         room, total = min(self.crossings, _ROOM), 0
         while True:
             times, states = np.empty(room), np.empty((room, self.problem.scale.size))
             found, steps = self.system.cross(
-                self.problem.states[i], self.problem.parameters, self.normal, self.offset, self.sense, self.end,
+                start, self.problem.parameters, self.normal, self.offset, self.sense, self.end,
                 rung.order, rung.tolerance, max_steps - total, times, states)
             if found == STEP_LIMIT_REACHED:
                 raise WorkLimit(f"This section needs more than {MAX_STEPS} steps: choose a shorter time span.")
@@ -174,22 +177,46 @@ class Points:
 
 
 def section_points(system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float],
-                   plane: Plane, end: float, level: Level, crossings: int, threads: int = THREADS) -> Points:
+                   plane: Plane, end: float, level: Level, crossings: int, threads: int = THREADS,
+                   most_steps: int = MAX_STEPS) -> Points:
     """For pictures: the first `crossings` crossings of each orbit, rows of `states` (n, d), in one run.
 
-    Raises `InvalidParameter`, `WorkLimit`.
+    An orbit that in some part of the time crosses less often than it must on an average is not followed to the end.
+    most_steps : of one orbit.  Raises `InvalidParameter`, `WorkLimit`.
     """
     begun = time.perf_counter()
     search = _Search.of(system, states, parameters, plane, end, level, crossings)
     count = len(search.problem.states)
+    parts = max(1, min(_PARTS, crossings // 10))
+    one_part = replace(search, end=search.end / parts, crossings=-(-crossings // parts))
     found: dict[int, tuple[Array, int]] = {}
+
+    def follow(orbit: int) -> tuple[Array, int]:
+        pieces: list[Array] = []
+        start, steps = None, 0
+        for _ in range(parts):
+            _, points, taken = one_part.run(orbit, level, most_steps - steps, start)
+            pieces.append(points)
+            steps += taken
+            if len(points) < one_part.crossings:
+                break
+            start = points[-1]
+        return np.concatenate(pieces)[:crossings] * search.problem.scale, steps
+
+    refused: list[WorkLimit] = []
 
     def part(i: int) -> None:
         for orbit in range(i * _SHARE, min((i + 1) * _SHARE, count)):
-            _, points, steps = search.run(orbit, level, MAX_STEPS)
-            found[orbit] = (points * search.problem.scale, steps)
+            # Where one takes too long the others need not be tried.
+            if not refused:
+                try:
+                    found[orbit] = follow(orbit)
+                except WorkLimit as error:
+                    refused.append(error)
 
     share(part, -(-count // _SHARE), threads)
+    if refused:
+        raise refused[0]
     starts, p = np.array(states, float, ndmin=2), np.asarray(parameters, float)
     drifts = [drift_of(system, starts[i], found[i][0], p) for i in range(count) if len(found[i][0])]
     drift = {name: max(one[name] for one in drifts) for name in (drifts[0] if drifts else ())}

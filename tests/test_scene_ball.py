@@ -387,7 +387,7 @@ def test_where_the_energy_forbids_a_place_the_start_moves_to_the_edge_and_it_is_
 @pytest.mark.parametrize("values", [
     {"h": 1e-3, "psi": 3.1}, {"delta": 1e-6}, {"delta": math.pi - 1e-6}, {"b1": 0.0, "b2": 0.0, "b3": 0.0},
     {"b1": 0.0, "b2": 0.0, "b3": 0.0, "I13": 0.3}, {"D": 0.0}, {"D": 100.0}, {"I11": 100.0, "I22": 0.01}, {"b3": 100.0},
-    {"h": 1000.0}, {"I13": 100.0, "I23": -100.0}, {"count": 1.0}, {"count": 1.0, "drop": "the later half"},
+    {"h": 1000.0}, {"I13": 20.0, "I23": -20.0}, {"count": 1.0}, {"count": 1.0, "drop": "the later half"},
 ], ids=str)
 @pytest.mark.parametrize("dragging", [False, True])
 def test_what_is_extreme_is_drawn(values, dragging):
@@ -401,3 +401,16 @@ def test_what_is_extreme_is_drawn(values, dragging):
     if not any(view.values[name] for name in ("b1", "b2", "b3")):
         assert "no field" in view.text["sphere"]
         assert view.data["sphere"]["label"] == ""
+
+
+def test_a_section_that_takes_long_is_left_out_and_the_page_says_so(monkeypatch):
+    monkeypatch.setattr("app.scenes.ball_section._MOST_STEPS", 100)
+    view = View(SECTION, {"psi": 1.2345, "count": 300.0})
+    reason = ("The section is left out: 300 crossings take an orbit more than 100 steps here: choose fewer of them, or "
+              "smaller I13 and I23.")
+    assert view.report.notes == [reason]
+    for picture in ("section", "returns"):
+        assert view.text[picture].endswith(reason)
+        assert " ".join(view.data[f"{picture}-message"]["text"][0].split()) == reason
+        assert not len(view.data[f"{picture}-own"]["x"])
+    assert len(view.data["data-orbit"]["t"]) > 10

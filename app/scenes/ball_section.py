@@ -23,6 +23,7 @@ from app.words import number
 from models.accuracy import DRAFT, LEVELS, STANDARD, Level, cheapest, level
 from models.ball_section import ball_section, cells, coordinates, forbidden_band, seeds, state_at
 from models.chaplygin_ball import SYSTEM, BallBody
+from models.errors import WorkLimit
 from models.orbit import solve
 from models.results import Array, Orbit
 from models.sampling import sample_times
@@ -34,15 +35,16 @@ _MOST = 6000
 _ORBITS, _ORBITS_IN_A_DRAG = 24, 12
 _CROSSINGS_IN_A_DRAG = 60
 _CELLS = 32
+_MOST_STEPS = 15_000
 _ABOVE = 1e-3
 
 SPECS = (
     Number("I11", "I₁₁", "Inertia I₁₁", 1.0, 0.2, 5.0, 0.01, 1e-2, 1e2, "Moment of inertia about the first body axis."),
     Number("I22", "I₂₂", "Inertia I₂₂", 3.0, 0.2, 5.0, 0.01, 1e-2, 1e2,
            "Moment of inertia about the second body axis."),
-    Number("I13", "I₁₃", "Inertia I₁₃", 0.0, -1.0, 1.0, 0.01, -1e2, 1e2,
+    Number("I13", "I₁₃", "Inertia I₁₃", 0.0, -1.0, 1.0, 0.01, -20.0, 20.0,
            "Product of inertia; with I₁₃ = I₂₃ = 0 the flow keeps volume."),
-    Number("I23", "I₂₃", "Inertia I₂₃", 0.0, -1.0, 1.0, 0.01, -1e2, 1e2, "Product of inertia."),
+    Number("I23", "I₂₃", "Inertia I₂₃", 0.0, -1.0, 1.0, 0.01, -20.0, 20.0, "Product of inertia."),
     Number("D", "𝒟", "Ball inside, 𝒟", 5.0, 0.0, 10.0, 0.05, 0.0, 1e2, "𝒟 = (R/Rₛ)² Iₛ of the ball that rolls inside."),
     Number("b1", "b₁", "Centre of mass b₁", 0.5, -1.0, 1.0, 0.01, -1e2, 1e2, "b = −mg r, r the centre of mass."),
     Number("b2", "b₂", "Centre of mass b₂", 0.0, -1.0, 1.0, 0.01, -1e2, 1e2, "b = −mg r."),
@@ -53,7 +55,7 @@ SPECS = (
            "On the section γ = (cos ψ, sin ψ, 0). A click in the section chooses ψ and δ."),
     Number("delta", "δ", "Start: δ, from γ to ω", 1.5, 0.01, 3.13, 0.01, 1e-6, math.pi - 1e-6,
            "On the section ω points at the angle δ from γ."),
-    Number("count", "n", "Crossings of each orbit", 200.0, 50.0, 600.0, 10.0, 1.0, 2000.0, "Points for each orbit."),
+    Number("count", "n", "Crossings of each orbit", 200.0, 50.0, 600.0, 10.0, 1.0, 1000.0, "Points for each orbit."),
     Number("span", "t", "Time span", 40.0, 1.0, 200.0, 1.0, 0.01, 1e4, "How long the chosen orbit is followed."),
     Choice("drop", "Points shown", ("all", "the later half"), "all", "The later half shows what attracts."),
     Choice("accuracy", "Accuracy", tuple(LEVELS), "standard",
@@ -100,7 +102,7 @@ WORDS = Path(__file__).with_suffix(".md").read_text(encoding="utf-8")
 
 @dataclass(frozen=True)
 class SectionResult:
-    """E is the energy; `others`, `own`: (n, 2) points (ψ, δ); None where no picture asks."""
+    """E is the energy; `others`, `own`: (n, 2) points (ψ, δ); None where no picture asks, or for this `reason`."""
 
     values: Values
     body: BallBody
@@ -111,6 +113,7 @@ class SectionResult:
     own: Array | None
     drift: Mapping[str, float]
     steps: int
+    reason: str
     cached: bool
     wall_ms: float
 
@@ -165,11 +168,11 @@ def _orbit(body: BallBody, start: tuple[float, ...], span: float, accuracy: Leve
 
 
 def _others(body: BallBody, E: float, orbits: int, crossings: int) -> Points:
-    return ball_section(body, E, seeds(body, E, orbits), crossings, STANDARD)
+    return ball_section(body, E, seeds(body, E, orbits), crossings, STANDARD, _MOST_STEPS)
 
 
 def _own(body: BallBody, E: float, start: tuple[float, ...], crossings: int) -> Points:
-    return ball_section(body, E, [start], crossings, STANDARD)
+    return ball_section(body, E, [start], crossings, STANDARD, _MOST_STEPS)
 
 
 def _points(points: Points, crossings: int, later: bool) -> Array:
@@ -194,19 +197,22 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> SectionRe
     body = body_of(values)
     E = _energy(body, float(values["h"]))
     start = state_at(body, E, float(values["psi"]), float(values["delta"]))
-    crossings = min(int(float(values["count"])), _CROSSINGS_IN_A_DRAG if dragging else 2000)
+    crossings = min(int(float(values["count"])), _CROSSINGS_IN_A_DRAG if dragging else 1000)
     later = values["drop"] != "all"
     orbit = cached(_orbit, body, start, float(values["span"]), accuracy) if shown else None
     others = own = None
     drift: dict[str, float] = {}
-    steps = 0
+    steps, reason = 0, ""
     if not {"section", "returns"}.isdisjoint(shown):
-        many = cached(_others, body, E, _ORBITS_IN_A_DRAG if dragging else _ORBITS, crossings)
-        one = cached(_own, body, E, start, crossings)
-        others, own = _points(many, crossings, later), _points(one, crossings, later)
-        drift = {name: max(many.drift.get(name, 0.0), one.drift.get(name, 0.0)) for name in ("E", "F1")}
-        steps = many.cost.steps + one.cost.steps
-    return SectionResult(values, body, E, start, orbit, others, own, drift, steps, misses == 0,
+        try:
+            one = cached(_own, body, E, start, crossings)
+            many = cached(_others, body, E, _ORBITS_IN_A_DRAG if dragging else _ORBITS, crossings)
+            others, own = _points(many, crossings, later), _points(one, crossings, later)
+            drift = {name: max(many.drift.get(name, 0.0), one.drift.get(name, 0.0)) for name in ("E", "F1")}
+            steps = many.cost.steps + one.cost.steps
+        except WorkLimit as error:
+            reason = f"The section is left out: {error}"
+    return SectionResult(values, body, E, start, orbit, others, own, drift, steps, reason, misses == 0,
                          (time.perf_counter() - began) * 1e3)
 
 
@@ -247,8 +253,10 @@ class SectionStage:
             self.section.show_forbidden([] if band is None else _bands(*band))
             # Which returns belong together only the chosen orbit tells.
             self.returns.show(np.empty((0, 2)), np.column_stack([result.own[:-1, 0], result.own[1:, 0]]))
-        psi, delta = float(result.values["psi"]), float(result.values["delta"])
-        self.section.choose(psi, delta)
+            self.section.choose(float(result.values["psi"]), float(result.values["delta"]))
+        elif result.reason:
+            self.section.show_nothing(result.reason)
+            self.returns.show_nothing(result.reason)
         if result.orbit is not None:
             states = result.orbit.states
             self.omega.assign("orbit", t=result.orbit.times.astype(np.float32),
@@ -258,7 +266,7 @@ class SectionStage:
         self.sphere.show(*(((-b / length).tolist(), "r") if length > 0.0 else ((), "")))
         for name, text in _captions(result).items():
             self.wire.say(name, text)
-        return Report(_derived(result), _status(result))
+        return Report(_derived(result), _status(result), [result.reason] if result.reason else [])
 
     def fail(self, sentence: str) -> None:
         """Empty pictures, and the sentence where the eye is."""
@@ -292,6 +300,9 @@ def _captions(result: SectionResult) -> dict[str, str]:
         captions["section"] = (f"Section: γ₃ grows through 0\nThe chosen orbit: {len(result.own)} points in "
                                f"{cells(result.own, _CELLS) if len(result.own) else 0} of {_CELLS**2} cells; {volume}.")
         captions["returns"] = "First return\nψ and the next ψ: a point if closed, a curve if regular, a cloud in chaos."
+    elif result.reason:
+        captions["section"] = f"Section: γ₃ grows through 0\n{result.reason}"
+        captions["returns"] = f"First return\n{result.reason}"
     return captions
 
 
