@@ -133,7 +133,14 @@ export function render({ model, view }) {
       plot.repainted.connect(() => onPainted())
       // Bokeh's own repaint measures all axis labels first, also when `show` has painted already.
       const repaint = plot.repaint.bind(plot)
-      plot.repaint = () => { if (unpainted(plot)) repaint() }
+      // And it clears only what it fills: ticks of other axes would stay behind a transparent background.
+      plot.repaint = () => {
+        if (plot._invalidate_all) {
+          const { primary } = plot.canvas_view
+          primary.undo_transform((ctx) => ctx.clearRect(0, 0, primary.el.width, primary.el.height))
+        }
+        if (unpainted(plot)) repaint()
+      }
       // Bokeh does not cut what is on the overlay canvas to the frame; all our moving elements are there.
       for (const part of plot.computed_renderer_views) {
         const update = part.update_data?.bind(part)
