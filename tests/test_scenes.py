@@ -150,6 +150,11 @@ def flat(item):
     return np.asarray(item).ravel().tolist()
 
 
+def said(message):
+    """The sentences of a source of texts; in a picture they are broken into lines."""
+    return [" ".join(text.split()) for text in flat(message["text"])]
+
+
 def contents(sources):
     return {name: {key: flat(column) for key, column in columns.items()} for name, columns in sources.items()}
 
@@ -790,7 +795,7 @@ def test_a_computation_that_raises_draws_the_sentence_in_empty_pictures(error, s
     for name in ("omega", "sphere", "bifurcation", "circle"):
         assert browser.texts[name].startswith(sentence)
     assert browser.texts["status"].startswith(sentence)
-    assert flat(browser.data["circle-message"]["text"])[0].startswith(sentence)
+    assert said(browser.data["circle-message"])[0].startswith(sentence)
     assert "secret" not in json.dumps(browser.texts)
     for name in ("data-orbit", "data-stable", "data-unstable", "circle-map", "circle-cobweb", "circle-stable",
                  "circle-unstable", "bifurcation-here", "bifurcation-here-too"):
@@ -811,7 +816,7 @@ def test_a_first_state_that_cannot_be_computed_is_said_too(caplog):
 
     browser = Browser(dataclasses.replace(HESS, compute=compute))
     assert re.fullmatch(r"This is beyond us: choose less\. · cache \d+ hits, \d+ misses", browser.texts["status"])
-    assert flat(browser.data["circle-message"]["text"]) == ["This is beyond us: choose less."]
+    assert said(browser.data["circle-message"]) == ["This is beyond us: choose less."]
     assert flat(browser.data["data-orbit"].get("omega1", [])) == []
 
 
@@ -944,7 +949,7 @@ def test_a_scene_that_cannot_be_computed_is_entered_with_its_sentence(monkeypatc
     assert state["scene"] == broken.name
     assert browser.texts["status"].startswith("This is beyond us")
     for name in ACCURACY.pictures:
-        assert flat(browser.data[f"{name}-message"]["text"]) == ["This is beyond us: choose less."]
+        assert said(browser.data[f"{name}-message"]) == ["This is beyond us: choose less."]
         assert browser.texts[name] == "This is beyond us: choose less."
     browser.ask(2, scene=HESS.name)
     assert not browser.texts["status"].startswith("This is beyond us")
