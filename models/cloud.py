@@ -142,12 +142,12 @@ class Cloud:
         """ω1, ω2, shape (n, m, 2)."""
         J, n1, n2 = _axes(self.body)
         across = self.signs[:, None] * np.exp(self.log_s) / J
-        return np.stack([n2 * self.along + n1 * across, n2 * across - n1 * self.along], axis=-1)
+        return frozen(np.stack([n2 * self.along + n1 * across, n2 * across - n1 * self.along], axis=-1))
 
     @cached_property
     def divergence(self) -> Array:
         """div v at every point, (n, m)."""
-        return divergence(self.body, self.omega, self.gamma)
+        return frozen(divergence(self.body, self.omega, self.gamma))
 
     @property
     def log_growth(self) -> Array:
@@ -330,7 +330,7 @@ def _shares(log_s: Array, edges: Array) -> Array:
     width = float(edges[1] - edges[0])
     bins = np.floor((log_s.ravel() - edges[0]) / width).astype(int)
     counts = np.bincount(bins[(bins >= 0) & (bins < edges.size - 1)], minlength=edges.size - 1)
-    return counts / (log_s.size * width)
+    return frozen(counts / (log_s.size * width))
 
 
 def histogram(cloud: Cloud, frame: int, edges: Array) -> Array:

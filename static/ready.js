@@ -200,6 +200,10 @@ export function render({ model, view }) {
       state = next
       if (scene?.name !== state.scene) enter()
       show(block)
+    }).catch((error) => {
+      // One state that cannot be shown must not keep the next ones away.
+      asked = null
+      console.error(error)
     })
   }
   const enter = () => {

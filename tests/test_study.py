@@ -10,15 +10,16 @@ import time
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from test_scenes import ACCURACY, HESS, flat, sources_of
+from test_scenes import ACCURACY, HESS, Board, flat, said
 
+from app.scenes import scenes
 from app.scenes.speed_accuracy import Study
-from app.wire import Wire
 from models import HessBody, systems
 from models.accuracy import DRAFT, LEVELS, REFERENCE
 from models.errors import InvalidParameter, WorkLimit
 from models.orbit import solve
-from models.study import Growth, WorkPoint, growth, measure_levels, measure_others, others_take_long
+from models.study import Growth, WorkPoint, growth, longest_span, measure_levels, measure_others, others_take_long
+from models.system import Problem
 from models.torus import PIXELS, track
 
 SAMPLES = 200
@@ -115,9 +116,9 @@ def test_pixels_are_distances_in_the_pictures_of_the_scene(change):
     motion = HESS.motion(values)
     found = growth(*asked(motion), motion.weights, SAMPLES)
     result = HESS.compute(values, HESS.pictures, False)
-    stage = HESS.stage()
-    stage.show(result, False)
-    width = stage.omega.root.x_range.end - stage.omega.root.x_range.start
+    board = Board(HESS)
+    board.show(result)
+    width = board.stage.omega.x_range[1] - board.stage.omega.x_range[0]
     truth = result.body.from_reduced(result.body.from_units_of_b(independent(motion, found.times)))
     for name in ("draft", "standard"):
         states = solve(motion.system, motion.state, motion.parameters, found.times, LEVELS[name]).states
@@ -234,12 +235,12 @@ def made_up(pixels, error=1e-5, drifts=(1e-6, 2e-7, 3e-8)):
         {name: {key: drift * along for key, drift in zip(names, drifts, strict=False)} for name in LEVELS})
 
 
-def shown(accuracy="standard", points=WORK, errors=None, reason="", hold_axes=False):
-    """(Stage, captions, report) of a study that is made up."""
+def shown(accuracy="standard", points=WORK, errors=None, notes=()):
+    """(Board, captions, report) of a study that is made up."""
     values = {**ACCURACY.defaults(), "accuracy": accuracy}
-    stage = ACCURACY.stage()
-    report = stage.show(Study(values, MOTION, points, errors, reason, 12.3), hold_axes)
-    return stage, {picture.name: picture.caption.text for picture in stage.pictures}, report
+    board = Board(ACCURACY)
+    report = board.show(Study(values, MOTION, points, errors, notes, 12.3))
+    return board, board.captions, report
 
 
 def test_a_picture_that_stays_right_is_said_to_be_so_to_the_end():
@@ -285,22 +286,22 @@ def test_the_caption_of_the_cost_compares_with_what_is_as_exact(accuracy, said):
 
 
 def test_without_scipy_the_caption_compares_with_nobody_and_the_reason_is_a_note():
-    _, captions, report = shown(points=WORK[:4], reason="Left out.")
+    _, captions, report = shown(points=WORK[:4], notes=("Left out.",))
     assert captions["precision"] == "Cost against error\nstandard: 2 ms, error 3e−07."
-    assert report.notes == ["Left out."]
-    assert shown()[2].notes == []
+    assert list(report.notes) == ["Left out."]
+    assert list(shown()[2].notes) == []
 
 
 @pytest.mark.parametrize("accuracy", LEVELS)
 def test_the_ring_is_round_the_chosen_level(accuracy):
-    stage, _, _ = shown(accuracy)
+    board, _, _ = shown(accuracy)
     own = next(point for point in WORK if point.setting == accuracy)
-    ring = sources_of(stage)["precision-chosen"]
-    assert (flat(ring["x"]), flat(ring["y"])) == ([max(own.error, 1e-17)], [own.ms])
+    ring = board.sources["precision-chosen"]
+    assert (flat(ring["x"]), flat(ring["y"])) == ([pytest.approx(max(own.error, 1e-17))], [pytest.approx(own.ms)])
 
 
 def test_every_way_to_compute_is_a_point_of_its_line():
-    data = sources_of(shown()[0])
+    data = shown()[0].sources
     for method in ("Taylor", "DOP853", "LSODA"):
         own = [point for point in WORK if point.method == method]
         for layer in (f"precision-{method}", f"precision-{method}-marks"):
@@ -311,7 +312,7 @@ def test_every_way_to_compute_is_a_point_of_its_line():
 
 def test_each_chart_shows_its_curves_over_the_time_of_the_page():
     errors = made_up(4.0, drifts=(1e-6, 2e-7))
-    data = sources_of(shown("draft", errors=errors)[0])
+    data = shown("draft", errors=errors)[0].sources
     for name in LEVELS:
         for chart, values in (("growth", errors.errors[name]), ("pixels", errors.pixels[name])):
             own = data[f"{chart}-{name}"]
@@ -334,57 +335,69 @@ def test_each_chart_shows_its_curves_over_the_time_of_the_page():
 
 
 def test_what_vanishes_is_drawn_on_the_edge_of_a_logarithmic_axis():
-    stage, captions, _ = shown(errors=made_up(0.0, error=0.0, drifts=(0.0, 0.0, 0.0)),
+    board, captions, _ = shown(errors=made_up(0.0, error=0.0, drifts=(0.0, 0.0, 0.0)),
                                points=tuple(dataclasses.replace(point, error=0.0) for point in WORK))
-    for chart in stage.charts:
-        for layer, source in chart.sources.items():
-            for column, values in source.data.items():
-                if column != "text" and layer != "limit" and not (layer == "orbit" and column == "t"):
-                    assert np.all(np.asarray(values)[column == "x" and chart is not stage.precision:] >= 0.0)
-                if column == "y":
-                    assert np.all(np.asarray(values) > 0.0), (chart.name, layer)
-    assert np.all(np.asarray(stage.precision.sources["Taylor"].data["x"]) > 0.0)
+    drawn = 0
+    for name, columns in board.sources.items():
+        if "y" in columns and not name.endswith("message"):
+            assert np.all(np.asarray(flat(columns["y"])) > 0.0), name
+            drawn += len(flat(columns["y"]))
+    assert drawn > 100
+    assert flat(board.sources["precision-Taylor"]["x"]) == pytest.approx([1e-17] * 4)
     assert "nan" not in " ".join(captions.values())
 
 
 def test_under_a_drag_the_axis_of_time_stays_and_after_it_follows():
-    stage, _, _ = shown(errors=made_up(0.5))
-    study = Study(ACCURACY.defaults(), dataclasses.replace(MOTION, unit=7.0), WORK, made_up(0.5), "", 1.0)
-    axes = [chart.root.x_range for chart in stage.charts[1:]]
-    assert [(axis.start, axis.end) for axis in axes] == [(0.0, 20.0)] * 3
-    stage.show(study, True)
-    assert [(axis.start, axis.end) for axis in axes] == [(0.0, 20.0)] * 3
-    stage.show(study, False)
-    assert [(axis.start, axis.end) for axis in axes] == [(0.0, 70.0)] * 3
+    board, _, _ = shown(errors=made_up(0.5))
+    study = Study(ACCURACY.defaults(), dataclasses.replace(MOTION, unit=7.0), WORK, made_up(0.5), (), 1.0)
+
+    def axes():
+        return [tuple(chart.x_range) for chart in board.stage.charts[1:]]
+
+    assert axes() == [(0.0, 20.0)] * 3
+    board.show(study, True)
+    assert axes() == [(0.0, 20.0)] * 3
+    board.show(study, False)
+    assert axes() == [(0.0, 70.0)] * 3
+    # And the browser is told.
+    assert [board.ranges[name][:2] for name in ("growth", "drift", "pixels")] == [[0.0, 70.0]] * 3
 
 
 def test_a_stage_that_fails_has_no_number_left_in_any_chart():
-    stage, _, _ = shown(errors=made_up(0.5))
-    wire = Wire()
-    stage.connect(wire)
-    stage.fail("No motion here.")
-    tree, block = wire.pack()
-    assert block == b""
-    for chart in stage.charts:
-        for layer, source in chart.sources.items():
-            columns = tree["sources"][source.name]
-            if layer == "message":
-                assert columns["text"] == ["No motion here."]
-                for column, axis in (("x", chart.root.x_range), ("y", chart.root.y_range)):
-                    assert axis.start < columns[column][0] < axis.end
+    board, _, _ = shown(errors=made_up(0.5))
+    board.fail("No motion here.")
+    for chart in board.stage.charts:
+        for name, columns in board.sources.items():
+            if not name.startswith(f"{chart.name}-"):
+                continue
+            if name.endswith("-message"):
+                assert said(columns) == ["No motion here."]
+                for column, axis in (("x", chart.x_range), ("y", chart.y_range)):
+                    assert axis[0] < flat(columns[column])[0] < axis[1]
             else:
-                assert flat(list(columns.values())) == [], source.name
-    assert set(tree["texts"].values()) == {"No motion here."}
+                assert flat(list(columns.values())) == [], name
+    assert flat(list(board.sources["data-orbit"].values())) == []
+    assert set(board.captions.values()) == {"No motion here."}
     # And with the next state the sentence goes.
-    stage.show(Study(ACCURACY.defaults(), MOTION, WORK, made_up(0.5), "", 1.0), False)
-    tree, _ = wire.pack()
-    assert all(flat(list(tree["sources"][f"{name}-message"].values())) == [] for name in ACCURACY.pictures)
+    board.show(Study(ACCURACY.defaults(), MOTION, WORK, made_up(0.5), (), 1.0))
+    assert all(flat(list(board.sources[f"{name}-message"].values())) == [] for name in ACCURACY.pictures)
+
+
+def test_a_span_that_would_take_seconds_is_cut_with_a_note():
+    motion = HESS.motion(HESS.defaults())
+    longest = longest_span(motion.system.name, motion.state, motion.parameters)
+    assert longest * Problem.of(motion.system, motion.state, motion.parameters).nu == pytest.approx(5000.0)
+    free = scenes()["free-suslov"]
+    study = scenes()["free-suslov-accuracy"].compute({**free.defaults(), "w1": 1e3, "span": 1e5}, {"growth"}, False)
+    assert study.motion.span < 1e3
+    assert study.growth.times[-1] == pytest.approx(study.motion.span)
+    assert len(study.notes) == 1
+    assert study.notes[0].startswith("Measured up to t = ")
 
 
 @every_preset
 def test_the_derived_quantities_say_the_system_and_where_it_starts(values):
-    stage = ACCURACY.stage()
-    report = stage.show(ACCURACY.compute(values, {"growth"}, False), False)
+    report = Board(ACCURACY).show(ACCURACY.compute(values, {"growth"}, False))
     orbit = track(HessBody(values["I22"], values["I23"], values["b3"]), values["h"], values["f"], values["phi0"],
                   values["span"], REFERENCE, 4.0).orbit
     said = dict(re.match(r"([\w()]+) = (\S+)$", row).groups() for row in report.derived if " = " in row)
@@ -400,7 +413,7 @@ def test_the_derived_quantities_say_the_system_and_where_it_starts(values):
 
 def test_a_click_chooses_the_level_that_is_next_to_it_and_none_in_another_chart():
     exact = dataclasses.replace(WORK[3], error=4e-14)
-    stage, _, _ = shown(points=(*WORK[:3], exact, *WORK[4:]))
+    stage = shown(points=(*WORK[:3], exact, *WORK[4:]))[0].stage
     for error, name in ((1e-1, "draft"), (1e-3, "draft"), (1e-6, "standard"), (1e-9, "precise"), (1e-13, "reference"),
                         (1e-20, "reference")):
         assert stage.pick("precision", error, 1.0) == {"accuracy": name}
@@ -411,12 +424,13 @@ def test_a_click_chooses_the_level_that_is_next_to_it_and_none_in_another_chart(
 
 
 def test_a_click_on_the_point_of_a_level_chooses_that_level():
-    stage = ACCURACY.stage()
+    board = Board(ACCURACY)
     study = ACCURACY.compute(ACCURACY.defaults(), {"precision"}, True)
-    stage.show(study, False)
+    board.show(study)
+    stage = board.stage
     chosen = [stage.pick("precision", max(point.error, 1e-17), point.ms) for point in study.points]
     assert chosen == [{"accuracy": name} for name in LEVELS]
 
 
 def test_the_chart_of_costs_listens_to_clicks():
-    assert {"tap", "doubletap"} <= set(ACCURACY.stage().precision.root.js_event_callbacks)
+    assert {"tap", "doubletap"} <= set(Board(ACCURACY).stage.precision.build().js_event_callbacks)

@@ -28,7 +28,7 @@ from models.chaplygin_ball import SYSTEM, BallBody
 from models.ensemble import ensemble
 from models.errors import WorkLimit
 from models.orbit import solve
-from models.results import Array, Orbit
+from models.results import Array, Orbit, frozen
 from models.sampling import sample_times
 from models.scattering import scattering
 from models.strip import Strip, line_of_rest
@@ -174,7 +174,7 @@ def _crowd(body: BallBody, h: float, count: int) -> tuple[tuple[Array, int], ...
         length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(track, axis=0), axis=1))])
         # A point for each pixel is enough.
         kept = np.unique(np.floor(length / tick), return_index=True)[1]
-        tracks.append((track[kept], int(np.searchsorted(kept, len(before) - 1))))
+        tracks.append((frozen(track[kept]), int(np.searchsorted(kept, len(before) - 1))))
     return tuple(tracks)
 
 
@@ -187,7 +187,7 @@ def _as_far_as_the_line(first: Array, others: Array, eta: Array, tick: float) ->
 def _free_curve(body: BallBody, theta: float, digits: float, phis: tuple[float, ...]) -> Array:
     """θ⁺ of the free Suslov problem of the same tensor."""
     free = SuslovBody(body.I11, body.I22, body.I13, body.I23)
-    return scattering(free, LEVELS["standard"], 1, 10.0 ** -digits).theta_plus(theta, np.array(phis))
+    return frozen(scattering(free, LEVELS["standard"], 1, 10.0 ** -digits).theta_plus(theta, np.array(phis)))
 
 
 def compute(values: Values, shown: Collection[str], dragging: bool) -> BallResult:

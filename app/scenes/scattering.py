@@ -24,7 +24,7 @@ from app.wire import Wire
 from app.words import number
 from models.errors import ModelError
 from models.free_suslov import Equilibria, FreeMotion, equilibria, free_motion, sample_times
-from models.results import Array
+from models.results import Array, frozen
 from models.scattering import Scattering, cos_chi, scattering, start
 from models.suslov import SYSTEM, SuslovBody
 from models.torus import PIXELS, SAGITTA
@@ -114,7 +114,7 @@ def admit(values: Values) -> tuple[dict[str, Value], list[str]]:
 def _grid_of(found: Scattering, m: int, n: int) -> Array:
     phi = -math.pi + (np.arange(m) + 0.5) * (2 * math.pi / m)
     theta_minus = (np.arange(n) + 0.5) * (math.pi / n)
-    return found.theta_plus(theta_minus[:, None], phi[None, :])
+    return frozen(found.theta_plus(theta_minus[:, None], phi[None, :]))
 
 
 def _range_of_k(k: float) -> tuple[int, int]:
@@ -130,7 +130,7 @@ def _orders(I22: float, I13: float, I23: float, low: int, high: int) -> Array:
             rows.append((k, cos_chi(body_of({"I22": I22, "I13": I13, "I23": I23, "k": float(k)}))))
         except ModelError:
             continue
-    return np.array(rows).reshape(-1, 2)
+    return frozen(np.array(rows).reshape(-1, 2))
 
 
 def _unit_rate(body: SuslovBody) -> float:

@@ -25,7 +25,7 @@ from models.accuracy import Level
 from models.chaplygin_ball import SYSTEM, BallBody
 from models.cloud import Cloud, carried, frame_times, histogram, occupation, patch, shell
 from models.ensemble import ensemble
-from models.results import Array, Ensemble
+from models.results import Array, Ensemble, frozen
 from models.strip import line_of_rest
 
 _IN_A_DRAG = 1000
@@ -174,9 +174,9 @@ def _course(*arguments: Hashable) -> Course:
     cloud: Cloud = CACHE.get(_cloud, *arguments)[0]
 
     def of(values: Array) -> Array:
-        return np.stack([values.mean(axis=0), values.min(axis=0), values.max(axis=0)])
+        return frozen(np.stack([values.mean(axis=0), values.min(axis=0), values.max(axis=0)]))
 
-    return Course(of(cloud.divergence), of(cloud.log_growth), cloud.volume)
+    return Course(of(cloud.divergence), of(cloud.log_growth), frozen(cloud.volume))
 
 
 def _density(*arguments: Hashable) -> Density:
@@ -187,7 +187,7 @@ def _density(*arguments: Hashable) -> Density:
     # What each point spends per unit of ln|s| in the end, where ln|s| falls at an even rate.
     late = 3 * cloud.times.size // 4
     rate = np.abs(cloud.log_s[:, -1] - cloud.log_s[:, late]) / abs(cloud.times[-1] - cloud.times[late])
-    return Density(0.5 * (edges[1:] + edges[:-1]), histogram(cloud, 0, edges), histogram(cloud, -1, edges),
+    return Density(frozen(0.5 * (edges[1:] + edges[:-1])), histogram(cloud, 0, edges), histogram(cloud, -1, edges),
                    occupation(cloud, edges), 1.0 / float(np.median(rate) * abs(cloud.times[-1])))
 
 
