@@ -136,9 +136,9 @@ def ball_scattering(body: BallBody, theta_minus: float, phis: Sequence[float] | 
     """θ⁺ for each phase φ of γ(0) ≈ cos θ⁻ ξ + sin θ⁻ (cos φ η + sin φ e3), η = e3 × ξ; see `starts`.
 
     The motion starts with ω along ξ + distance·η and E = h, and is followed until γ has settled on a circle of N^s.
-    distance : of either sign, for the two sides of N^u, 0 < |distance| ≤ 0.1.  The curve θ⁺(φ) of other distances is
-    the same but for a shift of φ, the farther out the more turns γ has made; and for an error of the order of
-    `distance`², which the estimates contain.
+    distance : of either sign, for the two sides of N^u, 1e-10 ≤ |distance| ≤ 0.1.  The curve θ⁺(φ) of other
+    distances is the same but for a shift of φ, the farther out the more turns γ has made; and for an error of the
+    order of `distance`², which the estimates contain.
     most_steps : what it may take, as estimated before.
     Raises `InvalidParameter`, `WorkLimit`.
     """
@@ -151,8 +151,8 @@ def ball_scattering(body: BallBody, theta_minus: float, phis: Sequence[float] | 
         raise InvalidParameter("The phases φ must be one or more finite numbers.")
     if not 0.0 <= theta_minus <= math.pi:
         raise InvalidParameter(f"θ⁻ = {theta_minus:g}, but it is an angle between two vectors: choose 0 ≤ θ⁻ ≤ π.")
-    if not 1e-15 <= abs(distance) <= 0.1:
-        raise InvalidParameter(f"The distance from N^u is {distance:g}: choose it from 1e-15 to 0.1, or minus that.")
+    if not 1e-10 <= abs(distance) <= 0.1:
+        raise InvalidParameter(f"The distance from N^u is {distance:g}: choose it from 1e-10 to 0.1, or minus that.")
 
     states, before = starts(strip, theta_minus, phis, distance)
     _, rates = _speed_and_rate(strip, np.array([theta_minus, *np.linspace(0.0, math.pi, 33)]))

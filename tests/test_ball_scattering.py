@@ -108,7 +108,7 @@ def test_the_start_is_where_motions_of_its_circle_pass_but_for_the_square_of_the
 def test_what_would_take_too_long_is_refused_before_it_is_begun():
     slow = BallBody(1.0, 1.5, 1e-3, 0.0, 300.0)
     with pytest.raises(WorkLimit, match=r"some \de\+\d\d steps: choose larger I13"):
-        ball_scattering(slow, 1.0, PHASES, 10.0, 1e-12, level("standard"))
+        ball_scattering(slow, 1.0, PHASES, 10.0, 1e-10, level("standard"))
     with pytest.raises(WorkLimit, match="smaller 𝒟"):
         ball_scattering(CAPTION, 1.0, PHASES, 10.0, 1e-4, level("standard"), most_steps=1000)
     # What is allowed is what it takes, roughly.
@@ -127,7 +127,7 @@ def test_where_the_line_is_left_within_a_fraction_of_a_turn_the_errors_say_what_
 
 def test_errors_fall_with_the_distance_until_it_is_rounded():
     errors = [ball_scattering(CAPTION, 1.0, PHASES[:16], 10.0, distance, level("reference")).errors.max()
-              for distance in (1e-2, 1e-4, 1e-6, 1e-10, 1e-12)]
+              for distance in (1e-2, 1e-4, 1e-6, 1e-8, 1e-10)]
     assert errors[0] > 10 * errors[1] > 100 * errors[2]
     assert errors[2] < errors[3] < errors[4]
     draft = ball_scattering(CAPTION, 1.0, PHASES, 10.0, 1e-7, level("draft"))
@@ -153,8 +153,8 @@ def test_results_are_read_only_and_share_nothing_with_the_caller():
 
 
 @pytest.mark.parametrize(("change", "match"), [
-    ({"theta": -0.1}, "0 ≤ θ⁻ ≤ π"), ({"theta": math.nan}, "theta_minus"), ({"distance": 0.0}, "from 1e-15 to 0.1"),
-    ({"distance": 0.5}, "from 1e-15 to 0.1"), ({"h": 0.0}, "choose h > 0"), ({"phis": []}, "phases"),
+    ({"theta": -0.1}, "0 ≤ θ⁻ ≤ π"), ({"theta": math.nan}, "theta_minus"), ({"distance": 0.0}, "from 1e-10 to 0.1"),
+    ({"distance": 0.5}, "from 1e-10 to 0.1"), ({"h": 0.0}, "choose h > 0"), ({"phis": []}, "phases"),
     ({"phis": [math.inf]}, "phases"), ({"body": BallBody(1.0, 1.0, 0.0, 0.0, 1.0)}, "I13 or I23"),
     ({"body": BallBody(1.0, 1.0, 0.1, 0.0, 1.0, 0.0, 0.0, 1.0)}, "b1 = b2 = b3 = 0"),
 ])

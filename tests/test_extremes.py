@@ -18,6 +18,7 @@ import pytest
 if __name__ == "__main__":
     sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parent.parent)]
 
+import extremes_ball
 import oracle
 
 from models import (
@@ -643,6 +644,7 @@ ROWS = [
     the_angle("I13, I23 = 1e6", (1.0, 2.0, 1e6, -1e6)),
     circle_joined("δ = 5e-301", FIGURE_3, (2.0, 1e-300), [1.0, 690.0, 692.0, 740.0]),
     circle_joined("δ = 5e-301, the other arc", FIGURE_3, (2.0, -1e-300), [1.0, 690.0, 692.0, 740.0]),
+    *extremes_ball.rows(Row, an_orbit, symmetric, there_and_back, drift),
 ]
 
 REFUSALS = [
@@ -692,6 +694,7 @@ REFUSALS = [
             "choose one above 0 and up to"),
     Refusal("track, b3 = 0", lambda grade: track(HessBody(1.0, 0.5, 0.0), 1.5, 0.6, 0.0, 10.0, grade, 4.0), NoField,
             "b3 = 0.*Choose b3 other than 0"),
+    *extremes_ball.refusals(Refusal),
 ]
 
 

@@ -247,8 +247,8 @@ def test_every_energy_above_zero_is_drawn():
 
 
 @pytest.mark.parametrize("values", [
-    {"D": 300.0, "digits": 12.0}, {"I13": 1e-3, "I23": 1e-3}, {"I13": 1e-3, "I23": 0.0, "digits": 12.0, "D": 300.0},
-    {"I11": 1e-3, "I22": 1e-3, "D": 300.0, "digits": 12.0}, {"I11": 1e-3, "D": 300.0, "I13": 1e3, "digits": 12.0},
+    {"D": 300.0, "digits": 10.0}, {"I13": 1e-3, "I23": 1e-3}, {"I13": 1e-3, "I23": 0.0, "digits": 10.0, "D": 300.0},
+    {"I11": 1e-3, "I22": 1e-3, "D": 300.0, "digits": 10.0}, {"I11": 1e-3, "D": 300.0, "I13": 1e3, "digits": 10.0},
     {"I13": 1e-300, "I23": 0.0}, {"I13": 5e-324, "I23": -5e-324},
 ], ids=str)
 def test_a_map_that_takes_long_is_left_out_and_the_page_says_so(values):

@@ -58,7 +58,7 @@ SPECS = (
            "The angle between ξ and γ at the start of the chosen orbit."),
     Number("phi", "φ", "Phase φ of the chosen orbit", 0.5, -3.14, 3.14, 0.01, -math.pi, math.pi,
            "Where on that circle γ starts, in radians."),
-    Number("digits", "−lg δ", "Distance δ of the start, digits", 4.0, 2.0, 8.0, 0.05, 2.0, 12.0,
+    Number("digits", "−lg δ", "Distance δ of the start, digits", 4.0, 2.0, 8.0, 0.05, 2.0, 10.0,
            "The chosen orbit starts δ = 10^−digits of |ω| away from Nᵘ."),
     Number("span", "t", "Time span", 60.0, 1.0, 400.0, 1.0, 0.01, 1e4, "How long the chosen orbit is followed."),
     Choice("accuracy", "Accuracy", tuple(LEVELS), "standard",
