@@ -226,6 +226,9 @@ export function render({ model, view }) {
     clearTimeout(sign)
     tell("hess:texts", { busy: "" })
     asked = null
+    // The first picture on new axes has ticks of the old ones in it: Bokeh's are painted once more.
+    if (!scene.settled) for (const plot of scene.plots) plot.request_paint()
+    scene.settled = true
     // What could not be painted yet (a hidden tab) is still waited for, but holds up nothing.
     waiting = busy()
     if (answers < requested) ask()
