@@ -210,13 +210,14 @@ def test_a_map_that_takes_long_is_left_out_with_a_sentence(ball, typed):
     for name, text in typed.items():
         ball.change(ball.type, name, text)
     assert "choose larger I13 or I23, or a smaller 𝒟." in ball.text("notes")
-    assert ball.caption("curve").endswith("choose larger I13 or I23, or a smaller 𝒟.")
+    assert ball.caption("curve").endswith("Left out: it would take too many steps.")
+    assert_painted(ball, BALL)
     for layer in ("ball", "free", "chosen", "levels"):
         assert flat(ball.data(f"curve-{layer}")) == []
     assert " ".join(ball.data("curve-message")["text"][0].split()) == ball.text("notes")
     assert len(ball.data("data-orbit")["t"]) > 10
     ball.change(ball.page.locator(".param-reset").click)
-    assert len(ball.data("curve-ball")["ys"][0]) == 97
+    assert len(ball.data("curve-ball")["ys"][0]) == 65
     assert flat(ball.data("curve-message")) == []
 
 

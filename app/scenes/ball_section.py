@@ -32,7 +32,7 @@ from models.strip import lowest_energy
 from models.torus import HALF_A_PIXEL, PIXELS, SAGITTA
 
 _MOST = 6000
-_ORBITS, _ORBITS_IN_A_DRAG = 24, 12
+_ORBITS, _ORBITS_IN_A_DRAG = 20, 10
 _CROSSINGS_IN_A_DRAG = 60
 _CELLS = 32
 _MOST_STEPS = 15_000
@@ -301,8 +301,8 @@ def _captions(result: SectionResult) -> dict[str, str]:
                                f"{cells(result.own, _CELLS) if len(result.own) else 0} of {_CELLS**2} cells; {volume}.")
         captions["returns"] = "First return\nψ and the next ψ: a point if closed, a curve if regular, a cloud in chaos."
     elif result.reason:
-        captions["section"] = f"Section: γ₃ grows through 0\n{result.reason}"
-        captions["returns"] = f"First return\n{result.reason}"
+        captions["section"] = "Section: γ₃ grows through 0\nLeft out: it would take too many steps."
+        captions["returns"] = "First return\nLeft out: it would take too many steps."
     return captions
 
 
