@@ -9,6 +9,7 @@ import time
 from collections.abc import Sequence
 
 import panel as pn
+from tornado.websocket import WebSocketClosedError
 
 from app.compute import CACHE, warm
 from app.description import describe
@@ -37,6 +38,11 @@ def _warm() -> None:
         gc.enable()
 
 
+def _is_news(record: logging.LogRecord) -> bool:
+    """A page that was closed while an answer was on its way is no error."""
+    return not (record.exc_info and isinstance(record.exc_info[1], WebSocketClosedError))
+
+
 def _report() -> None:
     """Now and then a line "metrics name value …" in the log, when something has changed."""
     last = ""
@@ -56,6 +62,7 @@ def serve(port: int, address: str, show: bool, origins: Sequence[str]) -> None:
     """
     logging.basicConfig(format="%(asctime)s %(name)s %(message)s")
     logger.setLevel(logging.INFO)
+    logging.getLogger("asyncio").addFilter(_is_news)
     pn.extension()
     # Kernels are compiled while the browser loads the page.
     threading.Thread(target=_warm, name="warm", daemon=True).start()
