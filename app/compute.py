@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-__all__ = ["CACHE", "ResultCache", "size_of", "warm"]
+__all__ = ["CACHE", "ResultCache", "size_of"]
 
 logger = logging.getLogger("hess_explorer")
 
@@ -79,6 +79,11 @@ class ResultCache:
         future.set_result(value)
         return value, False
 
+    @property
+    def asked(self) -> int:
+        """How many results have been asked for."""
+        return self.hits + self.misses
+
     def metrics(self) -> str:
         """One line "name value …" for the log."""
         with self._lock:
@@ -93,10 +98,3 @@ class ResultCache:
 
 CACHE = ResultCache(64 * 2**20)
 
-
-def warm() -> None:
-    """Compile (or load) every kernel that a scene needs, by computing its default state once."""
-    from app.scenes import scenes
-
-    for scene in scenes().values():
-        scene.compute(scene.defaults(), scene.pictures, False)

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-import gc
 import logging
 import threading
 import time
 from collections.abc import Sequence
 
 import panel as pn
+from panel.io.server import WSHandler, per_app_patterns
 from tornado.websocket import WebSocketClosedError
 
-from app.compute import CACHE, warm
-from app.description import describe
+from app.compute import CACHE
 from app.page import page
-from app.scenes import scenes
+from app.warm import warm
 
 __all__ = ["serve"]
 
@@ -27,15 +26,13 @@ REPORT_SECONDS = 60
 logger = logging.getLogger("hess_explorer")
 
 
-def _warm() -> None:
-    """Compile or load the kernels, build the pictures; then collect garbage again, but not among all these."""
-    try:
-        warm()
-        for name in scenes():
-            describe(name)
-    finally:
-        gc.freeze()
-        gc.enable()
+class PromptSocket(WSHandler):
+    """The websocket of a page; without this the system keeps small messages back, up to 40 ms for each state."""
+
+    def open(self) -> None:
+        """Send every message at once."""
+        super().open()
+        self.set_nodelay(True)
 
 
 def _is_news(record: logging.LogRecord) -> bool:
@@ -64,8 +61,10 @@ def serve(port: int, address: str, show: bool, origins: Sequence[str]) -> None:
     logger.setLevel(logging.INFO)
     logging.getLogger("asyncio").addFilter(_is_news)
     pn.extension()
+    per_app_patterns[:] = [
+        ("/ws", PromptSocket) if pattern[1] is WSHandler else pattern for pattern in per_app_patterns]
     # Kernels are compiled while the browser loads the page.
-    threading.Thread(target=_warm, name="warm", daemon=True).start()
+    threading.Thread(target=warm, name="warm", daemon=True).start()
     threading.Thread(target=_report, name="report", daemon=True).start()
     pn.serve(
         {"/": page},

@@ -23,7 +23,7 @@ import numpy as np
 from .accuracy import Level, Status
 from .bifurcation import largest_f, period_from_gaps, roots, turning_points
 from .errors import InvalidParameter, WorkLimit
-from .jit import inner, kernel
+from .jit import inner, kernel, part
 from .results import Array, Cost, frozen
 from .rigid_body import require_finite
 from .taylor import Quadratic, columns_of, convolution, expansion, step_of, workspace
@@ -68,7 +68,7 @@ _expand, _convolve = expansion(QUADRATIC), convolution(QUADRATIC)
 _evaluate = evaluation(9)
 
 
-@inner
+@part
 def monodromy(h, f, a, order, tolerance, max_steps):
     """(Re α, Im α, Im β, L, ζ, steps): the first three times e^{−L}; ζ is arg α, lifted.
 

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from .jit import inner
+from .jit import inner, part
 from .taylor import STEP_LIMIT_REACHED, Quadratic, columns_of, compensated, convolution, expansion, step_of, workspace
 from .unrolled import evaluation
 
@@ -134,7 +134,7 @@ def crossing_finder(field: Quadratic) -> Callable[..., Any]:
     expand, convolve = expansion(field), convolution(field)
     evaluate = evaluation(n)
 
-    @inner
+    @part
     def cross(state, parameters, normal, offset, sense, end, order, tolerance, max_steps, times, states):
         c, left, right, inverses = workspace(order, n, columns)
         e = np.zeros(order + 1)

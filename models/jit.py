@@ -17,7 +17,7 @@ from typing import Any
 
 import numba
 
-__all__ = ["CACHE_FOLDER", "inner", "kernel"]
+__all__ = ["CACHE_FOLDER", "inner", "kernel", "part"]
 
 _OPTIONS: dict[str, Any] = {
     # NumPy's division lets LLVM vectorise; `contract` fuses a*b+c and nothing else, so
@@ -66,3 +66,11 @@ def kernel(function: Callable[..., Any]) -> Any:
 def inner(function: Callable[..., Any]) -> Any:
     """Compile a building block; its machine code is kept as part of the kernels that call it."""
     return numba.njit(forceinline=True, **_OPTIONS)(function)
+
+
+def part(function: Callable[..., Any]) -> Any:
+    """As `inner`, for closures and generated functions, which only kernels call.
+
+    It has no entry for Python, where a call would end the process, and is compiled a tenth sooner for that.
+    """
+    return numba.njit(forceinline=True, no_cpython_wrapper=True, no_cfunc_wrapper=True, **_OPTIONS)(function)

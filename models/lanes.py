@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from .jit import inner
+from .jit import inner, part
 from .taylor import STEP_LIMIT_REACHED, Quadratic, compensated
 from .unrolled import compiled
 
@@ -136,14 +136,14 @@ def function(y, low, s, compensated):
     {_for_lanes(lambda lane: f"low[{lane}] = b{lane}")}
 """)
 
-    @inner
+    @part
     def value(c, i, lane, s):
         total = 0.0
         for k in range(c.shape[0] - 1, 0, -1):
             total = (total + c[k, i, lane]) * s
         return total
 
-    @inner
+    @part
     def integrate(states, parameters, times, order, tolerance, max_steps, out):
         c = np.zeros((order + 1, n, LANES))
         q = np.zeros((m, LANES))
@@ -217,7 +217,7 @@ def one_by_one(orbit: Callable[..., Any]) -> Callable[..., Any]:
 
     For fields with stages: lanes of these take three times as long to compile and are a third faster.
     """
-    @inner
+    @part
     def integrate(states, parameters, times, order, tolerance, max_steps, out):
         total = 0
         for i in range(len(states)):

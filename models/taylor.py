@@ -22,12 +22,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from itertools import accumulate
 from typing import Any
 
 import numpy as np
 
-from .jit import inner
+from .jit import inner, part
 from .unrolled import compiled, evaluation
 
 __all__ = [
@@ -81,6 +82,7 @@ class Quadratic:
         return {**named, "constants": self.constants[1]} if self.constants else named
 
 
+@cache
 def expansion(field: Quadratic) -> Callable[..., Any]:
     """The compiled recursion of one orbit.
 
@@ -131,6 +133,7 @@ def function(c, left, right, inverses, parameters, rates, convolve):
 """, **field.helpers)
 
 
+@cache
 def convolution(field: Quadratic) -> Callable[..., Any]:
     """convolve(left, right, k): Σ_{0<m<k} left[m, j] right[k−m, j] for each product j, as a tuple.
 
@@ -159,7 +162,7 @@ def columns_of(field: Quadratic) -> int:
     return m + -m % 4
 
 
-@inner
+@part
 def workspace(order, n, columns):
     """c, left, right, inverses for `expansion`, with n variables."""
     rows = order + 1
@@ -208,7 +211,7 @@ def orbit_integrator(field: Quadratic) -> Callable[..., Any]:
     expand, convolve = expansion(field), convolution(field)
     evaluate = evaluation(n)
 
-    @inner
+    @part
     def integrate(state, parameters, times, order, tolerance, max_steps, out):
         c, left, right, inverses = workspace(order, n, columns)
         y = state.copy()

@@ -7,9 +7,10 @@ Numba's loops over tuples hide them.  So the few loops that matter are written o
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
-from .jit import inner
+from .jit import part
 
 __all__ = ["compiled", "evaluation"]
 
@@ -18,9 +19,10 @@ def compiled(source: str, **names: Callable[..., Any]) -> Callable[..., Any]:
     """The compiled function of that name, `function`, in this source, which may call what `names` holds."""
     namespace: dict[str, Any] = dict(names)
     exec(source, namespace)
-    return inner(namespace["function"])
+    return part(namespace["function"])
 
 
+@cache
 def evaluation(count: int) -> Callable[..., Any]:
     """The function of (c, s, increments) that sets increments[i] = Σ_{k≥1} c[k, i] s^k for i = 0 … count−1."""
     items = range(count)

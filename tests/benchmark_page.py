@@ -33,6 +33,8 @@ from models import level, rotation_number_grid
 
 ROOT = Path(__file__).resolve().parents[1]
 MOVES = 45
+WARM_SECONDS = 15.0
+"""After which the server has loaded all scenes."""
 SCENE = "suslov-hess"
 READY = "document.documentElement.dataset.ready === 'true'"
 STATE = "Number(document.documentElement.dataset.state)"
@@ -86,6 +88,12 @@ async def slider_latencies(page: Page, name: str) -> list[float]:
         await page.wait_for_function(f"window.times.length === {i + 1}", timeout=10_000)
         await asyncio.sleep(0.03)
     return sorted(await page.evaluate("window.times"))
+
+
+def spread(times: list[float]) -> str:
+    """Median and 95th percentile of sorted milliseconds."""
+    high = times[math.ceil(0.95 * len(times)) - 1]
+    return f"median {statistics.median(times):.1f} ms, 95th percentile {high:.1f} ms"
 
 
 async def drag(page: Page, name: str) -> tuple[float, float, int]:
@@ -202,18 +210,20 @@ async def measure() -> None:
                         await open_page(page, url)
                         seconds.append(time.perf_counter() - start)
                         await page.close()
+                subprocess.run([sys.executable, "-c", "from app.warm import compile_all; compile_all()"], cwd=ROOT,
+                               env=environment, check=True)
                 rows.append((f"command to painted pictures, {label}", f"{statistics.median(seconds):.2f} s", bar))
             with server(environment) as url:
                 page = await browser.new_page(viewport={"width": 1600, "height": 950})
                 await open_page(page, url)
                 await asyncio.sleep(1.5)
                 await page.evaluate(RECORD)
+                times = await slider_latencies(page, "h")
+                rows.append(("slider h in the first seconds, other scenes not loaded yet", spread(times), ""))
+                await asyncio.sleep(WARM_SECONDS)
                 for name in ("h", "I23"):
-                    times = await slider_latencies(page, name)
-                    high = times[math.ceil(0.95 * len(times)) - 1]
-                    rows.append((f"slider {name} to four painted pictures, {len(times)} moves",
-                                 f"median {statistics.median(times):.1f} ms, 95th percentile {high:.1f} ms",
-                                 "≤ 33 ms, ≤ 66 ms"))
+                    rows.append((f"slider {name} to four painted pictures, {MOVES} moves",
+                                 spread(await slider_latencies(page, name)), "≤ 33 ms, ≤ 66 ms"))
                 for name in ("h", "I23"):
                     rate, rest, queued = await drag(page, name)
                     rows.append((f"drag of {name}, 3 s", f"{rate:.1f} states a second, at rest {rest:.0f} ms after it "

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import gc
 import json
 import signal
 import socket
@@ -309,7 +310,9 @@ def served(monkeypatch):
     """The calls of a server that returns at once."""
     calls = []
     monkeypatch.setitem(sys.modules, "app.server", types.SimpleNamespace(serve=lambda **given: calls.append(given)))
-    return calls
+    yield calls
+    # The command leaves this to the server.
+    gc.enable()
 
 
 @pytest.fixture

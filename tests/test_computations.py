@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import gc
 import itertools
 import math
 import re
@@ -14,8 +15,8 @@ import scipy.integrate
 from bokeh.models import ColumnDataSource
 from test_scenes import ACCURACY, HESS, SCENES, Board, Browser, contents, elsewhere, modules_of_scenes, plots_of
 
-from app import session
-from app.compute import ResultCache, warm
+from app import session, warm
+from app.compute import ResultCache
 from app.scenes import suslov_hess
 
 every_scene = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
@@ -525,9 +526,25 @@ def test_the_status_line_counts_what_was_asked_of_the_cache(cache):
     assert cache.metrics().startswith(f"cache_hits {hits} cache_misses {misses} cache_entries {misses} ")
 
 
-def test_warming_up_computes_the_first_state_of_every_scene(cache):
-    warm()
+def test_warming_up_computes_the_first_state_of_every_scene(cache, monkeypatch):
+    monkeypatch.setattr(warm, "QUIET_SECONDS", 0.0)
+    warm.warm()
+    assert gc.isenabled()
     cache.calls.clear()
     for scene in SCENES.values():
         Browser(scene)
         assert cache.take() == set(), scene.name
+
+
+def test_warming_up_stands_back_while_the_page_is_used(cache, monkeypatch):
+    pauses = []
+
+    def sleep(seconds):
+        pauses.append(seconds)
+        if len(pauses) < 5:
+            cache.get(int, f"{len(pauses)}")
+
+    monkeypatch.setattr(warm, "CACHE", cache)
+    monkeypatch.setattr(warm.time, "sleep", sleep)
+    warm._wait_until_quiet()
+    assert len(pauses) == 5
