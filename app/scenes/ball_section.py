@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import math
-import time
-from collections.abc import Collection, Hashable, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from app.compute import CACHE
 from app.scenes.base import Motion, Preset, Report, Scene
+from app.scenes.parts import Work, orbit_status, refuse
 from app.state import Choice, Number, Value, Values
 from app.views.poisson_sphere import PoissonSphere
 from app.views.scattering_map import ANGLE_TICKS, POLAR_TICKS
@@ -20,7 +18,7 @@ from app.views.section_plane import SectionPlane
 from app.views.velocity_plane import VelocityPlane, nice_above, sphere_columns
 from app.wire import Wire
 from app.words import number
-from models.accuracy import DRAFT, LEVELS, STANDARD, Level, cheapest, level
+from models.accuracy import DRAFT, LEVELS, STANDARD, Level
 from models.ball_section import ball_section, cells, coordinates, forbidden_band, seeds, state_at
 from models.chaplygin_ball import SYSTEM, BallBody
 from models.errors import WorkLimit
@@ -29,7 +27,7 @@ from models.results import Array, Orbit
 from models.sampling import sample_times
 from models.section import Points
 from models.strip import lowest_energy
-from models.torus import HALF_A_PIXEL, PIXELS, SAGITTA
+from models.torus import PIXELS, SAGITTA
 
 _MOST = 6000
 _ORBITS, _ORBITS_IN_A_DRAG = 20, 10
@@ -114,8 +112,7 @@ class SectionResult:
     drift: Mapping[str, float]
     steps: int
     reason: str
-    cached: bool
-    wall_ms: float
+    ended: str
 
 
 def body_of(values: Values) -> BallBody:
@@ -182,38 +179,27 @@ def _points(points: Points, crossings: int, later: bool) -> Array:
 
 def compute(values: Values, shown: Collection[str], dragging: bool) -> SectionResult:
     """The chosen orbit and its crossings, those of others."""
-    began = time.perf_counter()
-    misses = 0
-
-    def cached(function: Any, *arguments: Hashable) -> Any:
-        nonlocal misses
-        value, hit = CACHE.get(function, *arguments)
-        misses += not hit
-        return value
-
-    accuracy = level(str(values["accuracy"]))
-    if dragging:
-        accuracy = min(accuracy, cheapest(HALF_A_PIXEL), key=lambda rung: rung.order)
+    work = Work(values, dragging)
+    accuracy = work.level
     body = body_of(values)
     E = _energy(body, float(values["h"]))
     start = state_at(body, E, float(values["psi"]), float(values["delta"]))
     crossings = min(int(float(values["count"])), _CROSSINGS_IN_A_DRAG if dragging else 1000)
     later = values["drop"] != "all"
-    orbit = cached(_orbit, body, start, float(values["span"]), accuracy) if shown else None
+    orbit = work.get(_orbit, body, start, float(values["span"]), accuracy) if shown else None
     others = own = None
     drift: dict[str, float] = {}
     steps, reason = 0, ""
     if not {"section", "returns"}.isdisjoint(shown):
         try:
-            one = cached(_own, body, E, start, crossings)
-            many = cached(_others, body, E, _ORBITS_IN_A_DRAG if dragging else _ORBITS, crossings)
+            one = work.get(_own, body, E, start, crossings)
+            many = work.get(_others, body, E, _ORBITS_IN_A_DRAG if dragging else _ORBITS, crossings)
             others, own = _points(many, crossings, later), _points(one, crossings, later)
             drift = {name: max(many.drift.get(name, 0.0), one.drift.get(name, 0.0)) for name in ("E", "F1")}
             steps = many.cost.steps + one.cost.steps
         except WorkLimit as error:
             reason = f"The section is left out: {error}"
-    return SectionResult(values, body, E, start, orbit, others, own, drift, steps, reason, misses == 0,
-                         (time.perf_counter() - began) * 1e3)
+    return SectionResult(values, body, E, start, orbit, others, own, drift, steps, reason, work.ended())
 
 
 def motion(values: Values) -> Motion:
@@ -270,11 +256,7 @@ class SectionStage:
 
     def fail(self, sentence: str) -> None:
         """Empty pictures, and the sentence where the eye is."""
-        for view in (self.section, self.returns, self.omega):
-            view.show_nothing(sentence)
-        self.sphere.show_nothing()
-        for picture in self.pictures:
-            self.wire.say(picture.name, sentence)
+        refuse(self.pictures, self.wire, sentence)
 
     def pick(self, picture: str, x: float, y: float) -> Values:
         """A click in the section starts the chosen orbit there."""
@@ -324,10 +306,8 @@ def _status(result: SectionResult) -> str:
             "drift " + " ".join(f"{name} {drift:.0e}" for name, drift in result.drift.items()),
         ]
     if result.orbit is not None:
-        orbit = result.orbit
-        parts.append(f"{orbit.level}: orbit {orbit.times.size} points, {orbit.cost.steps} steps, "
-                     f"error ≤ {orbit.error_estimate:.1e} ({orbit.status})")
-    parts.append(f"{result.wall_ms:.1f} ms, {'cached' if result.cached else 'computed'}")
+        parts += orbit_status(result.orbit)[:1]
+    parts.append(result.ended)
     return " · ".join(parts).replace("e-", "e−")
 
 

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import math
-import time
-from collections.abc import Collection, Hashable, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from app import theme
-from app.compute import CACHE
 from app.scenes.base import Motion, Preset, Report, Scene
-from app.state import Choice, Number, Value, Values
+from app.scenes.parts import ACCURACY, Work, orbit_status, refuse
+from app.state import Number, Value, Values
 from app.views.chart import Series
 from app.views.graph import Graph
 from app.views.poisson_sphere import Circle, Mark, PoissonSphere
@@ -22,7 +20,7 @@ from app.views.scattering_map import ANGLE_TICKS, POLAR_TICKS
 from app.views.velocity_plane import VelocityPlane, nice_above, sphere_columns
 from app.wire import Wire
 from app.words import number
-from models.accuracy import DRAFT, LEVELS, Level, cheapest, level
+from models.accuracy import DRAFT, LEVELS, Level
 from models.ball_scattering import BallScattering, ball_scattering, starts
 from models.chaplygin_ball import SYSTEM, BallBody
 from models.ensemble import ensemble
@@ -33,7 +31,7 @@ from models.sampling import sample_times
 from models.scattering import scattering
 from models.strip import Strip, line_of_rest
 from models.suslov import SuslovBody
-from models.torus import HALF_A_PIXEL, PIXELS, SAGITTA
+from models.torus import PIXELS, SAGITTA
 
 _MOST = 4000
 _ORBITS = 18
@@ -61,8 +59,7 @@ SPECS = (
     Number("digits", "−lg δ", "Distance δ of the start, digits", 4.0, 2.0, 8.0, 0.05, 2.0, 10.0,
            "The chosen orbit starts δ = 10^−digits of |ω| away from Nᵘ."),
     Number("span", "t", "Time span", 60.0, 1.0, 400.0, 1.0, 0.01, 1e4, "How long the chosen orbit is followed."),
-    Choice("accuracy", "Accuracy", tuple(LEVELS), "standard",
-           "Promised error: draft 1e-3, standard 1e-6, precise 1e-9; reference: the floor of double precision."),
+    ACCURACY,
 )
 
 PRESETS = (
@@ -112,8 +109,7 @@ class BallResult:
     map: BallScattering | None
     free: Array | None
     reason: str
-    cached: bool
-    wall_ms: float
+    ended: str
 
 
 def body_of(values: Values) -> BallBody:
@@ -153,16 +149,16 @@ def _orbit(body: BallBody, h: float, start: tuple[float, ...], span: float, accu
     return solve(SYSTEM, start, body.parameters, times, accuracy)
 
 
-def _crowd(body: BallBody, h: float, count: int) -> tuple[tuple[Array, int], ...]:
-    """Orbits through states spread over the strip, followed both ways until they have all but arrived."""
-    strip = Strip(body, h)
+def _crowd(body: BallBody, count: int) -> tuple[tuple[Array, int], ...]:
+    """Orbits of E = 1 through states spread over the strip, followed both ways until they have all but arrived."""
+    strip = Strip(body, 1.0)
     states = strip.spread(count)
     _, eta = line_of_rest(body)
-    tick = 2.0 * half_width(body, h) / PIXELS
-    speed = math.sqrt(2.0 * h / min(body.I11, body.I22))
+    speed = math.sqrt(2.0 / min(body.I11, body.I22))
+    tick = 2.0 * 1.1 * speed / PIXELS
     # No slower than this they leave and arrive, from one pixel to the next one; but not too many turns of γ.
-    moment = 2.0 * h / float(np.sum(strip.unstable[1] ** 2))
-    rate = math.hypot(body.I13, body.I23) * math.sqrt(2.0 * h * moment) / (body.I11 + body.D) / (body.I22 + body.D)
+    moment = 2.0 / float(np.sum(strip.unstable[1] ** 2))
+    rate = math.hypot(body.I13, body.I23) * math.sqrt(2.0 * moment) / (body.I11 + body.D) / (body.I22 + body.D)
     end = min(10.0 / max(rate, 1e-290), 250.0 / speed)
     times = np.linspace(0.0, end, int(min(1200.0, max(60.0, end * speed / 0.2))) + 1)[1:]
     tracks = []
@@ -192,24 +188,18 @@ def _free_curve(body: BallBody, theta: float, digits: float, phis: tuple[float, 
 
 def compute(values: Values, shown: Collection[str], dragging: bool) -> BallResult:
     """The chosen orbit, a crowd over the strip, and the map of the phases."""
-    began = time.perf_counter()
-    misses = 0
-
-    def cached(function: Any, *arguments: Hashable) -> Any:
-        nonlocal misses
-        value, hit = CACHE.get(function, *arguments)
-        misses += not hit
-        return value
-
-    accuracy = level(str(values["accuracy"]))
-    if dragging:
-        accuracy = min(accuracy, cheapest(HALF_A_PIXEL), key=lambda rung: rung.order)
+    work = Work(values, dragging)
+    accuracy = work.level
     body = body_of(values)
     h, theta_minus, phi, digits, span = (float(values[name]) for name in ("h", "theta", "phi", "digits", "span"))
     strip = Strip(body, h)
     start = _start(body, h, theta_minus, phi, digits)
-    orbit = cached(_orbit, body, h, start, span, accuracy) if shown else None
-    crowd = cached(_crowd, body, h, 8 if dragging else _ORBITS) if "omega" in shown else ()
+    orbit = work.get(_orbit, body, h, start, span, accuracy) if shown else None
+    crowd = ()
+    if "omega" in shown:
+        # Without a field the energy only sets the unit of time: ω → ω√h.
+        crowd = tuple((math.sqrt(h) * track, place) for track, place in work.get(
+            _crowd, body, 8 if dragging else _ORBITS))
     found: BallScattering | None = None
     free: Array | None = None
     reason = ""
@@ -217,12 +207,11 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> BallResul
         phis = tuple(np.linspace(-math.pi, math.pi, _PHASES_IN_A_DRAG if dragging else _PHASES).tolist())
         try:
             rung = LEVELS["draft"] if dragging else min(accuracy, LEVELS["standard"], key=lambda one: one.order)
-            found = cached(ball_scattering, body, theta_minus, phis, h, 10.0 ** -digits, rung, _MOST_STEPS)
-            free = cached(_free_curve, body, theta_minus, digits, phis)
+            found = work.get(ball_scattering, body, theta_minus, phis, 1.0, 10.0 ** -digits, rung, _MOST_STEPS)
+            free = work.get(_free_curve, body, theta_minus, digits, phis)
         except WorkLimit as error:
             reason = f"The map of the phases is left out: {error}"
-    return BallResult(values, body, strip, orbit, crowd, found, free, reason, misses == 0,
-                      (time.perf_counter() - began) * 1e3)
+    return BallResult(values, body, strip, orbit, crowd, found, free, reason, work.ended())
 
 
 def motion(values: Values) -> Motion:
@@ -302,11 +291,7 @@ class BallStage:
 
     def fail(self, sentence: str) -> None:
         """Empty pictures, and the sentence where the eye is."""
-        for view in (self.omega, self.curve, self.Gamma):
-            view.show_nothing(sentence)
-        self.sphere.show_nothing()
-        for picture in self.pictures:
-            self.wire.say(picture.name, sentence)
+        refuse(self.pictures, self.wire, sentence)
 
     def pick(self, picture: str, x: float, y: float) -> Values:
         """A click on the curve chooses the phase."""
@@ -360,15 +345,10 @@ def _derived(result: BallResult) -> list[str]:
 def _status(result: BallResult) -> str:
     parts = []
     if result.orbit is not None:
-        orbit = result.orbit
-        parts += [
-            f"{orbit.level}: orbit {orbit.times.size} points, {orbit.cost.steps} Taylor steps, "
-            f"error ≤ {orbit.error_estimate:.1e} ({orbit.status})",
-            "drift " + " ".join(f"{name} {drift:.0e}" for name, drift in orbit.drift.items()),
-        ]
+        parts += orbit_status(result.orbit)
     if result.map is not None:
         parts.append(f"{result.map.phis.size} phases, error ≤ {float(result.map.errors.max()):.1e}")
-    parts.append(f"{result.wall_ms:.1f} ms, {'cached' if result.cached else 'computed'}")
+    parts.append(result.ended)
     return " · ".join(parts).replace("e-", "e−")
 
 
