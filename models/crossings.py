@@ -10,6 +10,7 @@ crossing where two steps meet is seen exactly once.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -18,7 +19,7 @@ from .jit import inner, part
 from .taylor import STEP_LIMIT_REACHED, Quadratic, columns_of, compensated, convolution, expansion, step_of, workspace
 from .unrolled import evaluation
 
-__all__ = ["crossing_finder"]
+__all__ = ["PLANE", "Surface", "crossing_finder"]
 
 _DEPTH = 45
 """Halvings after which a piece is a point, for double precision."""
@@ -121,8 +122,48 @@ def roots_on_step(e, h, below, end, below_at_end, roots, pieces):
     return found
 
 
-def crossing_finder(field: Quadratic) -> Callable[..., Any]:
-    """The compiled search for the crossings of a plane by one orbit.
+@dataclass(frozen=True)
+class Surface:
+    """A surface e(y) = offset, by compiled functions with a vector `normal` of constants.
+
+    along(c, normal, e, scratch) : the Taylor coefficients of e from those of the state, c[k, variable], into e (n,);
+        scratch is (n,).
+    height(y, normal) : e(y).
+    counted(y, normal) : whether a crossing at y counts.
+    """
+
+    along: Callable[..., Any]
+    height: Callable[..., Any]
+    counted: Callable[..., Any]
+
+
+@part
+def _along_plane(c, normal, e, scratch):
+    for k in range(e.size):
+        height = 0.0
+        for i in range(normal.size):
+            height += c[k, i] * normal[i]
+        e[k] = height
+
+
+@part
+def _height_over_plane(y, normal):
+    height = 0.0
+    for i in range(normal.size):
+        height += y[i] * normal[i]
+    return height
+
+
+@part
+def _always(y, normal):
+    return True
+
+
+PLANE = Surface(_along_plane, _height_over_plane, _always)
+
+
+def crossing_finder(field: Quadratic, surface: Surface = PLANE) -> Callable[..., Any]:
+    """The compiled search for the crossings of a plane, or of another surface, by one orbit.
 
     cross(state, parameters, normal, offset, sense, end, order, tolerance, max_steps, times, states): the
     crossings of normal·y = offset after t = 0 and up to t = `end` (of either sign) into `times` (n,) and
@@ -133,11 +174,14 @@ def crossing_finder(field: Quadratic) -> Callable[..., Any]:
     n, columns, rates = field.dimension, columns_of(field), field.rates
     expand, convolve = expansion(field), convolution(field)
     evaluate = evaluation(n)
+    along, height, counted = surface.along, surface.height, surface.counted
 
     @part
     def cross(state, parameters, normal, offset, sense, end, order, tolerance, max_steps, times, states):
         c, left, right, inverses = workspace(order, n, columns)
         e = np.zeros(order + 1)
+        scratch = np.zeros(order + 1)
+        found = np.zeros(n)
         roots = np.zeros(order + 1)
         pieces = np.zeros((_DEPTH + 2, 2))
         y = state.copy()
@@ -153,14 +197,11 @@ def crossing_finder(field: Quadratic) -> Callable[..., Any]:
             for i in range(n):
                 c[0, i] = y[i]
             expand(c, left, right, inverses, parameters, rates, convolve)
-            sign = 1.0
-            for k in range(order + 1):
-                height = 0.0
-                for i in range(n):
-                    height += c[k, i] * normal[i]
-                e[k] = sign * height
-                sign *= direction
+            along(c, normal, e, scratch)
             e[0] -= offset
+            if direction < 0.0:
+                for k in range(1, order + 1, 2):
+                    e[k] = -e[k]
             if steps == 0:
                 # Round-off must not make a crossing of a start that was meant to be on the plane.
                 on_plane = abs(e[0]) <= 1e-14 * (1.0 + abs(offset))
@@ -180,21 +221,22 @@ def crossing_finder(field: Quadratic) -> Callable[..., Any]:
             if steps > max_steps or not (h > 0.0 or last):
                 return STEP_LIMIT_REACHED, steps
             evaluate(c, direction * h, increments)
-            at_end = -offset
             for i in range(n):
                 y[i], low[i] = compensated(y[i], low[i], increments[i])
-                at_end += y[i] * normal[i]
+            at_end = height(y, normal) - offset
             below_at_end = at_end < 0.0
             for root in range(roots_on_step(e, h, below, at_end, below_at_end, roots, pieces)):
                 if sense == 0 or (sense * direction > 0.0) == below:
                     s = direction * roots[root]
-                    times[crossings] = t + (t_low + s)
                     evaluate(c, s, increments)
                     for i in range(n):
-                        states[crossings, i] = c[0, i] + increments[i]
-                    crossings += 1
-                    if crossings == times.size:
-                        return crossings, steps
+                        found[i] = c[0, i] + increments[i]
+                    if counted(found, normal):
+                        times[crossings] = t + (t_low + s)
+                        states[crossings] = found
+                        crossings += 1
+                        if crossings == times.size:
+                            return crossings, steps
                 below = not below
             below = below_at_end
             if last:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 import numpy as np
 
@@ -17,7 +18,7 @@ from .system import Problem, System
 from .taylor import STEP_LIMIT_REACHED
 from .threads import THREADS, share
 
-__all__ = ["MAX_CROSSINGS", "Plane", "Points", "section", "section_points", "sections"]
+__all__ = ["MAX_CROSSINGS", "Plane", "Points", "Surface", "section", "section_points", "sections"]
 
 MAX_CROSSINGS = 100_000
 MAX_STEPS = 10_000_000
@@ -43,13 +44,37 @@ class Plane:
         if self.sense not in (-1, 0, 1):
             raise InvalidParameter("The sense of a crossing is 1 (from below), −1 (from above) or 0 (both).")
 
+    def scaled(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
+        """What `Surface` says, with a normal of length 1.  Raises `InvalidParameter`."""
+        if len(self.normal) != len(system.variables):
+            raise InvalidParameter(f"The normal of the plane has {len(system.variables)} components here.")
+        largest = max(map(abs, self.normal))
+        normal = np.array(self.normal) / largest * problem.scale
+        length = float(np.linalg.norm(normal))
+        offset = self.offset / largest / length
+        if not math.isfinite(offset):
+            raise InvalidParameter("The offset of the plane is too large beside its normal: choose a smaller one.")
+        return system.cross, normal / length, offset
+
+
+class Surface(Protocol):
+    """A surface in the space of the states."""
+
+    @property
+    def sense(self) -> int:
+        """1: crossed from below, −1: from above, 0: both."""
+
+    def scaled(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
+        """The kernel that finds its crossings, and normal and offset in units in which the states are O(1)."""
+
 
 @dataclass(frozen=True)
 class _Search:
-    """What is looked for, in units in which the states are O(1), with a normal of length 1."""
+    """What is looked for, in units in which the states are O(1)."""
 
     system: System
     problem: Problem
+    cross: Callable[..., tuple[int, int]]
     normal: Array
     offset: float
     sense: int
@@ -58,23 +83,16 @@ class _Search:
     crossings: int
 
     @classmethod
-    def of(cls, system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float], plane: Plane,
+    def of(cls, system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float], plane: Surface,
            end: float, level: Level, crossings: int) -> _Search:
         """Check everything.  Raises `InvalidParameter`, `WorkLimit`."""
-        if len(plane.normal) != len(system.variables):
-            raise InvalidParameter(f"The normal of the plane has {len(system.variables)} components here.")
         if not math.isfinite(end):
             raise InvalidParameter("The end of the time span must be finite.")
         if not 1 <= crossings <= MAX_CROSSINGS:
             raise WorkLimit(f"The number of crossings lies between 1 and {MAX_CROSSINGS}.")
         problem = Problem.of(system, states, parameters)
-        largest = max(map(abs, plane.normal))
-        normal = np.array(plane.normal) / largest * problem.scale
-        length = float(np.linalg.norm(normal))
-        offset = plane.offset / largest / length
-        if not math.isfinite(offset):
-            raise InvalidParameter("The offset of the plane is too large beside its normal: choose a smaller one.")
-        return cls(system, problem, normal / length, offset, plane.sense, end * problem.nu, level, crossings)
+        cross, normal, offset = plane.scaled(system, problem)
+        return cls(system, problem, cross, normal, offset, plane.sense, end * problem.nu, level, crossings)
 
     def run(self, i: int, rung: Level, max_steps: int, start: Array | None = None) -> tuple[Array, Array, int]:
         """Times, states and steps of the crossings of orbit i, or of the one from `start`, at one tolerance."""
@@ -82,7 +100,7 @@ class _Search:
         room, total = min(self.crossings, _ROOM), 0
         while True:
             times, states = np.empty(room), np.empty((room, self.problem.scale.size))
-            found, steps = self.system.cross(
+            found, steps = self.cross(
                 start, self.problem.parameters, self.normal, self.offset, self.sense, self.end,
                 rung.order, rung.tolerance, max_steps - total, times, states)
             if found == STEP_LIMIT_REACHED:
@@ -137,7 +155,7 @@ class _Found:
     cost: Cost
 
 
-def section(system: System, state: Sequence[float] | Array, parameters: Sequence[float], plane: Plane,
+def section(system: System, state: Sequence[float] | Array, parameters: Sequence[float], plane: Surface,
             end: float, level: Level, crossings: int = MAX_CROSSINGS) -> Section:
     """The first `crossings` crossings of the plane after t = 0 and up to t = `end` (which may be negative).
 
@@ -148,7 +166,7 @@ def section(system: System, state: Sequence[float] | Array, parameters: Sequence
     return sections(system, [state], parameters, plane, end, level, crossings, threads=1)[0]
 
 
-def sections(system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float], plane: Plane,
+def sections(system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float], plane: Surface,
              end: float, level: Level, crossings: int = MAX_CROSSINGS, threads: int = THREADS) -> list[Section]:
     """`section` for each row of `states` (n, d), on all cores, with the fastest motion's unit of time for all."""
     search = _Search.of(system, states, parameters, plane, end, level, crossings)
@@ -177,7 +195,7 @@ class Points:
 
 
 def section_points(system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float],
-                   plane: Plane, end: float, level: Level, crossings: int, threads: int = THREADS,
+                   plane: Surface, end: float, level: Level, crossings: int, threads: int = THREADS,
                    most_steps: int = MAX_STEPS) -> Points:
     """For pictures: the first `crossings` crossings of each orbit, rows of `states` (n, d), in one run.
 

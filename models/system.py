@@ -31,6 +31,7 @@ class System:
     field(y, p), integrals(y, p) : plain arithmetic on sequences.
     frequency(y, p) : a bound ν on every |ω|, of y (d,) or (d, n); time is measured in 1/ν when integrating.
     rescale(y, p, ν) : states (d,) or (d, n) and parameters in units of time 1/ν.
+    unit(p) : what the leading variables, angular velocities or momenta, are divided by besides ν.
     orbit, ensemble, cross : the compiled kernels, see `taylor.orbit_integrator`,
         `lanes.ensemble_integrator`, `crossings.crossing_finder`.
     example : a state and parameters to try.
@@ -49,11 +50,12 @@ class System:
     ensemble: Callable[..., int]
     cross: Callable[..., tuple[int, int]]
     example: tuple[tuple[float, ...], tuple[float, ...]]
+    unit: Callable[[Array], float] = lambda p: 1.0
 
     @property
     def angular_velocities(self) -> int:
-        """How many leading variables are angular velocities, and scale with 1/time."""
-        return sum(name.startswith(("ω", "w")) for name in self.variables)
+        """How many leading variables are angular velocities or momenta, and scale with 1/time."""
+        return sum(name.startswith(("ω", "w", "M")) for name in self.variables)
 
 
 @cache
@@ -95,7 +97,7 @@ class Problem:
         if not np.isfinite(nu):
             raise InvalidParameter("The motion is too fast for double precision: choose less extreme parameters.")
         scale = np.ones(len(system.variables))
-        scale[: system.angular_velocities] = nu
+        scale[: system.angular_velocities] = nu * system.unit(p)
         states, parameters = system.rescale(given.T, p, nu)
         return cls(np.ascontiguousarray(states.T), parameters, nu, scale)
 

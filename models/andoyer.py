@@ -1,0 +1,222 @@
+"""S11: Andoyer–Deprit variables of the Euler–Poisson equations, and the section g = π/2.
+
+G = |M|, L = M3, (M, γ) = f, x = L/G, s = √(1 − x²); M = G (s sin l, s cos l, x), and
+
+    γ = (f/G) M/G + √(1 − f²/G²) (sin g · v − cos g · u),   v = (cos l, −sin l, 0),   u = (−x sin l, −x cos l, s).
+
+The plane g = π/2 is G²γ3 − f M3 = 0 where (γ, v) > 0; as G²γ3 − f M3 = −G² √(1 − f²/G²) s cos g, motions cross it
+upwards while g grows.  On the plane the energy is, with m = μr,
+
+    h = ½ K G² − (f/G) P − √(1 − f²/G²) Q,   K = s² (a1 sin²l + a2 cos²l) + a3 x²,
+    P = s (m1 sin l + m2 cos l) + m3 x,   Q = m1 cos l − m2 sin l.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from .accuracy import Level
+from .crossings import Surface, crossing_finder
+from .errors import InvalidParameter
+from .euler_poisson import QUADRATIC, SYSTEM, HeavyBody, field
+from .jit import kernel, part
+from .results import Array
+from .rigid_body import require_finite
+from .section import MAX_STEPS, Points, section_points
+from .system import Problem, System
+from .threads import THREADS
+
+__all__ = ["AndoyerPlane", "andoyer_points", "coordinates", "hess_curve", "possible", "relation", "seeds", "state_at"]
+
+
+@part
+def _along(c, normal, e, scratch):
+    """The Taylor coefficients of G²γ3 − f M3; normal[0] = f."""
+    for k in range(e.size):
+        total = 0.0
+        for m in range(k + 1):
+            n = k - m
+            total += c[m, 0] * c[n, 0] + c[m, 1] * c[n, 1] + c[m, 2] * c[n, 2]
+        scratch[k] = total
+    for k in range(e.size):
+        total = -normal[0] * c[k, 2]
+        for m in range(k + 1):
+            total += scratch[m] * c[k - m, 5]
+        e[k] = total
+
+
+@part
+def _height(y, normal):
+    return (y[0] * y[0] + y[1] * y[1] + y[2] * y[2]) * y[5] - normal[0] * y[2]
+
+
+@part
+def _on_this_side(y, normal):
+    """g = π/2 and not −π/2."""
+    return y[3] * y[1] - y[4] * y[0] > 0.0
+
+
+_cross = crossing_finder(QUADRATIC, Surface(_along, _height, _on_this_side))
+
+
+@kernel
+def cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states):
+    """Crossings of g = π/2 by one orbit of `hh01`, see `crossing_finder`; normal = (f,)."""
+    return _cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states)
+
+
+@dataclass(frozen=True)
+class AndoyerPlane:
+    """The section g = π/2, ġ > 0, of motions with (M, γ) = f."""
+
+    f: float
+    sense: int = 1
+
+    def scaled(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
+        """As `section.Surface` says.  Raises `InvalidParameter` for other systems."""
+        if system is not SYSTEM:
+            raise InvalidParameter("Andoyer–Deprit variables are those of the Euler–Poisson equations.")
+        return cross, np.array([self.f / problem.scale[0]]), 0.0
+
+
+def _factors(body: HeavyBody, l: Array, x: Array) -> tuple[Array, Array, Array]:
+    """K, P, Q of the module's docstring."""
+    a1, a2, a3 = body.a
+    m1, m2, m3 = (body.mu * r for r in body.r)
+    s = np.sqrt(np.maximum(0.0, 1.0 - x * x))
+    sin, cos = np.sin(l), np.cos(l)
+    return (s * s * (a1 * sin**2 + a2 * cos**2) + a3 * x * x, s * (m1 * sin + m2 * cos) + m3 * x, m1 * cos - m2 * sin)
+
+
+_SCAN = 96
+
+
+def _scan(body: HeavyBody, h: float, f: float, l: Array, x: Array) -> tuple[Array, Array, Array]:
+    """G (n, m) from the largest possible downwards to |f|, the energy less h there, and K, P, Q (3, n)."""
+    factors = np.stack(_factors(body, l, x))
+    K, P, Q = factors[:, :, None]
+    # The potential is never below −|m|: above this G the energy is more than h.
+    top = np.sqrt(np.maximum(0.0, 2.0 * (h + body.strength) / K))
+    smallest = abs(f) if f else 0.0
+    share = np.linspace(0.0, 1.0, _SCAN) ** 2
+    G = np.maximum(top, smallest) + (smallest - np.maximum(top, smallest)) * share
+    return G, _energy(G, f, K, P, Q) - h, factors
+
+
+def _energy(G: Array, f: float, K: Array, P: Array, Q: Array) -> Array:
+    if f == 0.0:
+        return 0.5 * K * G * G - Q
+    ratio = f / G
+    return 0.5 * K * G * G - ratio * P - np.sqrt(np.maximum(0.0, 1.0 - ratio * ratio)) * Q
+
+
+def momenta(body: HeavyBody, h: float, f: float, l: Array, x: Array) -> Array:
+    """The largest G ≥ |f| with the energy h at each (l, x) (n,) of the plane; NaN where there is none.
+
+    Raises `InvalidParameter`.
+    """
+    require_finite(h=h, f=f)
+    l, x = np.array(l, float, ndmin=1), np.array(x, float, ndmin=1)
+    if not (np.all(np.isfinite(l)) and np.all(np.abs(x) <= 1.0)):
+        raise InvalidParameter("On the section l is an angle and x = L/G lies between −1 and 1.")
+    G, excess, (K, P, Q) = _scan(body, h, f, l, x)
+    if f == 0.0:
+        return np.sqrt(np.where(h + Q >= 0.0, 2.0 * (h + Q) / K, np.nan))
+    below = excess <= 0.0
+    found = below.any(axis=1) & (excess[:, 0] >= -1e-12 * (abs(h) + body.strength))
+    first = np.maximum(np.argmax(below, axis=1), 1)
+    rows = np.arange(l.size)
+    high, low = G[rows, first - 1], G[rows, first]
+    for _ in range(60):
+        middle = 0.5 * (high + low)
+        above = _energy(middle, f, K, P, Q) > h
+        high, low = np.where(above, middle, high), np.where(above, low, middle)
+    return np.where(found, 0.5 * (high + low), np.nan)
+
+
+def possible(body: HeavyBody, h: float, f: float, l: Array, x: Array) -> Array:
+    """Whether some G ≥ |f| has an energy of at most h at (l, x) (n,), to a part in a thousand."""
+    return np.min(_scan(body, h, f, l, x)[1], axis=1) <= 0.0
+
+
+def state_at(body: HeavyBody, h: float, f: float, l: float, x: float) -> tuple[float, ...]:
+    """The state (6,) on the section at (l, x = L/G).
+
+    Raises `InvalidParameter` where no real G ≥ |f| has this energy, or g does not grow through π/2.
+    """
+    G = float(momenta(body, h, f, np.array([l]), np.array([x]))[0])
+    if not (math.isfinite(G) and G > 0.0):
+        raise InvalidParameter(
+            f"At l = {l:.6g}, L/G = {x:.6g} no real G ≥ |f| has the energy h = {h:.6g}: choose a larger h, or another "
+            "point.")
+    y = _state(G, f, l, x)
+    rates = field(y, body.parameters)
+    M, gamma, dM, dgamma = (np.array(part_) for part_ in (y[:3], y[3:], rates[:3], rates[3:]))
+    growth = 2.0 * float(M @ dM) * gamma[2] + G * G * dgamma[2] - f * dM[2]
+    if not growth > 0.0:
+        raise InvalidParameter(
+            f"At l = {l:.6g}, L/G = {x:.6g} the angle g does not grow through π/2: choose another point.")
+    return y
+
+
+def _state(G: float, f: float, l: float, x: float) -> tuple[float, ...]:
+    s, c = math.sqrt(max(0.0, 1.0 - x * x)), f / G
+    across = math.sqrt(max(0.0, 1.0 - c * c))
+    sin, cos = math.sin(l), math.cos(l)
+    return (G * s * sin, G * s * cos, G * x, c * s * sin + across * cos, c * s * cos - across * sin, c * x)
+
+
+def coordinates(states: Array) -> Array:
+    """(l, L/G) (n, 2) of states (n, 6)."""
+    G = np.sqrt(np.sum(states[:, :3] ** 2, axis=1))
+    return np.column_stack([np.arctan2(states[:, 0], states[:, 1]), states[:, 2] / np.maximum(G, 1e-300)])
+
+
+def relation(body: HeavyBody, states: Array) -> Array:
+    """r1 M1 + r3 M3 (n,) of states (n, 6), whose sign no motion changes in the Hess case (`g2p6f1`)."""
+    return body.r[0] * states[:, 0] + body.r[2] * states[:, 2]
+
+
+def hess_curve(body: HeavyBody, l: Array) -> Array:
+    """L/G (n,) where the Hess relation holds: r1 s sin l + r3 x = 0."""
+    r1, _, r3 = body.r
+    return -r1 * np.sin(l) / np.hypot(r3, r1 * np.sin(l))
+
+
+def seeds(body: HeavyBody, h: float, f: float, window: Sequence[float], count: int) -> list[tuple[float, ...]]:
+    """At most `count` states of the section, spread evenly over what is possible of l0 … l1, x0 … x1."""
+    l0, l1, x0, x1 = window
+    # A sequence that fills the window evenly, however far it is followed (Roberts, 2018).
+    n = np.arange(1, 4 * count + 1)
+    l = l0 + (l1 - l0) * ((0.5 + 0.7548776662466927 * n) % 1.0)
+    x = x0 + (x1 - x0) * ((0.5 + 0.5698402909980532 * n) % 1.0)
+    found: list[tuple[float, ...]] = []
+    for i in np.flatnonzero(possible(body, h, f, l, x)):
+        try:
+            found.append(state_at(body, h, f, float(l[i]), float(x[i])))
+        except InvalidParameter:
+            continue
+        if len(found) == count:
+            break
+    return found
+
+
+_TURNS = 40.0
+"""Time given for a crossing, in units of 1/ν: few orbits take longer."""
+
+
+def time_for(body: HeavyBody, h: float, f: float, crossings: int) -> float:
+    """A time in which orbits of the energy h usually have that many crossings."""
+    speed = math.sqrt(2.0 * max(body.a) * max(h + body.strength, 1e-300))
+    return crossings * _TURNS * math.sqrt(max(body.a) / min(body.a)) / speed
+
+
+def andoyer_points(body: HeavyBody, h: float, f: float, starts: Sequence[Sequence[float]], crossings: int, level: Level,
+                   threads: int = THREADS, most_steps: int = MAX_STEPS) -> Points:
+    """The first crossings of each orbit, states as in `section_points`.  Raises `InvalidParameter`, `WorkLimit`."""
+    return section_points(SYSTEM, starts, body.parameters, AndoyerPlane(f), time_for(body, h, f, crossings), level,
+                          crossings, threads, most_steps)
