@@ -11,7 +11,7 @@ from pathlib import Path
 import param
 from panel.custom import JSComponent
 
-__all__ = ["Controls", "Pictures", "Player", "Prose", "Ready", "SceneMenu", "Text"]
+__all__ = ["Controls", "Pictures", "Player", "Progress", "Prose", "Ready", "SceneMenu", "Text"]
 
 _STATIC = Path(__file__).resolve().parent.parent / "static"
 _CSS = (_STATIC / "components.css").read_text(encoding="utf-8")
@@ -58,6 +58,13 @@ class Player(JSComponent):
     _stylesheets = [_CSS]
 
 
+class Progress(JSComponent):
+    """How much of a state is computed, while it is on its way, and Stop."""
+
+    _esm = _module("progress.js")
+    _stylesheets = [_CSS]
+
+
 class Prose(JSComponent):
     """HTML of the scene on show: its legend or its words."""
 
@@ -71,14 +78,14 @@ class Ready(JSComponent):
     """Keeps `<html data-ready data-state>` and the address bar.
 
     It sends messages, for `on_msg`: {"requested": n, "held": whether a slider is held, "values": {name: number or
-    option, …}, "preset": the example chosen or null, "picked": [picture, x, y] or null, "reset": whether Reset was
-    pressed, "scene": the scene chosen or null, "hidden": [the pictures out of sight, …]} asks for the state after the
+    option, …}, "preset": the example chosen or null, "picked": [picture, x, y] or [picture, x0, y0, x1, y1] or null,
+    "reset", "undo", "clear", "stop": whether that was pressed, "scene": the scene chosen or null, "hidden": [the pictures out of sight, …]} asks for the state after the
     user's n-th change.
     """
 
     scene = param.String(default="", doc="JSON: the description of the scene entered last, see `app.description`.")
     state = param.String(default="", doc="JSON: number of the state, last request that it answers, URL query, "
-                         "the tree of its data (see `app.wire`), name of its scene.")
+                         "the tree of its data (see `app.wire`), name of its scene, progress [done, of] or null.")
     block = param.Bytes(default=b"", doc="The numbers of that tree.")
     client = param.Dict(default={}, doc="URL keys that the browser itself keeps: t, speed, az, el.")
 

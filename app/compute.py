@@ -8,11 +8,12 @@ import threading
 from collections import OrderedDict
 from collections.abc import Callable, Hashable, Mapping
 from concurrent.futures import Future
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-__all__ = ["CACHE", "ResultCache", "size_of"]
+__all__ = ["CACHE", "ResultCache", "Task", "size_of"]
 
 logger = logging.getLogger("hess_explorer")
 
@@ -32,6 +33,14 @@ def size_of(value: Any) -> int:
     return 64
 
 
+@dataclass(frozen=True)
+class Task:
+    """A computation that can wait: function(*arguments), for the cache."""
+
+    function: Callable[..., Any]
+    arguments: tuple[Hashable, ...]
+
+
 class ResultCache:
     """Results by function and arguments; the least recently used go first.
 
@@ -49,7 +58,7 @@ class ResultCache:
 
     def get(self, function: Callable[..., Any], *arguments: Hashable) -> tuple[Any, bool]:
         """The result of function(*arguments), and whether it was there already."""
-        key = (function.__module__, function.__qualname__, arguments)
+        key = _key(function, arguments)
         with self._lock:
             entry = self._entries.get(key)
             if entry is not None:
@@ -79,6 +88,17 @@ class ResultCache:
         future.set_result(value)
         return value, False
 
+    def peek(self, function: Callable[..., Any], *arguments: Hashable) -> Any | None:
+        """The result of function(*arguments) if it is there, which counts as a hit; else None."""
+        key = _key(function, arguments)
+        with self._lock:
+            entry = self._entries.get(key)
+            if entry is None or not entry[0].done() or entry[0].exception() is not None:
+                return None
+            self.hits += 1
+            self._entries.move_to_end(key)
+            return entry[0].result()
+
     @property
     def asked(self) -> int:
         """How many results have been asked for."""
@@ -94,6 +114,10 @@ class ResultCache:
         while self.bytes > self.capacity and self._entries:
             _, (_, size) = self._entries.popitem(last=False)
             self.bytes -= size
+
+
+def _key(function: Callable[..., Any], arguments: tuple[Hashable, ...]) -> Hashable:
+    return function.__module__, function.__qualname__, arguments
 
 
 CACHE = ResultCache(64 * 2**20)

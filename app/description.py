@@ -12,7 +12,7 @@ from bokeh.document import Document
 from markdown_it import MarkdownIt
 
 from app.scenes import scenes
-from app.state import Number, Spec
+from app.state import Choice, Number, Places
 from app.views.figure import Figure
 from app.wire import Wire
 from app.words import with_formulas
@@ -43,7 +43,8 @@ def _describe(name: str) -> str:
         "title": scene.title,
         "pictures": [picture.describe() for picture in stage.pictures],
         "document": serialize_json(document.to_json(deferred=False)),
-        "controls": [_control(spec) for spec in scene.specs],
+        "controls": [_control(spec) for spec in scene.specs if not isinstance(spec, Places)],
+        "drawn": any(isinstance(spec, Places) for spec in scene.specs),
         "presets": [preset.name for preset in scene.presets],
         "legend": scene.legend,
         "words": MarkdownIt().enable("table").render(with_formulas(scene.words)),
@@ -52,7 +53,7 @@ def _describe(name: str) -> str:
     })
 
 
-def _control(spec: Spec) -> dict[str, Any]:
+def _control(spec: Number | Choice) -> dict[str, Any]:
     common = {"name": spec.name, "label": spec.label, "help": spec.help}
     if isinstance(spec, Number):
         return {"kind": "number", "symbol": spec.symbol, **common}

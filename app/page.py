@@ -10,7 +10,7 @@ import panel as pn
 import panel_material_ui as pmui
 from panel.util import edit_readonly
 
-from app.components import Controls, Pictures, Player, Prose, Ready, SceneMenu, Text
+from app.components import Controls, Pictures, Player, Progress, Prose, Ready, SceneMenu, Text
 from app.scenes import scenes
 from app.scenes.base import Scene
 from app.session import Session
@@ -74,6 +74,7 @@ def _page(query: str) -> pmui.Page:
             Text(key="status", look="status", live=True, margin=(4, 8, 0, 8), **WIDE),
             Text(key="notes", look="notes", live=True, margin=(0, 8, 4, 8), **WIDE),
             Prose(part="words", margin=(0, 8), **WIDE),
+            Progress(css_classes=["floating"], width=0, height=0, margin=0),
             Text(key="busy", look="busy", live=True, css_classes=["floating"], width=0, height=0, margin=0),
             ready,
         ],
@@ -83,7 +84,8 @@ def _page(query: str) -> pmui.Page:
     def entered(scene: Scene) -> None:
         result.title = f"Hess Explorer · {scene.title}"
 
-    Session(ready, entered, scene, state, notes)
+    session = Session(ready, entered, scene, state, notes)
+    pn.state.on_session_destroyed(lambda _: session.background.stop())
     # The page's own busy flag is sent with every event and makes Panel walk through all models each
     # time (100 ms); `data-ready` says the same.
     with edit_readonly(result):

@@ -13,19 +13,22 @@ from typing import Any
 
 from panel.io.document import unlocked
 
+from app.background import Background
 from app.components import Ready
 from app.compute import CACHE
 from app.controls import show_controls
 from app.description import describe
 from app.scenes import scenes
-from app.scenes.base import Report, Scene, Stage
-from app.state import Number, Values, encode
+from app.scenes.base import Boxed, Report, Scene, Stage
+from app.state import Number, Places, Values, encode
 from app.wire import Wire
 from models.errors import ModelError
 
 __all__ = ["Session"]
 
 logger = logging.getLogger("hess_explorer")
+
+MOST_UNDONE = 50
 
 
 def _float(value: Any) -> float:
@@ -53,10 +56,13 @@ class Session:
                  notes: list[str]) -> None:
         self.ready = ready
         self.wire = Wire()
+        self.background = Background()
         self._entered = entered
         self._stages: dict[str, Stage] = {}
         self._held = False
         self._number = 0
+        self._missing = 0
+        self._progress: tuple[int, int] | None = None
         self._enter(scene, values, notes)
         self._draw()
         self._send(0)
@@ -69,6 +75,7 @@ class Session:
         self._wanted = scene.defaults() | {name: values[name] for name in self._specs if name in values}
         self._link_notes = notes
         self._shown: Collection[str] = scene.pictures
+        self._history: list[Values] = []
         # The browser keeps the pictures of all scenes that it has seen, and a stage knows what it has drawn on them.
         if scene.name not in self._stages:
             self._stages[scene.name] = scene.stage(self.wire)
@@ -96,6 +103,24 @@ class Session:
         """Back to the scene's defaults."""
         self.change(self.scene.defaults())
 
+    def _draw_on(self, values: Values) -> None:
+        """What the mouse has chosen; it can be undone."""
+        if values and any(isinstance(spec, Places) for spec in self._specs.values()):
+            self._history = [*self._history, dict(self._wanted)][-MOST_UNDONE:]
+        self.change(values)
+
+    def _follow(self, report: Report, more: bool) -> list[str]:
+        """Compute in the background what the report lacks; a note where that has ended before its end."""
+        left = len(report.todo)
+        if not more:
+            self.background.follow(report.todo)
+        ended = more and self.background.left == 0 and left == self._missing
+        self._missing = left
+        self._progress = (report.total - left, report.total) if left and not ended else None
+        if not (left and ended):
+            return []
+        return [self.background.error or f"Stopped: {report.total - left} of {report.total} parts are drawn."]
+
     def _receive(self, message: Any) -> None:
         """A message of the browser: nothing in it is trusted."""
         if not isinstance(message, dict):
@@ -108,11 +133,19 @@ class Session:
         values = message.get("values")
         if isinstance(values, dict):
             self.change({name: value for name, value in values.items() if name in self._specs})
+        if message.get("undo") is True and self._history:
+            self.change(self._history.pop())
+        if message.get("clear") is True:
+            self._draw_on({name: spec.default for name, spec in self._specs.items() if isinstance(spec, Places)})
         picked = message.get("picked")
-        if isinstance(picked, list) and len(picked) == 3 and isinstance(picked[0], str):
-            x, y = map(_float, picked[1:])
-            if math.isfinite(x) and math.isfinite(y):
-                self.change(self.stage.pick(picked[0], x, y))
+        if isinstance(picked, list) and isinstance(picked[0] if picked else None, str):
+            numbers = [*map(_float, picked[1:5])]
+            if len(numbers) == 2 and all(map(math.isfinite, numbers)):
+                self._draw_on(self.stage.pick(picked[0], *numbers))
+            elif len(numbers) == 4 and all(map(math.isfinite, numbers)) and isinstance(self.stage, Boxed):
+                self._draw_on(self.stage.box(picked[0], (numbers[0], numbers[1], numbers[2], numbers[3])))
+        if message.get("stop") is True:
+            self.background.stop()
         requested = message.get("requested")
         with unlocked():
             scene = scenes().get(message["scene"]) if isinstance(message.get("scene"), str) else None
@@ -131,6 +164,8 @@ class Session:
                 self._held = held
                 if self._dirty:
                     self._draw()
+                elif self._progress is not None:
+                    self._draw(more=True)
                 self._send(requested)
 
     def _send(self, answers: int) -> None:
@@ -140,10 +175,11 @@ class Session:
         self.ready.block = block
         self.ready.state = json.dumps({
             "number": self._number, "answers": answers, "query": encode(self.scene.name, self.values), "tree": tree,
-            "scene": self.scene.name,
+            "scene": self.scene.name, "progress": self._progress,
         })
 
-    def _draw(self) -> None:
+    def _draw(self, more: bool = False) -> None:
+        """The pictures of what is wanted; `more`: of the same, of which more may be known by now."""
         self._dirty = False
         admitted, notes = self.scene.admit(self._wanted)
         self.values = admitted
@@ -158,6 +194,7 @@ class Session:
             sentence = "This state could not be computed. Press Reset, and please report the link."
             self.stage.fail(sentence)
             report = Report([], sentence)
+        notes = [*notes, *self._follow(report, more)]
         # Under a drag the controls wait, unless the state had to differ from what they say.
         if not self._held or notes:
             show_controls(self.scene, admitted, self.wire)

@@ -11,7 +11,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from urllib.parse import parse_qsl, urlencode
 
-__all__ = ["CLIENT", "MAX_QUERY", "VERSION", "Choice", "Number", "Spec", "Value", "Values", "decode", "encode"]
+__all__ = [
+    "CLIENT", "MAX_QUERY", "VERSION", "Choice", "Number", "Places", "Spec", "Value", "Values", "decode", "encode",
+    "places", "written",
+]
 
 VERSION = "1"
 MAX_QUERY = 2000
@@ -70,7 +73,45 @@ class Choice:
         return self.default, f"{self.label} was not one of {', '.join(self.options)}: it is {self.default} now."
 
 
-Spec = Number | Choice
+@dataclass(frozen=True)
+class Places:
+    """Points chosen with the mouse in a picture, as a text "x,y;x,y": at most `most` within `low` … `high`.
+
+    They have no control of their own.
+    """
+
+    name: str
+    label: str
+    most: int
+    low: tuple[float, float]
+    high: tuple[float, float]
+    default: str = ""
+
+    def read(self, text: str) -> tuple[str, str | None]:
+        """The last `most` of the points, as a text; the default and a note where it is none."""
+        try:
+            pairs = [tuple(map(float, pair.split(","))) for pair in text.split(";") if pair]
+            inside = all(low <= value <= high for pair in pairs
+                         for value, low, high in zip(pair, self.low, self.high, strict=True))
+        except ValueError:
+            inside = False
+        if not inside:
+            return self.default, f"{self.label} could not be read: what it is at first is shown."
+        return written(pairs[-self.most:]), None
+
+
+def written(places: Sequence[tuple[float, ...]]) -> str:
+    """The text of these points."""
+    return ";".join(",".join(f"{value:.10g}" for value in place) for place in places)
+
+
+def places(text: Value) -> list[tuple[float, float]]:
+    """The points that an admitted text names."""
+    pairs = (pair.split(",") for pair in str(text).split(";") if pair)
+    return [(float(x), float(y)) for x, y in pairs]
+
+
+Spec = Number | Choice | Places
 
 CLIENT: tuple[Number, ...] = (
     Number("t", "t", "Time", 0.0, 0.0, 1000.0, 0.0, 0.0, 1e6),

@@ -30,7 +30,10 @@ from .section import MAX_STEPS, Points, section_points
 from .system import Problem, System
 from .threads import THREADS
 
-__all__ = ["AndoyerPlane", "andoyer_points", "coordinates", "hess_curve", "possible", "relation", "seeds", "state_at"]
+__all__ = [
+    "AndoyerPlane", "andoyer_points", "coordinates", "hess_curve", "possible", "relation", "seeds", "state_at",
+    "states_at",
+]
 
 
 @part
@@ -93,16 +96,17 @@ def _factors(body: HeavyBody, l: Array, x: Array) -> tuple[Array, Array, Array]:
 
 
 _SCAN = 96
+_ROUGH = 24
 
 
-def _scan(body: HeavyBody, h: float, f: float, l: Array, x: Array) -> tuple[Array, Array, Array]:
+def _scan(body: HeavyBody, h: float, f: float, l: Array, x: Array, count: int = _SCAN) -> tuple[Array, Array, Array]:
     """G (n, m) from the largest possible downwards to |f|, the energy less h there, and K, P, Q (3, n)."""
     factors = np.stack(_factors(body, l, x))
     K, P, Q = factors[:, :, None]
     # The potential is never below −|m|: above this G the energy is more than h.
     top = np.sqrt(np.maximum(0.0, 2.0 * (h + body.strength) / K))
     smallest = abs(f) if f else 0.0
-    share = np.linspace(0.0, 1.0, _SCAN) ** 2
+    share = np.linspace(0.0, 1.0, count) ** 2
     G = np.maximum(top, smallest) + (smallest - np.maximum(top, smallest)) * share
     return G, _energy(G, f, K, P, Q) - h, factors
 
@@ -139,8 +143,25 @@ def momenta(body: HeavyBody, h: float, f: float, l: Array, x: Array) -> Array:
 
 
 def possible(body: HeavyBody, h: float, f: float, l: Array, x: Array) -> Array:
-    """Whether some G ≥ |f| has an energy of at most h at (l, x) (n,), to a part in a thousand."""
-    return np.min(_scan(body, h, f, l, x)[1], axis=1) <= 0.0
+    """Whether some G ≥ |f| has an energy of at most h at (l, x) (n,), to what a picture shows."""
+    return np.min(_scan(body, h, f, l, x, _ROUGH)[1], axis=1) <= 0.0
+
+
+def states_at(body: HeavyBody, h: float, f: float, l: Array, x: Array) -> tuple[Array, Array, Array]:
+    """The states (n, 6) on the section at (l, x = L/G) (n,), G (n,), and whether g grows through π/2 there (n,).
+
+    Where there is no G ≥ |f| of this energy, it is NaN.  Raises `InvalidParameter`.
+    """
+    G = momenta(body, h, f, l, x)
+    safe = np.where(G > 0.0, G, 1.0)
+    s, c = np.sqrt(np.maximum(0.0, 1.0 - x * x)), f / safe
+    across = np.sqrt(np.maximum(0.0, 1.0 - c * c))
+    sin, cos = np.sin(l), np.cos(l)
+    y = np.stack([
+        safe * s * sin, safe * s * cos, safe * x, c * s * sin + across * cos, c * s * cos - across * sin, c * x])
+    rates = np.stack(field(y, body.parameters))
+    growth = 2.0 * np.sum(y[:3] * rates[:3], axis=0) * y[5] + safe * safe * rates[5] - f * rates[2]
+    return y.T, np.where(G > 0.0, G, np.nan), (G > 0.0) & (growth > 0.0)
 
 
 def state_at(body: HeavyBody, h: float, f: float, l: float, x: float) -> tuple[float, ...]:
@@ -148,26 +169,15 @@ def state_at(body: HeavyBody, h: float, f: float, l: float, x: float) -> tuple[f
 
     Raises `InvalidParameter` where no real G ≥ |f| has this energy, or g does not grow through π/2.
     """
-    G = float(momenta(body, h, f, np.array([l]), np.array([x]))[0])
-    if not (math.isfinite(G) and G > 0.0):
+    states, G, growing = states_at(body, h, f, np.array([l], float), np.array([x], float))
+    if not math.isfinite(G[0]):
         raise InvalidParameter(
             f"At l = {l:.6g}, L/G = {x:.6g} no real G ≥ |f| has the energy h = {h:.6g}: choose a larger h, or another "
             "point.")
-    y = _state(G, f, l, x)
-    rates = field(y, body.parameters)
-    M, gamma, dM, dgamma = (np.array(part_) for part_ in (y[:3], y[3:], rates[:3], rates[3:]))
-    growth = 2.0 * float(M @ dM) * gamma[2] + G * G * dgamma[2] - f * dM[2]
-    if not growth > 0.0:
+    if not growing[0]:
         raise InvalidParameter(
             f"At l = {l:.6g}, L/G = {x:.6g} the angle g does not grow through π/2: choose another point.")
-    return y
-
-
-def _state(G: float, f: float, l: float, x: float) -> tuple[float, ...]:
-    s, c = math.sqrt(max(0.0, 1.0 - x * x)), f / G
-    across = math.sqrt(max(0.0, 1.0 - c * c))
-    sin, cos = math.sin(l), math.cos(l)
-    return (G * s * sin, G * s * cos, G * x, c * s * sin + across * cos, c * s * cos - across * sin, c * x)
+    return tuple(map(float, states[0]))
 
 
 def coordinates(states: Array) -> Array:
@@ -194,15 +204,8 @@ def seeds(body: HeavyBody, h: float, f: float, window: Sequence[float], count: i
     n = np.arange(1, 4 * count + 1)
     l = l0 + (l1 - l0) * ((0.5 + 0.7548776662466927 * n) % 1.0)
     x = x0 + (x1 - x0) * ((0.5 + 0.5698402909980532 * n) % 1.0)
-    found: list[tuple[float, ...]] = []
-    for i in np.flatnonzero(possible(body, h, f, l, x)):
-        try:
-            found.append(state_at(body, h, f, float(l[i]), float(x[i])))
-        except InvalidParameter:
-            continue
-        if len(found) == count:
-            break
-    return found
+    states, _, growing = states_at(body, h, f, l, x)
+    return [tuple(map(float, state)) for state in states[growing][:count]]
 
 
 _TURNS = 40.0

@@ -30,7 +30,7 @@ from .results import Array, frozen
 from .rigid_body import require_finite
 from .system import Problem
 
-__all__ = ["Bridge", "FreeRun", "growth_of", "heavy_body", "hess_body", "on_manifold", "run_free"]
+__all__ = ["Bridge", "FreeRun", "Growth", "growth_of", "heavy_body", "hess_body", "on_manifold", "run_free"]
 
 
 def _tilt(body: HeavyBody) -> tuple[float, float]:
@@ -202,20 +202,29 @@ _STRAIGHT = (3e-14, 1e-3)
 """Below it the round-off that is still being added counts; above it the growth depends on how large the leak is."""
 
 
-def growth_of(run: FreeRun, per_period: int) -> tuple[float, int] | None:
-    """The growth of ln |(r, M)| per period where it is straight, and over how many periods; None where too few are.
+@dataclass(frozen=True)
+class Growth:
+    """How ln |(r, M)| grows: per period of n3, from the period `first` on, over so many of them."""
 
-    per_period : samples of the run in one period of n3.  Least squares of a straight line and a wiggle of that
-    period: the slope of ln |(r, M)| against the number of the period, with a level for each place in it.
+    per_period: float
+    first: int
+    periods: int
+
+
+def growth_of(run: FreeRun, samples: int) -> Growth | None:
+    """The growth of the leak where it is straight; None where that is for less than two periods.
+
+    samples : of the run in one period of n3.  Least squares of a straight line and a wiggle of that period: the slope
+    of ln |(r, M)| against the number of the period, with a level for each place in it.
     """
-    rows = (run.off.size - 1) // per_period
-    table = np.abs(run.off[: rows * per_period].reshape(rows, per_period))
+    rows = (run.off.size - 1) // samples
+    table = np.abs(run.off[: rows * samples].reshape(rows, samples))
     low, high = _STRAIGHT
-    begun = np.flatnonzero(table.min(axis=1) < low)
     over = np.flatnonzero(table.max(axis=1) > high)
-    straight = table[: int(over[0]) if over.size else rows]
-    straight = straight[int(begun[begun < len(straight)].max(initial=-1)) + 1 :]
-    if len(straight) < 2:
+    last = int(over[0]) if over.size else rows
+    begun = np.flatnonzero(table[:last].min(axis=1) < low)
+    first = int(begun[-1]) + 1 if begun.size else 0
+    if last - first < 2:
         return None
-    count = np.arange(len(straight)) - 0.5 * (len(straight) - 1)
-    return float(count @ np.log(straight).mean(axis=1) / (count @ count)), len(straight)
+    count = np.arange(last - first) - 0.5 * (last - first - 1)
+    return Growth(float(count @ np.log(table[first:last]).mean(axis=1) / (count @ count)), first, last - first)

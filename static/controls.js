@@ -97,6 +97,9 @@ export function render({ model, view, el }) {
     })
     column.replaceChildren(examples, ...items, element("div", { className: "buttons" },
       button("reset", "Reset", "Back to the first state of this scene", () => tell("hess:reset")),
+      ...(scene.drawn ? [
+        button("undo", "Undo", "Take back the last click or box in a picture", () => tell("hess:undo")),
+        button("clear", "Clear", "Without all clicks and boxes", () => tell("hess:clear"))] : []),
       button("link", "Copy link", "A link to all that is on the screen", () => tell("hess:link"))))
   }
   const show = (values) => {

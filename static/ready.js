@@ -5,6 +5,7 @@
 
 const URL_PAUSE = 400
 const PATIENCE = 400
+const MORE_PAUSE = 80
 
 export function render({ model, view }) {
   const root = document.documentElement
@@ -78,7 +79,9 @@ export function render({ model, view }) {
     request()
   }
   document.addEventListener("hess:preset", (event) => wishFor({ preset: event.detail }))
-  document.addEventListener("hess:reset", () => wishFor({ reset: true }))
+  for (const what of ["reset", "undo", "clear", "stop"]) {
+    document.addEventListener(`hess:${what}`, () => wishFor({ [what]: true }))
+  }
   document.addEventListener("hess:pick", (event) => {
     const { pick, drag } = event.detail
     // A finger that moves scrolls the page.
@@ -219,6 +222,7 @@ export function render({ model, view }) {
   let waiting = false
   let applied = false
   let giveUp = null
+  let more = null
   const settle = () => {
     const { number, answers } = state
     clearTimeout(giveUp)
@@ -231,7 +235,10 @@ export function render({ model, view }) {
     scene.settled = true
     // What could not be painted yet (a hidden tab) is still waited for, but holds up nothing.
     waiting = busy()
+    tell("hess:progress", state.progress)
+    clearTimeout(more)
     if (answers < requested) ask()
+    else if (state.progress !== null) more = setTimeout(ask, MORE_PAUSE)
     else if (!waiting) root.dataset.ready = "true"
   }
   // Called whenever one of the pictures has been painted.

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
-from app.state import Number, Spec, Value, Values
+from app.compute import Task
+from app.state import Choice, Spec, Value, Values
 from app.wire import Wire
 from models.system import System
 
-__all__ = ["Motion", "Picture", "Preset", "Report", "Scene", "Stage"]
+__all__ = ["Boxed", "Motion", "Picture", "Preset", "Report", "Scene", "Stage"]
 
 
 @dataclass(frozen=True)
@@ -37,11 +38,24 @@ class Picture(Protocol):
 
 @dataclass(frozen=True)
 class Report:
-    """What the page says beside the pictures: derived quantities, the status line, notes."""
+    """What the page says beside the pictures: derived quantities, the status line, notes.
+
+    todo : what is still to be computed before the state is complete; total : of how many pieces.
+    """
 
     derived: Sequence[str]
     status: str
     notes: Sequence[str] = field(default=())
+    todo: Sequence[Task] = field(default=())
+    total: int = 0
+
+
+@runtime_checkable
+class Boxed(Protocol):
+    """A stage in whose pictures a box can be drawn with the mouse."""
+
+    def box(self, picture: str, corners: tuple[float, float, float, float]) -> Values:
+        """The values that a box from (x0, y0) to (x1, y1) of a picture chooses."""
 
 
 class Stage(Protocol):
@@ -120,6 +134,6 @@ class Scene:
         return {spec.name: spec.default for spec in self.specs}
 
     def example(self, preset: Preset) -> dict[str, Value]:
-        """All numbers of a preset; choices such as the accuracy stay as they are."""
-        numbers = {spec.name: spec.default for spec in self.specs if isinstance(spec, Number)}
+        """All numbers and places of a preset; choices such as the accuracy stay as they are."""
+        numbers = {spec.name: spec.default for spec in self.specs if not isinstance(spec, Choice)}
         return {**numbers, **preset.values}

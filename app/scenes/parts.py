@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from typing import Any, Protocol
 
-from app.compute import CACHE
+from app.compute import CACHE, Task
 from app.scenes.base import Picture
 from app.state import Choice, Values
 from app.wire import Wire
@@ -26,6 +26,8 @@ class Work:
     def __init__(self, values: Values, dragging: bool) -> None:
         self._start = time.perf_counter()
         self._misses = 0
+        self.todo: list[Task] = []
+        self.pieces = 0
         chosen = level(str(values["accuracy"]))
         # While a slider is dragged, the cheapest that is right to a pixel.
         self.level: Level = min(chosen, cheapest(HALF_A_PIXEL), key=lambda rung: rung.order) if dragging else chosen
@@ -34,6 +36,14 @@ class Work:
         """The cached result of function(*arguments)."""
         value, hit = CACHE.get(function, *arguments)
         self._misses += not hit
+        return value
+
+    def later(self, function: Callable[..., Any], *arguments: Hashable) -> Any | None:
+        """The same if it is known already; else None, and it is left `todo`."""
+        self.pieces += 1
+        value = CACHE.peek(function, *arguments)
+        if value is None:
+            self.todo.append(Task(function, arguments))
         return value
 
     def ended(self) -> str:

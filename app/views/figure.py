@@ -30,7 +30,20 @@ _PICK = """
     document.dispatchEvent(new CustomEvent("hess:pick", { detail }))
 """
 
+_BOX = """
+    const here = [cb_obj.x, cb_obj.y]
+    if (cb_obj.event_name === "panstart") source.tags = here
+    const [x, y] = source.tags
+    const ended = cb_obj.event_name === "panend"
+    source.data = ended ? { left: [], right: [], top: [], bottom: [] }
+      : { left: [x], right: [here[0]], top: [y], bottom: [here[1]] }
+    if (!ended) return
+    const detail = { pick: [name, x, y, ...here], drag: true }
+    document.dispatchEvent(new CustomEvent("hess:pick", { detail }))
+"""
+
 _POSITIONS = {
+    "quad": ("left", "right", "top", "bottom"),
     "multi_line": ("xs", "ys"), "multi_polygons": ("xs", "ys"), "text": ("x", "y", "text"),
     "image": ("image", "x", "y", "dw", "dh"), "segment": ("x0", "y0", "x1", "y1"),
 }
@@ -60,7 +73,8 @@ class Figure:
     wire : what new data and axes go by.
     name : identifier.
     labels, x_range, y_range : the axes, which stay until `set_ranges`.
-    picks : Bokeh events ("tap", "pan") that choose a point; the browser sends it with the state.
+    picks : Bokeh events ("tap", "pan") that choose a point; the browser sends it with the state.  "box": a drag
+        draws a box, whose corners it sends.
     ticks : positions and labels on both axes, where the usual ones would not do; y_ticks : others on the vertical one.
     log : the axes that are logarithmic, "x", "y" or "xy".
     x_ticks : positions on the horizontal axis; y_tick_count : how many labels the vertical one wants.
@@ -94,7 +108,7 @@ class Figure:
                                      "overlay" if moving else "glyph", style)
         self._columns[layer] = tuple(columns)
 
-    def add_image(self, layer: str, palette: str, low: float, high: float) -> None:
+    def add_image(self, layer: str, palette: str | tuple[str, ...], low: float, high: float) -> None:
         """A layer of numbers on a grid, under all others (not HoloViews', which would import pandas)."""
         columns = _POSITIONS["image"]
         style = {"palette": palette, "low": low, "high": high}
@@ -136,7 +150,13 @@ class Figure:
                 style = {"color_mapper": LinearColorMapper(**style)}
             getattr(root, layer.glyph)(source=source, level=layer.level, **positions, **style)
         for event in self._picks:
-            root.js_on_event(event, CustomJS(args={"name": self.name}, code=_PICK))
+            if event == "box":
+                source = ColumnDataSource({column: [] for column in _POSITIONS["quad"]})
+                root.quad(source=source, level="overlay", fill_alpha=0.1, color=theme.UNSTABLE)
+                for stage in ("panstart", "pan", "panend"):
+                    root.js_on_event(stage, CustomJS(args={"name": self.name, "source": source}, code=_BOX))
+            else:
+                root.js_on_event(event, CustomJS(args={"name": self.name}, code=_PICK))
         return root
 
     def describe(self) -> dict[str, Any]:

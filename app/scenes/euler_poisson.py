@@ -1,0 +1,484 @@
+"""The Euler–Poisson equations near the Hess case (S11, S12): Andoyer–Deprit section, rotation number, exponent."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from app import theme
+from app.compute import Task
+from app.scenes.base import Motion, Preset, Report, Scene
+from app.scenes.parts import ACCURACY, Work, orbit_status, refuse
+from app.state import Choice, Number, Places, Value, Values, places, written
+from app.views.chart import Series
+from app.views.graph import Graph
+from app.views.layered_section import LayeredSection
+from app.views.poisson_sphere import PoissonSphere
+from app.views.velocity_plane import nice_above
+from app.wire import Wire
+from app.words import number
+from models.accuracy import STANDARD, Level
+from models.andoyer import andoyer_points, coordinates, hess_curve, possible, relation, seeds, state_at, states_at
+from models.euler_poisson import SYSTEM, HeavyBody
+from models.lyapunov import Exponent, largest_exponent
+from models.orbit import solve
+from models.results import Array, Orbit, frozen
+from models.rotation import rotation_number
+from models.sampling import sample_times
+from models.torus import PIXELS, SAGITTA
+
+_MOST = 4000
+_PIECE = 4
+"""Orbits that are computed together: few enough for points to arrive soon."""
+_IN_A_DRAG = (16, 40)
+"""Orbits and crossings while a slider is held."""
+_ACROSS = 48
+"""Orbits on the line along which the rotation number is looked at."""
+_ON_LINE = 500
+"""Crossings of each: with fewer the rotation number of a curve is not known to `_REGULAR`."""
+_MOST_STEPS = 200_000
+_CELLS = (96, 64)
+_REGULAR = 1e-3
+"""Where the rotation numbers of both halves of an orbit agree to this, it is taken for a closed curve."""
+_FULL = ((-math.pi, -1.0), (math.pi, 1.0))
+
+SPECS = (
+    Number("I1", "I₁", "Moment I₁", 1.0, 0.1, 3.0, 0.005, 1e-3, 1e3, "First principal moment of inertia."),
+    Number("I2", "I₂", "Moment I₂", 0.625, 0.1, 3.0, 0.005, 1e-3, 1e3,
+           "Middle principal moment: it lies between I₁ and I₃, else there is no Hess condition."),
+    Number("I3", "I₃", "Moment I₃", 0.375, 0.1, 3.0, 0.005, 1e-3, 1e3, "Third principal moment of inertia."),
+    Number("away", "ε", "Distance from Hess, ε", 0.0, -0.5, 0.5, 0.005, -math.pi, math.pi,
+           "The angle, in radians, by which the centre of mass r is turned away from the direction that the Hess "
+           "condition asks for. At 0 the barrier r·M = 0 cannot be crossed."),
+    Number("m", "μ|r|", "Weight times distance, μ|r|", 9.975, -20.0, 20.0, 0.005, -1e3, 1e3,
+           "The potential is −μ(r, γ). Its sign is that of r."),
+    Number("h", "h", "Energy h", 50.0, -1.0, 60.0, 0.05, -1e3, 1e5, "H = h."),
+    Number("f", "f", "Area integral f", 5.0, -8.0, 8.0, 0.05, -1e3, 1e3, "(M, γ) = f; the section needs G ≥ |f|."),
+    Number("orbits", "n", "Orbits", 60.0, 0.0, 200.0, 1.0, 0.0, 400.0, "How many orbits are spread over the window."),
+    Number("count", "N", "Crossings", 300.0, 20.0, 1000.0, 10.0, 2.0, 4000.0, "How many points each orbit leaves."),
+    Number("span", "t", "Time span", 20.0, 1.0, 200.0, 1.0, 0.01, 1e4, "How long the chosen orbit is followed."),
+    Number("long", "T", "Time of the exponent", 200.0, 10.0, 1000.0, 10.0, 1.0, 1e4,
+           "How long the Lyapunov exponent is averaged."),
+    Choice("turns", "Rotation number", ("along l", "about the middle"), "along l",
+           "Turns counted by the angle l, on a vertical line through the chosen start; or about the middle of the "
+           "window, on a line from there to the right."),
+    ACCURACY,
+    Places("starts", "The places of the chosen orbits", 12, (-10.0, -1.0), (10.0, 1.0), "0,0.2"),
+    Places("window", "The window of the section", 2, (-10.0, -1.0), (10.0, 1.0)),
+)
+
+_RIS = {"I1": 1.0, "I2": 1.5, "I3": 2.0, "m": -math.sqrt(0.5), "span": 60.0, "starts": "0.5,0.2"}
+_BELOW, _AT, _ABOVE = "a curve in a regular leaf", "the separatrix", "two layers part"
+PRESETS = (
+    Preset("Two layers that never mix (figure gess1)", {}),
+    Preset("Meandering torus (figure gess2)", {
+        "window": "-2.25,-0.27;-1.45,0.33", "turns": "about the middle", "starts": "-1.558,0.03", "orbits": 40.0,
+        "count": 600.0}),
+    Preset("The barrier breaks: 0.02 away from Hess", {"away": 0.02, "count": 600.0}),
+    *(Preset(f"gess-ris1 {letter}: f = 0, h = {h:.4g}, {what}", {**_RIS, "h": h, "f": 0.0}) for letter, h, what in (
+        ("a", -0.4, _BELOW), ("b", 0.0, _BELOW), ("c", 0.5, _BELOW), ("d", math.sqrt(0.5), _AT), ("e", 1.0, _ABOVE),
+        ("f", 2.0, _ABOVE))),
+    *(Preset(f"gess-ris2 {letter}: f = 1, h = {h:.4g}", {**_RIS, "h": h, "f": 1.0}) for letter, h in zip(
+        "abcdefgh", (0.0, 0.2, 0.5, 0.8, 1.0, 1.3, 2.0, 4.0), strict=True)),
+)
+
+LEGEND = """
+<ul class="legend" aria-label="Legend">
+<li><span class="dot small" style="background: #0072B2"></span>r·M &gt; 0</li>
+<li><span class="dot small" style="background: #D55E00"></span>r·M &lt; 0</li>
+<li><span class="dot small" style="background: #CC79A7"></span>chosen orbit, from its ring</li>
+<li><span class="line stable"></span>Hess manifold, r·M = 0</li>
+<li><span class="line muted" style="border-top-style: dashed"></span>line of the rotation number</li>
+<li><span class="dot point"></span>moving point</li>
+<li><span class="box forbidden"></span>impossible</li>
+</ul>
+"""
+
+THUMBNAIL = """
+<rect x="4" y="3" width="40" height="26" fill="none" stroke="#808080"/>
+<path d="M4 16C11 4 17 4 24 16S37 28 44 16" fill="none" stroke="#009E73" stroke-width="2"/>
+<ellipse cx="14" cy="19" rx="5" ry="4" fill="none" stroke="#D55E00" stroke-width="1.5"/>
+<ellipse cx="34" cy="13" rx="6" ry="5" fill="none" stroke="#0072B2" stroke-width="1.5"/>
+<g stroke-width="2" stroke-linecap="round">
+<path d="M6 25h.1M12 27h.1M20 24h.1M25 26h.1M9 22h.1M41 26h.1" stroke="#D55E00"/>
+<path d="M8 7h.1M20 6h.1M27 6h.1M39 6h.1M42 10h.1M24 9h.1" stroke="#0072B2"/>
+</g>
+"""
+
+WORDS = Path(__file__).with_suffix(".md").read_text(encoding="utf-8")
+
+Window = tuple[tuple[float, float], tuple[float, float]]
+
+
+@dataclass(frozen=True)
+class Rotation:
+    """Rotation numbers `rho` of the orbits that start at `along` on the line `ends`, in parts without a gap."""
+
+    ends: Window
+    along: tuple[Array, ...]
+    rho: tuple[Array, ...]
+
+
+@dataclass(frozen=True)
+class EulerPoissonResult:
+    """What the pictures that are seen need; None what no picture asks for, or what is not computed yet.
+
+    first, second : points (n, 2) of orbits that start with r·M > 0, and < 0; kept : how many of `count` orbits keep
+    its sign; own : those of the chosen orbits; impossible : cells (m, n).
+    """
+
+    values: Values
+    body: HeavyBody
+    window: Window
+    starts: Sequence[tuple[float, float]]
+    first: Array
+    second: Array
+    own: Array
+    kept: int
+    count: int
+    drift: Mapping[str, float]
+    impossible: Array | None
+    rotation: Rotation | None
+    exponent: Exponent | None
+    orbit: Orbit | None
+    todo: Sequence[Task]
+    total: int
+    ended: str
+
+
+def body_of(values: Values) -> HeavyBody:
+    """The body.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
+    I1, I2, I3 = (float(values[name]) for name in ("I1", "I2", "I3"))
+    return HeavyBody.hess((I1, I2, I3), float(values["m"]), float(values["away"]))
+
+
+def admit(values: Values) -> tuple[dict[str, Value], list[str]]:
+    """A window that is one, and at least one start."""
+    out = dict(values)
+    corners = places(out["window"])
+    if len(corners) == 2:
+        (x0, y0), (x1, y1) = corners
+        ordered = [(min(x0, x1), min(y0, y1)), (max(x0, x1), max(y0, y1))]
+        out["window"] = written(ordered) if x0 != x1 and y0 != y1 else ""
+    elif corners:
+        out["window"] = ""
+    if not places(out["starts"]):
+        out["starts"] = next(spec.default for spec in SPECS if spec.name == "starts")
+    return out, []
+
+
+def limits(values: Values) -> Mapping[str, tuple[float, float, float]]:
+    """The energy from where the bottom of the potential is."""
+    bottom = -math.floor(100.0 * abs(float(values["m"]))) / 100.0
+    return {"h": (bottom, max(60.0 if abs(float(values["m"])) > 2.0 else 6.0, bottom + 1.0), 0.01)}
+
+
+def window_of(values: Values) -> Window:
+    """Two opposite corners of what is seen of the section."""
+    corners = places(values["window"])
+    return (corners[0], corners[1]) if len(corners) == 2 else _FULL
+
+
+def _piece(body: HeavyBody, h: float, f: float, starts: tuple[tuple[float, ...], ...], crossings: int
+           ) -> tuple[tuple[Array, ...], tuple[float, ...], tuple[bool, ...], Mapping[str, float]]:
+    """Points (n, 2) of each orbit, the sign of r·M at its start, whether all points have it; the drift."""
+    points = andoyer_points(body, h, f, starts, crossings, STANDARD, threads=1, most_steps=_MOST_STEPS)
+    signs = tuple(float(sign) for sign in np.sign(relation(body, np.array(starts))))
+    kept = tuple(bool(np.all(sign * relation(body, states) >= 0.0))
+                 for states, sign in zip(points.states, signs, strict=True))
+    return tuple(frozen(coordinates(states)) for states in points.states), signs, kept, points.drift
+
+
+def _seeds(body: HeavyBody, h: float, f: float, window: Window, count: int) -> tuple[tuple[float, ...], ...]:
+    (l0, x0), (l1, x1) = window
+    return tuple(seeds(body, h, f, (l0, l1, x0, x1), count)) if count else ()
+
+
+def _impossible(body: HeavyBody, h: float, f: float, window: Window) -> Array:
+    (l0, x0), (l1, x1) = window
+    m, n = _CELLS
+    l, x = np.meshgrid(l0 + (np.arange(m) + 0.5) * (l1 - l0) / m, x0 + (np.arange(n) + 0.5) * (x1 - x0) / n)
+    return frozen(1.0 - possible(body, h, f, l.ravel(), np.clip(x.ravel(), -1.0, 1.0)).reshape(n, m))
+
+
+def _orbit(body: HeavyBody, start: tuple[float, ...], span: float, accuracy: Level) -> Orbit:
+    weights = np.array([0.0, 0.0, 0.0, 1.0, 1.0, 1.0]) * 0.5 * PIXELS
+    times = sample_times(SYSTEM, np.array(start), np.array(body.parameters), span, weights, SAGITTA, _MOST)
+    return solve(SYSTEM, start, body.parameters, times, accuracy)
+
+
+def _exponent(body: HeavyBody, start: tuple[float, ...], span: float) -> Exponent:
+    return largest_exponent(SYSTEM, start, body.parameters, span)
+
+
+def _line(values: Values, window: Window, start: tuple[float, float]) -> Window:
+    """Ends of the line across which the rotation number is looked at."""
+    (l0, x0), (l1, x1) = window
+    if values["turns"] == "along l":
+        return (start[0], x0), (start[0], x1)
+    middle = 0.5 * (x0 + x1)
+    return (0.5 * (l0 + l1), middle), (l1, middle)
+
+
+def _on_line(body: HeavyBody, h: float, f: float, ends: Window) -> tuple[tuple[float, tuple[float, ...]], ...]:
+    """Shares of the way along the line, and the states there, where there are any."""
+    shares = (np.arange(_ACROSS) + 0.5) / _ACROSS
+    l, x = ((1.0 - shares) * a + shares * b for a, b in zip(*ends, strict=True))
+    states, _, growing = states_at(body, h, f, l, x)
+    return tuple((float(share), tuple(map(float, state)))
+                 for share, state in zip(shares[growing], states[growing], strict=True))
+
+
+def _rotation(values: Values, ends: Window, shares: Sequence[float], orbits: Sequence[Array]) -> Rotation:
+    """Rotation numbers of the orbits that are closed curves."""
+    centre = None if values["turns"] == "along l" else ends[0]
+    axis = 1 if centre is None else 0
+    along: list[list[float]] = [[]]
+    rho: list[list[float]] = [[]]
+    last = -1.0
+    for share, points in zip(shares, orbits, strict=True):
+        if len(points) < 20:
+            continue
+        turns, spread = rotation_number(points, centre)
+        if spread > _REGULAR:
+            continue
+        # A gap, or the jump from ½ to −½, divides the curve.
+        if rho[-1] and (share - last > 1.5 / _ACROSS or abs(turns - rho[-1][-1]) > 0.5):
+            along.append([])
+            rho.append([])
+        along[-1].append((1.0 - share) * ends[0][axis] + share * ends[1][axis])
+        rho[-1].append(turns)
+        last = share
+    return Rotation(ends, tuple(map(np.array, along)), tuple(map(np.array, rho)))
+
+
+def compute(values: Values, shown: Collection[str], dragging: bool) -> EulerPoissonResult:
+    """The section, piece by piece; what the other pictures show of the chosen orbit."""
+    work = Work(values, dragging)
+    body, window = body_of(values), window_of(values)
+    h, f = float(values["h"]), float(values["f"])
+    starts = places(values["starts"])
+    start = state_at(body, h, f, *starts[-1])
+    count, crossings = (int(float(values[name])) for name in ("orbits", "count"))
+    if dragging:
+        count, crossings = min(count, _IN_A_DRAG[0]), min(crossings, _IN_A_DRAG[1])
+    get = work.get if dragging else work.later
+    first, second, own = ([np.empty((0, 2))] for _ in range(3))
+    kept = total = 0
+    drift: dict[str, float] = {}
+    impossible: Array | None = None
+    if "section" in shown:
+        impossible = work.get(_impossible, body, h, f, window)
+        for place in starts:
+            found = get(_piece, body, h, f, (state_at(body, h, f, *place),), crossings)
+            own += found[0] if found is not None else ()
+        spread = work.get(_seeds, body, h, f, window, count)
+        for i in range(0, len(spread), _PIECE):
+            found = get(_piece, body, h, f, spread[i : i + _PIECE], crossings)
+            if found is not None:
+                for points, sign in zip(*found[:2], strict=True):
+                    (first if sign > 0.0 else second).append(points)
+                kept += sum(found[2])
+                total += len(found[2])
+                drift = {name: max(drift.get(name, 0.0), value) for name, value in found[3].items()}
+    rotation: Rotation | None = None
+    if "rotation" in shown and not dragging:
+        ends = _line(values, window, starts[-1])
+        on_line = work.get(_on_line, body, h, f, ends)
+        shares: list[float] = []
+        orbits: list[Array] = []
+        for i in range(0, len(on_line), _PIECE):
+            piece = on_line[i : i + _PIECE]
+            found = get(_piece, body, h, f, tuple(state for _, state in piece), max(crossings, _ON_LINE))
+            if found is not None:
+                shares += [share for share, _ in piece]
+                orbits += found[0]
+        rotation = _rotation(values, ends, shares, orbits)
+    exponent = None
+    if "exponent" in shown and not dragging:
+        exponent = get(_exponent, body, start, float(values["long"]))
+    orbit = None
+    if not {"sphere", "section"}.isdisjoint(shown):
+        orbit = work.get(_orbit, body, start, float(values["span"]), work.level)
+    return EulerPoissonResult(
+        values=values, body=body, window=window, starts=starts, first=np.concatenate(first),
+        second=np.concatenate(second), own=np.concatenate(own), kept=kept, count=total, drift=drift,
+        impossible=impossible, rotation=rotation, exponent=exponent, orbit=orbit, todo=tuple(work.todo),
+        total=work.pieces, ended=work.ended())
+
+
+def motion(values: Values) -> Motion:
+    """The chosen orbit, for "Speed and accuracy".  Raises `ModelError`."""
+    body = body_of(values)
+    start = state_at(body, float(values["h"]), float(values["f"]), *places(values["starts"])[-1])
+    radius = 0.5 * PIXELS
+    return Motion(SYSTEM, start, body.parameters, float(values["span"]), (0.0, 0.0, 0.0, radius, radius, radius), 1.0)
+
+
+class EulerPoissonStage:
+    """The four pictures of one session."""
+
+    dots: Mapping[str, tuple[str, str]] = {"section-point": ("l", "x")}
+    angles: Sequence[str] = ("l",)
+
+    def __init__(self, wire: Wire) -> None:
+        self.wire = wire
+        self._starts: Sequence[tuple[float, float]] = ()
+        self.section = LayeredSection(wire, "section", ("l", "L/G"), (-math.pi, math.pi), (-1.0, 1.0))
+        self.rotation = Graph(wire, "rotation", (" ", "ρ"), (-1.0, 1.0), (-0.5, 0.5), [Series("rho", theme.ORBIT)])
+        self.exponent = Graph(wire, "exponent", ("t", "λ"), (0.0, 200.0), (0.0, 1.0), [Series("lambda", theme.ORBIT)])
+        self.sphere = PoissonSphere(wire, {"data-orbit": "orbit"})
+        self.pictures = (self.section, self.rotation, self.exponent, self.sphere)
+
+    def show(self, result: EulerPoissonResult, hold_axes: bool) -> Report:
+        """Draw what is known of the section, the rotation number, the exponent and the orbit."""
+        self._starts = result.starts
+        for view in (self.section, self.rotation, self.exponent):
+            view.say("")
+        self._show_section(result, hold_axes)
+        if result.rotation is not None:
+            self._show_rotation(result.rotation, str(result.values["turns"]), hold_axes)
+        if result.exponent is not None:
+            exponent = result.exponent
+            later = exponent.rates[len(exponent.rates) // 10 :]
+            if not hold_axes:
+                top = nice_above(1.05 * max(1e-6, float(later.max())))
+                self.exponent.set_ranges((0.0, float(exponent.times[-1])), (min(0.0, 1.05 * float(later.min())), top))
+            few = np.unique(np.linspace(0, len(exponent.times) - 1, 600).astype(int))
+            self.exponent.show("lambda", exponent.times[few], exponent.rates[few])
+        sign = math.copysign(1.0, float(result.values["m"]))
+        self.sphere.show(tuple(sign * r for r in result.body.r), "r")
+        for name, text in _captions(result).items():
+            self.wire.say(name, text)
+        return Report(_derived(result), _status(result), todo=result.todo, total=result.total)
+
+    def _show_section(self, result: EulerPoissonResult, hold_axes: bool) -> None:
+        (l0, x0), (l1, x1) = result.window
+        if not hold_axes:
+            self.section.set_ranges((l0, l1), (x0, x1))
+        self.section.show(result.first, result.second, result.own)
+        if result.impossible is not None:
+            self.section.show_impossible(result.impossible, (l0, l1), (x0, x1))
+        l = np.linspace(l0, l1, 241)
+        self.section.show_line("curve", l, hess_curve(result.body, l))
+        ends = result.rotation.ends if result.rotation is not None else ()
+        self.section.show_line("line", [l for l, _ in ends], [x for _, x in ends])
+        self.section.choose(result.starts)
+        if result.orbit is not None:
+            states = result.orbit.states
+            l, x = coordinates(states).T
+            self.section.assign(
+                "path", t=result.orbit.times.astype(np.float32), l=l.astype(np.float32), x=x.astype(np.float32),
+                **{f"g{i + 1}": states[:, 3 + i].astype(np.float32) for i in range(3)})
+
+    def _show_rotation(self, rotation: Rotation, turns: str, hold_axes: bool) -> None:
+        self.rotation.assign("rho", xs=[part.astype(np.float32) for part in rotation.along],
+                             ys=[part.astype(np.float32) for part in rotation.rho])
+        axis = 1 if turns == "along l" else 0
+        values = np.concatenate([np.empty(0), *rotation.rho])
+        if not hold_axes and values.size:
+            room = max(1e-4, 0.06 * float(np.ptp(values)))
+            self.rotation.set_ranges((rotation.ends[0][axis], rotation.ends[1][axis]),
+                                     (float(values.min()) - room, float(values.max()) + room))
+        self.rotation.name_across("L/G" if axis else "l")
+        if not values.size:
+            self.rotation.say("No orbit of the line is a closed curve")
+
+    def fail(self, sentence: str) -> None:
+        """Empty pictures, and the sentence where the eye is."""
+        refuse(self.pictures, self.wire, sentence)
+
+    def pick(self, picture: str, x: float, y: float) -> Values:
+        """A click in the section starts an orbit there, besides those of earlier clicks."""
+        return {"starts": written([*self._starts, (x, y)])} if picture == "section" else {}
+
+    def box(self, picture: str, corners: tuple[float, float, float, float]) -> Values:
+        """A box in the section is the new window."""
+        x0, y0, x1, y1 = corners
+        low, high = max(-1.0, min(y0, y1)), min(1.0, max(y0, y1))
+        if picture != "section" or not low < high or x0 == x1:
+            return {}
+        return {"window": written([(min(x0, x1), low), (max(x0, x1), high)])}
+
+
+def _extremum(rotation: Rotation) -> tuple[float, float] | None:
+    """Where the rotation number turns round, far from the ends of its longest part; None where it does not."""
+    along, rho = max(zip(rotation.along, rotation.rho, strict=True), key=lambda part: len(part[1]))
+    if len(rho) < 8:
+        return None
+    for i in (int(np.argmin(rho)), int(np.argmax(rho))):
+        if 2 <= i <= len(rho) - 3 and min(abs(rho[i] - rho[0]), abs(rho[i] - rho[-1])) > 2 * _REGULAR:
+            return float(along[i]), float(rho[i])
+    return None
+
+
+def _captions(result: EulerPoissonResult) -> dict[str, str]:
+    hess = float(result.values["away"]) == 0.0
+    kept = f"r·M keeps its sign along {result.kept} of {result.count} orbits"
+    captions = {
+        "section": f"Section g = π/2 (Andoyer–Deprit)\n{kept}" + (": the layers never mix." if hess else "."),
+        "sphere": "Poisson sphere\nThe vertical γ along the chosen orbit; r: the centre of mass.",
+        "rotation": "Rotation number across the section\nIt is found when a slider is let go.",
+        "exponent": "Largest Lyapunov exponent\nIt is found when a slider is let go.",
+    }
+    if result.rotation is not None and any(map(len, result.rotation.rho)):
+        values = np.concatenate(result.rotation.rho)
+        turning = _extremum(result.rotation)
+        captions["rotation"] = (
+            f"Rotation number across the section\nFrom {number(float(values.min()))} to {number(float(values.max()))}"
+            + ("." if turning is None else
+               f"; it turns round at {number(turning[0])} with ρ = {number(turning[1])}: no twist there."))
+    elif result.rotation is not None:
+        captions["rotation"] = "Rotation number across the section\nNo orbit of the line is a closed curve."
+    if result.exponent is not None:
+        exponent = result.exponent
+        # A regular motion's neighbour goes away no faster than t: the mean then falls as ln(t)/t.
+        regular = exponent.value < 3.0 * math.log(max(math.e, exponent.times.size)) / exponent.times[-1]
+        kind = "falling as ln(t)/t: regular" if regular else "chaotic"
+        end = number(float(exponent.times[-1]))
+        captions["exponent"] = (f"Largest Lyapunov exponent\nλ = {number(exponent.value, 3)} after t = {end}, "
+                                f"± {number(exponent.spread, 2)} lately: {kind}.")
+    return captions
+
+
+def _derived(result: EulerPoissonResult) -> list[str]:
+    body = result.body
+    l, x = result.starts[-1]
+    return [
+        f"a = {number(body.hess_a)}, r = ({', '.join(number(r) for r in body.r)})",
+        f"chosen: l = {number(l)}, L/G = {number(x)}",
+        body.check.sentence,
+    ]
+
+
+def _status(result: EulerPoissonResult) -> str:
+    points = len(result.first) + len(result.second) + len(result.own)
+    parts = [f"section {points} points"]
+    if result.drift:
+        parts.append("drift " + " ".join(f"{name} {drift:.0e}" for name, drift in result.drift.items()))
+    if result.orbit is not None:
+        parts += orbit_status(result.orbit)[:1]
+    return " · ".join([*parts, result.ended]).replace("e-", "e−")
+
+
+SCENE = Scene(
+    name="euler-poisson",
+    title="Euler–Poisson: sections",
+    summary="A heavy body near the Hess case: two stochastic layers with a barrier between them, a meandering torus.",
+    specs=SPECS,
+    presets=PRESETS,
+    words=WORDS,
+    admit=admit,
+    limits=limits,
+    pictures=("section", "rotation", "exponent", "sphere"),
+    compute=compute,
+    stage=EulerPoissonStage,
+    legend=LEGEND,
+    thumbnail=THUMBNAIL,
+    motion=motion,
+    place=11,
+)

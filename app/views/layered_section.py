@@ -1,0 +1,51 @@
+"""A Poincaré section whose points are of two kinds, with a curve that divides them and what is impossible."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from app import theme
+from app.views.figure import Figure, Range
+from app.wire import Wire
+from models.results import Array
+
+__all__ = ["LayeredSection"]
+
+
+class LayeredSection(Figure):
+    """Grey: impossible.  A click starts an orbit, a box looks closer.
+
+    The source "data-orbit" holds the path of the chosen orbit through the plane, columns l, x.
+    """
+
+    def __init__(self, wire: Wire, name: str, labels: tuple[str, str], x_range: Range, y_range: Range) -> None:
+        super().__init__(wire, name, labels, x_range, y_range, picks=("tap", "doubletap", "box"))
+        self.add_image("impossible", (theme.FORBIDDEN + "00", theme.FORBIDDEN), 0.0, 1.0)
+        self.add("first", "scatter", ("x", "y"), marker="dot", size=5, color=theme.ORBIT)
+        self.add("second", "scatter", ("x", "y"), marker="dot", size=5, color=theme.UNSTABLE)
+        self.add("curve", "line", ("x", "y"), color=theme.STABLE, line_width=2)
+        self.add("path", "scatter", ("l", "x"), source="data-orbit", marker="dot", size=3, color=theme.MAP, alpha=0.4)
+        self.add("line", "line", ("x", "y"), color=theme.MUTED, line_dash="dashed", line_width=1.5)
+        self.add("own", "scatter", ("x", "y"), marker="dot", size=10, color=theme.MAP)
+        self.add("chosen", "scatter", ("x", "y"), size=16, fill_alpha=0, line_color=theme.MAP, line_width=3)
+        self.add_point_and_message()
+
+    def show(self, first: Array, second: Array, own: Array) -> None:
+        """Points (n, 2) of either kind, and of the chosen orbit."""
+        for layer, points in (("first", first), ("second", second), ("own", own)):
+            self.assign(layer, x=points[:, 0].astype(np.float32), y=points[:, 1].astype(np.float32))
+
+    def show_impossible(self, cells: Array, x: Range, y: Range) -> None:
+        """Cells (m, n), 1 where nothing is possible, over the window x × y."""
+        self.assign("impossible", image=[cells.astype(np.float32)], x=[x[0]], y=[y[0]], dw=[x[1] - x[0]],
+                    dh=[y[1] - y[0]])
+
+    def show_line(self, layer: str, x: Sequence[float] | Array, y: Sequence[float] | Array) -> None:
+        """The dividing "curve", or the "line" along which something is looked at."""
+        self.assign(layer, x=np.asarray(x, np.float32), y=np.asarray(y, np.float32))
+
+    def choose(self, places: Sequence[tuple[float, float]]) -> None:
+        """Rings where the chosen orbits start."""
+        self.assign("chosen", x=[x for x, _ in places], y=[y for _, y in places])
