@@ -63,7 +63,7 @@ def _on_this_side(y, normal):
     return y[3] * y[1] - y[4] * y[0] > 0.0
 
 
-_cross = crossing_finder(QUADRATIC, Surface(_along, _height, _on_this_side))
+_cross = crossing_finder(QUADRATIC, Surface(_along, _height, _on_this_side, curved=True))
 
 
 @kernel

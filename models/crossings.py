@@ -130,11 +130,13 @@ class Surface:
         scratch is (n,).
     height(y, normal) : e(y).
     counted(y, normal) : whether a crossing at y counts.
+    curved : whether e is more than linear, so that its series ends later than those of the state.
     """
 
     along: Callable[..., Any]
     height: Callable[..., Any]
     counted: Callable[..., Any]
+    curved: bool
 
 
 @part
@@ -159,7 +161,7 @@ def _always(y, normal):
     return True
 
 
-PLANE = Surface(_along_plane, _height_over_plane, _always)
+PLANE = Surface(_along_plane, _height_over_plane, _always, curved=False)
 
 
 def crossing_finder(field: Quadratic, surface: Surface = PLANE) -> Callable[..., Any]:
@@ -174,7 +176,7 @@ def crossing_finder(field: Quadratic, surface: Surface = PLANE) -> Callable[...,
     n, columns, rates = field.dimension, columns_of(field), field.rates
     expand, convolve = expansion(field), convolution(field)
     evaluate = evaluation(n)
-    along, height, counted = surface.along, surface.height, surface.counted
+    along, height, counted, curved = surface.along, surface.height, surface.counted, surface.curved
 
     @part
     def cross(state, parameters, normal, offset, sense, end, order, tolerance, max_steps, times, states):
@@ -229,6 +231,14 @@ def crossing_finder(field: Quadratic, surface: Surface = PLANE) -> Callable[...,
                 if sense == 0 or (sense * direction > 0.0) == below:
                     s = direction * roots[root]
                     evaluate(c, s, increments)
+                    if curved:
+                        # What the cut series of e leaves, one step of Newton's method takes away.
+                        for i in range(n):
+                            found[i] = c[0, i] + increments[i]
+                        slope = value_and_slope(e, roots[root])[1]
+                        if slope != 0.0:
+                            s -= direction * (height(found, normal) - offset) / slope
+                            evaluate(c, s, increments)
                     for i in range(n):
                         found[i] = c[0, i] + increments[i]
                     if counted(found, normal):

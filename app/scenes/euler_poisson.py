@@ -22,7 +22,8 @@ from app.views.velocity_plane import nice_above
 from app.wire import Wire
 from app.words import number
 from models.accuracy import STANDARD, Level
-from models.andoyer import andoyer_points, coordinates, hess_curve, possible, relation, seeds, state_at, states_at
+from models.andoyer import andoyer_points, coordinates, hess_curve, possible, relation, seeds, states_at
+from models.errors import InvalidParameter
 from models.euler_poisson import SYSTEM, HeavyBody
 from models.lyapunov import Exponent, largest_exponent
 from models.orbit import solve
@@ -42,7 +43,7 @@ _ON_LINE = 500
 """Crossings of each: with fewer the rotation number of a curve is not known to `_REGULAR`."""
 _MOST_STEPS = 200_000
 _CELLS = (96, 64)
-_REGULAR = 1e-3
+_REGULAR = 1e-4
 """Where the rotation numbers of both halves of an orbit agree to this, it is taken for a closed curve."""
 _FULL = ((-math.pi, -1.0), (math.pi, 1.0))
 
@@ -71,7 +72,7 @@ SPECS = (
     Places("window", "The window of the section", 2, (-10.0, -1.0), (10.0, 1.0)),
 )
 
-_RIS = {"I1": 1.0, "I2": 1.5, "I3": 2.0, "m": -math.sqrt(0.5), "span": 60.0, "starts": "0.5,0.2"}
+_RIS = {"I1": 1.0, "I2": 1.5, "I3": 2.0, "m": -math.sqrt(0.5), "span": 60.0, "starts": "2.8,0.3"}
 _BELOW, _AT, _ABOVE = "a curve in a regular leaf", "the separatrix", "two layers part"
 PRESETS = (
     Preset("Two layers that never mix (figure gess1)", {}),
@@ -145,6 +146,7 @@ class EulerPoissonResult:
     rotation: Rotation | None
     exponent: Exponent | None
     orbit: Orbit | None
+    note: str
     todo: Sequence[Task]
     total: int
     ended: str
@@ -181,6 +183,27 @@ def window_of(values: Values) -> Window:
     """Two opposite corners of what is seen of the section."""
     corners = places(values["window"])
     return (corners[0], corners[1]) if len(corners) == 2 else _FULL
+
+
+def _starts(body: HeavyBody, h: float, f: float, chosen: Sequence[tuple[float, float]], window: Window
+            ) -> tuple[Sequence[tuple[float, float]], Sequence[tuple[float, ...]], str]:
+    """Those of the chosen places where a motion is possible, the states there, and a note on the others.
+
+    Raises `InvalidParameter` where nothing is possible in the window.
+    """
+    l, x = np.array(chosen).T
+    states, _, growing = states_at(body, h, f, l, x)
+    if growing[-1]:
+        kept = np.flatnonzero(growing)
+        return [chosen[i] for i in kept], [tuple(map(float, states[i])) for i in kept], ""
+    others = _seeds(body, h, f, window, 1)
+    if not others:
+        raise InvalidParameter(f"Nothing is possible here with h = {h:.6g} and f = {f:.6g}: choose a larger h, a smaller "
+                               "|f|, or press Clear for the whole section.")
+    place = tuple(map(float, coordinates(np.array(others))[0]))
+    return [(place[0], place[1])], others, (
+        f"At l = {number(chosen[-1][0])}, L/G = {number(chosen[-1][1])} no motion has this h and f: the chosen orbit "
+        f"starts at l = {number(place[0])}, L/G = {number(place[1])}.")
 
 
 def _piece(body: HeavyBody, h: float, f: float, starts: tuple[tuple[float, ...], ...], crossings: int
@@ -261,8 +284,8 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> EulerPois
     work = Work(values, dragging)
     body, window = body_of(values), window_of(values)
     h, f = float(values["h"]), float(values["f"])
-    starts = places(values["starts"])
-    start = state_at(body, h, f, *starts[-1])
+    starts, states, note = _starts(body, h, f, places(values["starts"]), window)
+    start = states[-1]
     count, crossings = (int(float(values[name])) for name in ("orbits", "count"))
     if dragging:
         count, crossings = min(count, _IN_A_DRAG[0]), min(crossings, _IN_A_DRAG[1])
@@ -273,8 +296,8 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> EulerPois
     impossible: Array | None = None
     if "section" in shown:
         impossible = work.get(_impossible, body, h, f, window)
-        for place in starts:
-            found = get(_piece, body, h, f, (state_at(body, h, f, *place),), crossings)
+        for state in states:
+            found = get(_piece, body, h, f, (state,), crossings)
             own += found[0] if found is not None else ()
         spread = work.get(_seeds, body, h, f, window, count)
         for i in range(0, len(spread), _PIECE):
@@ -307,14 +330,15 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> EulerPois
     return EulerPoissonResult(
         values=values, body=body, window=window, starts=starts, first=np.concatenate(first),
         second=np.concatenate(second), own=np.concatenate(own), kept=kept, count=total, drift=drift,
-        impossible=impossible, rotation=rotation, exponent=exponent, orbit=orbit, todo=tuple(work.todo),
+        impossible=impossible, rotation=rotation, exponent=exponent, orbit=orbit, note=note, todo=tuple(work.todo),
         total=work.pieces, ended=work.ended())
 
 
 def motion(values: Values) -> Motion:
     """The chosen orbit, for "Speed and accuracy".  Raises `ModelError`."""
     body = body_of(values)
-    start = state_at(body, float(values["h"]), float(values["f"]), *places(values["starts"])[-1])
+    _, states, _ = _starts(body, float(values["h"]), float(values["f"]), places(values["starts"]), window_of(values))
+    start = states[-1]
     radius = 0.5 * PIXELS
     return Motion(SYSTEM, start, body.parameters, float(values["span"]), (0.0, 0.0, 0.0, radius, radius, radius), 1.0)
 
@@ -354,7 +378,8 @@ class EulerPoissonStage:
         self.sphere.show(tuple(sign * r for r in result.body.r), "r")
         for name, text in _captions(result).items():
             self.wire.say(name, text)
-        return Report(_derived(result), _status(result), todo=result.todo, total=result.total)
+        notes = [result.note] if result.note else []
+        return Report(_derived(result), _status(result), notes, result.todo, result.total)
 
     def _show_section(self, result: EulerPoissonResult, hold_axes: bool) -> None:
         (l0, x0), (l1, x1) = result.window
@@ -406,12 +431,10 @@ class EulerPoissonStage:
 
 
 def _extremum(rotation: Rotation) -> tuple[float, float] | None:
-    """Where the rotation number turns round, far from the ends of its longest part; None where it does not."""
-    along, rho = max(zip(rotation.along, rotation.rho, strict=True), key=lambda part: len(part[1]))
-    if len(rho) < 8:
-        return None
+    """Where the rotation number turns round between the ends of the line; None where it does not."""
+    along, rho = np.concatenate(rotation.along), np.concatenate(rotation.rho)
     for i in (int(np.argmin(rho)), int(np.argmax(rho))):
-        if 2 <= i <= len(rho) - 3 and min(abs(rho[i] - rho[0]), abs(rho[i] - rho[-1])) > 2 * _REGULAR:
+        if 2 <= i <= len(rho) - 3 and min(abs(rho[i] - rho[0]), abs(rho[i] - rho[-1])) > 3 * _REGULAR:
             return float(along[i]), float(rho[i])
     return None
 
@@ -427,7 +450,8 @@ def _captions(result: EulerPoissonResult) -> dict[str, str]:
     }
     if result.rotation is not None and any(map(len, result.rotation.rho)):
         values = np.concatenate(result.rotation.rho)
-        turning = _extremum(result.rotation)
+        # A line through all of the section meets orbits of many kinds, whose numbers have nothing to do with each other.
+        turning = _extremum(result.rotation) if result.values["turns"] == "about the middle" else None
         captions["rotation"] = (
             f"Rotation number across the section\nFrom {number(float(values.min()))} to {number(float(values.max()))}"
             + ("." if turning is None else
