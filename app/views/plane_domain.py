@@ -28,7 +28,8 @@ class PlaneDomain(Figure):
         super().__init__(wire, "domain", ("q₁", "q₂"), (-1.5, 1.5), (-1.5, 1.5), picks=("tap", "doubletap"))
         self.add("forbidden", "multi_polygons", ("xs", "ys"), moving=False, color=theme.FORBIDDEN, line_alpha=0)
         self.add("levels", "multi_line", ("xs", "ys"), color=theme.MUTED, line_width=1)
-        self.add("path", "multi_line", ("xs", "ys"), color=theme.MUTED, line_width=1.5, line_dash="dotted")
+        self.add("path", "multi_line", ("xs", "ys"), color=theme.ORBIT, line_alpha=0.7, line_width=1.5,
+                 line_dash="dotted")
         self.add("stable", "multi_line", ("xs", "ys"), color=theme.STABLE, line_width=3)
         self.add("unstable", "multi_line", ("xs", "ys"), color=theme.UNSTABLE, line_width=3, line_dash="dashed")
         self.add("orbit", "line", COLUMNS, source="data-orbit", color=theme.ORBIT, line_width=2)
