@@ -45,7 +45,7 @@ class Controls(JSComponent):
 class Pictures(JSComponent):
     """The pictures of the scene on show, with their captions."""
 
-    _esm = _module("sphere.js", "cloud.js", "pictures.js")
+    _esm = _module("sphere.js", "cloud.js", "body.js", "pictures.js")
     _stylesheets = [_CSS]
 
 

@@ -25,6 +25,7 @@ from .accuracy import Level
 from .attitude import HESS, Attitude, attitude
 from .errors import InvalidParameter, OutsideRegion
 from .euler_poisson import HeavyBody
+from .isomorphism import Bridge
 from .results import Array, frozen
 from .rigid_body import require_finite
 from .torus import PIXELS, SAGITTA
@@ -61,17 +62,20 @@ class LoxodromicPendulum:
             raise InvalidParameter(f"l = {self.l:g}: there the middle axis stays at a pole, and has no track. Choose "
                                    "0 < l < π.")
 
+    @cached_property
+    def bridge(self) -> Bridge:
+        """The Suslov body of the same motions, and the way to its states."""
+        return Bridge.of_heavy(self.body)
+
     @property
     def a(self) -> float:
-        """a = b'/a1' of `m15.14`, with its sign: that of I3 − I1 for r1 r3 > 0."""
-        a1, a2, a3 = self.body.a
-        r1, _, r3 = self.body.r
-        return (a1 - a3) * r1 * r3 / a2
+        """a = b'/a1' of `m15.14`, with its sign."""
+        return self.bridge.hess.a
 
     @property
     def frequency_unit(self) -> float:
         """√(a2 μ): in units b = 1 time is t√(a2 μ)."""
-        return math.sqrt(self.body.a[1] * self.body.mu)
+        return self.bridge.hess.frequency_unit
 
     @property
     def angle(self) -> float:
@@ -92,9 +96,8 @@ class LoxodromicPendulum:
 
     @property
     def principal(self) -> Array:
-        """(3, 3): (n1, n2, n3) → principal axes, v @ principal.  A reflection, as is the isomorphism of `m15.9`."""
-        r1, _, r3 = self.body.r
-        return np.array([[0.0, -1.0, 0.0], [-r3, 0.0, r1], [r1, 0.0, r3]])
+        """(3, 3): (n1, n2, n3) → principal axes, v @ principal; a reflection."""
+        return self.bridge.from_reduced(np.hstack([np.zeros((3, 2)), np.eye(3)]))[:, 3:]
 
     def l_at(self, swing: Array) -> Array:
         """l at the angle α = swing (n,) of the centre of mass, from the closed form."""

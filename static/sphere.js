@@ -2,7 +2,8 @@
 // what lies on the far side is drawn first and dimmed.
 // Draws the tracks of its options from their sources (columns g1, g2, g3); its own source, of the picture's name, holds
 // axis [3], label, circles [[axis, height, look]], marks [[γ, look, label]].  The option `clouds` names a source of
-// clouds of points ("cloud.js").
+// clouds of points ("cloud.js").  With the option `attitude`, the name of a source, it is a sphere fixed in space with
+// the body in it ("body.js"): `title` says what, and `bare` leaves the equator alone of the lines.
 
 const LOOKS = {
   orbit: { colour: "#0072B2", dash: [], weight: 1.3 },
@@ -11,6 +12,7 @@ const LOOKS = {
   unstable: { colour: "#D55E00", dash: [7, 5], weight: 3 },
   limit: { colour: null, dash: [2, 3], weight: 1 },
   muted: { colour: "#808080", dash: [], weight: 1 },
+  mass: { colour: "#F0E442", dash: [], weight: 3 },
 }
 const POINT = "#F0E442"
 const RADIUS = 0.84
@@ -46,14 +48,15 @@ function graticule() {
 
 function sphere(el, options, source, signal, isShown) {
   const canvas = document.createElement("canvas")
-  canvas.className = "sphere"
+  const inSpace = options.attitude !== undefined
+  canvas.className = inSpace ? "solid" : "sphere"
   canvas.tabIndex = 0
   canvas.setAttribute("role", "application")
   canvas.setAttribute("aria-roledescription", "rotatable sphere")
-  canvas.setAttribute("aria-label", "Poisson sphere: arrow keys turn it, Home turns it back")
+  canvas.setAttribute("aria-label", `${options.title ?? "Poisson sphere"}: arrow keys turn it, Home turns it back`)
   el.append(canvas)
   const ctx = canvas.getContext("2d")
-  const lines = graticule()
+  const lines = options.bare ? [circle([0, 0, 1], 0)] : graticule()
   const home = [0.6, 0.35]
   let turn = home
   const begin = ({ az, el }) => { turn = [Number(az), Number(el)] }
@@ -66,7 +69,9 @@ function sphere(el, options, source, signal, isShown) {
   let width = 0
 
   const own = source(options.name)
-  const clouds = options.clouds === undefined ? null : sphereClouds(source(options.clouds))
+  // What is painted besides: {t: to be set, paint(…)}.
+  const guest = options.clouds !== undefined ? sphereClouds(source(options.clouds))
+    : inSpace ? bodyIn(own, source(options.attitude)) : null
   const columns = (name) => {
     const data = source(name).data
     return data.g1 ? [data.g1, data.g2, data.g3] : null
@@ -90,11 +95,12 @@ function sphere(el, options, source, signal, isShown) {
     const py = (x, y, z) => half - scale * (ce * z - se * (ca * x + sa * y))
     const depth = (x, y, z) => ce * (ca * x + sa * y) + se * z
 
-    function stroke([X, Y, Z], near) {
+    // A curve, where it is on this side, or where the `sides` [xs, ys, zs] are.
+    function stroke([X, Y, Z], near, [U, V, W] = [X, Y, Z]) {
       ctx.beginPath()
       let drawing = false
       for (let i = 1; i < X.length; i++) {
-        const visible = depth(X[i] + X[i - 1], Y[i] + Y[i - 1], Z[i] + Z[i - 1]) >= 0 === near
+        const visible = depth(U[i] + U[i - 1], V[i] + V[i - 1], W[i] + W[i - 1]) >= 0 === near
         if (visible) {
           if (!drawing) ctx.moveTo(px(X[i - 1], Y[i - 1]), py(X[i - 1], Y[i - 1], Z[i - 1]))
           ctx.lineTo(px(X[i], Y[i]), py(X[i], Y[i], Z[i]))
@@ -130,10 +136,12 @@ function sphere(el, options, source, signal, isShown) {
       ctx.font = `${14 * ratio}px system-ui, sans-serif`
       ctx.textAlign = "center"
       ctx.textBaseline = "middle"
-      axis(1, 0, 0, "γ₁", near)
-      axis(0, 1, 0, "γ₂", near)
-      axis(0, 0, 1, "γ₃", near)
-      if (own.data.axis?.length === 3) axis(...own.data.axis, own.data.label, near, 13)
+      if (!inSpace) {
+        axis(1, 0, 0, "γ₁", near)
+        axis(0, 1, 0, "γ₂", near)
+        axis(0, 0, 1, "γ₃", near)
+      }
+      if (own.data.axis?.length === 3) axis(...own.data.axis, own.data.label, near, inSpace ? 0 : 13)
       for (const [a, b, c, height, look] of own.data.circles ?? []) {
         use(LOOKS[look])
         stroke(circle([a, b, c], height), near)
@@ -145,7 +153,7 @@ function sphere(el, options, source, signal, isShown) {
         use(LOOKS[look])
         stroke(track, near)
       }
-      clouds?.paint(ctx, size, ratio, px, py, depth, near)
+      guest?.paint(ctx, size, ratio, px, py, depth, near, stroke, use)
       ctx.setLineDash([])
       for (const [x, y, z, look, label] of own.data.marks ?? []) {
         if (depth(x, y, z) >= 0 !== near) continue
@@ -221,8 +229,8 @@ function sphere(el, options, source, signal, isShown) {
   const onTime = (event) => {
     if (!isShown()) return
     const { t, state } = event.detail
-    point = state?.g1 === undefined ? null : ["g1", "g2", "g3"].map((name) => state[name])
-    if (clouds !== null) clouds.t = t
+    point = inSpace || state?.g1 === undefined ? null : ["g1", "g2", "g3"].map((name) => state[name])
+    if (guest !== null) guest.t = t
     request()
   }
   document.addEventListener("hess:time", onTime, { signal })
@@ -235,8 +243,8 @@ function sphere(el, options, source, signal, isShown) {
     request()
   })
   resize.observe(canvas)
-  const watched = [options.name, ...Object.keys(options.tracks), ...(clouds === null ? [] : [options.clouds])]
-  for (const name of watched) source(name).watch(request, signal)
+  const watched = [options.name, ...Object.keys(options.tracks), options.clouds, options.attitude]
+  for (const name of watched) if (name !== undefined) source(name).watch(request, signal)
   request()
   signal.addEventListener("abort", () => {
     scheme.disconnect()
