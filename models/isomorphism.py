@@ -116,15 +116,25 @@ class Bridge:
         """The inverse of `to_suslov`."""
         return self.from_reduced(self.hess.to_reduced(states))
 
+    def distance(self, states: Array, reduced: Array) -> Array:
+        """How far states (n, 6) of `hh01` are from states (n, 5) of `eq01` with b = 1; shape (n,).
+
+        The largest difference of a component of `eq01`, or of a1' M3', which is not in it, in units b = 1.
+        """
+        difference = self.hess.in_units_of_b(self.to_reduced(states)) - reduced
+        s, c = _tilt(self.heavy)
+        off = self.heavy.a[1] * (s * states[:, 0] + c * states[:, 2]) / self.hess.frequency_unit
+        return np.maximum(np.max(np.abs(difference), axis=1), np.abs(off))
+
     def in_units_of_b(self, H: float, F1: float) -> tuple[float, float]:
         """Energy and area integral of Euler–Poisson → (h, f) in units b = 1.  Raises `NoField`."""
         nu, a = self.hess.frequency_unit, self.heavy.a[1]
-        return a * H / (nu * nu), -math.copysign(a * F1 / nu, self.hess.b * F1)
+        return a * H / (nu * nu), 0.0 - math.copysign(a, self.hess.b) * F1 / nu
 
     def from_units_of_b(self, h: float, f: float) -> tuple[float, float]:
         """The inverse of `in_units_of_b`: H = E and F1 = −F2 of the Suslov body."""
         nu, a = self.hess.frequency_unit, self.heavy.a[1]
-        return nu * nu * h / a, -math.copysign(nu * f / a, self.hess.b * f)
+        return nu * nu * h / a, 0.0 - math.copysign(nu, self.hess.b) * f / a
 
 
 def _relative(body: HeavyBody, states: Array) -> Array:
