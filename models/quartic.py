@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .accuracy import Level
-from .errors import InvalidParameter, NoField, OutsideRegion
+from .errors import InvalidParameter, NoField, OutsideRegion, WorkLimit
 from .results import Array
 from .rigid_body import require_finite, require_positive_definite
 from .section import Plane, Points, section_points
@@ -26,8 +26,8 @@ from .suslov import SYSTEM
 
 __all__ = ["QuarticBody", "angular_momentum", "quartic_section", "seeds", "state_at", "state_on_section"]
 
-_TURNS = 40.0
-"""Time given for a crossing, in units of 1/ν: few orbits take longer."""
+_TURNS = 120.0
+"""Time given for a crossing, in units in which ω is at most 1: few orbits take longer."""
 _EDGE = 1e-9
 
 
@@ -177,4 +177,8 @@ def quartic_section(body: QuarticBody, starts: Sequence[Sequence[float]], crossi
     end = crossings * _TURNS / speed
     if not math.isfinite(end):
         raise InvalidParameter("The motion is too slow for double precision: choose less extreme parameters.")
-    return section_points(SYSTEM, starts, body.parameters, body.plane, end, level, crossings, most_steps=most_steps)
+    try:
+        return section_points(SYSTEM, starts, body.parameters, body.plane, end, level, crossings, most_steps=most_steps)
+    except WorkLimit:
+        raise WorkLimit(f"{crossings} crossings take an orbit more than {most_steps} steps here: choose fewer of them, "
+                        "a smaller h, or I11 and I22 less different.") from None

@@ -269,9 +269,9 @@ class ArcStage:
 
     def _show_curve(self, result: ArcResult, hold_axes: bool) -> None:
         found = result.arc
-        low, high = found.tau
+        low, high = min(found.tau + (found.other or ())), max(found.tau + (found.other or ()))
         if not hold_axes:
-            half, middle = nice_above(0.65 * ((high - low) or 1.0 / (found.rate or 1.0))), 0.5 * (low + high)
+            half, middle = nice_above(0.6 * ((high - low) or 1.0 / (found.rate or 1.0))), 0.5 * (low + high)
             self.curve.set_ranges((middle - half, middle + half), (-1.1, 1.1))
         self.curve.show("own", *_oval(found, found.tau))
         self.curve.show("other", *(_oval(found, found.other) if found.other else (np.empty(0), np.empty(0))))

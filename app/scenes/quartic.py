@@ -35,7 +35,7 @@ from models.torus import PIXELS, SAGITTA
 _MOST = 6000
 _ORBITS, _ORBITS_IN_A_DRAG = 20, 10
 _CROSSINGS_IN_A_DRAG = 60
-_MOST_STEPS = 15_000
+_MOST_STEPS = 40_000
 _CELLS = 32
 _LEVELS = (-0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75)
 """Of γ3."""
@@ -46,10 +46,10 @@ _CIRCLE = np.column_stack([np.cos(_ANGLE), np.sin(_ANGLE)])
 SPECS = (
     Number("I22", "I₂₂", "Inertia I₂₂", 1.0, 0.2, 3.0, 0.01, 1e-2, 1e2,
            "Moment of inertia about the second body axis."),
-    Number("ratio", "I₁₁/I₂₂", "Ratio I₁₁/I₂₂", 1.6, 0.2, 5.0, 0.01, 1e-2, 1e2,
+    Number("ratio", "I₁₁/I₂₂", "Ratio I₁₁/I₂₂", 2.0, 0.2, 5.0, 0.01, 1e-2, 1e2,
            "At 1 the potential is central and the motion integrable."),
     Number("b3", "b₃", "Centre of mass b₃", 1.0, -3.0, 3.0, 0.01, -1e2, 1e2, "b = −mg r; not 0 here, b₁ = b₂ = 0."),
-    Number("h", "h", "Energy E = h", 0.6, -0.9, 4.0, 0.01, -1e2, 1e3,
+    Number("h", "h", "Energy E = h", 0.8, -0.9, 4.0, 0.01, -1e2, 1e3,
            "Above −|b₃|. Beyond |b₃| the point may not come near the middle."),
     Number("Q1", "q₁", "Start q₁ = I₂₂ω₂/b₃", 0.6, -2.0, 2.0, 0.01, -1e3, 1e3,
            "A click in the plane chooses the start."),
@@ -63,12 +63,14 @@ SPECS = (
 )
 
 PRESETS = (
-    Preset("Mixed: curves and a sea", {}),
-    Preset("Integrable: I₁₁ = I₂₂", {"ratio": 1.0}),
+    Preset("Mixed: in the sea", {}),
+    Preset("Mixed: on a curve", {"Q1": 0.2, "Q2": 1.9, "beta": 0.0}),
+    Preset("Integrable: I₁₁ = I₂₂", {"ratio": 1.0, "h": 0.6}),
     Preset("Integrable, in a ring: h > |b₃|", {"ratio": 1.0, "h": 1.5, "Q1": 1.8, "Q2": 0.0}),
-    Preset("Regular: nearly round", {"ratio": 1.05}),
-    Preset("A sea nearly everywhere", {"ratio": 3.0, "h": 1.1, "Q1": 0.9, "Q2": 0.9}),
-    Preset("In a ring: bouncing at its far end", {"ratio": 3.0, "h": 2.5, "Q1": 0.0, "Q2": 3.873, "beta": 1.571}),
+    Preset("Regular: nearly round", {"ratio": 1.05, "h": 0.6}),
+    Preset("A sea nearly everywhere", {"ratio": 3.0, "h": 1.2, "Q1": 0.9, "Q2": 1.2}),
+    Preset("In a ring: bouncing at its far end", {
+        "ratio": 1.5, "h": 3.0, "Q1": 0.3, "Q2": 3.0, "beta": 1.571, "span": 60.0}),
 )
 
 LEGEND = """
