@@ -26,12 +26,12 @@ from app.scenes.hess_leak import (
 )
 from app.scenes.hess_leak import limits as limits_of_heavy
 from app.scenes.parts import ACCURACY, Work, orbit_status, refuse
-from app.scenes.suslov_hess import half_width
 from app.state import Choice, Number, Value, Values
 from app.views.chart import Series
 from app.views.circle_map import CircleMapView
 from app.views.graph import Graph
 from app.views.omega_plane import OmegaPlane
+from app.views.velocity_plane import nice_above
 from app.wire import Wire
 from app.words import number
 from models import suslov
@@ -162,6 +162,11 @@ def _given(values: Values) -> tuple[Bridge, float, float, TurningPoints]:
     return Bridge.of_suslov(HessBody(I22, I23, b3)), h, f, turning_points(h, f)
 
 
+def half_width(hess: HessBody, turning: TurningPoints) -> float:
+    """The frame of the (ω1, ω2)-plane, a little wider than the ring."""
+    return nice_above(1.1 * float(np.max(np.abs(annulus(hess, turning.h, turning)[1]))))
+
+
 def _difference(bridge: Bridge, start: tuple[float, ...], end: float, count: int) -> Difference:
     """Along the motion from a state of `eq01` with b = 1, over a time `end` of the bodies."""
     hess = bridge.hess
@@ -181,7 +186,7 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> BridgeRes
     bridge, h, f, turning = _given(values)
     hess = bridge.hess
     phi0, span = float(values["phi0"]), float(values["span"])
-    width = half_width(hess, h)
+    width = half_width(hess, turning)
     theta = work.get(circle_map, hess.a, h, f, work.level)
     pair: tuple[Track, Track] | None = None
     if theta.kind == "hyperbolic" and "omega" in shown:
@@ -227,7 +232,7 @@ class BridgeStage:
 
     def show(self, result: BridgeResult, hold_axes: bool) -> Report:
         """Draw the motion on both sides."""
-        width = half_width(result.bridge.hess, result.map.h)
+        width = half_width(result.bridge.hess, result.turning)
         end = float(result.values["span"]) if result.difference is None else float(result.difference.times[-1])
         if not hold_axes:
             self.omega.fit(width)

@@ -21,7 +21,7 @@ from app.views.poisson_sphere import Circle, PoissonSphere
 from app.wire import Wire
 from app.words import number
 from models.accuracy import REFERENCE
-from models.andoyer import coordinates, hess_curve
+from models.andoyer import coordinates
 from models.bifurcation import TurningPoints, f_max, turning_points
 from models.circle_map import CircleMap, circle_map
 from models.errors import NoField, Separatrix
@@ -108,11 +108,20 @@ class LeakResult:
         return self.map.period / self.bridge.hess.frequency_unit
 
 
+def _least_weight(values: Values) -> float:
+    return max(1e-3, 1e-9 * abs(float(values["h"])))
+
+
+def _has_weight(values: Values) -> bool:
+    """Whether h in units of μ|r| is a number to compute with."""
+    return abs(float(values["m"])) >= _least_weight(values)
+
+
 def admit_motion(values: Values) -> tuple[dict[str, Value], list[str]]:
     """h above the bottom, and f inside the region of this h, for a heavy body."""
     out, notes = dict(values), []
     m, h, f = (float(out[name]) for name in ("m", "h", "f"))
-    if m == 0.0:
+    if not _has_weight(values):
         return out, notes
     bottom = -abs(m) * _INSIDE
     if h < bottom:
@@ -135,7 +144,7 @@ def largest_f(values: Values) -> float:
 def limits(values: Values) -> Mapping[str, tuple[float, float, float]]:
     """The sliders of h and f span what is possible, in round steps."""
     m, h = abs(float(values["m"])), float(values["h"])
-    if m == 0.0 or h <= -m:
+    if not _has_weight(values) or h <= -m:
         return {}
     step = 10.0 ** (math.floor(math.log10(m)) - 2)
     low = -math.floor(m / step * 0.995) * step
@@ -148,8 +157,9 @@ def limits(values: Values) -> Mapping[str, tuple[float, float, float]]:
 def bridge_of(values: Values) -> Bridge:
     """The heavy body, and the Suslov body of its motions.  Raises `InvalidParameter`, `NoField`."""
     I1, I2, I3, m = (float(values[spec.name]) for spec in MOMENTS)
-    if m == 0.0:
-        raise NoField("μ|r| = 0: without weight there is no Hess case. Choose μ|r| other than 0.")
+    if not _has_weight(values):
+        raise NoField(f"μ|r| = {number(m)}: without weight there is no Hess case. Choose μ|r| of at least "
+                      f"{number(_least_weight(values))}.")
     return Bridge.of_heavy(HeavyBody.hess((I1, I2, I3), m))
 
 
@@ -220,14 +230,17 @@ class AndoyerGraph(Graph):
         ticks = [(-math.pi, "−π"), (-math.pi / 2, "−π/2"), (0.0, "0"), (math.pi / 2, "π/2"), (math.pi, "π")]
         y_ticks = [(-1.0, "−1"), (-0.5, "−½"), (0.0, "0"), (0.5, "½"), (1.0, "1")]
         super().__init__(wire, "andoyer", ("l", "L/G"), (-math.pi, math.pi), (-1.0, 1.0),
-                         [Series("orbit", theme.ORBIT), Series("hess", theme.STABLE)], ticks=ticks, y_ticks=y_ticks)
+                         [Series("hess", theme.STABLE), Series("orbit", theme.ORBIT)], ticks=ticks, y_ticks=y_ticks)
 
     def show_motion(self, body: HeavyBody, points: Array) -> None:
         """Points (n, 2) along an orbit of this body, a ring round the first."""
         self.choose(float(points[0, 0]), float(points[0, 1]))
         self.show("orbit", points[:, 0], points[:, 1], period=2.0 * math.pi)
-        l = np.linspace(-math.pi, math.pi, 241)
-        self.show("hess", l, hess_curve(body, l))
+        # M across r, all the way round: also where r lies along an axis, and the curve stands upright.
+        turn = np.linspace(-math.pi, math.pi, 241)
+        across = np.column_stack([body.r[2] * np.sin(turn), np.cos(turn), -body.r[0] * np.sin(turn)])
+        points = coordinates(across)
+        self.show("hess", points[:, 0], points[:, 1], period=2.0 * math.pi)
 
 
 class LeakStage:
