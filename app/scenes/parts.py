@@ -8,16 +8,35 @@ from typing import Any, Protocol
 
 from app.compute import CACHE, Task
 from app.scenes.base import Picture
-from app.state import Choice, Values
+from app.state import Choice, Value, Values, places, written
 from app.wire import Wire
 from models.accuracy import LEVELS, Level, Status, cheapest, level
 from models.results import Array, Cost
 from models.torus import HALF_A_PIXEL
 
-__all__ = ["ACCURACY", "Work", "orbit_status", "refuse"]
+__all__ = ["ACCURACY", "Window", "Work", "orbit_status", "refuse", "tidy_window", "window_of"]
 
 ACCURACY = Choice("accuracy", "Accuracy", tuple(LEVELS), "standard",
                   "Promised error: draft 1e-3, standard 1e-6, precise 1e-9; reference: the floor of double precision.")
+
+
+Window = tuple[tuple[float, float], tuple[float, float]]
+"""Two opposite corners of what is seen, the lower left one first."""
+
+
+def tidy_window(text: Value) -> str:
+    """The text of a window with its corners in order; empty where it is none."""
+    corners = places(text)
+    if len(corners) != 2 or corners[0][0] == corners[1][0] or corners[0][1] == corners[1][1]:
+        return ""
+    (x0, y0), (x1, y1) = corners
+    return written([(min(x0, x1), min(y0, y1)), (max(x0, x1), max(y0, y1))])
+
+
+def window_of(text: Value, full: Window) -> Window:
+    """The window that an admitted text means; `full` where it is empty."""
+    corners = places(text)
+    return (corners[0], corners[1]) if len(corners) == 2 else full
 
 
 class Work:

@@ -22,6 +22,7 @@ class LayeredSection(Figure):
 
     def __init__(self, wire: Wire, name: str, labels: tuple[str, str], x_range: Range, y_range: Range) -> None:
         super().__init__(wire, name, labels, x_range, y_range, picks=("tap", "doubletap", "box"))
+        self.add_image("basins", (theme.FORBIDDEN + "00", theme.POINT + "90", theme.STABLE + "70"), 0.0, 3.0)
         self.add_image("impossible", (theme.FORBIDDEN + "00", theme.FORBIDDEN), 0.0, 1.0)
         self.add("first", "scatter", ("x", "y"), marker="dot", size=5, color=theme.ORBIT)
         self.add("second", "scatter", ("x", "y"), marker="dot", size=5, color=theme.UNSTABLE)
@@ -36,6 +37,11 @@ class LayeredSection(Figure):
         """Points (n, 2) of either kind, and of the chosen orbit."""
         for layer, points in (("first", first), ("second", second), ("own", own)):
             self.assign(layer, x=points[:, 0].astype(np.float32), y=points[:, 1].astype(np.float32))
+
+    def show_basins(self, cells: Array, x: Range, y: Range) -> None:
+        """Cells (m, n) over the window x × y: 0 or 1, by the attractor; −1 where nothing is known."""
+        self.assign("basins", image=[(cells + 1.5).astype(np.float32)], x=[x[0]], y=[y[0]], dw=[x[1] - x[0]],
+                    dh=[y[1] - y[0]])
 
     def show_impossible(self, cells: Array, x: Range, y: Range) -> None:
         """Cells (m, n), 1 where nothing is possible, over the window x × y."""
