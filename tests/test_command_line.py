@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import gc
 import json
+import math
 import signal
 import socket
 import subprocess
@@ -14,8 +15,11 @@ import webbrowser
 from io import BytesIO
 from pathlib import Path
 
+import numpy as np
 import pytest
 from PIL import Image
+from scipy.integrate import solve_ivp
+from test_andoyer import GESS1, crossings_by_scipy, start_by_hand
 
 import app.screenshot
 from app.__main__ import main
@@ -29,6 +33,9 @@ SUSLOV = ["orbit", "suslov", "--I", "2,1,0.3,0.5", "--b", "0.3,-0.5,1", "--omega
           "--gamma", "0.3,0.2,0.93", "--t", "10,50", "--accuracy", "reference"]
 HESS = ["orbit", "hess", "--a", "0.5", "--b", "1", "--omega", "0.7,1.1", "--gamma", "0.2,0.5,0.7", "--t", "10,50",
         "--accuracy", "reference"]
+HEAVY = ["orbit", "euler-poisson", "--A", "1,1.6,2.6666666666666667", "--r", "3,0,4", "--mu", "1.995",
+         "--M", "1.3,-2.0,0.7", "--gamma", "0.3000066002178079863075,0.40000880029041064841,0.8660190526287390538076",
+         "--t", "5,20", "--accuracy", "reference"]
 
 # 40-digit Taylor series, rounded to double.
 THETA = [-1.846842405836762766371, -1.713101969292905477533, 2.57889487639795195168]
@@ -45,6 +52,12 @@ HESS_STATES = [
      0.779995302084089929648],
     [-0.5966567344671923263117, -0.5537390503841238802927, -0.7455067905108669931377, -0.6076138321417659484657,
      0.273907021253899493733],
+]
+HEAVY_STATES = [
+    [1.303171576431794886461, 1.939239401930229263521, 0.7288273636200425098267, 0.2690968985733379125361,
+     -0.4076103299371850479799, 0.8726055830589116870152],
+    [1.09336915106861076365, 1.355414217337625118592, 1.014041313101284483508, 0.239288243300533307289,
+     -0.6121309258568160022675, 0.7536822050624666347255],
 ]
 
 
@@ -153,6 +166,25 @@ def test_orbit(answer, words, states, variables, integrals):
     assert "normalised" in found["notes"][0]
 
 
+def test_orbit_of_euler_poisson(answer):
+    found = answer(*HEAVY)
+    assert found["t"] == [5.0, 20.0]
+    for state, expected in zip(found["y"], HEAVY_STATES, strict=True):
+        assert state == pytest.approx(expected, abs=1e-12)
+    assert found["variables"] == ["M1", "M2", "M3", "γ1", "γ2", "γ3"]
+    assert set(found["drift"]) == {"H", "F1", "F2"}
+    assert max(found["drift"].values()) < 1e-12
+    assert 0 < found["error_estimate"] < 1e-11
+    assert (found["is_body"], found["notes"]) == (True, [])
+
+
+def test_moments_that_are_no_body_are_said_and_computed(answer):
+    found = answer(*replaced(HEAVY, "--A", "1,4,4"))
+    assert found["is_body"] is False
+    assert found["body"].startswith("Not a rigid body")
+    assert len(found["y"]) == 2
+
+
 def test_a_unit_vector_needs_no_note(answer):
     assert answer(*replaced(SUSLOV, "--gamma", "0.6,0,0.8"))["notes"] == []
 
@@ -194,7 +226,7 @@ def without_cost(found):
     return {key: value for key, value in found.items() if key != "wall_ms"}
 
 
-@pytest.mark.parametrize("words", [CIRCLE_MAP, SUSLOV, HESS])
+@pytest.mark.parametrize("words", [CIRCLE_MAP, SUSLOV, HESS, HEAVY])
 def test_csv_and_json_say_the_same(answer, capsys, words):
     expected = answer(*words)
     assert main([*words, "--format", "csv"]) == 0
@@ -236,6 +268,11 @@ def test_out_writes_a_file_and_prints_nothing(answer, capsys, tmp_path):
     (CIRCLE_MAP[:3], "required: --f, --a"),
     (replaced(SUSLOV, "--I", "0,1,0,0"), "choose I11 > 0"),
     (replaced(SUSLOV, "--I", "2,-1,0,0"), "choose I22 > 0"),
+    (replaced(HEAVY, "--A", "1,-1.6,2"), "choose a2 > 0"),
+    (replaced(HEAVY, "--A", "1,1.6"), "--A: '1,1.6' has length 2; write 3 numbers a1,a2,a3"),
+    (replaced(HEAVY, "--M", "1,2"), "--M: '1,2' has length 2; write 3 numbers M1,M2,M3"),
+    (replaced(HEAVY, "--gamma", "0,0,0"), "γ must be"),
+    (HEAVY[:8], "required: --M, --gamma, --t"),
     (replaced(SUSLOV, "--I", "2,1,0"), "--I: '2,1,0' has length 3; write 4 numbers I11,I22,I13,I23"),
     (replaced(SUSLOV, "--gamma", "0,0,0"), "γ must be"),
     (replaced(SUSLOV, "--t", "0:1"), "lo:hi:n"),
@@ -393,3 +430,94 @@ def test_a_server_that_does_not_start_says_why(monkeypatch, tmp_path):
         with (pytest.raises(app.screenshot.ServerError, match=r"did not start .*taken"),
               running_server(tmp_path / "log")):
             pass
+
+
+# Sections
+
+
+HEAVY_SECTION = ["section", "euler-poisson", "--A", "1,1.6,2.6666666666666665", "--r", "3,0,4", "--mu", "1.995",
+                 "--h", "50", "--f", "5", "--start", "0.7,-0.3", "--crossings", "3"]
+SUSLOV_SECTION = ["section", "suslov", "--I", "2,1,0.3,0.5", "--b", "0.3,-0.5,1", "--omega", "0.8,-0.4",
+                  "--gamma", "0.6,0,0.8", "--plane", "0,0,0,1,0", "--t", "20"]
+
+
+def test_section_of_a_heavy_body(answer):
+    found = answer(*HEAVY_SECTION)
+    start = start_by_hand(GESS1, 50.0, 5.0, 0.7, -0.3)
+    assert found["start"] == pytest.approx(start.tolist(), abs=1e-11)
+    times, states = crossings_by_scipy(GESS1, start, 1.01 * found["t"][-1])
+    assert found["t"] == pytest.approx(times.tolist(), abs=1e-8)
+    for M, gamma, l, x, state in zip(*(found[name] for name in ("M", "gamma", "l", "x")), states, strict=True):
+        assert [*M, *gamma] == pytest.approx(state.tolist(), abs=1e-6)
+        assert x == pytest.approx(M[2] / math.hypot(*M), abs=1e-14)
+        assert l == pytest.approx(math.atan2(M[0], M[1]), abs=1e-14)
+    assert set(found["drift"]) == {"H", "F1", "F2"}
+    assert max(found["drift"].values()) < 1e-9
+    assert (found["status"], found["level"], found["notes"]) == ("ok", "precise", [])
+    assert 0.0 < found["error_estimate"] < 1e-8
+    assert found["is_body"] is True
+
+
+def test_section_of_the_suslov_problem(answer):
+    def rates(_, y):
+        omega = np.array([y[0], y[1], 0.0])
+        gamma = y[2:]
+        # Biz131, I12 = 0: I ω̇ = Iω × ω + γ × b + λe3.
+        inertia = np.array([[2.0, 0.0, 0.3], [0.0, 1.0, 0.5], [0.3, 0.5, 1.0]])
+        torque = np.cross(inertia @ omega, omega) + np.cross(gamma, [0.3, -0.5, 1.0])
+        return [torque[0] / 2.0, torque[1] / 1.0, *np.cross(gamma, omega)]
+
+    found = answer(*SUSLOV_SECTION)
+
+    def event(_, y):
+        return y[3]
+
+    event.direction = 1
+    run = solve_ivp(rates, (0.0, 20.0), [0.8, -0.4, 0.6, 0.0, 0.8], method="DOP853", rtol=1e-12, atol=1e-13,
+                    events=event, max_step=0.02)
+    later = run.t_events[0] > 1e-9
+    assert found["t"] == pytest.approx(run.t_events[0][later].tolist(), abs=1e-9)
+    assert np.array(found["y"]) == pytest.approx(run.y_events[0][later], abs=1e-8)
+    assert found["notes"] == [f"Up to t = 20 there are {len(found['t'])} of 100 crossings."]
+    both, down = (answer(*SUSLOV_SECTION, "--sense", sense)["t"] for sense in ("0", "-1"))
+    assert both == pytest.approx(sorted(found["t"] + down), abs=1e-9)
+    assert len(down) >= 3
+    moved = answer(*SUSLOV_SECTION, "--offset", "0.25")
+    assert np.array(moved["y"])[:, 3] == pytest.approx(0.25, abs=1e-12)
+
+
+@pytest.mark.parametrize("words", [HEAVY_SECTION, SUSLOV_SECTION])
+def test_csv_and_json_say_the_same_of_a_section(answer, capsys, words):
+    expected = answer(*words)
+    assert main([*words, "--format", "csv"]) == 0
+    facts, header, rows = table(capsys.readouterr().out)
+    numbers = [[float(cell) for cell in row] for row in rows]
+    if words is HEAVY_SECTION:
+        assert header == ["t", "l", "x", "M1", "M2", "M3", "γ1", "γ2", "γ3"]
+        series = [expected.pop(name) for name in ("t", "l", "x", "M", "gamma")]
+        assert numbers == [[t, l, x, *M, *gamma] for t, l, x, M, gamma in zip(*series, strict=True)]
+    else:
+        assert header == ["t", *expected["variables"]]
+        assert numbers == [[t, *y] for t, y in zip(expected.pop("t"), expected.pop("y"), strict=True)]
+    assert without_cost(facts) == without_cost(expected)
+
+
+@pytest.mark.parametrize(("words", "part"), [
+    (replaced(HEAVY_SECTION, "--A", "0,1,2"), "choose a1 > 0"),
+    (replaced(HEAVY_SECTION, "--A", "1,2"), "write 3 numbers a1,a2,a3"),
+    (replaced(HEAVY_SECTION, "--h", "-30"), "choose a larger h, or another point"),
+    (replaced(HEAVY_SECTION, "--f", "30"), "no real G ≥ |f|"),
+    (replaced(HEAVY_SECTION, "--f", "nan"), "--f: 'nan' is not a finite number"),
+    (replaced(HEAVY_SECTION, "--start", "0,1.5"), "lies between −1 and 1"),
+    (replaced(HEAVY_SECTION, "--start", "0"), "write 2 numbers l,x"),
+    (replaced(HEAVY_SECTION, "--crossings", "0"), "from 1 to 100000"),
+    (replaced(HEAVY_SECTION, "--crossings", "1e9"), "from 1 to 100000"),
+    (replaced(SUSLOV_SECTION, "--plane", "0,0,0,0,0"), "normal other than 0"),
+    (replaced(SUSLOV_SECTION, "--plane", "0,1"), "write 5 numbers n1,n2,n3,n4,n5"),
+    (replaced(SUSLOV_SECTION, "--t", "inf"), "--t: 'inf' is not a finite number"),
+    ([*SUSLOV_SECTION, "--sense", "2"], "invalid choice: 2"),
+    ([*SUSLOV_SECTION, "--accuracy", "best"], "draft, standard, precise, reference"),
+    (["section", "ball"], "invalid choice: 'ball'"),
+])
+def test_refusals_of_sections(refusal, words, part):
+    assert part in refusal(*words)
