@@ -1,4 +1,4 @@
-"""`hess-explorer orbit suslov|ball|hess`: states of one motion at given times (S1, S8, S9)."""
+"""`hess-explorer orbit suslov|ball|hess|euler-poisson`: states of one motion at given times (S1, S8, S9, S11)."""
 
 from __future__ import annotations
 
@@ -46,6 +46,18 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     _add_motion(hess, "w1,w2", "n1,n2,n3")
     hess.set_defaults(run=_run, system="hess", parameters=_hess_parameters)
 
+    heavy = systems.add_parser(
+        "euler-poisson", help="the Euler–Poisson equations",
+        description="Orbit of a heavy rigid body with a fixed point in its principal axes, H = ½(M, AM) − μ(r, γ).",
+        epilog="Example: hess-explorer orbit euler-poisson --A 1,1.6,2.5 --r 3,0,4 --mu 1.995 --M 1.3,-2,0.7 "
+               "--gamma 0.3,0.4,0.87 --t 5,20")
+    heavy.add_argument("--A", type=vector("a1,a2,a3"), required=True, metavar="a1,a2,a3",
+                       help="inverse principal moments of inertia")
+    heavy.add_argument("--r", type=vector("r1,r2,r3"), required=True, metavar="r1,r2,r3", help="centre of mass")
+    heavy.add_argument("--mu", type=number, required=True, help="weight")
+    _add_motion(heavy, "M1,M2,M3", "g1,g2,g3", "--M", "angular momentum")
+    heavy.set_defaults(run=_run, system="euler-poisson", parameters=_heavy_parameters)
+
 
 def _add_body(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--I", type=vector("I11,I22,I13,I23"), required=True, metavar="I11,I22,I13,I23",
@@ -54,8 +66,9 @@ def _add_body(parser: argparse.ArgumentParser) -> None:
                         help="field (default 0,0,0)")
 
 
-def _add_motion(parser: argparse.ArgumentParser, omega: str, gamma: str) -> None:
-    parser.add_argument("--omega", type=vector(omega), required=True, metavar=omega, help="angular velocity at t = 0")
+def _add_motion(parser: argparse.ArgumentParser, omega: str, gamma: str, option: str = "--omega",
+                what: str = "angular velocity") -> None:
+    parser.add_argument(option, dest="omega", type=vector(omega), required=True, metavar=omega, help=f"{what} at t = 0")
     parser.add_argument("--gamma", type=vector(gamma), required=True, metavar=gamma,
                         help="the vertical at t = 0; brought to length 1")
     parser.add_argument("--t", type=samples, required=True, metavar="TIMES",
@@ -81,6 +94,13 @@ def _hess_parameters(options: argparse.Namespace) -> tuple[tuple[float, ...], Bo
 
     # (a, b) leave the scale of the inertia open: I22 = 1 speaks for all of them.
     return (options.a, options.b), HessBody(I22=1.0, I23=options.a, b3=0.0).check
+
+
+def _heavy_parameters(options: argparse.Namespace) -> tuple[tuple[float, ...], BodyCheck]:
+    from models.euler_poisson import HeavyBody
+
+    body = HeavyBody(options.A, options.r, options.mu)
+    return body.parameters, body.check
 
 
 def _run(options: argparse.Namespace) -> None:
