@@ -78,6 +78,17 @@ class HessBody:
             return body_check((self.a**2 * self.I22, (2.0 - self.a**2) * self.I22))
         return body_check(None)
 
+    def tensor(self, I33: float) -> Array:
+        """The tensor of inertia with this I33 along the axes of (n1, n2, n3); shape (3, 3)."""
+        tensor = np.array([[self.I11, 0.0, 0.0], [0.0, self.I22, self.I23], [0.0, self.I23, I33]])
+        return self.turn @ tensor @ self.turn.T
+
+    @property
+    def turn(self) -> Array:
+        """The rotation of `eq02`, γ → n = turn γ; shape (3, 3)."""
+        c, s = 1.0 / math.hypot(1.0, self.a), self.a / math.hypot(1.0, self.a)
+        return np.array([[1.0, 0.0, 0.0], [0.0, c, s], [0.0, -s, c]])
+
     @property
     def frequency_unit(self) -> float:
         """√|b|: in units b = 1 time is t√|b| and angular velocity w/√|b|.  Raises `NoField`."""

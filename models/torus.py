@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .accuracy import Level
+from .attitude import HESS, Attitude, attitude
 from .bifurcation import TurningPoints, turning_points
 from .circle_map import FixedPoint
 from .errors import Separatrix
@@ -21,7 +22,8 @@ from .rigid_body import require_finite
 from .sampling import sample_times
 
 __all__ = [
-    "HALF_A_PIXEL", "PIXELS", "SAGITTA", "Track", "annulus", "cycles", "pixels_per_unit", "start_of_track", "track",
+    "HALF_A_PIXEL", "PIXELS", "SAGITTA", "Track", "annulus", "attitude_of_track", "cycles", "pixels_per_unit",
+    "start_of_track", "track",
 ]
 
 MAX_RETURNS = 100
@@ -100,6 +102,18 @@ def track(body: HessBody, h: float, f: float, phi0: float, span: float, level: L
     """
     start, length = start_of_track(body, h, f, phi0, span)
     return _solve_reduced(body, start, _times(body, start, length, half_width), level)
+
+
+def attitude_of_track(body: HessBody, h: float, f: float, phi0: float, span: float, level: Level) -> Attitude:
+    """How the body lies in space along the orbit of `start_of_track`; time and axes (n1, n2, n3) are those of b = 1.
+
+    e starts across the plane of the vertical and the centre of mass.
+    Raises `OutsideRegion`, `NoField`, `InvalidParameter`, `WorkLimit`.
+    """
+    start, length = start_of_track(body, h, f, phi0, span)
+    e = (math.cos(phi0), -math.sin(phi0), 0.0)
+    weights = (0.0, 0.0, *(0.5 * PIXELS,) * 6)
+    return attitude(HESS, [*start, *e], (body.a, 1.0), length, level, weights, SAGITTA, _MOST)
 
 
 def _times(body: HessBody, start: Array, length: float, half_width: float) -> Array:

@@ -22,10 +22,10 @@ from app.scenes import suslov_hess
 every_scene = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
 
 # By the names of the functions.
-MAP, CYCLES, TRACK = "circle_map", "cycles", "track"
+MAP, CYCLES, TRACK, BODY = "circle_map", "cycles", "track", "attitude_of_track"
 BOUNDARY, CURVE, GRID = "lock_boundary", "curve", "_grid"
 LEVELS, OTHERS, GROWTH = "measure_levels", "measure_others", "growth"
-MOTION = {MAP, CYCLES, TRACK}
+MOTION = {MAP, CYCLES, TRACK, BODY}
 ZONES = {BOUNDARY, CURVE, GRID}
 STUDY = {LEVELS, OTHERS, GROWTH}
 # SciPy's methods take as long as the span is.
@@ -85,7 +85,7 @@ every_subset_of_the_study = pytest.mark.parametrize("seen", subsets(ACCURACY.pic
 def needed(seen):
     """What the scene of the Hess case computes at a state with two cycles."""
     return ({MAP} | ({TRACK} if seen else set()) | ({CYCLES} if seen & {"omega", "sphere"} else set())
-            | (ZONES if "bifurcation" in seen else set()))
+            | (ZONES if "bifurcation" in seen else set()) | ({BODY} if "body" in seen else set()))
 
 
 def needed_for_study(seen):
@@ -109,21 +109,21 @@ def test_the_first_view_computes_each_part_once_and_the_second_nothing(cache):
 CHANGES = [
     ({"h": 1.45}, MOTION),
     ({"f": 0.61}, MOTION),
-    ({"phi0": 0.51}, {TRACK}),
-    ({"span": 41.0}, {TRACK}),
+    ({"phi0": 0.51}, {TRACK, BODY}),
+    ({"span": 41.0}, {TRACK, BODY}),
     ({"accuracy": "draft"}, MOTION),
     ({"accuracy": "precise"}, MOTION),
     # Grid and boundary depend on a alone, and the circle map does not know b.
-    ({"b3": -1.01}, {CYCLES, TRACK}),
+    ({"b3": -1.01}, {CYCLES, TRACK, BODY}),
     ({"I22": 0.97}, MOTION | {BOUNDARY, GRID}),
     ({"I23": 0.29}, MOTION | {BOUNDARY, GRID}),
     # The same a: another body, the same maps.
-    ({"I22": 1.92, "I23": 0.56}, {CYCLES, TRACK}),
+    ({"I22": 1.92, "I23": 0.56}, {CYCLES, TRACK, BODY}),
     # Beyond the slider the diagram shows more.
     ({"h": 5.0}, MOTION | {CURVE, GRID}),
     # No cycles here.
-    ({"h": 0.2, "f": 0.5}, {MAP, TRACK}),
-    ({"h": 1.0, "f": 0.0}, {TRACK}),
+    ({"h": 0.2, "f": 0.5}, {MAP, TRACK, BODY}),
+    ({"h": 1.0, "f": 0.0}, {TRACK, BODY}),
 ]
 
 
@@ -143,13 +143,14 @@ def test_a_change_computes_what_depends_on_it_and_going_back_nothing(cache, chan
 
 PRESETS = {
     "Two limit cycles": set(),
-    "No cycle": {MAP, TRACK},
-    "At the lock boundary": {MAP, TRACK, BOUNDARY, GRID},
+    "No cycle": {MAP, TRACK, BODY},
+    "At the lock boundary": {MAP, TRACK, BODY, BOUNDARY, GRID},
     "Pendulum": MOTION | {BOUNDARY, GRID},
-    "Oscillation": {MAP, TRACK},
-    "Separatrix": {TRACK},
-    "On the bifurcation curve": {MAP, TRACK},
-    "Strong contraction": MOTION | {BOUNDARY, GRID},
+    "Oscillation": {MAP, TRACK, BODY},
+    "Separatrix": {TRACK, BODY},
+    "On the bifurcation curve": {MAP, TRACK, BODY},
+    # No body.
+    "Strong contraction": MOTION - {BODY} | {BOUNDARY, GRID},
 }
 
 
@@ -279,7 +280,7 @@ def test_a_picture_that_is_not_computed_claims_no_separatrix(cache):
 
 def test_at_the_separatrix_too_what_is_hidden_is_not_computed(cache):
     values = {**HESS.defaults(), "h": 1.0, "f": 0.0}
-    for seen, expected in ((set(), set()), ({"circle"}, {TRACK}), (set(HESS.pictures), {*ZONES})):
+    for seen, expected in ((set(), set()), ({"circle"}, {TRACK}), (set(HESS.pictures), {*ZONES, BODY})):
         compute(HESS, values, seen)
         assert cache.take() == expected
 
@@ -511,7 +512,7 @@ def test_all_hidden_the_state_still_follows_and_is_said(cache):
     assert browser.texts["status"].startswith("circle map ")
     assert "data-orbit" not in browser.screen.fresh
     browser.ask(3, hidden=[])
-    assert cache.take() == {TRACK, CYCLES}
+    assert cache.take() == {TRACK, CYCLES, BODY}
     assert np.all(browser.data["data-orbit"]["h"] == np.float32(1.25))
 
 
@@ -521,8 +522,8 @@ def test_the_status_line_counts_what_was_asked_of_the_cache(cache):
         browser.ask(requested, values=values)
         hits, misses = map(int, re.search(r"cache (\d+) hits, (\d+) misses$", browser.texts["status"]).groups())
         assert (hits, misses) == (cache.hits, cache.misses)
-    # First view, then h, back, I23: six questions each.
-    assert (hits, misses) == (3 + 6 + 1, 6 + 3 + 0 + 5)
+    # First view, then h, back, I23: seven questions each.
+    assert (hits, misses) == (3 + 7 + 1, 7 + 4 + 0 + 6)
     assert cache.metrics().startswith(f"cache_hits {hits} cache_misses {misses} cache_entries {misses} ")
 
 

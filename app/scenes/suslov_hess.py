@@ -14,19 +14,30 @@ from app.scenes.base import Motion, Preset, Report, Scene
 from app.scenes.parts import ACCURACY, Work, orbit_status, refuse
 from app.state import Number, Value, Values
 from app.views.bifurcation_diagram import BifurcationDiagram, window
+from app.views.body import BodyView, Curve, Rod, Shape
 from app.views.circle_map import CircleMapView
 from app.views.omega_plane import OmegaPlane
 from app.views.poisson_sphere import Circle, PoissonSphere
 from app.wire import Wire
 from app.words import number
 from models.accuracy import DRAFT, STANDARD, Level
+from models.attitude import Attitude
 from models.bifurcation import TurningPoints, curve, curve_point, f_max, turning_points
 from models.circle_map import CircleMap, circle_map
 from models.errors import Separatrix
 from models.hess import SYSTEM, HessBody
 from models.locking import lock_boundary, rotation_number_grid
 from models.results import Array
-from models.torus import MAX_RETURNS, Track, annulus, cycles, pixels_per_unit, start_of_track, track
+from models.torus import (
+    MAX_RETURNS,
+    Track,
+    annulus,
+    attitude_of_track,
+    cycles,
+    pixels_per_unit,
+    start_of_track,
+    track,
+)
 
 GRID = (100, 75)
 MAX_A = 100.0
@@ -96,7 +107,8 @@ class Zones:
 class HessResult:
     """What the pictures that are seen need.
 
-    `turning`, `map` are None on the separatrix; `track`, `cycles`, `zones` where no picture asks for them.
+    `turning`, `map` are None on the separatrix; `track`, `cycles`, `zones`, `attitude` where no picture asks for them,
+    and `attitude` where this is no rigid body.
     """
 
     values: Values
@@ -107,6 +119,7 @@ class HessResult:
     iterates: Array | None
     cycles: tuple[Track, Track] | None
     zones: Zones | None
+    attitude: Attitude | None
     ended: str
 
 
@@ -156,6 +169,7 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> HessResul
     orbit: Track | None = None
     iterates: Array | None = None
     zones: Zones | None = None
+    attitude: Attitude | None = None
     try:
         turning = turning_points(h, f)
         theta = work.get(circle_map, body.a, h, f, accuracy)
@@ -172,9 +186,11 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> HessResul
         x, y = window(h)
         zones = Zones(boundary=work.get(lock_boundary, body.a, STANDARD), curve=work.get(curve, x[1]),
                       grid=work.get(_grid, body.a, x, y, DRAFT))
+    if "body" in shown and body.check.is_body:
+        attitude = work.get(attitude_of_track, body, h, f, phi0, span, accuracy)
     return HessResult(
         values=values, body=body, turning=turning, track=orbit, map=theta, iterates=iterates, cycles=pair,
-        zones=zones, ended=work.ended(),
+        zones=zones, attitude=attitude, ended=work.ended(),
     )
 
 
@@ -200,7 +216,7 @@ def half_width(body: HessBody, h: float) -> float:
 
 
 class HessStage:
-    """The four pictures of one session."""
+    """The five pictures of one session."""
 
     dots: Mapping[str, tuple[str, str]] = {
         "omega-point": ("omega1", "omega2"),
@@ -216,7 +232,8 @@ class HessStage:
         self.diagram = BifurcationDiagram(wire)
         self.circle = CircleMapView(wire)
         self._drawn: dict[str, Any] = {}
-        self.pictures = (self.omega, self.sphere, self.diagram, self.circle)
+        self.body = BodyView(wire, "body", "The body in space", bare=True)
+        self.pictures = (self.omega, self.sphere, self.diagram, self.circle, self.body)
 
     def _once(self, name: str, *things: Any) -> bool:
         """Whether something else than last time is to be drawn under this name."""
@@ -251,6 +268,10 @@ class HessStage:
             self.circle.show_nothing("Separatrix: no return")
         elif result.iterates is not None and self._once("map", result.map, result.track):
             self.circle.show(result.map, result.iterates[: _COBWEB + 1])
+        if result.attitude is not None:
+            self._show_body(result.body, result.attitude)
+        elif not result.body.check.is_body and self._once("body", None):
+            self.body.show_nothing()
         self._say(_captions(result))
         return Report(_derived(result), _status(result), _notes(result))
 
@@ -286,6 +307,13 @@ class HessStage:
         n3 = (0.0, -sign * body.a / r, sign / r)
         self.sphere.show(n3, "n₃", [Circle(n3, x, "limit") for x in heights if abs(x) < 1 - 1e-9])
 
+    def _show_body(self, body: HessBody, attitude: Attitude) -> None:
+        if self._once("body", attitude):
+            centre = (0.0, 0.0, 1.0)
+            rods = [Rod(body.turn[:, 2], "muted", "3"), Rod(centre, "mass")]
+            self.body.show(Shape.of_tensor(body.tensor(_middle_I33(body)), centre), attitude,
+                           attitude.times / body.frequency_unit, rods, [Curve(attitude.in_space(centre), "orbit")])
+
     def fail(self, sentence: str) -> None:
         """Empty pictures, and the sentence where the eye is."""
         self._drawn.clear()
@@ -300,7 +328,22 @@ class HessStage:
         return {}
 
 
-def _captions(result: HessResult) -> tuple[str, str, str, str]:
+def _middle_I33(body: HessBody) -> float:
+    """I33 is no parameter of the problem: here the middle of those of a rigid body, which this must be."""
+    assert body.check.I33 is not None
+    return 0.5 * sum(body.check.I33)
+
+
+def _caption_of_body(body: HessBody) -> str:
+    title = "The body in space\n"
+    if not body.check.is_body:
+        return f"{title}Nothing is drawn: with |a| ≥ 1 there is no such rigid body, whatever I₃₃."
+    moments = np.linalg.eigvalsh(body.tensor(_middle_I33(body)))
+    return (f"{title}Gyration ellipsoid for I₃₃ = {number(_middle_I33(body))}, which is free: moments "
+            f"{', '.join(map(number, moments))}.")
+
+
+def _captions(result: HessResult) -> tuple[str, str, str, str, str]:
     h, f = float(result.values["h"]), float(result.values["f"])
     theta, turning = result.map, result.turning
     where = f"h = {number(h)}, f = {number(f)}"
@@ -310,6 +353,7 @@ def _captions(result: HessResult) -> tuple[str, str, str, str]:
             "Poisson sphere\nTowards the upper equilibrium, n₃ = −1.",
             f"Bifurcation diagram\n{where}: the separatrix.",
             "Circle map\nSeparatrix: no return.",
+            _caption_of_body(result.body),
         )
     n1, n2 = turning.roots[1:]
     low, high = turning.initial_rho, math.sqrt(2 * max(0.0, h + n2))
@@ -336,6 +380,7 @@ def _captions(result: HessResult) -> tuple[str, str, str, str]:
         f"Poisson sphere\nThe vertical γ, between heights n₃ = {number(n1)} and {number(n2)}.",
         f"Bifurcation diagram\n{where}: {zone}.",
         f"Circle map\n{last}.",
+        _caption_of_body(result.body),
     )
 
 
@@ -368,6 +413,9 @@ def _status(result: HessResult) -> str:
         parts.append(f"circle map {theta.cost.steps} steps, error ≤ {theta.error_estimate:.1e} ({theta.status})")
     else:
         parts.append("circle map: separatrix, no return")
+    if result.attitude is not None:
+        lying = result.attitude.orbit
+        parts.append(f"body {lying.cost.steps} steps, error ≤ {lying.error_estimate:.1e} ({lying.status})")
     parts.append(result.ended)
     return " · ".join(parts).replace("e-", "e−")
 
@@ -395,7 +443,7 @@ SCENE = Scene(
     words=WORDS,
     admit=admit,
     limits=limits,
-    pictures=("omega", "sphere", "bifurcation", "circle"),
+    pictures=("omega", "sphere", "bifurcation", "circle", "body"),
     compute=compute,
     stage=HessStage,
     legend=LEGEND,

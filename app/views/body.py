@@ -28,18 +28,20 @@ class Shape:
     """A body with a fixed point, in the coordinates in which its attitude is given.
 
     axes : (3, 3), the principal axes in its rows; moments : (3,); centre : (3,), the direction of the centre of mass,
-    perpendicular to a circular section of the gyration ellipsoid, whose radius belongs to the middle moment.
+    perpendicular to a circular section of the gyration ellipsoid, whose radius belongs to the middle moment; names : of
+    the axes.
     """
 
     axes: Array
     moments: Array
     centre: Array
+    names: tuple[str, str, str] = ("1", "2", "3")
 
     @classmethod
     def of_tensor(cls, tensor: Array, centre: Sequence[float] | Array) -> Shape:
-        """From the tensor of inertia (3, 3)."""
+        """From the tensor of inertia (3, 3), with axes that have no names."""
         moments, vectors = np.linalg.eigh(tensor)
-        return cls(vectors.T, moments, np.asarray(centre, float))
+        return cls(vectors.T, moments, np.asarray(centre, float), ("", "", ""))
 
     @property
     def semi_axes(self) -> Array:
@@ -105,7 +107,7 @@ class BodyView:
             columns = {"t": times.astype(np.float32), **columns_of(directions, _COLUMNS)}
         if shape is not None:
             radius = LARGEST * math.sqrt(float(np.median(shape.moments) / np.max(shape.moments)))
-            columns |= {"axes": shape.axes.tolist(), "semi": shape.semi_axes.tolist(), "names": ["1", "2", "3"],
+            columns |= {"axes": shape.axes.tolist(), "semi": shape.semi_axes.tolist(), "names": list(shape.names),
                         "section": [*map(float, shape.centre), radius]}
         self.wire.put(self.name, {
             **columns,
