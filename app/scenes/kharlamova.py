@@ -292,7 +292,7 @@ class ArcStage:
         if result.arc.kind == "fixed":
             self.period.clear("chosen")
         else:
-            self.period.choose(float(result.values["alpha"]), min(result.arc.period, top))
+            self.period.choose(float(result.values["alpha"]), min(result.arc.period, self.period.y_range[1]))
 
     def _show_sphere(self, result: ArcResult) -> None:
         b = np.array([result.body.b1, result.body.b2, 0.0])
