@@ -9,7 +9,18 @@ from collections.abc import Sequence
 from importlib import metadata
 from typing import NoReturn
 
-from app.commands import CommandError, bench, circle_map, orbit, scattering, section, serve, shot
+from app.commands import (
+    CommandError,
+    bench,
+    circle_map,
+    lyapunov,
+    orbit,
+    rotation_number,
+    scattering,
+    section,
+    serve,
+    shot,
+)
 
 __all__ = ["main"]
 
@@ -33,7 +44,7 @@ def _parser() -> argparse.ArgumentParser:
                      "and their relatives.  Without a command: serve.", allow_abbrev=False)
     parser.add_argument("--version", action="version", version=f"hess-explorer {_version()}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    for command in (serve, circle_map, orbit, section, scattering, shot, bench):
+    for command in (serve, circle_map, orbit, section, scattering, rotation_number, lyapunov, shot, bench):
         command.add(commands)
     return parser
 

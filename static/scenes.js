@@ -36,6 +36,8 @@ export function render({ model, view, el }) {
       })
       return item
     }))
+    const pressed = bar.querySelector('[aria-pressed="true"]')
+    if (pressed !== null) bar.scrollTop = pressed.offsetTop - bar.clientHeight / 2
     if (focused !== undefined) bar.querySelector(`[data-scene="${focused}"]`)?.focus()
   }
   document.addEventListener("hess:enter", (event) => show(event.detail), { signal })

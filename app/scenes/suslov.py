@@ -91,13 +91,14 @@ PRESETS = (
     Preset("A chaotic sea", {}),
     Preset("Regular orbits", {**_tensor(1.5, 4.0, 0.0, 0.8, 0.0, 1.0, 0.7, -0.521), "starts": "-1.5,1"}),
     Preset("Strange attractor", {
-        **_tensor(1.0, 2.0, 0.0, -0.3, 0.3, -0.5, 0.7, 1.089), "count": 600.0, "drop": "the later half",
-        "colours": "forward only"}),
+        **_tensor(1.0, 2.5, 0.6, 0.6, -1.0, -0.5, 0.7, 0.681), "count": 600.0, "drop": "the later half",
+        "colours": "forward only", "long": 3000.0}),
     Preset("Two attractors, and their basins", {
         **_tensor(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0, 1.842), "colours": "basins", "count": 400.0,
         "drop": "the later half"}),
     Preset("Reversal: what attracts, and what repels", {
-        **_tensor(1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3, 1.743), "colours": "forward and backward in time", "count": 100.0}),
+        **_tensor(1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3, 1.743), "colours": "forward and backward in time",
+        "count": 100.0}),
 )
 
 LEGEND = """
@@ -109,7 +110,8 @@ LEGEND = """
 <li><span class="line second" style="border-top-style: dashed"></span>mean divergence</li>
 <li><span class="dot point"></span>moving point</li>
 <li><span class="box forbidden"></span>impossible</li>
-<li><span class="box" style="background: #F0E44290"></span><span class="box" style="background: #009E7370"></span>basins</li>
+<li><span class="box" style="background: #F0E44290"></span>basin of one,</li>
+<li><span class="box" style="background: #009E7370"></span>of the other attractor</li>
 </ul>
 """
 
@@ -431,7 +433,7 @@ def _captions(result: SuslovResult) -> dict[str, str]:
                    f"{_CELLS**2} cells.",
         "omega": f"Angular velocity (ω₁, ω₂)\nThe chosen orbit, E = {number(result.E)}.",
         "sphere": "Poisson sphere\nThe vertical γ along the chosen orbit; r: the centre of mass.",
-        "exponent": "Largest Lyapunov exponent, mean divergence\nThey are found when a slider is let go.",
+        "exponent": "Lyapunov exponent and divergence\nThey are found when a slider is let go.",
     }
     if result.basin is not None and np.all(result.basin > -1.0):
         share = float(np.mean(result.basin == 1.0))
@@ -441,7 +443,7 @@ def _captions(result: SuslovResult) -> dict[str, str]:
     if result.exponent is not None and result.course is not None:
         mean, end = float(result.course.mean[-1]), number(float(result.values["long"]))
         captions["exponent"] = (
-            f"Largest Lyapunov exponent, mean divergence\nλ = {number(result.exponent.value, 3)} ± "
+            f"Lyapunov exponent and divergence\nλ = {number(result.exponent.value, 3)} ± "
             f"{number(result.exponent.spread, 2)}, div = {number(mean, 3)} after t = {end}.")
     return captions
 
