@@ -77,10 +77,12 @@ class Prose(JSComponent):
 class Ready(JSComponent):
     """Keeps `<html data-ready data-state>` and the address bar.
 
-    It sends messages, for `on_msg`: {"requested": n, "held": whether a slider is held, "values": {name: number or
-    option, …}, "preset": the example chosen or null, "picked": [picture, x, y] or [picture, x0, y0, x1, y1] or null,
-    "reset", "undo", "clear", "stop": whether that was pressed, "scene": the scene chosen or null, "hidden": [the pictures out of sight, …]} asks for the state after the
-    user's n-th change.
+    It sends messages, for `on_msg`, that ask for the state after the user's n-th change, "requested": n, with
+
+    - "values": {name: number or option, …}; "preset": the example chosen; "scene": the scene chosen;
+    - "picked": [picture, x, y] or [picture, x0, y0, x1, y1]; "hover": [picture, x, y], where the mouse is;
+    - "reset", "undo", "clear", "stop": whether that was pressed; "held": whether a slider is held;
+    - "hidden": [the pictures out of sight, …].
     """
 
     scene = param.String(default="", doc="JSON: the description of the scene entered last, see `app.description`.")

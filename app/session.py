@@ -19,7 +19,7 @@ from app.compute import CACHE
 from app.controls import show_controls
 from app.description import describe
 from app.scenes import scenes
-from app.scenes.base import Boxed, Report, Scene, Stage
+from app.scenes.base import Boxed, Hovered, Report, Scene, Stage
 from app.state import Number, Places, Values, encode
 from app.wire import Wire
 from models.errors import ModelError
@@ -109,6 +109,15 @@ class Session:
             self._history = [*self._history, dict(self._wanted)][-MOST_UNDONE:]
         self.change(values)
 
+    def _hover(self, stage: Hovered, picture: Any, x: float, y: float) -> None:
+        text = ""
+        if picture in self.scene.pictures and math.isfinite(x) and math.isfinite(y):
+            try:
+                text = stage.hover(picture, x, y)
+            except ModelError as error:
+                text = str(error)
+            self.wire.say(f"hover-{picture}", text)
+
     def _follow(self, report: Report, more: bool) -> list[str]:
         """Compute in the background what the report lacks; a note where that has ended before its end."""
         left = len(report.todo)
@@ -144,6 +153,9 @@ class Session:
                 self._draw_on(self.stage.pick(picked[0], *numbers))
             elif len(numbers) == 4 and all(map(math.isfinite, numbers)) and isinstance(self.stage, Boxed):
                 self._draw_on(self.stage.box(picked[0], (numbers[0], numbers[1], numbers[2], numbers[3])))
+        hover = message.get("hover")
+        if isinstance(hover, list) and len(hover) == 3 and isinstance(self.stage, Hovered):
+            self._hover(self.stage, hover[0], *map(_float, hover[1:]))
         if message.get("stop") is True:
             self.background.stop()
         requested = message.get("requested")

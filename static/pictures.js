@@ -74,7 +74,11 @@ export function render({ model, view, el }) {
       const caption = document.createElement("h2")
       caption.className = "text caption"
       const host = document.createElement("div")
-      cell.append(caption, host)
+      const under = document.createElement("output")
+      under.className = "text hover"
+      under.hidden = true
+      cell.append(caption, host, under)
+      cell.addEventListener("mouseleave", () => { under.hidden = true })
       grid.append(cell)
       scene.cells.push(cell)
       if (picture.kind === "plot") hosts.push(host)
@@ -114,6 +118,12 @@ export function render({ model, view, el }) {
     for (const cell of shown?.cells ?? []) {
       const text = event.detail[cell.dataset.name]
       if (text !== undefined) cell.querySelector(".caption").textContent = text
+      const hover = event.detail[`hover-${cell.dataset.name}`]
+      if (hover !== undefined) {
+        const under = cell.querySelector(".hover")
+        under.textContent = hover
+        under.hidden = hover === "" || !cell.matches(":hover")
+      }
     }
   }
   document.addEventListener("hess:texts", onTexts, { signal })

@@ -89,6 +89,11 @@ export function render({ model, view }) {
     wish.picked = pick
     request()
   })
+  document.addEventListener("hess:hover", (event) => {
+    if (!event.detail.slice(1).every(Number.isFinite)) return
+    wish.hover = event.detail
+    ask()
+  })
   document.addEventListener("hess:scene", (event) => {
     // The scene chosen last, though its pictures may still be on their way.
     if (event.detail === (bound ?? state?.scene)) return

@@ -20,7 +20,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
     suslov = systems.add_parser(
         "suslov", help="the Suslov problem with gravity",
-        description="Largest Lyapunov exponent of an orbit of the Suslov problem with gravity, and its running averages.",
+        description="Largest Lyapunov exponent of an orbit of the Suslov problem with gravity, and its running "
+                    "averages.",
         epilog="Example: hess-explorer lyapunov suslov --I 1,2.5,0.6,0.6 --b=-1,-0.5,0.7 --omega 0.5,1.2 "
                "--gamma 0.6,0,0.8 --t 2000")
     suslov.add_argument("--I", type=vector("I11,I22,I13,I23"), required=True, metavar="I11,I22,I13,I23",

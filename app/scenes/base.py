@@ -11,7 +11,7 @@ from app.state import Choice, Spec, Value, Values
 from app.wire import Wire
 from models.system import System
 
-__all__ = ["Boxed", "Motion", "Picture", "Preset", "Report", "Scene", "Stage"]
+__all__ = ["Boxed", "Hovered", "Motion", "Picture", "Preset", "Report", "Scene", "Stage"]
 
 
 @dataclass(frozen=True)
@@ -56,6 +56,14 @@ class Boxed(Protocol):
 
     def box(self, picture: str, corners: tuple[float, float, float, float]) -> Values:
         """The values that a box from (x0, y0) to (x1, y1) of a picture chooses."""
+
+
+@runtime_checkable
+class Hovered(Protocol):
+    """A stage that says something of the place under the mouse."""
+
+    def hover(self, picture: str, x: float, y: float) -> str:
+        """One line on the place (x, y) of a picture.  Raises `ModelError`."""
 
 
 class Stage(Protocol):

@@ -232,6 +232,7 @@ class HessStage:
         self.diagram = BifurcationDiagram(wire)
         self.circle = CircleMapView(wire)
         self._drawn: dict[str, Any] = {}
+        self._a = 0.0
         self.body = BodyView(wire, "body", "The body in space", bare=True)
         self.pictures = (self.omega, self.sphere, self.diagram, self.circle, self.body)
 
@@ -249,6 +250,7 @@ class HessStage:
         """Draw everything that has changed."""
         h, f = float(result.values["h"]), float(result.values["f"])
         width = half_width(result.body, h)
+        self._a = result.body.a
         x, y = window(h)
         for plane in (self.omega, self.diagram):
             plane.say("")
@@ -318,6 +320,18 @@ class HessStage:
         """Empty pictures, and the sentence where the eye is."""
         self._drawn.clear()
         refuse(self.pictures, self.wire, sentence)
+
+    def hover(self, picture: str, x: float, y: float) -> str:
+        """What the torus (h, f) under the mouse does."""
+        if picture != "bifurcation":
+            return ""
+        if x <= -1.0 or abs(y) > f_max(x):
+            return f"h = {number(x)}, f = {number(y)}: impossible"
+        theta = circle_map(self._a, x, y, DRAFT)
+        text = (f"h = {number(x)}, f = {number(y)}: ρ = {number(theta.rotation_number)}, "
+                f"|trace| = {number(theta.trace)}")
+        multipliers = ", ".join(number(point.multiplier) for point in theta.fixed_points)
+        return f"{text}, multipliers {multipliers}" if multipliers else f"{text}, no cycle"
 
     def pick(self, picture: str, x: float, y: float) -> Values:
         """A click in the diagram chooses (h, f), in the circle map φ0."""

@@ -28,7 +28,7 @@ class BifurcationDiagram(Figure):
     """Colours: rotation number ρ.  One tone where it is locked.  Grey: no motion.  A click picks (h, f)."""
 
     def __init__(self, wire: Wire) -> None:
-        super().__init__(wire, "bifurcation", ("h", "f"), *window(0.0), picks=("tap", "doubletap", "pan"))
+        super().__init__(wire, "bifurcation", ("h", "f"), *window(0.0), picks=("tap", "doubletap", "pan", "hover"))
         self.add_image("rotation", theme.NUMBER_MAP, -0.5, 0.5)
         areas = {"moving": False, "line_alpha": 0}
         self.add("locked", "multi_polygons", ("xs", "ys"), color=theme.LOCKED, **areas)

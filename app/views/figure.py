@@ -30,6 +30,10 @@ _PICK = """
     document.dispatchEvent(new CustomEvent("hess:pick", { detail }))
 """
 
+_HOVER = """
+    document.dispatchEvent(new CustomEvent("hess:hover", { detail: [name, cb_obj.x, cb_obj.y] }))
+"""
+
 _BOX = """
     const here = [cb_obj.x, cb_obj.y]
     if (cb_obj.event_name === "panstart") source.tags = here
@@ -74,7 +78,7 @@ class Figure:
     name : identifier.
     labels, x_range, y_range : the axes, which stay until `set_ranges`.
     picks : Bokeh events ("tap", "pan") that choose a point; the browser sends it with the state.  "box": a drag
-        draws a box, whose corners it sends.
+        draws a box, whose corners it sends.  "hover": it sends where the mouse is.
     ticks : positions and labels on both axes, where the usual ones would not do; y_ticks : others on the vertical one.
     log : the axes that are logarithmic, "x", "y" or "xy".
     x_ticks : positions on the horizontal axis; y_tick_count : how many labels the vertical one wants.
@@ -155,6 +159,8 @@ class Figure:
                 root.quad(source=source, level="overlay", fill_alpha=0.1, color=theme.UNSTABLE)
                 for stage in ("panstart", "pan", "panend"):
                     root.js_on_event(stage, CustomJS(args={"name": self.name, "source": source}, code=_BOX))
+            elif event == "hover":
+                root.js_on_event("mousemove", CustomJS(args={"name": self.name}, code=_HOVER))
             else:
                 root.js_on_event(event, CustomJS(args={"name": self.name}, code=_PICK))
         return root
