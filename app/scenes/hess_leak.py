@@ -235,12 +235,36 @@ class AndoyerGraph(Graph):
     def show_motion(self, body: HeavyBody, points: Array) -> None:
         """Points (n, 2) along an orbit of this body, a ring round the first."""
         self.choose(float(points[0, 0]), float(points[0, 1]))
-        self.show("orbit", points[:, 0], points[:, 1], period=2.0 * math.pi)
+        self._draw("orbit", points)
         # M across r, all the way round: also where r lies along an axis, and the curve stands upright.
         turn = np.linspace(-math.pi, math.pi, 241)
         across = np.column_stack([body.r[2] * np.sin(turn), np.cos(turn), -body.r[0] * np.sin(turn)])
-        points = coordinates(across)
-        self.show("hess", points[:, 0], points[:, 1], period=2.0 * math.pi)
+        self._draw("hess", coordinates(across))
+
+    def _draw(self, name: str, points: Array) -> None:
+        parts = _parts(points)
+        self.assign(name, xs=[part[:, 0].astype(np.float32) for part in parts],
+                    ys=[part[:, 1].astype(np.float32) for part in parts])
+
+
+def _parts(points: Array) -> list[Array]:
+    """A curve of points (l, L/G), cut where M turns round through 0, and where l passes ±π: there past the edge."""
+    l, x = points.T
+    s = np.sqrt(np.maximum(0.0, 1.0 - x * x))
+    direction = np.column_stack([s * np.sin(l), s * np.cos(l), x])
+    round_ = np.sum(direction[1:] * direction[:-1], axis=1) < 0.0
+    passes = (np.abs(np.diff(l)) > math.pi) & ~round_
+    turn = np.column_stack([2.0 * math.pi * np.sign(np.diff(l)), np.zeros(l.size - 1)])
+    cuts = np.flatnonzero(round_ | passes) + 1
+    parts = []
+    for first, last in zip([0, *cuts], [*cuts, l.size], strict=True):
+        pieces = [points[first:last]]
+        if first and passes[first - 1]:
+            pieces.insert(0, points[first - 1 : first] + turn[first - 1])
+        if last < l.size and passes[last - 1]:
+            pieces.append(points[last : last + 1] - turn[last - 1])
+        parts.append(np.concatenate(pieces))
+    return parts
 
 
 class LeakStage:
