@@ -53,10 +53,11 @@ def largest_exponent(system: System, state: Sequence[float], parameters: Sequenc
     if not (math.isfinite(span) and span != 0.0):
         raise InvalidParameter("The time span of a Lyapunov exponent must be a finite number other than 0.")
     problem = Problem.of(system, [state], parameters)
-    count = math.ceil(abs(span) * problem.nu / _INTERVAL)
-    if count > MAX_RETURNS:
-        raise WorkLimit(f"This takes {count:.3g} returns of the neighbour, at most {MAX_RETURNS} are allowed: choose a "
-                        "shorter time span.")
+    returns = abs(span) / _INTERVAL * problem.nu
+    if not returns <= MAX_RETURNS:
+        raise WorkLimit(f"This takes {returns:.3g} returns of the neighbour, at most {MAX_RETURNS} are allowed: choose "
+                        "a shorter time span.")
+    count = max(1, math.ceil(returns))
     interval = np.array([span * problem.nu / count])
     direction = np.cos(1.0 + np.arange(problem.scale.size) ** 2)
     y = problem.states[0].copy()
