@@ -36,7 +36,7 @@ SPECS = (
     Number("I2", "I₂", "Moment I₂", 1.5, 0.1, 3.0, 0.005, 1e-3, 1e3,
            "Middle principal moment: it must lie between I₁ and I₃."),
     Number("I3", "I₃", "Moment I₃", 2.0, 0.1, 3.0, 0.005, 1e-3, 1e3, "Third principal moment of inertia."),
-    Number("m", "μ|r|", "Weight times distance, μ|r|", math.sqrt(0.5), 0.05, 20.0, 0.05, 1e-3, 1e3,
+    Number("m", "μ|r|", "Weight times distance, μ|r|", 0.7071, 0.05, 20.0, 0.05, 1e-3, 1e3,
            "It sets the unit of energy and of time; the direction of r follows from the moments."),
     Number("energy", "h", "Energy h", 1.5, -0.95, 4.0, 0.01, -1.0 + 1e-4, 1e4,
            "In units of μ|r|: −1 hanging at rest, 1 the separatrix, on which it comes to rest upright."),
