@@ -41,7 +41,7 @@ def _describe(name: str) -> str:
     return json.dumps({
         "name": scene.name,
         "title": scene.title,
-        "pictures": [picture.describe() for picture in stage.pictures],
+        "pictures": [{**picture.describe(), "folded": scene.folded.get(picture.name)} for picture in stage.pictures],
         "document": serialize_json(document.to_json(deferred=False)),
         "controls": [_control(spec) for spec in scene.specs if not isinstance(spec, Places)],
         "drawn": any(isinstance(spec, Places) for spec in scene.specs),

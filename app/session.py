@@ -74,7 +74,7 @@ class Session:
         self._specs = {spec.name: spec for spec in scene.specs}
         self._wanted = scene.defaults() | {name: values[name] for name in self._specs if name in values}
         self._link_notes = notes
-        self._shown: Collection[str] = scene.pictures
+        self._shown: Collection[str] = scene.open_pictures
         self._history: list[Values] = []
         # The browser keeps the pictures of all scenes that it has seen, and a stage knows what it has drawn on them.
         if scene.name not in self._stages:

@@ -20,9 +20,9 @@ __all__ = ["compile_all", "warm"]
 QUIET_SECONDS = 0.3
 
 
-def compute(scene: Scene) -> None:
-    """Compile (or load) every kernel of a scene, by computing its default state once."""
-    scene.compute(scene.defaults(), scene.pictures, False)
+def compute(scene: Scene, folded: bool = True) -> None:
+    """Compile (or load) every kernel of a scene, by computing its default state once; folded: of all pictures."""
+    scene.compute(scene.defaults(), scene.pictures if folded else scene.open_pictures, False)
 
 
 def compile_all() -> None:
@@ -45,11 +45,13 @@ def warm() -> None:
     gc.disable()
     try:
         first, *others = scenes().values()
-        compute(first)
+        compute(first, folded=False)
         describe(first.name)
         if CACHE_FOLDER is not None and not _mark(CACHE_FOLDER).exists():
             subprocess.run([sys.executable, "-c", "import os; os.name == 'posix' and os.nice(10); "
                             "from app.warm import compile_all; compile_all()"], check=False)
+        _wait_until_quiet()
+        compute(first)
         for scene in others:
             _wait_until_quiet()
             compute(scene)

@@ -27,6 +27,24 @@ class OfBokeh {
 
 const KINDS = { sphere, cloud: cloudPlane }
 
+// A button that shows a picture which is not seen at first, or folds it again.
+function unfolding(cell, label) {
+  const button = document.createElement("button")
+  button.type = "button"
+  button.className = "button unfold"
+  const show = () => {
+    const folded = cell.classList.contains("folded")
+    button.textContent = folded ? label : "Hide"
+    button.setAttribute("aria-expanded", String(!folded))
+  }
+  button.addEventListener("click", () => {
+    cell.classList.toggle("folded")
+    show()
+  })
+  show()
+  return button
+}
+
 export function render({ model, view, el }) {
   // Rendered once more: the same pictures in the new place.
   if (view.shelf !== undefined) return void el.append(view.shelf)
@@ -71,13 +89,17 @@ export function render({ model, view, el }) {
       const cell = document.createElement("section")
       cell.className = `picture picture-${picture.name}`
       cell.dataset.name = picture.name
+      cell.classList.toggle("folded", picture.folded !== null)
       const caption = document.createElement("h2")
       caption.className = "text caption"
       const host = document.createElement("div")
       const under = document.createElement("output")
       under.className = "text hover"
       under.hidden = true
+      host.className = "host"
+      host.dataset.name = picture.name
       cell.append(caption, host, under)
+      if (picture.folded !== null) cell.append(unfolding(cell, picture.folded))
       cell.addEventListener("mouseleave", () => { under.hidden = true })
       grid.append(cell)
       scene.cells.push(cell)

@@ -219,7 +219,7 @@ export function render({ model, view }) {
     latest = { scene: descriptions.get(state.scene), texts: {}, controls: {} }
     hidden.clear()
     sight.disconnect()
-    for (const cell of scene.cells) sight.observe(cell)
+    for (const cell of scene.cells) sight.observe(cell.querySelector(".host"))
     root.dataset.scene = scene.name
     tell("hess:enter", latest.scene)
   }

@@ -109,6 +109,7 @@ class Scene:
     """One scene of the explorer.
 
     pictures : their names.  A picture that cannot be seen is not computed.
+    folded : those of them that are not seen until a button is pressed, and what it says.
     admit(values) : values that are possible together, and notes on what was changed.
     limits(values) : slider ranges (low, high, step) that depend on other values.
     compute(values, shown, dragging) : what the pictures `shown` need, from admitted values; while a slider is
@@ -136,6 +137,12 @@ class Scene:
     motion: Callable[[Values], Motion] | None = None
     origin: str | None = None
     place: int = 0
+    folded: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def open_pictures(self) -> tuple[str, ...]:
+        """The pictures that are seen at first."""
+        return tuple(name for name in self.pictures if name not in self.folded)
 
     def defaults(self) -> dict[str, Value]:
         """The state a newcomer sees."""

@@ -463,5 +463,6 @@ SCENE = Scene(
     legend=LEGEND,
     thumbnail=THUMBNAIL,
     motion=motion,
+    folded={"body": "Show the body in space"},
     place=1,
 )
