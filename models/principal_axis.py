@@ -37,7 +37,9 @@ __all__ = [
 ]
 
 _REACH = 10.0
-"""In units of 1/ν every arc has left the disk by then: |v0| ≤ 1, |a| ≤ 1, one of them 1."""
+"""In units of 1/ν, in which |v0| ≤ 1, |a| ≤ 1 and one of them is 1, every arc has left the disk by then."""
+_LEAST = 1e-50
+"""Of |a| in those units: below it nothing but a straight line is to be seen."""
 _TOUCH = 1e-14
 """Of γ3²: so near to a double zero rounding decides on which side it is."""
 _ON_EQUATOR = 1e-12
@@ -181,8 +183,12 @@ def _quartic(u0: Array, v0: Array, a: Array, height: float) -> tuple[Array, Arra
     rate = np.maximum(np.hypot(v0[:, 0], v0[:, 1]), math.sqrt(math.hypot(*a)))
     unit = np.where(rate > 0.0, rate, 1.0)
     v, bent = v0 / unit[:, None], a / (unit * unit)[:, None]
+    slope = -2.0 * (v @ u0)
+    if height == 0.0:
+        # On the equator that is rounding, and the point is fixed.
+        slope[np.abs(slope) <= 1e-15] = 0.0
     c = np.column_stack([
-        np.full(len(v), height * height), -2.0 * (v @ u0), -np.sum(v * v, axis=1) - bent @ u0,
+        np.full(len(v), height * height), slope, -np.sum(v * v, axis=1) - bent @ u0,
         -np.sum(v * bent, axis=1), -0.25 * np.sum(bent * bent, axis=1)])
     return c, rate
 
@@ -245,8 +251,8 @@ def _zeros(c, knots, count, touching, found):
 
 
 @part
-def _zeros_beyond(c, knots, found):
-    """All zeros in (0, _REACH) of a quartic with c[0] ≠ 0, in their order; their number."""
+def _zeros_beyond(c, reach, knots, found):
+    """All zeros in (0, reach) of a quartic with c[0] ≠ 0, in their order; their number."""
     c1 = (c[1], 2.0 * c[2], 3.0 * c[3], 4.0 * c[4], 0.0)
     A, B, C = 3.0 * c1[3], 2.0 * c1[2], c1[1]
     knots[0] = 0.0
@@ -257,14 +263,14 @@ def _zeros_beyond(c, knots, found):
         x = C / half if half != 0.0 else 0.0
         y = half / A if A != 0.0 else 0.0
         for z in (min(x, y), max(x, y)):
-            if 0.0 < z < _REACH:
+            if 0.0 < z < reach:
                 knots[count] = z
                 count += 1
-    knots[count] = _REACH
+    knots[count] = reach
     n = _zeros(c1, knots, count + 1, -1.0, found)
     for i in range(n):
         knots[i + 1] = found[i, 0]
-    knots[n + 1] = _REACH
+    knots[n + 1] = reach
     return _zeros(c, knots, n + 2, _TOUCH, found)
 
 
@@ -300,12 +306,15 @@ def _arcs(coefficients, out):
     for k in range(len(coefficients)):
         c0, c1, c2, c3, c4 = coefficients[k]
         low, high, touch, other_low, other_high = 0.0, 0.0, 0.0, 0.0, 0.0
+        bent = 2.0 * math.sqrt(-c4)
+        # |u| ≥ |a|τ²/2 − τ − 1.
+        reach = max(_REACH, 1.01 * (1.0 + math.sqrt(1.0 + 4.0 * bent)) / bent) if bent > _LEAST else _REACH
         if c0 > 0.0:
-            n = _zeros_beyond((c0, -c1, c2, -c3, c4), knots, left)
-            m = _zeros_beyond((c0, c1, c2, c3, c4), knots, right)
+            n = _zeros_beyond((c0, -c1, c2, -c3, c4), reach, knots, left)
+            m = _zeros_beyond((c0, c1, c2, c3, c4), reach, knots, right)
         else:
-            n = _zeros_beyond((-c1, c2, -c3, c4, 0.0), knots, left) if c1 != 0.0 else 0
-            m = _zeros_beyond((c1, c2, c3, c4, 0.0), knots, right) if c1 != 0.0 else 0
+            n = _zeros_beyond((-c1, c2, -c3, c4, 0.0), reach, knots, left) if c1 != 0.0 else 0
+            m = _zeros_beyond((c1, c2, c3, c4, 0.0), reach, knots, right) if c1 != 0.0 else 0
         i, j = 0, 0
         if c0 > 0.0 or c1 < 0.0:
             low, i = -left[0, 0], 1

@@ -58,7 +58,7 @@ SPECS = (
     Number("beta", "β", "Start: direction β", 1.0, -3.14, 3.14, 0.01, -math.pi, math.pi,
            "Where the point runs at first: q̇ = −p, |p| = √(1 − γ₃²). A click in the section chooses all three."),
     Number("count", "n", "Crossings of each orbit", 200.0, 50.0, 600.0, 10.0, 1.0, 1000.0, "Points for each orbit."),
-    Number("span", "t", "Time span", 40.0, 1.0, 200.0, 1.0, 0.01, 1e4, "How long the chosen orbit is followed."),
+    Number("span", "t", "Time span", 40.0, 1.0, 200.0, 1.0, 0.01, 1e3, "How long the chosen orbit is followed."),
     ACCURACY,
 )
 
