@@ -86,8 +86,12 @@ def reduced(a):
 
 @cache
 def exact_growth(name):
-    """The exponent gained by the orbit of an example from its 15th to its 16th period, and the range of n3."""
-    values = values_of(LEAK, name)
+    """The exponent that an example gains in a period on its stable cycle."""
+    return growth_at(values_of(LEAK, name))
+
+
+def growth_at(values):
+    """The exponent gained from the 15th to the 16th period."""
     a, h, f, _ = torus(values)
     period, lowest = period_of(h, f)
     rho, phi = math.sqrt(2.0 * (h + lowest)), 0.5
