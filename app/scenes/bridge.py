@@ -13,9 +13,11 @@ from app import theme
 from app.scenes import suslov_hess
 from app.scenes.base import Motion, Preset, Report, Scene
 from app.scenes.hess_leak import (
+    BY_THE_UNSTABLE_CYCLE,
     FLOOR,
     MOMENTS,
     RIS,
+    UNSURE,
     AndoyerGraph,
     admit_motion,
     bridge_of,
@@ -338,8 +340,8 @@ def _notes(result: BridgeResult) -> list[str]:
     shown = math.inf if result.track is None else float(result.track.times[-1])
     if shown < float(result.values["span"]) * (1.0 - 1e-9):
         notes.append(f"The orbit is drawn up to t = {number(shown)}: {MAX_RETURNS} returns.")
-    if result.difference is not None and result.difference.error > 1e-9:
-        notes.append("This motion starts next to the unstable cycle: there any round-off grows, on either side.")
+    if result.difference is not None and result.difference.error > UNSURE:
+        notes.append(BY_THE_UNSTABLE_CYCLE)
     return notes
 
 

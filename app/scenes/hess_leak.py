@@ -39,6 +39,9 @@ _LN10 = math.log(10.0)
 _INSIDE = 1.0 - 1e-12
 """Room for the round-off of the translation at the edge of what is possible."""
 
+UNSURE = 1e-9
+BY_THE_UNSTABLE_CYCLE = "This motion starts next to the unstable cycle: on the torus too any round-off grows there."
+
 MOMENTS = tuple(spec for spec in euler_poisson.SPECS if spec.name in ("I1", "I2", "I3", "m"))
 
 SPECS = (
@@ -413,7 +416,10 @@ def _status(result: LeakResult) -> str:
 
 def _notes(result: LeakResult) -> list[str]:
     check = result.bridge.heavy.check
-    return [] if check.is_body else [check.sentence]
+    notes = [] if check.is_body else [check.sentence]
+    if result.exact.error_estimate > UNSURE:
+        notes.append(BY_THE_UNSTABLE_CYCLE)
+    return notes
 
 
 SCENE = Scene(
