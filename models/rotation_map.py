@@ -1,11 +1,11 @@
 """S15: the rotation number of the Suslov–Hess torus over its parameters (a, h, f), and of a map that is not Möbius.
 
-Θ(φ) = φ + 2ζ + 2 arg(1 + (β/α) e^{−iφ}) is the lift that `circle_map` means; ζ is arg α, lifted.  With a term that no
+Θ(φ) = φ + 2ζ + 2 arg(1 + (β/α) e^{−iφ}) is the lift that `circle_map` means; ζ is arg α, lifted.  After a term that no
 Möbius map has,
 
-    Θ_ε(φ) = Θ(φ) + ε sin 3φ,
+    Θ_ε(φ) = Θ(φ + ε sin 3φ),  3|ε| < 1,
 
-the map locks at other rational numbers too.
+which is still one to one, the map locks at other rational numbers too.
 """
 
 from __future__ import annotations
@@ -63,6 +63,15 @@ class TorusValues:
     possible: Array
 
 
+def _matrices(a: Array, h: Array, f: Array, level: Level) -> Array:
+    """`matrices` of tori (a, h, |f|) (n,), whose a may differ."""
+    rows = np.zeros((a.size, 6))
+    for value in np.unique(a):
+        own = a == value
+        rows[own] = matrices(h[own], np.abs(f[own]), float(value), level)
+    return rows
+
+
 def values_at(a: Array | float, h: Array | float, f: Array | float, level: Level) -> TorusValues:
     """ρ and |t| of tori (a, h, f), arrays (n,) or numbers.  Raises `InvalidParameter`, `WorkLimit`."""
     a, h, f = (np.ascontiguousarray(x, float) for x in np.broadcast_arrays(*np.atleast_1d(a, h, f)))
@@ -75,9 +84,7 @@ def values_at(a: Array | float, h: Array | float, f: Array | float, level: Level
     edge = np.array([f_max(x) if x > -1.0 else -1.0 for x in energies.tolist()])[back]
     possible = (np.abs(f) <= edge) & (np.hypot(h - 1.0, f) > _NEAR_SEPARATRIX)
     rows = np.zeros((a.size, 6))
-    for value in np.unique(a[possible]):
-        own = possible & (a == value)
-        rows[own] = matrices(h[own], np.abs(f[own]), float(value), level)
+    rows[possible] = _matrices(a[possible], h[possible], f[possible], level)
     discriminant = discriminants(rows)
     rho = np.where(possible, np.where(f < 0.0, -1.0, 1.0) * rotation_numbers(rows), 0.0)
     with np.errstate(over="ignore"):
@@ -103,25 +110,33 @@ def lock_curve(plane: str, torus: Torus, window: Sequence[float], level: Level, 
     return frozen(np.array(found).reshape(-1, 2))
 
 
-def perturbed_rotation(a: float, h: Array, f: Array, epsilon: float, level: Level, count: int = 1500) -> Array:
-    """ρ of Θ_ε for tori (h, f) (n,) that are possible, from a weighted average of `count` turns; (n,).
+def perturbed_rotation(a: Array | float, h: Array | float, f: Array | float, epsilon: float, level: Level,
+                       count: int = 1500) -> Array:
+    """ρ of Θ_ε for tori (a, h, f), arrays (n,) or numbers, that are possible; (n,).
 
-    Raises `InvalidParameter` (|ε| ≥ 1), `WorkLimit`.
+    From a weighted average of `count` turns.
+
+    Raises `InvalidParameter` (|ε| ≥ 1/3), `WorkLimit`.
     """
     require_finite(epsilon=epsilon)
-    if abs(epsilon) >= 1.0:
-        raise InvalidParameter(f"ε = {epsilon:g} folds the circle map: choose |ε| < 1.")
-    re, im, im_beta, _, zeta, _ = matrices(np.ascontiguousarray(h, float), np.abs(f), a, level).T
+    if _TERM * abs(epsilon) >= 1.0:
+        raise InvalidParameter(f"ε = {epsilon:g} folds the circle map, which then has no rotation number: choose "
+                               "|ε| < 1/3.")
+    a, h, f = (np.ascontiguousarray(x, float) for x in np.broadcast_arrays(*np.atleast_1d(a, h, f)))
+    sign = np.where(f < 0.0, -1.0, 1.0)
+    re, im, im_beta, _, zeta, _ = _matrices(a, h, f, level).T
     ratio = 1j * im_beta / (re + 1j * im)
     phi = np.zeros(re.size)
     t = (np.arange(count) + 0.5) / count
     weights = np.exp(-1.0 / (t * (1.0 - t)))
     total = np.zeros(re.size)
     for weight in weights / weights.sum():
-        turn = 2.0 * zeta + 2.0 * np.angle(1.0 + ratio * np.exp(-1j * phi)) + epsilon * np.sin(_TERM * phi)
+        # The torus of −f has the mirror image φ → π − φ of Θ, in which ε changes its sign.
+        first = sign * epsilon * np.sin(_TERM * phi)
+        turn = first + 2.0 * zeta + 2.0 * np.angle(1.0 + ratio * np.exp(-1j * (phi + first)))
         total += weight * turn
         phi = np.remainder(phi + turn, 2.0 * math.pi)
-    return frozen(np.where(np.asarray(f) < 0.0, -1.0, 1.0) * total / (2.0 * math.pi))
+    return frozen(sign * total / (2.0 * math.pi))
 
 
 def place_of(rho: float, name: str, torus: Torus, low: float, high: float, level: Level) -> float | None:

@@ -112,15 +112,40 @@ def possible(body: SuslovBody, E: float, k: int, psi: Array) -> Array:
     return np.array([body.b1, body.b2, body.b3]) @ _gamma(k, np.asarray(psi, float)) < E
 
 
+def _arcs(body: SuslovBody, E: float, k: int, psi0: float, psi1: float) -> list[tuple[float, float]]:
+    """The parts of ψ0 … ψ1 where (b, γ) < E, in order."""
+    first, second = (b for i, b in enumerate((body.b1, body.b2, body.b3), 1) if i != k)
+    size = math.hypot(first, second)
+    if size < E:
+        return [(psi0, psi1)]
+    if size <= -E:
+        return []
+    half = math.acos(-E / size)
+    bottom = math.atan2(-second, -first)
+    turns = range(math.floor((psi0 - bottom) / (2.0 * math.pi)) - 1, math.ceil((psi1 - bottom) / (2.0 * math.pi)) + 2)
+    arcs = ((max(psi0, bottom + 2.0 * math.pi * n - half), min(psi1, bottom + 2.0 * math.pi * n + half)) for n in turns)
+    return [arc for arc in arcs if arc[0] < arc[1]]
+
+
 def seeds(body: SuslovBody, E: float, k: int, window: Sequence[float], count: int) -> tuple[tuple[float, ...], ...]:
-    """At most `count` states of the section, spread evenly over what is possible of ψ0 … ψ1, δ0 … δ1."""
+    """At most `count` states of the section, spread evenly over what is possible of ψ0 … ψ1, δ0 … δ1.
+
+    Fewer only where nothing is possible, or no double inside it.
+    """
     psi0, psi1, delta0, delta1 = window
+    _check(k)
+    arcs = _arcs(body, E, k, psi0, psi1)
+    if not arcs:
+        return ()
     # A sequence that fills the window evenly, however far it is followed (Roberts, 2018).
-    n = np.arange(1, 6 * count + 1)
-    psi = psi0 + (psi1 - psi0) * ((0.5 + 0.7548776662466927 * n) % 1.0)
+    n = np.arange(1, count + 1)
+    ends = np.cumsum([0.0, *(high - low for low, high in arcs)])
+    along = ends[-1] * ((0.5 + 0.7548776662466927 * n) % 1.0)
+    arc = np.searchsorted(ends[1:-1], along)
+    psi = along - ends[arc] + np.array([low for low, _ in arcs])[arc]
     delta = delta0 + (delta1 - delta0) * ((0.5 + 0.5698402909980532 * n) % 1.0)
     states, ok = states_at(body, E, k, psi, np.clip(delta, _EDGE, math.pi - _EDGE))
-    return tuple(tuple(map(float, state)) for state in states[ok][:count])
+    return tuple(tuple(map(float, state)) for state in states[ok])
 
 
 def suslov_points(body: SuslovBody, k: int, starts: Sequence[Sequence[float]], crossings: int, forward: bool,

@@ -56,17 +56,19 @@ SPECS = (
     Choice("rational", "Rational number", _RATIONALS, "−1/4",
            "On the line the torus with this ρ is looked for, and how many cycles it has."),
     Number("epsilon", "ε", "Away from Möbius, ε", 0.25, 0.0, 0.3, 0.005, 0.0, 0.33,
-           "The other family: Θ(φ) + ε sin 3φ. It is no Möbius map, and its ρ makes a ladder."),
+           "The other family: Θ(φ + ε sin 3φ). It is no Möbius map, and its ρ makes a ladder."),
     ACCURACY,
     Places("window", "The window of the map", 2, (-100.0, -1e4), (1e6, 1e4)),
 )
 
 PRESETS = (
-    Preset("One plateau, and no ladder", {}),
-    Preset("Along h", {"line": "h", "f": 0.6}),
-    Preset("Along a, to the boundary of the plateau", {"line": "a", "plane": "h, a", "h": 0.5, "f": 0.6}),
-    Preset("A closer look at ρ = −1/3", {"window": "0.1,0.4;0.6,0.9", "rational": "−1/3", "h": 0.35, "f": 0.6}),
-    Preset("Euler–Poisson, figure gess1", {"h": 5.01253, "f": 2.0025, "line": "h", "window": "-1,-4;8,4"}),
+    Preset("One plateau, and no ladder", {"plane": "h, f", "line": "f"}),
+    Preset("Along h", {"plane": "h, f", "line": "h", "f": 0.6}),
+    Preset("Along a, to the boundary of the plateau", {"plane": "h, a", "line": "a", "h": 0.5, "f": 0.6}),
+    Preset("A closer look at ρ = −1/3", {
+        "plane": "h, f", "line": "f", "window": "0.1,0.4;0.3,0.6", "rational": "−1/3", "h": 0.25, "f": 0.45}),
+    Preset("Euler–Poisson, figure gess1", {
+        "plane": "h, f", "line": "h", "h": 5.01253, "f": 2.0025, "window": "-1,-4;8,4"}),
 )
 
 LEGEND = """
@@ -77,7 +79,7 @@ LEGEND = """
 <li><span class="box forbidden"></span>impossible</li>
 <li><span class="line muted" style="border-top-style: dashed"></span>the line</li>
 <li><span class="line orbit"></span>ρ, trace of Θ</li>
-<li><span class="line second" style="border-top-style: dashed"></span>ρ of Θ + ε sin 3φ</li>
+<li><span class="line second" style="border-top-style: dashed"></span>ρ of Θ(φ + ε sin 3φ)</li>
 </ul>
 """
 
@@ -187,14 +189,9 @@ def _ladder(name: str, torus: Torus, low: float, high: float, epsilon: float) ->
     """ρ of the other family on the line; 0 where there is no torus."""
     x = np.linspace(low, high, _ON_LINE)
     possible = _along(name, torus, low, high, _ON_LINE).possible
-    at = {key: np.where(possible, x, 0.5 * (low + high)) if key == name else np.full(x.size, value)
-          for key, value in vars(torus).items()}
     out = np.zeros(x.size)
-    if name == "a":
-        for i in np.flatnonzero(possible):
-            out[i] = perturbed_rotation(float(x[i]), at["h"][:1], at["f"][:1], epsilon, STANDARD, 400)[0]
-    elif possible.any():
-        out[possible] = perturbed_rotation(torus.a, at["h"][possible], at["f"][possible], epsilon, STANDARD)
+    if possible.any():
+        out[possible] = perturbed_rotation(**{**vars(torus), name: x[possible]}, epsilon=epsilon, level=STANDARD)
     return frozen(out)
 
 
@@ -365,6 +362,12 @@ def _steps(rho: Array, possible: Array) -> set[str]:
             if abs(float(Fraction(float(rho[i])).limit_denominator(12)) - rho[i]) < 1e-5}
 
 
+def _height(step: str) -> tuple[int, float]:
+    """For sorting: the least denominators first, as their plateaus are the longest."""
+    fraction = Fraction(step)
+    return fraction.denominator, float(fraction)
+
+
 def _captions(result: RotationResult) -> dict[str, str]:
     line = str(result.values["line"])
     torus = result.torus
@@ -395,14 +398,14 @@ def _derived(result: RotationResult) -> list[str]:
     if result.map is not None:
         re, im, beta = (value * math.exp(min(result.map.log_scale, 700.0)) for value in result.map.matrix)
         lines += [
-            f"Riccati matrix α = {number(re)} + {number(im)} i, β = {number(beta)} i",
+            f"Riccati matrix α = {number(re)} {'−' if im < 0.0 else '+'} {number(abs(im))} i, β = {number(beta)} i",
             f"|trace| = {number(result.map.trace, 6)}, ρ = {number(result.map.rotation_number, 8)}",
         ]
         if result.map.fixed_points:
             lines.append("multipliers " + ", ".join(number(point.multiplier) for point in result.map.fixed_points))
     if result.perturbed is not None and result.along is not None:
-        steps = sorted(_steps(result.perturbed, result.along.possible), key=lambda text: text.rpartition("/")[2])
-        lines.append(f"plateaus of Θ + ε sin 3φ: {', '.join(steps[:8]).replace('-', '−') or 'none seen'}")
+        steps = sorted(_steps(result.perturbed, result.along.possible), key=_height)
+        lines.append(f"plateaus of Θ(φ + ε sin 3φ): {', '.join(steps[:8]).replace('-', '−') or 'none seen'}")
     return lines
 
 

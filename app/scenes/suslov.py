@@ -87,18 +87,20 @@ def _tensor(I11: float, I22: float, I13: float, I23: float, b1: float, b2: float
             "h": round(E + math.hypot(b1, b2, b3), 6)}
 
 
+_BOTH_WAYS = {"plane": "γ₃ = 0", "colours": "forward and backward in time"}
+
 PRESETS = (
-    Preset("A chaotic sea", {}),
-    Preset("Regular orbits", {**_tensor(1.5, 4.0, 0.0, 0.8, 0.0, 1.0, 0.7, -0.521), "starts": "-1.5,1"}),
+    Preset("A chaotic sea", {**_BOTH_WAYS, "drop": "all"}),
+    Preset("Regular orbits", {
+        **_tensor(1.5, 4.0, 0.0, 0.8, 0.0, 1.0, 0.7, -0.521), **_BOTH_WAYS, "drop": "all", "starts": "-1.5,1"}),
     Preset("Strange attractor", {
-        **_tensor(1.0, 2.5, 0.6, 0.6, -1.0, -0.5, 0.7, 0.681), "count": 600.0, "drop": "the later half",
-        "colours": "forward only", "long": 3000.0}),
+        **_tensor(1.0, 2.5, 0.6, 0.6, -1.0, -0.5, 0.7, 0.681), "plane": "γ₃ = 0", "colours": "forward only",
+        "count": 600.0, "drop": "the later half", "long": 3000.0}),
     Preset("Two attractors, and their basins", {
-        **_tensor(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0, 1.842), "colours": "basins", "count": 400.0,
-        "drop": "the later half"}),
+        **_tensor(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0, 1.842), "plane": "γ₃ = 0", "colours": "basins",
+        "count": 400.0, "drop": "the later half"}),
     Preset("Reversal: what attracts, and what repels", {
-        **_tensor(1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3, 1.743), "colours": "forward and backward in time",
-        "count": 100.0}),
+        **_tensor(1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3, 1.743), **_BOTH_WAYS, "count": 100.0, "drop": "all"}),
 )
 
 LEGEND = """
