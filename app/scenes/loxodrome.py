@@ -208,7 +208,7 @@ def _captions(result: LoxodromeResult) -> tuple[str, str, str, str]:
     elif pendulum.h == 1.0:
         top = float(pendulum.l_at(np.array([math.pi]))[0])
         track = f"Middle axis: once along the loxodrome, from l = {start} towards {number(top)}."
-        swing = "It needs infinite time to come to rest upright."
+        swing = "It rises to the top, 1, and never quite comes there."
     else:
         track = f"Middle axis: along the whole loxodrome to a pole; l from {start} to {end}."
         swing = f"It goes round: {number(abs(float(found.swing[-1])) / (2.0 * math.pi))} turns in this time."
