@@ -51,7 +51,7 @@ def hess_body(body: HeavyBody) -> HessBody:
     a = b'/a1' has the sign of r1 r3 (a1 − a3).  Raises `InvalidParameter` out of the Hess case, `NoField` (r = 0).
     """
     s, c = _tilt(body)
-    a = s * c * (body.a[0] - body.a[2]) / body.a[1]
+    a = s * c * (body.a[0] - body.a[2]) / body.a[1] + 0.0  # no −0.0
     I22 = 1.0 / (body.a[1] * (1.0 + a * a))
     b = body.a[1] * body.mu * math.hypot(*body.r)
     return HessBody(I22, a * I22, -b * I22 * math.hypot(1.0, a))
@@ -185,9 +185,13 @@ def run_free(body: HeavyBody, start: tuple[float, ...], end: float, count: int, 
     return _ended(body, problem, times, out, level, steps)
 
 
-def on_manifold(body: HeavyBody, start: tuple[float, ...], end: float, count: int, level: Level,
-                held: int = 32) -> FreeRun:
-    """As `run_free`, but every `held` samples what M has of r is taken away, so that no leak can grow.
+_BEFORE_HELD = 3.0
+"""How much ln |(r, M)| may grow before it is held again."""
+_HELD_SAMPLES = 32
+
+
+def on_manifold(body: HeavyBody, start: tuple[float, ...], end: float, count: int, level: Level) -> FreeRun:
+    """As `run_free`, but what M has of r is taken away again and again, before any leak can grow.
 
     That is `gess05`, the restriction to the manifold, in the variables and with the kernel of `hh01`.
     Raises `InvalidParameter`, `WorkLimit`.
@@ -196,16 +200,30 @@ def on_manifold(body: HeavyBody, start: tuple[float, ...], end: float, count: in
     problem = Problem.of(SYSTEM, [start], body.parameters)
     scaled = problem.times(times)
     axis = np.array(body.r) / math.hypot(*body.r)
+    growth = body.hess_a * _fastest(body, start) * end
+    pieces = math.ceil(max((count - 1) / _HELD_SAMPLES, growth / _BEFORE_HELD))
+    if pieces > MAX_STEPS:
+        raise WorkLimit("The manifold is too unstable to be held over this time span: choose a shorter one.")
+    edges = np.linspace(0.0, scaled[-1], pieces + 1)
+    first = np.searchsorted(scaled, edges)
     out = np.empty((count, 6))
-    out[0] = problem.states[0]
+    state = problem.states[0].copy()
     steps = 0
-    for first in range(0, count - 1, held):
-        state = out[first]
+    for i in range(pieces):
         state[:3] -= (state[:3] @ axis) * axis
-        last = min(first + held, count - 1)
-        steps += _run(problem, state.copy(), scaled[first + 1 : last + 1] - scaled[first], level,
-                      out[first + 1 : last + 1])
+        piece = np.append(scaled[first[i] : first[i + 1]], edges[i + 1]) - edges[i]
+        states = np.empty((piece.size, 6))
+        steps += _run(problem, state, piece, level, states)
+        out[first[i] : first[i + 1]] = states[:-1]
+        state = states[-1].copy()
+    out[first[-1] :] = state
     return _ended(body, problem, times, out, level, steps)
+
+
+def _fastest(body: HeavyBody, start: tuple[float, ...]) -> float:
+    """No |w| of the motion on the manifold from this state exceeds it."""
+    a = body.a[1]
+    return math.sqrt(a * a * (start[0] ** 2 + start[1] ** 2 + start[2] ** 2) + 4.0 * a * body.strength)
 
 
 _STRAIGHT = (3e-14, 1e-3)

@@ -351,6 +351,14 @@ def test_what_is_out_of_sight_is_not_computed_and_a_drag_looks_at_less():
     assert 10.0 < end < 50.0
 
 
+def test_with_a_large_a_the_leak_is_held_back_over_a_shorter_time():
+    view = View(BRIDGE, {"given": "Suslov–Hess", "I22": 0.1, "I23": 5.0, "h": 1.5, "f": 0.6, "span": 200.0})
+    held, end, free = view.numbers("difference", HELD)
+    assert held <= 1e-11
+    assert 1.0 < end < 200.0
+    assert free > 0.1
+
+
 def test_each_side_keeps_its_own_bounds():
     below = View(BRIDGE, {"given": "Suslov–Hess", "h": -5.0, "f": 0.0})
     assert below.values["h"] == pytest.approx(-1.0)

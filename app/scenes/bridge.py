@@ -52,6 +52,8 @@ _IN_A_PERIOD = 40
 _MOST_PERIODS = 200
 _IN_A_DRAG = 30
 """Periods of the difference while a slider is held."""
+_MOST_GROWTH = 3000.0
+"""The strongest leak, as a logarithm, that is held back: it takes longer the larger |a| is."""
 _COBWEB = 60
 _BOTTOM = -1.0 + 1e-9
 
@@ -197,7 +199,8 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> BridgeRes
     difference: Difference | None = None
     if "difference" in shown:
         period = theta.period / hess.frequency_unit
-        end = min(span, (_IN_A_DRAG if dragging else _MOST_PERIODS) * period)
+        most = min(_IN_A_DRAG if dragging else _MOST_PERIODS, _MOST_GROWTH / (1.0 + 2.0 * math.pi * abs(hess.a)))
+        end = min(span, most * period)
         count = max(64, math.ceil(end / period * _IN_A_PERIOD)) + 1
         start = turning.state_at_lower_turn(phi0)
         difference = work.get(_difference, bridge, tuple(start.tolist()), end, count)
