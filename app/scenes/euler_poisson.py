@@ -83,7 +83,9 @@ PRESETS = (
     *(Preset(f"gess-ris1 {letter}: f = 0, h = {h:.4g}, {what}", {**_RIS, "h": h, "f": 0.0}) for letter, h, what in (
         ("a", -0.4, _BELOW), ("b", 0.0, _BELOW), ("c", 0.5, _BELOW), ("d", math.sqrt(0.5), _AT), ("e", 1.0, _ABOVE),
         ("f", 2.0, _ABOVE))),
-    *(Preset(f"gess-ris2 {letter}: f = 1, h = {h:.4g}", {**_RIS, "h": h, "f": 1.0}) for letter, h in zip(
+    # At the lowest energies the other start is not possible.
+    *(Preset(f"gess-ris2 {letter}: f = 1, h = {h:.4g}", {
+        **_RIS, "h": h, "f": 1.0, "starts": _RIS["starts"] if h > 0.4 else "-1.54,-0.86"}) for letter, h in zip(
         "abcdefgh", (0.0, 0.2, 0.5, 0.8, 1.0, 1.3, 2.0, 4.0), strict=True)),
 )
 
@@ -198,8 +200,8 @@ def _starts(body: HeavyBody, h: float, f: float, chosen: Sequence[tuple[float, f
         return [chosen[i] for i in kept], [tuple(map(float, states[i])) for i in kept], ""
     others = _seeds(body, h, f, window, 1)
     if not others:
-        raise InvalidParameter(f"Nothing is possible here with h = {h:.6g} and f = {f:.6g}: choose a larger h, a smaller "
-                               "|f|, or press Clear for the whole section.")
+        raise InvalidParameter(f"Nothing is possible here with h = {h:.6g} and f = {f:.6g}: choose a larger h, a "
+                               "smaller |f|, or press Clear for the whole section.")
     place = tuple(map(float, coordinates(np.array(others))[0]))
     return [(place[0], place[1])], others, (
         f"At l = {number(chosen[-1][0])}, L/G = {number(chosen[-1][1])} no motion has this h and f: the chosen orbit "
@@ -352,7 +354,7 @@ class EulerPoissonStage:
     def __init__(self, wire: Wire) -> None:
         self.wire = wire
         self._starts: Sequence[tuple[float, float]] = ()
-        self.section = LayeredSection(wire, "section", ("l", "L/G"), (-math.pi, math.pi), (-1.0, 1.0))
+        self.section = LayeredSection(wire, "section", ("l", "L/G"), (-math.pi, math.pi), (-1.0, 1.0), path=True)
         self.rotation = Graph(wire, "rotation", (" ", "ρ"), (-1.0, 1.0), (-0.5, 0.5), [Series("rho", theme.ORBIT)])
         self.exponent = Graph(wire, "exponent", ("t", "λ"), (0.0, 200.0), (0.0, 1.0), [Series("lambda", theme.ORBIT)])
         self.sphere = PoissonSphere(wire, {"data-orbit": "orbit"})
@@ -439,6 +441,11 @@ def _extremum(rotation: Rotation) -> tuple[float, float] | None:
     return None
 
 
+def _turns(rho: float) -> str:
+    """A rotation number, to what is known of it."""
+    return number(round(float(rho) / _REGULAR) * _REGULAR)
+
+
 def _captions(result: EulerPoissonResult) -> dict[str, str]:
     hess = float(result.values["away"]) == 0.0
     kept = f"r·M keeps its sign along {result.kept} of {result.count} orbits"
@@ -450,19 +457,19 @@ def _captions(result: EulerPoissonResult) -> dict[str, str]:
     }
     if result.rotation is not None and any(map(len, result.rotation.rho)):
         values = np.concatenate(result.rotation.rho)
-        # A line through all of the section meets orbits of many kinds, whose numbers have nothing to do with each other.
+        # A line through all of the section meets orbits of many kinds: their numbers have nothing to do with each other.
         turning = _extremum(result.rotation) if result.values["turns"] == "about the middle" else None
         captions["rotation"] = (
-            f"Rotation number across the section\nFrom {number(float(values.min()))} to {number(float(values.max()))}"
+            f"Rotation number across the section\nFrom {_turns(values.min())} to {_turns(values.max())}"
             + ("." if turning is None else
-               f"; it turns round at {number(turning[0])} with ρ = {number(turning[1])}: no twist there."))
+               f"; it turns round at {number(turning[0])} with ρ = {_turns(turning[1])}: no twist there."))
     elif result.rotation is not None:
         captions["rotation"] = "Rotation number across the section\nNo orbit of the line is a closed curve."
     if result.exponent is not None:
         exponent = result.exponent
         # A regular motion's neighbour goes away no faster than t: the mean then falls as ln(t)/t.
-        regular = exponent.value < 3.0 * math.log(max(math.e, exponent.times.size)) / exponent.times[-1]
-        kind = "falling as ln(t)/t: regular" if regular else "chaotic"
+        regular = exponent.value < 2.0 * math.log(max(math.e, exponent.times.size)) / exponent.times[-1]
+        kind = "falling as ln(t)/t: regular so far" if regular else "chaotic"
         end = number(float(exponent.times[-1]))
         captions["exponent"] = (f"Largest Lyapunov exponent\nλ = {number(exponent.value, 3)} after t = {end}, "
                                 f"± {number(exponent.spread, 2)} lately: {kind}.")
