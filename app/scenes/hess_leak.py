@@ -122,7 +122,8 @@ def _has_weight(values: Values) -> bool:
 
 def admit_motion(values: Values) -> tuple[dict[str, Value], list[str]]:
     """h above the bottom, and f inside the region of this h, for a heavy body."""
-    out, notes = dict(values), []
+    out: dict[str, Value] = dict(values)
+    notes: list[str] = []
     m, h, f = (float(out[name]) for name in ("m", "h", "f"))
     if not _has_weight(values):
         return out, notes
