@@ -105,24 +105,45 @@ def test_keys_turn_the_body_and_the_link_keeps_it(loxodrome):
 # --- The body on the Suslov–Hess page -----------------------------------------------------------------
 
 
-def test_the_body_of_the_hess_case_is_drawn_when_it_is_scrolled_into_sight(open_page, server):
-    explorer = Explorer(open_page("scene=suslov-hess", size=(1600, 320)), server)
-    # The browser tells what is in sight a moment after the page stands.
-    explorer.page.wait_for_timeout(500)
-    first = explorer.data("body")
+def unfold(explorer):
+    return explorer.picture("body").locator(".unfold").click()
+
+
+def test_the_body_of_the_hess_case_is_drawn_when_it_is_unfolded(open_page, server):
+    explorer = Explorer(open_page("scene=suslov-hess"), server)
+    assert explorer.data("body") == {}
+    assert not canvas(explorer, "body").is_visible()
+    explorer.change(unfold, explorer)
+    body, orbit = explorer.data("body"), explorer.data("data-orbit")
+    assert body["t"][-1] == orbit["t"][-1]
+    moments = said(explorer, "body", "which is free: moments #, #, #.")
+    assert (np.array(body["semi"]) / body["semi"][2]) ** 2 == pytest.approx(np.array(moments) / moments[2], rel=1e-3)
+    still = canvas(explorer, "body").screenshot()
+    explorer.set_time(2.0)
+    explorer.page.wait_for_timeout(100)
+    assert canvas(explorer, "body").screenshot() != still
     explorer.change(lambda: explorer.slide(h=1.2))
-    stale = explorer.data("body")
-    assert stale["g1"] == first["g1"]
-    explorer.change(explorer.picture("body").scroll_into_view_if_needed)
-    fresh = explorer.data("body")
-    assert fresh["g1"] != stale["g1"]
-    orbit = explorer.data("data-orbit")
-    assert fresh["t"][-1] == orbit["t"][-1]
+    assert explorer.data("body")["g1"] != body["g1"]
+    explorer.assert_quiet()
+
+
+def test_folded_again_the_body_is_not_computed(open_page, server):
+    explorer = Explorer(open_page("scene=suslov-hess"), server)
+    explorer.change(unfold, explorer)
+    first = explorer.data("body")
+    unfold(explorer)
+    # The browser tells what is in sight a moment after it has changed.
+    explorer.page.wait_for_timeout(500)
+    explorer.change(lambda: explorer.slide(h=1.2))
+    assert explorer.data("body") == first
+    explorer.change(unfold, explorer)
+    assert explorer.data("body")["g1"] != first["g1"]
     explorer.assert_quiet()
 
 
 def test_where_there_is_no_body_the_page_says_so_and_draws_none(tab):
     hess = brought(tab, HESS)
+    hess.change(unfold, hess)
     assert hess.data("body")["semi"]
     hess.change(hess.choose, "preset", "Strong contraction, a = 3 (not a body)")
     assert hess.data("body") == {}
