@@ -29,6 +29,8 @@ __all__ = ["QuarticBody", "angular_momentum", "quartic_section", "seeds", "state
 _TURNS = 120.0
 """Time given for a crossing, in units in which ω is at most 1: few orbits take longer."""
 _EDGE = 1e-9
+_MOST_SIZE = 1e30
+"""Of q: a picture's numbers are single precision."""
 
 
 @dataclass(frozen=True)
@@ -51,6 +53,11 @@ class QuarticBody:
         if not self.h > -abs(self.b3):
             raise OutsideRegion(
                 f"No motion has the energy h = {self.h:g}: choose h above −|b3| = {-abs(self.b3):.6g}.")
+        smallest, largest = sorted(self.axes)
+        if not 1.0 / _MOST_SIZE <= smallest <= largest <= _MOST_SIZE:
+            raise InvalidParameter(
+                f"The region in the plane has half axes {self.axes[0]:.2g} and {self.axes[1]:.2g}, which no "
+                "picture can show: choose h, b3 and the moments of inertia less different in size.")
 
     @property
     def parameters(self) -> tuple[float, ...]:
