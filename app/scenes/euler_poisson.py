@@ -39,8 +39,8 @@ _IN_A_DRAG = (16, 40)
 """Orbits and crossings while a slider is held."""
 _ACROSS = 48
 """Orbits on the line along which the rotation number is looked at."""
-_ON_LINE = 500
-"""Crossings of each: with fewer the rotation number of a curve is not known to `_REGULAR`."""
+_ON_LINE = 3000
+"""Crossings of each: with fewer the rotation number in a chain of islands is not known to `_REGULAR`."""
 _MOST_STEPS = 200_000
 _CELLS = (96, 64)
 _REGULAR = 1e-4
@@ -457,7 +457,7 @@ def _captions(result: EulerPoissonResult) -> dict[str, str]:
     }
     if result.rotation is not None and any(map(len, result.rotation.rho)):
         values = np.concatenate(result.rotation.rho)
-        # A line through all of the section meets orbits of many kinds: their numbers have nothing to do with each other.
+        # A line through all of the section meets orbits of many kinds, whose numbers are no one function of the place.
         turning = _extremum(result.rotation) if result.values["turns"] == "about the middle" else None
         captions["rotation"] = (
             f"Rotation number across the section\nFrom {_turns(values.min())} to {_turns(values.max())}"
