@@ -25,7 +25,7 @@ every_scene = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
 MAP, CYCLES, TRACK, BODY = "circle_map", "cycles", "track", "attitude_of_track"
 BOUNDARY, CURVE, GRID = "lock_boundary", "curve", "_grid"
 LEVELS, OTHERS, GROWTH = "measure_levels", "measure_others", "growth"
-MOTION = {MAP, CYCLES, TRACK, BODY}
+MOTION = {MAP, CYCLES, TRACK}
 ZONES = {BOUNDARY, CURVE, GRID}
 STUDY = {LEVELS, OTHERS, GROWTH}
 # SciPy's methods take as long as the span is.
@@ -101,7 +101,7 @@ def compute(scene, values, seen=None, dragging=False):
 
 def test_the_first_view_computes_each_part_once_and_the_second_nothing(cache):
     compute(HESS, HESS.defaults())
-    assert cache.take() == MOTION | ZONES
+    assert cache.take() == MOTION | ZONES | {BODY}
     compute(HESS, HESS.defaults())
     assert cache.take() == set()
 
@@ -109,21 +109,21 @@ def test_the_first_view_computes_each_part_once_and_the_second_nothing(cache):
 CHANGES = [
     ({"h": 1.45}, MOTION),
     ({"f": 0.61}, MOTION),
-    ({"phi0": 0.51}, {TRACK, BODY}),
-    ({"span": 41.0}, {TRACK, BODY}),
+    ({"phi0": 0.51}, {TRACK}),
+    ({"span": 41.0}, {TRACK}),
     ({"accuracy": "draft"}, MOTION),
     ({"accuracy": "precise"}, MOTION),
     # Grid and boundary depend on a alone, and the circle map does not know b.
-    ({"b3": -1.01}, {CYCLES, TRACK, BODY}),
+    ({"b3": -1.01}, {CYCLES, TRACK}),
     ({"I22": 0.97}, MOTION | {BOUNDARY, GRID}),
     ({"I23": 0.29}, MOTION | {BOUNDARY, GRID}),
     # The same a: another body, the same maps.
-    ({"I22": 1.92, "I23": 0.56}, {CYCLES, TRACK, BODY}),
+    ({"I22": 1.92, "I23": 0.56}, {CYCLES, TRACK}),
     # Beyond the slider the diagram shows more.
     ({"h": 5.0}, MOTION | {CURVE, GRID}),
     # No cycles here.
-    ({"h": 0.2, "f": 0.5}, {MAP, TRACK, BODY}),
-    ({"h": 1.0, "f": 0.0}, {TRACK, BODY}),
+    ({"h": 0.2, "f": 0.5}, {MAP, TRACK}),
+    ({"h": 1.0, "f": 0.0}, {TRACK}),
 ]
 
 
@@ -143,14 +143,13 @@ def test_a_change_computes_what_depends_on_it_and_going_back_nothing(cache, chan
 
 PRESETS = {
     "Two limit cycles": set(),
-    "No cycle": {MAP, TRACK, BODY},
-    "At the lock boundary": {MAP, TRACK, BODY, BOUNDARY, GRID},
+    "No cycle": {MAP, TRACK},
+    "At the lock boundary": {MAP, TRACK, BOUNDARY, GRID},
     "Pendulum": MOTION | {BOUNDARY, GRID},
-    "Oscillation": {MAP, TRACK, BODY},
-    "Separatrix": {TRACK, BODY},
-    "On the bifurcation curve": {MAP, TRACK, BODY},
-    # No body.
-    "Strong contraction": MOTION - {BODY} | {BOUNDARY, GRID},
+    "Oscillation": {MAP, TRACK},
+    "Separatrix": {TRACK},
+    "On the bifurcation curve": {MAP, TRACK},
+    "Strong contraction": MOTION | {BOUNDARY, GRID},
 }
 
 
@@ -166,11 +165,12 @@ def test_a_preset_computes_what_is_new_in_it(cache, preset):
 
 def test_a_request_that_changes_nothing_does_not_even_ask_the_cache(cache):
     browser = Browser(HESS)
+    browser.ask(1, hidden=[])
     before = cache.hits, cache.misses
-    browser.ask(1)
-    browser.ask(2, values={"h": 1.5})
-    browser.ask(3, picked=["sphere", 0.0, 0.0])
-    browser.ask(4, hidden=[])
+    browser.ask(2)
+    browser.ask(3, values={"h": 1.5})
+    browser.ask(4, picked=["sphere", 0.0, 0.0])
+    browser.ask(5, hidden=[])
     assert (cache.hits, cache.misses) == before
 
 
@@ -196,11 +196,11 @@ def test_a_drag_is_computed_as_a_draft_and_again_as_chosen_when_it_ends(cache, c
 def test_every_part_of_a_drag_is_at_the_cheapest_level(cache, chosen):
     values = {**HESS.defaults(), "accuracy": chosen}
     dragged = compute(HESS, values, dragging=True)
-    assert cache.levels() == {**dict.fromkeys(MOTION, "draft"), BOUNDARY: "standard", GRID: "draft"}
+    assert cache.levels() == {**dict.fromkeys(MOTION | {BODY}, "draft"), BOUNDARY: "standard", GRID: "draft"}
     assert {dragged.track.orbit.level, dragged.map.level, dragged.cycles[0].orbit.level} == {"draft"}
     let_go = compute(HESS, values)
     # The zones are there; a draft that was chosen is as well.
-    assert cache.levels() == ({} if chosen == "draft" else dict.fromkeys(MOTION, chosen))
+    assert cache.levels() == ({} if chosen == "draft" else dict.fromkeys(MOTION | {BODY}, chosen))
     assert {let_go.track.orbit.level, let_go.map.level, let_go.cycles[0].orbit.level} == {chosen}
     assert let_go.zones.grid is dragged.zones.grid
 
@@ -247,8 +247,9 @@ def test_pictures_that_come_into_sight_compute_just_what_they_need(cache, seen):
 @every_subset
 def test_hiding_a_picture_computes_nothing_until_something_changes(cache, seen):
     browser = Browser(HESS)
+    browser.ask(1, hidden=[])
     before = cache.hits, cache.misses
-    state = browser.ask(1, hidden=[name for name in HESS.pictures if name not in seen])
+    state = browser.ask(2, hidden=[name for name in HESS.pictures if name not in seen])
     assert (cache.hits, cache.misses) == before
     assert state["tree"]["sources"] == {}
 
@@ -481,7 +482,9 @@ def test_what_names_no_picture_hides_none(cache, hidden):
     cache.take()
     state = browser.ask(2, hidden=hidden, values={"I23": 0.3})
     assert state["answers"] == 2
-    assert cache.take() == needed(set(HESS.pictures)) - {CURVE}
+    # A list says what is in sight, the body too; what is none leaves it folded.
+    seen = HESS.pictures if isinstance(hidden, list) else HESS.open_pictures
+    assert cache.take() == needed(set(seen)) - {CURVE}
 
 
 def test_names_of_nobody_among_the_hidden_do_not_protect_the_others(cache):
@@ -489,7 +492,7 @@ def test_names_of_nobody_among_the_hidden_do_not_protect_the_others(cache):
     browser.ask(1, hidden=[None, "nobody", 3, ["omega"], "bifurcation", "bifurcation"])
     cache.take()
     browser.ask(2, values={"I23": 0.3})
-    assert cache.take() == MOTION
+    assert cache.take() == MOTION | {BODY}
 
 
 def test_a_message_without_hidden_leaves_it_as_it_was(cache):
@@ -498,7 +501,7 @@ def test_a_message_without_hidden_leaves_it_as_it_was(cache):
     cache.take()
     for requested, message in enumerate(({}, {"hidden": None}, {"hidden": "omega"}), 2):
         browser.ask(requested, values={"I23": 0.3 + 0.01 * requested}, **message)
-        assert cache.take() == MOTION
+        assert cache.take() == MOTION | {BODY}
 
 
 def test_all_hidden_the_state_still_follows_and_is_said(cache):
@@ -522,8 +525,8 @@ def test_the_status_line_counts_what_was_asked_of_the_cache(cache):
         browser.ask(requested, values=values)
         hits, misses = map(int, re.search(r"cache (\d+) hits, (\d+) misses$", browser.texts["status"]).groups())
         assert (hits, misses) == (cache.hits, cache.misses)
-    # First view, then h, back, I23: seven questions each.
-    assert (hits, misses) == (3 + 7 + 1, 7 + 4 + 0 + 6)
+    # First view, then h, back, I23: six questions each.
+    assert (hits, misses) == (3 + 6 + 1, 6 + 3 + 0 + 5)
     assert cache.metrics().startswith(f"cache_hits {hits} cache_misses {misses} cache_entries {misses} ")
 
 
