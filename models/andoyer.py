@@ -194,7 +194,8 @@ def relation(body: HeavyBody, states: Array) -> Array:
 def hess_curve(body: HeavyBody, l: Array) -> Array:
     """L/G (n,) where the Hess relation holds: r1 s sin l + r3 x = 0."""
     r1, _, r3 = body.r
-    return -r1 * np.sin(l) / np.hypot(r3, r1 * np.sin(l))
+    across = r1 * np.sin(l)
+    return -across / np.maximum(np.hypot(r3, across), 1e-300)
 
 
 def seeds(body: HeavyBody, h: float, f: float, window: Sequence[float], count: int) -> list[tuple[float, ...]]:

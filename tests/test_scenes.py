@@ -30,7 +30,7 @@ from app.description import describe
 from app.scenes import scenes, speed_accuracy
 from app.scenes.base import Report
 from app.session import Session
-from app.state import Number, decode
+from app.state import Number, Places, decode, written
 from app.wire import Wire
 from app.words import with_formulas
 from models import circle_map, f_max, level
@@ -178,7 +178,8 @@ def test_a_scene_explains_itself_and_each_of_its_parameters(scene):
     assert scene.title
     assert scene.summary.endswith(".")
     assert len({spec.name for spec in scene.specs}) == len(scene.specs)
-    for spec in scene.specs:
+    # Places have no control to be explained.
+    for spec in (spec for spec in scene.specs if not isinstance(spec, Places)):
         assert spec.label, spec.name
         assert len(spec.help.split()) > 2, spec.name
         assert spec.help.endswith((".", ")")), spec.name
@@ -217,8 +218,10 @@ def test_the_description_of_a_scene_has_all_that_the_browser_needs(scene):
     assert (found["name"], found["title"]) == (scene.name, scene.title)
     assert [picture["name"] for picture in found["pictures"]] == list(scene.pictures)
     assert list(plots_of(scene.name)) == [one["name"] for one in found["pictures"] if one["kind"] == "plot"]
-    assert [control["name"] for control in found["controls"]] == [spec.name for spec in scene.specs]
-    for control, spec in zip(found["controls"], scene.specs, strict=True):
+    controlled = [spec for spec in scene.specs if not isinstance(spec, Places)]
+    assert found["drawn"] == (len(controlled) < len(scene.specs))
+    assert [control["name"] for control in found["controls"]] == [spec.name for spec in controlled]
+    for control, spec in zip(found["controls"], controlled, strict=True):
         assert (control["label"], control["help"]) == (spec.label, spec.help)
         if isinstance(spec, Number):
             assert (control["kind"], control["symbol"]) == ("number", spec.symbol)
@@ -234,7 +237,7 @@ def test_the_description_of_a_scene_has_all_that_the_browser_needs(scene):
 @every_scene
 def test_the_pictures_of_a_description_are_empty_and_belong_to_no_session(scene):
     for root in plots_of(scene.name).values():
-        assert root.js_event_callbacks.keys() <= {"tap", "doubletap", "pan"}
+        assert root.js_event_callbacks.keys() <= {"tap", "doubletap", "pan", "panstart", "panend", "mousemove"}
         assert not root.tools
         assert root.toolbar_location is None
     assert "data-orbit" in empty_sources(scene.name) or not description(scene.name)["dots"]
@@ -374,6 +377,10 @@ def test_a_stage_that_fails_shows_the_sentence_and_nothing_of_another_state(scen
 
 def somewhere(spec):
     """Values that may be typed: from the slider, from everywhere, and close to either end, to 0 and to ±1."""
+    if isinstance(spec, Places):
+        # No windows: of what is computed for one, some lies outside.
+        place = st.tuples(*(st.floats(low, high) for low, high in zip(spec.low, spec.high, strict=True)))
+        return st.lists(place, max_size=3 if spec.most > 2 else 0).map(written)
     if not isinstance(spec, Number):
         return st.sampled_from(spec.options)
     distance = st.floats(-16.0, math.log10(spec.highest - spec.lowest)).map(lambda exponent: 10.0**exponent)
@@ -612,6 +619,8 @@ class Browser:
             if isinstance(spec, Number):
                 assert isinstance(value, float)
                 assert spec.lowest <= value <= spec.highest
+            elif isinstance(spec, Places):
+                assert spec.read(value) == (value, None)
             else:
                 assert value in spec.options
         # The link says the same.

@@ -13,7 +13,7 @@ from mpmath import mp, mpf
 
 from app.page import THEME
 from app.scenes import scenes
-from app.state import CLIENT, MAX_QUERY, VERSION, Choice, Number, decode, encode
+from app.state import CLIENT, MAX_QUERY, VERSION, Choice, Number, Places, decode, encode, written
 
 SCENES = scenes()
 SCENE = SCENES["suslov-hess"]
@@ -25,7 +25,16 @@ every_number = pytest.mark.parametrize("spec", NUMBERS, ids=[spec.name for spec 
 
 
 def admissible(spec):
-    return st.floats(spec.lowest, spec.highest) if isinstance(spec, Number) else st.sampled_from(spec.options)
+    if isinstance(spec, Number):
+        return st.floats(spec.lowest, spec.highest)
+    return st.sampled_from(spec.options) if isinstance(spec, Choice) else texts_of(spec)
+
+
+def texts_of(places):
+    """Texts that name points of a picture."""
+    pair = st.tuples(*(st.floats(low, high, allow_subnormal=False) for low, high in zip(
+        places.low, places.high, strict=True)))
+    return st.lists(pair, max_size=places.most).map(written)
 
 
 def states(specs):
@@ -35,6 +44,8 @@ def states(specs):
 def is_admissible(spec, value):
     if isinstance(spec, Choice):
         return value in spec.options
+    if isinstance(spec, Places):
+        return spec.read(value) == (value, None)
     return isinstance(value, float) and spec.lowest <= value <= spec.highest
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from app import theme
 from app.compute import Task
 from app.scenes.base import Motion, Preset, Report, Scene
-from app.scenes.parts import ACCURACY, Work, orbit_status, refuse
+from app.scenes.parts import ACCURACY, Window, Work, inside, orbit_status, refuse, tidy_window, window_of
 from app.state import Choice, Number, Places, Value, Values, places, written
 from app.views.chart import Series
 from app.views.graph import Graph
@@ -45,6 +45,8 @@ _MOST_STEPS = 200_000
 _CELLS = (96, 64)
 _REGULAR = 1e-4
 """Where the rotation numbers of both halves of an orbit agree to this, it is taken for a closed curve."""
+_TURN = 3.14159
+"""Half a turn, as a place in a link is written."""
 _FULL = ((-math.pi, -1.0), (math.pi, 1.0))
 
 SPECS = (
@@ -68,8 +70,8 @@ SPECS = (
            "Turns counted by the angle l, on a vertical line through the chosen start; or about the middle of the "
            "window, on a line from there to the right."),
     ACCURACY,
-    Places("starts", "The places of the chosen orbits", 12, (-10.0, -1.0), (10.0, 1.0), "0,0.2"),
-    Places("window", "The window of the section", 2, (-10.0, -1.0), (10.0, 1.0)),
+    Places("starts", "The places of the chosen orbits", 12, (-_TURN, -1.0), (_TURN, 1.0), "0,0.2"),
+    Places("window", "The window of the section", 2, (-_TURN, -1.0), (_TURN, 1.0)),
 )
 
 _RIS = {"I1": 1.0, "I2": 1.5, "I3": 2.0, "m": -math.sqrt(0.5), "span": 60.0, "starts": "2.8,0.3"}
@@ -113,8 +115,6 @@ THUMBNAIL = """
 """
 
 WORDS = Path(__file__).with_suffix(".md").read_text(encoding="utf-8")
-
-Window = tuple[tuple[float, float], tuple[float, float]]
 
 
 @dataclass(frozen=True)
@@ -162,14 +162,7 @@ def body_of(values: Values) -> HeavyBody:
 
 def admit(values: Values) -> tuple[dict[str, Value], list[str]]:
     """A window that is one, and at least one start."""
-    out = dict(values)
-    corners = places(out["window"])
-    if len(corners) == 2:
-        (x0, y0), (x1, y1) = corners
-        ordered = [(min(x0, x1), min(y0, y1)), (max(x0, x1), max(y0, y1))]
-        out["window"] = written(ordered) if x0 != x1 and y0 != y1 else ""
-    elif corners:
-        out["window"] = ""
+    out = {**values, "window": tidy_window(values["window"])}
     if not places(out["starts"]):
         out["starts"] = next(spec.default for spec in SPECS if spec.name == "starts")
     return out, []
@@ -179,12 +172,6 @@ def limits(values: Values) -> Mapping[str, tuple[float, float, float]]:
     """The energy from where the bottom of the potential is."""
     bottom = -math.floor(100.0 * abs(float(values["m"]))) / 100.0
     return {"h": (bottom, max(60.0 if abs(float(values["m"])) > 2.0 else 6.0, bottom + 1.0), 0.01)}
-
-
-def window_of(values: Values) -> Window:
-    """Two opposite corners of what is seen of the section."""
-    corners = places(values["window"])
-    return (corners[0], corners[1]) if len(corners) == 2 else _FULL
 
 
 def _starts(body: HeavyBody, h: float, f: float, chosen: Sequence[tuple[float, float]], window: Window
@@ -284,7 +271,7 @@ def _rotation(values: Values, ends: Window, shares: Sequence[float], orbits: Seq
 def compute(values: Values, shown: Collection[str], dragging: bool) -> EulerPoissonResult:
     """The section, piece by piece; what the other pictures show of the chosen orbit."""
     work = Work(values, dragging)
-    body, window = body_of(values), window_of(values)
+    body, window = body_of(values), window_of(values["window"], _FULL)
     h, f = float(values["h"]), float(values["f"])
     starts, states, note = _starts(body, h, f, places(values["starts"]), window)
     start = states[-1]
@@ -338,8 +325,8 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> EulerPois
 
 def motion(values: Values) -> Motion:
     """The chosen orbit, for "Speed and accuracy".  Raises `ModelError`."""
-    body = body_of(values)
-    _, states, _ = _starts(body, float(values["h"]), float(values["f"]), places(values["starts"]), window_of(values))
+    body, window = body_of(values), window_of(values["window"], _FULL)
+    _, states, _ = _starts(body, float(values["h"]), float(values["f"]), places(values["starts"]), window)
     start = states[-1]
     radius = 0.5 * PIXELS
     return Motion(SYSTEM, start, body.parameters, float(values["span"]), (0.0, 0.0, 0.0, radius, radius, radius), 1.0)
@@ -392,9 +379,9 @@ class EulerPoissonStage:
             self.section.show_impossible(result.impossible, (l0, l1), (x0, x1))
         l = np.linspace(l0, l1, 241)
         self.section.show_line("curve", l, hess_curve(result.body, l))
-        ends = result.rotation.ends if result.rotation is not None else ()
+        ends = inside(result.rotation.ends, result.window) if result.rotation is not None else ()
         self.section.show_line("line", [l for l, _ in ends], [x for _, x in ends])
-        self.section.choose(result.starts)
+        self.section.choose(inside(result.starts, result.window))
         if result.orbit is not None:
             states = result.orbit.states
             l, x = coordinates(states).T
@@ -421,7 +408,8 @@ class EulerPoissonStage:
 
     def pick(self, picture: str, x: float, y: float) -> Values:
         """A click in the section starts an orbit there, besides those of earlier clicks."""
-        return {"starts": written([*self._starts, (x, y)])} if picture == "section" else {}
+        place = (min(max(x, -_TURN), _TURN), min(max(y, -1.0), 1.0))
+        return {"starts": written([*self._starts, place])} if picture == "section" else {}
 
     def box(self, picture: str, corners: tuple[float, float, float, float]) -> Values:
         """A box in the section is the new window."""
@@ -429,7 +417,8 @@ class EulerPoissonStage:
         low, high = max(-1.0, min(y0, y1)), min(1.0, max(y0, y1))
         if picture != "section" or not low < high or x0 == x1:
             return {}
-        return {"window": written([(min(x0, x1), low), (max(x0, x1), high)])}
+        left, right = max(-_TURN, min(x0, x1)), min(_TURN, max(x0, x1))
+        return {"window": written([(left, low), (right, high)])}
 
 
 def _extremum(rotation: Rotation) -> tuple[float, float] | None:

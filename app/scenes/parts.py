@@ -14,7 +14,7 @@ from models.accuracy import LEVELS, Level, Status, cheapest, level
 from models.results import Array, Cost
 from models.torus import HALF_A_PIXEL
 
-__all__ = ["ACCURACY", "Window", "Work", "orbit_status", "refuse", "tidy_window", "window_of"]
+__all__ = ["ACCURACY", "Window", "Work", "inside", "orbit_status", "refuse", "tidy_window", "window_of"]
 
 ACCURACY = Choice("accuracy", "Accuracy", tuple(LEVELS), "standard",
                   "Promised error: draft 1e-3, standard 1e-6, precise 1e-9; reference: the floor of double precision.")
@@ -37,6 +37,12 @@ def window_of(text: Value, full: Window) -> Window:
     """The window that an admitted text means; `full` where it is empty."""
     corners = places(text)
     return (corners[0], corners[1]) if len(corners) == 2 else full
+
+
+def inside(points: Sequence[tuple[float, float]], window: Window) -> list[tuple[float, float]]:
+    """Those of the points that lie in the window."""
+    (x0, y0), (x1, y1) = window
+    return [(x, y) for x, y in points if x0 <= x <= x1 and y0 <= y <= y1]
 
 
 class Work:

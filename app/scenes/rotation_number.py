@@ -13,8 +13,8 @@ import numpy as np
 from app import theme
 from app.compute import Task
 from app.scenes.base import Preset, Report, Scene
-from app.scenes.parts import ACCURACY, Work, refuse
-from app.state import Choice, Number, Places, Value, Values, places, written
+from app.scenes.parts import ACCURACY, Window, Work, inside, refuse, tidy_window, window_of
+from app.state import Choice, Number, Places, Value, Values, written
 from app.views.chart import Series
 from app.views.circle_map import CircleMapView
 from app.views.graph import Graph
@@ -91,14 +91,11 @@ THUMBNAIL = """
 
 WORDS = Path(__file__).with_suffix(".md").read_text(encoding="utf-8")
 
-Window = tuple[tuple[float, float], tuple[float, float]]
-
 
 @dataclass(frozen=True)
 class Rational:
     """The torus of the line with ρ = p/q, and max |Θ^q − id| there."""
 
-    name: str
     torus: Torus
     defect: float
 
@@ -136,11 +133,7 @@ def admit(values: Values) -> tuple[dict[str, Value], list[str]]:
     if abs(f) > largest:
         out["f"] = math.copysign(largest, f)
         notes.append(f"At h = {number(h)} only |f| ≤ {number(largest)} is possible: f is at that edge now.")
-    corners = places(out["window"])
-    if corners:
-        (x0, y0), (x1, y1) = corners[0], corners[-1]
-        ordered = [(min(x0, x1), min(y0, y1)), (max(x0, x1), max(y0, y1))]
-        out["window"] = written(ordered) if x0 != x1 and y0 != y1 else ""
+    out["window"] = tidy_window(out["window"])
     return out, notes
 
 
@@ -155,13 +148,13 @@ def axes_of(values: Values) -> tuple[str, str]:
     return x, y
 
 
-def window_of(values: Values) -> Window:
-    """The ranges of both axes, within what is allowed."""
-    names, corners = axes_of(values), places(values["window"])
-    if len(corners) != 2:
-        return _FULL[names[0]], _FULL[names[1]]
+def ranges_of(values: Values) -> Window:
+    """The ranges of both axes, within what is allowed: of the horizontal one and of the vertical one."""
+    names = axes_of(values)
+    full = (_FULL[names[0]], _FULL[names[1]])
+    corners = window_of(values["window"], ((full[0][0], full[1][0]), (full[0][1], full[1][1])))
     x, y = ((max(corners[0][i], _AT_MOST[names[i]][0]), min(corners[1][i], _AT_MOST[names[i]][1])) for i in (0, 1))
-    return (x if x[0] < x[1] else _FULL[names[0]]), (y if y[0] < y[1] else _FULL[names[1]])
+    return (x if x[0] < x[1] else full[0]), (y if y[0] < y[1] else full[1])
 
 
 def _centres(low: float, high: float, count: int) -> Array:
@@ -195,21 +188,25 @@ def _ladder(name: str, torus: Torus, low: float, high: float, epsilon: float) ->
     return frozen(out)
 
 
-def _rational(text: str, name: str, torus: Torus, low: float, high: float) -> tuple[Rational | None]:
-    p, q = (int(part) for part in text.replace("−", "-").split("/"))
-    sign = -1 if torus.f < 0.0 else 1
-    place = place_of(sign * p / q, name, torus, low, high, REFERENCE)
+def sought(values: Values) -> Fraction:
+    """The rational number that is looked for on the line: for f < 0 ρ is positive."""
+    rho = Fraction(str(values["rational"]).replace("−", "-"))
+    return -rho if values["line"] != "f" and float(values["f"]) < 0.0 else rho
+
+
+def _rational(rho: Fraction, name: str, torus: Torus, low: float, high: float) -> tuple[Rational | None]:
+    place = place_of(float(rho), name, torus, low, high, REFERENCE)
     if place is None:
         return (None,)
     found = torus.at(**{name: place})
-    return (Rational(text, found, closed_after(found, q, REFERENCE)),)
+    return (Rational(found, closed_after(found, rho.denominator, REFERENCE)),)
 
 
 def compute(values: Values, shown: Collection[str], dragging: bool) -> RotationResult:
     """The map, coarse first; ρ and trace along the line; the circle map of the torus."""
     work = Work(values, dragging)
     torus = Torus(*(float(values[name]) for name in ("a", "h", "f")))
-    plane, line, window = str(values["plane"]), str(values["line"]), window_of(values)
+    plane, line, window = str(values["plane"]), str(values["line"]), ranges_of(values)
     names = axes_of(values)
     # Only what the map depends on: it stays while the torus moves in its plane.
     beside = torus.at(**dict.fromkeys(names, 0.0))
@@ -233,7 +230,7 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> RotationR
         along = work.get(_along, line, on_line, low, high, count)
     if "line" in shown and not dragging:
         perturbed = work.later(_ladder, line, on_line, low, high, float(values["epsilon"]))
-        found = work.later(_rational, str(values["rational"]), line, on_line, low, high)
+        found = work.later(_rational, sought(values), line, on_line, low, high)
         rational = found[0] if found is not None else None
     theta: CircleMap | None = None
     iterates = np.empty(0)
@@ -304,13 +301,17 @@ class RotationStage:
             cells = (field.reshape(n, m) for field in (grid.rho, grid.possible, grid.locked))
             self.map.show(*cells, *result.window)
         (x0, x1), (y0, y1) = result.window
-        across = [np.array([[x0, torus[y]], [x1, torus[y]]])] if self._line == x else (
-            [np.array([[torus[x], y0], [torus[x], y1]])] if self._line == y else [])
+        across = []
+        if self._line == x and y0 <= torus[y] <= y1:
+            across = [np.array([[x0, torus[y]], [x1, torus[y]]])]
+        elif self._line == y and x0 <= torus[x] <= x1:
+            across = [np.array([[torus[x], y0], [torus[x], y1]])]
         curves = []
         if result.boundary is not None and len(result.boundary):
             curves = [result.boundary, result.boundary * np.array([1.0, -1.0])] if y == "f" else [result.boundary]
         self.map.show_lines(curves, across)
-        self.map.show_here(torus[x], torus[y], f"{x} across, {y} up")
+        here = inside([(torus[x], torus[y])], ((x0, y0), (x1, y1)))
+        self.map.show_here(here, f"{x} across, {y} up")
 
     def _show_line(self, result: RotationResult) -> None:
         here = vars(result.torus)[self._line]
@@ -324,15 +325,20 @@ class RotationStage:
             view.assign(name, xs=[part.astype(np.float32) for part, _ in drawn],
                         ys=[part.astype(np.float32) for _, part in drawn])
         self.trace.show_levels([2.0])
-        self.line.show_levels([] if result.rational is None else [_value(result.rational.name, result.torus.f)])
+        self.line.show_levels([] if result.rational is None else [float(sought(result.values))])
         if result.perturbed is None:
             self.line.clear("other")
         else:
             drawn = _parts(result.x, result.perturbed, result.along.possible, 0.3)
             self.line.assign("other", xs=[part.astype(np.float32) for part, _ in drawn],
                              ys=[part.astype(np.float32) for _, part in drawn])
-        self.line.choose(here, float(np.interp(here, result.x, result.along.rho)))
-        self.trace.choose(here, float(np.interp(here, result.x, np.minimum(result.along.trace, 50.0))))
+        for view, y in ((self.line, along.rho), (self.trace, along.trace)):
+            height = float(np.interp(here, result.x, np.minimum(y, 50.0)))
+            (x0, x1), (y0, y1) = view.x_range, view.y_range
+            if inside([(here, height)], ((x0, y0), (x1, y1))):
+                view.choose(here, height)
+            else:
+                view.clear("chosen")
 
     def fail(self, sentence: str) -> None:
         """Empty pictures, and the sentence where the eye is."""
@@ -348,11 +354,6 @@ class RotationStage:
         """A box in the map is the new window."""
         x0, y0, x1, y1 = corners
         return {"window": written([(x0, y0), (x1, y1)])} if picture == "map" else {}
-
-
-def _value(text: str, f: float) -> float:
-    p, q = (int(part) for part in text.replace("−", "-").split("/"))
-    return -p / q if f < 0.0 else p / q
 
 
 def _steps(rho: Array, possible: Array) -> set[str]:
@@ -377,13 +378,14 @@ def _captions(result: RotationResult) -> dict[str, str]:
         "line": f"ρ along {line}\nNo plateau but ρ = 0.",
         "trace": f"|trace| along {line}\nElliptic below 2: no cycle; hyperbolic above: two limit cycles.",
     }
+    rho = sought(result.values)
+    name = str(rho).replace("-", "−")
     if result.rational is not None:
         place = number(vars(result.rational.torus)[line], 6)
-        q = result.rational.name.rpartition("/")[2]
-        captions["line"] = (f"ρ along {line}\nρ = {result.rational.name} at {line} = {place}: |Θ^{q} − id| ≤ "
+        captions["line"] = (f"ρ along {line}\nρ = {name} at {line} = {place}: |Θ^{rho.denominator} − id| ≤ "
                             f"{number(result.rational.defect, 1)}, every orbit is periodic.")
     elif result.perturbed is not None:
-        captions["line"] = f"ρ along {line}\nNo torus of the line has ρ = {result.values['rational']}."
+        captions["line"] = f"ρ along {line}\nNo torus of the line has ρ = {name}."
     if result.map is not None:
         kind = {"elliptic": "no cycle", "parabolic": "one cycle", "hyperbolic": "two cycles"}[result.map.kind]
         captions["circle"] = (f"Circle map\na = {number(torus.a)}, h = {number(torus.h)}, f = {number(torus.f)}: "

@@ -12,7 +12,7 @@ import numpy as np
 from app import theme
 from app.compute import Task
 from app.scenes.base import Motion, Preset, Report, Scene
-from app.scenes.parts import ACCURACY, Window, Work, orbit_status, refuse, tidy_window, window_of
+from app.scenes.parts import ACCURACY, Window, Work, inside, orbit_status, refuse, tidy_window, window_of
 from app.state import Choice, Number, Places, Value, Values, places, written
 from app.views.chart import Series
 from app.views.graph import Graph
@@ -51,6 +51,8 @@ _BASIN_CELLS = (36, 24)
 _BASIN_CROSSINGS = 240
 _COURSE = 4001
 _CELLS = 32
+_TURN = 3.14159
+"""Half a turn, as a place in a link is written."""
 _FULL = ((-math.pi, 0.0), (math.pi, math.pi))
 _PLANES = {"γ₃ = 0": 3, "γ₁ = 0": 1, "γ₂ = 0": 2}
 
@@ -76,8 +78,8 @@ SPECS = (
     Number("long", "T", "Time of the exponent", 1000.0, 10.0, 5000.0, 10.0, 1.0, 2e4,
            "How long the Lyapunov exponent and the divergence are averaged."),
     ACCURACY,
-    Places("starts", "The places of the chosen orbits", 12, (-10.0, 0.0), (10.0, 3.2), "1,1"),
-    Places("window", "The window of the section", 2, (-10.0, 0.0), (10.0, 3.2)),
+    Places("starts", "The places of the chosen orbits", 12, (-_TURN, 0.0), (_TURN, _TURN), "1,1"),
+    Places("window", "The window of the section", 2, (-_TURN, 0.0), (_TURN, _TURN)),
 )
 
 
@@ -119,6 +121,7 @@ LEGEND = """
 
 THUMBNAIL = """
 <rect x="4" y="3" width="40" height="26" fill="none" stroke="#808080"/>
+<path d="M26 3v26" stroke="#808080" stroke-dasharray="2 2"/>
 <g stroke-width="2.4" stroke-linecap="round">
 <path d="M8 9h.1M12 13h.1M15 8h.1M20 11h.1M11 18h.1M17 16h.1M22 7h.1M24 14h.1M9 24h.1M15 22h.1" stroke="#0072B2"/>
 <path d="M29 20h.1M33 24h.1M37 19h.1M40 23h.1M31 15h.1M36 13h.1M41 15h.1M28 25h.1M24 20h.1M38 8h.1" stroke="#D55E00"/>
@@ -384,7 +387,7 @@ class SuslovStage:
             self.section.clear("basins")
         else:
             self.section.show_basins(result.basin, (x0, x1), (y0, y1))
-        self.section.choose(result.starts)
+        self.section.choose(inside(result.starts, result.window))
 
     def _show_exponent(self, result: SuslovResult, hold_axes: bool) -> None:
         if result.exponent is None or result.course is None:
@@ -407,15 +410,17 @@ class SuslovStage:
 
     def pick(self, picture: str, x: float, y: float) -> Values:
         """A click in the section starts an orbit there, besides those of earlier clicks."""
-        return {"starts": written([*self._starts, (x, y)])} if picture == "section" else {}
+        place = (min(max(x, -_TURN), _TURN), min(max(y, 0.0), _TURN))
+        return {"starts": written([*self._starts, place])} if picture == "section" else {}
 
     def box(self, picture: str, corners: tuple[float, float, float, float]) -> Values:
         """A box in the section is the new window."""
         x0, y0, x1, y1 = corners
-        low, high = max(0.0, min(y0, y1)), min(math.pi, max(y0, y1))
+        low, high = max(0.0, min(y0, y1)), min(_TURN, max(y0, y1))
         if picture != "section" or not low < high or x0 == x1:
             return {}
-        return {"window": written([(min(x0, x1), low), (max(x0, x1), high)])}
+        left, right = max(-_TURN, min(x0, x1)), min(_TURN, max(x0, x1))
+        return {"window": written([(left, low), (right, high)])}
 
 
 def _cells(points: Array) -> int:

@@ -17,17 +17,20 @@ __all__ = ["LayeredSection"]
 class LayeredSection(Figure):
     """Grey: impossible.  A click starts an orbit, a box looks closer.
 
-    The source "data-orbit" holds the path of the chosen orbit through the plane, columns l, x.
+    path : whether the source "data-orbit" is drawn here, the way of the chosen orbit over the plane, columns l, x.
     """
 
-    def __init__(self, wire: Wire, name: str, labels: tuple[str, str], x_range: Range, y_range: Range) -> None:
+    def __init__(self, wire: Wire, name: str, labels: tuple[str, str], x_range: Range, y_range: Range,
+                 path: bool = False) -> None:
         super().__init__(wire, name, labels, x_range, y_range, picks=("tap", "doubletap", "box"))
         self.add_image("basins", (theme.FORBIDDEN + "00", theme.POINT + "90", theme.STABLE + "70"), 0.0, 3.0)
         self.add_image("impossible", (theme.FORBIDDEN + "00", theme.FORBIDDEN), 0.0, 1.0)
         self.add("first", "scatter", ("x", "y"), marker="dot", size=5, color=theme.ORBIT)
         self.add("second", "scatter", ("x", "y"), marker="dot", size=5, color=theme.UNSTABLE)
         self.add("curve", "line", ("x", "y"), color=theme.STABLE, line_width=2)
-        self.add("path", "scatter", ("l", "x"), source="data-orbit", marker="dot", size=3, color=theme.MAP, alpha=0.4)
+        if path:
+            self.add("path", "scatter", ("l", "x"), source="data-orbit", marker="dot", size=3, color=theme.MAP,
+                     alpha=0.4)
         self.add("line", "line", ("x", "y"), color=theme.MUTED, line_dash="dashed", line_width=1.5)
         self.add("own", "scatter", ("x", "y"), marker="dot", size=10, color=theme.MAP)
         self.add("chosen", "scatter", ("x", "y"), size=16, fill_alpha=0, line_color=theme.MAP, line_width=3)

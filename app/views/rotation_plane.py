@@ -42,8 +42,8 @@ class RotationPlane(Figure):
             self.assign(layer, xs=[curve[:, 0].astype(np.float32) for curve in curves],
                         ys=[curve[:, 1].astype(np.float32) for curve in curves])
 
-    def show_here(self, x: float, y: float, names: str) -> None:
-        """The torus on show; what the axes are, where that is not always the same."""
+    def show_here(self, places: Sequence[tuple[float, float]], names: str) -> None:
+        """The torus on show, if it is in sight; what the axes are, where that is not always the same."""
         for layer in ("here", "here-too"):
-            self.assign(layer, x=[x], y=[y])
+            self.assign(layer, x=[x for x, _ in places], y=[y for _, y in places])
         self.assign("names", x=[self.x_range[1]], y=[self.y_range[0]], text=[names])
