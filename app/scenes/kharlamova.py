@@ -84,7 +84,7 @@ LEGEND = """
 <li><span class="dot" style="background: #CC79A7"></span>its mirror image, t → −t</li>
 <li><span class="line stable"></span>stable fixed points</li>
 <li><span class="line unstable"></span>unstable fixed points</li>
-<li><span class="line muted"></span>equipotentials; the parabola</li>
+<li><span class="line muted"></span>equipotentials</li>
 <li><span class="box forbidden"></span>impossible</li>
 </ul>
 """
@@ -261,15 +261,15 @@ class ArcStage:
         self.domain.show_curves("levels", levels)
         self.domain.show_curves("stable", _runs(boundary, kind > 0.0))
         self.domain.show_curves("unstable", _runs(boundary, kind < 0.0))
-        low, high = result.arc.tau
-        more = high - low or 1.0 / (result.arc.rate or 1.0)
+        low, high = _ends(result.arc)
+        more = 0.5 * (high - low) or 1.0 / (result.arc.rate or 1.0)
         u = result.arc.u(np.linspace(low - more, high + more, 181))
         self.domain.show_curves("path", [_to_q(body, u)] if result.arc.kind != "fixed" else [])
         self.domain.show_start(_to_q(body, result.arc.u0[None])[0])
 
     def _show_curve(self, result: ArcResult, hold_axes: bool) -> None:
         found = result.arc
-        low, high = min(found.tau + (found.other or ())), max(found.tau + (found.other or ()))
+        low, high = _ends(found)
         if not hold_axes:
             half, middle = nice_above(0.6 * ((high - low) or 1.0 / (found.rate or 1.0))), 0.5 * (low + high)
             self.curve.set_ranges((middle - half, middle + half), (-1.1, 1.1))
@@ -315,6 +315,12 @@ class ArcStage:
         if picture == "domain":
             return {"q1": x, "q2": y}
         return {"alpha": x} if picture == "period" else {}
+
+
+def _ends(found: Arc) -> tuple[float, float]:
+    """The ends in τ of all that is inside the domain, with the other orbit's arc."""
+    both = found.tau + (found.other or ())
+    return min(both), max(both)
 
 
 def _to_q(body: PlaneBody, u: Array) -> Array:
