@@ -74,14 +74,16 @@ SPECS = (
     Places("window", "The window of the section", 2, (-_TURN, -1.0), (_TURN, 1.0)),
 )
 
-_RIS = {"I1": 1.0, "I2": 1.5, "I3": 2.0, "m": -math.sqrt(0.5), "span": 60.0, "starts": "2.8,0.3"}
+# An example says also along what the rotation number is looked at: choices else stay as they were.
+_ALONG = {"turns": "along l"}
+_RIS = {**_ALONG, "I1": 1.0, "I2": 1.5, "I3": 2.0, "m": -math.sqrt(0.5), "span": 60.0, "starts": "2.8,0.3"}
 _BELOW, _AT, _ABOVE = "a curve in a regular leaf", "the separatrix", "two layers part"
 PRESETS = (
-    Preset("Two layers that never mix (figure gess1)", {}),
+    Preset("Two layers that never mix (figure gess1)", _ALONG),
     Preset("Meandering torus (figure gess2)", {
         "window": "-2.25,-0.27;-1.45,0.33", "turns": "about the middle", "starts": "-1.558,0.03", "orbits": 40.0,
         "count": 600.0}),
-    Preset("The barrier breaks: 0.02 away from Hess", {"away": 0.02, "count": 600.0}),
+    Preset("The barrier breaks: 0.02 away from Hess", {**_ALONG, "away": 0.02, "count": 600.0}),
     *(Preset(f"gess-ris1 {letter}: f = 0, h = {h:.4g}, {what}", {**_RIS, "h": h, "f": 0.0}) for letter, h, what in (
         ("a", -0.4, _BELOW), ("b", 0.0, _BELOW), ("c", 0.5, _BELOW), ("d", math.sqrt(0.5), _AT), ("e", 1.0, _ABOVE),
         ("f", 2.0, _ABOVE))),
