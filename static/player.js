@@ -165,6 +165,8 @@ export function render({ model, view, el }) {
     watching = new AbortController()
     scene = event.detail
     source = window.hess.source("data-orbit") ?? null
+    // A scene without a motion needs no time.
+    bar.hidden = source === null
     source?.watch(onData, watching.signal)
     onData()
   }

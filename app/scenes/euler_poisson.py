@@ -121,9 +121,13 @@ WORDS = Path(__file__).with_suffix(".md").read_text(encoding="utf-8")
 
 @dataclass(frozen=True)
 class Rotation:
-    """Rotation numbers `rho` of the orbits that start at `along` on the line `ends`, in parts without a gap."""
+    """Rotation numbers `rho` of the orbits that start at `along` on the line `ends`, in parts without a gap.
+
+    complete : whether all orbits of the line are known.
+    """
 
     ends: Window
+    complete: bool
     along: tuple[Array, ...]
     rho: tuple[Array, ...]
 
@@ -247,7 +251,8 @@ def _on_line(body: HeavyBody, h: float, f: float, ends: Window) -> tuple[tuple[f
                  for share, state in zip(shares[growing], states[growing], strict=True))
 
 
-def _rotation(values: Values, ends: Window, shares: Sequence[float], orbits: Sequence[Array]) -> Rotation:
+def _rotation(values: Values, ends: Window, shares: Sequence[float], orbits: Sequence[Array], complete: bool
+              ) -> Rotation:
     """Rotation numbers of the orbits that are closed curves."""
     centre = None if values["turns"] == "along l" else ends[0]
     axis = 1 if centre is None else 0
@@ -267,7 +272,7 @@ def _rotation(values: Values, ends: Window, shares: Sequence[float], orbits: Seq
         along[-1].append((1.0 - share) * ends[0][axis] + share * ends[1][axis])
         rho[-1].append(turns)
         last = share
-    return Rotation(ends, tuple(map(np.array, along)), tuple(map(np.array, rho)))
+    return Rotation(ends, complete, tuple(map(np.array, along)), tuple(map(np.array, rho)))
 
 
 def compute(values: Values, shown: Collection[str], dragging: bool) -> EulerPoissonResult:
@@ -311,7 +316,7 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> EulerPois
             if found is not None:
                 shares += [share for share, _ in piece]
                 orbits += found[0]
-        rotation = _rotation(values, ends, shares, orbits)
+        rotation = _rotation(values, ends, shares, orbits, len(shares) == len(on_line))
     exponent = None
     if "exponent" in shown and not dragging:
         exponent = get(_exponent, body, start, float(values["long"]))
@@ -401,7 +406,7 @@ class EulerPoissonStage:
             self.rotation.set_ranges((rotation.ends[0][axis], rotation.ends[1][axis]),
                                      (float(values.min()) - room, float(values.max()) + room))
         self.rotation.name_across("L/G" if axis else "l")
-        if not values.size:
+        if not values.size and rotation.complete:
             self.rotation.say("No orbit of the line is a closed curve")
 
     def fail(self, sentence: str) -> None:
@@ -455,7 +460,8 @@ def _captions(result: EulerPoissonResult) -> dict[str, str]:
             + ("." if turning is None else
                f"; it turns round at {number(turning[0])} with ρ = {_turns(turning[1])}: no twist there."))
     elif result.rotation is not None:
-        captions["rotation"] = "Rotation number across the section\nNo orbit of the line is a closed curve."
+        captions["rotation"] = "Rotation number across the section\n" + (
+            "No orbit of the line is a closed curve." if result.rotation.complete else "It is being computed.")
     if result.exponent is not None:
         exponent = result.exponent
         # A regular motion's neighbour goes away no faster than t: the mean then falls as ln(t)/t.
