@@ -107,7 +107,8 @@ def _scan(body: HeavyBody, h: float, f: float, l: Array, x: Array, count: int = 
     top = np.sqrt(np.maximum(0.0, 2.0 * (h + body.strength) / K))
     smallest = abs(f) if f else 0.0
     share = np.linspace(0.0, 1.0, count) ** 2
-    G = np.maximum(top, smallest) + (smallest - np.maximum(top, smallest)) * share
+    top = np.maximum(top, smallest)
+    G = np.maximum(smallest, top + (smallest - top) * share)
     return G, _energy(G, f, K, P, Q) - h, factors
 
 

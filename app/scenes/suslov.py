@@ -21,7 +21,7 @@ from app.views.poisson_sphere import PoissonSphere
 from app.views.velocity_plane import VelocityPlane, nice_above, sphere_columns
 from app.wire import Wire
 from app.words import number
-from models.accuracy import DRAFT, STANDARD, Level
+from models.accuracy import DRAFT, STANDARD, Level, cheapest
 from models.errors import InvalidParameter
 from models.lyapunov import Exponent, largest_exponent
 from models.orbit import solve
@@ -39,7 +39,7 @@ from models.suslov_section import (
     states_at,
     suslov_points,
 )
-from models.torus import PIXELS, SAGITTA
+from models.torus import HALF_A_PIXEL, PIXELS, SAGITTA
 
 _MOST = 4000
 _PIECE = 4
@@ -269,7 +269,10 @@ def _weights(body: SuslovBody, E: float) -> Array:
 
 def _orbit(body: SuslovBody, E: float, start: tuple[float, ...], span: float, accuracy: Level) -> Orbit:
     times = sample_times(SYSTEM, np.array(start), np.array(body.parameters), span, _weights(body, E), SAGITTA, _MOST)
-    return solve(SYSTEM, start, body.parameters, times, accuracy)
+    # Near the bottom the motion is small beside the velocities of which a level promises a part.
+    share = _half_width(body, E) / float(SYSTEM.frequency(np.array(start), np.array(body.parameters)))
+    level = max(accuracy, cheapest(HALF_A_PIXEL * share), key=lambda rung: rung.order)
+    return solve(SYSTEM, start, body.parameters, times, level)
 
 
 def compute(values: Values, shown: Collection[str], dragging: bool) -> SuslovResult:
