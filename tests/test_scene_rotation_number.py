@@ -150,7 +150,7 @@ def test_the_map_of_an_example_shows_the_number_where_it_belongs(name):
     view = example(name)
     assert view.report.todo == ()
     assert "map 300 × 200" in view.report.status
-    across, up = view.values["plane"].split(", ")
+    across, up = view.values["over"].split(", ")
     image = view.data["map-rho"]
     rho = np.asarray(image["image"][0]).reshape(200, 300)
     zones = np.asarray(view.data["map-zones"]["image"][0]).reshape(200, 300)
@@ -169,7 +169,7 @@ def test_the_map_of_an_example_shows_the_number_where_it_belongs(name):
         assert rho[row, column] == pytest.approx(exact.rotation_number, abs=1e-5)
         assert zone == (2.5 if exact.trace > 2.0 else 0.5)
         seen.add(exact.kind)
-    assert len(seen) >= (1 if view.values["window"] else 2)
+    assert len(seen) >= (1 if view.values["part"] else 2)
     # The ring at the torus, the dashed line through it.
     here = view.data["map-here"]
     assert (here["x"][0], here["y"][0]) == (torus[across], torus[up])
@@ -212,7 +212,7 @@ def test_a_picture_that_is_not_seen_is_not_computed():
 @pytest.mark.parametrize("line", ["a", "h", "f"])
 @pytest.mark.parametrize("f", [0.6, -0.6])
 def test_every_plane_and_line_shows_finite_numbers(plane, line, f):
-    view = Settled(SCENE, {"plane": plane, "line": line, "f": f, "epsilon": 0.0})
+    view = Settled(SCENE, {"over": plane, "line": line, "f": f, "epsilon": 0.0})
     view.assert_finite()
     assert view.report.todo == ()
     x, rho = curve(view, "line-rho")
@@ -241,13 +241,13 @@ def test_f_outside_the_region_is_put_on_its_edge_and_said():
 @pytest.mark.parametrize(("text", "window"), [
     ("0.5,1;0.2,-1", "0.2,-1;0.5,1"), ("0.5,1;0.5,2", ""), ("0.5,1;0.7,1", ""), ("", "")])
 def test_a_window_is_brought_into_order(text, window):
-    assert SCENE.admit({**SCENE.defaults(), "window": text})[0]["window"] == window
+    assert SCENE.admit({**SCENE.defaults(), "part": text})[0]["part"] == window
 
 
 def test_a_window_beyond_what_is_allowed_is_cut():
-    view = Settled(SCENE, {"window": "-50,-2;3,2"}, seen=("map",))
+    view = Settled(SCENE, {"part": "-50,-2;3,2"}, seen=("map",))
     assert view.result.window[0] == (-1.0, 3.0)
-    outside = Settled(SCENE, {"window": "-50,-2;-20,2"}, seen=("map",))
+    outside = Settled(SCENE, {"part": "-50,-2;-20,2"}, seen=("map",))
     assert outside.result.window[0] == (-1.0, 4.0)
 
 
@@ -268,16 +268,16 @@ def test_extreme_values_are_shown(values):
 
 
 def test_a_click_in_the_map_chooses_the_torus_and_one_on_the_line_its_place():
-    view = Settled(SCENE, {"plane": "f, a", "line": "h"})
+    view = Settled(SCENE, {"over": "f, a", "line": "h"})
     stage = view.stage
     assert stage.pick("map", 0.4, 0.7) == {"f": 0.4, "a": 0.7}
     assert stage.pick("line", 0.3, -0.2) == stage.pick("trace", 0.3, 3.0) == {"h": 0.3}
     assert stage.pick("circle", 0.3, 3.0) == {}
     assert isinstance(stage, Boxed)
-    assert SCENE.admit({**SCENE.defaults(), **stage.box("map", (0.9, 0.1, 0.2, 0.5))})[0]["window"] == "0.2,0.1;0.9,0.5"
+    assert SCENE.admit({**SCENE.defaults(), **stage.box("map", (0.9, 0.1, 0.2, 0.5))})[0]["part"] == "0.2,0.1;0.9,0.5"
     assert stage.box("line", (0.9, 0.1, 0.2, 0.5)) == {}
 
 
 def test_examples_say_which_plane_their_window_is_in():
     for preset in SCENE.presets:
-        assert {"plane", "line"} <= set(preset.values)
+        assert {"over", "line"} <= set(preset.values)

@@ -51,24 +51,24 @@ SPECS = (
            "a = I₂₃/I₂₂ in the Suslov problem, √((a₃−a₂)(a₂−a₁))/a₂ in Euler–Poisson; a body has |a| < 1."),
     Number("h", "h", "Energy h", 0.5, -0.99, 4.0, 0.005, -1.0 + 1e-9, 1e6, "Energy integral in units b = 1."),
     Number("f", "f", "Area integral f", 0.8, -3.0, 3.0, 0.005, -1e4, 1e4, "Area integral in units b = 1."),
-    Choice("plane", "Map over", PLANES, "h, f", "The two parameters of the map; the third stays."),
+    Choice("over", "Map over", PLANES, "h, f", "The two parameters of the map; the third stays."),
     Choice("line", "Line along", ("f", "h", "a"), "f", "The parameter along which ρ and the trace are drawn."),
     Choice("rational", "Rational number", _RATIONALS, "−1/4",
            "On the line the torus with this ρ is looked for, and how many cycles it has."),
     Number("epsilon", "ε", "Away from Möbius, ε", 0.25, 0.0, 0.3, 0.005, 0.0, 0.33,
            "The other family: Θ(φ + ε sin 3φ). It is no Möbius map, and its ρ makes a ladder."),
     ACCURACY,
-    Places("window", "The window of the map", 2, (-100.0, -1e4), (1e6, 1e4)),
+    Places("part", "The window of the map", 2, (-100.0, -1e4), (1e6, 1e4)),
 )
 
 PRESETS = (
-    Preset("One plateau, and no ladder", {"plane": "h, f", "line": "f"}),
-    Preset("Along h", {"plane": "h, f", "line": "h", "f": 0.6}),
-    Preset("Along a, to the boundary of the plateau", {"plane": "h, a", "line": "a", "h": 0.5, "f": 0.6}),
+    Preset("One plateau, and no ladder", {"over": "h, f", "line": "f"}),
+    Preset("Along h", {"over": "h, f", "line": "h", "f": 0.6}),
+    Preset("Along a, to the boundary of the plateau", {"over": "h, a", "line": "a", "h": 0.5, "f": 0.6}),
     Preset("A closer look at ρ = −1/3", {
-        "plane": "h, f", "line": "f", "window": "0.1,0.4;0.3,0.6", "rational": "−1/3", "h": 0.25, "f": 0.45}),
+        "over": "h, f", "line": "f", "part": "0.1,0.4;0.3,0.6", "rational": "−1/3", "h": 0.25, "f": 0.45}),
     Preset("Euler–Poisson, figure gess1", {
-        "plane": "h, f", "line": "h", "h": 5.01253, "f": 2.0025, "window": "-1,-4;8,4"}),
+        "over": "h, f", "line": "h", "h": 5.01253, "f": 2.0025, "part": "-1,-4;8,4"}),
 )
 
 LEGEND = """
@@ -133,7 +133,7 @@ def admit(values: Values) -> tuple[dict[str, Value], list[str]]:
     if abs(f) > largest:
         out["f"] = math.copysign(largest, f)
         notes.append(f"At h = {number(h)} only |f| ≤ {number(largest)} is possible: f is at that edge now.")
-    out["window"] = tidy_window(out["window"])
+    out["part"] = tidy_window(out["part"])
     return out, notes
 
 
@@ -144,7 +144,7 @@ def limits(values: Values) -> Mapping[str, tuple[float, float, float]]:
 
 def axes_of(values: Values) -> tuple[str, str]:
     """The parameters on the horizontal and the vertical axis of the map."""
-    x, y = str(values["plane"]).split(", ")
+    x, y = str(values["over"]).split(", ")
     return x, y
 
 
@@ -152,7 +152,7 @@ def ranges_of(values: Values) -> Window:
     """The ranges of both axes, within what is allowed: of the horizontal one and of the vertical one."""
     names = axes_of(values)
     full = (_FULL[names[0]], _FULL[names[1]])
-    corners = window_of(values["window"], ((full[0][0], full[1][0]), (full[0][1], full[1][1])))
+    corners = window_of(values["part"], ((full[0][0], full[1][0]), (full[0][1], full[1][1])))
     x, y = ((max(corners[0][i], _AT_MOST[names[i]][0]), min(corners[1][i], _AT_MOST[names[i]][1])) for i in (0, 1))
     return (x if x[0] < x[1] else full[0]), (y if y[0] < y[1] else full[1])
 
@@ -206,7 +206,7 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> RotationR
     """The map, coarse first; ρ and trace along the line; the circle map of the torus."""
     work = Work(values, dragging)
     torus = Torus(*(float(values[name]) for name in ("a", "h", "f")))
-    plane, line, window = str(values["plane"]), str(values["line"]), ranges_of(values)
+    plane, line, window = str(values["over"]), str(values["line"]), ranges_of(values)
     names = axes_of(values)
     # Only what the map depends on: it stays while the torus moves in its plane.
     beside = torus.at(**dict.fromkeys(names, 0.0))
@@ -353,7 +353,7 @@ class RotationStage:
     def box(self, picture: str, corners: tuple[float, float, float, float]) -> Values:
         """A box in the map is the new window."""
         x0, y0, x1, y1 = corners
-        return {"window": written([(x0, y0), (x1, y1)])} if picture == "map" else {}
+        return {"part": written([(x0, y0), (x1, y1)])} if picture == "map" else {}
 
 
 def _steps(rho: Array, possible: Array) -> set[str]:
@@ -373,7 +373,7 @@ def _captions(result: RotationResult) -> dict[str, str]:
     line = str(result.values["line"])
     torus = result.torus
     captions = {
-        "map": f"Rotation number ρ over ({result.values['plane']})\nOne plateau, ρ = 0, where it locks; else ρ changes "
+        "map": f"Rotation number ρ over ({result.values['over']})\nOne plateau, ρ = 0, where it locks; else ρ changes "
                "everywhere.",
         "line": f"ρ along {line}\nNo plateau but ρ = 0.",
         "trace": f"|trace| along {line}\nElliptic below 2: no cycle; hyperbolic above: two limit cycles.",
