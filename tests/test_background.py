@@ -477,7 +477,7 @@ def test_a_click_where_nothing_is_possible_is_answered_by_another_start(free_gat
     loxodromic = {"I2": 1.5, "I3": 2.0, "m": -math.sqrt(0.5), "h": 0.0, "f": 0.0, "starts": "2.8,0.3"}
     browser = Browser(EP, {**SMALL, **loxodromic})
     browser.ask(1, picked=["section", 0.0, 0.0])
-    assert "no motion has this h and f: the chosen orbit starts at l = " in browser.texts["notes"]
+    assert "no motion with this h and f crosses the section: the chosen orbit starts at l = " in browser.texts["notes"]
     assert len(browser.data["section-chosen"]["x"]) == 1
 
 

@@ -19,6 +19,7 @@ if __name__ == "__main__":
     sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parent.parent)]
 
 import extremes_ball
+import extremes_euler_poisson
 import oracle
 
 from models import (
@@ -645,6 +646,7 @@ ROWS = [
     circle_joined("δ = 5e-301", FIGURE_3, (2.0, 1e-300), [1.0, 690.0, 692.0, 740.0]),
     circle_joined("δ = 5e-301, the other arc", FIGURE_3, (2.0, -1e-300), [1.0, 690.0, 692.0, 740.0]),
     *extremes_ball.rows(Row, an_orbit, symmetric, there_and_back, drift),
+    *extremes_euler_poisson.rows(Row, symmetric, there_and_back, drift),
 ]
 
 REFUSALS = [
@@ -695,6 +697,7 @@ REFUSALS = [
     Refusal("track, b3 = 0", lambda grade: track(HessBody(1.0, 0.5, 0.0), 1.5, 0.6, 0.0, 10.0, grade, 4.0), NoField,
             "b3 = 0.*Choose b3 other than 0"),
     *extremes_ball.refusals(Refusal),
+    *extremes_euler_poisson.refusals(Refusal),
 ]
 
 
