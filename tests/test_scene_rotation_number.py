@@ -20,6 +20,7 @@ from test_wire import read
 from app.compute import CACHE
 from app.scenes import scenes
 from app.scenes.base import Boxed
+from app.state import decode
 from app.wire import Wire
 from models import circle_map, f_max
 from models.accuracy import REFERENCE
@@ -281,3 +282,11 @@ def test_a_click_in_the_map_chooses_the_torus_and_one_on_the_line_its_place():
 def test_examples_say_which_plane_their_window_is_in():
     for preset in SCENE.presets:
         assert {"over", "line"} <= set(preset.values)
+
+
+def test_what_a_link_says_wrongly_is_put_right_and_said():
+    values, notes = decode("h=abc&a=1e9&epsilon=0.9&over=x&part=1,nan;2,3", SCENE.specs)
+    assert (values["h"], values["a"], values["epsilon"], values["over"], values["part"]) == (0.5, 100.0, 0.33, "h, f", "")
+    said = " ".join(notes)
+    for word in ("h was not a number", "a lies between", "ε lies between", "Map over was not", "The window of the map"):
+        assert word in said
