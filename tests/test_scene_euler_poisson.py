@@ -296,7 +296,8 @@ def test_what_cannot_be_shown_is_a_sentence(values, words):
 def test_a_start_that_is_not_possible_is_replaced_and_said():
     view = View({**EP.presets[9].values, "orbits": 4.0, "starts": "2.8,0.3"})
     (note,) = view.report.notes
-    assert note.startswith("At l = 2.8, L/G = 0.3 no motion with this h and f crosses the section: the chosen orbit starts at l = ")
+    assert note.startswith("At l = 2.8, L/G = 0.3 no motion with this h and f crosses the section: "
+                           "the chosen orbit starts at l = ")
     assert len(view.data["section-chosen"]["x"]) == 1
 
 

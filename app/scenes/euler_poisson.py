@@ -197,8 +197,8 @@ def _starts(body: HeavyBody, h: float, f: float, chosen: Sequence[tuple[float, f
                                "smaller |f|, or press Clear for the whole section.")
     place = tuple(map(float, coordinates(np.array(others))[0]))
     return [(place[0], place[1])], others, (
-        f"At l = {number(chosen[-1][0])}, L/G = {number(chosen[-1][1])} no motion with this h and f crosses the section: the chosen orbit "
-        f"starts at l = {number(place[0])}, L/G = {number(place[1])}.")
+        f"At l = {number(chosen[-1][0])}, L/G = {number(chosen[-1][1])} no motion with this h and f crosses the "
+        f"section: the chosen orbit starts at l = {number(place[0])}, L/G = {number(place[1])}.")
 
 
 def _piece(body: HeavyBody, h: float, f: float, starts: tuple[tuple[float, ...], ...], crossings: int
