@@ -20,6 +20,7 @@ if __name__ == "__main__":
 
 import extremes_ball
 import extremes_euler_poisson
+import extremes_suslov
 import oracle
 
 from models import (
@@ -647,6 +648,7 @@ ROWS = [
     circle_joined("δ = 5e-301, the other arc", FIGURE_3, (2.0, -1e-300), [1.0, 690.0, 692.0, 740.0]),
     *extremes_ball.rows(Row, an_orbit, symmetric, there_and_back, drift),
     *extremes_euler_poisson.rows(Row, symmetric, there_and_back, drift),
+    *extremes_suslov.rows(Row),
 ]
 
 REFUSALS = [
@@ -698,6 +700,7 @@ REFUSALS = [
             "b3 = 0.*Choose b3 other than 0"),
     *extremes_ball.refusals(Refusal),
     *extremes_euler_poisson.refusals(Refusal),
+    *extremes_suslov.refusals(Refusal),
 ]
 
 
