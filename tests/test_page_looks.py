@@ -50,7 +50,7 @@ def planar(scene):
 
 def drawing(page, name):
     """The bounding box of a picture without its caption."""
-    inside = ":is(canvas.sphere, .bk-Figure)"
+    inside = ":is(canvas.sphere, canvas.solid, .bk-Figure)"
     return page.locator(f".gallery:not(.away) .picture-{name} {inside}").first.bounding_box()
 
 
@@ -58,7 +58,7 @@ def drawing(page, name):
 @every_scene
 def test_pictures_stand_in_as_many_columns_as_fit_and_are_square(look_at, size, scene):
     page = look_at(size, scene=scene)
-    boxes = [drawing(page, name) for name in scenes()[scene].pictures]
+    boxes = [drawing(page, name) for name in scenes()[scene].open_pictures]
     for box in boxes:
         assert box["width"] == pytest.approx(box["height"], abs=4)
         assert box["width"] >= 290
@@ -85,8 +85,8 @@ def test_nothing_is_wider_than_the_window(look_at, size, scene):
 
 # What must keep clear of each other: in the main part and beside it.
 PARTS = (
-    "h2.caption, .bk-Figure, canvas.sphere, .legend li, .text.status, .words",
-    ".scene, .menu, .number, .text.help, .param-reset, .param-link, .text.derived",
+    "h2.caption:visible, .bk-Figure, canvas.sphere, canvas.solid:visible, .legend li, .text.status, .words",
+    ".scenes, .menu, .number, .text.help, .param-reset, .param-link, .text.derived",
 )
 
 

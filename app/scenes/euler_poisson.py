@@ -386,7 +386,7 @@ class EulerPoissonStage:
             self.section.show_impossible(result.impossible, (l0, l1), (x0, x1))
         l = np.linspace(l0, l1, 241)
         self.section.show_line("curve", l, hess_curve(result.body, l))
-        ends = inside(result.rotation.ends, result.window) if result.rotation is not None else ()
+        ends = inside(_line(result.values, result.window, result.starts[-1]), result.window)
         self.section.show_line("line", [l for l, _ in ends], [x for _, x in ends])
         self.section.choose(inside(result.starts, result.window))
         if result.orbit is not None:

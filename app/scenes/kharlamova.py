@@ -193,12 +193,9 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> ArcResult
     body, q, start = _start(values)
     h = _energy(body, start)
     found = work.get(arc, body, start)
-    orbit, closed, tau, mirror = None, None, np.empty(0), np.empty((0, 5))
-    if shown:
-        orbit, mirror = work.get(_orbit, body, start, float(values["span"]), work.level)
-        tau = rescaled_time(found, orbit.states)
-        if found.kind == "periodic":
-            closed = work.get(_closed, body, start, found.period, work.level)
+    orbit, mirror = work.get(_orbit, body, start, float(values["span"]), work.level)
+    tau = rescaled_time(found, orbit.states)
+    closed = work.get(_closed, body, start, found.period, work.level) if found.kind == "periodic" else None
     T = work.get(_periods, body, q, float(values["p"])) if "period" in shown else np.empty(0)
     return ArcResult(values, body, start, h, found, orbit, tau, mirror, closed, T,
                      work.get(fixed_point_kinds, body, h), work.ended())

@@ -51,9 +51,9 @@ SPECS = (
     Number("b3", "b₃", "Centre of mass b₃", 1.0, -3.0, 3.0, 0.01, -1e2, 1e2, "b = −mg r; not 0 here, b₁ = b₂ = 0."),
     Number("h", "h", "Energy E = h", 0.8, -0.9, 4.0, 0.01, -1e2, 1e3,
            "Above −|b₃|. Beyond |b₃| the point may not come near the middle."),
-    Number("Q1", "q₁", "Start q₁ = I₂₂ω₂/b₃", 0.6, -2.0, 2.0, 0.01, -1e6, 1e6,
+    Number("Q1", "q₁", "Start q₁ = I₂₂ω₂/b₃", 0.6, -2.0, 2.0, 0.01, -1e30, 1e30,
            "A click in the plane chooses the start."),
-    Number("Q2", "q₂", "Start q₂ = −I₁₁ω₁/b₃", 0.3, -2.0, 2.0, 0.01, -1e6, 1e6,
+    Number("Q2", "q₂", "Start q₂ = −I₁₁ω₁/b₃", 0.3, -2.0, 2.0, 0.01, -1e30, 1e30,
            "A click in the plane chooses the start."),
     Number("beta", "β", "Start: direction β", 1.0, -3.14, 3.14, 0.01, -math.pi, math.pi,
            "Where the point runs at first: q̇ = −p, |p| = √(1 − γ₃²). A click in the section chooses all three."),
@@ -190,7 +190,7 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> QuarticRe
     work = Work(values, dragging)
     body, start = _start(values)
     crossings = min(int(float(values["count"])), _CROSSINGS_IN_A_DRAG if dragging else 1000)
-    orbit = work.get(_orbit, body, start, float(values["span"]), work.level) if shown else None
+    orbit = work.get(_orbit, body, start, float(values["span"]), work.level)
     others = own = None
     drift: dict[str, float] = {}
     steps, reason = 0, ""
