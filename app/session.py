@@ -61,7 +61,6 @@ class Session:
         self._stages: dict[str, Stage] = {}
         self._held = False
         self._number = 0
-        self._missing = 0
         self._progress: tuple[int, int] | None = None
         self._enter(scene, values, notes)
         self._draw()
@@ -106,7 +105,8 @@ class Session:
     def _draw_on(self, values: Values) -> None:
         """What the mouse has chosen; it can be undone."""
         if values and any(isinstance(spec, Places) for spec in self._specs.values()):
-            self._history = [*self._history, dict(self._wanted)][-MOST_UNDONE:]
+            before = {name: self._wanted[name] for name in values}
+            self._history = [*self._history, before][-MOST_UNDONE:]
         self.change(values)
 
     def _hover(self, stage: Hovered, picture: Any, x: float, y: float) -> None:
@@ -118,13 +118,11 @@ class Session:
                 text = str(error)
             self.wire.say(f"hover-{picture}", text)
 
-    def _follow(self, report: Report, more: bool) -> list[str]:
-        """Compute in the background what the report lacks; a note where that has ended before its end."""
+    def _follow(self, report: Report, more: bool, ended: bool) -> list[str]:
+        """Compute in the background what the report lacks; a note where that had ended before its end."""
         left = len(report.todo)
         if not more:
             self.background.follow(report.todo)
-        ended = more and self.background.left == 0 and left == self._missing
-        self._missing = left
         self._progress = (report.total - left, report.total) if left and not ended else None
         if not (left and ended):
             return []
@@ -193,6 +191,8 @@ class Session:
     def _draw(self, more: bool = False) -> None:
         """The pictures of what is wanted; `more`: of the same, of which more may be known by now."""
         self._dirty = False
+        # Before the pieces are looked for: the last one may come while this is drawn.
+        ended = more and self.background.left == 0
         admitted, notes = self.scene.admit(self._wanted)
         self.values = admitted
         try:
@@ -206,7 +206,7 @@ class Session:
             sentence = "This state could not be computed. Press Reset, and please report the link."
             self.stage.fail(sentence)
             report = Report([], sentence)
-        notes = [*notes, *self._follow(report, more)]
+        notes = [*notes, *self._follow(report, more, ended)]
         # Under a drag the controls wait, unless the state had to differ from what they say.
         if not self._held or notes:
             show_controls(self.scene, admitted, self.wire)

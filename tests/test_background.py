@@ -387,7 +387,6 @@ def test_what_a_drag_shows_needs_no_background(gate):
     assert state["progress"] is not None
 
 
-@pytest.mark.xfail(strict=True, reason="the session asks after the computation, not before it, how much is left")
 def test_the_last_piece_may_come_while_its_picture_is_drawn(gate):
     """What comes between the computation and the question how much is left is not lost, and not called stopped."""
     browser = Browser(EP, {**SMALL, "orbits": 0.0})

@@ -35,10 +35,6 @@ def values_of(explorer):
 
 def completed(explorer):
     """The page with all that its state needs."""
-    # What comes while a picture is drawn may be left out; then it is in the cache.
-    if "Stopped" in explorer.text("notes"):
-        explorer.page.reload()
-        explorer.goto(explorer.page.url.removeprefix(explorer.base))
     assert explorer.text("notes") == ""
     return explorer
 
