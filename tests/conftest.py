@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 from pathlib import Path
 from urllib.parse import urlsplit
 
@@ -12,6 +14,13 @@ from app.browser import launched, wait_ready
 from app.screenshot import running_server
 
 __all__ = ["scene_of", "wait_ready"]
+
+
+def pytest_configure(config):
+    """Compile everything once, before the processes that share it begin."""
+    if not hasattr(config, "workerinput") and not config.option.collectonly:
+        subprocess.run([sys.executable, "-c", "from app.warm import compile_all; compile_all()"], check=True,
+                       cwd=Path(__file__).parents[1])
 
 
 def scene_of(query):
