@@ -20,7 +20,7 @@ from app.controls import show_controls
 from app.description import describe
 from app.scenes import scenes
 from app.scenes.base import Boxed, Hovered, Report, Scene, Stage
-from app.state import Number, Places, Values, encode
+from app.state import Choice, Number, Places, Values, encode
 from app.wire import Wire
 from models.errors import ModelError
 
@@ -83,6 +83,12 @@ class Session:
         self._dirty = True
         self._entered(scene)
 
+    def _carried(self, scene: Scene) -> Values:
+        """What keeps its meaning in another scene: numbers, and choices that it has too."""
+        return {spec.name: self._wanted[spec.name] for spec in scene.specs if spec.name in self._wanted and (
+            (isinstance(spec, Number) and isinstance(self._wanted[spec.name], float))
+            or (isinstance(spec, Choice) and self._wanted[spec.name] in spec.options))}
+
     def change(self, values: Values) -> None:
         """The user wants these values."""
         before = dict(self._wanted)
@@ -138,7 +144,7 @@ class Session:
             if preset.name == message.get("preset"):
                 self.change(self.scene.example(preset))
         values = message.get("values")
-        if isinstance(values, dict):
+        if isinstance(values, dict) and values:
             self.change({name: value for name, value in values.items() if name in self._specs})
         if message.get("undo") is True and self._history:
             self.change(self._history.pop())
@@ -160,7 +166,7 @@ class Session:
         with unlocked():
             scene = scenes().get(message["scene"]) if isinstance(message.get("scene"), str) else None
             if scene is not None and scene is not self.scene:
-                self._enter(scene, self._wanted, [])
+                self._enter(scene, self._carried(scene), [])
             hidden = message.get("hidden")
             if isinstance(hidden, list):
                 shown = [name for name in self.scene.pictures if name not in hidden]

@@ -26,7 +26,7 @@ def compute(scene: Scene, folded: bool = True) -> None:
 
 
 def compile_all() -> None:
-    """Leave the kernels of all scenes on disk, if they are not; ends early when the process that wanted it has ended."""
+    """Leave the kernels of all scenes on disk; ends early when the process that wanted it has ended."""
     parent = os.getppid()
     if CACHE_FOLDER is not None and _mark(CACHE_FOLDER).exists():
         return

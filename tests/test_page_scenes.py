@@ -60,8 +60,9 @@ def study(study_tab):
 
 
 def drawn(scene, values):
-    """What the sources of a scene's pictures hold in this state."""
-    return contents(shown(SCENES[scene], values)[0].sources)
+    """What the sources of the pictures that a scene shows at first hold in this state."""
+    sources = contents(shown(SCENES[scene], values)[0].sources)
+    return {name: columns for name, columns in sources.items() if name not in SCENES[scene].folded}
 
 
 def picture_of(source, scene):
@@ -91,7 +92,7 @@ def assert_drawn(explorer, scene, values, *pictures):
                 continue
             assert alike(flat(data[key]), column), (name, key)
             seen.add(own)
-    assert seen >= set(pictures or [name for name in SCENES[scene].pictures if name != "sphere"])
+    assert seen >= set(pictures or [name for name in SCENES[scene].open_pictures if name != "sphere"])
 
 
 SOURCES = """window.hess.plots.flatMap((plot) => [...plot.model.references()])
@@ -234,7 +235,7 @@ def test_ten_changes_in_quick_succession_leave_one_scene_and_nothing_of_the_othe
     assert_drawn(explorer, HESS, DEFAULTS)
     assert explorer.page.evaluate(SOURCES) == sorted(set(drawn(HESS, DEFAULTS)) - {"sphere"})
     assert listeners(explorer) == at_rest
-    assert explorer.page.locator(".picture:visible").count() == 4
+    assert explorer.page.locator(".picture:not(.folded):visible").count() == 4
     # One change is one state, and one key is pressed for one player.
     before = explorer.state
     explorer.change(lambda: explorer.slide(h=0.75))
@@ -252,7 +253,7 @@ def test_ten_changes_in_quick_succession_leave_one_scene_and_nothing_of_the_othe
 
 
 SPHERES = [name for name, scene in SCENES.items()
-           if scene.origin is None and any(one.kind == "sphere" for one in scene.stage(Wire()).pictures)]
+           if scene.origin is None and any(one.kind == one.name == "sphere" for one in scene.stage(Wire()).pictures)]
 
 
 def test_the_spheres_of_all_scenes_are_seen_from_the_same_side_as_the_link_says(explorer):

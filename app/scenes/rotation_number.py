@@ -234,12 +234,11 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> RotationR
         rational = found[0] if found is not None else None
     theta: CircleMap | None = None
     iterates = np.empty(0)
-    if "circle" in shown:
-        try:
-            theta = work.get(circle_map, torus.a, torus.h, torus.f, work.level)
-            iterates = theta.iterate(0.5, _ITERATES)
-        except Separatrix:
-            pass
+    try:
+        theta = work.get(circle_map, torus.a, torus.h, torus.f, work.level)
+        iterates = theta.iterate(0.5, _ITERATES)
+    except Separatrix:
+        pass
     return RotationResult(
         values=values, torus=torus, window=window, grid=grid, cells=cells, boundary=boundary,
         x=np.linspace(low, high, count), along=along, perturbed=perturbed, rational=rational, map=theta,
