@@ -135,7 +135,7 @@ class LoxodromicMotion:
         return frozen(np.unwrap(np.arctan2(-self.centre[:, 2], self.centre[:, 0])))
 
     @cached_property
-    def l(self) -> Array:  # noqa: E743
+    def l(self) -> Array:  # noqa: E743 (the symbol of Andoyer and Deprit)
         """l (n,): the angle between e and the middle axis."""
         return frozen(np.arctan2(np.hypot(self.middle[:, 0], self.middle[:, 2]), self.middle[:, 1]))
 

@@ -38,7 +38,7 @@ export function render({ model, view }) {
       asked = requested
       const entering = chosen !== null && chosen !== scene.name
       model.send_msg({
-        requested, held, values, ...wish, scene: entering ? chosen : null, hidden: entering ? [] : [...hidden],
+        requested, held, values, ...wish, scene: entering ? chosen : null, hidden: entering ? null : [...hidden],
       })
       values = {}
       wish = {}

@@ -19,7 +19,7 @@ from app.scenes import scenes
 from app.scenes.euler_poisson import body_of, motion
 from app.state import places
 from app.wire import Wire
-from models import solve
+from models import circle_map, f_max, level, solve
 from models.accuracy import REFERENCE, STANDARD
 from models.andoyer import andoyer_points, coordinates, state_at
 from models.errors import ModelError
@@ -315,3 +315,20 @@ def test_at_the_ends_of_what_may_be_typed_there_is_a_picture_or_a_sentence(value
             parts = column if isinstance(column, list) else [column]
             assert all(np.all(np.isfinite(np.asarray(part, float))) for part in parts if len(np.shape(part))), name
     assert not re.search(r"nan|inf\b", " ".join([*view.text.values(), view.report.status]), re.IGNORECASE)
+
+
+SECOND_SERIES = [one for one in EP.presets if one.name.startswith("gess-ris2")]
+
+
+@pytest.mark.parametrize("preset", SECOND_SERIES, ids=lambda one: one.name)
+def test_what_an_example_of_the_second_series_says_of_the_hess_motion_is_so(preset):
+    """By the circle map of the same torus: a1′ = a2, b = a2 μ|r|, h → a2 H/b, f → a2 F1/√b."""
+    a2, b = 2.0 / 3.0, (2.0 / 3.0) * math.sqrt(0.5)
+    h, f = a2 * preset.values["h"] / b, a2 * preset.values["f"] / math.sqrt(b)
+    a = math.sqrt((1.0 - a2) * (a2 - 0.5)) / a2
+    if abs(f) > f_max(h):
+        expected = "no Hess motion yet"
+    else:
+        expected = {"elliptic": "the Hess motion is stable", "hyperbolic": "it is unstable, two layers part"}[
+            circle_map(a, h, f, level("precise")).kind]
+    assert preset.name.endswith(expected)

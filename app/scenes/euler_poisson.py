@@ -77,6 +77,7 @@ SPECS = (
 # An example says also along what the rotation number is looked at: choices else stay as they were.
 _ALONG = {"turns": "along l"}
 _RIS = {**_ALONG, "I1": 1.0, "I2": 1.5, "I3": 2.0, "m": -math.sqrt(0.5), "span": 60.0, "starts": "2.8,0.3"}
+_NONE, _STABLE, _UNSTABLE = "no Hess motion yet", "the Hess motion is stable", "it is unstable, two layers part"
 _BELOW, _AT, _ABOVE = "a curve in a regular leaf", "the separatrix", "two layers part"
 PRESETS = (
     Preset("Two layers that never mix (figure gess1)", _ALONG),
@@ -88,9 +89,10 @@ PRESETS = (
         ("a", -0.4, _BELOW), ("b", 0.0, _BELOW), ("c", 0.5, _BELOW), ("d", math.sqrt(0.5), _AT), ("e", 1.0, _ABOVE),
         ("f", 2.0, _ABOVE))),
     # At the lowest energies the other start is not possible.
-    *(Preset(f"gess-ris2 {letter}: f = 1, h = {h:.4g}", {
-        **_RIS, "h": h, "f": 1.0, "starts": _RIS["starts"] if h > 0.4 else "-1.54,-0.86"}) for letter, h in zip(
-        "abcdefgh", (0.0, 0.2, 0.5, 0.8, 1.0, 1.3, 2.0, 4.0), strict=True)),
+    *(Preset(f"gess-ris2 {letter}: f = 1, h = {h:.4g}, {what}", {
+        **_RIS, "h": h, "f": 1.0, "starts": _RIS["starts"] if h > 0.4 else "-1.54,-0.86"}) for letter, h, what in (
+        ("a", 0.0, _NONE), ("b", 0.2, _STABLE), ("c", 0.5, _STABLE), ("d", 0.8, _UNSTABLE), ("e", 1.0, _UNSTABLE),
+        ("f", 1.3, _UNSTABLE), ("g", 2.0, _UNSTABLE), ("h", 4.0, _UNSTABLE))),
 )
 
 LEGEND = """

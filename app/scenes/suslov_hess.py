@@ -18,6 +18,7 @@ from app.views.body import BodyView, Curve, Rod, Shape
 from app.views.circle_map import CircleMapView
 from app.views.omega_plane import OmegaPlane
 from app.views.poisson_sphere import Circle, PoissonSphere
+from app.views.velocity_plane import nice_above
 from app.wire import Wire
 from app.words import number
 from models.accuracy import DRAFT, STANDARD, Level
@@ -203,16 +204,10 @@ def motion(values: Values) -> Motion:
     return Motion(SYSTEM, tuple(state), (body.a, 1.0), length, tuple(weights), 1.0 / body.frequency_unit)
 
 
-def _nice_above(value: float) -> float:
-    """The next of 1, 1.5, 2, 3, 4, 5, 6, 8 times a power of ten."""
-    power = 10.0 ** math.floor(math.log10(value))
-    return power * next(step for step in (1, 1.5, 2, 3, 4, 5, 6, 8, 10) if step * power >= value * (1 - 1e-12))
-
-
 def half_width(body: HessBody, h: float) -> float:
     """The frame of the (ω1, ω2)-plane: room for every h of the slider, so that it can stay."""
     largest = math.sqrt(2.0 * (window(h)[0][1] + 1.0))
-    return _nice_above(1.02 * body.frequency_unit * math.hypot(1.0, body.a) * largest)
+    return nice_above(1.02 * body.frequency_unit * math.hypot(1.0, body.a) * largest)
 
 
 class HessStage:
