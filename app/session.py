@@ -144,7 +144,8 @@ class Session:
             if preset.name == message.get("preset"):
                 self.change(self.scene.example(preset))
         values = message.get("values")
-        if isinstance(values, dict) and values:
+        # What asks for more of the same is no change.
+        if isinstance(values, dict) and (values or self._progress is None):
             self.change({name: value for name, value in values.items() if name in self._specs})
         if message.get("undo") is True and self._history:
             self.change(self._history.pop())

@@ -38,8 +38,9 @@ function unfolding(cell, label) {
     button.setAttribute("aria-expanded", String(!folded))
   }
   button.addEventListener("click", () => {
-    cell.classList.toggle("folded")
+    const folded = cell.classList.toggle("folded")
     show()
+    document.dispatchEvent(new CustomEvent("hess:folded", { detail: { name: cell.dataset.name, folded } }))
   })
   show()
   return button
@@ -97,7 +98,6 @@ export function render({ model, view, el }) {
       under.className = "text hover"
       under.hidden = true
       host.className = "host"
-      host.dataset.name = picture.name
       cell.append(caption, host, under)
       if (picture.folded !== null) cell.append(unfolding(cell, picture.folded))
       cell.addEventListener("mouseleave", () => { under.hidden = true })

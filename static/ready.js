@@ -120,11 +120,17 @@ export function render({ model, view }) {
     let appeared = false
     for (const { target, isIntersecting } of entries) {
       const { name } = target.dataset
-      if (isIntersecting) appeared = hidden.delete(name) || appeared
+      if (isIntersecting && !target.classList.contains("folded")) appeared = hidden.delete(name) || appeared
       else hidden.add(name)
     }
     if (appeared) request()
   }, { rootMargin: "100px", scrollMargin: "100px" })
+
+  document.addEventListener("hess:folded", (event) => {
+    const { name, folded } = event.detail
+    if (folded) hidden.add(name)
+    else if (hidden.delete(name)) request()
+  })
 
   const updates = new Set()
   const canvases = new Set()
@@ -219,7 +225,7 @@ export function render({ model, view }) {
     latest = { scene: descriptions.get(state.scene), texts: {}, controls: {} }
     hidden.clear()
     sight.disconnect()
-    for (const cell of scene.cells) sight.observe(cell.querySelector(".host"))
+    for (const cell of scene.cells) sight.observe(cell)
     root.dataset.scene = scene.name
     tell("hess:enter", latest.scene)
   }

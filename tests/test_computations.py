@@ -295,7 +295,14 @@ def own_sources(board, name):
     if name in plots_of(board.scene.name):
         references = plots_of(board.scene.name)[name].references()
         own |= {model.name for model in references if isinstance(model, ColumnDataSource)}
-    return {key: data for key, data in board.sources.items() if key in own}
+    found = {key: data for key, data in board.sources.items() if key in own}
+    # In the orbit that all share: not what only the moving point of another picture needs.
+    dots = board.stage.dots.items()
+    others = {column for dot, columns in dots if not dot.startswith(f"{name}-") for column in columns}
+    needed = {column for dot, columns in dots if dot.startswith(f"{name}-") for column in columns}
+    alone = others - needed - {"t", "g1", "g2", "g3", "omega1", "omega2"}
+    return {key: {column: values for column, values in data.items() if key != "data-orbit" or column not in alone}
+            for key, data in found.items()}
 
 
 # Another state for each scene, and more of those of the scenes whose pictures are computed one by one.

@@ -248,7 +248,8 @@ def test_ten_changes_in_quick_succession_leave_one_scene_and_nothing_of_the_othe
     explorer.wait_url(scene=HESS, h="0.75", t="0.200")
     (x, y), (wide, high) = at(explorer, "bifurcation", 0.5, 0.4)
     explorer.change(explorer.page.mouse.click, x, y)
-    assert explorer.state == before + 3
+    # On its way the mouse asks what is under it.
+    assert explorer.state in {before + 3, before + 4}
     assert explorer.here() == (pytest.approx(0.5, abs=wide), pytest.approx(0.4, abs=high))
 
 

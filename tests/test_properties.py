@@ -11,6 +11,7 @@ from mechanics import PROPERTY
 from models import Plane, circle_map, ensemble, f_max, level, section, solve, systems, unit_vector
 from models.accuracy import LEVELS, Status
 from models.errors import ModelError
+from models.system import Problem
 
 SYSTEMS = systems()
 WIDE = settings(PROPERTY, suppress_health_check=[HealthCheck.too_slow])
@@ -30,6 +31,7 @@ PARAMETERS = {
     "suslov": st.tuples(*[spread(-3, 3).map(abs)] * 2, *[spread(-3, 3)] * 2, *[spread(-3, 2)] * 3),
     "ball": st.tuples(*[spread(-3, 3).map(abs)] * 2, *[spread(-3, 3)] * 2, spread(-3, 3).map(abs),
                       *[spread(-3, 2)] * 3),
+    "euler-poisson": st.tuples(*[spread(-3, 3).map(abs)] * 3, *[st.floats(-1.0, 1.0)] * 3, spread(-3, 2)),
     "hess": st.tuples(spread(-4, 2), spread(-3, 2)),
 }
 
@@ -42,6 +44,7 @@ MILD = {
     "suslov": st.tuples(*[st.floats(0.3, 3.0)] * 2, *[st.floats(-0.3, 0.3)] * 2, *[st.floats(-1.0, 1.0)] * 3),
     "ball": st.tuples(*[st.floats(0.3, 3.0)] * 2, *[st.floats(-0.3, 0.3)] * 2, st.floats(0.0, 3.0),
                       *[st.floats(-1.0, 1.0)] * 3),
+    "euler-poisson": st.tuples(*[st.floats(0.3, 3.0)] * 3, *[st.floats(-1.0, 1.0)] * 3, st.floats(-1.0, 1.0)),
     "hess": st.tuples(st.floats(-0.5, 0.5), st.floats(0.3, 1.0)),
 }
 
@@ -51,7 +54,8 @@ def motions(draw, of=PARAMETERS, longest=60.0):
     """A system with parameters, a state, and a span of some turns of its fastest motion, forward or backward."""
     system = SYSTEMS[draw(st.sampled_from(sorted(SYSTEMS)))]
     parameters = draw(of[system.name])
-    state = (*draw(omegas), *draw(vectors))
+    lead = draw(omegas) if system.angular_velocities == 2 else (*draw(omegas), draw(spread(-3, 1)))
+    state = (*lead, *draw(vectors))
     turns = draw(st.floats(0.1, longest)) * draw(st.sampled_from((-1.0, 1.0)))
     return system, state, parameters, turns / system.frequency(np.array(state), np.array(parameters))
 
@@ -68,7 +72,7 @@ def test_a_motion_keeps_its_integrals_within_its_error_or_is_refused_in_a_senten
     assert np.all(np.isfinite(orbit.states))
     nu = system.frequency(np.array(state), np.array(parameters))
     scaled, units = system.rescale(np.array(state), np.array(parameters), nu)
-    relative = orbit.states / np.where(np.arange(5) < system.angular_velocities, nu, 1.0)
+    relative = orbit.states / Problem.of(system, [state], parameters).scale
     if orbit.status is Status.OK:
         # An integral moves by at most its gradient times the error; where the state is O(1) the gradient is
         # at most twice the largest parameter.
@@ -87,8 +91,8 @@ def test_there_and_back_returns_within_the_two_errors(motion):
     back = solve(system, there.states[0], parameters, [-span], level("precise"))
     # The way back magnifies the error of the way there, in each variable by what neighbouring starts show.
     growth = 0.0
-    for i in range(5):
-        shifted = solve(system, there.states[0] + 1e-6 * np.eye(5)[i], parameters, [-span], level("precise"))
+    for change in 1e-6 * np.eye(len(state)):
+        shifted = solve(system, there.states[0] + change, parameters, [-span], level("precise"))
         growth += np.max(np.abs(shifted.states - back.states)) / 1e-6
     error = (10 * there.error_estimate + 1e-15) * growth + 10 * back.error_estimate
     assert np.max(np.abs(back.states[0] - state)) <= error
@@ -98,7 +102,7 @@ def test_there_and_back_returns_within_the_two_errors(motion):
 @given(motion=motions(), more=st.lists(vectors, min_size=1, max_size=12))
 def test_an_ensemble_holds_the_orbits_one_by_one(motion, more):
     system, state, parameters, span = motion
-    states = [state, *((*state[:2], *gamma) for gamma in more)]
+    states = [state, *((*state[:-3], *gamma) for gamma in more)]
     times = [0.5 * span, span]
     many = ensemble(system, states, parameters, times, level("standard"))
     for own, start, error in zip(many.states, states, many.errors, strict=True):
@@ -110,8 +114,8 @@ def test_an_ensemble_holds_the_orbits_one_by_one(motion, more):
 @given(motion=motions(), normal=normals, offset=st.floats(-0.5, 0.5))
 def test_crossings_lie_on_the_plane_and_alternate(motion, normal, offset):
     system, state, parameters, span = motion
-    nu = system.frequency(np.array(state), np.array(parameters))
-    scale = np.where(np.arange(5) < system.angular_velocities, nu, 1.0)
+    scale = Problem.of(system, [state], parameters).scale
+    normal = (*normal, normal[0])[: len(state)]
     plane = Plane(tuple(np.array(normal) / scale), offset, sense=0)
     found = section(system, state, parameters, plane, span, level("precise"))
     heights = (found.states / scale) @ np.array(normal) - offset

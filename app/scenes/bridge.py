@@ -197,8 +197,7 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> BridgeRes
         pair = work.get(cycles, hess, h, f, theta.fixed_points[0], work.level, width)
     orbit: Track | None = work.get(track, hess, h, f, phi0, span, work.level, width) if shown else None
     difference: Difference | None = None
-    # The moving point of that picture goes with the orbit of all.
-    if shown:
+    if "difference" in shown:
         period = theta.period / hess.frequency_unit
         most = min(_IN_A_DRAG if dragging else _MOST_PERIODS, _MOST_GROWTH / (1.0 + 2.0 * math.pi * abs(hess.a)))
         end = min(span, most * period)

@@ -364,6 +364,8 @@ class EulerPoissonStage:
         self._show_section(result, hold_axes)
         if result.rotation is not None:
             self._show_rotation(result.rotation, str(result.values["turns"]), hold_axes)
+        else:
+            self.rotation.clear("rho", "across")
         if result.exponent is not None:
             exponent = result.exponent
             later = exponent.rates[len(exponent.rates) // 10 :]
@@ -372,6 +374,8 @@ class EulerPoissonStage:
                 self.exponent.set_ranges((0.0, float(exponent.times[-1])), (min(0.0, 1.05 * float(later.min())), top))
             few = np.unique(np.linspace(0, len(exponent.times) - 1, 600).astype(int))
             self.exponent.show("lambda", exponent.times[few], exponent.rates[few])
+        else:
+            self.exponent.clear("lambda")
         sign = math.copysign(1.0, float(result.values["m"]))
         self.sphere.show(tuple(sign * r for r in result.body.r), "r")
         for name, text in _captions(result).items():
@@ -403,10 +407,10 @@ class EulerPoissonStage:
                              ys=[part.astype(np.float32) for part in rotation.rho])
         axis = 1 if turns == "along l" else 0
         values = np.concatenate([np.empty(0), *rotation.rho])
-        if not hold_axes and values.size:
-            room = max(1e-4, 0.06 * float(np.ptp(values)))
-            self.rotation.set_ranges((rotation.ends[0][axis], rotation.ends[1][axis]),
-                                     (float(values.min()) - room, float(values.max()) + room))
+        if not hold_axes:
+            low, high = (float(values.min()), float(values.max())) if values.size else (-0.5, 0.5)
+            room = max(1e-4, 0.06 * (high - low))
+            self.rotation.set_ranges((rotation.ends[0][axis], rotation.ends[1][axis]), (low - room, high + room))
         self.rotation.name_across("L/G" if axis else "l")
         if not values.size and rotation.complete:
             self.rotation.say("No orbit of the line is a closed curve")

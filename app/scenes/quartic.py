@@ -127,9 +127,11 @@ def admit(values: Values) -> tuple[dict[str, Value], list[str]]:
     x, y = float(out["Q1"]) / first, float(out["Q2"]) / second
     size, inner = math.hypot(x, y), body.hole
     if not inner <= size <= 1.0:
-        if size == 0.0:
-            x, size = 1.0, 1.0
-        inside = min(1.0 - _INSIDE, max(inner + _INSIDE, size)) / size
+        if size < 1e-100:
+            x, y, size = 1.0, 0.0, 1.0
+        # The ring may be thin.
+        room = min(_INSIDE, 0.25 * (1.0 - inner))
+        inside = min(1.0 - room, max(inner + room, size)) / size
         out["Q1"], out["Q2"] = inside * x * first, inside * y * second
         notes.append(f"With this energy the point cannot be at the start: it is at the edge now, q = "
                      f"({number(float(out['Q1']))}, {number(float(out['Q2']))}).")

@@ -394,6 +394,7 @@ class SuslovStage:
 
     def _show_exponent(self, result: SuslovResult, hold_axes: bool) -> None:
         if result.exponent is None or result.course is None:
+            self.exponent.clear("lambda", "divergence", "levels")
             return
         curves = {"lambda": (result.exponent.times, result.exponent.rates),
                   "divergence": (result.course.times, result.course.mean)}
