@@ -9,6 +9,7 @@ import logging
 import math
 import pkgutil
 import re
+import time
 from functools import cache
 from types import SimpleNamespace
 from urllib.parse import parse_qs
@@ -923,6 +924,10 @@ def test_from_any_scene_to_any_other_and_back_everything_is_of_the_state():
         scene = SCENES[name]
         assert {*scene.pictures, "status", "notes", "derived"} == set(state["tree"]["texts"])
         assert set(state["tree"]["controls"]) == {*(spec.name for spec in scene.specs), "preset"}
+        # What arrives later is waited for.
+        while browser.state["progress"] is not None:
+            time.sleep(0.02)
+            browser.ask(requested)
         whole = Board(scene)
         try:
             shown(scene, browser.session.values, whole)
