@@ -78,7 +78,11 @@ def _page(query: str) -> pmui.Page:
             Text(key="busy", look="busy", live=True, css_classes=["floating"], width=0, height=0, margin=0),
             ready,
         ],
-        sx={"& .MuiLinearProgress-root": {"display": "none"}},  # has no name, and `data-ready` says the same
+        sx={
+            "& .MuiLinearProgress-root": {"display": "none"},  # has no name, and `data-ready` says the same
+            # On a phone a title of three lines would cover the first caption.
+            "@media (max-width: 799px)": {"& .MuiAppBar-root .MuiTypography-root": {"fontSize": "1.05rem"}},
+        },
     )
 
     def entered(scene: Scene) -> None:
