@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from .arguments import number, samples, vector
+from .arguments import number, samples
+from .bodies import add_heavy_body, add_start, add_suslov_body
 from .output import add_options, computing, write
 
 if TYPE_CHECKING:
@@ -23,7 +24,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         "suslov", help="the Suslov problem with gravity", description="Orbit of the Suslov problem with gravity.",
         epilog="Example: hess-explorer orbit suslov --I 2,1,0.3,0.5 --b 0.3,-0.5,1 --omega 0.8,-0.4 "
                "--gamma 0.3,0.2,0.93 --t 10,50")
-    _add_body(suslov)
+    add_suslov_body(suslov)
     _add_motion(suslov, "w1,w2", "g1,g2,g3")
     suslov.set_defaults(run=_run, system="suslov", parameters=_suslov_parameters)
 
@@ -32,7 +33,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         description="Orbit of the Chaplygin ball with Suslov's constraint.",
         epilog="Example: hess-explorer orbit ball --I 1,1.5,0.7,1.2 --D 10 --omega=-1.2,0.8 --gamma 0.3,0.5,0.8 "
                "--t 5,20")
-    _add_body(ball)
+    add_suslov_body(ball)
     ball.add_argument("--D", type=number, required=True, help="𝒟 = (R/R_s)² I_s of the ball inside, 0 or more")
     _add_motion(ball, "w1,w2", "g1,g2,g3")
     ball.set_defaults(run=_run, system="ball", parameters=_ball_parameters)
@@ -51,26 +52,13 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         description="Orbit of a heavy rigid body with a fixed point in its principal axes, H = ½(M, AM) − μ(r, γ).",
         epilog="Example: hess-explorer orbit euler-poisson --A 1,1.6,2.5 --r 3,0,4 --mu 1.995 --M 1.3,-2,0.7 "
                "--gamma 0.3,0.4,0.87 --t 5,20")
-    heavy.add_argument("--A", type=vector("a1,a2,a3"), required=True, metavar="a1,a2,a3",
-                       help="inverse principal moments of inertia")
-    heavy.add_argument("--r", type=vector("r1,r2,r3"), required=True, metavar="r1,r2,r3", help="centre of mass")
-    heavy.add_argument("--mu", type=number, required=True, help="weight")
+    add_heavy_body(heavy)
     _add_motion(heavy, "M1,M2,M3", "g1,g2,g3", "--M", "angular momentum")
     heavy.set_defaults(run=_run, system="euler-poisson", parameters=_heavy_parameters)
 
 
-def _add_body(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--I", type=vector("I11,I22,I13,I23"), required=True, metavar="I11,I22,I13,I23",
-                        help="inertia tensor (I12 = 0)")
-    parser.add_argument("--b", type=vector("b1,b2,b3"), default=(0.0, 0.0, 0.0), metavar="b1,b2,b3",
-                        help="field (default 0,0,0)")
-
-
-def _add_motion(parser: argparse.ArgumentParser, omega: str, gamma: str, option: str = "--omega",
-                what: str = "angular velocity") -> None:
-    parser.add_argument(option, dest="omega", type=vector(omega), required=True, metavar=omega, help=f"{what} at t = 0")
-    parser.add_argument("--gamma", type=vector(gamma), required=True, metavar=gamma,
-                        help="the vertical at t = 0; brought to length 1")
+def _add_motion(parser: argparse.ArgumentParser, *start: str) -> None:
+    add_start(parser, *start)
     parser.add_argument("--t", type=samples, required=True, metavar="TIMES",
                         help="times away from 0, 10,50 or lo:hi:n")
     add_options(parser)

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from .arguments import integer, number, vector
+from .bodies import add_heavy_body, add_start, add_suslov_body
 from .output import add_options, computing, write
 
 if TYPE_CHECKING:
@@ -33,10 +34,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
                     "and the area integral f.",
         epilog="Example: hess-explorer section euler-poisson --A 1,1.6,2.6666666666666665 --r 3,0,4 --mu 1.995 "
                "--h 50 --f 5 --start 0,0.2 --crossings 20")
-    heavy.add_argument("--A", type=vector("a1,a2,a3"), required=True, metavar="a1,a2,a3",
-                       help="inverses of the principal moments of inertia")
-    heavy.add_argument("--r", type=vector("r1,r2,r3"), required=True, metavar="r1,r2,r3", help="centre of mass")
-    heavy.add_argument("--mu", type=number, required=True, help="weight; the potential is −μ(r, γ)")
+    add_heavy_body(heavy)
     heavy.add_argument("--h", type=number, required=True, help="energy")
     heavy.add_argument("--f", type=number, required=True, help="area integral (M, γ); the section needs G ≥ |f|")
     heavy.add_argument("--start", type=vector("l,x"), required=True, metavar="l,x", help="the first point")
@@ -51,14 +49,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
                     "problem with gravity.",
         epilog="Example: hess-explorer section suslov --I 2,1,0.3,0.5 --b 0.3,-0.5,1 --omega 0.8,-0.4 "
                "--gamma 0.6,0,0.8 --plane 0,0,0,1,0 --t 50")
-    suslov.add_argument("--I", type=vector("I11,I22,I13,I23"), required=True, metavar="I11,I22,I13,I23",
-                        help="inertia tensor (I12 = 0)")
-    suslov.add_argument("--b", type=vector("b1,b2,b3"), default=(0.0, 0.0, 0.0), metavar="b1,b2,b3",
-                        help="field (default 0,0,0)")
-    suslov.add_argument("--omega", type=vector("w1,w2"), required=True, metavar="w1,w2",
-                        help="angular velocity at t = 0")
-    suslov.add_argument("--gamma", type=vector("g1,g2,g3"), required=True, metavar="g1,g2,g3",
-                        help="the vertical at t = 0; brought to length 1")
+    add_suslov_body(suslov)
+    add_start(suslov)
     suslov.add_argument("--plane", type=vector("n1,n2,n3,n4,n5"), required=True, metavar="n1,n2,n3,n4,n5",
                         help="the normal of the plane")
     suslov.add_argument("--offset", type=number, default=0.0, help="where the plane is (default 0)")

@@ -1,0 +1,33 @@
+"""Options that say which body and which start are meant, the same in every command."""
+
+from __future__ import annotations
+
+import argparse
+
+from .arguments import number, vector
+
+__all__ = ["add_heavy_body", "add_start", "add_suslov_body"]
+
+
+def add_suslov_body(parser: argparse.ArgumentParser) -> None:
+    """--I and --b: inertia tensor and field of a body with Suslov's constraint."""
+    parser.add_argument("--I", type=vector("I11,I22,I13,I23"), required=True, metavar="I11,I22,I13,I23",
+                        help="inertia tensor (I12 = 0)")
+    parser.add_argument("--b", type=vector("b1,b2,b3"), default=(0.0, 0.0, 0.0), metavar="b1,b2,b3",
+                        help="field (default 0,0,0)")
+
+
+def add_heavy_body(parser: argparse.ArgumentParser) -> None:
+    """--A, --r and --mu: inverse moments, centre of mass and weight of a body of the Euler–Poisson equations."""
+    parser.add_argument("--A", type=vector("a1,a2,a3"), required=True, metavar="a1,a2,a3",
+                        help="inverses of the principal moments of inertia")
+    parser.add_argument("--r", type=vector("r1,r2,r3"), required=True, metavar="r1,r2,r3", help="centre of mass")
+    parser.add_argument("--mu", type=number, required=True, help="weight; the potential is −μ(r, γ)")
+
+
+def add_start(parser: argparse.ArgumentParser, omega: str = "w1,w2", gamma: str = "g1,g2,g3", option: str = "--omega",
+              what: str = "angular velocity") -> None:
+    """`option` (kept as `omega`) and --gamma: the motion at t = 0."""
+    parser.add_argument(option, dest="omega", type=vector(omega), required=True, metavar=omega, help=f"{what} at t = 0")
+    parser.add_argument("--gamma", type=vector(gamma), required=True, metavar=gamma,
+                        help="the vertical at t = 0; brought to length 1")
