@@ -38,6 +38,7 @@ class _Job:
         except ModelError as error:
             self.error = str(error)
             self.tasks.clear()
+        # A worker that ends would leave the page waiting for ever: it is told, and the log says all.
         except Exception:
             logger.exception("a computation in the background failed: %s", task.function.__qualname__)
             self.error = "A part of this state could not be computed. Please report the link."

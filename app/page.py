@@ -32,6 +32,7 @@ def page() -> Any:
     """A new page for one session, in the state that its URL describes."""
     try:
         return _page(_query())
+    # Whatever it is, a user sees a sentence and the log the rest.
     except Exception:
         logger.exception("the page could not be built")
         return pn.pane.Str("The page could not be built. Open it without the part of its address after “?”.")

@@ -208,6 +208,7 @@ class Session:
         except ModelError as error:
             self.stage.fail(str(error))
             report = Report([], str(error))
+        # Whatever it is, no traceback and no older picture stays on the page; the log says all.
         except Exception:
             logger.exception("a computation failed at %s", encode(self.scene.name, admitted))
             sentence = "This state could not be computed. Press Reset, and please report the link."

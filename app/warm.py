@@ -7,7 +7,6 @@ import os
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 from app.compute import CACHE
 from app.description import describe
@@ -18,6 +17,8 @@ from models.jit import CACHE_FOLDER
 __all__ = ["compile_all", "warm"]
 
 QUIET_SECONDS = 0.3
+_MARK = None if CACHE_FOLDER is None else CACHE_FOLDER / "complete"
+"""The file that says that everything is compiled."""
 
 
 def compute(scene: Scene, folded: bool = True) -> None:
@@ -28,45 +29,44 @@ def compute(scene: Scene, folded: bool = True) -> None:
 def compile_all() -> None:
     """Leave the kernels of all scenes on disk; ends early when the process that wanted it has ended."""
     parent = os.getppid()
-    if CACHE_FOLDER is not None and _mark(CACHE_FOLDER).exists():
+    if _is_compiled():
         return
     for scene in scenes().values():
         if os.getppid() != parent:
             return
         compute(scene)
-    if CACHE_FOLDER is not None:
-        _mark(CACHE_FOLDER).touch()
+    if _MARK is not None:
+        _MARK.touch()
 
 
 def warm() -> None:
     """Make all scenes ready: the one that opens the page at once, the others while nobody asks for anything.
 
     Compiling holds the interpreter's lock: what is not on disk yet is compiled by another process.
-    Until the end no garbage is collected, and then not among all these.
+    What is made here stays: garbage is collected again when the first scene stands, but not among these.
     """
-    gc.disable()
+    first, *others = scenes().values()
     try:
-        first, *others = scenes().values()
         compute(first, folded=False)
         describe(first.name)
-        if CACHE_FOLDER is not None and not _mark(CACHE_FOLDER).exists():
-            subprocess.run([sys.executable, "-c", "import os; os.name == 'posix' and os.nice(10); "
-                            "from app.warm import compile_all; compile_all()"], check=False)
-        _wait_until_quiet()
-        compute(first)
-        for scene in others:
-            _wait_until_quiet()
-            compute(scene)
-            _wait_until_quiet()
-            describe(scene.name)
     finally:
         gc.freeze()
         gc.enable()
+    if _MARK is not None and not _is_compiled():
+        subprocess.run([sys.executable, "-c", "import os; os.name == 'posix' and os.nice(10); "
+                        "from app.warm import compile_all; compile_all()"], check=False)
+    _wait_until_quiet()
+    compute(first)
+    for scene in others:
+        _wait_until_quiet()
+        compute(scene)
+        _wait_until_quiet()
+        describe(scene.name)
+    gc.freeze()
 
 
-def _mark(folder: Path) -> Path:
-    """The file that says that everything is compiled."""
-    return folder / "complete"
+def _is_compiled() -> bool:
+    return _MARK is not None and _MARK.exists()
 
 
 def _wait_until_quiet() -> None:

@@ -79,9 +79,13 @@ export function render({ model, view }) {
     request()
   }
   document.addEventListener("hess:preset", (event) => wishFor({ preset: event.detail }))
-  for (const what of ["reset", "undo", "clear", "stop"]) {
+  for (const what of ["reset", "undo", "clear"]) {
     document.addEventListener(`hess:${what}`, () => wishFor({ [what]: true }))
   }
+  document.addEventListener("hess:stop", () => {
+    wish.stop = true
+    request()
+  })
   document.addEventListener("hess:pick", (event) => {
     const { pick, drag } = event.detail
     // A finger that moves scrolls the page.

@@ -348,8 +348,7 @@ def _derived(result: QuarticResult) -> list[str]:
         f"ω(0) = ({number(result.start[0])}, {number(result.start[1])})",
     ]
     if result.orbit is not None:
-        _, p = body.to_plane(result.orbit.states)
-        q, _ = body.to_plane(result.orbit.states)
+        q, p = body.to_plane(result.orbit.states)
         level = 0.5 * (np.sum(p * p, axis=1) + body.height(q) ** 2)
         rows.append(f"H = ½ to {_power(float(np.abs(level - 0.5).max()))}")
     rows.append("Integrable" if _integrable(body) else "Not integrable")
