@@ -254,7 +254,7 @@ def test_what_is_not_seen_is_not_left_to_do(seen):
     if seen & {"section", "rotation"}:
         expected.add("_piece")
     if "exponent" in seen:
-        expected.add("_exponent")
+        expected.add("largest_exponent")
     assert names == expected
     assert result.total == len(result.todo)
 

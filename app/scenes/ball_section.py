@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from app.scenes.base import Motion, Preset, Report, Scene
-from app.scenes.parts import Work, orbit_status, refuse
+from app.scenes.parts import Work, refuse
+from app.scenes.sections import section_status
 from app.state import Choice, Number, Value, Values
 from app.views.poisson_sphere import PoissonSphere
 from app.views.scattering_map import ANGLE_TICKS, POLAR_TICKS
@@ -299,16 +300,9 @@ def _derived(result: SectionResult) -> list[str]:
 
 
 def _status(result: SectionResult) -> str:
-    parts = []
-    if result.others is not None and result.own is not None:
-        parts += [
-            f"section {len(result.others) + len(result.own)} points, {result.steps} Taylor steps",
-            "drift " + " ".join(f"{name} {drift:.0e}" for name, drift in result.drift.items()),
-        ]
-    if result.orbit is not None:
-        parts += orbit_status(result.orbit)[:1]
-    parts.append(result.ended)
-    return " · ".join(parts).replace("e-", "e−")
+    section = "" if result.others is None or result.own is None else (
+        f"section {len(result.others) + len(result.own)} points, {result.steps} Taylor steps")
+    return section_status(section, result.drift, result.orbit, result.ended)
 
 
 SCENE = Scene(

@@ -12,8 +12,9 @@ import numpy as np
 from app import theme
 from app.compute import Task
 from app.scenes.base import Motion, Preset, Report, Scene
-from app.scenes.parts import ACCURACY, Window, Work, inside, orbit_status, refuse, tidy_window, window_of
-from app.state import Choice, Number, Places, Value, Values, places, written
+from app.scenes.parts import ACCURACY, Window, Work, inside, refuse, tidy_window, window_of
+from app.scenes.sections import PIECE, TURN, boxed, possible_starts, section_status, started, thinned, worst
+from app.state import Choice, Number, Places, Value, Values, places
 from app.views.chart import Series
 from app.views.graph import Graph
 from app.views.layered_section import LayeredSection
@@ -33,8 +34,6 @@ from models.sampling import sample_times
 from models.torus import PIXELS, SAGITTA
 
 _MOST = 4000
-_PIECE = 4
-"""Orbits that are computed together: few enough for points to arrive soon."""
 _IN_A_DRAG = (16, 40)
 """Orbits and crossings while a slider is held."""
 _ACROSS = 48
@@ -45,9 +44,9 @@ _MOST_STEPS = 200_000
 _CELLS = (96, 64)
 _REGULAR = 1e-4
 """Where the rotation numbers of both halves of an orbit agree to this, it is taken for a closed curve."""
-_TURN = 3.14159
-"""Half a turn, as a place in a link is written."""
 _FULL = ((-math.pi, -1.0), (math.pi, 1.0))
+_BOUNDS = ((-TURN, -1.0), (TURN, 1.0))
+"""The same, as places in a link are written."""
 
 SPECS = (
     Number("I1", "I₁", "Moment I₁", 1.0, 0.1, 3.0, 0.005, 1e-3, 1e3, "First principal moment of inertia."),
@@ -70,8 +69,8 @@ SPECS = (
            "Turns counted by the angle l, on a vertical line through the chosen start; or about the middle of the "
            "window, on a line from there to the right."),
     ACCURACY,
-    Places("starts", "The places of the chosen orbits", 12, (-_TURN, -1.0), (_TURN, 1.0), "0,0.2"),
-    Places("window", "The window of the section", 2, (-_TURN, -1.0), (_TURN, 1.0)),
+    Places("starts", "The places of the chosen orbits", 12, *_BOUNDS, "0,0.2"),
+    Places("window", "The window of the section", 2, *_BOUNDS),
 )
 
 # An example says also along what the rotation number is looked at: choices else stay as they were.
@@ -190,17 +189,19 @@ def _starts(body: HeavyBody, h: float, f: float, chosen: Sequence[tuple[float, f
     """
     l, x = np.array(chosen).T
     states, _, growing = states_at(body, h, f, l, x)
-    if growing[-1]:
-        kept = np.flatnonzero(growing)
-        return [chosen[i] for i in kept], [tuple(map(float, states[i])) for i in kept], ""
-    others = _seeds(body, h, f, window, 1)
-    if not others:
-        raise InvalidParameter(f"Nothing is possible here with h = {h:.6g} and f = {f:.6g}: choose a larger h, a "
-                               "smaller |f|, or press Clear for the whole section.")
-    place = tuple(map(float, coordinates(np.array(others))[0]))
-    return [(place[0], place[1])], others, (
+
+    def instead() -> tuple[tuple[float, float], tuple[float, ...]]:
+        others = _seeds(body, h, f, window, 1)
+        if not others:
+            raise InvalidParameter(f"Nothing is possible here with h = {h:.6g} and f = {f:.6g}: choose a larger h, a "
+                                   "smaller |f|, or press Clear for the whole section.")
+        l, x = coordinates(np.array(others))[0]
+        return (float(l), float(x)), others[0]
+
+    places_, kept_states, kept = possible_starts(chosen, states, growing, instead)
+    return places_, kept_states, "" if kept else (
         f"At l = {number(chosen[-1][0])}, L/G = {number(chosen[-1][1])} no motion with this h and f crosses the "
-        f"section: the chosen orbit starts at l = {number(place[0])}, L/G = {number(place[1])}.")
+        f"section: the chosen orbit starts at l = {number(places_[0][0])}, L/G = {number(places_[0][1])}.")
 
 
 def _piece(body: HeavyBody, h: float, f: float, starts: tuple[tuple[float, ...], ...], crossings: int
@@ -229,10 +230,6 @@ def _orbit(body: HeavyBody, start: tuple[float, ...], span: float, accuracy: Lev
     weights = np.array([0.0, 0.0, 0.0, 1.0, 1.0, 1.0]) * 0.5 * PIXELS
     times = sample_times(SYSTEM, np.array(start), np.array(body.parameters), span, weights, SAGITTA, _MOST)
     return solve(SYSTEM, start, body.parameters, times, accuracy)
-
-
-def _exponent(body: HeavyBody, start: tuple[float, ...], span: float) -> Exponent:
-    return largest_exponent(SYSTEM, start, body.parameters, span)
 
 
 def _line(values: Values, window: Window, start: tuple[float, float]) -> Window:
@@ -298,22 +295,22 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> EulerPois
             found = get(_piece, body, h, f, (state,), crossings)
             own += found[0] if found is not None else ()
         spread = work.get(_seeds, body, h, f, window, count)
-        for i in range(0, len(spread), _PIECE):
-            found = get(_piece, body, h, f, spread[i : i + _PIECE], crossings)
+        for i in range(0, len(spread), PIECE):
+            found = get(_piece, body, h, f, spread[i : i + PIECE], crossings)
             if found is not None:
                 for points, sign in zip(*found[:2], strict=True):
                     (first if sign > 0.0 else second).append(points)
                 kept += sum(found[2])
                 total += len(found[2])
-                drift = {name: max(drift.get(name, 0.0), value) for name, value in found[3].items()}
+                drift = worst(drift, found[3])
     rotation: Rotation | None = None
     if "rotation" in shown and not dragging:
         ends = _line(values, window, starts[-1])
         on_line = work.get(_on_line, body, h, f, ends)
         shares: list[float] = []
         orbits: list[Array] = []
-        for i in range(0, len(on_line), _PIECE):
-            piece = on_line[i : i + _PIECE]
+        for i in range(0, len(on_line), PIECE):
+            piece = on_line[i : i + PIECE]
             found = get(_piece, body, h, f, tuple(state for _, state in piece), max(crossings, _ON_LINE))
             if found is not None:
                 shares += [share for share, _ in piece]
@@ -321,7 +318,7 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> EulerPois
         rotation = _rotation(values, ends, shares, orbits, len(shares) == len(on_line))
     exponent = None
     if "exponent" in shown and not dragging:
-        exponent = get(_exponent, body, start, float(values["long"]))
+        exponent = get(largest_exponent, SYSTEM, start, body.parameters, float(values["long"]))
     orbit = None
     if not {"sphere", "section"}.isdisjoint(shown):
         orbit = work.get(_orbit, body, start, float(values["span"]), work.level)
@@ -372,8 +369,7 @@ class EulerPoissonStage:
             if not hold_axes:
                 top = nice_above(1.05 * max(1e-6, float(later.max())))
                 self.exponent.set_ranges((0.0, float(exponent.times[-1])), (min(0.0, 1.05 * float(later.min())), top))
-            few = np.unique(np.linspace(0, len(exponent.times) - 1, 600).astype(int))
-            self.exponent.show("lambda", exponent.times[few], exponent.rates[few])
+            self.exponent.show("lambda", *thinned(exponent.times, exponent.rates))
         else:
             self.exponent.clear("lambda")
         sign = math.copysign(1.0, float(result.values["m"]))
@@ -421,17 +417,11 @@ class EulerPoissonStage:
 
     def pick(self, picture: str, x: float, y: float) -> Values:
         """A click in the section starts an orbit there, besides those of earlier clicks."""
-        place = (min(max(x, -_TURN), _TURN), min(max(y, -1.0), 1.0))
-        return {"starts": written([*self._starts, place])} if picture == "section" else {}
+        return started(self._starts, x, y, _BOUNDS) if picture == "section" else {}
 
     def box(self, picture: str, corners: tuple[float, float, float, float]) -> Values:
         """A box in the section is the new window."""
-        x0, y0, x1, y1 = corners
-        low, high = max(-1.0, min(y0, y1)), min(1.0, max(y0, y1))
-        if picture != "section" or not low < high or x0 == x1:
-            return {}
-        left, right = max(-_TURN, min(x0, x1)), min(_TURN, max(x0, x1))
-        return {"window": written([(left, low), (right, high)])}
+        return boxed(corners, _BOUNDS) if picture == "section" else {}
 
 
 def _extremum(rotation: Rotation) -> tuple[float, float] | None:
@@ -491,12 +481,7 @@ def _derived(result: EulerPoissonResult) -> list[str]:
 
 def _status(result: EulerPoissonResult) -> str:
     points = len(result.first) + len(result.second) + len(result.own)
-    parts = [f"section {points} points"]
-    if result.drift:
-        parts.append("drift " + " ".join(f"{name} {drift:.0e}" for name, drift in result.drift.items()))
-    if result.orbit is not None:
-        parts += orbit_status(result.orbit)[:1]
-    return " · ".join([*parts, result.ended]).replace("e-", "e−")
+    return section_status(f"section {points} points", result.drift, result.orbit, result.ended)
 
 
 SCENE = Scene(

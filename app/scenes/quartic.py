@@ -11,7 +11,8 @@ import numpy as np
 
 from app import theme
 from app.scenes.base import Motion, Preset, Report, Scene
-from app.scenes.parts import ACCURACY, Work, orbit_status, refuse
+from app.scenes.parts import ACCURACY, Work, refuse
+from app.scenes.sections import section_status
 from app.state import Number, Value, Values
 from app.views.chart import Series
 from app.views.graph import Graph
@@ -357,16 +358,9 @@ def _derived(result: QuarticResult) -> list[str]:
 
 
 def _status(result: QuarticResult) -> str:
-    parts = []
-    if result.others is not None and result.own is not None:
-        parts += [
-            f"section {len(result.others) + len(result.own)} points, {result.steps} Taylor steps",
-            "drift " + " ".join(f"{name} {drift:.0e}" for name, drift in result.drift.items()),
-        ]
-    if result.orbit is not None:
-        parts += orbit_status(result.orbit)[:1]
-    parts.append(result.ended)
-    return " · ".join(parts).replace("e-", "e−")
+    section = "" if result.others is None or result.own is None else (
+        f"section {len(result.others) + len(result.own)} points, {result.steps} Taylor steps")
+    return section_status(section, result.drift, result.orbit, result.ended)
 
 
 SCENE = Scene(

@@ -12,8 +12,9 @@ import numpy as np
 from app import theme
 from app.compute import Task
 from app.scenes.base import Motion, Preset, Report, Scene
-from app.scenes.parts import ACCURACY, Window, Work, inside, orbit_status, refuse, tidy_window, window_of
-from app.state import Choice, Number, Places, Value, Values, places, written
+from app.scenes.parts import ACCURACY, Window, Work, inside, refuse, tidy_window, window_of
+from app.scenes.sections import PIECE, TURN, boxed, possible_starts, section_status, started, thinned, worst
+from app.state import Choice, Number, Places, Value, Values, places
 from app.views.chart import Series
 from app.views.graph import Graph
 from app.views.layered_section import LayeredSection
@@ -22,6 +23,7 @@ from app.views.velocity_plane import VelocityPlane, nice_above, sphere_columns
 from app.wire import Wire
 from app.words import number
 from models.accuracy import DRAFT, STANDARD, Level, cheapest
+from models.ball_section import cells
 from models.errors import InvalidParameter
 from models.lyapunov import Exponent, largest_exponent
 from models.orbit import solve
@@ -42,8 +44,6 @@ from models.suslov_section import (
 from models.torus import HALF_A_PIXEL, PIXELS, SAGITTA
 
 _MOST = 4000
-_PIECE = 4
-"""Orbits that are computed together: few enough for points to arrive soon."""
 _IN_A_DRAG = (12, 40)
 """Orbits and crossings while a slider is held."""
 _MOST_STEPS = 100_000
@@ -51,9 +51,9 @@ _BASIN_CELLS = (36, 24)
 _BASIN_CROSSINGS = 240
 _COURSE = 4001
 _CELLS = 32
-_TURN = 3.14159
-"""Half a turn, as a place in a link is written."""
 _FULL = ((-math.pi, 0.0), (math.pi, math.pi))
+_BOUNDS = ((-TURN, 0.0), (TURN, TURN))
+"""The same, as places in a link are written."""
 _PLANES = {"γ₃ = 0": 3, "γ₁ = 0": 1, "γ₂ = 0": 2}
 
 SPECS = (
@@ -78,8 +78,8 @@ SPECS = (
     Number("long", "T", "Time of the exponent", 1000.0, 10.0, 5000.0, 10.0, 1.0, 2e4,
            "How long the Lyapunov exponent and the divergence are averaged."),
     ACCURACY,
-    Places("starts", "The places of the chosen orbits", 12, (-_TURN, 0.0), (_TURN, _TURN), "1,1"),
-    Places("window", "The window of the section", 2, (-_TURN, 0.0), (_TURN, _TURN)),
+    Places("starts", "The places of the chosen orbits", 12, *_BOUNDS, "1,1"),
+    Places("window", "The window of the section", 2, *_BOUNDS),
 )
 
 
@@ -206,17 +206,19 @@ def _starts(body: SuslovBody, E: float, k: int, chosen: Sequence[tuple[float, fl
     """
     psi, delta = np.array(chosen).T
     states, ok = states_at(body, E, k, psi, delta)
-    if ok[-1]:
-        kept = np.flatnonzero(ok)
-        return [chosen[i] for i in kept], [tuple(map(float, states[i])) for i in kept], ""
-    others = _seeds(body, E, k, window, 1)
-    if not others:
-        raise InvalidParameter(f"Nothing is possible in this window with the energy E = {E:.6g}: choose a larger h, or "
-                               "press Clear for the whole section.")
-    place = tuple(map(float, coordinates(np.array(others), k)[0]))
-    return [(place[0], place[1])], others, (
+
+    def instead() -> tuple[tuple[float, float], tuple[float, ...]]:
+        others = _seeds(body, E, k, window, 1)
+        if not others:
+            raise InvalidParameter(f"Nothing is possible in this window with the energy E = {E:.6g}: choose a larger "
+                                   "h, or press Clear for the whole section.")
+        psi, delta = coordinates(np.array(others), k)[0]
+        return (float(psi), float(delta)), others[0]
+
+    places_, kept_states, kept = possible_starts(chosen, states, ok, instead)
+    return places_, kept_states, "" if kept else (
         f"At ψ = {number(chosen[-1][0])}, δ = {number(chosen[-1][1])} no motion has this energy: the chosen orbit "
-        f"starts at ψ = {number(place[0])}, δ = {number(place[1])}.")
+        f"starts at ψ = {number(places_[0][0])}, δ = {number(places_[0][1])}.")
 
 
 def _seeds(body: SuslovBody, E: float, k: int, window: Window, count: int) -> tuple[tuple[float, ...], ...]:
@@ -251,10 +253,6 @@ def _course(body: SuslovBody, start: tuple[float, ...], span: float) -> Course:
     rates = divergence(body, solve(SYSTEM, start, body.parameters, times, DRAFT).states)
     steps = 0.5 * (rates[1:] + rates[:-1]) * np.diff(times)
     return Course(frozen(times[1:]), frozen(np.cumsum(steps) / times[1:]))
-
-
-def _exponent(body: SuslovBody, start: tuple[float, ...], span: float) -> Exponent:
-    return largest_exponent(SYSTEM, start, body.parameters, span)
 
 
 def _half_width(body: SuslovBody, E: float) -> float:
@@ -295,13 +293,13 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> SuslovRes
         impossible = 1.0 - possible(body, E, k, 0.5 * (psi[1:] + psi[:-1]))[None, :]
         spread = work.get(_seeds, body, E, k, window, count)
         directions = (True, False) if values["colours"] == "forward and backward in time" else (True,)
-        for i in range(0, len(spread), _PIECE):
+        for i in range(0, len(spread), PIECE):
             for forward in directions:
-                found = get(_piece, body, k, spread[i : i + _PIECE], crossings, forward)
+                found = get(_piece, body, k, spread[i : i + PIECE], crossings, forward)
                 if found is not None:
                     points[forward] += [orbit[len(orbit) // 2 if drop else 0 :] for orbit in found[0]]
                     later += [orbit[len(orbit) // 2 :] for orbit in found[0]] if forward else []
-                    drift = {name: max(drift.get(name, 0.0), value) for name, value in found[1].items()}
+                    drift = worst(drift, found[1])
         for state in states:
             found = get(_piece, body, k, (state,), crossings, True)
             own += [orbit[len(orbit) // 2 if drop else 0 :] for orbit in found[0]] if found is not None else []
@@ -310,7 +308,7 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> SuslovRes
             basin = _basin([row for row in rows if row is not None], [row is not None for row in rows])
     exponent = course = None
     if "exponent" in shown and not dragging:
-        exponent = get(_exponent, body, states[-1], float(values["long"]))
+        exponent = get(largest_exponent, SYSTEM, states[-1], body.parameters, float(values["long"]))
         course = get(_course, body, states[-1], float(values["long"]))
     orbit = None
     if not {"omega", "sphere"}.isdisjoint(shown):
@@ -404,8 +402,7 @@ class SuslovStage:
             room = 0.08 * max(1e-6, high - low)
             self.exponent.set_ranges((0.0, float(result.values["long"])), (min(0.0, low) - room, max(0.0, high) + room))
         for name, (x, y) in curves.items():
-            few = np.unique(np.linspace(0, len(x) - 1, 600).astype(int))
-            self.exponent.show(name, x[few], y[few])
+            self.exponent.show(name, *thinned(x, y))
         self.exponent.show_levels([0.0])
 
     def fail(self, sentence: str) -> None:
@@ -414,24 +411,11 @@ class SuslovStage:
 
     def pick(self, picture: str, x: float, y: float) -> Values:
         """A click in the section starts an orbit there, besides those of earlier clicks."""
-        place = (min(max(x, -_TURN), _TURN), min(max(y, 0.0), _TURN))
-        return {"starts": written([*self._starts, place])} if picture == "section" else {}
+        return started(self._starts, x, y, _BOUNDS) if picture == "section" else {}
 
     def box(self, picture: str, corners: tuple[float, float, float, float]) -> Values:
         """A box in the section is the new window."""
-        x0, y0, x1, y1 = corners
-        low, high = max(0.0, min(y0, y1)), min(_TURN, max(y0, y1))
-        if picture != "section" or not low < high or x0 == x1:
-            return {}
-        left, right = max(-_TURN, min(x0, x1)), min(_TURN, max(x0, x1))
-        return {"window": written([(left, low), (right, high)])}
-
-
-def _cells(points: Array) -> int:
-    """How many cells of an even grid over the section hold a point."""
-    x = np.floor((points[:, 0] + math.pi) / (2.0 * math.pi) * _CELLS)
-    y = np.floor(points[:, 1] / math.pi * _CELLS)
-    return int(np.unique(x * _CELLS + y).size)
+        return boxed(corners, _BOUNDS) if picture == "section" else {}
 
 
 def _captions(result: SuslovResult) -> dict[str, str]:
@@ -440,7 +424,7 @@ def _captions(result: SuslovResult) -> dict[str, str]:
     if len(result.backward):
         shown += f", {len(result.backward)} backward"
     captions = {
-        "section": f"Section {plane}, growing\n{shown}; the later forward ones lie in {_cells(result.later)} of "
+        "section": f"Section {plane}, growing\n{shown}; the later forward ones lie in {cells(result.later, _CELLS)} of "
                    f"{_CELLS**2} cells.",
         "omega": f"Angular velocity (ω₁, ω₂)\nThe chosen orbit, E = {number(result.E)}.",
         "sphere": "Poisson sphere\nThe vertical γ along the chosen orbit; r: the centre of mass.",
@@ -470,12 +454,8 @@ def _derived(result: SuslovResult) -> list[str]:
 
 
 def _status(result: SuslovResult) -> str:
-    parts = [f"section {len(result.forward) + len(result.backward) + len(result.own)} points"]
-    if result.drift:
-        parts.append("drift " + " ".join(f"{name} {drift:.0e}" for name, drift in result.drift.items()))
-    if result.orbit is not None:
-        parts += orbit_status(result.orbit)[:1]
-    return " · ".join([*parts, result.ended]).replace("e-", "e−")
+    points = len(result.forward) + len(result.backward) + len(result.own)
+    return section_status(f"section {points} points", result.drift, result.orbit, result.ended)
 
 
 SCENE = Scene(
