@@ -81,6 +81,7 @@ class Session:
             self.ready.scene = describe(scene.name)
         self.stage = self._stages[scene.name]
         self._dirty = True
+        self._stopped = False
         self._entered(scene)
 
     def _carried(self, scene: Scene) -> Values:
@@ -101,6 +102,7 @@ class Session:
                     self._link_notes.append(note)
             elif spec is not None:
                 self._wanted[name], _ = spec.read(str(value))
+        self._stopped &= self._wanted == before
         # Also where the state stays but a control shows something else: it must be put right.
         self._dirty |= self._wanted != before or any(self.values.get(name) != value for name, value in values.items())
 
@@ -128,11 +130,13 @@ class Session:
         """Compute in the background what the report lacks; a note where that had ended before its end."""
         left = len(report.todo)
         if not more:
-            self.background.follow(report.todo)
+            # Once stopped, a picture that comes into sight begins nothing again.
+            self.background.follow(() if self._stopped else report.todo)
         self._progress = (report.total - left, report.total) if left and not ended else None
         if not (left and ended):
             return []
-        return [self.background.error or f"Stopped: {report.total - left} of {report.total} parts are drawn."]
+        return [self.background.error or (
+            f"Stopped: {report.total - left} of {report.total} parts are drawn. Change a value to compute again.")]
 
     def _receive(self, message: Any) -> None:
         """A message of the browser: nothing in it is trusted."""
@@ -161,7 +165,8 @@ class Session:
         hover = message.get("hover")
         if isinstance(hover, list) and len(hover) == 3 and isinstance(self.stage, Hovered):
             self._hover(self.stage, hover[0], *map(_float, hover[1:]))
-        if message.get("stop") is True:
+        if message.get("stop") is True and self._progress is not None:
+            self._stopped = True
             self.background.stop()
         requested = message.get("requested")
         with unlocked():
@@ -199,7 +204,7 @@ class Session:
         """The pictures of what is wanted; `more`: of the same, of which more may be known by now."""
         self._dirty = False
         # Before the pieces are looked for: the last one may come while this is drawn.
-        ended = more and self.background.left == 0
+        ended = self.background.left == 0 if more else self._stopped
         admitted, notes = self.scene.admit(self._wanted)
         self.values = admitted
         try:

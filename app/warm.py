@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import logging
 import os
 import subprocess
 import sys
@@ -12,9 +13,12 @@ from app.compute import CACHE
 from app.description import describe
 from app.scenes import scenes
 from app.scenes.base import Scene
+from models.errors import ModelError
 from models.jit import CACHE_FOLDER
 
 __all__ = ["compile_all", "warm"]
+
+logger = logging.getLogger("hess_explorer")
 
 QUIET_SECONDS = 0.3
 _MARK = None if CACHE_FOLDER is None else CACHE_FOLDER / "complete"
@@ -23,7 +27,11 @@ _MARK = None if CACHE_FOLDER is None else CACHE_FOLDER / "complete"
 
 def compute(scene: Scene, folded: bool = True) -> None:
     """Compile (or load) every kernel of a scene, by computing its default state once; folded: of all pictures."""
-    scene.compute(scene.defaults(), scene.pictures if folded else scene.open_pictures, False)
+    try:
+        scene.compute(scene.defaults(), scene.pictures if folded else scene.open_pictures, False)
+    except ModelError as error:
+        # One scene that cannot be shown keeps no other from being ready.
+        logger.warning("%s: %s", scene.name, error)
 
 
 def compile_all() -> None:

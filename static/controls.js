@@ -36,6 +36,8 @@ function number({ name, label, symbol, help }) {
     box.setCustomValidity(valid ? "" : "This is not a number: type one like 1.5 or 1e-8.")
     if (!valid) box.reportValidity()
     else if (value !== shown) change(value)
+    // As the server will write it: from here on another text is one that is being typed.
+    if (valid) box.value = String(value)
   })
   box.addEventListener("input", () => box.setCustomValidity(""))
   box.addEventListener("keydown", (event) => {
@@ -45,11 +47,14 @@ function number({ name, label, symbol, help }) {
     box.removeAttribute("aria-invalid")
   })
   const show = ([value, low, high, step]) => {
+    // States may come while a number is typed, piece by piece of a section: they leave it alone.
+    const typing = box.getRootNode().activeElement === box && box.value !== String(shown)
     shown = value
     slider.min = Math.min(low, value)
     slider.max = Math.max(high, value)
     slider.step = step
     slider.value = value
+    if (typing) return
     box.value = String(value)
     box.removeAttribute("aria-invalid")
   }

@@ -5,6 +5,7 @@
 
 const URL_PAUSE = 400
 const PATIENCE = 400
+// The next pieces are asked for after a pause as long as the last ones took: half of the time is the user's.
 const MORE_PAUSE = 80
 
 export function render({ model, view }) {
@@ -14,6 +15,7 @@ export function render({ model, view }) {
   let requested = 0
   let asking = false
   let asked = null
+  let since = 0
   let held = false
   let touched = false
   let wish = {}
@@ -36,6 +38,7 @@ export function render({ model, view }) {
     queueMicrotask(() => {
       asking = false
       asked = requested
+      since = performance.now()
       const entering = chosen !== null && chosen !== scene.name
       model.send_msg({
         requested, held, values, ...wish, scene: entering ? chosen : null, hidden: entering ? null : [...hidden],
@@ -253,7 +256,7 @@ export function render({ model, view }) {
     tell("hess:progress", state.progress)
     clearTimeout(more)
     if (answers < requested) ask()
-    else if (state.progress !== null) more = setTimeout(ask, MORE_PAUSE)
+    else if (state.progress !== null) more = setTimeout(ask, Math.max(MORE_PAUSE, performance.now() - since))
     else if (!waiting) root.dataset.ready = "true"
   }
   // Called whenever one of the pictures has been painted.

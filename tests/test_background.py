@@ -351,7 +351,8 @@ def test_stop_leaves_what_is_drawn_and_says_how_much(gate):
     state = browser.ask(1)
     drawn = 3 + THREADS
     assert state["progress"] is None
-    assert browser.texts["notes"] == f"Stopped: {drawn} of {PIECES} parts are drawn."
+    assert browser.texts["notes"] == (
+        f"Stopped: {drawn} of {PIECES} parts are drawn. Change a value to compute again.")
     begun = len(gate.calls)
     gate.let(1000)
     browser.ask(1)
@@ -361,6 +362,30 @@ def test_stop_leaves_what_is_drawn_and_says_how_much(gate):
     browser.ask(2, values={"orbits": 8.0})
     completed(browser, 2)
     assert browser.texts["notes"] == ""
+
+
+def test_what_was_stopped_is_not_begun_again_by_a_picture_that_comes_into_sight(gate):
+    browser = Browser(EP, SMALL)
+    wait_until(lambda: len(gate.calls) == THREADS)
+    browser.ask(1, hidden=["sphere"])
+    browser.ask(2, stop=True)
+    gate.let(1000)
+    completed(browser, 2)
+    begun = len(gate.calls)
+    assert begun == THREADS
+    state = browser.ask(3, hidden=[])
+    time.sleep(0.03)
+    assert state["progress"] is None
+    assert browser.session.background.left == 0
+    assert len(gate.calls) == begun
+    assert browser.texts["notes"].startswith(f"Stopped: {THREADS} of {PIECES} parts are drawn.")
+    # What is stopped while a new value is on its way is that value's work.
+    browser.ask(4, values={"h": 45.0})
+    browser.ask(5, values={"h": 46.0}, stop=True)
+    gate.let(1000)
+    wait_until(lambda: browser.session.background.left == 0)
+    assert 46.0 not in {arguments[1] for _, arguments in gate.calls if len(arguments) > 3}
+    assert browser.texts["notes"].startswith(f"Stopped: 0 of {PIECES} parts are drawn.")
 
 
 def test_a_newer_state_ends_the_work_for_the_older_one(gate):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 import gc
 import itertools
@@ -18,6 +19,7 @@ from test_scenes import ACCURACY, HESS, SCENES, Board, Browser, contents, elsewh
 from app import session, warm
 from app.compute import ResultCache
 from app.scenes import suslov_hess
+from models.errors import WorkLimit
 
 every_scene = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
 
@@ -545,6 +547,21 @@ def test_warming_up_computes_the_first_state_of_every_scene(cache, monkeypatch):
     for scene in SCENES.values():
         Browser(scene)
         assert cache.take() == set(), scene.name
+
+
+def test_a_scene_that_refuses_its_first_state_keeps_no_other_from_being_ready(cache, monkeypatch, caplog):
+    def refuse(*_):
+        raise WorkLimit("Too many steps: choose a shorter time span.")
+
+    scenes = [*SCENES.values()]
+    refusing = [dataclasses.replace(scene, compute=refuse) if i == 1 else scene for i, scene in enumerate(scenes[:3])]
+    monkeypatch.setattr(warm, "scenes", lambda: {scene.name: scene for scene in refusing})
+    monkeypatch.setattr(warm, "QUIET_SECONDS", 0.0)
+    warm.warm()
+    assert caplog.messages == [f"{scenes[1].name}: Too many steps: choose a shorter time span."]
+    cache.calls.clear()
+    Browser(scenes[2])
+    assert cache.take() == set()
 
 
 def test_warming_up_stands_back_while_the_page_is_used(cache, monkeypatch):

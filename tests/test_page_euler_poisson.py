@@ -191,6 +191,32 @@ def test_a_long_section_fills_and_can_be_stopped(page, how):
     assert shown_points(page) == points
 
 
+def test_what_is_typed_while_points_arrive_stays_in_its_box(page):
+    opened(page)
+    page.type("count", "4000")
+    page.type("orbits", "400")
+    page.page.locator(".computing").wait_for(state="visible")
+    before = page.state
+    box = page.box("h")
+    box.fill("43")
+    # States of the section come between the keys.
+    page.page.wait_for_function("state => Number(document.documentElement.dataset.state) > state + 1", arg=before)
+    assert not page.ready
+    assert box.input_value() == "43"
+    box.press("End")
+    box.type(".5")
+    # Too large a number of orbits would still be at work.
+    page.change(lambda: page.page.evaluate(ENTER, [*SMALL.items()]))
+    assert box.input_value() == "43.5"
+    page.change(box.press, "Enter")
+    assert values_of(page)["h"] == 43.5
+    # What was taken in is written as the server has it, in the box that still has the focus too.
+    box = page.box("span")
+    box.fill("1e9")
+    page.change(box.press, "Enter")
+    assert float(box.input_value()) == next(spec for spec in EP.specs if spec.name == "span").highest
+
+
 def test_a_newer_choice_ends_the_older_work(page):
     opened(page)
     page.type("count", "4000")

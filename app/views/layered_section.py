@@ -13,6 +13,10 @@ from models.results import Array
 
 __all__ = ["LayeredSection"]
 
+_MANY = 50_000
+_ACROSS = 384
+"""Cells across a window: as many as its picture has pixels, on most screens."""
+
 
 class LayeredSection(Figure):
     """Grey: impossible.  A click starts an orbit, a box looks closer.
@@ -37,9 +41,19 @@ class LayeredSection(Figure):
         self.add_point_and_message()
 
     def show(self, first: Array, second: Array, own: Array) -> None:
-        """Points (n, 2) of either kind, and of the chosen orbit."""
+        """Points (n, 2) of either kind, and of the chosen orbit; of very many, those that can be told apart."""
         for layer, points in (("first", first), ("second", second), ("own", own)):
-            self.assign(layer, x=points[:, 0].astype(np.float32), y=points[:, 1].astype(np.float32))
+            seen = points if len(points) <= _MANY else self._apart(points)
+            self.assign(layer, x=seen[:, 0].astype(np.float32), y=seen[:, 1].astype(np.float32))
+
+    def _apart(self, points: Array) -> Array:
+        """One of the points in each cell of the window, and none outside of it."""
+        (x0, x1), (y0, y1) = self.x_range, self.y_range
+        cells = np.floor((points - (x0, y0)) * (_ACROSS / (x1 - x0), _ACROSS / (y1 - y0))).astype(np.int64)
+        within = np.flatnonzero(((cells >= 0) & (cells < _ACROSS)).all(axis=1))
+        one = np.full(_ACROSS * _ACROSS, -1)
+        one[cells[within] @ (_ACROSS, 1)] = within
+        return points[np.sort(one[one >= 0])]
 
     def show_basins(self, cells: Array, x: Range, y: Range) -> None:
         """Cells (m, n) over the window x × y: 0 or 1, by the attractor; −1 where nothing is known."""

@@ -1,0 +1,47 @@
+"""Of very many points of a section those are drawn that a picture can tell apart."""
+
+import numpy as np
+import pytest
+
+from app.views.layered_section import LayeredSection
+from app.wire import Wire
+
+
+def drawn(points, x_range=(-3.0, 3.0), y_range=(-1.0, 1.0)):
+    wire = Wire()
+    section = LayeredSection(wire, "section", ("l", "x"), x_range, y_range)
+    section.show(points, np.empty((0, 2)), np.empty((0, 2)))
+    tree, block = wire.pack()
+    column = np.frombuffer(block, "<f4")
+    places = (tree["sources"]["section-first"][name] for name in ("x", "y"))
+    return np.column_stack([column[place["at"] : place["at"] + place["n"]] for place in places])
+
+
+def test_fifty_thousand_points_are_all_drawn():
+    points = np.random.default_rng(1).uniform((-3, -1), (3, 1), (50_000, 2))
+    assert np.array_equal(drawn(points), points.astype(np.float32))
+
+
+@pytest.mark.parametrize("window", [((-3.0, 3.0), (-1.0, 1.0)), ((-0.5, 0.1), (0.25, 0.26))])
+def test_of_more_there_is_one_in_each_cell_and_no_cell_is_missed(window):
+    # Dense along a curve, sparse elsewhere; some outside of the window.
+    random = np.random.default_rng(2)
+    (x0, x1), (y0, y1) = window
+    low, size = np.array((x0, y0)), np.array((x1 - x0, y1 - y0))
+    s = random.uniform(0.0, 1.0, 400_000)
+    curve = np.column_stack([s, 0.5 + 0.4 * np.sin(7.0 * s)])
+    points = low + size * np.concatenate([curve, random.uniform(-0.2, 1.2, (2_000, 2))])
+    found = drawn(points, *window)
+    assert len(found) < 10_000
+    # They are points of the section, in single precision.
+    assert {*map(tuple, found.tolist())} <= {*map(tuple, points.astype(np.float32).tolist())}
+    # Wherever there is a point, one is drawn within the diagonal of a cell.
+    share, seen = (points - low) / size, (found - low) / size
+    within = share[((share >= 0.0) & (share < 1.0)).all(axis=1)]
+    for place in within[random.integers(0, len(within), 500)]:
+        assert np.abs(seen - place).max(axis=1).min() <= 1.0 / 384.0 + 1e-5
+    assert ((seen > -1e-5) & (seen < 1.0 + 1e-5)).all()
+
+
+def test_points_that_all_lie_outside_of_the_window_leave_it_empty():
+    assert drawn(np.full((60_000, 2), 5.0)).shape == (0, 2)
