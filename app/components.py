@@ -81,11 +81,12 @@ class Ready(JSComponent):
 
     - "values": {name: number or option, …}; "preset": the example chosen; "scene": the scene chosen;
     - "picked": [picture, x, y] or [picture, x0, y0, x1, y1]; "hover": [picture, x, y], where the mouse is;
+    - "near": a scene that may be chosen next;
     - "reset", "undo", "clear", "stop": whether that was pressed; "held": whether a slider is held;
     - "hidden": [the pictures out of sight, …].
     """
 
-    scene = param.String(default="", doc="JSON: the description of the scene entered last, see `app.description`.")
+    scene = param.String(default="", doc="JSON: the description of the newest scene, see `app.description`.")
     state = param.String(default="", doc="JSON: number of the state, last request that it answers, URL query, "
                          "the tree of its data (see `app.wire`), name of its scene, progress [done, of] or null.")
     block = param.Bytes(default=b"", doc="The numbers of that tree.")

@@ -59,6 +59,7 @@ class Session:
         self.background = Background()
         self._entered = entered
         self._stages: dict[str, Stage] = {}
+        self._described: set[str] = set()
         self._held = False
         self._number = 0
         self._progress: tuple[int, int] | None = None
@@ -78,11 +79,17 @@ class Session:
         # The browser keeps the pictures of all scenes that it has seen, and a stage knows what it has drawn on them.
         if scene.name not in self._stages:
             self._stages[scene.name] = scene.stage(self.wire)
-            self.ready.scene = describe(scene.name)
+            self._describe(scene.name)
         self.stage = self._stages[scene.name]
         self._dirty = True
         self._stopped = False
         self._entered(scene)
+
+    def _describe(self, name: str) -> None:
+        """Give the browser what it needs to build the pictures of a scene, once."""
+        if name not in self._described:
+            self._described.add(name)
+            self.ready.scene = describe(name)
 
     def _carried(self, scene: Scene) -> Values:
         """What keeps its meaning in another scene: numbers, and choices that it has too."""
@@ -170,9 +177,13 @@ class Session:
             self.background.stop()
         requested = message.get("requested")
         with unlocked():
-            scene = scenes().get(message["scene"]) if isinstance(message.get("scene"), str) else None
+            scene, near = (scenes().get(name) if isinstance(name, str) else None
+                           for name in (message.get("scene"), message.get("near")))
             if scene is not None and scene is not self.scene:
                 self._enter(scene, self._carried(scene), [])
+            # One description goes with one state.
+            elif near is not None:
+                self._describe(near.name)
             hidden = message.get("hidden")
             if isinstance(hidden, list):
                 shown = [name for name in self.scene.pictures if name not in hidden]

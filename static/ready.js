@@ -38,7 +38,6 @@ export function render({ model, view }) {
     queueMicrotask(() => {
       asking = false
       asked = requested
-      since = performance.now()
       const entering = chosen !== null && chosen !== scene.name
       model.send_msg({
         requested, held, values, ...wish, scene: entering ? chosen : null, hidden: entering ? null : [...hidden],
@@ -99,6 +98,11 @@ export function render({ model, view }) {
   document.addEventListener("hess:hover", (event) => {
     if (!event.detail.slice(1).every(Number.isFinite)) return
     wish.hover = event.detail
+    ask()
+  })
+  document.addEventListener("hess:near", (event) => {
+    if (descriptions.has(event.detail)) return
+    wish.near = event.detail
     ask()
   })
   document.addEventListener("hess:scene", (event) => {
@@ -211,16 +215,18 @@ export function render({ model, view }) {
   // States come one by one; the pictures of a new scene are built behind those of the old one.
   const onState = () => {
     const [text, block] = [model.state, model.block]
+    let near = null
     if (model.scene !== "" && !descriptions.has(model.scene)) {
-      const description = JSON.parse(model.scene)
-      descriptions.set(model.scene, description).set(description.name, description)
+      near = JSON.parse(model.scene)
+      descriptions.set(model.scene, near).set(near.name, near)
     }
     const next = JSON.parse(text)
     arriving = arriving.then(async () => {
-      if (scene?.name !== next.scene && !window.hess.has(next.scene)) prepare(await window.hess.build(descriptions.get(next.scene)))
+      if (!window.hess.has(next.scene)) prepare(await window.hess.build(descriptions.get(next.scene)))
       state = next
       if (scene?.name !== state.scene) enter()
       show(block)
+      if (near !== null && !window.hess.has(near.name)) prepare(await window.hess.build(near))
     }).catch((error) => {
       // One state that cannot be shown must not keep the next ones away.
       asked = null
@@ -249,7 +255,7 @@ export function render({ model, view }) {
     tell("hess:texts", { busy: "" })
     asked = null
     // The first picture on new axes has ticks of the old ones in it: Bokeh's are painted once more.
-    if (!scene.settled) for (const plot of scene.plots) plot.request_paint()
+    if (!scene.settled) for (const plot of scene.plots) if (plot.model.name in state.tree.ranges) plot.request_paint()
     scene.settled = true
     // What could not be painted yet (a hidden tab) is still waited for, but holds up nothing.
     waiting = busy()
@@ -263,6 +269,7 @@ export function render({ model, view }) {
   const onPainted = () => { if (waiting && applied && !busy()) settle() }
 
   const show = (block) => {
+    since = performance.now()
     unpack(state.tree, block)
     writeUrl()
     waiting = true

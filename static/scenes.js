@@ -1,4 +1,7 @@
-// The menu of scenes, by their pictures.  A choice goes to "ready.js" by the event "hess:scene".
+// The menu of scenes, by their pictures.  A choice goes to "ready.js" by the event "hess:scene"; what the mouse or the
+// keyboard rests on by "hess:near": its pictures are built before they are asked for.
+
+const REST = 60
 
 export function render({ model, view, el }) {
   view.living?.abort()
@@ -31,9 +34,13 @@ export function render({ model, view, el }) {
       const title = document.createElement("span")
       title.textContent = scene.title
       item.append(picture, title)
-      item.addEventListener("click", () => {
-        document.dispatchEvent(new CustomEvent("hess:scene", { detail: scene.name }))
-      })
+      const tell = (name) => document.dispatchEvent(new CustomEvent(name, { detail: scene.name }))
+      item.addEventListener("click", () => tell("hess:scene"))
+      let resting = null
+      for (const name of ["pointerenter", "focus"]) {
+        item.addEventListener(name, () => { resting = setTimeout(tell, REST, "hess:near") })
+      }
+      for (const name of ["pointerleave", "blur"]) item.addEventListener(name, () => clearTimeout(resting))
       return item
     }))
     const pressed = bar.querySelector('[aria-pressed="true"]')

@@ -209,6 +209,35 @@ def test_a_scene_changes_in_place_and_back_with_all_that_was_chosen(explorer):
     assert explorer.page.locator(".param-speed").input_value() == "2"
 
 
+def test_the_pictures_of_a_scene_are_built_while_the_mouse_rests_on_it(browser, server):
+    context = browser.new_context(viewport={"width": 1600, "height": 950})
+    page = Explorer(context.new_page(), server).open(f"scene={HESS}")
+    built = "name => window.hess.has(name)"
+    card = page.page.locator
+    passed = next(name for name in OFFERED if name not in (HESS, STUDY))
+    card(f".param-scene-{STUDY}").hover()
+    page.page.wait_for_function(built, arg=STUDY)
+    # Whom it only passes by is not built, unless the keyboard comes to it.
+    card(f".param-scene-{passed}").hover()
+    page.page.mouse.move(900, 600)
+    page.page.wait_for_timeout(300)
+    assert not page.page.evaluate(built, passed)
+    card(f".param-scene-{passed}").focus()
+    page.page.wait_for_function(built, arg=passed)
+    # Nothing of it is seen.
+    assert page.scene == HESS
+    assert page.page.locator(".gallery:not(.away)").count() == 1
+    assert_drawn(page, HESS, DEFAULTS)
+    page.enter(passed)
+    assert page.scene == passed
+    assert all(page.caption(name) for name in SCENES[passed].open_pictures)
+    page.enter(HESS)
+    page.enter(STUDY)
+    assert_drawn(page, STUDY, DEFAULTS)
+    page.assert_quiet()
+    context.close()
+
+
 def test_a_motion_that_plays_is_left_where_it_is(explorer):
     explorer.page.locator(".param-speed").select_option("8")
     explorer.page.locator(".param-play").click()

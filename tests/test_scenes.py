@@ -914,6 +914,32 @@ def test_a_scene_is_described_once_however_often_it_is_entered():
 
 
 @pytest.mark.usefixtures("quick")
+def test_a_scene_that_may_come_next_is_described_once_and_not_entered():
+    browser = Browser(HESS)
+    for requested in (1, 2):
+        state = browser.ask(requested, near=ACCURACY.name)
+        assert state["scene"] == HESS.name
+        assert browser.described == [HESS.name, ACCURACY.name]
+    assert browser.entered == [HESS.name]
+    for near in ("nowhere", 7, None, [ACCURACY.name], HESS.name):
+        browser.ask(3, near=near)
+    assert browser.described == [HESS.name, ACCURACY.name]
+    browser.ask(4, scene=ACCURACY.name)
+    assert browser.entered == browser.described == [HESS.name, ACCURACY.name]
+
+
+@pytest.mark.usefixtures("quick")
+def test_with_the_state_of_a_scene_comes_the_description_of_no_other():
+    """The browser sees the last one only."""
+    browser = Browser(HESS)
+    other = next(name for name in SCENES if name not in (HESS.name, ACCURACY.name))
+    browser.ask(1, scene=ACCURACY.name, near=other)
+    assert browser.described == [HESS.name, ACCURACY.name]
+    browser.ask(2, near=other)
+    assert browser.described[-1] == other
+
+
+@pytest.mark.usefixtures("quick")
 def test_from_any_scene_to_any_other_and_back_everything_is_of_the_state():
     browser = Browser(HESS)
     others = [name for name in SCENES if name != HESS.name]

@@ -204,6 +204,17 @@ def test_the_methods_of_scipy_are_left_out_beyond_150_times_the_shortest_period(
         assert others_take_long(*asked(motion)[:3], longest * (1.0 + 1e-12))
 
 
+def test_the_methods_of_scipy_are_left_out_where_the_motion_needs_many_steps():
+    """A body so slender that the shortest period does not tell how hard its motion is."""
+    motion = HESS.motion({**HESS.defaults(), "I22": 1.1, "I23": 107.0, "h": 5e5, "f": -2.2})
+    longest = 149.0 / unit_of(motion)
+    steps = {span: solve(motion.system, motion.state, motion.parameters, [0.0, span], LEVELS["reference"]).cost.steps
+             for span in np.linspace(0.1, 1.0, 10) * longest}
+    assert min(steps.values()) < 1500 < max(steps.values())
+    for span, count in steps.items():
+        assert others_take_long(*asked(motion)[:3], span) == (count > 1500)
+
+
 def test_over_the_longest_span_that_is_measured_scipy_takes_less_than_a_few_seconds():
     motion = HESS.motion(HESS.defaults())
     span = 150.0 / unit_of(motion)

@@ -36,8 +36,6 @@ __all__ = ["looking_into"]
 PICTURES = ("precision", "growth", "drift", "pixels")
 SAMPLES = 400
 _FLOOR = 1e-17
-_SLOW_MS = 6.0
-"""Where a level takes so long, SciPy's methods, hundreds of times slower, take seconds."""
 _INTEGRAL_COLORS = ("#0072B2", "#009E73", "#D55E00", "#CC79A7")
 _INTEGRAL_DASHES = ("solid", "dashed", "dotdash", "dotted")
 _OTHERS = {"DOP853": "#808080", "LSODA": "#56B4E9"}
@@ -95,8 +93,8 @@ def _compute(origin: Scene, values: Values, shown: Collection[str], dragging: bo
     points: tuple[WorkPoint, ...] | None = None
     if "precision" in shown:
         points = cached(measure_levels, *key, SAMPLES)
-        if others_take_long(*key) or max(point.ms for point in points) > _SLOW_MS:
-            notes.append("SciPy's methods are left out: over so long a span they take seconds. Choose a shorter one.")
+        if others_take_long(*key):
+            notes.append("SciPy's methods are left out: over so long a span they take long. Choose a shorter one.")
         elif not dragging:
             points += cached(measure_others, *key, SAMPLES)
     errors = cached(growth, *key, motion.weights, SAMPLES) if {"growth", "drift", "pixels"} & set(shown) else None
