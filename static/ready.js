@@ -7,6 +7,7 @@ const URL_PAUSE = 400
 const PATIENCE = 400
 // The next pieces are asked for after a pause as long as the last ones took: half of the time is the user's.
 const MORE_PAUSE = 80
+const LOST = "The connection to the server is lost. See that it runs, and reload this page: its address keeps the state."
 
 export function render({ model, view }) {
   const root = document.documentElement
@@ -15,6 +16,7 @@ export function render({ model, view }) {
   let requested = 0
   let asking = false
   let asked = null
+  let lost = false
   let since = 0
   let held = false
   let touched = false
@@ -33,7 +35,7 @@ export function render({ model, view }) {
 
   // One request at a time: the next one goes when the answer to the last is painted.
   const ask = () => {
-    if (scene === null || asked !== null || asking) return
+    if (scene === null || asked !== null || asking || lost) return
     asking = true
     queueMicrotask(() => {
       asking = false
@@ -316,6 +318,11 @@ export function render({ model, view }) {
   }
   const uncover = () => {
     if (covered() && performance.now() < 10_000) return void requestAnimationFrame(uncover)
+    bokeh().on_event("connection_lost", () => {
+      lost = true
+      clearTimeout(sign)
+      tell("hess:texts", { busy: LOST })
+    })
     bokeh().on_change((event) => { if (event.attr === "dark_theme") writeUrl() })
     tell("hess:client", own)
     model.on("state", onState)

@@ -291,6 +291,10 @@ class Line:
     def hold(self):
         self._holding = True
 
+    def cut(self):
+        """As when the server ends."""
+        self._socket.close()
+
     def release(self):
         self._holding = False
         while self._held:
@@ -457,6 +461,24 @@ def test_an_answer_that_takes_long_is_said_to_be_under_way(on_a_line):
         explorer.change(lambda h=h: explorer.slide(h=h))
     page.evaluate("new Promise((done) => setTimeout(done, 600))")
     assert page.evaluate("said") == []
+
+
+def test_a_page_that_has_lost_its_server_says_so_and_keeps_saying_it(on_a_line):
+    explorer, line = on_a_line
+    page = explorer.page
+    sign = page.locator(".text.busy")
+    line.cut()
+    sign.wait_for(state="visible")
+    assert sign.inner_text().startswith("The connection to the server is lost.")
+    # What is chosen now cannot be shown, and is not said to be under way.
+    explorer.slide(h=0.9)
+    page.wait_for_timeout(600)
+    assert sign.inner_text().startswith("The connection to the server is lost.")
+    assert not explorer.ready
+    # The pictures stay what they were, and so does the motion on them.
+    assert explorer.here()[0] == 1.5
+    page.locator(".param-play").click()
+    assert explorer.playing
 
 
 # --- The link ----------------------------------------------------------------------------------------
