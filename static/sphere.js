@@ -116,13 +116,19 @@ function sphere(el, options, source, signal, isShown) {
       ctx.strokeStyle = colour ?? text
     }
 
+    // Whole, also at the edge of the picture.
+    function write(label, x, y) {
+      const [across, down] = [ctx.measureText(label).width / 2, 8 * ratio]
+      ctx.fillText(label, Math.min(Math.max(x, across), size - across), Math.min(Math.max(y, down), size - down))
+    }
+
     function axis(x, y, z, label, near, aside = 0) {
       if (depth(x, y, z) >= 0 !== near) return
       ctx.beginPath()
       ctx.moveTo(px(x, y), py(x, y, z))
       ctx.lineTo(px(1.12 * x, 1.12 * y), py(1.12 * x, 1.12 * y, 1.12 * z))
       ctx.stroke()
-      ctx.fillText(label, px(1.2 * x, 1.2 * y) + aside * ratio, py(1.2 * x, 1.2 * y, 1.2 * z) + aside * ratio)
+      write(label, px(1.2 * x, 1.2 * y) + aside * ratio, py(1.2 * x, 1.2 * y, 1.2 * z) + aside * ratio)
     }
 
     function layer(near) {
@@ -164,7 +170,7 @@ function sphere(el, options, source, signal, isShown) {
         if (look !== "unstable") ctx.fill()
         ctx.stroke()
         ctx.fillStyle = text
-        ctx.fillText(label, px(1.15 * x, 1.15 * y), py(1.15 * x, 1.15 * y, 1.15 * z))
+        write(label, px(1.15 * x, 1.15 * y), py(1.15 * x, 1.15 * y, 1.15 * z))
       }
       if (point !== null && depth(...point) >= 0 === near) {
         ctx.beginPath()

@@ -280,6 +280,8 @@ def test_every_formula_of_the_words_becomes_mathml(scene):
     assert "$" not in html
     # What the converter does not know it passes on as a command.
     assert not re.search(r"\\[A-Za-z]+", html)
+    # Browsers know no other variant: bold and script letters must be letters of their own.
+    assert set(re.findall(r'mathvariant="([^"]*)"', html)) <= {"normal"}
 
 
 @every_preset
