@@ -9,11 +9,12 @@ import math
 import textwrap
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import holoviews as hv
 import numpy as np
-from bokeh.models import ColumnDataSource, CustomJS, LinearColorMapper
+from bokeh.models import ColumnDataSource, CustomJS, CustomJSTickFormatter, LinearColorMapper
 from bokeh.plotting import figure
 
 from app import theme
@@ -45,6 +46,10 @@ _BOX = """
     const detail = { pick: [name, x, y, ...here], drag: true }
     document.dispatchEvent(new CustomEvent("hess:pick", { detail }))
 """
+
+_TICKS = (Path(__file__).resolve().parents[2] / "static" / "ticks.js").read_text(encoding="utf-8")
+_LETTERS = 26
+"""As many stand side by side under the smallest picture; beside it there is room for any number."""
 
 _POSITIONS = {
     "quad": ("left", "right", "top", "bottom"),
@@ -142,6 +147,9 @@ class Figure:
         # The page shines through, whatever its theme.
         root.update(name=self.name, min_border=4, sizing_mode="stretch_width", aspect_ratio=1,
                     background_fill_alpha=0, border_fill_alpha=0)
+        for axis, side, letters in ((root.xaxis, "x", _LETTERS), (root.yaxis, "y", 1000)):
+            if self._ticks is None and side not in self._log:
+                axis.formatter = CustomJSTickFormatter(args={"letters": letters}, code=_TICKS)
         if self._x_ticks is not None:
             root.xaxis.ticker = list(self._x_ticks)
         if self._y_tick_count is not None:
