@@ -10,7 +10,7 @@ from app.wire import Wire
 def drawn(points, x_range=(-3.0, 3.0), y_range=(-1.0, 1.0)):
     wire = Wire()
     section = LayeredSection(wire, "section", ("l", "x"), x_range, y_range)
-    section.show(points, np.empty((0, 2)), np.empty((0, 2)))
+    section.show(points, np.empty((0, 2)), np.empty((0, 2)), whole=True)
     tree, block = wire.pack()
     column = np.frombuffer(block, "<f4")
     places = (tree["sources"]["section-first"][name] for name in ("x", "y"))
@@ -43,5 +43,20 @@ def test_of_more_there_is_one_in_each_cell_and_no_cell_is_missed(window):
     assert ((seen > -1e-5) & (seen < 1.0 + 1e-5)).all()
 
 
-def test_points_that_all_lie_outside_of_the_window_leave_it_empty():
-    assert drawn(np.full((60_000, 2), 5.0)).shape == (0, 2)
+@pytest.mark.parametrize("count", [10, 60_000])
+def test_a_window_without_a_point_says_so_when_no_more_will_come(count):
+    wire = Wire()
+    section = LayeredSection(wire, "section", ("l", "x"), (-3.0, 3.0), (-1.0, 1.0))
+    none, outside, inside = np.empty((0, 2)), np.full((count, 2), 5.0), np.zeros((1, 2))
+
+    def said(*points, whole):
+        section.show(*points, whole=whole)
+        texts = wire.pack()[0]["sources"].get("section-message", {}).get("text")
+        return texts if texts is None else " ".join(texts).replace("\n", " ")
+
+    assert said(outside, none, none, whole=False) is None
+    assert said(outside, none, none, whole=True) == (
+        "None of the points lies in this window: choose more crossings, or press Undo")
+    assert said(outside, none, inside, whole=True) == ""
+    if count > 50_000:
+        assert drawn(outside).shape == (0, 2)

@@ -383,7 +383,7 @@ class EulerPoissonStage:
         (l0, x0), (l1, x1) = result.window
         if not hold_axes:
             self.section.set_ranges((l0, l1), (x0, x1))
-        self.section.show(result.first, result.second, result.own)
+        self.section.show(result.first, result.second, result.own, whole=not (result.todo or hold_axes))
         if result.impossible is not None:
             self.section.show_impossible(result.impossible, (l0, l1), (x0, x1))
         l = np.linspace(l0, l1, 241)

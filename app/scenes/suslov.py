@@ -381,7 +381,7 @@ class SuslovStage:
         (x0, y0), (x1, y1) = result.window
         if not hold_axes:
             self.section.set_ranges((x0, x1), (y0, y1))
-        self.section.show(result.forward, result.backward, result.own)
+        self.section.show(result.forward, result.backward, result.own, whole=not (result.todo or hold_axes))
         if result.impossible is not None:
             self.section.show_impossible(result.impossible, (x0, x1), (y0, y1))
         if result.basin is None:

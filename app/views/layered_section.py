@@ -40,20 +40,33 @@ class LayeredSection(Figure):
         self.add("chosen", "scatter", ("x", "y"), size=16, fill_alpha=0, line_color=theme.MAP, line_width=3)
         self.add_point_and_message()
 
-    def show(self, first: Array, second: Array, own: Array) -> None:
-        """Points (n, 2) of either kind, and of the chosen orbit; of very many, those that can be told apart."""
+    def show(self, first: Array, second: Array, own: Array, whole: bool) -> None:
+        """Points (n, 2) of either kind, and of the chosen orbit; of very many, those that can be told apart.
+
+        whole : no more are to come; where there are none, the picture says so.
+        """
+        nothing = True
         for layer, points in (("first", first), ("second", second), ("own", own)):
+            nothing &= not self._within(points).any()
             seen = points if len(points) <= _MANY else self._apart(points)
             self.assign(layer, x=seen[:, 0].astype(np.float32), y=seen[:, 1].astype(np.float32))
+
+        self.say("" if not (whole and nothing) else
+                 "None of the points lies in this window: choose more crossings, or press Undo")
+
+    def _within(self, points: Array) -> np.ndarray:
+        (x0, x1), (y0, y1) = self.x_range, self.y_range
+        x, y = points.T
+        return (x >= x0) & (x <= x1) & (y >= y0) & (y <= y1)
 
     def _apart(self, points: Array) -> Array:
         """One of the points in each cell of the window, and none outside of it."""
         (x0, x1), (y0, y1) = self.x_range, self.y_range
-        cells = np.floor((points - (x0, y0)) * (_ACROSS / (x1 - x0), _ACROSS / (y1 - y0))).astype(np.int64)
-        within = np.flatnonzero(((cells >= 0) & (cells < _ACROSS)).all(axis=1))
+        within = points[self._within(points)]
+        cells = np.minimum((within - (x0, y0)) * (_ACROSS / (x1 - x0), _ACROSS / (y1 - y0)), _ACROSS - 1).astype(int)
         one = np.full(_ACROSS * _ACROSS, -1)
-        one[cells[within] @ (_ACROSS, 1)] = within
-        return points[np.sort(one[one >= 0])]
+        one[cells @ (_ACROSS, 1)] = np.arange(len(within))
+        return within[np.sort(one[one >= 0])]
 
     def show_basins(self, cells: Array, x: Range, y: Range) -> None:
         """Cells (m, n) over the window x × y: 0 or 1, by the attractor; −1 where nothing is known."""
