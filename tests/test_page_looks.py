@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import re
+from pathlib import Path
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
@@ -297,3 +298,47 @@ def test_every_control_is_reached_by_the_tab_key(open_page):
     wanted = {"param-preset", "param-accuracy", "param-reset", "param-link", "param-play", "param-t", "param-speed",
               "sphere", *(f"param-scene-{name}" for name in SCENES), *(f"param-{name}" for name in SLIDERS)}
     assert wanted <= reached, wanted - reached
+
+
+# --- Ticks -------------------------------------------------------------------------------------------
+
+@pytest.mark.parametrize(("ticks", "labels"), [
+    ([-4, -2, 0, 2, 4], ["−4", "−2", "0", "2", "4"]),
+    ([0.1, 0.2, 0.1 + 0.2], ["0.1", "0.2", "0.3"]),
+    # Sums of steps that should be zero.
+    ([-2e-4, 1.3e-20, 2e-4], ["−2e−4", "0", "2e−4"]),
+    ([0, 2.5e5, 5e5], ["0", "2.5e5", "5e5"]),
+    # Seven letters each: only every second has room.
+    ([0.50001, 0.50002, 0.50003, 0.50004, 0.50005], ["0.50001", "", "0.50003", "", "0.50005"]),
+    ([1.5e-7 * n for n in range(-3, 4)], ["−4.5e−7", "", "−1.5e−7", "", "1.5e−7", "", "4.5e−7"]),
+])
+def test_labels_of_ticks_are_short_and_have_room(browser, ticks, labels):
+    code = (Path(__file__).parents[1] / "static" / "ticks.js").read_text()
+    page = browser.new_page()
+    found = page.evaluate("""([code, ticks]) => {
+      const label = new Function("tick", "index", "ticks", "letters", code)
+      return ticks.map((tick, index) => label(tick, index, ticks, 26))
+    }""", [code, ticks])
+    page.close()
+    assert found == labels
+
+
+@pytest.mark.parametrize("query", [
+    "scene=free-suslov&w1=1e-4&w2=2e-4", "scene=euler-poisson&window=0.5,0.2;0.50004,0.20004&orbits=4&count=20"])
+def test_on_tiny_axes_no_label_touches_the_next(browser, server, query):
+    context = browser.new_context(viewport={"width": 1280, "height": 720})
+    page = Explorer(context.new_page(), server).open(query)
+    gaps = page.page.evaluate("""() => window.hess.plots.flatMap((plot) => plot.computed_renderer_views
+      .filter(({ model }) => model.type === "LinearAxis" && plot.model.below.includes(model)).map((axis) => {
+        const ticks = axis.tick_coords.major[0].map(Number)
+        const at = axis.coordinates.x_scale.v_compute(ticks)
+        const boxes = axis.compute_labels(ticks).items.map(({ text }, i) => [at[i], text])
+        const { ctx } = axis.layer
+        ctx.font = "12px system-ui, sans-serif"
+        const seen = boxes.filter(([, text]) => text !== "").map(([x, text]) => [x, ctx.measureText(text).width / 2])
+        return Math.min(...seen.slice(1).map(([x, half], i) => x - half - (seen[i][0] + seen[i][1])))
+      }))""")
+    assert len(gaps) >= 3
+    assert min(gaps) > 2.0
+    page.assert_quiet()
+    context.close()
