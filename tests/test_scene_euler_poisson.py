@@ -149,6 +149,17 @@ def test_rotation_numbers_are_those_of_10000_points(preset):
             assert math.remainder(rho[i] - exact, 1.0) == pytest.approx(0.0, abs=3e-4)
 
 
+def test_an_orbit_between_two_gaps_is_seen_too():
+    """A line of one point is none: every number that the caption speaks of is a point as well."""
+    view = View({"orbits": 0.0}, shown={"rotation"})
+    low, high = view.numbers("rotation", "From # to #")
+    lines, points = view.data["rotation-rho"], view.data["rotation-orbits"]
+    assert any(len(line) == 1 for line in lines["ys"])
+    for axis in "xy":
+        assert points[axis].tolist() == [value for line in lines[f"{axis}s"] for value in line]
+    assert (points["y"].min(), points["y"].max()) == pytest.approx((low, high), abs=1e-4)
+
+
 def test_at_the_meandering_torus_the_rotation_number_turns_round_at_an_eighth():
     view = View({**EP.presets[1].values, "orbits": 0.0}, shown={"rotation"})
     place, rho = view.numbers("rotation", "it turns round at # with ρ = #: no twist there.")

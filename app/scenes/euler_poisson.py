@@ -349,6 +349,8 @@ class EulerPoissonStage:
         self._starts: Sequence[tuple[float, float]] = ()
         self.section = LayeredSection(wire, "section", ("l", "L/G"), (-math.pi, math.pi), (-1.0, 1.0), path=True)
         self.rotation = Graph(wire, "rotation", (" ", "ρ"), (-1.0, 1.0), (-0.5, 0.5), [Series("rho", theme.ORBIT)])
+        # An orbit between two gaps is a curve of one point.
+        self.rotation.add("orbits", "scatter", ("x", "y"), size=4, color=theme.ORBIT)
         self.exponent = Graph(wire, "exponent", ("t", "λ"), (0.0, 200.0), (0.0, 1.0), [Series("lambda", theme.ORBIT)])
         self.sphere = PoissonSphere(wire, {"data-orbit": "orbit"})
         self.pictures = (self.section, self.rotation, self.exponent, self.sphere)
@@ -362,7 +364,7 @@ class EulerPoissonStage:
         if result.rotation is not None:
             self._show_rotation(result.rotation, str(result.values["turns"]), hold_axes)
         else:
-            self.rotation.clear("rho", "across")
+            self.rotation.clear("rho", "orbits", "across")
         if result.exponent is not None:
             exponent = result.exponent
             later = exponent.rates[len(exponent.rates) // 10 :]
@@ -402,7 +404,8 @@ class EulerPoissonStage:
         self.rotation.assign("rho", xs=[part.astype(np.float32) for part in rotation.along],
                              ys=[part.astype(np.float32) for part in rotation.rho])
         axis = 1 if turns == "along l" else 0
-        values = np.concatenate([np.empty(0), *rotation.rho])
+        along, values = (np.concatenate([np.empty(0), *parts]) for parts in (rotation.along, rotation.rho))
+        self.rotation.assign("orbits", x=along.astype(np.float32), y=values.astype(np.float32))
         if not hold_axes:
             low, high = (float(values.min()), float(values.max())) if values.size else (-0.5, 0.5)
             room = max(1e-4, 0.06 * (high - low))
