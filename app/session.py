@@ -60,6 +60,8 @@ class Session:
         self._entered = entered
         self._stages: dict[str, Stage] = {}
         self._described: set[str] = set()
+        self._left: dict[str, Values] = {}
+        self._own_instead = False
         self._held = False
         self._number = 0
         self._progress: tuple[int, int] | None = None
@@ -69,7 +71,6 @@ class Session:
         ready.on_msg(lambda event: self._receive(event.data))
 
     def _enter(self, scene: Scene, values: Values, notes: list[str]) -> None:
-        """Another scene, in which parameters of the same name keep their values."""
         self.scene = scene
         self._specs = {spec.name: spec for spec in scene.specs}
         self._wanted = scene.defaults() | {name: values[name] for name in self._specs if name in values}
@@ -91,11 +92,19 @@ class Session:
             self._described.add(name)
             self.ready.scene = describe(name)
 
-    def _carried(self, scene: Scene) -> Values:
-        """What keeps its meaning in another scene: numbers, and choices that it has too."""
-        return {spec.name: self._wanted[spec.name] for spec in scene.specs if spec.name in self._wanted and (
-            (isinstance(spec, Number) and isinstance(self._wanted[spec.name], float))
-            or (isinstance(spec, Choice) and self._wanted[spec.name] in spec.options))}
+    def _change_scene(self, scene: Scene) -> None:
+        """Another scene as it was left (at first: in its own first state), with what was changed in this one."""
+        here, wanted = self._specs, self._wanted
+        self._left[self.scene.name] = wanted
+        values = dict(wanted)
+        if scene.specs != self.scene.specs:
+            values = self._left.get(scene.name, scene.defaults()) | {
+                spec.name: wanted[spec.name] for spec in scene.specs
+                if spec.name in here and wanted[spec.name] != here[spec.name].default and (
+                    (isinstance(spec, Number) and isinstance(here[spec.name], Number))
+                    or (isinstance(spec, Choice) and wanted[spec.name] in spec.options))}
+        self._own_instead = scene.specs != self.scene.specs
+        self._enter(scene, values, [])
 
     def change(self, values: Values) -> None:
         """The user wants these values."""
@@ -180,7 +189,7 @@ class Session:
             scene, near = (scenes().get(name) if isinstance(name, str) else None
                            for name in (message.get("scene"), message.get("near")))
             if scene is not None and scene is not self.scene:
-                self._enter(scene, self._carried(scene), [])
+                self._change_scene(scene)
             # One description goes with one state.
             elif near is not None:
                 self._describe(near.name)
@@ -222,6 +231,12 @@ class Session:
             result = self.scene.compute(admitted, self._shown, self._held)
             report = self.stage.show(result, hold_axes=self._held)
         except ModelError as error:
+            if self._own_instead:
+                # Whoever enters a scene meets a picture, not a refusal of what was chosen elsewhere.
+                self._own_instead = False
+                self._wanted = self.scene.defaults()
+                self._link_notes = ["What was chosen before is not possible here: this is the scene's own first state."]
+                return self._draw()
             self.stage.fail(str(error))
             report = Report([], str(error))
         # Whatever it is, no traceback and no older picture stays on the page; the log says all.
@@ -230,6 +245,7 @@ class Session:
             sentence = "This state could not be computed. Press Reset, and please report the link."
             self.stage.fail(sentence)
             report = Report([], sentence)
+        self._own_instead = False
         notes = [*notes, *self._follow(report, more, ended)]
         # Under a drag the controls wait, unless the state had to differ from what they say.
         if not self._held or notes:
