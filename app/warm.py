@@ -13,6 +13,7 @@ from app.compute import CACHE
 from app.description import describe
 from app.scenes import scenes
 from app.scenes.base import Scene
+from app.wire import Wire
 from models.errors import ModelError
 from models.jit import CACHE_FOLDER
 
@@ -26,9 +27,14 @@ _MARK = None if CACHE_FOLDER is None else CACHE_FOLDER / "complete"
 
 
 def compute(scene: Scene, folded: bool = True) -> None:
-    """Compile (or load) every kernel of a scene, by computing its default state once; folded: of all pictures."""
+    """Compile (or load) every kernel of a scene, by computing its default state once; folded: of all pictures.
+
+    Of what it leaves to the background, one piece of each kind.
+    """
     try:
-        scene.compute(scene.defaults(), scene.pictures if folded else scene.open_pictures, False)
+        result = scene.compute(scene.defaults(), scene.pictures if folded else scene.open_pictures, False)
+        for task in {task.function: task for task in scene.stage(Wire()).show(result, False).todo}.values():
+            CACHE.get(task.function, *task.arguments)
     except ModelError as error:
         # One scene that cannot be shown keeps no other from being ready.
         logger.warning("%s: %s", scene.name, error)

@@ -46,13 +46,17 @@ STATE = "Number(document.documentElement.dataset.state)"
 
 RECORD = """() => {
     let start = null
-    document.addEventListener("keydown", () => { start = performance.now() }, true)
-    new MutationObserver(() => {
-        if (start !== null && document.documentElement.dataset.ready === "true") {
-            window.times.push(performance.now() - start)
+    let first = null
+    document.addEventListener("keydown", () => { [start, first] = [performance.now(), null] }, true)
+    new MutationObserver((changes) => {
+        if (start === null) return
+        const now = performance.now() - start
+        if (changes.some(({ attributeName }) => attributeName === "data-state")) first ??= now
+        if (document.documentElement.dataset.ready === "true") {
+            window.times.push([first, now])
             start = null
         }
-    }).observe(document.documentElement, { attributes: true, attributeFilter: ["data-ready"] })
+    }).observe(document.documentElement, { attributes: true, attributeFilter: ["data-ready", "data-state"] })
 }"""
 
 
@@ -84,21 +88,25 @@ async def open_page(page: Page, url: str) -> None:
     await page.wait_for_function(READY, timeout=60_000)
 
 
-async def slider_latencies(page: Page, name: str) -> list[float]:
-    """Milliseconds from each of `MOVES` key presses on a slider to its painted pictures."""
+async def slider_latencies(page: Page, name: str) -> tuple[list[float], list[float]]:
+    """Milliseconds from each of `MOVES` key presses on a slider to the first painted pictures, and to all there is."""
     await page.evaluate("window.times = []")
     await page.locator(f".param-{name} input[type=range]").focus()
     for i in range(MOVES):
         await page.keyboard.press("ArrowRight")
         await page.wait_for_function(f"window.times.length === {i + 1}", timeout=10_000)
         await asyncio.sleep(0.03)
-    return sorted(await page.evaluate("window.times"))
+    firsts, times = zip(*(await page.evaluate("window.times")), strict=True)
+    return sorted(firsts), sorted(times)
 
 
-def spread(times: list[float]) -> str:
-    """Median and 95th percentile of sorted milliseconds."""
-    high = times[math.ceil(0.95 * len(times)) - 1]
-    return f"median {statistics.median(times):.1f} ms, 95th percentile {high:.1f} ms"
+def spread(latencies: tuple[list[float], list[float]]) -> str:
+    """Median and 95th percentile of sorted milliseconds; where more arrives later, also the median of that."""
+    firsts, times = latencies
+    high = firsts[math.ceil(0.95 * len(firsts)) - 1]
+    whole = statistics.median(times)
+    return (f"median {statistics.median(firsts):.1f} ms, 95th percentile {high:.1f} ms"
+            + (f"; complete after {whole:.0f} ms" if whole > 1.2 * statistics.median(firsts) else ""))
 
 
 async def drag(page: Page, name: str) -> tuple[float, float, int]:
@@ -200,14 +208,16 @@ def compile_seconds(script: str, what: str) -> tuple[float, float]:
     return seconds[0], seconds[1]
 
 
+# The first scene is compiled before any other, whatever page is opened.
 COMPILE_SCENE = """
 import gc, sys, time
 gc.disable()
 from app.scenes import scenes
 from app.warm import compute
-scene = scenes()[sys.argv[1]]
+first, scene = next(iter(scenes().values())), scenes()[sys.argv[1]]
+compute(first, folded=False)
 start = time.perf_counter()
-compute(scene)
+compute(scene, folded=False)
 print(time.perf_counter() - start)
 """
 
@@ -225,15 +235,19 @@ async def enter(page: Page, name: str) -> float:
     return (time.perf_counter() - start) * 1e3
 
 
-async def entries(page: Page, name: str) -> tuple[float, float]:
-    """Milliseconds to enter a scene for the first time in this page, and the median of three more times."""
+async def entries(page: Page, rested: Page, name: str) -> tuple[float, float, float]:
+    """Milliseconds to enter a scene for the first time in a page: at once, after the mouse has rested on its picture
+    for 0.4 s (in the second page), and the median of three more times."""
     first = await enter(page, name)
+    await rested.locator(f".param-scene-{name}").hover()
+    await asyncio.sleep(0.4)
+    prepared = await enter(rested, name)
     again = []
     for _ in range(3):
         for one, times in ((SCENE, []), (name, again)):
             await asyncio.sleep(0.3)
             times.append(await enter(page, one))
-    return first, statistics.median(again)
+    return first, prepared, statistics.median(again)
 
 
 def processor() -> str:
@@ -281,11 +295,18 @@ async def measure() -> None:
                     rate, rest, queued = await drag(page, name)
                     rows.append((f"drag of {name}, 3 s", f"{rate:.1f} states a second, at rest {rest:.0f} ms after it "
                                  f"({queued} more states)", "≥ 25 a second"))
+                await page.locator(".param-reset").click()
+                await page.wait_for_function(READY)
+                rested = await browser.new_page(viewport={"width": 1600, "height": 950})
+                await open_page(rested, url)
                 for scene in others():
-                    first, again = await entries(page, scene.name)
+                    first, prepared, again = await entries(page, rested, scene.name)
                     number = next(spec for spec in scene.specs if isinstance(spec, Number))
                     times = await slider_latencies(page, number.name)
-                    rows.append((f"{scene.title}: entered, once more", f"{first:.0f} ms, {again:.0f} ms", "≤ 300 ms"))
+                    await page.locator(".param-reset").click()
+                    await page.wait_for_function(READY)
+                    rows.append((f"{scene.title}: entered at once, after a rest on its picture, once more",
+                                 f"{first:.0f} ms, {prepared:.0f} ms, {again:.0f} ms", "≤ 300 ms"))
                     rows.append((f"{scene.title}: slider {number.symbol}, {MOVES} moves", spread(times), "≤ 33 ms"))
         await browser.close()
     for kernel in ("orbit", "circle map", "ensemble", "section"):
@@ -293,7 +314,8 @@ async def measure() -> None:
         rows.append((f"kernel of the {kernel}: compiled, loaded", f"{compiled:.1f} s, {loaded:.2f} s", ""))
     for scene in others():
         compiled, loaded = compile_seconds(COMPILE_SCENE, scene.name)
-        rows.append((f"{scene.title}: first state compiled, loaded", f"{compiled:.1f} s, {loaded:.2f} s", "≤ 6 s"))
+        rows.append((f"{scene.title}: first state compiled after that of the first scene, loaded",
+                     f"{compiled:.1f} s, {loaded:.2f} s", "≤ 6 s"))
     new, moved, cached = state_milliseconds()
     rows.append(("computing a state: new body, new phase, from the cache",
                  f"{new:.2f} ms, {moved:.2f} ms, {cached:.2f} ms", ""))
