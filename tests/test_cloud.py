@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mechanics import PROPERTY
 
+from app.compute import CACHE
 from app.scenes import scenes
 from app.wire import Wire
 from models import ensemble, level, solve, systems
@@ -346,8 +347,17 @@ def test_what_cannot_be_is_refused_with_a_sentence(error, action):
 def captions(values):
     """The texts beside the pictures, by their names."""
     wire = Wire()
-    SCENE.stage(wire).show(SCENE.compute(SCENE.admit(values)[0], SCENE.pictures, False), False)
+    SCENE.stage(wire).show(complete(SCENE.admit(values)[0]), False)
     return wire.pack()[0]["texts"]
+
+
+def complete(values):
+    """The result with all points."""
+    for task in SCENE.compute(values, SCENE.pictures, False).todo:
+        CACHE.get(task.function, *task.arguments)
+    result = SCENE.compute(values, SCENE.pictures, False)
+    assert result.todo == ()
+    return result
 
 
 def numbers_in(text):
@@ -400,6 +410,22 @@ def test_on_the_sphere_a_cloud_stays_even_without_the_ball_and_gathers_with_it()
 
 def test_fewer_points_while_a_slider_is_dragged():
     assert SCENE.compute(SCENE.defaults(), SCENE.pictures, True).cloud.signs.size == 1000
+
+
+@pytest.mark.parametrize("beside", ["nothing", "principal axis"])
+def test_fewer_points_until_all_of_them_are_known(beside):
+    values = {**SCENE.defaults(), "I11": 2.015, "beside": beside, "b3": 1.0, "points": 3000.0}
+    clouds = 2 if beside == "principal axis" else 1
+    first = SCENE.compute(values, SCENE.pictures, False)
+    assert first.cloud.signs.size == 1000 // clouds
+    assert (len(first.todo), first.total) == (clouds, clouds)
+    whole = complete(values)
+    assert whole.cloud.signs.size == 3000 // clouds
+    if clouds == 2:
+        assert (first.other.states.shape[0], whole.other.states.shape[0]) == (500, 1500)
+    # So few are computed at once.
+    few = SCENE.compute({**values, "points": 900.0}, SCENE.pictures, False)
+    assert (few.cloud.signs.size, few.todo) == (900 // clouds, ())
 
 
 def test_a_click_in_the_plane_chooses_a_patch_there():

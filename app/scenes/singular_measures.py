@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from app import theme
-from app.compute import CACHE
+from app.compute import CACHE, Task
 from app.scenes.base import Preset, Report, Scene
 from app.scenes.parts import ACCURACY, Work, refuse
 from app.state import Choice, Number, Value, Values
@@ -125,7 +125,7 @@ class Density:
 
 @dataclass(frozen=True)
 class CloudResult:
-    """`other`: the cloud on a principal axis."""
+    """`other`: the cloud on a principal axis; todo : the larger clouds that are not computed yet, of `total`."""
 
     values: Values
     body: BallBody
@@ -133,6 +133,8 @@ class CloudResult:
     course: Course
     density: Density
     other: Ensemble | None
+    todo: Sequence[Task]
+    total: int
     ended: str
 
 
@@ -192,19 +194,28 @@ def _density(*arguments: Hashable) -> Density:
 
 
 def compute(values: Values, shown: Collection[str], dragging: bool) -> CloudResult:
-    """One cloud, or two; with fewer points while a slider is dragged."""
+    """One cloud, or two; with fewer points while a slider is dragged, and until all of them are known."""
     work = Work(values, dragging)
     beside = values["beside"] == "principal axis"
-    count = min(int(values["points"]), _IN_A_DRAG if dragging else 10**9) // (2 if beside else 1)
     body = _body(values)
     angle = float(values["angle"]) if values["start"] == "small patch" else None
     span = float(values["span"]) * (-1.0 if values["direction"] == "backward" else 1.0)
-    arguments = ((body, float(values["h"]), angle, float(values["spread"]), count), span,
-                 abs(float(values["b3"])) if beside else 0.0, work.level)
-    cloud = work.get(_cloud, *arguments)
-    other = work.get(_other, *arguments[:2], float(values["b3"]), work.level) if beside else None
+    field = float(values["b3"]) if beside else 0.0
+
+    def clouds(points: int) -> tuple[tuple[Any, ...], ...]:
+        start = (body, float(values["h"]), angle, float(values["spread"]), points // (2 if beside else 1))
+        return (_cloud, start, span, abs(field), work.level), *([(_other, start, span, field, work.level)] * beside)
+
+    points = int(values["points"])
+    few = clouds(min(points, _IN_A_DRAG))
+    asked = clouds(points)
+    if dragging or (points > _IN_A_DRAG and None in [work.later(*one) for one in asked]):
+        asked = few
+    cloud, *others = (work.get(*one) for one in asked)
+    _, *arguments = asked[0]
     course, density = work.get(_course, *arguments), work.get(_density, *arguments)
-    return CloudResult(values, body, cloud, course, density, other, work.ended())
+    return CloudResult(values, body, cloud, course, density, others[0] if others else None, tuple(work.todo),
+                       work.pieces, work.ended())
 
 
 class CloudStage:
@@ -248,7 +259,7 @@ class CloudStage:
         self._show_course(result, hold_axes)
         for picture, text in zip(self.pictures, _captions(result), strict=True):
             self.wire.say(picture.name, text)
-        return Report(_derived(result), _status(result))
+        return Report(_derived(result), _status(result), (), result.todo, result.total)
 
     def _show_course(self, result: CloudResult, hold_axes: bool) -> None:
         course, t = result.course, np.abs(result.cloud.times)
