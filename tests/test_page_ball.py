@@ -203,11 +203,19 @@ def test_a_number_that_cannot_be_is_put_right_and_said(ball, name, text, value, 
     assert_painted(ball, BALL)
 
 
-@pytest.mark.parametrize("typed", [
-    {"D": "300", "digits": "10"}, {"I13": "1e-3", "I23": "1e-3", "digits": "10"},
-], ids=str)
-def test_a_map_that_takes_long_is_left_out_with_a_sentence(ball, typed):
-    for name, text in typed.items():
+def test_where_the_whole_map_takes_long_its_draft_stays_with_a_sentence(ball):
+    for name, text in {"D": "300", "digits": "10"}.items():
+        ball.change(ball.type, name, text)
+    assert "choose larger I13 or I23, or a smaller 𝒟." in ball.text("notes")
+    assert len(ball.data("curve-ball")["ys"][0]) == 33
+    assert "33 phases, error ≤" in ball.text("status")
+    ball.change(ball.page.locator(".param-reset").click)
+    assert len(ball.data("curve-ball")["ys"][0]) == 65
+    assert ball.text("notes") == ""
+
+
+def test_a_map_that_takes_long_is_left_out_with_a_sentence(ball):
+    for name, text in {"I13": "1e-3", "I23": "1e-3", "digits": "10"}.items():
         ball.change(ball.type, name, text)
     assert "choose larger I13 or I23, or a smaller 𝒟." in ball.text("notes")
     assert ball.caption("curve").endswith("Left out: it would take too many steps.")

@@ -18,9 +18,10 @@ from test_ball_section import occupied
 from test_scene_free import NUMBER
 from test_wire import read
 
+from app.compute import CACHE
 from app.scenes import scenes
 from app.wire import Wire
-from models.errors import ModelError
+from models.errors import ModelError, WorkLimit
 
 BALL, SECTION = scenes()["chaplygin-ball"], scenes()["ball-section"]
 TENSOR = ("I11", "I22", "I13", "I23", "D")
@@ -35,6 +36,15 @@ class View:
         self.values, notes = scene.admit({**scene.defaults(), **values})
         assert notes == []
         self.result = scene.compute(self.values, scene.pictures, dragging)
+        self.refused = []
+        if getattr(self.result, "todo", ()):
+            for task in self.result.todo:
+                try:
+                    CACHE.get(task.function, *task.arguments)
+                except WorkLimit as error:
+                    self.refused.append(str(error))
+            self.result = scene.compute(self.values, scene.pictures, dragging)
+            assert len(self.result.todo) == len(self.refused)
         self.report = stage.show(self.result, False)
         tree, block = wire.pack()
         self.data = {name: {key: read(column, block) for key, column in columns.items()}
@@ -265,7 +275,23 @@ def test_a_map_that_takes_long_is_left_out_and_the_page_says_so(values):
         assert "curve-ball" not in view.data or not len(view.data["curve-ball"]["xs"])
     else:
         assert np.all(np.isfinite(view.result.map.theta_plus))
+        # Where only the draft is possible it stays, and the background's sentence is the note.
+        assert view.result.map.phis.size == (33 if view.refused else 65)
+        assert all(sentence.endswith("choose larger I13 or I23, or a smaller 𝒟.") for sentence in view.refused)
     assert len(view.data["data-orbit"]["t"]) > 10
+
+
+def test_few_orbits_and_a_draft_of_the_map_until_the_others_are_known():
+    values = {**BALL.defaults(), "I11": 1.015}
+    first = BALL.compute(values, BALL.pictures, False)
+    assert (len(first.crowd), first.map.phis.size) == (8, 33)
+    assert (len(first.todo), first.total) == (2, 2)
+    whole = View(BALL, {"I11": 1.015}).result
+    assert (len(whole.crowd), whole.map.phis.size) == (18, 65)
+    assert (whole.todo, whole.total) == ((), 2)
+    # The draft is right to what its errors say.
+    assert np.all(np.abs(first.map.theta_plus - whole.map.theta_plus[::2]) <= first.map.errors + whole.map.errors[::2])
+    assert first.map.errors.max() < 5e-3
 
 
 @pytest.mark.parametrize(("values", "sentence"), [

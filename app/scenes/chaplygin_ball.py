@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from app import theme
+from app.compute import Task
 from app.scenes.base import Motion, Preset, Report, Scene
 from app.scenes.parts import ACCURACY, Work, orbit_status, refuse
 from app.state import Number, Value, Values
@@ -34,9 +35,9 @@ from models.suslov import SuslovBody
 from models.torus import PIXELS, SAGITTA
 
 _MOST = 4000
-_ORBITS = 18
-_PHASES = 65
-_PHASES_IN_A_DRAG = 33
+_ORBITS, _FEW_ORBITS = 18, 8
+_PHASES, _FEW_PHASES = 65, 33
+"""Few: while a slider is dragged, and until the others are known."""
 _MOST_STEPS = 1.2e6
 _ANGLES = np.linspace(0.0, 2.0 * math.pi, 181)
 
@@ -99,6 +100,7 @@ class BallResult:
     """`crowd`: tracks (m, 2) of ω over the strip, and where on each its arrow is.
 
     `map`: θ⁺ over the phases; None where it would take too long, for this `reason`.
+    `todo`: what is still to be computed, of `total` pieces.
     """
 
     values: Values
@@ -109,6 +111,8 @@ class BallResult:
     map: BallScattering | None
     free: Array | None
     reason: str
+    todo: Sequence[Task]
+    total: int
     ended: str
 
 
@@ -198,20 +202,24 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> BallResul
     crowd = ()
     if "omega" in shown:
         # Without a field the energy only sets the unit of time: ω → ω√h.
-        crowd = tuple((math.sqrt(h) * track, place) for track, place in work.get(
-            _crowd, body, 8 if dragging else _ORBITS))
+        crowd = tuple((math.sqrt(h) * track, place) for track, place in work.sooner(
+            Task(_crowd, (body, _ORBITS)), Task(_crowd, (body, _FEW_ORBITS))))
     found: BallScattering | None = None
     free: Array | None = None
     reason = ""
     if "curve" in shown:
-        phis = tuple(np.linspace(-math.pi, math.pi, _PHASES_IN_A_DRAG if dragging else _PHASES).tolist())
+        def phases(count: int, rung: Level) -> Task:
+            phis = tuple(np.linspace(-math.pi, math.pi, count).tolist())
+            return Task(ball_scattering, (body, theta_minus, phis, 1.0, 10.0 ** -digits, rung, _MOST_STEPS))
+
         try:
-            rung = LEVELS["draft"] if dragging else min(accuracy, LEVELS["standard"], key=lambda one: one.order)
-            found = work.get(ball_scattering, body, theta_minus, phis, 1.0, 10.0 ** -digits, rung, _MOST_STEPS)
-            free = work.get(_free_curve, body, theta_minus, digits, phis)
+            rung = min(accuracy, LEVELS["standard"], key=lambda one: one.order)
+            found = work.sooner(phases(_PHASES, rung), phases(_FEW_PHASES, LEVELS["draft"]))
+            free = work.get(_free_curve, body, theta_minus, digits, tuple(found.phis.tolist()))
         except WorkLimit as error:
             reason = f"The map of the phases is left out: {error}"
-    return BallResult(values, body, strip, orbit, crowd, found, free, reason, work.ended())
+    return BallResult(values, body, strip, orbit, crowd, found, free, reason, tuple(work.todo), work.pieces,
+                      work.ended())
 
 
 def motion(values: Values) -> Motion:
@@ -260,7 +268,8 @@ class BallStage:
         self._show_curve(result)
         for name, text in _captions(result, Gamma).items():
             self.wire.say(name, text)
-        return Report(_derived(result), _status(result), [result.reason] if result.reason else [])
+        notes = [result.reason] if result.reason else []
+        return Report(_derived(result), _status(result), notes, result.todo, result.total)
 
     def _show_plane(self, result: BallResult, width: float) -> None:
         self.omega.show_strip(result.strip.sigma2(_ANGLES), result.strip.sigma1(_ANGLES), width)

@@ -51,6 +51,7 @@ class Work:
     def __init__(self, values: Values, dragging: bool) -> None:
         self._start = time.perf_counter()
         self._misses = 0
+        self._dragging = dragging
         self.todo: list[Task] = []
         self.pieces = 0
         chosen = level(str(values["accuracy"]))
@@ -70,6 +71,17 @@ class Work:
         if value is None:
             self.todo.append(Task(function, arguments))
         return value
+
+    def sooner(self, whole: Task, few: Task) -> Any:
+        """The result of `whole` if it is known and no slider is dragged; for now that of `few`."""
+        known = None if self._dragging else CACHE.peek(whole.function, *whole.arguments)
+        if known is not None:
+            self.pieces += 1
+            return known
+        found = self.get(few.function, *few.arguments)
+        if not self._dragging:
+            self.later(whole.function, *whole.arguments)
+        return found
 
     def ended(self) -> str:
         """For the status line: how long it took until now, and whether anything was computed."""
