@@ -377,7 +377,6 @@ def test_the_json_holds_everything_and_is_strict():
 
 @pytest.mark.parametrize(("suffix", "begin"), [(".svg", b"<?xml"), (".png", b"\x89PNG")])
 def test_the_picture_is_a_picture(suffix, begin):
-    pytest.importorskip("matplotlib")
     from app.benchmark.picture import draw
 
     assert draw(made_up(), suffix).startswith(begin)
