@@ -266,7 +266,7 @@ def test_outside_the_region_f_is_put_on_its_edge_and_on_the_separatrix_there_is_
 
 
 def test_a_link_of_the_rotation_number_with_nonsense_is_put_right(tab):
-    explorer = opened(tab, ROTATION, h="abc", a="1e9", epsilon="0.9", over="x, y", part="1,nan;2,3")
+    explorer = opened(tab, ROTATION, h="abc", a="1e9", epsilon="0.9", over="x, y", part_hf="1,nan;2,3")
     assert explorer.shown("h")[0] == ROTATION.defaults()["h"]
     assert (explorer.shown("a")[0], explorer.shown("epsilon")[0]) == (100.0, 0.33)
     assert explorer.chosen("over") == "h, f"

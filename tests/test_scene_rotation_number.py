@@ -170,7 +170,7 @@ def test_the_map_of_an_example_shows_the_number_where_it_belongs(name):
         assert rho[row, column] == pytest.approx(exact.rotation_number, abs=1e-5)
         assert zone == (2.5 if exact.trace > 2.0 else 0.5)
         seen.add(exact.kind)
-    assert len(seen) >= (1 if view.values["part"] else 2)
+    assert len(seen) >= (1 if view.values["part_hf"] else 2)
     # The ring at the torus, the dashed line through it.
     here = view.data["map-here"]
     assert (here["x"][0], here["y"][0]) == (torus[across], torus[up])
@@ -242,13 +242,13 @@ def test_f_outside_the_region_is_put_on_its_edge_and_said():
 @pytest.mark.parametrize(("text", "window"), [
     ("0.5,1;0.2,-1", "0.2,-1;0.5,1"), ("0.5,1;0.5,2", ""), ("0.5,1;0.7,1", ""), ("", "")])
 def test_a_window_is_brought_into_order(text, window):
-    assert SCENE.admit({**SCENE.defaults(), "part": text})[0]["part"] == window
+    assert SCENE.admit({**SCENE.defaults(), "part_hf": text})[0]["part_hf"] == window
 
 
 def test_a_window_beyond_what_is_allowed_is_cut():
-    view = Settled(SCENE, {"part": "-50,-2;3,2"}, seen=("map",))
+    view = Settled(SCENE, {"part_hf": "-50,-2;3,2"}, seen=("map",))
     assert view.result.window[0] == (-1.0, 3.0)
-    outside = Settled(SCENE, {"part": "-50,-2;-20,2"}, seen=("map",))
+    outside = Settled(SCENE, {"part_hf": "-50,-2;-20,2"}, seen=("map",))
     assert outside.result.window[0] == (-1.0, 4.0)
 
 
@@ -275,8 +275,19 @@ def test_a_click_in_the_map_chooses_the_torus_and_one_on_the_line_its_place():
     assert stage.pick("line", 0.3, -0.2) == stage.pick("trace", 0.3, 3.0) == {"h": 0.3}
     assert stage.pick("circle", 0.3, 3.0) == {}
     assert isinstance(stage, Boxed)
-    assert SCENE.admit({**SCENE.defaults(), **stage.box("map", (0.9, 0.1, 0.2, 0.5))})[0]["part"] == "0.2,0.1;0.9,0.5"
     assert stage.box("line", (0.9, 0.1, 0.2, 0.5)) == {}
+
+
+def test_a_box_is_the_window_of_its_own_map_and_of_no_other():
+    box = Settled(SCENE, {"over": "f, a", "line": "h"}).stage.box("map", (0.9, 0.1, 0.2, 0.5))
+    values, notes = SCENE.admit({**SCENE.defaults(), **box})
+    assert notes == []
+    assert values["part_fa"] == "0.2,0.1;0.9,0.5"
+    assert values["part_hf"] == values["part_ha"] == ""
+    assert Settled(SCENE, {**values, "over": "f, a"}, seen=("map",)).result.window == ((0.2, 0.9), (0.1, 0.5))
+    for plane in ("h, f", "h, a"):
+        seen = (Settled(SCENE, {**given, "over": plane}, seen=("map",)).result.window for given in (values, {}))
+        assert next(seen) == next(seen)
 
 
 def test_examples_say_which_plane_their_window_is_in():
@@ -285,8 +296,8 @@ def test_examples_say_which_plane_their_window_is_in():
 
 
 def test_what_a_link_says_wrongly_is_put_right_and_said():
-    values, notes = decode("h=abc&a=1e9&epsilon=0.9&over=x&part=1,nan;2,3", SCENE.specs)
-    assert [values[name] for name in ("h", "a", "epsilon", "over", "part")] == [0.5, 100.0, 0.33, "h, f", ""]
+    values, notes = decode("h=abc&a=1e9&epsilon=0.9&over=x&part_hf=1,nan;2,3", SCENE.specs)
+    assert [values[name] for name in ("h", "a", "epsilon", "over", "part_hf")] == [0.5, 100.0, 0.33, "h, f", ""]
     said = " ".join(notes)
     for word in ("h was not a number", "a lies between", "ε lies between", "Map over was not", "The window of the map"):
         assert word in said

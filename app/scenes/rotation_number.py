@@ -46,6 +46,12 @@ _FULL = {"h": (-1.0, 4.0), "f": (-3.0, 3.0), "a": (0.0, 2.0)}
 _AT_MOST = {"h": (-1.0, 1e6), "f": (-1e4, 1e4), "a": (-100.0, 100.0)}
 _ITERATES = 40
 
+
+def _part(plane: str) -> str:
+    """The name of the window of the map over a plane: each map has its own."""
+    return "part_" + plane.replace(", ", "")
+
+
 SPECS = (
     Number("a", "a", "Inertia parameter a", 0.5, 0.0, 2.0, 0.005, -100.0, 100.0,
            "a = I₂₃/I₂₂ in the Suslov problem, √((a₃−a₂)(a₂−a₁))/a₂ in Euler–Poisson; a body has |a| < 1."),
@@ -58,7 +64,7 @@ SPECS = (
     Number("epsilon", "ε", "Away from Möbius, ε", 0.25, 0.0, 0.3, 0.005, 0.0, 0.33,
            "The other family: Θ(φ + ε sin 3φ). It is no Möbius map, and its ρ makes a ladder."),
     ACCURACY,
-    Places("part", "The window of the map", 2, (-100.0, -1e4), (1e6, 1e4)),
+    *(Places(_part(plane), f"The window of the map over {plane}", 2, (-1e4, -1e4), (1e6, 1e4)) for plane in PLANES),
 )
 
 PRESETS = (
@@ -66,9 +72,9 @@ PRESETS = (
     Preset("Along h", {"over": "h, f", "line": "h", "f": 0.6}),
     Preset("Along a, to the boundary of the plateau", {"over": "h, a", "line": "a", "h": 0.5, "f": 0.6}),
     Preset("A closer look at ρ = −1/3", {
-        "over": "h, f", "line": "f", "part": "0.1,0.4;0.3,0.6", "rational": "−1/3", "h": 0.25, "f": 0.45}),
+        "over": "h, f", "line": "f", "part_hf": "0.1,0.4;0.3,0.6", "rational": "−1/3", "h": 0.25, "f": 0.45}),
     Preset("Euler–Poisson, figure gess1", {
-        "over": "h, f", "line": "h", "h": 5.01253, "f": 2.0025, "part": "-1,-4;8,4"}),
+        "over": "h, f", "line": "h", "h": 5.01253, "f": 2.0025, "part_hf": "-1,-4;8,4"}),
 )
 
 LEGEND = """
@@ -133,7 +139,8 @@ def admit(values: Values) -> tuple[dict[str, Value], list[str]]:
     if abs(f) > largest:
         out["f"] = math.copysign(largest, f)
         notes.append(f"At h = {number(h)} only |f| ≤ {number(largest)} is possible: f is at that edge now.")
-    out["part"] = tidy_window(out["part"])
+    for plane in PLANES:
+        out[_part(plane)] = tidy_window(out[_part(plane)])
     return out, notes
 
 
@@ -152,7 +159,7 @@ def ranges_of(values: Values) -> Window:
     """The ranges of both axes, within what is allowed: of the horizontal one and of the vertical one."""
     names = axes_of(values)
     full = (_FULL[names[0]], _FULL[names[1]])
-    corners = window_of(values["part"], ((full[0][0], full[1][0]), (full[0][1], full[1][1])))
+    corners = window_of(values[_part(str(values["over"]))], ((full[0][0], full[1][0]), (full[0][1], full[1][1])))
     x, y = ((max(corners[0][i], _AT_MOST[names[i]][0]), min(corners[1][i], _AT_MOST[names[i]][1])) for i in (0, 1))
     return (x if x[0] < x[1] else full[0]), (y if y[0] < y[1] else full[1])
 
@@ -352,7 +359,7 @@ class RotationStage:
     def box(self, picture: str, corners: tuple[float, float, float, float]) -> Values:
         """A box in the map is the new window."""
         x0, y0, x1, y1 = corners
-        return {"part": written([(x0, y0), (x1, y1)])} if picture == "map" else {}
+        return {_part(", ".join(self._axes)): written([(x0, y0), (x1, y1)])} if picture == "map" else {}
 
 
 def _steps(rho: Array, possible: Array) -> set[str]:
