@@ -158,6 +158,8 @@ export function render({ model, view }) {
   const prepare = (found) => {
     for (const plot of found.plots) {
       plot.repainted.connect(() => onPainted())
+      // To Bokeh a pointer that rests for 0.3 s is pressing: no click and no drag comes of it any more.
+      plot.canvas_view.ui_event_bus.ui_gestures._start_timeout = () => {}
       // Bokeh's own repaint measures all axis labels first, also when `show` has painted already.
       const repaint = plot.repaint.bind(plot)
       // And it clears only what it fills: ticks of other axes would stay behind a transparent background.

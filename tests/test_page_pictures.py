@@ -136,6 +136,22 @@ def test_a_click_in_the_circle_map_chooses_the_phase_under_it(explorer, phi):
     assert (cobweb["phi"][0], cobweb["theta"][0]) == pytest.approx((chosen, chosen), abs=1e-6)
 
 
+def test_a_hand_that_takes_its_time_still_clicks_and_drags(explorer):
+    mouse = explorer.page.mouse
+    (x, y), (wide, high) = at(explorer, "bifurcation", 1.8, 0.3)
+    mouse.move(x, y)
+    mouse.down()
+    explorer.page.wait_for_timeout(800)
+    explorer.change(mouse.up)
+    assert explorer.here() == (pytest.approx(1.8, abs=wide), pytest.approx(0.3, abs=high))
+    mouse.down()
+    explorer.page.wait_for_timeout(800)
+    (x, y), _ = at(explorer, "bifurcation", 2.6, -0.4)
+    explorer.change(mouse.move, x, y)
+    assert explorer.here() == (pytest.approx(2.6, abs=wide), pytest.approx(-0.4, abs=high))
+    mouse.up()
+
+
 def test_two_clicks_in_quick_succession_both_count(explorer):
     (first, _), (second, (wide, _)) = at(explorer, "bifurcation", 1.8, 0.3), at(explorer, "bifurcation", 2.6, -0.4)
     click(explorer, *first)
