@@ -95,15 +95,15 @@ class Session:
     def _change_scene(self, scene: Scene) -> None:
         """Another scene as it was left (at first: in its own first state), with what was changed in this one."""
         here, wanted = self._specs, self._wanted
-        self._left[self.scene.name] = wanted
-        values = dict(wanted)
-        if scene.specs != self.scene.specs:
+        self._left[self.scene.name] = values = wanted
+        # "Speed and accuracy" of a scene is of the very same state.
+        self._own_instead = scene.specs != self.scene.specs
+        if self._own_instead:
             values = self._left.get(scene.name, scene.defaults()) | {
                 spec.name: wanted[spec.name] for spec in scene.specs
                 if spec.name in here and wanted[spec.name] != here[spec.name].default and (
                     (isinstance(spec, Number) and isinstance(here[spec.name], Number))
                     or (isinstance(spec, Choice) and wanted[spec.name] in spec.options))}
-        self._own_instead = scene.specs != self.scene.specs
         self._enter(scene, values, [])
 
     def change(self, values: Values) -> None:

@@ -53,6 +53,7 @@ def _items(name: str, places: Sequence[int]) -> str:
 
 
 def _only_one_orbit(*arguments: Any) -> Any:
+    # A programmer's mistake: no scene draws the attitudes of many, and kernels for them would take long to compile.
     raise NotImplementedError("attitudes are followed along one orbit at a time")
 
 

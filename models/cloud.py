@@ -14,8 +14,6 @@ With ξ = (I23, −I13)/J, η = (I13, I23)/J, J² = I13² + I23², the motion is
 
 so that s, which is a factor, keeps all its digits however small it becomes.  h is found as in `chaplygin_ball`.
 """
-# Kernels take what Numba infers.
-# ruff: noqa: ANN001, ANN202
 
 from __future__ import annotations
 

@@ -16,8 +16,6 @@ which is the paper's solution.  γ̇ = γ × ω is linear.  In the frame that ha
 V decays on both sides of u = 0, where the integration begins: so neither nearness to the line nor long times cost
 steps or digits.  Not in the paper: see the README.
 """
-# Kernels take what Numba infers.
-# ruff: noqa: ANN001, ANN202
 
 from __future__ import annotations
 

@@ -245,11 +245,13 @@ def test_a_window_is_brought_into_order(text, window):
     assert SCENE.admit({**SCENE.defaults(), "part_hf": text})[0]["part_hf"] == window
 
 
-def test_a_window_beyond_what_is_allowed_is_cut():
-    view = Settled(SCENE, {"part_hf": "-50,-2;3,2"}, seen=("map",))
-    assert view.result.window[0] == (-1.0, 3.0)
-    outside = Settled(SCENE, {"part_hf": "-50,-2;-20,2"}, seen=("map",))
-    assert outside.result.window[0] == (-1.0, 4.0)
+def test_a_window_beyond_what_is_allowed_is_refused_in_a_link_and_cut_in_a_box():
+    values, notes = decode("part_hf=-50,-2;3,2", SCENE.specs)
+    assert values["part_hf"] == ""
+    assert "The window of the map over h, f could not be read" in notes[0]
+    stage = Settled(SCENE, {}).stage
+    assert stage.box("map", (3.0, 2.0, -50.0, -2.0)) == {"part_hf": "-1,-2;3,2"}
+    assert stage.box("map", (-20.0, 2.0, -50.0, -2.0)) == {}
 
 
 def test_on_the_separatrix_there_is_no_circle_map():

@@ -14,7 +14,8 @@ from app import theme
 from app.compute import Task
 from app.scenes.base import Preset, Report, Scene
 from app.scenes.parts import ACCURACY, Window, Work, inside, refuse, tidy_window, window_of
-from app.state import Choice, Number, Places, Value, Values, written
+from app.scenes.sections import boxed
+from app.state import Choice, Number, Places, Value, Values
 from app.views.chart import Series
 from app.views.circle_map import CircleMapView
 from app.views.graph import Graph
@@ -52,6 +53,12 @@ def _part(plane: str) -> str:
     return "part_" + plane.replace(", ", "")
 
 
+def _corners(plane: str, ranges: Mapping[str, tuple[float, float]]) -> Window:
+    """The lower left and the upper right corner of the map over a plane, with these ranges."""
+    x, y = (ranges[name] for name in plane.split(", "))
+    return (x[0], y[0]), (x[1], y[1])
+
+
 SPECS = (
     Number("a", "a", "Inertia parameter a", 0.5, 0.0, 2.0, 0.005, -100.0, 100.0,
            "a = I₂₃/I₂₂ in the Suslov problem, √((a₃−a₂)(a₂−a₁))/a₂ in Euler–Poisson; a body has |a| < 1."),
@@ -64,7 +71,7 @@ SPECS = (
     Number("epsilon", "ε", "Away from Möbius, ε", 0.25, 0.0, 0.3, 0.005, 0.0, 0.33,
            "The other family: Θ(φ + ε sin 3φ). It is no Möbius map, and its ρ makes a ladder."),
     ACCURACY,
-    *(Places(_part(plane), f"The window of the map over {plane}", 2, (-1e4, -1e4), (1e6, 1e4)) for plane in PLANES),
+    *(Places(_part(plane), f"The window of the map over {plane}", 2, *_corners(plane, _AT_MOST)) for plane in PLANES),
 )
 
 PRESETS = (
@@ -156,12 +163,10 @@ def axes_of(values: Values) -> tuple[str, str]:
 
 
 def ranges_of(values: Values) -> Window:
-    """The ranges of both axes, within what is allowed: of the horizontal one and of the vertical one."""
-    names = axes_of(values)
-    full = (_FULL[names[0]], _FULL[names[1]])
-    corners = window_of(values[_part(str(values["over"]))], ((full[0][0], full[1][0]), (full[0][1], full[1][1])))
-    x, y = ((max(corners[0][i], _AT_MOST[names[i]][0]), min(corners[1][i], _AT_MOST[names[i]][1])) for i in (0, 1))
-    return (x if x[0] < x[1] else full[0]), (y if y[0] < y[1] else full[1])
+    """The ranges of both axes, of the horizontal one and of the vertical one."""
+    plane = str(values["over"])
+    (x0, y0), (x1, y1) = window_of(values[_part(plane)], _corners(plane, _FULL))
+    return (x0, x1), (y0, y1)
 
 
 def _centres(low: float, high: float, count: int) -> Array:
@@ -358,8 +363,8 @@ class RotationStage:
 
     def box(self, picture: str, corners: tuple[float, float, float, float]) -> Values:
         """A box in the map is the new window."""
-        x0, y0, x1, y1 = corners
-        return {_part(", ".join(self._axes)): written([(x0, y0), (x1, y1)])} if picture == "map" else {}
+        plane = ", ".join(self._axes)
+        return boxed(corners, _corners(plane, _AT_MOST), _part(plane)) if picture == "map" else {}
 
 
 def _steps(rho: Array, possible: Array) -> set[str]:

@@ -43,12 +43,12 @@ def started(starts: Sequence[Place], x: float, y: float, bounds: Window) -> Valu
     return {"starts": written([*starts, (min(max(x, x0), x1), min(max(y, y0), y1))])}
 
 
-def boxed(corners: tuple[float, float, float, float], bounds: Window) -> Values:
-    """The window of a box, as far as it lies within the bounds; nothing where it has no size."""
+def boxed(corners: tuple[float, float, float, float], bounds: Window, name: str = "window") -> Values:
+    """The window, of that name, of a box, as far as it lies within the bounds; nothing where it has no size."""
     (x0, y0), (x1, y1) = bounds
     left, right = max(x0, min(corners[0], corners[2])), min(x1, max(corners[0], corners[2]))
     low, high = max(y0, min(corners[1], corners[3])), min(y1, max(corners[1], corners[3]))
-    return {"window": written([(left, low), (right, high)])} if low < high and left < right else {}
+    return {name: written([(left, low), (right, high)])} if low < high and left < right else {}
 
 
 def thinned(x: Array, y: Array) -> tuple[Array, Array]:

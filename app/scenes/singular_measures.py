@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Hashable, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from app import theme
-from app.compute import CACHE, Task
+from app.compute import Task
 from app.scenes.base import Preset, Report, Scene
 from app.scenes.parts import ACCURACY, Work, refuse
 from app.state import Choice, Number, Value, Values
@@ -28,7 +27,7 @@ from models.ensemble import ensemble
 from models.results import Array, Ensemble, frozen
 from models.strip import line_of_rest
 
-_IN_A_DRAG = 1000
+_FEW = 1000
 _BIN = 0.25
 """Of ln|s|."""
 _SMALLEST = math.log(1e-30)
@@ -124,15 +123,22 @@ class Density:
 
 
 @dataclass(frozen=True)
-class CloudResult:
-    """`other`: the cloud on a principal axis; todo : the larger clouds that are not computed yet, of `total`."""
+class Clouds:
+    """A cloud and what becomes of it; `other`: the one on a principal axis."""
 
-    values: Values
-    body: BallBody
     cloud: Cloud
     course: Course
     density: Density
     other: Ensemble | None
+
+
+@dataclass(frozen=True)
+class CloudResult:
+    """`todo`: the larger clouds, where they are not computed yet."""
+
+    values: Values
+    body: BallBody
+    clouds: Clouds
     todo: Sequence[Task]
     total: int
     ended: str
@@ -161,28 +167,14 @@ def _states(body: BallBody, h: float, angle: float | None, spread: float, count:
     return shell(body, h, spread, count) if angle is None else patch(body, h, angle, spread, count)
 
 
-def _cloud(start: tuple[Any, ...], span: float, field: float, accuracy: Level) -> Cloud:
-    states = _states(*start)
-    return carried(start[0], states, frame_times(start[0], states, span, field), accuracy)
-
-
-def _other(start: tuple[Any, ...], span: float, field: float, accuracy: Level) -> Ensemble:
-    body, states = start[0], _states(*start)
-    principal = BallBody(body.I11, body.I22, 0.0, 0.0, body.D, 0.0, 0.0, field)
-    return ensemble(SYSTEM, states, principal.parameters, frame_times(body, states, span, field), accuracy)
-
-
-def _course(*arguments: Hashable) -> Course:
-    cloud: Cloud = CACHE.get(_cloud, *arguments)[0]
-
+def _course(cloud: Cloud) -> Course:
     def of(values: Array) -> Array:
         return frozen(np.stack([values.mean(axis=0), values.min(axis=0), values.max(axis=0)]))
 
     return Course(of(cloud.divergence), of(cloud.log_growth), frozen(cloud.volume))
 
 
-def _density(*arguments: Hashable) -> Density:
-    cloud: Cloud = CACHE.get(_cloud, *arguments)[0]
+def _density(cloud: Cloud) -> Density:
     low = max(_SMALLEST, float(cloud.log_s.min()))
     first = math.floor(low / _BIN)
     edges = _BIN * np.arange(first, max(first + 1, math.floor(float(cloud.log_s.max()) / _BIN) + 1) + 1)
@@ -193,29 +185,33 @@ def _density(*arguments: Hashable) -> Density:
                    occupation(cloud, edges), 1.0 / float(np.median(rate) * abs(cloud.times[-1])))
 
 
+def _clouds(body: BallBody, h: float, angle: float | None, spread: float, count: int, span: float,
+            field: float | None, accuracy: Level) -> Clouds:
+    """`count` points, half of them in the field of a cloud beside if there is one; times reach to `span`."""
+    states = _states(body, h, angle, spread, count if field is None else count // 2)
+    times = frame_times(body, states, span, abs(field or 0.0))
+    cloud, other = carried(body, states, times, accuracy), None
+    if field is not None:
+        principal = BallBody(body.I11, body.I22, 0.0, 0.0, body.D, 0.0, 0.0, field)
+        other = ensemble(SYSTEM, states, principal.parameters, times, accuracy)
+    return Clouds(cloud, _course(cloud), _density(cloud), other)
+
+
 def compute(values: Values, shown: Collection[str], dragging: bool) -> CloudResult:
     """One cloud, or two; with fewer points while a slider is dragged, and until all of them are known."""
     work = Work(values, dragging)
-    beside = values["beside"] == "principal axis"
     body = _body(values)
     angle = float(values["angle"]) if values["start"] == "small patch" else None
     span = float(values["span"]) * (-1.0 if values["direction"] == "backward" else 1.0)
-    field = float(values["b3"]) if beside else 0.0
+    field = float(values["b3"]) if values["beside"] == "principal axis" else None
 
-    def clouds(points: int) -> tuple[tuple[Any, ...], ...]:
-        start = (body, float(values["h"]), angle, float(values["spread"]), points // (2 if beside else 1))
-        return (_cloud, start, span, abs(field), work.level), *([(_other, start, span, field, work.level)] * beside)
+    def of(count: int) -> Task:
+        return Task(_clouds, (
+            body, float(values["h"]), angle, float(values["spread"]), count, span, field, work.level))
 
-    points = int(values["points"])
-    few = clouds(min(points, _IN_A_DRAG))
-    asked = clouds(points)
-    if dragging or (points > _IN_A_DRAG and None in [work.later(*one) for one in asked]):
-        asked = few
-    cloud, *others = (work.get(*one) for one in asked)
-    _, *arguments = asked[0]
-    course, density = work.get(_course, *arguments), work.get(_density, *arguments)
-    return CloudResult(values, body, cloud, course, density, others[0] if others else None, tuple(work.todo),
-                       work.pieces, work.ended())
+    count = int(values["points"])
+    clouds = work.sooner(of(count), of(min(count, _FEW)))
+    return CloudResult(values, body, clouds, tuple(work.todo), work.pieces, work.ended())
 
 
 class CloudStage:
@@ -238,17 +234,17 @@ class CloudStage:
 
     def show(self, result: CloudResult, hold_axes: bool) -> Report:
         """Draw the clouds, their density, what becomes of volumes."""
-        cloud, density = result.cloud, result.density
+        cloud, density, other = result.clouds.cloud, result.clouds.density, result.clouds.other
         h = float(result.values["h"])
         if not hold_axes:
             fastest = float(np.sqrt((cloud.omega**2).sum(axis=2).max()))
-            if result.other is not None:
-                fastest = max(fastest, float(np.sqrt((result.other.states[..., :2] ** 2).sum(axis=2).max())))
+            if other is not None:
+                fastest = max(fastest, float(np.sqrt((other.states[..., :2] ** 2).sum(axis=2).max())))
             self.omega.fit(nice_above(1.1 * fastest))
             lowest = max(_SMALLEST, float(np.quantile(cloud.log_s[:, -1], 0.02)))
             self.density.fit((math.exp(lowest), math.exp(float(density.log_s[-1]))), density.height)
         bins = (float(density.log_s[0]) - 0.5 * _BIN, _BIN, density.log_s.size)
-        self.omega.show(cloud, h, bins, None if result.other is None else result.other.states,
+        self.omega.show(cloud, h, bins, None if other is None else other.states,
                         float(result.values["b3"]))
         xi, _ = line_of_rest(result.body)
         self.sphere.show([*map(float, xi), 0.0], "ξ")
@@ -262,7 +258,7 @@ class CloudStage:
         return Report(_derived(result), _status(result), (), result.todo, result.total)
 
     def _show_course(self, result: CloudResult, hold_axes: bool) -> None:
-        course, t = result.course, np.abs(result.cloud.times)
+        course, t = result.clouds.course, np.abs(result.clouds.cloud.times)
         mean, least, largest = course.divergence if result.values["along"] == "divergence" else course.log_growth
         if not hold_axes:
             low, high = min(0.0, float(least.min())), max(0.0, float(largest.max()))
@@ -272,7 +268,7 @@ class CloudStage:
         self.divergence.show_levels([0.0])
         for name, values in (("least", least), ("largest", largest), ("mean", mean)):
             self.divergence.show(name, t, values)
-        if result.other is None:
+        if result.clouds.other is None:
             self.divergence.clear("beside")
         else:
             self.divergence.show("beside", t[[0, -1]], np.zeros(2))
@@ -294,7 +290,7 @@ def passed_by_most(density: Density) -> tuple[float, float]:
 
 
 def _captions(result: CloudResult) -> tuple[str, str, str, str]:
-    cloud, course, density = result.cloud, result.course, result.density
+    cloud, course, density = result.clouds.cloud, result.clouds.course, result.clouds.density
     before, after = (math.exp(float(np.median(cloud.log_s[:, i]))) for i in (0, -1))
     xi = np.append(line_of_rest(result.body)[0], 0.0)
     first, last = (float(((cloud.gamma[:, i] @ xi) ** 2).mean()) for i in (0, -1))
@@ -305,7 +301,7 @@ def _captions(result: CloudResult) -> tuple[str, str, str, str]:
         fate = f"The patch has {number(float(course.volume[-1]), 3)} of its volume left"
     else:
         fate = f"Mean of div v {ends}; mean of ln s(t)/s(0) in the end {number(course.log_growth[0, -1], 3)}"
-    if result.other is not None:
+    if result.clouds.other is not None:
         fate += "; beside, all of it"
     return (
         f"Angular velocity (ω₁, ω₂)\nHalf of {cloud.signs.size} points begin within |s| < {number(before, 3)}, "
@@ -318,7 +314,7 @@ def _captions(result: CloudResult) -> tuple[str, str, str, str]:
 
 
 def _derived(result: CloudResult) -> list[str]:
-    course = result.course
+    course = result.clouds.course
     values = result.values
     rows = [
         f"System: {'Chaplygin ball, b = 0' if result.body.D else 'free Suslov problem'}",
@@ -329,17 +325,17 @@ def _derived(result: CloudResult) -> list[str]:
     ]
     if values["start"] == "small patch":
         rows.append(f"V(t)/V(0) = {number(float(course.volume[-1]), 4)}")
-    if result.other is not None:
+    if result.clouds.other is not None:
         rows.append(f"Beside: I₁₃ = I₂₃ = 0, b₃ = {number(float(values['b3']))}, div v = 0")
     return rows
 
 
 def _status(result: CloudResult) -> str:
-    cloud = result.cloud
+    cloud = result.clouds.cloud
     return " · ".join([
         f"{cloud.level}: {cloud.signs.size} points, {cloud.times.size} frames, {cloud.cost.steps} Taylor steps, "
         f"error of ω/ν, γ and ln|s| ≤ {cloud.error_estimate:.1e} ({cloud.status})",
-        *([] if result.other is None else [f"beside ≤ {result.other.errors.max():.1e}"]),
+        *([] if result.clouds.other is None else [f"beside ≤ {result.clouds.other.errors.max():.1e}"]),
         result.ended,
     ]).replace("e-", "e−")
 

@@ -47,10 +47,10 @@ class LayeredSection(Figure):
         """
         nothing = True
         for layer, points in (("first", first), ("second", second), ("own", own)):
-            nothing &= not self._within(points).any()
-            seen = points if len(points) <= _MANY else self._apart(points)
+            within = points[self._within(points)]
+            nothing &= len(within) == 0
+            seen = points if len(points) <= _MANY else self._apart(within)
             self.assign(layer, x=seen[:, 0].astype(np.float32), y=seen[:, 1].astype(np.float32))
-
         self.say("" if not (whole and nothing) else
                  "None of the points lies in this window: choose more crossings, or press Undo")
 
@@ -59,10 +59,9 @@ class LayeredSection(Figure):
         x, y = points.T
         return (x >= x0) & (x <= x1) & (y >= y0) & (y <= y1)
 
-    def _apart(self, points: Array) -> Array:
-        """One of the points in each cell of the window, and none outside of it."""
+    def _apart(self, within: Array) -> Array:
+        """Of points within the window, one in each of its cells."""
         (x0, x1), (y0, y1) = self.x_range, self.y_range
-        within = points[self._within(points)]
         cells = np.minimum((within - (x0, y0)) * (_ACROSS / (x1 - x0), _ACROSS / (y1 - y0)), _ACROSS - 1).astype(int)
         one = np.full(_ACROSS * _ACROSS, -1)
         one[cells @ (_ACROSS, 1)] = np.arange(len(within))
