@@ -7,7 +7,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from http.client import HTTPConnection, HTTPException
 from pathlib import Path
@@ -51,13 +51,13 @@ def wait_alive(process: subprocess.Popen[bytes], port: int, log: Path) -> None:
 
 
 @contextmanager
-def running_server(log: Path) -> Iterator[str]:
+def running_server(log: Path, program: Sequence[str] = ("-m", "app")) -> Iterator[str]:
     """`hess-explorer serve` in a process of its own, on a free port; its base URL.  Raises `ServerError`.
 
-    log : the file that takes all it prints.
+    log : the file that takes all it prints; program : what Python runs.
     """
     port = _free_port()
-    command = [sys.executable, "-m", "app", "serve", "--port", str(port), "--no-browser"]
+    command = [sys.executable, *program, "serve", "--port", str(port), "--no-browser"]
     # Started beside this package, or a folder `app` of the user's would be run in its place.
     with log.open("wb") as out, subprocess.Popen(command, cwd=Path(__file__).resolve().parents[1],
                                                  stdout=out, stderr=subprocess.STDOUT) as process:

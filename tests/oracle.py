@@ -3,20 +3,77 @@
 Orbits: Taylor series of a system's plain `field` in whatever arithmetic the numbers bring: `np.longdouble` for many
 orbits at once, `decimal.Decimal` for as many digits as one likes.  Circle maps: three such orbits of `eq01`, from the
 section to the section, fix a Möbius map; and closed forms where there are any.  No kernel of `models` enters.
+
+What took long is kept in "oracle_values.json", by its arguments, and only looked up: `make_oracle_values.py` finds it
+anew.
 """
 
 import decimal
+import json
 import math
+import time
 from dataclasses import dataclass, replace
 from decimal import Decimal
-from functools import reduce
+from functools import reduce, wraps
 from operator import mul
+from pathlib import Path
 
 import mpmath
 import numpy as np
 from scipy.special import ellipj
 
 from models import systems
+from models.system import System
+
+# ---- what is kept -----------------------------------------------------------------------------------------------
+
+KEPT_IN = Path(__file__).with_name("oracle_values.json")
+KEPT = json.loads(KEPT_IN.read_text()) if KEPT_IN.exists() else {}
+"""Question → [seconds that it took, answer]; a question is the name of a function with its arguments, as JSON."""
+ANSWERED = {}
+"""The same of what had to be computed."""
+FUNCTIONS = {}
+
+
+def plain(value):
+    """A value as JSON has it, with all its digits."""
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    if isinstance(value, list | tuple):
+        return [plain(item) for item in value]
+    if isinstance(value, MoebiusMap):
+        return [mpmath.nstr(part, 60) for end in (value.A, value.B) for part in (end.real, end.imag)]
+    if isinstance(value, System):
+        return value.name
+    return str(value) if isinstance(value, Decimal) else value
+
+
+def kept(read):
+    """A function whose answers are looked up where they are kept; `read` makes an answer of what JSON has."""
+    def of(function):
+        @wraps(function)
+        def answer(*arguments, **named):
+            question = json.dumps([function.__name__, *map(plain, arguments), *map(plain, named.values())])
+            if question in KEPT:
+                return read(KEPT[question][1])
+            start = time.process_time()
+            found = function(*arguments, **named)
+            ANSWERED[question] = [round(time.process_time() - start, 1), found]
+            return found
+
+        FUNCTIONS[function.__name__] = function
+        return answer
+
+    return of
+
+
+def found_anew(question):
+    """The answer to a question, as JSON has it."""
+    name, *arguments = json.loads(question)
+    if name == "orbit_in_decimals":
+        arguments[0] = systems()[arguments[0]]
+    return plain(FUNCTIONS[name](*arguments))
+
 
 # ---- Taylor series of any field, in any arithmetic --------------------------------------------------------------
 
@@ -149,12 +206,18 @@ def as_decimals(values):
     return np.vectorize(Decimal, otypes=[object])(np.asarray(values, dtype=object))
 
 
+def as_long_doubles(texts):
+    """The numbers of these texts, not by way of doubles."""
+    return np.vectorize(np.longdouble, otypes=[np.longdouble])(np.array(texts))
+
+
 def orbits_in_long_double(system, states, parameters, times):
     """Many orbits at once: states (orbits, d), parameters (orbits, q), times (orbits, n) → (orbits, n, d)."""
     y, p, t = (np.asarray(values, np.longdouble).T for values in (states, parameters, times))
     return np.moveaxis(taylor(system.field, y, p, t, order=28, tolerance=1e-22), -1, 0)
 
 
+@kept(as_decimals)
 def orbit_in_decimals(system, state, parameters, times, digits):
     """One orbit (n, d) with so many digits in each step; an unstable motion loses some of them."""
     with decimal.localcontext(prec=digits):
@@ -208,6 +271,13 @@ def roots_and_period(h, f):
 THREE_PHASES = (-2, 0, 1)
 
 
+def as_maps(texts):
+    """The maps of these coefficients."""
+    with mpmath.workdps(60):
+        return [MoebiusMap(mpmath.mpc(*four[:2]), mpmath.mpc(*four[2:])) for four in texts]
+
+
+@kept(as_maps)
 def maps_by_three_orbits(tori, digits):
     """The maps of tori (a, h, f), doubles or texts, from where three orbits of `eq01` come back to the section."""
     start, parameters, periods = [], [], []

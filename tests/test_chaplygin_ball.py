@@ -280,23 +280,29 @@ def test_orbits_are_right_at_the_edges(extreme, name):
         assert error <= (level(name).promise if orbit.status is Status.OK else 1e-9)
 
 
-@in_long_double
-@pytest.mark.parametrize("name", LEVELS)
-def test_error_estimates_are_safe(name):
-    random, count = np.random.default_rng(5), 300
+@pytest.fixture(scope="module")
+def many():
+    """States, parameters and times of many motions, and where these truly are."""
+    random, count = np.random.default_rng(5), 200
     bodies = [random_body(random, field=random.random() < 0.7) for _ in range(count)]
     states = random_states(random, count)
     parameters = np.array([body.parameters for body in bodies])
     spans = [random.choice([-1, 1]) * random.uniform(5.0, 60.0) / SYSTEM.frequency(y, p)
              for y, p in zip(states, parameters, strict=True)]
     times = np.array(spans)[:, None] * [0.2, 1.0]
-    exact = oracle.orbits_in_long_double(SYSTEM, states, parameters, times)
+    return states, parameters, times, oracle.orbits_in_long_double(SYSTEM, states, parameters, times)
+
+
+@in_long_double
+@pytest.mark.parametrize("name", LEVELS)
+def test_error_estimates_are_safe(many, name):
+    states, parameters, times, exact = many
     found = [solve(SYSTEM, *case, level(name)) for case in zip(states, parameters, times, strict=True)]
     true = np.array([oracle.distances(orbit.states, truth).max() for orbit, truth in zip(found, exact, strict=True)])
     estimates = np.array([orbit.error_estimate for orbit in found])
     # Two runs at the floor share some of their round-off.
     slack = 3.0 if level(name).is_floor else 1.0
-    assert np.count_nonzero(true > slack * estimates) <= count // 100
+    assert np.count_nonzero(true > slack * estimates) <= len(states) // 100
     assert np.median(estimates) <= 100 * np.median(true)
 
 

@@ -409,7 +409,7 @@ def test_on_the_sphere_a_cloud_stays_even_without_the_ball_and_gathers_with_it()
 
 
 def test_fewer_points_while_a_slider_is_dragged():
-    assert SCENE.compute(SCENE.defaults(), SCENE.pictures, True).cloud.signs.size == 1000
+    assert SCENE.compute(SCENE.defaults(), SCENE.pictures, True).clouds.cloud.signs.size == 1000
 
 
 @pytest.mark.parametrize("beside", ["nothing", "principal axis"])
@@ -417,15 +417,16 @@ def test_fewer_points_until_all_of_them_are_known(beside):
     values = {**SCENE.defaults(), "I11": 2.015, "beside": beside, "b3": 1.0, "points": 3000.0}
     clouds = 2 if beside == "principal axis" else 1
     first = SCENE.compute(values, SCENE.pictures, False)
-    assert first.cloud.signs.size == 1000 // clouds
-    assert (len(first.todo), first.total) == (clouds, clouds)
+    assert first.clouds.cloud.signs.size == 1000 // clouds
+    assert (len(first.todo), first.total) == (1, 1)
     whole = complete(values)
-    assert whole.cloud.signs.size == 3000 // clouds
+    assert whole.todo == ()
+    assert whole.clouds.cloud.signs.size == 3000 // clouds
     if clouds == 2:
-        assert (first.other.states.shape[0], whole.other.states.shape[0]) == (500, 1500)
+        assert (first.clouds.other.states.shape[0], whole.clouds.other.states.shape[0]) == (500, 1500)
     # So few are computed at once.
     few = SCENE.compute({**values, "points": 900.0}, SCENE.pictures, False)
-    assert (few.cloud.signs.size, few.todo) == (900 // clouds, ())
+    assert (few.clouds.cloud.signs.size, few.todo) == (900 // clouds, ())
 
 
 def test_a_click_in_the_plane_chooses_a_patch_there():

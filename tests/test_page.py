@@ -218,6 +218,13 @@ class Explorer:
         """Choose an option of a menu."""
         self.menu(menu).select_option(label=option)
 
+    def play_until(self, t):
+        """Let it play until the time slider has come past t."""
+        self.page.locator(".param-play").click()
+        while self.time <= t:
+            self.page.wait_for_timeout(20)
+        self.page.locator(".param-play").click()
+
     def set_time(self, t):
         """Move the time slider."""
         self.page.locator("input.param-t").evaluate(
@@ -472,7 +479,7 @@ def test_a_page_that_has_lost_its_server_says_so_and_keeps_saying_it(on_a_line):
     assert sign.inner_text().startswith("The connection to the server is lost.")
     # What is chosen now cannot be shown, and is not said to be under way.
     explorer.slide(h=0.9)
-    page.wait_for_timeout(600)
+    page.evaluate("new Promise((done) => setTimeout(done, 600))")
     assert sign.inner_text().startswith("The connection to the server is lost.")
     assert not explorer.ready
     # The pictures stay what they were, and so does the motion on them.

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 from test_cloud import SCENE, captions
+from test_page import Explorer
 
 from app.browser import wait_ready
 from models import ensemble, level, systems
@@ -92,9 +93,10 @@ def test_between_frames_nearly_all_points_are_right_to_a_pixel(open_page, change
               else shell(body, values["h"], values["spread"], count))
     sense = -1.0 if values["direction"] == "backward" else 1.0
     frames = frame_times(body, states, values["span"], values["b3"] if beside else 0.0)
+    page = open_page(query(**changes))
     for frame in (0, frames.size // 2, frames.size - 2):
-        t = float(f"{0.5 * (frames[frame] + frames[frame + 1]):.3f}")
-        page = open_page(query(**changes, t=t))
+        t = 0.5 * float(frames[frame] + frames[frame + 1])
+        Explorer(page, page.url).set_time(t)
         exact = carried(body, states, np.array([0.0, sense * t]), level("precise"))
         expected = [np.hstack([exact.omega[:, 1], exact.gamma[:, 1]])]
         if beside:
@@ -107,16 +109,13 @@ def test_between_frames_nearly_all_points_are_right_to_a_pixel(open_page, change
             for error in (omega * WIDTH / (2.0 * half), gamma * WIDTH / 2.0):
                 assert np.quantile(error, 0.99) < 1.0
                 assert error.max() < 3.0
-        page.close()
 
 
 def test_playing_moves_the_points_and_their_density(open_page):
     page = open_page(query(t=1.0))
     before, density = clouds(page)[0], page.evaluate(DENSITY)
     painted = share_of(page, "omega", BLUE)
-    page.locator(".param-play").click()
-    page.wait_for_timeout(1500)
-    page.locator(".param-play").click()
+    Explorer(page, page.url).play_until(2.2)
     after = clouds(page)[0]
     moved = np.linalg.norm(after[:2] - before[:2], axis=0)
     assert np.median(moved) > 0.1

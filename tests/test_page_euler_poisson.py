@@ -8,10 +8,12 @@ from urllib.parse import parse_qsl, urlencode, urlsplit
 
 import numpy as np
 import pytest
+from conftest import wait_ready
 from test_page import ENTER, Explorer, flat, one_tab
 from test_page_pictures import at
 from test_scene_euler_poisson import EP, NUMBER, View
 
+from app.screenshot import running_server
 from app.state import places
 
 tab = pytest.fixture(scope="module")(one_tab)
@@ -27,8 +29,8 @@ def said(explorer, picture, pattern):
 
 
 def values_of(explorer):
-    # The address bar follows after a pause.
-    explorer.page.wait_for_timeout(450)
+    # The address bar follows after a pause of 0.4 s.
+    explorer.page.evaluate("new Promise((done) => setTimeout(done, 450))")
     query = dict(parse_qsl(urlsplit(explorer.page.url).query, keep_blank_values=True))
     return {spec.name: type(spec.default)(query[spec.name]) for spec in EP.specs}
 
@@ -162,40 +164,89 @@ def test_a_box_looks_closer_and_undo_looks_at_the_whole_again(page):
     assert page.axes("section") == pytest.approx([-math.pi, math.pi, -1.0, 1.0], abs=1e-5)
 
 
-@pytest.mark.parametrize("how", ["button", "Escape"])
-def test_a_long_section_fills_and_can_be_stopped(page, how):
-    opened(page)
-    # Too long for the time a test has: only Stop ends it.
-    page.type("count", "4000")
-    seed = {"button": "20.01", "Escape": "20.02"}[how]
-    page.type("h", seed)
+# --- Long work ---------------------------------------------------------------------------------------
+
+HELD_BACK = """
+import functools, sys, time
+from collections import Counter
+from pathlib import Path
+from app.__main__ import main
+from app.scenes import euler_poisson
+
+gate, piece, begun = Path(sys.argv.pop(1)), euler_poisson._piece, Counter()
+
+@functools.wraps(piece)
+def held(body, h, f, starts, crossings):
+    begun[h] += crossings == 4000
+    while 20 < h < 21 and begun[h] > 6 and gate.exists():
+        time.sleep(0.02)
+    return piece(body, h, f, starts, crossings)
+
+euler_poisson._piece = held
+main()
+"""
+"""The server; a section of 4000 crossings at 20 < h < 21 stops growing after six pieces, while a file is there."""
+
+
+@pytest.fixture(scope="module")
+def gate(tmp_path_factory):
+    return tmp_path_factory.mktemp("gate") / "closed"
+
+
+@pytest.fixture(scope="module")
+def held_back(browser, tmp_path_factory, gate):
+    """One tab on that server."""
+    log = tmp_path_factory.mktemp("held back") / "server.log"
+    with running_server(log, ("-c", HELD_BACK, str(gate))) as base:
+        yield from one_tab(browser, base)
+        gate.unlink(missing_ok=True)
+    assert "Traceback" not in log.read_text()
+
+
+@pytest.fixture
+def long_section(held_back, gate):
+    """long_section(h) → the page while a section of that energy is computed, of which six pieces come."""
+    def begin(h):
+        opened(held_back)
+        gate.touch()
+        held_back.type("count", "4000")
+        held_back.type("h", str(h))
+        held_back.type("orbits", "400")
+        held_back.page.locator(".computing").wait_for(state="visible")
+        held_back.page.wait_for_function("window.hess.source('section-first').data.x.length > 0")
+        return held_back
+
+    yield begin
+    gate.unlink(missing_ok=True)
+    held_back.assert_quiet()
+
+
+@pytest.mark.parametrize(("how", "h"), [("button", 20.01), ("Escape", 20.02)])
+def test_a_long_section_fills_and_can_be_stopped(long_section, gate, how, h):
+    page = long_section(h)
     box = page.page.locator(".computing")
-    page.type("orbits", "400")
-    box.wait_for(state="visible")
     bar = box.locator("progress")
-    assert 0 <= float(bar.evaluate("bar => bar.value")) < float(bar.evaluate("bar => bar.max"))
+    assert 0 < float(bar.evaluate("bar => bar.value")) < float(bar.evaluate("bar => bar.max"))
     assert not page.ready
-    page.page.wait_for_function("window.hess.source('section-first').data.x.length > 0")
     if how == "button":
         box.locator("button").click()
     else:
         page.page.keyboard.press("Escape")
+    # What has begun is still drawn.
+    gate.unlink()
     page.page.wait_for_function("document.documentElement.dataset.ready === 'true'")
     found = re.search(r"Stopped: (\d+) of (\d+) parts are drawn\.", page.text("notes"))
     assert found
     done, total = map(int, found.groups())
     assert 0 < done < total
     box.wait_for(state="hidden")
-    points = shown_points(page)
-    page.page.wait_for_timeout(300)
-    assert shown_points(page) == points
+    points, state = shown_points(page), page.state
+    page.page.evaluate("new Promise((done) => setTimeout(done, 300))")
+    assert (shown_points(page), page.state) == (points, state)
 
 
-def test_what_is_typed_while_points_arrive_stays_in_its_box(page):
-    opened(page)
-    page.type("count", "4000")
-    page.type("orbits", "400")
-    page.page.locator(".computing").wait_for(state="visible")
+def test_what_is_typed_while_points_arrive_stays_in_its_box(long_section, gate):
+    page = long_section(20.03)
     before = page.state
     box = page.box("h")
     box.fill("43")
@@ -205,7 +256,7 @@ def test_what_is_typed_while_points_arrive_stays_in_its_box(page):
     assert box.input_value() == "43"
     box.press("End")
     box.type(".5")
-    # Too large a number of orbits would still be at work.
+    gate.unlink()
     page.change(lambda: page.page.evaluate(ENTER, [*SMALL.items()]))
     assert box.input_value() == "43.5"
     page.change(box.press, "Enter")
@@ -217,15 +268,12 @@ def test_what_is_typed_while_points_arrive_stays_in_its_box(page):
     assert float(box.input_value()) == next(spec for spec in EP.specs if spec.name == "span").highest
 
 
-def test_a_newer_choice_ends_the_older_work(page):
-    opened(page)
-    page.type("count", "4000")
-    page.type("h", "20.03")
-    page.type("orbits", "400")
-    page.page.locator(".computing").wait_for(state="visible")
+def test_a_newer_choice_ends_the_older_work(long_section, gate):
+    page = long_section(20.04)
     before = page.state
-    page.change(page.page.locator(".param-reset").click)
-    assert page.state > before
+    page.page.locator(".param-reset").click()
+    gate.unlink()
+    wait_ready(page.page, after=before)
     completed(page)
     assert values_of(page) == EP.defaults()
     assert shown_points(page) == 60 * 300

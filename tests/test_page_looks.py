@@ -17,31 +17,48 @@ from app.wire import Wire
 
 SIZES = {"wide": (1600, 950), "laptop": (1280, 720), "phone": (390, 844)}
 COLUMNS = {"wide": 4, "laptop": 2, "phone": 1}
-every_size = pytest.mark.parametrize("size", SIZES)
-every_theme = pytest.mark.parametrize("theme", ["light", "dark"])
 SCENES = [name for name, scene in scenes().items() if scene.origin in (None, HESS)]
-every_scene = pytest.mark.parametrize("scene", SCENES)
+LOOKS = [
+    *((scene, size, "light") for size in SIZES for scene in SCENES),
+    *((scene, "wide", "dark") for scene in SCENES),
+    *((HESS, size, "dark") for size in SIZES if size != "wide"),
+]
+# One list for all tests, and the scope of a module: so all that looks at one scene is done before the next is entered.
+every_look = pytest.mark.parametrize("look", LOOKS, indirect=True, scope="module", ids="-".join)
 
 
 @pytest.fixture(scope="module")
 def look_at(browser, server):
-    """look_at(size, theme, scene) → that page in its default state, opened once for all tests that only look."""
-    seen = {}
+    """look_at(scene, size, theme) → the page with that scene in its first state: one for each size and theme."""
+    tabs = {}
 
-    def open_once(size="wide", theme="light", scene=HESS):
-        key = (size, theme, scene)
-        if key not in seen:
+    def enter(scene, size="wide", theme="light"):
+        if (size, theme) not in tabs:
             width, height = SIZES[size]
             context = browser.new_context(viewport={"width": width, "height": height})
-            seen[key] = Explorer(context.new_page(), server).open(f"scene={scene}&theme={theme}")
-        page = seen[key].page
-        page.locator(".MuiBackdrop-root").first.wait_for(state="hidden")
-        return page
+            tabs[size, theme] = Explorer(context.new_page(), server).open(f"scene={scene}&theme={theme}")
+        tab = tabs[size, theme]
+        tab.page.locator(".MuiBackdrop-root").first.wait_for(state="hidden")
+        if tab.page.evaluate("document.documentElement.dataset.scene") != scene:
+            tab.change(tell, tab.page, "scene", scene)
+        return tab.page
 
-    yield open_once
-    for explorer in seen.values():
-        explorer.assert_quiet()
-        explorer.page.context.close()
+    yield enter
+    for tab in tabs.values():
+        tab.assert_quiet()
+        tab.page.context.close()
+
+
+@pytest.fixture(scope="module")
+def look(look_at, request):
+    """(page, scene, size, theme)."""
+    return look_at(*request.param), *request.param
+
+
+def tell(page, name, detail=None):
+    """What the controls say when they are used, also where they are behind the menu button."""
+    page.evaluate("([name, detail]) => document.dispatchEvent(new CustomEvent(`hess:${name}`, { detail }))",
+                  [name, detail])
 
 
 def planar(scene):
@@ -50,16 +67,21 @@ def planar(scene):
 
 
 def drawing(page, name):
-    """The bounding box of a picture without its caption."""
+    """A picture without its caption."""
     inside = ":is(canvas.sphere, canvas.solid, .bk-Figure)"
-    return page.locator(f".gallery:not(.away) .picture-{name} {inside}").first.bounding_box()
+    return page.locator(f".gallery:not(.away) .picture-{name} {inside}").first
 
 
-@every_size
-@every_scene
-def test_pictures_stand_in_as_many_columns_as_fit_and_are_square(look_at, size, scene):
-    page = look_at(size, scene=scene)
-    boxes = [drawing(page, name) for name in scenes()[scene].open_pictures]
+def corner(page, name, bottom):
+    """The colour of a picture in its lower or upper left corner, where nothing is drawn."""
+    shot = Image.open(io.BytesIO(drawing(page, name).screenshot())).convert("RGB")
+    return shot.getpixel((3, shot.height - 4 if bottom else 3))
+
+
+@every_look
+def test_pictures_stand_in_as_many_columns_as_fit_and_are_square(look):
+    page, scene, size, _ = look
+    boxes = [drawing(page, name).bounding_box() for name in scenes()[scene].open_pictures]
     for box in boxes:
         assert box["width"] == pytest.approx(box["height"], abs=4)
         assert box["width"] >= 290
@@ -76,10 +98,9 @@ def test_pictures_stand_in_as_many_columns_as_fit_and_are_square(look_at, size, 
             assert box["x"] == pytest.approx(boxes[0]["x"], abs=2)
 
 
-@every_size
-@every_scene
-def test_nothing_is_wider_than_the_window(look_at, size, scene):
-    page = look_at(size, scene=scene)
+@every_look
+def test_nothing_is_wider_than_the_window(look):
+    page, _, size, _ = look
     assert page.evaluate("document.documentElement.scrollWidth") <= SIZES[size][0]
     assert page.locator(".main-content").evaluate("item => item.scrollWidth - item.clientWidth") <= 0
 
@@ -91,10 +112,9 @@ PARTS = (
 )
 
 
-@every_size
-@every_scene
-def test_nothing_covers_anything_else_and_no_text_is_cut_off(look_at, size, scene):
-    page = look_at(size, scene=scene)
+@every_look
+def test_nothing_covers_anything_else_and_no_text_is_cut_off(look):
+    page, _, size, _ = look
     for selector in PARTS:
         parts = [(item.get_attribute("class"), item.bounding_box()) for item in page.locator(selector).all()]
         # On a phone the controls are not there.
@@ -109,15 +129,12 @@ def test_nothing_covers_anything_else_and_no_text_is_cut_off(look_at, size, scen
         assert max(over) <= 1, (text.text_content(), over)
 
 
-@every_size
-@every_scene
-def test_every_caption_fits_into_its_place(look_at, size, scene):
-    page = look_at(size, scene=scene)
-    # Every example, the default state last.
-    presets = scenes()[scene].presets
-    for preset in [*presets[1:], presets[0]]:
+@every_look
+def test_every_caption_fits_into_its_place(look):
+    page, scene, _, _ = look
+    for wish in [*(("preset", preset.name) for preset in scenes()[scene].presets), ("reset",)]:
         before = int(page.evaluate("document.documentElement.dataset.state"))
-        page.evaluate("detail => document.dispatchEvent(new CustomEvent('hess:preset', { detail }))", preset.name)
+        tell(page, *wish)
         wait_ready(page, after=before, seconds=30)
         for name in scenes()[scene].pictures:
             caption = page.locator(f".gallery:not(.away) .picture-{name} h2")
@@ -126,7 +143,7 @@ def test_every_caption_fits_into_its_place(look_at, size, scene):
 
 def test_on_a_phone_ready_means_that_the_pictures_can_be_seen(open_page):
     page = open_page(size=SIZES["phone"])
-    box = drawing(page, "omega")
+    box = drawing(page, "omega").bounding_box()
     # A screenshot is taken now: no drawer and no veil may be over the picture any more.
     covering = page.evaluate(
         """([x, y]) => document.elementsFromPoint(x, y)
@@ -155,24 +172,20 @@ def axis_colour(page, name="omega"):
         "name => hess.plots.find(({ model }) => model.name === name).model.below[0].major_label_text_color", name)
 
 
-@every_scene
-def test_dark_is_dark_and_its_axes_can_be_read(look_at, scene):
-    light, dark = look_at(scene=scene), look_at(theme="dark", scene=scene)
-    assert brightness(light) > 200
-    assert brightness(dark) < 60
-    name = planar(scene)[0]
-    assert axis_colour(light, name) != axis_colour(dark, name)
+@every_look
+def test_light_is_light_and_dark_is_dark(look):
+    page, _, _, theme = look
+    assert (brightness(page) > 200) if theme == "light" else (brightness(page) < 60)
 
 
-def test_a_scene_that_is_entered_is_as_dark_as_the_page(open_page, look_at):
-    page = open_page("theme=dark")
-    for scene in (STUDY, HESS):
-        before = int(page.evaluate("document.documentElement.dataset.state"))
-        page.locator(f".param-scene-{scene}").click()
-        wait_ready(page, after=before)
-        for name in planar(scene):
-            assert axis_colour(page, name) == axis_colour(look_at(theme="dark", scene=scene), name), name
-        assert brightness(page) < 60
+def test_a_scene_that_is_entered_is_as_dark_as_one_that_a_link_opens(open_page):
+    linked, entered = open_page(f"scene={STUDY}&theme=dark"), open_page("theme=dark")
+    before = int(entered.evaluate("document.documentElement.dataset.state"))
+    entered.locator(f".param-scene-{STUDY}").click()
+    wait_ready(entered, after=before)
+    for name in planar(STUDY):
+        assert axis_colour(entered, name) == axis_colour(linked, name), name
+    assert abs(brightness(entered) - brightness(linked)) <= 1
 
 
 def luminance(colour):
@@ -200,14 +213,11 @@ TEXTS = """names => {
 }"""
 
 
-@every_theme
-@every_scene
-def test_every_text_of_the_pictures_stands_out_from_what_is_behind_it(look_at, theme, scene):
-    page = look_at(theme=theme, scene=scene)
-    shot = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
+@every_look
+def test_every_text_of_the_pictures_stands_out_from_what_is_behind_it(look):
+    page, scene, _, _ = look
     names = planar(scene)
-    box = drawing(page, names[-1])
-    behind = shot.getpixel((int(box["x"] + 3), int(box["y"] + box["height"] - 3)))
+    behind = corner(page, names[-1], bottom=True)
     texts = page.evaluate(TEXTS, names)
     assert len(texts) == 4 * len(names)
     for colour in texts:
@@ -215,9 +225,8 @@ def test_every_text_of_the_pictures_stands_out_from_what_is_behind_it(look_at, t
     if "sphere" not in scenes()[scene].pictures:
         return
     # The sphere writes in the colour of the page's text.
-    colour = page.locator(".picture-sphere canvas.sphere").evaluate("item => getComputedStyle(item).color")
-    box = drawing(page, "sphere")
-    behind = shot.getpixel((int(box["x"] + 3), int(box["y"] + 3)))
+    colour = drawing(page, "sphere").evaluate("item => getComputedStyle(item).color")
+    behind = corner(page, "sphere", bottom=False)
     assert contrast([int(part) for part in re.findall(r"\d+", colour)[:3]], behind) >= 4.5
 
 
@@ -226,16 +235,12 @@ def test_the_button_turns_the_page_dark_and_the_link_says_so(open_page, look_at)
     page.get_by_role("button", name="theme").click()
     page.wait_for_function("location.search.includes('theme=dark')")
     assert brightness(page) < 60
-    assert axis_colour(page) == axis_colour(look_at(theme="dark"))
+    assert axis_colour(page) == axis_colour(look_at(HESS, theme="dark"))
 
 
-@pytest.mark.parametrize(("scene", "size", "theme"), [
-    *((HESS, size, theme) for size in SIZES for theme in ("light", "dark")),
-    *((scene, size, "light") for scene in SCENES if scene != HESS for size in SIZES),
-    *((scene, "wide", "dark") for scene in SCENES if scene != HESS),
-])
-def test_a_screenshot_of_every_size_and_theme_is_kept(look_at, artefacts, size, theme, scene):
-    page = look_at(size, theme, scene)
+@every_look
+def test_a_screenshot_of_every_size_and_theme_is_kept(look, artefacts):
+    page, scene, size, theme = look
     picture = page.screenshot(path=artefacts / f"{scene}-{size}-{theme}.png")
     colours = Image.open(io.BytesIO(picture)).convert("RGB").getcolors(1 << 24)
     assert len(colours) > 500
@@ -249,7 +254,7 @@ def assert_accessible(page):
     assert len(found.response["passes"]) > 10
 
 
-@every_theme
+@pytest.mark.parametrize("theme", ["light", "dark"])
 def test_no_rule_of_wcag_is_broken(open_page, theme):
     # A state with a note, so that all there can be is there.
     page = open_page(f"theme={theme}&I22=0.5&I23=1.5")
@@ -259,7 +264,7 @@ def test_no_rule_of_wcag_is_broken(open_page, theme):
 
 @pytest.mark.parametrize(("size", "theme"), [("wide", "light"), ("wide", "dark"), ("phone", "light")])
 def test_no_rule_of_wcag_is_broken_in_the_accuracy_scene(look_at, size, theme):
-    assert_accessible(look_at(size, theme, STUDY))
+    assert_accessible(look_at(STUDY, size, theme))
 
 
 def test_no_rule_of_wcag_is_broken_on_a_phone_with_the_controls_away_or_there(open_page):

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from test_attitude import swing_at
 from test_page import Explorer, one_tab
+from test_page_controls import wait_frames
 from test_page_free import assert_painted, brought, chosen, said
 from test_scene_loxodrome import HESS, LOXODROME, clock, slope
 
@@ -82,21 +83,18 @@ def test_the_body_moves_with_time_in_both_pictures(loxodrome):
     values = LOXODROME.defaults()
     for t in (1.7, 2.2):
         loxodrome.set_time(t)
-        loxodrome.page.wait_for_timeout(100)
+        wait_frames(loxodrome)
         for picture in ("body", "space"):
             assert colour_at(loxodrome, picture, *centre_at(values, t)) == pytest.approx(YELLOW, abs=3), (t, picture)
             assert colour_at(loxodrome, picture, *centre_at(values, t + 0.6)) != pytest.approx(YELLOW, abs=3)
     before = canvas(loxodrome, "body").screenshot()
-    loxodrome.page.locator(".param-play").click()
-    loxodrome.page.wait_for_timeout(400)
-    loxodrome.page.locator(".param-play").click()
-    assert loxodrome.time > 2.3
+    loxodrome.play_until(2.3)
     assert canvas(loxodrome, "body").screenshot() != before
 
 
 def test_keys_turn_the_body_and_the_link_keeps_it(loxodrome):
     canvas(loxodrome, "body").press("ArrowUp")
-    loxodrome.page.wait_for_timeout(100)
+    wait_frames(loxodrome)
     assert canvas(loxodrome, "body").get_attribute("data-turn") == f"0.6000 {0.35 + math.pi / 36:.4f}"
     loxodrome.wait_url(el=f"{0.35 + math.pi / 36:.4f}")
     canvas(loxodrome, "body").press("Home")
@@ -120,7 +118,7 @@ def test_the_body_of_the_hess_case_is_drawn_when_it_is_unfolded(open_page, serve
     assert (np.array(body["semi"]) / body["semi"][2]) ** 2 == pytest.approx(np.array(moments) / moments[2], rel=1e-3)
     still = canvas(explorer, "body").screenshot()
     explorer.set_time(2.0)
-    explorer.page.wait_for_timeout(100)
+    wait_frames(explorer)
     assert canvas(explorer, "body").screenshot() != still
     explorer.change(lambda: explorer.slide(h=1.2))
     assert explorer.data("body")["g1"] != body["g1"]
@@ -133,7 +131,7 @@ def test_folded_again_the_body_is_not_computed(open_page, server):
     first = explorer.data("body")
     unfold(explorer)
     # The browser tells what is in sight a moment after it has changed.
-    explorer.page.wait_for_timeout(500)
+    wait_frames(explorer)
     explorer.change(lambda: explorer.slide(h=1.2))
     assert explorer.data("body") == first
     explorer.change(unfold, explorer)

@@ -222,7 +222,7 @@ def test_the_pictures_of_a_scene_are_built_while_the_mouse_rests_on_it(browser, 
     card(f".param-scene-{passed}").evaluate("""card => {
       for (const name of ["pointerenter", "pointerleave"]) card.dispatchEvent(new PointerEvent(name))
     }""")
-    page.page.wait_for_timeout(300)
+    page.page.evaluate("new Promise((done) => setTimeout(done, 300))")
     assert not page.page.evaluate(built, passed)
     card(f".param-scene-{passed}").focus()
     page.page.wait_for_function(built, arg=passed)
