@@ -29,7 +29,7 @@ SMALL = {**EP.defaults(), "orbits": 12.0, "count": 20.0, "long": 5.0, "span": 1.
 PIECES = 17
 
 
-def wait_until(condition, seconds=20.0):
+def wait_until(condition, seconds=60.0):
     end = time.monotonic() + seconds
     while not condition():
         assert time.monotonic() < end, "it does not come about"
@@ -49,7 +49,7 @@ class Gate(ResultCache):
         if threading.current_thread().name.startswith("background"):
             self.calls[function, arguments] += 1
             self.begun.release()
-            assert self.open.acquire(timeout=20.0)
+            assert self.open.acquire(timeout=60.0)
         return super().get(function, *arguments)
 
     def let(self, count=1):
@@ -118,7 +118,7 @@ def test_pieces_are_begun_in_their_order_and_on_all_threads(gate):
     work = Background()
     work.follow(tasks(10))
     for _ in range(THREADS):
-        assert gate.begun.acquire(timeout=10.0)
+        assert gate.begun.acquire(timeout=60.0)
     time.sleep(0.02)
     assert [arguments for _, arguments in gate.calls] == [(n,) for n in range(THREADS)]
     assert work.left == 10

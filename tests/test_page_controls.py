@@ -245,7 +245,7 @@ def test_reset_brings_everything_back(explorer):
     explorer.change(explorer.choose, "accuracy", "draft")
     before = explorer.state
     explorer.page.locator(".param-reset").click()
-    wait_ready(explorer.page, after=before, seconds=5)
+    wait_ready(explorer.page, after=before)
     assert_orbit(explorer, DEFAULTS)
     assert explorer.text("status").startswith("standard:")
     for name in SLIDERS:
@@ -311,7 +311,7 @@ def wait_frames(explorer, count=6):
 def wait_time(explorer, condition):
     """Wait until the time slider fulfils a condition on t."""
     explorer.page.wait_for_function(
-        f"() => {{ const {{ t }} = ({MOMENT})({list(POINTS)!r}); return {condition} }}", timeout=20000)
+        f"() => {{ const {{ t }} = ({MOMENT})({list(POINTS)!r}); return {condition} }}")
 
 
 def assert_on_orbit(explorer, values):

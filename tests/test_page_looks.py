@@ -143,7 +143,7 @@ def test_every_caption_fits_into_its_place(look):
     for wish in [*(("preset", preset.name) for preset in examples), ("reset",)]:
         before = int(page.evaluate("document.documentElement.dataset.state"))
         tell(page, *wish)
-        wait_ready(page, after=before, seconds=30)
+        wait_ready(page, after=before)
         for name in scenes()[scene].pictures:
             caption = page.locator(f".gallery:not(.away) .picture-{name} h2")
             assert caption.evaluate("item => item.scrollHeight - item.clientHeight") <= 1, caption.inner_text()
