@@ -155,6 +155,14 @@ export function render({ model, view }) {
     onPainted()
   })
 
+  // Bokeh paints each of thousands of dots as a circle with colours of its own; here they are squares as large, of one.
+  const dots = (glyph) => (ctx, indices) => {
+    const { sx, sy, size, visuals } = glyph
+    visuals.line.set_vectorize(ctx, 0)
+    ctx.fillStyle = ctx.strokeStyle
+    const width = size.get(0) / 8 * Math.sqrt(Math.PI)
+    for (const i of indices) ctx.fillRect(sx[i] - width / 2, sy[i] - width / 2, width, width)
+  }
   const prepare = (found) => {
     for (const plot of found.plots) {
       plot.repainted.connect(() => onPainted())
@@ -172,6 +180,7 @@ export function render({ model, view }) {
       }
       // Bokeh does not cut what is on the overlay canvas to the frame; all our moving elements are there.
       for (const part of plot.computed_renderer_views) {
+        if (part.glyph?.model.marker?.value === "dot") part.glyph._paint = dots(part.glyph)
         const update = part.update_data?.bind(part)
         if (update !== undefined) {
           part.update_data = (indices) => {

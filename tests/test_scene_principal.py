@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from test_wire import read
 
+from app.compute import CACHE
 from app.scenes import scenes
 from app.wire import Wire
 from models import level, solve, systems
@@ -156,6 +157,23 @@ def test_an_example_of_the_quartic_potential_is_what_its_name_says(preset):
         assert body.h > abs(body.b3)
     if "bouncing" in preset.name:
         assert orbit["q2"].min() > 0.0
+
+
+@pytest.mark.parametrize("name", ["quartic", "ball-section"])
+def test_at_first_a_section_has_the_beginnings_of_all_its_orbits(name):
+    values = {"count": 45.0, "h": 1.37}
+    first = View(scenes()[name], values)
+    (task,) = first.report.todo
+    assert (first.result.others.shape, first.report.total) == ((20 * 30, 2), 1)
+    CACHE.get(task.function, *task.arguments)
+    whole = View(scenes()[name], values)
+    assert (whole.report.todo, whole.report.total) == ((), 1)
+    assert whole.result.others.reshape(20, 45, 2)[:, :30].reshape(-1, 2) == pytest.approx(first.result.others)
+    # The chosen orbit is there at once.
+    assert len(first.result.own) == 45
+    held = View(scenes()[name], values, dragging=True)
+    assert (held.report.todo, len(held.result.own)) == ((), 30)
+    assert held.result.others == pytest.approx(first.result.others)
 
 
 def test_a_click_chooses_where_the_orbit_starts():

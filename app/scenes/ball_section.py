@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from app.compute import Task
 from app.scenes.base import Motion, Preset, Report, Scene
 from app.scenes.parts import Work, refuse
 from app.scenes.sections import section_status
@@ -31,8 +32,9 @@ from models.strip import lowest_energy
 from models.torus import PIXELS, SAGITTA
 
 _MOST = 6000
-_ORBITS, _ORBITS_IN_A_DRAG = 20, 10
-_CROSSINGS_IN_A_DRAG = 60
+_ORBITS = 20
+_FEW = 30
+"""Crossings of each, while a slider is dragged and until all are known."""
 _CELLS = 32
 _MOST_STEPS = 15_000
 _ABOVE = 1e-3
@@ -101,7 +103,10 @@ WORDS = Path(__file__).with_suffix(".md").read_text(encoding="utf-8")
 
 @dataclass(frozen=True)
 class SectionResult:
-    """E is the energy; `others`, `own`: (n, 2) points (ψ, δ); None where no picture asks, or for this `reason`."""
+    """E is the energy; `others`, `own`: (n, 2) points (ψ, δ); None where no picture asks, or for this `reason`.
+
+    todo : the others in full, where they are not computed yet.
+    """
 
     values: Values
     body: BallBody
@@ -113,6 +118,8 @@ class SectionResult:
     drift: Mapping[str, float]
     steps: int
     reason: str
+    todo: Sequence[Task]
+    total: int
     ended: str
 
 
@@ -165,16 +172,17 @@ def _orbit(body: BallBody, start: tuple[float, ...], span: float, accuracy: Leve
     return solve(SYSTEM, start, body.parameters, times, accuracy)
 
 
-def _others(body: BallBody, E: float, orbits: int, crossings: int) -> Points:
-    return ball_section(body, E, seeds(body, E, orbits), crossings, STANDARD, _MOST_STEPS)
+def _others(body: BallBody, E: float, crossings: int) -> Points:
+    return ball_section(body, E, seeds(body, E, _ORBITS), crossings, STANDARD, _MOST_STEPS)
 
 
 def _own(body: BallBody, E: float, start: tuple[float, ...], crossings: int) -> Points:
     return ball_section(body, E, [start], crossings, STANDARD, _MOST_STEPS)
 
 
-def _points(points: Points, crossings: int, later: bool) -> Array:
-    parts = [coordinates(states[crossings // 2 if later else 0 :]) for states in points.states]
+def _points(points: Points, later: bool) -> Array:
+    first = max(map(len, points.states), default=0) // 2 if later else 0
+    parts = [coordinates(states[first:]) for states in points.states]
     return np.concatenate([np.empty((0, 2)), *parts])
 
 
@@ -185,7 +193,8 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> SectionRe
     body = body_of(values)
     E = _energy(body, float(values["h"]))
     start = state_at(body, E, float(values["psi"]), float(values["delta"]))
-    crossings = min(int(float(values["count"])), _CROSSINGS_IN_A_DRAG if dragging else 1000)
+    count = int(float(values["count"]))
+    few = min(count, _FEW)
     later = values["drop"] != "all"
     orbit = work.get(_orbit, body, start, float(values["span"]), accuracy) if shown else None
     others = own = None
@@ -193,14 +202,15 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> SectionRe
     steps, reason = 0, ""
     if not {"section", "returns"}.isdisjoint(shown):
         try:
-            one = work.get(_own, body, E, start, crossings)
-            many = work.get(_others, body, E, _ORBITS_IN_A_DRAG if dragging else _ORBITS, crossings)
-            others, own = _points(many, crossings, later), _points(one, crossings, later)
+            one = work.get(_own, body, E, start, few if dragging else count)
+            many = work.sooner(Task(_others, (body, E, count)), Task(_others, (body, E, few)))
+            others, own = _points(many, later), _points(one, later)
             drift = {name: max(many.drift.get(name, 0.0), one.drift.get(name, 0.0)) for name in ("E", "F1")}
             steps = many.cost.steps + one.cost.steps
         except WorkLimit as error:
             reason = f"The section is left out: {error}"
-    return SectionResult(values, body, E, start, orbit, others, own, drift, steps, reason, work.ended())
+    return SectionResult(values, body, E, start, orbit, others, own, drift, steps, reason, tuple(work.todo),
+                         work.pieces, work.ended())
 
 
 def motion(values: Values) -> Motion:
@@ -253,7 +263,8 @@ class SectionStage:
         self.sphere.show(*(((-b / length).tolist(), "r") if length > 0.0 else ((), "")))
         for name, text in _captions(result).items():
             self.wire.say(name, text)
-        return Report(_derived(result), _status(result), [result.reason] if result.reason else [])
+        notes = [result.reason] if result.reason else []
+        return Report(_derived(result), _status(result), notes, result.todo, result.total)
 
     def fail(self, sentence: str) -> None:
         """Empty pictures, and the sentence where the eye is."""

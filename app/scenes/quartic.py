@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from app import theme
+from app.compute import Task
 from app.scenes.base import Motion, Preset, Report, Scene
 from app.scenes.parts import ACCURACY, Work, refuse
 from app.scenes.sections import section_status
@@ -34,8 +35,9 @@ from models.suslov import SYSTEM
 from models.torus import PIXELS, SAGITTA
 
 _MOST = 6000
-_ORBITS, _ORBITS_IN_A_DRAG = 20, 10
-_CROSSINGS_IN_A_DRAG = 60
+_ORBITS = 20
+_FEW = 30
+"""Crossings of each, while a slider is dragged and until all are known."""
 _MOST_STEPS = 40_000
 _CELLS = 32
 _LEVELS = (-0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75)
@@ -96,7 +98,10 @@ WORDS = Path(__file__).with_suffix(".md").read_text(encoding="utf-8")
 
 @dataclass(frozen=True)
 class QuarticResult:
-    """`others`, `own`: (n, 2) points of the section; None where no picture asks, or for this `reason`."""
+    """`others`, `own`: (n, 2) points of the section; None where no picture asks, or for this `reason`.
+
+    todo : the others in full, where they are not computed yet.
+    """
 
     values: Values
     body: QuarticBody
@@ -107,6 +112,8 @@ class QuarticResult:
     drift: Mapping[str, float]
     steps: int
     reason: str
+    todo: Sequence[Task]
+    total: int
     ended: str
 
 
@@ -176,8 +183,8 @@ def _orbit(body: QuarticBody, start: tuple[float, ...], span: float, accuracy: L
     return solve(SYSTEM, start, body.parameters, times, accuracy)
 
 
-def _others(body: QuarticBody, orbits: int, crossings: int) -> Points:
-    return quartic_section(body, seeds(body, orbits), crossings, STANDARD, _MOST_STEPS)
+def _others(body: QuarticBody, crossings: int) -> Points:
+    return quartic_section(body, seeds(body, _ORBITS), crossings, STANDARD, _MOST_STEPS)
 
 
 def _own(body: QuarticBody, start: tuple[float, ...], crossings: int) -> Points:
@@ -192,21 +199,23 @@ def compute(values: Values, shown: Collection[str], dragging: bool) -> QuarticRe
     """The chosen orbit and its crossings, those of others."""
     work = Work(values, dragging)
     body, start = _start(values)
-    crossings = min(int(float(values["count"])), _CROSSINGS_IN_A_DRAG if dragging else 1000)
+    count = int(float(values["count"]))
+    few = min(count, _FEW)
     orbit = work.get(_orbit, body, start, float(values["span"]), work.level)
     others = own = None
     drift: dict[str, float] = {}
     steps, reason = 0, ""
     if "section" in shown:
         try:
-            one = work.get(_own, body, start, crossings)
-            many = work.get(_others, body, _ORBITS_IN_A_DRAG if dragging else _ORBITS, crossings)
+            one = work.get(_own, body, start, few if dragging else count)
+            many = work.sooner(Task(_others, (body, count)), Task(_others, (body, few)))
             others, own = _points(body, many), _points(body, one)
             drift = {name: max(many.drift.get(name, 0.0), one.drift.get(name, 0.0)) for name in ("E", "F1")}
             steps = many.cost.steps + one.cost.steps
         except WorkLimit as error:
             reason = f"The section is left out: {error}"
-    return QuarticResult(values, body, start, orbit, others, own, drift, steps, reason, work.ended())
+    return QuarticResult(values, body, start, orbit, others, own, drift, steps, reason, tuple(work.todo), work.pieces,
+                         work.ended())
 
 
 def motion(values: Values) -> Motion:
@@ -249,7 +258,8 @@ class QuarticStage:
         self.sphere.show((0.0, 0.0, -math.copysign(1.0, body.b3)), "r", circles)
         for picture, text in zip(self.pictures, _captions(result), strict=True):
             self.wire.say(picture.name, text)
-        return Report(_derived(result), _status(result), [result.reason] if result.reason else [])
+        notes = [result.reason] if result.reason else []
+        return Report(_derived(result), _status(result), notes, result.todo, result.total)
 
     def _show_region(self, body: QuarticBody) -> None:
         unit = _CIRCLE * np.array(body.axes)
