@@ -78,6 +78,23 @@ def corner(page, name, bottom):
     return shot.getpixel((3, shot.height - 4 if bottom else 3))
 
 
+def brightness(shot):
+    return ImageStat.Stat(shot.convert("L")).median[0]
+
+
+def seen(page):
+    return Image.open(io.BytesIO(page.screenshot()))
+
+
+@every_look
+def test_of_every_size_and_theme_a_screenshot_is_kept_and_dark_is_dark(look, artefacts):
+    # The first of all tests of a look: nothing has been scrolled yet.
+    page, scene, size, theme = look
+    shot = Image.open(io.BytesIO(page.screenshot(path=artefacts / f"{scene}-{size}-{theme}.png")))
+    assert len(shot.convert("RGB").getcolors(1 << 24)) > 500
+    assert (brightness(shot) > 200) if theme == "light" else (brightness(shot) < 60)
+
+
 @every_look
 def test_pictures_stand_in_as_many_columns_as_fit_and_are_square(look):
     page, scene, size, _ = look
@@ -171,14 +188,6 @@ def test_on_a_phone_the_controls_are_behind_the_menu_button(open_page):
     page.wait_for_function("item => item.getBoundingClientRect().left >= 0", arg=slider.element_handle())
 
 
-def brightness(shot):
-    return ImageStat.Stat(shot.convert("L")).median[0]
-
-
-def seen(page):
-    return Image.open(io.BytesIO(page.screenshot()))
-
-
 def axis_colour(page, name="omega"):
     return page.evaluate(
         "name => hess.plots.find(({ model }) => model.name === name).model.below[0].major_label_text_color", name)
@@ -242,14 +251,6 @@ def test_the_button_turns_the_page_dark_and_the_link_says_so(open_page, look_at)
     page.wait_for_function("location.search.includes('theme=dark')")
     assert brightness(seen(page)) < 60
     assert axis_colour(page) == axis_colour(look_at(HESS, theme="dark"))
-
-
-@every_look
-def test_of_every_size_and_theme_a_screenshot_is_kept_and_dark_is_dark(look, artefacts):
-    page, scene, size, theme = look
-    shot = Image.open(io.BytesIO(page.screenshot(path=artefacts / f"{scene}-{size}-{theme}.png")))
-    assert len(shot.convert("RGB").getcolors(1 << 24)) > 500
-    assert (brightness(shot) > 200) if theme == "light" else (brightness(shot) < 60)
 
 
 def assert_accessible(page):
