@@ -243,8 +243,7 @@ def test_absurd_spans_take_no_longer_than_the_budget_allows(name):
         span = sign * 10.0**exponent
         before = time.process_time()
         times = sample_times(system, state, parameters, span, weights, SAGITTA, MOST)
-        # Tenths of a second; where processors are shared, several times that.
-        assert time.process_time() - before < 20.0
+        assert time.process_time() - before < 5.0
         assert (times[0], times[-1]) == (0.0, span)
         assert len(times) <= MOST
         assert np.all(np.diff(times) * sign > 0.0)
