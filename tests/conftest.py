@@ -10,8 +10,8 @@ from urllib.parse import urlsplit
 
 import pytest
 
-from app.browser import launched, wait_ready
-from app.screenshot import running_server
+from hess_explorer.headless.browser import launched, wait_ready
+from hess_explorer.headless.screenshot import running_server
 
 __all__ = ["scene_of", "wait_ready"]
 
@@ -19,8 +19,8 @@ __all__ = ["scene_of", "wait_ready"]
 def pytest_configure(config):
     """Compile everything once, before the processes that share it begin."""
     if not hasattr(config, "workerinput") and not config.option.collectonly:
-        subprocess.run([sys.executable, "-c", "from app.warm import compile_all; compile_all()"], check=True,
-                       cwd=Path(__file__).parents[1])
+        subprocess.run([sys.executable, "-c", "from hess_explorer.server.warm import compile_all; compile_all()"],
+                       check=True)
 
 
 def scene_of(query):

@@ -1,0 +1,86 @@
+"""The command line: `hess-explorer` opens the explorer, its other commands compute or draw without it."""
+
+from __future__ import annotations
+
+import argparse
+import re
+import sys
+from collections.abc import Sequence
+from importlib import metadata
+from typing import NoReturn
+
+from hess_explorer.commands import (
+    CommandError,
+    bench,
+    circle_map,
+    lyapunov,
+    orbit,
+    rotation_number,
+    scattering,
+    section,
+    serve,
+    shot,
+)
+
+__all__ = ["main"]
+
+
+class _Parser(argparse.ArgumentParser):
+    """Reports a mistake as one sentence, without the usage text."""
+
+    def error(self, message: str) -> NoReturn:
+        raise CommandError(f"{message} (see {self.prog} --help).")
+
+
+def _version() -> str:
+    try:
+        return metadata.version("hess-explorer")
+    except metadata.PackageNotFoundError:
+        return "run from its source folder, not installed"
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = _Parser(prog="hess-explorer", description="An interactive explorer of the Suslov problem, its Hess case "
+                     "and their relatives.  Without a command: serve.", allow_abbrev=False)
+    parser.add_argument("--version", action="version", version=f"hess-explorer {_version()}")
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    for command in (serve, circle_map, orbit, section, scattering, rotation_number, lyapunov, shot, bench):
+        command.add(commands)
+    return parser
+
+
+def _with_command(words: list[str]) -> list[str]:
+    """`hess-explorer`, and options alone, mean `serve`."""
+    if words and (not words[0].startswith("-") or words[0] in ("-h", "--help", "--version")):
+        return words
+    return ["serve", *words]
+
+
+def _with_negative_values(words: list[str]) -> list[str]:
+    """`--omega -0.4,0.2` → `--omega=-0.4,0.2`: argparse would take the value for an option."""
+    joined: list[str] = []
+    for word in words:
+        if joined and re.match(r"-([\d.]|inf|nan)", word, re.IGNORECASE) and re.fullmatch(r"--[\w-]+", joined[-1]):
+            joined[-1] += f"={word}"
+        else:
+            joined.append(word)
+    return joined
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run one command.  Returns 0, 2 when the request cannot be carried out, 130 when interrupted."""
+    words = list(sys.argv[1:] if argv is None else argv)
+    try:
+        options = _parser().parse_args(_with_negative_values(_with_command(words)))
+        options.run(options)
+    except CommandError as error:
+        print(f"hess-explorer: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("hess-explorer: interrupted.", file=sys.stderr)
+        return 130
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,125 @@
+"""The method of this project: Taylor series of chosen order and tolerance, one run of each kernel."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from hess_mechanics import systems
+from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.suslov_hess.circle_map import Phases, theta_at
+
+from .method import OURS, Ladder, Method, Run, Setting, half_decades, version
+from .threads import shared
+from .works import Array, MapWork, MotionWork, Work
+
+__all__ = ["METHOD"]
+
+_ORDERS = (8, 10, 12, 14, 16, 18, 20, 22, 24)
+_MAX_STEPS = 1_000_000
+# Orbits of one call: enough to fill the lanes of the kernel, few enough for two threads to end together.
+_BLOCK = 64
+_MAX_CROSSINGS = 1000
+
+
+def _ladders(work: Work) -> Sequence[Ladder]:
+    return [tuple((order, tolerance) for tolerance in half_decades(2, 17)) for order in _ORDERS]
+
+
+def _orbit(work: MotionWork, order: int, tolerance: float, threads: int) -> Run:
+    """A, A2."""
+    integrate = systems()["suslov"].orbit
+    start, p, out = work.initial[0], np.array(work.parameters), np.empty((work.times.size, 5))
+
+    def run() -> Array:
+        if integrate(start, p, work.times, order, tolerance, _MAX_STEPS, out) < 0:
+            out.fill(np.nan)
+        return out
+
+    return run
+
+
+def _free_ensemble(work: MotionWork, order: int, tolerance: float, threads: int) -> Run:
+    """B: all orbits have one ω, and γ̇ = γ × ω is linear, so three of them carry every γ."""
+    integrate = systems()["suslov"].ensemble
+    p, gamma = np.array(work.parameters), work.initial[:, 2:]
+    axes = np.hstack([np.tile(work.initial[0, :2], (3, 1)), np.eye(3)])
+    carried, out = np.empty((3, 1, 5)), np.empty(work.initial.shape)
+
+    def run() -> Array:
+        if integrate(axes, p, work.times, order, tolerance, _MAX_STEPS, carried) < 0:
+            carried.fill(np.nan)
+        out[:, :2] = carried[0, 0, :2]
+        np.matmul(gamma, carried[:, 0, 2:], out=out[:, 2:])
+        return out
+
+    return run
+
+
+def _ensemble(work: MotionWork, order: int, tolerance: float, threads: int) -> Run:
+    """B2."""
+    integrate = systems()["suslov"].ensemble
+    p, out = np.array(work.parameters), np.empty((len(work.initial), 1, 5))
+
+    def part(thread: int) -> None:
+        for i in range(thread * _BLOCK, len(out), threads * _BLOCK):
+            block = slice(i, i + _BLOCK)
+            if integrate(work.initial[block], p, work.times, order, tolerance, _MAX_STEPS, out[block]) < 0:
+                out[block] = np.nan
+
+    all_parts = shared(part, threads)
+
+    def run() -> Array:
+        all_parts()
+        return out[:, 0]
+
+    return run
+
+
+def _circle_map(work: MapWork, order: int, tolerance: float, threads: int) -> Run:
+    """C."""
+    phases = Phases.of(work.phi)
+    level = Level("benchmark", 0.0, tolerance, order)
+
+    def run() -> Array:
+        return theta_at(phases, work.a, work.h, work.f, level)
+
+    return run
+
+
+def _crossings(work: MotionWork, order: int, tolerance: float, threads: int) -> Run:
+    """D; the crossings of several orbits one after the other."""
+    cross = systems()["suslov"].cross
+    p, normal, end = np.array(work.parameters), np.array([0.0, 0.0, 0.0, 0.0, 1.0]), float(work.times[0])
+    times = np.empty((len(work.initial), _MAX_CROSSINGS))
+    states = np.empty((len(work.initial), _MAX_CROSSINGS, 5))
+    found = np.zeros(len(work.initial), int)
+
+    def part(thread: int) -> None:
+        for i in range(thread, len(found), threads):
+            found[i], _ = cross(
+                work.initial[i], p, normal, 0.0, 1, end, order, tolerance, _MAX_STEPS, times[i], states[i])
+
+    all_parts = shared(part, threads)
+
+    def run() -> Array:
+        all_parts()
+        return np.concatenate([own[:max(n, 0)] for own, n in zip(states, found, strict=True)])
+
+    return run
+
+
+_WAYS: dict[str, Callable[..., Run]] = {
+    "A": _orbit, "A2": _orbit, "B": _free_ensemble, "B2": _ensemble, "C": _circle_map, "D": _crossings,
+}
+
+
+def _prepare(work: Work, setting: Setting, threads: int = 1) -> Run:
+    order, tolerance = setting
+    run = _WAYS[work.name](work, order, tolerance, threads)
+    run()
+    return run
+
+
+METHOD = Method(OURS, version("hess-explorer"), _ladders, _prepare, threaded=frozenset({"B2", "D"}))

@@ -1,0 +1,88 @@
+"""diffrax: Runge–Kutta methods in JAX, compiled by XLA; an ensemble is mapped over its orbits."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import cache
+from typing import Any
+
+import diffrax
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from hess_mechanics import systems
+
+from ..method import Ladder, Method, Run, Setting, half_decades, version
+from ..moebius import field, half_period, start, theta_after
+from ..works import Array, MapWork, MotionWork, Work
+
+__all__ = ["METHOD"]
+
+jax.config.update("jax_enable_x64", True)
+
+_SOLVERS = {"Dopri8": diffrax.Dopri8, "Tsit5": diffrax.Tsit5}
+_MAX_STEPS = 1_000_000
+
+
+def _ladders(work: Work) -> Sequence[Ladder]:
+    return [tuple((name, tolerance) for tolerance in half_decades(3, 14)) for name in _SOLVERS]
+
+
+def _rates(work: MapWork | MotionWork) -> Callable[..., Any]:
+    if isinstance(work, MapWork):
+        return lambda t, y, args: jnp.stack(field(y, 0.5 * work.a))
+    return lambda t, y, args: jnp.stack(systems()["suslov"].field(y, work.parameters))
+
+
+@cache
+def _solver(work: MapWork | MotionWork, name: str) -> Any:
+    """(initial (n, d), times, tolerance) → states (n, times, d), compiled once for all tolerances."""
+    term, solver = diffrax.ODETerm(_rates(work)), _SOLVERS[name]()
+
+    def one(initial: Any, times: Any, tolerance: Any) -> Any:
+        solution = diffrax.diffeqsolve(
+            term, solver, 0.0, times[-1], None, initial, saveat=diffrax.SaveAt(ts=times), max_steps=_MAX_STEPS,
+            stepsize_controller=diffrax.PIDController(rtol=tolerance, atol=tolerance), throw=False)
+        return solution.ys
+
+    if isinstance(work, MotionWork) and len(work.initial) > 1:
+        return jax.jit(jax.vmap(one, in_axes=(0, None, None)))
+    return jax.jit(lambda initial, times, tolerance: one(initial[0], times, tolerance)[None])
+
+
+def _run(work: MapWork | MotionWork, initial: Array, times: Array, setting: Setting,
+         finish: Callable[[Array], Array]) -> Run:
+    name, tolerance = setting
+    solve = _solver(work, name)
+    arguments = initial, times, np.float64(tolerance)
+
+    def run() -> Array:
+        return finish(np.asarray(solve(*arguments)))
+
+    run()
+    return run
+
+
+def _dense(work: MotionWork, setting: Setting) -> Run:
+    return _run(work, work.initial, work.times, setting, lambda states: states[0])
+
+
+def _ends(work: MotionWork, setting: Setting) -> Run:
+    return _run(work, work.initial, work.times, setting, lambda states: states[:, -1])
+
+
+def _circle_map(work: MapWork, setting: Setting) -> Run:
+    theta = theta_after(work.phi)
+    return _run(work, start(work)[None], np.array([half_period(work)]), setting, lambda states: theta(states[0, -1]))
+
+
+_WAYS: dict[str, Callable[..., Run]] = {"A": _dense, "A2": _ends, "B": _ends, "B2": _ends, "C": _circle_map}
+
+
+def _prepare(work: Work, setting: Setting, threads: int = 1) -> Run:
+    return _WAYS[work.name](work, setting)
+
+
+METHOD = Method("diffrax", version("diffrax"), _ladders, _prepare,
+                without={"D": "it can stop at one event, but not list all of them"})

@@ -1,0 +1,147 @@
+"""heyoka: Taylor series by JIT-compiled automatic differentiation, of the order that the tolerance asks for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from copy import deepcopy
+
+import heyoka
+import numpy as np
+
+from hess_mechanics import systems
+
+from ..method import Ladder, Method, Run, Setting, half_decades, version
+from ..moebius import field, half_period, start, theta_after
+from ..threads import shared
+from ..works import Array, MapWork, MotionWork, Work
+
+__all__ = ["METHOD"]
+
+
+_ENSEMBLES = frozenset({"B", "B2"})
+
+
+def _ladders(work: Work) -> Sequence[Ladder]:
+    plain = [(tolerance,) for tolerance in half_decades(2, 18)]
+    ladder: Ladder = (*plain, *((tolerance, "high accuracy") for tolerance in half_decades(15, 18)))
+    if work.name == "D":
+        return [tuple((*setting, kind) for setting in ladder) for kind in ("nt_event", "t_event")]
+    if work.name in _ENSEMBLES:
+        # Twice the recommended width is often faster still.
+        width = heyoka.recommended_simd_size()
+        return [tuple((*setting, f"{lanes} lanes") for setting in ladder) for lanes in (width, 2 * width)]
+    return [ladder]
+
+
+def _options(setting: Setting) -> dict[str, float | bool]:
+    return {"tol": setting[0], "high_accuracy": "high accuracy" in setting}
+
+
+def _motion_equations(work: MotionWork) -> list[tuple[heyoka.expression, heyoka.expression]]:
+    variables = heyoka.make_vars("w1", "w2", "g1", "g2", "g3")
+    # Numbers instead of parameters: factors 0 and 1 fall out.
+    return list(zip(variables, systems()["suslov"].field(variables, work.parameters), strict=True))
+
+
+def _dense(work: MotionWork, setting: Setting, threads: int) -> Run:
+    integrator = heyoka.taylor_adaptive(_motion_equations(work), work.initial[0], **_options(setting))
+
+    def run() -> Array:
+        integrator.time = 0.0
+        integrator.state[:] = work.initial[0]
+        return integrator.propagate_grid(work.times)[-1]
+
+    return run
+
+
+def _end(work: MotionWork, setting: Setting, threads: int) -> Run:
+    integrator = heyoka.taylor_adaptive(_motion_equations(work), work.initial[0], **_options(setting))
+
+    def run() -> Array:
+        integrator.time = 0.0
+        integrator.state[:] = work.initial[0]
+        integrator.propagate_until(work.times[0])
+        return integrator.state[None].copy()
+
+    return run
+
+
+def _ensemble(work: MotionWork, setting: Setting, threads: int) -> Run:
+    """Batch after batch, each lane with its own step."""
+    width = int(str(setting[-1]).split()[0])
+    blocks = [work.initial[i:i + width].T.copy() for i in range(0, len(work.initial), width)]
+    out = np.empty_like(work.initial)
+    first = heyoka.taylor_adaptive_batch(_motion_equations(work), blocks[0], **_options(setting))
+    integrators = [first, *(deepcopy(first) for _ in range(threads - 1))]
+
+    def part(thread: int) -> None:
+        integrator = integrators[thread]
+        for i in range(thread, len(blocks), threads):
+            integrator.set_time(0.0)
+            integrator.state[:] = blocks[i]
+            integrator.propagate_until(work.times[0])
+            out[width * i:width * (i + 1)] = integrator.state.T
+
+    all_parts = shared(part, threads)
+
+    def run() -> Array:
+        all_parts()
+        return out
+
+    return run
+
+
+def _circle_map(work: MapWork, setting: Setting, threads: int) -> Run:
+    variables = heyoka.make_vars("w1", "w2", "n1", "n2", "n3", "ar", "ai", "br", "bi")
+    equations = list(zip(variables, field(variables, 0.5 * work.a), strict=True))
+    state, end, theta = start(work), half_period(work), theta_after(work.phi)
+    integrator = heyoka.taylor_adaptive(equations, state, **_options(setting))
+
+    def run() -> Array:
+        integrator.time = 0.0
+        integrator.state[:] = state
+        integrator.propagate_until(end)
+        return theta(integrator.state)
+
+    return run
+
+
+def _crossings(work: MotionWork, setting: Setting, threads: int) -> Run:
+    equations = _motion_equations(work)
+    found: list[Array] = []
+
+    def passed(integrator: heyoka.taylor_adaptive, time: float, direction: int) -> None:
+        integrator.update_d_output(time)
+        found.append(integrator.d_output.copy())
+
+    def stopped(integrator: heyoka.taylor_adaptive, direction: int) -> bool:
+        found.append(integrator.state.copy())
+        return True  # go on
+
+    upward, height = heyoka.event_direction.positive, equations[4][0]
+    if "nt_event" in setting:
+        events = {"nt_events": [heyoka.nt_event(height, passed, direction=upward)]}
+    else:
+        events = {"t_events": [heyoka.t_event(height, callback=stopped, direction=upward)]}
+    integrator = heyoka.taylor_adaptive(equations, work.initial[0], **events, **_options(setting))
+
+    def run() -> Array:
+        found.clear()
+        integrator.time = 0.0
+        integrator.state[:] = work.initial[0]
+        integrator.propagate_until(work.times[0])
+        return np.array(found)
+
+    return run
+
+
+_WAYS: dict[str, Callable[..., Run]] = {
+    "A": _dense, "A2": _end, "B": _ensemble, "B2": _ensemble, "C": _circle_map, "D": _crossings,
+}
+
+
+def _prepare(work: Work, setting: Setting, threads: int = 1) -> Run:
+    return _WAYS[work.name](work, setting, threads)
+
+
+METHOD = Method("heyoka", version("heyoka"), _ladders, _prepare, threaded=frozenset({"B2"}))

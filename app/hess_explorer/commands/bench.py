@@ -1,0 +1,88 @@
+"""`hess-explorer bench`: how fast this project computes, beside other integrators, at the same measured error."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from importlib.util import find_spec
+from pathlib import Path
+
+from . import CommandError
+from .arguments import number, shown
+from .output import show, write_file
+
+__all__ = ["add"]
+
+_WORKS = ("A", "A2", "B", "B2", "C", "D")
+_PICTURES = (".svg", ".png")
+
+
+def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = commands.add_parser(
+        "bench", help="speed beside other integrators, at the same measured error",
+        description="Do the same works with this project and with the other integrators that are installed (pip "
+                    "install 'hess-explorer[bench]'), measure each result's error against stored exact ones, and time "
+                    "the cheapest setting of each that keeps the error asked for.  Some minutes; the table goes to "
+                    "standard output.",
+        epilog="Example: hess-explorer bench --works A,C --targets 1e-6,1e-9 --picture bench.svg")
+    parser.add_argument("--works", type=_works, default=_WORKS, metavar="LIST", help="of A,A2,B,B2,C,D (default: all)")
+    parser.add_argument("--targets", type=_targets, default=(1e-3, 1e-6, 1e-9, 1e-12), metavar="LIST",
+                        help="largest errors (default 1e-3,1e-6,1e-9,1e-12)")
+    parser.add_argument("--quick", action="store_true", help="few repeats: a trial, not a measurement")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write everything measured to this file")
+    parser.add_argument("--picture", type=_picture, metavar="FILE", help="draw time over error (.svg or .png)")
+    parser.set_defaults(run=_run)
+
+
+def _works(text: str) -> tuple[str, ...]:
+    names = tuple(text.split(","))
+    for name in names:
+        if name not in _WORKS:
+            raise argparse.ArgumentTypeError(f"{shown(name)} is not a work; choose of {','.join(_WORKS)}")
+    return tuple(name for name in _WORKS if name in names)
+
+
+def _targets(text: str) -> tuple[float, ...]:
+    targets = {number(part) for part in text.split(",")}
+    if min(targets) <= 0.0:
+        raise argparse.ArgumentTypeError(f"{shown(text)} has an error that is not positive; write it like 1e-6,1e-9")
+    return tuple(sorted(targets, reverse=True))
+
+
+def _picture(text: str) -> Path:
+    path = Path(text)
+    if path.suffix not in _PICTURES:
+        raise argparse.ArgumentTypeError(f"{shown(text)} is not a picture; let it end in {' or '.join(_PICTURES)}")
+    return path
+
+
+def _progress(text: str) -> None:
+    print(f"{text} …", file=sys.stderr, flush=True)
+
+
+def _run(options: argparse.Namespace) -> None:
+    from hess_explorer.benchmark.threads import one_each
+
+    one_each()
+    if options.picture is not None:
+        # Not after minutes of measuring.
+        _require_matplotlib()
+    from hess_explorer.benchmark.report import as_json, as_text
+    from hess_explorer.benchmark.run import run
+
+    report = run(options.works, options.targets, options.quick, _progress)
+    show(as_text(report).encode())
+    if options.json is not None:
+        text = json.dumps(as_json(report), ensure_ascii=False, allow_nan=False, indent=1)
+        write_file(options.json, f"{text}\n".encode())
+    if options.picture is not None:
+        from hess_explorer.benchmark.picture import draw
+
+        write_file(options.picture, draw(report, options.picture.suffix))
+
+
+def _require_matplotlib() -> None:
+    if find_spec("matplotlib") is None:
+        raise CommandError("--picture needs Matplotlib: pip install 'hess-explorer[bench]'.")

@@ -1,0 +1,74 @@
+"""`hess-explorer lyapunov suslov|euler-poisson`: the largest Lyapunov exponent of one motion (S1, S11)."""
+
+from __future__ import annotations
+
+import argparse
+
+from .arguments import number
+from .bodies import add_heavy_body, add_start, add_suslov_body
+from .output import add_options, computing, write
+
+__all__ = ["add"]
+
+_SHOWN = 100
+"""Of the running averages, evenly spread."""
+
+
+def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    lyapunov = commands.add_parser("lyapunov", help="the largest Lyapunov exponent of one motion")
+    systems = lyapunov.add_subparsers(required=True, metavar="SYSTEM")
+
+    suslov = systems.add_parser(
+        "suslov", help="the Suslov problem with gravity",
+        description="Largest Lyapunov exponent of an orbit of the Suslov problem with gravity, and its running "
+                    "averages.",
+        epilog="Example: hess-explorer lyapunov suslov --I 1,2.5,0.6,0.6 --b=-1,-0.5,0.7 --omega 0.5,1.2 "
+               "--gamma 0.6,0,0.8 --t 2000")
+    add_suslov_body(suslov)
+    add_start(suslov)
+    _add_rest(suslov)
+    suslov.set_defaults(run=_run, prepare=_suslov)
+
+    heavy = systems.add_parser(
+        "euler-poisson", help="a heavy body with a fixed point",
+        description="Largest Lyapunov exponent of an orbit of the Euler–Poisson equations, and its running averages.",
+        epilog="Example: hess-explorer lyapunov euler-poisson --A 1,1.6,2.6666666666666665 --r 3,0,4 --mu 1.995 "
+               "--M 1.3,-2,0.7 --gamma 0.3,0.4,0.87 --t 200")
+    add_heavy_body(heavy)
+    add_start(heavy, "M1,M2,M3", option="--M", what="angular momentum")
+    _add_rest(heavy)
+    heavy.set_defaults(run=_run, prepare=_heavy)
+
+
+def _add_rest(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--t", type=number, required=True, help="time of the average; backward where it is negative")
+    add_options(parser)
+
+
+def _suslov(options: argparse.Namespace) -> tuple[str, tuple[float, ...], tuple[float, ...]]:
+    from hess_mechanics import SuslovBody
+
+    return "suslov", options.omega, SuslovBody(*options.I, *options.b).parameters
+
+
+def _heavy(options: argparse.Namespace) -> tuple[str, tuple[float, ...], tuple[float, ...]]:
+    from hess_mechanics.euler_poisson.equations import HeavyBody
+
+    return "euler-poisson", options.omega, HeavyBody(options.A, options.r, options.mu).parameters
+
+
+def _run(options: argparse.Namespace) -> None:
+    with computing():
+        import numpy as np
+
+        from hess_mechanics import systems, unit_vector
+        from hess_mechanics.dynamics.lyapunov import largest_exponent
+
+        name, first, parameters = options.prepare(options)
+        gamma, note = unit_vector(options.gamma)
+        found = largest_exponent(systems()[name], (*first, *gamma), parameters, options.t)
+        kept = np.unique(np.linspace(0, found.times.size - 1, _SHOWN).astype(int))
+    facts = {"exponent": found.value, "spread": found.spread}
+    write(options, {"t": found.times[kept].tolist(), "average": found.rates[kept].tolist()}, ("t", "average"), facts,
+          [note] if note else [])

@@ -1,0 +1,108 @@
+"""What the computing commands share: their options, and strict JSON or CSV on standard output or in a file."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import os
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from . import CommandError
+
+__all__ = ["add_options", "computing", "show", "write", "write_file"]
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """The options --accuracy, --format and --out."""
+    parser.add_argument("--accuracy", default="precise", metavar="LEVEL",
+                        help="draft, standard, precise (default) or reference")
+    parser.add_argument("--format", choices=("json", "csv"), default="json",
+                        help="json (default): strict, all digits; csv: a table, the other results as # comments")
+    parser.add_argument("--out", type=Path, metavar="FILE", help="write to this file, not to standard output")
+
+
+@contextmanager
+def computing() -> Iterator[None]:
+    """Turn what the mechanics refuse into a `CommandError`."""
+    import numpy as np
+
+    from hess_mechanics import ModelError
+
+    try:
+        # The models check their results for overflow themselves: NumPy's warnings would only be noise.
+        with np.errstate(all="ignore"):
+            yield
+    except ModelError as error:
+        raise CommandError(str(error)) from error
+    except ArithmeticError as error:
+        # Plain Python arithmetic overflows with an exception where NumPy's gives ∞.
+        raise CommandError("These numbers leave the range of double precision; choose less extreme ones.") from error
+
+
+def _strict(value: Any) -> Any:
+    """The value (of numbers, texts, lists, dicts) with None in place of every number that JSON cannot write."""
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if isinstance(value, dict):
+        return {key: _strict(part) for key, part in value.items()}
+    if isinstance(value, list):
+        return [_strict(part) for part in value]
+    return value
+
+
+def write(options: argparse.Namespace, series: Mapping[str, Sequence[Any]], columns: Sequence[str],
+          facts: Mapping[str, Any], notes: Sequence[str]) -> None:
+    """Write the answer as --format and --out say.
+
+    series : what runs along the samples, each of the same length (in CSV the table, headed `columns`);
+    facts : everything else.  Raises `CommandError` if the file cannot be written.
+    """
+    strict = {key: _strict(value) for key, value in facts.items()}
+    lost = [f"{key}: what is null there lies beyond the range of double precision."
+            for key, value in facts.items() if strict[key] != value]
+    strict["notes"] = [*notes, *lost]
+    if options.format == "json":
+        pairs = {**series, **strict}.items()
+        lines = [f"  {json.dumps(key)}: {_json(value)}" for key, value in pairs]
+        text = "{\n" + ",\n".join(lines) + "\n}\n"
+    else:
+        rows = (_row(cells) for cells in zip(*series.values(), strict=True))
+        comments = (f"# {key}: {_json(value)}" for key, value in strict.items())
+        text = "\n".join([*comments, ",".join(columns), *rows]) + "\n"
+    if options.out is not None:
+        write_file(options.out, text.encode())
+    else:
+        show(text.encode())
+
+
+def _json(value: Any) -> str:
+    return json.dumps(value, ensure_ascii=False, allow_nan=False)
+
+
+def _row(cells: Sequence[Any]) -> str:
+    flat = [number for cell in cells for number in (cell if isinstance(cell, list) else [cell])]
+    return ",".join(map(repr, flat))
+
+
+def show(data: bytes) -> None:
+    """Write to standard output.  Bytes, because names like ω1 are UTF-8 whatever the terminal's encoding is."""
+    try:
+        sys.stdout.buffer.write(data)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        # The reader (`| head`) has seen enough; Python must not try to flush the rest at exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def write_file(path: Path, data: bytes) -> None:
+    """Write the whole file.  Raises `CommandError`."""
+    try:
+        path.write_bytes(data)
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        raise CommandError(f"{str(path)!r} cannot be written ({reason}); choose another file.") from error

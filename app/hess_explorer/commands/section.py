@@ -1,0 +1,120 @@
+"""`hess-explorer section euler-poisson|suslov`: the crossings of a surface by one motion (S1, S11)."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from .arguments import integer, number, vector
+from .bodies import add_heavy_body, add_start, add_suslov_body
+from .output import add_options, computing, write
+
+if TYPE_CHECKING:
+    from hess_mechanics import BodyCheck, Section
+
+__all__ = ["add"]
+
+
+def _count(text: str) -> int:
+    """The type of a number of crossings."""
+    from hess_mechanics.dynamics.section import MAX_CROSSINGS
+
+    return integer(1, MAX_CROSSINGS)(text)
+
+
+def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    section = commands.add_parser("section", help="the points of a Poincaré section")
+    systems = section.add_subparsers(required=True, metavar="SYSTEM")
+
+    heavy = systems.add_parser(
+        "euler-poisson", help="a heavy body with a fixed point, in Andoyer–Deprit variables",
+        description="Points (l, x = L/G) where the angle g of a heavy rigid body grows through π/2, with the energy h "
+                    "and the area integral f.",
+        epilog="Example: hess-explorer section euler-poisson --A 1,1.6,2.6666666666666665 --r 3,0,4 --mu 1.995 "
+               "--h 50 --f 5 --start 0,0.2 --crossings 20")
+    add_heavy_body(heavy)
+    heavy.add_argument("--h", type=number, required=True, help="energy")
+    heavy.add_argument("--f", type=number, required=True, help="area integral (M, γ); the section needs G ≥ |f|")
+    heavy.add_argument("--start", type=vector("l,x"), required=True, metavar="l,x", help="the first point")
+    heavy.add_argument("--t", type=number, help="the last time (default: as many crossings usually need; backward "
+                                                "where it is negative)")
+    _add_count(heavy)
+    heavy.set_defaults(run=_run_heavy)
+
+    suslov = systems.add_parser(
+        "suslov", help="the Suslov problem with gravity, any plane",
+        description="Crossings of the plane n1 ω1 + n2 ω2 + n3 γ1 + n4 γ2 + n5 γ3 = offset by an orbit of the Suslov "
+                    "problem with gravity.",
+        epilog="Example: hess-explorer section suslov --I 2,1,0.3,0.5 --b 0.3,-0.5,1 --omega 0.8,-0.4 "
+               "--gamma 0.6,0,0.8 --plane 0,0,0,1,0 --t 50")
+    add_suslov_body(suslov)
+    add_start(suslov)
+    suslov.add_argument("--plane", type=vector("n1,n2,n3,n4,n5"), required=True, metavar="n1,n2,n3,n4,n5",
+                        help="the normal of the plane")
+    suslov.add_argument("--offset", type=number, default=0.0, help="where the plane is (default 0)")
+    suslov.add_argument("--sense", type=int, choices=(-1, 0, 1), default=1,
+                        help="1 (default): crossed from below as time grows, -1: from above, 0: both")
+    suslov.add_argument("--t", type=number, required=True, help="the last time; backward where it is negative")
+    _add_count(suslov)
+    suslov.set_defaults(run=_run_suslov)
+
+
+def _add_count(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--crossings", type=_count, default=100, metavar="N", help="at most so many (default 100)")
+    add_options(parser)
+
+
+def _run_heavy(options: argparse.Namespace) -> None:
+    with computing():
+        from hess_mechanics import level, section
+        from hess_mechanics.euler_poisson.andoyer import AndoyerPlane, coordinates, state_at, time_for
+        from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
+
+        accuracy = level(options.accuracy)
+        body = HeavyBody(options.A, options.r, options.mu)
+        start = state_at(body, options.h, options.f, *options.start)
+        end = time_for(body, options.h, options.f, options.crossings) if options.t is None else options.t
+        result = section(SYSTEM, start, body.parameters, AndoyerPlane(options.f), end, accuracy, options.crossings)
+        l, x = coordinates(result.states).T
+    series = {"t": result.times.tolist(), "l": l.tolist(), "x": x.tolist(),
+              "M": result.states[:, :3].tolist(), "gamma": result.states[:, 3:].tolist()}
+    write(options, series, ("t", "l", "x", *SYSTEM.variables), _facts(result, start, body.check),
+          _fewer(result, options.crossings, end))
+
+
+def _run_suslov(options: argparse.Namespace) -> None:
+    with computing():
+        from hess_mechanics import Plane, SuslovBody, check_body, level, section, systems, unit_vector
+
+        accuracy = level(options.accuracy)
+        system, body = systems()["suslov"], SuslovBody(*options.I, *options.b)
+        gamma, note = unit_vector(options.gamma)
+        start = (*options.omega, *gamma)
+        plane = Plane(options.plane, options.offset, options.sense)
+        result = section(system, start, body.parameters, plane, options.t, accuracy, options.crossings)
+        check = check_body(*options.I)
+    write(options, {"t": result.times.tolist(), "y": result.states.tolist()}, ("t", *system.variables),
+          {"variables": list(system.variables), **_facts(result, start, check)},
+          [*_fewer(result, options.crossings, options.t), *([note] if note else [])])
+
+
+def _facts(result: Section, start: tuple[float, ...], body: BodyCheck) -> Mapping[str, Any]:
+    return {
+        "start": list(start),
+        "error_estimate": result.error_estimate,
+        "drift": dict(result.drift),
+        "status": str(result.status),
+        "level": result.level,
+        "steps": result.cost.steps,
+        "wall_ms": result.cost.wall_ms,
+        "is_body": body.is_body,
+        "body": body.sentence,
+    }
+
+
+def _fewer(result: Section, asked: int, end: float) -> list[str]:
+    """A note where the time was over before all crossings had come."""
+    found = len(result.times)
+    return [f"Up to t = {end:.6g} there are {found} of {asked} crossings."] if found < asked else []

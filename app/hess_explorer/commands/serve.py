@@ -1,0 +1,84 @@
+"""`hess-explorer serve`: the explorer in the browser."""
+
+from __future__ import annotations
+
+import argparse
+import errno
+import gc
+import os
+import re
+import socket
+import webbrowser
+from contextlib import suppress
+
+from . import CommandError
+from .arguments import integer, shown
+
+__all__ = ["add"]
+
+
+def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = commands.add_parser("serve", help="show the explorer in the browser (the default)",
+                                 description="Serve the explorer on this machine and open it in the browser.")
+    parser.add_argument("--port", type=integer(1, 65535), default=5006, metavar="N", help="default 5006")
+    parser.add_argument("--address", default="127.0.0.1",
+                        help="address to listen on (default 127.0.0.1, this machine only; 0.0.0.0: every network)")
+    parser.add_argument("--no-browser", dest="browser", action="store_false", help="do not open a browser")
+    parser.add_argument("--allow-origin", dest="origins", type=_origin, nargs="+", action="extend", default=[],
+                        metavar="HOST:PORT", help="host and port in the browser's address bar, if not this machine's")
+    parser.set_defaults(run=_run)
+
+
+def _origin(text: str) -> str:
+    if not re.fullmatch(r"([A-Za-z0-9._-]{1,253}|\[[0-9A-Fa-f:.]{2,45}\])(:\d{1,5})?", text):
+        raise argparse.ArgumentTypeError(f"{shown(text)} is not a host; write it like example.org or localhost:8080")
+    return text
+
+
+def _run(options: argparse.Namespace) -> None:
+    _require_free(options.address, options.port)
+    # "Every address" is none that a browser can open.
+    host = "localhost" if options.address in ("127.0.0.1", "0.0.0.0", "::") else options.address
+    url = f"http://{f'[{host}]' if ':' in host else host}:{options.port}"
+    show = options.browser and _has_browser()
+    print(f"Hess Explorer runs at {url} (Ctrl-C ends it).", flush=True)
+    if options.browser and not show:
+        print(f"There is no browser to open here: open {url} in one.", flush=True)
+    # What is made by importing stays as long as the process: the collector would only walk through it
+    # again and again (0.25 s).  `hess_explorer.server.serving` turns it on again.
+    gc.disable()
+    with suppress(KeyboardInterrupt):
+        from hess_explorer.server.serving import serve
+
+        serve(port=options.port, address=options.address, show=show, origins=options.origins)
+
+
+def _require_free(address: str, port: int) -> None:
+    """Raise `CommandError` unless the port can be listened on."""
+    try:
+        family, kind, protocol, _, target = socket.getaddrinfo(
+            address, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)[0]
+        with socket.socket(family, kind, protocol) as probe:
+            if os.name == "posix":
+                # As the server will: a port whose last connections are still closing counts as free.
+                probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            probe.bind(target)
+    except (OSError, UnicodeError) as error:
+        code = getattr(error, "errno", None)
+        if code == errno.EADDRINUSE:
+            why = f"Port {port} is taken by another program; choose another, like --port {port % 65535 + 1}."
+        elif code == errno.EACCES:
+            why = f"Port {port} needs an administrator; choose one above 1023, like --port 5006."
+        else:
+            why = f"{shown(address)} is not an address of this machine; choose --address 127.0.0.1 or 0.0.0.0."
+        raise CommandError(why) from error
+
+
+def _has_browser() -> bool:
+    try:
+        found = webbrowser.get()
+    except webbrowser.Error:
+        return False
+    # A text browser, all there is without a display, would hold the terminal and could not draw the page.
+    return type(found) is not webbrowser.GenericBrowser or "BROWSER" in os.environ

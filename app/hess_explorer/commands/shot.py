@@ -1,0 +1,61 @@
+"""`hess-explorer shot`: a picture of the page in a given state."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from pathlib import Path
+from urllib.parse import parse_qsl, urlencode
+
+from . import CommandError
+from .arguments import shown
+from .output import write_file
+
+__all__ = ["add"]
+
+_MAX_STATE = 2000
+_SIDE = range(200, 8001)
+
+
+def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = commands.add_parser("shot", help="a picture of the page, as PNG",
+                                 description="Draw the page in a headless Chromium and save it as PNG.",
+                                 epilog="Example: hess-explorer shot --state 'h=1.2&f=0.3' --size 1600x950 out.png")
+    parser.add_argument("--state", type=_state, default={}, metavar="QUERY",
+                        help="what follows ? in a link to the page (default: its first view)")
+    parser.add_argument("--size", type=_size, default=(1600, 950), metavar="WxH",
+                        help=f"pixels, each side {_SIDE[0]} to {_SIDE[-1]} (default 1600x950)")
+    parser.add_argument("--dark", action="store_true", help="in dark colours")
+    parser.add_argument("out", type=Path, metavar="FILE", help="the PNG file to write")
+    parser.set_defaults(run=_run)
+
+
+def _state(text: str) -> dict[str, str]:
+    if len(text) > _MAX_STATE:
+        raise argparse.ArgumentTypeError(f"the state has {len(text)} characters; at most {_MAX_STATE} are allowed")
+    query = text.removeprefix("?")
+    try:
+        return dict(parse_qsl(query, keep_blank_values=True, strict_parsing=bool(query)))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{shown(text)} is not a state; write it like 'h=1.2&f=0.3'") from None
+
+
+def _size(text: str) -> tuple[int, int]:
+    match = re.fullmatch(r"(\d{1,5})[x×](\d{1,5})", text, re.ASCII)
+    if not match or int(match[1]) not in _SIDE or int(match[2]) not in _SIDE:
+        raise argparse.ArgumentTypeError(
+            f"{shown(text)} is not a size; write it like 1600x950, each side from {_SIDE[0]} to {_SIDE[-1]}")
+    return int(match[1]), int(match[2])
+
+
+def _run(options: argparse.Namespace) -> None:
+    from hess_explorer.headless.browser import BrowserError
+    from hess_explorer.headless.screenshot import ServerError, screenshot
+
+    state = {**options.state, "theme": "dark"} if options.dark else options.state
+    try:
+        picture = screenshot(urlencode(state), options.size, dark=options.dark)
+    except (BrowserError, ServerError) as error:
+        raise CommandError(str(error)) from error
+    write_file(options.out, picture)

@@ -1,0 +1,89 @@
+"""The page served by a process of its own, and a picture of it."""
+
+from __future__ import annotations
+
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from http.client import HTTPConnection, HTTPException
+from pathlib import Path
+
+from hess_explorer.headless.browser import BrowserError, launched, wait_ready
+
+__all__ = ["ServerError", "running_server", "screenshot", "wait_alive"]
+
+_START_SECONDS = 60
+
+
+class ServerError(RuntimeError):
+    """The server or the page did not get ready; the text is a sentence for the user."""
+
+
+def _free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+def _is_alive(port: int) -> bool:
+    connection = HTTPConnection("127.0.0.1", port, timeout=5)
+    try:
+        connection.request("GET", "/liveness")
+        return connection.getresponse().status == 200
+    except (OSError, HTTPException):
+        return False
+    finally:
+        connection.close()
+
+
+def wait_alive(process: subprocess.Popen[bytes], port: int, log: Path) -> None:
+    """Wait until the server of this process answers.  Raises `ServerError` with the last line of its log."""
+    deadline = time.monotonic() + _START_SECONDS
+    while not _is_alive(port):
+        if process.poll() is not None or time.monotonic() > deadline:
+            said = log.read_text(errors="replace").strip().splitlines()
+            raise ServerError(f"The server did not start ({said[-1] if said else 'silent'}).")
+        time.sleep(0.1)
+
+
+@contextmanager
+def running_server(log: Path, program: Sequence[str] = ("-m", "hess_explorer")) -> Iterator[str]:
+    """`hess-explorer serve` in a process of its own, on a free port; its base URL.  Raises `ServerError`.
+
+    log : the file that takes all it prints; program : what Python runs.
+    """
+    port = _free_port()
+    command = [sys.executable, *program, "serve", "--port", str(port), "--no-browser"]
+    # Started beside this package, or a folder `app` of the user's would be run in its place.
+    with log.open("wb") as out, subprocess.Popen(command, cwd=Path(__file__).resolve().parents[1],
+                                                 stdout=out, stderr=subprocess.STDOUT) as process:
+        try:
+            wait_alive(process, port, log)
+            yield f"http://127.0.0.1:{port}"
+        finally:
+            process.terminate()
+            try:
+                process.wait(10)
+            except subprocess.TimeoutExpired:
+                process.kill()
+
+
+def screenshot(query: str, size: tuple[int, int], *, dark: bool = False) -> bytes:
+    """The page in the state of this (encoded) query, as PNG.  Raises `ServerError`, `BrowserError`."""
+    # The browser first: if there is none, that is known before the server has started.
+    with launched() as browser, tempfile.TemporaryDirectory() as folder:
+        from playwright.sync_api import Error
+
+        with running_server(Path(folder) / "server.log") as base:
+            page = browser.new_page(viewport={"width": size[0], "height": size[1]},
+                                    color_scheme="dark" if dark else "light")
+            try:
+                page.goto(f"{base}/?{query}")
+                wait_ready(page)
+                return page.screenshot()
+            except Error as error:
+                raise BrowserError(f"The page could not be drawn: {error.message.splitlines()[0]}") from error

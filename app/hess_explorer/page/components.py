@@ -1,0 +1,106 @@
+"""The page's own browser components.
+
+They know each other only by events of the document ("hess:…"): "ready.js" tells all of them of a scene that is entered,
+of texts and of values; they tell it of changes.
+"""
+
+from __future__ import annotations
+
+import param
+from panel.custom import JSComponent
+
+from hess_explorer.assets import STATIC
+
+__all__ = ["Controls", "Pictures", "Player", "Progress", "Prose", "Ready", "SceneMenu", "Text"]
+
+_CSS = (STATIC / "components.css").read_text(encoding="utf-8")
+
+
+def _module(*names: str) -> str:
+    """One JavaScript module made of these files: Panel loads one for each component."""
+    return "\n".join((STATIC / name).read_text(encoding="utf-8") for name in names)
+
+
+class SceneMenu(JSComponent):
+    """The scenes as pictures to choose from; a choice travels with the request for its first state."""
+
+    scenes = param.List(default=[], doc="{name, title, summary, picture, origin} of each.")
+
+    _esm = _module("scenes.js")
+    _stylesheets = [_CSS]
+
+
+class Controls(JSComponent):
+    """Sliders, boxes, menus and buttons of the scene on show.
+
+    Written for this page because a control must cost nothing while it is used, nor when a scene is entered: a
+    change travels with the request for the next state, and no widget framework runs in between.
+    """
+
+    _esm = _module("controls.js")
+    _stylesheets = [_CSS]
+
+
+class Pictures(JSComponent):
+    """The pictures of the scene on show, with their captions."""
+
+    _esm = _module("sphere.js", "cloud.js", "body.js", "pictures.js")
+    _stylesheets = [_CSS]
+
+
+class Player(JSComponent):
+    """Play, pause, step, speed, time: moves the point of every picture, in the browser alone."""
+
+    SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
+
+    _esm = _module("player.js")
+    _stylesheets = [_CSS]
+
+
+class Progress(JSComponent):
+    """How much of a state is computed, while it is on its way, and Stop."""
+
+    _esm = _module("progress.js")
+    _stylesheets = [_CSS]
+
+
+class Prose(JSComponent):
+    """HTML of the scene on show: its legend or its words."""
+
+    part = param.Selector(default="words", objects=["legend", "words"])
+
+    _esm = _module("prose.js")
+    _stylesheets = [_CSS]
+
+
+class Ready(JSComponent):
+    """Keeps `<html data-ready data-state>` and the address bar.
+
+    It sends messages, for `on_msg`, that ask for the state after the user's n-th change, "requested": n, with
+
+    - "values": {name: number or option, …}; "preset": the example chosen; "scene": the scene chosen;
+    - "picked": [picture, x, y] or [picture, x0, y0, x1, y1]; "hover": [picture, x, y], where the mouse is;
+    - "near": a scene that may be chosen next;
+    - "reset", "undo", "clear", "stop": whether that was pressed; "held": whether a slider is held;
+    - "hidden": [the pictures out of sight, …].
+    """
+
+    scene = param.String(default="", doc="JSON: the description of the newest scene, see `description`.")
+    state = param.String(default="", doc="JSON: number of the state, last request that it answers, URL query, "
+                         "the tree of its data (see `wire`), name of its scene, progress [done, of] or null.")
+    block = param.Bytes(default=b"", doc="The numbers of that tree.")
+    client = param.Dict(default={}, doc="URL keys that the browser itself keeps: t, speed, az, el.")
+
+    _esm = _module("ready.js")
+
+
+class Text(JSComponent):
+    """A piece of text that changes often; whatever it contains, it is shown as text."""
+
+    key = param.String(default="", doc="By this the wire finds it.")
+    tag = param.Selector(default="p", objects=["p", "div"], doc="The element.")
+    look = param.Selector(default="", objects=["", "status", "notes", "derived", "busy"], doc="Its style.")
+    live = param.Boolean(default=False, doc="Whether screen readers are told of changes.")
+
+    _esm = _module("text.js")
+    _stylesheets = [_CSS]

@@ -1,0 +1,36 @@
+"""What the controls of a scene show: values, the ranges of sliders, the example that the values are."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from hess_explorer.protocol.parameters import Number, Values
+from hess_explorer.protocol.wire import Wire
+from hess_explorer.scenes.framework.scene import Scene
+
+__all__ = ["CHOOSE", "example_of", "show_controls", "slider_limits"]
+
+CHOOSE = ""
+"""What the menu of examples says when the values are none of them."""
+
+
+def slider_limits(spec: Number, limits: Mapping[str, tuple[float, float, float]]) -> tuple[float, float, float]:
+    """(low, high, step) of a slider: the scene's where they depend on the state, else the parameter's own."""
+    return limits.get(spec.name, (spec.low, spec.high, spec.step))
+
+
+def example_of(scene: Scene, values: Values) -> str:
+    """The name of the example that these values are, or `CHOOSE`."""
+    return next((one.name for one in scene.presets if scene.example(one).items() <= values.items()), CHOOSE)
+
+
+def show_controls(scene: Scene, values: Values, wire: Wire) -> None:
+    """Bring all controls up to date."""
+    limits = scene.limits(values)
+    for spec in scene.specs:
+        value = values[spec.name]
+        if isinstance(spec, Number):
+            wire.show_number(spec.name, float(value), slider_limits(spec, limits))
+        else:
+            wire.show_choice(spec.name, str(value))
+    wire.show_choice("preset", example_of(scene, values))

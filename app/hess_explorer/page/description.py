@@ -1,0 +1,60 @@
+"""A scene as the browser gets it, once: its empty pictures, its controls, its words."""
+
+from __future__ import annotations
+
+import json
+import threading
+from functools import cache
+from typing import Any
+
+from bokeh.core.json_encoder import serialize_json
+from bokeh.document import Document
+from markdown_it import MarkdownIt
+
+from hess_explorer.protocol.parameters import Choice, Number, Places
+from hess_explorer.protocol.wire import Wire
+from hess_explorer.scenes import scenes
+from hess_explorer.views.figure import Figure
+from hess_explorer.views.text import with_formulas
+
+__all__ = ["describe"]
+
+
+_one_at_a_time = threading.Lock()
+
+
+def describe(name: str) -> str:
+    """JSON of the scene of that name; the same for all sessions."""
+    # HoloViews' options are global.
+    with _one_at_a_time:
+        return _describe(name)
+
+
+@cache
+def _describe(name: str) -> str:
+    scene = scenes()[name]
+    stage = scene.stage(Wire())
+    document = Document()
+    for picture in stage.pictures:
+        if isinstance(picture, Figure):
+            document.add_root(picture.build())
+    return json.dumps({
+        "name": scene.name,
+        "title": scene.title,
+        "pictures": [{**picture.describe(), "folded": scene.folded.get(picture.name)} for picture in stage.pictures],
+        "document": serialize_json(document.to_json(deferred=False)),
+        "controls": [_control(spec) for spec in scene.specs if not isinstance(spec, Places)],
+        "drawn": any(isinstance(spec, Places) for spec in scene.specs),
+        "presets": [preset.name for preset in scene.presets],
+        "legend": scene.legend,
+        "words": MarkdownIt().enable("table").render(with_formulas(scene.words)),
+        "dots": {source: list(columns) for source, columns in stage.dots.items()},
+        "angles": list(stage.angles),
+    })
+
+
+def _control(spec: Number | Choice) -> dict[str, Any]:
+    common = {"name": spec.name, "label": spec.label, "help": spec.help}
+    if isinstance(spec, Number):
+        return {"kind": "number", "symbol": spec.symbol, **common}
+    return {"kind": "choice", "options": list(spec.options), **common}

@@ -1,0 +1,255 @@
+"""One user's session: the single place where a change becomes a computation and a picture.
+
+A fast drag skips states, it never queues them: see `Session`.
+"""
+
+from __future__ import annotations
+
+import json
+import logging
+import math
+from collections.abc import Callable, Collection
+from typing import Any
+
+from panel.io.document import unlocked
+
+from hess_explorer.compute.background import Background
+from hess_explorer.compute.cache import CACHE
+from hess_explorer.page.components import Ready
+from hess_explorer.page.controls import show_controls
+from hess_explorer.page.description import describe
+from hess_explorer.protocol.parameters import Choice, Number, Places, Values, encode
+from hess_explorer.protocol.wire import Wire
+from hess_explorer.scenes import scenes
+from hess_explorer.scenes.framework.scene import Boxed, Hovered, Report, Scene, Stage
+from hess_mechanics.errors import ModelError
+
+__all__ = ["Session"]
+
+logger = logging.getLogger("hess_explorer")
+
+MOST_UNDONE = 50
+
+
+def _float(value: Any) -> float:
+    """A number from the browser; NaN for whatever is none."""
+    try:
+        return float(value) if isinstance(value, int | float) else math.nan
+    except OverflowError:
+        return math.nan
+
+
+class Session:
+    """Wanted values → admitted values → result → pictures.
+
+    A change only notes what is wanted.  The browser asks for the state behind its last change, and not again
+    before that is painted: so nothing queues, and the newest state wins.
+
+    Parameters
+    ----------
+    ready : its messages ask for states, and it receives them.
+    entered(scene) : is called when a scene is entered.
+    scene : what is shown first; values : the state to begin with; notes : what had to be changed in the link.
+    """
+
+    def __init__(self, ready: Ready, entered: Callable[[Scene], None], scene: Scene, values: Values,
+                 notes: list[str]) -> None:
+        self.ready = ready
+        self.wire = Wire()
+        self.background = Background()
+        self._entered = entered
+        self._stages: dict[str, Stage] = {}
+        self._described: set[str] = set()
+        self._left: dict[str, Values] = {}
+        self._own_instead = False
+        self._held = False
+        self._number = 0
+        self._progress: tuple[int, int] | None = None
+        self._enter(scene, values, notes)
+        self._draw()
+        self._send(0)
+        ready.on_msg(lambda event: self._receive(event.data))
+
+    def _enter(self, scene: Scene, values: Values, notes: list[str]) -> None:
+        self.scene = scene
+        self._specs = {spec.name: spec for spec in scene.specs}
+        self._wanted = scene.defaults() | {name: values[name] for name in self._specs if name in values}
+        self._link_notes = notes
+        self._shown: Collection[str] = scene.open_pictures
+        self._history: list[Values] = []
+        # The browser keeps the pictures of all scenes that it has seen, and a stage knows what it has drawn on them.
+        if scene.name not in self._stages:
+            self._stages[scene.name] = scene.stage(self.wire)
+            self._describe(scene.name)
+        self.stage = self._stages[scene.name]
+        self._dirty = True
+        self._stopped = False
+        self._entered(scene)
+
+    def _describe(self, name: str) -> None:
+        """Give the browser what it needs to build the pictures of a scene, once."""
+        if name not in self._described:
+            self._described.add(name)
+            self.ready.scene = describe(name)
+
+    def _change_scene(self, scene: Scene) -> None:
+        """Another scene as it was left (at first: in its own first state), with what was changed in this one."""
+        here, wanted = self._specs, self._wanted
+        self._left[self.scene.name] = values = wanted
+        # "Speed and accuracy" of a scene is of the very same state.
+        self._own_instead = scene.specs != self.scene.specs
+        if self._own_instead:
+            values = self._left.get(scene.name, scene.defaults()) | {
+                spec.name: wanted[spec.name] for spec in scene.specs
+                if spec.name in here and wanted[spec.name] != here[spec.name].default and (
+                    (isinstance(spec, Number) and isinstance(here[spec.name], Number))
+                    or (isinstance(spec, Choice) and wanted[spec.name] in spec.options))}
+        self._enter(scene, values, [])
+
+    def change(self, values: Values) -> None:
+        """The user wants these values."""
+        before = dict(self._wanted)
+        self._link_notes = []
+        for name, value in values.items():
+            spec = self._specs.get(name)
+            if isinstance(spec, Number):
+                self._wanted[name], note = spec.admit(_float(value))
+                if note:
+                    self._link_notes.append(note)
+            elif spec is not None:
+                self._wanted[name], _ = spec.read(str(value))
+        self._stopped &= self._wanted == before
+        # Also where the state stays but a control shows something else: it must be put right.
+        self._dirty |= self._wanted != before or any(self.values.get(name) != value for name, value in values.items())
+
+    def reset(self) -> None:
+        """Back to the scene's defaults."""
+        self.change(self.scene.defaults())
+
+    def _draw_on(self, values: Values) -> None:
+        """What the mouse has chosen; it can be undone."""
+        if values and any(isinstance(spec, Places) for spec in self._specs.values()):
+            before = {name: self._wanted[name] for name in values}
+            self._history = [*self._history, before][-MOST_UNDONE:]
+        self.change(values)
+
+    def _hover(self, stage: Hovered, picture: Any, x: float, y: float) -> None:
+        text = ""
+        if picture in self.scene.pictures and math.isfinite(x) and math.isfinite(y):
+            try:
+                text = stage.hover(picture, x, y)
+            except ModelError as error:
+                text = str(error)
+            self.wire.say(f"hover-{picture}", text)
+
+    def _follow(self, report: Report, more: bool, ended: bool) -> list[str]:
+        """Compute in the background what the report lacks; a note where that had ended before its end."""
+        left = len(report.todo)
+        if not more:
+            # Once stopped, a picture that comes into sight begins nothing again.
+            self.background.follow(() if self._stopped else report.todo)
+        self._progress = (report.total - left, report.total) if left and not ended else None
+        if not (left and ended):
+            return []
+        return [self.background.error or (
+            f"Stopped: {report.total - left} of {report.total} parts are drawn. Change a value to compute again.")]
+
+    def _receive(self, message: Any) -> None:
+        """A message of the browser: nothing in it is trusted."""
+        if not isinstance(message, dict):
+            return
+        if message.get("reset") is True:
+            self.reset()
+        for preset in self.scene.presets:
+            if preset.name == message.get("preset"):
+                self.change(self.scene.example(preset))
+        values = message.get("values")
+        # What asks for more of the same is no change.
+        if isinstance(values, dict) and (values or self._progress is None):
+            self.change({name: value for name, value in values.items() if name in self._specs})
+        if message.get("undo") is True and self._history:
+            self.change(self._history.pop())
+        if message.get("clear") is True:
+            self._draw_on({name: spec.default for name, spec in self._specs.items() if isinstance(spec, Places)})
+        picked = message.get("picked")
+        if isinstance(picked, list) and isinstance(picked[0] if picked else None, str):
+            numbers = [*map(_float, picked[1:5])]
+            if len(numbers) == 2 and all(map(math.isfinite, numbers)):
+                self._draw_on(self.stage.pick(picked[0], *numbers))
+            elif len(numbers) == 4 and all(map(math.isfinite, numbers)) and isinstance(self.stage, Boxed):
+                self._draw_on(self.stage.box(picked[0], (numbers[0], numbers[1], numbers[2], numbers[3])))
+        hover = message.get("hover")
+        if isinstance(hover, list) and len(hover) == 3 and isinstance(self.stage, Hovered):
+            self._hover(self.stage, hover[0], *map(_float, hover[1:]))
+        if message.get("stop") is True and self._progress is not None:
+            self._stopped = True
+            self.background.stop()
+        requested = message.get("requested")
+        with unlocked():
+            scene, near = (scenes().get(name) if isinstance(name, str) else None
+                           for name in (message.get("scene"), message.get("near")))
+            if scene is not None and scene is not self.scene:
+                self._change_scene(scene)
+            # One description goes with one state.
+            elif near is not None:
+                self._describe(near.name)
+            hidden = message.get("hidden")
+            if isinstance(hidden, list):
+                shown = [name for name in self.scene.pictures if name not in hidden]
+                # What comes into sight must be of this state.
+                self._dirty |= not set(shown) <= set(self._shown)
+                self._shown = shown
+            if isinstance(requested, int):
+                held = message.get("held") is True
+                # When a slider is let go, accuracy, axes and other controls may have to follow.
+                self._dirty |= self._held and not held
+                self._held = held
+                if self._dirty:
+                    self._draw()
+                elif self._progress is not None:
+                    self._draw(more=True)
+                self._send(requested)
+
+    def _send(self, answers: int) -> None:
+        self._number += 1
+        tree, block = self.wire.pack()
+        # In this order: the state says how to read the block.
+        self.ready.block = block
+        self.ready.state = json.dumps({
+            "number": self._number, "answers": answers, "query": encode(self.scene.name, self.values), "tree": tree,
+            "scene": self.scene.name, "progress": self._progress,
+        })
+
+    def _draw(self, more: bool = False) -> None:
+        """The pictures of what is wanted; `more`: of the same, of which more may be known by now."""
+        self._dirty = False
+        # Before the pieces are looked for: the last one may come while this is drawn.
+        ended = self.background.left == 0 if more else self._stopped
+        admitted, notes = self.scene.admit(self._wanted)
+        self.values = admitted
+        try:
+            result = self.scene.compute(admitted, self._shown, self._held)
+            report = self.stage.show(result, hold_axes=self._held)
+        except ModelError as error:
+            if self._own_instead:
+                # Whoever enters a scene meets a picture, not a refusal of what was chosen elsewhere.
+                self._own_instead = False
+                self._wanted = self.scene.defaults()
+                self._link_notes = ["What was chosen before is not possible here: this is the scene's own first state."]
+                return self._draw()
+            self.stage.fail(str(error))
+            report = Report([], str(error))
+        # Whatever it is, no traceback and no older picture stays on the page; the log says all.
+        except Exception:
+            logger.exception("a computation failed at %s", encode(self.scene.name, admitted))
+            sentence = "This state could not be computed. Press Reset, and please report the link."
+            self.stage.fail(sentence)
+            report = Report([], sentence)
+        self._own_instead = False
+        notes = [*notes, *self._follow(report, more, ended)]
+        # Under a drag the controls wait, unless the state had to differ from what they say.
+        if not self._held or notes:
+            show_controls(self.scene, admitted, self.wire)
+        self.wire.say("status", f"{report.status} · cache {CACHE.hits} hits, {CACHE.misses} misses")
+        self.wire.say("notes", "\n".join([*self._link_notes, *notes, *report.notes]))
+        self.wire.say("derived", "\n".join(report.derived))

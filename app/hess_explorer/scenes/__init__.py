@@ -1,0 +1,21 @@
+"""The scenes: every module of this package with a `SCENE`, and "Speed and accuracy" of each that shows a motion."""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from functools import cache
+
+from hess_explorer.scenes.framework.scene import Scene
+from hess_explorer.scenes.speed_accuracy import looking_into
+
+__all__ = ["scenes"]
+
+
+@cache
+def scenes() -> dict[str, Scene]:
+    """All scenes by name, in the order of the menu; those that look into another one come last."""
+    modules = (importlib.import_module(f"{__name__}.{module.name}") for module in pkgutil.iter_modules(__path__))
+    own = [module.SCENE for module in modules if isinstance(getattr(module, "SCENE", None), Scene)]
+    own += [looking_into(scene) for scene in own if scene.motion is not None]
+    return {scene.name: scene for scene in sorted(own, key=lambda scene: (scene.origin is not None, scene.place))}

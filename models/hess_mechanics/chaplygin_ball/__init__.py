@@ -1,0 +1,1 @@
+"""The Chaplygin ball with Suslov's constraint."""

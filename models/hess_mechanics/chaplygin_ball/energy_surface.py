@@ -1,0 +1,149 @@
+"""S9, S10: the motions of the Chaplygin ball with a given energy, E = h (`eq29`, `eq30`).
+
+Without a field the surface E = h, F1 = 1 lies over a strip of the (ω1, ω2) plane, between the ellipses
+
+    σ1: 2h = I11 ω1² + I22 ω2²,   σ2: 2h = (I11+𝒟) ω1² + (I22+𝒟) ω2²
+
+(in the paper's σ2 𝒟 is called mR²).  In it the line I13 ω1 + I23 ω2 = 0 along ξ = (I23, −I13)/√(I13² + I23²)
+is at rest; every other motion goes from its half N^u, ω along +ξ, to its half N^s, ω along −ξ.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from hess_mechanics.chaplygin_ball.equations import BallBody, kinetic_energy
+from hess_mechanics.errors import InvalidParameter, OutsideRegion
+from hess_mechanics.numerics.results import Array
+from hess_mechanics.rigid_body.inertia import require_finite
+
+__all__ = ["Strip", "line_of_rest", "lowest_energy", "omega_of_energy", "spread_states"]
+
+_GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
+
+
+def line_of_rest(body: BallBody) -> tuple[Array, Array]:
+    """ξ = (I23, −I13)/|…| and η = (I13, I23)/|…|, each (2,): the line along ξ, and across it.
+
+    Raises `InvalidParameter` for I13 = I23 = 0, where every ω is at rest without a field.
+    """
+    length = math.hypot(body.I13, body.I23)
+    if length == 0.0:
+        raise InvalidParameter("I13 = I23 = 0: there is no line of equilibria. Choose I13 or I23 other than 0.")
+    along, across = body.I13 / length, body.I23 / length
+    return np.array([across, -along]), np.array([along, across])
+
+
+@dataclass(frozen=True)
+class Strip:
+    """The strip of a ball without a field at the energy h > 0.  Raises `InvalidParameter`."""
+
+    body: BallBody
+    h: float
+
+    def __post_init__(self) -> None:
+        require_finite(h=self.h)
+        if any(self.body.parameters[5:]):
+            raise InvalidParameter("The strip between two ellipses is that of b = 0: set b1 = b2 = b3 = 0.")
+        if not self.h > 0.0:
+            raise InvalidParameter(f"h = {self.h:g}: without a field the energy is positive, choose h > 0.")
+
+    def _ellipse(self, angles: Sequence[float] | Array, added: float) -> Array:
+        moments = np.array([self.body.I11, self.body.I22]) + added
+        angles = np.asarray(angles, float)
+        return np.stack([np.cos(angles), np.sin(angles)], axis=-1) * np.sqrt(2.0 * self.h / moments)
+
+    def sigma1(self, angles: Sequence[float] | Array) -> Array:
+        """Points (n, 2) of the outer ellipse σ1, (√(2h/I11) cos, √(2h/I22) sin) of the angles (n,)."""
+        return self._ellipse(angles, 0.0)
+
+    def sigma2(self, angles: Sequence[float] | Array) -> Array:
+        """Points (n, 2) of the inner ellipse σ2, as `sigma1` with I + 𝒟."""
+        return self._ellipse(angles, self.body.D)
+
+    def spread(self, count: int) -> Array:
+        """States (count, 5) with E = h whose ω are spread evenly over the strip."""
+        states = np.empty((count, 5))
+        for i in range(count):
+            angle, turn = 2.0 * math.pi * _GOLDEN * (i + 0.5), 2.0 * math.pi * math.sqrt(2.0) * i
+            along = np.array([math.cos(angle), math.sin(angle), 0.0])
+            # From γ along ω, on σ1, to γ across ω, on σ2.
+            sine = math.sqrt((i + 0.5) / count)
+            across = math.cos(turn) * np.array([-along[1], along[0], 0.0]) + math.sin(turn) * np.array([0.0, 0.0, 1.0])
+            gamma = math.sqrt(1.0 - sine * sine) * along + sine * across
+            states[i] = *omega_of_energy(self.body, along[:2], gamma, self.h), *gamma
+        return states
+
+    @property
+    def unstable(self) -> Array:
+        """N^u in the (ω1, ω2) plane: its ends on σ2 and on σ1, (2, 2).  Raises `InvalidParameter`."""
+        xi, _ = line_of_rest(self.body)
+        moment = self.body.I11 * xi[0] ** 2 + self.body.I22 * xi[1] ** 2
+        return np.sqrt(2.0 * self.h / np.array([[moment + self.body.D], [moment]])) * xi
+
+    @property
+    def stable(self) -> Array:
+        """N^s, as `unstable`."""
+        return -self.unstable
+
+
+def lowest_energy(body: BallBody) -> float:
+    """−|b|: the ball at rest with its centre of mass below, the minimum of E over all states with F1 = 1."""
+    return -math.hypot(body.b1, body.b2, body.b3)
+
+
+def omega_of_energy(body: BallBody, direction: Sequence[float], gamma: Sequence[float], h: float
+                    ) -> tuple[float, float]:
+    """(ω1, ω2) along `direction` (2,) with E = h, for this γ (3,).
+
+    Raises `OutsideRegion` for h < (b, γ), `InvalidParameter` for a direction that is none.
+    """
+    length = math.hypot(*direction)
+    if not (math.isfinite(length) and length > 0.0):
+        raise InvalidParameter("The direction of ω must be a finite vector other than 0.")
+    potential = sum(b * g for b, g in zip(body.parameters[5:], gamma, strict=True))
+    if not h >= potential:
+        raise OutsideRegion(f"With this γ the ball at rest has the energy {potential:.6g}: choose h above it.")
+    w1, w2 = direction[0] / length, direction[1] / length
+    speed = math.sqrt((h - potential) / kinetic_energy((w1, w2, *gamma), body.parameters))
+    return speed * w1, speed * w2
+
+
+def spread_states(body: BallBody, h: float, count: int) -> Array:
+    """States (count, 5) with E = h spread evenly over the directions of ω and over the γ that allow this energy.
+
+    Raises `OutsideRegion` unless h > −|b|, `InvalidParameter` (h not finite, count < 1).
+    """
+    require_finite(h=h)
+    lowest = lowest_energy(body)
+    if not h > lowest:
+        raise OutsideRegion(f"No motion has the energy h = {h:g}: choose h above −|b| = {lowest:.6g}.")
+    if count < 1:
+        raise InvalidParameter("The number of motions must be 1 or more.")
+    axes = _axes(body)
+    top = min(1.0, h / -lowest) if lowest else 1.0
+    states = np.empty((count, 5))
+    for i in range(count):
+        # Points of a sphere in turns of the golden section, from γ along −b up to where the energy ends.
+        share = (i + 0.5) / count
+        z = -1.0 + (top + 1.0) * share
+        turn, radius = 2.0 * math.pi * _GOLDEN * i, math.sqrt(1.0 - z * z)
+        gamma = np.array([radius * math.cos(turn), radius * math.sin(turn), z]) @ axes
+        gamma /= np.linalg.norm(gamma)
+        angle = 2.0 * math.pi * math.sqrt(2.0) * i
+        states[i, :2] = omega_of_energy(body, (math.cos(angle), math.sin(angle)), gamma, h)
+        states[i, 2:] = gamma
+    return states
+
+
+def _axes(body: BallBody) -> Array:
+    """Three unit vectors as rows, the last along b (e3 without a field)."""
+    b = np.array(body.parameters[5:])
+    third = b / np.linalg.norm(b) if np.any(b) else np.array([0.0, 0.0, 1.0])
+    first = np.cross(np.eye(3)[np.argmin(np.abs(third))], third)
+    first /= np.linalg.norm(first)
+    return np.stack([first, np.cross(third, first), third])

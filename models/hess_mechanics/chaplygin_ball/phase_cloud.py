@@ -1,0 +1,342 @@
+"""S16: clouds of phase points of the ball with Suslov's constraint (`eq29`; 𝒟 = 0 is `biz132`), and their density.
+
+With s = I13ω1 + I23ω2 and h = Î⁻¹(−ω2, ω1) the motion without a field is ω̇ = s h, and
+
+    div v = I13h1 + I23h2 = ṡ/s.
+
+So 1/|s| is the density of an invariant measure (propositions 1 and 2), and Liouville's equation is solved along
+every motion: a volume of the phase space (ω1, ω2, γ) grows by s(t)/s(0), a density by s(0)/s(t).  With
+I13 = I23 = 0, field or not, div v = 0.
+
+With ξ = (I23, −I13)/J, η = (I13, I23)/J, J² = I13² + I23², the motion is integrated in x = (ω, ξ) and y = (ω, η) = s/J,
+
+    ẋ = J y (h, ξ),  ẏ = J y (h, η),
+
+so that s, which is a factor, keeps all its digits however small it becomes.  h is found as in `chaplygin_ball`.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from hess_mechanics.chaplygin_ball.equations import BallBody
+from hess_mechanics.dynamics.orbit import checked_times, require_finite_states, status_of
+from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.numerics.accuracy import Level, Status
+from hess_mechanics.numerics.batch import one_by_one
+from hess_mechanics.numerics.jit import inner, kernel
+from hess_mechanics.numerics.parallel import THREADS, share
+from hess_mechanics.numerics.results import Array, Cost, frozen
+from hess_mechanics.numerics.taylor import STEP_LIMIT_REACHED, Quadratic, orbit_integrator
+from hess_mechanics.rigid_body.inertia import require_finite
+
+__all__ = ["Cloud", "carried", "divergence", "frame_times", "histogram", "occupation", "patch", "shell"]
+
+_SHARE = 64
+_CLOSEST = 1e-300
+"""Below, doubles have fewer digits."""
+_CHECKED = 16
+"""Of so many points one is computed twice, for the error."""
+_MOST_NUMBERS = 1_500_000
+"""Of all frames, in single precision 6 MB."""
+_LEAST_FRAMES = 9
+_TURN, _CHANGE = 0.9, 0.55
+"""Between two frames: of γ in radians, and of ln|s|.  So cubic curves are right to less than a pixel."""
+_MOST_STEPS, _LEAST_STEPS = 6_000_000, 100
+"""Of all points together, some seconds; and of one."""
+_SPARSE = 1.5
+"""So many times as far apart, and they are still right to two pixels."""
+
+
+@inner
+def constants(y, p):
+    """What stays the same during a step: 1/J1, 1/J2, 𝒟γ² and 1/d at its start, see `chaplygin_ball`."""
+    _, _, g1, g2, g3 = y
+    I11, I22, _, _, _, D = p
+    added = D * (g1 * g1 + g2 * g2 + g3 * g3)
+    inverse1, inverse2 = 1.0 / (I11 + added), 1.0 / (I22 + added)
+    return inverse1, inverse2, added, 1.0 / (I11 * inverse1 * g1 * g1 + I22 * inverse2 * g2 * g2 + g3 * g3)
+
+
+@inner
+def velocities(y, q, p):
+    """ω1, ω2, d, and f = F/J with F = (−ω2, ω1)."""
+    x, across, _, _, _ = y
+    I11, I22, _, n1, n2, _, inverse1, inverse2, _, _ = p
+    g1g1, g2g2, g3g3 = q[4], q[5], q[6]
+    w1 = n2 * x + n1 * across
+    w2 = n2 * across - n1 * x
+    return w1, w2, I11 * inverse1 * g1g1 + I22 * inverse2 * g2g2 + g3g3, -w2 * inverse1, w1 * inverse2
+
+
+@inner
+def quotient(y, q, p):
+    """z from d z = γ1 f1 + γ2 f2."""
+    return ((q[7] + q[8] - q[9]) * p[9],)
+
+
+@inner
+def turning(y, q, p):
+    """(h, ξ) and (h, η)."""
+    f1, f2 = y[8], y[9]
+    n1, n2, inverse1, inverse2, added = p[3], p[4], p[6], p[7], p[8]
+    h1 = f1 + added * inverse1 * q[10]
+    h2 = f2 + added * inverse2 * q[11]
+    return n2 * h1 - n1 * h2, n1 * h1 + n2 * h2
+
+
+@inner
+def rates(y, q, p):
+    """The equations of the module's docstring."""
+    J = p[2]
+    g3w2, g3w1, g1w2, g2w1 = q[0], q[1], q[2], q[3]
+    return J * q[12], J * q[13], -g3w2, g3w1, g1w2 - g2w1
+
+
+QUADRATIC = Quadratic(
+    "x y g1 g2 g3",
+    "g3*w2 g3*w1 g1*w2 g2*w1 g1*g1 g2*g2 g3*g3 g1*f1 g2*f2 d*z g1*z g2*z y*hx y*hy",
+    rates,
+    parameters=6,
+    stages=(("w1 w2 d f1 f2", velocities), ("z", quotient), ("hx hy", turning)),
+    constants=("1/J1 1/J2 𝒟γ² 1/d", constants),
+)
+_ensemble = one_by_one(orbit_integrator(QUADRATIC))
+
+
+@kernel
+def _integrate(states, p, times, order, tolerance, max_steps, out):
+    """Many motions (x, y, γ), see `ensemble_integrator`; p = (I11, I22, J, I13/J, I23/J, 𝒟)."""
+    return _ensemble(states, p, times, order, tolerance, max_steps, out)
+
+
+@dataclass(frozen=True)
+class Cloud:
+    """n phase points at m times, without a field.
+
+    times : (m,); along : (n, m), x = (ω, ξ); log_s : (n, m), ln|s|; signs : (n,), those of s, which never changes;
+    gamma : (n, m, 3).
+    error_estimate : the largest estimated error of x/ν, ln|s| and γ, ν a bound on |ω|.
+    """
+
+    body: BallBody
+    times: Array
+    along: Array
+    log_s: Array
+    signs: Array
+    gamma: Array
+    level: str
+    status: Status
+    error_estimate: float
+    cost: Cost
+
+    @cached_property
+    def omega(self) -> Array:
+        """ω1, ω2, shape (n, m, 2)."""
+        J, n1, n2 = _axes(self.body)
+        across = self.signs[:, None] * np.exp(self.log_s) / J
+        return frozen(np.stack([n2 * self.along + n1 * across, n2 * across - n1 * self.along], axis=-1))
+
+    @cached_property
+    def divergence(self) -> Array:
+        """div v at every point, (n, m)."""
+        return frozen(divergence(self.body, self.omega, self.gamma))
+
+    @property
+    def log_growth(self) -> Array:
+        """ln s(t)/s(0), (n, m): what small volumes have grown by; minus that of the density about each point."""
+        return self.log_s - self.log_s[:, :1]
+
+    @property
+    def volume(self) -> Array:
+        """The volume of the cloud in that at the first time, (m,): for points that began evenly spread."""
+        return np.exp(self.log_growth).mean(axis=0)
+
+
+def _axes(body: BallBody) -> tuple[float, float, float]:
+    """J, I13/J, I23/J."""
+    J = math.hypot(body.I13, body.I23)
+    if not J > 0.0:
+        raise InvalidParameter(
+            "With I13 = I23 = 0 and no field ω does not change, and 1/|I13ω1 + I23ω2| has no meaning. "
+            "Choose I13 or I23 other than 0.")
+    return J, body.I13 / J, body.I23 / J
+
+
+def _tensor(body: BallBody, gamma: Array) -> tuple[Array, Array, Array, Array]:
+    """Î11, Î12, Î22 and det Î of `eq29`, for γ (..., 3) of length 1."""
+    g1, g2, g3 = np.moveaxis(gamma, -1, 0)
+    I11, I22, D = body.I11, body.I22, body.D
+    det = I11 * I22 + D * (I11 * (1.0 - g2**2) + I22 * (1.0 - g1**2) + D * g3**2)
+    return I11 + D * (1.0 - g1**2), -D * g1 * g2, I22 + D * (1.0 - g2**2), det
+
+
+def divergence(body: BallBody, omega: Array, gamma: Array) -> Array:
+    """div v = (I13, I23) Î⁻¹ (−ω2, ω1), with a field too; ω (..., 2), γ (..., 3) of length 1, result (...)."""
+    A11, A12, A22, det = _tensor(body, gamma)
+    w1, w2 = omega[..., 0], omega[..., 1]
+    return (body.I23 * (A11 * w1 + A12 * w2) - body.I13 * (A22 * w2 + A12 * w1)) / det
+
+
+def _require_cloud(h: float, spread: float, count: int) -> None:
+    require_finite(h=h, spread=spread)
+    if not h > 0.0:
+        raise InvalidParameter(f"h = {h:g}: without a field the energy is positive, choose h > 0.")
+    if not 0.0 < spread < 1.0:
+        raise InvalidParameter(f"The cloud's spread is {spread:g}: choose it between 0 and 1.")
+    if count < 1:
+        raise InvalidParameter("A cloud needs at least one point.")
+
+
+def shell(body: BallBody, h: float, spread: float, count: int) -> Array:
+    """States (count, 5) evenly spread over the phase volume h(1 − spread) < E < h(1 + spread), F1 = 1, for b = 0.
+
+    The volume dω1 dω2 dA(γ) is dE dθ dA/√det Î, with ω = √(2E) Î^(−1/2) (cos θ, sin θ): so γ are accepted with a
+    probability ∝ 1/√det Î.  The same points in every call.  Raises `InvalidParameter`.
+    """
+    _require_cloud(h, spread, count)
+    random = np.random.default_rng(1)
+    # det Î is linear in γ1², γ2², γ3², so it is smallest where γ is an axis.
+    smallest = body.I11 * body.I22 + body.D * min(body.I11, body.I22)
+    gammas: list[Array] = []
+    while sum(map(len, gammas)) < count:
+        z, angle = random.uniform(-1.0, 1.0, 2 * count), random.uniform(0.0, 2.0 * math.pi, 2 * count)
+        radius = np.sqrt(1.0 - z * z)
+        some = np.column_stack([radius * np.cos(angle), radius * np.sin(angle), z])
+        gammas.append(some[random.random(2 * count) ** 2 * _tensor(body, some)[3] < smallest])
+    gamma = np.concatenate(gammas)[:count]
+    A11, A12, _, det = _tensor(body, gamma)
+    speed = np.sqrt(2.0 * h * random.uniform(1.0 - spread, 1.0 + spread, count))
+    theta = random.uniform(0.0, 2.0 * math.pi, count)
+    w2 = speed * np.sin(theta) * np.sqrt(A11 / det)
+    return np.column_stack([(speed * np.cos(theta) * np.sqrt(A11) - A12 * w2) / A11, w2, gamma])
+
+
+def patch(body: BallBody, h: float, angle: float, spread: float, count: int) -> Array:
+    """States (count, 5) evenly spread over a disc of ω and a cap of γ about e3.
+
+    The disc's centre has this angle in the (ω1, ω2) plane, and with γ = e3 the energy h; its radius is `spread` of
+    |ω| there; that of the cap is `spread` radians.  The same points in every call.  Raises `InvalidParameter`.
+    """
+    _require_cloud(h, spread, count)
+    require_finite(angle=angle)
+    random = np.random.default_rng(1)
+    direction = np.array([math.cos(angle), math.sin(angle)])
+    speed = math.sqrt(2.0 * h / ((body.I11 + body.D) * direction[0] ** 2 + (body.I22 + body.D) * direction[1] ** 2))
+    turn, size = random.uniform(0.0, 2.0 * math.pi, count), spread * np.sqrt(random.random(count))
+    omega = speed * (direction + size[:, None] * np.column_stack([np.cos(turn), np.sin(turn)]))
+    z, turn = random.uniform(math.cos(spread), 1.0, count), random.uniform(0.0, 2.0 * math.pi, count)
+    radius = np.sqrt(1.0 - z * z)
+    return np.column_stack([omega, radius * np.cos(turn), radius * np.sin(turn), z])
+
+
+def _twice_energy(body: BallBody, states: Array) -> float:
+    A11, A12, A22, _ = _tensor(body, states[:, 2:])
+    w1, w2 = states[:, 0], states[:, 1]
+    return float((A11 * w1**2 + 2.0 * A12 * w1 * w2 + A22 * w2**2).max())
+
+
+def frame_times(body: BallBody, states: Array, span: float, field: float = 0.0) -> Array:
+    """Even times from 0 to `span`, both included, at which a cloud from `states` (n, 5) is to be known.
+
+    A cubic curve through γ and γ̇ a time Δ apart is wrong by |γ|Δ⁴/384, and |γ| is about r|ω|⁴ with
+    r = sin(γ, ω), for which 2E ≥ (min(I11, I22) + 𝒟r²) ω².  ω changes at the rate div v.  field : |b|, with which a
+    second cloud from the same points may move.
+    Raises `InvalidParameter`, and `WorkLimit` where so many numbers would be too many that it shows.
+    """
+    twice, least = _twice_energy(body, states) + 4.0 * abs(field), min(body.I11, body.I22)
+    r = min(1.0, math.sqrt(least / (3.0 * body.D))) if body.D else 1.0
+    turning = math.sqrt(twice / (least + body.D * r * r)) * r**0.25
+    about = shell(body, 0.5 * twice, 0.01, 256)
+    rate = float(np.abs(divergence(body, about[:, :2], about[:, 2:])).max())
+    wanted = abs(span) * max(turning / _TURN, rate / _CHANGE) + 1.0
+    most = max(_LEAST_FRAMES, _MOST_NUMBERS // (5 * len(states)))
+    if not wanted <= _SPARSE * most:
+        longest = abs(span) * _SPARSE * most / wanted
+        raise WorkLimit(
+            f"In this time the cloud turns too often for {most} frames: choose a time span below {longest:.2g}, or "
+            "fewer points.")
+    return np.linspace(0.0, span, max(_LEAST_FRAMES, min(most, math.ceil(wanted))))
+
+
+def _run(states: Array, p: Array, times: Array, level: Level, max_steps: int) -> tuple[Array, int]:
+    out = np.empty((len(states), times.size, 5))
+    parts = -(-len(states) // _SHARE)
+    steps = np.zeros(parts, int)
+
+    def part(i: int) -> None:
+        own = slice(i * _SHARE, (i + 1) * _SHARE)
+        steps[i] = _integrate(states[own], p, times, level.order, level.tolerance, max_steps, out[own])
+
+    share(part, parts, THREADS)
+    if np.any(steps == STEP_LIMIT_REACHED):
+        raise WorkLimit(
+            f"Points of this cloud need more than {max_steps} steps each: choose a shorter time span, a smaller 𝒟 or "
+            "fewer points.")
+    require_finite_states(out)
+    if not np.all(np.abs(out[..., 1]) > _CLOSEST):
+        raise WorkLimit("The cloud comes closer to N than double precision can say: choose a shorter time span.")
+    out[..., 1] = np.log(np.abs(out[..., 1]))
+    return out, int(steps.sum())
+
+
+def carried(body: BallBody, states: Array, times: Array, level: Level) -> Cloud:
+    """The cloud of the phase points `states` (n, 5) at `times` (m,), all ≥ 0 or all ≤ 0, with b = 0.
+
+    Of every sixteenth point the error is measured, by a second run with steps a hundred times more exact; if it
+    exceeds the level's promise all points are computed so, as far as double precision goes.
+    Raises `InvalidParameter` (a field; I13 = I23 = 0; a point with s = 0), `WorkLimit`.
+    """
+    start = time.perf_counter()
+    if any(body.parameters[5:]):
+        raise InvalidParameter("1/|I13ω1 + I23ω2| is the density of b = 0: set b1 = b2 = b3 = 0.")
+    J, n1, n2 = _axes(body)
+    t = checked_times(times)
+    nu = math.sqrt(_twice_energy(body, states) / min(body.I11, body.I22)) or 1.0  # a bound on every |ω|
+    first = np.column_stack([states[:, :2] @ [[n2, n1], [-n1, n2]] / nu, states[:, 2:]])
+    if not np.all(first[:, 1]):
+        raise InvalidParameter("A point of the cloud lies on I13ω1 + I23ω2 = 0, where 1/|I13ω1 + I23ω2| is infinite.")
+    max_steps = max(_LEAST_STEPS, _MOST_STEPS // len(first))
+    p = np.array([body.I11, body.I22, J, n1, n2, body.D])
+    out, total = _run(first, p, t * nu, level, max_steps)
+    current = level
+    while True:
+        finer = current.tightened()
+        fine, steps = _run(first[::_CHECKED], p, t * nu, finer, 2 * max_steps)
+        total += steps
+        error = (4.0 if current.is_floor else 1.25) * float(np.abs(out[::_CHECKED] - fine).max()) + 2e-16
+        if error <= level.promise or current.is_floor:
+            break
+        current = finer
+        out, steps = _run(first, p, t * nu, current, max_steps)
+        total += steps
+    return Cloud(
+        body, frozen(t), frozen(out[..., 0] * nu), frozen(out[..., 1] + math.log(J * nu)), frozen(np.sign(first[:, 1])),
+        frozen(out[..., 2:]), level.name, status_of(error, level), error,
+        Cost(total, (time.perf_counter() - start) * 1e3))
+
+
+_PARTS = 2
+
+
+def _shares(log_s: Array, edges: Array) -> Array:
+    width = float(edges[1] - edges[0])
+    bins = np.floor((log_s.ravel() - edges[0]) / width).astype(int)
+    counts = np.bincount(bins[(bins >= 0) & (bins < edges.size - 1)], minlength=edges.size - 1)
+    return frozen(counts / (log_s.size * width))
+
+
+def histogram(cloud: Cloud, frame: int, edges: Array) -> Array:
+    """The share of points per unit of ln|s| at one of the times, between even edges (k + 1,) of ln|s|; (k,)."""
+    return _shares(cloud.log_s[:, frame], edges)
+
+
+def occupation(cloud: Cloud, edges: Array) -> Array:
+    """`histogram`'s mean over all the time: the share of time that the cloud spends per unit of ln|s|, (k,)."""
+    before, after = cloud.log_s[:, :-1, None], cloud.log_s[:, 1:, None]
+    return _shares(before + (after - before) * ((np.arange(_PARTS) + 0.5) / _PARTS), edges)

@@ -1,0 +1,93 @@
+"""S10: the section γ3 = 0 of the Chaplygin ball with a field at E = h, F1 = 1, in coordinates that cover it.
+
+Where γ3 grows through 0, γ = (cos ψ, sin ψ, 0) and ω points at an angle δ ∈ (0, π) from it:
+ω = |ω| (cos(ψ+δ), sin(ψ+δ)), as γ̇3 = |ω| sin δ.  The energy gives |ω| wherever h > (b, γ).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from hess_mechanics.chaplygin_ball.energy_surface import omega_of_energy
+from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
+from hess_mechanics.dynamics.section import MAX_STEPS, Plane, Points, section_points
+from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.results import Array
+from hess_mechanics.rigid_body.inertia import require_finite
+
+__all__ = ["EQUATOR", "ball_section", "cells", "coordinates", "forbidden_band", "seeds", "state_at"]
+
+EQUATOR = Plane((0.0, 0.0, 0.0, 0.0, 1.0))
+_EDGE = 1e-3
+_TURNS = 30.0
+"""Time given for a crossing, in units of 1/ν: few orbits take longer."""
+
+
+def state_at(body: BallBody, h: float, psi: float, delta: float) -> tuple[float, ...]:
+    """The state (5,) of the section at (ψ, δ).  Raises `InvalidParameter`, `OutsideRegion` (h below (b, γ))."""
+    require_finite(psi=psi, delta=delta)
+    if not 0.0 < delta < math.pi:
+        raise InvalidParameter(f"δ = {delta:g}: on this section, where γ3 grows, it lies between 0 and π.")
+    gamma = (math.cos(psi), math.sin(psi), 0.0)
+    omega = omega_of_energy(body, (math.cos(psi + delta), math.sin(psi + delta)), gamma, h)
+    return (*omega, *gamma)
+
+
+def coordinates(states: Array) -> Array:
+    """(ψ, δ) (n, 2) of states (n, 5) of the section."""
+    psi = np.arctan2(states[:, 3], states[:, 2])
+    delta = np.arctan2(states[:, 1], states[:, 0]) - psi
+    return np.column_stack([psi, np.abs(np.arctan2(np.sin(delta), np.cos(delta)))])
+
+
+def forbidden_band(body: BallBody, h: float) -> tuple[float, float] | None:
+    """(middle, half width) of the band of ψ that h forbids, (b, γ) > h; None where it forbids nothing.
+
+    Raises `InvalidParameter` where it forbids all.
+    """
+    size = math.hypot(body.b1, body.b2)
+    if h <= -size:
+        raise InvalidParameter(
+            f"With the energy h = {h:g} the ball never reaches the plane γ3 = 0: choose h above {-size:.6g}.")
+    if h >= size:
+        return None
+    return math.atan2(body.b2, body.b1), math.acos(h / size)
+
+
+def seeds(body: BallBody, h: float, count: int) -> list[tuple[float, ...]]:
+    """States of the section spread evenly over what h allows of (ψ, cos δ).  Raises `InvalidParameter`."""
+    band = forbidden_band(body, h)
+    middle, forbidden = (0.0, 0.0) if band is None else band
+    golden = (math.sqrt(5.0) - 1.0) / 2.0
+    found = []
+    for i in range(count):
+        share = (i * golden) % 1.0
+        psi = middle + forbidden + _EDGE + share * (2.0 * (math.pi - forbidden) - 2.0 * _EDGE)
+        found.append(state_at(body, h, psi, math.acos(1.0 - 2.0 * (i + 0.5) / count)))
+    return found
+
+
+def ball_section(body: BallBody, h: float, starts: Sequence[Sequence[float]], crossings: int, level: Level,
+                 most_steps: int = MAX_STEPS) -> Points:
+    """The first crossings of each orbit that starts on the section, on all cores, states as in `section_points`.
+
+    most_steps : of one orbit.  Raises `InvalidParameter`, `WorkLimit`.
+    """
+    speed = math.sqrt(2.0 * (h + math.hypot(*body.parameters[5:])) / min(body.I11, body.I22))
+    end = crossings * _TURNS * math.sqrt(1.0 + body.D / min(body.I11, body.I22)) / speed
+    try:
+        return section_points(SYSTEM, starts, body.parameters, EQUATOR, end, level, crossings, most_steps=most_steps)
+    except WorkLimit:
+        raise WorkLimit(f"{crossings} crossings take an orbit more than {most_steps} steps here: choose fewer of them, "
+                        "or smaller I13 and I23.") from None
+
+
+def cells(points: Array, across: int = 32) -> int:
+    """How many cells of an even grid over the section hold a point: few along a curve, many in a sea."""
+    x = np.floor((points[:, 0] + math.pi) / (2.0 * math.pi) * across).astype(int) % across
+    y = np.minimum((points[:, 1] / math.pi * across).astype(int), across - 1)
+    return int(np.unique(x * across + y).size)

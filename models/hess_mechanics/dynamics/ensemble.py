@@ -1,0 +1,85 @@
+"""Many orbits of one system at given times, on all cores, with their errors."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+
+import numpy as np
+
+from hess_mechanics.dynamics.orbit import MAX_STEPS, checked_times, drift_of, require_finite_states, status_of
+from hess_mechanics.dynamics.system import Problem, System
+from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.parallel import THREADS, share
+from hess_mechanics.numerics.results import Array, Cost, Ensemble, frozen
+from hess_mechanics.numerics.taylor import STEP_LIMIT_REACHED
+
+__all__ = ["MAX_NUMBERS", "ensemble"]
+
+MAX_NUMBERS = 20_000_000
+"""Of all states at all times: 160 MB."""
+
+_SHARE = 64
+"""Orbits of one piece of work: enough to fill the lanes, few enough for the threads to end together."""
+
+
+def _run(system: System, problem: Problem, states: Array, times: Array, level: Level, threads: int
+         ) -> tuple[Array, int]:
+    out = np.empty((len(states), times.size, problem.scale.size))
+    parts = -(-len(states) // _SHARE)
+    steps = np.zeros(parts, int)
+
+    def part(i: int) -> None:
+        own = slice(i * _SHARE, (i + 1) * _SHARE)
+        steps[i] = system.ensemble(
+            states[own], problem.parameters, times, level.order, level.tolerance, MAX_STEPS, out[own])
+
+    share(part, parts, threads)
+    if np.any(steps == STEP_LIMIT_REACHED):
+        raise WorkLimit(f"One of these orbits needs more than {MAX_STEPS} steps: choose a shorter time span.")
+    require_finite_states(out)
+    return out, int(steps.sum())
+
+
+def ensemble(system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float],
+             times: Sequence[float] | Array, level: Level, threads: int = THREADS) -> Ensemble:
+    """The orbits that start at the rows of `states` (n, d), at the given times (m,).
+
+    Errors are measured as in `solve`, orbit by orbit; those that miss the level's promise are computed
+    again, more exactly, as far as double precision goes.
+    Raises `InvalidParameter`, `WorkLimit`.
+    """
+    start = time.perf_counter()
+    t = checked_times(times)
+    problem = Problem.of(system, states, parameters)
+    count, dimension = problem.states.shape
+    if count == 0:
+        raise InvalidParameter("An ensemble needs at least one initial state.")
+    if count * t.size * dimension > MAX_NUMBERS:
+        raise WorkLimit(f"{count} orbits at {t.size} times are too many: choose fewer of one or the other.")
+    scaled_times = problem.times(t)
+
+    out, total = _run(system, problem, problem.states, scaled_times, level, threads)
+    errors = np.full(count, np.inf)
+    scaled_errors = np.full(count, np.inf)
+    todo = np.arange(count)
+    current = level
+    while todo.size:
+        fine, steps = _run(system, problem, problem.states[todo], scaled_times, current.tightened(), threads)
+        total += steps
+        safety = 4.0 if current.is_floor else 1.25
+        difference = np.abs(out[todo] - fine)
+        scaled_errors[todo] = safety * difference.max(axis=(1, 2)) + 2e-16
+        errors[todo] = safety * (difference * problem.scale).max(axis=(1, 2)) + 2e-16 * max(1.0, problem.nu)
+        missed = scaled_errors[todo] > level.promise
+        if current.is_floor:
+            break
+        todo, current = todo[missed], current.tightened()
+        out[todo] = fine[missed]
+
+    out *= problem.scale
+    drift = drift_of(system, np.array(states, float, ndmin=2), out, np.asarray(parameters, float))
+    wall_ms = (time.perf_counter() - start) * 1e3
+    return Ensemble(system.name, level.name, frozen(t), frozen(out), status_of(float(scaled_errors.max()), level),
+                    frozen(errors), drift, Cost(total, wall_ms))

@@ -1,0 +1,83 @@
+"""The largest Lyapunov exponent of one motion, from its distance to a neighbour that is brought back again and again.
+
+Benettin, Galgani, Strelcyn (1976).  The neighbour starts in a fixed direction that is none of a symmetry.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from hess_mechanics.dynamics.orbit import MAX_STEPS
+from hess_mechanics.dynamics.system import Problem, System
+from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.numerics.accuracy import REFERENCE
+from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.taylor import STEP_LIMIT_REACHED
+
+__all__ = ["Exponent", "largest_exponent"]
+
+MAX_RETURNS = 200_000
+_DISTANCE = 1e-7
+"""Of the neighbour, where the state is O(1): small enough for a linear motion, large beside round-off."""
+_TOLERANCE = 1e-14
+_INTERVAL = 2.0
+"""Time until the neighbour is brought back, in units of 1/ν."""
+
+
+@dataclass(frozen=True)
+class Exponent:
+    """The mean growth rate up to each time: times (n,), rates (n,), the last of which is the estimate.
+
+    spread : how far the rates of the last half lie apart.
+    """
+
+    times: Array
+    rates: Array
+    spread: float
+
+    @property
+    def value(self) -> float:
+        """The estimate, per unit of time."""
+        return float(self.rates[-1])
+
+
+def largest_exponent(system: System, state: Sequence[float], parameters: Sequence[float], span: float) -> Exponent:
+    """The exponent of the motion from `state` over the time `span` (negative: backwards).
+
+    Raises `InvalidParameter`, `WorkLimit`.
+    """
+    if not (math.isfinite(span) and span != 0.0):
+        raise InvalidParameter("The time span of a Lyapunov exponent must be a finite number other than 0.")
+    problem = Problem.of(system, [state], parameters)
+    returns = abs(span) / _INTERVAL * problem.nu
+    if not returns <= MAX_RETURNS:
+        raise WorkLimit(f"This takes {returns:.3g} returns of the neighbour, at most {MAX_RETURNS} are allowed: choose "
+                        "a shorter time span.")
+    count = max(1, math.ceil(returns))
+    interval = np.array([span * problem.nu / count])
+    direction = np.cos(1.0 + np.arange(problem.scale.size) ** 2)
+    y = problem.states[0].copy()
+    neighbour = y + _DISTANCE * direction / np.linalg.norm(direction)
+    ends = np.empty((2, 1, y.size))
+    growth = np.empty(count)
+    steps = 0
+    for i in range(count):
+        for start, end in zip((y, neighbour), ends, strict=True):
+            taken = system.orbit(
+                start, problem.parameters, interval, REFERENCE.order, _TOLERANCE, MAX_STEPS - steps, end)
+            if taken == STEP_LIMIT_REACHED:
+                raise WorkLimit(f"This exponent needs more than {MAX_STEPS} steps: choose a shorter time span.")
+            steps += taken
+        y = ends[0, 0].copy()
+        away = ends[1, 0] - y
+        distance = float(np.linalg.norm(away))
+        growth[i] = math.log(distance / _DISTANCE)
+        neighbour = y + away * (_DISTANCE / distance)
+    times = np.abs(span) * np.arange(1, count + 1) / count
+    rates = np.cumsum(growth) / times
+    later = rates[count // 2 :]
+    return Exponent(frozen(times), frozen(rates), float(later.max() - later.min()))

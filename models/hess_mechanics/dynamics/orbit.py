@@ -1,0 +1,107 @@
+"""One orbit at given times, with an error that is measured and not assumed."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+
+import numpy as np
+
+from hess_mechanics.dynamics.system import Problem, System
+from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.numerics.accuracy import Level, Status
+from hess_mechanics.numerics.results import Array, Cost, Orbit, frozen
+from hess_mechanics.numerics.taylor import STEP_LIMIT_REACHED
+
+__all__ = ["MAX_SAMPLES", "MAX_STEPS", "checked_times", "drift_of", "require_finite_states", "solve", "status_of"]
+
+MAX_STEPS = 1_000_000
+MAX_SAMPLES = 200_000
+
+
+def checked_times(times: Sequence[float] | Array) -> Array:
+    """The times (n,) as an array of its own.  Raises `InvalidParameter`, `WorkLimit`."""
+    t = np.array(times, dtype=float, ndmin=1)
+    if t.ndim != 1 or t.size == 0 or not np.all(np.isfinite(t)):
+        raise InvalidParameter("The times must be one or more finite numbers.")
+    if t.size > MAX_SAMPLES:
+        raise WorkLimit(f"{t.size} times were asked for; at most {MAX_SAMPLES} are allowed.")
+    before = np.concatenate(([0.0], t[:-1]))
+    if np.any(t < before) and np.any(t > before):
+        raise InvalidParameter("The times must run away from 0, all forward or all backward.")
+    return t
+
+
+def require_finite_states(states: Array) -> None:
+    """Raise `InvalidParameter` where a state has left double range."""
+    if not np.all(np.isfinite(states)):
+        raise InvalidParameter("The motion left the range of double precision: choose less extreme parameters.")
+
+
+def status_of(error: float, level: Level) -> Status:
+    """How a computation with this estimated error (in units in which the state is O(1)) ended."""
+    if error <= level.promise:
+        return Status.OK
+    return Status.FLOOR if level.is_floor else Status.PROMISE_NOT_MET
+
+
+def drift_of(system: System, start: Array, states: Array, parameters: Array) -> dict[str, float]:
+    """For each integral max |F(y) − F(start)|, relative to |F(start)| where that exceeds 1.
+
+    start (d,) and states (m, d) of one orbit, or (n, d) and (n, m, d) of many, of which the largest counts.
+    """
+    initial = system.integrals(np.moveaxis(start, -1, 0), parameters)
+    along = system.integrals(np.moveaxis(states, -1, 0), parameters)
+    drift = {}
+    for name, value in initial.items():
+        origin = np.asarray(value)[..., None]
+        change = np.abs(along[name] - origin) / np.maximum(1.0, np.abs(origin))
+        drift[name] = float(np.max(change, initial=0.0))
+    return drift
+
+
+def _run(system: System, problem: Problem, times: Array, level: Level, max_steps: int) -> tuple[Array, int]:
+    out = np.empty((times.size, problem.scale.size))
+    steps = system.orbit(problem.states[0], problem.parameters, times, level.order, level.tolerance, max_steps, out)
+    if steps == STEP_LIMIT_REACHED:
+        raise WorkLimit(
+            f"This time span needs more than {MAX_STEPS} steps: choose a shorter one, or a cheaper level."
+        )
+    require_finite_states(out)
+    return out, steps
+
+
+def solve(system: System, state: Sequence[float] | Array, parameters: Sequence[float],
+          times: Sequence[float] | Array, level: Level) -> Orbit:
+    """The orbit at the given times, with an error measured and not assumed.
+
+    The motion is computed twice, the second time with steps a hundred times more exact; the
+    difference is the error estimate of the first.  If that exceeds the level's promise the
+    second run takes its place and is measured in turn, down to the floor of double precision.
+    Raises `InvalidParameter` (not finite, times out of order), `WorkLimit`.
+    """
+    start = time.perf_counter()
+    t = checked_times(times)
+    problem = Problem.of(system, [state], parameters)
+    scaled_times = problem.times(t)
+
+    current = level
+    coarse, total = _run(system, problem, scaled_times, current, MAX_STEPS)
+    while True:
+        tighter = current.tightened()
+        fine, steps = _run(system, problem, scaled_times, tighter, MAX_STEPS - total)
+        total += steps
+        # Two runs at the floor differ by their round-off, which says less of the true error.
+        safety = 4.0 if current.is_floor else 1.25
+        difference = np.abs(coarse - fine)
+        error = safety * float(difference.max()) + 2e-16
+        if error <= level.promise or current.is_floor:
+            break
+        current, coarse = tighter, fine
+
+    states = coarse * problem.scale
+    drift = drift_of(system, np.asarray(state, float), states, np.asarray(parameters, float))
+    wall_ms = (time.perf_counter() - start) * 1e3
+    absolute = safety * float((difference * problem.scale).max()) + 2e-16 * max(1.0, problem.nu)
+    return Orbit(system.name, level.name, frozen(t), frozen(states), status_of(error, level), absolute, drift,
+                 Cost(total, wall_ms))

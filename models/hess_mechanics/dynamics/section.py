@@ -1,0 +1,243 @@
+"""Poincaré sections: the crossings of a plane by one orbit or many, with their errors."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+
+from hess_mechanics.dynamics.orbit import drift_of, require_finite_states, status_of
+from hess_mechanics.dynamics.system import Problem, System
+from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.parallel import THREADS, share
+from hess_mechanics.numerics.results import Array, Cost, Section, frozen
+from hess_mechanics.numerics.taylor import STEP_LIMIT_REACHED
+
+__all__ = ["MAX_CROSSINGS", "Plane", "Points", "Surface", "section", "section_points", "sections"]
+
+MAX_CROSSINGS = 100_000
+MAX_STEPS = 10_000_000
+_ROOM = 1000
+"""Crossings for which there is room at first: few orbits have more."""
+_PARTS = 8
+"""Those of the time of a section of many orbits."""
+_SHARE = 4
+"""Orbits of one piece of work."""
+
+
+@dataclass(frozen=True)
+class Plane:
+    """normal·y = offset in the space of the states; sense 1: crossed from below, −1: from above, 0: both."""
+
+    normal: tuple[float, ...]
+    offset: float = 0.0
+    sense: int = 1
+
+    def __post_init__(self) -> None:
+        if not (all(map(math.isfinite, self.normal)) and any(self.normal) and math.isfinite(self.offset)):
+            raise InvalidParameter("A plane needs a finite normal other than 0 and a finite offset.")
+        if self.sense not in (-1, 0, 1):
+            raise InvalidParameter("The sense of a crossing is 1 (from below), −1 (from above) or 0 (both).")
+
+    def scaled(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
+        """What `Surface` says, with a normal of length 1.  Raises `InvalidParameter`."""
+        if len(self.normal) != len(system.variables):
+            raise InvalidParameter(f"The normal of the plane has {len(system.variables)} components here.")
+        largest = max(map(abs, self.normal))
+        normal = np.array(self.normal) / largest * problem.scale
+        length = float(np.linalg.norm(normal))
+        offset = self.offset / largest / length
+        if not math.isfinite(offset):
+            raise InvalidParameter("The offset of the plane is too large beside its normal: choose a smaller one.")
+        return system.cross, normal / length, offset
+
+
+class Surface(Protocol):
+    """A surface in the space of the states."""
+
+    @property
+    def sense(self) -> int:
+        """1: crossed from below, −1: from above, 0: both."""
+
+    def scaled(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
+        """The kernel that finds its crossings, and normal and offset in units in which the states are O(1)."""
+
+
+@dataclass(frozen=True)
+class _Search:
+    """What is looked for, in units in which the states are O(1)."""
+
+    system: System
+    problem: Problem
+    cross: Callable[..., tuple[int, int]]
+    normal: Array
+    offset: float
+    sense: int
+    end: float
+    level: Level
+    crossings: int
+
+    @classmethod
+    def of(cls, system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float], plane: Surface,
+           end: float, level: Level, crossings: int) -> _Search:
+        """Check everything.  Raises `InvalidParameter`, `WorkLimit`."""
+        if not math.isfinite(end):
+            raise InvalidParameter("The end of the time span must be finite.")
+        if not 1 <= crossings <= MAX_CROSSINGS:
+            raise WorkLimit(f"The number of crossings lies between 1 and {MAX_CROSSINGS}.")
+        problem = Problem.of(system, states, parameters)
+        cross, normal, offset = plane.scaled(system, problem)
+        return cls(system, problem, cross, normal, offset, plane.sense, end * problem.nu, level, crossings)
+
+    def run(self, i: int, rung: Level, max_steps: int, start: Array | None = None) -> tuple[Array, Array, int]:
+        """Times, states and steps of the crossings of orbit i, or of the one from `start`, at one tolerance."""
+        start = self.problem.states[i] if start is None else start
+        room, total = min(self.crossings, _ROOM), 0
+        while True:
+            times, states = np.empty(room), np.empty((room, self.problem.scale.size))
+            found, steps = self.cross(
+                start, self.problem.parameters, self.normal, self.offset, self.sense, self.end,
+                rung.order, rung.tolerance, max_steps - total, times, states)
+            if found == STEP_LIMIT_REACHED:
+                raise WorkLimit(f"This section needs more than {MAX_STEPS} steps: choose a shorter time span.")
+            total += steps
+            if found < room or room == self.crossings:
+                break
+            room = min(self.crossings, 10 * room)
+        require_finite_states(states[:found])
+        return times[:found].copy(), states[:found].copy(), total
+
+    def measured(self, i: int) -> _Found:
+        """The crossings of orbit i, and how far they are from those of a more exact run."""
+        start = time.perf_counter()
+        current = self.level
+        coarse_times, coarse, total = self.run(i, current, MAX_STEPS)
+        while True:
+            tighter = current.tightened()
+            fine_times, fine, steps = self.run(i, tighter, MAX_STEPS - total)
+            total += steps
+            both = min(len(coarse), len(fine))
+            safety = 4.0 if current.is_floor else 1.25
+            difference = safety * np.abs(coarse[:both] - fine[:both])
+            error = float(difference.max(initial=0.0)) + 2e-16
+            # One crossing more or less only at the very end of the span.
+            extra = np.concatenate((coarse_times[both:], fine_times[both:]))
+            same = len(extra) == 0 or (len(extra) == 1 and abs(extra[0] - self.end) <= 10 * self.level.promise)
+            if (same and error <= self.level.promise) or current.is_floor:
+                break
+            current, coarse, coarse_times = tighter, fine, fine_times
+        wall_ms = (time.perf_counter() - start) * 1e3
+        return _Found(coarse_times, coarse, difference, error if same else math.inf, Cost(total, wall_ms))
+
+    def result(self, i: int, start: Array, parameters: Array, found: _Found) -> Section:
+        """The crossings of orbit i, which starts at `start` (d,), in the user's units."""
+        nu, scale = self.problem.nu, self.problem.scale
+        states = found.states * scale
+        absolute = float((found.difference * scale).max(initial=0.0)) + 2e-16 * max(1.0, nu)
+        drift = drift_of(self.system, start, states, parameters)
+        return Section(self.system.name, self.level.name, frozen(found.times / nu), frozen(states),
+                       status_of(found.error, self.level), absolute, drift, found.cost)
+
+
+@dataclass(frozen=True)
+class _Found:
+    """Times (n,), states (n, d), their estimated errors (m, d), the largest (∞: other crossings), and the cost."""
+
+    times: Array
+    states: Array
+    difference: Array
+    error: float
+    cost: Cost
+
+
+def section(system: System, state: Sequence[float] | Array, parameters: Sequence[float], plane: Surface,
+            end: float, level: Level, crossings: int = MAX_CROSSINGS) -> Section:
+    """The first `crossings` crossings of the plane after t = 0 and up to t = `end` (which may be negative).
+
+    They are roots of the Taylor polynomials of the orbit itself.  The error is measured as in `solve`,
+    crossing by crossing; a run that finds other crossings than the more exact one is replaced by it.
+    Raises `InvalidParameter`, `WorkLimit`.
+    """
+    return sections(system, [state], parameters, plane, end, level, crossings, threads=1)[0]
+
+
+def sections(system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float], plane: Surface,
+             end: float, level: Level, crossings: int = MAX_CROSSINGS, threads: int = THREADS) -> list[Section]:
+    """`section` for each row of `states` (n, d), on all cores, with the fastest motion's unit of time for all."""
+    search = _Search.of(system, states, parameters, plane, end, level, crossings)
+    found: dict[int, _Found] = {}
+
+    def part(i: int) -> None:
+        for orbit in range(i * _SHARE, min((i + 1) * _SHARE, len(search.problem.states))):
+            found[orbit] = search.measured(orbit)
+
+    share(part, -(-len(search.problem.states) // _SHARE), threads)
+    starts, p = np.array(states, float, ndmin=2), np.asarray(parameters, float)
+    return [search.result(i, starts[i], p, found[i]) for i in range(len(starts))]
+
+
+@dataclass(frozen=True)
+class Points:
+    """Crossings of many orbits, each followed once: states, a list of (n, d); drift : of each integral, the largest.
+
+    They lie on the plane and on their levels of the integrals.  Whether each is where its own orbit is, nobody can
+    say of chaotic motions after some time, and nothing is said here: see `section` for that.
+    """
+
+    states: list[Array]
+    drift: Mapping[str, float]
+    cost: Cost
+
+
+def section_points(system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float],
+                   plane: Surface, end: float, level: Level, crossings: int, threads: int = THREADS,
+                   most_steps: int = MAX_STEPS) -> Points:
+    """For pictures: the first `crossings` crossings of each orbit, rows of `states` (n, d), in one run.
+
+    An orbit that in some part of the time crosses less often than it must on an average is not followed to the end.
+    most_steps : of one orbit.  Raises `InvalidParameter`, `WorkLimit`.
+    """
+    begun = time.perf_counter()
+    search = _Search.of(system, states, parameters, plane, end, level, crossings)
+    count = len(search.problem.states)
+    parts = max(1, min(_PARTS, crossings // 10))
+    one_part = replace(search, end=search.end / parts, crossings=-(-crossings // parts))
+    found: dict[int, tuple[Array, int]] = {}
+
+    def follow(orbit: int) -> tuple[Array, int]:
+        pieces: list[Array] = []
+        start, steps = None, 0
+        for _ in range(parts):
+            _, points, taken = one_part.run(orbit, level, most_steps - steps, start)
+            pieces.append(points)
+            steps += taken
+            if len(points) < one_part.crossings:
+                break
+            start = points[-1]
+        return np.concatenate(pieces)[:crossings] * search.problem.scale, steps
+
+    refused: list[WorkLimit] = []
+
+    def part(i: int) -> None:
+        for orbit in range(i * _SHARE, min((i + 1) * _SHARE, count)):
+            # Where one takes too long the others need not be tried.
+            if not refused:
+                try:
+                    found[orbit] = follow(orbit)
+                except WorkLimit as error:
+                    refused.append(error)
+
+    share(part, -(-count // _SHARE), threads)
+    if refused:
+        raise refused[0]
+    starts, p = np.array(states, float, ndmin=2), np.asarray(parameters, float)
+    drifts = [drift_of(system, starts[i], found[i][0], p) for i in range(count) if len(found[i][0])]
+    drift = {name: max(one[name] for one in drifts) for name in (drifts[0] if drifts else ())}
+    wall_ms = (time.perf_counter() - begun) * 1e3
+    return Points([frozen(found[i][0]) for i in range(count)], drift,
+                  Cost(sum(steps for _, steps in found.values()), wall_ms))

@@ -1,0 +1,141 @@
+"""Speed against accuracy on one motion: errors over time, drift of the integrals, cost; all measured."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from hess_mechanics.dynamics.orbit import solve
+from hess_mechanics.dynamics.system import Problem, System, systems
+from hess_mechanics.numerics.accuracy import LEVELS, REFERENCE
+from hess_mechanics.numerics.results import Array, frozen
+
+__all__ = [
+    "SLOW_METHODS", "Growth", "WorkPoint", "growth", "longest_span", "measure_levels", "measure_others",
+    "others_take_long",
+]
+
+SLOW_METHODS = ("DOP853", "LSODA")
+_TOLERANCES = (1e-4, 1e-7, 1e-10)
+_LONGEST_FOR_OTHERS = 150.0
+_LONGEST = 5000.0
+"""Spans in units of 1/ν: SciPy's methods, and the levels, take a second or so up to there."""
+_MOST_STEPS_FOR_OTHERS = 1500
+"""Of the level `reference`; for each of them SciPy's methods take about 0.16 ms together."""
+
+
+@dataclass(frozen=True)
+class Growth:
+    """Errors along one motion.
+
+    times : (n,); errors, pixels, drift : for each level (n,): the largest error of any variable, where the
+    state is O(1); the error in the pictures; the largest relative change of any integral.
+    drifts : for each level, each integral's (n,).
+    """
+
+    times: Array
+    errors: Mapping[str, Array]
+    pixels: Mapping[str, Array]
+    drifts: Mapping[str, Mapping[str, Array]]
+
+
+@dataclass(frozen=True)
+class WorkPoint:
+    """One way to compute the motion: method and setting, milliseconds, largest error (where the state is O(1))."""
+
+    method: str
+    setting: str
+    ms: float
+    error: float
+
+
+def _truth(name: str, state: Sequence[float], parameters: Sequence[float], span: float, samples: int
+           ) -> tuple[System, Array, Array, Array]:
+    """System, even times, the motion at them, and the units in which it is O(1).
+
+    It is computed at the floor of double precision, in other steps than those of the level `reference`.
+    """
+    system = systems()[name]
+    times = np.linspace(0.0, span, samples)
+    states = solve(system, state, parameters, times, REFERENCE.tightened()).states
+    return system, times, states, Problem.of(system, state, parameters).scale
+
+
+def growth(name: str, state: tuple[float, ...], parameters: tuple[float, ...], span: float,
+           weights: tuple[float, ...], samples: int) -> Growth:
+    """Errors of all levels at even times up to `span`.
+
+    name : of the system; weights (d,) : pixels for a unit of each variable.
+    Raises `InvalidParameter`, `WorkLimit`.
+    """
+    system, times, truth, scale = _truth(name, state, parameters, span, samples)
+    first = system.angular_velocities
+    errors, pixels, drifts = {}, {}, {}
+    for level in LEVELS.values():
+        states = solve(system, state, parameters, times, level).states
+        difference = np.abs(states - truth)
+        errors[level.name] = frozen(np.max(difference / scale, axis=1))
+        weighted = difference * np.asarray(weights)
+        pixels[level.name] = frozen(np.maximum(np.linalg.norm(weighted[:, :first], axis=1),
+                                               np.linalg.norm(weighted[:, first:], axis=1)))
+        initial = system.integrals(state, parameters)
+        drifts[level.name] = {
+            key: frozen(np.abs(value - initial[key]) / max(1.0, abs(float(initial[key]))))
+            for key, value in system.integrals(states.T, parameters).items()
+        }
+    return Growth(frozen(times), errors, pixels, drifts)
+
+
+def _best_of(run: Callable[[], Array], repeats: int) -> tuple[float, Array]:
+    """Milliseconds of the fastest of some runs, and its result."""
+    best = np.inf
+    for _ in range(repeats):
+        start = time.perf_counter()
+        result = run()
+        best = min(best, time.perf_counter() - start)
+    return best * 1e3, result
+
+
+def measure_levels(name: str, state: tuple[float, ...], parameters: tuple[float, ...], span: float, samples: int
+                   ) -> tuple[WorkPoint, ...]:
+    """Cost and error of each level, its error estimate included, here and now.  Raises as `growth`."""
+    system, times, truth, scale = _truth(name, state, parameters, span, samples)
+    points = []
+    for level in LEVELS.values():
+        ms, states = _best_of(lambda: solve(system, state, parameters, times, level).states, 3)  # noqa: B023 (called at once)
+        points.append(WorkPoint("Taylor", level.name, ms, float(np.max(np.abs(states - truth) / scale))))
+    return tuple(points)
+
+
+def longest_span(name: str, state: Sequence[float], parameters: Sequence[float]) -> float:
+    """How long the motion can be studied within about a second.  Raises `InvalidParameter`."""
+    return _LONGEST / Problem.of(systems()[name], state, parameters).nu
+
+
+def others_take_long(name: str, state: Sequence[float], parameters: Sequence[float], span: float) -> bool:
+    """Whether SciPy's methods would take long for this motion.  Raises as `growth`.
+
+    Decided by the motion and not by a clock: so the same state always shows the same.
+    """
+    system = systems()[name]
+    return (span * Problem.of(system, state, parameters).nu > _LONGEST_FOR_OTHERS
+            or solve(system, state, parameters, np.array([0.0, span]), REFERENCE).cost.steps > _MOST_STEPS_FOR_OTHERS)
+
+
+def measure_others(name: str, state: tuple[float, ...], parameters: tuple[float, ...], span: float, samples: int
+                   ) -> tuple[WorkPoint, ...]:
+    """The same for SciPy's methods with the plain field, at three tolerances each; without error estimates."""
+    from scipy.integrate import solve_ivp  # 0.3 s of import that other scenes do not need
+
+    system, times, truth, scale = _truth(name, state, parameters, span, samples)
+    points = []
+    for method in SLOW_METHODS:
+        for tolerance in _TOLERANCES:
+            ms, states = _best_of(
+                lambda: solve_ivp(lambda _, y: system.field(y, parameters), (0.0, span), state, t_eval=times,
+                                  method=method, rtol=tolerance, atol=tolerance).y.T, 1)  # noqa: B023 (called at once)
+            points.append(WorkPoint(method, f"{tolerance:.0e}", ms, float(np.max(np.abs(states - truth) / scale))))
+    return tuple(points)

@@ -1,0 +1,1 @@
+"""The Euler–Poisson equations and their Hess case."""

@@ -1,0 +1,217 @@
+"""S11–S14: the Euler–Poisson equations of a heavy rigid body with a fixed point (`hh01`, `hh001`), and their Hess case.
+
+State y = (M1, M2, M3, γ1, γ2, γ3): angular momentum and vertical in the principal axes of the body.
+Parameters p = (a1, a2, a3, r1, r2, r3, μ): inverse moments, centre of mass, weight; ω = AM, potential −μ(r, γ).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from hess_mechanics.dynamics.system import System
+from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite
+from hess_mechanics.numerics.batch import ensemble_integrator
+from hess_mechanics.numerics.events import crossing_finder
+from hess_mechanics.numerics.jit import inner, kernel
+from hess_mechanics.numerics.results import Array
+from hess_mechanics.numerics.taylor import Quadratic, orbit_integrator
+from hess_mechanics.rigid_body.inertia import BodyCheck, require_finite
+
+__all__ = ["SYSTEM", "HeavyBody"]
+
+_MAX_RATIO = 1e20
+"""Beyond it the slow motion would drown in units of the fast one."""
+
+
+def _require_positive(a: Sequence[float]) -> None:
+    for i, value in enumerate(a, 1):
+        if not value > 0:
+            raise NotPositiveDefinite(f"a{i} = {value:g}, but a moment of inertia is positive: choose a{i} > 0.")
+    if max(a) / min(a) > _MAX_RATIO:
+        raise InvalidParameter(f"The moments of inertia are too different: choose ratios below {_MAX_RATIO:g}.")
+
+
+@dataclass(frozen=True)
+class HeavyBody:
+    """Inverse moments A = diag(a1, a2, a3), centre of mass r, weight μ.
+
+    Raises `InvalidParameter`, `NotPositiveDefinite`.
+    """
+
+    a: tuple[float, float, float]
+    r: tuple[float, float, float]
+    mu: float
+
+    def __post_init__(self) -> None:
+        names = ("a1", "a2", "a3", "r1", "r2", "r3", "μ")
+        require_finite(**dict(zip(names, self.parameters, strict=True)))
+        _require_positive(self.a)
+
+    @classmethod
+    def hess(cls, moments: tuple[float, float, float], strength: float, away: float = 0.0) -> HeavyBody:
+        """The body with these moments and μ|r| = strength, |r| = 1, in the Hess case (`gess-*1`, both r1, r3 > 0).
+
+        away : the angle, in radians, by which r is turned in the (r1, r3)-plane away from that direction.
+        Raises `InvalidParameter` where I2 is not between the others.
+        """
+        require_finite(I1=moments[0], I2=moments[1], I3=moments[2], away=away)
+        for i, value in enumerate(moments, 1):
+            if not value > 0:
+                raise NotPositiveDefinite(f"I{i} = {value:g}, but a moment of inertia is positive: choose I{i} > 0.")
+        a1, a2, a3 = (1.0 / moment for moment in moments)
+        if not (a2 - a1) * (a3 - a2) >= 0.0 or a1 == a3:
+            raise InvalidParameter(
+                f"I2 = {moments[1]:g} must lie between I1 = {moments[0]:g} and I3 = {moments[2]:g}, which differ: only "
+                "such a body has circular sections, to which the Hess condition refers.")
+        angle = math.atan2(math.sqrt(abs(a3 - a2)), math.sqrt(abs(a2 - a1))) + away
+        return cls((a1, a2, a3), (math.cos(angle), 0.0, math.sin(angle)), strength)
+
+    @property
+    def parameters(self) -> tuple[float, ...]:
+        """p = (a1, a2, a3, r1, r2, r3, μ)."""
+        return (*self.a, *self.r, self.mu)
+
+    @property
+    def strength(self) -> float:
+        """|μ||r|: the potential lies between minus this and this."""
+        return abs(self.mu) * math.hypot(*self.r)
+
+    @property
+    def hess_a(self) -> float:
+        """a = √((a3 − a2)(a2 − a1))/a2, the parameter of `eq01` on the Hess manifold."""
+        a1, a2, a3 = self.a
+        return math.sqrt(max(0.0, (a3 - a2) * (a2 - a1))) / a2
+
+    @property
+    def is_hess(self) -> bool:
+        """Whether the Hess condition `gess-*1` holds to round-off."""
+        a1, a2, a3 = self.a
+        r1, r2, r3 = self.r
+        if (a2 - a1) * (a3 - a2) < 0.0:
+            return False
+        left, right = abs(r1) * math.sqrt(abs(a3 - a2)), abs(r3) * math.sqrt(abs(a2 - a1))
+        return r2 == 0.0 and abs(left - right) <= 1e-14 * (left + right)
+
+    @property
+    def check(self) -> BodyCheck:
+        """Whether the moments are a body's: the triangle inequality."""
+        moments = sorted(1.0 / a for a in self.a)
+        if moments[2] <= (moments[0] + moments[1]) * (1 + 1e-15):
+            return BodyCheck(True, None, "A rigid body: its moments satisfy the triangle inequality.")
+        return BodyCheck(False, None, "Not a rigid body: one moment is larger than the sum of the two others. "
+                                      "The equations are still shown.")
+
+
+def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
+    """The right-hand side of `hh01`."""
+    M1, M2, M3, g1, g2, g3 = y
+    a1, a2, a3, r1, r2, r3, mu = p
+    return (
+        (a3 - a2) * M2 * M3 + mu * (r2 * g3 - r3 * g2),
+        (a1 - a3) * M3 * M1 + mu * (r3 * g1 - r1 * g3),
+        (a2 - a1) * M1 * M2 + mu * (r1 * g2 - r2 * g1),
+        a3 * g2 * M3 - a2 * g3 * M2,
+        a1 * g3 * M1 - a3 * g1 * M3,
+        a2 * g1 * M2 - a1 * g2 * M1,
+    )
+
+
+def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
+    """Energy H (`hh001`), area integral F1 = (M, γ), F2 = γ²."""
+    M1, M2, M3, g1, g2, g3 = y
+    a1, a2, a3, r1, r2, r3, mu = p
+    return {
+        "H": (a1 * M1**2 + a2 * M2**2 + a3 * M3**2) / 2 - mu * (r1 * g1 + r2 * g2 + r3 * g3),
+        "F1": M1 * g1 + M2 * g2 + M3 * g3,
+        "F2": g1**2 + g2**2 + g3**2,
+    }
+
+
+def frequency(y: Array, p: Array) -> Array | float:
+    """ν = √(2 max(a) (T + 2|μ||r||γ|)) of a state (6,) or many (6, n): no angular velocity exceeds it.
+
+    Raises `NotPositiveDefinite`, `InvalidParameter`.
+    """
+    a = np.asarray(p[:3])
+    _require_positive(a.tolist())
+    kinetic = (a[0] * y[0] ** 2 + a[1] * y[1] ** 2 + a[2] * y[2] ** 2) / 2
+    strength = abs(p[6]) * math.hypot(*p[3:6]) * np.sqrt(y[3] ** 2 + y[4] ** 2 + y[5] ** 2)
+    return np.sqrt(2 * a.max() * (kinetic + 2 * strength))
+
+
+def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:
+    """Time in units of 1/ν, moments of inertia in units of the largest: a → a/min(a), M → M min(a)/ν, …"""
+    y, p = y.copy(), p.copy()
+    smallest = float(p[:3].min())
+    y[:3] *= smallest / nu
+    p[:3] /= smallest
+    p[6] *= smallest / (nu * nu)
+    return y, p
+
+
+def momentum_unit(p: Array) -> float:
+    """1/min(a): the momentum in units of `rescale` at ν = 1."""
+    return 1.0 / float(p[:3].min())
+
+
+@inner
+def rates(y, q, p):
+    """`hh01` in terms of its products."""
+    _, _, _, g1, g2, g3 = y
+    a1, a2, a3, r1, r2, r3, mu = p
+    M2M3, M3M1, M1M2, g2M3, g3M2, g3M1, g1M3, g1M2, g2M1 = q
+    return (
+        (a3 - a2) * M2M3 + mu * (r2 * g3 - r3 * g2),
+        (a1 - a3) * M3M1 + mu * (r3 * g1 - r1 * g3),
+        (a2 - a1) * M1M2 + mu * (r1 * g2 - r2 * g1),
+        a3 * g2M3 - a2 * g3M2,
+        a1 * g3M1 - a3 * g1M3,
+        a2 * g1M2 - a1 * g2M1,
+    )
+
+
+QUADRATIC = Quadratic("M1 M2 M3 g1 g2 g3", "M2*M3 M3*M1 M1*M2 g2*M3 g3*M2 g3*M1 g1*M3 g1*M2 g2*M1", rates, parameters=7)
+_orbit = orbit_integrator(QUADRATIC)
+_ensemble = ensemble_integrator(QUADRATIC)
+_cross = crossing_finder(QUADRATIC)
+
+
+@kernel
+def orbit(y, p, times, order, tolerance, max_steps, out):
+    """One orbit of `hh01`, see `orbit_integrator`."""
+    return _orbit(y, p, times, order, tolerance, max_steps, out)
+
+
+@kernel
+def ensemble(states, p, times, order, tolerance, max_steps, out):
+    """Many orbits of `hh01`, see `ensemble_integrator`."""
+    return _ensemble(states, p, times, order, tolerance, max_steps, out)
+
+
+@kernel
+def cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states):
+    """Crossings of a plane by one orbit of `hh01`, see `crossing_finder`."""
+    return _cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states)
+
+
+SYSTEM = System(
+    name="euler-poisson",
+    title="Euler–Poisson equations",
+    labels=("hh01", "hh001"),
+    variables=("M1", "M2", "M3", "γ1", "γ2", "γ3"),
+    parameters=("a1", "a2", "a3", "r1", "r2", "r3", "mu"),
+    field=field,
+    integrals=integrals,
+    frequency=frequency,
+    rescale=rescale,
+    unit=momentum_unit,
+    orbit=orbit,
+    ensemble=ensemble,
+    cross=cross,
+    example=((0.8, -0.4, 0.5, 0.36, 0.48, 0.8), (1.0, 1.25, 1.6, 0.3, -0.5, 1.0, 0.5)),
+)

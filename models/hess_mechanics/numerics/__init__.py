@@ -1,0 +1,1 @@
+"""Compilation, accuracy levels, Taylor series, events, batches."""

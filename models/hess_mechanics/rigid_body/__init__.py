@@ -1,0 +1,1 @@
+"""Rigid bodies: inertia tensors and attitudes."""

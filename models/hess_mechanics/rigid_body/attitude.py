@@ -1,0 +1,149 @@
+"""The attitude of a body in space: a second direction fixed there, followed from the body beside the vertical.
+
+Every direction fixed in space obeys the equation of the vertical, ė = e × ω.  So the field of a system whose last
+three variables are the vertical γ is called a second time with e in the place of γ, and nothing is written twice.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from hess_mechanics.dynamics.orbit import solve
+from hess_mechanics.dynamics.sampling import sample_times
+from hess_mechanics.dynamics.system import System
+from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.jit import kernel
+from hess_mechanics.numerics.results import Array, Orbit, frozen
+from hess_mechanics.numerics.taylor import Quadratic, orbit_integrator
+from hess_mechanics.numerics.unrolled import compiled
+from hess_mechanics.suslov_hess import equations as hess
+
+__all__ = ["HESS", "Attitude", "across", "attitude", "with_attitude"]
+
+
+def with_attitude(field: Quadratic) -> Quadratic:
+    """The field with the variables e1, e2, e3 behind its own, the last three of which are the vertical.
+
+    Raises `InvalidParameter` for a field with auxiliary series, whose stages would have to be told of e.
+    """
+    if field.stages or field.constants:
+        raise InvalidParameter("The attitude can be followed for fields that need no auxiliary series.")
+    names, products = field.variables.split(), field.products.split()
+    n, m = len(names), len(products)
+    instead = dict(zip(names[-3:], ("e1", "e2", "e3"), strict=True))
+    turned = ["*".join(instead.get(name, name) for name in product.split("*")) for product in products]
+    added = [product for product in turned if product not in products]
+    places = [(products + added).index(product) for product in turned]
+    rates = compiled(f"""
+def function(y, q, p):
+    r = rates(({_items("y", range(n))}), ({_items("q", range(m))}), p)
+    s = rates(({_items("y", [*range(n - 3), *range(n, n + 3)])}), ({_items("q", places)}), p)
+    return ({_items("r", range(n))} s[{n - 3}], s[{n - 2}], s[{n - 1}])
+""", rates=field.rates)
+    return Quadratic(" ".join([*names, "e1", "e2", "e3"]), " ".join(products + added), rates, field.parameters)
+
+
+def _items(name: str, places: Sequence[int]) -> str:
+    return " ".join(f"{name}[{i}]," for i in places)
+
+
+def _only_one_orbit(*arguments: Any) -> Any:
+    # A programmer's mistake: no scene draws the attitudes of many, and kernels for them would take long to compile.
+    raise NotImplementedError("attitudes are followed along one orbit at a time")
+
+
+def _extended(system: System, orbit: Callable[..., int]) -> System:
+    """The system of `with_attitude`, with the kernel of its orbits; among its integrals e² = 1 and (e, γ) = 0."""
+    n = len(system.variables)
+
+    def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
+        return (*system.field(y[:n], p), *system.field((*y[: n - 3], *y[n:]), p)[-3:])
+
+    def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
+        g, e = y[n - 3 : n], y[n:]
+        return {**system.integrals(y[:n], p), "e²": e[0] ** 2 + e[1] ** 2 + e[2] ** 2,
+                "(e,γ)": e[0] * g[0] + e[1] * g[1] + e[2] * g[2]}
+
+    def frequency(y: Array, p: Array) -> Array | float:
+        return system.frequency(y[:n], p)
+
+    def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:
+        scaled, p = system.rescale(y[:n], p, nu)
+        return np.concatenate([scaled, y[n:]]), p
+
+    state, p = system.example
+    return replace(
+        system, name=f"{system.name}-attitude", title=f"{system.title}, with the attitude",
+        variables=(*system.variables, "e1", "e2", "e3"), field=field, integrals=integrals, frequency=frequency,
+        rescale=rescale, orbit=orbit, ensemble=_only_one_orbit, cross=_only_one_orbit,
+        example=((*state, *across(state[-3:])), p))
+
+
+def across(vertical: Sequence[float] | Array) -> Array:
+    """A unit vector (3,) across the vertical: the start of e where it is no matter which."""
+    g = np.asarray(vertical, float)
+    e = np.zeros(3)
+    e[np.argmin(np.abs(g))] = 1.0
+    e -= g * (g @ e) / (g @ g)
+    return e / np.linalg.norm(e)
+
+
+_hess = orbit_integrator(with_attitude(hess.QUADRATIC))
+
+
+@kernel
+def _hess_orbit(y, p, times, order, tolerance, max_steps, out):
+    """One orbit of `eq01` with the attitude, see `orbit_integrator`."""
+    return _hess(y, p, times, order, tolerance, max_steps, out)
+
+
+HESS = _extended(hess.SYSTEM, _hess_orbit)
+"""`eq01`, ω = (w1, w2, −a w2), with e: state (w1, w2, n1, n2, n3, e1, e2, e3)."""
+
+
+@dataclass(frozen=True)
+class Attitude:
+    """How the body lies in space along an orbit.
+
+    times : (n,); axes : (n, 3, 3), in its rows the vertical γ, e and γ × e as seen from the body, orthonormal to
+    round-off; defect : how far γ and e were from that before, at the worst; orbit : the computation.
+    """
+
+    times: Array
+    axes: Array
+    defect: float
+    orbit: Orbit
+
+    def in_space(self, vector: Sequence[float] | Array) -> Array:
+        """The components along γ, e, γ × e of a direction of the body: (3,), or one for each time (n, 3) → (n, 3)."""
+        return np.einsum("nij,nj->ni", self.axes, np.broadcast_to(vector, self.axes.shape[:2]))
+
+
+def attitude(system: System, start: Sequence[float] | Array, parameters: Sequence[float], span: float, level: Level,
+             weights: Sequence[float], sagitta: float, most: int) -> Attitude:
+    """The attitude along the orbit of an extended system from `start`, |γ| = |e| = 1, (e, γ) = 0.
+
+    weights, sagitta, most : as for `sample_times`.  Raises `InvalidParameter`, `WorkLimit`.
+    """
+    state = np.asarray(start, float)
+    times = sample_times(system, state, np.asarray(parameters, float), span, np.asarray(weights), sagitta, most)
+    orbit = solve(system, state, parameters, times, level)
+    axes, defect = _orthonormal(orbit.states[:, -6:-3], orbit.states[:, -3:])
+    return Attitude(orbit.times, frozen(axes), defect, orbit)
+
+
+def _orthonormal(g: Array, e: Array) -> tuple[Array, float]:
+    """γ, e and γ × e, rows of (n, 3, 3), and the largest of | |γ|−1 |, | |e|−1 |, |(e, γ)| before."""
+    long_g, long_e = np.linalg.norm(g, axis=1), np.linalg.norm(e, axis=1)
+    defect = max(np.max(np.abs(x)) for x in (long_g - 1.0, long_e - 1.0, np.sum(g * e, axis=1)))
+    g = g / long_g[:, None]
+    # Twice is enough: what the first pass leaves along γ is round-off of round-off.
+    for _ in range(2):
+        e = e - g * np.sum(g * e, axis=1)[:, None]
+        e = e / np.linalg.norm(e, axis=1)[:, None]
+    return np.stack([g, e, np.cross(g, e)], axis=1), float(defect)

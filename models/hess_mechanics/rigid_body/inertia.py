@@ -1,0 +1,85 @@
+"""Which inertia tensors belong to a rigid body (`Biz03`: I12 = 0, constraint axis e = e3).
+
+The Suslov problem never asks for I33.  The tensor is a body's if for some I33 its second
+moments ½ tr I − I are not negative (for principal moments: the triangle inequality).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite
+
+__all__ = ["BodyCheck", "body_check", "check_body", "require_finite", "require_positive_definite"]
+
+
+def require_finite(**values: float) -> None:
+    """Raise `InvalidParameter` naming the first value that is not a finite number."""
+    for name, value in values.items():
+        if not math.isfinite(value):
+            raise InvalidParameter(f"{name} is not a finite number: give {name} a finite value.")
+
+
+def require_positive_definite(I11: float, I22: float) -> None:
+    """Raise `NotPositiveDefinite` unless I11, I22 > 0 (some I33 then completes the tensor)."""
+    for name, value in (("I11", I11), ("I22", I22)):
+        if not value > 0:
+            raise NotPositiveDefinite(
+                f"{name} = {value:g}, but a moment of inertia is positive: choose {name} > 0."
+            )
+
+
+SEARCH = {"xtol": 1e-300, "rtol": 1e-15, "maxiter": 1000}
+
+
+@dataclass(frozen=True)
+class BodyCheck:
+    """Is this a rigid body's tensor?  `I33` is the admissible interval, or None if there is none."""
+
+    is_body: bool
+    I33: tuple[float, float] | None
+    sentence: str
+
+
+def body_check(I33: tuple[float, float] | None) -> BodyCheck:
+    """The answer in words, from the admissible interval of I33 (None: there is none)."""
+    if I33 is None:
+        return BodyCheck(
+            False, None,
+            "Not a rigid body: for no I33 do the principal moments satisfy the triangle inequality. "
+            "The equations are still shown.",
+        )
+    return BodyCheck(True, I33, f"A rigid body for I33 between {I33[0]:.4g} and {I33[1]:.4g}.")
+
+
+def check_body(I11: float, I22: float, I13: float, I23: float) -> BodyCheck:
+    """The values of I33 for which ½ tr I − I ≥ 0.
+
+    With s = (I11+I22)/2, d = (I11−I22)/2, y = I33/2 ≥ |d| the condition is
+    g(y) = s − y − I23²/(y+d) − I13²/(y−d) ≥ 0, and g is concave: the answer is an interval.
+    Raises `InvalidParameter`, `NotPositiveDefinite`.
+    """
+    require_finite(I11=I11, I22=I22, I13=I13, I23=I23)
+    require_positive_definite(I11, I22)
+    scale = max(I11, I22)
+    s, d = (I11 + I22) / (2 * scale), (I11 - I22) / (2 * scale)
+    # Beyond 2 the answer is no in any case: the bound keeps squares in range.
+    p, q = min(abs(I23) / scale, 2.0) ** 2, min(abs(I13) / scale, 2.0) ** 2
+
+    # Here and not above: the import takes 0.3 s, and a page of the Hess case has a closed form.
+    from scipy.optimize import brentq
+
+    def g(y: float) -> float:
+        return s - y - (p / (y + d) if p else 0.0) - (q / (y - d) if q else 0.0)
+
+    def slope(y: float) -> float:
+        return -1.0 + (p / (y + d) ** 2 if p else 0.0) + (q / (y - d) ** 2 if q else 0.0)
+
+    low = abs(d) * (1 + 1e-15) + 1e-150  # clear of the poles, and its square of underflow
+    top = low if slope(low) <= 0 else brentq(slope, low, low + 2 * (math.sqrt(p) + math.sqrt(q)), **SEARCH)
+    if not g(top) > 1e-15 * s:
+        return body_check(None)
+    lower = abs(d) if g(low) >= 0 else brentq(g, low, top, **SEARCH)
+    upper = brentq(g, top, s, **SEARCH) if g(s) < 0 else s
+    return body_check((2 * lower * scale, 2 * upper * scale))

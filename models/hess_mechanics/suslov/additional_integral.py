@@ -1,0 +1,200 @@
+"""S3: the additional integral F2 of the free Suslov problem (`eq834`), for every odd k.
+
+Where I13 = 0 and I11 I22 = I22² + k² I23², k odd, F2 = (γ, V(ω)) is an integral of `biz132` with γ̇ = γ × ω if
+V̇ = V × ω.  With n = (k+1)/2 and
+
+    V1 = Σ a_j ω1^(k−2j) ω2^(2j),  V2 = Σ b_j ω1^(k−1−2j) ω2^(2j+1),  V3 = Σ c_j ω1^(k−1−2j) ω2^(2j+1),  0 ≤ j < n,
+
+that is a recursion upwards in j, rational in I22 and I23:
+
+    c_j       = I23 ((2j+1) b_j/I22 − (k+1−2j) b_(j−1)/I11)
+    a_j − b_j = I23 ((2j+1) c_j/I22 − (k+1−2j) c_(j−1)/I11)
+    a_(j+1)   = I22/(2j+2) ((k−2j) a_j/I11 − c_j/I23),
+
+begun with b_0 = I22^n I11^(k−1), the paper's scale; a_n = 0 is the condition `eq834`.  The other case, I23 = 0, comes
+from the permutation 1 ↔ 2, with γ3 → −γ3, I13 → −I23 and I23 → −I13: so its condition is I11 I22 = I11² + k² I13²
+(the paper prints I22² there).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
+
+import numpy as np
+
+from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.results import Array
+from hess_mechanics.rigid_body.inertia import require_finite, require_positive_definite
+from hess_mechanics.suslov.equations import SuslovBody
+
+__all__ = ["MAX_K", "AdditionalIntegral", "Coefficients", "I11_of", "additional_integral", "coefficients", "formula",
+           "of_body", "order"]
+
+MAX_K = 15
+
+
+def _check_order(k: int) -> None:
+    if not (isinstance(k, int) and k % 2 == 1 and 1 <= k <= MAX_K):
+        raise InvalidParameter(f"k = {k} has no integral here: choose an odd k from 1 to {MAX_K}.")
+
+
+def I11_of(k: int, I22: float, I23: float) -> float:
+    """I11 = I22 + k² I23²/I22 (`eq834`).  Raises `InvalidParameter`, `NotPositiveDefinite`."""
+    _check_order(k)
+    require_finite(I22=I22, I23=I23)
+    require_positive_definite(1.0, I22)
+    return I22 + k * k * (I23 / I22) * I23
+
+
+@dataclass(frozen=True)
+class Coefficients:
+    """a, b, c : n = (k+1)/2 exact coefficients each, see the module's docstring; rest : a_n, 0 if F2 is conserved."""
+
+    k: int
+    a: tuple[Fraction, ...]
+    b: tuple[Fraction, ...]
+    c: tuple[Fraction, ...]
+    rest: Fraction
+
+
+@lru_cache(maxsize=64)
+def coefficients(k: int, I22: Fraction | float, I23: Fraction | float) -> Coefficients:
+    """Of case 1 of `eq834`, exact for these I22 and I23 ≠ 0, with I11 from k.
+
+    Raises `InvalidParameter`.
+    """
+    _check_order(k)
+    if not (I22 > 0 and I23 != 0):
+        raise InvalidParameter("F2 needs I22 > 0 and I23 other than 0: with I13 = I23 = 0 ω does not change at all.")
+    return _recursion(k, Fraction(I22), Fraction(I23))
+
+
+def _recursion(k: int, I22: Fraction, I23: Fraction) -> Coefficients:
+    I11 = I22 + k * k * I23**2 / I22
+    n, x = (k + 1) // 2, I23 / I22
+    a, b, c = [Fraction(0)], [I22**n * I11 ** (k - 1)], [Fraction(0)]
+    for j in range(n):
+        odd, back = 2 * j + 1, (k + 1 - 2 * j) * I23 / I11
+        below_b, below_c = (b[j - 1], c[j - 1]) if j else (Fraction(0), Fraction(0))
+        # c_j = odd x b_j − back b_(j−1) in a_j = b_j + odd x c_j − back c_(j−1)
+        if j:
+            b.append((a[j] + odd * x * back * below_b + back * below_c) / (1 + (odd * x) ** 2))
+            c.append(Fraction(0))
+        c[j] = odd * x * b[j] - back * below_b
+        a[j] = b[j] + odd * x * c[j] - back * below_c
+        a.append(I22 / (2 * j + 2) * ((k - 2 * j) * a[j] / I11 - c[j] / I23))
+    return Coefficients(k, tuple(a[:n]), tuple(b), tuple(c), a[n])
+
+
+@dataclass(frozen=True)
+class AdditionalIntegral:
+    """F2 = (γ, V(ω)) of one body.
+
+    k : its degree in ω; permuted : True for case 2 of `eq834` (I23 = 0);
+    a, b, c : (n,) the coefficients in double precision (of the permuted body in case 2);
+    inertia : the moment about ξ, I11 (in case 2 I22).
+    """
+
+    k: int
+    permuted: bool
+    a: Array
+    b: Array
+    c: Array
+    inertia: float
+
+    def vector(self, omega: Array) -> Array:
+        """V(ω), shape (…, 3), for ω (…, 2)."""
+        omega = np.asarray(omega, float)
+        w1, w2 = (omega[..., 1], omega[..., 0]) if self.permuted else (omega[..., 0], omega[..., 1])
+        j = np.arange(self.a.size)
+        odd = w1[..., None] ** (self.k - 2 * j) * w2[..., None] ** (2 * j)
+        even = w1[..., None] ** (self.k - 1 - 2 * j) * w2[..., None] ** (2 * j + 1)
+        v1, v2, v3 = odd @ self.a, even @ self.b, even @ self.c
+        return np.stack([v2, v1, -v3] if self.permuted else [v1, v2, v3], axis=-1)
+
+    def __call__(self, omega: Array, gamma: Array) -> Array:
+        """F2, shape (…), for ω (…, 2) and γ (…, 3)."""
+        return np.sum(self.vector(omega) * np.asarray(gamma, float), axis=-1)
+
+    def at_fixed_points(self, h: float) -> tuple[float, float]:
+        """(f^+, f^−): F2 at ω^(±), γ^(±) = ±ξ with energy h (`biz138`).  They are equal; −f^± belongs to γ = ∓ξ.
+
+        Raises `InvalidParameter` unless h > 0.
+        """
+        require_finite(h=h)
+        if not h > 0.0:
+            raise InvalidParameter(f"E = h = {h:g}, but without a field energy is positive: choose h > 0.")
+        # There V = ∓a_0 |ω|^k ξ, whatever the signs of I13 and I23 are: k is odd.
+        f = -float(self.a[0]) * math.sqrt(2.0 * h / self.inertia) ** self.k
+        return f, f
+
+    def cycles(self, h: float, f: float) -> tuple[float, float]:
+        """(Γ on C^+, Γ on C^−): the two limit cycles on the torus E = h, F2 = f; they are −Γ of one another.
+
+        Raises `InvalidParameter` where |f| exceeds |f^±|: no motion has these values.
+        """
+        top, _ = self.at_fixed_points(h)
+        require_finite(f=f)
+        if not abs(f) <= abs(top):
+            raise InvalidParameter(
+                f"F2 = f = {f:g} is beyond every motion with h = {h:g}: choose |f| ≤ {abs(top):.6g}.")
+        return f / top, -f / top
+
+
+def order(body: SuslovBody) -> int | None:
+    """The odd k ≤ 15 for which the body fulfils `eq834` to round-off, or None."""
+    I11, I22, I13, I23, *b = body.parameters
+    if any(b) or (I13 == 0.0) == (I23 == 0.0):
+        return None
+    if I23 == 0.0:
+        I11, I22, I23 = I22, I11, I13
+    squared = (I22 / I23) * ((I11 - I22) / I23)
+    if not 0.5 < squared < (MAX_K + 1) ** 2:
+        return None
+    k = 2 * int(math.sqrt(squared) // 2) + 1
+    # I11 is known to a few units in the last place; where that blurs k itself, no k can be told.
+    blur = 2e-15 * (I11 / abs(I23)) * (I22 / abs(I23)) + 4e-15 * squared
+    return k if k <= MAX_K and abs(squared - k * k) <= blur < 1e-3 else None
+
+
+def additional_integral(k: int, body: SuslovBody) -> AdditionalIntegral:
+    """F2 of degree k for a body with I13 = 0 or I23 = 0 whose I11 (in case 2: I22) comes from k.
+
+    Raises `InvalidParameter` (k even or too large, neither or both of I13, I23 zero).
+    """
+    permuted = body.I23 == 0.0
+    if permuted == (body.I13 == 0.0):
+        raise InvalidParameter("F2 is known where one of I13, I23 is 0 and the other is not: set one of them to 0.")
+    I22, I23 = (body.I11, -body.I13) if permuted else (body.I22, body.I23)
+    exact = coefficients(k, I22, I23)
+    try:
+        a, b, c = (np.array([float(x) for x in row]) for row in (exact.a, exact.b, exact.c))
+    except OverflowError:
+        raise InvalidParameter(
+            "The coefficients of F2 leave double range: measure the moments of inertia in other units.") from None
+    return AdditionalIntegral(k, permuted, a, b, c, I11_of(k, I22, I23))
+
+
+def of_body(body: SuslovBody) -> AdditionalIntegral | None:
+    """F2 of the body, or None where `eq834` does not hold."""
+    k = order(body)
+    return None if k is None else additional_integral(k, body)
+
+
+_FORMULAS = {
+    1: r"F_2 = I_{11}\gamma_1\omega_1 + (I_{22}\gamma_2 + I_{23}\gamma_3)\omega_2",
+    3: r"F_2 = I_{11}^2\omega_1^2\big((I_{22}^2 + I_{23}^2)\gamma_1\omega_1 + I_{22}(I_{22}\gamma_2 + I_{23}\gamma_3)"
+       r"\omega_2\big) + I_{22}\omega_2^2\big(I_{22}(I_{22}^2 + 5I_{23}^2)\gamma_2\omega_2 + (I_{22}^2 - 3I_{23}^2)"
+       r"(I_{11}\gamma_1\omega_1 + I_{23}\gamma_3\omega_2)\big)",
+}
+
+
+def formula(k: int) -> str:
+    """F2 in LaTeX, case 1 of `eq834`: written out for k = 1 and 3, else the sum.  Raises `InvalidParameter`."""
+    _check_order(k)
+    return _FORMULAS.get(k, (
+        rf"F_2 = \sum_{{j=0}}^{{{(k - 1) // 2}}} \omega_1^{{{k - 1}-2j}}\omega_2^{{2j}}"
+        r"\big(a_j\gamma_1\omega_1 + (b_j\gamma_2 + c_j\gamma_3)\omega_2\big)"))

@@ -1,0 +1,170 @@
+"""S1: the Suslov problem with gravity (`Biz131`, `Biz11`).
+
+A rigid body with a fixed point, the constraint ω3 = 0 along e = e3, I12 = 0, potential (b, γ).
+State y = (ω1, ω2, γ1, γ2, γ3), parameters p = (I11, I22, I13, I23, b1, b2, b3).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from hess_mechanics.dynamics.system import System
+from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.batch import ensemble_integrator
+from hess_mechanics.numerics.events import crossing_finder
+from hess_mechanics.numerics.jit import inner, kernel
+from hess_mechanics.numerics.results import Array
+from hess_mechanics.numerics.taylor import Quadratic, orbit_integrator
+from hess_mechanics.rigid_body.inertia import require_finite, require_positive_definite
+
+__all__ = ["SYSTEM", "SuslovBody", "unit_vector"]
+
+
+@dataclass(frozen=True)
+class SuslovBody:
+    """Inertia tensor (`Biz03`) and b = −mg r.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
+
+    I11: float
+    I22: float
+    I13: float
+    I23: float
+    b1: float = 0.0
+    b2: float = 0.0
+    b3: float = 0.0
+
+    def __post_init__(self) -> None:
+        require_finite(**vars(self))
+        require_positive_definite(self.I11, self.I22)
+
+    @property
+    def parameters(self) -> tuple[float, ...]:
+        """p = (I11, I22, I13, I23, b1, b2, b3)."""
+        return (self.I11, self.I22, self.I13, self.I23, self.b1, self.b2, self.b3)
+
+
+def unit_vector(gamma: Sequence[float]) -> tuple[tuple[float, float, float], str | None]:
+    """γ of length one, and a note if it had to be normalised.  Raises `InvalidParameter` for γ = 0."""
+    length = math.hypot(*gamma)
+    if not (math.isfinite(length) and length > 0):
+        raise InvalidParameter("γ must be a finite vector other than 0: it is the direction of the vertical.")
+    g1, g2, g3 = (g / length for g in gamma)
+    note = None if abs(length - 1) <= 1e-15 else f"γ had length {length:.12g}; it was normalised to 1."
+    return (g1, g2, g3), note
+
+
+def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
+    """The right-hand side of `Biz131`."""
+    w1, w2, g1, g2, g3 = y
+    I11, I22, I13, I23, b1, b2, b3 = p
+    s = I13 * w1 + I23 * w2
+    return (
+        (-w2 * s + b3 * g2 - b2 * g3) / I11,
+        (w1 * s + b1 * g3 - b3 * g1) / I22,
+        -g3 * w2,
+        g3 * w1,
+        g1 * w2 - g2 * w1,
+    )
+
+
+def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
+    """`Biz11`: energy E and F1 = γ²."""
+    w1, w2, g1, g2, g3 = y
+    I11, I22, _, _, b1, b2, b3 = p
+    return {
+        "E": (I11 * w1**2 + I22 * w2**2) / 2 + (b1 * g1 + b2 * g2 + b3 * g3),
+        "F1": g1**2 + g2**2 + g3**2,
+    }
+
+
+_MAX_RATIO = 1e20
+"""Beyond it the slow motion would drown in units of the fast one."""
+
+
+def frequency(y: Array, p: Array) -> Array | float:
+    """ν = √(2(E+|b||γ|)/min(I11, I22)) of a state (5,) or many (5, n): no angular velocity of the motion exceeds it.
+
+    Raises `NotPositiveDefinite`, `InvalidParameter`.
+    """
+    I11, I22 = p[0], p[1]
+    require_positive_definite(I11, I22)
+    if not 1.0 / _MAX_RATIO <= I11 / I22 <= _MAX_RATIO:
+        raise InvalidParameter(f"The moments I11 and I22 are too different: choose a ratio below {_MAX_RATIO:g}.")
+    field_strength = math.hypot(*p[4:7]) * np.sqrt(y[2] ** 2 + y[3] ** 2 + y[4] ** 2)
+    kinetic_now = (I11 * y[0] ** 2 + I22 * y[1] ** 2) / 2
+    return np.sqrt(2 * (kinetic_now + 2 * field_strength) / min(I11, I22))
+
+
+def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:
+    """Time in units of 1/ν: ω → ω/ν, b → b/ν²."""
+    y, p = y.copy(), p.copy()
+    y[:2] /= nu
+    p[4:] /= nu * nu
+    return y, p
+
+
+@inner
+def rates(y, q, p):
+    """`Biz131` in terms of its products."""
+    _, _, g1, g2, g3 = y
+    I11, I22, I13, I23, b1, b2, b3 = p
+    w1w2, w2w2, w1w1, g3w2, g3w1, g1w2, g2w1 = q
+    return (
+        (b3 * g2 - b2 * g3 - I13 * w1w2 - I23 * w2w2) * (1.0 / I11),
+        (b1 * g3 - b3 * g1 + I13 * w1w1 + I23 * w1w2) * (1.0 / I22),
+        -g3w2,
+        g3w1,
+        g1w2 - g2w1,
+    )
+
+
+QUADRATIC = Quadratic("w1 w2 g1 g2 g3", "w1*w2 w2*w2 w1*w1 g3*w2 g3*w1 g1*w2 g2*w1", rates, parameters=7)
+_orbit = orbit_integrator(QUADRATIC)
+_ensemble = ensemble_integrator(QUADRATIC)
+_cross = crossing_finder(QUADRATIC)
+
+
+@kernel
+def orbit(y, p, times, order, tolerance, max_steps, out):
+    """One orbit of `Biz131`, see `orbit_integrator`."""
+    return _orbit(y, p, times, order, tolerance, max_steps, out)
+
+
+
+@kernel
+def ensemble(states, p, times, order, tolerance, max_steps, out):
+    """Many orbits of `Biz131`, see `ensemble_integrator`."""
+    return _ensemble(states, p, times, order, tolerance, max_steps, out)
+
+
+
+@kernel
+def cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states):
+    """Crossings of a plane by one orbit of `Biz131`, see `crossing_finder`."""
+    return _cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states)
+
+
+SYSTEM = System(
+    name="suslov",
+    title="Suslov problem with gravity",
+    labels=("Biz131", "Biz11"),
+    variables=("ω1", "ω2", "γ1", "γ2", "γ3"),
+    parameters=("I11", "I22", "I13", "I23", "b1", "b2", "b3"),
+    field=field,
+    integrals=integrals,
+    frequency=frequency,
+    rescale=rescale,
+    orbit=orbit,
+    ensemble=ensemble,
+    cross=cross,
+    example=((0.8, -0.4, 0.6, 0.0, 0.8), (2.0, 1.0, 0.3, 0.5, 0.3, -0.5, 1.0)),
+)
+
+
+def state(omega: Sequence[float], gamma: Sequence[float]) -> Array:
+    """y from ω = (ω1, ω2) and γ."""
+    return np.array([*omega, *gamma], float)

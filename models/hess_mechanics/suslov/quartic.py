@@ -1,0 +1,191 @@
+"""S7: the Suslov problem with e on a principal axis and the centre of mass on it, b1 = b2 = 0 (`eqs02`).
+
+At E = h the energy gives γ3 = h/b3 − (b3/2)(q1²/I22 + q2²/I11) with q = (I22 ω2, −I11 ω1)/b3, and p = (γ1, γ2) obeys
+
+    q̇ = −p,  ṗ = ∇V(q),  V = γ3²/2,  H = p²/2 + V = 1/2:
+
+a point in a quartic potential, always at the level ½, run backwards ({p_i, q_k} = δ_ik).  It may be where |γ3| ≤ 1: in
+an ellipse for |h| < |b3|, between two for h > |b3|.  For I11 = I22 the potential is central, and q1 p2 − q2 p1 =
+I11(ω1γ1 + ω2γ2)/b3 is an integral.  The body's own time is the point's.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from hess_mechanics.dynamics.section import Plane, Points, section_points
+from hess_mechanics.errors import InvalidParameter, NoField, OutsideRegion, WorkLimit
+from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.results import Array
+from hess_mechanics.rigid_body.inertia import require_finite, require_positive_definite
+from hess_mechanics.suslov.equations import SYSTEM
+
+__all__ = ["QuarticBody", "angular_momentum", "quartic_section", "seeds", "state_at", "state_on_section"]
+
+_TURNS = 120.0
+"""Time given for a crossing, in units in which ω is at most 1: few orbits take longer."""
+_EDGE = 1e-9
+_MOST_SIZE = 1e30
+"""Of q: a picture's numbers are single precision."""
+
+
+@dataclass(frozen=True)
+class QuarticBody:
+    """A body with I13 = I23 = 0 and b = (0, 0, b3), at the energy h.
+
+    Raises `NoField` (b3 = 0), `OutsideRegion` (h ≤ −|b3|), `InvalidParameter`, `NotPositiveDefinite`.
+    """
+
+    I11: float
+    I22: float
+    b3: float
+    h: float
+
+    def __post_init__(self) -> None:
+        require_finite(**vars(self))
+        require_positive_definite(self.I11, self.I22)
+        if self.b3 == 0.0:
+            raise NoField("b3 = 0: without a field γ₃ does not follow from the energy. Choose b3 other than 0.")
+        if not self.h > -abs(self.b3):
+            raise OutsideRegion(
+                f"No motion has the energy h = {self.h:g}: choose h above −|b3| = {-abs(self.b3):.6g}.")
+        smallest, largest = sorted(self.axes)
+        if not 1.0 / _MOST_SIZE <= smallest <= largest <= _MOST_SIZE:
+            raise InvalidParameter(
+                f"The region in the plane has half axes {self.axes[0]:.2g} and {self.axes[1]:.2g}, which no "
+                "picture can show: choose h, b3 and the moments of inertia less different in size.")
+
+    @property
+    def parameters(self) -> tuple[float, ...]:
+        """Those of the system "suslov"."""
+        return (self.I11, self.I22, 0.0, 0.0, 0.0, 0.0, self.b3)
+
+    @property
+    def axes(self) -> tuple[float, float]:
+        """Half axes of the ellipse in which the point may be: there γ3 b3 = −|b3|."""
+        size = 2.0 * (self.h + abs(self.b3))
+        return math.sqrt(size * self.I22) / abs(self.b3), math.sqrt(size * self.I11) / abs(self.b3)
+
+    @property
+    def hole(self) -> float:
+        """The ellipse in which it may not be, in units of `axes`; 0 for h ≤ |b3|."""
+        size = abs(self.b3)
+        return math.sqrt(max(0.0, self.h - size) / (self.h + size))
+
+    @property
+    def across(self) -> int:
+        """Which q the section holds at 0: that along which the ellipse is narrower.
+
+        For h > |b3| a point can stay near one end of the longer axis for ever; it always crosses that axis.
+        """
+        return 0 if self.I11 > self.I22 else 1
+
+    @property
+    def plane(self) -> Plane:
+        """The section q_i = 0, i = `across`, where that q grows: in terms of ω."""
+        sense = 1 if self.b3 > 0.0 else -1
+        if self.across == 0:
+            return Plane((0.0, 1.0, 0.0, 0.0, 0.0), sense=sense)
+        return Plane((1.0, 0.0, 0.0, 0.0, 0.0), sense=-sense)
+
+    def height(self, q: Array) -> Array:
+        """γ3 at q (..., 2); the potential V is γ3²/2."""
+        q = np.asarray(q, float)
+        return np.asarray(self.h / self.b3 - 0.5 * self.b3 * (q[..., 0] ** 2 / self.I22 + q[..., 1] ** 2 / self.I11))
+
+    def to_plane(self, states: Array) -> tuple[Array, Array]:
+        """q and p (m, 2) from states (m, 5)."""
+        q = np.column_stack([self.I22 * states[:, 1], -self.I11 * states[:, 0]]) / self.b3
+        return q, states[:, 2:4].copy()
+
+    def on_section(self, states: Array) -> Array:
+        """The section's coordinates (n, 2), the other q and its p, of states (n, 5)."""
+        q, p = self.to_plane(states)
+        along = 1 - self.across
+        return np.column_stack([q[:, along], p[:, along]])
+
+    def section_boundary(self, count: int = 181) -> Array:
+        """A closed curve (n, 2) that bounds the section, p² + γ3² = 1.
+
+        With a hole it bounds the right half only; the left one is its image under q → −q.
+        """
+        size = abs(self.b3)
+        first = math.acos(self.h / size) if self.h < size else 0.0
+        angle = np.linspace(first, 2.0 * math.pi - first, count)
+        share = (self.h - size * np.cos(angle)) / (self.h + size)
+        x, y = self.axes[1 - self.across] * np.sqrt(np.maximum(0.0, share)), np.sin(angle)
+        right = np.column_stack([x, y])
+        return right if first == 0.0 else np.vstack([right, right[::-1] * np.array([-1.0, 1.0])])
+
+
+def state_at(body: QuarticBody, q: Sequence[float], direction: float) -> tuple[float, ...]:
+    """The state (5,) at q, with −p, its velocity, in the direction (cos, sin) of an angle.
+
+    Raises `OutsideRegion` where |γ3| > 1.
+    """
+    require_finite(q1=q[0], q2=q[1], direction=direction)
+    g3 = float(body.height(np.array(q)))
+    if abs(g3) > 1.0 + _EDGE:
+        raise OutsideRegion(
+            f"At q = ({q[0]:.6g}, {q[1]:.6g}) the potential is {0.5 * g3 * g3:.6g}, above the level ½: γ₃ would be "
+            f"{g3:.6g}. Choose a start that is not grey.")
+    g3 = min(1.0, max(-1.0, g3))
+    size = math.sqrt((1.0 - g3) * (1.0 + g3))
+    omega = (-body.b3 * q[1] / body.I11, body.b3 * q[0] / body.I22)
+    return (*omega, -size * math.cos(direction), -size * math.sin(direction), g3)
+
+
+def state_on_section(body: QuarticBody, x: float, y: float) -> tuple[float, ...]:
+    """The state (5,) at (x, y) of the section, see `on_section`.  Raises `OutsideRegion`."""
+    q = (x, 0.0) if body.across else (0.0, x)
+    g3 = float(body.height(np.array(q)))
+    left = (1.0 - g3) * (1.0 + g3) - y * y
+    if left < -_EDGE:
+        raise OutsideRegion("There p² + γ₃² would exceed 1: choose a place that is not grey.")
+    # The q that is held at 0 grows where its p is negative.
+    other = -math.sqrt(max(0.0, left))
+    velocity = (-y, -other) if body.across else (-other, -y)
+    return state_at(body, q, math.atan2(velocity[1], velocity[0]))
+
+
+def angular_momentum(body: QuarticBody, states: Array) -> Array:
+    """q1 p2 − q2 p1 (m,) of states (m, 5): an integral for I11 = I22."""
+    q, p = body.to_plane(states)
+    return np.asarray(q[:, 0] * p[:, 1] - q[:, 1] * p[:, 0])
+
+
+def seeds(body: QuarticBody, count: int) -> list[tuple[float, ...]]:
+    """States of the section spread over what the energy allows of it."""
+    golden = (math.sqrt(5.0) - 1.0) / 2.0
+    longest = body.axes[1 - body.across]
+    found = []
+    for i in range(count):
+        share = (i * golden) % 1.0
+        inner = body.hole**2
+        # Evenly in q² from the hole to the edge, and in p there.
+        x = longest * math.sqrt(inner + (1.0 - inner) * (0.002 + 0.996 * (i + 0.5) / count))
+        g3 = float(body.height(np.array((x, 0.0) if body.across else (0.0, x))))
+        size = math.sqrt(max(0.0, (1.0 - g3) * (1.0 + g3)))
+        found.append(state_on_section(body, x if i % 2 else -x, 0.98 * size * (2.0 * share - 1.0)))
+    return found
+
+
+def quartic_section(body: QuarticBody, starts: Sequence[Sequence[float]], crossings: int, level: Level,
+                    most_steps: int) -> Points:
+    """The first crossings of `body.plane` by each orbit, states as in `section_points`.
+
+    most_steps : of one orbit.  Raises `InvalidParameter`, `WorkLimit`.
+    """
+    speed = math.sqrt(2.0 * (body.h + abs(body.b3)) / max(body.I11, body.I22))
+    end = crossings * _TURNS / speed
+    if not math.isfinite(end):
+        raise InvalidParameter("The motion is too slow for double precision: choose less extreme parameters.")
+    try:
+        return section_points(SYSTEM, starts, body.parameters, body.plane, end, level, crossings, most_steps=most_steps)
+    except WorkLimit:
+        raise WorkLimit(f"{crossings} crossings take an orbit more than {most_steps} steps here: choose fewer of them, "
+                        "a smaller h, or I11 and I22 less different.") from None

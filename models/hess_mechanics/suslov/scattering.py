@@ -1,0 +1,167 @@
+"""S4: the scattering θ⁻, φ → θ⁺ of the free Suslov problem, by one rotation.
+
+Every motion comes from a circle Γ⁻ = cos θ⁻ round the unstable point and goes to one, Γ⁺ = cos θ⁺, round the stable
+one.  With (A, B) of `free_suslov` from one end to the other
+
+    Γ⁺ = cos χ Γ⁻ + sin χ √(1−Γ⁻²) cos(φ − φ*),   cos χ = |A|² − |B|²,  φ* = π − arg AB.
+
+Two meanings of the phase φ:
+ - asymptotic: the limit t → −∞ of (azimuth of γ about ξ) + Φ(u), that is the azimuth at u = 0 if only the part of ω
+   along ξ had turned γ;
+ - at the start: the azimuth of γ(0) about ξ, with ω(0) at a given distance from the unstable point (the caption of
+   fig0111), θ⁻ being the angle of γ(0) and ξ.  For a small distance that is the same curve, shifted by Φ(u0).
+The azimuth is counted from η towards e3: γ = Γξ + √(1−Γ²)(cos φ η + sin φ e3).  Nothing depends on h.
+
+cos χ has a closed form for every tensor.  In s = sinh u the equations have three regular singular points, ±i and ∞:
+round i the monodromy has the trace 2C, C = cos(π/2 √(κ² − (K + ic)²)), and round the half circle at ∞ it is diagonal,
+e^{±πK/2}.  Hence |A|² = (Re C/cosh(πK/2))² + (Im C/sinh(πK/2))²; for I13 = 0 or I23 = 0, where c = 0 and
+k² = κ² − K², cos χ = 2cos²(πk/2)/cosh²(πK/2) − 1.  Not in the paper: see the README.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from hess_mechanics.dynamics.orbit import status_of
+from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.accuracy import Level, Status
+from hess_mechanics.numerics.results import Array, Cost
+from hess_mechanics.rigid_body.inertia import require_finite
+from hess_mechanics.suslov.equations import SuslovBody
+from hess_mechanics.suslov.free import Shape, equilibria, shape, turning
+
+__all__ = ["Scattering", "cos_chi", "scattering", "start"]
+
+
+@dataclass(frozen=True)
+class Scattering:
+    """The rotation from the circles S₋ to the circles S₊ along one arc.
+
+    A, B : its matrix ((A, −B̄), (B, Ā)) of SU(2), in the frame that turns with Φ; arc : σ = ±1;
+    distance : of the start from the unstable point, or None (asymptotic phases);
+    cos_chi, sin_chi ≥ 0, phi_star : of the module's docstring (φ* = 0 where sin χ = 0);
+    error_estimate : of Γ⁺, for any θ⁻ and φ.
+    """
+
+    arc: int
+    distance: float | None
+    level: str
+    A: complex
+    B: complex
+    cos_chi: float
+    sin_chi: float
+    phi_star: float
+    status: Status
+    error_estimate: float
+    cost: Cost
+
+    def theta_plus(self, theta: Array | float, phi: Array | Sequence[float] | float) -> Array:
+        """θ⁺ in [0, π]; the shape to which θ⁻ and φ broadcast."""
+        Gamma, y = _spherical(theta, phi)
+        A, B = self.A, self.B
+        image = 2.0 * A * B.conjugate() * Gamma + A * A * y - B.conjugate() ** 2 * y.conj()
+        # Not the arc cosine, which loses half of all digits at 0 and π.
+        return np.arctan2(np.abs(image), self._Gamma_plus(Gamma, y))
+
+    def Gamma_plus(self, theta: Array | float, phi: Array | Sequence[float] | float) -> Array:
+        """Γ⁺ = cos θ⁺ in [−1, 1]; the shape to which θ⁻ and φ broadcast."""
+        return np.clip(self._Gamma_plus(*_spherical(theta, phi)), -1.0, 1.0)
+
+    def _Gamma_plus(self, Gamma: Array, y: Array) -> Array:
+        return self.cos_chi * Gamma - 2.0 * np.real(self.A * self.B * y)
+
+
+def _spherical(theta: Array | float, phi: Array | Sequence[float] | float) -> tuple[Array, Array]:
+    theta, phi = np.asarray(theta, float), np.asarray(phi, float)
+    return np.cos(theta), np.sin(theta) * np.exp(1j * phi)
+
+
+def _u_at(of: Shape, distance: float) -> float:
+    """u < 0 at which the part of ω across ξ, ω0 κ sech u, is `distance` |ω⁻| = `distance` ω0 K.
+
+    Raises `InvalidParameter` where ω never comes so far from the line.
+    """
+    require_finite(distance=distance)
+    most = of.kappa / of.K
+    if not 0.0 < distance <= most:
+        raise InvalidParameter(
+            f"The distance {distance:g} of the start from the unstable point is not on the arc: choose one above 0 and "
+            f"up to {most:.6g}, in units of the angular velocity there.")
+    ratio = of.K / of.kappa * distance
+    if ratio < 1e-8:
+        return math.log(0.5) + math.log(of.K / of.kappa) + math.log(distance)
+    return -math.acosh(max(1.0, 1.0 / ratio))
+
+
+def _check_arc(arc: int) -> None:
+    if arc not in (1, -1):
+        raise InvalidParameter("An arc is +1 or −1, the sign of I13ω1 + I23ω2 on it.")
+
+
+def scattering(body: SuslovBody, level: Level, arc: int = 1, distance: float | None = None) -> Scattering:
+    """The scattering along one arc (σ, the sign of I13ω1 + I23ω2), with asymptotic phases.
+
+    distance : if given, phases and θ⁻ are those of a start where the part of ω across ξ is `distance` |ω⁻|; for
+    I13 = 0 that is ω2(0) = ± distance |ω⁻|.  The error estimate is measured as in `orbit.solve`.
+    Raises `InvalidParameter` (a field, I13 = I23 = 0, no such arc or distance), `WorkLimit` (see `shape`).
+    """
+    begun = time.perf_counter()
+    _check_arc(arc)
+    of = shape(body)
+    first = -of.end if distance is None else _u_at(of, float(distance))
+    A, B, error, steps = turning(of, arc, np.array([first, of.end]), level)
+    # M(∞) M(u0)^−1, and the azimuth at the start carried to the frame that turns.
+    before = 0.0 if distance is None else float(of.turned(first, arc))
+    half = cmath.exp(0.5j * before)
+    alpha = complex(A[1] * A[0].conj() + B[1].conj() * B[0]) * half
+    beta = complex(B[1] * A[0].conj() - A[1].conj() * B[0]) * half
+    error += 3e-16 * abs(before)
+    cosine, sine = abs(alpha) ** 2 - abs(beta) ** 2, 2.0 * abs(alpha) * abs(beta)
+    phi_star = cmath.phase(-(alpha * beta).conjugate()) if sine > 0.0 else 0.0
+    wall_ms = (time.perf_counter() - begun) * 1e3
+    return Scattering(arc, distance, level.name, alpha, beta, min(1.0, max(-1.0, cosine)), min(1.0, sine), phi_star,
+                      status_of(error, level), min(error, 2.0), Cost(steps, wall_ms))
+
+
+def cos_chi(body: SuslovBody) -> float:
+    """cos χ in closed form, for every tensor; see the module's docstring.
+
+    Raises `InvalidParameter` (a field, I13 = I23 = 0), `WorkLimit` (see `shape`).
+    """
+    of = shape(body)
+    root = cmath.sqrt(of.kappa**2 - complex(of.K, of.c) ** 2)
+    # cos(π/2 root) with its growth e^{|Im|} taken out, as cosh(πK/2) is.
+    angle = 0.5 * math.pi * root
+    grown = abs(angle.imag)
+    C_re = math.cos(angle.real) * 0.5 * (1.0 + math.exp(-2.0 * grown))
+    C_im = math.sin(angle.real) * math.copysign(0.5 * math.expm1(-2.0 * grown), angle.imag)
+    height = 0.5 * math.pi * of.K
+    factor = math.exp(grown - height)
+    A_re = factor * 2.0 * C_re / (1.0 + math.exp(-2.0 * height))
+    A_im = factor * 2.0 * C_im / -math.expm1(-2.0 * height) if C_im else 0.0
+    return min(1.0, 2.0 * (A_re**2 + A_im**2) - 1.0)
+
+
+def start(body: SuslovBody, h: float, theta: float, phi: float, distance: float, arc: int = 1
+          ) -> tuple[tuple[float, float], tuple[float, float, float]]:
+    """ω(0), γ(0) of the orbit with energy h that starts at θ⁻ and azimuth φ, at `distance` from the unstable point.
+
+    The phase of `scattering` with that distance.  Where I13 I23 ≠ 0, ω as a double is known to 1e-16, and with it the
+    time of the passage: with a distance below 1e-8 that shifts the phase of the arrival, though not Γ⁺ by more than
+    1e-16/distance.  Raises `InvalidParameter`, `WorkLimit`.
+    """
+    _check_arc(arc)
+    require_finite(theta=theta, phi=phi)
+    of, line = shape(body), equilibria(body, h)
+    u = _u_at(of, float(distance))
+    sech, tanh = of.K / of.kappa * distance, math.tanh(u)
+    omega = line.rate * ((arc * of.c * sech - of.K * tanh) * of.xi + arc * of.kappa * sech * of.eta)
+    across = math.cos(phi) * of.eta + math.sin(phi) * np.array([0.0, 0.0, 1.0])
+    gamma = math.cos(theta) * of.xi + math.sin(theta) * across
+    return (float(omega[0]), float(omega[1])), (float(gamma[0]), float(gamma[1]), float(gamma[2]))

@@ -1,0 +1,179 @@
+"""S1: sections γ_k = 0 of the Suslov problem at E = h, F1 = 1, in coordinates that cover them.
+
+Where γ_k grows through 0, γ is at the angle ψ in the plane of the two other axes, and ω = |ω|u has a direction u at an
+angle δ ∈ (0, π) from where γ_k stays:
+
+    k = 3: γ = (cos ψ, sin ψ, 0),  u = (cos(ψ+δ), sin(ψ+δ)),        as γ̇3 = γ1ω2 − γ2ω1;
+    k = 1: γ = (0, cos ψ, sin ψ),  u = −sgn(sin ψ) (cos δ, sin δ),  as γ̇1 = −γ3ω2;
+    k = 2: γ = (cos ψ, 0, sin ψ),  u = sgn(sin ψ) (sin δ, cos δ),   as γ̇2 = γ3ω1.
+
+The energy gives |ω| wherever E > (b, γ).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from hess_mechanics.dynamics.section import MAX_STEPS, Plane, Points, section_points
+from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.parallel import THREADS
+from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.rigid_body.inertia import require_finite
+from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
+
+__all__ = [
+    "basins", "coordinates", "divergence", "lowest_energy", "plane_of", "possible", "seeds", "state_at", "states_at",
+    "suslov_points",
+]
+
+_TURNS = 40.0
+"""Time given for a crossing, in units of 1/ν: few orbits take longer."""
+_EDGE = 1e-6
+
+
+def _check(k: int) -> None:
+    if k not in (1, 2, 3):
+        raise InvalidParameter("The section is γ1 = 0, γ2 = 0 or γ3 = 0: choose 1, 2 or 3.")
+
+
+def plane_of(k: int) -> Plane:
+    """γ_k = 0, crossed while γ_k grows.  Raises `InvalidParameter`."""
+    _check(k)
+    return Plane(tuple(float(i == k + 1) for i in range(5)))
+
+
+def lowest_energy(body: SuslovBody, k: int) -> float:
+    """Below it no motion reaches the plane γ_k = 0."""
+    _check(k)
+    return -math.hypot(*(b for i, b in enumerate((body.b1, body.b2, body.b3), 1) if i != k))
+
+
+def _gamma(k: int, psi: Array) -> Array:
+    gamma = np.zeros((3, psi.size))
+    first, second = (i for i in range(3) if i != k - 1)
+    gamma[first], gamma[second] = np.cos(psi), np.sin(psi)
+    return gamma
+
+
+def states_at(body: SuslovBody, E: float, k: int, psi: Array, delta: Array) -> tuple[Array, Array]:
+    """The states (n, 5) on γ_k = 0 at (ψ, δ) (n,), and whether this energy is possible there (n,).
+
+    Raises `InvalidParameter`.
+    """
+    require_finite(E=E)
+    _check(k)
+    psi, delta = np.array(psi, float, ndmin=1), np.array(delta, float, ndmin=1)
+    gamma = _gamma(k, psi)
+    side = np.where(np.sin(psi) < 0.0, -1.0, 1.0)
+    if k == 3:
+        u = np.stack([np.cos(psi + delta), np.sin(psi + delta)])
+    elif k == 1:
+        u = -side * np.stack([np.cos(delta), np.sin(delta)])
+    else:
+        u = side * np.stack([np.sin(delta), np.cos(delta)])
+    kinetic = E - np.array([body.b1, body.b2, body.b3]) @ gamma
+    speed = np.sqrt(np.maximum(0.0, kinetic) / (0.5 * (body.I11 * u[0] ** 2 + body.I22 * u[1] ** 2)))
+    inside = (delta > 0.0) & (delta < math.pi) & np.isfinite(psi)
+    return np.vstack([speed * u, gamma]).T, inside & (kinetic > 0.0)
+
+
+def state_at(body: SuslovBody, E: float, k: int, psi: float, delta: float) -> tuple[float, ...]:
+    """One of them.  Raises `InvalidParameter` where it is not possible."""
+    states, ok = states_at(body, E, k, np.array([psi]), np.array([delta]))
+    if not ok[0]:
+        raise InvalidParameter(f"At ψ = {psi:.6g}, δ = {delta:.6g} no motion has the energy E = {E:.6g}: choose a "
+                               "larger energy, or another point with 0 < δ < π.")
+    return tuple(map(float, states[0]))
+
+
+def coordinates(states: Array, k: int) -> Array:
+    """(ψ, δ) (n, 2) of states (n, 5) of the section."""
+    _check(k)
+    first, second = (i + 2 for i in range(3) if i != k - 1)
+    psi = np.arctan2(states[:, second], states[:, first])
+    w1, w2 = states[:, 0], states[:, 1]
+    if k == 3:
+        delta = np.arctan2(w2, w1) - psi
+        delta = np.abs(np.arctan2(np.sin(delta), np.cos(delta)))
+    elif k == 1:
+        delta = np.arctan2(np.abs(w2), -np.where(np.sin(psi) < 0.0, -1.0, 1.0) * w1)
+    else:
+        delta = np.arctan2(np.abs(w1), np.where(np.sin(psi) < 0.0, -1.0, 1.0) * w2)
+    return np.column_stack([psi, delta])
+
+
+def possible(body: SuslovBody, E: float, k: int, psi: Array) -> Array:
+    """Whether the energy allows γ at ψ (n,)."""
+    _check(k)
+    return np.array([body.b1, body.b2, body.b3]) @ _gamma(k, np.asarray(psi, float)) < E
+
+
+def _arcs(body: SuslovBody, E: float, k: int, psi0: float, psi1: float) -> list[tuple[float, float]]:
+    """The parts of ψ0 … ψ1 where (b, γ) < E, in order."""
+    first, second = (b for i, b in enumerate((body.b1, body.b2, body.b3), 1) if i != k)
+    size = math.hypot(first, second)
+    if size < E:
+        return [(psi0, psi1)]
+    if size <= -E:
+        return []
+    half = math.acos(-E / size)
+    bottom = math.atan2(-second, -first)
+    turns = range(math.floor((psi0 - bottom) / (2.0 * math.pi)) - 1, math.ceil((psi1 - bottom) / (2.0 * math.pi)) + 2)
+    arcs = ((max(psi0, bottom + 2.0 * math.pi * n - half), min(psi1, bottom + 2.0 * math.pi * n + half)) for n in turns)
+    return [arc for arc in arcs if arc[0] < arc[1]]
+
+
+def seeds(body: SuslovBody, E: float, k: int, window: Sequence[float], count: int) -> tuple[tuple[float, ...], ...]:
+    """At most `count` states of the section, spread evenly over what is possible of ψ0 … ψ1, δ0 … δ1.
+
+    Fewer only where nothing is possible, or no double inside it.
+    """
+    psi0, psi1, delta0, delta1 = window
+    _check(k)
+    arcs = _arcs(body, E, k, psi0, psi1)
+    if not arcs:
+        return ()
+    # A sequence that fills the window evenly, however far it is followed (Roberts, 2018).
+    n = np.arange(1, count + 1)
+    ends = np.cumsum([0.0, *(high - low for low, high in arcs)])
+    along = ends[-1] * ((0.5 + 0.7548776662466927 * n) % 1.0)
+    arc = np.searchsorted(ends[1:-1], along)
+    psi = along - ends[arc] + np.array([low for low, _ in arcs])[arc]
+    delta = delta0 + (delta1 - delta0) * ((0.5 + 0.5698402909980532 * n) % 1.0)
+    states, ok = states_at(body, E, k, psi, np.clip(delta, _EDGE, math.pi - _EDGE))
+    return tuple(tuple(map(float, state)) for state in states[ok])
+
+
+def suslov_points(body: SuslovBody, k: int, starts: Sequence[Sequence[float]], crossings: int, forward: bool,
+                  level: Level, threads: int = THREADS, most_steps: int = MAX_STEPS) -> Points:
+    """The first crossings of γ_k = 0 of each orbit, forward or backward in time, as in `section_points`.
+
+    Raises `InvalidParameter`, `WorkLimit`.
+    """
+    nu = float(np.max(SYSTEM.frequency(np.array(starts, float).T, np.array(body.parameters))))
+    ratio = math.sqrt(max(body.I11, body.I22) / min(body.I11, body.I22))
+    end = crossings * _TURNS * ratio / max(nu, 1e-300)
+    return section_points(SYSTEM, starts, body.parameters, plane_of(k), end if forward else -end, level, crossings,
+                          threads, most_steps)
+
+
+def divergence(body: SuslovBody, states: Array) -> Array:
+    """div ẏ = I23ω1/I22 − I13ω2/I11 (n,) of states (n, 5): the rate at which volume grows."""
+    return frozen(body.I23 * states[:, 0] / body.I22 - body.I13 * states[:, 1] / body.I11)
+
+
+def basins(ends: Array) -> Array:
+    """0 or 1 for each orbit, by which of two attractors it came to: `ends` (n,) are averages along its later part.
+
+    All 0 where the averages do not fall into two groups.
+    """
+    order = np.sort(ends)
+    gaps = np.diff(order)
+    if not gaps.size or gaps.max() < 0.1 * (order[-1] - order[0]) or order[-1] - order[0] < 1e-3:
+        return np.zeros(ends.size)
+    i = int(np.argmax(gaps))
+    return (ends > 0.5 * (order[i] + order[i + 1])).astype(float)

@@ -1,0 +1,1 @@
+"""The Hess case of the Suslov problem."""

@@ -1,0 +1,375 @@
+"""S8, S15: the circle map Θ(φ) of the Suslov–Hess torus as one matrix of SU(1,1).
+
+Section n3 = n3^(1) (the lower turning point), w = |w|(sin φ, cos φ), units b = 1.
+`eq0003` is a Riccati equation in e^{iφ}; with (w, n) a solution of `eq01` at a = 0 and
+W = w2 + i w1 it becomes the linear system
+    A' = −(ia/2)·conj(W B),   B' = −(ia/2)·conj(W A),   A(0) = 1, B(0) = 0,
+which is regular also where h + n3 → 0.  From the lower to the upper turning point it gives
+U = (A, B)·e^{iχ/2}, χ the angle through which W turns; time reversal with φ → −φ gives the way
+back, so that the whole map z → (αz+β)/(β̄z+ᾱ), z = e^{iφ}, is
+    α = A² − conj(B)²,   β = 2i Im(AB).
+β is imaginary: the fixed points are ±φ*, cos φ* = −Im α/Im β.  Not in the paper: see the README.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.numerics.accuracy import Level, Status
+from hess_mechanics.numerics.jit import inner, kernel, part
+from hess_mechanics.numerics.results import Array, Cost, frozen
+from hess_mechanics.numerics.taylor import Quadratic, columns_of, convolution, expansion, step_of, workspace
+from hess_mechanics.numerics.unrolled import evaluation
+from hess_mechanics.rigid_body.inertia import require_finite
+from hess_mechanics.suslov_hess.bifurcation import largest_f, period_from_gaps, roots, turning_points
+
+__all__ = [
+    "CircleMap", "FixedPoint", "Phases", "circle_map", "discriminants", "matrices", "monodromy", "rotation_numbers",
+    "theta_at",
+]
+
+MAX_A = 1e6
+_MAX_STEPS = 200_000
+
+
+@inner
+def rates(y, q, p):
+    """`eq01` at a = 0 with A = a1 + i a2 and B = b1 + i b2, in terms of their products."""
+    _, _, n1, n2, _, _, _, _, _ = y
+    half_a, b = p
+    n3w2, w1n3, n1w2, n2w1, w2b2, w1b1, w2b1, w1b2, w2a2, w1a1, w2a1, w1a2 = q
+    return (
+        -b * n2,
+        b * n1,
+        -n3w2,
+        w1n3,
+        n1w2 - n2w1,
+        # conj(W B) = re − i im with W = w2 + i w1; −i(re − i im) = −im − i re.
+        -half_a * (w2b2 + w1b1),
+        -half_a * (w2b1 - w1b2),
+        -half_a * (w2a2 + w1a1),
+        -half_a * (w2a1 - w1a2),
+    )
+
+
+QUADRATIC = Quadratic(
+    "w1 w2 n1 n2 n3 a1 a2 b1 b2",
+    "n3*w2 w1*n3 n1*w2 n2*w1 w2*b2 w1*b1 w2*b1 w1*b2 w2*a2 w1*a1 w2*a1 w1*a2",
+    rates, parameters=2,
+)
+_columns = columns_of(QUADRATIC)
+_expand, _convolve = expansion(QUADRATIC), convolution(QUADRATIC)
+_evaluate = evaluation(9)
+
+
+@part
+def monodromy(h, f, a, order, tolerance, max_steps):
+    """(Re α, Im α, Im β, L, ζ, steps): the first three times e^{−L}; ζ is arg α, lifted.
+
+    A, B are rescaled as they grow, so that a and h may be large; steps = −1: too many.
+    """
+    _, n1, _, g10, _, g20, w_low, v_low = roots(h, f)
+    half_period = 0.5 * period_from_gaps(g10, g20)
+    nu = math.sqrt(2.0 * (h + 1.0))
+    c, left_factors, right_factors, inverses = workspace(order, 9, _columns)
+    increments = np.zeros(9)
+    c[0, 1] = math.sqrt(2.0 * w_low) / nu
+    c[0, 3] = math.copysign(math.sqrt(v_low), f)
+    c[0, 4] = n1
+    c[0, 5] = 1.0
+    p = (0.5 * a, 1.0 / (nu * nu))
+    left = half_period * nu
+    log_scale = 0.0
+    arg_A = 0.0
+    steps = 0
+    while left > 0.0:
+        _expand(c, left_factors, right_factors, inverses, p, rates, _convolve)
+        s = step_of(c, 9, tolerance)
+        if not s > 0.0 or steps >= max_steps:
+            return 0.0, 0.0, 0.0, 0.0, 0.0, -1.0
+        s = min(s, left)
+        left -= s
+        re, im = c[0, 5], c[0, 6]
+        _evaluate(c, s, increments)
+        for i in range(9):
+            c[0, i] += increments[i]
+        arg_A += math.atan2(re * c[0, 6] - im * c[0, 5], re * c[0, 5] + im * c[0, 6])
+        size = math.hypot(c[0, 5], c[0, 6])
+        if size > 16.0:
+            for i in range(5, 9):
+                c[0, i] /= size
+            log_scale += math.log(size)
+        steps += 1
+    A = complex(c[0, 5], c[0, 6])
+    B = complex(c[0, 7], c[0, 8])
+    # W starts real and positive and turns by less than π on the way up: the principal value.
+    chi = math.atan2(c[0, 0], c[0, 1])
+    turn = complex(math.cos(0.5 * chi), math.sin(0.5 * chi))
+    A *= turn
+    B *= turn
+    alpha = A * A - (B * B).conjugate()
+    beta = 2.0 * (A * B).imag
+    ratio = (B.conjugate() / A) ** 2
+    zeta = 2.0 * (arg_A + 0.5 * chi) + math.atan2(-ratio.imag, 1.0 - ratio.real)
+    if f == 0.0 and h < 1.0:
+        # The limit f → 0+, in which Re α vanishes: its two parts are too large to cancel by themselves.
+        return 0.0, alpha.imag, beta, 2.0 * log_scale, -0.5 * math.pi, float(steps)
+    return alpha.real, alpha.imag, beta, 2.0 * log_scale, zeta, float(steps)
+
+
+@kernel
+def _matrices(h, f, a, order, tolerance, max_steps, out):
+    """`monodromy` of each torus (h[i], f[i]) into out[i]."""
+    for i in range(h.size):
+        row = monodromy(h[i], f[i], a, order, tolerance, max_steps)
+        for j in range(6):
+            out[i, j] = row[j]
+
+
+def matrices(h: Array, f: Array, a: float, level: Level) -> Array:
+    """(Re α, Im α, Im β, L, ζ, steps) as in `monodromy` for each torus (h[i], f[i]); shape (n, 6).
+
+    All (h[i], f[i]) must lie in the region.  Raises `WorkLimit`.
+    """
+    out = np.empty((h.size, 6))
+    _matrices(h, f, float(a), level.order, level.tolerance, _MAX_STEPS, out)
+    if np.any(out[:, 5] < 0):
+        raise WorkLimit("These tori need too many steps: choose smaller a, or (h, f) farther from (1, 0).")
+    return out
+
+
+def discriminants(rows: Array) -> Array:
+    """(Re α)² − |det| = (Im β)² − (Im α)², times e^{−2L}, from the rows of `matrices`: positive where it locks.
+
+    Where Im α and Im β are large and nearly equal, the first form is exact and the second is not.
+    """
+    re, im, im_beta, log_scale, *_ = np.moveaxis(rows, -1, 0)
+    unit = np.exp(-log_scale)
+    cancels = im**2 + im_beta**2 > 1e4 * (re**2 + unit**2)
+    return np.where(cancels, (re - unit) * (re + unit), (im_beta - im) * (im_beta + im))
+
+
+def rotation_numbers(rows: Array) -> Array:
+    """ρ from the rows of `matrices`: an integer where it locks, else k + arccos(±Re α)/π; shape (n,)."""
+    re, _, _, _, zeta, _ = rows.T
+    discriminant = discriminants(rows)
+    k = np.floor(zeta / np.pi)
+    sign = 1.0 - 2.0 * (k % 2)
+    turning = k + np.arctan2(np.sqrt(np.maximum(-discriminant, 0.0)), sign * re) / np.pi
+    return np.where(discriminant < 0.0, turning, np.round(zeta / np.pi)) + 0.0  # no −0.0
+
+
+@dataclass(frozen=True)
+class FixedPoint:
+    """A fixed point of Θ, that is a limit cycle.  The multiplier itself may exceed double range."""
+
+    phi: float
+    log_multiplier: float
+
+    @property
+    def stable(self) -> bool:
+        """True for the attracting one."""
+        return self.log_multiplier < 0.0
+
+    @property
+    def multiplier(self) -> float:
+        """dΘ/dφ at the fixed point; ∞ where it exceeds double range."""
+        return math.exp(self.log_multiplier) if self.log_multiplier < 709.0 else math.inf
+
+
+@dataclass(frozen=True)
+class CircleMap:
+    """Θ for one torus (a, h, f), units b = 1, angles in radians.
+
+    matrix : (Re α, Im α, Im β), each times e^{−log_scale}.
+    kind : "elliptic" (no cycle; conjugate to a rotation), "parabolic", "hyperbolic" (two cycles).
+    trace, log_trace : |2 Re α| and its logarithm (the trace is ∞ beyond double range).
+    rotation_number : lifted, turns per return; fixed_points : stable first.
+    """
+
+    a: float
+    h: float
+    f: float
+    level: str
+    matrix: tuple[float, float, float]
+    log_scale: float
+    kind: str
+    trace: float
+    log_trace: float
+    rotation_number: float
+    fixed_points: tuple[FixedPoint, ...]
+    period: float
+    status: Status
+    error_estimate: float
+    cost: Cost
+
+    def theta(self, phi: Array | Sequence[float]) -> Array:
+        """Θ(φ) in (−π, π]; same shape as φ."""
+        return _theta(self.matrix, np.asarray(phi, float))
+
+    def iterate(self, phi: float, count: int) -> Array:
+        """φ, Θ(φ), …, Θ^count(φ); shape (count + 1,)."""
+        orbit = np.empty(count + 1)
+        orbit[0] = math.remainder(phi, 2 * math.pi)
+        for i in range(count):
+            _theta_of(*self.matrix, orbit[i : i + 1], orbit[i + 1 : i + 2])
+        return frozen(orbit)
+
+
+@kernel
+def _theta_of(re, im, im_beta, phi, out):
+    """Θ(φ) = 2 arg(αz + β) − φ with z = e^{iφ}, in (−π, π]."""
+    for i in range(phi.size):
+        c = math.cos(phi[i])
+        s = math.sin(phi[i])
+        angle = 2.0 * math.atan2(re * s + im * c + im_beta, re * c - im * s) - phi[i]
+        angle -= 2.0 * math.pi * np.rint(angle / (2.0 * math.pi))
+        out[i] = math.pi if angle <= -math.pi else min(angle, math.pi)
+
+
+def _theta(matrix: tuple[float, float, float], phi: Array) -> Array:
+    out = np.empty(phi.size)
+    _theta_of(*matrix, phi.ravel(), out)
+    return out.reshape(phi.shape)
+
+
+@dataclass(frozen=True)
+class Phases:
+    """Angles φ (n,) at which many maps are wanted, with their sines and cosines."""
+
+    phi: Array
+    cos: Array
+    sin: Array
+
+    @classmethod
+    def of(cls, phi: Array | Sequence[float]) -> Phases:
+        """From the angles alone."""
+        angles = np.array(phi, float)
+        return cls(angles, np.cos(angles), np.sin(angles))
+
+
+@kernel
+def _images(h, f, a, order, tolerance, max_steps, cos, sin, x, y):
+    """x + iy = αz + β, whose argument is (Θ + φ)/2; returns the steps."""
+    re, im, im_beta, _, _, steps = monodromy(h, f, a, order, tolerance, max_steps)
+    for i in range(cos.size):
+        x[i] = re * cos[i] - im * sin[i]
+        y[i] = re * sin[i] + im * cos[i] + im_beta
+    return steps
+
+
+def theta_at(phases: Phases, a: float, h: float, f: float, level: Level) -> Array:
+    """Θ at these angles, up to whole turns, at the level's tolerance; no error estimate.  Raises `WorkLimit`."""
+    x, y = np.empty_like(phases.cos), np.empty_like(phases.cos)
+    if _images(h, f, a, level.order, level.tolerance, _MAX_STEPS, phases.cos, phases.sin, x, y) < 0:
+        raise WorkLimit("This torus needs too many steps: choose smaller a, or (h, f) farther from (1, 0).")
+    theta = np.arctan2(y, x, out=y)
+    theta *= 2.0
+    theta -= phases.phi
+    return theta
+
+
+def check_a(a: float) -> None:
+    """Raise `InvalidParameter` unless a is finite and |a| ≤ `MAX_A`."""
+    require_finite(a=a)
+    if abs(a) > MAX_A:
+        raise InvalidParameter(f"a = {a:g} is too large: choose |a| ≤ {MAX_A:g}.")
+
+
+_PROBES = np.linspace(-math.pi, math.pi, 32, endpoint=False)
+
+
+def _difference(m: Array, n: Array) -> float:
+    """How far two computed maps lie apart: in Θ over 32 phases, and in the trace."""
+    turned = _theta(tuple(m[:3]), _PROBES) - _theta(tuple(n[:3]), _PROBES)
+    angle = float(np.max(np.abs(np.angle(np.exp(1j * turned)))))
+    other = m[0] - n[0] * math.exp(n[3] - m[3])
+    return max(angle, 2 * abs(other) * _weight(m))
+
+
+def _weight(m: Array) -> float:
+    """From an error of Re α e^{−L} to one of the trace, relative where that exceeds 1."""
+    scale = math.exp(min(m[3], 700.0))
+    return scale / max(1.0, 2 * abs(m[0]) * scale)
+
+
+def _rounding(m: Array) -> float:
+    """What round-off does to the trace where its large parts cancel, as below the separatrix with a large a."""
+    return 2 * 8e-16 * (math.hypot(m[0], m[1]) + abs(m[2])) * _weight(m) if m[0] else 0.0
+
+
+def _neighbour(h: float, f: float) -> tuple[float, float]:
+    """The next double in f, towards the inside of the region, and in h.
+
+    Near the edge h moves inwards as well, else away from the separatrix.
+    """
+    upwards = h >= 1.0 or abs(f) > 0.5 * largest_f(h)
+    return math.nextafter(h, math.inf if upwards else -1.0) if h > -1.0 + 1e-9 else h, math.nextafter(f, 0.0)
+
+
+def circle_map(a: float, h: float, f: float, level: Level) -> CircleMap:
+    """The circle map of the torus (h, f) at this a.
+
+    The error estimate is the difference to a second computation with steps a hundred times more
+    exact and with h and f moved by one unit in the last place (as numbers they are known no
+    better), in Θ and (relatively, where it exceeds 1) in the trace.
+    Raises `OutsideRegion`, `Separatrix`, `InvalidParameter`, `WorkLimit`.
+    """
+    start = time.perf_counter()
+    a, h, f = float(a), float(h), float(f) + 0.0  # f = −0.0 is f = 0
+    check_a(a)
+    turning = turning_points(h, f)
+    neighbour = _neighbour(h, f)
+
+    def run(at: tuple[float, float], rung: Level) -> Array:
+        return matrices(np.array([at[0]]), np.array([at[1]]), a, rung)[0]
+
+    current = level
+    coarse = run((h, f), current)
+    total = coarse[5]
+    while True:
+        tighter = current.tightened()
+        fine = run(neighbour, tighter)
+        total += fine[5]
+        error = (4.0 if current.is_floor else 1.25) * _difference(coarse, fine) + _rounding(coarse) + 4e-16
+        if error <= level.promise or current.is_floor:
+            break
+        # Not `fine`: that is the map of the neighbour.
+        current = tighter
+        coarse = run((h, f), current)
+        total += coarse[5]
+    re, im, im_beta, log_scale = (float(x) for x in coarse[:4])
+    if error <= level.promise:
+        status = Status.OK
+    else:
+        status = Status.FLOOR if level.is_floor else Status.PROMISE_NOT_MET
+
+    log_trace = math.log(2 * abs(re)) + log_scale if re else -math.inf
+    trace = math.exp(log_trace) if log_trace < 709.0 else math.inf
+    discriminant = float(discriminants(coarse))
+    fixed: tuple[FixedPoint, ...] = ()
+    if abs(trace - 2.0) <= 2 * min(error, 1e-3):
+        kind = "parabolic"
+        if im_beta:
+            fixed = (FixedPoint(math.acos(max(-1.0, min(1.0, -im / im_beta))), 0.0),)
+    elif discriminant > 0.0:
+        kind = "hyperbolic"
+        root = math.sqrt(discriminant)
+        log_multiplier = -2.0 * (log_scale + math.log(abs(re) + root))
+        # dΘ/dφ = (Re α + Im β sin φ*)^−2 at ±φ*: small where the two terms have one sign.
+        phi = math.copysign(math.atan2(root, -im * math.copysign(1.0, im_beta)), re * im_beta)
+        fixed = (FixedPoint(phi, log_multiplier), FixedPoint(-phi, -log_multiplier))
+    else:
+        kind = "elliptic"
+    rho = float(rotation_numbers(coarse[None])[0])
+    if kind == "parabolic":
+        rho = round(rho) + 0.0
+    wall_ms = (time.perf_counter() - start) * 1e3
+    return CircleMap(a, h, f, level.name, (re, im, im_beta), log_scale, kind, trace, log_trace, rho, fixed,
+                     turning.period, status, error, Cost(int(total), wall_ms))

@@ -1,0 +1,215 @@
+"""S8: the Suslov–Hess case (`bizi1`, `bizi2`, `eq02`, `eq01`, `eq03`).
+
+I13 = 0, I11 I22 = I22² + I23², b1 = 0, I22 b2 + I23 b3 = 0.  A rotation about Ox1 through
+arctan a brings `Biz131` to `eq01`, state (w1, w2, n1, n2, n3), parameters (a, b).
+Corrections to the paper used here: b = −b3/√(I22²+I23²) (no further mg), w2 = ω2/√(1+a²),
+and E, F2 of `eq03` are those of S1 divided by I11.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from hess_mechanics.dynamics.system import System
+from hess_mechanics.errors import InvalidParameter, NoField
+from hess_mechanics.numerics.batch import ensemble_integrator
+from hess_mechanics.numerics.events import crossing_finder
+from hess_mechanics.numerics.jit import inner, kernel
+from hess_mechanics.numerics.results import Array
+from hess_mechanics.numerics.taylor import Quadratic, orbit_integrator
+from hess_mechanics.rigid_body.inertia import BodyCheck, body_check, require_finite, require_positive_definite
+from hess_mechanics.suslov.equations import SuslovBody
+
+__all__ = ["SYSTEM", "HessBody"]
+
+
+@dataclass(frozen=True)
+class HessBody:
+    """A body of the Hess case by its free parameters (I22, I23, b3).
+
+    Raises `InvalidParameter` (not finite, or so large that I11 or a overflows),
+    `NotPositiveDefinite` (I22 ≤ 0).
+    """
+
+    I22: float
+    I23: float
+    b3: float
+
+    def __post_init__(self) -> None:
+        require_finite(**vars(self))
+        require_positive_definite(1.0, self.I22)
+        if not (math.isfinite(self.a) and math.isfinite(self.I11) and math.isfinite(self.b)):
+            raise InvalidParameter("I22 is too small beside I23 or b3: choose I23/I22 and b3/I22 below 1e150.")
+
+    @property
+    def a(self) -> float:
+        """a = I23/I22."""
+        return self.I23 / self.I22
+
+    @property
+    def b(self) -> float:
+        """b = −b3/√(I22² + I23²)."""
+        return -self.b3 / math.hypot(self.I22, self.I23)
+
+    @property
+    def I11(self) -> float:
+        """I11 = (I22² + I23²)/I22 (`bizi1`)."""
+        return self.I22 + self.I23 * self.a
+
+    @property
+    def b2(self) -> float:
+        """b2 = −I23 b3/I22 (`bizi2`)."""
+        return -self.a * self.b3
+
+    @property
+    def suslov(self) -> SuslovBody:
+        """The same body with all its parameters, for `Biz131`."""
+        return SuslovBody(self.I11, self.I22, 0.0, self.I23, 0.0, self.b2, self.b3)
+
+    @property
+    def check(self) -> BodyCheck:
+        """Whether this is a rigid body: under `bizi1` exactly for |a| < 1, with a² ≤ I33/I22 ≤ 2 − a²."""
+        if abs(self.a) < 1.0:
+            return body_check((self.a**2 * self.I22, (2.0 - self.a**2) * self.I22))
+        return body_check(None)
+
+    def tensor(self, I33: float) -> Array:
+        """The tensor of inertia with this I33 along the axes of (n1, n2, n3); shape (3, 3)."""
+        tensor = np.array([[self.I11, 0.0, 0.0], [0.0, self.I22, self.I23], [0.0, self.I23, I33]])
+        return self.turn @ tensor @ self.turn.T
+
+    @property
+    def turn(self) -> Array:
+        """The rotation of `eq02`, γ → n = turn γ; shape (3, 3)."""
+        c, s = 1.0 / math.hypot(1.0, self.a), self.a / math.hypot(1.0, self.a)
+        return np.array([[1.0, 0.0, 0.0], [0.0, c, s], [0.0, -s, c]])
+
+    @property
+    def frequency_unit(self) -> float:
+        """√|b|: in units b = 1 time is t√|b| and angular velocity w/√|b|.  Raises `NoField`."""
+        if self.b == 0.0:
+            raise NoField("b3 = 0: without a field h and f have no unit. Choose b3 other than 0.")
+        return math.sqrt(abs(self.b))
+
+    def to_reduced(self, states: Array) -> Array:
+        """(ω1, ω2, γ1, γ2, γ3) → (w1, w2, n1, n2, n3) of `eq02`; shape (..., 5)."""
+        w1, w2, g1, g2, g3 = np.moveaxis(np.asarray(states, float), -1, 0)
+        a, r = self.a, math.hypot(1.0, self.a)
+        return np.stack([w1, w2 / r, g1, (g2 + a * g3) / r, (g3 - a * g2) / r], axis=-1)
+
+    def from_reduced(self, states: Array) -> Array:
+        """The inverse of `to_reduced`."""
+        w1, w2, n1, n2, n3 = np.moveaxis(np.asarray(states, float), -1, 0)
+        a, r = self.a, math.hypot(1.0, self.a)
+        return np.stack([w1, w2 * r, n1, (n2 - a * n3) / r, (n3 + a * n2) / r], axis=-1)
+
+    def in_units_of_b(self, reduced: Array) -> Array:
+        """`eq01` with this b → with b = 1.  For b < 0 the vertical is turned over too, n → −n."""
+        nu = self.frequency_unit
+        sign = math.copysign(1.0, self.b)
+        return np.asarray(reduced, float) * np.array([1 / nu, 1 / nu, sign, sign, sign])
+
+    def from_units_of_b(self, reduced: Array) -> Array:
+        """The inverse of `in_units_of_b`."""
+        nu = self.frequency_unit
+        sign = math.copysign(1.0, self.b)
+        return np.asarray(reduced, float) * np.array([nu, nu, sign, sign, sign])
+
+
+def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
+    """The right-hand side of `eq01`."""
+    w1, w2, n1, n2, n3 = y
+    a, b = p
+    return (
+        -a * w2**2 - b * n2,
+        a * w1 * w2 + b * n1,
+        -(a * n2 + n3) * w2,
+        a * w2 * n1 + w1 * n3,
+        n1 * w2 - n2 * w1,
+    )
+
+
+def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
+    """`eq03`: E, F1 = n², F2 = w1 n1 + w2 n2."""
+    w1, w2, n1, n2, n3 = y
+    _, b = p
+    return {
+        "E": (w1**2 + w2**2) / 2 - b * n3,
+        "F1": n1**2 + n2**2 + n3**2,
+        "F2": w1 * n1 + w2 * n2,
+    }
+
+
+def frequency(y: Array, p: Array) -> Array | float:
+    """ν = √(w² + 4|b||n|) of a state (5,) or many (5, n): no |w| of the motion exceeds it."""
+    return np.sqrt(y[0] ** 2 + y[1] ** 2 + 4 * abs(p[1]) * np.sqrt(y[2] ** 2 + y[3] ** 2 + y[4] ** 2))
+
+
+def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:
+    """Time in units of 1/ν: w → w/ν, b → b/ν²."""
+    y, p = y.copy(), p.copy()
+    y[:2] /= nu
+    p[1] /= nu * nu
+    return y, p
+
+
+@inner
+def rates(y, q, p):
+    """`eq01` in terms of its products."""
+    _, _, n1, n2, _ = y
+    a, b = p
+    w2w2, w1w2, n2w2, n3w2, n1w2, w1n3, n2w1 = q
+    return (
+        -b * n2 - a * w2w2,
+        b * n1 + a * w1w2,
+        -n3w2 - a * n2w2,
+        w1n3 + a * n1w2,
+        n1w2 - n2w1,
+    )
+
+
+QUADRATIC = Quadratic("w1 w2 n1 n2 n3", "w2*w2 w1*w2 n2*w2 n3*w2 n1*w2 w1*n3 n2*w1", rates, parameters=2)
+_orbit = orbit_integrator(QUADRATIC)
+_ensemble = ensemble_integrator(QUADRATIC)
+_cross = crossing_finder(QUADRATIC)
+
+
+@kernel
+def orbit(y, p, times, order, tolerance, max_steps, out):
+    """One orbit of `eq01`, see `orbit_integrator`."""
+    return _orbit(y, p, times, order, tolerance, max_steps, out)
+
+
+
+@kernel
+def ensemble(states, p, times, order, tolerance, max_steps, out):
+    """Many orbits of `eq01`, see `ensemble_integrator`."""
+    return _ensemble(states, p, times, order, tolerance, max_steps, out)
+
+
+@kernel
+def cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states):
+    """Crossings of a plane by one orbit of `eq01`, see `crossing_finder`."""
+    return _cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states)
+
+
+SYSTEM = System(
+    name="hess",
+    title="Suslov–Hess case, reduced",
+    labels=("eq01", "eq03"),
+    variables=("w1", "w2", "n1", "n2", "n3"),
+    parameters=("a", "b"),
+    field=field,
+    integrals=integrals,
+    frequency=frequency,
+    rescale=rescale,
+    orbit=orbit,
+    ensemble=ensemble,
+    cross=cross,
+    example=((0.3, 0.9, 0.6, 0.0, 0.8), (0.75, 1.0)),
+)

@@ -1,0 +1,175 @@
+"""S8, S15: where the circle map locks: rotation number over (h, f), and the boundary |t| = 2.
+
+A Möbius map locks at integers only; in this family only the plateau ρ = 0 was seen.  The zone ends
+on the curve `Geq3` at h* = (1−2a²)/(2a√(1+a²)) and at the point (1, 0).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.parallel import share
+from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.rigid_body.inertia import require_finite
+from hess_mechanics.suslov_hess.bifurcation import f_max, largest_f, turning_points
+from hess_mechanics.suslov_hess.circle_map import check_a, matrices, rotation_numbers
+
+__all__ = [
+    "critical_a", "lock_boundary", "lock_boundary_end", "lock_boundary_f", "lock_boundary_h", "rotation_number_grid",
+    "trace_on_curve",
+]
+
+
+_MAX_A_OF_BOUNDARY = 1e5
+
+
+def _f_max(h: Array) -> Array:
+    """`f_max` of an array."""
+    return np.array([largest_f(x) for x in h])
+
+
+def _locked(h: Array, f: Array, a: float, level: Level) -> Array:
+    """(Im β² − Im α²)/(Im β² + Im α²): positive where the map is locked, 0 where |t| = 2, bounded and smooth."""
+    _, im, im_beta, *_ = matrices(h, f, a, level).T
+    return (im_beta - im) * (im_beta + im) / (im_beta**2 + im**2)
+
+
+def _rising_roots(function: Callable[[Array], Array], low: Array, high: Array) -> Array:
+    """Where the components of `function` change from − to +, by regula falsi (Illinois) on all at once."""
+    f_low, f_high = function(low), function(high)
+    side = np.zeros(low.size)
+    x = low
+    for _ in range(80):
+        x = high - f_high * (high - low) / (f_high - f_low)
+        f_x = function(x)
+        if np.all(np.abs(f_x) < 1e-13):
+            break
+        up = f_x > 0.0
+        f_low = np.where(up & (side > 0), 0.5 * f_low, f_low)
+        f_high = np.where(~up & (side < 0), 0.5 * f_high, f_high)
+        high, f_high = np.where(up, x, high), np.where(up, f_x, f_high)
+        low, f_low = np.where(up, low, x), np.where(up, f_low, f_x)
+        side = np.where(up, 1.0, -1.0)
+    return x
+
+
+def rotation_number_grid(a: float, h: Sequence[float] | Array, f: Sequence[float] | Array, level: Level) -> Array:
+    """ρ on the grid h × f, shape (f.size, h.size), read-only.
+
+    Points outside the region take the value at its edge (the same h), so that a picture can be
+    cut exactly along `Geq3`.  ρ is odd in f, and only |f| is computed.  Two threads share the points.
+    Raises `InvalidParameter`, `WorkLimit`.
+    """
+    check_a(a)
+    hs, fs = np.asarray(h, float), np.asarray(f, float)
+    if hs.ndim != 1 or fs.ndim != 1 or hs.size * fs.size > 1_000_000:
+        raise WorkLimit("A grid has at most a million points on two axes: choose fewer.")
+    if not (np.all(np.isfinite(hs)) and np.all(np.isfinite(fs)) and np.all(hs > -1.0) and np.all(hs <= 1e12)):
+        raise InvalidParameter("The grid needs finite values, and −1 < h ≤ 1e12.")
+    # f and −f may differ in the last places where an axis was made by additions.
+    mantissas, exponents = np.frexp(np.abs(fs))
+    magnitudes, back = np.unique(np.ldexp(np.round(mantissas, 13), exponents), return_inverse=True)
+    H, F = (x.ravel() for x in np.meshgrid(hs, magnitudes))
+    F = np.minimum(F, _f_max(H))
+    F[(F == 0.0) & (H == 1.0)] = 1e-12
+    out = np.empty(H.size)
+
+    # Near the separatrix the motion takes long, and the saddle magnifies every error.
+    near = np.abs(H - 1.0) + F < 1e-3
+    exact = level.tightened().tightened()
+
+    def part(i: int) -> None:
+        # Every second point: both threads get the same share of slow ones.
+        own = np.arange(H.size) % 2 == i
+        for points, rung in ((own & ~near, level), (own & near, exact)):
+            if points.any():
+                out[points] = rotation_numbers(matrices(H[points], F[points], a, rung))
+
+    share(part, 2)
+    return frozen(np.where(fs < 0, -1.0, 1.0)[:, None] * out.reshape(magnitudes.size, hs.size)[back])
+
+
+def trace_on_curve(a: float, n: float) -> float:
+    """t on the bifurcation curve at n3 = n: 2cos(π√(n²(1+a²)−a²)/√(1+3n²)), cosh if the root is imaginary.
+
+    ∞ beyond double range.  Raises `InvalidParameter` (a or n not finite, |a| too large).
+    """
+    check_a(a)
+    require_finite(n=n)
+    radicand = n * n * (1 + a * a) - a * a
+    argument = math.pi * math.sqrt(abs(radicand)) / math.sqrt(1 + 3 * n * n)
+    if radicand >= 0:
+        return 2.0 * math.cos(argument)
+    return 2.0 * math.cosh(argument) if argument < 709.0 else math.inf
+
+
+def lock_boundary_end(a: float) -> float:
+    """h* = (1−2a²)/(2|a|√(1+a²)), where the lock boundary meets the curve.  a = 0: ∞, nothing locks."""
+    a = abs(a)
+    return math.inf if a == 0 else (1 - 2 * a * a) / (2 * a * math.hypot(1.0, a))
+
+
+def lock_boundary(a: float, level: Level, points: int = 48) -> Array:
+    """The curve |t| = 2 with f ≥ 0, from the bifurcation curve down to (1, 0); shape (n, 2), read-only.
+
+    The map is locked to the right of it.  Empty for a = 0 (no map locks).  Raises `InvalidParameter` (|a| > 1e5).
+    """
+    check_a(a)
+    if abs(a) > _MAX_A_OF_BOUNDARY:
+        raise InvalidParameter(f"a = {a:g} is too large for the lock boundary: choose |a| ≤ {_MAX_A_OF_BOUNDARY:g}.")
+    end = lock_boundary_end(a)
+    if end > 1e6:
+        return frozen(np.empty((0, 2)))
+    s = np.cos(np.linspace(0.0, 0.5 * math.pi, points))[1:-1]
+
+    def locked(e: Array) -> Array:
+        return _locked(e - 1.0, s * _f_max(e - 1.0), abs(float(a)), level)
+
+    # In e = h + 1 the boundary lies between half the smaller and twice the larger of its ends.
+    ends = (end + 1.0, 2.0)
+    e = _rising_roots(locked, np.full(s.size, 0.5 * min(ends)), np.full(s.size, 2.0 * max(ends)))
+    inside = np.column_stack([e - 1.0, s * _f_max(e - 1.0)])
+    return frozen(np.vstack([[end, largest_f(end)], inside, [1.0, 0.0]]))
+
+
+def _locked_at(h: float, f: float, a: float, level: Level) -> float:
+    return float(_locked(np.array([h]), np.array([f]), float(a), level)[0])
+
+
+def _root(function: Callable[[float], float], low: float, high: float, what: str) -> float:
+    from scipy.optimize import brentq  # 0.3 s of import that no page needs
+
+    if function(low) * function(high) > 0:
+        raise InvalidParameter(f"The lock boundary has no {what} between {low:g} and {high:g} here.")
+    return float(brentq(function, low, high, xtol=1e-15, rtol=1e-14))
+
+
+def lock_boundary_f(a: float, h: float, level: Level) -> float:
+    """The f > 0 with |t| = 2 at given a and h.  Raises `InvalidParameter` where there is none."""
+    check_a(a)
+    top = turning_points(h, 0.0 if h != 1.0 else 0.5).f_max
+    return _root(lambda f: _locked_at(h, f, a, level), 1e-9 * top, top * (1 - 1e-9), "f")
+
+
+def lock_boundary_h(a: float, f: float, level: Level, low: float, high: float) -> float:
+    """The h between low and high with |t| = 2 at given a and f.  Raises `InvalidParameter`, `OutsideRegion`."""
+    check_a(a)
+    require_finite(f=f)
+    for h in (low, high):
+        f_max(h)
+    return _root(lambda h: _locked_at(h, f, a, level), low, high, "h")
+
+
+def critical_a(h: float, f: float, level: Level, high: float = 10.0) -> float:
+    """The a in (0, high) at which the limit cycles of the torus (h, f) appear, |t| = 2.
+
+    Raises `OutsideRegion`, `Separatrix`, `InvalidParameter` where there is none.
+    """
+    check_a(high)
+    turning_points(h, f)
+    return _root(lambda a: _locked_at(h, f, a, level), 1e-9, high, "a")

@@ -1,0 +1,173 @@
+"""S15: the rotation number of the Suslov–Hess torus over its parameters (a, h, f), and of a map that is not Möbius.
+
+Θ(φ) = φ + 2ζ + 2 arg(1 + (β/α) e^{−iφ}) is the lift that `circle_map` means; ζ is arg α, lifted.  After a term that no
+Möbius map has,
+
+    Θ_ε(φ) = Θ(φ + ε sin 3φ),  3|ε| < 1,
+
+which is still one to one, the map locks at other rational numbers too.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from hess_mechanics.errors import InvalidParameter, ModelError, WorkLimit
+from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.rigid_body.inertia import require_finite
+from hess_mechanics.suslov_hess.bifurcation import f_max
+from hess_mechanics.suslov_hess.circle_map import MAX_A, check_a, circle_map, discriminants, matrices, rotation_numbers
+from hess_mechanics.suslov_hess.mode_locking import critical_a, lock_boundary
+
+__all__ = [
+    "PLANES", "Torus", "TorusValues", "closed_after", "lock_curve", "perturbed_rotation", "place_of", "values_at",
+]
+
+PLANES = ("h, f", "h, a", "f, a")
+"""The planes of parameters: horizontal, vertical."""
+
+MAX_POINTS = 1_000_000
+_TERM = 3
+"""A Möbius map has the harmonics 0 and ±1 of one fraction: this one breaks it."""
+_NEAR_SEPARATRIX = 1e-9
+
+
+@dataclass(frozen=True)
+class Torus:
+    """One torus, units b = 1."""
+
+    a: float
+    h: float
+    f: float
+
+    def at(self, **values: float) -> Torus:
+        """The same with other values of some parameters."""
+        return Torus(**{**vars(self), **values})
+
+
+@dataclass(frozen=True)
+class TorusValues:
+    """At some tori (n,): rotation number, trace |t| (∞ beyond double range), whether it locks, whether there is one.
+
+    Where there is none, 0 stands for the numbers.
+    """
+
+    rho: Array
+    trace: Array
+    locked: Array
+    possible: Array
+
+
+def _matrices(a: Array, h: Array, f: Array, level: Level) -> Array:
+    """`matrices` of tori (a, h, |f|) (n,), whose a may differ."""
+    rows = np.zeros((a.size, 6))
+    for value in np.unique(a):
+        own = a == value
+        rows[own] = matrices(h[own], np.abs(f[own]), float(value), level)
+    return rows
+
+
+def values_at(a: Array | float, h: Array | float, f: Array | float, level: Level) -> TorusValues:
+    """ρ and |t| of tori (a, h, f), arrays (n,) or numbers.  Raises `InvalidParameter`, `WorkLimit`."""
+    a, h, f = (np.ascontiguousarray(x, float) for x in np.broadcast_arrays(*np.atleast_1d(a, h, f)))
+    if a.ndim != 1 or a.size > MAX_POINTS:
+        raise WorkLimit(f"At most {MAX_POINTS} tori at a time: choose fewer points.")
+    if not (np.all(np.isfinite(h)) and np.all(np.isfinite(f)) and np.all(np.abs(h) <= 1e12)):
+        raise InvalidParameter("The rotation number needs finite h and f, and |h| ≤ 1e12.")
+    check_a(float(np.max(np.abs(a), initial=0.0)))
+    energies, back = np.unique(h, return_inverse=True)
+    edge = np.array([f_max(x) if x > -1.0 else -1.0 for x in energies.tolist()])[back]
+    possible = (np.abs(f) <= edge) & (np.hypot(h - 1.0, f) > _NEAR_SEPARATRIX)
+    rows = np.zeros((a.size, 6))
+    rows[possible] = _matrices(a[possible], h[possible], f[possible], level)
+    discriminant = discriminants(rows)
+    rho = np.where(possible, np.where(f < 0.0, -1.0, 1.0) * rotation_numbers(rows), 0.0)
+    with np.errstate(over="ignore"):
+        trace = np.where(possible, 2.0 * np.abs(rows[:, 0]) * np.exp(np.minimum(rows[:, 3], 710.0)), 0.0)
+    return TorusValues(frozen(rho), frozen(trace), frozen(possible & (discriminant > 0.0)), frozen(possible))
+
+
+def lock_curve(plane: str, torus: Torus, window: Sequence[float], level: Level, points: int = 40) -> Array:
+    """The boundary |t| = 2 in a plane of `PLANES` through the torus, within x0 … x1 of `window`; (n, 2), NaN-free.
+
+    In (h, f) it is `lock_boundary` (its upper branch); in the others a = a(h) or a = a(f).
+    """
+    x0, x1 = window[:2]
+    if plane == "h, f":
+        return lock_boundary(torus.a, level)
+    found = []
+    for x in np.linspace(x0, x1, points):
+        try:
+            h, f = (x, torus.f) if plane == "h, a" else (torus.h, x)
+            found.append((x, critical_a(float(h), abs(float(f)), level, 20.0)))
+        except ModelError:
+            continue
+    return frozen(np.array(found).reshape(-1, 2))
+
+
+def perturbed_rotation(a: Array | float, h: Array | float, f: Array | float, epsilon: float, level: Level,
+                       count: int = 1500) -> Array:
+    """ρ of Θ_ε for tori (a, h, f), arrays (n,) or numbers, that are possible; (n,).
+
+    From a weighted average of `count` turns.
+
+    Raises `InvalidParameter` (|ε| ≥ 1/3), `WorkLimit`.
+    """
+    require_finite(epsilon=epsilon)
+    if _TERM * abs(epsilon) >= 1.0:
+        raise InvalidParameter(f"ε = {epsilon:g} folds the circle map, which then has no rotation number: choose "
+                               "|ε| < 1/3.")
+    a, h, f = (np.ascontiguousarray(x, float) for x in np.broadcast_arrays(*np.atleast_1d(a, h, f)))
+    sign = np.where(f < 0.0, -1.0, 1.0)
+    re, im, im_beta, _, zeta, _ = _matrices(a, h, f, level).T
+    ratio = 1j * im_beta / (re + 1j * im)
+    phi = np.zeros(re.size)
+    t = (np.arange(count) + 0.5) / count
+    weights = np.exp(-1.0 / (t * (1.0 - t)))
+    total = np.zeros(re.size)
+    for weight in weights / weights.sum():
+        # The torus of −f has the mirror image φ → π − φ of Θ, in which ε changes its sign.
+        first = sign * epsilon * np.sin(_TERM * phi)
+        turn = first + 2.0 * zeta + 2.0 * np.angle(1.0 + ratio * np.exp(-1j * (phi + first)))
+        total += weight * turn
+        phi = np.remainder(phi + turn, 2.0 * math.pi)
+    return frozen(sign * total / (2.0 * math.pi))
+
+
+def place_of(rho: float, name: str, torus: Torus, low: float, high: float, level: Level) -> float | None:
+    """The value of the parameter `name` ("a", "h", "f") between low and high at which ρ is this, if one is seen."""
+    x = np.linspace(low, high, 121)
+    values = values_at(**{**vars(torus), name: x}, level=level)
+    excess = values.rho - rho
+    both = values.possible[1:] & values.possible[:-1]
+    # Not where ρ jumps from −½ to ½.
+    changes = np.flatnonzero(both & (excess[1:] * excess[:-1] <= 0.0) & (np.abs(np.diff(values.rho)) < 0.25))
+    if not changes.size:
+        return None
+    from scipy.optimize import brentq  # 0.3 s of import that no other page needs
+
+    i = int(changes[0])
+
+    def difference(value: float) -> float:
+        return float(values_at(**{**vars(torus), name: value}, level=level).rho[0]) - rho
+
+    if difference(float(x[i])) * difference(float(x[i + 1])) > 0.0:
+        return None
+    return float(brentq(difference, float(x[i]), float(x[i + 1]), xtol=1e-15, rtol=1e-15))
+
+
+def closed_after(torus: Torus, q: int, level: Level) -> float:
+    """max |Θ^q(φ) − φ| over 64 phases: round-off where every orbit is periodic with q returns."""
+    if not (abs(torus.a) <= MAX_A and 1 <= q <= 1000):
+        raise InvalidParameter("The number of returns q lies between 1 and 1000.")
+    theta = circle_map(torus.a, torus.h, torus.f, level)
+    phi = np.linspace(-math.pi, math.pi, 64, endpoint=False)
+    image = phi
+    for _ in range(q):
+        image = theta.theta(image)
+    return float(np.max(np.abs(np.angle(np.exp(1j * (image - phi))))))

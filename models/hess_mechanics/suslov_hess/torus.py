@@ -1,0 +1,151 @@
+"""S8: orbits and limit cycles on one torus M²(h, f), in the variables of `Biz131`.
+
+h and f are in units b = 1 (`eq03`); time and angular velocity are the body's own.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from hess_mechanics.dynamics.orbit import solve
+from hess_mechanics.dynamics.sampling import sample_times
+from hess_mechanics.errors import Separatrix
+from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.results import Array, Orbit, frozen
+from hess_mechanics.rigid_body.attitude import HESS, Attitude, attitude
+from hess_mechanics.rigid_body.inertia import require_finite
+from hess_mechanics.suslov_hess.bifurcation import TurningPoints, turning_points
+from hess_mechanics.suslov_hess.circle_map import FixedPoint
+from hess_mechanics.suslov_hess.equations import SYSTEM, HessBody
+
+__all__ = [
+    "HALF_A_PIXEL", "PIXELS", "SAGITTA", "Track", "annulus", "attitude_of_track", "cycles", "pixels_per_unit",
+    "start_of_track", "track",
+]
+
+MAX_RETURNS = 100
+PIXELS = 600.0
+"""Width of the pictures that the samples are meant for; a wider one shows proportionally more."""
+SAGITTA = 0.25
+"""The largest distance between the orbit and what is drawn, in those pixels."""
+HALF_A_PIXEL = 1.0 / PIXELS
+"""Half a pixel, in units in which the state is O(1) and fills the picture."""
+_MOST = 6000
+
+
+@dataclass(frozen=True)
+class Track:
+    """One orbit on a torus.
+
+    times : (n,), in the body's units; omega : (n, 2); gamma : (n, 3);
+    phi : (n,) the angle of (w2, w1) in (−π, π]; n3 : (n,); orbit : the computation in units b = 1.
+    """
+
+    times: Array
+    omega: Array
+    gamma: Array
+    phi: Array
+    n3: Array
+    orbit: Orbit
+
+
+def _in_body_units(body: HessBody, orbit: Orbit) -> Track:
+    w1, w2 = orbit.states[:, 0], orbit.states[:, 1]
+    states = body.from_reduced(body.from_units_of_b(orbit.states))
+    return Track(
+        times=frozen(orbit.times / body.frequency_unit),
+        omega=frozen(states[:, :2].copy()),
+        gamma=frozen(states[:, 2:].copy()),
+        phi=frozen(np.arctan2(w1, w2)),
+        n3=frozen(orbit.states[:, 4].copy()),
+        orbit=orbit,
+    )
+
+
+def _solve_reduced(body: HessBody, start: Array, times: Array, level: Level) -> Track:
+    return _in_body_units(body, solve(SYSTEM, start, (body.a, 1.0), times, level))
+
+
+def start_of_track(body: HessBody, h: float, f: float, phi0: float, span: float) -> tuple[Array, float]:
+    """State (5,) and time span, in units b = 1, of the orbit with phase φ0 that `track` follows.
+
+    It starts at n3 = n3^(1), and the span is cut at `MAX_RETURNS` periods of n3.  On the separatrix
+    (h = 1, f = 0), which never comes to its lower turning point, it starts at the top of n3 instead.
+    Raises `OutsideRegion`, `NoField`, `InvalidParameter`.
+    """
+    require_finite(phi0=phi0, span=span)
+    length = span * body.frequency_unit
+    try:
+        turning: TurningPoints = turning_points(h, f)
+    except Separatrix:
+        return np.array([2.0 * math.sin(phi0), 2.0 * math.cos(phi0), 0.0, 0.0, 1.0]), min(length, 20.0)
+    return turning.state_at_lower_turn(phi0), min(length, MAX_RETURNS * turning.period)
+
+
+def pixels_per_unit(body: HessBody, half_width: float) -> Array:
+    """Pixels for a unit of w1, w2, n1, n2, n3 (units b = 1) in pictures of `PIXELS`; shape (5,).
+
+    In them ω reaches to ± half_width, and γ to the sphere's rim.
+    """
+    radius = 0.5 * PIXELS
+    w = radius * body.frequency_unit / half_width
+    return np.array([w, w * math.hypot(1.0, body.a), radius, radius, radius])
+
+
+def track(body: HessBody, h: float, f: float, phi0: float, span: float, level: Level, half_width: float) -> Track:
+    """The orbit of `start_of_track` over `span` of the body's time, sampled for the pictures of `pixels_per_unit`.
+
+    Raises `OutsideRegion`, `NoField`, `InvalidParameter`.
+    """
+    start, length = start_of_track(body, h, f, phi0, span)
+    return _solve_reduced(body, start, _times(body, start, length, half_width), level)
+
+
+def attitude_of_track(body: HessBody, h: float, f: float, phi0: float, span: float, level: Level) -> Attitude:
+    """How the body lies in space along the orbit of `start_of_track`; time and axes (n1, n2, n3) are those of b = 1.
+
+    e starts across the plane of the vertical and the centre of mass.
+    Raises `OutsideRegion`, `NoField`, `InvalidParameter`, `WorkLimit`.
+    """
+    start, length = start_of_track(body, h, f, phi0, span)
+    e = (math.cos(phi0), -math.sin(phi0), 0.0)
+    weights = (0.0, 0.0, *(0.5 * PIXELS,) * 6)
+    return attitude(HESS, [*start, *e], (body.a, 1.0), length, level, weights, SAGITTA, _MOST)
+
+
+def _times(body: HessBody, start: Array, length: float, half_width: float) -> Array:
+    weights = pixels_per_unit(body, half_width)
+    return sample_times(SYSTEM, start, np.array([body.a, 1.0]), length, weights, SAGITTA, _MOST)
+
+
+def cycles(body: HessBody, h: float, f: float, stable: FixedPoint, level: Level, half_width: float
+           ) -> tuple[Track, Track]:
+    """The stable and the unstable limit cycle, over one period each.
+
+    Sampled as `track`.  Only the stable one is integrated; the other is its image under the reversor
+    (w1, n1, t) → (−w1, −n1, −t) of `eq01`, so that no instability touches it.
+    """
+    turning = turning_points(h, f)
+    start = turning.state_at_lower_turn(stable.phi)
+    times = _times(body, start, turning.period, half_width)
+    orbit = solve(SYSTEM, start, (body.a, 1.0), times, level)
+    mirrored = orbit.states[::-1] * np.array([-1.0, 1.0, -1.0, 1.0, 1.0])
+    image = Orbit(orbit.system, orbit.level, frozen(turning.period - orbit.times[::-1]), frozen(mirrored), orbit.status,
+                  orbit.error_estimate, orbit.drift, orbit.cost)
+    return _in_body_units(body, orbit), _in_body_units(body, image)
+
+
+def annulus(body: HessBody, h: float, turning: TurningPoints | None) -> tuple[Array, Array]:
+    """The inner and outer ellipse in the (ω1, ω2)-plane that bound the motion, shape (181, 2) each.
+
+    |w|² = 2(h + n3) between its turning points; on the separatrix (`turning` None) between 0 and 4.
+    """
+    inner, outer = (
+        (0.0, 2.0) if turning is None else (turning.initial_rho, math.sqrt(2.0 * max(0.0, h + turning.roots[2])))
+    )
+    s = np.linspace(0.0, 2.0 * math.pi, 181)
+    unit = body.frequency_unit * np.column_stack([np.sin(s), math.hypot(1.0, body.a) * np.cos(s)])
+    return frozen(inner * unit), frozen(outer * unit)

@@ -1,0 +1,451 @@
+"""The benchmark: its references, its choice of settings, its formats, the command.  No times are asserted."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+
+import make_benchmark_references as maker
+import numpy as np
+import pytest
+from mechanics import ROOT
+
+from hess_explorer.__main__ import main
+from hess_explorer.benchmark import run as benchmark
+from hess_explorer.benchmark.explorer import METHOD as EXPLORER
+from hess_explorer.benchmark.measure import (
+    FULL,
+    QUICK,
+    Chosen,
+    Measured,
+    Sample,
+    Timing,
+    cheapest,
+    climb,
+    measure,
+    race,
+)
+from hess_explorer.benchmark.method import OURS, Method, half_decades, named, version
+from hess_explorer.benchmark.peers import PEERS, load
+from hess_explorer.benchmark.peers.scipy_peer import METHOD as SCIPY
+from hess_explorer.benchmark.report import Report, as_json, as_text
+from hess_explorer.benchmark.scaling import Scaling, scaling
+from hess_explorer.benchmark.threads import shared
+from hess_explorer.benchmark.works import REFERENCES, works
+from hess_explorer.commands import CommandError
+from hess_mechanics import circle_map, level, solve, systems
+
+# References
+
+
+def test_what_makes_the_references_gives_the_known_20_digits():
+    maker.check(maker.RUNS[0])
+
+
+@pytest.mark.parametrize(("name", "body"), [("B", maker.FREE_BODY), ("B2", maker.FIELD_BODY)])
+def test_the_stored_ensembles_are_what_their_maker_makes(name, body):
+    work, digits = works()[name], maker.RUNS[0]
+    some = [0, 77, 511]
+    assert np.array_equal(digits.doubles(maker.ensemble(body, work.initial[some], digits)), work.reference[some])
+
+
+def test_the_stored_angles_are_what_their_maker_makes():
+    work, digits = works()["C"], maker.RUNS[0]
+    found = maker.circle_map(*map(maker.Fraction, maker.MAP_TORUS), work.phi[::50], digits)
+    assert np.array_equal(digits.doubles(found), work.reference[::50])
+
+
+def test_the_stored_long_orbit_begins_as_its_maker_makes_it():
+    work, digits = works()["A"], maker.LONG_RUNS[0]
+    times = [digits.fixed(t) for t in work.times[work.rows[:20]]]
+    state = [digits.fixed(x) for x in work.initial[0]]
+    steps = list(maker.motion(maker.suslov(maker.FIELD_BODY), state, times[-1], digits))
+    assert np.array_equal(digits.doubles(maker.states_at(times, steps, digits)), work.reference[:20])
+    crossings = digits.doubles(maker.upward_crossings(steps, digits))
+    assert len(crossings) > 0
+    assert np.array_equal(crossings, works()["D"].reference[:len(crossings)])
+
+
+@pytest.mark.parametrize(("name", "bound"), [("A", 1e-11), ("A2", 1e-8)])
+def test_models_agree_with_the_stored_long_orbit(name, bound):
+    work = works()[name]
+    orbit = solve(systems()["suslov"], work.initial[0], work.parameters, work.times, level("reference"))
+    assert work.error(orbit.states) < bound
+
+
+@pytest.mark.parametrize("name", ["B", "B2"])
+def test_models_agree_with_the_stored_ensembles(name):
+    work = works()[name]
+    for i in (0, 100, 400, 511):
+        orbit = solve(systems()["suslov"], work.initial[i], work.parameters, work.times, level("reference"))
+        assert np.max(np.abs(orbit.states[0] - work.reference[i])) < 1e-10
+
+
+def test_models_agree_with_the_stored_circle_map():
+    work = works()["C"]
+    assert work.error(circle_map(work.a, work.h, work.f, level("reference")).theta(work.phi)) < 1e-12
+
+
+def test_the_stored_crossings_lie_on_the_section_and_on_the_level_of_the_orbit():
+    work = works()["D"]
+    integrals = systems()["suslov"].integrals
+    assert np.all(work.reference[:, 4] == 0.0)
+    w1, w2, g1, g2, _ = work.reference.T
+    assert np.all(g1 * w2 - g2 * w1 > 0.0)
+    start = integrals(work.initial[0], work.parameters)
+    along = integrals(work.reference.T, work.parameters)
+    for name in start:
+        assert np.max(np.abs(along[name] - start[name])) < 1e-14
+
+
+def test_the_references_are_small_enough_to_be_packaged():
+    assert REFERENCES.stat().st_size < 150_000
+
+
+def test_initial_states_are_as_the_works_say():
+    for work in (works()["A"], works()["B"], works()["B2"]):
+        assert np.allclose(np.linalg.norm(work.initial[:, 2:], axis=1), 1.0, rtol=0, atol=1e-15)
+    free = works()["B"]
+    assert np.all(free.initial[:, :2] == (2.0, 1e-5))
+    xi = np.array([free.parameters[3], -free.parameters[2], 0.0])
+    assert np.allclose(free.initial[:, 2:] @ xi, 0.0, rtol=0, atol=1e-15)
+
+
+# Errors
+
+
+@pytest.mark.parametrize("name", list(works()))
+def test_the_error_of_a_result_is_its_largest_deviation(name):
+    work = works()[name]
+    exact = np.zeros(work.shape)
+    exact[work.rows] = work.reference
+    assert work.error(exact) == 0.0
+    wrong = exact.copy()
+    row = np.arange(len(exact))[work.rows][-1]
+    wrong[row] += 0.125
+    assert work.error(wrong) == pytest.approx(0.125, rel=0, abs=1e-14)
+    assert work.error(exact[:-1]) == math.inf
+    wrong[0] = np.nan
+    assert work.error(wrong) == math.inf
+
+
+def test_an_angle_is_compared_modulo_a_turn():
+    work = works()["C"]
+    assert work.error(work.reference + 2 * math.pi * np.arange(256)) < 1e-12
+
+
+# Choice of settings, times
+
+
+def constant(name, results, ladders):
+    """A method that gives each setting's own result at once."""
+    return Method(name, "1", lambda work: ladders, lambda work, setting, threads=1: lambda: results[setting])
+
+
+def sample(error, seconds, setting=("a",)):
+    return Sample(setting, error, seconds, run=lambda: None)
+
+
+def test_the_cheapest_setting_is_the_fastest_that_keeps_the_error():
+    exact, quick, wrong = sample(1e-9, 3.0), sample(1e-7, 2.0), sample(1e-2, 1.0)
+    samples = [exact, quick, wrong, sample(math.inf, 0.5)]
+    assert cheapest(samples, 1e-2) is wrong
+    assert cheapest(samples, 1e-3) is quick
+    assert cheapest(samples, 1e-7) is quick
+    assert cheapest(samples, 1e-8) is exact
+    assert cheapest(samples, 1e-10) is None
+
+
+def test_a_method_with_a_wrong_result_is_not_admitted():
+    work = works()["C"]
+    exact = constant("exact", {(1.0,): work.reference}, [((1.0,),)])
+    wrong = constant("wrong", {(1.0,): work.reference + 1e-2}, [((1.0,),)])
+    found = measure(work, [exact, wrong], [0.1, 1e-3], QUICK, lambda text: None)
+    assert set(found.chosen["exact"]) == {0.1, 1e-3}
+    assert set(found.chosen["wrong"]) == {0.1}
+    assert found.samples["wrong"][0].error == pytest.approx(1e-2)
+
+
+def test_a_slow_setting_ends_its_ladder_and_no_other():
+    work = works()["C"]
+    settings = [("slow", 1), ("slow", 2), ("other", 1)]
+    method = constant("m", dict.fromkeys(settings, work.reference), [settings[:2], settings[2:]])
+    samples, notes = climb(work, method, replace(FULL, slow=0.0))
+    assert [one.setting for one in samples] == [("slow", 1), ("other", 1)]
+    assert len(notes) == 1
+    assert re.fullmatch(r"m, work C: left out slow, 2 to slow, 2, as slow, 1 takes 0\.0 s\.", notes[0])
+
+
+@pytest.mark.parametrize(("enough", "runs"), [(0.0, 1), (60.0, 3)])
+def test_a_setting_is_run_three_times_unless_that_takes_long(enough, runs):
+    work, calls = works()["C"], []
+
+    def run():
+        calls.append(1)
+        return work.reference
+
+    method = Method("m", "1", lambda work: [((1,),)], lambda work, setting, threads=1: run)
+    climb(work, method, replace(FULL, enough=enough))
+    assert len(calls) == runs
+
+
+def test_what_is_over_the_budget_is_left_out_with_a_sentence():
+    work = works()["C"]
+    settings = [("a", 1), ("a", 2), ("b", 1)]
+    method = constant("m", dict.fromkeys(settings, work.reference), [settings[:2], settings[2:]])
+    samples, notes = climb(work, method, replace(FULL, budget=0.0))
+    assert [one.setting for one in samples] == [("a", 1)]
+    assert [note.split(", as")[0] for note in notes] == ["m, work C: left out a, 2 to a, 2",
+                                                        "m, work C: left out b, 1 to b, 1"]
+
+
+def test_a_work_that_a_method_does_not_do_is_named_with_the_reason():
+    work = works()["C"]
+    lazy = replace(constant("lazy", {}, []), without={"C": "it would rather not"})
+    found = measure(work, [lazy], [1e-3], QUICK, lambda text: None)
+    assert found.notes == ["lazy, work C: it would rather not."]
+    assert "lazy" not in found.samples
+
+
+def test_runs_are_timed_in_turn():
+    order = []
+    timings = race([lambda: order.append("a"), lambda: order.append("b")], replace(QUICK, turns=3))
+    assert order == ["a", "b"] * 3
+    assert all(timing.runs == 3 and 0.0 <= timing.minimum <= timing.median for timing in timings)
+
+
+def test_a_run_that_had_its_share_is_out_of_the_race():
+    slow, _ = race([lambda: time.sleep(0.01), lambda: None], replace(QUICK, turns=5, share=0.005))
+    assert slow.runs == 1
+
+
+def test_one_setting_for_several_targets_is_timed_once():
+    work = works()["C"]
+    method = constant("m", {(1.0,): work.reference}, [((1.0,),)])
+    found = measure(work, [method], [1e-3, 1e-6], QUICK, lambda text: None)
+    assert found.chosen["m"][1e-3].timing is found.chosen["m"][1e-6].timing
+
+
+def test_threads_share_the_parts():
+    for threads in (1, 2):
+        parts = []
+        shared(parts.append, threads)()
+        assert sorted(parts) == list(range(threads))
+
+
+def test_two_threads_are_compared_with_one_at_the_finest_setting():
+    work = works()["C"]
+    prepared = []
+
+    def prepare(work, setting, threads=1):
+        prepared.append((setting, threads))
+        return lambda: work.reference
+
+    method = Method("m", "1", lambda work: [((1.0,), (2.0,))], prepare, threaded=frozenset({"C"}))
+    alone = replace(method, name="alone", threaded=frozenset())
+    found = measure(work, [method, alone], [1e-3], QUICK, lambda text: None)
+    setting = found.chosen["m"][1e-3].sample.setting
+    prepared.clear()
+    (one,) = scaling([found], [method, alone], QUICK, lambda text: None)
+    assert (one.method, one.setting) == ("m", setting)
+    assert prepared == [(setting, 1), (setting, 2)]
+
+
+# What takes part
+
+
+def test_a_peer_that_is_not_installed_is_named(monkeypatch):
+    monkeypatch.setitem(PEERS, "no-such-peer", "no_such_peer")
+    methods, missing = benchmark.participants()
+    assert missing["no-such-peer"] == "not installed"
+    assert {method.name for method in methods} | set(missing) == {OURS, *PEERS}
+    report = made_up(missing={"no-such-peer": "not installed"})
+    assert "- no-such-peer: not installed." in as_text(report)
+    assert as_json(report)["missing"] == {"no-such-peer": "not installed"}
+
+
+def test_a_peer_that_cannot_be_imported_is_named_with_the_reason(monkeypatch):
+    def broken(name):
+        raise ImportError("its library is gone")
+
+    monkeypatch.setattr(benchmark, "load", broken)
+    methods, missing = benchmark.participants()
+    assert methods == [EXPLORER]
+    assert missing["heyoka"] == "installed, but it cannot be imported (its library is gone)"
+
+
+def installed_peers():
+    return benchmark.participants()[0][1:]
+
+
+def middle(method, work):
+    """A setting of about 1e-7 in the middle of each ladder."""
+    return [ladder[len(ladder) // 2] for ladder in method.ladders(work)]
+
+
+@pytest.mark.parametrize("name", list(works()))
+@pytest.mark.parametrize("method", [EXPLORER, *installed_peers()], ids=lambda method: method.name)
+def test_every_method_does_every_work_it_says_it_does(method, name):
+    work = works()[name]
+    if name not in method.without:
+        for setting in middle(method, work):
+            assert work.error(method.prepare(work, setting)()) < 1e-2, setting
+
+
+@pytest.mark.parametrize("method", [EXPLORER, *installed_peers()], ids=lambda method: method.name)
+def test_a_run_can_be_repeated_and_shared(method):
+    for name in ("B2", "C"):
+        work = works()[name]
+        setting = middle(method, work)[0]
+        run = method.prepare(work, setting)
+        once = np.array(run())
+        assert np.array_equal(run(), once)
+        if name in method.threaded:
+            assert np.array_equal(method.prepare(work, setting, 2)(), once)
+
+
+def test_scipy_takes_part_always():
+    assert load("SciPy") is SCIPY
+
+
+def test_finer_settings_of_scipy_are_more_exact():
+    work = works()["C"]
+    for ladder in SCIPY.ladders(work):
+        errors = [work.error(SCIPY.prepare(work, setting)()) for setting in (ladder[0], ladder[4], ladder[-1])]
+        assert errors[0] > 10 * errors[1] > 100 * errors[2]
+
+
+def test_names_of_settings_and_versions():
+    assert named((18, 1e-11)) == "18, 1e-11"
+    assert named((3.2e-7, "high accuracy")) == "3.2e-7, high accuracy"
+    assert half_decades(2, 3) == (1e-2, 3.2e-3, 1e-3)
+    assert version("no-such-distribution") == "from its source folder"
+    assert re.match(r"\d+\.\d+", version("numpy"))
+
+
+# Formats
+
+
+def chosen(error, minimum, setting):
+    return Chosen(sample(error, minimum, setting), Timing(minimum, 1.5 * minimum, 20))
+
+
+def made_up(missing=None, threads=()):
+    work = works()["C"]
+    picked = {
+        OURS: {1e-3: chosen(2.5e-4, 1e-3, (10, 1e-5)), 1e-6: chosen(2.5e-7, 2e-3, (14, 1e-8))},
+        "peer": {1e-3: chosen(1e-4, 4e-3, ("fast", 1e-5))},
+    }
+    samples = {name: [one.sample for one in by_target.values()] for name, by_target in picked.items()}
+    samples["peer"].append(sample(math.inf, 7.0, ("fast", 1e-9)))
+    facts = {"date": "2026-01-02", "processor": "Made-up 1", "cores": 2, "python": "3.11"}
+    return Report(facts, {OURS: "0.1", "peer": "7"}, missing or {}, (1e-3, 1e-6),
+                  [Measured(work, samples, picked, ["peer, work C: a sentence."])], threads)
+
+
+def test_the_table_names_times_errors_settings_and_ratios():
+    text = as_text(made_up())
+    assert "2026-01-02, Made-up 1, 2 cores, Python 3.11, Hess Explorer 0.1, peer 7." in text
+    assert "| work | error | Hess Explorer | peer |" in text
+    assert "| C | 1e-3 | 1.00 (2.5e-4; 10, 1e-5) | 4.00 (4.0 ×) |" in text
+    assert "| C | 1e-6 | 2.00 (2.5e-7; 14, 1e-8) | – |" in text
+    assert "- peer, work C: a sentence." in text
+    assert "Two cores" not in text
+
+
+@pytest.mark.parametrize(("seconds", "text"), [(1.5, "1500"), (0.0421, "42.1"), (9e-6, "0.00900")])
+def test_times_have_three_digits_and_no_exponent(seconds, text):
+    report = made_up()
+    report.measured[0].chosen["peer"][1e-3] = chosen(1e-4, seconds, ("fast",))
+    assert f"| {text} (" in as_text(report)
+
+
+def test_the_table_of_two_cores():
+    one = Scaling("B2: orbits", OURS, (18, 1e-11), Timing(4e-3, 5e-3, 9), Timing(2e-3, 3e-3, 9))
+    report = made_up(threads=[one])
+    assert "| B2: orbits | Hess Explorer | 18, 1e-11 | 4.00 | 2.00 | 2.00 × |" in as_text(report)
+    assert as_json(report)["two_cores"] == [{"work": "B2: orbits", "method": OURS, "setting": "18, 1e-11",
+                                             "one_thread": 4e-3, "two_threads": 2e-3, "factor": 2.0}]
+
+
+def test_the_json_holds_everything_and_is_strict():
+    data = json.loads(json.dumps(as_json(made_up()), allow_nan=False))
+    assert data["processor"] == "Made-up 1"
+    assert data["targets"] == [1e-3, 1e-6]
+    (work,) = data["works"]
+    assert work["name"] == "C"
+    assert work["samples"]["peer"][-1] == {"setting": "fast, 1e-9", "seconds": 7.0, "error": None}
+    peer = next(row for row in work["chosen"] if row["method"] == "peer")
+    assert peer == {"method": "peer", "target": 1e-3, "setting": "fast, 1e-5", "error": 1e-4, "minimum": 4e-3,
+                    "median": 6e-3, "runs": 20, "ratio": 4.0}
+
+
+@pytest.mark.parametrize(("suffix", "begin"), [(".svg", b"<?xml"), (".png", b"\x89PNG")])
+def test_the_picture_is_a_picture(suffix, begin):
+    from hess_explorer.benchmark.picture import draw
+
+    assert draw(made_up(), suffix).startswith(begin)
+
+
+# The command
+
+
+def bench(*words):
+    return [sys.executable, "-m", "hess_explorer", "bench", *words]
+
+
+def test_the_command_from_end_to_end(tmp_path):
+    file = tmp_path / "bench.json"
+    done = subprocess.run(bench("--quick", "--works", "C", "--targets", "1e-3", "--json", str(file)), cwd=ROOT,
+                          capture_output=True, timeout=120, check=False)
+    assert done.returncode == 0, done.stderr.decode()
+    text = done.stdout.decode()
+    rows = [line for line in text.splitlines() if line.startswith("| C | 1e-3 |")]
+    assert len(rows) == 1
+    assert re.match(r"\| C \| 1e-3 \| [\d.]+ \(\d(\.\d)?e-\d+; \d+, (1|3\.2)e-\d+\) \|", rows[0])
+    assert re.match(r"\d{4}-\d\d-\d\d, .+, \d+ cores, Python 3\.\d+\.\d+, Hess Explorer ", text)
+    data = json.loads(file.read_text())
+    errors = {row["method"]: row["error"] for row in data["works"][0]["chosen"]}
+    assert errors.keys() >= {OURS, "SciPy"}
+    assert max(errors.values()) <= 1e-3
+    assert "settings of Hess Explorer" in done.stderr.decode()
+    for name in data["missing"]:
+        assert f"- {name}: not installed." in text
+
+
+@pytest.mark.parametrize(("words", "sentence"), [
+    (["--works", "A,X"], "'X' is not a work; choose of A,A2,B,B2,C,D"),
+    (["--works", ""], "'' is not a work"),
+    (["--targets", "1e-3,0"], "'1e-3,0' has an error that is not positive"),
+    (["--targets", "small"], "'small' is not a number"),
+    (["--picture", "bench.pdf"], "'bench.pdf' is not a picture; let it end in .svg or .png"),
+])
+def test_a_bad_option_gives_one_sentence(words, sentence, capsys):
+    assert main(["bench", *words]) == 2
+    said = capsys.readouterr().err
+    assert sentence in said
+    assert said.count("\n") == 1
+
+
+def test_a_picture_without_matplotlib_is_refused_before_measuring(monkeypatch):
+    from hess_explorer.commands import bench as command
+
+    monkeypatch.setattr(command, "find_spec", lambda name: None)
+    with pytest.raises(CommandError, match=r"--picture needs Matplotlib"):
+        command._require_matplotlib()
+
+
+def test_ctrl_c_ends_it_cleanly():
+    with subprocess.Popen(bench("--works", "C"), cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        process.stderr.readline()
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert out == b""
+    assert err.decode().splitlines()[-1] == "hess-explorer: interrupted."

@@ -1,0 +1,524 @@
+"""The command line: its numbers, its formats, and one sentence for whatever is wrong."""
+
+from __future__ import annotations
+
+import csv
+import gc
+import json
+import math
+import signal
+import socket
+import subprocess
+import sys
+import types
+import webbrowser
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+from scipy.integrate import solve_ivp
+from test_andoyer import GESS1, crossings_by_scipy, start_by_hand
+
+import hess_explorer.headless.screenshot
+from hess_explorer.__main__ import main
+from hess_explorer.headless.browser import BrowserError
+from hess_explorer.headless.screenshot import running_server
+from hess_mechanics.dynamics.orbit import MAX_SAMPLES
+
+ROOT = Path(__file__).resolve().parents[2]
+CIRCLE_MAP = ["circle-map", "--h", "1.5", "--f", "0.6", "--a", "0.5", "--phi", "0,1,2", "--accuracy", "reference"]
+SUSLOV = ["orbit", "suslov", "--I", "2,1,0.3,0.5", "--b", "0.3,-0.5,1", "--omega", "0.8,-0.4",
+          "--gamma", "0.3,0.2,0.93", "--t", "10,50", "--accuracy", "reference"]
+HESS = ["orbit", "hess", "--a", "0.5", "--b", "1", "--omega", "0.7,1.1", "--gamma", "0.2,0.5,0.7", "--t", "10,50",
+        "--accuracy", "reference"]
+HEAVY = ["orbit", "euler-poisson", "--A", "1,1.6,2.6666666666666667", "--r", "3,0,4", "--mu", "1.995",
+         "--M", "1.3,-2.0,0.7", "--gamma", "0.3000066002178079863075,0.40000880029041064841,0.8660190526287390538076",
+         "--t", "5,20", "--accuracy", "reference"]
+
+# 40-digit Taylor series, rounded to double.
+THETA = [-1.846842405836762766371, -1.713101969292905477533, 2.57889487639795195168]
+TRACE = 4.381325585713531995065
+PERIOD = 3.668400280441695618498
+SUSLOV_STATES = [
+    [-1.437197555806966721106, 1.00029044540894224644, -0.2723685171956202063664, -0.1991797232879835602478,
+     -0.9413515967329005595151],
+    [-1.180814258848206004989, 0.2923916318266687823268, 0.5081246282330512229384, 0.7480548120598404007528,
+     0.4268762822377700812319],
+]
+HESS_STATES = [
+    [1.231216102505553058911, -0.3986347517424707304828, 0.5235841786319873283607, -0.3427344987202433343617,
+     0.779995302084089929648],
+    [-0.5966567344671923263117, -0.5537390503841238802927, -0.7455067905108669931377, -0.6076138321417659484657,
+     0.273907021253899493733],
+]
+HEAVY_STATES = [
+    [1.303171576431794886461, 1.939239401930229263521, 0.7288273636200425098267, 0.2690968985733379125361,
+     -0.4076103299371850479799, 0.8726056830589116870152],
+    [1.09336915106861076365, 1.355414217337625118592, 1.014041313101284483508, 0.239288243300533307289,
+     -0.6121309258568160022675, 0.7536822050624666347255],
+]
+
+
+def no_constant(name):
+    raise AssertionError(f"{name} is not JSON")
+
+
+def strict_json(text):
+    return json.loads(text, parse_constant=no_constant)
+
+
+def run(*words):
+    command = [sys.executable, "-m", "hess_explorer", *words]
+    return subprocess.run(command, cwd=ROOT, capture_output=True, timeout=120, check=False)
+
+
+@pytest.fixture
+def answer(capsys):
+    def call(*words):
+        assert main(words) == 0
+        out, err = capsys.readouterr()
+        assert err == ""
+        return strict_json(out)
+
+    return call
+
+
+@pytest.fixture
+def refusal(capsys):
+    """The one sentence of a refused request."""
+
+    def call(*words):
+        assert main(words) == 2
+        out, err = capsys.readouterr()
+        assert out == ""
+        assert err.startswith("hess-explorer: ")
+        assert err.count("\n") == 1
+        assert err.endswith(".\n")
+        return err
+
+    return call
+
+
+def replaced(words, option, value):
+    at = words.index(option)
+    return [*words[:at + 1], value, *words[at + 2:]]
+
+
+# Values
+
+
+def test_circle_map(answer):
+    found = answer(*CIRCLE_MAP)
+    assert found["phi"] == [0.0, 1.0, 2.0]
+    assert found["theta"] == pytest.approx(THETA, abs=1e-12)
+    assert found["trace"] == pytest.approx(TRACE, rel=1e-12)
+    assert found["period"] == pytest.approx(PERIOD, rel=1e-12)
+    assert found["kind"] == "hyperbolic"
+    assert found["rotation_number"] == 0.0
+    assert (found["status"], found["level"], found["notes"]) == ("ok", "reference", [])
+    assert 0 < found["error_estimate"] < 1e-12
+    assert found["steps"] > 0
+    assert found["wall_ms"] > 0
+    stable, unstable = found["multipliers"]
+    assert stable < 1 < unstable
+    # The multipliers are the squares of the eigenvalues of a matrix with determinant 1.
+    assert stable**0.5 + unstable**0.5 == pytest.approx(TRACE, rel=1e-12)
+    fixed = ",".join(map(repr, found["fixed_points"]))
+    assert answer(*replaced(CIRCLE_MAP, "--phi", fixed))["theta"] == pytest.approx(found["fixed_points"], abs=1e-12)
+
+
+def test_circle_map_without_cycles(answer):
+    found = answer("circle-map", "--h", "0.5", "--f", "0.5", "--a", "0.5")
+    assert found["kind"] == "elliptic"
+    assert found["fixed_points"] == found["multipliers"] == found["theta"] == []
+    assert found["level"] == "precise"
+
+
+def test_circle_map_beyond_double_range(answer):
+    found = answer("circle-map", "--h", "1.5", "--f", "0.6", "--a", "500")
+    assert found["trace"] is None
+    assert found["log_trace"] > 709
+    assert found["multipliers"][1] is None
+    assert found["log_multipliers"][1] == pytest.approx(2 * found["log_trace"], rel=1e-12)
+    assert [note.partition(":")[0] for note in found["notes"]] == ["trace", "multipliers"]
+
+
+@pytest.mark.parametrize(("words", "states", "variables", "integrals"), [
+    (SUSLOV, SUSLOV_STATES, ["ω1", "ω2", "γ1", "γ2", "γ3"], {"E", "F1"}),
+    (HESS, HESS_STATES, ["w1", "w2", "n1", "n2", "n3"], {"E", "F1", "F2"}),
+])
+def test_orbit(answer, words, states, variables, integrals):
+    found = answer(*words)
+    assert found["t"] == [10.0, 50.0]
+    for state, expected in zip(found["y"], states, strict=True):
+        assert state == pytest.approx(expected, abs=1e-11)
+    assert found["variables"] == variables
+    assert set(found["drift"]) == integrals
+    assert max(found["drift"].values()) < 1e-12
+    assert found["status"] in ("ok", "double-precision floor")
+    assert found["level"] == "reference"
+    assert 0 < found["error_estimate"] < 1e-10
+    assert found["is_body"] is True
+    assert found["body"].startswith("A rigid body")
+    assert len(found["notes"]) == 1
+    assert "normalised" in found["notes"][0]
+
+
+def test_orbit_of_euler_poisson(answer):
+    found = answer(*HEAVY)
+    assert found["t"] == [5.0, 20.0]
+    for state, expected in zip(found["y"], HEAVY_STATES, strict=True):
+        assert state == pytest.approx(expected, abs=1e-12)
+    assert found["variables"] == ["M1", "M2", "M3", "γ1", "γ2", "γ3"]
+    assert set(found["drift"]) == {"H", "F1", "F2"}
+    assert max(found["drift"].values()) < 1e-12
+    assert 0 < found["error_estimate"] < 1e-11
+    assert (found["is_body"], found["notes"]) == (True, [])
+
+
+def test_moments_that_are_no_body_are_said_and_computed(answer):
+    found = answer(*replaced(HEAVY, "--A", "1,4,4"))
+    assert found["is_body"] is False
+    assert found["body"].startswith("Not a rigid body")
+    assert len(found["y"]) == 2
+
+
+def test_a_unit_vector_needs_no_note(answer):
+    assert answer(*replaced(SUSLOV, "--gamma", "0.6,0,0.8"))["notes"] == []
+
+
+def test_what_is_no_body_is_said_and_computed(answer):
+    found = answer(*replaced(HESS, "--a", "3"))
+    assert found["is_body"] is False
+    assert found["body"].startswith("Not a rigid body")
+
+
+def test_the_field_of_the_suslov_problem_is_optional(answer):
+    free = [word for word in SUSLOV if word not in ("--b", "0.3,-0.5,1")]
+    assert answer(*free)["y"] == answer(*replaced(SUSLOV, "--b", "0,0,0"))["y"]
+
+
+def test_negative_values(answer):
+    joined = [*SUSLOV[:6], "--omega=-0.4,0.2", *SUSLOV[8:]]
+    apart = replaced(SUSLOV, "--omega", "-0.4,0.2")
+    assert answer(*joined)["y"] == answer(*apart)["y"]
+    assert answer(*replaced(SUSLOV, "--omega", "-.4,0.2"))["y"] == answer(*apart)["y"]
+
+
+def test_range_of_times(answer):
+    assert answer(*replaced(HESS, "--t", "0:1:5"))["t"] == [0.0, 0.25, 0.5, 0.75, 1.0]
+    assert answer(*replaced(HESS, "--t", "-0.1:-0.3:3"))["t"] == pytest.approx([-0.1, -0.2, -0.3], abs=1e-16)
+
+
+# Formats
+
+
+def table(text):
+    lines = text.splitlines()
+    facts = dict(line.removeprefix("# ").split(": ", 1) for line in lines if line.startswith("#"))
+    header, *rows = csv.reader(line for line in lines if not line.startswith("#"))
+    return {key: strict_json(value) for key, value in facts.items()}, header, rows
+
+
+def without_cost(found):
+    return {key: value for key, value in found.items() if key != "wall_ms"}
+
+
+@pytest.mark.parametrize("words", [CIRCLE_MAP, SUSLOV, HESS, HEAVY])
+def test_csv_and_json_say_the_same(answer, capsys, words):
+    expected = answer(*words)
+    assert main([*words, "--format", "csv"]) == 0
+    facts, header, rows = table(capsys.readouterr().out)
+    numbers = [[float(cell) for cell in row] for row in rows]
+    if words is CIRCLE_MAP:
+        assert header == ["phi", "theta"]
+        assert numbers == [list(pair) for pair in zip(expected.pop("phi"), expected.pop("theta"), strict=True)]
+    else:
+        assert header == ["t", *expected["variables"]]
+        assert numbers == [[t, *y] for t, y in zip(expected.pop("t"), expected.pop("y"), strict=True)]
+    assert without_cost(facts) == without_cost(expected)
+
+
+def test_out_writes_a_file_and_prints_nothing(answer, capsys, tmp_path):
+    expected = answer(*SUSLOV)
+    file = tmp_path / "orbit.json"
+    assert main([*SUSLOV, "--out", str(file)]) == 0
+    assert capsys.readouterr() == ("", "")
+    assert without_cost(strict_json(file.read_text(encoding="utf-8"))) == without_cost(expected)
+
+
+# What is wrong
+
+
+@pytest.mark.parametrize(("words", "part"), [
+    (replaced(CIRCLE_MAP, "--h", "nan"), "--h: 'nan' is not a finite number"),
+    (replaced(CIRCLE_MAP, "--h", "-inf"), "--h: '-inf' is not a finite number"),
+    (replaced(CIRCLE_MAP, "--f", "1e999"), "--f: '1e999' is not a finite number"),
+    (replaced(CIRCLE_MAP, "--phi", "0,x"), "--phi: 'x' is not a number"),
+    (replaced(CIRCLE_MAP, "--h", "-1"), "Choose h > −1"),
+    (replaced(CIRCLE_MAP, "--h", "-7"), "Choose h > −1"),
+    (replaced(CIRCLE_MAP, "--f", "9"), "choose |f| ≤ 1.81"),
+    (["circle-map", "--h", "1", "--f", "0", "--a", "0.5"], "separatrix"),
+    (replaced(CIRCLE_MAP, "--a", "1e7"), "|a| ≤"),
+    (replaced(CIRCLE_MAP, "--accuracy", "best"), "draft, standard, precise, reference"),
+    (replaced(CIRCLE_MAP, "--phi", f"0:1:{MAX_SAMPLES + 1}"), f"from 2 to {MAX_SAMPLES}"),
+    ([*CIRCLE_MAP, "--format", "xml"], "invalid choice: 'xml'"),
+    (CIRCLE_MAP[:3], "required: --f, --a"),
+    (replaced(SUSLOV, "--I", "0,1,0,0"), "choose I11 > 0"),
+    (replaced(SUSLOV, "--I", "2,-1,0,0"), "choose I22 > 0"),
+    (replaced(HEAVY, "--A", "1,-1.6,2"), "choose a2 > 0"),
+    (replaced(HEAVY, "--A", "1,1.6"), "--A: '1,1.6' has length 2; write 3 numbers a1,a2,a3"),
+    (replaced(HEAVY, "--M", "1,2"), "--M: '1,2' has length 2; write 3 numbers M1,M2,M3"),
+    (replaced(HEAVY, "--gamma", "0,0,0"), "γ must be"),
+    (HEAVY[:8], "required: --M, --gamma, --t"),
+    (replaced(SUSLOV, "--I", "2,1,0"), "--I: '2,1,0' has length 3; write 4 numbers I11,I22,I13,I23"),
+    (replaced(SUSLOV, "--gamma", "0,0,0"), "γ must be"),
+    (replaced(SUSLOV, "--t", "0:1"), "lo:hi:n"),
+    (replaced(SUSLOV, "--t", f"0:1:{10**9}"), f"from 2 to {MAX_SAMPLES}"),
+    (replaced(SUSLOV, "--t", "0," * MAX_SAMPLES + "1"), f"at most {MAX_SAMPLES}"),
+    (replaced(SUSLOV, "--t", "-1,1"), "away from 0"),
+    (replaced(SUSLOV, "--t", "1e9"), "shorter"),
+    (replaced(SUSLOV, "--omega", "1e200,0"), "less extreme"),
+    (replaced(SUSLOV, "--omega", "x" * 5000), "x…'"),
+    (["orbit", "pendulum"], "invalid choice: 'pendulum'"),
+    (["draw"], "invalid choice: 'draw'"),
+    (["serve", "--port", "0"], "from 1 to 65535"),
+    (["serve", "--allow-origin", "*"], "not a host"),
+    (["serve", "--address", "203.0.113.7", "--no-browser"], "--address 127.0.0.1"),
+    (["shot", "--size", "100x100", "out.png"], "each side from 200 to 8000"),
+    (["shot", "--size", "9000x300", "out.png"], "each side from 200 to 8000"),
+    (["shot", "--size", "big", "out.png"], "like 1600x950"),
+    (["shot", "--state", "h", "out.png"], "like 'h=1.2&f=0.3'"),
+    (["shot", "--state", "h=" + "1" * 2000, "out.png"], "at most 2000"),
+])
+def test_refusals(refusal, words, part):
+    assert part in refusal(*words)
+
+
+@pytest.mark.parametrize("where", ["missing/orbit.json", "."])
+def test_unwritable_file(refusal, tmp_path, where):
+    assert "choose another file" in refusal(*HESS, "--out", str(tmp_path / where))
+
+
+def test_process_ends_with_code_2_and_one_sentence():
+    done = run(*replaced(CIRCLE_MAP, "--h", "-2"))
+    assert (done.returncode, done.stdout) == (2, b"")
+    assert done.stderr.decode().startswith("hess-explorer: h = -2 ")
+    assert done.stderr.count(b"\n") == 1
+
+
+def test_a_reader_that_has_seen_enough_is_no_error():
+    words = replaced(HESS, "--t", "0:10:20000")
+    with subprocess.Popen([sys.executable, "-m", "hess_explorer", *words, "--format", "csv"], cwd=ROOT,
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        assert process.stdout.readline().startswith(b"# variables")
+        process.stdout.close()
+        assert process.stderr.read() == b""
+    assert process.returncode == 0
+
+
+def test_commands_do_not_wait_for_what_they_do_not_use():
+    script = (
+        "import sys; from hess_explorer.__main__ import main; before = set(sys.modules); "
+        f"main({CIRCLE_MAP}); "
+        "assert 'numba' not in before; "
+        "assert not {'panel', 'bokeh', 'holoviews', 'playwright'} & set(sys.modules)"
+    )
+    done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, timeout=120, check=False)
+    assert (done.returncode, done.stderr) == (0, b"")
+    assert strict_json(done.stdout)["theta"] == pytest.approx(THETA, abs=1e-12)
+
+
+def test_version_and_help(capsys):
+    for words in (["--version"], ["--help"], ["circle-map", "--help"], ["orbit", "suslov", "-h"]):
+        with pytest.raises(SystemExit) as end:
+            main(words)
+        assert end.value.code == 0
+        assert "hess-explorer" in capsys.readouterr().out
+
+
+# serve
+
+
+@pytest.fixture
+def served(monkeypatch):
+    """The calls of a server that returns at once."""
+    calls = []
+    serving = types.SimpleNamespace(serve=lambda **given: calls.append(given))
+    monkeypatch.setitem(sys.modules, "hess_explorer.server.serving", serving)
+    yield calls
+    # The command leaves this to the server.
+    gc.enable()
+
+
+@pytest.fixture
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+def test_serve(served, free_port, capsys):
+    assert main(["serve", "--port", str(free_port), "--no-browser", "--allow-origin", "a.org:80", "b.org"]) == 0
+    assert served == [{"port": free_port, "address": "127.0.0.1", "show": False, "origins": ["a.org:80", "b.org"]}]
+    assert f"http://localhost:{free_port}" in capsys.readouterr().out
+
+
+def test_options_alone_mean_serve_with_a_browser(served, free_port, monkeypatch):
+    monkeypatch.setattr(webbrowser, "get", lambda: webbrowser.BackgroundBrowser("browser"))
+    assert main(["--port", str(free_port)]) == 0
+    assert [call["show"] for call in served] == [True]
+
+
+def no_browser():
+    raise webbrowser.Error
+
+
+@pytest.mark.parametrize("get", [no_browser, lambda: webbrowser.GenericBrowser("lynx")])
+def test_without_a_browser_the_server_goes_on(served, free_port, monkeypatch, capsys, get):
+    monkeypatch.setattr(webbrowser, "get", get)
+    monkeypatch.delenv("BROWSER", raising=False)
+    assert main(["--port", str(free_port)]) == 0
+    assert [call["show"] for call in served] == [False]
+    assert f"no browser to open here: open http://localhost:{free_port} in one" in capsys.readouterr().out
+
+
+def test_taken_port(refusal, served):
+    with socket.create_server(("127.0.0.1", 0)) as other:
+        port = other.getsockname()[1]
+        assert f"Port {port} is taken" in refusal("serve", "--port", str(port), "--no-browser")
+    assert not served
+
+
+def test_interrupt_ends_the_server_cleanly(free_port, tmp_path):
+    log = tmp_path / "log"
+    command = [sys.executable, "-m", "hess_explorer", "serve", "--port", str(free_port), "--no-browser"]
+    with log.open("wb") as out, subprocess.Popen(command, cwd=ROOT, stdout=out, stderr=subprocess.STDOUT) as process:
+        hess_explorer.headless.screenshot.wait_alive(process, free_port, log)
+        process.send_signal(signal.SIGINT)
+        assert process.wait(30) == 0
+    assert "Traceback" not in log.read_text()
+
+
+# shot
+
+
+def test_shot(tmp_path, browser):
+    file = tmp_path / "page.png"
+    done = run("shot", "--state", "h=1.2&f=0.3", "--size", "900x700", "--dark", str(file))
+    assert (done.returncode, done.stdout, done.stderr) == (0, b"", b"")
+    with Image.open(BytesIO(file.read_bytes())) as picture:
+        assert picture.size == (900, 700)
+        # Dark: most of the page is.
+        assert sum(picture.convert("L").histogram()[:100]) > 900 * 700 / 2
+
+
+def test_shot_without_a_browser(refusal, monkeypatch, tmp_path):
+    def no_chromium(query, size, *, dark):
+        raise BrowserError("No Chromium was found.")
+
+    monkeypatch.setattr(hess_explorer.headless.screenshot, "screenshot", no_chromium)
+    assert "No Chromium was found." in refusal("shot", str(tmp_path / "out.png"))
+
+
+def test_a_server_that_does_not_start_says_why(monkeypatch, tmp_path):
+    # Taken: the port is given away a second time.
+    with socket.create_server(("127.0.0.1", 0)) as other:
+        monkeypatch.setattr(hess_explorer.headless.screenshot, "_free_port", lambda: other.getsockname()[1])
+        monkeypatch.setattr(hess_explorer.headless.screenshot, "_is_alive", lambda port: False)
+        with (pytest.raises(hess_explorer.headless.screenshot.ServerError, match=r"did not start .*taken"),
+              running_server(tmp_path / "log")):
+            pass
+
+
+# Sections
+
+
+HEAVY_SECTION = ["section", "euler-poisson", "--A", "1,1.6,2.6666666666666665", "--r", "3,0,4", "--mu", "1.995",
+                 "--h", "50", "--f", "5", "--start", "0.7,-0.3", "--crossings", "3"]
+SUSLOV_SECTION = ["section", "suslov", "--I", "2,1,0.3,0.5", "--b", "0.3,-0.5,1", "--omega", "0.8,-0.4",
+                  "--gamma", "0.6,0,0.8", "--plane", "0,0,0,1,0", "--t", "20"]
+
+
+def test_section_of_a_heavy_body(answer):
+    found = answer(*HEAVY_SECTION)
+    start = start_by_hand(GESS1, 50.0, 5.0, 0.7, -0.3)
+    assert found["start"] == pytest.approx(start.tolist(), abs=1e-11)
+    times, states = crossings_by_scipy(GESS1, start, 1.01 * found["t"][-1])
+    assert found["t"] == pytest.approx(times.tolist(), abs=1e-8)
+    for M, gamma, l, x, state in zip(*(found[name] for name in ("M", "gamma", "l", "x")), states, strict=True):
+        assert [*M, *gamma] == pytest.approx(state.tolist(), abs=1e-6)
+        assert x == pytest.approx(M[2] / math.hypot(*M), abs=1e-14)
+        assert l == pytest.approx(math.atan2(M[0], M[1]), abs=1e-14)
+    assert set(found["drift"]) == {"H", "F1", "F2"}
+    assert max(found["drift"].values()) < 1e-9
+    assert (found["status"], found["level"], found["notes"]) == ("ok", "precise", [])
+    assert 0.0 < found["error_estimate"] < 1e-8
+    assert found["is_body"] is True
+
+
+def test_section_of_the_suslov_problem(answer):
+    def rates(_, y):
+        omega = np.array([y[0], y[1], 0.0])
+        gamma = y[2:]
+        # Biz131, I12 = 0: I ω̇ = Iω × ω + γ × b + λe3.
+        inertia = np.array([[2.0, 0.0, 0.3], [0.0, 1.0, 0.5], [0.3, 0.5, 1.0]])
+        torque = np.cross(inertia @ omega, omega) + np.cross(gamma, [0.3, -0.5, 1.0])
+        return [torque[0] / 2.0, torque[1] / 1.0, *np.cross(gamma, omega)]
+
+    found = answer(*SUSLOV_SECTION)
+
+    def event(_, y):
+        return y[3]
+
+    event.direction = 1
+    run = solve_ivp(rates, (0.0, 20.0), [0.8, -0.4, 0.6, 0.0, 0.8], method="DOP853", rtol=1e-12, atol=1e-13,
+                    events=event, max_step=0.02)
+    later = run.t_events[0] > 1e-9
+    assert found["t"] == pytest.approx(run.t_events[0][later].tolist(), abs=1e-9)
+    assert np.array(found["y"]) == pytest.approx(run.y_events[0][later], abs=1e-8)
+    assert found["notes"] == [f"Up to t = 20 there are {len(found['t'])} of 100 crossings."]
+    both, down = (answer(*SUSLOV_SECTION, "--sense", sense)["t"] for sense in ("0", "-1"))
+    assert both == pytest.approx(sorted(found["t"] + down), abs=1e-9)
+    assert len(down) >= 3
+    moved = answer(*SUSLOV_SECTION, "--offset", "0.25")
+    assert np.array(moved["y"])[:, 3] == pytest.approx(0.25, abs=1e-12)
+
+
+@pytest.mark.parametrize("words", [HEAVY_SECTION, SUSLOV_SECTION])
+def test_csv_and_json_say_the_same_of_a_section(answer, capsys, words):
+    expected = answer(*words)
+    assert main([*words, "--format", "csv"]) == 0
+    facts, header, rows = table(capsys.readouterr().out)
+    numbers = [[float(cell) for cell in row] for row in rows]
+    if words is HEAVY_SECTION:
+        assert header == ["t", "l", "x", "M1", "M2", "M3", "γ1", "γ2", "γ3"]
+        series = [expected.pop(name) for name in ("t", "l", "x", "M", "gamma")]
+        assert numbers == [[t, l, x, *M, *gamma] for t, l, x, M, gamma in zip(*series, strict=True)]
+    else:
+        assert header == ["t", *expected["variables"]]
+        assert numbers == [[t, *y] for t, y in zip(expected.pop("t"), expected.pop("y"), strict=True)]
+    assert without_cost(facts) == without_cost(expected)
+
+
+@pytest.mark.parametrize(("words", "part"), [
+    (replaced(HEAVY_SECTION, "--A", "0,1,2"), "choose a1 > 0"),
+    (replaced(HEAVY_SECTION, "--A", "1,2"), "write 3 numbers a1,a2,a3"),
+    (replaced(HEAVY_SECTION, "--h", "-30"), "choose a larger h, or another point"),
+    (replaced(HEAVY_SECTION, "--f", "30"), "no real G ≥ |f|"),
+    (replaced(HEAVY_SECTION, "--f", "nan"), "--f: 'nan' is not a finite number"),
+    (replaced(HEAVY_SECTION, "--start", "0,1.5"), "lies between −1 and 1"),
+    (replaced(HEAVY_SECTION, "--start", "0"), "write 2 numbers l,x"),
+    (replaced(HEAVY_SECTION, "--crossings", "0"), "from 1 to 100000"),
+    (replaced(HEAVY_SECTION, "--crossings", "1e9"), "from 1 to 100000"),
+    (replaced(SUSLOV_SECTION, "--plane", "0,0,0,0,0"), "normal other than 0"),
+    (replaced(SUSLOV_SECTION, "--plane", "0,1"), "write 5 numbers n1,n2,n3,n4,n5"),
+    (replaced(SUSLOV_SECTION, "--t", "inf"), "--t: 'inf' is not a finite number"),
+    ([*SUSLOV_SECTION, "--sense", "2"], "invalid choice: 2"),
+    ([*SUSLOV_SECTION, "--accuracy", "best"], "draft, standard, precise, reference"),
+    (["section", "ball"], "invalid choice: 'ball'"),
+])
+def test_refusals_of_sections(refusal, words, part):
+    assert part in refusal(*words)

@@ -1,0 +1,517 @@
+"""What is computed while the page goes on: the background's order and end, places in the link, and a session's part."""
+
+from __future__ import annotations
+
+import importlib
+import math
+import pkgutil
+import threading
+import time
+from collections import Counter
+
+import numpy as np
+import pytest
+from test_scenes import SCENES, Browser
+
+import hess_explorer.scenes
+from hess_explorer.compute import background
+from hess_explorer.compute.background import Background
+from hess_explorer.compute.cache import ResultCache, Task
+from hess_explorer.page import session
+from hess_explorer.protocol.parameters import MAX_QUERY, Places, decode, encode, places, written
+from hess_explorer.scenes.framework.work import Work
+from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.parallel import THREADS
+
+EP = SCENES["euler-poisson"]
+STARTS = next(spec for spec in EP.specs if spec.name == "starts")
+SMALL = {**EP.defaults(), "orbits": 12.0, "count": 20.0, "long": 5.0, "span": 1.0}
+"""1 piece for the start, 3 for the orbits, 12 for the line, 1 for the exponent."""
+PIECES = 17
+
+
+def wait_until(condition, seconds=60.0):
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, "it does not come about"
+        time.sleep(0.002)
+
+
+class Gate(ResultCache):
+    """A cache whose computations in the background wait until they are let through."""
+
+    def __init__(self):
+        super().__init__(2**26)
+        self.calls = Counter()
+        self.open = threading.Semaphore(0)
+        self.begun = threading.Semaphore(0)
+
+    def get(self, function, *arguments):
+        if threading.current_thread().name.startswith("background"):
+            self.calls[function, arguments] += 1
+            self.begun.release()
+            assert self.open.acquire(timeout=60.0)
+        return super().get(function, *arguments)
+
+    def let(self, count=1):
+        self.open.release(count)
+
+
+@pytest.fixture
+def gate(monkeypatch):
+    """The gate, closed, in place of the process's cache."""
+    closed, begun = Gate(), []
+    names = [one.name for one in pkgutil.iter_modules(hess_explorer.scenes.__path__)]
+    for module in (background, session, *(importlib.import_module(f"hess_explorer.scenes.{name}") for name in names)):
+        if hasattr(module, "CACHE"):
+            monkeypatch.setattr(module, "CACHE", closed)
+    init = Background.__init__
+
+    def recorded(work):
+        begun.append(work)
+        init(work)
+
+    monkeypatch.setattr(Background, "__init__", recorded)
+    yield closed
+    # Whatever still waits must not hold up the pool.
+    for work in begun:
+        work.stop()
+    closed.let(10_000)
+    wait_until(lambda: all(work.left == 0 for work in begun))
+
+
+@pytest.fixture
+def free_gate(gate):
+    """The same, open."""
+    gate.let(10_000)
+    return gate
+
+
+def square(n):
+    return n * n
+
+
+def refuse(n):
+    raise InvalidParameter(f"{n} is refused: choose another.")
+
+
+def fail(n):
+    raise ZeroDivisionError(n)
+
+
+def tasks(count, first=0, function=square):
+    return [Task(function, (first + n,)) for n in range(count)]
+
+
+# ---- The background ---------------------------------------------------------------------------------------------
+
+
+def test_all_pieces_are_computed_once_into_the_cache(free_gate):
+    work = Background()
+    work.follow(tasks(50))
+    wait_until(lambda: work.left == 0)
+    assert [free_gate.peek(square, n) for n in range(50)] == [n * n for n in range(50)]
+    assert set(free_gate.calls.values()) == {1}
+    assert work.error == ""
+
+
+def test_pieces_are_begun_in_their_order_and_on_all_threads(gate):
+    work = Background()
+    work.follow(tasks(10))
+    for _ in range(THREADS):
+        assert gate.begun.acquire(timeout=60.0)
+    time.sleep(0.02)
+    assert [arguments for _, arguments in gate.calls] == [(n,) for n in range(THREADS)]
+    assert work.left == 10
+    gate.let()
+    wait_until(lambda: len(gate.calls) == THREADS + 1)
+    assert sorted(arguments for _, arguments in gate.calls) == [(n,) for n in range(THREADS + 1)]
+    assert work.left == 9
+
+
+def test_a_newer_choice_ends_the_older_work(gate):
+    work = Background()
+    work.follow(tasks(20))
+    wait_until(lambda: len(gate.calls) == THREADS)
+    work.follow(tasks(3, first=100))
+    # What runs is brought to its end, and nothing else of the older work is begun.
+    gate.let(THREADS + 3)
+    wait_until(lambda: work.left == 0)
+    time.sleep(0.02)
+    begun = sorted(arguments[0] for _, arguments in gate.calls)
+    assert begun == [*range(THREADS), 100, 101, 102]
+
+
+def test_stop_begins_nothing_more(gate):
+    work = Background()
+    work.follow(tasks(20))
+    wait_until(lambda: len(gate.calls) == THREADS)
+    work.stop()
+    assert work.left == THREADS
+    gate.let(THREADS)
+    wait_until(lambda: work.left == 0)
+    time.sleep(0.02)
+    assert len(gate.calls) == THREADS
+    # And the next choice is followed as ever.
+    work.follow(tasks(2, first=50))
+    gate.let(2)
+    wait_until(lambda: work.left == 0)
+    assert gate.peek(square, 51) == 2601
+
+
+def test_what_is_refused_ends_the_work_with_its_sentence(free_gate):
+    work = Background()
+    work.follow([*tasks(2), Task(refuse, (7,)), *tasks(500, first=10)])
+    wait_until(lambda: work.left == 0)
+    assert work.error == "7 is refused: choose another."
+    assert len(free_gate.calls) < 100
+    work.follow(tasks(1))
+    assert work.error == ""
+
+
+def test_what_fails_is_logged_and_ends_the_work(free_gate, caplog):
+    work = Background()
+    work.follow([Task(fail, (7,)), *tasks(500)])
+    wait_until(lambda: work.left == 0)
+    assert work.error == "A part of this state could not be computed. Please report the link."
+    assert "fail" in caplog.text
+    assert "ZeroDivisionError" in caplog.text
+    # The threads live on.
+    work.follow(tasks(4, first=900))
+    wait_until(lambda: work.left == 0)
+    assert free_gate.peek(square, 903) == 903**2
+
+
+def test_sessions_take_turns(gate):
+    long, short = Background(), Background()
+    long.follow(tasks(40))
+    wait_until(lambda: len(gate.calls) == THREADS)
+    short.follow(tasks(2, first=1000))
+    gate.let(12)
+    wait_until(lambda: short.left == 0)
+    assert long.left > 20
+
+
+def test_nothing_to_do_is_done_at_once():
+    work = Background()
+    assert (work.left, work.error) == (0, "")
+    work.follow(())
+    assert work.left == 0
+
+
+# ---- What waits and what is there --------------------------------------------------------------------------------
+
+
+def test_what_is_not_known_yet_is_left_to_do(gate):
+    work = Work(SMALL, dragging=False)
+    assert work.later(square, 3) is None
+    assert work.todo == tasks(1, first=3)
+    gate.get(square, 3)
+    again = Work(SMALL, dragging=False)
+    assert again.later(square, 3) == 9
+    assert again.todo == []
+    assert work.pieces == again.pieces == 1
+
+
+def test_peek_computes_nothing_and_waits_for_nothing(gate):
+    assert gate.peek(square, 5) is None
+    started, go = threading.Event(), threading.Event()
+
+    def slow(n):
+        started.set()
+        assert go.wait(10.0)
+        return n
+
+    thread = threading.Thread(target=lambda: gate.get(slow, 1))
+    thread.start()
+    assert started.wait(10.0)
+    assert gate.peek(slow, 1) is None
+    go.set()
+    thread.join(10.0)
+    hits = gate.hits
+    assert gate.peek(slow, 1) == 1
+    assert gate.hits == hits + 1
+    with pytest.raises(ZeroDivisionError):
+        gate.get(fail, 1)
+    assert gate.peek(fail, 1) is None
+
+
+# ---- Places in the link -----------------------------------------------------------------------------------------
+
+
+def test_places_come_back_from_their_text():
+    random = np.random.default_rng(1)
+    pairs = [(float(x), float(y)) for x, y in random.uniform(-1.0, 1.0, (12, 2))]
+    text, note = STARTS.read(written(pairs))
+    assert note is None
+    assert np.array(places(text)) == pytest.approx(np.array(pairs), rel=1e-9)
+    assert STARTS.read(text) == (text, None)
+    assert places("") == []
+    assert written([]) == ""
+
+
+@pytest.mark.parametrize("text", [
+    "1", "1,2,3", "a,b", "0.1,0.2;", "nan,0", "0,inf", "0,1.01", "11,0", "1e400,0", ";;;", "0,0;x", "0;0", ",", "0,0,",
+    "<script>", "0x1,0", "1_0,0", "٣,0"])
+def test_what_names_no_places_is_replaced_and_not_repeated(text):
+    value, note = STARTS.read(text)
+    inside = all(-math.pi <= x <= math.pi and -1.0 <= y <= 1.0 for x, y in places(value))
+    assert inside
+    if note is not None:
+        assert value == STARTS.default
+        assert note == "The places of the chosen orbits could not be read: what it is at first is shown."
+    else:
+        assert STARTS.read(value) == (value, None)
+    query = encode(EP.name, {**EP.defaults(), "starts": text})
+    values, notes = decode(query, EP.specs)
+    assert values["starts"] == value
+    assert notes == ([note] if note else [])
+
+
+def test_of_too_many_places_the_last_ones_are_kept():
+    pairs = [(0.01 * n, 0.0) for n in range(20)]
+    assert places(STARTS.read(written(pairs))[0]) == pairs[-12:]
+
+
+def test_a_link_with_all_places_is_not_too_long():
+    random = np.random.default_rng(5)
+    full = {**EP.defaults(), "starts": written(random.uniform(-1.0, 1.0, (12, 2)).tolist()),
+            "window": "-3.141589999,-0.9876543211;-1.234567891,0.9876543211"}
+    query = encode(EP.name, full)
+    assert len(query) < MAX_QUERY
+    assert decode(query, EP.specs) == (full, [])
+
+
+@pytest.mark.parametrize(("window", "admitted"), [
+    ("0,0;1,0.5", "0,0;1,0.5"), ("1,0.5;0,0", "0,0;1,0.5"), ("1,0;0,0.5", "0,0;1,0.5"), ("0,0", ""), ("0,0;0,0.5", ""),
+    ("0,0.5;1,0.5", ""), ("", "")])
+def test_a_window_is_two_corners_in_their_order(window, admitted):
+    values, _ = EP.admit({**EP.defaults(), "window": window})
+    assert values["window"] == admitted
+    assert EP.admit(values) == (values, [])
+
+
+def test_without_a_start_there_is_the_first_one():
+    assert EP.admit({**EP.defaults(), "starts": ""})[0]["starts"] == EP.defaults()["starts"]
+
+
+# ---- A session --------------------------------------------------------------------------------------------------
+
+
+def drawn_points(browser):
+    return sum(len(browser.data[f"section-{layer}"].get("x", ())) for layer in ("first", "second", "own"))
+
+
+def plain(browser, picture):
+    return {name: {key: np.asarray(column).tolist() for key, column in data.items()}
+            for name, data in browser.data.items() if name.startswith(picture)}
+
+
+def completed(browser, requested=1):
+    """The state when all that it lacks has been computed."""
+    wait_until(lambda: browser.session.background.left == 0, seconds=60.0)
+    browser.ask(requested)
+    return browser.ask(requested)
+
+
+def test_a_section_fills_while_one_asks_for_more(gate):
+    browser = Browser(EP, SMALL)
+    assert browser.state["progress"] == [0, PIECES]
+    seen = []
+    for done in range(1, 6):
+        gate.let()
+        wait_until(lambda done=done: browser.session.background.left == PIECES - done)
+        state = browser.ask(1)
+        assert state["progress"] == [done, PIECES]
+        assert state["answers"] == 1
+        seen.append(drawn_points(browser))
+    assert seen == sorted(seen)
+    assert seen[-1] > seen[0]
+    gate.let(1000)
+    state = completed(browser)
+    assert state["progress"] is None
+    assert browser.texts["notes"] == ""
+    assert set(gate.calls.values()) == {1}
+    # The same at once, where all is known already.
+    other = Browser(EP, SMALL)
+    assert other.state["progress"] is None
+    assert plain(other, "section") == plain(browser, "section")
+    assert other.texts["section"] == browser.texts["section"]
+
+
+def test_stop_leaves_what_is_drawn_and_says_how_much(gate):
+    browser = Browser(EP, SMALL)
+    wait_until(lambda: len(gate.calls) == THREADS)
+    gate.let(3)
+    wait_until(lambda: browser.session.background.left == PIECES - 3)
+    browser.ask(1)
+    browser.ask(1, stop=True)
+    gate.let(THREADS)
+    wait_until(lambda: browser.session.background.left == 0)
+    browser.ask(1)
+    state = browser.ask(1)
+    drawn = 3 + THREADS
+    assert state["progress"] is None
+    assert browser.texts["notes"] == (
+        f"Stopped: {drawn} of {PIECES} parts are drawn. Change a value to compute again.")
+    begun = len(gate.calls)
+    gate.let(1000)
+    browser.ask(1)
+    time.sleep(0.03)
+    assert len(gate.calls) == begun
+    # Another state is computed as ever, and the note goes.
+    browser.ask(2, values={"orbits": 8.0})
+    completed(browser, 2)
+    assert browser.texts["notes"] == ""
+
+
+def test_what_was_stopped_is_not_begun_again_by_a_picture_that_comes_into_sight(gate):
+    browser = Browser(EP, SMALL)
+    wait_until(lambda: len(gate.calls) == THREADS)
+    browser.ask(1, hidden=["sphere"])
+    browser.ask(2, stop=True)
+    gate.let(1000)
+    completed(browser, 2)
+    begun = len(gate.calls)
+    assert begun == THREADS
+    state = browser.ask(3, hidden=[])
+    time.sleep(0.03)
+    assert state["progress"] is None
+    assert browser.session.background.left == 0
+    assert len(gate.calls) == begun
+    assert browser.texts["notes"].startswith(f"Stopped: {THREADS} of {PIECES} parts are drawn.")
+    # What is stopped while a new value is on its way is that value's work.
+    browser.ask(4, values={"h": 45.0})
+    browser.ask(5, values={"h": 46.0}, stop=True)
+    gate.let(1000)
+    wait_until(lambda: browser.session.background.left == 0)
+    assert 46.0 not in {arguments[1] for _, arguments in gate.calls if len(arguments) > 3}
+    assert browser.texts["notes"].startswith(f"Stopped: 0 of {PIECES} parts are drawn.")
+
+
+def test_a_newer_state_ends_the_work_for_the_older_one(gate):
+    browser = Browser(EP, SMALL)
+    wait_until(lambda: len(gate.calls) == THREADS)
+    state = browser.ask(1, values={"h": 45.0})
+    assert state["progress"] == [0, PIECES]
+    gate.let(1000)
+    completed(browser)
+    energies = Counter(arguments[1] for _, arguments in gate.calls if len(arguments) > 3)
+    assert energies[50.0] <= THREADS
+    assert energies[45.0] == PIECES - 1
+
+
+def test_what_a_drag_shows_needs_no_background(gate):
+    browser = Browser(EP, {**SMALL, "orbits": 4.0})
+    wait_until(lambda: len(gate.calls) == THREADS)
+    state = browser.ask(1, values={"h": 40.0}, held=True)
+    assert state["progress"] is None
+    gate.let(THREADS)
+    wait_until(lambda: browser.session.background.left == 0)
+    assert len(gate.calls) == THREADS
+    state = browser.ask(2)
+    assert state["progress"] is not None
+
+
+def test_the_last_piece_may_come_while_its_picture_is_drawn(gate):
+    """What comes between the computation and the question how much is left is not lost, and not called stopped."""
+    browser = Browser(EP, {**SMALL, "orbits": 0.0})
+    total = browser.state["progress"][1]
+    gate.let(total - 1)
+    wait_until(lambda: browser.session.background.left == 1)
+    browser.ask(1)
+    show = browser.session.stage.show
+
+    def slowly(result, hold_axes):
+        gate.let(1000)
+        wait_until(lambda: browser.session.background.left == 0)
+        return show(result, hold_axes)
+
+    browser.session.stage.show = slowly
+    browser.ask(1)
+    browser.session.stage.show = show
+    assert browser.texts["notes"] == ""
+    completed(browser)
+    assert browser.texts["notes"] == ""
+    assert "λ = " in browser.texts["exponent"]
+
+
+def test_a_refusal_in_the_background_is_said(free_gate, monkeypatch):
+    from hess_explorer.scenes import euler_poisson
+
+    monkeypatch.setattr(euler_poisson, "_MOST_STEPS", 30)
+    browser = Browser(EP, SMALL)
+    completed(browser)
+    assert "choose a shorter time span" in browser.texts["notes"]
+
+
+def test_a_click_starts_an_orbit_and_undo_and_clear_take_it_back(free_gate):
+    browser = Browser(EP, SMALL)
+    completed(browser)
+    browser.ask(1, picked=["section", 0.5, -0.3])
+    assert places(browser.session.values["starts"]) == [(0.0, 0.2), (0.5, -0.3)]
+    assert browser.data["section-chosen"]["x"] == pytest.approx([0.0, 0.5])
+    browser.ask(2, picked=["section", 1.0, 0.4])
+    assert len(places(browser.session.values["starts"])) == 3
+    browser.ask(3, undo=True)
+    assert places(browser.session.values["starts"]) == [(0.0, 0.2), (0.5, -0.3)]
+    browser.ask(4, picked=["section", -0.5, 0.6, -1.5, -0.2])
+    assert places(browser.session.values["window"]) == [(-1.5, -0.2), (-0.5, 0.6)]
+    assert browser.screen.ranges["section"] == pytest.approx([-1.5, -0.5, -0.2, 0.6])
+    browser.ask(5, clear=True)
+    assert (browser.session.values["starts"], browser.session.values["window"]) == ("0,0.2", "")
+    assert browser.screen.ranges["section"] == pytest.approx([-math.pi, math.pi, -1.0, 1.0], abs=1e-6)
+    # Also that can be undone, step by step, as far as there is anything.
+    browser.ask(6, undo=True)
+    assert places(browser.session.values["window"]) == [(-1.5, -0.2), (-0.5, 0.6)]
+    for requested in range(7, 11):
+        browser.ask(requested, undo=True)
+    assert (browser.session.values["starts"], browser.session.values["window"]) == ("0,0.2", "")
+    assert decode(browser.state["query"], EP.specs) == (browser.session.values, [])
+
+
+def test_a_box_beyond_the_section_is_cut_and_one_that_is_none_is_not_taken(free_gate):
+    browser = Browser(EP, SMALL)
+    browser.ask(1, picked=["section", 0.0, 0.5, 1.0, 7.0])
+    assert places(browser.session.values["window"]) == [(0.0, 0.5), (1.0, 1.0)]
+    before = dict(browser.session.values)
+    for corners in ([0.0, 0.5, 0.0, 0.7], [0.0, 2.0, 1.0, 3.0], [0.0, 0.5, 1.0, 0.5], [math.nan, 0.0, 1.0, 1.0],
+                    ["0", 0, 1, 1], [None, 0, 1, 1], [1e400, 0, 1, 1], [10**400, 0, 1, 1]):
+        browser.ask(2, picked=["section", *corners])
+        assert browser.session.values == before
+    for picture in ("rotation", "exponent", "sphere", "nobody", ""):
+        browser.ask(3, picked=[picture, 0.0, 0.1, 1.0, 0.9])
+        browser.ask(3, picked=[picture, 0.0, 0.1])
+        assert browser.session.values == before
+
+
+@pytest.mark.parametrize("message", [
+    {"undo": True}, {"undo": 1, "clear": "yes", "stop": None}, {"stop": True}, {"picked": []}, {"picked": [None]},
+    {"picked": ["section"]}, {"picked": ["section", 1.0]}, {"picked": ["section", 1.0, 0.1, 2.0]},
+    {"picked": ["section", 1, 2, 3, 4, 5, 6]}, {"values": {"starts": None}}, {"values": {"starts": ["0,0"]}},
+    {"values": {"window": {}}}, {"values": {"starts": "0" * 5000}}, {"values": {"window": "1,2,3;4"}}])
+def test_a_message_that_means_nothing_changes_nothing(free_gate, message):
+    browser = Browser(EP, SMALL)
+    before = dict(browser.session.values)
+    state = browser.ask(1, **message)
+    assert state["answers"] == 1
+    assert browser.session.values == before
+
+
+def test_a_click_where_nothing_is_possible_is_answered_by_another_start(free_gate):
+    loxodromic = {"I2": 1.5, "I3": 2.0, "m": -math.sqrt(0.5), "h": 0.0, "f": 0.0, "starts": "2.8,0.3"}
+    browser = Browser(EP, {**SMALL, **loxodromic})
+    browser.ask(1, picked=["section", 0.0, 0.0])
+    assert "no motion with this h and f crosses the section: the chosen orbit starts at l = " in browser.texts["notes"]
+    assert len(browser.data["section-chosen"]["x"]) == 1
+
+
+def test_another_scene_has_its_own_history(free_gate):
+    browser = Browser(EP, SMALL)
+    browser.ask(1, picked=["section", 0.5, -0.3])
+    browser.ask(2, scene="suslov-hess")
+    browser.ask(3, scene=EP.name)
+    starts = browser.session.values["starts"]
+    browser.ask(4, undo=True)
+    assert browser.session.values["starts"] == starts
+    assert isinstance(STARTS, Places)

@@ -1,0 +1,257 @@
+"""The cache of results: one computation for one question, bounded by bytes, errors never kept."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from mechanics import PROPERTY
+from test_scenes import modules_of_scenes
+
+from hess_explorer.compute.cache import CACHE, ResultCache, size_of
+from hess_explorer.scenes import scenes
+from hess_mechanics.numerics.results import frozen
+
+KILOBYTE = 1024
+WAIT = 30
+
+
+@dataclass(frozen=True)
+class Result:
+    name: str
+    array: np.ndarray
+
+
+class Counted:
+    """A function that notes its calls; named, since a cache's key is a function's name."""
+
+    __module__ = __name__
+
+    def __init__(self, name="counted", size=KILOBYTE):
+        self.__qualname__ = name
+        self.calls = []
+        self.size = size
+
+    def __call__(self, *arguments):
+        self.calls.append(arguments)
+        return Result(str(arguments), frozen(np.zeros(self.size, np.uint8)))
+
+
+def test_a_second_question_gets_the_same_object_and_is_told_so():
+    cache, function = ResultCache(2**20), Counted()
+    first, was_there = cache.get(function, 1.0, "draft")
+    assert not was_there
+    second, was_there = cache.get(function, 1.0, "draft")
+    assert was_there
+    assert second is first
+    assert function.calls == [(1.0, "draft")]
+    assert (cache.hits, cache.misses) == (1, 1)
+
+
+def test_other_arguments_and_other_functions_are_other_questions():
+    cache, one, other = ResultCache(2**20), Counted("one"), Counted("other")
+    results = [cache.get(one, 1.0)[0], cache.get(one, 2.0)[0], cache.get(other, 1.0)[0]]
+    assert len({id(result) for result in results}) == 3
+    assert (one.calls, other.calls) == ([(1.0,), (2.0,)], [(1.0,)])
+
+
+class Slow(Counted):
+    """Computes only when it is let; `asked` is set when it has begun."""
+
+    def __init__(self, error=None):
+        super().__init__("slow")
+        self.error = error
+        self.begun, self.may_end = threading.Event(), threading.Event()
+
+    def __call__(self, *arguments):
+        result = super().__call__(*arguments)
+        self.begun.set()
+        assert self.may_end.wait(WAIT)
+        if self.error is not None:
+            raise self.error
+        return result
+
+
+def ask_together(cache, function, count):
+    """The futures of `count` threads, all of which have asked before the function may end."""
+    pool = ThreadPoolExecutor(count)
+    futures = [pool.submit(cache.get, function, 1.0)]
+    assert function.begun.wait(WAIT)
+    arrived = threading.Semaphore(0)
+
+    def late():
+        arrived.release()
+        return cache.get(function, 1.0)
+
+    futures += [pool.submit(late) for _ in range(count - 1)]
+    for _ in range(count - 1):
+        assert arrived.acquire(timeout=WAIT)
+    function.may_end.set()
+    pool.shutdown()
+    return futures
+
+
+def test_concurrent_misses_are_computed_once():
+    cache, function = ResultCache(2**20), Slow()
+    results = [future.result(WAIT) for future in ask_together(cache, function, 8)]
+    assert len(function.calls) == 1
+    assert len({id(result) for result, _ in results}) == 1
+    assert sorted(was_there for _, was_there in results) == [False] + [True] * 7
+
+
+def test_other_questions_do_not_wait_for_a_slow_one():
+    cache, slow, quick = ResultCache(2**20), Slow(), Counted("quick")
+    with ThreadPoolExecutor(1) as pool:
+        waiting = pool.submit(cache.get, slow, 1.0)
+        assert slow.begun.wait(WAIT)
+        cache.get(quick, 1.0)
+        assert not waiting.done()
+        slow.may_end.set()
+        waiting.result(WAIT)
+
+
+def test_an_error_reaches_everyone_who_waited_and_is_not_kept():
+    error = ValueError("no motion")
+    cache, function = ResultCache(2**20), Slow(error)
+    for future in ask_together(cache, function, 4):
+        assert future.exception(WAIT) is error
+    function.error = None
+    _, was_there = cache.get(function, 1.0)
+    assert not was_there
+    assert cache.get(function, 1.0)[1]
+    assert cache.bytes == size_of(Result("", np.zeros(KILOBYTE, np.uint8)))
+
+
+def test_the_least_recently_used_go_first():
+    cache, function = ResultCache(0), Counted()
+    one = size_of(function(0))
+    cache.capacity = 3 * one
+    for i in (1, 2, 3):
+        cache.get(function, i)
+    assert cache.get(function, 1)[1]
+    cache.get(function, 4)
+    assert [cache.get(function, i)[1] for i in (4, 3, 1)] == [True] * 3
+    assert not cache.get(function, 2)[1]
+
+
+def keeps(cache, function, key):
+    """Whether the cache still has this answer; asking changes nothing, since an error is not kept."""
+    def refuse(*_):
+        raise LookupError
+
+    refuse.__module__, refuse.__qualname__ = function.__module__, function.__qualname__
+    try:
+        return cache.get(refuse, key)[1]
+    except LookupError:
+        return False
+
+
+@PROPERTY
+@given(st.integers(0, 20 * KILOBYTE), st.lists(st.tuples(st.integers(0, 9), st.integers(0, 8 * KILOBYTE)), max_size=40))
+def test_what_is_held_is_what_is_counted_and_never_exceeds_the_capacity(capacity, questions):
+    cache, function = ResultCache(capacity), Counted()
+    last = {}
+    for key, size in questions:
+        function.size = size
+        result, was_there = cache.get(function, key)
+        assert not was_there or result is last[key]
+        last[key] = result
+        assert cache.bytes <= capacity
+    held = [key for key in last if keeps(cache, function, key)]
+    assert cache.bytes == sum(size_of(last[key]) for key in held)
+
+
+def test_the_metrics_say_what_was_asked_and_what_is_held():
+    cache, function = ResultCache(2**20), Counted()
+    for key in (1, 2, 1, 1, 3):
+        cache.get(function, key)
+    with pytest.raises(ZeroDivisionError):
+        cache.get(lambda: 1 // 0)
+    words = cache.metrics().split()
+    assert dict(zip(words[::2], map(int, words[1::2]), strict=True)) == {
+        "cache_hits": 2, "cache_misses": 4, "cache_entries": 3,
+        "cache_bytes": 3 * size_of(Result("", np.zeros(KILOBYTE, np.uint8)))}
+    assert len(cache.metrics().splitlines()) == 1
+
+
+def test_a_result_larger_than_the_cache_is_given_but_not_kept():
+    cache, function = ResultCache(10 * KILOBYTE), Counted()
+    cache.get(function, "small")
+    function.size = 20 * KILOBYTE
+    result, _ = cache.get(function, "large")
+    assert result.array.nbytes == 20 * KILOBYTE
+    assert cache.bytes <= cache.capacity
+    assert not cache.get(function, "large")[1]
+
+
+def test_the_size_counts_the_arrays_wherever_they_are():
+    array = np.zeros((100, 3))
+    assert size_of(array) - size_of(array[:0]) == 2400
+    for nested in ((array, array), [array, array], Result("", array)):
+        arrays = 1 if isinstance(nested, Result) else 2
+        assert arrays * 2400 <= size_of(nested) <= arrays * 2400 + 4 * KILOBYTE
+    assert size_of((Result("", array), [Result("", array)])) >= 4800
+    assert 0 < size_of(None) < KILOBYTE
+    # A view is charged for what it shows, a word and a number for something.
+    assert size_of("h") > 0 < size_of(1.5)
+
+
+def arrays_in(value):
+    if isinstance(value, np.ndarray):
+        yield value
+    elif isinstance(value, (tuple, list)):
+        for item in value:
+            yield from arrays_in(item)
+    elif isinstance(value, Mapping):
+        yield from arrays_in(list(value.values()))
+    elif hasattr(value, "__dataclass_fields__"):
+        for name in value.__dataclass_fields__:
+            yield from arrays_in(getattr(value, name))
+
+
+@pytest.mark.parametrize("name", scenes())
+def test_every_array_that_a_scene_shares_is_read_only(name, monkeypatch):
+    cache = ResultCache(2**30)
+    scene = scenes()[name]
+    for module in modules_of_scenes():
+        monkeypatch.setattr(module, "CACHE", cache)
+    scene.compute(scene.defaults(), scene.pictures, False)
+    arrays = [array for future, _ in cache._entries.values() for array in arrays_in(future.result())]
+    assert len(arrays) > 1
+    for array in arrays:
+        with pytest.raises(ValueError, match="read-only"):
+            array[...] = 0.0
+
+
+def test_a_scene_asked_twice_computes_nothing_and_shares_its_arrays():
+    scene = scenes()["suslov-hess"]
+    values = {**scene.defaults(), "h": 0.7123, "phi0": -1.25}
+    before = CACHE.misses
+    first = scene.compute(values, scene.pictures, False)
+    misses = CACHE.misses
+    assert misses > before
+    second = scene.compute(values, scene.pictures, False)
+    assert CACHE.misses == misses
+    assert second.track is first.track
+    assert second.map is first.map
+    assert second.cycles is first.cycles
+    assert second.zones.grid is first.zones.grid
+    assert second.zones.boundary is first.zones.boundary
+    assert second.zones.curve is first.zones.curve
+
+
+@pytest.mark.parametrize("name", scenes())
+def test_the_cache_counts_at_least_the_bytes_of_the_arrays_it_holds(name, monkeypatch):
+    cache = ResultCache(2**30)
+    scene = scenes()[name]
+    for module in modules_of_scenes():
+        monkeypatch.setattr(module, "CACHE", cache)
+    scene.compute(scene.defaults(), scene.pictures, False)
+    held = {id(array): array.nbytes for future, _ in cache._entries.values() for array in arrays_in(future.result())}
+    assert sum(held.values()) <= cache.bytes <= 2 * sum(held.values()) + 64 * KILOBYTE

@@ -1,0 +1,579 @@
+"""What is computed for each thing that a user may do: not more than the pictures in sight need, and nothing twice."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import gc
+import itertools
+import math
+import re
+from collections import Counter
+
+import numpy as np
+import pytest
+import scipy.integrate
+from bokeh.models import ColumnDataSource
+from test_scenes import ACCURACY, HESS, SCENES, Board, Browser, contents, elsewhere, modules_of_scenes, plots_of
+
+from hess_explorer.compute.cache import ResultCache
+from hess_explorer.page import session
+from hess_explorer.scenes import suslov_hess
+from hess_explorer.server import warm
+from hess_mechanics.errors import WorkLimit
+
+every_scene = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
+
+# By the names of the functions.
+MAP, CYCLES, TRACK, BODY = "circle_map", "cycles", "track", "attitude_of_track"
+BOUNDARY, CURVE, GRID = "lock_boundary", "curve", "_grid"
+LEVELS, OTHERS, GROWTH = "measure_levels", "measure_others", "growth"
+MOTION = {MAP, CYCLES, TRACK}
+ZONES = {BOUNDARY, CURVE, GRID}
+STUDY = {LEVELS, OTHERS, GROWTH}
+# SciPy's methods take as long as the span is.
+SHORT = {**ACCURACY.defaults(), "span": 4.0}
+
+
+class Recorder(ResultCache):
+    """A cache that writes down which functions are called, with which arguments."""
+
+    def __init__(self):
+        super().__init__(2**28)
+        self.calls = []
+
+    def get(self, function, *arguments):
+        @functools.wraps(function)
+        def recorded(*given):
+            self.calls.append((function.__name__, given))
+            return function(*given)
+
+        return super().get(recorded, *arguments)
+
+    def take(self):
+        """The names of the functions called since the last time; none of them twice."""
+        names = Counter(name for name, _ in self.calls)
+        self.calls.clear()
+        assert set(names.values()) <= {1}, names
+        return set(names)
+
+    def levels(self):
+        """The accuracy of each call since the last time, by function."""
+        found = {name: level.name for name, given in self.calls for level in given if hasattr(level, "promise")}
+        self.calls.clear()
+        return found
+
+
+@pytest.fixture
+def cache(monkeypatch):
+    """A cache of its own, empty, in place of the process's."""
+    recorder = Recorder()
+    for module in (*modules_of_scenes(), session):
+        monkeypatch.setattr(module, "CACHE", recorder)
+    return recorder
+
+
+def subsets(names):
+    return [set(some) for size in range(len(names) + 1) for some in itertools.combinations(names, size)]
+
+
+def ids(some):
+    return "+".join(sorted(some)) or "none"
+
+
+every_subset = pytest.mark.parametrize("seen", subsets(HESS.pictures), ids=ids)
+every_subset_of_the_study = pytest.mark.parametrize("seen", subsets(ACCURACY.pictures), ids=ids)
+
+
+def needed(seen):
+    """What the scene of the Hess case computes at a state with two cycles."""
+    return ({MAP} | ({TRACK} if seen else set()) | ({CYCLES} if seen & {"omega", "sphere"} else set())
+            | (ZONES if "bifurcation" in seen else set()) | ({BODY} if "body" in seen else set()))
+
+
+def needed_for_study(seen):
+    return ({LEVELS, OTHERS} if "precision" in seen else set()) | ({GROWTH} if seen - {"precision"} else set())
+
+
+def compute(scene, values, seen=None, dragging=False):
+    return scene.compute(scene.admit(values)[0], scene.pictures if seen is None else seen, dragging)
+
+
+# --- The Suslov–Hess case ----------------------------------------------------------------------------
+
+
+def test_the_first_view_computes_each_part_once_and_the_second_nothing(cache):
+    compute(HESS, HESS.defaults())
+    assert cache.take() == MOTION | ZONES | {BODY}
+    compute(HESS, HESS.defaults())
+    assert cache.take() == set()
+
+
+CHANGES = [
+    ({"h": 1.45}, MOTION),
+    ({"f": 0.61}, MOTION),
+    ({"phi0": 0.51}, {TRACK}),
+    ({"span": 41.0}, {TRACK}),
+    ({"accuracy": "draft"}, MOTION),
+    ({"accuracy": "precise"}, MOTION),
+    # Grid and boundary depend on a alone, and the circle map does not know b.
+    ({"b3": -1.01}, {CYCLES, TRACK}),
+    ({"I22": 0.97}, MOTION | {BOUNDARY, GRID}),
+    ({"I23": 0.29}, MOTION | {BOUNDARY, GRID}),
+    # The same a: another body, the same maps.
+    ({"I22": 1.92, "I23": 0.56}, {CYCLES, TRACK}),
+    # Beyond the slider the diagram shows more.
+    ({"h": 5.0}, MOTION | {CURVE, GRID}),
+    # No cycles here.
+    ({"h": 0.2, "f": 0.5}, {MAP, TRACK}),
+    ({"h": 1.0, "f": 0.0}, {TRACK}),
+]
+
+
+@pytest.mark.parametrize(("change", "expected"), CHANGES, ids=[str(change) for change, _ in CHANGES])
+def test_a_change_computes_what_depends_on_it_and_going_back_nothing(cache, change, expected):
+    browser = Browser(HESS)
+    cache.take()
+    browser.ask(1, values=change)
+    assert cache.take() == expected
+    assert browser.session.values == {**HESS.defaults(), **change}
+    browser.ask(2, values=change)
+    assert cache.take() == set()
+    browser.ask(3, reset=True)
+    assert browser.session.values == HESS.defaults()
+    assert cache.take() == set()
+
+
+PRESETS = {
+    "Two limit cycles": set(),
+    "No cycle": {MAP, TRACK},
+    "At the lock boundary": {MAP, TRACK, BOUNDARY, GRID},
+    "Pendulum": MOTION | {BOUNDARY, GRID},
+    "Oscillation": {MAP, TRACK},
+    "Separatrix": {TRACK},
+    "On the bifurcation curve": {MAP, TRACK},
+    "Strong contraction": MOTION | {BOUNDARY, GRID},
+}
+
+
+@pytest.mark.parametrize("preset", HESS.presets, ids=[preset.name for preset in HESS.presets])
+def test_a_preset_computes_what_is_new_in_it(cache, preset):
+    browser = Browser(HESS)
+    cache.take()
+    browser.ask(1, preset=preset.name)
+    assert browser.session.values == {**HESS.defaults(), **preset.values}
+    assert browser.controls["preset"] == preset.name
+    assert [cache.take()] == [expected for name, expected in PRESETS.items() if preset.name.startswith(name)]
+
+
+def test_a_request_that_changes_nothing_does_not_even_ask_the_cache(cache):
+    browser = Browser(HESS)
+    browser.ask(1, hidden=[])
+    before = cache.hits, cache.misses
+    browser.ask(2)
+    browser.ask(3, values={"h": 1.5})
+    browser.ask(4, picked=["sphere", 0.0, 0.0])
+    browser.ask(5, hidden=[])
+    assert (cache.hits, cache.misses) == before
+
+
+@pytest.mark.parametrize("chosen", ["draft", "standard", "precise", "reference"])
+def test_a_drag_is_computed_as_a_draft_and_again_as_chosen_when_it_ends(cache, chosen):
+    browser = Browser(HESS, {**HESS.defaults(), "accuracy": chosen})
+    cache.take()
+    for requested, h in enumerate((1.4, 1.3, 1.2), 1):
+        browser.ask(requested, values={"h": h}, held=True)
+        assert cache.levels() == dict.fromkeys(MOTION, "draft")
+        assert browser.texts["status"].startswith("draft: orbit")
+    # The slider is still held, but does not move.
+    browser.ask(4, held=True)
+    assert cache.levels() == {}
+    browser.ask(5)
+    assert cache.levels() == ({} if chosen == "draft" else dict.fromkeys(MOTION, chosen))
+    assert browser.texts["status"].startswith(f"{chosen}: orbit")
+    assert browser.session.values["accuracy"] == chosen
+    assert browser.controls["accuracy"] == chosen
+
+
+@pytest.mark.parametrize("chosen", ["draft", "standard", "precise", "reference"])
+def test_every_part_of_a_drag_is_at_the_cheapest_level(cache, chosen):
+    values = {**HESS.defaults(), "accuracy": chosen}
+    dragged = compute(HESS, values, dragging=True)
+    assert cache.levels() == {**dict.fromkeys(MOTION | {BODY}, "draft"), BOUNDARY: "standard", GRID: "draft"}
+    assert {dragged.track.orbit.level, dragged.map.level, dragged.cycles[0].orbit.level} == {"draft"}
+    let_go = compute(HESS, values)
+    # The zones are there; a draft that was chosen is as well.
+    assert cache.levels() == ({} if chosen == "draft" else dict.fromkeys(MOTION | {BODY}, chosen))
+    assert {let_go.track.orbit.level, let_go.map.level, let_go.cycles[0].orbit.level} == {chosen}
+    assert let_go.zones.grid is dragged.zones.grid
+
+
+def test_a_drag_is_right_to_half_a_pixel(cache):
+    values = {**HESS.defaults(), "accuracy": "reference"}
+    dragged, exact = compute(HESS, values, dragging=True), compute(HESS, values)
+    fine, coarse = exact.track, dragged.track
+    width = 600.0 / (2.0 * suslov_hess.half_width(exact.body, values["h"]))
+    for name, scale in (("omega", width), ("gamma", 300.0)):
+        at_the_samples = [np.interp(coarse.times, fine.times, column) for column in getattr(fine, name).T]
+        error = scale * np.linalg.norm(getattr(coarse, name) - np.transpose(at_the_samples), axis=1)
+        # A quarter of a pixel is what the samples of the finer one, taken as a polyline, may be wrong.
+        assert error.max() < 0.5 + 0.26
+
+
+@every_subset
+def test_what_cannot_be_seen_is_not_computed(cache, seen):
+    result = compute(HESS, HESS.defaults(), seen)
+    assert cache.take() == needed(seen)
+    assert (result.track is None) == (seen == set())
+    assert (result.cycles is None) == (not seen & {"omega", "sphere"})
+    assert (result.zones is None) == ("bifurcation" not in seen)
+    # The captions say what the map says.
+    assert result.map is not None
+
+
+@every_subset
+def test_pictures_that_come_into_sight_compute_just_what_they_need(cache, seen):
+    browser = Browser(HESS)
+    hidden = [name for name in HESS.pictures if name not in seen]
+    browser.ask(1, hidden=hidden)
+    cache.take()
+    browser.ask(2, hidden=hidden, values={"I23": 0.3})
+    # The curve is the same for every body.
+    assert cache.take() == needed(seen) - {CURVE}
+    browser.ask(3, hidden=[])
+    assert cache.take() == needed(set(HESS.pictures)) - needed(seen) - {CURVE}
+    browser.ask(4, hidden=hidden)
+    browser.ask(5, hidden=[])
+    assert cache.take() == set()
+
+
+@every_subset
+def test_hiding_a_picture_computes_nothing_until_something_changes(cache, seen):
+    browser = Browser(HESS)
+    browser.ask(1, hidden=[])
+    before = cache.hits, cache.misses
+    state = browser.ask(2, hidden=[name for name in HESS.pictures if name not in seen])
+    assert (cache.hits, cache.misses) == before
+    assert state["tree"]["sources"] == {}
+
+
+def test_what_a_change_leaves_as_it_was_is_not_sent_again(cache):
+    browser = Browser(HESS)
+    browser.ask(1, values={"span": 41.0})
+    for requested, values in enumerate(({"phi0": 0.6}, {"f": 0.61}, {"b3": -1.2}), 2):
+        sent = browser.ask(requested, values=values)["tree"]["sources"]
+        zones = {f"bifurcation-{layer}" for layer in ("locked", "boundary", "curve", "forbidden")}
+        assert not zones & set(sent)
+        assert ("data-stable" in sent) == ("phi0" not in values)
+        assert ("bifurcation-here" in sent) == ("f" in values)
+
+
+def test_what_comes_into_sight_does_not_bring_the_others_with_it(cache):
+    browser = Browser(HESS)
+    browser.ask(1, hidden=["bifurcation"])
+    sent = browser.ask(2, hidden=[])["tree"]["sources"]
+    assert not {"data-orbit", "circle-map"} & set(sent)
+
+
+def test_a_picture_that_is_not_computed_claims_no_separatrix(cache):
+    board = Board(HESS)
+    board.show(compute(HESS, HESS.defaults()))
+    board.show(compute(HESS, {**HESS.defaults(), "h": 1.25}, set()))
+    assert list(board.sources["circle-message"]["text"]) == []
+
+
+def test_at_the_separatrix_too_what_is_hidden_is_not_computed(cache):
+    values = {**HESS.defaults(), "h": 1.0, "f": 0.0}
+    for seen, expected in ((set(), set()), ({"circle"}, {TRACK}), (set(HESS.pictures), {*ZONES, BODY})):
+        compute(HESS, values, seen)
+        assert cache.take() == expected
+
+
+# --- Pictures in sight look as if all were ---------------------------------------------------------------
+
+
+def own_sources(board, name):
+    """The data of one picture, those that others hold for it among them."""
+    own = {name, *board.tracks.get(name, ())}
+    if name in plots_of(board.scene.name):
+        references = plots_of(board.scene.name)[name].references()
+        own |= {model.name for model in references if isinstance(model, ColumnDataSource)}
+    found = {key: data for key, data in board.sources.items() if key in own}
+    # In the orbit that all share: not what only the moving point of another picture needs.
+    dots = board.stage.dots.items()
+    others = {column for dot, columns in dots if not dot.startswith(f"{name}-") for column in columns}
+    needed = {column for dot, columns in dots if dot.startswith(f"{name}-") for column in columns}
+    alone = others - needed - {"t", "g1", "g2", "g3", "omega1", "omega2"}
+    return {key: {column: values for column, values in data.items() if key != "data-orbit" or column not in alone}
+            for key, data in found.items()}
+
+
+# Another state for each scene, and more of those of the scenes whose pictures are computed one by one.
+STATES = [(scene, elsewhere(scene)) for scene in SCENES.values()] + [
+    (scene, {**scene.defaults(), **change, "span": 9.0}) for scene in (HESS, ACCURACY)
+    for change in ({"h": 1.25, "phi0": -1.0, "I23": 0.35}, {"h": 1.0, "f": 0.0}, {"h": 30.0})]
+every_other = pytest.mark.parametrize(
+    ("scene", "values"), STATES, ids=[f"{scene.name}-{i}" for i, (scene, _) in enumerate(STATES)])
+
+
+@every_other
+def test_a_picture_alone_in_sight_is_drawn_as_among_the_others(scene, values):
+    whole, board = Board(scene), Board(scene)
+    whole.show(compute(scene, values))
+    for name in scene.pictures:
+        board.show(compute(scene, scene.defaults()))
+        board.show(compute(scene, values, {name}))
+        assert contents(own_sources(board, name)) == contents(own_sources(whole, name)), name
+        assert board.captions[name] == whole.captions[name]
+
+
+@every_other
+def test_what_was_hidden_is_of_the_present_state_when_it_is_seen_again(scene, values):
+    whole, board = Board(scene), Board(scene)
+    report = whole.show(compute(scene, values))
+    expected = contents(whole.sources)
+    every = set(scene.pictures)
+    for seen in (set(), *({name} for name in every), *(every - {name} for name in every)):
+        board.show(compute(scene, scene.defaults()))
+        hidden = board.show(compute(scene, values, seen))
+        assert hidden.status
+        assert hidden.derived == report.derived
+        board.show(compute(scene, values))
+        assert contents(board.sources) == expected, seen
+        assert board.captions == whole.captions
+
+
+@every_scene
+def test_an_error_while_pictures_are_hidden_leaves_none_of_them_behind(scene):
+    whole, board = Board(scene), Board(scene)
+    whole.show(compute(scene, scene.defaults()))
+    expected = contents(whole.sources)
+    for seen in (set(), *({name} for name in scene.pictures)):
+        board.show(compute(scene, elsewhere(scene)))
+        board.fail("Not this one.")
+        board.show(compute(scene, scene.defaults(), seen))
+        board.show(compute(scene, scene.defaults()))
+        assert contents(board.sources) == expected, seen
+
+
+# --- Speed and accuracy ------------------------------------------------------------------------------------
+
+
+def test_the_first_view_of_speed_and_accuracy_measures_everything_once(cache):
+    compute(ACCURACY, SHORT)
+    assert cache.take() == STUDY
+    compute(ACCURACY, SHORT)
+    assert cache.take() == set()
+
+
+STUDY_CHANGES = [
+    ({"h": 1.45}, STUDY), ({"f": 0.61}, STUDY), ({"phi0": 0.51}, STUDY), ({"span": 5.0}, STUDY),
+    ({"b3": -1.01}, STUDY), ({"I22": 0.97}, STUDY), ({"I23": 0.29}, STUDY),
+    # All levels are measured in any case.
+    ({"accuracy": "reference"}, set()), ({"accuracy": "draft"}, set()),
+    # So long that SciPy's methods are left out.
+    ({"span": 90.0}, {LEVELS, GROWTH}),
+]
+
+
+@pytest.mark.parametrize(("change", "expected"), STUDY_CHANGES, ids=[str(change) for change, _ in STUDY_CHANGES])
+def test_a_change_measures_the_motion_anew_where_it_is_another_one(cache, change, expected):
+    browser = Browser(ACCURACY, SHORT)
+    cache.take()
+    browser.ask(1, values=change)
+    assert cache.take() == expected
+    browser.ask(2, values=SHORT)
+    assert cache.take() == set()
+
+
+def test_another_unit_of_the_same_motion_changes_the_pixels_only(cache):
+    values = {**ACCURACY.defaults(), "span": 1e5}
+    compute(ACCURACY, values)
+    assert cache.take() == {LEVELS, GROWTH}
+    # Cut at as many returns, in units b = 1 it is the same motion.
+    compute(ACCURACY, {**values, "b3": -1.3})
+    assert cache.take() == {GROWTH}
+
+
+@every_subset_of_the_study
+def test_what_nobody_sees_is_not_measured(cache, seen):
+    study = compute(ACCURACY, SHORT, seen)
+    assert cache.take() == needed_for_study(seen)
+    assert (study.points is None) == ("precision" not in seen)
+    assert (study.growth is None) == (not seen - {"precision"})
+
+
+@every_subset_of_the_study
+def test_charts_that_come_into_sight_measure_just_what_they_need(cache, seen):
+    browser = Browser(ACCURACY, SHORT)
+    hidden = [name for name in ACCURACY.pictures if name not in seen]
+    browser.ask(1, hidden=hidden)
+    cache.take()
+    browser.ask(2, hidden=hidden, values={"h": 1.25})
+    assert cache.take() == needed_for_study(seen)
+    browser.ask(3, hidden=[])
+    assert cache.take() == STUDY - needed_for_study(seen)
+
+
+def test_while_dragging_scipy_never_runs_and_when_let_go_it_does(cache, monkeypatch):
+    def refuse(*_, **__):
+        pytest.fail("SciPy ran under a drag")
+
+    solve_ivp = scipy.integrate.solve_ivp
+    browser = Browser(ACCURACY, SHORT)
+    cache.take()
+    monkeypatch.setattr(scipy.integrate, "solve_ivp", refuse)
+    for requested, h in enumerate((1.4, 1.3, 1.2), 1):
+        browser.ask(requested, values={"h": h}, held=True)
+        assert cache.take() == {LEVELS, GROWTH}
+        assert len(browser.data["precision-Taylor"]["x"]) == 4
+        assert len(browser.data["precision-DOP853"]["x"]) == 0
+    monkeypatch.setattr(scipy.integrate, "solve_ivp", solve_ivp)
+    browser.ask(4)
+    assert cache.take() == {OTHERS}
+    assert len(browser.data["precision-DOP853"]["x"]) == len(browser.data["precision-LSODA"]["x"]) == 3
+
+
+def test_over_a_long_span_scipy_is_left_out_and_the_page_says_so(cache):
+    browser = Browser(ACCURACY, SHORT)
+    assert "SciPy" not in browser.texts["notes"]
+    cache.take()
+    browser.ask(1, values={"span": 100.0})
+    assert OTHERS not in cache.take()
+    assert "SciPy's methods are left out" in browser.texts["notes"]
+    browser.ask(2, values={"span": 90.0}, hidden=["precision"])
+    assert browser.texts["notes"] == ""
+
+
+def test_levels_of_accuracy_do_not_follow_a_drag_here(cache):
+    """Every level is on show: a drag may leave none out."""
+    study = compute(ACCURACY, {**SHORT, "accuracy": "reference"}, dragging=True)
+    assert [point.setting for point in study.points] == ["draft", "standard", "precise", "reference"]
+    assert set(study.growth.errors) == {"draft", "standard", "precise", "reference"}
+    assert study.values["accuracy"] == "reference"
+
+
+# --- Through a session -------------------------------------------------------------------------------------
+
+
+def test_from_scene_to_scene_each_computes_its_own_and_the_way_back_is_free(cache):
+    browser = Browser(HESS, SHORT)
+    assert cache.take() == MOTION | ZONES
+    browser.ask(1, scene=ACCURACY.name)
+    assert cache.take() == STUDY
+    browser.ask(2, scene=HESS.name)
+    browser.ask(3, scene=ACCURACY.name)
+    assert cache.take() == set()
+    browser.ask(4, values={"f": 0.5})
+    assert cache.take() == STUDY
+    browser.ask(5, scene=HESS.name)
+    assert cache.take() == MOTION
+
+
+def test_a_new_scene_is_computed_whole_whatever_was_hidden_in_the_old_one(cache):
+    browser = Browser(HESS, SHORT)
+    browser.ask(1, hidden=["omega", "sphere", "circle"])
+    cache.take()
+    browser.ask(2, hidden=["omega", "sphere", "circle"], scene=ACCURACY.name)
+    assert cache.take() == STUDY
+    # The browser says anew what it does not see there.
+    browser.ask(3, hidden=["growth", "drift", "pixels"], values={"h": 1.25})
+    assert cache.take() == {LEVELS, OTHERS}
+
+
+@pytest.mark.parametrize("hidden", [
+    ["point"], ["", "nobody", "precision"], [None], [3, 2.5, True], [["bifurcation"]], [{"bifurcation": 1}], [math.nan],
+    ["bifurcation "], ["BIFURCATION"], "bifurcation", {"bifurcation": True}, {"0": "bifurcation"}, None, 3, True,
+    10**400, math.inf,
+], ids=repr)
+def test_what_names_no_picture_hides_none(cache, hidden):
+    browser = Browser(HESS)
+    browser.ask(1, hidden=hidden)
+    cache.take()
+    state = browser.ask(2, hidden=hidden, values={"I23": 0.3})
+    assert state["answers"] == 2
+    # A list says what is in sight, the body too; what is none leaves it folded.
+    seen = HESS.pictures if isinstance(hidden, list) else HESS.open_pictures
+    assert cache.take() == needed(set(seen)) - {CURVE}
+
+
+def test_names_of_nobody_among_the_hidden_do_not_protect_the_others(cache):
+    browser = Browser(HESS)
+    browser.ask(1, hidden=[None, "nobody", 3, ["omega"], "bifurcation", "bifurcation"])
+    cache.take()
+    browser.ask(2, values={"I23": 0.3})
+    assert cache.take() == MOTION | {BODY}
+
+
+def test_a_message_without_hidden_leaves_it_as_it_was(cache):
+    browser = Browser(HESS)
+    browser.ask(1, hidden=["bifurcation"])
+    cache.take()
+    for requested, message in enumerate(({}, {"hidden": None}, {"hidden": "omega"}), 2):
+        browser.ask(requested, values={"I23": 0.3 + 0.01 * requested}, **message)
+        assert cache.take() == MOTION | {BODY}
+
+
+def test_all_hidden_the_state_still_follows_and_is_said(cache):
+    browser = Browser(HESS)
+    browser.ask(1, hidden=list(HESS.pictures))
+    cache.take()
+    browser.ask(2, values={"h": 1.25})
+    assert cache.take() == {MAP}
+    assert browser.session.values["h"] == 1.25
+    assert "h = 1.25" in browser.texts["bifurcation"]
+    assert browser.texts["status"].startswith("circle map ")
+    assert "data-orbit" not in browser.screen.fresh
+    browser.ask(3, hidden=[])
+    assert cache.take() == {TRACK, CYCLES, BODY}
+    assert np.all(browser.data["data-orbit"]["h"] == np.float32(1.25))
+
+
+def test_the_status_line_counts_what_was_asked_of_the_cache(cache):
+    browser = Browser(HESS)
+    for requested, values in enumerate(({}, {"h": 1.25}, {"h": 1.5}, {"I23": 0.3}), 1):
+        browser.ask(requested, values=values)
+        hits, misses = map(int, re.search(r"cache (\d+) hits, (\d+) misses$", browser.texts["status"]).groups())
+        assert (hits, misses) == (cache.hits, cache.misses)
+    # First view, then h, back, I23: six questions each.
+    assert (hits, misses) == (3 + 6 + 1, 6 + 3 + 0 + 5)
+    assert cache.metrics().startswith(f"cache_hits {hits} cache_misses {misses} cache_entries {misses} ")
+
+
+def test_warming_up_computes_the_first_state_of_every_scene(cache, monkeypatch):
+    monkeypatch.setattr(warm, "QUIET_SECONDS", 0.0)
+    warm.warm()
+    assert gc.isenabled()
+    cache.calls.clear()
+    for scene in SCENES.values():
+        Browser(scene)
+        assert cache.take() == set(), scene.name
+
+
+def test_a_scene_that_refuses_its_first_state_keeps_no_other_from_being_ready(cache, monkeypatch, caplog):
+    def refuse(*_):
+        raise WorkLimit("Too many steps: choose a shorter time span.")
+
+    scenes = [*SCENES.values()]
+    refusing = [dataclasses.replace(scene, compute=refuse) if i == 1 else scene for i, scene in enumerate(scenes[:3])]
+    monkeypatch.setattr(warm, "scenes", lambda: {scene.name: scene for scene in refusing})
+    monkeypatch.setattr(warm, "QUIET_SECONDS", 0.0)
+    warm.warm()
+    assert caplog.messages == [f"{scenes[1].name}: Too many steps: choose a shorter time span."]
+    cache.calls.clear()
+    Browser(scenes[2])
+    assert cache.take() == set()
+
+
+def test_warming_up_stands_back_while_the_page_is_used(cache, monkeypatch):
+    pauses = []
+
+    def sleep(seconds):
+        pauses.append(seconds)
+        if len(pauses) < 5:
+            cache.get(int, f"{len(pauses)}")
+
+    monkeypatch.setattr(warm, "CACHE", cache)
+    monkeypatch.setattr(warm.time, "sleep", sleep)
+    warm._wait_until_quiet()
+    assert len(pauses) == 5

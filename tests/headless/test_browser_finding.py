@@ -1,0 +1,146 @@
+"""Where the browser is looked for, in which order, and that its absence is never passed over."""
+
+from __future__ import annotations
+
+import builtins
+import subprocess
+
+import pytest
+from playwright.sync_api import Error
+
+from hess_explorer.headless import browser
+from hess_explorer.headless.browser import VARIABLE, BrowserError, find_browser, install_browser, launched
+
+
+@pytest.fixture
+def machine(monkeypatch):
+    """A machine on which exactly the named programs are installed."""
+    programs = set()
+    monkeypatch.setattr(browser.shutil, "which", lambda name: f"/bin/{name}" if name in programs else None)
+    monkeypatch.delenv(VARIABLE, raising=False)
+    return programs
+
+
+@pytest.fixture
+def installations(monkeypatch):
+    """The installing commands that are run; they change nothing."""
+    commands = []
+    monkeypatch.setattr(browser.subprocess, "run", lambda command, **_: commands.append(command))
+    return commands
+
+
+def test_order(machine, monkeypatch, tmp_path):
+    own = tmp_path / "chrome"
+    assert find_browser(str(own)) is None
+    own.touch()
+    assert find_browser(str(own)) == str(own)
+    for name in ("google-chrome", "chromium-headless-shell", "chromium"):
+        machine.add(name)
+        assert find_browser(str(own)) == f"/bin/{name}"
+    machine.add("brave")
+    monkeypatch.setenv(VARIABLE, "brave")
+    assert find_browser(str(own)) == "/bin/brave"
+
+
+def test_a_wrong_variable_is_an_error_and_not_passed_over(machine, monkeypatch):
+    machine.add("chromium")
+    monkeypatch.setenv(VARIABLE, "/nowhere/chrome")
+    with pytest.raises(BrowserError, match=f"{VARIABLE} names '/nowhere/chrome'"):
+        find_browser("")
+
+
+@pytest.mark.parametrize(("root", "debian", "last"), [
+    (True, True, ["apt-get", "install", "-y", "--no-install-recommends", "chromium-headless-shell"]),
+    (False, True, ["-m", "playwright", "install", "--with-deps", "chromium"]),
+    (True, False, ["-m", "playwright", "install", "--with-deps", "chromium"]),
+])
+def test_installation(installations, monkeypatch, root, debian, last):
+    monkeypatch.setattr(browser, "_is_root", lambda: root)
+    monkeypatch.setattr(browser, "_is_debian", lambda: debian)
+    install_browser()
+    assert installations[-1][-5:] == last
+    assert (["apt-get", "update"] in installations) == (root and debian)
+
+
+@pytest.mark.parametrize("failure", [
+    FileNotFoundError("apt-get"), subprocess.CalledProcessError(100, "apt-get"), subprocess.TimeoutExpired("apt-get", 9)
+])
+def test_failed_installation_is_loud(monkeypatch, failure):
+    def fail(*_, **__):
+        raise failure
+
+    monkeypatch.setattr(browser.subprocess, "run", fail)
+    with pytest.raises(BrowserError, match=f"No Chromium was found and .* failed .*{VARIABLE}"):
+        install_browser()
+
+
+class NoChromium:
+    """Playwright on a machine where it has no Chromium of its own."""
+
+    executable_path = "/nowhere/chrome"
+
+    def __enter__(self):
+        self.chromium = self
+        return self
+
+    def __exit__(self, *_):
+        pass
+
+
+@pytest.mark.parametrize("install", [False, True])
+def test_no_browser_is_loud(machine, installations, monkeypatch, install):
+    monkeypatch.setattr("playwright.sync_api.sync_playwright", NoChromium)
+    with pytest.raises(BrowserError, match="No Chromium was found: install one"), launched(install=install):
+        pass
+    assert bool(installations) == install
+
+
+def test_missing_playwright_says_how_to_install_it(monkeypatch):
+    real = builtins.__import__
+
+    def without_playwright(name, *rest):
+        if name.startswith("playwright"):
+            raise ImportError(name)
+        return real(name, *rest)
+
+    monkeypatch.setattr(builtins, "__import__", without_playwright)
+    with pytest.raises(BrowserError, match="pip install playwright"), launched():
+        pass
+
+
+class Playwright(NoChromium):
+    """Its Chromium starts only without a sandbox, or not at all."""
+
+    def __init__(self, complaint):
+        self.complaint = complaint
+        self.sandboxed = []
+
+    def __call__(self):
+        return self
+
+    def launch(self, *, executable_path, args, chromium_sandbox):
+        self.sandboxed.append(chromium_sandbox)
+        assert not any("swiftshader" in word for word in args)
+        if chromium_sandbox or "sandbox" not in self.complaint:
+            raise Error(self.complaint)
+        return self
+
+    def close(self):
+        pass
+
+
+@pytest.mark.parametrize(("root", "tried"), [(True, [False]), (False, [True, False])])
+def test_the_sandbox_is_left_out_only_as_root_or_where_there_is_none(machine, monkeypatch, root, tried):
+    machine.add("chromium")
+    playwright = Playwright("No usable sandbox!")
+    monkeypatch.setattr("playwright.sync_api.sync_playwright", playwright)
+    monkeypatch.setattr(browser, "_is_root", lambda: root)
+    with launched():
+        assert playwright.sandboxed == tried
+
+
+def test_a_browser_that_does_not_start_is_loud(machine, monkeypatch):
+    machine.add("chromium")
+    monkeypatch.setattr("playwright.sync_api.sync_playwright", Playwright("Crashed\nlong log"))
+    with pytest.raises(BrowserError, match=rf"/bin/chromium did not start \(Crashed\).*{VARIABLE}"), launched():
+        pass

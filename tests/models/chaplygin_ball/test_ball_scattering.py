@@ -1,0 +1,164 @@
+"""θ⁻ → θ⁺ of the Chaplygin ball: the free Suslov problem where 𝒟 → 0, and a plain integrator otherwise."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from hess_mechanics import level
+from hess_mechanics.chaplygin_ball.energy_surface import Strip
+from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
+from hess_mechanics.chaplygin_ball.scattering import ball_scattering, starts
+from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.numerics.accuracy import LEVELS, Status
+
+PHASES = np.linspace(0.0, 2.0 * math.pi, 128, endpoint=False)
+CAPTION = BallBody(1.0, 1.5, 0.7, 1.2, 10.0)
+
+# (I11, I22, I13, I23) and cos χ of the free Suslov problem, computed independently with 40 digits.
+ROTATIONS = [
+    ((3.56, 1.0, 0.0, 0.8), -0.8484094045578246168641),
+    ((2.44, 1.0, 0.0, 0.5), -0.9902583607917886898757),
+    ((0.8, 1.0, 0.0, 0.5), -0.9305335004052719694923),
+    ((1.64, 1.0, 0.0, 0.8), -1.0),
+    ((1.0, 1.5, 0.7, 1.2), -0.47889450360074),
+    ((2.0, 1.0, 0.3, 0.5), -0.95659283876095),
+    ((3.0, 2.0, -0.4, 0.9), -0.98973299253727),
+]
+
+
+def harmonics(result):
+    """cos θ⁺ = c0 + c1 cos(φ − φ*) and what of it is left, by least squares."""
+    columns = np.stack([np.ones_like(result.phis), np.cos(result.phis), np.sin(result.phis)], axis=1)
+    values = np.cos(result.theta_plus)
+    (c0, c, s), *_ = np.linalg.lstsq(columns, values, rcond=None)
+    return c0, math.hypot(c, s), np.max(np.abs(columns @ (c0, c, s) - values))
+
+
+@pytest.mark.parametrize(("tensor", "cosine"), ROTATIONS)
+@pytest.mark.parametrize("theta", [0.4, 1.0, 2.2])
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_without_the_inner_ball_scattering_is_the_rotation_of_the_free_suslov_problem(tensor, cosine, theta, side):
+    # Γ⁺ = cos χ Γ⁻ + sin χ √(1 − Γ⁻²) cos(φ − φ*), the same at every energy.
+    for D, slack in ((0.0, 0.0), (1e-5, 2e-4)):
+        found = ball_scattering(BallBody(*tensor, D), theta, PHASES, 1.5, side * 1e-7, level("standard"))
+        assert found.status is Status.OK
+        mean, amplitude, rest = harmonics(found)
+        error = found.errors.max() + slack
+        assert mean == pytest.approx(cosine * math.cos(theta), abs=error)
+        assert amplitude == pytest.approx(math.sqrt(1.0 - cosine**2) * math.sin(theta), abs=error)
+        assert rest <= error
+
+
+def test_what_the_inner_ball_does_falls_with_it():
+    rests = []
+    for D in (1e-1, 1e-2, 1e-3):
+        body = BallBody(1.0, 1.5, 0.7, 1.2, D)
+        rests.append(harmonics(ball_scattering(body, 1.0, PHASES, 1.5, 1e-7, level("standard")))[2])
+    assert rests[0] > 5 * rests[1] > 25 * rests[2] > 0.0
+
+
+@pytest.mark.parametrize("body", [CAPTION, BallBody(2.0, 1.0, -0.3, 0.5, 1.0)])
+@pytest.mark.parametrize("name", LEVELS)
+def test_scattering_agrees_with_a_plain_integrator(body, name):
+    theta, phi, h, distance = 1.1, 0.7, 10.0, 1e-6
+    xi = np.array([body.I23, -body.I13]) / math.hypot(body.I13, body.I23)
+    (state,), _ = starts(Strip(body, h), theta, np.array([phi]), distance)
+    run = solve_ivp(lambda _, y: SYSTEM.field(y, body.parameters), (0.0, 400.0), state, method="DOP853", rtol=1e-13,
+                    atol=1e-20)
+    theta_plus = math.acos(run.y[2:4, -1] @ xi)
+    found = ball_scattering(body, theta, [phi], h, distance, level(name))
+    # From the same state; what the start's own distance does is the matter of the next test.
+    assert abs(found.theta_plus[0] - theta_plus) <= max(1e-8, 0.5 * level(name).promise)
+    assert found.errors[0] >= abs(found.theta_plus[0] - theta_plus)
+
+
+BODIES = [CAPTION, BallBody(1.64, 1.0, 0.0, 0.8, 2.0), BallBody(2.0, 1.0, -0.3, 0.5, 0.0),
+          BallBody(0.3, 1.5, 3.0, 4.0, 30.0)]
+
+
+@pytest.mark.parametrize("body", BODIES, ids=lambda body: f"D={body.D:g}")
+@pytest.mark.parametrize("theta", [0.0, 0.4, 1.1, math.pi / 2, 2.9])
+def test_the_start_is_where_motions_of_its_circle_pass_but_for_the_square_of_the_distance(body, theta):
+    xi = np.array([body.I23, -body.I13]) / math.hypot(body.I13, body.I23)
+    phases = np.array([-2.5, 0.0, 0.7, 2.0])
+    worst = []
+    for distance in (1e-2, -1e-3):
+        states, errors = starts(Strip(body, 10.0), theta, phases, distance)
+        away = []
+        for state, phi, error in zip(states, phases, errors, strict=True):
+            assert SYSTEM.integrals(state, body.parameters) == pytest.approx({"E": 10.0, "F1": 1.0}, rel=1e-13)
+            assert state[0] * -xi[1] + state[1] * xi[0] == pytest.approx(distance * (state[:2] @ xi), rel=1e-12)
+            across = math.sin(theta) * math.cos(phi)
+            circle = [math.cos(theta) * xi[0] - across * xi[1], math.cos(theta) * xi[1] + across * xi[0],
+                      math.sin(theta) * math.sin(phi)]
+            assert np.linalg.norm(state[2:] - circle) <= 1.5 * abs(distance)
+            back = solve_ivp(lambda _, y: SYSTEM.field(y, body.parameters), (0.0, -50.0), state, method="DOP853",
+                             rtol=1e-11, atol=1e-14).y[:, -1]
+            along, up = back[2:4] @ xi, math.hypot(back[3] * xi[0] - back[2] * xi[1], back[4])
+            away.append(abs(math.atan2(up, along) - theta))
+            assert away[-1] <= error
+        worst.append(max(away))
+    # A hundred times less at a tenth of the distance, as far as the integrator sees.
+    assert worst[1] <= worst[0] / 50 + 1e-9
+    assert worst[0] < 1e-4
+
+
+def test_what_would_take_too_long_is_refused_before_it_is_begun():
+    slow = BallBody(1.0, 1.5, 1e-3, 0.0, 300.0)
+    with pytest.raises(WorkLimit, match=r"some \de\+\d\d steps: choose larger I13"):
+        ball_scattering(slow, 1.0, PHASES, 10.0, 1e-10, level("standard"))
+    with pytest.raises(WorkLimit, match="smaller 𝒟"):
+        ball_scattering(CAPTION, 1.0, PHASES, 10.0, 1e-4, level("standard"), most_steps=1000)
+    # What is allowed is what it takes, roughly.
+    found = ball_scattering(CAPTION, 1.0, PHASES, 10.0, 1e-4, level("standard"), most_steps=300_000)
+    assert found.cost.steps < 300_000
+
+
+@pytest.mark.parametrize("D", [0.0, 300.0])
+def test_where_the_line_is_left_within_a_fraction_of_a_turn_the_errors_say_what_is_known(D):
+    # ∫μ beyond double range: no first-order term, and no NaN either.
+    body = BallBody(1e-3, 1.0, 800.0, 600.0, D)
+    states, errors = starts(Strip(body, 1.0), 1.0, PHASES, 1e-5)
+    assert np.all(np.isfinite(states))
+    assert np.all((errors > 0.0) & (errors < 1e-2))
+
+
+def test_errors_fall_with_the_distance_until_it_is_rounded():
+    errors = [ball_scattering(CAPTION, 1.0, PHASES[:16], 10.0, distance, level("reference")).errors.max()
+              for distance in (1e-2, 1e-4, 1e-6, 1e-8, 1e-10)]
+    assert errors[0] > 10 * errors[1] > 100 * errors[2]
+    assert errors[2] < errors[3] < errors[4]
+    draft = ball_scattering(CAPTION, 1.0, PHASES, 10.0, 1e-7, level("draft"))
+    exact = ball_scattering(CAPTION, 1.0, PHASES, 10.0, 1e-7, level("reference"))
+    assert np.max(np.abs(draft.theta_plus - exact.theta_plus)) <= draft.errors.max() < 1e-3
+    assert draft.status is Status.OK
+
+
+@pytest.mark.parametrize("theta", [0.0, math.pi])
+def test_the_ends_of_the_axis_have_one_image(theta):
+    found = ball_scattering(CAPTION, theta, PHASES, 10.0, 1e-7, level("standard"))
+    assert np.ptp(found.theta_plus) <= 2 * found.errors.max()
+
+
+def test_results_are_read_only_and_share_nothing_with_the_caller():
+    phases = np.array([0.0, 1.0])
+    found = ball_scattering(CAPTION, 1.0, phases, 10.0, 1e-6, level("draft"))
+    phases[0] = 5.0
+    assert found.phis[0] == 0.0
+    for array in (found.phis, found.theta_plus, found.errors):
+        assert not array.flags.writeable
+    assert found.cost.steps > 0
+
+
+@pytest.mark.parametrize(("change", "match"), [
+    ({"theta": -0.1}, "0 ≤ θ⁻ ≤ π"), ({"theta": math.nan}, "theta_minus"), ({"distance": 0.0}, "from 1e-10 to 0.1"),
+    ({"distance": 0.5}, "from 1e-10 to 0.1"), ({"h": 0.0}, "choose h > 0"), ({"phis": []}, "phases"),
+    ({"phis": [math.inf]}, "phases"), ({"body": BallBody(1.0, 1.0, 0.0, 0.0, 1.0)}, "I13 or I23"),
+    ({"body": BallBody(1.0, 1.0, 0.1, 0.0, 1.0, 0.0, 0.0, 1.0)}, "b1 = b2 = b3 = 0"),
+])
+def test_what_cannot_be_is_refused_in_a_sentence(change, match):
+    given = {"body": CAPTION, "theta": 1.0, "phis": [0.0], "h": 10.0, "distance": 1e-6} | change
+    with pytest.raises(InvalidParameter, match=match):
+        ball_scattering(*given.values(), level("draft"))

@@ -1,0 +1,385 @@
+"""Many orbits at once are the orbits one by one: for every registered system, on any number of threads."""
+
+import re
+import sys
+
+import numpy as np
+import pytest
+from mechanics import REFERENCE, numbers
+from scipy.integrate import solve_ivp
+
+from hess_mechanics import LEVELS, Level, Status, ensemble, level, solve, systems
+from hess_mechanics.dynamics.ensemble import MAX_NUMBERS
+from hess_mechanics.dynamics.orbit import MAX_SAMPLES
+from hess_mechanics.errors import InvalidParameter, ModelError, NotPositiveDefinite, WorkLimit
+from hess_mechanics.numerics.batch import LANES
+from hess_mechanics.numerics.taylor import STEP_LIMIT_REACHED
+
+SYSTEMS = systems()
+every_system = pytest.mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)
+every_level = pytest.mark.parametrize("name", LEVELS)
+FORWARD = np.linspace(0.0, 10.0, 61)
+
+
+def starts(system, count, seed=1):
+    """States about the example's, shape (count, d)."""
+    random = np.random.default_rng(seed)
+    state = np.array(system.example[0])
+    return state * random.uniform(0.5, 1.5, (count, state.size)) * random.choice([-1.0, 1.0], (count, state.size))
+
+
+def one_by_one(system, states, times, name="reference"):
+    return np.array([solve(system, state, system.example[1], times, level(name)).states for state in states])
+
+
+def unit_of(system, states, parameters):
+    """What a promise in units in which the fastest orbit has ω = 1 is worth: for ω more than for γ."""
+    nu = max(system.frequency(state, np.array(parameters)) for state in np.array(states))
+    return np.where(np.arange(len(system.variables)) < system.angular_velocities, nu, 1.0)
+
+
+TIMES = [
+    pytest.param([10.0], id="one"),
+    pytest.param(FORWARD, id="forward"),
+    pytest.param(-FORWARD, id="backward"),
+    pytest.param(np.linspace(0.0, 5.0, 2001), id="dense"),
+    pytest.param([0.0], id="the start"),
+    pytest.param([0.0, 0.0, 1e-9, 1.0, 1.0, 7.0], id="equal ones"),
+]
+
+
+@every_system
+@every_level
+@pytest.mark.parametrize("times", TIMES)
+@pytest.mark.parametrize("count", [1, LANES - 1, LANES, 3 * LANES + 5])
+def test_the_orbits_of_an_ensemble_are_those_of_solve(system, name, times, count):
+    states = starts(system, count)
+    result = ensemble(system, states, system.example[1], times, level(name))
+    assert result.states.shape == (count, len(times), len(system.variables))
+    assert np.array_equal(result.times, times)
+    assert result.status is Status.OK
+    error = np.abs(result.states - one_by_one(system, states, times))
+    # `solve` at its floor, too, errs: by round-off that the motion has had time to multiply.
+    assert np.all(error <= (level(name).promise + 1e-13) * unit_of(system, states, system.example[1]))
+
+
+@every_system
+def test_an_ensemble_agrees_with_an_integrator_of_another_family(system):
+    states = starts(system, LANES + 3, seed=2)
+    result = ensemble(system, states, system.example[1], FORWARD, level("reference"))
+    for state, found in zip(states, result.states, strict=True):
+        other = solve_ivp(lambda _, y: system.field(y, system.example[1]), (0.0, 10.0), state, t_eval=FORWARD,
+                          method="DOP853", rtol=1e-12, atol=1e-13)
+        assert np.max(np.abs(found - other.y.T)) < 1e-9
+
+
+@every_system
+@every_level
+def test_the_result_depends_neither_on_the_threads_nor_on_the_order_of_the_orbits(system, name):
+    # Three pieces of work for the threads, the last of them small; each orbit meets other neighbours in its lanes.
+    states = starts(system, 150, seed=3)
+    parameters = system.example[1]
+    one = ensemble(system, states, parameters, FORWARD, level(name), threads=1)
+    two = ensemble(system, states, parameters, FORWARD, level(name), threads=2)
+    assert np.array_equal(one.states, two.states)
+    assert np.array_equal(one.errors, two.errors)
+    assert (one.drift, one.status, one.cost.steps) == (two.drift, two.status, two.cost.steps)
+    for order in (np.random.default_rng(4).permutation(150), np.arange(150)[::-1]):
+        other = ensemble(system, states[order], parameters, FORWARD, level(name), threads=2)
+        assert np.array_equal(other.states, one.states[order])
+        assert np.array_equal(other.errors, one.errors[order])
+
+
+@every_system
+def test_equal_orbits_are_equal_in_every_lane(system):
+    result = ensemble(system, [system.example[0]] * 21, system.example[1], FORWARD, level("standard"))
+    assert np.array_equal(result.states, np.broadcast_to(result.states[:1], result.states.shape))
+    assert np.ptp(result.errors) == 0.0
+
+
+@every_system
+def test_orbits_do_not_depend_on_their_neighbours(system):
+    # The fastest one stays, since it sets the unit of time.
+    states = starts(system, 40, seed=5)
+    parameters = np.array(system.example[1])
+    fastest = int(np.argmax([system.frequency(state, parameters) for state in states]))
+    everything = ensemble(system, states, parameters, FORWARD, level("precise"))
+    for i in (0, 17, 39):
+        pair = ensemble(system, states[[i, fastest]], parameters, FORWARD, level("precise"))
+        assert np.array_equal(pair.states, everything.states[[i, fastest]])
+
+
+@every_system
+def test_orbits_do_not_depend_on_the_other_samples(system):
+    states = starts(system, 13, seed=6)
+    dense = ensemble(system, states, system.example[1], FORWARD, level("reference"))
+    sparse = ensemble(system, states, system.example[1], FORWARD[::20], level("reference"))
+    assert np.array_equal(dense.states[:, ::20], sparse.states)
+
+
+@every_system
+@every_level
+def test_orbits_of_very_different_energies_go_together(system, name):
+    # From a thousandth to thirty times the example's angular velocity: some take a step where others take hundreds.
+    state, parameters = (np.array(values) for values in system.example)
+    states = np.repeat(state[None], 19, axis=0)
+    states[:, : system.angular_velocities] *= np.geomspace(1e-3, 30.0, 19)[:, None]
+    times = np.linspace(0.0, 3.0, 31)
+    result = ensemble(system, states, parameters, times, level(name))
+    assert result.status is Status.OK
+    error = np.abs(result.states - one_by_one(system, states, times))
+    assert np.all(error <= (level(name).promise + 1e-12) * unit_of(system, states, parameters))
+
+
+@every_system
+@every_level
+def test_the_error_estimate_of_each_orbit_is_on_the_safe_side(system, name):
+    states = starts(system, 30, seed=7)
+    result = ensemble(system, states, system.example[1], FORWARD, level(name))
+    true = np.abs(result.states - one_by_one(system, states, FORWARD)).max(axis=(1, 2))
+    assert result.errors.shape == (30,)
+    assert np.all(true <= 10 * result.errors)
+    # An estimate for each, and not one for all.
+    assert np.ptp(result.errors) > 0.0
+    # Estimates are not idle either, where more than round-off is to be estimated.
+    if name != "reference":
+        assert np.median(result.errors) <= 1000 * np.median(true)
+
+
+@every_system
+@every_level
+def test_the_drift_of_an_ensemble_is_the_largest_of_its_orbits(system, name):
+    states, parameters = starts(system, 20, seed=8), system.example[1]
+    result = ensemble(system, states, parameters, FORWARD, level(name))
+    along = system.integrals(np.moveaxis(result.states, -1, 0), parameters)
+    for key, initial in system.integrals(states.T, parameters).items():
+        drift = np.abs(along[key] - initial[:, None]).max(axis=1) / np.maximum(1.0, np.abs(initial))
+        assert result.drift[key] == pytest.approx(drift.max(), abs=1e-15)
+        # The promise is for the components; the integrals' slopes are some of their parameters and variables.
+        assert drift.max() <= 10 * level(name).promise
+    assert set(result.drift) == set(system.integrals(*system.example))
+
+
+@pytest.mark.parametrize("name", ["draft", "standard", "precise", "reference"])
+@pytest.mark.parametrize("row", REFERENCE["trajectories"], ids=lambda row: row["name"])
+def test_the_reference_values_are_met_in_every_lane(row, name):
+    p, y0 = row["params"], numbers(row["y0"])
+    parameters = numbers([*p["I"], *p["b"]]) if row["system"] == "suslov" else numbers([p["a"], p["b"]])
+    times = numbers(state["t"] for state in row["states"])
+    true = np.array([numbers(state["y"]) for state in row["states"]])
+    # Between slower neighbours, in lanes of the first round and of later ones.
+    states = np.concatenate([[y0], y0 * np.linspace(0.5, 0.9, 9)[:, None], [y0] * 9])
+    result = ensemble(SYSTEMS[row["system"]], states, parameters, times, level(name))
+    same = [0, *range(10, 19)]
+    # At the floor chaotic orbits amplify the rounding of their initial data, as in `test_reference`.
+    bound = {"reference": 1e-8}.get(name, level(name).promise * max(1.0, np.abs(true[:, :2]).max()))
+    error = np.abs(result.states[same] - true)
+    assert error.max() <= bound
+    assert np.all(error.max(axis=(1, 2)) <= 10 * result.errors[same] + 1e-15)
+
+
+@every_system
+@every_level
+def test_states_at_rest_go_along_with_the_others(system, name):
+    # Without angular velocity, and without anything: the latter stays as it is.
+    states = starts(system, 12, seed=9)
+    states[3, : system.angular_velocities] = 0.0
+    states[[0, 7, 8]] = 0.0
+    result = ensemble(system, states, system.example[1], FORWARD, level(name))
+    assert not np.any(result.states[[0, 7, 8]])
+    assert np.ptp(result.states[3], axis=0).min() > 1e-3, "it falls"
+    error = np.abs(result.states - one_by_one(system, states, FORWARD))
+    assert np.all(error <= (level(name).promise + 1e-13) * unit_of(system, states, system.example[1]))
+
+
+EQUILIBRIA = {
+    "suslov": ((0.0, 0.0, 0.0, 0.0, 1.0), (2.0, 1.0, 0.3, 0.5, 0.0, 0.0, 1.0)),
+    "ball": ((0.0, 0.0, 0.0, 0.0, 1.0), (2.0, 1.0, 0.3, 0.5, 2.0, 0.0, 0.0, 1.0)),
+    "euler-poisson": ((0.0, 0.0, 0.0, 0.0, 0.0, 1.0), (1.0, 1.6, 2.5, 0.0, 0.0, 1.0, 1.0)),
+    "hess": ((0.0, 0.0, 0.0, 0.0, -1.0), (0.75, 1.0)),
+}
+
+
+@every_system
+@pytest.mark.parametrize("times", [[1.0, 100.0], [-100.0], [1e200]])
+def test_an_equilibrium_stays_where_it_is(system, times):
+    state, parameters = EQUILIBRIA[system.name]
+    assert not any(system.field(state, parameters))
+    result = ensemble(system, [state] * 9, parameters, times, level("precise"))
+    assert np.array_equal(result.states, np.broadcast_to(state, result.states.shape))
+    assert result.status is Status.OK
+
+
+@every_system
+def test_an_equilibrium_among_moving_orbits_stays_where_it_is(system):
+    state, parameters = EQUILIBRIA[system.name]
+    states = starts(system, 10, seed=10)
+    states[[2, 9]] = state
+    result = ensemble(system, states, parameters, FORWARD, level("standard"))
+    assert np.array_equal(result.states[[2, 9]], np.broadcast_to(state, (2, FORWARD.size, len(state))))
+    for i in (0, 1, 8):
+        alone = solve(system, states[i], parameters, FORWARD, level("reference")).states
+        assert np.all(np.abs(result.states[i] - alone) <= 1e-6 * unit_of(system, states, parameters))
+
+
+@every_system
+def test_orbits_that_miss_the_promise_are_computed_again(system):
+    # Steps far too long for the promise; the orbit that stays is content with them.
+    states = starts(system, 20, seed=11)
+    states[4] = 0.0
+    careless = Level("standard", 1e-9, 1e-1, 14)
+    result = ensemble(system, states, system.example[1], FORWARD, careless)
+    truth = one_by_one(system, states, FORWARD)
+    assert result.status is Status.OK
+    assert np.all(np.abs(result.states - truth) <= 1e-9 * unit_of(system, states, system.example[1]))
+    quickly = ensemble(system, states[4:5], system.example[1], FORWARD, careless)
+    assert quickly.cost.steps == 2, "once, and once more for the estimate"
+
+
+@every_system
+def test_a_level_that_cannot_keep_its_promise_says_so(system):
+    states = starts(system, 3)
+    for rung, status in ((Level("standard", 1e-300, 1e-8, 14), Status.PROMISE_NOT_MET),
+                         (Level("reference", 1e-300, 1e-17, 24), Status.FLOOR)):
+        result = ensemble(system, states, system.example[1], [1.0], rung)
+        assert result.status is status
+        assert np.all(np.isfinite(result.errors))
+
+
+@every_system
+def test_results_are_read_only_and_share_nothing_with_the_caller(system):
+    times, states = np.linspace(0.0, 1.0, 5), starts(system, 3)
+    given = states.copy()
+    result = ensemble(system, states, system.example[1], times, level("draft"))
+    for array in (result.times, result.states, result.errors):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 0.0
+    with pytest.raises(AttributeError):
+        result.status = Status.OK
+    assert np.array_equal(states, given)
+    times[0] = states[0, 0] = 7.0
+    assert result.times[0] == 0.0
+    assert result.states[0, 0] == pytest.approx(given[0], abs=1e-15)
+    assert (result.system, result.level) == (system.name, "draft")
+    assert result.cost.steps >= 6
+    assert result.cost.wall_ms > 0
+
+
+@every_system
+def test_states_may_be_lists_or_tables_of_any_layout(system):
+    states = starts(system, 11)
+    plain = ensemble(system, states, system.example[1], FORWARD, level("draft"))
+    for given in (states.tolist(), np.asfortranarray(states), np.repeat(states, 2, axis=0)[::2]):
+        assert np.array_equal(ensemble(system, given, list(system.example[1]), list(FORWARD), level("draft")).states,
+                              plain.states)
+    alone = ensemble(system, states[0], system.example[1], FORWARD, level("draft"))
+    assert alone.states.shape == (1, FORWARD.size, states.shape[1])
+
+
+@every_system
+def test_an_ensemble_without_orbits_raises_a_sentence(system):
+    with pytest.raises(InvalidParameter, match="at least one initial state"):
+        ensemble(system, np.empty((0, len(system.variables))), system.example[1], [1.0], level("draft"))
+    with pytest.raises(InvalidParameter, match=re.escape(", ".join(system.variables))):
+        ensemble(system, [], system.example[1], [1.0], level("draft"))
+
+
+@every_system
+def test_states_and_parameters_of_the_wrong_shape_raise_a_sentence(system):
+    state, parameters = system.example
+    for wrong in ([state[:-1]] * 2, [(*state, 0.0)], [[state]], [[]]):
+        with pytest.raises(InvalidParameter, match=re.escape(", ".join(system.variables))):
+            ensemble(system, wrong, parameters, [1.0], level("draft"))
+    for wrong in (parameters[:-1], (*parameters, 0.0), (), [parameters]):
+        with pytest.raises(InvalidParameter, match=re.escape(", ".join(system.parameters))):
+            ensemble(system, [state], wrong, [1.0], level("draft"))
+
+
+@every_system
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+@pytest.mark.parametrize("place", [0, -1])
+@pytest.mark.parametrize("row", [0, 9])
+def test_one_number_that_is_not_finite_raises_a_sentence(system, bad, place, row):
+    states, parameters = starts(system, 10), np.array(system.example[1])
+    states[row, place] = bad
+    with pytest.raises(InvalidParameter, match="finite number"):
+        ensemble(system, states, parameters, [1.0], level("draft"))
+    parameters[place] = bad
+    with pytest.raises(InvalidParameter, match="finite number"):
+        ensemble(system, starts(system, 10), parameters, [1.0], level("draft"))
+
+
+BAD_TIMES = [
+    pytest.param([], InvalidParameter, "one or more finite numbers", id="none"),
+    pytest.param([[1.0, 2.0]], InvalidParameter, "one or more finite numbers", id="a table"),
+    pytest.param([np.nan], InvalidParameter, "finite", id="nan"),
+    pytest.param([1.0, np.inf], InvalidParameter, "finite", id="inf"),
+    pytest.param([2.0, 1.0], InvalidParameter, "all forward or all backward", id="out of order"),
+    pytest.param([-2.0, -3.0, -1.0], InvalidParameter, "all forward or all backward", id="back and forth"),
+    pytest.param([-1.0, 1.0], InvalidParameter, "all forward or all backward", id="both sides of 0"),
+    pytest.param(np.zeros(MAX_SAMPLES + 1), WorkLimit, f"at most {MAX_SAMPLES}", id="too many samples"),
+]
+
+
+@every_system
+@pytest.mark.parametrize(("times", "error", "words"), BAD_TIMES)
+def test_times_that_cannot_be_computed_raise_a_sentence(system, times, error, words):
+    with pytest.raises(error, match=words):
+        ensemble(system, starts(system, 3), system.example[1], times, level("draft"))
+
+
+@every_system
+def test_more_numbers_than_one_request_may_have_raise_a_sentence(system):
+    times = np.linspace(0.0, 1.0, 100_000)
+    count = MAX_NUMBERS // (times.size * len(system.variables)) + 1
+    with pytest.raises(WorkLimit, match=f"{count} orbits at {times.size} times are too many: choose fewer"):
+        ensemble(system, starts(system, count), system.example[1], times, level("draft"))
+
+
+@every_system
+@pytest.mark.parametrize("threads", [1, 2])
+@pytest.mark.parametrize("end", [1e5, -1e5, 1e308])
+def test_a_span_that_needs_too_many_steps_raises_a_sentence(system, threads, end, monkeypatch):
+    monkeypatch.setattr(sys.modules["hess_mechanics.dynamics.ensemble"], "MAX_STEPS", 1000)
+    with pytest.raises(WorkLimit, match="more than 1000 steps: choose a shorter time span"):
+        ensemble(system, starts(system, 70), system.example[1], [end], level("draft"), threads=threads)
+
+
+@every_system
+def test_the_limit_of_steps_is_for_each_orbit_and_the_cost_is_of_all(system):
+    states, parameters = starts(system, 50, seed=12), np.array(system.example[1])
+
+    def steps(some, limit):
+        out = np.empty((len(some), 1, len(system.variables)))
+        return system.ensemble(some, parameters, np.array([20.0]), 14, 1e-8, limit, out)
+
+    each = [steps(states[i : i + 1], 10_000) for i in range(50)]
+    assert min(each) < max(each)
+    assert steps(states, max(each)) == sum(each)
+    assert steps(states, max(each) - 2) == STEP_LIMIT_REACHED
+
+
+@every_system
+def test_one_orbit_that_needs_too_many_steps_is_enough(system, monkeypatch):
+    monkeypatch.setattr(sys.modules["hess_mechanics.dynamics.ensemble"], "MAX_STEPS", 1000)
+    states = np.zeros((70, len(system.variables)))
+    assert ensemble(system, states, system.example[1], [1e5], level("draft")).status is Status.OK
+    states[66] = system.example[0]
+    with pytest.raises(WorkLimit, match="choose a shorter time span"):
+        ensemble(system, states, system.example[1], [1e5], level("draft"))
+
+
+@every_system
+@pytest.mark.parametrize("huge", [1e155, 1e200, 1e308])
+def test_motions_too_fast_for_double_precision_raise_a_sentence(system, huge, monkeypatch):
+    monkeypatch.setattr(sys.modules["hess_mechanics.dynamics.ensemble"], "MAX_STEPS", 1000)
+    states = starts(system, 10)
+    states[8, 0] = huge
+    with pytest.raises(ModelError, match=r"choose (less extreme parameters|a shorter time span)"):
+        ensemble(system, states, system.example[1], [1.0], level("draft"))
+
+
+def test_moments_of_inertia_that_are_not_positive_raise_a_sentence():
+    suslov = SYSTEMS["suslov"]
+    with pytest.raises(NotPositiveDefinite, match="choose I"):
+        ensemble(suslov, starts(suslov, 10), (-1.0, *suslov.example[1][1:]), [1.0], level("draft"))

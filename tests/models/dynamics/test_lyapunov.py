@@ -1,0 +1,195 @@
+"""Lyapunov exponents against the variational equations, rotation numbers against rotations that are known."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from test_andoyer import GESS1, RIS
+
+from hess_mechanics import systems
+from hess_mechanics.dynamics.birkhoff import rotation_number
+from hess_mechanics.dynamics.lyapunov import MAX_RETURNS, largest_exponent
+from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.euler_poisson.andoyer import andoyer_points, coordinates, state_at
+from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
+from hess_mechanics.numerics.accuracy import STANDARD
+
+GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
+CHAOTIC = HeavyBody((1.0, 1.6, 2.1), (0.3, -0.5, 0.7), 6.0), 4.0, 1.0, 0.3, 0.2
+"""Body, h, f, l, L/G of a motion that wanders everywhere; in the layers of gess1 orbits stick to islands for long."""
+REGULAR = [(RIS, -0.4, 0.0, 2.8, 0.3), (RIS, 0.0, 0.0, 2.8, 0.3), (GESS1, 20.0, 2.0, 1.0, 0.1)]
+
+
+def state_of(case):
+    return case[0], state_at(*case)
+
+
+def finite_exponent(body, state, span):
+    """The same by the variational equations of hh01, integrated with the motion.
+
+    Directions and lengths are in units of the largest velocity ν = √(2 max(a)(T + 2μ|r|)) and of M = I ω.
+    """
+    a, m = np.array(body.a), body.mu * np.array(body.r)
+    kinetic = 0.5 * np.sum(a * np.array(state[:3]) ** 2)
+    unit = math.sqrt(2.0 * a.max() * (kinetic + 2.0 * body.strength)) / a.min()
+    scale = np.array([unit, unit, unit, 1.0, 1.0, 1.0])
+    direction = np.cos(1.0 + np.arange(6) ** 2)
+    direction *= scale / np.linalg.norm(direction)
+
+    def rates(_, z):
+        M, gamma, dM, dgamma = z.reshape(4, 3)
+        return np.concatenate([
+            np.cross(M, a * M) + np.cross(m, gamma), np.cross(gamma, a * M),
+            np.cross(dM, a * M) + np.cross(M, a * dM) + np.cross(m, dgamma),
+            np.cross(dgamma, a * M) + np.cross(gamma, a * dM)])
+
+    run = solve_ivp(rates, (0.0, span), np.concatenate([state, direction]), method="DOP853", rtol=1e-11, atol=1e-12)
+    return math.log(np.linalg.norm(run.y[6:, -1] / scale)) / abs(span)
+
+
+# ---- Exponents --------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("case", [(GESS1, 50.0, 5.0, 0.0, 0.2), (RIS, 2.0, 1.0, 1.0, 0.1), CHAOTIC, *REGULAR])
+@pytest.mark.parametrize("span", [5.0, -4.0])
+def test_the_growth_up_to_a_time_is_that_of_the_variational_equations(case, span):
+    body, state = state_of(case)
+    found = largest_exponent(SYSTEM, state, body.parameters, span)
+    assert found.times[-1] == pytest.approx(abs(span))
+    assert found.value == pytest.approx(finite_exponent(body, state, span), abs=2e-5)
+
+
+def test_every_earlier_rate_is_that_of_a_shorter_span():
+    body, state = state_of(CHAOTIC)
+    long = largest_exponent(SYSTEM, state, body.parameters, 8.0)
+    for i in (3, len(long.times) // 2):
+        assert long.rates[i] == pytest.approx(finite_exponent(body, state, float(long.times[i])), abs=2e-5)
+    later = long.rates[len(long.rates) // 2:]
+    assert long.spread == pytest.approx(np.ptp(later))
+    assert not long.rates.flags.writeable
+
+
+@pytest.mark.parametrize("case", REGULAR)
+def test_of_a_regular_motion_it_falls_as_ln_t_over_t(case):
+    body, state = state_of(case)
+    times = np.array([100.0, 1000.0, 8000.0])
+    found = np.array([largest_exponent(SYSTEM, state, body.parameters, span).value for span in times])
+    # The neighbour goes away in proportion to t: what is left of λ t beside ln t does not grow.
+    assert np.all(np.abs(found * times - np.log(times)) < 4.0)
+    assert found[-1] < 2e-3
+
+
+def test_of_a_chaotic_motion_it_is_the_same_after_a_long_time_and_after_twice_that():
+    body, state = state_of(CHAOTIC)
+    one, other = (largest_exponent(SYSTEM, state, body.parameters, span) for span in (1500.0, 3000.0))
+    assert one.value == pytest.approx(other.value, rel=0.05)
+    assert one.value > 0.3
+    assert one.spread < 0.1 * one.value
+
+
+def test_beside_an_equilibrium_the_distance_grows_with_its_eigenvalue():
+    """The centre of mass above, at rest, a1 = a2: M and γ fall at the rate √(a1 μ|r|), whatever the direction."""
+    body = HeavyBody((1.3, 1.3, 0.9), (0.0, 0.0, 1.0), 0.7)
+    found = largest_exponent(SYSTEM, (0.0, 0.0, 0.0, 0.0, 0.0, -1.0), body.parameters, 12.0)
+    grown = found.rates * found.times
+    third = len(grown) // 3
+    slope = (grown[-1] - grown[third]) / (found.times[-1] - found.times[third])
+    assert slope == pytest.approx(math.sqrt(1.3 * 0.7), rel=1e-3)
+
+
+@pytest.mark.parametrize("system", systems().values(), ids=systems())
+def test_any_system_has_one(system):
+    found = largest_exponent(system, *system.example, 5.0)
+    assert np.all(np.isfinite(found.rates))
+    assert found.times[-1] == pytest.approx(5.0)
+
+
+@pytest.mark.parametrize("span", [0.0, math.nan, math.inf])
+def test_a_span_that_is_none_is_refused(span):
+    with pytest.raises(InvalidParameter, match="must be a finite number other than 0"):
+        largest_exponent(SYSTEM, *SYSTEM.example, span)
+
+
+@pytest.mark.parametrize("span", [1e7, -1e7, 1e300])
+def test_too_long_a_span_is_refused(span):
+    with pytest.raises(WorkLimit, match=f"at most {MAX_RETURNS} are allowed: choose a shorter time span"):
+        largest_exponent(SYSTEM, *SYSTEM.example, span)
+
+
+def test_a_very_short_span_has_one_rate():
+    assert largest_exponent(SYSTEM, *SYSTEM.example, 1e-9).rates.shape == (1,)
+
+
+# ---- Rotation numbers -------------------------------------------------------------------------------------------
+
+
+def circle(rho, count, bend=0.0, centre=(0.0, 0.0), first=0.3):
+    """Points of a rotation, on an ellipse, with a change of the angle that leaves the rotation number."""
+    phi = 2.0 * math.pi * rho * np.arange(count) + first
+    phi = phi + bend * np.sin(phi)
+    return np.column_stack([centre[0] + 0.7 * np.cos(phi), centre[1] + 0.2 * np.sin(phi)]), phi
+
+
+# Next to 0 and ½ the points hardly leave their places on the curve: what is seen of it in 4000 is little.
+@pytest.mark.parametrize(("rho", "error"), [
+    (GOLDEN - 1.0, 1e-9), (1.0 - GOLDEN, 1e-9), (math.sqrt(2.0) - 1.3, 1e-9), (1.0 / math.pi, 1e-9), (-0.4999, 2e-4),
+    (0.499, 1e-6), (0.001, 1e-5)])
+@pytest.mark.parametrize("bend", [0.0, 0.4])
+def test_the_number_of_a_rotation_in_other_coordinates_is_found(rho, error, bend):
+    points, phi = circle(rho, 4000, bend, (1.2, -0.4))
+    found, spread = rotation_number(points, (1.2, -0.4))
+    assert found == pytest.approx(rho, abs=error)
+    assert spread < 1e-3
+    by_angle, _ = rotation_number(np.column_stack([np.angle(np.exp(1j * phi)), np.zeros_like(phi)]))
+    assert by_angle == pytest.approx(found, abs=error)
+
+
+def test_half_a_turn_is_half_a_turn_and_not_none():
+    points, _ = circle(0.5, 501)
+    assert rotation_number(points, (0.0, 0.0)) == (pytest.approx(0.5), pytest.approx(0.0, abs=1e-12))
+
+
+@pytest.mark.parametrize("steps", [1, 2, 3])
+def test_it_is_a_number_of_turns_up_to_whole_ones(steps):
+    points, _ = circle(GOLDEN + steps, 2000)
+    assert rotation_number(points, (0.0, 0.0))[0] == pytest.approx(GOLDEN - 1.0, abs=1e-10)
+
+
+def test_a_plain_mean_would_be_far_worse():
+    points, _ = circle(GOLDEN - 1.0, 1000, bend=0.4)
+    weighted = abs(rotation_number(points, (0.0, 0.0))[0] - (GOLDEN - 1.0))
+    angle = np.arctan2(points[:, 1], points[:, 0])
+    plain = abs(np.mean(np.remainder(np.diff(angle) / (2 * np.pi) + 0.5, 1.0) - 0.5) - (GOLDEN - 1.0))
+    assert weighted < 1e-9
+    assert plain > 1e-6
+
+
+def test_points_without_order_are_no_closed_curve():
+    random = np.random.default_rng(2)
+    assert all(rotation_number(random.uniform(-1.0, 1.0, (500, 2)), (0.0, 0.0))[1] > 1e-3 for _ in range(10))
+
+
+@pytest.mark.parametrize(("body", "h", "f", "place", "centre"), [
+    (GESS1, 50.0, 5.0, (-1.7, 0.03), (-1.85, 0.03)), (RIS, 0.0, 0.0, (2.8, 0.3), None),
+    (RIS, -0.4, 0.0, (2.8, 0.3), (math.pi, 0.0))])
+def test_with_500_points_it_is_that_of_10000(body, h, f, place, centre):
+    states = andoyer_points(body, h, f, [state_at(body, h, f, *place)], 10_000, STANDARD).states[0]
+    assert len(states) == 10_000
+    points = coordinates(states)
+    if centre is not None and centre[0] > 3.0:
+        points[:, 0] %= 2.0 * math.pi
+    few, spread = rotation_number(points[:500], centre)
+    many, rest = rotation_number(points, centre)
+    assert rest < 1e-6
+    assert few == pytest.approx(many, abs=1e-4)
+    # The halves may agree by chance.
+    assert abs(few - many) < max(1e-6, 10.0 * spread)
+
+
+@pytest.mark.parametrize("count", [0, 1, 4])
+def test_too_few_points_are_refused_in_a_sentence(count):
+    with pytest.raises(InvalidParameter, match=f"there are {count}: follow it for longer"):
+        rotation_number(circle(0.3, count)[0])

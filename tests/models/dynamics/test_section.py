@@ -1,0 +1,594 @@
+"""Crossings of a plane: all of them, each once, in the right place, for every registered system."""
+
+import math
+import sys
+import threading
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+
+from hess_mechanics import LEVELS, Level, Plane, Status, level, section, sections, solve, systems
+from hess_mechanics.dynamics.section import MAX_CROSSINGS
+from hess_mechanics.errors import InvalidParameter, ModelError, WorkLimit
+
+SYSTEMS = systems()
+every_system = pytest.mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)
+every_level = pytest.mark.parametrize("name", LEVELS)
+
+# Without a field and without coupling ω stays as it is and γ turns about it.
+FREE = {"suslov": (2.0, 1.0, *[0.0] * 5), "ball": (2.0, 1.0, *[0.0] * 6), "hess": (0.0, 0.0)}
+# States that stay for ever.
+EQUILIBRIA = {
+    "suslov": ((0.0, 0.0, 0.0, 0.0, 1.0), (2.0, 1.0, 0.3, 0.5, 0.0, 0.0, 1.0)),
+    "ball": ((0.0, 0.0, 0.0, 0.0, 1.0), (2.0, 1.0, 0.3, 0.5, 2.0, 0.0, 0.0, 1.0)),
+    "euler-poisson": ((0.0, 0.0, 0.0, 0.0, 0.0, 1.0), (1.0, 1.6, 2.5, 0.0, 0.0, 1.0, 1.0)),
+    "hess": ((0.0, 0.0, 0.0, 0.0, 1.0), (0.75, 1.0)),
+}
+# Motions that stay in the plane where the first component is 0.
+PENDULA = {
+    "suslov": ((0.0, 0.5, 0.6, 0.0, 0.8), (2.0, 1.0, 0.3, 0.0, 0.0, 0.0, 1.0)),
+    "ball": ((0.0, 0.5, 0.6, 0.0, 0.8), (2.0, 1.0, 0.3, 0.0, 2.0, 0.0, 0.0, 1.0)),
+    "euler-poisson": ((0.0, 0.5, 0.0, 0.6, 0.0, 0.8), (1.0, 1.6, 2.5, 0.0, 0.0, 1.0, 1.0)),
+    "hess": ((0.0, 0.5, 0.6, 0.0, 0.8), (0.0, 1.0)),
+}
+
+
+@pytest.fixture(scope="module", autouse=True)
+def compiled_kernels():
+    """What takes long from here on is not the compiler."""
+    for system in SYSTEMS.values():
+        example_section(system)
+
+
+ENDLESS = []
+
+
+def ended(work):
+    """work(), which must come to an end: kernels release the interpreter's lock, so that one can wait for them."""
+    if ENDLESS:
+        pytest.fail("an earlier search is still running")
+    results = []
+    thread = threading.Thread(target=lambda: results.append(work()), daemon=True)
+    thread.start()
+    # Ten thousand times what it takes.
+    thread.join(60.0)
+    if thread.is_alive():
+        ENDLESS.append(thread)
+    assert not thread.is_alive(), "the search does not end"
+    return results[0]
+
+
+def axis(system, component, sign=1.0):
+    return tuple(sign if i == component else 0.0 for i in range(len(system.variables)))
+
+
+def rate(system, parameters, normal, state):
+    """d(normal·y)/dt."""
+    return float(np.dot(normal, system.field(tuple(state), tuple(parameters))))
+
+
+def example_section(system, end=20.0, name="reference", sense=0):
+    """The plane at half the height of the example's last component, and its crossings."""
+    state, parameters = system.example
+    last = solve(system, state, parameters, np.linspace(0.0, 20.0, 201), level("standard")).states[:, -1]
+    plane = Plane(axis(system, len(state) - 1), float(0.5 * (last.min() + last.max())), sense)
+    return plane, section(system, state, parameters, plane, end, level(name))
+
+
+def random_motions(system, count, seed, end=10.0):
+    """(random numbers, state, parameters, normal, heights at 401 times up to `end`), about the example."""
+    random = np.random.default_rng(seed)
+    for _ in range(count):
+        state, parameters = (np.array(values) * random.uniform(0.5, 1.5, len(values)) for values in system.example)
+        state *= random.choice([-1.0, 1.0], state.size)
+        normal = random.normal(size=state.size)
+        if random.random() < 0.3:
+            normal = np.array(axis(system, random.integers(state.size)))
+        normal /= np.linalg.norm(normal)
+        along = solve(system, state, parameters, np.linspace(0.0, end, 401), level("standard"))
+        yield random, state, parameters, normal, along.states @ normal
+
+
+def crossings_by_scipy(system, state, parameters, normal, offset, end):
+    def height(_, y):
+        return normal @ y - offset
+
+    run = solve_ivp(lambda _, y: system.field(y, parameters), (0.0, end), state, method="DOP853", rtol=1e-12,
+                    atol=1e-13, events=height, max_step=0.02)
+    return run.t_events[0], run.y_events[0].reshape(-1, len(state))
+
+
+def turning_heights(system, state, parameters, normal, heights, end):
+    """The heights at which the orbit turns, to round-off."""
+    def at(t):
+        return solve(system, state, parameters, [t], level("reference")).states[0]
+
+    times = np.linspace(0.0, end, heights.size)
+    rises = np.diff(heights)
+    for i in np.flatnonzero(rises[:-1] * rises[1:] < 0.0):
+        low, high = times[i], times[i + 2]
+        if rate(system, parameters, normal, at(low)) * rate(system, parameters, normal, at(high)) < 0.0:
+            yield float(normal @ at(brentq(lambda t: rate(system, parameters, normal, at(t)), low, high)))
+
+
+@every_system
+def test_crossings_are_those_that_an_integrator_of_another_family_finds(system):
+    end, found = 10.0, 0
+    for random, state, parameters, normal, heights in random_motions(system, 20, seed=1):
+        offset = float(np.quantile(heights, random.uniform(0.05, 0.95)))
+        result = section(system, state, parameters, Plane(tuple(normal), offset, 0), end, level("precise"))
+        times, states = crossings_by_scipy(system, state, parameters, normal, offset, end)
+        assert len(result.times) == len(times)
+        for t, other, y, expected in zip(result.times, times, result.states, states, strict=True):
+            # A height that is wrong by 1e-9 moves the crossing by that over the speed.
+            speed = abs(rate(system, parameters, normal, expected))
+            assert abs(t - other) * speed < 1e-9
+            assert np.max(np.abs(y - expected)) * min(1.0, speed) < 1e-8
+        found += len(times)
+    assert found > 40
+
+
+# The momentum of a body with equal moments of inertia stays too, but has three components.
+@pytest.mark.parametrize("system", [SYSTEMS[name] for name in FREE], ids=FREE)
+@pytest.mark.parametrize("height", [0.0, 0.5, -0.9, 1 - 1e-6, -1 + 1e-6, 1 - 1e-10, -1 + 1e-10])
+def test_crossings_of_a_uniform_rotation_are_those_of_the_closed_form(system, height):
+    # γ̇ = γ × ω: m·γ = C + A cos(|ω|t − φ), crossed from above at |ω|t = φ + arccos, from below at φ − arccos.
+    omega, gamma, m = np.array([0.6, -1.1, 0.0]), np.array([0.48, 0.6, 0.64]), np.array([0.3, -0.8, 0.5])
+    speed = float(np.linalg.norm(omega))
+    u = omega / speed
+    middle, cosine, sine = (m @ u) * (gamma @ u), m @ gamma - (m @ u) * (gamma @ u), m @ np.cross(gamma, u)
+    size, phase = math.hypot(cosine, sine), math.atan2(sine, cosine)
+    normal = (0.7, 0.2, *m)
+    offset = float(0.7 * omega[0] + 0.2 * omega[1] + middle + size * height)
+    end = 200.0
+    turns = 2 * np.pi * np.arange(-2, 100)
+    for sense, angles in ((-1, phase + math.acos(height) + turns), (1, phase - math.acos(height) + turns)):
+        expected = angles[(angles > 0.0) & (angles <= speed * end)] / speed
+        result = section(system, (*omega[:2], *gamma), FREE[system.name], Plane(normal, offset, sense), end,
+                         level("reference"))
+        assert len(result.times) == len(expected) >= 39
+        # Heights are good to some 1e-15 and the phase after 200 to 1e-14; the slope makes a time of the former.
+        assert result.times == pytest.approx(expected, rel=0, abs=1e-13 + 1e-14 / math.sqrt(1 - height**2))
+
+
+def crossings_by_kernel(system, state, parameters, normal, offset, end, tolerance):
+    times, states = np.empty(10_000), np.empty((10_000, state.size))
+    found, steps = system.cross(state, parameters, normal, offset, 0, end, 18, tolerance, 1_000_000, times, states)
+    return times[:found], states[:found], steps
+
+
+@every_system
+def test_no_crossing_is_lost_or_doubled_however_long_the_steps(system):
+    end, found, near = 10.0, 0, 0
+    for random, state, parameters, normal, heights in random_motions(system, 50, seed=2):
+        offsets = [float(np.quantile(heights, random.uniform(0.0, 1.0)))]
+        for turning in list(turning_heights(system, state, parameters, normal, heights, end))[:3]:
+            offsets.append(turning + random.choice([-1.0, 1.0]) * 10.0 ** random.uniform(-9.0, -2.0))
+            near += 1
+        for offset in offsets:
+            # Order 18: a tolerance 1e-18 times smaller makes steps a tenth as long.
+            times, states, steps = crossings_by_kernel(system, state, parameters, normal, offset, end, 1e-13)
+            short_times, _, short_steps = crossings_by_kernel(system, state, parameters, normal, offset, end, 1e-31)
+            assert 8 * steps < short_steps < 12 * steps
+            assert len(times) == len(short_times)
+            assert np.all(np.diff(times) > 0.0)
+            for t, other, y in zip(times, short_times, states, strict=True):
+                # A thousand times what one step may err.
+                assert abs(t - other) * abs(rate(system, parameters, normal, y)) < 1e-10
+            found += len(times)
+    assert found > 300
+    assert near > 60
+
+
+@every_system
+@every_level
+def test_crossings_lie_on_the_plane_to_round_off_and_on_their_levels_of_the_integrals(system, name):
+    for random, state, parameters, normal, heights in random_motions(system, 20, seed=3):
+        offset = float(np.quantile(heights, random.uniform(0.1, 0.9)))
+        result = section(system, state, parameters, Plane(tuple(normal), offset, 0), 10.0, level(name))
+        # At every level: they are roots of the very polynomial that their states come from.
+        assert np.max(np.abs(result.states @ normal - offset), initial=0.0) < 1e-13
+        along = system.integrals(result.states.T, parameters)
+        for key, initial in system.integrals(state, parameters).items():
+            drift = np.max(np.abs(along[key] - initial), initial=0.0) / max(1.0, abs(initial))
+            # The promise is for the components; the integrals' slopes are some of their parameters and variables.
+            assert drift <= 10 * level(name).promise
+            assert result.drift[key] == pytest.approx(drift, abs=1e-15)
+
+
+@every_system
+@every_level
+def test_the_error_estimate_of_a_section_is_on_the_safe_side(system, name):
+    for random, state, parameters, normal, heights in random_motions(system, 10, seed=4):
+        plane = Plane(tuple(normal), float(np.quantile(heights, random.uniform(0.2, 0.8))), 0)
+        result = section(system, state, parameters, plane, 10.0, level(name))
+        # Not the level `reference`, which would say of itself that it is right.
+        times, states, _ = crossings_by_kernel(system, state, parameters, normal, plane.offset, 10.0, 1e-20)
+        assert len(result.times) == len(times)
+        assert np.max(np.abs(result.states - states), initial=0.0) <= 10 * result.error_estimate
+
+
+@every_system
+@every_level
+def test_a_section_keeps_the_promise_of_its_level(system, name):
+    state, parameters = (np.array(values) for values in system.example)
+    plane, result = example_section(system, name=name)
+    times, states, _ = crossings_by_kernel(
+        system, state, parameters, np.array(plane.normal), plane.offset, 20.0, 1e-20)
+    assert len(result.times) == len(times) >= 4
+    # In units in which the fastest motion has ω = 1.
+    nu = system.frequency(state, parameters)
+    assert nu > 1.0
+    assert result.status is Status.OK
+    assert np.max(np.abs(result.states - states)) <= level(name).promise * nu
+    assert result.error_estimate <= level(name).promise * nu
+
+
+@every_system
+@pytest.mark.parametrize("end", [40.0, -40.0])
+def test_both_senses_together_are_all_crossings_in_order(system, end):
+    plane, both = example_section(system, end)
+    rates = np.array([rate(system, system.example[1], plane.normal, y) for y in both.states])
+    assert np.all(np.diff(both.times) * end > 0.0)
+    # As time grows, whichever way the orbit is followed.
+    for sense in (1, -1):
+        _, one = example_section(system, end, sense=sense)
+        assert len(one.times) > 2
+        assert np.array_equal(one.times, both.times[sense * rates > 0.0])
+        assert np.array_equal(one.states, both.states[sense * rates > 0.0])
+
+
+@every_system
+@pytest.mark.parametrize("sense", [1, -1, 0])
+def test_turning_the_plane_over_turns_the_sense(system, sense):
+    plane, found = example_section(system, sense=sense)
+    over = Plane(tuple(-value for value in plane.normal), -plane.offset, -sense)
+    again = section(system, *system.example, over, 20.0, level("reference"))
+    assert again.times == pytest.approx(found.times, rel=0, abs=1e-13)
+
+
+@every_system
+@pytest.mark.parametrize("factor", [1e-200, 1e-3, 7.0, 1e200])
+def test_the_equation_of_a_plane_may_be_multiplied_by_any_number(system, factor):
+    plane, found = example_section(system)
+    same = Plane(tuple(factor * value for value in plane.normal), factor * plane.offset, 0)
+    again = section(system, *system.example, same, 20.0, level("reference"))
+    assert again.times == pytest.approx(found.times, rel=0, abs=1e-12)
+
+
+@every_system
+@pytest.mark.parametrize("sense", [1, -1, 0])
+def test_the_way_back_finds_the_same_crossings(system, sense):
+    end, found = 20.0, 0
+    for random, state, parameters, normal, heights in random_motions(system, 10, seed=5, end=end):
+        plane = Plane(tuple(normal), float(np.quantile(heights, random.uniform(0.2, 0.8))), sense)
+        there = section(system, state, parameters, plane, end, level("reference"))
+        last = solve(system, state, parameters, [end], level("reference")).states[0]
+        back = section(system, last, parameters, plane, -end, level("reference"))
+        assert len(back.times) == len(there.times)
+        assert np.all(back.times < 0.0)
+        # Round-off, and what the motion makes of it all the way there and back.
+        again = solve(system, last, parameters, [-end], level("reference")).states[0]
+        miss = 10 * np.max(np.abs(again - state)) + 1e-13
+        assert miss < 1e-6
+        for t, other, y in zip(there.times, back.times[::-1] + end, there.states, strict=True):
+            assert abs(t - other) * abs(rate(system, parameters, normal, y)) < miss
+        found += len(there.times)
+    assert found > 20
+
+
+@every_system
+@pytest.mark.parametrize("direction", [1.0, -1.0])
+def test_a_start_at_a_crossing_is_not_counted_and_the_next_ones_are(system, direction):
+    plane, found = example_section(system)
+    parameters = system.example[1]
+    for i, start in enumerate(found.states):
+        others = (found.times[i + 1 :] if direction > 0 else found.times[:i][::-1]) - found.times[i]
+        # As far as the first and the last of them, and a little more.
+        end = (others[-1] if others.size else 0.0) + direction * 1e-3
+        again = section(system, start, parameters, plane, end, level("reference"))
+        assert again.times == pytest.approx(others, rel=0, abs=1e-11)
+
+
+@every_system
+def test_a_start_on_an_oblique_plane_is_not_a_crossing(system):
+    for _, state, parameters, normal, _ in random_motions(system, 50, seed=6):
+        plane = Plane(tuple(normal), float(normal @ state), 0)
+        on_it = section(system, state, parameters, plane, 10.0, level("reference"))
+        # The same orbit from a little earlier crosses the plane there, and then where it does from there.
+        before = solve(system, state, parameters, [-1e-3], level("reference")).states[0]
+        earlier = section(system, before, parameters, plane, 10.001, level("reference"))
+        slow = min(abs(rate(system, parameters, normal, y)) for y in (state, *on_it.states))
+        assert earlier.times - 1e-3 == pytest.approx([0.0, *on_it.times], rel=0, abs=1e-12 / min(1.0, slow))
+
+
+@every_system
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("end", [20.0, -20.0])
+def test_a_motion_from_rest_does_not_cross_the_plane_it_is_released_from(system, sign, end):
+    # γ̇ = 0 there: the height of γ begins with t².
+    state, parameters = (np.array(values) for values in system.example)
+    state[: system.angular_velocities] = 0.0
+    soon = math.copysign(0.05, end)
+    later = solve(system, state, parameters, [soon], level("reference")).states[0]
+    for component in range(system.angular_velocities, state.size):
+        plane = Plane(axis(system, component, sign), sign * state[component], 0)
+        found = ended(lambda plane=plane: section(system, state, parameters, plane, end, level("reference")))
+        expected = section(system, later, parameters, plane, end - soon, level("reference"))
+        assert np.all(np.abs(found.times) > 0.05)
+        # Where it comes back to rest it may touch the plane again: there round-off decides.
+        times, others = (
+            one.times[[abs(rate(system, parameters, plane.normal, y)) > 1e-6 for y in one.states]]
+            for one in (found, expected))
+        assert times == pytest.approx(others + soon, rel=0, abs=1e-11)
+
+
+@every_system
+def test_a_chain_of_single_crossings_is_the_long_section(system):
+    plane, found = example_section(system, end=60.0, sense=1)
+    state, parameters = system.example
+    t = 0.0
+    assert len(found.times) > 5
+    for expected in found.times:
+        one = section(system, state, parameters, plane, 60.0, level("reference"), crossings=1)
+        state, t = one.states[0], t + one.times[0]
+        # Round-off, and what the motion makes of it until then.
+        assert t == pytest.approx(expected, rel=0, abs=1e-10)
+
+
+@every_system
+@pytest.mark.parametrize("crossings", [1, 3])
+def test_as_many_crossings_as_asked_for_are_the_first_ones(system, crossings):
+    plane, found = example_section(system)
+    head = section(system, *system.example, plane, 20.0, level("reference"), crossings)
+    assert np.array_equal(head.times, found.times[:crossings])
+    assert np.array_equal(head.states, found.states[:crossings])
+    assert head.cost.steps < found.cost.steps, "it stops there"
+    exactly = section(system, *system.example, plane, 20.0, level("reference"), len(found.times))
+    assert np.array_equal(exactly.times, found.times)
+
+
+@every_system
+@pytest.mark.parametrize("sense", [1, -1])
+@every_level
+def test_a_span_that_ends_at_a_crossing(system, sense, name):
+    plane, found = example_section(system, name=name, sense=sense)
+
+    def until(end):
+        return len(ended(lambda: section(system, *system.example, plane, end, level(name))).times)
+
+    # What the level may err in the height, over the slope there.
+    for i, (t, y) in enumerate(zip(found.times, found.states, strict=True)):
+        little = 4 * level(name).promise / abs(rate(system, system.example[1], plane.normal, y))
+        assert until(t - little) == i
+        assert until(t) in (i, i + 1)
+        assert until(t + little) == i + 1
+
+
+@every_system
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_span_of_length_zero_has_no_crossings(system, sign):
+    state, parameters = system.example
+    for component in range(len(state)):
+        for height in (0.0, 0.5):
+            plane = Plane(axis(system, component, sign), sign * state[component] + height, 0)
+            result = ended(lambda plane=plane: section(system, state, parameters, plane, 0.0, level("draft")))
+            assert len(result.times) == 0
+
+
+@every_system
+@pytest.mark.parametrize("side", [1.0, -1.0])
+@every_level
+def test_a_plane_that_is_never_reached_has_no_crossings(system, side, name):
+    plane = Plane(axis(system, len(system.variables) - 1), side * 100.0, 0)
+    result = section(system, *system.example, plane, 20.0, level(name))
+    assert result.times.shape == (0,)
+    assert result.states.shape == (0, len(system.variables))
+    assert result.status is Status.OK
+    assert set(result.drift.values()) == {0.0}
+
+
+# The momentum of a body with equal moments of inertia stays too, but has three components.
+@pytest.mark.parametrize("system", [SYSTEMS[name] for name in FREE], ids=FREE)
+@pytest.mark.parametrize("height", [0.0, 0.5, -0.5])
+@pytest.mark.parametrize("end", [10.0, -10.0, 1e200])
+def test_an_equilibrium_crosses_nothing(system, height, end):
+    state, parameters = EQUILIBRIA[system.name]
+    assert not any(system.field(state, parameters))
+    for component in (0, len(state) - 1):
+        plane = Plane(axis(system, component), state[component] + height, 0)
+        result = ended(lambda plane=plane: section(system, state, parameters, plane, end, level("precise")))
+        assert len(result.times) == 0
+        assert result.status is Status.OK
+
+
+@every_system
+def test_a_motion_inside_the_plane_crosses_nothing(system):
+    state, parameters = PENDULA[system.name]
+    along = solve(system, state, parameters, np.linspace(0.0, 10.0, 101), level("reference")).states
+    assert not np.any(along[:, 0])
+    assert np.ptp(along[:, 1]) > 0.1
+    result = ended(lambda: section(system, state, parameters, Plane(axis(system, 0), 0.0, 0), 10.0, level("precise")))
+    assert len(result.times) == 0
+
+
+@every_system
+@pytest.mark.parametrize("sense", [1, -1, 0])
+def test_a_run_that_finds_other_crossings_than_the_more_exact_one_is_replaced_by_it(system, sense):
+    # Next to a turning one of them may have two crossings more; if only those of one sense are counted, one more.
+    careless = Level("draft", 1e-3, 1e-4, 10)
+    state, parameters = (np.array(values) for values in system.example)
+    nu = system.frequency(state, parameters)
+    along = solve(system, state, parameters, np.linspace(0.0, 20.0, 401), level("standard")).states
+    times, states = np.empty(100), np.empty((100, state.size))
+    differing = 0
+    for component in range(state.size):
+        normal = np.array(axis(system, component))
+        height = nu if component < system.angular_velocities else 1.0
+        for turning in turning_heights(system, state, parameters, normal, along[:, component], 20.0):
+            for depth in (1e-3, -1e-3, 1e-4, -1e-4, 1e-5, -1e-5):
+                runs = [
+                    system.cross(*system.rescale(state, parameters, nu), normal, (turning + depth) / height, sense,
+                                 20.0 * nu, rung.order, rung.tolerance, 10_000, times, states)
+                    for rung in (careless, careless.tightened())]
+                (count, steps), (other_count, other_steps) = runs
+                plane = Plane(tuple(normal), turning + depth, sense)
+                result = section(system, state, parameters, plane, 20.0, careless)
+                assert result.cost.steps >= steps + other_steps
+                if count != other_count:
+                    differing += 1
+                    assert result.cost.steps > steps + other_steps, (component, turning, depth)
+    assert differing > 3
+
+
+@every_system
+def test_a_run_that_misses_its_promise_is_replaced_by_a_tighter_one(system):
+    # Steps far too long for the promise.
+    plane, truth = example_section(system)
+    result = section(system, *system.example, plane, 20.0, Level("standard", 1e-9, 1e-1, 14))
+    assert result.status is Status.OK
+    assert result.states == pytest.approx(truth.states, rel=0, abs=1e-8)
+
+
+@every_system
+def test_a_level_that_cannot_keep_its_promise_says_so(system):
+    plane, _ = example_section(system)
+    for rung, status in ((Level("standard", 1e-300, 1e-8, 14), Status.PROMISE_NOT_MET),
+                         (Level("reference", 1e-300, 1e-17, 24), Status.FLOOR)):
+        assert section(system, *system.example, plane, 20.0, rung).status is status
+
+
+@every_system
+def test_sections_of_many_orbits_are_those_of_each(system):
+    state, parameters = system.example
+    states = np.array(state) * np.random.default_rng(7).uniform(0.7, 1.3, (9, len(state)))
+    plane, _ = example_section(system, sense=1)
+    for name in ("draft", "precise"):
+        alone = [section(system, start, parameters, plane, 20.0, level(name)) for start in states]
+        assert len({one.times.size for one in alone}) > 1, "they differ"
+        for threads in (1, 2):
+            together = sections(system, states, parameters, plane, 20.0, level(name), threads=threads)
+            assert len(together) == 9
+            # Together they are computed in the unit of time of the fastest: other steps, within the errors.
+            for one, other in zip(together, alone, strict=True):
+                assert one.times.shape == other.times.shape
+                errors = 10 * (one.error_estimate + other.error_estimate)
+                assert np.max(np.abs(one.states - other.states), initial=0.0) <= errors
+                assert one.status == other.status
+    # Whoever computes them, they are the same.
+    one_by_one = sections(system, states, parameters, plane, 20.0, level("precise"), threads=1)
+    for one, other in zip(one_by_one, together, strict=True):
+        assert np.array_equal(one.times, other.times)
+        assert np.array_equal(one.states, other.states)
+        assert (one.error_estimate, one.drift) == (other.error_estimate, other.drift)
+    first = sections(system, states, parameters, plane, 20.0, level("draft"), crossings=1)
+    assert all(one.times.size <= 1 for one in first)
+    assert sections(system, np.empty((0, len(state))), parameters, plane, 20.0, level("draft")) == []
+
+
+@every_system
+@pytest.mark.parametrize("threads", [1, 2])
+def test_an_orbit_of_many_that_is_wrong_raises_its_sentence(system, threads):
+    state, parameters = system.example
+    with pytest.raises(InvalidParameter, match="finite number"):
+        sections(system, [state, (np.nan, *state[1:])], parameters, Plane(axis(system, 0)), 1.0, level("draft"),
+                 threads=threads)
+
+
+@every_system
+def test_results_are_read_only_and_say_what_they_are(system):
+    _, result = example_section(system, name="standard")
+    assert (result.system, result.level) == (system.name, "standard")
+    assert result.states.shape == (len(result.times), len(system.variables))
+    assert set(result.drift) == set(system.integrals(*system.example))
+    assert result.cost.steps > 0
+    assert result.cost.wall_ms > 0
+    for array in (result.times, result.states):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 0.0
+    with pytest.raises(AttributeError):
+        result.status = Status.FLOOR
+
+
+@pytest.mark.parametrize("normal", [(0.0,) * 5, (), (np.nan, 0.0, 0.0, 0.0, 1.0), (1.0, 0.0, -np.inf, 0.0, 0.0)])
+def test_a_plane_without_direction_raises_a_sentence(normal):
+    with pytest.raises(InvalidParameter, match="finite normal other than 0"):
+        Plane(normal)
+
+
+@pytest.mark.parametrize("offset", [np.nan, np.inf, -np.inf])
+def test_a_plane_infinitely_far_away_raises_a_sentence(offset):
+    with pytest.raises(InvalidParameter, match="finite offset"):
+        Plane((1.0, 0.0), offset)
+
+
+@pytest.mark.parametrize("sense", [2, -2, 0.5, np.nan])
+def test_a_sense_that_is_none_raises_a_sentence(sense):
+    with pytest.raises(InvalidParameter, match=r"1 \(from below\), −1 \(from above\) or 0 \(both\)"):
+        Plane((1.0, 0.0), 0.0, sense)
+
+
+@every_system
+def test_a_normal_of_the_wrong_length_raises_a_sentence(system):
+    dimension = len(system.variables)
+    for length in (1, dimension - 1, dimension + 1):
+        with pytest.raises(InvalidParameter, match=f"has {dimension} components"):
+            section(system, *system.example, Plane((1.0,) * length), 1.0, level("draft"))
+
+
+@every_system
+@pytest.mark.parametrize("end", [np.nan, np.inf, -np.inf])
+def test_an_end_that_is_not_finite_raises_a_sentence(system, end):
+    with pytest.raises(InvalidParameter, match="end of the time span must be finite"):
+        section(system, *system.example, Plane(axis(system, 0)), end, level("draft"))
+
+
+@every_system
+@pytest.mark.parametrize("crossings", [0, -1, MAX_CROSSINGS + 1])
+def test_a_number_of_crossings_outside_its_limits_raises_a_sentence(system, crossings):
+    with pytest.raises(WorkLimit, match=f"between 1 and {MAX_CROSSINGS}"):
+        section(system, *system.example, Plane(axis(system, 0)), 1.0, level("draft"), crossings)
+
+
+@every_system
+@pytest.mark.parametrize("end", [1e5, -1e5, 1e308, -1e308])
+@pytest.mark.parametrize("offset", [0.0, 100.0])
+def test_a_span_that_is_too_long_raises_a_sentence(system, end, offset, monkeypatch):
+    monkeypatch.setattr(sys.modules["hess_mechanics.dynamics.section"], "MAX_STEPS", 10_000)
+    with pytest.raises(WorkLimit, match="more than 10000 steps: choose a shorter time span"):
+        section(system, *system.example, Plane(axis(system, 0), offset), end, level("draft"))
+
+
+@every_system
+def test_all_runs_of_one_section_share_one_budget_of_steps(system, monkeypatch):
+    plane, freely = example_section(system, name="standard")
+    limits = sys.modules["hess_mechanics.dynamics.section"]
+    # Enough for each run alone but not for all.
+    monkeypatch.setattr(limits, "MAX_STEPS", freely.cost.steps - 1)
+    with pytest.raises(WorkLimit, match="choose a shorter time span"):
+        section(system, *system.example, plane, 20.0, level("standard"))
+    monkeypatch.setattr(limits, "MAX_STEPS", freely.cost.steps)
+    assert np.array_equal(section(system, *system.example, plane, 20.0, level("standard")).times, freely.times)
+
+
+@every_system
+def test_states_and_parameters_that_cannot_be_computed_raise_a_sentence(system):
+    state, parameters = system.example
+    plane = Plane(axis(system, 0))
+    for wrong in (state[:-1], (*state, 0.0), (np.nan, *state[1:]), (*state[:-1], np.inf)):
+        with pytest.raises(InvalidParameter, match=r"takes \d numbers|finite number"):
+            section(system, wrong, parameters, plane, 1.0, level("draft"))
+    for wrong in (parameters[:-1], (*parameters, 0.0), (*parameters[:-1], np.nan)):
+        with pytest.raises(InvalidParameter, match=r"takes \d numbers|finite number"):
+            section(system, state, wrong, plane, 1.0, level("draft"))
+
+
+@every_system
+@pytest.mark.parametrize("huge", [1e155, 1e200, 1e308])
+def test_motions_too_fast_for_double_precision_raise_a_sentence(system, huge, monkeypatch):
+    monkeypatch.setattr(sys.modules["hess_mechanics.dynamics.section"], "MAX_STEPS", 10_000)
+    state, parameters = system.example
+    with pytest.raises(ModelError, match=r"choose (less extreme parameters|a shorter time span)"):
+        section(system, (huge, *state[1:]), parameters, Plane(axis(system, 1)), 1.0, level("draft"))

@@ -1,0 +1,387 @@
+"""S11: the section g = π/2 in Andoyer–Deprit variables, against the geometry of the angles and SciPy's integrators.
+
+Nothing here uses the polynomial G²γ3 − f M3 of the mechanics: l and g are angles between lines in space.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+
+from hess_mechanics import level, section, solve, systems
+from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.euler_poisson.andoyer import (
+    AndoyerPlane,
+    andoyer_points,
+    coordinates,
+    hess_curve,
+    momenta,
+    possible,
+    relation,
+    seeds,
+    state_at,
+    states_at,
+    time_for,
+)
+from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
+from hess_mechanics.numerics.accuracy import PRECISE, STANDARD, Level
+
+GESS1 = HeavyBody.hess((1.0, 0.625, 0.375), 9.975)
+"""Figure gess1, with h = 50 and f = 5: r = (3, 0, 4), μ = 1.995, so μ|r| = 9.975."""
+RIS = HeavyBody.hess((1.0, 1.5, 2.0), -math.sqrt(0.5))
+"""Figures gess-ris1 and gess-ris2: H = ½(M1² + ⅔M2² + ½M3²) + γ1/√3 + γ3/√6."""
+SLANTING = HeavyBody((1.0, 1.6, 2.1), (0.3, -0.5, 0.7), 2.0)
+"""No Hess case, and r2 ≠ 0."""
+WHOLE = (-math.pi, math.pi, -1.0, 1.0)
+CASES = [(GESS1, 50.0, 5.0), (GESS1, 50.0, -5.0), (GESS1, 12.0, 0.0), (RIS, 0.0, 0.0), (RIS, 0.5, 1.0),
+         (RIS, 2.0, 1.0), (SLANTING, 3.0, 1.2), (SLANTING, -0.5, -0.3)]
+every_case = pytest.mark.parametrize(("body", "h", "f"), CASES)
+
+
+def rates(body, y):
+    """hh01, by vectors."""
+    M, gamma = np.asarray(y[:3]), np.asarray(y[3:])
+    omega = np.array(body.a) * M
+    return np.concatenate([np.cross(M, omega) + body.mu * np.cross(body.r, gamma), np.cross(gamma, omega)])
+
+
+def energy(body, states):
+    states = np.atleast_2d(states)
+    return 0.5 * states[:, :3] ** 2 @ np.array(body.a) - body.mu * states[:, 3:] @ np.array(body.r)
+
+
+def area(states):
+    states = np.atleast_2d(states)
+    return np.sum(states[:, :3] * states[:, 3:], axis=1)
+
+
+def angles(states):
+    """l and g of states (n, 6): in the plane across M two lines of nodes, along γ × M and along M × e3.
+
+    g leads from the first to the second, and l on to the first axis of the body.
+    """
+    states = np.atleast_2d(states)
+    M, gamma = states[:, :3], states[:, 3:]
+    along = M / np.linalg.norm(M, axis=1)[:, None]
+    body_node = np.cross(along, np.array([0.0, 0.0, 1.0]))
+    space_node = np.cross(gamma, along)
+    across = np.cross(along, space_node)
+    g = np.arctan2(np.sum(body_node * across, axis=1), np.sum(body_node * space_node, axis=1))
+    l = np.arctan2(-body_node[:, 1], body_node[:, 0])
+    return l, g
+
+
+def turned_away(angle, from_):
+    return np.abs(np.angle(np.exp(1j * (np.asarray(angle) - from_))))
+
+
+def energies_at(body, f, l, x, G):
+    """The energy of g = π/2 for each G ≥ |f|, from the state itself."""
+    G = np.atleast_1d(G)
+    s, c = math.sqrt(max(0.0, 1.0 - x * x)), f / G
+    along = np.array([s * math.sin(l), s * math.cos(l), x])
+    gamma = c[:, None] * along + np.sqrt(np.maximum(0.0, 1.0 - c * c))[:, None] * np.array(
+        [math.cos(l), -math.sin(l), 0.0])
+    return energy(body, np.column_stack([G[:, None] * along, gamma]))
+
+
+@cache
+def dense(body, f, l, x, top, count=4000):
+    G = np.linspace(max(abs(f), 1e-9), max(top, 1.01 * abs(f)), count)
+    return G, energies_at(body, f, l, x, G)
+
+
+def start_by_hand(body, h, f, l, x):
+    """The state at (l, x) with the largest G: a dense search from above, then Brent's method."""
+    top = math.sqrt(2.0 * (h + body.strength) / min(body.a))
+    G, energies = dense(body, f, l, x, top)
+    i = np.flatnonzero(energies <= h)[-1]
+    largest = brentq(lambda G: energies_at(body, f, l, x, G)[0] - h, G[i], G[i + 1], xtol=1e-14)
+    s, c = math.sqrt(1.0 - x * x), f / largest
+    along = np.array([s * math.sin(l), s * math.cos(l), x])
+    return np.concatenate([largest * along,
+                           c * along + math.sqrt(1.0 - c * c) * np.array([math.cos(l), -math.sin(l), 0.0])])
+
+
+def crossings_by_scipy(body, state, end):
+    """Times and states where the angle g grows through π/2."""
+    def event(_, y):
+        return math.cos(angles(y)[1][0])
+
+    event.direction = -1
+    run = solve_ivp(lambda _, y: rates(body, y), (0.0, end), state, method="DOP853", rtol=1e-12, atol=1e-13,
+                    events=event, max_step=0.02 * end)
+    times, states = run.t_events[0], run.y_events[0].reshape(-1, 6)
+    # cos g falls also where g comes down through −π/2.
+    counted = (times > 1e-9 * end) & (np.sin(angles(states)[1]) > 0.0)
+    return times[counted], states[counted]
+
+
+def scattered(count, seed):
+    random = np.random.default_rng(seed)
+    return random.uniform(-math.pi, math.pi, count), random.uniform(-0.98, 0.98, count)
+
+
+# ---- From a point to a state ------------------------------------------------------------------------------------
+
+
+@every_case
+def test_a_state_of_the_section_has_g_h_f_and_its_place(body, h, f):
+    l, x = scattered(200, seed=1)
+    states, G, growing = states_at(body, h, f, l, x)
+    found = np.isfinite(G)
+    assert np.count_nonzero(found) > 20
+    l, x, states, G = l[found], x[found], states[found], G[found]
+    here, g = angles(states)
+    assert np.max(turned_away(g, math.pi / 2)) < 1e-7 if f else np.max(turned_away(g, math.pi / 2)) < 1e-12
+    assert np.max(turned_away(here, l)) < 1e-12
+    assert np.max(np.abs(coordinates(states) - np.column_stack([l, x]))) < 1e-12
+    assert np.linalg.norm(states[:, :3], axis=1) == pytest.approx(G, rel=1e-13)
+    assert np.min(G) >= abs(f)
+    assert np.max(np.abs(energy(body, states) - h)) < 1e-11 * (1.0 + abs(h) + body.strength)
+    assert np.max(np.abs(area(states) - f)) < 1e-12 * np.max(G)
+    assert np.sum(states[:, 3:] ** 2, axis=1) == pytest.approx(1.0, abs=1e-13)
+    for state, grows in zip(states[:40], growing[found], strict=False):
+        # The rate of g by a difference of second order.
+        step = 1e-5
+        g_before, g_after = (angles(state + sign * step * rates(body, state))[1][0] for sign in (-1, 1))
+        rate = math.remainder(g_after - g_before, 2.0 * math.pi) / (2.0 * step)
+        assert abs(rate) < 1e-4 or (rate > 0.0) == grows
+
+
+@every_case
+def test_the_state_is_the_one_with_the_largest_momentum(body, h, f):
+    top = math.sqrt(2.0 * (h + body.strength) / min(body.a))
+    l, x = scattered(60, seed=2)
+    found = momenta(body, h, f, l, x)
+    for place, G in zip(zip(l, x, strict=True), found, strict=True):
+        lengths, energies = dense(body, f, *map(float, place), top)
+        if math.isnan(G):
+            assert np.min(energies) > h - 1e-3 * (abs(h) + body.strength)
+        else:
+            assert np.all(energies[lengths > G * (1.0 + 1e-9)] > h)
+            assert energies_at(body, f, *place, G)[0] == pytest.approx(h, abs=1e-11 * (1.0 + abs(h) + body.strength))
+
+
+@every_case
+def test_what_is_possible_agrees_with_a_dense_search(body, h, f):
+    l, x = scattered(400, seed=3)
+    top = math.sqrt(2.0 * (h + body.strength) / min(body.a))
+    least = np.array([np.min(dense(body, f, float(one), float(other), top)[1]) for one, other in
+                      zip(l, x, strict=True)])
+    found = possible(body, h, f, l, x)
+    size = abs(h) + body.strength
+    assert not np.any(found & (least > h + 1e-5 * size))
+    # A picture is coarser than that: a margin of 1 % of the energy.
+    assert not np.any(~found & (least < h - 0.01 * size))
+
+
+def test_grey_and_possible_both_exist_where_the_paper_draws_grey():
+    l, x = scattered(400, seed=4)
+    assert 0.05 < np.mean(possible(RIS, 0.0, 0.0, l, x)) < 0.95
+    assert np.all(possible(GESS1, 50.0, 5.0, l, x))
+
+
+def test_for_f_0_the_momentum_is_that_of_the_closed_form():
+    l, x = scattered(100, seed=5)
+    s = np.sqrt(1.0 - x * x)
+    a1, a2, a3 = RIS.a
+    kinetic = s * s * (a1 * np.sin(l) ** 2 + a2 * np.cos(l) ** 2) + a3 * x * x
+    # μr = −(1/√3, 0, 1/√6), γ = (cos l, −sin l, 0).
+    square = 2.0 * (0.1 - np.cos(l) / math.sqrt(3.0)) / kinetic
+    G = momenta(RIS, 0.1, 0.0, l, x)
+    assert np.array_equal(np.isnan(G), square < 0.0)
+    assert G[square >= 0.0] ** 2 == pytest.approx(square[square >= 0.0], rel=1e-12)
+
+
+def test_on_the_hess_curve_the_relation_holds():
+    l = np.linspace(-math.pi, math.pi, 41)
+    states, G, _ = states_at(GESS1, 50.0, 5.0, l, hess_curve(GESS1, l))
+    assert np.all(np.isfinite(G))
+    assert np.max(np.abs(3.0 * states[:, 0] + 4.0 * states[:, 2])) < 1e-12 * np.max(G)
+    assert np.max(np.abs(relation(GESS1, states))) < 1e-12 * np.max(G)
+
+
+def test_seeds_are_in_their_window_spread_evenly_and_on_the_section():
+    window = (-1.0, 2.0, -0.6, 0.4)
+    found = seeds(GESS1, 50.0, 5.0, window, 64)
+    assert len(found) == 64
+    points = coordinates(np.array(found))
+    l, x = points.T
+    assert -1.0 < l.min() < -0.9 < 1.9 < l.max() < 2.0
+    assert -0.6 < x.min() < -0.55 < 0.35 < x.max() < 0.4
+    cells = set(zip(((l + 1.0) / 3.0 * 4).astype(int), ((x + 0.6) * 4).astype(int), strict=True))
+    assert len(cells) == 16
+    assert np.max(np.abs(energy(GESS1, found) - 50.0)) < 1e-10
+    assert np.max(turned_away(angles(np.array(found))[1], math.pi / 2)) < 1e-10
+    assert seeds(GESS1, -11.0, 5.0, WHOLE, 10) == []
+    # Fewer than asked for where most of the window is impossible, and none beyond it.
+    few = seeds(RIS, -0.5, 0.0, WHOLE, 50)
+    assert 0 < len(few) <= 50
+    assert np.all(possible(RIS, -0.5, 0.0, *coordinates(np.array(few)).T))
+
+
+# ---- Crossings --------------------------------------------------------------------------------------------------
+
+
+@every_case
+def test_crossings_are_those_that_scipy_finds_from_the_angle(body, h, f):
+    found = 0
+    for start in seeds(body, h, f, WHOLE, 3):
+        end = 6.0 / math.sqrt(2.0 * max(body.a) * (h + body.strength)) * 4.0
+        times, states = crossings_by_scipy(body, start, end)
+        result = section(SYSTEM, start, body.parameters, AndoyerPlane(f), end, level("precise"))
+        assert len(result.times) == len(times)
+        if len(times):
+            assert result.times == pytest.approx(times, abs=1e-7 * end)
+            assert result.states == pytest.approx(states, abs=1e-6 * np.max(np.abs(states)))
+        found += len(times)
+    assert found >= 3
+
+
+def test_a_start_by_hand_is_the_same_and_its_first_return_too():
+    by_hand = start_by_hand(GESS1, 50.0, 5.0, 0.7, -0.3)
+    state = state_at(GESS1, 50.0, 5.0, 0.7, -0.3)
+    assert state == pytest.approx(by_hand, abs=1e-11)
+    times, states = crossings_by_scipy(GESS1, by_hand, 3.0)
+    result = section(SYSTEM, state, GESS1.parameters, AndoyerPlane(5.0), 3.0, level("precise"), 1)
+    assert result.times[0] == pytest.approx(times[0], abs=1e-8)
+    assert coordinates(result.states)[0] == pytest.approx(coordinates(states)[0], abs=1e-7)
+
+
+@every_case
+def test_points_are_on_the_plane_and_on_their_levels_at_precise(body, h, f):
+    end = time_for(body, h, f, 15)
+    for start in seeds(body, h, f, WHOLE, 6):
+        result = section(SYSTEM, start, body.parameters, AndoyerPlane(f), end, level("precise"), 15)
+        assert len(result.times)
+        size = max(1.0, abs(h))
+        assert np.max(np.abs(energy(body, result.states) - h)) < 1e-9 * size
+        assert np.max(np.abs(area(result.states) - f)) < 1e-9 * max(1.0, abs(f))
+        g = angles(result.states)[1]
+        # Where M is along the vertical g means nothing: the distance from the plane is what counts.
+        G = np.linalg.norm(result.states[:, :3], axis=1)
+        tilt = np.sqrt(np.maximum(0.0, 1.0 - (f / G) ** 2)) * np.sqrt(1.0 - coordinates(result.states)[:, 1] ** 2)
+        assert np.max(np.abs(np.cos(g)) * tilt) < 1e-9
+        assert np.all(np.sin(g) > 0.0)
+
+
+# 10⁻²⁴ instead of 10⁻⁸ for one step of order 16: a tenth of its length.
+SHORT_STEPS = Level("short steps", 1e-6, 1e-24, 16)
+
+
+@pytest.mark.parametrize(("body", "h", "f", "count"),
+                         [(GESS1, 50.0, 5.0, 12), (RIS, 0.3, 0.0, 40), (RIS, 1.0, 1.0, 12)])
+def test_no_crossing_is_lost_or_doubled_against_steps_a_tenth_as_long(body, h, f, count):
+    starts = seeds(body, h, f, WHOLE, 50)
+    coarse = andoyer_points(body, h, f, starts, count, STANDARD)
+    fine = andoyer_points(body, h, f, starts, count, SHORT_STEPS)
+    assert fine.cost.steps > 8 * coarse.cost.steps
+    for one, other in zip(coarse.states, fine.states, strict=True):
+        assert one.shape == other.shape
+        # Chaos multiplies errors of 10⁻⁸; a crossing more or less would be an error of 1.
+        assert np.max(np.abs(one - other)) < 1e-2 * np.max(np.abs(other))
+
+
+def test_between_two_crossings_of_a_long_chaotic_orbit_there_is_no_other_one():
+    """From each crossing the orbit is followed anew, densely: only there and at the next one g is π/2 and grows."""
+    start = state_at(GESS1, 50.0, 5.0, 0.0, 0.2)
+    result = section(SYSTEM, start, GESS1.parameters, AndoyerPlane(5.0), 200.0, level("standard"), 300)
+    assert len(result.times) == 300
+    gaps = np.diff(result.times)
+    times = np.linspace(0.0, float(gaps.max()), 400)
+    for state, gap in zip(result.states[:-1], gaps, strict=True):
+        g = angles(solve(SYSTEM, state, GESS1.parameters, times, STANDARD).states)[1]
+        cos, sin = np.cos(g), np.sin(g)
+        rising = (cos[:-1] > 0.0) & (cos[1:] <= 0.0) & (sin[:-1] > 0.0) & (times[:-1] > 1e-3 * gap)
+        passed = times[1:][rising]
+        # What comes first is the crossing that was found next.
+        assert passed.size == 0 or passed[0] >= gap - 1e-6
+        if passed.size:
+            assert passed[0] <= gap + times[1] + 1e-6
+
+
+def test_of_50_orbits_of_gess1_none_changes_the_sign_of_r_M_in_10000_crossings():
+    random = np.random.default_rng(50)
+    l, x = random.uniform(-math.pi, math.pi, 120), random.uniform(-0.99, 0.99, 120)
+    states, _, growing = states_at(GESS1, 50.0, 5.0, l, x)
+    starts = states[growing][:50]
+    points = andoyer_points(GESS1, 50.0, 5.0, starts, 10_000, STANDARD)
+    assert [len(states) for states in points.states] == [10_000] * 50
+    signs = np.array([np.sign(3.0 * state[0] + 4.0 * state[2]) for state in starts])
+    assert 10 < np.count_nonzero(signs > 0) < 40
+    for states, sign in zip(points.states, signs, strict=True):
+        assert np.all(sign * (3.0 * states[:, 0] + 4.0 * states[:, 2]) > 0.0)
+    assert max(points.drift.values()) < 1e-4
+
+
+def test_away_from_hess_the_same_orbits_do_change_it():
+    away = HeavyBody.hess((1.0, 0.625, 0.375), 9.975, 0.02)
+    starts = seeds(away, 50.0, 5.0, WHOLE, 20)
+    points = andoyer_points(away, 50.0, 5.0, starts, 1000, STANDARD)
+    changed = [np.ptp(np.sign(relation(away, states))) > 0 for states in points.states]
+    assert sum(changed) > 1
+    # And in the Hess case itself, with as many crossings, none.
+    points = andoyer_points(GESS1, 50.0, 5.0, seeds(GESS1, 50.0, 5.0, WHOLE, 20), 1000, STANDARD)
+    assert not any(np.ptp(np.sign(relation(GESS1, states))) > 0 for states in points.states)
+
+
+def test_the_layers_of_a_picture_are_the_same_on_one_thread_and_on_two():
+    starts = seeds(GESS1, 50.0, 5.0, WHOLE, 9)
+    one = andoyer_points(GESS1, 50.0, 5.0, starts, 50, STANDARD, threads=1)
+    two = andoyer_points(GESS1, 50.0, 5.0, starts, 50, STANDARD, threads=2)
+    assert all(np.array_equal(a, b) for a, b in zip(one.states, two.states, strict=True))
+
+
+def test_points_of_a_picture_are_the_crossings_of_the_orbit_one_after_the_other():
+    """They are found in parts; the seams show neither a gap nor a point twice."""
+    start = seeds(RIS, 0.0, 0.0, WHOLE, 1)
+    points = andoyer_points(RIS, 0.0, 0.0, start, 100, PRECISE).states[0]
+    exact = section(SYSTEM, start[0], RIS.parameters, AndoyerPlane(0.0), time_for(RIS, 0.0, 0.0, 100), PRECISE, 100)
+    assert len(points) == len(exact.times) == 100
+    assert np.max(np.abs(points - exact.states)) < 1e-5
+    assert min(np.linalg.norm(b - a) for a, b in pairwise(points)) > 1e-4
+
+
+def test_backward_and_forward_again_the_crossings_are_the_same():
+    start = np.array(state_at(GESS1, 50.0, 5.0, 0.4, 0.5))
+    back = section(SYSTEM, start, GESS1.parameters, AndoyerPlane(5.0), -3.0, level("precise"))
+    assert len(back.times) >= 2
+    assert np.all(np.diff(back.times) < 0.0)
+    # From the last of them the others come in reverse order, and the start itself.
+    forth = section(SYSTEM, back.states[-1], GESS1.parameters, AndoyerPlane(5.0), -float(back.times[-1]) + 1e-3,
+                    level("precise"))
+    expected = np.vstack([back.states[-2::-1], start])
+    assert forth.states == pytest.approx(expected, abs=1e-6)
+
+
+# ---- Refusals ---------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("request_", "words"), [
+    (lambda: state_at(GESS1, -9.9, 5.0, 0.0, 0.2), "no real G ≥ .f. has the energy h = -9.9: choose a larger h"),
+    (lambda: state_at(GESS1, 50.0, 12.0, 0.0, 0.2), "choose a larger h, or another point"),
+    (lambda: state_at(GESS1, 50.0, 5.0, 0.0, 1.5), "lies between −1 and 1"),
+    (lambda: state_at(GESS1, 50.0, 5.0, math.nan, 0.5), "l is an angle"),
+    (lambda: state_at(GESS1, math.inf, 5.0, 0.0, 0.5), "h is not a finite number"),
+    (lambda: state_at(GESS1, 50.0, math.nan, 0.0, 0.5), "f is not a finite number"),
+    (lambda: section(systems()["suslov"], *systems()["suslov"].example, AndoyerPlane(1.0), 1.0, STANDARD),
+     "those of the Euler–Poisson equations"),
+])
+def test_a_request_that_means_nothing_is_refused_in_a_sentence(request_, words):
+    with pytest.raises(InvalidParameter, match=words):
+        request_()
+
+
+def test_too_much_work_is_refused():
+    start = [state_at(GESS1, 50.0, 5.0, 0.0, 0.2)]
+    with pytest.raises(WorkLimit, match="shorter time span"):
+        andoyer_points(GESS1, 50.0, 5.0, start, 1000, STANDARD, most_steps=50)
+    with pytest.raises(WorkLimit, match="between 1 and 100000"):
+        andoyer_points(GESS1, 50.0, 5.0, start, 10**6, STANDARD)

@@ -1,0 +1,279 @@
+"""S13, S12: the Hess manifold of Euler–Poisson is the Suslov–Hess case, whatever the signs; and orbits leave it."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from hess_mechanics import circle_map, f_max, level, solve, systems, turning_points
+from hess_mechanics.errors import InvalidParameter, NoField, WorkLimit
+from hess_mechanics.euler_poisson.equations import HeavyBody
+from hess_mechanics.euler_poisson.hess_isomorphism import (
+    Bridge,
+    FreeRun,
+    growth_of,
+    heavy_body,
+    hess_body,
+    on_manifold,
+    run_free,
+)
+from hess_mechanics.numerics.accuracy import LEVELS
+from hess_mechanics.suslov_hess.equations import HessBody
+
+HEAVY, REDUCED, SUSLOV = (systems()[name] for name in ("euler-poisson", "hess", "suslov"))
+FLOOR = level("reference")
+# Both orders of the moments, all signs of r1, r3 and μ, another length of r; and a ≤ 1, a > 1.
+BODIES = [
+    HeavyBody((1 / I1, 1 / I2, 1 / I3), (s1 * length * body.r[0], 0.0, s3 * length * body.r[2]), mu)
+    for I1, I2, I3 in ((1.0, 0.625, 0.375), (0.375, 0.625, 1.0), (2.0, 1.5, 1.0), (5.0, 1.0, 0.1))
+    for body in [HeavyBody.hess((I1, I2, I3), 1.0)]
+    for s1, s3, mu, length in ((1, 1, 1.995, 5.0), (-1, 1, 0.7, 1.0), (1, -1, -1.3, 2.0), (-1, -1, -0.4, 1.0))
+]
+SUSLOV_BODIES = [
+    HessBody(0.96, 0.28, -1.0), HessBody(1.0, -0.5, 2.0), HessBody(0.5, 1.5, -1.0), HessBody(2.0, 0.0, -0.3)]
+every_body = pytest.mark.parametrize("body", BODIES, ids=range(len(BODIES)))
+every_suslov = pytest.mark.parametrize("hess", SUSLOV_BODIES, ids=range(len(SUSLOV_BODIES)))
+
+GESS1 = Bridge.of_heavy(HeavyBody((1.0, 1.6, 1 / 0.375), (3.0, 0.0, 4.0), 1.995))
+
+
+def somewhere(seed=0):
+    """A state of `eq01`, n² = 1."""
+    state = np.random.default_rng(seed).normal(size=5)
+    state[2:] /= np.linalg.norm(state[2:])
+    return state
+
+
+def on_torus(bridge, H, F1, phi=0.5):
+    """A state (6,) on the Hess manifold with these integrals, and the period of n3."""
+    h, f = bridge.in_units_of_b(H, F1)
+    turning = turning_points(h, f)
+    reduced = bridge.hess.from_units_of_b(turning.state_at_lower_turn(phi))
+    return tuple(bridge.from_reduced(reduced)), turning.period / bridge.hess.frequency_unit
+
+
+# ---- the translation ---------------------------------------------------------------------------------------------
+
+
+@every_body
+def test_the_field_of_euler_poisson_on_the_manifold_is_that_of_the_reduced_suslov_problem(body):
+    bridge = Bridge.of_heavy(body)
+    for seed in range(5):
+        reduced = somewhere(seed)
+        state = bridge.from_reduced(reduced)
+        assert state[:3] @ np.array(body.r) == pytest.approx(0.0, abs=1e-14)
+        rate = np.array(HEAVY.field(state, body.parameters))
+        # The translation is linear: what it makes of the rate is the rate of what it makes.
+        expected = REDUCED.field(reduced, (bridge.hess.a, bridge.hess.b))
+        assert bridge.to_reduced(rate) == pytest.approx(np.array(expected), abs=2e-14 * np.max(np.abs(rate)) + 2e-14)
+        assert rate[:3] @ np.array(body.r) == pytest.approx(0.0, abs=1e-13 * np.max(np.abs(rate)))
+
+
+@every_body
+def test_the_same_motion_in_the_general_suslov_problem_has_the_same_energy_and_area_integral(body):
+    bridge = Bridge.of_heavy(body)
+    state = bridge.from_reduced(somewhere(7))
+    there = bridge.to_suslov(state)
+    p = bridge.hess.suslov.parameters
+    of_heavy, of_suslov = HEAVY.integrals(state, body.parameters), SUSLOV.integrals(there, p)
+    assert of_suslov["E"] == pytest.approx(of_heavy["H"], rel=1e-13, abs=1e-13)
+    I11, I22, _, I23 = p[:4]
+    w1, w2, g1, g2, g3 = there
+    area = I11 * w1 * g1 + I22 * w2 * g2 + I23 * w2 * g3
+    assert area == pytest.approx(-of_heavy["F1"], rel=1e-13, abs=1e-13)
+    # I11 ω1 is a component of the momentum, and the field of Biz131 that of hh01.
+    assert I11 * w1 == pytest.approx(state[1], rel=1e-13)
+    rate = np.array(HEAVY.field(state, body.parameters))
+    assert bridge.to_suslov(rate) == pytest.approx(np.array(SUSLOV.field(there, p)), abs=1e-12)
+
+
+@every_body
+def test_states_and_bodies_come_back(body):
+    bridge = Bridge.of_heavy(body)
+    states = np.array([bridge.from_reduced(somewhere(seed)) for seed in range(4)])
+    room = 1e-14 * (1.0 + np.max(np.abs(states)))
+    assert bridge.from_suslov(bridge.to_suslov(states)) == pytest.approx(states, abs=room)
+    again = hess_body(heavy_body(bridge.hess))
+    assert (again.a, again.b, again.I11) == pytest.approx((bridge.hess.a, bridge.hess.b, bridge.hess.I11), rel=1e-13)
+    assert abs(bridge.hess.a) == pytest.approx(body.hess_a, rel=1e-13)
+
+
+@every_body
+def test_integrals_in_units_of_b_are_those_of_the_state_in_units_of_b(body):
+    bridge = Bridge.of_heavy(body)
+    reduced = somewhere(3)
+    of_heavy = HEAVY.integrals(bridge.from_reduced(reduced), body.parameters)
+    scaled = REDUCED.integrals(bridge.hess.in_units_of_b(reduced), (bridge.hess.a, 1.0))
+    heavy, units = (of_heavy["H"], of_heavy["F1"]), (scaled["E"], scaled["F2"])
+    assert bridge.in_units_of_b(*heavy) == pytest.approx(units, rel=1e-12)
+    assert bridge.from_units_of_b(*units) == pytest.approx(heavy, rel=1e-12)
+
+
+def test_the_numbers_of_figure_gess1():
+    # a1'μ|r| = 1.6 · 9.975, h = 50/9.975, f = 5 √(1.6/9.975), by hand.
+    assert (GESS1.hess.a, GESS1.hess.b) == pytest.approx((-0.5, 15.96), rel=1e-14)
+    h, f = GESS1.in_units_of_b(50.0, 5.0)
+    assert (h, f) == (pytest.approx(5.01253, abs=5e-6), pytest.approx(-2.00250, abs=5e-6))
+    assert str(GESS1.in_units_of_b(50.0, 0.0)[1]) == "0.0"
+
+
+@every_suslov
+def test_a_heavy_body_made_from_a_suslov_body_is_in_the_hess_case_and_rigid_where_one_is(hess):
+    for share in (0.05, 0.5, 1.0):
+        body = heavy_body(hess, share)
+        assert body.is_hess
+        assert body.check.is_body == (abs(hess.a) < 1.0)
+        again = hess_body(body)
+        assert (again.I22, again.I23, again.b3) == pytest.approx((hess.I22, hess.I23, hess.b3), rel=1e-12, abs=1e-15)
+    assert Bridge.of_suslov(hess).hess is hess
+
+
+def test_more_than_the_whole_share_is_no_body_any_more():
+    with pytest.raises(InvalidParameter, match=r"choose 0\.5"):
+        heavy_body(HessBody(0.96, 0.28, -1.0), 1.5)
+
+
+@pytest.mark.parametrize(("body", "error", "words"), [
+    (HeavyBody((1.0, 1.6, 2.5), (3.0, 0.0, 4.0), 1.0), InvalidParameter, "not in the Hess case"),
+    (HeavyBody.hess((1.0, 0.625, 0.375), 1.0, 0.01), InvalidParameter, "not in the Hess case"),
+    (HeavyBody((1.0, 1.6, 2.5), (0.0, 0.0, 0.0), 1.0), NoField, "Choose r other than 0"),
+])
+def test_bodies_that_have_no_counterpart_are_refused(body, error, words):
+    with pytest.raises(error, match=words):
+        Bridge.of_heavy(body)
+
+
+# ---- along an orbit ----------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("bridge", "H", "F1"), [
+    (GESS1, 50.0, 5.0), (GESS1, 5.0, 0.8), (GESS1, 20.0, 0.0),
+    (Bridge.of_suslov(HessBody(0.96, 0.28, -1.0)), 1.5 * 1.0, 0.5),
+    (Bridge.of_suslov(HessBody(1.0, -0.5, 2.0)), 3.0, -0.7),
+    (Bridge.of_suslov(HessBody(0.5, 1.5, -1.0)), 1.0, 0.2),
+    (Bridge.of_suslov(HessBody(2.0, 0.0, -0.3)), 1.0, 0.2),
+])
+def test_held_on_the_manifold_euler_poisson_follows_suslov_to_round_off_over_t_50(bridge, H, F1):
+    start, _ = on_torus(bridge, H, F1)
+    run = on_manifold(bridge.heavy, start, 50.0, 4001, FLOOR)
+    other = solve(SUSLOV, bridge.to_suslov(np.array(start)), bridge.hess.suslov.parameters, run.times, FLOOR)
+    there = bridge.hess.in_units_of_b(bridge.hess.to_reduced(other.states))
+    assert np.max(bridge.distance(run.states, there)) <= 1e-11
+    assert np.max(np.abs(run.off)) < 1e-14
+    assert max(run.drift.values()) < 1e-12
+    # And it does move.
+    assert np.ptp(there[:, 4]) > 0.5
+
+
+EXTREMES = {
+    "h = 1e8": (GESS1, 1e8, 0.5), "h = −1 + 1e-9": (GESS1, -1.0 + 1e-9, 0.5), "f at its edge": (GESS1, 0.3, 1.0 - 1e-9),
+    "moments 1e3, 1, 1e-3": (Bridge.of_heavy(HeavyBody.hess((1e3, 1.0, 1e-3), 1.0)), 1.5, 0.3),
+    "μ|r| = 1e6": (Bridge.of_heavy(HeavyBody.hess((1.0, 0.625, 0.375), 1e6)), 1.5, 0.3),
+    "μ|r| = −1e-6": (Bridge.of_heavy(HeavyBody.hess((1.0, 0.625, 0.375), -1e-6)), 1.5, 0.3),
+    "a = 50": (Bridge.of_suslov(HessBody(1.0, 50.0, -1.0)), 1.5, 0.3),
+    "I2 = I3, a = 0": (Bridge.of_heavy(HeavyBody.hess((1.0, 0.5, 0.5), 1.0)), 1.5, 0.3),
+}
+
+
+@pytest.mark.parametrize("name", EXTREMES)
+def test_at_the_extremes_both_sides_agree_within_the_promise_of_each_level_over_20_periods(name):
+    bridge, h, share = EXTREMES[name]
+    turning = turning_points(h, share * f_max(h))
+    reduced = bridge.hess.from_units_of_b(turning.state_at_lower_turn(0.5))
+    start, end = bridge.from_reduced(reduced), 20.0 * turning.period / bridge.hess.frequency_unit
+    times = np.linspace(0.0, end, 801)
+    other = solve(SUSLOV, bridge.to_suslov(start), bridge.hess.suslov.parameters, times, FLOOR)
+    there = bridge.hess.in_units_of_b(bridge.hess.to_reduced(other.states))
+    for rung in LEVELS.values():
+        run = on_manifold(bridge.heavy, tuple(start), end, 801, rung)
+        error = np.max(bridge.distance(run.states, there)) / math.sqrt(2.0 * (h + 1.0))
+        assert error <= max(rung.promise, 2e-11), rung.name
+        assert np.max(np.abs(run.off)) < 1e-12
+
+
+def test_the_held_orbit_is_the_one_of_another_method():
+    start, period = on_torus(GESS1, 50.0, 5.0)
+    run = on_manifold(GESS1.heavy, start, 3.0 * period, 97, FLOOR)
+    other = solve_ivp(lambda t, y: HEAVY.field(y, GESS1.heavy.parameters), (0.0, run.times[-1]), start, "DOP853",
+                      run.times, rtol=1e-13, atol=1e-13)
+    assert np.max(np.abs(run.states - other.y.T)) < 1e-9
+
+
+def test_distance_counts_what_the_reduced_system_has_not():
+    reduced = somewhere(2)[None, :]
+    state = GESS1.from_reduced(GESS1.hess.from_units_of_b(reduced))
+    assert GESS1.distance(state, reduced) == pytest.approx(0.0, abs=1e-14)
+    off = state + 1e-3 * np.array([0.6, 0.0, 0.8, 0.0, 0.0, 0.0])
+    assert GESS1.distance(off, reduced) == pytest.approx(1e-3 * 1.6 / math.sqrt(15.96), rel=1e-9)
+
+
+# ---- the leak ----------------------------------------------------------------------------------------------------
+
+
+@every_body
+def test_off_the_manifold_r_M_grows_with_minus_the_integral_of_b_M2(body):
+    bridge = Bridge.of_heavy(body)
+    state = bridge.from_reduced(somewhere(11)) + 0.1 * np.array([*body.r, 0.0, 0.0, 0.0])
+    b = bridge.hess.a * body.a[1]
+
+    def extended(t, y):
+        return [*HEAVY.field(y[:6], body.parameters), -b * y[1]]
+
+    end = solve_ivp(extended, (0.0, 3.0), [*state, 0.0], "DOP853", rtol=1e-11, atol=1e-12).y[:, -1]
+    before, after = (float(y[:3] @ np.array(body.r)) for y in (state, end))
+    assert after == pytest.approx(before * math.exp(end[6]), rel=1e-7)
+
+
+@pytest.mark.parametrize("name", LEVELS)
+def test_the_leak_of_figure_gess1_grows_by_the_logarithm_of_the_multiplier(name):
+    start, period = on_torus(GESS1, 50.0, 5.0)
+    run = run_free(GESS1.heavy, start, 20.0 * period, 20 * 96 + 1, level(name))
+    growth = growth_of(run, 96)
+    assert growth.periods >= 5
+    assert growth.per_period == pytest.approx(3.09107, abs=5e-5)
+    fixed = circle_map(GESS1.hess.a, *GESS1.in_units_of_b(50.0, 5.0), FLOOR).fixed_points
+    assert growth.per_period == pytest.approx(abs(fixed[0].log_multiplier), rel=2e-5)
+    # Round-off alone leads off it, whatever the accuracy.
+    assert np.max(np.abs(run.off[: 2 * 96])) < 1e-13
+    assert np.max(np.abs(run.off)) > 0.1
+
+
+def test_the_leak_of_the_loxodromic_pendulum_grows_by_2_pi_a():
+    bridge = Bridge.of_heavy(HeavyBody.hess((1.0, 1.5, 2.0), math.sqrt(0.5)))
+    start, period = on_torus(bridge, 2.0, 0.0)
+    growth = growth_of(run_free(bridge.heavy, start, 30.0 * period, 30 * 96 + 1, FLOOR), 96)
+    assert growth.per_period == pytest.approx(2.0 * math.pi * abs(bridge.hess.a), rel=1e-4)
+
+
+def test_without_cycles_nothing_grows():
+    start, period = on_torus(GESS1, 5.0, 0.8)
+    run = run_free(GESS1.heavy, start, 100.0 * period, 100 * 96 + 1, FLOOR)
+    assert np.max(np.abs(run.off)) < 3e-14
+    assert growth_of(run, 96) is None
+
+
+def test_growth_sees_through_a_wiggle_and_refuses_what_is_not_straight():
+    def run_of(exponents):
+        off = np.exp(exponents)
+        return FreeRun("draft", np.arange(off.size) * 1.0, np.zeros((off.size, 6)), off, 0, {})
+
+    t = np.arange(0, 20 * 8 + 1) / 8.0
+    wiggle = 2.0 * np.sin(2.0 * np.pi * t)
+    growth = growth_of(run_of(math.log(1e-15) + 1.7 * t + wiggle), 8)
+    assert growth.per_period == pytest.approx(1.7, rel=1e-12)
+    # From the first period that is all above 3e-14 to the last that is all below 1e-3.
+    inside = [k for k in range(20) if math.log(3e-14) <= np.min((math.log(1e-15) + 1.7 * t + wiggle)[8 * k : 8 * k + 8])
+              and np.max((math.log(1e-15) + 1.7 * t + wiggle)[8 * k : 8 * k + 8]) <= math.log(1e-3)]
+    assert (growth.first, growth.periods) == (inside[0], len(inside))
+    assert growth_of(run_of(math.log(1e-16) + 0.0 * t), 8) is None
+    assert growth_of(run_of(math.log(1e-15) + 20.0 * t), 8) is None
+
+
+@pytest.mark.parametrize("run", [run_free, on_manifold])
+def test_too_long_a_run_is_refused(run):
+    start, _ = on_torus(GESS1, 50.0, 5.0)
+    with pytest.raises(WorkLimit, match="choose a shorter one"):
+        run(GESS1.heavy, start, 1e9, 3, level("draft"))

@@ -1,0 +1,171 @@
+"""The rows of `test_extremes` for sections of the Suslov problem, and for the rotation number over a, h, f."""
+
+import math
+from functools import cache
+
+import mpmath
+import numpy as np
+
+import oracle
+from hess_mechanics import SuslovBody, f_max, level, section
+from hess_mechanics.dynamics.lyapunov import largest_exponent
+from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, WorkLimit
+from hess_mechanics.suslov.equations import SYSTEM
+from hess_mechanics.suslov.section import lowest_energy, plane_of, seeds, state_at, states_at, suslov_points
+from hess_mechanics.suslov_hess.rotation_number import MAX_POINTS, Torus, closed_after, perturbed_rotation, values_at
+
+__all__ = ["refusals", "rows"]
+
+WHOLE = (-math.pi, math.pi, 0.0, math.pi)
+
+
+def body_of(b=1.0, I11=1.5, I22=3.0, I13=0.4, I23=0.4):
+    return SuslovBody(I11, I22, I13, I23, -0.5 * b, -0.5 * b, 0.7 * b)
+
+
+def crossings(Row, name, body, k, E, count=3, sense=1, **options):
+    """How far the first crossings are from where a Taylor series is at their times, and that from the plane."""
+    start = seeds(body, E, k, WHOLE, 1)[0]
+    nu = float(SYSTEM.frequency(np.array(start), np.array(body.parameters)))
+
+    @cache
+    def exact(times):
+        return oracle.orbit_in_decimals(SYSTEM, start, body.parameters, times, 30).astype(float)
+
+    def error(grade):
+        found = section(SYSTEM, start, body.parameters, plane_of(k), sense * 400.0 / nu, level(grade), count)
+        if not found.times.size:
+            return 1.0
+        states = exact(tuple(found.times.tolist()))
+        apart = np.abs(found.states - states) / np.array([nu, nu, 1.0, 1.0, 1.0])
+        return float(max(apart.max(), np.max(np.abs(states[:, k + 1]))))
+
+    return Row(f"Suslov section: {name}", "Taylor series, 30 digits, at their times", error, **options)
+
+
+def rotation(Row, name, a, h, f, half_trace, against, **options):
+    """ρ, the trace (of its logarithm beyond 700) and whether it locks; half_trace() is an mpmath number."""
+    once = cache(half_trace)
+
+    def error(grade):
+        found, half = values_at(a, h, f, level(grade)), abs(once())
+        locked = half > 1
+        rho = -float(mpmath.acos(min(half, mpmath.mpf(1))) / mpmath.pi)
+        if mpmath.log(2 * half) > 700:
+            apart = 0.0 if math.isinf(found.trace[0]) or found.trace[0] > 1e300 else 1.0
+        else:
+            apart = abs(float((found.trace[0] - 2 * half) / max(1, 2 * half)))
+        # Where the maps turn by more than half a turn only the trace says which.
+        turned = abs(math.cos(math.pi * found.rho[0]) - math.cos(math.pi * rho))
+        return max(apart, turned, float(found.locked[0] != locked), float(not found.possible[0]))
+
+    return Row(f"rotation number: {name}", against, error, **options)
+
+
+def on_the_curve(a, n):
+    with mpmath.workdps(40):
+        return mpmath.re(oracle.map_on_the_curve(mpmath.mpf(a), mpmath.mpf(n)).A)
+
+
+def without_a(h, f):
+    with mpmath.workdps(40):
+        return mpmath.re(oracle.map_without_a(h, f).A)
+
+
+def by_orbits(a, h, f):
+    with mpmath.workdps(40):
+        return mpmath.re(oracle.map_by_three_orbits(a, h, f, 40).A)
+
+
+def by_cycle(a, h, f):
+    _, log_trace = oracle.stable_cycle(a, h, f)
+    return mpmath.exp(log_trace) / 2
+
+
+def shifted(Row, name, torus, epsilon, **options):
+    """ρ of the other family against 10⁴ plain iterations of the map, of which less than one turn is not counted."""
+    @cache
+    def exact():
+        truth = oracle.map_by_three_orbits(*torus, 30)
+        grid = np.linspace(-math.pi, math.pi, 4001)
+        A, B = complex(truth.A), complex(truth.B)
+        z = np.exp(1j * grid)
+        turn = np.unwrap(np.angle((A * z + B) ** 2 / z) - grid)
+        turn -= 2.0 * math.pi * round(turn.mean() / (2.0 * math.pi))
+        phi = 0.3
+        for _ in range(10_000):
+            first = phi + epsilon * math.sin(3.0 * phi)
+            phi = first + float(np.interp((first + math.pi) % (2.0 * math.pi) - math.pi, grid, turn))
+        return (phi - 0.3) / (2.0e4 * math.pi)
+
+    return Row(f"Θ(φ + ε sin 3φ): {name}", "10⁴ iterations",
+               lambda grade: abs(float(perturbed_rotation(*torus, epsilon, level(grade))[0]) - exact()), floor=2e-4,
+               levels=("precise", "reference"), because="10⁴ iterations say no more", **options)
+
+
+def rows(Row):
+    """The rows."""
+    plain, strong, weak = body_of(), body_of(1e6), body_of(1e-6)
+    flat = SuslovBody(1.5, 3.0, 0.4, 0.4, -0.5, -0.5, 0.0)
+    n = 0.4
+    h_n = (1.0 - 3.0 * n * n) / (2.0 * n)
+    f_n = f_max(h_n)
+    return [
+        crossings(Row, "γ3 = 0, E at the bottom + 1e-9", flat, 3, lowest_energy(flat, 3) + 1e-9),
+        crossings(Row, "γ3 = 0, E = 1e6", plain, 3, 1e6),
+        crossings(Row, "γ3 = 0, b = 1e6", strong, 3, 0.3e6),
+        crossings(Row, "γ3 = 0, b = 1e-6", weak, 3, 0.3e-6),
+        crossings(Row, "γ3 = 0, b = 0", body_of(0.0), 3, 1.0),
+        crossings(Row, "γ3 = 0, I11/I22 = 1e6", body_of(I11=1e6, I22=1.0), 3, 1.0),
+        crossings(Row, "γ3 = 0, I11/I22 = 1e-6", body_of(I11=1e-6, I22=1.0, I13=1e-3), 3, 1.0),
+        crossings(Row, "γ3 = 0, I13 = I23 = 0", body_of(I13=0.0, I23=0.0), 3, 0.3),
+        crossings(Row, "γ1 = 0", plain, 1, 0.3, 2),
+        crossings(Row, "γ2 = 0", plain, 2, 0.3, 2),
+        crossings(Row, "γ3 = 0, backward", plain, 3, 0.3, sense=-1),
+        rotation(Row, "a = 0", 0.0, 0.5, 0.5, lambda: without_a(0.5, 0.5), "closed form, Π(n, m)"),
+        rotation(Row, "a = 0, h = 1e6", 0.0, 1e6, 1.0, lambda: without_a(1e6, 1.0), "closed form, Π(n, m)"),
+        rotation(Row, "a = 100, h = 1.5", 100.0, 1.5, 0.6, lambda: by_cycle(100.0, 1.5, 0.6),
+                 "the cycle, Fourier collocation"),
+        rotation(Row, "a = 100, f at its edge", 100.0, h_n, f_n, lambda: on_the_curve(100.0, n),
+                 "closed form, on the curve"),
+        rotation(Row, "f at its edge", 0.5, h_n, f_n, lambda: on_the_curve(0.5, n), "closed form, on the curve"),
+        rotation(Row, "h = −1 + 1e-9", 0.5, -1.0 + 1e-9, 0.5 * f_max(-1.0 + 1e-9),
+                 lambda: by_orbits(0.5, -1.0 + 1e-9, 0.5 * f_max(-1.0 + 1e-9)), "three orbits, 40 digits"),
+        rotation(Row, "h = 1 + 1e-6, f = 1e-6", 0.5, 1.0 + 1e-6, 1e-6, lambda: by_orbits(0.5, 1.0 + 1e-6, 1e-6),
+                 "three orbits, 40 digits"),
+        shifted(Row, "ε = 0.33", (0.5, 0.5, 0.5), 0.33),
+        shifted(Row, "ε = −0.33, f < 0", (0.5, 0.5, -0.5), -0.33),
+    ]
+
+
+def refusals(Refusal):
+    """What is refused."""
+    body = body_of()
+
+    def plainly(name, request, words, error=InvalidParameter):
+        return Refusal(name, lambda _: request(), error, words)
+
+    def tori(name, request, words, error=InvalidParameter):
+        return Refusal(f"rotation number, {name}", request, error, words)
+
+    start = state_at(body, 0.3, 3, -0.3, 1.0)
+    return [
+        plainly("Suslov section, γ4 = 0", lambda: plane_of(4), "choose 1, 2 or 3"),
+        plainly("Suslov section, E below the plane", lambda: state_at(body, lowest_energy(body, 3), 3, 0.7, 1.0),
+                "choose a larger energy"),
+        plainly("Suslov section, δ = π", lambda: state_at(body, 1.0, 3, 0.7, math.pi), "0 < δ < π"),
+        plainly("Suslov section, E = ∞", lambda: states_at(body, math.inf, 3, 0.7, 1.0), "E is not"),
+        plainly("Suslov section, a body with I22 = 0", lambda: body_of(I22=0.0), "choose", NotPositiveDefinite),
+        Refusal("Suslov section of 1e6 crossings",
+                lambda grade: suslov_points(body, 3, [start], 10**6, True, grade), WorkLimit, "number of crossings"),
+        plainly("Lyapunov exponent, t = 1e7", lambda: largest_exponent(SYSTEM, start, body.parameters, 1e7),
+                "choose a shorter time span", WorkLimit),
+        plainly("Lyapunov exponent, t = 0", lambda: largest_exponent(SYSTEM, start, body.parameters, 0.0),
+                "finite number other than 0"),
+        tori("1e6 + 1 tori", lambda grade: values_at(0.5, np.full(MAX_POINTS + 1, 0.5), 0.1, grade),
+             "choose fewer points", WorkLimit),
+        tori("h = 1e13", lambda grade: values_at(0.5, 1e13, 0.1, grade), "1e12"),
+        tori("a = 1.1e6", lambda grade: values_at(1.1e6, 0.5, 0.1, grade), "a = "),
+        tori("ε = 1/3", lambda grade: perturbed_rotation(0.5, 0.5, 0.1, 1.0 / 3.0, grade), "choose .ε. < 1/3"),
+        tori("q = 0", lambda grade: closed_after(Torus(0.5, 0.5, 0.1), 0, grade), "between 1 and 1000"),
+    ]

@@ -1,0 +1,89 @@
+"""Orders of convergence, measured as slopes."""
+
+import sys
+
+import mpmath
+import numpy as np
+import pytest
+
+from hess_mechanics import level, solve, systems
+from hess_mechanics.numerics import taylor
+from hess_mechanics.numerics.accuracy import LEVELS
+from hess_mechanics.numerics.unrolled import evaluation
+from oracle import uncompiled
+
+SYSTEMS = systems()
+every_system = pytest.mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)
+ORDERS = (1, 2, 5, 10, 18, 24)
+STEPS = ("0.04", "0.02", "0.01")
+TOLERANCES = (1e-4, 1e-6, 1e-8, 1e-10)
+
+
+def slope(x, y):
+    return np.polyfit(np.log(np.array(x, float)), [float(mpmath.log(value)) for value in y], 1)[0]
+
+
+@pytest.fixture(scope="module", params=SYSTEMS.values(), ids=SYSTEMS)
+def truth(request):
+    """A system, its example in multiple precision, and the state after each of STEPS by mpmath."""
+    system = request.param
+    with mpmath.workdps(75):
+        state, parameters = ([mpmath.mpf(value) for value in values] for values in system.example)
+        exact = mpmath.odefun(lambda _, y: list(system.field(y, parameters)), 0, state)
+        return system, state, parameters, {h: list(exact(mpmath.mpf(h))) for h in STEPS}
+
+
+@pytest.mark.parametrize("order", ORDERS)
+def test_the_local_error_of_one_step_has_the_order_of_the_series(truth, order):
+    system, state, parameters, exact = truth
+    field = uncompiled(sys.modules[system.field.__module__].QUADRATIC)
+    # In multiple precision, so that round-off does not end the slope: the same source, uncompiled.
+    with mpmath.workdps(75):
+        c, left, right = (np.full((order + 1, columns), mpmath.mpf(0))
+                          for columns in (len(state), *[taylor.columns_of(field)] * 2))
+        inverses = np.array([1 / mpmath.mpf(k + 1) for k in range(order)])
+        c[0] = state
+        taylor.expansion(field).py_func(
+            c, left, right, inverses, parameters, field.rates, taylor.convolution(field).py_func)
+        errors = []
+        for h in STEPS:
+            increments = [0] * len(state)
+            evaluation(len(state)).py_func(c, mpmath.mpf(h), increments)
+            step = [c[0, i] + increments[i] for i in range(len(state))]
+            errors.append(max(abs(left - right) for left, right in zip(step, exact[h], strict=True)))
+    assert slope(STEPS, errors) == pytest.approx(order + 1, abs=0.1)
+
+
+def global_error(system, order, tolerance, end=10.0):
+    state, parameters = (np.array(values) for values in system.example)
+    out = np.empty((1, state.size))
+    steps = system.orbit(state, parameters, np.array([end]), order, tolerance, 100_000, out)
+    return np.max(np.abs(out - solve(system, state, parameters, [end], level("reference")).states)), steps
+
+
+@pytest.mark.parametrize("order", sorted({rung.order for rung in LEVELS.values()}))
+@every_system
+def test_the_global_error_falls_with_the_tolerance(system, order):
+    errors = [global_error(system, order, tolerance)[0] for tolerance in TOLERANCES]
+    assert errors == sorted(errors, reverse=True)
+    # The step makes the terms of order N and N−1 equal the tolerance ε, so that the first term left
+    # out is between ε and ε^((N+1)/(N−1)).
+    assert 0.95 < slope(TOLERANCES, errors) < 1.35
+
+
+@every_system
+def test_a_higher_order_takes_fewer_steps_for_the_same_tolerance(system):
+    steps = [global_error(system, order, 1e-10)[1] for order in (6, 10, 14, 20)]
+    assert steps == sorted(steps, reverse=True)
+    assert steps[0] > 3 * steps[-1]
+
+
+@every_system
+def test_the_levels_form_a_ladder(system):
+    times = np.linspace(0.0, 10.0, 11)
+    truth = solve(system, *system.example, times, level("reference")).states
+    orbits = [solve(system, *system.example, times, level(name)) for name in ("draft", "standard", "precise")]
+    errors = [np.max(np.abs(orbit.states - truth)) for orbit in orbits]
+    estimates = [orbit.error_estimate for orbit in orbits]
+    for values in (errors, estimates):
+        assert values[0] > 10 * values[1] > 100 * values[2] > 0

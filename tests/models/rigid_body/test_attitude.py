@@ -1,0 +1,322 @@
+"""The attitude of a body: orthonormal, against SciPy's rotations, and the loxodromic pendulum against closed forms.
+
+`python tests/test_attitude.py` prints the errors of the extreme cases, for the README.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
+from scipy.special import ellipj
+
+from hess_mechanics import level
+from hess_mechanics.chaplygin_ball import equations as chaplygin_ball
+from hess_mechanics.errors import InvalidParameter, ModelError, NotPositiveDefinite, OutsideRegion
+from hess_mechanics.euler_poisson import equations as euler_poisson
+from hess_mechanics.euler_poisson.equations import HeavyBody
+from hess_mechanics.euler_poisson.loxodromic_pendulum import LoxodromicPendulum, loxodromic_motion
+from hess_mechanics.numerics.accuracy import LEVELS
+from hess_mechanics.rigid_body import attitude as lying
+from hess_mechanics.rigid_body.attitude import HESS, across, attitude, with_attitude
+from hess_mechanics.suslov import equations as suslov
+from hess_mechanics.suslov_hess import equations as hess
+from hess_mechanics.suslov_hess.equations import HessBody
+from hess_mechanics.suslov_hess.torus import attitude_of_track, track
+
+WEIGHTS = (0.0, 0.0, *(300.0,) * 6)
+START = np.array([0.3, 0.9, 0.6, 0.0, 0.8])
+P = (0.75, 1.0)
+
+
+def followed(start, p, span, name, most=400):
+    return attitude(HESS, [*start, *across(start[2:])], p, span, level(name), WEIGHTS, 0.25, most)
+
+
+def turned(velocity, field, start, times):
+    """Rotation matrices body → space, (n, 3, 3), from the quaternion that follows ω, by SciPy alone."""
+    d = len(start)
+
+    def rates(_, y):
+        x, q = y[:d], Rotation.from_quat(y[d:])
+        w = q.apply(velocity(x))  # in space: q̇ = ½ ω q
+        u, s = y[d : d + 3], y[d + 3]
+        return [*field(x), *(0.5 * (s * w + np.cross(w, u))), -0.5 * w @ u]
+
+    found = solve_ivp(rates, (0.0, times[-1]), [*start, 0.0, 0.0, 0.0, 1.0], "DOP853", times, rtol=3e-14, atol=1e-15)
+    return found.y[:d].T, Rotation.from_quat(found.y[d:].T).as_matrix()
+
+
+# --- The attitude ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", LEVELS)
+def test_the_axes_are_orthonormal_to_round_off_and_agree_with_a_quaternion(name):
+    found = followed(START, P, 12.0, name)
+    products = found.axes @ found.axes.transpose(0, 2, 1)
+    assert np.max(np.abs(products - np.eye(3))) < 2e-15
+    assert np.max(np.abs(np.linalg.det(found.axes) - 1.0)) < 4e-15
+    _, turn = turned(lambda x: np.array([x[0], x[1], -P[0] * x[1]]), lambda x: hess.field(x, P), START, found.times)
+    error = np.max(np.abs(found.axes - found.axes[0] @ turn))
+    promise = max(level(name).promise, 1e-12) * 4.0  # in units in which the fastest ω is 1
+    assert error < promise
+    assert error < 10.0 * max(found.orbit.error_estimate, 3e-13)
+    assert found.defect < 2.0 * max(found.orbit.error_estimate, 1e-15)
+
+
+def test_how_far_it_was_from_orthonormal_is_said():
+    draft, fine = followed(START, P, 50.0, "draft"), followed(START, P, 50.0, "reference")
+    assert fine.defect < 1e-14
+    assert 1e-9 < draft.defect < 1e-3
+    assert {"e²", "(e,γ)"} < set(draft.orbit.drift)
+    g, e = draft.orbit.states[:, 2:5], draft.orbit.states[:, 5:]
+    assert draft.orbit.drift["(e,γ)"] == pytest.approx(np.max(np.abs(np.sum(g * e, axis=1))), abs=1e-16)
+
+
+def test_a_steady_rotation_turns_by_its_angle():
+    # a = b = 0: ω = (w1, w2, 0) stays.
+    w = np.array([0.6, -0.8, 0.0]) * 1.7
+    found = attitude(HESS, [w[0], w[1], 0.0, 0.0, 1.0, 1.0, 0.0, 0.0], (0.0, 0.0), 20.0, level("reference"), WEIGHTS,
+                     0.25, 200)
+    turn = Rotation.from_rotvec(found.times[:, None] * w).as_matrix()
+    assert np.max(np.abs(found.axes - found.axes[0] @ turn)) < 1e-14
+    # What is fixed in the body is seen in space where the rotation has brought it.
+    body = np.array([0.2, 0.5, -0.7])
+    assert found.in_space(body) == pytest.approx((turn @ body) @ found.axes[0].T, abs=1e-14)
+
+
+@pytest.mark.parametrize(("module", "parameters", "omega"), [
+    (hess, (0.7, 1.3), lambda y: (y[0], y[1], -0.7 * y[1])),
+    (suslov, (1.4, 0.8, 0.1, 0.3, 0.2, -0.5, 0.7), lambda y: (y[0], y[1], 0.0)),
+    (euler_poisson, (1.0, 1.6, 8 / 3, 0.6, 0.0, 0.8, 0.5), lambda y: (y[0], 1.6 * y[1], 8 / 3 * y[2])),
+], ids=["hess", "suslov", "euler-poisson"])
+def test_every_quadratic_field_can_follow_another_direction(module, parameters, omega):
+    field = with_attitude(module.QUADRATIC)
+    n = module.QUADRATIC.dimension
+    rng = np.random.default_rng(5)
+    for _ in range(5):
+        y = tuple(rng.normal(size=n + 3))
+        q = tuple(y[i] * y[j] for i, j in field.pairs)
+        found = field.rates.py_func(y, q, parameters)
+        assert found[:n] == pytest.approx(module.field(y[:n], parameters), abs=1e-13)
+        assert found[n:] == pytest.approx(np.cross(y[n:], omega(y)), abs=1e-13)
+    # Nothing is computed twice.
+    assert len(set(field.products.split())) == len(field.products.split())
+
+
+def test_a_field_with_auxiliary_series_is_refused():
+    with pytest.raises(InvalidParameter, match=r"auxiliary series\.$"):
+        with_attitude(chaplygin_ball.QUADRATIC)
+
+
+def test_many_attitudes_at_once_are_not_to_be_had():
+    for kernel in (HESS.ensemble, HESS.cross):
+        with pytest.raises(NotImplementedError):
+            kernel()
+
+
+@pytest.mark.parametrize("vertical", [(0.0, 0.0, 1.0), (0.0, -1.0, 0.0), (0.6, 0.0, 0.8), (1e-9, 1.0, 0.0)])
+def test_across_is_a_unit_vector_across(vertical):
+    e = across(vertical)
+    assert np.linalg.norm(e) == pytest.approx(1.0, abs=1e-15)
+    assert e @ vertical == pytest.approx(0.0, abs=1e-15)
+
+
+def test_the_same_numbers_are_read_only():
+    assert not followed(START, P, 3.0, "draft").axes.flags.writeable
+    assert lying.HESS.name == "hess-attitude"
+
+
+# --- The body of the Suslov–Hess case ----------------------------------------------------------------
+
+
+def test_the_body_of_a_track_sees_the_vertical_of_the_track():
+    body = HessBody(0.96, 0.28, -1.0)
+    there = track(body, 1.5, 0.6, 0.5, 15.0, level("precise"), 4.0)
+    found = attitude_of_track(body, 1.5, 0.6, 0.5, 15.0, level("precise"))
+    at = found.times / body.frequency_unit
+    seen = found.axes[:, 0] @ body.turn  # n → γ
+    assert at[-1] == pytest.approx(there.times[-1], rel=1e-14)
+    for k in range(3):
+        # Between its samples the track is a line to a quarter of a pixel.
+        assert np.max(np.abs(np.interp(at, there.times, there.gamma[:, k]) - seen[:, k])) < 1.5 / 600
+    _, turn = turned(lambda w: np.array([*w[:2], -body.a * w[1]]), lambda w: hess.field(w, (body.a, 1.0)),
+                     found.orbit.states[0, :5], found.times)
+    assert np.max(np.abs(found.axes - found.axes[0] @ turn)) < 1e-8
+    assert found.axes[0, 1] @ (0.0, 0.0, 1.0) == pytest.approx(0.0, abs=1e-15)
+
+
+@pytest.mark.parametrize("I33", [0.2, 0.96, 1.7])
+def test_the_section_across_the_centre_of_mass_is_a_circle_whatever_I33(I33):
+    body = HessBody(0.96, 0.28, -1.0)
+    inverse = np.linalg.inv(body.tensor(I33))
+    assert inverse[:2, :2] == pytest.approx(np.eye(2) / body.I11, abs=1e-14)
+    # The centre of mass, opposite to b, lies along n3.
+    assert body.turn @ (0.0, -body.b2, -body.b3) == pytest.approx([0.0, 0.0, body.b * body.I11], abs=1e-14)
+
+
+# --- The loxodromic pendulum -------------------------------------------------------------------------
+
+
+def pendulum(I=(1.0, 1.5, 2.0), h=1.5, l=0.4, mu=0.7):
+    return LoxodromicPendulum(HeavyBody.hess(I, mu), h, l)
+
+
+def swing_at(h, t):
+    """α(t) of α̇²/2 − cos α = h, α(0) = 0, in Jacobi's functions."""
+    if h == 1.0:
+        return 4.0 * np.arctan(np.tanh(0.5 * t))
+    if h > 1.0:
+        return 2.0 * ellipj(math.sqrt(0.5 * (h + 1.0)) * t, 2.0 / (h + 1.0))[3]
+    k = math.sqrt(0.5 * (h + 1.0))
+    return 2.0 * np.arcsin(k * ellipj(t, k * k)[0])
+
+
+def closed_form(one, tau):
+    """Centre of mass and middle axis in space, along (γ, e, γ × e), at the times τ in units b = 1."""
+    a1, a2, a3 = one.body.a
+    a = (1 if a1 > a3 else -1) * math.sqrt((a3 - a2) * (a2 - a1)) / a2
+    alpha = swing_at(one.h, tau)
+    l = 2.0 * np.arctan(math.tan(0.5 * one.l) * np.exp(a * alpha))
+    centre = np.stack([np.cos(alpha), 0.0 * alpha, -np.sin(alpha)], axis=1)
+    return centre, np.stack([np.sin(l) * np.sin(alpha), np.cos(l), np.sin(l) * np.cos(alpha)], axis=1)
+
+
+def error_of(one, span, name):
+    """The largest error of both directions, and the motion."""
+    found = loxodromic_motion(one, span / one.frequency_unit, level(name))
+    centre, middle = closed_form(one, found.attitude.times)
+    return max(np.max(np.abs(found.centre - centre)), np.max(np.abs(found.middle - middle))), found
+
+
+EXTREMES = {
+    "h = −1 + 1e-4": (pendulum(h=-1.0 + 1e-4), 50.0),
+    "h = 0.3": (pendulum(h=0.3), 50.0),
+    "h = 1, to the top ¹": (pendulum(h=1.0), 20.0),
+    "h = 1 − 1e-6 ¹": (pendulum(h=1.0 - 1e-6), 30.0),
+    "h = 1 + 1e-6 ¹": (pendulum(h=1.0 + 1e-6), 30.0),
+    "h = 1e4": (pendulum(h=1e4), 1.0),
+    "t = 500": (pendulum(h=0.3), 500.0),
+    "l = 1e-3": (pendulum(l=1e-3), 30.0),
+    "l = π − 1e-3": (pendulum(l=math.pi - 1e-3), 30.0),
+    "a = 1e-6": (pendulum((1.0, 1.0 + 1e-6, 1.0 + 2e-6)), 30.0),
+    "a = 9 (not a body)": (pendulum((1.0, 10.0, 1000.0)), 30.0),
+    "I1 > I3": (pendulum((1.0, 0.625, 0.375), mu=9.975), 30.0),
+    "μ = 1e-3": (pendulum(mu=1e-3), 30.0),
+}
+
+
+@pytest.mark.parametrize("name", LEVELS)
+@pytest.mark.parametrize("case", EXTREMES)
+def test_an_extreme_pendulum_is_right_or_honest(case, name):
+    one, span = EXTREMES[case]
+    error, found = error_of(one, span, name)
+    # Two directions of a motion whose ω is in units of the fastest one.
+    scale = 4.0 * math.sqrt(2.0 * (one.h + 1.0) + 4.0)
+    assert error < scale * max(level(name).promise, found.attitude.orbit.error_estimate, 2e-13)
+    assert np.max(np.abs(found.attitude.axes @ found.attitude.axes.transpose(0, 2, 1) - np.eye(3))) < 1e-14
+
+
+@pytest.mark.parametrize("I", [(1.0, 1.5, 2.0), (2.0, 1.5, 1.0), (1.0, 0.625, 0.375), (1.0, 1.02, 1.3)], ids=str)
+@pytest.mark.parametrize("h", [-0.9, 0.3, 1.0, 1.5, 12.0])
+def test_the_angle_of_the_track_is_that_of_the_paper(I, h):
+    one = pendulum(I, h, 1.2)
+    a1, a2, a3 = (1.0 / moment for moment in I)
+    promised = math.asin(a2 / math.sqrt(a2 * (a1 + a3) - a1 * a3))  # klas-gess-3
+    assert one.angle == pytest.approx(promised, rel=1e-14)
+    found = loxodromic_motion(one, 12.0, level("reference"))
+    times, theta = found.measured
+    assert theta.size > 20
+    assert np.max(np.abs(theta - promised)) < 1e-9
+    assert np.all(np.diff(times) > 0)
+    # The velocity of the axis, from its places alone, against the plane of the section, across the centre of mass.
+    middle, centre = found.middle, found.centre
+    chord = middle[2:] - middle[:-2]
+    share = np.abs(np.sum(chord * centre[1:-1], axis=1)) / np.linalg.norm(chord, axis=1)
+    close = (np.linalg.norm(chord, axis=1) < 0.25) & (np.sin(found.l[1:-1]) > 0.2)
+    slow = np.abs(np.diff(found.swing)) < 1e-3
+    close &= ~(slow[1:] | slow[:-1])
+    assert np.count_nonzero(close) > 5
+    assert np.median(np.abs(np.arcsin(np.minimum(1.0, share[close])) - promised)) < 0.02
+
+
+def test_a_motion_with_another_area_integral_draws_no_loxodrome():
+    one = pendulum(h=1.5, l=1.2)
+    start = one.start
+    start[4], start[2] = 0.8, 0.6  # γ elsewhere: f ≠ 0, and e no longer along M
+    start[5:] = across(start[2:5])
+    found = attitude(HESS, start, (one.a, 1.0), 8.0, level("reference"), WEIGHTS, 0.25, 400)
+    axes = found.axes @ one.principal
+    axes[:, 2] = np.cross(axes[:, 0], axes[:, 1])
+    middle = axes @ (0.0, 1.0, 0.0)
+    other = type(loxodromic_motion(one, 1.0, level("draft")))(one, found.times, found, middle, middle)
+    assert np.ptp(other.measured[1]) > 0.1
+
+
+def test_what_is_drawn_solves_the_equations_of_euler_and_poisson():
+    one = pendulum(h=0.6, l=0.9, mu=1.3)
+    found = loxodromic_motion(one, 6.0, level("reference"))
+    a, r = np.array(one.body.a), np.array(one.body.r)
+    gamma = found.attitude.axes[0, 0]
+    K = math.sqrt(2.0 * (one.h + 1.0) * one.body.mu / a[1])
+    M = K * found.attitude.axes[0, 1]  # e along M
+    assert gamma == pytest.approx(r, abs=1e-15)
+    assert M @ r == pytest.approx(0.0, abs=1e-14)  # the Hess relation
+    assert M[1] == pytest.approx(K * math.cos(one.l), abs=1e-14)
+    states, turn = turned(lambda y: a * y[:3], lambda y: euler_poisson.field(y, one.body.parameters),
+                          [*M, *gamma], found.times)
+    assert found.attitude.axes == pytest.approx(found.attitude.axes[0] @ turn, abs=3e-11)
+    assert found.attitude.axes[:, 0] == pytest.approx(states[:, 3:], abs=3e-11)
+    # M keeps its direction in space, and l is its angle with the middle axis.
+    assert np.cross(states[:, :3], found.attitude.axes[:, 1]) == pytest.approx(0.0, abs=3e-11)
+    assert found.middle[:, 1] == pytest.approx(np.cos(found.l), abs=1e-14)
+
+
+def test_the_logarithm_of_the_printed_formula_needs_a_dot():
+    # klas-gess-4: ln tan(l/2) = ±a13 K as printed would change sign with K at a turning point; its rate does.
+    one = pendulum(h=0.3, l=1.1)
+    found = loxodromic_motion(one, 10.0, level("reference"))
+    value = np.log(np.tan(0.5 * found.l))
+    K = np.hypot(*found.attitude.orbit.states[:, :2].T)
+    assert np.ptp(value - value[0] - one.a * found.swing) < 1e-12
+    assert np.ptp(np.abs(value) - abs(one.a) * K) > 0.3
+
+
+def test_an_oscillation_draws_a_segment_again_and_again_and_a_rotation_everything():
+    below, above = pendulum(h=0.3, l=1.1), pendulum(h=1.5, l=0.02)
+    found = loxodromic_motion(below, 60.0, level("precise"))
+    assert np.max(np.abs(found.swing)) == pytest.approx(math.acos(-0.3), abs=1e-3)
+    ends = below.l_at(np.array([-below.amplitude, below.amplitude]))
+    assert (found.l.min(), found.l.max()) == pytest.approx(tuple(ends), abs=1e-3)
+    found = loxodromic_motion(above, 60.0, level("precise"))
+    assert np.all(np.diff(found.l) >= -1e-9)
+    assert found.l[-1] == pytest.approx(math.pi, abs=1e-6)
+    assert loxodromic_motion(pendulum(h=1.0), 1e4, level("draft")).swing[-1] == pytest.approx(math.pi, abs=1e-2)
+
+
+@pytest.mark.parametrize(("make", "error", "words"), [
+    (lambda: pendulum(h=-1.0), OutsideRegion, "Choose h > −1"),
+    (lambda: pendulum(h=math.nan), InvalidParameter, "finite"),
+    (lambda: pendulum(l=0.0), InvalidParameter, "Choose 0 < l < π"),
+    (lambda: pendulum(l=math.pi), InvalidParameter, "no track"),
+    (lambda: pendulum((1.0, 2.5, 2.0)), InvalidParameter, "must lie between"),
+    (lambda: pendulum((1.0, -1.0, 2.0)), NotPositiveDefinite, "I2"),
+    (lambda: pendulum(mu=0.0), InvalidParameter, "choose μ > 0"),
+    (lambda: pendulum(mu=-1.0), InvalidParameter, "choose μ > 0"),
+    (lambda: LoxodromicPendulum(HeavyBody.hess((1.0, 1.5, 2.0), 1.0, 0.1), 1.5, 0.4), InvalidParameter, "Hess"),
+    (lambda: loxodromic_motion(pendulum(), math.inf, level("draft")), InvalidParameter, "span"),
+    (lambda: loxodromic_motion(pendulum(), 1e9, level("draft")), ModelError, "shorter"),
+], ids=range(11))
+def test_what_is_no_loxodromic_pendulum_is_refused_in_a_sentence(make, error, words):
+    with pytest.raises(error, match=words) as refused:
+        make()
+    assert str(refused.value).endswith(".")
+
+
+if __name__ == "__main__":
+    for case, (one, span) in EXTREMES.items():
+        errors = " | ".join(f"{error_of(one, span, name)[0]:.0e}" for name in LEVELS)
+        print(f"| loxodrome: {case} | Jacobi's functions | {errors} |")

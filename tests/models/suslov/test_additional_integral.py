@@ -1,0 +1,195 @@
+"""S3: the additional integral F2 for odd k, exact and in double precision."""
+
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+import sympy
+
+from hess_mechanics import SuslovBody, level, solve, systems
+from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite
+from hess_mechanics.suslov.additional_integral import I11_of, additional_integral, coefficients, formula, of_body, order
+from hess_mechanics.suslov.free import equilibria, free_motion
+
+SUSLOV = systems()["suslov"]
+ODD = range(1, 16, 2)
+UP = (0.6, 0.0, 0.8)
+every_k = pytest.mark.parametrize("k", ODD)
+
+
+def case_1(k, I22=1.0, I23=0.4):
+    return SuslovBody(I11_of(k, I22, I23), I22, 0.0, I23)
+
+
+def case_2(k, I11=1.0, I13=0.4):
+    return SuslovBody(I11, I11_of(k, I11, I13), I13, 0.0)
+
+
+BODIES = [(case_1, "I13 = 0"), (case_2, "I23 = 0")]
+both_cases = pytest.mark.parametrize("case", [case for case, _ in BODIES], ids=[name for _, name in BODIES])
+
+
+def vector(exact, w1, w2):
+    """V(ω) of the coefficients, in whatever arithmetic ω brings."""
+    k, n = exact.k, len(exact.a)
+    return (
+        sum(exact.a[j] * w1 ** (k - 2 * j) * w2 ** (2 * j) for j in range(n)),
+        sum(exact.b[j] * w1 ** (k - 1 - 2 * j) * w2 ** (2 * j + 1) for j in range(n)),
+        sum(exact.c[j] * w1 ** (k - 1 - 2 * j) * w2 ** (2 * j + 1) for j in range(n)),
+    )
+
+
+@every_k
+@pytest.mark.parametrize(("I22", "I23"), [(Fraction(1), Fraction(2, 5)), (Fraction(7, 3), Fraction(-5, 2))])
+def test_F2_is_conserved_exactly(k, I22, I23):
+    # dF2/dt is a polynomial of degree k + 1 in ω: it vanishes at k + 2 directions, and so everywhere.
+    exact = coefficients(k, I22, I23)
+    assert exact.rest == 0
+    I11 = I22 + k * k * I23**2 / I22
+    w1, w2 = sympy.symbols("w1 w2")
+    V = sympy.Matrix([sympy.nsimplify(v) for v in vector(exact, w1, w2)])
+    first, second = sympy.nsimplify(I23 / I11), sympy.nsimplify(I23 / I22)
+    rate = -first * w2**2 * V.diff(w1) + second * w1 * w2 * V.diff(w2) - V.cross(sympy.Matrix([w1, w2, 0]))
+    for point in range(-1, k + 1):
+        assert rate.subs({w1: 1, w2: sympy.Rational(point, 3)}) == sympy.zeros(3, 1)
+
+
+@pytest.mark.parametrize("k", [1, 3, 5])
+def test_the_coefficients_span_the_null_space_of_the_linear_system(k):
+    # Unknown coefficients for all monomials of degree k, none left out by parity.
+    I22, I23 = sympy.Rational(3, 2), sympy.Rational(-2, 5)
+    I11 = I22 + k * k * I23**2 / I22
+    w1, w2 = sympy.symbols("w1 w2")
+    unknown = sympy.symbols(f"u0:{3 * (k + 1)}")
+    V = sympy.Matrix([sum(unknown[i * (k + 1) + j] * w1 ** (k - j) * w2**j for j in range(k + 1)) for i in range(3)])
+    rate = V.diff(w1) * (-w2 * I23 * w2 / I11) + V.diff(w2) * (w1 * I23 * w2 / I22) - V.cross(
+        sympy.Matrix([w1, w2, 0]))
+    equations = [c for row in rate for c in sympy.Poly(sympy.expand(row), w1, w2).coeffs()]
+    matrix = sympy.Matrix([[sympy.diff(equation, x) for x in unknown] for equation in equations])
+    (null,) = matrix.nullspace()
+    found = coefficients(k, Fraction(3, 2), Fraction(-2, 5))
+    V = vector(found, w1, w2)
+    ours = [sympy.Poly(sympy.nsimplify(v), w1, w2).coeff_monomial(w1 ** (k - j) * w2**j)
+            for v in V for j in range(k + 1)]
+    assert sympy.Matrix([ours, list(null)]).rank() == 1
+
+
+def test_the_first_two_are_those_of_the_paper():
+    I22, I23 = Fraction(3), Fraction(-2)
+    one, three = coefficients(1, I22, I23), coefficients(3, I22, I23)
+    assert (one.a, one.b, one.c) == ((I22 + I23**2 / I22,), (I22,), (I23,))
+    I11 = I22 + 9 * I23**2 / I22
+    for w1, w2 in ((2, 3), (Fraction(-1, 3), 5)):
+        for g1, g2, g3 in ((1, 0, 0), (0, 1, 0), (0, 0, 1)):
+            printed = (I11**2 * w1**2 * ((I22**2 + I23**2) * g1 * w1 + I22 * (I22 * g2 + I23 * g3) * w2)
+                       + I22 * w2**2 * (I22 * (I22**2 + 5 * I23**2) * g2 * w2
+                                        + (I22**2 - 3 * I23**2) * (I11 * g1 * w1 + I23 * g3 * w2)))
+            v1, v2, v3 = vector(three, w1, w2)
+            assert v1 * g1 + v2 * g2 + v3 * g3 == printed
+
+
+@every_k
+@both_cases
+def test_F2_stays_along_motions(case, k):
+    body = case(k)
+    integral = of_body(body)
+    assert (integral.k, integral.permuted) == (k, case is case_2)
+    # The general solver, which knows nothing of the passage.
+    orbit = solve(SUSLOV, [0.5, 0.4, *UP], body.parameters, np.linspace(0, 20, 60), level("reference"))
+    values = integral(orbit.states[:, :2], orbit.states[:, 2:])
+    size = abs(integral.at_fixed_points(body.I11 * 0.125 + body.I22 * 0.08)[0])
+    assert np.max(np.abs(values - values[0])) < 1e-11 * size
+    assert np.max(np.abs(values)) <= size
+    found = free_motion(body, (0.5, 0.4), UP, np.linspace(0, 20, 60), level("reference"))
+    assert found.drift["F2"] < 1e-11 * max(1.0, size) / max(1.0, abs(values[0]))
+
+
+def test_F2_is_not_conserved_by_other_bodies():
+    body = SuslovBody(I11_of(3, 1.0, 0.4) * 1.01, 1.0, 0.0, 0.4)
+    assert of_body(body) is None
+    orbit = solve(SUSLOV, [0.5, 0.4, *UP], body.parameters, [40.0], level("precise"))
+    integral = additional_integral(3, body)
+    change = integral(orbit.states[0, :2], orbit.states[0, 2:]) - integral(np.array([0.5, 0.4]), np.array(UP))
+    assert abs(change) > 1e-3
+
+
+@every_k
+@both_cases
+def test_values_and_cycles_at_the_fixed_points(case, k):
+    body = case(k, 0.7, -0.3)
+    h = 1.3
+    integral, points = of_body(body), equilibria(body, h)
+    plus, minus = integral.at_fixed_points(h)
+    assert integral(points.stable, points.xi) == pytest.approx(plus, rel=1e-12)
+    assert integral(points.unstable, -points.xi) == pytest.approx(minus, rel=1e-12)
+    f = 0.37 * plus
+    for omega, Gamma in zip((points.stable, points.unstable), integral.cycles(h, f), strict=True):
+        across = math.sqrt(1 - Gamma**2)
+        eta = np.cross([0.0, 0.0, 1.0], points.xi)
+        for phase in (0.0, 1.0, 4.0):
+            gamma = Gamma * points.xi + across * (math.cos(phase) * eta + math.sin(phase) * np.array([0.0, 0.0, 1.0]))
+            assert integral(omega, gamma) == pytest.approx(f, rel=1e-12)
+    with pytest.raises(InvalidParameter, match=r"choose .f. ≤"):
+        integral.cycles(h, 1.01 * plus)
+
+
+# ---- which bodies -----------------------------------------------------------------------------------------------
+
+
+@every_k
+@both_cases
+def test_the_order_is_told_from_doubles(case, k):
+    for size in (1.0, 1e-6, 1e6):
+        for ratio in (0.03, 0.4, 0.77, -3.1, 50.0):
+            assert order(case(k, size, ratio * size)) == k
+    body = case(k)
+    change = {"I11": 1e-9} if case is case_1 else {"I22": 1e-9}
+    near = SuslovBody(body.I11 + change.get("I11", 0.0), body.I22 + change.get("I22", 0.0), body.I13, body.I23)
+    assert order(near) is None
+
+
+@pytest.mark.parametrize("body", [
+    SuslovBody(1.64, 1.0, 0.8, 0.8),
+    SuslovBody(1.64, 1.0, 0.0, 0.0),
+    SuslovBody(1.64, 1.0, 0.0, 0.8, b3=1.0),
+    SuslovBody(3.56, 1.0, 0.0, 0.8),  # k = 2
+    SuslovBody(0.8, 1.0, 0.0, 0.5),  # k² < 0
+    SuslovBody(1.0, 1.0, 0.0, 0.5),  # k = 0
+    SuslovBody(I11_of(15, 1.0, 0.4) + 64 * 0.16, 1.0, 0.0, 0.4),  # k = 17
+    SuslovBody(1.0, 1.0, 0.0, 1e-9),  # k cannot be told
+    SuslovBody(1.0, 1.16, 0.0, 0.4),  # case 1 with 1 and 2 exchanged
+    SuslovBody(1.16, 1.0, 0.4, 0.0),
+])
+def test_no_order(body):
+    assert order(body) is None
+    assert of_body(body) is None
+
+
+def test_refusals():
+    for k in (0, 2, 17, -1):
+        with pytest.raises(InvalidParameter, match="odd k from 1 to 15"):
+            I11_of(k, 1.0, 0.4)
+        with pytest.raises(InvalidParameter, match="odd k from 1 to 15"):
+            formula(k)
+    with pytest.raises(NotPositiveDefinite):
+        I11_of(1, -1.0, 0.4)
+    with pytest.raises(InvalidParameter, match="I23 other than 0"):
+        coefficients(3, Fraction(1), Fraction(0))
+    with pytest.raises(InvalidParameter, match="set one of them to 0"):
+        additional_integral(3, SuslovBody(2.0, 1.0, 0.3, 0.4))
+    with pytest.raises(InvalidParameter, match="set one of them to 0"):
+        additional_integral(3, SuslovBody(2.0, 1.0, 0.0, 0.0))
+    with pytest.raises(InvalidParameter, match="other units"):
+        additional_integral(15, SuslovBody(1e20, 1e20, 0.0, 1e20))
+    with pytest.raises(InvalidParameter, match="choose h > 0"):
+        of_body(case_1(3)).cycles(0.0, 0.1)
+
+
+def test_formulas_are_written_out_where_the_paper_writes_them():
+    assert r"\gamma_1\omega_1" in formula(1)
+    assert "5I_{23}^2" in formula(3)
+    assert r"\sum_{j=0}^{2}" in formula(5)
+    for k in ODD:
+        assert formula(k).count("{") == formula(k).count("}")
+        assert formula(k).count(r"\big(") == formula(k).count(r"\big)")

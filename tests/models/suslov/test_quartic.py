@@ -1,0 +1,240 @@
+"""S7: the point in the quartic potential, its integral for I11 = I22, its section, and the way back to the body."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+import sympy
+from mechanics import REFERENCE, numbers
+
+from hess_mechanics import level, solve, systems
+from hess_mechanics.errors import InvalidParameter, NoField, NotPositiveDefinite, OutsideRegion, WorkLimit
+from hess_mechanics.numerics.accuracy import STANDARD
+from hess_mechanics.suslov.quartic import (
+    QuarticBody,
+    angular_momentum,
+    quartic_section,
+    seeds,
+    state_at,
+    state_on_section,
+)
+
+SUSLOV = systems()["suslov"]
+FLOOR = level("reference")
+BODIES = [
+    QuarticBody(2.0, 1.0, 1.0, 0.8),
+    QuarticBody(0.6, 1.3, -1.7, 0.9),
+    QuarticBody(1.5, 1.0, 1.0, 3.0),
+    QuarticBody(0.8, 1.6, -0.7, 2.0),
+    QuarticBody(1.1, 1.1, 0.9, -0.4),
+]
+every_body = pytest.mark.parametrize("body", BODIES, ids=str)
+
+
+def starts(body, count=12, seed=0):
+    """States all over what the energy allows."""
+    rng = np.random.default_rng(seed)
+    found = []
+    while len(found) < count:
+        q = np.array(body.axes) * rng.uniform(-1.0, 1.0, 2)
+        if abs(body.height(q)) < 1.0:
+            found.append(np.array(state_at(body, q, rng.uniform(-3.1, 3.1))))
+    return found
+
+
+def energy(body, y):
+    return SUSLOV.integrals(y, body.parameters)["E"]
+
+
+def test_the_hamiltonian_gives_the_equations_of_the_body():
+    q1, q2, p1, p2 = sympy.symbols("q1 q2 p1 p2", real=True)
+    I11, I22, b3, h = sympy.symbols("I11 I22 b3 h", positive=True)
+    g3 = h / b3 - b3 / 2 * (q1**2 / I22 + q2**2 / I11)
+    H = (p1**2 + p2**2) / 2 + g3**2 / 2
+    w1, w2 = -b3 * q2 / I11, b3 * q1 / I22
+    rates = SUSLOV.field((w1, w2, p1, p2, g3), (I11, I22, 0, 0, 0, 0, b3))
+    # {p_i, q_k} = δ_ik: ṗ = ∂H/∂q, q̇ = −∂H/∂p.
+    q_rates = (I22 * rates[1] / b3, -I11 * rates[0] / b3)
+    expected = (-sympy.diff(H, p1), -sympy.diff(H, p2), sympy.diff(H, q1), sympy.diff(H, q2))
+    for rate, right in zip((*q_rates, *rates[2:4]), expected, strict=True):
+        assert sympy.simplify(rate - right) == 0
+    # The energy is h with this γ3, and not with h/(2 b3) in it.
+    E = SUSLOV.integrals((w1, w2, p1, p2, g3), (I11, I22, 0, 0, 0, 0, b3))["E"]
+    assert sympy.simplify(E - h) == 0
+    printed = SUSLOV.integrals((w1, w2, p1, p2, g3 - h / b3 / 2), (I11, I22, 0, 0, 0, 0, b3))["E"]
+    assert sympy.simplify(printed - h) != 0
+
+
+@every_body
+def test_a_start_has_its_energy_its_place_and_the_level_a_half(body):
+    rng = np.random.default_rng(3)
+    for y in starts(body):
+        assert energy(body, y) == pytest.approx(body.h, abs=1e-12)
+        assert y[2:] @ y[2:] == pytest.approx(1.0, abs=1e-14)
+        (q,), (p,) = body.to_plane(y[None])
+        assert body.height(q) == pytest.approx(y[4], abs=1e-13)
+        assert p @ p + body.height(q) ** 2 == pytest.approx(1.0, abs=1e-13)
+    q, beta = 0.9 * np.array(body.axes) * math.sqrt(0.5), rng.uniform(-3.0, 3.0)
+    y = np.array(state_at(body, q, beta))
+    rates = np.array(SUSLOV.field(y, body.parameters))
+    (velocity,), _ = body.to_plane(rates[None])
+    assert math.atan2(velocity[1], velocity[0]) == pytest.approx(beta, abs=1e-12)
+    assert body.to_plane(y[None])[0][0] == pytest.approx(q, abs=1e-13)
+
+
+@every_body
+def test_an_orbit_of_the_body_is_one_of_the_point(body):
+    """q(t) by Newton's law in the potential alone, in another way: the Verlet method, its error ∝ step²."""
+    y = starts(body, 1, seed=5)[0]
+    span = 3.0
+
+    def gradient(q):
+        return -body.b3 * float(body.height(q)) * np.array([q[0] / body.I22, q[1] / body.I11])
+
+    (q,), (p,) = body.to_plane(y[None])
+    found = []
+    for count in (3000, 6000):
+        x, v, step = q.copy(), -p, span / count
+        for _ in range(count):
+            v = v - 0.5 * step * gradient(x)
+            x = x + step * v
+            v = v - 0.5 * step * gradient(x)
+        found.append(x)
+    extrapolated = found[1] + (found[1] - found[0]) / 3.0
+    states = solve(SUSLOV, y, body.parameters, [span], FLOOR).states
+    assert body.to_plane(states)[0][0] == pytest.approx(extrapolated, abs=1e-9)
+
+
+def test_the_level_stays_a_half_along_the_reference_orbit():
+    row = next(row for row in REFERENCE["trajectories"] if row["name"] == "suslov principal axis, b1=b2=0")
+    I11, I22, _, _ = numbers(row["params"]["I"])
+    y0 = numbers(row["y0"])
+    body = QuarticBody(I11, I22, 1.0, float(energy(QuarticBody(I11, I22, 1.0, 0.0), y0)))
+    states = np.array([numbers(state["y"]) for state in row["states"]])
+    q, p = body.to_plane(states)
+    assert np.sum(p * p, axis=1) + body.height(q) ** 2 == pytest.approx(np.ones(len(states)), abs=1e-14)
+
+
+def test_the_angular_momentum_is_an_integral_for_equal_moments_only():
+    for I11, holds in ((1.3, True), (1.301, False)):
+        body = QuarticBody(I11, 1.3, -1.2, 0.7)
+        y = np.array(state_at(body, (0.5, 0.4), 0.7))
+        states = solve(SUSLOV, y, body.parameters, np.linspace(0.0, 30.0, 200), FLOOR).states
+        G = angular_momentum(body, states)
+        assert bool(np.ptp(G) < 1e-12) is holds
+        # I(ω1 γ1 + ω2 γ2)/b3.
+        if holds:
+            exact = 1.3 * (states[:, 0] * states[:, 2] + states[:, 1] * states[:, 3]) / body.b3
+            assert exact == pytest.approx(G, abs=1e-14)
+
+
+@every_body
+def test_the_region_is_bounded_by_heights_of_one(body):
+    edge = np.array([body.axes[0] * math.cos(0.3), body.axes[1] * math.sin(0.3)])
+    assert body.height(edge) == pytest.approx(-math.copysign(1.0, body.b3), abs=1e-13)
+    if body.hole > 0.0:
+        assert body.height(body.hole * edge) == pytest.approx(math.copysign(1.0, body.b3), abs=1e-13)
+    else:
+        assert abs(body.height(np.zeros(2))) < 1.0
+    x, p = body.section_boundary().T
+    q = np.column_stack([x, 0.0 * x] if body.across else [0.0 * x, x])
+    assert p**2 + body.height(q) ** 2 == pytest.approx(np.ones(len(x)), abs=1e-12)
+
+
+@every_body
+def test_points_of_the_section_are_what_they_say(body):
+    points = quartic_section(body, seeds(body, 6), 30, STANDARD, 40_000)
+    assert max(points.drift.values()) < 1e-5
+    count = 0
+    for states in points.states:
+        q, p = body.to_plane(states)
+        assert q[:, body.across] == pytest.approx(np.zeros(len(q)), abs=1e-5)
+        # It grows: its rate is −p.
+        assert np.all(p[:, body.across] < 0.0)
+        for y, (x, along) in zip(states[:4], body.on_section(states), strict=False):
+            again = state_on_section(body, x, along)
+            assert again == pytest.approx(y, abs=2e-4)
+            count += 1
+    assert count > 10
+
+
+@pytest.mark.parametrize("body", [QuarticBody(2.0, 1.0, 1.0, 0.8), QuarticBody(1.0, 2.0, 1.0, 0.8)], ids=str)
+def test_seeds_lie_on_the_section(body):
+    found = np.array(seeds(body, 20))
+    q, p = body.to_plane(found)
+    assert q[:, body.across] == pytest.approx(np.zeros(20))
+    assert np.all(p[:, body.across] < 0.0)
+    assert [energy(body, y) for y in found] == pytest.approx([body.h] * 20, abs=1e-12)
+    # Both halves, and from near the middle to the edge.
+    along = q[:, 1 - body.across] / body.axes[1 - body.across]
+    assert along.min() < -0.9
+    assert along.max() > 0.9
+    assert np.abs(along).min() < 0.3
+
+
+def lyapunov(body, y, span=150.0, pieces=150):
+    """The largest exponent, by two orbits that are brought together again and again."""
+    y, d, total = np.array(y), 1e-7, 0.0
+    other = y + d * np.array([0.5, -0.3, 0.2, 0.6, 0.1])
+    for _ in range(pieces):
+        y, other = (solve(SUSLOV, start, body.parameters, [span / pieces], level("precise")).states[0]
+                    for start in (y, other))
+        distance = float(np.linalg.norm(other - y))
+        total += math.log(distance / d)
+        other = y + (other - y) * (d / distance)
+    return total / span
+
+
+def test_it_is_chaotic_for_different_moments_and_not_for_equal_ones():
+    chaotic = QuarticBody(3.0, 1.0, 1.0, 1.2)
+    regular = QuarticBody(1.0, 1.0, 1.0, 1.2)
+    assert lyapunov(chaotic, state_at(chaotic, (0.9, 1.2), 1.0)) > 0.08
+    assert lyapunov(regular, state_at(regular, (0.9, 1.2), 1.0)) < 0.06
+
+
+EXTREMES = {
+    "I11/I22 = 1e4": (QuarticBody(1e2, 1e-2, 1.0, 0.8), (0.05, 3.0)),
+    "b3 = 1e-6": (QuarticBody(2.0, 1.0, 1e-6, 8e-7), (600.0, 300.0)),
+    "h = 1e6 |b3|": (QuarticBody(2.0, 1.0, 1.0, 1e6), (math.sqrt(2e6), 0.0)),
+    "1e-9 above the least energy": (QuarticBody(2.0, 1.0, 1.0, -1.0 + 1e-9), (1e-5, 0.0)),
+}
+
+
+@pytest.mark.parametrize("name", ["draft", "standard", "precise", "reference"])
+@pytest.mark.parametrize("case", EXTREMES)
+def test_extreme_orbits_keep_the_level(case, name):
+    body, q = EXTREMES[case]
+    y = state_at(body, q, 0.5)
+    states = solve(SUSLOV, y, body.parameters, np.linspace(0.0, 5.0 * math.sqrt(body.I11 / abs(body.b3)), 60),
+                   level(name)).states
+    places, p = body.to_plane(states)
+    bound = {"draft": 1e-3, "standard": 1e-6, "precise": 1e-9, "reference": 1e-12}[name]
+    # γ3 from ω cancels where ω is large: what h/b3 loses of it.
+    bound += 1e-15 * abs(body.h / body.b3)
+    assert np.abs(states[:, 4] - body.height(places)).max() <= bound * max(1.0, abs(body.h / body.b3))
+    # The error of γ² is twice that of γ, whose length is at most √3 times a component's.
+    assert np.abs(np.sum(p * p, axis=1) + states[:, 4] ** 2 - 1.0).max() <= 2.0 * math.sqrt(3.0) * bound
+
+
+def test_what_is_no_motion_is_refused_in_words():
+    with pytest.raises(NoField, match="Choose b3 other than 0"):
+        QuarticBody(1.0, 1.0, 0.0, 1.0)
+    with pytest.raises(OutsideRegion, match=r"No motion has the energy h = -2: choose h above −\|b3\| = -1"):
+        QuarticBody(1.0, 1.0, -1.0, -2.0)
+    with pytest.raises(NotPositiveDefinite, match="choose I22 > 0"):
+        QuarticBody(1.0, -1.0, 1.0, 1.0)
+    with pytest.raises(InvalidParameter, match="h is not a finite number"):
+        QuarticBody(1.0, 1.0, 1.0, math.nan)
+    with pytest.raises(InvalidParameter, match="no picture can show"):
+        QuarticBody(1.0, 1.0, 1e-155, 1.0)
+    body = QuarticBody(1.0, 1.0, 1.0, 2.0)
+    with pytest.raises(OutsideRegion, match=r"above the level ½: .* Choose a start that is not grey"):
+        state_at(body, (5.0, 0.0), 0.0)
+    with pytest.raises(OutsideRegion, match="above the level ½"):
+        state_at(body, (0.1, 0.1), 0.0)
+    with pytest.raises(OutsideRegion, match="choose a place that is not grey"):
+        state_on_section(body, 2.2, 0.99)
+    with pytest.raises(WorkLimit, match="choose fewer of them"):
+        quartic_section(body, seeds(body, 1), 50, STANDARD, 20)

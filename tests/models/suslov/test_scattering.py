@@ -1,0 +1,309 @@
+"""S4, the scattering of the free Suslov problem: values, closed forms, phases, orbits, refusals, its command."""
+
+import argparse
+import json
+import math
+
+import mpmath
+import numpy as np
+import pytest
+from mechanics import angle_between
+
+from hess_explorer.commands import CommandError
+from hess_explorer.commands import scattering as command
+from hess_mechanics import SuslovBody, level, solve, systems
+from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.numerics.accuracy import LEVELS, Status
+from hess_mechanics.suslov.additional_integral import I11_of
+from hess_mechanics.suslov.free import equilibria, free_motion, passage
+from hess_mechanics.suslov.scattering import cos_chi, scattering, start
+
+FIGURE = SuslovBody(3.56, 1.0, 0.0, 0.8)
+GENERIC = SuslovBody(2.0, 1.0, 0.3, 0.5)
+PROMISE = {"draft": 1e-3, "standard": 1e-6, "precise": 1e-9, "reference": 1e-12}
+every_level = pytest.mark.parametrize("name", LEVELS)
+every_arc = pytest.mark.parametrize("arc", [1, -1])
+
+# 40-digit Taylor series; the general ones have 14 digits.
+REFERENCE = [
+    ((3.56, 1.0, 0.0, 0.8), -0.8484094045578246168641),
+    ((2.44, 1.0, 0.0, 0.5), -0.9902583607917886898757),
+    ((1.64, 1.0, 0.0, 0.8), -1.0),
+    ((2.44, 1.0, 0.0, 0.4), -1.0),
+    ((0.8, 1.0, 0.0, 0.5), -0.9305335004052719694923),
+    ((1.36, 1.0, 0.0, 0.3), -0.9997734603577994335756),
+    ((1.0, 1.5, 0.7, 1.2), -0.47889450360074),
+    ((2.0, 1.0, 0.3, 0.5), -0.95659283876095),
+    ((3.0, 2.0, -0.4, 0.9), -0.98973299253727),
+]
+
+
+@every_arc
+@every_level
+@pytest.mark.parametrize(("tensor", "exact"), REFERENCE)
+def test_cos_chi_is_that_of_the_reference(tensor, exact, name, arc):
+    found = scattering(SuslovBody(*tensor), level(name), arc)
+    assert abs(found.cos_chi - exact) <= max(found.error_estimate, 5e-14) <= PROMISE[name]
+    assert found.status is Status.OK
+    assert cos_chi(SuslovBody(*tensor)) == pytest.approx(exact, abs=5e-14)
+    assert found.cos_chi**2 + found.sin_chi**2 == pytest.approx(1.0, abs=2 * PROMISE[name])
+
+
+def closed_form(I11, I22, I23):
+    """The notes' formula for I13 = 0, in 30 digits."""
+    with mpmath.workdps(30):
+        I11, I22, I23 = (mpmath.mpf(x) for x in (I11, I22, I23))
+        k = mpmath.sqrt(mpmath.mpc(I22 * (I11 - I22))) / I23
+        return float(mpmath.re(2 * mpmath.cos(mpmath.pi * k / 2) ** 2 / mpmath.cosh(mpmath.pi * I22 / (2 * I23)) ** 2)
+                     - 1)
+
+
+EXTREMES = [(1e6, 1.0, 1.0), (1.0, 1e6, 1e6), (1e-6, 1.0, 1.0), (1.0, 1e-6, 1e-3), (1.0, 1.0, 1e6), (1.0, 1.0, 1e-2),
+            (1e6, 1e6, 1e6), (1e-6, 1e-6, 1e-6), (1e3, 1e-3, -1.0), (5.0, 0.2, 2.0), (0.2, 5.0, 2.0)]
+
+
+@every_level
+@pytest.mark.parametrize(("I11", "I22", "I23"), EXTREMES)
+def test_extreme_moments_agree_with_the_closed_form_of_both_principal_cases(I11, I22, I23, name):
+    exact = closed_form(I11, I22, I23)
+    for body in (SuslovBody(I11, I22, 0.0, I23), SuslovBody(I22, I11, I23, 0.0)):
+        found = scattering(body, level(name))
+        assert abs(found.cos_chi - exact) <= found.error_estimate
+        # k of 1e3 multiplies the last digits of the moments.
+        assert cos_chi(body) == pytest.approx(exact, abs=1e-12)
+        assert found.error_estimate <= PROMISE[name] or (name, found.status) == ("reference", Status.FLOOR)
+        assert found.error_estimate < 1e-3
+
+
+def test_general_extreme_moments_are_right_or_refused():
+    refused = 0
+    for tensor in ((1e6, 1.0, 0.3, 0.5), (1.0, 1e6, 0.3, 0.5), (1e6, 1.0, 300.0, 0.5), (1e6, 1.0, 0.3, 500.0),
+                   (1e6, 1e-6, 1.0, 1.0), (1.0, 1.0, 1e6, -1e6), (1.0, 1.0, 1e-6, 1e-6), (1e-6, 1e6, 1e-3, 1e-3)):
+        body = SuslovBody(*tensor)
+        for name in LEVELS:
+            try:
+                found = scattering(body, level(name))
+            except WorkLimit as error:
+                assert "choose larger I13, I23" in str(error)
+                refused += 1
+            else:
+                assert abs(found.cos_chi - cos_chi(body)) <= found.error_estimate + 1e-12
+                assert found.error_estimate <= PROMISE[name] or (name, found.status) == ("reference", Status.FLOOR)
+    assert refused == 4  # I13, I23 of 1e-6, at each level
+
+
+@pytest.mark.parametrize("k", range(1, 16, 2))
+def test_odd_k_is_complete_reversal(k):
+    for body in (SuslovBody(I11_of(k, 1.0, 0.9), 1.0, 0.0, 0.9), SuslovBody(1.0, I11_of(k, 1.0, 0.9), 0.9, 0.0)):
+        found = scattering(body, level("reference"))
+        assert found.cos_chi == pytest.approx(-1.0, abs=1e-13)
+        assert found.sin_chi < 1e-12
+        theta = np.array([0.0, 0.4, 2.0, math.pi])
+        assert found.theta_plus(theta, 1.3) == pytest.approx(math.pi - theta, abs=1e-12)
+
+
+def test_the_closed_form_of_every_tensor_agrees_with_the_integration():
+    # Derived from the monodromy, and computed by Taylor series: nothing is shared but K, κ and c.
+    rng = np.random.default_rng(6)
+    wrong = total = 0
+    for _ in range(300):
+        body = SuslovBody(*10.0 ** rng.uniform(-1, 1, 2), *(10.0 ** rng.uniform(-1, 1, 2) * rng.choice([-1, 1], 2)))
+        exact = cos_chi(body)
+        for name in LEVELS:
+            found = scattering(body, level(name), int(rng.choice([-1, 1])))
+            error = abs(found.cos_chi - exact)
+            assert error <= 2 * PROMISE[name]
+            total += 1
+            wrong += error > found.error_estimate
+    assert wrong <= 0.01 * total
+
+
+def test_estimates_of_Gamma_plus_are_on_the_safe_side():
+    rng = np.random.default_rng(7)
+    theta, phi = rng.uniform(0, math.pi, 200), rng.uniform(0, 2 * math.pi, 200)
+    wrong = total = 0
+    for _ in range(100):
+        body = SuslovBody(*10.0 ** rng.uniform(-1, 1, 2), *(10.0 ** rng.uniform(-1, 1, 2) * rng.choice([-1, 1], 2)))
+        distance = None if rng.random() < 0.5 else 1e-5
+        exact = scattering(body, level("reference"), 1, distance)
+        for name in ("draft", "standard", "precise"):
+            found = scattering(body, level(name), 1, distance)
+            error = np.max(np.abs(found.Gamma_plus(theta, phi) - exact.Gamma_plus(theta, phi)))
+            total += 1
+            wrong += error > found.error_estimate
+            assert found.error_estimate <= PROMISE[name]
+    assert wrong <= 0.01 * total
+
+
+# ---- θ⁺ against orbits ------------------------------------------------------------------------------------------
+
+
+@every_arc
+@pytest.mark.parametrize("body", [FIGURE, GENERIC, SuslovBody(1.0, 1.5, 0.7, 0.0)],
+                         ids=["I13 = 0", "general", "I23 = 0"])
+@pytest.mark.parametrize("distance", [1e-5, 0.2])
+def test_the_start_leads_to_the_predicted_circle(body, distance, arc):
+    # By the general solver, which knows nothing of the passage.
+    found = scattering(body, level("reference"), arc, distance)
+    for theta, phi in ((1.0, 0.7), (math.pi / 2, -2.5), (2.9, 3.0)):
+        omega, gamma = start(body, 1.7, theta, phi, distance, arc)
+        assert body.I11 * omega[0] ** 2 / 2 + body.I22 * omega[1] ** 2 / 2 == pytest.approx(1.7, rel=1e-14)
+        points = equilibria(body, 1.7)
+        eta = np.array([body.I13, body.I23]) / math.hypot(body.I13, body.I23)
+        assert arc * np.dot(omega, eta) == pytest.approx(distance * points.speed, rel=1e-10)
+        span = 2.0 * abs(passage(body, omega).u0) + 35.0
+        end = solve(systems()["suslov"], [*omega, *gamma], body.parameters, [span / points.rate], level("reference"))
+        Gamma = float(end.states[0, 2:] @ points.xi)
+        # Where I13 I23 ≠ 0 the double next to ω(0) has another passage, by 1e-16/1e-5.
+        assert found.Gamma_plus(theta, phi) == pytest.approx(Gamma, abs=1e-10)
+        assert math.cos(found.theta_plus(theta, phi)) == pytest.approx(Gamma, abs=1e-10)
+        # ω and γ at the start are what was asked for.
+        assert float(np.dot(gamma, points.xi)) == pytest.approx(math.cos(theta), abs=1e-15)
+        azimuth = math.atan2(gamma[2], gamma[0] * eta[0] + gamma[1] * eta[1])
+        assert angle_between(azimuth, phi) < 1e-14
+
+
+def test_the_figure_of_the_paper():
+    # fig0111: ω1(0) = 2, ω2(0) = 1e-5, θ⁻ = π/2.  ω⁻ is longer than ω1(0) by 1e-11.
+    distance, h = 0.5e-5, 3.56 * 2 + 0.5e-10
+    omega, _ = start(FIGURE, h, math.pi / 2, 0.0, distance)
+    assert omega == pytest.approx((2.0, 1e-5), rel=1e-10)
+    found = scattering(FIGURE, level("reference"), 1, distance)
+    phi = np.linspace(0, 2 * math.pi, 200)
+    theta = found.theta_plus(math.pi / 2, phi)
+    # On the equator θ⁺ runs through π/2 ± (π − χ), for cos χ = −0.848….
+    assert theta.max() == pytest.approx(math.pi / 2 + math.asin(math.sqrt(1 - 0.8484094045578246**2)), abs=1e-3)
+    assert math.cos(theta[0]) == pytest.approx(
+        free_motion(FIGURE, omega, (0.0, 1.0, 0.0), [1.0], level("reference")).limits[1], abs=1e-10)
+
+
+@every_arc
+def test_a_small_distance_only_shifts_the_phase(arc):
+    phi = np.linspace(-3, 3, 20)
+    asymptotic = scattering(GENERIC, level("reference"), arc)
+    for distance in (1e-7, 1e-12, 1e-200):
+        near = scattering(GENERIC, level("reference"), arc, distance)
+        omega, _ = start(FIGURE, 1.0, 1.0, 0.0, distance, arc)
+        assert abs(omega[1]) > 0
+        shift = near.phi_star - asymptotic.phi_star
+        assert near.cos_chi == pytest.approx(asymptotic.cos_chi, abs=10 * distance + 1e-13)
+        assert near.theta_plus(1.1, phi + shift) == pytest.approx(asymptotic.theta_plus(1.1, phi),
+                                                                  abs=10 * distance + 1e-12)
+        # The shift is Φ(u0) = −K ln cosh u0 + σc gd u0: for the moments 2, 1, 0.3, 0.5 by hand.
+        J, w = math.sqrt(0.34), (0.09 + 2 * 0.25) / 0.34
+        K, kappa = 2 / (J * w), math.sqrt(2) / J
+        c = kappa * 0.15 / 0.34 * (1 - 2) / w
+        u0 = -math.log(2 * kappa / (K * distance)) if distance > 1e-100 else -(
+            math.log(2 * kappa / K) - math.log(distance))
+        turned = -K * (abs(u0) - math.log(2)) - arc * c * math.pi / 2
+        assert angle_between(shift, -turned) < 20 * distance + 1e-11
+
+
+@every_arc
+def test_the_matrix_gives_the_harmonic_formula(arc):
+    found = scattering(GENERIC, level("reference"), arc)
+    theta, phi = np.linspace(0, math.pi, 31)[:, None], np.linspace(-7, 7, 41)[None, :]
+    expected = found.cos_chi * np.cos(theta) + found.sin_chi * np.sin(theta) * np.cos(phi - found.phi_star)
+    assert found.Gamma_plus(theta, phi).shape == (31, 41)
+    assert found.Gamma_plus(theta, phi) == pytest.approx(expected, abs=1e-14)
+    image = found.theta_plus(theta, phi)
+    assert np.all((image >= 0) & (image <= math.pi))
+    assert np.cos(image) == pytest.approx(expected, abs=1e-14)
+    # A rotation keeps areas: the mean of Γ⁺ over the sphere is 0.
+    assert found.theta_plus(0.0, 5.0) == pytest.approx(math.acos(found.cos_chi), abs=1e-13)
+    assert found.theta_plus(1.0, []).shape == (0,)
+
+
+def test_the_poles_keep_their_digits():
+    # θ⁺ next to 0: the arc cosine would leave 8 digits.
+    found = scattering(GENERIC, level("reference"))
+    chi = math.atan2(found.sin_chi, found.cos_chi)
+    for small in (1e-9, 1e-12):
+        assert found.theta_plus(chi + small, found.phi_star) == pytest.approx(small, abs=1e-14)
+
+
+# ---- refusals ---------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("request_", "error", "words"),
+    [
+        (lambda: scattering(SuslovBody(2.0, 1.0, 0.3, 0.5, b1=1.0), level("draft")), InvalidParameter, "Set b1 = b2"),
+        (lambda: scattering(SuslovBody(2.0, 1.0, 0.0, 0.0), level("draft")), InvalidParameter, "Choose I13 or I23"),
+        (lambda: scattering(SuslovBody(2.0, 1.0, 0.0, 1e-6), level("draft")), WorkLimit, "choose larger I13, I23"),
+        (lambda: scattering(GENERIC, level("draft"), 0), InvalidParameter, r"\+1 or −1"),
+        (lambda: scattering(GENERIC, level("draft"), 1, 0.0), InvalidParameter, "choose one above 0 and up to 1.227"),
+        (lambda: scattering(GENERIC, level("draft"), 1, 1.23), InvalidParameter, "choose one above 0 and up to 1.227"),
+        (lambda: scattering(GENERIC, level("draft"), 1, math.nan), InvalidParameter, "finite"),
+        (lambda: start(GENERIC, 0.0, 1.0, 0.0, 1e-5), InvalidParameter, "choose h > 0"),
+        (lambda: start(GENERIC, 1.0, math.inf, 0.0, 1e-5), InvalidParameter, "theta is not a finite number"),
+        (lambda: cos_chi(SuslovBody(2.0, 1.0, 0.0, 0.0)), InvalidParameter, "no ξ"),
+    ],
+)
+def test_refusals(request_, error, words):
+    with pytest.raises(error, match=words):
+        request_()
+
+
+# ---- the command ------------------------------------------------------------------------------------------------
+
+
+WORDS = ["scattering", "--I", "3.56,1,0,0.8", "--theta", "1.0", "--phi", "0,1,2", "--accuracy", "reference"]
+
+
+def run(*words):
+    parser = argparse.ArgumentParser()
+    command.add(parser.add_subparsers(required=True))
+    options = parser.parse_args(list(words))
+    options.run(options)
+
+
+def answer(capsys, *words):
+    run(*words)
+    out, err = capsys.readouterr()
+    assert err == ""
+    return json.loads(out)
+
+
+def test_the_command(capsys):
+    found = answer(capsys, *WORDS)
+    assert found["cos_chi"] == pytest.approx(-0.8484094045578246, abs=1e-14)
+    assert found["cos_chi_closed_form"] == pytest.approx(found["cos_chi"], abs=1e-14)
+    assert found["phi"] == [0.0, 1.0, 2.0]
+    expected = [found["cos_chi"] * math.cos(1.0) + found["sin_chi"] * math.sin(1.0) * math.cos(x - found["phi_star"])
+                for x in found["phi"]]
+    assert np.cos(found["theta_plus"]) == pytest.approx(expected, abs=1e-14)
+    assert (found["status"], found["level"], found["arc"], found["distance"]) == ("ok", "reference", 1, None)
+    assert 0 < found["error_estimate"] < 1e-12
+    assert found["steps"] > 0
+    assert found["is_body"] in (True, False)
+    assert found["notes"] == []
+
+
+def test_the_command_with_a_start_on_the_other_arc(capsys):
+    found = answer(capsys, *WORDS, "--arc=-1", "--distance", "5e-6")
+    exact = scattering(FIGURE, level("reference"), -1, 5e-6)
+    assert found["theta_plus"] == exact.theta_plus(1.0, [0.0, 1.0, 2.0]).tolist()
+
+
+def test_the_command_without_phases_and_as_a_table(capsys):
+    assert answer(capsys, *WORDS[:5])["theta_plus"] == []
+    run(*WORDS, "--format", "csv")
+    lines = [line for line in capsys.readouterr().out.splitlines() if not line.startswith("#")]
+    assert lines[0] == "phi,theta_plus"
+    assert len(lines) == 4
+
+
+@pytest.mark.parametrize(
+    ("tensor", "extra", "words"),
+    [
+        ("2,1,0,0", [], "Choose I13 or I23 other than 0"),
+        ("-2,1,0,0.5", [], "choose I11 > 0"),
+        ("2,1,0,1e-9", [], "choose larger I13, I23"),
+        ("2,1,0.3,0.5", ["--distance", "7"], "choose one above 0 and up to"),
+        ("2,1,0.3,0.5", ["--accuracy", "best"], "choose one of draft"),
+    ],
+)
+def test_the_command_refuses_in_one_sentence(tensor, extra, words):
+    with pytest.raises(CommandError, match=words):
+        run("scattering", f"--I={tensor}", "--theta", "1", *extra)

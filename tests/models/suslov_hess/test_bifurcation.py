@@ -1,0 +1,261 @@
+"""The region of (h, f), its edge, and the turning points, against multiple precision."""
+
+import math
+from functools import cache
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from mechanics import PROPERTY
+from scipy.optimize import minimize_scalar
+from scipy.special import ellipkm1
+
+from hess_mechanics import curve, curve_point, f_max, systems, turning_points
+from hess_mechanics.errors import InvalidParameter, ModelError, OutsideRegion, Separatrix
+from hess_mechanics.suslov_hess.bifurcation import SPECIAL_POINTS
+
+ULP = 2.0**-52
+
+# h in the whole region, crowded where the formulas could lose digits: at the bottom −1 and at the separatrix 1.
+tiny = st.floats(-15.0, -1.0).map(lambda exponent: 10.0**exponent)
+energies = st.one_of(
+    st.floats(-0.999999, 50.0), tiny.map(lambda e: -1 + e), tiny.map(lambda e: 1 - e), tiny.map(lambda e: 1 + e),
+    st.floats(0.0, 8.0).map(lambda exponent: 10.0**exponent),
+)
+# f/f_max: anything, next to 0, next to the edge, the edge itself.
+shares = st.one_of(
+    st.floats(-1.0, 1.0), st.floats(-140.0, -1.0).map(lambda e: 10.0**e), tiny.map(lambda e: 1 - e), st.just(1.0),
+)
+# f² must not underflow; f = 0 at h = 1 is the separatrix.
+tori = st.tuples(energies, shares).filter(lambda t: abs(t[1]) > 1e-140 or (t[1] == 0 and t[0] != 1.0))
+
+CASES = [
+    (0.5, 0.5), (1.5, 0.6), (-0.5, -0.2), (3.0, 1e-12), (0.3, 1e-12), (0.3, 1e-300), (2.0, 1e-300), (2.0, 0.0),
+    (-0.4, 0.0), (1.0, 1e-12), (1.0, 1e-100), (1.0, 1.5), (1 + 1e-12, 1e-12), (1 - 1e-12, 1e-12), (1 + 1e-12, 0.0),
+    (1 - 1e-12, 0.0), (1 - 2**-53, 1e-20), (-1 + 1e-12, 1e-13), (-1 + 1e-12, 0.0), (-1 + 2**-53, 0.0), (1e8, 0.0),
+    (1e8, 1e-5), (1e8, 14000.0), (1e4, 141.0),
+]
+
+
+def digits(h, f):
+    """Digits that leave 40 after every cancellation in the cubic."""
+    small = sum(max(0, int(-math.log10(abs(value)))) for value in (f, f, f, f, h) if value)
+    return 60 + int(6 * math.log10(abs(h) + 10)) + small
+
+
+@cache
+def exact(h, f):
+    """Gaps, |w|², 1 − n1² and the roots from mpmath's roots of the cubic with exactly these doubles h and f."""
+    with mpmath.workdps(digits(h, f)):
+        h, f = mpmath.mpf(h), mpmath.mpf(f)
+        roots = mpmath.polyroots([-2, -2 * h, 2, 2 * h - f * f], maxsteps=5000, extraprec=2 * mpmath.mp.prec)
+        n0, n1, n2 = sorted(mpmath.re(root) for root in roots)
+        return {"n0": n0, "n1": n1, "n2": n2, "g10": n1 - n0, "g20": n2 - n0, "g21": n2 - n1,
+                "w_squared": 2 * (h + n1), "sine_squared": (1 - n1) * (1 + n1)}
+
+
+@cache
+def exact_f_max(h):
+    with mpmath.workdps(60 + int(6 * math.log10(abs(h) + 10))):
+        h = mpmath.mpf(h)
+        n = max(mpmath.polyroots([-3, -2 * h, 1], maxsteps=500, extraprec=500))
+        return mpmath.sqrt(2 * (h + n) * (1 - n * n))
+
+
+def exact_neighbours(h, f):
+    """The exact values for f and for f two units in the last place away, cut at the edge: no double knows better."""
+    values = [exact(h, f)]
+    for factor in (1 - 2 * ULP, 1 + 2 * ULP):
+        values.append(exact(h, f * factor) if abs(f * factor) < exact_f_max(h) else on_the_edge(h))
+    return values
+
+
+@cache
+def on_the_edge(h):
+    with mpmath.workdps(60 + int(6 * math.log10(abs(h) + 10))):
+        h = mpmath.mpf(h)
+        n = max(mpmath.polyroots([-3, -2 * h, 1], maxsteps=500, extraprec=500))
+        n0 = -h - 2 * n
+        return {"n0": n0, "n1": n, "n2": n, "g10": n - n0, "g20": n - n0, "g21": mpmath.mpf(0),
+                "w_squared": 2 * (h + n), "sine_squared": (1 - n) * (1 + n)}
+
+
+def check_against_multiple_precision(h, f):
+    found = turning_points(h, f)
+    oracle = exact_neighbours(h, f) if abs(f) < exact_f_max(h) else [on_the_edge(h), exact(h, f * (1 - 4 * ULP))]
+    n0, n1, n2 = found.roots
+    values = {"n0": n0, "n1": n1, "n2": n2, "w_squared": found.w_squared, "sine_squared": found.sine_squared}
+    for name, value in values.items():
+        low, high = min(each[name] for each in oracle), max(each[name] for each in oracle)
+        # Roots to absolute accuracy; what may be small by itself to relative accuracy.
+        slack = 1e-15 * max(1.0, abs(float(low))) if name.startswith("n") else 1e-13 * abs(float(high)) + 1e-300
+        assert float(low) - slack <= value <= float(high) + slack, (name, value, float(low), float(high))
+    return found, oracle
+
+
+@PROPERTY
+@given(energies)
+def test_the_largest_f_is_that_of_multiple_precision(h):
+    assert f_max(h) == pytest.approx(float(exact_f_max(h)), rel=2e-15)
+
+
+@pytest.mark.parametrize("h", [-0.9, -0.3, 0.0, 1.0, 2.5, 40.0])
+def test_the_largest_f_is_the_maximum_of_the_gyroscopic_function(h):
+    found = minimize_scalar(lambda n: -2 * (h + n) * (1 - n * n), bounds=(max(-1.0, -h), 1.0), method="bounded",
+                            options={"xatol": 1e-10})
+    assert f_max(h) == pytest.approx(math.sqrt(-found.fun), rel=1e-14)
+
+
+@pytest.mark.parametrize(("h", "f"), CASES)
+def test_turning_points_at_special_places_keep_their_relative_accuracy(h, f):
+    check_against_multiple_precision(h, f)
+
+
+@pytest.mark.parametrize("h", [-1 + 1e-12, -0.9999999, -0.99, -0.8956597165020208, -0.5, 0.0, 1.0, 7.0, 1e6])
+@pytest.mark.parametrize("inside", [0.0, 1e-15, 1e-12, 1e-9])
+def test_turning_points_at_the_edge_are_those_of_the_curve(h, inside):
+    found, _ = check_against_multiple_precision(h, f_max(h) * (1 - inside))
+    edge = on_the_edge(h)
+    # The gap of the two roots opens like the square root of the distance to the curve.
+    opening = 4 * math.sqrt(inside + ULP)
+    assert found.w_squared == pytest.approx(float(edge["w_squared"]), rel=opening)
+    assert found.sine_squared == pytest.approx(float(edge["sine_squared"]), rel=opening)
+
+
+@PROPERTY
+@given(tori)
+def test_turning_points_keep_their_accuracy_everywhere_and_the_period_is_the_elliptic_integral_of_scipy(torus):
+    h, share = torus
+    found, oracle = check_against_multiple_precision(h, share * f_max(h))
+    periods = [2 * math.sqrt(2 / values["g20"]) * ellipkm1(float(values["g10"] / values["g20"])) for values in oracle]
+    assert min(periods) * (1 - 1e-13) <= found.period <= max(periods) * (1 + 1e-13)
+
+
+@pytest.mark.parametrize(("h", "f"), CASES)
+def test_the_period_is_the_complete_elliptic_integral_of_mpmath(h, f):
+    values = exact(h, f)
+    with mpmath.workdps(digits(h, f)):
+        period = 2 * mpmath.sqrt(2 / values["g20"]) * mpmath.ellipk(values["g21"] / values["g20"])
+    assert turning_points(h, f).period == pytest.approx(float(period), rel=1e-13)
+
+
+@pytest.mark.parametrize(("h", "f"), [(0.5, 0.5), (1.5, 0.6), (-0.9, 0.05), (0.2, 0.0), (3.0, 0.0), (100.0, 5.0)])
+def test_the_period_is_the_time_between_two_returns(h, f):
+    values = exact(h, f)
+    middle, half = (values["n1"] + values["n2"]) / 2, values["g21"] / 2
+    # n3 = middle + half sin θ takes the roots n1, n2 out of dn/√p(n).
+    time = 2 * mpmath.quad(lambda s: 1 / mpmath.sqrt(2 * (middle + half * mpmath.sin(s) - values["n0"])),
+                           [-mpmath.pi / 2, 0, mpmath.pi / 2])
+    assert turning_points(h, f).period == pytest.approx(float(time), rel=1e-13)
+
+
+def test_next_to_the_separatrix_the_period_grows_like_a_logarithm():
+    # Near the saddle x = 1 + n3 obeys ẋ² = 4x² − f²: the period is ln(1/f) and a constant.
+    periods = [turning_points(1.0, 10.0**-k).period for k in (20, 40, 60, 80)]
+    assert np.diff(periods) == pytest.approx([20 * math.log(10.0)] * 3, rel=1e-9)
+
+
+@PROPERTY
+@given(tori, st.floats(-math.pi, math.pi))
+def test_the_state_at_the_lower_turn_is_on_the_torus_and_turns_there(torus, phi):
+    h, share = torus
+    f = share * f_max(h)
+    turning = turning_points(h, f)
+    y = turning.state_at_lower_turn(phi)
+    hess = systems()["hess"]
+    found = hess.integrals(y, (0.7, 1.0))
+    assert found["E"] == pytest.approx(h, abs=1e-15 * (abs(h) + 10))
+    assert found["F1"] == pytest.approx(1.0, abs=1e-14)
+    assert found["F2"] == pytest.approx(f, rel=1e-6 if abs(share) > 0.999 else 1e-13, abs=1e-300)
+    assert hess.field(y, (0.7, 1.0))[4] == pytest.approx(0.0, abs=1e-15 * (1 + turning.initial_rho))
+    assert y[4] == turning.roots[1] <= turning.roots[2]
+    if turning.initial_rho > 0:
+        assert math.remainder(math.atan2(y[0], y[1]) - phi, 2 * math.pi) == pytest.approx(0.0, abs=1e-15)
+    assert turning.initial_rho**2 == pytest.approx(turning.w_squared, rel=1e-15)
+
+
+def test_the_turning_points_do_not_know_the_sign_of_f_and_of_zero():
+    plus, minus = turning_points(0.5, 0.3), turning_points(0.5, -0.3)
+    assert (plus.roots, plus.period, plus.w_squared) == (minus.roots, minus.period, minus.w_squared)
+    assert np.array_equal(turning_points(0.5, -0.0).state_at_lower_turn(1.0),
+                          turning_points(0.5, 0.0).state_at_lower_turn(1.0))
+    assert np.array_equal(turning_points(1, 1).state_at_lower_turn(1.0),
+                          turning_points(1.0, 1.0).state_at_lower_turn(1.0))
+
+
+@PROPERTY
+@given(st.floats(0.0, 1.0, exclude_min=True).filter(lambda n: n > 1e-6))
+def test_points_of_the_curve_are_where_the_cubic_has_a_double_root(n):
+    h, f = curve_point(n)
+    size = abs(h) + 1
+    assert 2 * (h + n) * (1 - n * n) - f * f == pytest.approx(0.0, abs=1e-14 * size)  # p(n) = 0
+    assert 2 * (1 - n * n) - 4 * n * (h + n) == pytest.approx(0.0, abs=1e-14 * size)  # p'(n) = 0
+    assert f >= 0
+    if h > -1.0:
+        # dh along the curve at fixed f is what the rounding of h does to f: small next to (−1, 0) only.
+        assert f == pytest.approx(f_max(h), rel=1e-14, abs=4 * ULP / max(1 - n, ULP))
+
+
+def test_the_curve_is_the_corrected_equation_from_the_bottom_to_its_end():
+    points = curve(4.0, points=300)
+    assert points.shape == (300, 2)
+    assert tuple(points[0]) == (-1.0, 0.0)
+    assert points[-1, 0] == pytest.approx(4.0, abs=1e-12)
+    assert np.all(np.diff(points, axis=0) > 0)
+    for h, f in points[1:]:
+        assert f == pytest.approx(f_max(h), rel=1e-11)
+    # Even enough to draw: no gap is longer than a few times the mean.
+    lengths = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    assert lengths.max() < 10 * lengths.mean()
+    with pytest.raises(ValueError, match="read-only"):
+        points[0, 0] = 0.0
+
+
+def test_the_special_points_are_the_two_equilibria():
+    # w = 0 and n = (0, 0, ±1) under `eq01`, b = 1.
+    hess = systems()["hess"]
+    found = set()
+    for n3 in (1.0, -1.0):
+        y = (0.0, 0.0, 0.0, 0.0, n3)
+        assert not any(hess.field(y, (0.4, 1.0)))
+        values = hess.integrals(y, (0.4, 1.0))
+        found.add((values["E"], values["F2"]))
+    assert set(SPECIAL_POINTS) == found
+
+
+@pytest.mark.parametrize(
+    ("h", "f", "error", "words"),
+    [
+        (-1.0, 0.0, OutsideRegion, "choose h > −1"),
+        (-7.0, 0.0, OutsideRegion, "choose h > −1"),
+        (0.0, 0.9, OutsideRegion, r"choose \|f\| ≤ 0.87738267"),
+        (0.0, -0.9, OutsideRegion, r"choose \|f\| ≤ 0.87738267"),
+        (2.0, 1e300, OutsideRegion, r"choose \|f\|"),
+        (1.0, 0.0, Separatrix, "no return"),
+        (1.0, -0.0, Separatrix, "no return"),
+        (math.nan, 0.0, InvalidParameter, "h is not a finite number"),
+        (math.inf, 0.0, InvalidParameter, "h is not a finite number"),
+        (0.0, math.nan, InvalidParameter, "f is not a finite number"),
+        (0.0, -math.inf, InvalidParameter, "f is not a finite number"),
+        (1e13, 0.0, InvalidParameter, "choose h ≤ 1e12"),
+    ],
+)
+def test_values_without_a_torus_raise_a_sentence(h, f, error, words):
+    assert issubclass(error, ModelError)
+    with pytest.raises(error, match=f"(?i){words}"):
+        turning_points(h, f)
+
+
+@pytest.mark.parametrize("use", [f_max, curve])
+@pytest.mark.parametrize(("h", "error"), [(-1.0, OutsideRegion), (-2.0, OutsideRegion), (math.nan, InvalidParameter)])
+def test_no_edge_is_drawn_below_the_bottom(use, h, error):
+    with pytest.raises(error):
+        use(h)
+
+
+@pytest.mark.parametrize("n", [0.0, -0.5, 1.0 + 1e-15, math.nan, math.inf])
+def test_points_beside_the_curve_raise_a_sentence(n):
+    with pytest.raises(InvalidParameter, match="choose 0 < n3 ≤ 1"):
+        curve_point(n)

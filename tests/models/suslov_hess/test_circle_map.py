@@ -1,0 +1,584 @@
+"""The circle map of the torus: against brute force, closed forms and its symmetries."""
+
+import cmath
+import math
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from mechanics import PROPERTY, angle_between, lifted_return
+from scipy.integrate import quad, solve_ivp
+
+from hess_mechanics import (
+    circle_map,
+    critical_a,
+    curve_point,
+    f_max,
+    level,
+    lock_boundary,
+    lock_boundary_f,
+    rotation_number_grid,
+    solve,
+    systems,
+    trace_on_curve,
+    turning_points,
+)
+from hess_mechanics.errors import InvalidParameter, ModelError, OutsideRegion, Separatrix, WorkLimit
+from hess_mechanics.numerics.accuracy import LEVELS, Status
+from hess_mechanics.suslov_hess.mode_locking import lock_boundary_end, lock_boundary_h
+
+HESS = systems()["hess"]
+REFERENCE, STANDARD, DRAFT = level("reference"), level("standard"), level("draft")
+PHASES = np.linspace(-3.0, 3.0, 13)
+
+# (a, h, f): both sides of h = 1, both signs of f, elliptic and hyperbolic, near the bottom, near the edge.
+TORI = [
+    (0.5, 1.5, 0.6), (0.5, 0.5, 0.5), (1.0, 0.0, -0.5), (0.2, 2.5, -1.8), (0.8, -0.9, 0.05), (0.7, 1.02, 0.03),
+    (0.3, -0.2, 0.7), (2.0, 0.4, 0.2), (0.0, 0.7, 0.4), (-0.6, 1.3, 0.5), (0.4, 20.0, 3.0), (0.6, 0.97, 0.02),
+]
+every_torus = pytest.mark.parametrize(("a", "h", "f"), TORI)
+
+# a up to 3, h in (−1, 50], f/f_max in [−1, 1]; never so near to the separatrix that a double cannot tell.
+tori = st.tuples(
+    st.floats(0.0, 3.0), st.floats(-0.999, 50.0), st.one_of(st.floats(-1.0, 1.0), st.floats(-1e-3, 1e-3), st.just(0.0))
+).filter(lambda torus: abs(torus[1] - 1.0) > 1e-3 or abs(torus[2]) > 1e-3)
+
+
+def map_of(torus, grade=REFERENCE):
+    a, h, share = torus
+    return circle_map(a, h, share * f_max(h), grade)
+
+
+def stretch(found):
+    """The steepest slope of Θ, (|α| + |β|)²."""
+    re, im, im_beta = found.matrix
+    return (math.hypot(re, im) + abs(im_beta)) ** 2 * math.exp(2 * found.log_scale)
+
+
+def round_off(found):
+    """How far round-off may move Θ."""
+    return 1e-14 * (1 + stretch(found))
+
+
+def slope(found, phases):
+    """dΘ/dφ = |α z + β|^−2, z = e^{iφ}."""
+    re, im, im_beta = found.matrix
+    return np.exp(-2 * found.log_scale) / np.abs(complex(re, im) * np.exp(1j * phases) + 1j * im_beta) ** 2
+
+
+# ---- Θ by brute force -------------------------------------------------------------------------------------------
+
+
+@every_torus
+def test_theta_is_where_the_orbit_of_eq01_comes_back(a, h, f):
+    found, turning = circle_map(a, h, f, REFERENCE), turning_points(h, f)
+    for phi in PHASES:
+        start = turning.state_at_lower_turn(phi)
+        end = solve(HESS, start, (a, 1.0), [turning.period], REFERENCE).states[0]
+        assert angle_between(math.atan2(end[0], end[1]), found.theta(phi)) < 1e-10
+        assert end[4] == pytest.approx(start[4], abs=1e-12)
+
+
+@pytest.mark.parametrize(("a", "h", "f"), TORI[:4])
+def test_theta_is_where_the_orbit_comes_back_by_scipy_alone(a, h, f):
+    found, turning = circle_map(a, h, f, REFERENCE), turning_points(h, f)
+    for phi in (-2.0, 0.3, 1.7):
+        end = solve_ivp(lambda _, y: HESS.field(y, (a, 1.0)), (0.0, turning.period), turning.state_at_lower_turn(phi),
+                        method="DOP853", rtol=1e-12, atol=1e-13).y[:, -1]
+        assert angle_between(math.atan2(end[0], end[1]), found.theta(phi)) < 1e-8
+
+
+@settings(PROPERTY, max_examples=100)
+@given(tori, st.floats(-math.pi, math.pi))
+def test_theta_is_where_the_orbit_comes_back_on_every_torus(torus, phi):
+    a, h, share = torus
+    f = share * f_max(h)
+    # At f = 0 inside |h| < 1 the orbit passes w = 0, where φ jumps: an orbit computed from there is not the limit.
+    assume(abs(share) > 1e-4 or h > 1)
+    found, turning = circle_map(a, h, f, REFERENCE), turning_points(h, f)
+    end = solve(HESS, turning.state_at_lower_turn(phi), (a, 1.0), [turning.period], REFERENCE).states[0]
+    # Where |w| is small an error of the orbit turns w by so much more.
+    lever = 1.0 / min(1.0, turning.initial_rho) ** 2
+    # Next to the edge the lower turn itself is known to √ε only.
+    edge = 1e-7 if abs(share) > 1 - 1e-6 else 0.0
+    assert angle_between(math.atan2(end[0], end[1]), found.theta(phi)) < edge + 100 * lever * round_off(found)
+
+
+def angles_in_multiple_precision(a, h, f, phases):
+    """Θ by mpmath's Taylor integration of n̈3 = ½ p'(n3) and of the equation of φ."""
+    a, h, f = mpmath.mpf(a), mpmath.mpf(h), mpmath.mpf(f)
+    n0, n1, n2 = sorted(mpmath.re(n) for n in mpmath.polyroots([-2, -2 * h, 2, 2 * h - f * f], 500, extraprec=300))
+    period = 2 * mpmath.sqrt(2 / (n2 - n0)) * mpmath.ellipk((n2 - n1) / (n2 - n0))
+
+    def rates(_, y):
+        n, speed, *angles = y
+        w_squared = 2 * (h + n)
+        return [speed, 1 - n * n - 2 * n * (h + n),
+                *(-a * mpmath.sqrt(w_squared) * mpmath.cos(phi) - f / w_squared for phi in angles)]
+
+    end = mpmath.odefun(rates, 0, [n1, 0, *map(mpmath.mpf, phases)])(period)[2:]
+    return [float(mpmath.atan2(mpmath.sin(phi), mpmath.cos(phi))) for phi in end]
+
+
+@pytest.mark.parametrize(
+    ("a", "h", "share", "digits", "phases"), [(0.8, -0.3, 0.6, 22, [0.4, 2.5]), (0.9, -1 + 1e-8, 0.5, 30, [0.4])]
+)
+def test_theta_agrees_with_multiple_precision_to_round_off(a, h, share, digits, phases):
+    # The second torus is next to the bottom, where 1 − n3 is 1e-8: nothing may be lost there.
+    f = share * f_max(h)
+    with mpmath.workdps(digits):
+        expected = angles_in_multiple_precision(a, h, f, phases)
+    assert angle_between(circle_map(a, h, f, REFERENCE).theta(phases), expected) < 1e-13
+
+
+# ---- closed forms -----------------------------------------------------------------------------------------------
+
+
+@PROPERTY
+@given(st.floats(0.0, 3.0), st.one_of(st.floats(0.01, 0.9999), st.floats(-9.0, -1.0).map(lambda e: 1 - 10.0**e)))
+def test_on_the_bifurcation_curve_trace_and_rotation_number_have_closed_forms(a, n):
+    # There w turns at a constant rate, and Θ is its rotation through one (limiting) period of n3.
+    h, _ = curve_point(n)
+    found = circle_map(a, h, f_max(h), REFERENCE)
+    closed = trace_on_curve(a, n)
+    assert found.trace == pytest.approx(abs(closed), rel=1e-11, abs=1e-11 / (1 - n))
+    radicand = (n * n * (1 + a * a) - a * a) / (1 + 3 * n * n)
+    if abs(abs(closed) - 2) > 1e-6:
+        assert found.rotation_number == pytest.approx(-math.sqrt(max(0.0, radicand)), abs=1e-8)
+
+
+@pytest.mark.parametrize("a", [0.0, 0.1, 0.5, 1.0, 2.0])
+@pytest.mark.parametrize("h", [1.001, 1.5, 4.0, 50.0, 1e5])
+def test_as_f_vanishes_above_the_separatrix_the_multiplier_is_that_of_a_great_circle(a, h):
+    for f, slack in ((0.0, 1e-12), (1e-12, 1e-7)):
+        found = circle_map(a, h, f, REFERENCE)
+        assert found.trace == pytest.approx(2 * math.cosh(math.pi * a), rel=slack)
+        if a:
+            stable, unstable = found.fixed_points
+            assert unstable.multiplier == pytest.approx(math.exp(2 * math.pi * a), rel=10 * slack)
+            assert stable.multiplier == pytest.approx(math.exp(-2 * math.pi * a), rel=10 * slack)
+        assert found.rotation_number == (0.0 if a else pytest.approx(0.0, abs=1e-6))
+
+
+@pytest.mark.parametrize("a", [0.0, 0.1, 0.5, 1.0, 2.0])
+@pytest.mark.parametrize("h", [-1 + 2**-53, -0.9999999, -0.6, 0.0, 0.7, 0.999])
+def test_as_f_vanishes_below_the_separatrix_two_returns_are_the_identity(a, h):
+    for f in (0.0, -0.0, 1e-12 * f_max(h)):
+        found = circle_map(a, h, f, REFERENCE)
+        assert found.trace < (1e-12 if f == 0 else 1e-6)
+        assert found.kind == "elliptic"
+        assert found.rotation_number == pytest.approx(-0.5, abs=1e-6)
+        assert angle_between(found.theta(found.theta(PHASES)), PHASES) < (1e-10 if f == 0 else 1e-3)
+
+
+@pytest.mark.parametrize(("a", "near"), [(50.0, 1e-3), (1e4, 1e-7)])
+@pytest.mark.parametrize(("h", "f"), [(1.5, 0.6), (0.2, 0.5), (5.0, -2.0)])
+def test_for_large_a_the_trace_grows_as_the_cycle_slides_along_w(a, near, h, f):
+    # The cycle has cos φ → 0, and δφ' = −a|w| δφ: log t → (a/2) ∮ |w| dt, with relative corrections 1/a².
+    n0, n1, n2 = turning_points(h, f).roots
+    middle, half = (n1 + n2) / 2, (n2 - n1) / 2
+
+    def integrand(s):
+        n = middle + half * math.sin(s)
+        return math.sqrt(2 * (h + n)) / math.sqrt(2 * (n - n0))
+
+    around = 2 * quad(integrand, -math.pi / 2, math.pi / 2, epsabs=1e-13, epsrel=1e-13)[0]
+    found = circle_map(a, h, f, REFERENCE)
+    assert found.log_trace == pytest.approx(a / 2 * around, rel=near)
+    assert found.trace == (pytest.approx(math.exp(found.log_trace)) if found.log_trace < 700 else math.inf)
+    stable, unstable = found.fixed_points
+    assert unstable.log_multiplier == pytest.approx(2 * found.log_trace, rel=1e-12)
+    assert (stable.phi, unstable.phi) == pytest.approx((-math.pi / 2, math.pi / 2), abs=5 / a)
+    assert found.rotation_number == 0.0
+    assert found.kind == "hyperbolic"
+    assert all(math.isfinite(value) for value in (*found.matrix, found.log_scale, found.error_estimate))
+    assert angle_between(found.theta([1.0, 2.0, -2.0]), stable.phi) < 1e-9
+
+
+# ---- structure --------------------------------------------------------------------------------------------------
+
+
+@PROPERTY
+@given(tori)
+def test_the_matrix_is_in_SU11(torus):
+    found = map_of(torus)
+    re, im, im_beta = (value * math.exp(found.log_scale) for value in found.matrix)
+    assert re**2 + im**2 - im_beta**2 == pytest.approx(1.0, abs=1e-13 * (1 + re**2 + im**2))
+    assert found.trace == pytest.approx(abs(2 * re), rel=1e-14)
+    assert found.trace == pytest.approx(math.exp(found.log_trace), rel=1e-12, abs=1e-300)
+
+
+@PROPERTY
+@given(tori)
+def test_returning_backwards_is_the_mirror_image_of_returning(torus):
+    found = map_of(torus)
+    assert angle_between(found.theta(-found.theta(PHASES)), -PHASES) < 10 * round_off(found)
+
+
+@PROPERTY
+@given(tori)
+def test_the_other_sign_of_f_turns_the_other_way(torus):
+    # (w2, n1) → −(w2, n1) takes f to −f and φ to π − φ.
+    a, h, share = torus
+    assume(abs(share) > 1e-300)  # f = −0 is f = 0
+    there, mirrored = map_of(torus), map_of((a, h, -share))
+    assert angle_between(mirrored.theta(math.pi - PHASES), math.pi - there.theta(PHASES)) < round_off(there)
+    assert mirrored.rotation_number == pytest.approx(-there.rotation_number, abs=1e-12)
+    assert mirrored.trace == pytest.approx(there.trace, rel=1e-12, abs=1e-14)
+
+
+@PROPERTY
+@given(tori)
+def test_the_other_sign_of_a_turns_the_section_through_pi(torus):
+    a, h, share = torus
+    there, mirrored = map_of(torus), map_of((-a, h, share))
+    assert angle_between(mirrored.theta(PHASES + math.pi), there.theta(PHASES) + math.pi) < round_off(there)
+    assert mirrored.rotation_number == pytest.approx(there.rotation_number, abs=1e-12)
+
+
+@PROPERTY
+@given(tori)
+def test_theta_goes_round_the_circle_once_and_never_back(torus):
+    found = map_of(torus)
+    assume(found.trace < 1e4)
+    steps = np.diff(found.theta(np.linspace(-math.pi, math.pi, 2001))) % (2 * math.pi)
+    # A step back by round-off, where Θ is flat, shows as nearly one turn forward.
+    steps = np.where(steps > 2 * math.pi - 1e-9, steps - 2 * math.pi, steps)
+    assert steps.min() > -1e-12
+    assert steps.sum() == pytest.approx(2 * math.pi, abs=1e-8)
+
+
+@PROPERTY
+@given(tori, st.lists(st.floats(-10.0, 10.0), min_size=1, max_size=5))
+def test_angles_are_given_between_minus_pi_and_pi_with_pi_included(torus, phases):
+    found = map_of(torus, DRAFT)
+    values = found.theta([*phases, 0.0, math.pi, -math.pi, math.pi / 2])
+    assert np.all(values > -math.pi)
+    assert np.all(values <= math.pi)
+    assert all(-math.pi < point.phi <= math.pi for point in found.fixed_points)
+
+
+@PROPERTY
+@given(tori)
+def test_fixed_points_are_fixed_with_the_multiplier_that_a_difference_quotient_has(torus):
+    found = map_of(torus)
+    assert len(found.fixed_points) == {"elliptic": 0, "parabolic": len(found.fixed_points), "hyperbolic": 2}[found.kind]
+    if found.kind != "hyperbolic":
+        assert found.trace <= 2 + 10 * found.error_estimate
+        return
+    assert found.trace > 2
+    stable, unstable = found.fixed_points
+    assert stable.stable
+    assert not unstable.stable
+    assert stable.phi == -unstable.phi
+    assert stable.log_multiplier + unstable.log_multiplier == 0.0
+    assert 2 * math.cosh(unstable.log_multiplier / 2) == pytest.approx(found.trace, rel=1e-11)
+    assume(stretch(found) < 1e3)
+    for point in found.fixed_points:
+        assert angle_between(found.theta(point.phi), point.phi) < 10 * round_off(found)
+        step = 1e-4 / stretch(found)
+        ahead, behind = found.theta([point.phi + step, point.phi - step])
+        quotient = math.remainder(ahead - behind, 2 * math.pi) / (2 * step)
+        assert quotient == pytest.approx(point.multiplier, rel=1e-5, abs=1e-5)
+
+
+@every_torus
+def test_orbits_of_a_locked_map_go_to_the_stable_fixed_point(a, h, f):
+    found = circle_map(a, h, f, REFERENCE)
+    orbit = found.iterate(0.4, 400)
+    assert orbit.shape == (401,)
+    assert orbit[0] == 0.4
+    assert angle_between(found.theta(orbit[:-1]), orbit[1:]) < 1e-13
+    with pytest.raises(ValueError, match="read-only"):
+        orbit[0] = 0.0
+    if found.kind == "hyperbolic":
+        assert angle_between(orbit[-1], found.fixed_points[0].phi) < 1e-9
+    else:
+        # Conjugate to a rotation: it comes near to everything, and stays nowhere.
+        assert angle_between(orbit[1:], orbit[:-1]) > 1e-3
+    assert circle_map(a, h, f, REFERENCE).iterate(0.4 + 2 * math.pi, 1)[0] == pytest.approx(0.4, abs=1e-14)
+
+
+@pytest.mark.parametrize("shape", [(), (1,), (2, 3)])
+def test_theta_keeps_the_shape_of_its_argument(shape):
+    assert np.shape(circle_map(0.5, 1.5, 0.6, DRAFT).theta(np.full(shape, 0.3))) == shape
+
+
+def test_integers_and_signed_zeros_are_the_numbers_they_are():
+    assert circle_map(1, 2, 1, DRAFT).matrix == circle_map(1.0, 2.0, 1.0, DRAFT).matrix
+    minus, plus = circle_map(0.5, 0.2, -0.0, REFERENCE), circle_map(0.5, 0.2, 0.0, REFERENCE)
+    assert (minus.matrix, minus.kind, minus.rotation_number) == (plus.matrix, plus.kind, plus.rotation_number)
+
+
+def test_a_circle_map_cannot_be_changed():
+    with pytest.raises(AttributeError):
+        circle_map(0.5, 1.5, 0.6, DRAFT).trace = 0.0
+
+
+@pytest.mark.parametrize("name", LEVELS)
+@settings(PROPERTY, max_examples=60)
+@given(torus=tori)
+def test_every_level_keeps_its_promise_and_its_estimate_on_every_torus(name, torus):
+    found, truth = map_of(torus, level(name)), map_of(torus, REFERENCE)
+    # Measured on the graph of Θ: where it is steep, an error of Θ is one of φ.
+    off = [angle_between(found.theta(phi), truth.theta(phi)) / max(1.0, slope(truth, phi)) for phi in PHASES]
+    error = max(*off, abs(found.trace - truth.trace) / max(1.0, truth.trace))
+    assert error <= 10 * (found.error_estimate + truth.error_estimate)
+    if found.status is Status.OK:
+        assert error <= level(name).promise + 10 * truth.error_estimate
+
+
+# ---- rotation number --------------------------------------------------------------------------------------------
+
+
+def lift_of(found):
+    """φ → F(φ) of the matrix, up to whole turns: 2 arg α + 2 arg(1 + (β/α) e^{−iφ}) is continuous in φ."""
+    re, im, im_beta = found.matrix
+    alpha, ratio = complex(re, im), 1j * im_beta / complex(re, im)
+    return lambda phi: phi + 2 * cmath.phase(alpha) + 2 * cmath.phase(1 + ratio * cmath.exp(-1j * phi))
+
+
+def check_rotation_number(a, h, f, iterations=20_000):
+    found = circle_map(a, h, f, REFERENCE)
+    lift = lift_of(found)
+    phases = np.linspace(-3.0, 3.0, 4)
+    brute = lifted_return(a, h, f, phases)
+    turns = round((brute[0] - lift(phases[0])) / (2 * math.pi))
+    # The one whole number settled by one phase, the others must agree without reduction modulo 2π.
+    assert [lift(phi) + 2 * math.pi * turns for phi in phases] == pytest.approx(brute, abs=1e-7)
+    phi = 0.0
+    for _ in range(iterations):
+        phi = lift(phi) + 2 * math.pi * turns
+    # |F^N(φ) − φ − 2πNρ| < 2π for every lift of a circle map.
+    assert abs(phi / (2 * math.pi * iterations) - found.rotation_number) < 1.0 / iterations
+
+
+@every_torus
+def test_the_rotation_number_is_the_mean_turn_of_the_integrated_lift(a, h, f):
+    check_rotation_number(a, h, f)
+
+
+@settings(PROPERTY, max_examples=15)
+@given(tori.filter(lambda torus: 0.02 < abs(torus[2]) < 0.999))
+def test_the_rotation_number_is_the_mean_turn_on_every_torus(torus):
+    a, h, share = torus
+    check_rotation_number(a, h, share * f_max(h), iterations=2000)
+
+
+def test_the_rotation_number_is_the_mean_turn_of_one_long_orbit():
+    # Neither matrix nor lift: 2000 returns of `eq01`, the angle of w unwrapped from sample to sample.
+    a, h, f = 0.5, 0.5, 0.5
+    turning, returns = turning_points(h, f), 2000
+    times = np.linspace(0.0, returns * turning.period, 100 * returns)
+    states = solve(HESS, turning.state_at_lower_turn(0.0), (a, 1.0), times, STANDARD).states
+    angle = np.unwrap(np.arctan2(states[:, 0], states[:, 1]))
+    mean = (angle[-1] - angle[0]) / (2 * math.pi * returns)
+    assert circle_map(a, h, f, REFERENCE).rotation_number == pytest.approx(mean, abs=1.0 / returns)
+
+
+@PROPERTY
+@given(tori)
+def test_for_positive_f_the_rotation_number_is_between_minus_one_half_and_zero(torus):
+    a, h, share = torus
+    found = map_of((a, h, abs(share)))
+    # −½ is the limit f → 0 below the separatrix: round-off may step over it.
+    assert -0.5 - 1e-12 <= found.rotation_number <= 0.0
+    if abs(share) > 1e-3 and h > -0.9:
+        assert found.rotation_number > -0.5
+    # An elliptic map turns by 2 arccos|Re α|, whichever whole turns are added.
+    if found.kind == "elliptic":
+        assert abs(math.cos(math.pi * found.rotation_number)) == pytest.approx(found.trace / 2, abs=1e-9)
+    if found.kind == "hyperbolic":
+        assert found.rotation_number == 0.0
+
+
+@pytest.mark.parametrize("a", [0.0, 0.5, -1.2])
+@pytest.mark.parametrize("name", LEVELS)
+def test_the_grid_of_rotation_numbers_is_the_circle_maps_point_by_point(a, name):
+    h, f = np.array([-0.95, -0.3, 0.4, 1.0, 1.7]), np.array([-1.4, -0.3, 0.05, 0.3, 0.9, 1.4])
+    grid = rotation_number_grid(a, h, f, level(name))
+    assert grid.shape == (f.size, h.size)
+    with pytest.raises(ValueError, match="read-only"):
+        grid[0, 0] = 0.0
+    for j, fj in enumerate(f):
+        for i, hi in enumerate(h):
+            # Outside the region the edge of the same h stands in.
+            within = math.copysign(min(abs(fj), f_max(hi)), fj)
+            expected = circle_map(a, hi, within, level("reference")).rotation_number
+            assert grid[j, i] == pytest.approx(expected, abs=max(1e-9, 10 * level(name).promise))
+
+
+def test_the_grid_is_odd_in_f_and_finite_at_the_separatrix():
+    f = np.linspace(-1.0, 1.0, 21)
+    grid = rotation_number_grid(0.4, [0.3, 1.0, 2.0], f, STANDARD)
+    off_axis = np.abs(f) > 1e-9
+    assert np.array_equal(grid[off_axis], -grid[::-1][off_axis])
+    assert np.all(np.isfinite(grid))
+    assert np.all(grid[f > 1e-9] <= 0.0)
+    assert rotation_number_grid(0.4, [], [], STANDARD).shape == (0, 0)
+
+
+# ---- where the map locks ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("a", [0.01, 0.05, 0.25, 0.5, 1.0, 2.0, 20.0, -0.5])
+def test_the_lock_boundary_is_where_the_trace_is_two(a):
+    boundary = lock_boundary(a, REFERENCE, points=20)
+    assert boundary.shape == (20, 2)
+    with pytest.raises(ValueError, match="read-only"):
+        boundary[0, 0] = 0.0
+    for h, f in boundary[1:-1]:
+        assert circle_map(a, h, f, REFERENCE).trace == pytest.approx(2.0, abs=1e-9)
+        share = f / f_max(h)
+        left, right = (circle_map(a, x, share * f_max(x), REFERENCE) for x in (h - 1e-4 * (h + 1), h + 1e-4 * (h + 1)))
+        assert left.trace < 2 < right.trace
+        assert (left.kind, right.kind) == ("elliptic", "hyperbolic")
+    assert np.all(boundary[:, 1] >= 0)
+    assert np.all(np.diff(boundary[:, 1] / [f_max(h) for h, _ in boundary]) < 0)
+
+
+@pytest.mark.parametrize("a", [0.01, 0.05, 0.25, 0.5, 1.0, 2.0, 20.0, -0.5])
+def test_the_ends_of_the_lock_boundary_are_exact(a):
+    first, last = lock_boundary(a, DRAFT, points=8)[[0, -1]]
+    n = abs(a) / math.hypot(1.0, a)
+    assert tuple(first) == pytest.approx(curve_point(n), rel=1e-13, abs=1e-13)
+    assert trace_on_curve(a, n) == pytest.approx(2.0, abs=1e-13 * (1 + a * a))
+    assert first[0] == lock_boundary_end(a)
+    assert tuple(last) == (1.0, 0.0)
+
+
+@pytest.mark.parametrize("name", ["draft", "standard", "precise"])
+def test_the_lock_boundary_keeps_the_promise_of_its_level(name):
+    exact, found = lock_boundary(0.5, REFERENCE, points=12), lock_boundary(0.5, level(name), points=12)
+    assert np.max(np.abs(exact - found)) <= level(name).promise
+
+
+@pytest.mark.parametrize("a", [0.0, -0.0, 1e-7])
+def test_without_a_no_map_locks(a):
+    assert lock_boundary(a, DRAFT).shape == (0, 2)
+
+
+@pytest.mark.parametrize(("a", "h"), [(0.5, 0.5), (0.5, 0.95), (0.25, 1.2), (-0.5, 0.6), (1.0, 0.5)])
+def test_the_lock_boundary_at_given_h_has_trace_two(a, h):
+    f = lock_boundary_f(a, h, REFERENCE)
+    assert 0 < f < f_max(h)
+    assert circle_map(a, h, f, REFERENCE).trace == pytest.approx(2.0, abs=1e-12)
+
+
+def test_the_lock_boundary_at_given_f_has_trace_two():
+    h = lock_boundary_h(0.5, 0.5, REFERENCE, 0.3, 0.99)
+    assert circle_map(0.5, h, 0.5, REFERENCE).trace == pytest.approx(2.0, abs=1e-12)
+    assert lock_boundary_f(0.5, h, REFERENCE) == pytest.approx(0.5, abs=1e-12)
+
+
+@pytest.mark.parametrize(("h", "f"), [(1.5, 0.6), (1.0, 1.0), (0.3, 0.5), (-0.5, 0.2), (3.0, -2.0)])
+def test_limit_cycles_appear_at_the_critical_a(h, f):
+    a = critical_a(h, f, REFERENCE)
+    assert circle_map(a, h, f, REFERENCE).trace == pytest.approx(2.0, abs=1e-12)
+    assert circle_map(a - 1e-4, h, f, REFERENCE).kind == "elliptic"
+    assert circle_map(a + 1e-4, h, f, REFERENCE).kind == "hyperbolic"
+
+
+def test_exactly_on_the_lock_boundary_the_map_is_parabolic_with_one_fixed_point():
+    f = lock_boundary_f(0.5, 0.6, REFERENCE)
+    found = circle_map(0.5, 0.6, f, REFERENCE)
+    assert found.kind == "parabolic"
+    (point,) = found.fixed_points
+    assert point.log_multiplier == 0.0
+    # Two fixed points ±φ* have met: at 0 or at π.  Round-off leaves them √ε apart.
+    assert abs(math.sin(point.phi)) < 1e-5
+    assert angle_between(found.theta(point.phi), point.phi) < 1e-6
+
+
+# ---- what cannot be answered ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("a", "h", "f", "error", "words"),
+    [
+        (math.nan, 1.5, 0.6, InvalidParameter, "a is not a finite number"),
+        (math.inf, 1.5, 0.6, InvalidParameter, "a is not a finite number"),
+        (0.5, math.nan, 0.6, InvalidParameter, "h is not a finite number"),
+        (0.5, 1.5, math.nan, InvalidParameter, "f is not a finite number"),
+        (0.5, 1.5, -math.inf, InvalidParameter, "f is not a finite number"),
+        (1e7, 1.5, 0.6, InvalidParameter, "choose .a. ≤ 1e"),
+        (-1e7, 1.5, 0.6, InvalidParameter, "choose .a. ≤ 1e"),
+        (0.5, -1.0, 0.0, OutsideRegion, "Choose h > −1"),
+        (0.5, 0.0, 2.0, OutsideRegion, r"choose .f. ≤ 0\.87738267"),
+        (0.5, 1.0, 0.0, Separatrix, "no return"),
+        (1e6, 1e8, 0.6, WorkLimit, "choose smaller a"),
+    ],
+)
+def test_a_torus_that_has_no_map_raises_a_sentence(a, h, f, error, words):
+    assert issubclass(error, ModelError)
+    with pytest.raises(error, match=words):
+        circle_map(a, h, f, STANDARD)
+
+
+@pytest.mark.parametrize(
+    ("h", "f", "error"),
+    [
+        ([math.nan], [0.0], InvalidParameter),
+        ([0.0], [math.inf], InvalidParameter),
+        ([-1.0], [0.0], InvalidParameter),
+        ([1e13], [0.0], InvalidParameter),
+        ([[0.0]], [0.0], WorkLimit),
+        (np.zeros(1001), np.zeros(1000), WorkLimit),
+    ],
+)
+def test_a_grid_that_cannot_be_filled_raises_a_sentence(h, f, error):
+    with pytest.raises(error, match=r"grid (needs|has)"):
+        rotation_number_grid(0.5, h, f, DRAFT)
+
+
+def test_a_grid_never_hides_a_point_that_took_too_many_steps():
+    with pytest.raises(WorkLimit, match="choose smaller a"):
+        rotation_number_grid(1e6, [0.5, 1e8], [0.1, 1.0], DRAFT)
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf, 1e7])
+@pytest.mark.parametrize(
+    "use",
+    [
+        lambda a: lock_boundary(a, DRAFT),
+        lambda a: lock_boundary_f(a, 0.5, DRAFT),
+        lambda a: lock_boundary_h(a, 0.5, DRAFT, 0.3, 0.9),
+        lambda a: critical_a(1.5, 0.6, DRAFT, high=a),
+        lambda a: rotation_number_grid(a, [0.5], [0.1], DRAFT),
+        lambda a: trace_on_curve(a, 0.5),
+    ],
+    ids=["boundary", "f", "h", "critical a", "grid", "on curve"],
+)
+def test_a_without_meaning_raises_a_sentence_everywhere(use, bad):
+    with pytest.raises(InvalidParameter, match=r"^a (is not a finite number|= 1e\+07 is too large)"):
+        use(bad)
+
+
+@pytest.mark.parametrize(
+    ("use", "error", "words"),
+    [
+        (lambda: lock_boundary_f(0.5, -0.5, DRAFT), InvalidParameter, "no f between"),
+        (lambda: lock_boundary_f(0.0, 0.5, DRAFT), InvalidParameter, "no f between"),
+        (lambda: lock_boundary_f(0.5, -2.0, DRAFT), OutsideRegion, "Choose h > −1"),
+        (lambda: lock_boundary_f(0.5, math.nan, DRAFT), InvalidParameter, "h is not"),
+        (lambda: lock_boundary_f(1e6, 1e8, DRAFT), WorkLimit, "choose smaller a"),
+        (lambda: lock_boundary_h(0.5, 0.5, DRAFT, 2.0, 3.0), InvalidParameter, "no h between 2 and 3"),
+        (lambda: lock_boundary_h(0.5, math.nan, DRAFT, 0.3, 0.9), InvalidParameter, "f is not"),
+        (lambda: lock_boundary_h(0.5, 0.5, DRAFT, -2.0, 0.9), OutsideRegion, "Choose h > −1"),
+        (lambda: lock_boundary_h(0.5, 0.5, DRAFT, 0.3, math.nan), InvalidParameter, "h is not"),
+        (lambda: critical_a(0.0, 1e-9, DRAFT), InvalidParameter, "no a between"),
+        (lambda: critical_a(0.0, 5.0, DRAFT), OutsideRegion, "choose .f. ≤"),
+        (lambda: critical_a(1.0, 0.0, DRAFT), Separatrix, "no return"),
+        (lambda: critical_a(math.nan, 0.5, DRAFT), InvalidParameter, "h is not"),
+        (lambda: trace_on_curve(0.5, math.nan), InvalidParameter, "n is not"),
+    ],
+)
+def test_a_search_without_an_answer_raises_a_sentence(use, error, words):
+    with pytest.raises(error, match=words):
+        use()
+
+
+def test_a_trace_on_the_curve_beyond_double_range_is_infinite():
+    assert trace_on_curve(1e3, 0.1) == math.inf

@@ -1,0 +1,831 @@
+"""At the edges of what can be asked: right within the level's promise, or refused in a sentence.
+
+One row for each extreme.  `python tests/test_extremes.py` prints what was measured as a table.
+"""
+
+import math
+import re
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import mpmath
+import numpy as np
+import pytest
+
+if __name__ == "__main__":
+    sys.path[:0] = [str(Path(__file__).parents[1] / folder) for folder in ("models", "oracle", "support")]
+
+import extremes_ball
+import extremes_euler_poisson
+import extremes_suslov
+
+import oracle
+from hess_mechanics import (
+    HessBody,
+    SuslovBody,
+    check_body,
+    circle_map,
+    curve_point,
+    f_max,
+    level,
+    lock_boundary,
+    rotation_number_grid,
+    solve,
+    systems,
+)
+from hess_mechanics.errors import (
+    InvalidParameter,
+    ModelError,
+    NoField,
+    NotPositiveDefinite,
+    OutsideRegion,
+    Separatrix,
+    WorkLimit,
+)
+from hess_mechanics.numerics.accuracy import Status
+from hess_mechanics.suslov.additional_integral import I11_of, additional_integral
+from hess_mechanics.suslov.free import equilibria, free_motion
+from hess_mechanics.suslov.scattering import scattering
+from hess_mechanics.suslov_hess.torus import cycles, track
+
+HESS, SUSLOV = systems()["hess"], systems()["suslov"]
+# What each level promises; `reference` goes to the floor of double precision, wherever the motion puts that.
+PROMISE = {"draft": 1e-3, "standard": 1e-6, "precise": 1e-9, "reference": 1e-12}
+ANY = ("any",)
+PHASES = np.linspace(-3.0, 3.1, 14)
+
+
+@dataclass(frozen=True)
+class Row:
+    """error(level) is the true error, measured `against` something independent, and must be within bound(level).
+
+    `floor` replaces a smaller promise at `precise` and `reference`; `because` says what puts it there.  Where no double
+    can hold the answer, a result that says so is right too: `admitted(level)`.
+    """
+
+    name: str
+    against: str
+    error: Callable
+    floor: float = 1e-12
+    because: str = ""
+    levels: tuple[str, ...] = tuple(PROMISE)
+    admitted: Callable = lambda grade: False
+    torus: tuple[float, float, float] | None = None
+
+    def bound(self, name):
+        return PROMISE[name] if name in ("draft", "standard") else max(PROMISE.get(name, 0.0), self.floor)
+
+
+@dataclass(frozen=True)
+class Refusal:
+    """request(level) must raise this error; `words` say what is wrong, what is allowed or what to do."""
+
+    name: str
+    request: Callable
+    error: type
+    words: str
+
+
+# ---- how each kind of result is measured ------------------------------------------------------------------------
+
+
+def turned(left, right):
+    return np.abs(np.angle(np.exp(1j * (np.asarray(left) - np.asarray(right)))))
+
+
+def trace_error(found, log_trace):
+    """Relative where the trace exceeds 1; of its logarithm where it exceeds double range."""
+    if log_trace > 700:
+        return abs(found.log_trace / log_trace - 1)
+    trace = math.exp(log_trace)
+    return abs(found.trace - trace) / max(1.0, trace)
+
+
+def map_error(found, truth):
+    """In Θ on its graph (where it is steep an error of Θ is one of φ), the trace, and the rotation number.
+
+    A limit cycle where there is none, or none where there is one, is an error of 1.
+    """
+    exact = [truth.theta(phi) for phi in PHASES]
+    steepness = np.maximum(1.0, [truth.slope(phi) for phi in PHASES])
+    half = math.exp(min(truth.log_trace, 1.0)) / 2
+    # An elliptic map turns by arccos(t/2), whichever whole turns are added; −½ < ρ ≤ 0 for f > 0.
+    rotation = abs(abs(math.cos(math.pi * found.rotation_number)) - min(1.0, half))
+    wrong_kind = float(abs(half - 1) > 1e-3 and (found.kind == "hyperbolic") != (half > 1))
+    return float(max(np.max(turned(found.theta(PHASES), exact) / steepness), trace_error(found, truth.log_trace),
+                     rotation, wrong_kind))
+
+
+def a_map(name, a, h, f, truth, against, **options):
+    once = cache(truth)
+    return Row(f"Θ: {name}", against, lambda grade: map_error(circle_map(a, h, f, level(grade)), once()),
+               torus=(a, h, f), **options)
+
+
+def says_so(a, h, f, error):
+    """The status is not OK, and the estimate covers this error, or says that no digit is known."""
+    def admitted(grade):
+        found = circle_map(a, h, f, level(grade))
+        return found.status is not Status.OK and found.error_estimate >= min(0.1, error / 10)
+
+    return admitted
+
+
+def by_orbits(name, a, h, f, digits=40, **options):
+    return a_map(name, a, h, f, lambda: oracle.map_by_three_orbits(a, h, f, digits),
+                 f"three orbits, {digits} digits", **options)
+
+
+def vanishing(name, a, h, f, **options):
+    return a_map(name, a, h, f, lambda: oracle.map_of_vanishing_f(a, h, f), "closed form, f → 0", **options)
+
+
+def without_a(name, h, f, **options):
+    return a_map(name, 0.0, h, f, lambda: oracle.map_without_a(h, f), "closed form, Π(n, m)", **options)
+
+
+def by_cycle(name, a, h, f, **options):
+    once = cache(lambda: oracle.stable_cycle(a, h, f))
+
+    def error(grade):
+        found, (phi, log_trace) = circle_map(a, h, f, level(grade)), once()
+        stable, unstable = found.fixed_points
+        # Everything but a neighbourhood of the unstable cycle, too small for a double, falls onto the stable one.
+        fallen = turned(found.theta([0.0, 1.0, -1.0, 3.0]), phi)
+        return float(max(turned(stable.phi, phi), turned(unstable.phi, -phi), np.max(fallen),
+                         trace_error(found, log_trace), abs(unstable.log_multiplier / (2 * log_trace) - 1)))
+
+    return Row(f"Θ: {name}", "the cycle, Fourier collocation", error, torus=(a, h, f), **options)
+
+
+def orbit_error(found, exact, speed=None):
+    """In units in which the state is O(1): an angular velocity relative to the fastest of the motion."""
+    apart = oracle.distances(found, exact)
+    speed = speed or max(np.max(np.abs(np.asarray(exact[:, :2], float))), 1e-300)
+    return float(max(np.max(apart[:, :2]) / speed, np.max(apart[:, 2:])))
+
+
+def an_orbit(name, system, state, parameters, times, truth=None, digits=36, against=None, speed=None, **options):
+    @cache
+    def once():
+        return truth() if truth else oracle.orbit_in_decimals(system, state, parameters, times, digits)
+
+    return Row(f"{system.name}: {name}", against or f"Taylor series, {digits} digits",
+               lambda grade: orbit_error(solve(system, state, parameters, times, level(grade)).states, once(), speed),
+               **options)
+
+
+def a_pendulum(name, a, h, phi, times, b=1.0, **options):
+    """An orbit with f = 0 from n3 = 1; the times are in units of 1/√b."""
+    root, fast = math.sqrt(b), 2 * math.sqrt((h + 1) / 2)
+    units = np.array([root, root, 1, 1, 1])
+    start = np.array([fast * math.sin(phi), fast * math.cos(phi), 0.0, 0.0, 1.0]) * units
+    return an_orbit(name, HESS, start, (a, b), np.asarray(times) / root,
+                    truth=lambda: oracle.pendulum(a, h, phi, times) * units,
+                    against="closed form, loxodromic pendulum", **options)
+
+
+def at_rest(name, system, top, parameters, **options):
+    state = (0.0, 0.0, 0.0, 0.0, top)
+    return an_orbit(name, system, state, parameters, [top * 1e6], truth=lambda: np.array([state]),
+                    against="equilibrium", **options)
+
+
+def symmetric(name, system, state, parameters, times, signs, time, **options):
+    """Does y(t) → signs·y(time·t) take the orbit to the orbit of its image?"""
+    signs, times = np.array(signs, float), np.asarray(times)
+
+    def error(grade):
+        there = solve(system, state, parameters, times, level(grade)).states
+        image = solve(system, signs * state, parameters, time * times, level(grade)).states
+        return orbit_error(image, signs * there)
+
+    return Row(f"{system.name}: {name}", "its mirror image", error, **options)
+
+
+def there_and_back(name, system, state, parameters, span, **options):
+    def error(grade):
+        there = solve(system, state, parameters, [span], level(grade)).states[0]
+        back = solve(system, there, parameters, [-span], level(grade)).states
+        return orbit_error(back, np.array([state]))
+
+    return Row(f"{system.name}, there and back: {name}", "its own start", error, **options)
+
+
+def steepest(found):
+    """The steepest slope of Θ, (|α| + |β|)²."""
+    re_alpha, im_alpha, im_beta = found.matrix
+    return (math.hypot(re_alpha, im_alpha) + abs(im_beta)) ** 2 * math.exp(2 * found.log_scale)
+
+
+def reversor(name, a, h, f, **options):
+    """Θ(−Θ(φ)) = −φ, relative to the steepest slope of Θ."""
+    def error(grade):
+        found = circle_map(a, h, f, level(grade))
+        return float(np.max(turned(found.theta(-found.theta(PHASES)), -PHASES)) / steepest(found))
+
+    return Row(f"Θ, reversor: {name}", "Θ(−Θ(φ)) = −φ", error, **options)
+
+
+def mirrored(name, a, h, f, **options):
+    """−f turns the other way, Θ(π − φ) = π − Θ(φ); −a turns the section through π."""
+    def error(grade):
+        there, other_f, other_a = (circle_map(*x, level(grade)) for x in ((a, h, f), (a, h, -f), (-a, h, f)))
+        theta = there.theta(PHASES)
+        return float(max(np.max(turned(other_f.theta(math.pi - PHASES), math.pi - theta)),
+                         np.max(turned(other_a.theta(math.pi + PHASES), math.pi + theta)),
+                         abs(other_f.rotation_number + there.rotation_number),
+                         abs(other_a.rotation_number - there.rotation_number)) / steepest(there))
+
+    return Row(f"Θ, mirrored: {name}", "its mirror images", error, **options)
+
+
+def drift(name, system, state, parameters, span, **options):
+    def error(grade):
+        orbit = solve(system, state, parameters, np.linspace(0.0, span, 101), level(grade))
+        along, start = (system.integrals(y, parameters) for y in (orbit.states.T, np.array(state)))
+        return max(float(np.max(np.abs(along[key] - start[key]))) / max(1.0, abs(start[key])) for key in start)
+
+    return Row(f"{system.name}, drift: {name}", "its integrals", error, levels=("reference",), **options)
+
+
+def on_the_grid(name, a, h, f, digits=50, **options):
+    """One rotation number of the picture's grid; between −½ and 0 for f > 0."""
+    @cache
+    def once():
+        half_trace = math.exp(min(oracle.map_by_three_orbits(a, h, f, digits).log_trace, 1.0)) / 2
+        return -math.acos(min(1.0, half_trace)) / math.pi
+
+    return Row(f"grid of rotation numbers: {name}", f"three orbits, {digits} digits",
+               lambda grade: abs(float(rotation_number_grid(a, [h], [f], level(grade))[0, 0]) - once()), **options)
+
+
+def on_the_lock_boundary(name, a, **options):
+    """How far in h, relative to h + 1, the middle of the boundary is from where the trace is 2."""
+    def error(grade):
+        h, f = lock_boundary(a, level(grade), points=7)[3]
+        step = 1e-6 * (h + 1)
+        traces = [math.exp(oracle.map_by_three_orbits(a, x, f, 40).log_trace) for x in (h, h + step)]
+        return abs((traces[0] - 2) / (traces[1] - traces[0])) * 1e-6
+
+    return Row(f"lock boundary: {name}", "three orbits, 40 digits", error, levels=("draft", "reference"), **options)
+
+
+def a_check(name, tensor, **options):
+    """With I11 = I22 = 1: I33 = 1 ± √(1 − 4(I13² + I23²))."""
+    def error(_):
+        with mpmath.workdps(40):
+            I13, I23 = map(mpmath.mpf, tensor[2:])
+            root = mpmath.sqrt(1 - 4 * (I13**2 + I23**2))
+            interval = [float(1 - root), float(1 + root)]
+        return float(np.max(np.abs(np.array(check_body(*tensor).I33) - interval)))
+
+    return Row(f"check_body: {name}", "closed form", error, levels=ANY, **options)
+
+
+def in_the_body(body, states):
+    """`eq01` in units b = 1 → `Biz131`: the units (b < 0 turns the vertical over), then the rotation by arctan a."""
+    unit, r = math.sqrt(abs(body.b)), math.hypot(1.0, body.a)
+    w1, w2 = unit * states[:, 0], unit * states[:, 1] * r
+    n1, n2, n3 = math.copysign(1.0, body.b) * states[:, 2:].T
+    return np.column_stack([w1, w2, n1, (n2 - body.a * n3) / r, (n3 + body.a * n2) / r])
+
+
+def on_a_torus(name, body, h, phi, span, **options):
+    """`track` on the torus f = 0, from n3 = −1 (on the separatrix from n3 = 1)."""
+    def error(grade):
+        found = track(body, h, 0.0, phi, span / math.sqrt(abs(body.b)), level(grade), 4.0)
+        times = found.orbit.times[::40]
+        start = 0 if h == 1 else -mpmath.ellipk(2 / (mpmath.mpf(h) + 1)) * mpmath.sqrt(2 / (mpmath.mpf(h) + 1))
+        exact = in_the_body(body, oracle.pendulum(body.a, h, phi, times, since=start))
+        return orbit_error(np.hstack([found.omega, found.gamma])[::40], exact)
+
+    return Row(f"track: {name}", "closed form, loxodromic pendulum", error, **options)
+
+
+def the_cycles(name, body, h, **options):
+    """Both cycles of the torus f = 0: great circles φ = ∓π/2, the stable one first (a > 0)."""
+    def error(grade):
+        stable = circle_map(body.a, h, 0.0, level(grade)).fixed_points[0]
+        start = -mpmath.ellipk(2 / (mpmath.mpf(h) + 1)) * mpmath.sqrt(2 / (mpmath.mpf(h) + 1))
+        errors = []
+        pair = cycles(body, h, 0.0, stable, level(grade), 4.0)
+        for found, phi in zip(pair, (-math.pi / 2, math.pi / 2), strict=True):
+            exact = in_the_body(body, oracle.pendulum(body.a, h, phi, found.orbit.times[::40], since=start))
+            errors.append(orbit_error(np.hstack([found.omega, found.gamma])[::40], exact))
+        return max(errors)
+
+    return Row(f"cycles: {name}", "closed form, great circle", error, **options)
+
+
+def settled_turning(body, omega, times, digits=30):
+    """The motion without a field long after (before) its passage: then γ turns about ω^(±), which has energy E(ω)."""
+    near = math.copysign(80.0, times[0]) / free_rate(body, omega)
+    state = oracle.orbit_in_decimals(SUSLOV, [*omega, *UP], body.parameters, [near], digits)[0]
+    with mpmath.workdps(40):
+        I11, I22, I13, I23, w1, w2 = map(mpmath.mpf, (*body.parameters[:4], *omega))
+        # biz138, its denominator corrected.
+        size = mpmath.sqrt((I11 * w1**2 + I22 * w2**2) / (I11 * I23**2 + I22 * I13**2)) * (-1 if times[0] > 0 else 1)
+        point = mpmath.matrix([size * I23, -size * I13, 0])
+        speed, gamma = mpmath.norm(point), mpmath.matrix([mpmath.mpf(str(x)) for x in state[2:]])
+        axis = point / speed
+        along = axis * mpmath.fdot(axis, gamma)
+        across = mpmath.matrix([gamma[1] * axis[2] - gamma[2] * axis[1], gamma[2] * axis[0] - gamma[0] * axis[2],
+                                gamma[0] * axis[1] - gamma[1] * axis[0]])
+        rows = []
+        for t in times:
+            angle = speed * (mpmath.mpf(t) - mpmath.mpf(near))
+            turned = along + (gamma - along) * mpmath.cos(angle) + across * mpmath.sin(angle)
+            rows.append([float(point[0]), float(point[1]), *map(float, turned)])
+    return np.array(rows)
+
+
+def free_rate(body, omega):
+    """ω0 of the paper."""
+    I11, I22, I13, I23, *_ = body.parameters
+    return math.sqrt((I22 * I13**2 + I11 * I23**2) * (I11 * omega[0] ** 2 + I22 * omega[1] ** 2)) / (I11 * I22)
+
+
+@cache
+def free_in_decimals(tensor, omega, times):
+    """States from γ = UP, by the field of `Biz131`."""
+    return oracle.orbit_in_decimals(SUSLOV, [*omega, *UP], SuslovBody(*tensor).parameters, times, 30)
+
+
+def free(name, tensor, omega, times, truth=None, against="Taylor series of `Biz131`, 30 digits", **options):
+    """A motion without a field, from γ = UP."""
+    body = SuslovBody(*tensor)
+    once = cache(lambda: truth(body, omega, times) if truth else free_in_decimals(tensor, omega, tuple(times)))
+
+    def error(grade):
+        found = free_motion(body, omega, UP, times, level(grade))
+        return orbit_error(np.hstack([found.omega, found.gamma]), once())
+
+    return Row(f"free Suslov: {name}", against, error, **options)
+
+
+def free_refusal(name, tensor, omega, words, error=InvalidParameter, times=(1.0,)):
+    """Of a motion without a field."""
+    return Refusal(f"free Suslov, {name}",
+                   lambda grade: free_motion(SuslovBody(*tensor), omega, UP, times, grade), error, words)
+
+
+def free_F2(name, k, omega, **options):
+    """F2, in units of its value where |Γ| = 1."""
+    body = SuslovBody(I11_of(k, 1.0, 0.5), 1.0, 0.0, 0.5)
+    integral = additional_integral(k, body)
+
+    def error(grade):
+        rate = free_rate(body, omega)
+        found = free_motion(body, omega, UP, np.linspace(0.0, 60.0 / rate, 200), level(grade))
+        h = 0.5 * (body.I11 * omega[0] ** 2 + body.I22 * omega[1] ** 2)
+        top, _ = integral.at_fixed_points(h)
+        return float(np.max(np.abs(integral(found.omega, found.gamma) - integral(omega, UP)))) / abs(top)
+
+    return Row(f"free Suslov, drift of F2: {name}", "its start", error, **options)
+
+
+def cos_chi_in_decimals(I11, I22, I13, I23):
+    """From the monodromy round the singular points of the passage, as in the README; 60 digits."""
+    with mpmath.workdps(60):
+        I11, I22, I13, I23 = map(mpmath.mpf, (I11, I22, I13, I23))
+        J = mpmath.hypot(I13, I23)
+        w, kappa = (I22 * I13**2 + I11 * I23**2) / J**2, mpmath.sqrt(I11 * I22) / J
+        K, c = kappa**2 * J / w, kappa * I13 * I23 * (I22 - I11) / (J**2 * w)
+        if c == 0:
+            # The notes' formula.
+            k = mpmath.sqrt(mpmath.mpc(kappa**2 - K**2))
+            return float(mpmath.re(2 * mpmath.cos(mpmath.pi * k / 2) ** 2 / mpmath.cosh(mpmath.pi * K / 2) ** 2) - 1)
+        C = mpmath.cos(mpmath.pi / 2 * mpmath.sqrt(kappa**2 - (K + 1j * c) ** 2))
+        return float(2 * ((C.real / mpmath.cosh(mpmath.pi * K / 2)) ** 2
+                          + (C.imag / mpmath.sinh(mpmath.pi * K / 2)) ** 2) - 1)
+
+
+def the_angle(name, tensor, **options):
+    """cos χ on both arcs."""
+    def error(grade):
+        exact = cos_chi_in_decimals(*tensor)
+        return max(abs(scattering(SuslovBody(*tensor), level(grade), arc).cos_chi - exact) for arc in (1, -1))
+
+    return Row(f"scattering, cos χ: {name}", "closed form", error, **options)
+
+
+def circle_joined(name, tensor, omega, times, **options):
+    """Γ⁺ of the orbit that starts next to the unstable point, with its δ, θ⁻ and φ; it has settled at the last time."""
+    body = SuslovBody(*tensor)
+    line = equilibria(body, 0.5 * (body.I11 * omega[0] ** 2 + body.I22 * omega[1] ** 2))
+    xi, eta = line.xi, np.array([body.I13, body.I23]) / math.hypot(body.I13, body.I23)
+    across = float(np.dot(omega, eta))
+    theta, phi = math.acos(np.dot(UP, xi)), math.atan2(UP[2], np.dot(UP[:2], eta))
+
+    def error(grade):
+        found = scattering(body, level(grade), 1 if across > 0 else -1, abs(across) / line.speed)
+        end = free_in_decimals(tensor, omega, tuple(times))[-1].astype(float)
+        return abs(float(found.Gamma_plus(theta, phi)) - float(end[2:] @ xi))
+
+    return Row(f"scattering, Γ⁺: {name}", "Taylor series of `Biz131`, 30 digits", error, **options)
+
+
+# ---- the rows ---------------------------------------------------------------------------------------------------
+
+GENERIC = (2.0, 1.0, 0.3, 0.5, 0.3, -0.5, 1.0)
+START = (0.8, -0.4, 0.6, 0.0, 0.8)
+UP = (0.6, 0.0, 0.8)
+FIGURE_3, SLANTING = (2.44, 1.0, 0.0, 0.5), (2.0, 1.0, 0.3, 0.5)
+HESS_START = (0.3, 0.9, 0.6, 0.0, 0.8)
+GRAZING = (2.0, 0.0, 5e-7, 0.0, 1.0)  # h = 1, f = 1e-6
+BOTTOM = -1 + 1e-12
+# With I11 = I22 = 1 a tensor is a body's for I13² + I23² < 1/4.
+FLAT, NO_BODY = ((1.0, 1.0, 0.3 * x, 0.4 * x) for x in (1 - 1e-9, 1 + 1e-9))
+HEAVY, LIGHT = (1e6, 1.0, 0.3, 200.0), (1.0, 1e-6, 3e-7, 5e-4)  # bodies, within a factor 2 of not being one
+
+DEPTH = "f_max − f = 1e-12 f: its last place moves the turning points by 5e-11"
+SADDLE = "the saddle amplifies the rounding of the start by e^t"
+CLOSE = "of h − 1 = 2e-9 a double keeps 7 digits, and with it of the time that the passage takes"
+
+
+def swapped(tensor):
+    """The same body with e1 and e2 exchanged."""
+    I11, I22, I13, I23 = tensor
+    return I22, I11, I23, I13
+
+
+def with_field(tensor, b=1.0):
+    return (*tensor, 0.3 * b, -0.5 * b, b)
+
+
+ROWS = [
+    # f
+    vanishing("f = 0, h = 1.5", 0.5, 1.5, 0.0),
+    vanishing("f = 0, h = 0.3", 0.5, 0.3, 0.0),
+    vanishing("f = 1e-300, h = 1.5", 0.5, 1.5, 1e-300),
+    vanishing("f = 1e-300, h = 0.3", 0.5, 0.3, 1e-300),
+    vanishing("f = 1e-100, h = 1", 0.5, 1.0, 1e-100, admitted=says_so(0.5, 1.0, 1e-100, 3.0),
+              because="the last place of h is f times 1e84"),
+    by_orbits("f = 1e-12, h = 1.5", 0.5, 1.5, 1e-12, digits=60),
+    by_orbits("f = 1e-12, h = 0.3", 0.5, 0.3, 1e-12, digits=60),
+    by_orbits("f = −1e-12, h = −0.5", 0.5, -0.5, -1e-12, digits=60),
+    by_orbits("f = f_max (1 − 1e-12), h = 0.3", 0.5, 0.3, f_max(0.3) * (1 - 1e-12), floor=1e-10, because=DEPTH),
+    by_orbits("f = f_max (1 − 1e-12), h = 1.5", 0.5, 1.5, f_max(1.5) * (1 - 1e-12), floor=1e-10, because=DEPTH),
+    by_orbits("f = f_max (1 − 1e-12), h = −0.99", 0.5, -0.99, f_max(-0.99) * (1 - 1e-12), floor=1e-10, because=DEPTH),
+    a_map("f = f_max, n3 = 0.4", 0.5, curve_point(0.4)[0], f_max(curve_point(0.4)[0]),
+          lambda: oracle.map_on_the_curve(0.5, 0.4), "closed form, on the curve",
+          floor=1e-7, because="the last place of f moves the turning points by 1e-8"),
+    # h
+    vanishing("h = −1 + 1e-12, f = 0", 0.5, BOTTOM, 0.0),
+    by_orbits("h = −1 + 1e-12, f = f_max/2", 0.5, BOTTOM, 0.5 * f_max(BOTTOM)),
+    by_orbits("h = −1 + 1e-12, f = f_max (1 − 1e-6)", 0.5, BOTTOM, (1 - 1e-6) * f_max(BOTTOM)),
+    vanishing("h = 1 + 1e-12, f = 0", 0.5, 1 + 1e-12, 0.0),
+    vanishing("h = 1 − 1e-12, f = 0", 0.5, 1 - 1e-12, 0.0),
+    by_orbits("h = 1 + 1e-12, f = 0.5", 0.5, 1 + 1e-12, 0.5),
+    by_orbits("h = 1 − 1e-12, f = 0.5", 0.5, 1 - 1e-12, 0.5),
+    by_orbits("h = 1 + 1e-12, f = 1e-12", 0.5, 1 + 1e-12, 1e-12, digits=60),
+    by_orbits("h = 1 − 1e-12, f = 1e-12", 0.5, 1 - 1e-12, 1e-12, digits=60),
+    by_orbits("h = 1 + 1e-9, f = 1e-9", 0.5, 1 + 1e-9, 1e-9, digits=55),
+    by_orbits("h = 1 − 1e-9, f = 1e-9", 0.5, 1 - 1e-9, 1e-9, digits=55),
+    by_orbits("h = 1 + 1e-9, f = 1e-3", 0.5, 1 + 1e-9, 1e-3),
+    by_orbits("h = 1 − 1e-9, f = −1e-3", 0.5, 1 - 1e-9, -1e-3),
+    vanishing("h = 1e8, f = 0", 0.5, 1e8, 0.0),
+    by_orbits("h = 1e8, f = 1000", 0.5, 1e8, 1000.0),
+    by_orbits("h = 1e8, f = 0.9 f_max", 0.5, 1e8, 0.9 * f_max(1e8)),
+    # a
+    without_a("a = 0", 1.5, 0.6),
+    without_a("a = 0, h = 1 + 1e-9, f = 1e-9", 1 + 1e-9, 1e-9),
+    without_a("a = 0, h = 1e8, f = 1e4", 1e8, 1e4),
+    by_orbits("a = 1e-8, h = 1.5", 1e-8, 1.5, 0.6),
+    by_orbits("a = 1e-8, h = 0.3", 1e-8, 0.3, 0.6),
+    vanishing("a = 3, h = 0.3, f = 0", 3.0, 0.3, 0.0),
+    vanishing("a = 10, h = 0.3, f = 0", 10.0, 0.3, 0.0, floor=1e-7, because="|α| = 7e7 cancels to a trace of 0"),
+    by_orbits("a = 10, h = 0.3, f = 1e-12", 10.0, 0.3, 1e-12, digits=75, admitted=says_so(10.0, 0.3, 1e-12, 1e-7),
+              floor=1e-7, because="|α| = 7e7 cancels to a trace of 6e-4"),
+    by_orbits("a = 20, h = 0.3, f = 1e-12", 20.0, 0.3, 1e-12, digits=102, admitted=says_so(20.0, 0.3, 1e-12, 1e-5),
+              because="|α| = 1e16 cancels to a trace of 1e5"),
+    vanishing("a = 50, h = 0.3, f = 0", 50.0, 0.3, 0.0, admitted=says_so(50.0, 0.3, 0.0, 1.0),
+              because="|α| = 1e40 cancels to a trace of 0"),
+    vanishing("a = 50, h = 1.5, f = 0", 50.0, 1.5, 0.0),
+    vanishing("a = 50, h = 1.5, f = 1e-300", 50.0, 1.5, 1e-300),
+    by_cycle("a = 50, h = 1.5, f = 0.6", 50.0, 1.5, 0.6),
+    by_cycle("a = 50, h = 0.2, f = 0.5", 50.0, 0.2, 0.5),
+    by_cycle("a = 50, h = 1e8, f = 1e4", 50.0, 1e8, 1e4),
+    vanishing("a = 1e4, h = 1.5, f = 0", 1e4, 1.5, 0.0),
+    by_cycle("a = 1e4, h = 1.5, f = 0.6", 1e4, 1.5, 0.6),
+    by_cycle("a = 1e4, h = 0.2, f = 0.5", 1e4, 0.2, 0.5),
+    # symmetries of Θ
+    reversor("h = 1 + 1e-9, f = 1e-9", 0.5, 1 + 1e-9, 1e-9),
+    reversor("h = 1e8, f = 1000", 0.5, 1e8, 1000.0),
+    reversor("h = −1 + 1e-12", 0.5, BOTTOM, 0.5 * f_max(BOTTOM)),
+    reversor("f = f_max", 0.5, 0.3, f_max(0.3)),
+    reversor("a = 3, h = 0.3, f = 1e-300", 3.0, 0.3, 1e-300),
+    mirrored("h = 1 + 1e-9, f = 1e-9", 0.5, 1 + 1e-9, 1e-9),
+    mirrored("h = 1e8, f = 1000", 0.5, 1e8, 1000.0),
+    mirrored("h = −1 + 1e-12", 0.5, BOTTOM, 0.5 * f_max(BOTTOM)),
+    mirrored("f = f_max", 0.5, 0.3, f_max(0.3)),
+    mirrored("a = 3, h = 0.3, f = 1e-300", 3.0, 0.3, 1e-300),
+    # pictures of (h, f)
+    on_the_grid("h = 1e8, f = 1000", 0.5, 1e8, 1000.0),
+    on_the_grid("h = −0.99, f = f_max (1 − 1e-9)", 0.5, -0.99, f_max(-0.99) * (1 - 1e-9)),
+    on_the_grid("h = 1 − 1e-12, f = 1e-12", 0.5, 1 - 1e-12, 1e-12),
+    on_the_grid("h = 1 − 1e-12, f = 1e-14", 0.5, 1 - 1e-12, 1e-14, digits=60),
+    on_the_lock_boundary("a = 1e-3", 1e-3),
+    on_the_lock_boundary("a = 50", 50.0),
+    on_the_lock_boundary("a = 1e4", 1e4, floor=3e-8, because="h + 1 = 1e-8: of that the double h keeps 8 digits"),
+    # orbits of eq01
+    a_pendulum("f = 0, h = 0.3", 0.5, 0.3, 0.4, [1.0, 5.0, 20.0]),
+    a_pendulum("f = 0, h = 1.7, backward", 0.5, 1.7, 0.4, [-1.0, -5.0, -20.0]),
+    a_pendulum("separatrix, h = 1 exactly", 0.5, 1.0, math.pi / 2, [1.0, 5.0, 10.0]),
+    an_orbit("separatrix, h = 1, φ = 0.4", HESS, (2 * math.sin(0.4), 2 * math.cos(0.4), 0.0, 0.0, 1.0), (0.5, 1.0),
+             [1.0, 5.0, 10.0], floor=1e-11, because=SADDLE),
+    an_orbit("separatrix grazed, h = 1 + 2e-9", HESS, (2 + 1e-9, 0.0, 0.0, 0.0, 1.0), (0.5, 1.0), [1.0, 12.0, 24.0],
+             floor=1e-6, because=CLOSE),
+    an_orbit("separatrix grazed, h = 1 − 2e-9", HESS, (2 - 1e-9, 0.0, 0.0, 0.0, 1.0), (0.5, 1.0), [1.0, 12.0, 24.0],
+             floor=1e-6, because=CLOSE),
+    an_orbit("separatrix grazed, h = 1, f = 1e-6", HESS, GRAZING, (0.5, 1.0), [1.0, 8.0, 16.0], floor=1e-10,
+             because=SADDLE),
+    a_pendulum("h = −1 + 1e-12", 0.5, BOTTOM, 0.4, [1.0, 10.0, 100.0], speed=1.0),  # the unit of ω is √b, not 1e-6
+    a_pendulum("h = 1e8", 0.5, 1e8, 0.4, [1e-5, 1e-4, 1e-2]),
+    a_pendulum("b = 1e6", 0.5, 1.7, 0.4, [1.0, 5.0, 20.0], b=1e6),
+    a_pendulum("b = 1e-6", 0.5, 1.7, 0.4, [1.0, 5.0, 20.0], b=1e-6),
+    a_pendulum("b = 1e-6, t = 1e6", 0.5, 0.3, 0.4, [1e2, 1e3], b=1e-6, floor=1e-11,
+               because="the last place of the start changes the period, 1e3/2π times over"),
+    a_pendulum("a = 50", 50.0, 1.5, 0.4, [0.1, 1.0, 3.0]),
+    a_pendulum("a = 1e4", 1e4, 1.5, 0.4, [0.001, 0.01, 0.1]),
+    an_orbit("a = 0", HESS, HESS_START, (0.0, 1.0), [1.0, 5.0, 20.0]),
+    an_orbit("a = 1e-8", HESS, HESS_START, (1e-8, 1.0), [1.0, 5.0, 20.0]),
+    an_orbit("b = 0", HESS, HESS_START, (0.75, 0.0), [1.0, 5.0, 20.0]),
+    an_orbit("n = (0, 0, −1)", HESS, (0.6, 1.2, 0.0, 0.0, -1.0), (0.75, 1.0), [1.0, 5.0, 10.0]),
+    an_orbit("n3 = 0", HESS, (0.6, 1.2, 0.6, -0.8, 0.0), (0.75, 1.0), [1.0, 5.0, 10.0]),
+    an_orbit("t = 1e-6", HESS, HESS_START, (0.75, 1.0), [1e-6]),
+    an_orbit("t = −1e-6", HESS, HESS_START, (0.75, 1.0), [-1e-6]),
+    at_rest("at rest, n3 = 1, t = 1e6", HESS, 1.0, (0.75, 1.0)),
+    at_rest("at rest, n3 = −1, t = −1e6", HESS, -1.0, (0.75, 1.0)),
+    # orbits of Biz131
+    an_orbit("I11/I22 = 1e6", SUSLOV, (1e-3, 1.0, 0.6, 0.0, 0.8), with_field(HEAVY), [1.0, 10.0]),
+    # ω2 may come to √(2E/I22) = 1000: that is the unit in which the state is O(1).
+    an_orbit("I11/I22 = 1e6, all energy in ω1", SUSLOV, (1.0, 0.0, 0.6, 0.0, 0.8), with_field(HEAVY), [0.1, 1.0],
+             speed=1000.0),
+    an_orbit("I11/I22 = 1e-6", SUSLOV, (1.0, 1e-3, 0.6, 0.0, 0.8), with_field(swapped(HEAVY)), [1.0, 10.0]),
+    an_orbit("I22 = 1e-6", SUSLOV, (0.1, 10.0, 0.6, 0.0, 0.8), with_field(LIGHT), [0.001, 0.02]),
+    an_orbit("I11 = 1e-6", SUSLOV, (10.0, 0.1, 0.6, 0.0, 0.8), with_field(swapped(LIGHT)), [0.001, 0.02]),
+    an_orbit("a body all but flat", SUSLOV, START, with_field(FLAT), [1.0, 5.0, 20.0]),
+    an_orbit("no body (triangle inequality)", SUSLOV, START, with_field(NO_BODY), [1.0, 5.0, 20.0]),
+    an_orbit("I13 = I23 = 0", SUSLOV, START, with_field((2.0, 1.0, 0.0, 0.0)), [1.0, 5.0, 20.0]),
+    an_orbit("I13 = I23 = 0, b = 0, t = 1e4", SUSLOV, START, (2.0, 1.0, 0, 0, 0, 0, 0), [1.0, 100.0, 1e4],
+             truth=lambda: oracle.steady_rotation(START[:2], START[2:], [1.0, 100.0, 1e4]),
+             against="closed form, rotation"),
+    an_orbit("b = 0", SUSLOV, START, (*GENERIC[:4], 0, 0, 0), [1.0, 10.0, 100.0]),
+    an_orbit("b = 0, backward", SUSLOV, START, (*GENERIC[:4], 0, 0, 0), [-1.0, -10.0, -100.0]),
+    an_orbit("b = 1e6", SUSLOV, (800.0, -400.0, 0.6, 0.0, 0.8), with_field(GENERIC[:4], 1e6), [0.001, 0.02]),
+    an_orbit("b = 1e-6", SUSLOV, (8e-4, -4e-4, 0.6, 0.0, 0.8), with_field(GENERIC[:4], 1e-6), [1e3, 2e4]),
+    an_orbit("γ = (0, 0, 1)", SUSLOV, (0.8, -0.4, 0.0, 0.0, 1.0), GENERIC, [1.0, 5.0, 20.0]),
+    an_orbit("γ = (0, 0, −1)", SUSLOV, (0.8, -0.4, 0.0, 0.0, -1.0), GENERIC, [1.0, 5.0, 20.0]),
+    an_orbit("γ3 = 0", SUSLOV, (0.8, -0.4, 0.6, -0.8, 0.0), GENERIC, [1.0, 5.0, 20.0]),
+    an_orbit("ω = 0", SUSLOV, (0.0, 0.0, 0.6, -0.8, 0.0), GENERIC, [1.0, 5.0, 20.0]),
+    an_orbit("backward", SUSLOV, START, GENERIC, [-1.0, -5.0, -20.0]),
+    an_orbit("t = 1e-6", SUSLOV, START, GENERIC, [1e-6]),
+    an_orbit("t = −1e-6", SUSLOV, START, GENERIC, [-1e-6]),
+    at_rest("at rest, γ3 = 1, t = 1e6", SUSLOV, 1.0, (*GENERIC[:4], 0, 0, 1)),
+    # bodies of the Hess case on their tori
+    on_a_torus("b3 = −1e6", HessBody(1.0, 0.5, -1e6), 1.7, 0.4, 20.0),
+    on_a_torus("b3 = 1e-6", HessBody(1.0, 0.5, 1e-6), 1.7, 0.4, 20.0),
+    on_a_torus("h = 1, f = 0, from the top", HessBody(1.0, 0.5, -1.0), 1.0, 0.4, 10.0, floor=1e-11, because=SADDLE),
+    on_a_torus("a = 1 + 1e-9 (no body)", HessBody(1.0, 1 + 1e-9, -1.0), 1.7, 0.4, -20.0),
+    on_a_torus("a = 1e4", HessBody(1e-4, 1.0, -1.0), 1.7, 0.4, 1.0),
+    the_cycles("a = 0.5, b3 = 1e6", HessBody(1.0, 0.5, 1e6), 1.7),
+    the_cycles("a = 50", HessBody(1.0, 50.0, -1.0), 1.7),
+    a_check("all but flat by 1e-9", FLAT, floor=1e-11,
+            because="a square root of 1e-9, of which a double keeps 7 digits"),
+    a_check("I13 = 0, all but flat by 1e-12", (1.0, 1.0, 0.0, 0.5 - 5e-13), floor=1e-9,
+            because="a square root of 1e-12, of which a double keeps 4 digits"),
+    # symmetries of orbits
+    symmetric("time reversal, a = 1e4", HESS, HESS_START, (1e4, 1.0), [0.001, 0.01], (-1, -1, 1, 1, 1), -1),
+    symmetric("reflection, b = 1e6", HESS, HESS_START, (0.75, 1e6), [0.001, 0.02], (1, -1, -1, 1, 1), 1),
+    symmetric("reversor, h = 1, f = 1e-6", HESS, GRAZING, (0.5, 1.0), [1.0, 20.0], (-1, 1, -1, 1, 1), -1),
+    symmetric("time reversal, I11/I22 = 1e6", SUSLOV, (1e-3, 1.0, 0.6, 0.0, 0.8), with_field(HEAVY), [1.0, 10.0],
+              (-1, -1, 1, 1, 1), -1),
+    there_and_back("a = 50", HESS, HESS_START, (50.0, 1.0), 0.1),
+    there_and_back("b = 1e-6", HESS, HESS_START, (0.75, 1e-6), 20.0),
+    there_and_back("I11/I22 = 1e6", SUSLOV, (1e-3, 1.0, 0.6, 0.0, 0.8), with_field(HEAVY), 10.0),
+    drift("t = 1e5", HESS, HESS_START, (0.75, 1.0), 1e5, floor=1e-11),
+    drift("t = 1e5", SUSLOV, START, GENERIC, 1e5, floor=1e-11),
+    drift("t = −1e5", SUSLOV, START, GENERIC, -1e5, floor=1e-11),
+    # motions without a field
+    free("1e-300 off the line", FIGURE_3, (2.0, 1e-300), [1.0, 690.0, 692.0, 740.0]),
+    free("1e-300 off the line, the other arc", FIGURE_3, (2.0, -1e-300), [1.0, 690.0, 692.0, 740.0]),
+    free("5e-324 off the line", FIGURE_3, (2.0, 5e-324), [700.0, 746.0, 760.0]),
+    free("1e-300 off the line, I23 = 0", (1.0, 2.44, 0.5, 0.0), (1e-300, -2.0), [1.0, 690.0, 692.0, 740.0]),
+    free("1e-300 off the stable half, backward", FIGURE_3, (-2.0, 1e-300), [-1.0, -690.0, -692.0, -720.0]),
+    free("1e-16 off a slanting line", SLANTING, (0.5, -0.3 + 1e-16), [1.0, 100.0, 130.0, 160.0]),
+    free("k = 15", (57.25, 1.0, 0.0, 0.5), (2.0, 1e-3), [1.0, 10.0, 30.0]),
+    free("k = 50", (626.0, 1.0, 0.0, 0.5), (2.0, 1e-3), [1.0, 10.0, 30.0]),
+    free("I11/I22 = 1e6", (1e6, 1.0, 0.3, 0.5), (1e-3, 1.0), [1.0, 10.0]),
+    free("I11/I22 = 1e-6", (1e-6, 1.0, 0.3, 0.5), (0.1, 10.0), [0.001, 0.002]),
+    free("I22 = 1e6, a body", (1.0, 1e6, 200.0, 500.0), (1.0, 1e-3), [1.0, 10.0]),
+    free("ω = 1e6", SLANTING, (0.8e6, -0.2e6), [1e-6, 1e-5, 2e-5]),
+    free("ω = 1e-6", SLANTING, (0.8e-6, -0.2e-6), [1e6, 1e7, 2e7]),
+    free("I13, I23 = 0.01", (1.0, 1.0, 0.006, 0.008), (0.7, 0.7), [1.0, 100.0, 300.0]),
+    free("t = 1e3", SLANTING, (0.8, -0.2), [1e3], settled_turning, "closed form, after the passage"),
+    free("t = 1e8", SLANTING, (0.8, -0.2), [1e8], settled_turning, "closed form, after the passage", floor=1e-7,
+         because="the last place of ω times 1e8 radians"),
+    free("t = −1e8", SLANTING, (0.8, -0.2), [-1e8], settled_turning, "closed form, before the passage", floor=1e-7,
+         because="the last place of ω times 1e8 radians"),
+    free_F2("k = 15", 15, (2.0, 1e-3)),
+    free_F2("k = 15, 1e-300 off the line", 15, (2.0, 1e-300)),
+    free_F2("k = 15, ω = 1e6", 15, (1e6, 0.3e6)),
+    free_F2("k = 15, ω = 1e-6", 15, (1e-6, 0.3e-6)),
+    the_angle("k = 14.5", (1.0 + 14.5**2 * 0.25, 1.0, 0.0, 0.5)),
+    the_angle("k = 15", (57.25, 1.0, 0.0, 0.5)),
+    the_angle("I11/I22 = 1e6", (1e6, 1.0, 0.0, 1.0)),
+    the_angle("I11/I22 = 1e-6", (1e-6, 1.0, 0.0, 1.0)),
+    the_angle("I11/I22 = 1e6, slanting", (1e6, 1.0, 300.0, 0.5)),
+    the_angle("I11/I22 = 1e-6, slanting", (1.0, 1e6, 0.5, 300.0)),
+    the_angle("I23 = 1e-3", (2.0, 1.0, 0.0, 1e-3)),
+    the_angle("I23 = 3e-4, slanting", (2.0, 1.0, 2e-4, 3e-4)),
+    the_angle("I13, I23 = 1e6", (1.0, 2.0, 1e6, -1e6)),
+    circle_joined("δ = 5e-301", FIGURE_3, (2.0, 1e-300), [1.0, 690.0, 692.0, 740.0]),
+    circle_joined("δ = 5e-301, the other arc", FIGURE_3, (2.0, -1e-300), [1.0, 690.0, 692.0, 740.0]),
+    *extremes_ball.rows(Row, an_orbit, symmetric, there_and_back, drift),
+    *extremes_euler_poisson.rows(Row, symmetric, there_and_back, drift),
+    *extremes_suslov.rows(Row),
+]
+
+REFUSALS = [
+    Refusal("h = −1", lambda grade: circle_map(0.5, -1.0, 0.0, grade), OutsideRegion, "h = -1 .*Choose h > −1"),
+    Refusal("h = −1 − 1e-12", lambda grade: circle_map(0.5, -1 - 1e-12, 0.0, grade), OutsideRegion, "Choose h > −1"),
+    Refusal("h = 1e13", lambda grade: circle_map(0.5, 1e13, 0.0, grade), InvalidParameter, "choose h ≤ 1e12"),
+    Refusal("f = f_max (1 + 1e-12)", lambda grade: circle_map(0.5, 0.3, f_max(0.3) * (1 + 1e-12), grade), OutsideRegion,
+            "choose .f. ≤ 1.095.*, or a larger h"),
+    Refusal("h = 1, f = 0", lambda grade: circle_map(0.5, 1.0, 0.0, grade), Separatrix, "no return. Move h or f"),
+    Refusal("h = 1, f = 1e-300", lambda grade: circle_map(0.5, 1.0, 1e-300, grade), Separatrix, "Move h or f a little"),
+    Refusal("a = 1e6", lambda grade: circle_map(1e6, 1.5, 0.6, grade), WorkLimit, "too many steps: choose smaller a"),
+    Refusal("a = 1.1e6", lambda grade: circle_map(1.1e6, 1.5, 0.6, grade), InvalidParameter, "choose .a. ≤ 1e.06"),
+    Refusal("grid, h = −1", lambda grade: rotation_number_grid(0.5, [-1.0], [0.0], grade), InvalidParameter, "−1 < h"),
+    Refusal("lock boundary, a = 1.1e6", lambda grade: lock_boundary(1.1e6, grade), InvalidParameter, "choose .a. ≤ 1e"),
+    Refusal("eq01, t = 1e6", lambda grade: solve(HESS, HESS_START, (0.75, 1.0), [1e6], grade), WorkLimit,
+            "more than 1000000 steps: choose a shorter one"),
+    Refusal("eq01, t = −1e6", lambda grade: solve(HESS, HESS_START, (0.75, 1.0), [-1e6], grade), WorkLimit,
+            "choose a shorter one"),
+    Refusal("eq01, a = 1e6, t = 100", lambda grade: solve(HESS, HESS_START, (1e6, 1.0), [100.0], grade), WorkLimit,
+            "choose a shorter one"),
+    Refusal("Biz131, t = 1e6", lambda grade: solve(SUSLOV, START, GENERIC, [1e6], grade), WorkLimit,
+            "choose a shorter one"),
+    Refusal("Biz131, I11 = 0", lambda grade: solve(SUSLOV, START, (0.0, *GENERIC[1:]), [1.0], grade),
+            NotPositiveDefinite, "I11 = 0.*choose I11 > 0"),
+    Refusal("Biz131, I22 = −1e-12", lambda grade: solve(SUSLOV, START, (2.0, -1e-12, *GENERIC[2:]), [1.0], grade),
+            NotPositiveDefinite, "I22 = -1e-12.*choose I22 > 0"),
+    Refusal("Biz131, I11 = 1e-300", lambda grade: solve(SUSLOV, START, (1e-300, *GENERIC[1:]), [1.0], grade),
+            InvalidParameter, "choose a ratio"),
+    Refusal("a body with I22 = 0", lambda _: SuslovBody(1.0, 0.0, 0.0, 0.0), NotPositiveDefinite, "choose I22 > 0"),
+    Refusal("check_body, I11 = −1e-12", lambda _: check_body(-1e-12, 1.0, 0.0, 0.0), NotPositiveDefinite,
+            "choose I11 > 0"),
+    free_refusal("I13 = I23 = 0", (2.0, 1.0, 0.0, 0.0), (1.0, 0.5), "Choose I13 or I23 other than 0"),
+    free_refusal("on the line of equilibria", FIGURE_3, (2.0, 0.0), "on the line of equilibria.*Move ω off the line"),
+    free_refusal("ω = 0", FIGURE_3, (0.0, 0.0), "at rest.*Choose ω1 or ω2 other than 0"),
+    free_refusal("ω = 1e160", FIGURE_3, (1e160, 1e160), "choose a less extreme ω", times=[1e-160]),
+    free_refusal("t = 1e308", SLANTING, (1.0, 0.5), "choose a shorter one", times=[1e308, 1.7e308]),
+    free_refusal("b3 = 1e-300", (*SLANTING, 0.0, 0.0, 1e-300), (1.0, 0.5), "Set b1 = b2 = b3 = 0"),
+    free_refusal("I23 = 1e-5", (2.0, 1.0, 0.0, 1e-5), (1.0, 0.5), "choose larger I13, I23", WorkLimit),
+    Refusal("free Suslov, h = 0", lambda _: equilibria(SuslovBody(*FIGURE_3), 0.0), InvalidParameter, "choose h > 0"),
+    Refusal("F2, k = 17", lambda _: additional_integral(17, SuslovBody(*FIGURE_3)), InvalidParameter,
+            "choose an odd k from 1 to 15"),
+    Refusal("scattering, I13 = I23 = 0", lambda grade: scattering(SuslovBody(2.0, 1.0, 0.0, 0.0), grade),
+            InvalidParameter, "Choose I13 or I23 other than 0"),
+    Refusal("scattering, I23 = 1e-300", lambda grade: scattering(SuslovBody(2.0, 1.0, 0.0, 1e-300), grade), WorkLimit,
+            "choose larger I13, I23"),
+    Refusal("scattering, δ = 0", lambda grade: scattering(SuslovBody(*SLANTING), grade, 1, 0.0), InvalidParameter,
+            "choose one above 0 and up to"),
+    Refusal("track, b3 = 0", lambda grade: track(HessBody(1.0, 0.5, 0.0), 1.5, 0.6, 0.0, 10.0, grade, 4.0), NoField,
+            "b3 = 0.*Choose b3 other than 0"),
+    *extremes_ball.refusals(Refusal),
+    *extremes_euler_poisson.refusals(Refusal),
+    *extremes_suslov.refusals(Refusal),
+]
+
+
+# ---- tests ------------------------------------------------------------------------------------------------------
+
+every_row = pytest.mark.parametrize(
+    ("row", "name"), [pytest.param(row, name, id=f"{row.name} [{name}]") for row in ROWS for name in row.levels]
+)
+every_refusal = pytest.mark.parametrize("row", REFUSALS, ids=lambda row: row.name)
+
+
+@every_row
+def test_an_extreme_case_is_right_within_the_promise_of_its_level(row, name):
+    error = row.error(name)
+    assert error <= row.bound(name) or row.admitted(name)
+
+
+@pytest.mark.parametrize("name", PROMISE)
+@pytest.mark.parametrize("row", [row for row in ROWS if row.torus], ids=lambda row: row.name)
+def test_kind_trace_cycles_and_rotation_number_of_an_extreme_map_agree_with_each_other(row, name):
+    found = circle_map(*row.torus, level(name))
+    if found.kind == "parabolic":
+        assert found.trace == pytest.approx(2.0, abs=2 * min(found.error_estimate, 1e-3))
+        return
+    assert (found.kind == "hyperbolic") == (found.trace > 2) == (len(found.fixed_points) == 2)
+    turn = found.rotation_number * math.copysign(1.0, found.f)
+    assert turn == 0.0 if found.kind == "hyperbolic" else -0.5 - PROMISE[name] <= turn <= 0.0
+
+
+@pytest.mark.parametrize("name", PROMISE)
+@pytest.mark.parametrize("ratio", [1e12, 1e30, 1e60, 1e300])
+def test_a_motion_much_slower_than_its_energy_allows_is_right_or_refused(ratio, name):
+    # All energy is in ω1 and stays there: ω1 changes by 1/ratio, and the unit of time is √ratio times too short.
+    state, parameters = (1.0, 0.5, 0.6, 0.0, 0.8), with_field((ratio, 1.0, 0.3, 0.5))
+    try:
+        found = solve(SUSLOV, state, parameters, [1.0, 5.0], level(name))
+    except InvalidParameter:
+        return
+    exact = oracle.orbit_in_decimals(SUSLOV, state, parameters, [1.0, 5.0], digits=25)
+    assert orbit_error(found.states, exact) <= PROMISE[name]
+
+
+@every_refusal
+@pytest.mark.parametrize("name", ["draft", "reference"])
+def test_a_request_beyond_the_extremes_is_refused_in_a_sentence(row, name):
+    assert issubclass(row.error, ModelError)
+    with pytest.raises(row.error, match=row.words) as refused:
+        row.request(level(name))
+    assert re.fullmatch(r"[^\n]*\.", str(refused.value)), "one line, with a full stop"
+
+
+@pytest.mark.parametrize("h", [-0.999, -0.5, 0.3, 0.5, 1.5, 2.0, 30.0])
+def test_the_largest_f_that_a_refusal_names_is_accepted(h):
+    with pytest.raises(OutsideRegion) as refused:
+        circle_map(0.5, h, 1.5 * f_max(h), level("draft"))
+    named = float(re.search(r"≤ ([-+.e\d]+),", str(refused.value)).group(1))
+    assert named == pytest.approx(f_max(h), rel=1e-4)
+    assert circle_map(0.5, h, named, level("draft")).f == named
+
+
+def test_a_refusal_next_to_the_edge_shows_that_f_is_beyond_it():
+    with pytest.raises(OutsideRegion) as refused:
+        circle_map(0.5, 0.3, f_max(0.3) * (1 + 1e-12), level("draft"))
+    asked, allowed = (float(x) for x in re.search(r"f = ([.\d]+): .* ≤ ([.\d]+),", str(refused.value)).groups())
+    assert asked > allowed
+
+
+def best_second_moment(I11, I22, I13, I23):
+    """The least eigenvalue of ½ tr I − I = Σ m x xᵀ for the I33 that makes it largest; it is concave in I33."""
+    with mpmath.workdps(50):
+        def least(I33):
+            inertia = mpmath.matrix([[I11, 0, I13], [0, I22, I23], [I13, I23, I33]])
+            half_trace = (inertia[0, 0] + inertia[1, 1] + inertia[2, 2]) / 2
+            return min(mpmath.eigsy(half_trace * mpmath.eye(3) - inertia, eigvals_only=True))
+
+        low, high = abs(mpmath.mpf(I11) - I22), mpmath.mpf(I11) + I22
+        for _ in range(80):
+            left, right = (2 * low + high) / 3, (low + 2 * high) / 3
+            low, high = (left, high) if least(left) < least(right) else (low, right)
+        return least(low)
+
+
+@pytest.mark.parametrize("tensor", [
+    FLAT, NO_BODY, HEAVY, swapped(HEAVY), LIGHT, swapped(LIGHT), (1e6, 1.0, 0.3, 1000.0), (1e6, 1.0, 0.6, 0.0),
+    (1.0, 1e-6, 0.0, 0.0),
+], ids=str)
+def test_next_to_its_limit_the_triangle_inequality_is_decided_right(tensor):
+    assert check_body(*tensor).is_body == (best_second_moment(*tensor) > 0)
+
+
+def measured_rows():
+    """(name, level or "refusal", true error or the refusal's class) for every row."""
+    rows = [(row.name, name, row.error(name)) for row in ROWS for name in row.levels]
+    for row in REFUSALS:
+        try:
+            row.request(level("draft"))
+            rows.append((row.name, "refusal", "none"))
+        except ModelError as error:
+            rows.append((row.name, "refusal", type(error).__name__))
+    return rows
+
+
+def main():
+    """Print the measured rows as a table, with a column for each level."""
+    cells = {}
+    for name, column, value in measured_rows():
+        cells.setdefault(name, {})[column] = value
+    rows = {row.name: row for row in ROWS}
+    print("| what is extreme | checked against | draft | standard | precise | reference |\n|---|---|---|---|---|---|")
+    for name, values in cells.items():
+        if "refusal" in values:
+            print(f"| {name} | refused: `{values['refusal']}` | | | | |")
+            continue
+        row, shown = rows[name], []
+        for column in PROMISE:
+            key = "any" if "any" in values else column
+            error = values.get(key)
+            mark = "" if error is None or error <= row.bound(key) else " admitted" if row.admitted(key) else " ✗"
+            shown.append("" if error is None else f"{error:.0e}{mark}")
+        print(f"| {name}{' ¹' if row.because else ''} | {row.against} | {' | '.join(shown)} |")
+    print()
+    for row in rows.values():
+        if row.because:
+            print(f"¹ {row.name}: {row.because}.  ")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,168 @@
+"""What holds everywhere in the admissible set of each system, found by hypothesis."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from mechanics import PROPERTY
+
+from hess_mechanics import Plane, circle_map, ensemble, f_max, level, section, solve, systems, unit_vector
+from hess_mechanics.dynamics.system import Problem
+from hess_mechanics.errors import ModelError
+from hess_mechanics.numerics.accuracy import LEVELS, Status
+
+SYSTEMS = systems()
+WIDE = settings(PROPERTY, suppress_health_check=[HealthCheck.too_slow])
+
+
+def spread(low, high):
+    """Magnitudes spread evenly over decades, of either sign."""
+    return st.builds(lambda exponent, sign: sign * 10.0**exponent, st.floats(low, high), st.sampled_from((-1.0, 1.0)))
+
+
+directions = st.tuples(*[st.floats(-1.0, 1.0)] * 3).filter(lambda gamma: math.hypot(*gamma) > 1e-3)
+vectors = directions.map(lambda gamma: unit_vector(gamma)[0])
+normals = st.tuples(*[st.floats(-1.0, 1.0)] * 5).filter(lambda normal: math.hypot(*normal) > 1e-6)
+omegas = st.tuples(spread(-3, 1), spread(-3, 1))
+
+PARAMETERS = {
+    "suslov": st.tuples(*[spread(-3, 3).map(abs)] * 2, *[spread(-3, 3)] * 2, *[spread(-3, 2)] * 3),
+    "ball": st.tuples(*[spread(-3, 3).map(abs)] * 2, *[spread(-3, 3)] * 2, spread(-3, 3).map(abs),
+                      *[spread(-3, 2)] * 3),
+    "euler-poisson": st.tuples(*[spread(-3, 3).map(abs)] * 3, *[st.floats(-1.0, 1.0)] * 3, spread(-3, 2)),
+    "hess": st.tuples(spread(-4, 2), spread(-3, 2)),
+}
+
+
+def test_every_system_has_its_parameters_drawn():
+    assert set(PARAMETERS) == set(SYSTEMS)
+
+
+MILD = {
+    "suslov": st.tuples(*[st.floats(0.3, 3.0)] * 2, *[st.floats(-0.3, 0.3)] * 2, *[st.floats(-1.0, 1.0)] * 3),
+    "ball": st.tuples(*[st.floats(0.3, 3.0)] * 2, *[st.floats(-0.3, 0.3)] * 2, st.floats(0.0, 3.0),
+                      *[st.floats(-1.0, 1.0)] * 3),
+    "euler-poisson": st.tuples(*[st.floats(0.3, 3.0)] * 3, *[st.floats(-1.0, 1.0)] * 3, st.floats(-1.0, 1.0)),
+    "hess": st.tuples(st.floats(-0.5, 0.5), st.floats(0.3, 1.0)),
+}
+
+
+@st.composite
+def motions(draw, of=PARAMETERS, longest=60.0):
+    """A system with parameters, a state, and a span of some turns of its fastest motion, forward or backward."""
+    system = SYSTEMS[draw(st.sampled_from(sorted(SYSTEMS)))]
+    parameters = draw(of[system.name])
+    lead = draw(omegas) if system.angular_velocities == 2 else (*draw(omegas), draw(spread(-3, 1)))
+    state = (*lead, *draw(vectors))
+    turns = draw(st.floats(0.1, longest)) * draw(st.sampled_from((-1.0, 1.0)))
+    return system, state, parameters, turns / system.frequency(np.array(state), np.array(parameters))
+
+
+@WIDE
+@given(motion=motions(), name=st.sampled_from(sorted(LEVELS)))
+def test_a_motion_keeps_its_integrals_within_its_error_or_is_refused_in_a_sentence(motion, name):
+    system, state, parameters, span = motion
+    try:
+        orbit = solve(system, state, parameters, np.linspace(0.0, span, 20), level(name))
+    except ModelError as error:
+        assert str(error).endswith(".")
+        return
+    assert np.all(np.isfinite(orbit.states))
+    nu = system.frequency(np.array(state), np.array(parameters))
+    scaled, units = system.rescale(np.array(state), np.array(parameters), nu)
+    relative = orbit.states / Problem.of(system, [state], parameters).scale
+    if orbit.status is Status.OK:
+        # An integral moves by at most its gradient times the error; where the state is O(1) the gradient is
+        # at most twice the largest parameter.
+        largest = 2.0 * max(1.0, *np.abs(units))
+        for key, initial in system.integrals(scaled, units).items():
+            drift = np.max(np.abs(system.integrals(relative.T, units)[key] - initial))
+            assert drift <= 10.0 * largest * level(name).promise, key
+
+
+@WIDE
+@given(motion=motions(MILD, 20.0))
+def test_there_and_back_returns_within_the_two_errors(motion):
+    # Mild motions: what is lost on the way to an attractor does not come back.
+    system, state, parameters, span = motion
+    there = solve(system, state, parameters, [span], level("precise"))
+    back = solve(system, there.states[0], parameters, [-span], level("precise"))
+    # The way back magnifies the error of the way there, in each variable by what neighbouring starts show.
+    growth = 0.0
+    for change in 1e-6 * np.eye(len(state)):
+        shifted = solve(system, there.states[0] + change, parameters, [-span], level("precise"))
+        growth += np.max(np.abs(shifted.states - back.states)) / 1e-6
+    error = (10 * there.error_estimate + 1e-15) * growth + 10 * back.error_estimate
+    assert np.max(np.abs(back.states[0] - state)) <= error
+
+
+@settings(WIDE, max_examples=60)
+@given(motion=motions(), more=st.lists(vectors, min_size=1, max_size=12))
+def test_an_ensemble_holds_the_orbits_one_by_one(motion, more):
+    system, state, parameters, span = motion
+    states = [state, *((*state[:-3], *gamma) for gamma in more)]
+    times = [0.5 * span, span]
+    many = ensemble(system, states, parameters, times, level("standard"))
+    for own, start, error in zip(many.states, states, many.errors, strict=True):
+        one = solve(system, start, parameters, times, level("standard"))
+        assert np.max(np.abs(own - one.states)) <= 10 * (error + one.error_estimate)
+
+
+@settings(WIDE, max_examples=60)
+@given(motion=motions(), normal=normals, offset=st.floats(-0.5, 0.5))
+def test_crossings_lie_on_the_plane_and_alternate(motion, normal, offset):
+    system, state, parameters, span = motion
+    scale = Problem.of(system, [state], parameters).scale
+    normal = (*normal, normal[0])[: len(state)]
+    plane = Plane(tuple(np.array(normal) / scale), offset, sense=0)
+    found = section(system, state, parameters, plane, span, level("precise"))
+    heights = (found.states / scale) @ np.array(normal) - offset
+    assert np.max(np.abs(heights), initial=0.0) <= 1e-9 * max(1.0, np.linalg.norm(normal))
+    upwards = section(system, state, parameters, Plane(plane.normal, offset, 1), span, level("precise"))
+    downwards = section(system, state, parameters, Plane(plane.normal, offset, -1), span, level("precise"))
+    assert abs(len(upwards.times) - len(downwards.times)) <= 1
+    both = np.sort(np.abs(np.concatenate([upwards.times, downwards.times])))
+    assert both.shape == found.times.shape
+    # Each of the three may have been computed at another level: at a grazing a time is known to the root of its error.
+    assert both == pytest.approx(np.abs(found.times), abs=1e-4 * abs(span))
+
+
+@WIDE
+@given(a=spread(-6, 2), excess=spread(-6, 4).map(abs), part=st.floats(-1.0, 1.0), name=st.sampled_from(sorted(LEVELS)),
+       phi=st.floats(-math.pi, math.pi))
+def test_every_circle_map_is_a_reversible_circle_map_or_is_refused(a, excess, part, name, phi):
+    h = -1.0 + excess
+    try:
+        theta = circle_map(a, h, part * f_max(h), level(name))
+    except ModelError as error:
+        assert str(error).endswith(".")
+        return
+    assert math.isfinite(theta.rotation_number)
+    assert theta.kind in ("elliptic", "parabolic", "hyperbolic")
+    assert theta.error_estimate > 0
+    image = theta.theta([phi])
+    assert -math.pi < image[0] <= math.pi
+    if theta.status is Status.OK:
+        # Θ(−Θ(φ)) = −φ.  The argument of αz + β is known to the rounding of its parts over their sum, and
+        # Θ′ = e^{−2L}/|αz + β|².
+        re, im, im_beta = theta.matrix
+        parts = abs(complex(re, im)) + abs(im_beta)
+        sums = [abs(complex(re, im) * np.exp(1j * angle) + 1j * im_beta) for angle in (phi, -image[0])]
+        slope = math.exp(-2 * theta.log_scale) / max(sums[1], 1e-100) ** 2
+        rounding = 1e-14 * parts * (slope / max(sums[0], 1e-100) + 1 / max(sums[1], 1e-100))
+        back = theta.theta(-image)[0] + phi
+        assert abs(math.remainder(back, 2 * math.pi)) <= 1e-14 + rounding
+
+
+@pytest.mark.parametrize("name", LEVELS)
+def test_a_result_at_the_floor_is_not_called_right_when_it_is_not(name):
+    # Neighbouring orbits part quickly here: no level can keep its promise to the end, and must say so.
+    system = SYSTEMS["suslov"]
+    orbit = solve(system, (0.8, -0.4, 0.6, 0.0, 0.8), (2.0, 1.0, 0.3, 0.5, 0.3, -0.5, 1.0), [0.0, 20000.0], level(name))
+    truth = solve(system, (0.8, -0.4, 0.6, 0.0, 0.8), (2.0, 1.0, 0.3, 0.5, 0.3, -0.5, 1.0), [0.0, 20000.0],
+                  level("reference").tightened())
+    error = np.max(np.abs(orbit.states - truth.states))
+    assert orbit.status is not Status.OK or error <= level(name).promise
+    assert error <= 10 * (orbit.error_estimate + truth.error_estimate)

@@ -1,0 +1,109 @@
+"""Against 20-digit values computed elsewhere, at every level of the accuracy ladder."""
+
+import numpy as np
+import pytest
+from mechanics import REFERENCE, angle_between, numbers
+
+from hess_mechanics import circle_map, critical_a, level, lock_boundary_f, solve, systems, turning_points
+from hess_mechanics.numerics.accuracy import Status
+
+# (level, largest error of an orbit, largest error of anything else).  Chaotic orbits amplify the
+# rounding of their initial data, hence the wider bound at the floor.
+LADDER = [
+    pytest.param("draft", 1e-3, 1e-3, id="draft"),
+    pytest.param("standard", 1e-6, 1e-6, id="standard"),
+    pytest.param("precise", 1e-9, 1e-9, id="precise"),
+    pytest.param("reference", 1e-8, 1e-9, id="reference"),
+]
+ladder = pytest.mark.parametrize(("name", "orbit_bound", "bound"), LADDER)
+every_level = pytest.mark.parametrize("name", ["draft", "standard", "precise", "reference"])
+every_orbit = pytest.mark.parametrize("row", REFERENCE["trajectories"], ids=lambda row: row["name"])
+every_torus = pytest.mark.parametrize(
+    "row", REFERENCE["hess_monodromy"], ids=lambda row: f"h={row['h']},f={row['f']},a={row['a']}"
+)
+
+
+def orbit_and_error(row, name):
+    p = row["params"]
+    parameters = numbers([*p["I"], *p["b"]]) if row["system"] == "suslov" else numbers([p["a"], p["b"]])
+    times = numbers(state["t"] for state in row["states"])
+    orbit = solve(systems()[row["system"]], numbers(row["y0"]), parameters, times, level(name))
+    true = np.array([numbers(state["y"]) for state in row["states"]])
+    return orbit, np.max(np.abs(orbit.states - true))
+
+
+def map_and_error(row, name):
+    result = circle_map(float(row["a"]), float(row["h"]), float(row["f"]), level(name))
+    trace = float(row["abs_trace"])
+    trace_error = abs(result.trace - trace) / max(1.0, trace)
+    theta_error = angle_between(result.theta([0.0, 1.0, 2.0]), numbers(row["theta_of_phi_0_1_2"]))
+    return result, max(trace_error, theta_error)
+
+
+@pytest.mark.parametrize(("name", "promise"), [("draft", 1e-3), ("standard", 1e-6), ("precise", 1e-9)])
+def test_each_level_promises_what_its_name_is_documented_to_promise(name, promise):
+    assert level(name).promise == promise
+
+
+@ladder
+@every_orbit
+def test_orbits_agree_with_the_reference(row, name, orbit_bound, bound):
+    _, error = orbit_and_error(row, name)
+    assert error <= orbit_bound
+
+
+@ladder
+@every_torus
+def test_trace_and_circle_map_agree_with_the_reference(row, name, orbit_bound, bound):
+    _, error = map_and_error(row, name)
+    assert error <= bound
+
+
+@every_torus
+def test_turning_points_and_period_agree_with_the_reference(row):
+    turning = turning_points(float(row["h"]), float(row["f"]))
+    assert turning.roots == pytest.approx(numbers(row["n3_roots"]), rel=0, abs=1e-9)
+    assert turning.period == pytest.approx(float(row["period"]), rel=0, abs=1e-9)
+    result = circle_map(0.5, float(row["h"]), float(row["f"]), level("draft"))
+    assert result.period == turning.period
+
+
+@ladder
+@pytest.mark.parametrize("row", REFERENCE["lock_boundary"], ids=lambda row: f"a={row['a']},h={row['h']}")
+def test_the_lock_boundary_agrees_with_the_reference(row, name, orbit_bound, bound):
+    f = lock_boundary_f(float(row["a"]), float(row["h"]), level(name))
+    assert f == pytest.approx(float(row["f"]), rel=0, abs=bound)
+
+
+@ladder
+@pytest.mark.parametrize("row", REFERENCE["a_critical"], ids=lambda row: f"h={row['h']},f={row['f']}")
+def test_the_critical_a_agrees_with_the_reference(row, name, orbit_bound, bound):
+    a = critical_a(float(row["h"]), float(row["f"]), level(name))
+    assert a == pytest.approx(float(row["a"]), rel=0, abs=bound)
+
+
+@every_level
+@every_orbit
+def test_the_error_estimate_of_an_orbit_is_on_the_safe_side(row, name):
+    orbit, error = orbit_and_error(row, name)
+    assert error <= 10 * orbit.error_estimate + 1e-15
+
+
+@every_level
+@every_torus
+def test_the_error_estimate_of_a_circle_map_is_on_the_safe_side(row, name):
+    result, error = map_and_error(row, name)
+    assert error <= 10 * result.error_estimate + 1e-15
+
+
+@every_level
+@every_torus
+def test_a_circle_map_says_ok_exactly_where_its_estimate_keeps_the_promise(row, name):
+    result, _ = map_and_error(row, name)
+    assert (result.status is Status.OK) == (result.error_estimate <= level(name).promise)
+
+
+@pytest.mark.parametrize("h", [1.000001, 0.999999])
+def test_next_to_the_separatrix_reference_admits_that_it_reached_the_floor(h):
+    # One unit in the last place of h moves Θ by 1e-10 here: no double can keep 1e-12.
+    assert circle_map(0.5, h, 1e-6, level("reference")).status is Status.FLOOR

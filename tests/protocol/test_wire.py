@@ -1,0 +1,193 @@
+"""The wire: what is packed can be read back number by number, and nothing is sent twice."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as arrays
+from mechanics import PROPERTY
+
+from hess_explorer.protocol.wire import Wire
+
+
+def read(item, block):
+    """What "ready.js" makes of an item of the tree: an array where the tree says where one lies."""
+    if isinstance(item, list):
+        return [read(part, block) for part in item]
+    if isinstance(item, dict):
+        assert {"at", "n"} <= set(item) <= {"at", "n", "shape"}
+        array = np.frombuffer(block, "<f4", count=item["n"], offset=4 * item["at"])
+        return array.reshape(item["shape"]) if "shape" in item else array
+    return item
+
+
+def unpack(wire):
+    """The columns by source, the texts and what controls show, after a journey as JSON."""
+    tree, block = wire.pack()
+    assert isinstance(block, bytes)
+    tree = json.loads(json.dumps(tree, allow_nan=False))
+    assert set(tree) == {"sources", "ranges", "texts", "controls"}
+    columns = {
+        source: {name: read(column, block) for name, column in columns.items()}
+        for source, columns in tree["sources"].items()
+    }
+    return columns, tree["texts"], tree["controls"], block
+
+
+def same(left, right):
+    """Equal shapes of lists, and equal single-precision numbers at their ends."""
+    if isinstance(left, np.ndarray):
+        return isinstance(right, np.ndarray) and np.array_equal(left.astype("<f4"), right, equal_nan=True)
+    if isinstance(left, list):
+        return isinstance(right, list) and len(left) == len(right) and all(map(same, left, right))
+    return type(left) is type(right) and left == right
+
+
+vectors = arrays.arrays(
+    st.sampled_from([np.float32, np.float64]), st.integers(0, 40),
+    elements=st.floats(-1e6, 1e6, width=32), fill=st.nothing(),
+)
+plain = st.one_of(st.floats(-1e6, 1e6), st.integers(-1000, 1000), st.text(max_size=8))
+trees = st.recursive(st.one_of(vectors, plain), lambda part: st.lists(part, max_size=3), max_leaves=6)
+columns = st.one_of(vectors, trees)
+sources = st.dictionaries(st.text(max_size=8), st.dictionaries(st.text(max_size=8), columns, max_size=4), max_size=4)
+
+
+@PROPERTY
+@given(sources)
+def test_the_browser_reads_the_columns_that_were_put(put):
+    wire = Wire()
+    for source, given_columns in put.items():
+        wire.put(source, given_columns)
+    found, _, _, _ = unpack(wire)
+    assert set(found) == set(put)
+    for source, given_columns in put.items():
+        assert set(found[source]) == set(given_columns)
+        for name, column in given_columns.items():
+            assert same(column, found[source][name]), (source, name)
+
+
+@PROPERTY
+@given(sources)
+def test_the_block_holds_each_array_once_and_nothing_else(put):
+    wire = Wire()
+    for source, given_columns in put.items():
+        wire.put(source, given_columns)
+    size = 0
+
+    def count(item):
+        nonlocal size
+        if isinstance(item, np.ndarray):
+            size += item.size
+        elif isinstance(item, list):
+            for part in item:
+                count(part)
+
+    for given_columns in put.values():
+        for column in given_columns.values():
+            count(column)
+    assert len(wire.pack()[1]) == 4 * size
+
+
+def test_arrays_of_any_layout_arrive_in_order():
+    grid = np.arange(12.0).reshape(3, 4)
+    wire = Wire()
+    wire.put("grid", {"rows": grid, "columns": grid.T, "every-other": grid[:, ::2], "back": grid[::-1, 1],
+                      "integers": np.arange(3), "big-endian": np.arange(3.0).astype(">f8")})
+    found, _, _, _ = unpack(wire)
+    assert found["grid"]["rows"].tolist() == grid.tolist()
+    assert found["grid"]["columns"].tolist() == [[0, 4, 8], [1, 5, 9], [2, 6, 10], [3, 7, 11]]
+    assert found["grid"]["every-other"].tolist() == [[0, 2], [4, 6], [8, 10]]
+    assert found["grid"]["back"].tolist() == [9, 5, 1]
+    assert found["grid"]["integers"].tolist() == [0, 1, 2]
+    assert found["grid"]["big-endian"].tolist() == [0, 1, 2]
+
+
+def test_a_grid_tells_its_shape_and_a_row_of_numbers_none():
+    wire = Wire()
+    wire.put("grid", {"image": [np.zeros((75, 100))], "x": np.zeros(3)})
+    columns = wire.pack()[0]["sources"]["grid"]
+    assert columns == {"image": [{"at": 0, "n": 7500, "shape": [75, 100]}], "x": {"at": 7500, "n": 3}}
+
+
+def test_polygons_with_holes_arrive_as_nested_lists():
+    outer, hole = np.array([0.0, 4.0, 4.0]), np.array([1.0, 2.0])
+    wire = Wire()
+    wire.put("region", {"xs": [[[outer, hole]], [[outer]]], "label": ["a", "b"]})
+    found, _, _, _ = unpack(wire)
+    xs = found["region"]["xs"]
+    assert [[[part.tolist() for part in polygon] for polygon in multi] for multi in xs] == [
+        [[[0, 4, 4], [1, 2]]], [[[0, 4, 4]]]]
+    assert found["region"]["label"] == ["a", "b"]
+
+
+def test_of_two_columns_for_one_source_the_last_count():
+    wire = Wire()
+    wire.put("orbit", {"x": np.arange(5.0), "old": np.arange(5.0)})
+    wire.put("orbit", {"x": np.arange(3.0)})
+    found, _, _, block = unpack(wire)
+    assert list(found["orbit"]) == ["x"]
+    assert len(block) == 12
+
+
+@PROPERTY
+@given(st.dictionaries(st.text(max_size=8), st.text(max_size=40)))
+def test_texts_arrive_as_they_are(texts):
+    wire = Wire()
+    for key, text in texts.items():
+        wire.say(key, "something older")
+        wire.say(key, text)
+    assert unpack(wire)[1] == texts
+
+
+@PROPERTY
+@given(st.floats(allow_nan=False, allow_infinity=False), st.tuples(*[st.floats(-1e9, 1e9)] * 3))
+def test_the_numbers_of_controls_keep_double_precision(value, limits):
+    wire = Wire()
+    wire.show_number("h", value, limits)
+    assert unpack(wire)[2] == {"h": [value, *limits]}
+
+
+@PROPERTY
+@given(st.dictionaries(st.text(max_size=8), st.text(max_size=40)))
+def test_the_options_of_menus_arrive_as_they_are(options):
+    wire = Wire()
+    for name, option in options.items():
+        wire.show_choice(name, "something older")
+        wire.show_choice(name, option)
+    assert unpack(wire)[2] == options
+
+
+@PROPERTY
+@given(st.tuples(*[st.floats(-1e300, 1e300)] * 4))
+def test_axes_arrive_in_double_precision_and_the_last_ones_count(ends):
+    wire = Wire()
+    wire.put_ranges("omega", (0.0, 1.0), (0.0, 1.0))
+    wire.put_ranges("omega", ends[:2], ends[2:])
+    tree = json.loads(json.dumps(wire.pack()[0], allow_nan=False))
+    assert tree["ranges"] == {"omega": list(ends)}
+
+
+def test_what_was_packed_is_not_sent_again():
+    wire = Wire()
+    wire.put("orbit", {"x": np.arange(5.0)})
+    wire.put_ranges("omega", (0.0, 1.0), (0.0, 1.0))
+    wire.say("status", "done")
+    wire.show_number("h", 1.5, (-1.0, 4.0, 0.01))
+    wire.show_choice("accuracy", "draft")
+    wire.pack()
+    assert wire.pack() == ({"sources": {}, "ranges": {}, "texts": {}, "controls": {}}, b"")
+
+
+def test_what_is_put_after_packing_does_not_change_what_was_packed():
+    wire = Wire()
+    wire.say("status", "first")
+    wire.show_number("h", 1.0, (0.0, 2.0, 0.1))
+    tree, _ = wire.pack()
+    wire.say("status", "second")
+    wire.show_number("h", 2.0, (0.0, 2.0, 0.1))
+    assert tree["texts"] == {"status": "first"}
+    assert tree["controls"] == {"h": [1.0, 0.0, 2.0, 0.1]}

@@ -1,0 +1,44 @@
+"""What the tests of the mechanics share: the reference values, hypothesis settings, angles, an integrator of φ."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+from hypothesis import settings
+from scipy.integrate import solve_ivp
+
+from hess_mechanics import turning_points
+
+ROOT = Path(__file__).resolve().parents[2]
+REFERENCE = json.loads((Path(__file__).parent / "reference.json").read_text())
+
+# The same examples in every run: what fails on one machine fails on all.
+PROPERTY = settings(deadline=None, derandomize=True, database=None, max_examples=200)
+
+
+def numbers(texts):
+    return np.array([float(text) for text in texts])
+
+
+def angle_between(left, right):
+    """The largest distance of two sets of angles, on the circle."""
+    return float(np.max(np.abs(np.angle(np.exp(1j * (np.asarray(left) - np.asarray(right)))))))
+
+
+def lifted_return(a, h, f, phases):
+    """The lifted Θ by brute force: n̈3 = ½ p'(n3) and φ̇ = −a|w| cos φ − f/|w|² over one n3-period.
+
+    Nothing of `hess_mechanics.suslov_hess.circle_map` enters, and φ is never reduced modulo 2π.
+    """
+    turning = turning_points(h, f)
+    phases = np.asarray(phases, float)
+
+    def rates(_, y):
+        n, speed, phi = y[0], y[1], y[2:]
+        w_squared = 2 * (h + n)
+        return np.concatenate(([speed, 1 - n * n - 2 * n * (h + n)],
+                               -a * np.sqrt(w_squared) * np.cos(phi) - f / w_squared))
+
+    start = np.concatenate(([turning.roots[1], 0.0], phases))
+    run = solve_ivp(rates, (0.0, turning.period), start, method="DOP853", rtol=1e-12, atol=1e-12)
+    return run.y[2:, -1]
