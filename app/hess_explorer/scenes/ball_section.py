@@ -22,14 +22,13 @@ from hess_explorer.views.text import number
 from hess_explorer.views.velocity_plane import VelocityPlane, nice_above, sphere_columns
 from hess_mechanics.chaplygin_ball.energy_surface import lowest_energy
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
-from hess_mechanics.chaplygin_ball.section import ball_section, cells, coordinates, forbidden_band, seeds, state_at
+from hess_mechanics.chaplygin_ball.section import ball_section, coordinates, forbidden_band, seeds, state_at
 from hess_mechanics.dynamics.orbit import solve
-from hess_mechanics.dynamics.sampling import sample_times
-from hess_mechanics.dynamics.section import Points
+from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA, sample_times
+from hess_mechanics.dynamics.section import Points, occupied_cells
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, STANDARD, Level
 from hess_mechanics.numerics.results import Array, Orbit
-from hess_mechanics.suslov_hess.torus import PIXELS, SAGITTA
 
 _MOST = 6000
 _ORBITS = 20
@@ -291,8 +290,9 @@ def _captions(result: SectionResult) -> dict[str, str]:
     }
     if result.own is not None:
         volume = "the flow keeps volume" if body.I13 == body.I23 == 0.0 else "volume is not kept"
+        visited = occupied_cells(result.own, _CELLS)
         captions["section"] = (f"Section: γ₃ grows through 0\nThe chosen orbit: {len(result.own)} points in "
-                               f"{cells(result.own, _CELLS) if len(result.own) else 0} of {_CELLS**2} cells; {volume}.")
+                               f"{visited} of {_CELLS**2} cells; {volume}.")
         captions["returns"] = "First return\nψ and the next ψ: a point if closed, a curve if regular, a cloud in chaos."
     elif result.reason:
         captions["section"] = "Section: γ₃ grows through 0\nLeft out: it would take too many steps."

@@ -26,13 +26,12 @@ from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.chaplygin_ball.scattering import BallScattering, ball_scattering, starts
 from hess_mechanics.dynamics.ensemble import ensemble
 from hess_mechanics.dynamics.orbit import solve
-from hess_mechanics.dynamics.sampling import sample_times
+from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA, sample_times
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, Level
 from hess_mechanics.numerics.results import Array, Orbit, frozen
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.scattering import scattering
-from hess_mechanics.suslov_hess.torus import PIXELS, SAGITTA
 
 _MOST = 4000
 _ORBITS, _FEW_ORBITS = 18, 8

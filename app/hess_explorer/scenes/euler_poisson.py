@@ -34,7 +34,7 @@ from hess_explorer.views.velocity_plane import nice_above
 from hess_mechanics.dynamics.birkhoff import rotation_number
 from hess_mechanics.dynamics.lyapunov import Exponent, largest_exponent
 from hess_mechanics.dynamics.orbit import solve
-from hess_mechanics.dynamics.sampling import sample_times
+from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA, sample_times
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.euler_poisson.andoyer import (
     andoyer_points,
@@ -48,7 +48,6 @@ from hess_mechanics.euler_poisson.andoyer import (
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
 from hess_mechanics.numerics.accuracy import STANDARD, Level
 from hess_mechanics.numerics.results import Array, Orbit, frozen
-from hess_mechanics.suslov_hess.torus import PIXELS, SAGITTA
 
 _MOST = 4000
 _IN_A_DRAG = (16, 40)

@@ -19,6 +19,7 @@ from hess_explorer.views.graph import Graph
 from hess_explorer.views.poisson_sphere import Circle, Mark, PoissonSphere
 from hess_explorer.views.text import number
 from hess_explorer.views.velocity_plane import VelocityPlane, nice_above, sphere_columns
+from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array
@@ -34,7 +35,6 @@ from hess_mechanics.suslov.free import (
     rotation,
     sample_times,
 )
-from hess_mechanics.suslov_hess.torus import PIXELS, SAGITTA
 
 _MOST = 4000
 _LEVELS = (0.25, 0.6, 1.6)

@@ -21,6 +21,7 @@ from hess_explorer.views.graph import Graph
 from hess_explorer.views.poisson_sphere import Circle, PoissonSphere
 from hess_explorer.views.text import number
 from hess_mechanics.dynamics.orbit import solve
+from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.errors import NoField, Separatrix
 from hess_mechanics.euler_poisson.andoyer import coordinates
 from hess_mechanics.euler_poisson.equations import HeavyBody
@@ -30,7 +31,6 @@ from hess_mechanics.numerics.results import Array, Orbit, frozen
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, f_max, turning_points
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
 from hess_mechanics.suslov_hess.equations import SYSTEM, HessBody
-from hess_mechanics.suslov_hess.torus import PIXELS
 
 _IN_A_PERIOD = 96
 FLOOR = -17.5

@@ -21,7 +21,7 @@ from hess_explorer.views.poisson_sphere import Circle, Mark, PoissonSphere
 from hess_explorer.views.text import number
 from hess_explorer.views.velocity_plane import nice_above
 from hess_mechanics.dynamics.orbit import solve
-from hess_mechanics.dynamics.sampling import sample_times
+from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA, sample_times
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array, Orbit, frozen
 from hess_mechanics.suslov.equations import SYSTEM
@@ -29,7 +29,6 @@ from hess_mechanics.suslov.kharlamova import (
     Arc,
     PlaneBody,
     arc,
-    divergence,
     fixed_point_kinds,
     mirrored,
     periods,
@@ -37,7 +36,7 @@ from hess_mechanics.suslov.kharlamova import (
     state_at,
     to_plane,
 )
-from hess_mechanics.suslov_hess.torus import PIXELS, SAGITTA
+from hess_mechanics.suslov.principal_axis import divergence
 
 _MOST = 6000
 _DIRECTIONS = np.linspace(-math.pi, math.pi, 721)

@@ -18,11 +18,11 @@ from hess_explorer.views.body import BodyView, Curve, Rod, Shape
 from hess_explorer.views.figure import Figure
 from hess_explorer.views.poisson_sphere import Circle, Mark
 from hess_explorer.views.text import number
+from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.loxodromic_pendulum import LoxodromicMotion, LoxodromicPendulum, loxodromic_motion
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.equations import SYSTEM
-from hess_mechanics.suslov_hess.torus import PIXELS
 
 _SWING = (-1.05, 1.05)
 _ANGLES = (0.0, math.pi)

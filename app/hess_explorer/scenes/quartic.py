@@ -23,10 +23,9 @@ from hess_explorer.views.poisson_sphere import Circle, PoissonSphere
 from hess_explorer.views.section_plane import SectionPlane
 from hess_explorer.views.text import number
 from hess_explorer.views.velocity_plane import nice_above
-from hess_mechanics.chaplygin_ball.section import cells
 from hess_mechanics.dynamics.orbit import solve
-from hess_mechanics.dynamics.sampling import sample_times
-from hess_mechanics.dynamics.section import Points
+from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA, sample_times
+from hess_mechanics.dynamics.section import Points, occupied_cells
 from hess_mechanics.errors import ModelError, WorkLimit
 from hess_mechanics.numerics.accuracy import STANDARD, Level
 from hess_mechanics.numerics.results import Array, Orbit, frozen
@@ -39,7 +38,6 @@ from hess_mechanics.suslov.quartic import (
     state_at,
     state_on_section,
 )
-from hess_mechanics.suslov_hess.torus import PIXELS, SAGITTA
 
 _MOST = 6000
 _ORBITS = 20
@@ -324,7 +322,7 @@ def _visited(result: QuarticResult) -> int:
     """Cells of the section that the chosen orbit comes to."""
     assert result.own is not None
     half = math.pi / result.body.axes[1 - result.body.across]
-    return cells(np.column_stack([half * result.own[:, 0], 0.5 * math.pi * (1.0 + result.own[:, 1])]), _CELLS)
+    return occupied_cells(np.column_stack([half * result.own[:, 0], 0.5 * math.pi * (1.0 + result.own[:, 1])]), _CELLS)
 
 
 def _integrable(body: QuarticBody) -> bool:

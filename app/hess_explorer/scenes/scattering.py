@@ -22,12 +22,12 @@ from hess_explorer.views.poisson_sphere import Circle, Mark, PoissonSphere
 from hess_explorer.views.scattering_map import ANGLE_TICKS, POLAR_TICKS, ScatteringMap
 from hess_explorer.views.text import number
 from hess_explorer.views.velocity_plane import nice_above, sphere_columns
+from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 from hess_mechanics.suslov.free import Equilibria, FreeMotion, equilibria, free_motion, sample_times
 from hess_mechanics.suslov.scattering import Scattering, cos_chi, scattering, start
-from hess_mechanics.suslov_hess.torus import PIXELS, SAGITTA
 
 _GRIDS = {False: (240, 120), True: (120, 60)}
 """Cells of the map; fewer while a slider is dragged."""

@@ -31,10 +31,10 @@ from hess_explorer.views.layered_section import LayeredSection
 from hess_explorer.views.poisson_sphere import PoissonSphere
 from hess_explorer.views.text import number
 from hess_explorer.views.velocity_plane import VelocityPlane, nice_above, sphere_columns
-from hess_mechanics.chaplygin_ball.section import cells
 from hess_mechanics.dynamics.lyapunov import Exponent, largest_exponent
 from hess_mechanics.dynamics.orbit import solve
-from hess_mechanics.dynamics.sampling import sample_times
+from hess_mechanics.dynamics.sampling import HALF_A_PIXEL, PIXELS, SAGITTA, sample_times
+from hess_mechanics.dynamics.section import occupied_cells
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import DRAFT, STANDARD, Level, cheapest
 from hess_mechanics.numerics.results import Array, Orbit, frozen
@@ -50,7 +50,6 @@ from hess_mechanics.suslov.section import (
     states_at,
     suslov_points,
 )
-from hess_mechanics.suslov_hess.torus import HALF_A_PIXEL, PIXELS, SAGITTA
 
 _MOST = 4000
 _IN_A_DRAG = (12, 40)
@@ -433,8 +432,8 @@ def _captions(result: SuslovResult) -> dict[str, str]:
     if len(result.backward):
         shown += f", {len(result.backward)} backward"
     captions = {
-        "section": f"Section {plane}, growing\n{shown}; the later forward ones lie in {cells(result.later, _CELLS)} of "
-                   f"{_CELLS**2} cells.",
+        "section": f"Section {plane}, growing\n{shown}; the later forward ones lie in "
+                   f"{occupied_cells(result.later, _CELLS)} of {_CELLS**2} cells.",
         "omega": f"Angular velocity (ω₁, ω₂)\nThe chosen orbit, E = {number(result.E)}.",
         "sphere": "Poisson sphere\nThe vertical γ along the chosen orbit; r: the centre of mass.",
         "exponent": "Lyapunov exponent and divergence\nThey are found when a slider is let go.",

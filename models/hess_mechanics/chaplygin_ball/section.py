@@ -19,7 +19,7 @@ from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.rigid_body.inertia import require_finite
 
-__all__ = ["EQUATOR", "ball_section", "cells", "coordinates", "forbidden_band", "seeds", "state_at"]
+__all__ = ["EQUATOR", "ball_section", "coordinates", "forbidden_band", "seeds", "state_at"]
 
 EQUATOR = Plane((0.0, 0.0, 0.0, 0.0, 1.0))
 _EDGE = 1e-3
@@ -84,10 +84,3 @@ def ball_section(body: BallBody, h: float, starts: Sequence[Sequence[float]], cr
     except WorkLimit:
         raise WorkLimit(f"{crossings} crossings take an orbit more than {most_steps} steps here: choose fewer of them, "
                         "or smaller I13 and I23.") from None
-
-
-def cells(points: Array, across: int = 32) -> int:
-    """How many cells of an even grid over the section hold a point: few along a curve, many in a sea."""
-    x = np.floor((points[:, 0] + math.pi) / (2.0 * math.pi) * across).astype(int) % across
-    y = np.minimum((points[:, 1] / math.pi * across).astype(int), across - 1)
-    return int(np.unique(x * across + y).size)

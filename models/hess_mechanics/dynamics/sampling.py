@@ -13,7 +13,14 @@ from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.numerics.accuracy import PRECISE
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["sample_times"]
+__all__ = ["HALF_A_PIXEL", "PIXELS", "SAGITTA", "sample_times"]
+
+PIXELS = 600.0
+"""Width, in pixels, of the pictures that orbits are sampled for; a wider one shows proportionally more."""
+SAGITTA = 0.25
+"""The largest distance between an orbit and its chords in those pictures, in pixels."""
+HALF_A_PIXEL = 1.0 / PIXELS
+"""Half a pixel where the state is O(1) and spans the picture from −1 to 1."""
 
 _COARSE = 0.2
 """Spacing of the first look, in units in which the fastest angular velocity is 1."""

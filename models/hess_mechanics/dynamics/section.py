@@ -18,7 +18,7 @@ from hess_mechanics.numerics.parallel import THREADS, share
 from hess_mechanics.numerics.results import Array, Cost, Section, frozen
 from hess_mechanics.numerics.taylor import STEP_LIMIT_REACHED
 
-__all__ = ["MAX_CROSSINGS", "Plane", "Points", "Surface", "section", "section_points", "sections"]
+__all__ = ["MAX_CROSSINGS", "Plane", "Points", "Surface", "occupied_cells", "section", "section_points", "sections"]
 
 MAX_CROSSINGS = 100_000
 MAX_STEPS = 10_000_000
@@ -241,3 +241,13 @@ def section_points(system: System, states: Sequence[Sequence[float]] | Array, pa
     wall_ms = (time.perf_counter() - begun) * 1e3
     return Points([frozen(found[i][0]) for i in range(count)], drift,
                   Cost(sum(steps for _, steps in found.values()), wall_ms))
+
+
+def occupied_cells(points: Array, across: int = 32) -> int:
+    """How many of across × across equal cells hold a point: few along a curve, many in a chaotic sea.
+
+    points : (n, 2), angles in (−π, π] × [0, π], which the cells cover.
+    """
+    x = np.floor((points[:, 0] + math.pi) / (2.0 * math.pi) * across).astype(int) % across
+    y = np.minimum((points[:, 1] / math.pi * across).astype(int), across - 1)
+    return int(np.unique(x * across + y).size)

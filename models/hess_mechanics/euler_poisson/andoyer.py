@@ -22,10 +22,9 @@ import numpy as np
 from hess_mechanics.dynamics.section import MAX_STEPS, Points, section_points
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.euler_poisson.equations import QUADRATIC, SYSTEM, HeavyBody, field
+from hess_mechanics.euler_poisson.andoyer_kernels import cross
+from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody, field
 from hess_mechanics.numerics.accuracy import Level
-from hess_mechanics.numerics.events import Surface, crossing_finder
-from hess_mechanics.numerics.jit import kernel, part
 from hess_mechanics.numerics.parallel import THREADS
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.rigid_body.inertia import require_finite
@@ -34,42 +33,6 @@ __all__ = [
     "AndoyerPlane", "andoyer_points", "coordinates", "hess_curve", "possible", "relation", "seeds", "state_at",
     "states_at",
 ]
-
-
-@part
-def _along(c, normal, e, scratch):
-    """The Taylor coefficients of G²γ3 − f M3; normal[0] = f."""
-    for k in range(e.size):
-        total = 0.0
-        for m in range(k + 1):
-            n = k - m
-            total += c[m, 0] * c[n, 0] + c[m, 1] * c[n, 1] + c[m, 2] * c[n, 2]
-        scratch[k] = total
-    for k in range(e.size):
-        total = -normal[0] * c[k, 2]
-        for m in range(k + 1):
-            total += scratch[m] * c[k - m, 5]
-        e[k] = total
-
-
-@part
-def _height(y, normal):
-    return (y[0] * y[0] + y[1] * y[1] + y[2] * y[2]) * y[5] - normal[0] * y[2]
-
-
-@part
-def _on_this_side(y, normal):
-    """g = π/2 and not −π/2."""
-    return y[3] * y[1] - y[4] * y[0] > 0.0
-
-
-_cross = crossing_finder(QUADRATIC, Surface(_along, _height, _on_this_side, curved=True))
-
-
-@kernel
-def cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states):
-    """Crossings of g = π/2 by one orbit of `hh01`, see `crossing_finder`; normal = (f,)."""
-    return _cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states)
 
 
 @dataclass(frozen=True)

@@ -21,6 +21,7 @@ from functools import cached_property
 
 import numpy as np
 
+from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
@@ -28,7 +29,6 @@ from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.rigid_body.attitude import HESS, Attitude, attitude
 from hess_mechanics.rigid_body.inertia import require_finite
-from hess_mechanics.suslov_hess.torus import PIXELS, SAGITTA
 
 __all__ = ["SETTLED", "LoxodromicMotion", "LoxodromicPendulum", "loxodromic_motion"]
 

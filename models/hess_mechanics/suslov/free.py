@@ -31,12 +31,11 @@ from numpy.typing import NDArray
 from hess_mechanics.dynamics.orbit import checked_times, drift_of, require_finite_states, status_of
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Level, Status
-from hess_mechanics.numerics.jit import inner, kernel
 from hess_mechanics.numerics.results import Array, Cost, frozen
-from hess_mechanics.numerics.taylor import Quadratic, orbit_integrator
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov import additional_integral
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody, unit_vector
+from hess_mechanics.suslov.free_kernels import integrate
 
 __all__ = [
     "Equilibria", "FreeMotion", "Passage", "Rotation", "Shape", "arcs", "equilibria", "free_motion", "passage",
@@ -48,36 +47,6 @@ Complex = NDArray[np.complex128]
 _MAX_STEPS = 100_000
 _MAX_SHAPE = 1e4
 """Of K, κ and |c|: the work grows with them, and so does round-off."""
-
-
-@inner
-def rates(y, q, p):
-    """The equations of the module's docstring: T = tanh u, S = sech u, V = v1 + i v2, A = a1 + i a2, B = b1 + i b2."""
-    K, c = p
-    SS, ST, Tv1, Tv2, Sv1, Sv2, v1b1, v2b2, v1b2, v2b1, v1a1, v2a2, v1a2, v2a1 = q
-    return (
-        SS,
-        -ST,
-        K * Tv2 - c * Sv2 - Tv1,
-        c * Sv1 - K * Tv1 - Tv2,
-        0.5 * (v1b2 + v2b1),
-        0.5 * (v2b2 - v1b1),
-        0.5 * (v1a2 - v2a1),
-        -0.5 * (v1a1 + v2a2),
-    )
-
-
-QUADRATIC = Quadratic(
-    "T S v1 v2 a1 a2 b1 b2", "S*S S*T T*v1 T*v2 S*v1 S*v2 v1*b1 v2*b2 v1*b2 v2*b1 v1*a1 v2*a2 v1*a2 v2*a1",
-    rates, parameters=2,
-)
-_orbit = orbit_integrator(QUADRATIC)
-
-
-@kernel
-def _integrate(y, p, u, order, tolerance, max_steps, out):
-    """From u = 0 to the given u, see `orbit_integrator`."""
-    return _orbit(y, p, u, order, tolerance, max_steps, out)
 
 
 @dataclass(frozen=True)
@@ -276,7 +245,7 @@ def propagate(of: Shape, arc: int, u: Array, rung: Level) -> tuple[Complex, Comp
             continue
         outwards = index[np.argsort(np.abs(inside[index]), kind="stable")]
         states = np.empty((index.size, 8))
-        steps = _integrate(start, p, inside[outwards], rung.order, rung.tolerance, _MAX_STEPS, states)
+        steps = integrate(start, p, inside[outwards], rung.order, rung.tolerance, _MAX_STEPS, states)
         if steps < 0:
             raise WorkLimit("This passage needs too many steps: choose larger I13, I23, or a cheaper level.")
         out[outwards] = states

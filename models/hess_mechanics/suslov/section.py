@@ -23,6 +23,7 @@ from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.parallel import THREADS
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
+from hess_mechanics.suslov import principal_axis
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 
 __all__ = [
@@ -163,7 +164,7 @@ def suslov_points(body: SuslovBody, k: int, starts: Sequence[Sequence[float]], c
 
 def divergence(body: SuslovBody, states: Array) -> Array:
     """div ẏ = I23ω1/I22 − I13ω2/I11 (n,) of states (n, 5): the rate at which volume grows."""
-    return frozen(body.I23 * states[:, 0] / body.I22 - body.I13 * states[:, 1] / body.I11)
+    return frozen(np.asarray(principal_axis.divergence(states.T, body.parameters)))
 
 
 def basins(ends: Array) -> Array:

@@ -22,114 +22,18 @@ import numpy as np
 
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Level, Status
-from hess_mechanics.numerics.jit import inner, kernel, part
 from hess_mechanics.numerics.results import Array, Cost, frozen
-from hess_mechanics.numerics.taylor import Quadratic, columns_of, convolution, expansion, step_of, workspace
-from hess_mechanics.numerics.unrolled import evaluation
 from hess_mechanics.rigid_body.inertia import require_finite
-from hess_mechanics.suslov_hess.bifurcation import largest_f, period_from_gaps, roots, turning_points
+from hess_mechanics.suslov_hess.bifurcation import turning_points
+from hess_mechanics.suslov_hess.bifurcation_kernels import largest_f
+from hess_mechanics.suslov_hess.circle_map_kernels import images, matrices_into, theta_of
 
 __all__ = [
-    "CircleMap", "FixedPoint", "Phases", "circle_map", "discriminants", "matrices", "monodromy", "rotation_numbers",
-    "theta_at",
+    "CircleMap", "FixedPoint", "Phases", "circle_map", "discriminants", "matrices", "rotation_numbers", "theta_at",
 ]
 
 MAX_A = 1e6
 _MAX_STEPS = 200_000
-
-
-@inner
-def rates(y, q, p):
-    """`eq01` at a = 0 with A = a1 + i a2 and B = b1 + i b2, in terms of their products."""
-    _, _, n1, n2, _, _, _, _, _ = y
-    half_a, b = p
-    n3w2, w1n3, n1w2, n2w1, w2b2, w1b1, w2b1, w1b2, w2a2, w1a1, w2a1, w1a2 = q
-    return (
-        -b * n2,
-        b * n1,
-        -n3w2,
-        w1n3,
-        n1w2 - n2w1,
-        # conj(W B) = re − i im with W = w2 + i w1; −i(re − i im) = −im − i re.
-        -half_a * (w2b2 + w1b1),
-        -half_a * (w2b1 - w1b2),
-        -half_a * (w2a2 + w1a1),
-        -half_a * (w2a1 - w1a2),
-    )
-
-
-QUADRATIC = Quadratic(
-    "w1 w2 n1 n2 n3 a1 a2 b1 b2",
-    "n3*w2 w1*n3 n1*w2 n2*w1 w2*b2 w1*b1 w2*b1 w1*b2 w2*a2 w1*a1 w2*a1 w1*a2",
-    rates, parameters=2,
-)
-_columns = columns_of(QUADRATIC)
-_expand, _convolve = expansion(QUADRATIC), convolution(QUADRATIC)
-_evaluate = evaluation(9)
-
-
-@part
-def monodromy(h, f, a, order, tolerance, max_steps):
-    """(Re α, Im α, Im β, L, ζ, steps): the first three times e^{−L}; ζ is arg α, lifted.
-
-    A, B are rescaled as they grow, so that a and h may be large; steps = −1: too many.
-    """
-    _, n1, _, g10, _, g20, w_low, v_low = roots(h, f)
-    half_period = 0.5 * period_from_gaps(g10, g20)
-    nu = math.sqrt(2.0 * (h + 1.0))
-    c, left_factors, right_factors, inverses = workspace(order, 9, _columns)
-    increments = np.zeros(9)
-    c[0, 1] = math.sqrt(2.0 * w_low) / nu
-    c[0, 3] = math.copysign(math.sqrt(v_low), f)
-    c[0, 4] = n1
-    c[0, 5] = 1.0
-    p = (0.5 * a, 1.0 / (nu * nu))
-    left = half_period * nu
-    log_scale = 0.0
-    arg_A = 0.0
-    steps = 0
-    while left > 0.0:
-        _expand(c, left_factors, right_factors, inverses, p, rates, _convolve)
-        s = step_of(c, 9, tolerance)
-        if not s > 0.0 or steps >= max_steps:
-            return 0.0, 0.0, 0.0, 0.0, 0.0, -1.0
-        s = min(s, left)
-        left -= s
-        re, im = c[0, 5], c[0, 6]
-        _evaluate(c, s, increments)
-        for i in range(9):
-            c[0, i] += increments[i]
-        arg_A += math.atan2(re * c[0, 6] - im * c[0, 5], re * c[0, 5] + im * c[0, 6])
-        size = math.hypot(c[0, 5], c[0, 6])
-        if size > 16.0:
-            for i in range(5, 9):
-                c[0, i] /= size
-            log_scale += math.log(size)
-        steps += 1
-    A = complex(c[0, 5], c[0, 6])
-    B = complex(c[0, 7], c[0, 8])
-    # W starts real and positive and turns by less than π on the way up: the principal value.
-    chi = math.atan2(c[0, 0], c[0, 1])
-    turn = complex(math.cos(0.5 * chi), math.sin(0.5 * chi))
-    A *= turn
-    B *= turn
-    alpha = A * A - (B * B).conjugate()
-    beta = 2.0 * (A * B).imag
-    ratio = (B.conjugate() / A) ** 2
-    zeta = 2.0 * (arg_A + 0.5 * chi) + math.atan2(-ratio.imag, 1.0 - ratio.real)
-    if f == 0.0 and h < 1.0:
-        # The limit f → 0+, in which Re α vanishes: its two parts are too large to cancel by themselves.
-        return 0.0, alpha.imag, beta, 2.0 * log_scale, -0.5 * math.pi, float(steps)
-    return alpha.real, alpha.imag, beta, 2.0 * log_scale, zeta, float(steps)
-
-
-@kernel
-def _matrices(h, f, a, order, tolerance, max_steps, out):
-    """`monodromy` of each torus (h[i], f[i]) into out[i]."""
-    for i in range(h.size):
-        row = monodromy(h[i], f[i], a, order, tolerance, max_steps)
-        for j in range(6):
-            out[i, j] = row[j]
 
 
 def matrices(h: Array, f: Array, a: float, level: Level) -> Array:
@@ -138,7 +42,7 @@ def matrices(h: Array, f: Array, a: float, level: Level) -> Array:
     All (h[i], f[i]) must lie in the region.  Raises `WorkLimit`.
     """
     out = np.empty((h.size, 6))
-    _matrices(h, f, float(a), level.order, level.tolerance, _MAX_STEPS, out)
+    matrices_into(h, f, float(a), level.order, level.tolerance, _MAX_STEPS, out)
     if np.any(out[:, 5] < 0):
         raise WorkLimit("These tori need too many steps: choose smaller a, or (h, f) farther from (1, 0).")
     return out
@@ -218,24 +122,13 @@ class CircleMap:
         orbit = np.empty(count + 1)
         orbit[0] = math.remainder(phi, 2 * math.pi)
         for i in range(count):
-            _theta_of(*self.matrix, orbit[i : i + 1], orbit[i + 1 : i + 2])
+            theta_of(*self.matrix, orbit[i : i + 1], orbit[i + 1 : i + 2])
         return frozen(orbit)
-
-
-@kernel
-def _theta_of(re, im, im_beta, phi, out):
-    """Θ(φ) = 2 arg(αz + β) − φ with z = e^{iφ}, in (−π, π]."""
-    for i in range(phi.size):
-        c = math.cos(phi[i])
-        s = math.sin(phi[i])
-        angle = 2.0 * math.atan2(re * s + im * c + im_beta, re * c - im * s) - phi[i]
-        angle -= 2.0 * math.pi * np.rint(angle / (2.0 * math.pi))
-        out[i] = math.pi if angle <= -math.pi else min(angle, math.pi)
 
 
 def _theta(matrix: tuple[float, float, float], phi: Array) -> Array:
     out = np.empty(phi.size)
-    _theta_of(*matrix, phi.ravel(), out)
+    theta_of(*matrix, phi.ravel(), out)
     return out.reshape(phi.shape)
 
 
@@ -254,20 +147,10 @@ class Phases:
         return cls(angles, np.cos(angles), np.sin(angles))
 
 
-@kernel
-def _images(h, f, a, order, tolerance, max_steps, cos, sin, x, y):
-    """x + iy = αz + β, whose argument is (Θ + φ)/2; returns the steps."""
-    re, im, im_beta, _, _, steps = monodromy(h, f, a, order, tolerance, max_steps)
-    for i in range(cos.size):
-        x[i] = re * cos[i] - im * sin[i]
-        y[i] = re * sin[i] + im * cos[i] + im_beta
-    return steps
-
-
 def theta_at(phases: Phases, a: float, h: float, f: float, level: Level) -> Array:
     """Θ at these angles, up to whole turns, at the level's tolerance; no error estimate.  Raises `WorkLimit`."""
     x, y = np.empty_like(phases.cos), np.empty_like(phases.cos)
-    if _images(h, f, a, level.order, level.tolerance, _MAX_STEPS, phases.cos, phases.sin, x, y) < 0:
+    if images(h, f, a, level.order, level.tolerance, _MAX_STEPS, phases.cos, phases.sin, x, y) < 0:
         raise WorkLimit("This torus needs too many steps: choose smaller a, or (h, f) farther from (1, 0).")
     theta = np.arctan2(y, x, out=y)
     theta *= 2.0

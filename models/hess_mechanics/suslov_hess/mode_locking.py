@@ -16,7 +16,8 @@ from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.parallel import share
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
-from hess_mechanics.suslov_hess.bifurcation import f_max, largest_f, turning_points
+from hess_mechanics.suslov_hess.bifurcation import f_max, turning_points
+from hess_mechanics.suslov_hess.bifurcation_kernels import largest_f
 from hess_mechanics.suslov_hess.circle_map import check_a, matrices, rotation_numbers
 
 __all__ = [

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hess_mechanics.dynamics.orbit import solve
-from hess_mechanics.dynamics.sampling import sample_times
+from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA, sample_times
 from hess_mechanics.errors import Separatrix
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array, Orbit, frozen
@@ -22,17 +22,10 @@ from hess_mechanics.suslov_hess.circle_map import FixedPoint
 from hess_mechanics.suslov_hess.equations import SYSTEM, HessBody
 
 __all__ = [
-    "HALF_A_PIXEL", "PIXELS", "SAGITTA", "Track", "annulus", "attitude_of_track", "cycles", "pixels_per_unit",
-    "start_of_track", "track",
+    "Track", "annulus", "attitude_of_track", "cycles", "pixels_per_unit", "start_of_track", "track",
 ]
 
 MAX_RETURNS = 100
-PIXELS = 600.0
-"""Width of the pictures that the samples are meant for; a wider one shows proportionally more."""
-SAGITTA = 0.25
-"""The largest distance between the orbit and what is drawn, in those pixels."""
-HALF_A_PIXEL = 1.0 / PIXELS
-"""Half a pixel, in units in which the state is O(1) and fills the picture."""
 _MOST = 6000
 
 

@@ -15,9 +15,9 @@ from mechanics import PROPERTY
 from hess_explorer.scenes.suslov_hess import half_width
 from hess_mechanics import HessBody, circle_map, f_max, level, systems
 from hess_mechanics.dynamics.orbit import solve
-from hess_mechanics.dynamics.sampling import sample_times
+from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA, sample_times
 from hess_mechanics.suslov_hess.equations import SYSTEM
-from hess_mechanics.suslov_hess.torus import PIXELS, SAGITTA, cycles, pixels_per_unit, start_of_track, track
+from hess_mechanics.suslov_hess.torus import cycles, pixels_per_unit, start_of_track, track
 
 REFERENCE = level("reference")
 MOST = 6000

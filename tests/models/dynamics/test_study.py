@@ -16,6 +16,7 @@ from hess_explorer.scenes import scenes
 from hess_explorer.scenes.speed_accuracy import Study
 from hess_mechanics import HessBody, systems
 from hess_mechanics.dynamics.orbit import solve
+from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.system import Problem
 from hess_mechanics.dynamics.work_precision import (
     Growth,
@@ -28,7 +29,7 @@ from hess_mechanics.dynamics.work_precision import (
 )
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, REFERENCE
-from hess_mechanics.suslov_hess.torus import PIXELS, track
+from hess_mechanics.suslov_hess.torus import track
 
 SAMPLES = 200
 PRESETS = {preset.name: {**HESS.defaults(), **preset.values} for preset in HESS.presets}

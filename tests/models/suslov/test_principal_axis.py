@@ -19,16 +19,14 @@ from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite
 from hess_mechanics.suslov.kharlamova import (
     PlaneBody,
     arc,
-    divergence,
-    energy_gradient,
     fixed_point_kinds,
     mirrored,
     periods,
-    poisson_matrix,
     rescaled_time,
     state_at,
     to_plane,
 )
+from hess_mechanics.suslov.principal_axis import divergence, energy_gradient, poisson_matrix
 
 SUSLOV = systems()["suslov"]
 FLOOR = level("reference")

@@ -10,9 +10,9 @@ from hess_explorer.compute.cache import CACHE, Task
 from hess_explorer.protocol.parameters import Choice, Value, Values, places, written
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes.framework.scene import Picture
+from hess_mechanics.dynamics.sampling import HALF_A_PIXEL
 from hess_mechanics.numerics.accuracy import LEVELS, Level, Status, cheapest, level
 from hess_mechanics.numerics.results import Array, Cost
-from hess_mechanics.suslov_hess.torus import HALF_A_PIXEL
 
 __all__ = ["ACCURACY", "Window", "Work", "inside", "orbit_status", "refuse", "tidy_window", "window_of"]
 

@@ -1,0 +1,119 @@
+"""Kernels of `bifurcation`: the largest f, the roots of the gyroscopic function, and the period of n3, units b = 1.
+
+The roots of p(n) = 2(h+n)(1−n²) − f² come from its expansions about its two extrema, p(n_c+s) = p_c ∓ 2D s² − 2s³
+with D = √(h²+3): every gap between roots then keeps its relative accuracy, however close (h, f) is to the bifurcation
+curve, to the separatrix (1, 0) or to the bottom (−1, 0).
+"""
+
+from __future__ import annotations
+
+import math
+
+from hess_mechanics.numerics.jit import inner, kernel
+
+__all__ = ["f_max_and_roots", "largest_f", "period_from_gaps", "roots", "upper_extremum"]
+
+
+@inner
+def upper_extremum(h):
+    """(D, h+n_c, 1−n_c) at the maximum n_c of p, without cancellation for any h ≥ −1."""
+    e = h + 1.0
+    D = math.sqrt(h * h + 3.0)
+    return D, e * (e + D) / (e + 2.0 + D), 2.0 * e / (e + 2.0 + D)
+
+
+@inner
+def largest_f(h):
+    """f_max(h) = √(2(h+n_c)(1−n_c²))."""
+    _, k, d = upper_extremum(h)
+    return math.sqrt(2.0 * k * d * (2.0 - d))
+
+
+@inner
+def roots(h, f):
+    """The roots of p(n) = 2(h+n)(1−n²) − f², and what cancels in them, for |f| ≤ f_max(h).
+
+    Returns (n0, n1, n2, g10, g21, g20, w1, v1): n0 ≤ n1 ≤ n2; gaps g_ij = n_i − n_j;
+    w1 = h + n1 (half of |w|² at the lower turning point) and v1 = 1 − n1².
+    """
+    D, k, d = upper_extremum(h)
+    fm = math.sqrt(2.0 * k * d * (2.0 - d))
+    above = max(0.0, (fm - abs(f)) * (fm + abs(f)))
+    # The minimum n_m = (−h−D)/3: p(n_m) = −below, with h+n_m and 1+n_m free of cancellation.
+    n_m = (-h - D) / 3.0
+    if 2.0 * h + D > 1.0:
+        h_plus = (h - 1.0) * (h + 1.0) / (2.0 * h + D)
+    else:
+        h_plus = (2.0 * h - D) / 3.0
+    # D − h, which cancels for large h.
+    D_less_h = 3.0 / (D + h) if h > 0.0 else D - h
+    one_plus = 2.0 * (1.0 - h) / (3.0 + D_less_h)
+    below = max(0.0, f * f - 2.0 * h_plus * one_plus * (1.0 - n_m))
+    # p = 0 is u³ − 3u + 2 = q; u = 2 cos α, q = 4 cos²(3α/2), 4 − q = 4 sin²(3α/2).
+    alpha = 2.0 / 3.0 * math.atan2(math.sqrt(below), math.sqrt(above))
+    delta = 2.0 / 3.0 * math.atan2(math.sqrt(above), math.sqrt(below))
+    g = 2.0 * D / math.sqrt(3.0)
+    g21 = g * math.sin(delta)
+    g10 = g * math.sin(alpha)
+    g20 = g * math.sin(math.pi / 3.0 + alpha)
+    half = math.sin(0.5 * delta)
+    s1 = -D / 3.0 * (2.0 * half * half + math.sqrt(3.0) * math.sin(delta))
+    one_minus = d - s1
+    n1 = 1.0 - one_minus
+    n2 = n1 + g21
+    w1 = k + s1
+    u1 = 2.0 - one_minus
+    if f == 0.0:
+        w1 = max(0.0, h - 1.0)
+        u1 = max(0.0, 1.0 - h)
+        one_minus = min(2.0, 1.0 + h)
+        n1 = -min(1.0, h)
+    elif min(w1 / k, u1) < 0.1:
+        # Near the pole or the rim |w| = 0 what is small of h+n1 and 1+n1 has cancelled.  With v = 1−n1
+        # it solves x² ± (1−h)x = f²/2v; Newton on p then.  Never near the curve, a double root of p.
+        v = one_minus
+        x = f * f / v
+        root = math.sqrt((1.0 - h) * (1.0 - h) + 2.0 * x)
+        if w1 < u1:
+            w1 = x / ((1.0 - h) + root) if h < 1.0 else 0.5 * ((h - 1.0) + root)
+            for _ in range(2):
+                u = (1.0 - h) + w1
+                v = (1.0 + h) - w1
+                w1 -= (2.0 * w1 * u * v - f * f) / (2.0 * (u * v + w1 * v - w1 * u))
+            u1 = (1.0 - h) + w1
+            one_minus = (1.0 + h) - w1
+            n1 = w1 - h
+        else:
+            u1 = x / ((h - 1.0) + root) if h > 1.0 else 0.5 * ((1.0 - h) + root)
+            for _ in range(2):
+                w = (h - 1.0) + u1
+                v = 2.0 - u1
+                u1 -= (2.0 * w * u1 * v - f * f) / (2.0 * (u1 * v + w * v - w * u1))
+            w1 = (h - 1.0) + u1
+            one_minus = 2.0 - u1
+            n1 = u1 - 1.0
+    v1 = u1 * one_minus
+    return n1 - g10, n1, n2, g10, g21, g20, w1, v1
+
+
+@inner
+def period_from_gaps(g10, g20):
+    """One period of n3, T = 2√2/√(n2−n0) K(m), by the arithmetic–geometric mean of 1 and √(1−m)."""
+    x = 1.0
+    y = math.sqrt(g10 / g20)
+    for _ in range(60):
+        if abs(x - y) <= 1e-16 * x:
+            break
+        x, y = 0.5 * (x + y), math.sqrt(x * y)
+    return 2.0 * math.sqrt(2.0) / math.sqrt(g20) * math.pi / (x + y)
+
+
+@kernel
+def f_max_and_roots(h, f):
+    """f_max(h), `roots(h, f)` and the period of n3 (∞ on the separatrix); zeros for |f| > f_max."""
+    fm = largest_f(h)
+    if not abs(f) <= fm * (1.0 + 1e-15):
+        return fm, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), 0.0
+    found = roots(h, f)
+    # The gap n1 − n0 is 0 at the separatrix only, where the period is infinite.
+    return fm, found, period_from_gaps(found[3], found[5]) if found[3] > 0.0 else math.inf

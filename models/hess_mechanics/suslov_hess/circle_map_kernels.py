@@ -1,0 +1,132 @@
+"""Kernels of `circle_map`: the matrix of SU(1,1) of one torus or many, and images of angles under it."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from hess_mechanics.numerics.jit import inner, kernel, part
+from hess_mechanics.numerics.taylor import Quadratic, columns_of, convolution, expansion, step_of, workspace
+from hess_mechanics.numerics.unrolled import evaluation
+from hess_mechanics.suslov_hess.bifurcation_kernels import period_from_gaps, roots
+
+__all__ = ["QUADRATIC", "images", "matrices_into", "monodromy", "theta_of"]
+
+
+@inner
+def rates(y, q, p):
+    """`eq01` at a = 0 with A = a1 + i a2 and B = b1 + i b2, in terms of their products."""
+    _, _, n1, n2, _, _, _, _, _ = y
+    half_a, b = p
+    n3w2, w1n3, n1w2, n2w1, w2b2, w1b1, w2b1, w1b2, w2a2, w1a1, w2a1, w1a2 = q
+    return (
+        -b * n2,
+        b * n1,
+        -n3w2,
+        w1n3,
+        n1w2 - n2w1,
+        # conj(W B) = re − i im with W = w2 + i w1; −i(re − i im) = −im − i re.
+        -half_a * (w2b2 + w1b1),
+        -half_a * (w2b1 - w1b2),
+        -half_a * (w2a2 + w1a1),
+        -half_a * (w2a1 - w1a2),
+    )
+
+
+QUADRATIC = Quadratic(
+    "w1 w2 n1 n2 n3 a1 a2 b1 b2",
+    "n3*w2 w1*n3 n1*w2 n2*w1 w2*b2 w1*b1 w2*b1 w1*b2 w2*a2 w1*a1 w2*a1 w1*a2",
+    rates, parameters=2,
+)
+
+_columns = columns_of(QUADRATIC)
+
+_expand, _convolve = expansion(QUADRATIC), convolution(QUADRATIC)
+
+_evaluate = evaluation(9)
+
+
+@part
+def monodromy(h, f, a, order, tolerance, max_steps):
+    """(Re α, Im α, Im β, L, ζ, steps): the first three times e^{−L}; ζ is arg α, lifted.
+
+    A, B are rescaled as they grow, so that a and h may be large; steps = −1: too many.
+    """
+    _, n1, _, g10, _, g20, w_low, v_low = roots(h, f)
+    half_period = 0.5 * period_from_gaps(g10, g20)
+    nu = math.sqrt(2.0 * (h + 1.0))
+    c, left_factors, right_factors, inverses = workspace(order, 9, _columns)
+    increments = np.zeros(9)
+    c[0, 1] = math.sqrt(2.0 * w_low) / nu
+    c[0, 3] = math.copysign(math.sqrt(v_low), f)
+    c[0, 4] = n1
+    c[0, 5] = 1.0
+    p = (0.5 * a, 1.0 / (nu * nu))
+    left = half_period * nu
+    log_scale = 0.0
+    arg_A = 0.0
+    steps = 0
+    while left > 0.0:
+        _expand(c, left_factors, right_factors, inverses, p, rates, _convolve)
+        s = step_of(c, 9, tolerance)
+        if not s > 0.0 or steps >= max_steps:
+            return 0.0, 0.0, 0.0, 0.0, 0.0, -1.0
+        s = min(s, left)
+        left -= s
+        re, im = c[0, 5], c[0, 6]
+        _evaluate(c, s, increments)
+        for i in range(9):
+            c[0, i] += increments[i]
+        arg_A += math.atan2(re * c[0, 6] - im * c[0, 5], re * c[0, 5] + im * c[0, 6])
+        size = math.hypot(c[0, 5], c[0, 6])
+        if size > 16.0:
+            for i in range(5, 9):
+                c[0, i] /= size
+            log_scale += math.log(size)
+        steps += 1
+    A = complex(c[0, 5], c[0, 6])
+    B = complex(c[0, 7], c[0, 8])
+    # W starts real and positive and turns by less than π on the way up: the principal value.
+    chi = math.atan2(c[0, 0], c[0, 1])
+    turn = complex(math.cos(0.5 * chi), math.sin(0.5 * chi))
+    A *= turn
+    B *= turn
+    alpha = A * A - (B * B).conjugate()
+    beta = 2.0 * (A * B).imag
+    ratio = (B.conjugate() / A) ** 2
+    zeta = 2.0 * (arg_A + 0.5 * chi) + math.atan2(-ratio.imag, 1.0 - ratio.real)
+    if f == 0.0 and h < 1.0:
+        # The limit f → 0+, in which Re α vanishes: its two parts are too large to cancel by themselves.
+        return 0.0, alpha.imag, beta, 2.0 * log_scale, -0.5 * math.pi, float(steps)
+    return alpha.real, alpha.imag, beta, 2.0 * log_scale, zeta, float(steps)
+
+
+@kernel
+def matrices_into(h, f, a, order, tolerance, max_steps, out):
+    """`monodromy` of each torus (h[i], f[i]) into out[i]."""
+    for i in range(h.size):
+        row = monodromy(h[i], f[i], a, order, tolerance, max_steps)
+        for j in range(6):
+            out[i, j] = row[j]
+
+
+@kernel
+def theta_of(re, im, im_beta, phi, out):
+    """Θ(φ) = 2 arg(αz + β) − φ with z = e^{iφ}, in (−π, π]."""
+    for i in range(phi.size):
+        c = math.cos(phi[i])
+        s = math.sin(phi[i])
+        angle = 2.0 * math.atan2(re * s + im * c + im_beta, re * c - im * s) - phi[i]
+        angle -= 2.0 * math.pi * np.rint(angle / (2.0 * math.pi))
+        out[i] = math.pi if angle <= -math.pi else min(angle, math.pi)
+
+
+@kernel
+def images(h, f, a, order, tolerance, max_steps, cos, sin, x, y):
+    """x + iy = αz + β, whose argument is (Θ + φ)/2; returns the steps."""
+    re, im, im_beta, _, _, steps = monodromy(h, f, a, order, tolerance, max_steps)
+    for i in range(cos.size):
+        x[i] = re * cos[i] - im * sin[i]
+        y[i] = re * sin[i] + im * cos[i] + im_beta
+    return steps
