@@ -12,13 +12,13 @@ from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.chaplygin_ball.section import (
     EQUATOR,
     ball_section,
-    cells,
     coordinates,
     forbidden_band,
     seeds,
     state_at,
 )
 from hess_mechanics.dynamics.ensemble import ensemble
+from hess_mechanics.dynamics.section import occupied_cells
 from hess_mechanics.errors import InvalidParameter, OutsideRegion, WorkLimit
 
 GENERAL = BallBody(1.5, 3.0, -0.3, 0.2, 1.0, 1.0, -0.7, 0.7)
@@ -145,10 +145,10 @@ def test_cells_are_counted_as_those_of_a_histogram():
     random = np.random.default_rng(2)
     for count in (1, 10, 3000):
         points = random.uniform(size=(count, 2)) * [2.0 * math.pi, math.pi] - [math.pi, 0.0]
-        assert cells(points) == len(occupied(points))
-        assert cells(points, 7) == len(occupied(points, 7))
-    assert cells(np.array([[math.pi, math.pi], [-math.pi, 0.0]])) == 2
-    assert cells(np.empty((0, 2))) == 0
+        assert occupied_cells(points) == len(occupied(points))
+        assert occupied_cells(points, 7) == len(occupied(points, 7))
+    assert occupied_cells(np.array([[math.pi, math.pi], [-math.pi, 0.0]])) == 2
+    assert occupied_cells(np.empty((0, 2))) == 0
 
 
 def test_more_steps_than_allowed_are_refused_in_a_sentence():

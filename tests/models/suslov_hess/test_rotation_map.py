@@ -7,6 +7,7 @@ import math
 import mpmath
 import numpy as np
 import pytest
+from mechanics import REFERENCE as KNOWN
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
@@ -25,7 +26,6 @@ from hess_mechanics.suslov_hess.rotation_number import (
     values_at,
 )
 
-KNOWN = REFERENCE
 LOCKS = [tuple(float(row[name]) for name in ("a", "h", "f")) for row in KNOWN["lock_boundary"] + KNOWN["a_critical"]]
 ELLIPTIC = [(0.5, 0.5, 0.5), (0.5, 0.2, 0.3), (0.3, -0.5, 0.2), (1.2, -0.6, 0.3), (0.1, 2.0, 1.5), (0.5, 0.5, -0.5)]
 HYPERBOLIC = [(0.5, 1.5, 0.6), (1.2, 0.9, 0.8), (0.5, 1.5, -0.6)]
