@@ -13,7 +13,8 @@ import pytest
 from hess_explorer.headless.browser import launched, wait_ready
 from hess_explorer.headless.screenshot import running_server
 
-__all__ = ["scene_of", "wait_ready"]
+# Asserts in helpers explain themselves as those of tests do.
+pytest.register_assert_rewrite("support", "oracle")
 
 
 def pytest_configure(config):
@@ -21,11 +22,6 @@ def pytest_configure(config):
     if not hasattr(config, "workerinput") and not config.option.collectonly:
         subprocess.run([sys.executable, "-c", "from hess_explorer.server.warm import compile_all; compile_all()"],
                        check=True)
-
-
-def scene_of(query):
-    """The query, in the Suslov–Hess scene if it names none: which scene is the first one is no matter here."""
-    return query if "scene=" in query else f"scene=suslov-hess&{query}".rstrip("&")
 
 
 @pytest.fixture(scope="session")
@@ -62,6 +58,8 @@ def open_page(browser, server):
     When the test ends no page may have reported an error or asked another host for anything.  Warnings of the
     console are kept in `open_page.warnings`.
     """
+    from support.page import scene_of
+
     host = urlsplit(server).netloc
     contexts, errors, warnings, outside = [], [], [], []
 

@@ -1,4 +1,4 @@
-"""Make app/benchmark/references.npz: `python tests/make_benchmark_references.py` (a quarter of an hour on one core).
+"""Make app/hess_explorer/benchmark/references.npz: `python tests/benchmarks/make_benchmark_references.py` (15 min).
 
 Taylor series in fixed-point numbers: an integer c stands for c/2^bits.  Everything is computed twice, with other
 precision and order and so with other steps, and the two must agree to 1e-30.  Before that the same code must give the

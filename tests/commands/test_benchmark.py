@@ -11,11 +11,10 @@ import sys
 import time
 from dataclasses import replace
 
-import make_benchmark_references as maker
 import numpy as np
 import pytest
-from mechanics import ROOT
 
+from benchmarks import make_benchmark_references as maker
 from hess_explorer.__main__ import main
 from hess_explorer.benchmark import run as benchmark
 from hess_explorer.benchmark.explorer import METHOD as EXPLORER
@@ -40,6 +39,7 @@ from hess_explorer.benchmark.threads import shared
 from hess_explorer.benchmark.works import REFERENCES, works
 from hess_explorer.commands import CommandError
 from hess_mechanics import circle_map, level, solve, systems
+from support.mechanics import ROOT
 
 # References
 

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import csv
 import gc
-import json
 import math
 import signal
 import socket
@@ -13,21 +11,21 @@ import sys
 import types
 import webbrowser
 from io import BytesIO
-from pathlib import Path
 
 import numpy as np
 import pytest
 from PIL import Image
 from scipy.integrate import solve_ivp
-from test_andoyer import GESS1, crossings_by_scipy, start_by_hand
 
 import hess_explorer.headless.screenshot
 from hess_explorer.__main__ import main
 from hess_explorer.headless.browser import BrowserError
 from hess_explorer.headless.screenshot import running_server
 from hess_mechanics.dynamics.orbit import MAX_SAMPLES
+from support.andoyer import GESS1, crossings_by_scipy, start_by_hand
+from support.command_line import replaced, run, strict_json, table
+from support.mechanics import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
 CIRCLE_MAP = ["circle-map", "--h", "1.5", "--f", "0.6", "--a", "0.5", "--phi", "0,1,2", "--accuracy", "reference"]
 SUSLOV = ["orbit", "suslov", "--I", "2,1,0.3,0.5", "--b", "0.3,-0.5,1", "--omega", "0.8,-0.4",
           "--gamma", "0.3,0.2,0.93", "--t", "10,50", "--accuracy", "reference"]
@@ -59,51 +57,6 @@ HEAVY_STATES = [
     [1.09336915106861076365, 1.355414217337625118592, 1.014041313101284483508, 0.239288243300533307289,
      -0.6121309258568160022675, 0.7536822050624666347255],
 ]
-
-
-def no_constant(name):
-    raise AssertionError(f"{name} is not JSON")
-
-
-def strict_json(text):
-    return json.loads(text, parse_constant=no_constant)
-
-
-def run(*words):
-    command = [sys.executable, "-m", "hess_explorer", *words]
-    return subprocess.run(command, cwd=ROOT, capture_output=True, timeout=120, check=False)
-
-
-@pytest.fixture
-def answer(capsys):
-    def call(*words):
-        assert main(words) == 0
-        out, err = capsys.readouterr()
-        assert err == ""
-        return strict_json(out)
-
-    return call
-
-
-@pytest.fixture
-def refusal(capsys):
-    """The one sentence of a refused request."""
-
-    def call(*words):
-        assert main(words) == 2
-        out, err = capsys.readouterr()
-        assert out == ""
-        assert err.startswith("hess-explorer: ")
-        assert err.count("\n") == 1
-        assert err.endswith(".\n")
-        return err
-
-    return call
-
-
-def replaced(words, option, value):
-    at = words.index(option)
-    return [*words[:at + 1], value, *words[at + 2:]]
 
 
 # Values
@@ -213,13 +166,6 @@ def test_range_of_times(answer):
 
 
 # Formats
-
-
-def table(text):
-    lines = text.splitlines()
-    facts = dict(line.removeprefix("# ").split(": ", 1) for line in lines if line.startswith("#"))
-    header, *rows = csv.reader(line for line in lines if not line.startswith("#"))
-    return {key: strict_json(value) for key, value in facts.items()}, header, rows
 
 
 def without_cost(found):

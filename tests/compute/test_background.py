@@ -11,7 +11,6 @@ from collections import Counter
 
 import numpy as np
 import pytest
-from test_scenes import SCENES, Browser
 
 import hess_explorer.scenes
 from hess_explorer.compute import background
@@ -22,6 +21,7 @@ from hess_explorer.protocol.parameters import MAX_QUERY, Places, decode, encode,
 from hess_explorer.scenes.framework.work import Work
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.parallel import THREADS
+from support.board import SCENES, Browser
 
 EP = SCENES["euler-poisson"]
 STARTS = next(spec for spec in EP.specs if spec.name == "starts")

@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from mechanics import PROPERTY
-from test_scenes import modules_of_scenes
 
 from hess_explorer.compute.cache import CACHE, ResultCache, size_of
 from hess_explorer.scenes import scenes
 from hess_mechanics.numerics.results import frozen
+from support.board import modules_of_scenes
+from support.mechanics import PROPERTY
 
 KILOBYTE = 1024
 WAIT = 30

@@ -14,13 +14,13 @@ import numpy as np
 import pytest
 import scipy.integrate
 from bokeh.models import ColumnDataSource
-from test_scenes import ACCURACY, HESS, SCENES, Board, Browser, contents, elsewhere, modules_of_scenes, plots_of
 
 from hess_explorer.compute.cache import ResultCache
 from hess_explorer.page import session
 from hess_explorer.scenes import suslov_hess
 from hess_explorer.server import warm
 from hess_mechanics.errors import WorkLimit
+from support.board import ACCURACY, HESS, SCENES, Board, Browser, contents, elsewhere, modules_of_scenes, plots_of
 
 every_scene = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
 

@@ -8,11 +8,11 @@ import math
 
 import numpy as np
 import pytest
-from mechanics import REFERENCE
 
 import oracle
 from hess_mechanics import check_body, circle_map, f_max, level, solve, systems
 from hess_mechanics.numerics.accuracy import LEVELS
+from support.mechanics import REFERENCE
 
 SYSTEMS = systems()
 ORBITS, TORI, SEED = 100, 100, 20160801

@@ -1,6 +1,6 @@
 """At the edges of what can be asked: right within the level's promise, or refused in a sentence.
 
-One row for each extreme.  `python tests/test_extremes.py` prints what was measured as a table.
+One row for each extreme.  `python tests/models/test_extremes.py` prints what was measured as a table.
 """
 
 import math
@@ -16,11 +16,7 @@ import numpy as np
 import pytest
 
 if __name__ == "__main__":
-    sys.path[:0] = [str(Path(__file__).parents[1] / folder) for folder in ("models", "oracle", "support")]
-
-import extremes_ball
-import extremes_euler_poisson
-import extremes_suslov
+    sys.path[:0] = [str(Path(__file__).parents[1])]
 
 import oracle
 from hess_mechanics import (
@@ -50,6 +46,9 @@ from hess_mechanics.suslov.additional_integral import I11_of, additional_integra
 from hess_mechanics.suslov.free import equilibria, free_motion
 from hess_mechanics.suslov.scattering import scattering
 from hess_mechanics.suslov_hess.torus import cycles, track
+from support.extremes import ball as extremes_ball
+from support.extremes import euler_poisson as extremes_euler_poisson
+from support.extremes import suslov as extremes_suslov
 
 HESS, SUSLOV = systems()["hess"], systems()["suslov"]
 # What each level promises; `reference` goes to the floor of double precision, wherever the motion puts that.

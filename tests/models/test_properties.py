@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from mechanics import PROPERTY
 
 from hess_mechanics import Plane, circle_map, ensemble, f_max, level, section, solve, systems, unit_vector
 from hess_mechanics.dynamics.system import Problem
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.accuracy import LEVELS, Status
+from support.mechanics import PROPERTY
 
 SYSTEMS = systems()
 WIDE = settings(PROPERTY, suppress_health_check=[HealthCheck.too_slow])

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from mechanics import REFERENCE, angle_between, numbers
 
 from hess_mechanics import circle_map, critical_a, level, lock_boundary_f, solve, systems, turning_points
 from hess_mechanics.numerics.accuracy import Status
+from support.mechanics import REFERENCE, angle_between, numbers
 
 # (level, largest error of an orbit, largest error of anything else).  Chaotic orbits amplify the
 # rounding of their initial data, hence the wider bound at the floor.

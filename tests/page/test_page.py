@@ -6,365 +6,32 @@
 from __future__ import annotations
 
 import math
-import re
-from urllib.parse import parse_qsl, quote, urlencode, urlsplit
+from urllib.parse import quote, urlencode, urlsplit
 
 import numpy as np
 import pytest
 
-from conftest import scene_of
 from hess_explorer.headless.browser import wait_ready
 from hess_explorer.headless.screenshot import running_server
-from hess_explorer.protocol.parameters import MAX_QUERY, Number
-from hess_explorer.scenes import scenes
-from hess_mechanics import HessBody, level, solve, systems, turning_points
-
-HESS, STUDY = "suslov-hess", "suslov-hess-accuracy"
-FIRST = next(iter(scenes()))
-"""The scene of a page whose address names none."""
-DEFAULTS = scenes()[HESS].defaults()
-PICTURES = ("omega", "sphere", "bifurcation", "circle")
-SLIDERS = {"I22": 0.01, "I23": 0.01, "b3": 0.01, "h": 0.01, "f": 0.01, "phi0": 0.01, "span": 1.0}
-"""The numbers, with the step of each slider at the default state."""
-
-
-class Explorer:
-    """A page that is open: what a user does with it, and what is to be seen on it."""
-
-    def __init__(self, page, base):
-        self.page = page
-        self.base = base
-        self.errors, self.outside, self.sent, self.received = [], [], [], []
-        # Long enough for a machine that does much else; nothing is measured here.
-        page.set_default_timeout(60_000)
-        host = urlsplit(base).netloc
-
-        def on_url(url):
-            if urlsplit(url).netloc not in ("", host):
-                self.outside.append(url)
-
-        # Playwright takes no built-in methods.
-        def on_sent(frame):
-            self.sent.append(frame)
-
-        def on_received(frame):
-            self.received.append(frame)
-
-        def on_socket(socket):
-            on_url(socket.url)
-            socket.on("framesent", on_sent)
-            socket.on("framereceived", on_received)
-
-        page.on("console", lambda message: self.errors.append(message.text) if message.type == "error" else None)
-        page.on("pageerror", lambda error: self.errors.append(str(error)))
-        page.on("request", lambda request: on_url(request.url))
-        page.on("websocket", on_socket)
-
-    def open(self, query=""):
-        """The page of a query; one that names no scene is one of the Suslov–Hess scene."""
-        return self.goto(f"/?{scene_of(query)}")
-
-    def goto(self, address):
-        """The page of exactly this address."""
-        self.page.goto(self.base + address)
-        wait_ready(self.page)
-        return self
-
-    def fresh(self, scene=HESS):
-        """The default state, at t = 0, at rest, the sphere turned back: as if opened anew, but sooner."""
-        url = self.page.url
-        # Whatever a test that failed still held.
-        self.page.mouse.up()
-        if not url.startswith(self.base) or "theme=dark" in url or not self.ready or self.scene != scene:
-            return self.open(f"scene={scene}")
-        if self.playing:
-            self.page.locator(".param-play").click()
-        self.page.locator(".param-speed").select_option("1")
-        self.set_time(0.0)
-        if scene == HESS:
-            self.sphere.press("Home")
-        if self.accuracy != DEFAULTS["accuracy"]:
-            self.change(self.choose, "accuracy", DEFAULTS["accuracy"])
-        before = self.state
-        ready = self.page.evaluate(ENTER, [(name, DEFAULTS[name]) for name in SLIDERS])
-        wait_ready(self.page, after=before - (ready == "true"))
-        if self.text("notes"):
-            return self.open(f"scene={scene}")
-        self.page.evaluate("document.activeElement?.blur()")
-        self.page.mouse.move(5, 5)
-        return self
-
-    def assert_quiet(self):
-        """No error was reported and no other host was asked for anything."""
-        assert not self.errors, self.errors
-        assert not self.outside, self.outside
-
-    # What the page says.
-
-    @property
-    def state(self):
-        return int(self.page.evaluate("document.documentElement.dataset.state"))
-
-    @property
-    def ready(self):
-        return self.page.evaluate("document.documentElement.dataset.ready") == "true"
-
-    def data(self, name):
-        """The columns of a source of the scene on show; nested lists for polygons and lines of several parts."""
-        return self.page.evaluate(
-            """name => {
-              const plain = (x) => ArrayBuffer.isView(x) || Array.isArray(x) ? Array.from(x, plain) : x
-              const { data } = window.hess.source(name)
-              return Object.fromEntries(Object.entries(data).map(([key, column]) => [key, plain(column)]))
-            }""", name)
-
-    def here(self):
-        """(h, f) where the ring stands in the bifurcation diagram."""
-        ring = self.data("bifurcation-here")
-        return ring["h"][0], ring["f"][0]
-
-    def axes(self, name):
-        """(x from, x to, y from, y to) of a planar picture."""
-        return self.page.evaluate(
-            """name => {
-              const { x_range: x, y_range: y } = window.hess.plots.find(({ model }) => model.name === name).model
-              return [x.start, x.end, y.start, y.end]
-            }""", name)
-
-    def picture(self, name):
-        """A picture of the scene on show, with its caption: those of scenes seen before stay where they are, unseen."""
-        return self.page.locator(f".gallery:not(.away) .picture-{name}")
-
-    def caption(self, picture):
-        return self.picture(picture).locator(".caption").inner_text()
-
-    def text(self, look):
-        """What stands in the status line, the notes or the derived quantities."""
-        return self.page.locator(f".text.{look}").text_content()
-
-    @property
-    def scene(self):
-        """The name of the scene on show."""
-        return self.page.locator(".scene[aria-pressed=true]").get_attribute("data-scene")
-
-    @property
-    def accuracy(self):
-        """The level in the menu."""
-        return self.chosen("accuracy")
-
-    def chosen(self, menu):
-        """The option that a menu shows, in its words."""
-        return self.menu(menu).evaluate("menu => menu.selectedOptions[0]?.textContent ?? null")
-
-    def shown(self, name):
-        """(box, slider) of a number."""
-        return float(self.box(name).input_value()), float(self.slider(name).input_value())
-
-    @property
-    def time(self):
-        return float(self.page.locator("input.param-t").input_value())
-
-    @property
-    def playing(self):
-        return self.page.locator(".player[role=group]").get_attribute("data-playing") == "true"
-
-    @property
-    def turn(self):
-        """(azimuth, elevation) of the sphere as it is painted."""
-        return tuple(map(float, self.sphere.get_attribute("data-turn").split()))
-
-    def wait_url(self, **values):
-        """Wait until the address bar has these values, and return all that it has."""
-        self.page.wait_for_function(
-            "wanted => wanted.every(([key, value]) => new URLSearchParams(location.search).get(key) === value)",
-            arg=[[key, str(value)] for key, value in values.items()])
-        return dict(parse_qsl(urlsplit(self.page.url).query))
-
-    # What a user does.
-
-    def slider(self, name):
-        return self.page.locator(f".param-{name} input[type=range]")
-
-    def box(self, name):
-        return self.page.locator(f".param-{name} input[type=text]")
-
-    def menu(self, name):
-        return self.page.locator(f".param-{name} select")
-
-    @property
-    def sphere(self):
-        return self.page.locator(".gallery:not(.away) canvas.sphere")
-
-    def change(self, action, *arguments):
-        """Do something that asks for a new state, and wait until it is painted."""
-        before = self.state
-        action(*arguments)
-        wait_ready(self.page, after=before)
-
-    def enter(self, scene):
-        """Choose a scene from the menu."""
-        self.change(self.page.locator(f".param-scene-{scene}").click)
-
-    def type(self, name, text):
-        """Type into the box of a number, and Enter."""
-        box = self.box(name)
-        box.fill(text)
-        box.press("Enter")
-
-    def slide(self, **values):
-        """Move sliders all at once, as one input event each."""
-        return self.page.evaluate(SLIDE, list(values.items()))
-
-    def choose(self, menu, option):
-        """Choose an option of a menu."""
-        self.menu(menu).select_option(label=option)
-
-    def play_until(self, t):
-        """Let it play until the time slider has come past t."""
-        self.page.locator(".param-play").click()
-        while self.time <= t:
-            self.page.wait_for_timeout(20)
-        self.page.locator(".param-play").click()
-
-    def set_time(self, t):
-        """Move the time slider."""
-        self.page.locator("input.param-t").evaluate(
-            "(slider, t) => { slider.value = t; slider.dispatchEvent(new Event('input'));"
-            " slider.dispatchEvent(new Event('change')) }", t)
-
-
-FIND = """(name, kind) => {
-  const find = (root, selector) => {
-    const found = root.querySelector(selector)
-    if (found) return found
-    for (const item of root.querySelectorAll("*")) {
-      const inside = item.shadowRoot && find(item.shadowRoot, selector)
-      if (inside) return inside
-    }
-    return null
-  }
-  return find(document, `.param-${name} input[type=${kind}]`)
-}"""
-# All within one task of the browser; the answer is whether the page still says it is ready.
-SLIDE = f"""pairs => {{
-  for (const [name, value] of pairs) {{
-    const slider = ({FIND})(name, "range")
-    slider.value = value
-    slider.dispatchEvent(new Event("input", {{ bubbles: true }}))
-  }}
-  return document.documentElement.dataset.ready
-}}"""
-ENTER = f"""pairs => {{
-  for (const [name, value] of pairs) {{
-    const box = ({FIND})(name, "text")
-    box.value = value
-    box.dispatchEvent(new Event("change", {{ bubbles: true }}))
-  }}
-  return document.documentElement.dataset.ready
-}}"""
-
-
-def one_tab(browser, server):
-    """One tab for the tests of a module: loading a page is what takes longest."""
-    context = browser.new_context(viewport={"width": 1600, "height": 950})
-    yield Explorer(context.new_page(), server)
-    context.close()
-
-
-def default_state(tab):
-    """The page in its default state; when the test ends it may have reported no error and asked no other host."""
-    tab.fresh()
-    tab.assert_quiet()
-    yield tab
-    tab.assert_quiet()
-
-
-class Line:
-    """Between a page and its server: can hold back what the server says."""
-
-    def __init__(self, page):
-        self._socket, self._held, self._holding = None, [], False
-        page.route_web_socket(re.compile(r"/ws"), self._connect)
-
-    def _connect(self, socket):
-        self._socket = socket
-        socket.connect_to_server().on_message(self._hear)
-
-    def _hear(self, message):
-        if self._holding:
-            self._held.append(message)
-        else:
-            self._socket.send(message)
-
-    def hold(self):
-        self._holding = True
-
-    def cut(self):
-        """As when the server ends."""
-        self._socket.close()
-
-    def release(self):
-        self._holding = False
-        while self._held:
-            self._socket.send(self._held.pop(0))
-
-
-def page_on_a_line(browser, server):
-    """(explorer, line): the page in its default state, and what is between it and the server."""
-    context = browser.new_context(viewport={"width": 1600, "height": 950})
-    page = context.new_page()
-    line = Line(page)
-    explorer = Explorer(page, server).open()
-    yield explorer, line
-    explorer.assert_quiet()
-    context.close()
-
+from hess_explorer.protocol.parameters import MAX_QUERY
+from support.page import (
+    DEFAULTS,
+    FIRST,
+    HESS,
+    PICTURES,
+    SLIDE,
+    SLIDERS,
+    Explorer,
+    default_state,
+    one_tab,
+    page_on_a_line,
+)
+from support.suslov_hess import assert_defaults, assert_orbit
 
 # Each module of browser tests makes its own fixtures of these.
 tab = pytest.fixture(scope="module")(one_tab)
 on_a_line = pytest.fixture(page_on_a_line)
 explorer = pytest.fixture(default_state)
-
-
-def flat(data):
-    """All numbers of a source's columns, however nested, in order."""
-    if isinstance(data, dict):
-        return [x for key in sorted(data) for x in flat(data[key])]
-    return [x for part in data for x in flat(part)] if isinstance(data, list) else [data]
-
-
-def body_of(values):
-    return HessBody(values["I22"], values["I23"], values["b3"])
-
-
-def exact_states(values, times):
-    """(ω1, ω2, γ1, γ2, γ3) at these times, in the variables of S1 and not, as the page does it, in those of S8."""
-    body = body_of(values)
-    start = turning_points(values["h"], values["f"]).state_at_lower_turn(values["phi0"])
-    state = body.from_reduced(body.from_units_of_b(start))
-    return solve(systems()["suslov"], state, body.suslov.parameters, times, level("reference")).states
-
-
-def rounding(values, times, states):
-    """How far the body gets in half of the last digit of these times, which are sent in single precision."""
-    rates = np.abs(systems()["suslov"].field(states.T, body_of(values).suslov.parameters)).T
-    return rates * np.spacing(np.float32(times))[:, None] / 2
-
-
-def assert_orbit(explorer, values, within=2e-6):
-    """The orbit in the browser is that of these values: where it starts, where it ends, and in between."""
-    orbit = explorer.data("data-orbit")
-    times = np.array(orbit["t"])
-    last = min(values["span"], 100 * turning_points(values["h"], values["f"]).period / body_of(values).frequency_unit)
-    assert times[0] == 0.0
-    assert times[-1] == pytest.approx(last, rel=1e-6)
-    assert np.all(np.diff(times) > 0)
-    picks = np.unique(np.linspace(0, times.size - 1, 7).astype(int))
-    exact = exact_states(values, times[picks])
-    found = np.column_stack([np.array(orbit[name])[picks] for name in ("omega1", "omega2", "g1", "g2", "g3")])
-    allowed = within * np.maximum(1.0, np.abs(exact)) + rounding(values, times[picks], exact)
-    assert np.max(np.abs(found - exact) - allowed) <= 0.0
-    assert explorer.here() == pytest.approx((values["h"], values["f"]), rel=1e-7)
 
 
 # --- The ready flag ----------------------------------------------------------------------------------
@@ -638,17 +305,6 @@ def test_whatever_a_text_of_the_page_is_told_to_say_it_shows_as_text(explorer):
     assert explorer.page.locator(".text img, .text b").count() == 0
     assert explorer.page.evaluate("window.pwned") is None
     explorer.open()
-
-
-def assert_defaults(explorer, scene, **others):
-    """The page shows the default state of this scene, but for the values of others that it knows."""
-    assert explorer.scene == scene
-    for spec in scenes()[scene].specs:
-        value = others.get(spec.name, spec.default)
-        if isinstance(spec, Number):
-            assert explorer.shown(spec.name) == (value, value), spec.name
-        else:
-            assert explorer.chosen(spec.name) == value, spec.name
 
 
 def test_an_address_without_a_link_opens_the_first_scene_in_its_default_state(explorer):

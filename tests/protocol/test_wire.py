@@ -8,20 +8,10 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
-from mechanics import PROPERTY
 
 from hess_explorer.protocol.wire import Wire
-
-
-def read(item, block):
-    """What "ready.js" makes of an item of the tree: an array where the tree says where one lies."""
-    if isinstance(item, list):
-        return [read(part, block) for part in item]
-    if isinstance(item, dict):
-        assert {"at", "n"} <= set(item) <= {"at", "n", "shape"}
-        array = np.frombuffer(block, "<f4", count=item["n"], offset=4 * item["at"])
-        return array.reshape(item["shape"]) if "shape" in item else array
-    return item
+from support.mechanics import PROPERTY
+from support.wire import read
 
 
 def unpack(wire):

@@ -5,7 +5,6 @@ import sys
 
 import numpy as np
 import pytest
-from mechanics import REFERENCE, numbers
 from scipy.integrate import solve_ivp
 
 from hess_mechanics import LEVELS, Level, Status, ensemble, level, solve, systems
@@ -14,6 +13,7 @@ from hess_mechanics.dynamics.orbit import MAX_SAMPLES
 from hess_mechanics.errors import InvalidParameter, ModelError, NotPositiveDefinite, WorkLimit
 from hess_mechanics.numerics.batch import LANES
 from hess_mechanics.numerics.taylor import STEP_LIMIT_REACHED
+from support.mechanics import REFERENCE, numbers
 
 SYSTEMS = systems()
 every_system = pytest.mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from mechanics import PROPERTY
 
 from hess_explorer.scenes.suslov_hess import half_width
 from hess_mechanics import HessBody, circle_map, f_max, level, systems
@@ -18,6 +17,7 @@ from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA, sample_times
 from hess_mechanics.suslov_hess.equations import SYSTEM
 from hess_mechanics.suslov_hess.torus import cycles, pixels_per_unit, start_of_track, track
+from support.mechanics import PROPERTY
 
 REFERENCE = level("reference")
 MOST = 6000

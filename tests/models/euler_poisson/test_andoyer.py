@@ -6,13 +6,10 @@ Nothing here uses the polynomial G²γ3 − f M3 of the mechanics: l and g are a
 from __future__ import annotations
 
 import math
-from functools import cache
 from itertools import pairwise
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
-from scipy.optimize import brentq
 
 from hess_mechanics import level, section, solve, systems
 from hess_mechanics.errors import InvalidParameter, WorkLimit
@@ -31,11 +28,8 @@ from hess_mechanics.euler_poisson.andoyer import (
 )
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
 from hess_mechanics.numerics.accuracy import PRECISE, STANDARD, Level
+from support.andoyer import GESS1, RIS, angles, crossings_by_scipy, dense, energies_at, energy, rates, start_by_hand
 
-GESS1 = HeavyBody.hess((1.0, 0.625, 0.375), 9.975)
-"""Figure gess1, with h = 50 and f = 5: r = (3, 0, 4), μ = 1.995, so μ|r| = 9.975."""
-RIS = HeavyBody.hess((1.0, 1.5, 2.0), -math.sqrt(0.5))
-"""Figures gess-ris1 and gess-ris2: H = ½(M1² + ⅔M2² + ½M3²) + γ1/√3 + γ3/√6."""
 SLANTING = HeavyBody((1.0, 1.6, 2.1), (0.3, -0.5, 0.7), 2.0)
 """No Hess case, and r2 ≠ 0."""
 WHOLE = (-math.pi, math.pi, -1.0, 1.0)
@@ -44,83 +38,13 @@ CASES = [(GESS1, 50.0, 5.0), (GESS1, 50.0, -5.0), (GESS1, 12.0, 0.0), (RIS, 0.0,
 every_case = pytest.mark.parametrize(("body", "h", "f"), CASES)
 
 
-def rates(body, y):
-    """hh01, by vectors."""
-    M, gamma = np.asarray(y[:3]), np.asarray(y[3:])
-    omega = np.array(body.a) * M
-    return np.concatenate([np.cross(M, omega) + body.mu * np.cross(body.r, gamma), np.cross(gamma, omega)])
-
-
-def energy(body, states):
-    states = np.atleast_2d(states)
-    return 0.5 * states[:, :3] ** 2 @ np.array(body.a) - body.mu * states[:, 3:] @ np.array(body.r)
-
-
 def area(states):
     states = np.atleast_2d(states)
     return np.sum(states[:, :3] * states[:, 3:], axis=1)
 
 
-def angles(states):
-    """l and g of states (n, 6): in the plane across M two lines of nodes, along γ × M and along M × e3.
-
-    g leads from the first to the second, and l on to the first axis of the body.
-    """
-    states = np.atleast_2d(states)
-    M, gamma = states[:, :3], states[:, 3:]
-    along = M / np.linalg.norm(M, axis=1)[:, None]
-    body_node = np.cross(along, np.array([0.0, 0.0, 1.0]))
-    space_node = np.cross(gamma, along)
-    across = np.cross(along, space_node)
-    g = np.arctan2(np.sum(body_node * across, axis=1), np.sum(body_node * space_node, axis=1))
-    l = np.arctan2(-body_node[:, 1], body_node[:, 0])
-    return l, g
-
-
 def turned_away(angle, from_):
     return np.abs(np.angle(np.exp(1j * (np.asarray(angle) - from_))))
-
-
-def energies_at(body, f, l, x, G):
-    """The energy of g = π/2 for each G ≥ |f|, from the state itself."""
-    G = np.atleast_1d(G)
-    s, c = math.sqrt(max(0.0, 1.0 - x * x)), f / G
-    along = np.array([s * math.sin(l), s * math.cos(l), x])
-    gamma = c[:, None] * along + np.sqrt(np.maximum(0.0, 1.0 - c * c))[:, None] * np.array(
-        [math.cos(l), -math.sin(l), 0.0])
-    return energy(body, np.column_stack([G[:, None] * along, gamma]))
-
-
-@cache
-def dense(body, f, l, x, top, count=4000):
-    G = np.linspace(max(abs(f), 1e-9), max(top, 1.01 * abs(f)), count)
-    return G, energies_at(body, f, l, x, G)
-
-
-def start_by_hand(body, h, f, l, x):
-    """The state at (l, x) with the largest G: a dense search from above, then Brent's method."""
-    top = math.sqrt(2.0 * (h + body.strength) / min(body.a))
-    G, energies = dense(body, f, l, x, top)
-    i = np.flatnonzero(energies <= h)[-1]
-    largest = brentq(lambda G: energies_at(body, f, l, x, G)[0] - h, G[i], G[i + 1], xtol=1e-14)
-    s, c = math.sqrt(1.0 - x * x), f / largest
-    along = np.array([s * math.sin(l), s * math.cos(l), x])
-    return np.concatenate([largest * along,
-                           c * along + math.sqrt(1.0 - c * c) * np.array([math.cos(l), -math.sin(l), 0.0])])
-
-
-def crossings_by_scipy(body, state, end):
-    """Times and states where the angle g grows through π/2."""
-    def event(_, y):
-        return math.cos(angles(y)[1][0])
-
-    event.direction = -1
-    run = solve_ivp(lambda _, y: rates(body, y), (0.0, end), state, method="DOP853", rtol=1e-12, atol=1e-13,
-                    events=event, max_step=0.02 * end)
-    times, states = run.t_events[0], run.y_events[0].reshape(-1, 6)
-    # cos g falls also where g comes down through −π/2.
-    counted = (times > 1e-9 * end) & (np.sin(angles(states)[1]) > 0.0)
-    return times[counted], states[counted]
 
 
 def scattered(count, seed):

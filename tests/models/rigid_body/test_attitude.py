@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
-from scipy.special import ellipj
 
 from hess_mechanics import level
 from hess_mechanics.chaplygin_ball import equations as chaplygin_ball
@@ -26,6 +25,7 @@ from hess_mechanics.suslov import equations as suslov
 from hess_mechanics.suslov_hess import equations as hess
 from hess_mechanics.suslov_hess.equations import HessBody
 from hess_mechanics.suslov_hess.torus import attitude_of_track, track
+from support.loxodrome import swing_at
 
 WEIGHTS = (0.0, 0.0, *(300.0,) * 6)
 START = np.array([0.3, 0.9, 0.6, 0.0, 0.8])
@@ -163,16 +163,6 @@ def test_the_section_across_the_centre_of_mass_is_a_circle_whatever_I33(I33):
 
 def pendulum(I=(1.0, 1.5, 2.0), h=1.5, l=0.4, mu=0.7):
     return LoxodromicPendulum(HeavyBody.hess(I, mu), h, l)
-
-
-def swing_at(h, t):
-    """α(t) of α̇²/2 − cos α = h, α(0) = 0, in Jacobi's functions."""
-    if h == 1.0:
-        return 4.0 * np.arctan(np.tanh(0.5 * t))
-    if h > 1.0:
-        return 2.0 * ellipj(math.sqrt(0.5 * (h + 1.0)) * t, 2.0 / (h + 1.0))[3]
-    k = math.sqrt(0.5 * (h + 1.0))
-    return 2.0 * np.arcsin(k * ellipj(t, k * k)[0])
 
 
 def closed_form(one, tau):

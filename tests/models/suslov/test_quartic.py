@@ -7,7 +7,6 @@ import math
 import numpy as np
 import pytest
 import sympy
-from mechanics import REFERENCE, numbers
 
 from hess_mechanics import level, solve, systems
 from hess_mechanics.errors import InvalidParameter, NoField, NotPositiveDefinite, OutsideRegion, WorkLimit
@@ -20,6 +19,7 @@ from hess_mechanics.suslov.quartic import (
     state_at,
     state_on_section,
 )
+from support.mechanics import REFERENCE, numbers
 
 SUSLOV = systems()["suslov"]
 FLOOR = level("reference")

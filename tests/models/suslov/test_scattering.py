@@ -7,7 +7,6 @@ import math
 import mpmath
 import numpy as np
 import pytest
-from mechanics import angle_between
 
 from hess_explorer.commands import CommandError
 from hess_explorer.commands import scattering as command
@@ -17,6 +16,7 @@ from hess_mechanics.numerics.accuracy import LEVELS, Status
 from hess_mechanics.suslov.additional_integral import I11_of
 from hess_mechanics.suslov.free import equilibria, free_motion, passage
 from hess_mechanics.suslov.scattering import cos_chi, scattering, start
+from support.mechanics import angle_between
 
 FIGURE = SuslovBody(3.56, 1.0, 0.0, 0.8)
 GENERIC = SuslovBody(2.0, 1.0, 0.3, 0.5)

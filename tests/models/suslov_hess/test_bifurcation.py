@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from mechanics import PROPERTY
 from scipy.optimize import minimize_scalar
 from scipy.special import ellipkm1
 
 from hess_mechanics import curve, curve_point, f_max, systems, turning_points
 from hess_mechanics.errors import InvalidParameter, ModelError, OutsideRegion, Separatrix
 from hess_mechanics.suslov_hess.bifurcation import SPECIAL_POINTS
+from support.mechanics import PROPERTY
 
 ULP = 2.0**-52
 

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from mechanics import PROPERTY, angle_between, lifted_return
 from scipy.integrate import quad, solve_ivp
 
 from hess_mechanics import (
@@ -28,6 +27,7 @@ from hess_mechanics import (
 from hess_mechanics.errors import InvalidParameter, ModelError, OutsideRegion, Separatrix, WorkLimit
 from hess_mechanics.numerics.accuracy import LEVELS, Status
 from hess_mechanics.suslov_hess.mode_locking import lock_boundary_end, lock_boundary_h
+from support.mechanics import PROPERTY, angle_between, lifted_return
 
 HESS = systems()["hess"]
 REFERENCE, STANDARD, DRAFT = level("reference"), level("standard"), level("draft")

@@ -1,0 +1,152 @@
+"""The commands `rotation-number` and `lyapunov`: their numbers, formats, and one sentence for whatever is wrong."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from hess_explorer.__main__ import main
+from hess_mechanics import f_max
+from support.command_line import replaced, run, strict_json, table
+from support.rotation_number import iterated
+
+ROTATION = ["rotation-number", "--a", "0.5", "--h", "-0.5,0.5,1.5", "--f", "-0.3,0.6"]
+LYAPUNOV = ["lyapunov", "suslov", "--I", "1.5,3,0.4,0.4", "--b=-0.5,-0.5,0.7", "--omega", "0.4,0.6",
+            "--gamma", "0.6,0,0.8", "--t", "200"]
+HEAVY = ["lyapunov", "euler-poisson", "--A", "1,1.6,2.1", "--r", "0,0,1", "--mu", "0", "--M", "1.3,-2,0.7",
+         "--gamma", "0.3,0.4,0.87", "--t", "400"]
+
+
+def test_rotation_numbers_are_those_of_iteration(answer):
+    found = answer(*ROTATION)
+    assert found["a"] == [0.5] * 6
+    assert found["h"] == [-0.5, -0.5, 0.5, 0.5, 1.5, 1.5]
+    assert found["f"] == [-0.3, 0.6] * 3
+    assert found["possible"] == [abs(f) <= f_max(h) for h, f in zip(found["h"], found["f"], strict=True)]
+    assert found["level"] == "precise"
+    for i, possible in enumerate(found["possible"]):
+        rho, trace = found["rotation_number"][i], found["trace"][i]
+        if not possible:
+            assert (rho, trace, found["locked"][i]) == (0.0, 0.0, False)
+            continue
+        exact = iterated(0.5, found["h"][i], found["f"][i])
+        assert rho == pytest.approx(exact, abs=1e-4)
+        assert found["locked"][i] == (trace > 2.0)
+        assert trace == pytest.approx(abs(2.0 * math.cos(math.pi * rho)), abs=1e-9) or found["locked"][i]
+    assert found["locked"] == [False, False, False, False, True, True]
+
+
+def test_a_range_of_all_three_parameters(answer):
+    found = answer("rotation-number", "--a", "0:1:3", "--h", "0.2:0.4:2", "--f", "0.1,0.2")
+    assert len(found["rotation_number"]) == 12
+    assert found["a"] == [0.0] * 4 + [0.5] * 4 + [1.0] * 4
+    alone = answer("rotation-number", "--a", "0.5", "--h", "0.4", "--f", "0.1")
+    assert alone["rotation_number"][0] == pytest.approx(found["rotation_number"][6], abs=1e-12)
+
+
+def test_the_separatrix_and_the_outside_are_not_possible(answer):
+    found = answer("rotation-number", "--a", "0.5", "--h", "-1,1,0", "--f", "0,5")
+    assert found["possible"] == [False, False, False, False, True, False]
+
+
+def test_a_trace_beyond_double_range_is_a_number(answer):
+    found = answer("rotation-number", "--a", "500", "--h", "1.5", "--f", "0.6")
+    assert found["trace"][0] >= 1e307
+    assert (found["locked"], found["rotation_number"]) == ([True], [0.0])
+
+
+@pytest.mark.parametrize("words", [ROTATION, LYAPUNOV])
+def test_csv_and_json_say_the_same(answer, capsys, words):
+    found = answer(*words)
+    assert main([*words, "--format", "csv"]) == 0
+    facts, header, rows = table(capsys.readouterr().out)
+    for i, name in enumerate(header):
+        values = [{"True": True, "False": False}.get(row[i], row[i]) for row in rows]
+        assert [value if isinstance(value, bool) else float(value) for value in values] == found[name]
+    assert {name: found[name] for name in facts} == facts
+
+
+def test_a_file_is_written(answer, tmp_path, capsys):
+    file = tmp_path / "rho.json"
+    assert main([*ROTATION, "--out", str(file)]) == 0
+    assert capsys.readouterr().out == ""
+    assert strict_json(file.read_text(encoding="utf-8")) == answer(*ROTATION)
+
+
+def test_the_exponent_of_a_suslov_orbit(answer):
+    found = answer(*LYAPUNOV)
+    assert len(found["t"]) == len(found["average"]) == 100
+    assert found["t"] == sorted(found["t"])
+    assert found["t"][-1] == pytest.approx(200.0)
+    assert found["average"][-1] == found["exponent"]
+    assert found["notes"] == []
+    later = [rate for t, rate in zip(found["t"], found["average"], strict=True) if t > 102.0]
+    assert found["spread"] == pytest.approx(max(later) - min(later), rel=0.2)
+    # The sea of the first example of the scene.
+    assert 0.05 < found["exponent"] < 0.2
+
+
+def test_the_exponent_of_the_upright_body_is_a_closed_form(answer):
+    # At rest with γ = b/|b| = e3: ω1 and γ2 grow as exp(√(b3/I11) t), ω2 and γ1 as exp(√(b3/I22) t).
+    found = answer("lyapunov", "suslov", "--I", "1,4,0.3,0.2", "--b", "0,0,1", "--omega", "0,0", "--gamma", "0,0,1",
+                   "--t", "24")
+    t = np.array(found["t"])
+    growth = t * np.array(found["average"])
+    late = t > 14.0
+    assert late.sum() > 3
+    assert np.polyfit(t[late], growth[late], 1)[0] == pytest.approx(1.0, abs=1e-4)
+
+
+def test_the_exponent_backward_and_of_a_vector_that_is_normalised(answer):
+    found = answer(*replaced(replaced(LYAPUNOV, "--t", "-50"), "--gamma", "3,0,4"))
+    assert "normalised" in found["notes"][0]
+    assert len(found["t"]) > 20
+    assert math.isfinite(found["exponent"])
+
+
+def test_a_free_body_about_a_fixed_point_has_no_exponent(answer):
+    # μ = 0 is Euler's case: neighbours part as t, and ln t / t goes to 0.
+    short, long = (answer(*replaced(HEAVY, "--t", t))["exponent"] for t in ("40", "400"))
+    assert 0.0 < long < 0.3 * short
+    assert long < 0.05
+
+
+@pytest.mark.parametrize(("words", "said"), [
+    (replaced(ROTATION, "--h", "2e12"), "1e12"),
+    (replaced(ROTATION, "--a", "2e6"), "choose |a|"),
+    (replaced(ROTATION, "--h", "0:1"), "lo:hi:n"),
+    (replaced(ROTATION, "--h", "0:1:1"), "whole number from 2"),
+    (replaced(ROTATION, "--f", "x"), "is not a number"),
+    (replaced(ROTATION, "--f", "nan"), "is not a finite number"),
+    (["rotation-number", "--a", "0:1:300", "--h", "0:1:300", "--f", "0:1:300"], "27000000 tori, at most 1000000"),
+    ([*ROTATION, "--out", "/nowhere/at/all"], "choose another file"),
+    ([*ROTATION, "--accuracy", "sloppy"], "choose one of draft"),
+    (replaced(LYAPUNOV, "--t", "0"), "other than 0"),
+    (replaced(LYAPUNOV, "--t", "1e9"), "choose a shorter time span"),
+    (replaced(LYAPUNOV, "--gamma", "0,0,0"), "other than 0"),
+    (replaced(LYAPUNOV, "--I", "0,3,0.4,0.4"), "choose I11 > 0"),
+    (replaced(LYAPUNOV, "--omega", "1"), "write 2 numbers"),
+    (replaced(HEAVY, "--A", "1,-1,2"), "positive"),
+    (replaced(HEAVY, "--mu", "inf"), "is not a finite number"),
+])
+def test_what_is_wrong_is_one_sentence(refusal, words, said):
+    assert said in refusal(*words)
+
+
+@pytest.mark.parametrize("words", [["rotation-number"], ["lyapunov"], ["lyapunov", "suslov"], ["lyapunov", "hess"]])
+def test_what_is_missing_is_said(refusal, words):
+    refusal(*words)
+
+
+@pytest.mark.parametrize("words", [["rotation-number", "--help"], ["lyapunov", "euler-poisson", "--help"]])
+def test_help_has_an_example_that_runs(words):
+    done = run(*words)
+    assert done.returncode == 0
+    text = " ".join(done.stdout.decode().split())
+    example = text.partition("Example: hess-explorer ")[2].replace("- 0.9", "-0.9").split()
+    assert example
+    again = run(*example)
+    assert again.returncode == 0, again.stderr
+    assert again.stdout

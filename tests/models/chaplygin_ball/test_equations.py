@@ -1,0 +1,370 @@
+"""The Chaplygin ball with Suslov's constraint, `eq29`: equations, measures, energies, the edges of all ranges."""
+
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import sympy
+
+import oracle
+from hess_mechanics import Plane, ensemble, level, section, solve, systems
+from hess_mechanics.chaplygin_ball.energy_surface import (
+    Strip,
+    line_of_rest,
+    lowest_energy,
+    omega_of_energy,
+    spread_states,
+)
+from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
+from hess_mechanics.dynamics.orbit import drift_of
+from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, OutsideRegion
+from hess_mechanics.numerics.accuracy import LEVELS, Status
+from support.mechanics import ROOT
+
+# Values of an independent computation with 40 digits.
+WITHOUT_FIELD = (
+    BallBody(1.0, 1.5, 0.7, 1.2, 10.0),
+    (-1.2, 0.8, 0.3030457633656632247432, 0.505076272276105374572, 0.8081220356417685993153),
+    {5.0: (-1.243715176564187061189, 0.7351097074993516569283, -0.1945086225665612163838, -0.2369516718965639582054,
+           0.9518509867267471267198),
+     20.0: (-1.248189314693094997708, 0.7281147526105503013319, -0.04654899968686768204963, 0.01809685472395656125676,
+            -0.9987520685722017584869)},
+)
+WITH_FIELD = (
+    BallBody(1.0, 1.5, 0.7, 1.2, 2.0, 0.2, -0.3, 0.9),
+    (0.5, 0.8, 0.3030457633656632247432, 0.505076272276105374572, 0.8081220356417685993153),
+    {10.0: (-1.400556057516799182938, 1.190203100743737251738, -0.5766733755891735650275, 0.7940662212994256610262,
+            -0.1921110462150459241773),
+     30.0: (-1.455501957602951184129, 1.241018900668056974982, -0.721210125647167584405, 0.6760503180083286292999,
+            -0.1510361618448855999605)},
+)
+CASES = pytest.mark.parametrize("case", [WITHOUT_FIELD, WITH_FIELD], ids=["without field", "with field"])
+in_long_double = pytest.mark.skipif(np.finfo(np.longdouble).nmant < 63, reason="no long doubles here")
+
+
+def random_body(random, field=True, decades=1.0):
+    moments = 10.0 ** random.uniform(-decades, decades, 2)
+    D = 10.0 ** random.uniform(-2 * decades, 2 * decades)
+    return BallBody(*moments, *random.normal(size=2), D, *(random.normal(size=3) if field else np.zeros(3)))
+
+
+def random_states(random, count):
+    gamma = random.normal(size=(count, 3))
+    return np.hstack([random.normal(size=(count, 2)), gamma / np.linalg.norm(gamma, axis=1)[:, None]])
+
+
+def energy(body, states):
+    return SYSTEM.integrals(np.asarray(states).T, body.parameters)["E"]
+
+
+# ---- equations --------------------------------------------------------------------------------------------------
+
+
+def test_the_registry_knows_the_ball():
+    assert systems()["ball"] is SYSTEM
+
+
+@CASES
+@pytest.mark.parametrize("name", LEVELS)
+def test_orbits_agree_with_the_reference(case, name):
+    body, start, states = case
+    bound = {"reference": 1e-8}.get(name, 2.0 * level(name).promise)
+    orbit = solve(SYSTEM, start, body.parameters, list(states), level(name))
+    many = ensemble(SYSTEM, [start] * 9, body.parameters, list(states), level(name))
+    assert np.max(np.abs(orbit.states - list(states.values()))) <= bound
+    assert np.max(np.abs(many.states - list(states.values()))) <= bound
+
+
+def test_the_field_solves_the_matrix_equation():
+    random = np.random.default_rng(1)
+    for w1, w2, g1, g2, g3 in random_states(random, 200):
+        body = random_body(random)
+        I11, I22, I13, I23, D, b1, b2, b3 = body.parameters
+        s = I13 * w1 + I23 * w2
+        matrix = np.array([[I11 + D * (g2**2 + g3**2), -D * g1 * g2], [-D * g1 * g2, I22 + D * (g1**2 + g3**2)]])
+        right = np.array([-s * w2 + b3 * g2 - b2 * g3, s * w1 + b1 * g3 - b3 * g1])
+        rates = np.array(SYSTEM.field((w1, w2, g1, g2, g3), body.parameters))
+        assert rates[:2] == pytest.approx(np.linalg.solve(matrix, right), rel=1e-11, abs=1e-11)
+        assert rates[2:] == pytest.approx(np.cross((g1, g2, g3), (w1, w2, 0.0)), abs=1e-14)
+        kinetic = 0.5 * np.array([w1, w2]) @ matrix @ [w1, w2] + np.dot((b1, b2, b3), (g1, g2, g3))
+        assert energy(body, [(w1, w2, g1, g2, g3)])[0] == pytest.approx(kinetic, rel=1e-12, abs=1e-12)
+
+
+@pytest.mark.parametrize("name", LEVELS)
+def test_without_the_inner_ball_it_is_the_suslov_problem(name):
+    random, suslov = np.random.default_rng(2), systems()["suslov"]
+    times = np.linspace(0.0, 10.0, 21)
+    for state in random_states(random, 20):
+        body = BallBody(*random.uniform(0.5, 2.0, 2), *random.normal(size=5 + 1) * [0.3, 0.3, 0, 1, 1, 1])
+        ball = solve(SYSTEM, state, body.parameters, times, level(name))
+        other = solve(suslov, state, [*body.parameters[:4], *body.parameters[5:]], times, level(name))
+        assert ball.cost.steps == other.cost.steps
+        assert np.max(np.abs(ball.states - other.states)) <= 1e-10
+
+
+# ---- invariant measures -----------------------------------------------------------------------------------------
+
+
+def liouville(density, **fixed):
+    """div(density · field), exactly, at random rational points."""
+    y = sympy.symbols(SYSTEM.variables)
+    p = sympy.symbols(SYSTEM.parameters)
+    values = dict(zip(SYSTEM.parameters, p, strict=True)) | {key: sympy.Integer(value) for key, value in fixed.items()}
+    parameters = [values[name] for name in SYSTEM.parameters]
+    rho = density(y, parameters)
+    divergence = sum(sympy.diff(rho * rate, x) for x, rate in zip(y, SYSTEM.field(y, parameters), strict=True))
+    random = np.random.default_rng(3)
+    for _ in range(5):
+        point = {symbol: sympy.Rational(int(random.integers(1, 50)), 7) for symbol in (*y, *p)}
+        yield divergence.subs(point)
+
+
+WITHOUT = {"b1": 0, "b2": 0, "b3": 0}
+PRINCIPAL = {"I13": 0, "I23": 0}
+
+
+def singular(y, p):
+    return 1 / (p[2] * y[0] + p[3] * y[1])
+
+
+def standard(_, __):
+    return sympy.Integer(1)
+
+
+@pytest.mark.parametrize(("density", "fixed", "holds"), [
+    pytest.param(singular, WITHOUT, True, id="singular without field"),
+    pytest.param(singular, WITHOUT | {"D": 0}, True, id="singular, suslov"),
+    pytest.param(standard, PRINCIPAL, True, id="standard for a principal axis, with field"),
+    pytest.param(singular, {}, False, id="singular with field"),
+    pytest.param(standard, WITHOUT, False, id="standard without field"),
+    pytest.param(standard, {}, False, id="standard in general"),
+])
+def test_liouvilles_equation(density, fixed, holds):
+    values = list(liouville(density, **fixed))
+    assert all((value == 0) == holds for value in values), values
+
+
+# ---- energies and the strip -------------------------------------------------------------------------------------
+
+
+def test_the_strip_is_never_left():
+    random = np.random.default_rng(4)
+    for _ in range(20):
+        body, h = random_body(random, field=False, decades=0.5), 10.0 ** random.uniform(-1.0, 1.0)
+        strip = Strip(body, h)
+        states = spread_states(body, h, 50)
+        assert energy(body, states) == pytest.approx(h, rel=1e-14)
+        orbits = ensemble(SYSTEM, states, body.parameters, np.linspace(0.0, 20.0, 60), level("reference")).states
+        squares = orbits[..., :2] ** 2
+        outer = squares @ [body.I11, body.I22]
+        assert np.max(outer) <= 2 * h * (1 + 1e-12)
+        assert np.min(squares @ [body.I11 + body.D, body.I22 + body.D]) >= 2 * h * (1 - 1e-12)
+        for curve, added in ((strip.sigma1, 0.0), (strip.sigma2, body.D)):
+            points = curve(random.uniform(0.0, 7.0, 30))
+            assert points**2 @ [body.I11 + added, body.I22 + added] == pytest.approx(2 * h, rel=1e-13)
+
+
+def test_motions_go_from_the_unstable_half_of_the_line_to_the_stable_one():
+    body = WITHOUT_FIELD[0]
+    xi, eta = line_of_rest(body)
+    assert (body.I13, body.I23) @ xi == pytest.approx(0.0, abs=1e-15)
+    strip = Strip(body, 10.0)
+    states = spread_states(body, 10.0, 40)
+    for end, half in ((-300.0, strip.unstable), (300.0, strip.stable)):
+        omega = ensemble(SYSTEM, states, body.parameters, [end], level("precise")).states[:, 0, :2]
+        assert np.max(np.abs(omega @ eta)) < 1e-6
+        ends = np.sort(half @ xi)
+        assert np.all((omega @ xi >= ends[0] - 1e-9) & (omega @ xi <= ends[1] + 1e-9))
+    # On it ω stays, on either half, for every γ.
+    for omega in (*strip.unstable, *strip.stable):
+        assert SYSTEM.field((*omega, 0.48, 0.6, 0.64), body.parameters)[:2] == pytest.approx((0.0, 0.0), abs=1e-13)
+
+
+@pytest.mark.parametrize("above", [1e-9, 0.1, 3.0])
+@pytest.mark.parametrize("b", [(0.0, 0.0, 0.0), (0.3, -0.5, 1.0), (0.0, 0.0, -2.0), (1.0, 0.0, 0.0)])
+def test_every_energy_above_the_lowest_has_motions(b, above):
+    body = BallBody(2.0, 1.0, 0.3, 0.5, 3.0, *b)
+    assert lowest_energy(body) == pytest.approx(-np.linalg.norm(b))
+    h = lowest_energy(body) + above
+    states = spread_states(body, h, 100)
+    assert energy(body, states) == pytest.approx(h, abs=1e-14)
+    assert np.linalg.norm(states[:, 2:], axis=1) == pytest.approx(1.0, abs=1e-15)
+    angles = np.arctan2(states[:, 1], states[:, 0])
+    assert np.max(np.diff(np.sort(angles))) < 0.3, "all directions of ω"
+    if any(b) and above < 0.2:
+        assert np.all(states[:, 2:] @ b < h + 1e-14)
+    elif not any(b):
+        # The centre of points that are spread evenly over the sphere.
+        assert np.linalg.norm(states[:, 2:].mean(axis=0)) < 0.05
+
+
+def test_an_energy_without_motion_is_refused_in_a_sentence():
+    body = BallBody(2.0, 1.0, 0.3, 0.5, 3.0, 0.0, 0.0, 1.0)
+    assert omega_of_energy(body, (3.0, 4.0), (0.0, 0.0, 1.0), 1.0) == (0.0, 0.0)
+    omega = omega_of_energy(body, (3.0, 4.0), (0.6, 0.0, 0.8), 2.0)
+    assert omega[1] / omega[0] == pytest.approx(4.0 / 3.0)
+    with pytest.raises(OutsideRegion, match="choose h above"):
+        omega_of_energy(body, (1.0, 0.0), (0.0, 0.0, 1.0), 0.99)
+    with pytest.raises(OutsideRegion, match="choose h above"):
+        spread_states(body, -1.0, 10)
+    with pytest.raises(InvalidParameter, match="direction"):
+        omega_of_energy(body, (0.0, 0.0), (0.0, 0.0, 1.0), 2.0)
+    with pytest.raises(InvalidParameter, match="1 or more"):
+        spread_states(body, 1.0, 0)
+    with pytest.raises(InvalidParameter, match="b1 = b2 = b3 = 0"):
+        Strip(body, 1.0)
+    free = BallBody(2.0, 1.0, 0.0, 0.0, 3.0)
+    with pytest.raises(InvalidParameter, match="choose h > 0"):
+        Strip(free, 0.0)
+    with pytest.raises(InvalidParameter, match="I13 or I23 other than 0"):
+        _ = Strip(free, 1.0).stable
+
+
+# ---- edges ------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("values", "error", "match"), [
+    ({"D": -1e-9}, InvalidParameter, "𝒟 ≥ 0"), ({"D": np.nan}, InvalidParameter, "D is not a finite"),
+    ({"I11": 0.0}, NotPositiveDefinite, "I11 > 0"), ({"I22": -1.0}, NotPositiveDefinite, "I22 > 0"),
+    ({"b2": np.inf}, InvalidParameter, "b2 is not a finite"),
+])
+def test_what_is_no_ball_is_refused_in_a_sentence(values, error, match):
+    with pytest.raises(error, match=match):
+        BallBody(**({"I11": 1.0, "I22": 1.0, "I13": 0.0, "I23": 0.0, "D": 1.0} | values))
+
+
+@pytest.mark.parametrize(("place", "value", "match"), [
+    (0, -1.0, "I11 > 0"), (4, -1.0, "𝒟 ≥ 0"), (4, 1e30, "𝒟 is too large"), (0, 1e30, "too different"),
+    (5, np.nan, "finite"),
+])
+def test_the_kernel_refuses_the_same(place, value, match):
+    parameters = np.array(SYSTEM.example[1])
+    parameters[place] = value
+    with pytest.raises((InvalidParameter, NotPositiveDefinite), match=match):
+        solve(SYSTEM, SYSTEM.example[0], parameters, [1.0], level("draft"))
+
+
+EXTREMES = {
+    "no inner ball": ((2.0, 1.0, 0.3, 0.5, 0.0), (0.3, -0.5, 1.0), (0.8, -0.4), (0.48, 0.6, 0.64)),
+    "light inner ball": ((2.0, 1.0, 0.3, 0.5, 1e-6), (0.3, -0.5, 1.0), (0.8, -0.4), (0.48, 0.6, 0.64)),
+    "heavy inner ball": ((2.0, 1.0, 0.3, 0.5, 1e6), (0.3, -0.5, 1.0), (0.8, -0.4), (0.48, 0.6, 0.64)),
+    "heavy, γ along ω": ((2.0, 1.0, 0.3, 0.5, 1e6), (0.0, 0.0, 0.0), (0.8, -0.4), (0.8944, -0.4472, 1e-3)),
+    "heavy, γ3 = 0": ((2.0, 1.0, 0.3, 0.5, 1e6), (0.3, -0.5, 1.0), (0.8, -0.4), (0.6, 0.8, 0.0)),
+    "I11 large": ((1e6, 1.0, 0.3, 0.5, 2.0), (0.3, -0.5, 1.0), (1e-3, -0.4), (0.48, 0.6, 0.64)),
+    "I11 small": ((1e-6, 1.0, 1e-3, 0.5, 2.0), (0.3, -0.5, 1.0), (0.8, -0.4), (0.48, 0.6, 0.64)),
+    "pole": ((2.0, 1.0, 0.3, 0.5, 5.0), (0.3, -0.5, 1.0), (0.8, -0.4), (0.0, 0.0, 1.0)),
+    "other pole": ((2.0, 1.0, 0.3, 0.5, 5.0), (0.3, -0.5, 1.0), (0.8, -0.4), (0.0, 0.0, -1.0)),
+    "equator": ((2.0, 1.0, 0.3, 0.5, 5.0), (0.3, -0.5, 1.0), (0.8, -0.4), (0.0, 1.0, 0.0)),
+    "next to the line": ((2.0, 1.0, 0.0, 0.5, 5.0), (0.0, 0.0, 0.0), (0.8, 1e-300), (0.6, 0.0, 0.8)),
+    "on the line": ((2.0, 1.0, 0.0, 0.5, 5.0), (0.0, 0.0, 0.0), (-0.8, 0.0), (0.6, 0.0, 0.8)),
+    "at rest": ((2.0, 1.0, 0.3, 0.5, 5.0), (0.3, -0.5, 1.0), (0.0, 0.0), (0.6, 0.0, 0.8)),
+}
+
+
+@pytest.fixture(scope="module", params=EXTREMES)
+def extreme(request):
+    """A start, parameters, ν, times forward and backward, and where the motion truly is then."""
+    tensor, b, omega, gamma = EXTREMES[request.param]
+    state, parameters = np.array([*omega, *gamma]), np.array([*tensor, *b])
+    state[2:] /= np.linalg.norm(state[2:])
+    nu = SYSTEM.frequency(state, parameters)
+    spans = [sign * np.array([0.3, 1.0]) * 20.0 / nu for sign in (1.0, -1.0)]
+    return state, parameters, nu, [
+        (times, oracle.orbit_in_decimals(SYSTEM, state, parameters, times, digits=34)) for times in spans]
+
+
+@pytest.mark.parametrize("name", LEVELS)
+def test_orbits_are_right_at_the_edges(extreme, name):
+    state, parameters, nu, runs = extreme
+    scale = np.array([nu, nu, 1.0, 1.0, 1.0])
+    for times, exact in runs:
+        orbit = solve(SYSTEM, state, parameters, times, level(name))
+        assert orbit.status in (Status.OK, Status.FLOOR)
+        error = np.max(oracle.distances(orbit.states, exact) / scale)
+        assert error <= (level(name).promise if orbit.status is Status.OK else 1e-9)
+
+
+@pytest.fixture(scope="module")
+def many():
+    """States, parameters and times of many motions, and where these truly are."""
+    random, count = np.random.default_rng(5), 200
+    bodies = [random_body(random, field=random.random() < 0.7) for _ in range(count)]
+    states = random_states(random, count)
+    parameters = np.array([body.parameters for body in bodies])
+    spans = [random.choice([-1, 1]) * random.uniform(5.0, 60.0) / SYSTEM.frequency(y, p)
+             for y, p in zip(states, parameters, strict=True)]
+    times = np.array(spans)[:, None] * [0.2, 1.0]
+    return states, parameters, times, oracle.orbits_in_long_double(SYSTEM, states, parameters, times)
+
+
+@in_long_double
+@pytest.mark.parametrize("name", LEVELS)
+def test_error_estimates_are_safe(many, name):
+    states, parameters, times, exact = many
+    found = [solve(SYSTEM, *case, level(name)) for case in zip(states, parameters, times, strict=True)]
+    true = np.array([oracle.distances(orbit.states, truth).max() for orbit, truth in zip(found, exact, strict=True)])
+    estimates = np.array([orbit.error_estimate for orbit in found])
+    # Two runs at the floor share some of their round-off.
+    slack = 3.0 if level(name).is_floor else 1.0
+    assert np.count_nonzero(true > slack * estimates) <= len(states) // 100
+    assert np.median(estimates) <= 100 * np.median(true)
+
+
+# ---- sections ---------------------------------------------------------------------------------------------------
+
+
+SECTION_BODIES = {
+    "principal axis": BallBody(2.0, 1.0, 0.0, 0.0, 1.0, 0.3, -0.5, 1.0),
+    "general": BallBody(2.0, 1.0, 0.3, 0.5, 1.0, 0.3, -0.5, 1.0),
+    "heavy inner ball": BallBody(2.0, 1.0, 0.3, 0.5, 100.0, 0.3, -0.5, 1.0),
+}
+
+
+@pytest.mark.parametrize("body", SECTION_BODIES.values(), ids=SECTION_BODIES)
+@pytest.mark.parametrize("component", [2, 3, 4])
+def test_sections_lose_and_double_nothing(body, component):
+    plane = Plane(tuple(float(i == component) for i in range(5)), 0.0, 0)
+    start = spread_states(body, 2.0, 5)[2]
+    end = 60.0 * np.sqrt(1.0 + body.D)
+    found = section(SYSTEM, start, body.parameters, plane, end, level("precise"))
+    assert len(found.times) > 10
+    assert np.max(np.abs(found.states[:, component])) <= 1e-9
+    assert max(drift_of(SYSTEM, start, found.states, np.array(body.parameters)).values()) <= 1e-9
+    assert found.drift == drift_of(SYSTEM, start, found.states, np.array(body.parameters))
+    # Order 20: a tolerance 1e-20 times smaller makes steps a tenth as long.
+    times, states = np.empty(10_000), np.empty((10_000, 5))
+    count, steps = SYSTEM.cross(start, np.array(body.parameters), np.array(plane.normal), 0.0, 0, end, 20, 1e-31,
+                                10**6, times, states)
+    assert count == len(found.times)
+    assert steps > 5 * found.cost.steps / 2
+    assert times[:count] == pytest.approx(found.times, abs=1e-6)
+
+
+# ---- the command ------------------------------------------------------------------------------------------------
+
+
+def run(*arguments):
+    return subprocess.run([sys.executable, "-m", "hess_explorer", "orbit", "ball", *arguments], cwd=ROOT,
+                          capture_output=True, text=True, timeout=120, check=False)
+
+
+def test_the_command_prints_the_orbit():
+    body, start, states = WITH_FIELD
+    done = run("--I", "1,1.5,0.7,1.2", "--D", "2", "--b", "0.2,-0.3,0.9", "--omega", "0.5,0.8", "--gamma",
+               "0.3,0.5,0.8", "--t", "10,30", "--accuracy", "precise", "--format", "json")
+    assert done.returncode == 0, done.stderr
+    answer = json.loads(done.stdout)
+    assert answer["variables"] == list(SYSTEM.variables)
+    assert np.max(np.abs(np.array(answer["y"]) - list(states.values()))) <= 1e-8
+    assert answer["is_body"] is False
+    assert body.parameters == (1.0, 1.5, 0.7, 1.2, 2.0, 0.2, -0.3, 0.9)
+    assert start[2] == pytest.approx(0.3 / np.sqrt(0.98))
+
+
+def test_the_command_refuses_in_a_sentence():
+    done = run("--I", "1,1,0,0", "--D", "-2", "--omega", "0.5,0.8", "--gamma", "0,0,1", "--t", "10")
+    assert done.returncode != 0
+    assert "choose 𝒟 ≥ 0" in done.stderr
+    assert "Traceback" not in done.stderr

@@ -1,0 +1,279 @@
+"""The section of the ball with a field: its coordinates, its points, and what the examples of the scene are."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from hess_explorer.scenes import scenes
+from hess_mechanics import level, section, sections
+from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
+from hess_mechanics.chaplygin_ball.section import (
+    EQUATOR,
+    ball_section,
+    coordinates,
+    forbidden_band,
+    seeds,
+    state_at,
+)
+from hess_mechanics.dynamics.ensemble import ensemble
+from hess_mechanics.dynamics.section import occupied_cells
+from hess_mechanics.errors import InvalidParameter, OutsideRegion, WorkLimit
+from support.ball import occupied
+
+GENERAL = BallBody(1.5, 3.0, -0.3, 0.2, 1.0, 1.0, -0.7, 0.7)
+PLAIN = BallBody(1.0, 3.0, 0.0, 0.0, 5.0, 0.5, 0.0, 0.8)
+bodies = pytest.mark.parametrize("body", [GENERAL, PLAIN, BallBody(1.0, 2.0, 0.1, 0.2, 0.0, 0.0, 0.0, 1.0)],
+                                 ids=["general", "volume kept", "no inner ball"])
+SCENE = scenes()["ball-section"]
+EXAMPLES = {name: next(one for one in SCENE.presets if one.name.startswith(name))
+            for name in ("Mixed", "Regular", "Every orbit closes", "A sea", "Strange attractor", "A wider one")}
+
+
+def example(name):
+    """The ball of an example of the scene and its energy E, h above the lowest one of the plane γ3 = 0."""
+    values = SCENE.defaults() | EXAMPLES[name].values
+    body = BallBody(*(values[key] for key in ("I11", "I22", "I13", "I23", "D", "b1", "b2", "b3")))
+    return body, values["h"] - math.hypot(body.b1, body.b2)
+
+
+# ---- coordinates ------------------------------------------------------------------------------------------------
+
+
+@bodies
+def test_a_state_of_the_section_has_its_energy_and_its_coordinates(body):
+    random = np.random.default_rng(1)
+    for _ in range(200):
+        h = random.uniform(0.1, 3.0) + math.hypot(body.b1, body.b2)
+        psi, delta = random.uniform(-math.pi, math.pi), random.uniform(1e-6, math.pi - 1e-6)
+        state = state_at(body, h, psi, delta)
+        assert SYSTEM.integrals(state, body.parameters) == pytest.approx({"E": h, "F1": 1.0}, rel=1e-13)
+        w1, w2, g1, g2, g3 = state
+        assert (g1, g2, g3) == pytest.approx((math.cos(psi), math.sin(psi), 0.0), abs=1e-15)
+        # γ̇3 = γ1ω2 − γ2ω1 = |ω| sin δ.
+        assert g1 * w2 - g2 * w1 == pytest.approx(math.hypot(w1, w2) * math.sin(delta), rel=1e-9)
+        assert SYSTEM.field(state, body.parameters)[4] > 0.0
+        assert coordinates(np.array([state]))[0] == pytest.approx((psi, delta), abs=1e-9)
+
+
+@pytest.mark.parametrize(("psi", "delta", "match"), [
+    (0.0, 0.0, "between 0 and π"), (0.0, math.pi, "between 0 and π"), (0.0, -1.0, "between 0 and π"),
+    (math.nan, 1.0, "psi"), (0.0, math.inf, "delta"),
+])
+def test_what_is_no_point_of_the_section_is_refused(psi, delta, match):
+    with pytest.raises(InvalidParameter, match=match):
+        state_at(PLAIN, 2.0, psi, delta)
+
+
+@pytest.mark.parametrize("angle", [0.0, 2.0, -3.0])
+@pytest.mark.parametrize("share", [-0.999, -0.5, 0.0, 0.7, 0.999])
+def test_the_forbidden_band_is_where_the_potential_exceeds_the_energy(angle, share):
+    body = BallBody(1.0, 2.0, 0.3, 0.1, 1.0, 0.8 * math.cos(angle), 0.8 * math.sin(angle), -0.4)
+    h = 0.8 * share
+    middle, half = forbidden_band(body, h)
+    for psi in np.linspace(-math.pi, math.pi, 500):
+        forbidden = body.b1 * math.cos(psi) + body.b2 * math.sin(psi) > h
+        away = abs(math.remainder(psi - middle, 2.0 * math.pi))
+        assert forbidden == (away < half) or abs(away - half) < 1e-9
+    with pytest.raises(OutsideRegion, match="choose h above"):
+        state_at(body, h, middle, 1.0)
+    assert state_at(body, h, middle + half + 1e-3, 1.0)
+
+
+def test_an_energy_that_forbids_nothing_or_all():
+    assert forbidden_band(PLAIN, 0.51) is None
+    assert forbidden_band(BallBody(1.0, 2.0, 0.3, 0.1, 1.0, 0.0, 0.0, 1.0), 0.1) is None
+    for h in (-0.5, -0.7):
+        with pytest.raises(InvalidParameter, match=r"choose h above -0\.5"):
+            forbidden_band(PLAIN, h)
+    with pytest.raises(InvalidParameter, match="never reaches the plane"):
+        seeds(BallBody(1.0, 2.0, 0.3, 0.1, 1.0, 0.0, 0.0, 1.0), 0.0, 3)
+
+
+@pytest.mark.parametrize("h", [-0.49, 0.0, 0.499, 0.6, 5.0])
+def test_seeds_cover_what_the_energy_allows(h):
+    found = np.array(seeds(PLAIN, h, 200))
+    assert SYSTEM.integrals(found.T, PLAIN.parameters)["E"] == pytest.approx(h, abs=1e-13)
+    psi, delta = coordinates(found).T
+    band = forbidden_band(PLAIN, h)
+    half = 0.0 if band is None else band[1]
+    # PLAIN's b points to ψ = 0: so does the middle of the band.
+    from_middle = np.sort(np.mod(psi, 2.0 * math.pi))
+    assert from_middle[0] >= half
+    assert from_middle[-1] <= 2.0 * math.pi - half
+    gaps = np.diff(np.concatenate([[half], from_middle, [2.0 * math.pi - half]]))
+    assert gaps.max() <= 4.0 * (2.0 * math.pi - 2.0 * half) / 200
+    assert np.diff(np.sort(np.cos(delta))).max() <= 2.0 / 200 + 1e-9
+
+
+# ---- points -----------------------------------------------------------------------------------------------------
+
+
+@bodies
+def test_points_of_many_orbits_are_the_crossings_of_each(body):
+    starts = seeds(body, 1.5, 9)
+    many = ball_section(body, 1.5, starts, 12, level("precise"))
+    each = sections(SYSTEM, starts, body.parameters, EQUATOR, 200.0, level("reference"), crossings=12)
+    for points, exact in zip(many.states, each, strict=True):
+        assert len(points) == len(exact.states) == 12
+        assert np.max(np.abs(points[:5] - exact.states[:5])) <= 1e-7
+    assert max(many.drift.values()) <= 1e-9
+    assert not any(points.flags.writeable for points in many.states)
+
+
+@bodies
+def test_the_first_crossings_are_those_of_another_integrator(body):
+    for start in seeds(body, 1.5, 4):
+        def height(_, y):
+            return y[4]
+
+        height.direction = 1.0
+        run = solve_ivp(lambda _, y: SYSTEM.field(y, body.parameters), (0.0, 60.0), start, method="DOP853", rtol=1e-12,
+                        atol=1e-13, events=height)
+        exact = run.y_events[0][run.t_events[0] > 1e-6][:4]
+        points = ball_section(body, 1.5, [start], 4, level("precise")).states[0]
+        assert np.max(np.abs(points - exact)) <= 1e-7
+
+
+def test_cells_are_counted_as_those_of_a_histogram():
+    random = np.random.default_rng(2)
+    for count in (1, 10, 3000):
+        points = random.uniform(size=(count, 2)) * [2.0 * math.pi, math.pi] - [math.pi, 0.0]
+        assert occupied_cells(points) == len(occupied(points))
+        assert occupied_cells(points, 7) == len(occupied(points, 7))
+    assert occupied_cells(np.array([[math.pi, math.pi], [-math.pi, 0.0]])) == 2
+    assert occupied_cells(np.empty((0, 2))) == 0
+
+
+def test_more_steps_than_allowed_are_refused_in_a_sentence():
+    for crossings, words in ((40, "40 crossings take an orbit more than 60 steps here: choose fewer of them"),
+                             (10**7, "choose fewer of them, or smaller I13 and I23")):
+        with pytest.raises(WorkLimit, match=words):
+            ball_section(PLAIN, 1.5, seeds(PLAIN, 1.5, 9), crossings, level("draft"), most_steps=60)
+    assert [len(one) for one in ball_section(PLAIN, 1.5, seeds(PLAIN, 1.5, 9), 40, level("draft")).states] == [40] * 9
+
+
+def test_an_orbit_that_stops_crossing_is_not_followed_to_the_end():
+    # Without a field ω comes to rest along the line, and γ turns about it: those with γ3 = 0 for ever cross no more.
+    body = BallBody(1.0, 1.5, 0.7, 1.2, 1.0, 0.0, 0.0, 0.0)
+    many = ball_section(body, 1.0, seeds(body, 1.0, 9), 200, level("standard"))
+    assert [len(one) for one in many.states] == [200] * 9
+    # At the lowest energy but little the ball swings beside the plane, and does not come back to it.
+    low = BallBody(1.0, 2.0, 0.0, 0.0, 1.0, 0.2, 0.0, 1.0)
+    start = state_at(low, -0.199, math.pi, 1.0)
+    exact = section(SYSTEM, start, low.parameters, EQUATOR, 2000.0, level("precise"), crossings=200)
+    found = ball_section(low, -0.199, [start], 200, level("standard"))
+    assert len(found.states[0]) <= 200
+    common = min(len(found.states[0]), 3)
+    assert np.max(np.abs(found.states[0][:common] - exact.states[:common])) <= 1e-4
+
+
+# ---- what the examples are --------------------------------------------------------------------------------------
+
+
+def late_cells(name, count=24, crossings=1200):
+    """For each of many orbits of an example, the cells of the later half of its points."""
+    body, h = example(name)
+    points = ball_section(body, h, seeds(body, h, count), crossings, level("standard"))
+    assert max(points.drift.values()) <= 1e-4
+    assert all(len(states) == crossings for states in points.states)
+    return [occupied(coordinates(states[crossings // 2 :])) for states in points.states]
+
+
+@pytest.mark.parametrize("body", [
+    BallBody(1.0, 2.0, 0.0, 0.0, 1.0, 1.0, 0.5, 0.0), BallBody(0.3, 2.0, 0.0, 0.0, 20.0, -0.4, 0.9, 0.0),
+    BallBody(2.0, 2.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0), example("Every orbit closes")[0],
+], ids=str)
+def test_with_b3_and_I13_and_I23_zero_every_orbit_closes_after_one_turn(body):
+    for h in (-0.3, 0.4, 1.7):
+        for start in seeds(body, h, 12):
+            found = section(SYSTEM, start, body.parameters, EQUATOR, 1000.0, level("precise"), crossings=3)
+            assert len(found.states) == 3
+            assert np.max(np.abs(found.states - start)) <= 1e-8
+            assert found.error_estimate <= 1e-8
+            again = section(SYSTEM, start, body.parameters, EQUATOR, 1000.0, level("reference"), crossings=1)
+            assert np.max(np.abs(again.states[0] - start)) <= 1e-9
+    # b3 = 0.3 is enough to open them.
+    open_body = BallBody(*body.parameters[:7], 0.3)
+    start = seeds(open_body, 1.7, 12)[5]
+    found = section(SYSTEM, start, open_body.parameters, EQUATOR, 1000.0, level("precise"), crossings=1)
+    assert np.max(np.abs(found.states[0] - start)) > 1e-3
+
+
+def test_regular_the_product_of_omega_and_gamma_is_an_integral():
+    body, h = example("Regular")
+    assert (body.I11, body.b1, body.b2, body.I13, body.I23) == (body.I22, 0.0, 0.0, 0.0, 0.0)
+    points = ball_section(body, h, seeds(body, h, 24), 300, level("precise"))
+    for states in points.states:
+        along = np.sum(states[:, :2] * states[:, 2:4], axis=1)
+        assert np.ptp(along) <= 1e-8
+        assert np.ptp(coordinates(states)[:, 1]) <= 1e-7
+        # On a level of δ the return is a rotation.
+        turns = np.diff(np.unwrap(coordinates(states)[:, 0]))
+        assert np.ptp(np.exp(1j * turns).real) <= 1e-6
+    assert max(map(len, late_cells("Regular"))) <= 33
+
+
+def test_mixed_some_orbits_lie_on_curves_and_others_fill_a_sea():
+    counts = np.array([len(found) for found in late_cells("Mixed")])
+    # A curve once round passes 32 cells or a few more; nothing is in between.
+    assert np.count_nonzero(counts <= 80) >= 8
+    assert np.count_nonzero(counts >= 120) >= 8
+    assert np.count_nonzero((counts > 80) & (counts < 120)) == 0
+
+
+def test_a_sea_nearly_everywhere():
+    found = late_cells("A sea")
+    large = [one for one in found if len(one) > 300]
+    assert len(large) >= 18
+    # They share one sea.
+    assert min(len(one & large[0]) for one in large) > 80
+    assert 1 <= sum(len(one) < 80 for one in found) <= 6
+
+
+@pytest.mark.parametrize(("name", "most", "least"), [("Strange attractor", 60, 0.8), ("A wider one", 700, 0.4)])
+def test_all_starts_end_in_one_set(name, most, least):
+    found = late_cells(name, crossings=2000)
+    together = set().union(*found)
+    assert len(together) <= most
+    for one in found:
+        assert len(one & found[0]) >= least * len(one | found[0])
+    # It is no cycle: far more cells than a finite orbit would do with.
+    assert min(map(len, found)) > 20
+
+
+def divergence(body, y):
+    """Of the field at states y (5, n), by differences."""
+    step = 1e-5 * np.eye(5)[:, :, None]
+    return sum((np.array(SYSTEM.field(y + step[i], body.parameters))[i]
+                - np.array(SYSTEM.field(y - step[i], body.parameters))[i]) / 2e-5 for i in range(5))
+
+
+@pytest.mark.parametrize("name", ["Strange attractor", "A wider one"])
+def test_on_an_attractor_neighbours_part_and_volume_shrinks(name):
+    body, h = example(name)
+    starts = ball_section(body, h, seeds(body, h, 32), 200, level("standard")).states
+    states = np.array([one[-1] for one in starts])
+    apart, span, rates = 1e-7, 3.0, []
+    along = ensemble(SYSTEM, states, body.parameters, np.linspace(0.0, 1500.0, 6001)[1:], level("draft")).states
+    shrinking = [divergence(body, orbit.T).mean() for orbit in along]
+    shifted = states + apart * np.eye(5)[0]
+    for _ in range(100):
+        both = ensemble(SYSTEM, np.vstack([states, shifted]), body.parameters, [span], level("precise")).states[:, 0]
+        states, others = both[:32], both[32:]
+        distance = np.linalg.norm(others - states, axis=1)
+        rates.append(np.log(distance / apart) / span)
+        shifted = states + (others - states) * (apart / distance)[:, None]
+    # Both by far more than they scatter from start to start.
+    largest = np.mean(rates[10:], axis=0)
+    assert np.mean(largest) > 0.01
+    assert np.mean(largest) > 5.0 * np.std(largest) / math.sqrt(32)
+    assert np.mean(shrinking) < -5.0 * np.std(shrinking) / math.sqrt(32)
+
+
+@pytest.mark.parametrize("name", ["Mixed", "Regular", "Every orbit closes", "A sea"])
+def test_where_the_examples_keep_volume_the_divergence_vanishes(name):
+    body, _ = example(name)
+    random = np.random.default_rng(3)
+    assert np.max(np.abs(divergence(body, random.normal(size=(5, 40))))) <= 1e-8

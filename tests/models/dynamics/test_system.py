@@ -1,0 +1,435 @@
+"""Conformance: what holds for every registered system, and the symmetries each one has."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import sympy
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+
+import oracle
+from hess_mechanics import SuslovBody, level, solve, systems, unit_vector
+from hess_mechanics.dynamics.orbit import MAX_SAMPLES
+from hess_mechanics.errors import InvalidParameter, ModelError, NotPositiveDefinite, WorkLimit
+from hess_mechanics.numerics.accuracy import LEVELS, Level, Status
+from hess_mechanics.numerics.taylor import columns_of, compensated, convolution, expansion, workspace
+from support.mechanics import PROPERTY, ROOT
+
+SYSTEMS = systems()
+every_system = pytest.mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)
+every_level = pytest.mark.parametrize("name", LEVELS)
+
+# (system, signs of the state, sign of time): y(t) → signs·y(±t) takes solutions to solutions.
+SYMMETRIES = [
+    ("suslov", (-1, -1, 1, 1, 1), -1),
+    ("ball", (-1, -1, 1, 1, 1), -1),
+    ("euler-poisson", (-1, -1, -1, 1, 1, 1), -1),
+    ("hess", (-1, -1, 1, 1, 1), -1),
+    ("hess", (-1, 1, -1, 1, 1), -1),
+    ("hess", (1, -1, -1, 1, 1), 1),
+]
+every_symmetry = pytest.mark.parametrize(("name", "signs", "time"), SYMMETRIES)
+
+
+def module_of(system):
+    return sys.modules[system.field.__module__]
+
+
+def taylor_by_kernel(system, y, p, order):
+    field = oracle.uncompiled(module_of(system).QUADRATIC)
+    c, left, right, inverses = workspace.py_func(order, len(y), columns_of(field))
+    c[0, : len(y)] = y
+    expansion(field).py_func(c, left, right, inverses, p, field.rates, convolution(field).py_func)
+    return c[:, : len(y)].T
+
+
+def scaled(system, nu):
+    """What multiplies each variable when time is measured in units ν times shorter."""
+    return np.where(np.arange(len(system.variables)) < system.angular_velocities, nu, 1.0)
+
+
+def test_the_registry_finds_every_module_that_defines_a_system():
+    defining = {
+        ".".join(path.relative_to(ROOT / "models").with_suffix("").parts)
+        for path in (ROOT / "models").rglob("*.py") if re.search(r"^SYSTEM = System\(", path.read_text(), re.M)
+    }
+    assert {"hess_mechanics.suslov.equations", "hess_mechanics.chaplygin_ball.equations"} <= defining
+    assert {module_of(system).__name__ for system in SYSTEMS.values()} == defining
+    assert len(SYSTEMS) == len(defining)
+
+
+@every_system
+def test_names_and_shapes_fit_together(system):
+    assert module_of(system).SYSTEM is system
+    assert SYSTEMS[system.name] is system
+    assert system.title
+    assert system.labels
+    state, parameters = system.example
+    assert len(state) == len(system.variables) == len(set(system.variables))
+    assert len(parameters) == len(system.parameters) == len(set(system.parameters))
+    assert len(system.field(state, parameters)) == len(state)
+    assert 0 < system.angular_velocities < len(state)
+    assert all(np.isfinite(value) for value in system.integrals(state, parameters).values())
+    orbit = solve(system, state, parameters, [0.0, 0.5, 2.0], level("draft"))
+    assert orbit.states.shape == (3, len(state))
+    assert orbit.times.shape == (3,)
+    assert (orbit.system, orbit.level) == (system.name, "draft")
+    assert set(orbit.drift) == set(system.integrals(state, parameters))
+    assert orbit.states[0] == pytest.approx(state, abs=1e-15)
+    assert orbit.cost.steps > 0
+    assert orbit.cost.wall_ms > 0
+
+
+@every_system
+def test_integrals_are_constant_along_the_field_symbolically(system):
+    y = sympy.symbols(system.variables, real=True)
+    p = sympy.symbols(system.parameters, real=True)
+    rates = system.field(y, p)
+    for name, integral in system.integrals(y, p).items():
+        rate = sum(sympy.diff(integral, variable) * dy for variable, dy in zip(y, rates, strict=True))
+        assert sympy.simplify(rate) == 0, name
+        assert sympy.diff(integral, y[0]) != 0 or sympy.diff(integral, y[-1]) != 0, f"{name} says nothing"
+
+
+@every_system
+@PROPERTY
+@given(data=st.data())
+def test_the_kernels_taylor_series_is_that_of_the_plain_field(system, data):
+    size = st.floats(-2.0, 2.0)
+    y = data.draw(st.tuples(*[size] * len(system.variables)))
+    p = tuple(value * data.draw(st.floats(0.25, 4.0)) for value in system.example[1])
+    expected = oracle.coefficients(system.field, np.array([y]).T, np.array([p]).T, order=8)[:, :, 0]
+    found = taylor_by_kernel(system, y, p, order=8)
+    scale = 1.0 + np.max(np.abs(expected), axis=0)
+    assert found[:, 1] == pytest.approx(np.array(system.field(y, p)), abs=1e-14 * scale[1])
+    assert np.max(np.abs(found - expected) / scale) < 1e-12
+
+
+@every_system
+def test_solve_agrees_with_an_integrator_of_another_family(system):
+    state, parameters = system.example
+    times = np.linspace(0.0, 10.0, 21)
+    other = solve_ivp(lambda _, y: system.field(y, parameters), (0.0, 10.0), state, t_eval=times,
+                      method="DOP853", rtol=1e-12, atol=1e-13)
+    orbit = solve(system, state, parameters, times, level("reference"))
+    assert np.max(np.abs(orbit.states - other.y.T)) < 1e-9
+
+
+WITHOUT_JIT = """
+import json, sys
+import hess_mechanics
+from hess_mechanics import level
+results = {}
+for name, system in hess_mechanics.systems().items():
+    assert not hasattr(system.orbit, "py_func"), "the JIT is on"
+    for grade in ("draft", "reference"):
+        orbit = hess_mechanics.solve(system, *system.example, [0.0, 1.0, 5.0], level(grade))
+        results[f"{name} {grade}"] = [x.hex() for x in orbit.states.ravel().tolist()]
+    state, parameters = system.example
+    starts = [[x * (1 + 0.01 * i) for x in state] for i in range(11)]
+    many = hess_mechanics.ensemble(system, starts, parameters, [0.5, 1.0], level("standard"))
+    results[f"{name} ensemble"] = [x.hex() for x in many.states.ravel().tolist()]
+    last = hess_mechanics.solve(system, state, parameters, [0.1 * i for i in range(201)], level("draft")).states[:, -1]
+    plane = hess_mechanics.Plane((0.0,) * (len(state) - 1) + (1.0,), offset=0.5 * (last.min() + last.max()), sense=0)
+    found = hess_mechanics.section(system, state, parameters, plane, 20.0, level("standard"))
+    assert len(found.times) > 1
+    results[f"{name} section"] = [x.hex() for x in [*found.times.tolist(), *found.states.ravel().tolist()]]
+for a, h, f in ((0.5, 1.5, 0.6), (0.7, -0.9, 0.05), (60.0, 1.0, 0.9)):
+    m = hess_mechanics.circle_map(a, h, f, level("precise"))
+    values = [*m.matrix, m.log_scale, m.rotation_number, m.period]
+    results[f"circle map {a} {h} {f}"] = [float(x).hex() for x in values]
+grid = hess_mechanics.rotation_number_grid(0.5, [0.1, 0.6], [0.05, 0.3], level("standard"))
+results["grid"] = [x.hex() for x in grid.ravel().tolist()]
+boundary = hess_mechanics.lock_boundary(0.5, level("draft"), 5)
+results["lock boundary"] = [x.hex() for x in boundary.ravel().tolist()]
+json.dump(results, sys.stdout)
+"""
+
+
+def test_kernels_without_the_jit_equal_the_compiled_ones_to_round_off():
+    environment = {**os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": str(ROOT)}
+    run = subprocess.run([sys.executable, "-W", "error", "-c", WITHOUT_JIT], cwd=ROOT, env=environment,
+                         capture_output=True, text=True, timeout=120, check=False)
+    assert run.returncode == 0, run.stderr
+    plain = {key: [float.fromhex(x) for x in values] for key, values in json.loads(run.stdout).items()}
+    # The same statements in this process, compiled: only the check that the JIT is off must go.
+    statements = re.sub(r"    assert not hasattr.*\n", "", WITHOUT_JIT)
+    captured = {}
+    exec(statements.replace("json.dump(results, sys.stdout)", "captured.update(results)"), {"captured": captured})
+    compiled = {key: [float.fromhex(x) for x in values] for key, values in captured.items()}
+    assert set(plain) == set(compiled)
+    for key, values in compiled.items():
+        assert plain[key] == pytest.approx(values, rel=1e-11, abs=1e-11), key
+
+
+@every_system
+def test_there_and_back_again_returns_to_the_start(system):
+    state, parameters = system.example
+    there = solve(system, state, parameters, [15.0], level("reference"))
+    back = solve(system, there.states[0], parameters, [-15.0], level("reference"))
+    assert back.states[0] == pytest.approx(state, abs=1e-11)
+
+
+def test_every_system_has_a_time_reversal_among_the_tested_symmetries():
+    assert {name for name, _, time in SYMMETRIES if time < 0} == set(SYSTEMS)
+
+
+@every_symmetry
+def test_the_field_has_the_symmetry_symbolically(name, signs, time):
+    system = SYSTEMS[name]
+    y = sympy.symbols(system.variables, real=True)
+    p = sympy.symbols(system.parameters, real=True)
+    image = system.field([sign * value for sign, value in zip(signs, y, strict=True)], p)
+    expected = [time * sign * rate for sign, rate in zip(signs, system.field(y, p), strict=True)]
+    assert [sympy.expand(left - right) for left, right in zip(image, expected, strict=True)] == [0] * len(y)
+
+
+@every_symmetry
+def test_orbits_have_the_symmetry(name, signs, time):
+    system = SYSTEMS[name]
+    state, parameters = system.example
+    times = np.linspace(0.0, 10.0, 11)
+    orbit = solve(system, state, parameters, times, level("reference"))
+    image = solve(system, np.multiply(signs, state), parameters, time * times, level("reference"))
+    assert np.max(np.abs(image.states - signs * orbit.states)) < 1e-12
+
+
+@every_system
+@pytest.mark.parametrize("nu", [1e-3, 0.7, 4e4])
+def test_orbits_scale_with_the_unit_of_time(system, nu):
+    state, parameters = (np.array(values) for values in system.example)
+    times = np.linspace(0.0, 10.0, 11)
+    orbit = solve(system, state, parameters, times, level("reference"))
+    state_in_nu, parameters_in_nu = system.rescale(state, parameters, nu)
+    image = solve(system, state_in_nu, parameters_in_nu, times * nu, level("reference"))
+    assert np.max(np.abs(image.states * scaled(system, nu) - orbit.states)) < 1e-11
+    assert state == pytest.approx(system.example[0], abs=0), "rescale must not write into its arguments"
+    assert parameters == pytest.approx(system.example[1], abs=0)
+
+
+@pytest.mark.parametrize("b", [1e-6, 0.3, 5.0, 1e8])
+def test_hess_orbits_with_field_b_are_those_with_field_one(b):
+    # Units of the paper: t → t√b, w → w/√b; a and n stay.
+    hess = SYSTEMS["hess"]
+    state, (a, _) = hess.example
+    times, root = np.linspace(0.0, 10.0, 11), np.sqrt(b)
+    unit = solve(hess, state, (a, 1.0), times, level("reference"))
+    with_b = solve(hess, np.array(state) * [root, root, 1, 1, 1], (a, b), times / root, level("reference"))
+    assert np.max(np.abs(with_b.states / [root, root, 1, 1, 1] - unit.states)) < 1e-11
+
+
+@every_system
+def test_the_frequency_bounds_every_angular_velocity_of_the_motion(system):
+    state, parameters = (np.array(values) for values in system.example)
+    orbit = solve(system, state, parameters, np.linspace(0.0, 50.0, 2001), level("standard"))
+    fastest = np.max(np.linalg.norm(orbit.states[:, : system.angular_velocities], axis=1))
+    # A bound, and one that is not idle: within a factor of ten here.
+    assert fastest <= system.frequency(state, parameters) <= 10 * fastest
+
+
+@every_level
+@every_system
+def test_integrals_drift_less_than_the_level_promises(system, name):
+    orbit = solve(system, *system.example, np.linspace(0.0, 40.0, 401), level(name))
+    along = system.integrals(orbit.states.T, system.example[1])
+    for key, initial in system.integrals(*system.example).items():
+        drift = np.max(np.abs(along[key] - initial)) / max(1.0, abs(initial))
+        assert drift <= level(name).promise
+        assert orbit.drift[key] == pytest.approx(drift, abs=1e-15)
+
+
+def test_a_compensated_sum_keeps_what_a_plain_one_loses():
+    total = plain = 1.0
+    low = 0.0
+    for _ in range(10_000):
+        total, low = compensated(total, low, 1e-17)
+        plain += 1e-17
+    assert plain == 1.0
+    assert total + low == pytest.approx(1.0 + 1e-13, abs=2e-16)
+
+
+@every_system
+def test_round_off_does_not_grow_with_the_number_of_steps(system):
+    # Compensated sums.  What is left, 3e-19 a step, is the rounding of the factors 1/(k+1) of the series,
+    # the same in every step.
+    orbit = solve(system, *system.example, np.linspace(0.0, 30000.0, 50), level("reference"))
+    assert orbit.cost.steps > 150_000
+    assert max(orbit.drift.values()) < 4e-19 * orbit.cost.steps
+
+
+@every_system
+def test_dense_output_does_not_depend_on_the_other_samples(system):
+    many = np.linspace(0.0, 12.0, 481)
+    dense = solve(system, *system.example, many, level("reference"))
+    sparse = solve(system, *system.example, many[::60], level("reference"))
+    alone = solve(system, *system.example, 12.0, level("reference"))
+    assert np.array_equal(dense.states[::60], sparse.states)
+    assert np.array_equal(dense.states[-1:], alone.states)
+
+
+@every_system
+def test_equal_and_zero_times_are_allowed(system):
+    orbit = solve(system, *system.example, [0.0, 0.0, 1.0, 1.0], level("draft"))
+    assert orbit.states[0] == pytest.approx(system.example[0], abs=1e-15)
+    assert np.array_equal(orbit.states[2], orbit.states[3])
+
+
+@every_system
+def test_results_are_read_only_and_share_nothing_with_the_caller(system):
+    times = np.linspace(0.0, 1.0, 5)
+    orbit = solve(system, *system.example, times, level("draft"))
+    for array in (orbit.times, orbit.states):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 0.0
+    times[0] = 7.0
+    assert orbit.times[0] == 0.0
+    with pytest.raises(AttributeError):
+        orbit.status = Status.OK
+
+
+@every_system
+def test_a_level_that_cannot_keep_its_promise_says_so(system):
+    # A promise no double can keep: the result must come with a status, not with silence.
+    impossible = Level("standard", 1e-300, 1e-8, 14)
+    orbit = solve(system, *system.example, [1.0], impossible)
+    assert orbit.status is Status.PROMISE_NOT_MET
+    floor = Level("reference", 1e-300, 1e-17, 24)
+    assert solve(system, *system.example, [1.0], floor).status is Status.FLOOR
+
+
+@every_system
+def test_a_run_that_misses_its_promise_is_replaced_by_a_tighter_one(system):
+    # Steps far too long for the promise: without the second look the error would be about 1e-2.
+    careless = Level("standard", 1e-9, 1e-1, 14)
+    orbit = solve(system, *system.example, [20.0], careless)
+    truth = solve(system, *system.example, [20.0], level("reference"))
+    assert orbit.status is Status.OK
+    assert np.max(np.abs(orbit.states - truth.states)) <= 1e-9
+
+
+BAD_TIMES = [
+    pytest.param([], InvalidParameter, "one or more finite numbers", id="none"),
+    pytest.param([[1.0, 2.0]], InvalidParameter, "one or more finite numbers", id="a table"),
+    pytest.param([np.nan], InvalidParameter, "finite", id="nan"),
+    pytest.param([1.0, np.inf], InvalidParameter, "finite", id="inf"),
+    pytest.param([2.0, 1.0], InvalidParameter, "all forward or all backward", id="backwards"),
+    pytest.param([-1.0, 1.0], InvalidParameter, "all forward or all backward", id="both sides of 0"),
+    pytest.param([1e308, -1e308], InvalidParameter, "all forward or all backward", id="beyond double range apart"),
+    pytest.param([1e9], WorkLimit, "choose a shorter one", id="a long span"),
+    pytest.param([-1e308], WorkLimit, "choose a shorter one", id="an absurd span"),
+    pytest.param(np.zeros(MAX_SAMPLES + 1), WorkLimit, "at most 200000", id="too many samples"),
+]
+
+
+@every_system
+@pytest.mark.parametrize(("times", "error", "words"), BAD_TIMES)
+def test_times_that_cannot_be_computed_raise_a_sentence(system, times, error, words):
+    assert issubclass(error, ModelError)
+    with pytest.raises(error, match=words):
+        solve(system, *system.example, times, level("draft"))
+
+
+@every_system
+def test_all_runs_of_one_request_share_one_budget_of_steps(system, monkeypatch):
+    freely = solve(system, *system.example, [100.0], level("standard"))
+    # Enough for the first run alone and for the second alone, but not for both.
+    monkeypatch.setattr("hess_mechanics.dynamics.orbit.MAX_STEPS", int(0.75 * freely.cost.steps))
+    with pytest.raises(WorkLimit, match="choose a shorter one"):
+        solve(system, *system.example, [100.0], level("standard"))
+    monkeypatch.setattr("hess_mechanics.dynamics.orbit.MAX_STEPS", freely.cost.steps + 2)
+    assert np.array_equal(solve(system, *system.example, [100.0], level("standard")).states, freely.states)
+
+
+@every_system
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+@pytest.mark.parametrize("place", [0, -1])
+def test_states_and_parameters_that_are_not_finite_raise_a_sentence(system, bad, place):
+    state, parameters = (np.array(values) for values in system.example)
+    broken = state.copy()
+    broken[place] = bad
+    with pytest.raises(InvalidParameter, match="finite number"):
+        solve(system, broken, parameters, [1.0], level("draft"))
+    broken = parameters.copy()
+    broken[place] = bad
+    with pytest.raises(InvalidParameter, match="finite number"):
+        solve(system, state, broken, [1.0], level("draft"))
+
+
+@every_system
+@pytest.mark.parametrize("huge", [1e155, 1e200, 1e308])
+def test_motions_too_fast_for_double_precision_raise_a_sentence(system, huge):
+    state, parameters = (np.array(values) for values in system.example)
+    state[0] = huge
+    with pytest.raises(ModelError, match=r"choose (less extreme parameters|a shorter one)"):
+        solve(system, state, parameters, [1.0], level("draft"))
+
+
+@every_system
+def test_states_and_parameters_of_the_wrong_length_raise_a_sentence(system):
+    state, parameters = system.example
+    for wrong in (state[:-1], [*state, 0.0], [state]):
+        with pytest.raises(InvalidParameter, match=re.escape(", ".join(system.variables))):
+            solve(system, wrong, parameters, [1.0], level("draft"))
+    for wrong in (parameters[:-1], [*parameters, 0.0], []):
+        with pytest.raises(InvalidParameter, match=re.escape(", ".join(system.parameters))):
+            solve(system, state, wrong, [1.0], level("draft"))
+
+
+@pytest.mark.parametrize(("place", "value"), [(0, 0.0), (0, -1.0), (1, 0.0), (1, -2.0)])
+def test_the_suslov_kernel_refuses_moments_that_are_not_positive(place, value):
+    suslov = SYSTEMS["suslov"]
+    parameters = np.array(suslov.example[1])
+    parameters[place] = value
+    with pytest.raises(NotPositiveDefinite, match="choose I"):
+        solve(suslov, suslov.example[0], parameters, [1.0], level("draft"))
+
+
+def test_an_unknown_level_names_those_there_are():
+    with pytest.raises(InvalidParameter, match="draft, standard, precise, reference"):
+        level("exact")
+
+
+@PROPERTY
+@given(data=st.data())
+def test_the_suslov_field_is_eulers_equation_with_the_reaction_of_the_constraint(data):
+    # I ω̇ + ω × Iω = γ × b + λ e3 with ω3 = 0: rows 1 and 2 are free of λ; γ̇ = γ × ω.
+    number = st.floats(-3.0, 3.0)
+    I11, I22 = data.draw(st.tuples(st.floats(0.1, 5.0), st.floats(0.1, 5.0)))
+    I13, I23, b1, b2, b3, w1, w2, g1, g2, g3 = data.draw(st.tuples(*[number] * 10))
+    I33 = data.draw(number)  # must not matter
+    inertia = np.array([[I11, 0.0, I13], [0.0, I22, I23], [I13, I23, I33]])
+    omega, gamma, b = np.array([w1, w2, 0.0]), np.array([g1, g2, g3]), np.array([b1, b2, b3])
+    body = SuslovBody(I11, I22, I13, I23, b1, b2, b3)
+    rates = np.array(SYSTEMS["suslov"].field((w1, w2, g1, g2, g3), body.parameters))
+    torque = inertia @ [*rates[:2], 0.0] + np.cross(omega, inertia @ omega) - np.cross(gamma, b)
+    assert torque[:2] == pytest.approx([0.0, 0.0], abs=1e-12)
+    assert rates[2:] == pytest.approx(np.cross(gamma, omega), abs=1e-12)
+
+
+@PROPERTY
+@given(st.tuples(*[st.floats(-1e150, 1e150)] * 3).filter(any))
+def test_unit_vectors_have_length_one_and_keep_their_direction(gamma):
+    unit, note = unit_vector(gamma)
+    length = np.linalg.norm(np.array(gamma) / np.max(np.abs(gamma))) * np.max(np.abs(gamma))
+    assert np.linalg.norm(unit) == pytest.approx(1.0, abs=1e-15)
+    assert np.array(unit) * length == pytest.approx(np.array(gamma), rel=0, abs=1e-15 * length)
+    assert (note is None) == (abs(length - 1) <= 1e-15)
+
+
+@pytest.mark.parametrize("gamma", [(0.0, 0.0, 0.0), (np.nan, 0.0, 1.0), (np.inf, 0.0, 0.0)])
+def test_a_vertical_without_direction_raises_a_sentence(gamma):
+    with pytest.raises(InvalidParameter, match="other than 0"):
+        unit_vector(gamma)
+
+
+@pytest.mark.parametrize("bad", [{"I11": np.nan}, {"b3": np.inf}, {"I13": -np.inf}])
+def test_a_suslov_body_names_the_value_that_is_not_finite(bad):
+    values = {"I11": 1.0, "I22": 1.0, "I13": 0.0, "I23": 0.0, "b3": 0.0, **bad}
+    with pytest.raises(InvalidParameter, match=next(iter(bad))):
+        SuslovBody(**values)

@@ -1,0 +1,456 @@
+"""Speed against accuracy on one motion: true errors, measured costs, and words that say what the numbers say."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import re
+import time
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from hess_explorer.scenes import scenes
+from hess_explorer.scenes.speed_accuracy import Study
+from hess_mechanics import HessBody, systems
+from hess_mechanics.dynamics.orbit import solve
+from hess_mechanics.dynamics.sampling import PIXELS
+from hess_mechanics.dynamics.system import Problem
+from hess_mechanics.dynamics.work_precision import (
+    Growth,
+    WorkPoint,
+    growth,
+    longest_span,
+    measure_levels,
+    measure_others,
+    others_take_long,
+)
+from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, REFERENCE
+from hess_mechanics.suslov_hess.torus import track
+from support.board import ACCURACY, HESS, Board, flat, said
+
+SAMPLES = 200
+PRESETS = {preset.name: {**HESS.defaults(), **preset.values} for preset in HESS.presets}
+every_preset = pytest.mark.parametrize("values", PRESETS.values(), ids=PRESETS)
+
+
+def asked(motion):
+    """How a motion is asked for, without the weights."""
+    return motion.system.name, motion.state, motion.parameters, motion.span
+
+
+def independent(motion, times):
+    """The same motion by another method."""
+    run = solve_ivp(lambda _, y: motion.system.field(y, motion.parameters), (0.0, times[-1]), motion.state,
+                    method="DOP853", rtol=1e-13, atol=1e-15, t_eval=times)
+    return run.y.T
+
+
+def unit_of(motion):
+    """In this unit of frequency no |ω| exceeds 1: √(w² + 4|n|), the energy being as large as it may."""
+    w1, w2, *n = motion.state
+    return math.sqrt(w1**2 + w2**2 + 4.0 * math.hypot(*n))
+
+
+def scale_of(motion):
+    nu = unit_of(motion)
+    return np.array([nu, nu, 1.0, 1.0, 1.0])
+
+
+# --- The motion --------------------------------------------------------------------------------------------
+
+
+@every_preset
+@pytest.mark.parametrize("change", [{}, {"b3": 2.5, "span": 7.0}, {"I22": 2.0, "I23": -0.5, "phi0": -2.0}], ids=str)
+def test_the_motion_looked_into_is_the_one_on_show(values, change):
+    values = HESS.admit({**values, **change})[0]
+    motion = HESS.motion(values)
+    shown = HESS.compute(values, HESS.pictures, False).track
+    own = solve(motion.system, motion.state, motion.parameters, shown.orbit.times, LEVELS["standard"])
+    assert np.array_equal(own.states, shown.orbit.states)
+    assert shown.orbit.times[-1] == motion.span
+    assert shown.orbit.times * motion.unit == pytest.approx(shown.times, rel=1e-14)
+
+
+# --- Growth --------------------------------------------------------------------------------------------------
+
+
+@every_preset
+def test_errors_are_those_against_another_method(values):
+    motion = HESS.motion(values)
+    found = growth(*asked(motion), motion.weights, SAMPLES)
+    truth = independent(motion, found.times)
+    # At the separatrix the motion magnifies what the other method does wrong, too.
+    exact = ("draft",) if values["f"] == 0.0 and values["h"] == 1.0 else ("draft", "standard", "precise")
+    for name in exact:
+        states = solve(motion.system, motion.state, motion.parameters, found.times, LEVELS[name]).states
+        errors = np.max(np.abs(states - truth) / scale_of(motion), axis=1)
+        assert errors.max() / 2.0 < found.errors[name].max() < errors.max() * 2.0
+        assert found.errors[name] == pytest.approx(errors, abs=0.5 * errors.max())
+        assert found.errors[name].max() < LEVELS[name].promise
+
+
+@every_preset
+def test_at_the_start_nothing_is_wrong_and_finer_levels_are_less_so(values):
+    motion = HESS.motion(values)
+    found = growth(*asked(motion), motion.weights, SAMPLES)
+    assert found.times == pytest.approx(np.linspace(0.0, motion.span, SAMPLES))
+    assert list(found.errors) == list(found.pixels) == list(found.drifts) == list(LEVELS)
+    for name in LEVELS:
+        assert found.errors[name].shape == found.pixels[name].shape == (SAMPLES,)
+        assert found.errors[name][0] == found.pixels[name][0] == 0.0
+        # Arrays are squared in another way than numbers: the last place may differ.
+        assert max(drift[0] for drift in found.drifts[name].values()) < 1e-15
+    for one in (found.errors, found.pixels):
+        draft, standard, precise, reference = (values.max() for values in one.values())
+        assert draft > 100.0 * standard > 1000.0 * precise > 0.0
+        assert reference <= precise
+
+
+@every_preset
+@pytest.mark.parametrize("name", LEVELS)
+def test_the_drifts_are_those_that_the_orbit_itself_reports(values, name):
+    motion = HESS.motion(values)
+    found = growth(*asked(motion), motion.weights, SAMPLES)
+    reported = solve(motion.system, motion.state, motion.parameters, found.times, LEVELS[name]).drift
+    assert {key: float(drift.max()) for key, drift in found.drifts[name].items()} == dict(reported)
+
+
+@pytest.mark.parametrize("change", [{}, {"h": 0.2, "f": 0.5}, {"I22": 0.5, "I23": 1.5, "b3": 0.7}, {"h": 30.0}],
+                         ids=str)
+def test_pixels_are_distances_in_the_pictures_of_the_scene(change):
+    values = {**HESS.defaults(), **change}
+    motion = HESS.motion(values)
+    found = growth(*asked(motion), motion.weights, SAMPLES)
+    result = HESS.compute(values, HESS.pictures, False)
+    board = Board(HESS)
+    board.show(result)
+    width = board.stage.omega.x_range[1] - board.stage.omega.x_range[0]
+    truth = result.body.from_reduced(result.body.from_units_of_b(independent(motion, found.times)))
+    for name in ("draft", "standard"):
+        states = solve(motion.system, motion.state, motion.parameters, found.times, LEVELS[name]).states
+        apart = result.body.from_reduced(result.body.from_units_of_b(states)) - truth
+        # The sphere has a radius of half the picture.
+        pixels = np.maximum(np.linalg.norm(apart[:, :2], axis=1) * PIXELS / width,
+                            np.linalg.norm(apart[:, 2:], axis=1) * PIXELS / 2.0)
+        assert found.pixels[name] == pytest.approx(pixels, abs=0.01 * pixels.max())
+
+
+def test_a_draft_is_right_to_a_pixel_over_the_first_view():
+    motion = HESS.motion(HESS.defaults())
+    assert growth(*asked(motion), motion.weights, SAMPLES).pixels["draft"].max() < 0.5
+
+
+@pytest.mark.parametrize("name", systems())
+def test_every_system_can_be_looked_into(name):
+    state, parameters = systems()[name].example
+    arguments = (name, tuple(state), tuple(parameters), 10.0)
+    found = growth(*arguments, (1.0,) * len(state), SAMPLES)
+    initial = systems()[name].integrals(state, parameters)
+    for level in LEVELS.values():
+        assert found.errors[level.name].max() < level.promise
+        assert set(found.drifts[level.name]) == set(initial)
+    assert [point.setting for point in measure_levels(*arguments, SAMPLES)] == list(LEVELS)
+    assert all(point.error < 1.0 for point in measure_others(*arguments, SAMPLES))
+
+
+@pytest.mark.parametrize("measure", [growth, measure_levels])
+def test_what_cannot_be_computed_is_refused_with_a_sentence(measure):
+    state, parameters = systems()["hess"].example
+    weights = ((1.0,) * 5,) if measure is growth else ()
+    with pytest.raises(WorkLimit, match="choose"):
+        measure("hess", tuple(state), tuple(parameters), 1e9, *weights, SAMPLES)
+    with pytest.raises(InvalidParameter, match="finite"):
+        measure("hess", (math.nan, *state[1:]), tuple(parameters), 1.0, *weights, SAMPLES)
+
+
+# --- Cost ------------------------------------------------------------------------------------------------------
+
+
+@every_preset
+def test_each_level_is_one_point_with_its_largest_error(values):
+    motion = HESS.motion(values)
+    before = time.perf_counter()
+    points = measure_levels(*asked(motion), SAMPLES)
+    elapsed = 1e3 * (time.perf_counter() - before)
+    found = growth(*asked(motion), motion.weights, SAMPLES)
+    assert [(point.method, point.setting) for point in points] == [("Taylor", name) for name in LEVELS]
+    for point in points:
+        assert point.error == found.errors[point.setting].max()
+        assert point.ms > 0.0
+    # Each is the fastest of three.
+    assert 3.0 * sum(point.ms for point in points) < elapsed
+
+
+def test_the_methods_of_scipy_are_six_points_with_their_errors():
+    motion = HESS.motion({**HESS.defaults(), "span": 10.0})
+    before = time.perf_counter()
+    points = measure_others(*asked(motion), SAMPLES)
+    elapsed = 1e3 * (time.perf_counter() - before)
+    assert [(point.method, point.setting) for point in points] == [
+        (method, tolerance) for method in ("DOP853", "LSODA") for tolerance in ("1e-04", "1e-07", "1e-10")]
+    times = np.linspace(0.0, motion.span, SAMPLES)
+    truth = independent(motion, times)
+    for point in points:
+        run = solve_ivp(lambda _, y: motion.system.field(y, motion.parameters), (0.0, motion.span), motion.state,
+                        method=point.method, rtol=float(point.setting), atol=float(point.setting), t_eval=times)
+        error = np.max(np.abs(run.y.T - truth) / scale_of(motion))
+        assert point.error == pytest.approx(error, rel=0.05)
+        assert point.ms > 0.0
+    assert sum(point.ms for point in points) < elapsed
+    for method in ("DOP853", "LSODA"):
+        errors = [point.error for point in points if point.method == method]
+        assert errors == sorted(errors, reverse=True)
+
+
+def test_the_methods_of_scipy_are_left_out_beyond_150_times_the_shortest_period():
+    for values in ({}, {"h": 3.0, "f": -1.0}, {"b3": -0.2}, {"I22": 2.0, "I23": 1.0}):
+        motion = HESS.motion({**HESS.defaults(), **values})
+        longest = 150.0 / unit_of(motion)
+        assert not others_take_long(*asked(motion)[:3], longest * (1.0 - 1e-12))
+        assert others_take_long(*asked(motion)[:3], longest * (1.0 + 1e-12))
+
+
+def test_the_methods_of_scipy_are_left_out_where_the_motion_needs_many_steps():
+    """A body so slender that the shortest period does not tell how hard its motion is."""
+    motion = HESS.motion({**HESS.defaults(), "I22": 1.1, "I23": 107.0, "h": 5e5, "f": -2.2})
+    longest = 149.0 / unit_of(motion)
+    steps = {span: solve(motion.system, motion.state, motion.parameters, [0.0, span], LEVELS["reference"]).cost.steps
+             for span in np.linspace(0.1, 1.0, 10) * longest}
+    assert min(steps.values()) < 1500 < max(steps.values())
+    for span, count in steps.items():
+        assert others_take_long(*asked(motion)[:3], span) == (count > 1500)
+
+
+def test_over_the_longest_span_that_is_measured_scipy_takes_less_than_a_few_seconds():
+    motion = HESS.motion(HESS.defaults())
+    span = 150.0 / unit_of(motion)
+    before = time.process_time()
+    measure_others(*asked(motion)[:3], span, 400)
+    assert time.process_time() - before < 5.0
+
+
+# --- What the scene says ---------------------------------------------------------------------------------------
+
+MOTION = dataclasses.replace(HESS.motion(HESS.defaults()), unit=2.0)
+TIMES = np.linspace(0.0, 10.0, 11)
+WORK = (
+    WorkPoint("Taylor", "draft", 1.0, 2e-4), WorkPoint("Taylor", "standard", 2.0, 3e-7),
+    WorkPoint("Taylor", "precise", 4.0, 4e-10), WorkPoint("Taylor", "reference", 8.0, 0.0),
+    WorkPoint("DOP853", "1e-04", 30.0, 1e-3), WorkPoint("DOP853", "1e-07", 50.0, 2e-6),
+    WorkPoint("DOP853", "1e-10", 90.0, 1e-9), WorkPoint("LSODA", "1e-04", 20.0, 1e-2),
+    WorkPoint("LSODA", "1e-07", 44.0, 1e-7), WorkPoint("LSODA", "1e-10", 60.0, 1e-8),
+)
+
+
+def made_up(pixels, error=1e-5, drifts=(1e-6, 2e-7, 3e-8)):
+    """Errors that grow with the square of time up to `error`; the others are given at the end, or at each time."""
+    along = (TIMES / 10.0) ** 2
+    pixels = pixels if np.ndim(pixels) else pixels * along
+    names = ("E", "F1", "F2", "K")
+    return Growth(
+        TIMES, dict.fromkeys(LEVELS, error * along), dict.fromkeys(LEVELS, np.asarray(pixels)),
+        {name: {key: drift * along for key, drift in zip(names, drifts, strict=False)} for name in LEVELS})
+
+
+def shown(accuracy="standard", points=WORK, errors=None, notes=()):
+    """(Board, captions, report) of a study that is made up."""
+    values = {**ACCURACY.defaults(), "accuracy": accuracy}
+    board = Board(ACCURACY)
+    report = board.show(Study(values, MOTION, points, errors, notes, 12.3))
+    return board, board.captions, report
+
+
+def test_a_picture_that_stays_right_is_said_to_be_so_to_the_end():
+    _, captions, _ = shown(errors=made_up(0.25))
+    # The page's time is twice the computation's here.
+    assert captions["pixels"].splitlines()[1] == (
+        "standard: wrong by less than a pixel to the end, t = 20 (at most 0.25).")
+    _, captions, _ = shown("draft", errors=made_up(1.0))
+    assert captions["pixels"].splitlines()[1] == "draft: wrong by less than a pixel to the end, t = 20 (at most 1)."
+
+
+def test_a_picture_that_goes_wrong_is_said_to_be_right_until_then():
+    _, captions, _ = shown(errors=made_up(4.0))
+    # 4 (t/10)² first exceeds 1 at the sample 6, which is 12 on the page.
+    assert captions["pixels"].splitlines()[1] == "standard: wrong by less than a pixel until t = 12."
+    # Also where it comes right again later.
+    _, captions, _ = shown(errors=made_up([0, 0, 0, 1.5, 0, 0, 0, 0, 0, 0, 0.1]))
+    assert captions["pixels"].splitlines()[1] == "standard: wrong by less than a pixel until t = 6."
+
+
+def test_the_other_captions_give_the_numbers_of_the_chosen_level():
+    errors = made_up(0.5)
+    errors.errors["precise"] = 3e-11 * TIMES / 10.0
+    errors.drifts["precise"]["F1"] = 1e-12 * (TIMES / 10.0) * (1.0 - TIMES / 10.0)
+    _, captions, report = shown("precise", errors=errors)
+    assert captions["growth"].splitlines()[1] == "precise: 3e−11 at the end; promised 1e−09 (dotted)."
+    assert captions["drift"].splitlines()[1] == "precise: at most (1) E 1e−06, (2) F1 2.5e−13, (3) F2 3e−08."
+    assert captions["precision"].splitlines()[1].startswith("precise: 4 ms, error 4e−10")
+    assert report.status.startswith("precise chosen · draft 1 ms, error 0.0002 · standard 2 ms, error 3e−07 · ")
+    assert report.status.endswith("all measured in 12 ms")
+    assert "DOP853" not in report.status
+
+
+@pytest.mark.parametrize(("accuracy", "said"), [
+    # The fastest of those of SciPy that are as exact, or nearly.
+    ("draft", "draft: 1 ms, error 0.0002; DOP853: 30 × as long, 0.001."),
+    ("standard", "standard: 2 ms, error 3e−07; LSODA: 22 × as long, 1e−07."),
+    ("precise", "precise: 4 ms, error 4e−10; DOP853: 22 × as long, 1e−09."),
+    ("reference", "reference: 8 ms, error 0."),
+])
+def test_the_caption_of_the_cost_compares_with_what_is_as_exact(accuracy, said):
+    assert shown(accuracy)[1]["precision"] == f"Cost against error\n{said}"
+
+
+def test_without_scipy_the_caption_compares_with_nobody_and_the_reason_is_a_note():
+    _, captions, report = shown(points=WORK[:4], notes=("Left out.",))
+    assert captions["precision"] == "Cost against error\nstandard: 2 ms, error 3e−07."
+    assert list(report.notes) == ["Left out."]
+    assert list(shown()[2].notes) == []
+
+
+@pytest.mark.parametrize("accuracy", LEVELS)
+def test_the_ring_is_round_the_chosen_level(accuracy):
+    board, _, _ = shown(accuracy)
+    own = next(point for point in WORK if point.setting == accuracy)
+    ring = board.sources["precision-chosen"]
+    assert (flat(ring["x"]), flat(ring["y"])) == ([pytest.approx(max(own.error, 1e-17))], [pytest.approx(own.ms)])
+
+
+def test_every_way_to_compute_is_a_point_of_its_line():
+    data = shown()[0].sources
+    for method in ("Taylor", "DOP853", "LSODA"):
+        own = [point for point in WORK if point.method == method]
+        for layer in (f"precision-{method}", f"precision-{method}-marks"):
+            # What has no error at all is drawn on the edge of the logarithmic axis.
+            assert flat(data[layer]["x"]) == pytest.approx([max(point.error, 1e-17) for point in own])
+            assert flat(data[layer]["y"]) == pytest.approx([point.ms for point in own])
+
+
+def test_each_chart_shows_its_curves_over_the_time_of_the_page():
+    errors = made_up(4.0, drifts=(1e-6, 2e-7))
+    data = shown("draft", errors=errors)[0].sources
+    for name in LEVELS:
+        for chart, values in (("growth", errors.errors[name]), ("pixels", errors.pixels[name])):
+            own = data[f"{chart}-{name}"]
+            assert own["x"] == pytest.approx(2.0 * TIMES)
+            assert own["y"][1:] == pytest.approx(values[1:])
+            assert own["y"][0] > 0.0
+    assert data["drift-integral-0"]["y"][-1] == pytest.approx(1e-6)
+    assert data["drift-integral-1"]["y"][-1] == pytest.approx(2e-7)
+    # Two integrals: the other curves are empty.
+    assert flat(list(data["drift-integral-2"].values())) == flat(list(data["drift-integral-3"].values())) == []
+    # The dotted lines: what is promised, and one pixel.
+    assert data["growth-limit"]["y"] == [DRAFT.promise] * 2
+    assert data["pixels-limit"]["y"] == [1.0] * 2
+    # What the moving points follow.
+    orbit = data["data-orbit"]
+    assert orbit["t"] == pytest.approx(2.0 * TIMES)
+    assert orbit["growth"][1:] == pytest.approx(errors.errors["draft"][1:])
+    assert orbit["drift"][1:] == pytest.approx(1e-6 * (TIMES[1:] / 10.0) ** 2)
+    assert orbit["pixels"][1:] == pytest.approx(errors.pixels["draft"][1:])
+
+
+def test_what_vanishes_is_drawn_on_the_edge_of_a_logarithmic_axis():
+    board, captions, _ = shown(errors=made_up(0.0, error=0.0, drifts=(0.0, 0.0, 0.0)),
+                               points=tuple(dataclasses.replace(point, error=0.0) for point in WORK))
+    drawn = 0
+    for name, columns in board.sources.items():
+        if "y" in columns and not name.endswith("message"):
+            assert np.all(np.asarray(flat(columns["y"])) > 0.0), name
+            drawn += len(flat(columns["y"]))
+    assert drawn > 100
+    assert flat(board.sources["precision-Taylor"]["x"]) == pytest.approx([1e-17] * 4)
+    assert "nan" not in " ".join(captions.values())
+
+
+def test_under_a_drag_the_axis_of_time_stays_and_after_it_follows():
+    board, _, _ = shown(errors=made_up(0.5))
+    study = Study(ACCURACY.defaults(), dataclasses.replace(MOTION, unit=7.0), WORK, made_up(0.5), (), 1.0)
+
+    def axes():
+        return [tuple(chart.x_range) for chart in board.stage.charts[1:]]
+
+    assert axes() == [(0.0, 20.0)] * 3
+    board.show(study, True)
+    assert axes() == [(0.0, 20.0)] * 3
+    board.show(study, False)
+    assert axes() == [(0.0, 70.0)] * 3
+    # And the browser is told.
+    assert [board.ranges[name][:2] for name in ("growth", "drift", "pixels")] == [[0.0, 70.0]] * 3
+
+
+def test_a_stage_that_fails_has_no_number_left_in_any_chart():
+    board, _, _ = shown(errors=made_up(0.5))
+    board.fail("No motion here.")
+    for chart in board.stage.charts:
+        for name, columns in board.sources.items():
+            if not name.startswith(f"{chart.name}-"):
+                continue
+            if name.endswith("-message"):
+                assert said(columns) == ["No motion here."]
+                for column, axis in (("x", chart.x_range), ("y", chart.y_range)):
+                    assert axis[0] < flat(columns[column])[0] < axis[1]
+            else:
+                assert flat(list(columns.values())) == [], name
+    assert flat(list(board.sources["data-orbit"].values())) == []
+    assert set(board.captions.values()) == {"No motion here."}
+    # And with the next state the sentence goes.
+    board.show(Study(ACCURACY.defaults(), MOTION, WORK, made_up(0.5), (), 1.0))
+    assert all(flat(list(board.sources[f"{name}-message"].values())) == [] for name in ACCURACY.pictures)
+
+
+def test_a_span_that_would_take_seconds_is_cut_with_a_note():
+    motion = HESS.motion(HESS.defaults())
+    longest = longest_span(motion.system.name, motion.state, motion.parameters)
+    assert longest * Problem.of(motion.system, motion.state, motion.parameters).nu == pytest.approx(5000.0)
+    free = scenes()["free-suslov"]
+    study = scenes()["free-suslov-accuracy"].compute({**free.defaults(), "w1": 1e3, "span": 1e5}, {"growth"}, False)
+    assert study.motion.span < 1e3
+    assert study.growth.times[-1] == pytest.approx(study.motion.span)
+    assert len(study.notes) == 1
+    assert study.notes[0].startswith("Measured up to t = ")
+
+
+@every_preset
+def test_the_derived_quantities_say_the_system_and_where_it_starts(values):
+    report = Board(ACCURACY).show(ACCURACY.compute(values, {"growth"}, False))
+    orbit = track(HessBody(values["I22"], values["I23"], values["b3"]), values["h"], values["f"], values["phi0"],
+                  values["span"], REFERENCE, 4.0).orbit
+    said = dict(re.match(r"([\w()]+) = (\S+)$", row).groups() for row in report.derived if " = " in row)
+    numbers = {name: float(text.replace("−", "-")) for name, text in said.items()}
+    assert numbers["a"] == pytest.approx(values["I23"] / values["I22"], rel=1e-5)
+    assert numbers["b"] == 1.0
+    for name, value in zip(("w1", "w2", "n1", "n2", "n3"), orbit.states[0], strict=True):
+        assert numbers[f"{name}(0)"] == pytest.approx(value, rel=1e-5)
+
+
+# --- Clicks ------------------------------------------------------------------------------------------------------
+
+
+def test_a_click_chooses_the_level_that_is_next_to_it_and_none_in_another_chart():
+    exact = dataclasses.replace(WORK[3], error=4e-14)
+    stage = shown(points=(*WORK[:3], exact, *WORK[4:]))[0].stage
+    for error, name in ((1e-1, "draft"), (1e-3, "draft"), (1e-6, "standard"), (1e-9, "precise"), (1e-13, "reference"),
+                        (1e-20, "reference")):
+        assert stage.pick("precision", error, 1.0) == {"accuracy": name}
+    for x in (0.0, -1.0):
+        assert stage.pick("precision", x, 1.0) == {}
+    for picture in ("growth", "drift", "pixels", "omega", ""):
+        assert stage.pick(picture, 1e-6, 1.0) == {}
+
+
+def test_a_click_on_the_point_of_a_level_chooses_that_level():
+    board = Board(ACCURACY)
+    study = ACCURACY.compute(ACCURACY.defaults(), {"precision"}, True)
+    board.show(study)
+    stage = board.stage
+    chosen = [stage.pick("precision", max(point.error, 1e-17), point.ms) for point in study.points]
+    assert chosen == [{"accuracy": name} for name in LEVELS]
+
+
+def test_the_chart_of_costs_listens_to_clicks():
+    assert {"tap", "doubletap"} <= set(Board(ACCURACY).stage.precision.build().js_event_callbacks)

@@ -1,0 +1,321 @@
+"""The search for the roots of one step's polynomial: none lost, none doubled, each to round-off."""
+
+from fractions import Fraction
+from math import comb
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+from numpy.polynomial import Polynomial, chebyshev
+from scipy.optimize import brentq
+
+from hess_mechanics.numerics import events as crossings
+from hess_mechanics.numerics.events import largest_bend, root_between, value_and_slope
+from support.mechanics import PROPERTY
+
+EPS = np.finfo(float).eps
+class Pieces(np.ndarray):
+    """Scratch for the pieces, which ends a search that does not end by itself."""
+
+    def __setitem__(self, place, value):
+        self.written = getattr(self, "written", 0) + 1
+        assert self.written < 2 * self.enough, "the search does not end"
+        super().__setitem__(place, value)
+
+
+def found_roots(e, h, below=None, end=None, enough=50_000):
+    """What `roots_on_step` finds, with at most `enough` halvings; the sides of the ends are those of e unless given.
+
+    Uncompiled, so that a root too many is an error and not a write into someone else's memory.
+    """
+    e = np.array(e, float)
+    end = value_and_slope(e, h)[0] if end is None else end
+    below = bool(e[0] < 0.0) if below is None else below
+    roots = np.full(e.size, np.nan)
+    pieces = np.zeros((crossings._DEPTH + 2, 2)).view(Pieces)
+    pieces.enough = enough
+    found = crossings.roots_on_step.py_func(e, h, below, end, bool(end < 0.0), roots, pieces)
+    return roots[:found]
+
+
+def exactly(e, s):
+    """e(s) without round-off."""
+    s = Fraction(float(s))
+    return sum((Fraction(float(value)) * s**k for k, value in enumerate(e)), Fraction(0))
+
+
+def reach(e, s, h):
+    """How far from a root at s double precision lets one be found on [0, h].
+
+    Horner's rule errs by at most 2n ε Σ|e_k| h^k, coefficients multiplied out from their roots by about as much
+    again; the slope turns that into a distance.  s itself is rounded, and the search may stop at 1e-16 of h.
+    """
+    e = np.array(e, float)
+    noise = 4.0 * e.size * EPS * float(np.polyval(np.abs(e[::-1]), h))
+    return noise / abs(np.polyval(np.polyder(e[::-1]), s)) + 2.0 * EPS * h
+
+
+def agree(found, e, roots, h):
+    return len(found) == len(roots) and all(
+        abs(a - b) <= reach(e, b, h) for a, b in zip(found, roots, strict=True))
+
+
+def product(roots, others=(1.0,)):
+    """∏ (s − r) and another polynomial, multiplied out exactly and rounded once."""
+    e = [Fraction(float(value)) for value in others]
+    for root in roots:
+        shifted = [Fraction(0), *e]
+        e = [a - Fraction(float(root)) * b for a, b in zip(shifted, [*e, Fraction(0)], strict=True)]
+    return np.array([float(value) for value in e])
+
+
+WITHOUT_ROOTS = [pytest.param((1.0,), id="alone"), pytest.param((-2.5,), id="times a number"),
+                 pytest.param((2.0, 0.0, 1.0), id="with a complex pair"),
+                 pytest.param((3.0, 1.0, 0.5, -0.25, 0.125), id="with four more far away")]
+with_others = pytest.mark.parametrize("others", WITHOUT_ROOTS)
+
+
+@PROPERTY
+@given(st.lists(st.integers(-1000, 1000), min_size=1, max_size=25), st.integers(-1500, 1500))
+def test_value_and_slope_are_those_of_the_polynomial(coefficients, at):
+    e, s = np.array(coefficients) / 1000.0, at / 1000.0
+    value, slope = value_and_slope(e, s)
+    derivative = [k * e[k] for k in range(1, e.size)]
+    # Horner's bound 2n ε Σ|e_k| |s|^k, for the slope n times that.
+    size = float(np.polyval(np.abs(e[::-1]), max(1.0, abs(s)))) * 2 * e.size * EPS
+    assert abs(value - float(exactly(e, s))) <= size
+    assert abs(slope - float(exactly(derivative, s))) <= e.size * size
+
+
+@PROPERTY
+@given(st.lists(st.integers(-1000, 1000), min_size=1, max_size=25), st.floats(0.01, 3.0))
+def test_the_largest_bend_bounds_the_second_derivative(coefficients, h):
+    e = np.array(coefficients) / 1000.0
+    sampled = np.abs(Polynomial(e).deriv(2)(np.linspace(0.0, h, 201)))
+    bend = largest_bend(e, h)
+    # Round-off of the two sums.
+    assert bend >= sampled.max() * (1 - 100 * EPS)
+    # Where no coefficient is negative it is no more than the second derivative at h.
+    assert largest_bend(np.abs(e), h) == pytest.approx(Polynomial(np.abs(e)).deriv(2)(h), rel=100 * EPS)
+    assert bend == largest_bend(np.abs(e), h)
+
+
+@pytest.mark.parametrize("h", [0.0, 1e-200, 1.0, 1e200])
+def test_a_line_and_a_constant_do_not_bend(h):
+    for e in ([0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], [1.0, -2.0, 0.0, 0.0, 0.0], [3.0], [3.0, 1.0]):
+        assert largest_bend(np.array(e), h) == 0.0
+
+
+@with_others
+@pytest.mark.parametrize("roots", [(0.5,), (0.42577973,), (0.1, 0.9), (0.27548506, 0.53737703), (0.2, 0.3, 0.4),
+                                   (1e-9, 0.7), (0.3, 1.0 - 1e-9), (0.05, 0.25, 0.45, 0.65, 0.85)])
+@pytest.mark.parametrize("h", [1.0, 0.01, 30.0])
+def test_simple_roots_are_found_to_round_off(roots, others, h):
+    e = product(np.multiply(roots, h), others)
+    assert agree(found_roots(e, h), e, np.multiply(roots, h), h)
+
+
+def test_the_root_of_a_line_is_found_wherever_it_is():
+    for root in np.random.default_rng(1).uniform(0.0, 1.0, 200):
+        assert found_roots([-root, 1.0], 1.0) == pytest.approx([root], abs=EPS)
+        assert found_roots([root, -1.0, 0.0, 0.0], 1.0) == pytest.approx([root], abs=EPS)
+
+
+@with_others
+@pytest.mark.parametrize("gap", [1e-3, 1e-6])
+@pytest.mark.parametrize("root", [0.0625, 0.3, 0.5, 0.7123456789, 0.99])
+def test_two_roots_close_together_are_two(root, gap, others):
+    roots = (root, root + gap)
+    e = product(roots, others)
+    found = found_roots(e, 1.0)
+    assert agree(found, e, roots, 1.0)
+    # As seen from the other side of the plane.
+    assert np.array_equal(found_roots(-e, 1.0), found)
+
+
+@with_others
+@pytest.mark.parametrize("gap", [1e-3, 1e-6])
+def test_three_roots_close_together_are_three(gap, others):
+    roots = (0.3, 0.3 + gap, 0.3 + 3 * gap)
+    # About the root itself, so that rounding the coefficients does not move the other two: s from 0 to 1.
+    h = 100 * gap
+    e = product([10 * gap, 11 * gap, 13 * gap], others)
+    assert agree(found_roots(e, h), e, (10 * gap, 11 * gap, 13 * gap), h), roots
+
+
+@pytest.mark.parametrize("root", [0.25, 0.5, 0.75])
+def test_a_plane_that_is_touched_is_not_crossed(root):
+    # Exact at all halves of halves, and below 0 at none of them.
+    e = product((root, root))
+    assert len(found_roots(e, 1.0)) == 0
+    # From below the point on the plane is one that is not below: two roots in the same place, or none.
+    found = found_roots(-e, 1.0)
+    assert len(found) in (0, 2)
+    assert found == pytest.approx(root, abs=1e-7)
+
+
+@pytest.mark.parametrize(("depth", "count"), [(1e-3, 0), (1e-9, 0), (1e-13, 0), (-1e-13, 2), (-1e-9, 2), (-1e-3, 2)])
+@pytest.mark.parametrize("root", [0.3, 0.5, 0.7123456789])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_turning_this_near_the_plane_is_on_its_side(depth, count, root, sign):
+    e = product((root, root))
+    e[0] += depth
+    found = found_roots(sign * e, 1.0)
+    assert len(found) == count
+    if count:
+        apart = np.sqrt(-depth)
+        # The turning is known to some 1e-16 of its height, the roots to that over twice their distance.
+        assert found == pytest.approx([root - apart, root + apart], abs=4 * EPS / apart)
+
+
+def test_a_touch_within_round_off_gives_nothing_or_pairs_in_its_place():
+    random = np.random.default_rng(2)
+    for _ in range(100):
+        root = random.uniform(0.1, 0.9)
+        e = product((root, root), product(random.uniform(1.5, 4.0, 8)) / 100)
+        found = found_roots(e, 1.0)
+        assert len(found) % 2 == 0
+        assert len(found) <= e.size - 1, "more than a polynomial has"
+        # Where e is within round-off of 0: √(Σ|e_k| s^k · 10 ε / e″).
+        assert found == pytest.approx(root, abs=1e-5)
+
+
+@pytest.mark.parametrize("power", [3, 4])
+@pytest.mark.parametrize("root", [0.25, 0.5, 0.6])
+def test_a_root_of_high_multiplicity_ends_the_search_with_the_right_parity(power, root):
+    e = product([root] * power)
+    # Flatter than its own round-off over a ten-thousandth of the step, which is looked at in pieces of 1e-8.
+    found = found_roots(e, 1.0, enough=200_000)
+    assert len(found) % 2 == power % 2
+    # Where the polynomial is within round-off of 0.
+    assert found == pytest.approx(root, abs=2 * (100 * EPS) ** (1 / power))
+
+
+def test_no_roots_where_there_are_none():
+    for e in ([1.0], [-1.0, -1.0], [1.0, 0.0, 1.0], [2.0, -1.0], [-3.0, 1.0, 1.0], product((-0.5, 1.5, 2.0))):
+        assert len(found_roots(e, 1.0)) == 0
+
+
+@pytest.mark.parametrize("below", [False, True])
+@pytest.mark.parametrize("h", [0.0, 1.0, 1e200])
+def test_an_orbit_that_stays_where_it_is_crosses_nothing(below, h):
+    height = -0.5 if below else 0.5
+    assert len(found_roots([height, 0.0, 0.0, 0.0], h)) == 0
+    assert len(found_roots([height, 0.0, 0.0], h, below=below)) == 0
+
+
+@pytest.mark.parametrize("h", [0.0, 1.0, 30.0])
+def test_an_orbit_that_stays_on_the_plane_does_not_cross_it(h):
+    assert len(found_roots([0.0, 0.0, 0.0, 0.0], h)) == 0
+
+
+@pytest.mark.parametrize("rounding", [-1e-17, 0.0, 1e-17])
+@pytest.mark.parametrize("direction", [1.0, -1.0])
+@with_others
+def test_a_crossing_where_two_steps_meet_is_seen_exactly_once(rounding, direction, others):
+    # From −1 to 1 through 0 in two steps; where they meet, round-off says how high the orbit is.
+    whole = Polynomial(direction * np.array([0.0, *others]))
+    first = whole(Polynomial([-1.0, 1.0])).coef
+    first_roots = found_roots(first, 1.0, end=rounding)
+    second = whole.coef + 0.0
+    second_roots = found_roots(second, 1.0, below=rounding < 0.0)
+    places = [*(first_roots - 1.0), *second_roots]
+    assert places == pytest.approx([0.0], abs=1e-14)
+
+
+@pytest.mark.parametrize("direction", [1.0, -1.0])
+def test_a_step_that_starts_or_ends_on_the_plane_keeps_its_other_roots(direction):
+    e = direction * product((0.0, 0.5, 1.0))
+    leaving = direction > 0.0
+    # Told that it comes from the side to which it goes: the start is no root.
+    assert found_roots(e, 1.0, below=not leaving, end=0.0)[0] == pytest.approx(0.5, abs=EPS)
+    # Told that it comes from the other side: it is one.
+    assert found_roots(e, 1.0, below=leaving, end=0.0)[:2] == pytest.approx([0.0, 0.5], abs=EPS)
+    # Being on the plane counts as above it: so the end is a root of a step that comes from below.
+    assert len(found_roots(e, 1.0, below=not leaving, end=0.0)) == (2 if leaving else 1)
+
+
+def chebyshev_on(n, h):
+    """T_n stretched from [−1, 1] to [0, h], coefficients rounded once, and its roots."""
+    plain = [Fraction(float(value)) for value in chebyshev.cheb2poly([0] * n + [1])]
+    e = [Fraction(0)] * (n + 1)
+    for k, value in enumerate(plain):
+        for j in range(k + 1):
+            e[j] += value * comb(k, j) * Fraction(2) ** j / Fraction(h) ** j * (-1) ** (k - j)
+    roots = np.sort(0.5 * (1.0 + np.cos((np.arange(n) + 0.5) * np.pi / n))) * h
+    return np.array([float(value) for value in e]), roots
+
+
+@pytest.mark.parametrize("h", [1.0, 0.02, 7.0])
+@pytest.mark.parametrize("n", [2, 5, 10])
+def test_all_roots_of_a_chebyshev_polynomial_are_found(n, h):
+    e, roots = chebyshev_on(n, h)
+    assert agree(found_roots(e, h), e, roots, h)
+
+
+def changes_of_side(e, h):
+    """The roots of e in (0, h) at which it changes sides; None where it turns, starts or ends too near 0 to tell.
+
+    Between two neighbours among the turnings, which `numpy.roots` finds, there is one root or none.
+    """
+    turnings = np.roots(np.trim_zeros(np.polyder(e[::-1]), "f"))
+    inside = turnings.real[(np.abs(turnings.imag) < 1e-6) & (turnings.real > 0.0) & (turnings.real < h)]
+    places = np.array([0.0, *np.sort(inside), h])
+    heights = np.polyval(e[::-1], places)
+    if np.any(np.abs(heights) < 1e-7 * np.polyval(np.abs(e[::-1]), h)):
+        return None
+    return [brentq(lambda s: np.polyval(e[::-1], s), low, high, xtol=4 * EPS, rtol=4 * EPS)
+            for low, high, left, right in zip(places, places[1:], heights, heights[1:], strict=False)
+            if left * right < 0.0]
+
+
+@PROPERTY
+@given(st.lists(st.integers(-1000, 1000), min_size=2, max_size=25), st.floats(0.1, 1.5))
+def test_random_polynomials_have_the_roots_that_numpy_finds(coefficients, h):
+    e = np.array(coefficients) / 1000.0
+    assume(np.any(e[1:]))
+    roots = changes_of_side(e, h)
+    assume(roots is not None)
+    assert agree(found_roots(e, h), e, roots, h)
+
+
+@PROPERTY
+@given(st.lists(st.integers(-3, 13), min_size=1, max_size=7, unique=True),
+       st.lists(st.tuples(st.integers(-300, 1300), st.integers(500, 1000)), max_size=4))
+def test_polynomials_with_many_roots_have_the_roots_that_numpy_finds(real, pairs):
+    others = Polynomial([1.0])
+    for middle, away in pairs:
+        others *= Polynomial([middle**2 + away**2, -2000.0 * middle, 1e6]) / 1e6
+    e = product(np.array(real) / 10.0, others.coef)
+    roots = changes_of_side(e, 1.0)
+    assume(roots is not None)
+    assert agree(found_roots(e, 1.0), e, roots, 1.0)
+
+
+HARD = [
+    pytest.param(product((0.3,), (1.0, 0.0, 0.0, 1000.0)), 0.0, 1.0, id="flat, then steep"),
+    pytest.param(product((0.999,), (1e-3, 0.0, 0.0, 0.0, 1.0)), 0.0, 1.0, id="steep at the far end"),
+    pytest.param(np.array([-1e-6, 1e-6, 0.0, 1.0]), 0.0, 1.0, id="nearly a triple root"),
+    pytest.param(np.array([-0.5, 0.0, 2.0, 2.0]), 0.0, 1.0, id="no slope at the left end"),
+    pytest.param(np.array([-0.2, 1.2, 0.0, -1.0]), 0.0, 0.6, id="a slope that vanishes near the end"),
+    pytest.param(product((1e-12, -1.0)), 0.0, 1.0, id="a root beside the left end"),
+    pytest.param(product((1.0 - 1e-12, -1.0)), 0.0, 1.0, id="a root beside the right end"),
+    pytest.param(np.array([-0.5] + [0.0] * 22 + [1.0]), 0.0, 1.0, id="a high power"),
+    pytest.param(np.array([-1e-300, 0.5, 0.25]), 0.0, 1.0, id="a root that is nearly 0"),
+    pytest.param(np.array([-0.6, 1.0]), 0.0, 1.0, id="a line"),
+    pytest.param(np.array([-0.6, 1.0]) * 1e-12, 0.5, 0.75, id="a low line"),
+]
+
+
+@pytest.mark.parametrize(("e", "low", "high"), HARD)
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("place", [0.0, 0.1, 0.5, 0.9, 1.0])
+def test_a_root_is_found_from_every_guess(e, low, high, sign, place):
+    guess = low + place * (high - low)
+    bend = largest_bend(e, high)
+    found = root_between(sign * e, low, high, guess, bool(sign * exactly(e, low) < 0), bend)
+    # e changes sides, exactly, within the reach of double precision.
+    around = reach(e, found, high)
+    assert low <= found <= high
+    assert exactly(e, max(low, found - around)) <= 0 <= exactly(e, min(high, found + around))

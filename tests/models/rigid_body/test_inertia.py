@@ -1,0 +1,160 @@
+"""Which tensors are rigid bodies: against point masses, and against a scan over I33."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from hess_mechanics import HessBody, check_body
+from hess_mechanics.errors import InvalidParameter, ModelError, NotPositiveDefinite
+from support.mechanics import PROPERTY
+
+moments = st.floats(0.05, 20.0)
+shares = st.one_of(st.just(0.0), st.floats(-1.2, 1.2))
+coordinate = st.floats(-2.0, 2.0)
+point_masses = st.lists(st.tuples(st.floats(0.1, 3.0), coordinate, coordinate, coordinate), min_size=4, max_size=8)
+
+
+def tensor(I11, I22, I13, I23, I33):
+    return np.array([[I11, 0.0, I13], [0.0, I22, I23], [I13, I23, I33]])
+
+
+def least_second_moment(inertia):
+    """The smallest eigenvalue of ½ tr I − I = Σ m x xᵀ: not negative for every rigid body."""
+    return np.linalg.eigvalsh(0.5 * np.trace(inertia) * np.eye(3) - inertia)[0]
+
+
+def obeys_the_triangle_inequality(inertia):
+    smallest, middle, largest = np.linalg.eigvalsh(inertia)
+    return smallest > 0 and smallest + middle > largest
+
+
+@PROPERTY
+@given(point_masses)
+def test_any_heap_of_point_masses_is_a_body_and_its_I33_is_admissible(masses):
+    m, positions = np.array(masses)[:, 0], np.array(masses)[:, 1:]
+    second = (m[:, None] * positions).T @ positions
+    # Turn the axes about e3 so that I12 = 0, as `Biz03` has them.
+    angle = 0.5 * math.atan2(2 * second[0, 1], second[0, 0] - second[1, 1])
+    turn = np.array([[math.cos(angle), math.sin(angle), 0], [-math.sin(angle), math.cos(angle), 0], [0, 0, 1]])
+    second = turn @ second @ turn.T
+    inertia = np.trace(second) * np.eye(3) - second
+    # Masses in one plane are the limit of bodies: a rounding error puts them on either side.
+    assume(np.linalg.eigvalsh(second)[0] > 1e-9 * np.trace(second))
+    assert abs(inertia[0, 1]) < 1e-12 * np.trace(inertia)
+    found = check_body(inertia[0, 0], inertia[1, 1], inertia[0, 2], inertia[1, 2])
+    assert found.is_body
+    assert found.I33[0] < inertia[2, 2] < found.I33[1]
+
+
+@PROPERTY
+@given(moments, moments, shares, shares)
+def test_a_scan_over_I33_finds_the_same_interval(I11, I22, share13, share23):
+    root = math.sqrt(I11 * I22)
+    I13, I23 = share13 * root, share23 * root
+    found = check_body(I11, I22, I13, I23)
+    candidates = np.linspace(0.0, 1.1 * (I11 + I22), 400)
+    admissible = [I33 for I33 in candidates if obeys_the_triangle_inequality(tensor(I11, I22, I13, I23, I33))]
+    low, high = found.I33 or (math.inf, -math.inf)
+    slack = 1e-9 * (I11 + I22)
+    assert all(low - slack <= I33 <= high + slack for I33 in admissible)
+    inside = [I33 for I33 in candidates if low + slack < I33 < high - slack]
+    assert all(obeys_the_triangle_inequality(tensor(I11, I22, I13, I23, I33)) for I33 in inside)
+
+
+@PROPERTY
+@given(moments, moments, shares, shares)
+def test_at_the_ends_of_the_interval_the_body_is_flat(I11, I22, share13, share23):
+    root = math.sqrt(I11 * I22)
+    I13, I23 = 0.5 * share13 * root, 0.5 * share23 * root
+    found = check_body(I11, I22, I13, I23)
+    assume(found.is_body)
+    scale = I11 + I22
+    for end in found.I33:
+        assert abs(least_second_moment(tensor(I11, I22, I13, I23, end))) < 1e-13 * scale
+    middle = sum(found.I33) / 2
+    assert least_second_moment(tensor(I11, I22, I13, I23, middle)) > 0
+
+
+@PROPERTY
+@given(moments, moments, shares, shares, st.integers(-200, 200))
+def test_the_answer_knows_no_axis_no_sign_and_no_unit(I11, I22, share13, share23, exponent):
+    root = math.sqrt(I11 * I22)
+    I13, I23 = 0.7 * share13 * root, 0.7 * share23 * root
+    found = check_body(I11, I22, I13, I23)
+    unit = 2.0**exponent
+    others = [check_body(I22, I11, I23, I13), check_body(I11, I22, -I13, I23), check_body(I11, I22, I13, -I23)]
+    for other in others:
+        assert other.is_body == found.is_body
+        if found.is_body:
+            assert np.array(other.I33) == pytest.approx(found.I33, rel=1e-11, abs=1e-13 * (I11 + I22))
+    scaled = check_body(I11 * unit, I22 * unit, I13 * unit, I23 * unit)
+    assert scaled.is_body == found.is_body
+    if found.is_body:
+        assert np.array(scaled.I33) / unit == pytest.approx(found.I33, rel=1e-12)
+
+
+@PROPERTY
+@given(st.floats(1e-3, 1e3), st.one_of(st.floats(-3.0, 3.0), st.floats(-1e6, 1e6)))
+def test_under_bizi1_a_body_exists_exactly_for_a_below_one(I22, a):
+    # At |a| = 1 the interval shrinks like (1 − |a|)²: nearer than 1e-6 it is lost in round-off.
+    assume(abs(abs(a) - 1.0) > 1e-6)
+    assert HessBody(I22, a * I22, 1.0).check.is_body == (abs(a) < 1.0)
+
+
+@PROPERTY
+@given(st.floats(1e-3, 1e3), st.floats(-0.999, 0.999))
+def test_under_bizi1_the_interval_of_I33_has_a_closed_form(I22, a):
+    # y = I33/2 has g(y) = 0 at a²I22/2 and (2 − a²)I22/2; the general search knows nothing of it.
+    body = HessBody(I22, a * I22, 1.0)
+    found = check_body(body.I11, body.I22, 0.0, body.I23)
+    for interval in (body.check.I33, found.I33):
+        assert np.array(interval) / I22 == pytest.approx([a * a, 2 - a * a], rel=0, abs=1e-9)
+    assert body.check.is_body == found.is_body
+
+
+@pytest.mark.parametrize(
+    ("given_tensor", "interval"),
+    [
+        ((1.0, 1.0, 0.0, 0.0), (0.0, 2.0)),  # from a rod along e3 to a disc
+        ((2.0, 1.0, 0.0, 0.0), (1.0, 3.0)),  # the plain triangle inequality
+        ((1.0, 1.0, 0.0, 0.1), (1 - math.sqrt(0.96), 1 + math.sqrt(0.96))),  # y + 0.01/y = 1, I33 = 2y
+        ((1.0, 1.0, 0.1, 0.0), (1 - math.sqrt(0.96), 1 + math.sqrt(0.96))),
+        ((1.0, 1.0, 0.3, 0.4), (1.0, 1.0)),  # y + 0.25/y = 1 has a double root: flat bodies only
+    ],
+)
+def test_equal_and_principal_moments_have_closed_forms(given_tensor, interval):
+    found = check_body(*given_tensor)
+    if interval[0] == interval[1]:
+        assert not found.is_body
+    else:
+        low, high = found.I33
+        assert (low, high) == pytest.approx(interval, rel=1e-12, abs=1e-15)
+
+
+@pytest.mark.parametrize("products", [(1.2, 0.0), (0.0, 1.2), (5.0, 5.0), (1e300, 0.0), (0.0, 1e308)])
+def test_too_large_products_of_inertia_are_no_body_and_the_sentence_says_why(products):
+    found = check_body(1.0, 1.0, *products)
+    assert not found.is_body
+    assert found.I33 is None
+    assert "triangle inequality" in found.sentence
+
+
+def test_the_sentence_names_the_interval():
+    assert "between 1 and 3" in check_body(2.0, 1.0, 0.0, 0.0).sentence
+
+
+@pytest.mark.parametrize(("I11", "I22", "name"), [(0.0, 1.0, "I11"), (-1.0, 1.0, "I11"), (1.0, -0.0, "I22")])
+def test_moments_that_are_not_positive_raise_a_sentence_with_their_name(I11, I22, name):
+    assert issubclass(NotPositiveDefinite, ModelError)
+    with pytest.raises(NotPositiveDefinite, match=f"{name}.*choose {name} > 0"):
+        check_body(I11, I22, 0.0, 0.0)
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
+@pytest.mark.parametrize("name", ["I11", "I22", "I13", "I23"])
+def test_values_that_are_not_finite_raise_a_sentence_with_their_name(name, bad):
+    with pytest.raises(InvalidParameter, match=f"{name} is not a finite number"):
+        check_body(**{"I11": 1.0, "I22": 1.0, "I13": 0.0, "I23": 0.0, name: bad})

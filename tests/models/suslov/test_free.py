@@ -1,0 +1,367 @@
+"""S2, the Suslov problem without a field: closed form of ω, rotation of γ, limit circles, refusals."""
+
+import json
+import math
+import os
+import subprocess
+import sys
+
+import mpmath
+import numpy as np
+import pytest
+
+import oracle
+from hess_mechanics import SuslovBody, level, solve, systems
+from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, WorkLimit
+from hess_mechanics.numerics.accuracy import LEVELS, Status
+from hess_mechanics.suslov.free import arcs, equilibria, free_motion, passage, rotation, sample_times
+from support.mechanics import ROOT
+
+SUSLOV = systems()["suslov"]
+FIGURE = SuslovBody(2.44, 1.0, 0.0, 0.5)
+GENERIC = SuslovBody(2.0, 1.0, 0.3, 0.5)
+UP = (0.6, 0.0, 0.8)
+PROMISE = {"draft": 1e-3, "standard": 1e-6, "precise": 1e-9, "reference": 1e-12}
+every_level = pytest.mark.parametrize("name", LEVELS)
+
+
+def motion_of(body, state, times, name="reference"):
+    found = free_motion(body, state[:2], state[2:], times, level(name))
+    return np.hstack([found.omega, found.gamma]), found
+
+
+def in_decimals(body, state, times, digits=30):
+    return oracle.orbit_in_decimals(SUSLOV, state, body.parameters, times, digits)
+
+
+def errors(body, state, times, exact, name):
+    states, found = motion_of(body, state, times, name)
+    return float(np.max(oracle.distances(states, exact))), found
+
+
+# ---- right ------------------------------------------------------------------------------------------------------
+
+
+def test_the_reference_orbit():
+    # 40-digit Taylor series.
+    start = [2.0, 0.0001, 0.4983828792074760180043, 0.2591590971878875293622, 0.8273155794844101898871]
+    exact = [
+        [1.999977433051604020859, 0.01484123221747056430564, 0.5040034555702126762951, -0.6645385252886796042941,
+         -0.5516965335947214331075],
+        [-1.999999934682292504863, 0.0008046743532277580314004, -0.6116735883633695659575, 0.6298871934428701572881,
+         0.47864135303517538197],
+    ]
+    states, found = motion_of(FIGURE, start, [5.0, 20.0])
+    assert np.max(np.abs(states - exact)) < 1e-13
+    assert found.error_estimate < 1e-12
+    assert found.status is Status.OK
+    assert 0 < found.cost.steps < 1000
+
+
+@every_level
+@pytest.mark.parametrize(
+    ("name_of_start", "body", "omega", "times"),
+    [
+        # ω2 grows from 1e-300 to 1: the passage is at t = 690/ω0.
+        ("ω2 = 1e-300", FIGURE, (2.0, 1e-300), [1.0, 690.0, 692.0, 720.0]),
+        ("ω2 = −1e-300, the other arc", FIGURE, (2.0, -1e-300), [1.0, 692.0]),
+        ("the stable half", FIGURE, (-2.0, 1e-300), [1.0, 30.0]),
+        ("backward through the passage", FIGURE, (-2.0, 1e-12), [-1.0, -20.0, -40.0, -60.0]),
+        ("next to a slanting line", GENERIC, (0.5, -0.3 + 1e-15), [1.0, 40.0, 60.0, 90.0]),
+        ("ω of 1e6", GENERIC, (-0.5e6, 0.3e6 * (1 - 1e-9)), [1e-5, 1e-4]),
+        ("ω of 1e-6", GENERIC, (0.5e-6, 0.2e-6), [1e5, 1e7]),
+        ("I11/I22 = 1e6", SuslovBody(1e6, 1.0, 0.3, 0.5), (1e-3, 1.0), [1.0, 10.0]),
+        ("I11/I22 = 1e-6", SuslovBody(1e-6, 1.0, 0.3, 0.5), (0.1, 10.0), [0.001, 0.004]),
+        ("I22 = 1e6", SuslovBody(1.0, 1e6, 200.0, 500.0), (1.0, 1e-3), [1.0, 10.0]),
+        ("no body: I13, I23 of 100", SuslovBody(1.0, 2.0, 100.0, -60.0), (0.3, 0.4), [0.01, 0.1, 1.0]),
+    ], ids=lambda x: x if isinstance(x, str) else "",
+)
+def test_hard_starts_are_right_within_the_promise(name_of_start, body, omega, times, name):
+    exact = exact_of(body, omega, tuple(times))
+    scale = max(1.0, float(np.abs(np.asarray(exact[:, :2], float)).max()), math.hypot(*omega))
+    error, found = errors(body, [*omega, *UP], times, exact, name)
+    assert error <= found.error_estimate
+    # What is larger than its promise says so, and only at the floor.
+    if found.status is Status.OK:
+        assert error <= PROMISE[name] * scale
+    else:
+        assert (name, found.status) == ("reference", Status.FLOOR)
+        assert error <= 1e-9 * scale
+
+
+_known = {}
+
+
+def exact_of(body, omega, times):
+    key = (body, omega, times)
+    if key not in _known:
+        _known[key] = in_decimals(body, [*omega, *UP], times, digits=30)
+    return _known[key]
+
+
+def test_a_hard_case_against_the_odes_in_mpmath():
+    # Not `System.field`, nor the formulas of the passage: biz132 and γ̇ = γ × ω written out.
+    with mpmath.workdps(25):
+        def rates(_, y):
+            w1, w2, g1, g2, g3 = y
+            s = mpmath.mpf(0.3) * w1 + mpmath.mpf(0.5) * w2
+            return [-w2 * s / 2, w1 * s, -g3 * w2, g3 * w1, g1 * w2 - g2 * w1]
+
+        start = [0.5, -0.3 + 1e-9, *UP]
+        exact = mpmath.odefun(rates, 0, start, tol=mpmath.mpf("1e-20"))(40)
+    states, _ = motion_of(GENERIC, start, [40.0])
+    # γ is brought to length one, which it has but for its last digit.
+    assert states[0] == pytest.approx([float(x) for x in exact], abs=1e-13)
+
+
+def test_ordinary_motions_agree_with_the_general_solver():
+    rng = np.random.default_rng(3)
+    for _ in range(30):
+        body = SuslovBody(*rng.uniform(0.3, 3.0, 2), *rng.uniform(-1.5, 1.5, 2))
+        gamma = rng.normal(size=3)
+        state = [*rng.normal(size=2), *(gamma / np.linalg.norm(gamma))]
+        for times in ([0.5, 5.0, 20.0], [-0.5, -5.0, -20.0]):
+            exact = solve(SUSLOV, state, body.parameters, times, level("reference")).states
+            states, found = motion_of(body, state, times)
+            assert np.max(np.abs(states - exact)) < 1e-12
+            assert max(found.drift[name] for name in ("E", "F1")) < 1e-13
+
+
+def test_error_estimates_are_on_the_safe_side():
+    # Against `reference`, which the tests above hold to exact values.
+    rng = np.random.default_rng(4)
+    wrong = total = wolf = 0
+    for _ in range(300):
+        body = SuslovBody(*10.0 ** rng.uniform(-1, 1, 2), *(10.0 ** rng.uniform(-1, 1, 2) * rng.choice([-1, 1], 2)))
+        omega, gamma = rng.normal(size=2), rng.normal(size=3)
+        times = np.sort(rng.uniform(0.0, 30.0, 5)) / passage(body, omega).rate
+        exact = free_motion(body, omega, gamma, times, level("reference"))
+        for name in ("draft", "standard", "precise"):
+            found = free_motion(body, omega, gamma, times, level(name))
+            error = float(np.max(np.abs(found.gamma - exact.gamma)))
+            total += 1
+            wrong += error > found.error_estimate
+            wolf += found.error_estimate > 1000 * max(error, 1e-13) * max(1.0, float(np.abs(found.omega).max()))
+            assert error <= PROMISE[name] or found.status is not Status.OK
+    assert wrong <= 0.01 * total
+    assert wolf <= 0.5 * total
+
+
+def test_estimates_at_the_floor_are_on_the_safe_side_of_decimals():
+    rng = np.random.default_rng(5)
+    wrong = 0
+    for _ in range(12):
+        body = SuslovBody(*10.0 ** rng.uniform(-0.5, 0.5, 2), *rng.uniform(-1.0, 1.0, 2))
+        gamma = rng.normal(size=3)
+        state = [*rng.normal(size=2), *(gamma / np.linalg.norm(gamma))]
+        times = [5.0 / passage(body, state[:2]).rate]
+        error, found = errors(body, state, times, in_decimals(body, state, times, 22), "reference")
+        wrong += error > found.error_estimate
+    assert wrong == 0
+
+
+def test_there_and_back_again():
+    there = free_motion(GENERIC, (0.8, -0.2), UP, [13.0], level("reference"))
+    back = free_motion(GENERIC, there.omega[0], there.gamma[0], [-13.0], level("reference"))
+    # ω comes back from next to the stable point, where it has lost e^{ω0 t} of its digits.
+    assert back.gamma[0] == pytest.approx(UP, abs=1e-6)
+    assert back.omega[0] == pytest.approx((0.8, -0.2), abs=1e-6)
+
+
+def test_the_rotation_carries_every_vertical():
+    turned = rotation(GENERIC, (0.8, -0.2), [1.0, 4.0], level("reference"))
+    gammas = np.vstack([np.eye(3), [UP]])
+    carried = turned.carry(gammas)
+    assert carried.shape == (4, 2, 3)
+    for gamma, path in zip(gammas, carried, strict=True):
+        assert path == pytest.approx(free_motion(GENERIC, (0.8, -0.2), gamma, [1.0, 4.0], level("reference")).gamma,
+                                     abs=1e-13)
+    identity = np.broadcast_to(np.eye(3), (2, 3, 3))
+    assert np.einsum("mij,mkj->mik", turned.matrices, turned.matrices) == pytest.approx(identity, abs=1e-13)
+    assert np.linalg.det(turned.matrices) == pytest.approx([1.0, 1.0], abs=1e-13)
+
+
+def test_a_moment_of_time_costs_nothing_however_long():
+    near, far = (free_motion(GENERIC, (0.8, -0.2), UP, [t], level("reference")) for t in (40.0, 4e8))
+    assert far.cost.steps <= near.cost.steps
+    assert far.Gamma[0] == pytest.approx(near.limits[1], abs=1e-12)
+    assert np.linalg.norm(far.gamma[0]) == pytest.approx(1.0, abs=1e-12)
+    # 1e9 radians are known to 1e-7, and the estimate says so.
+    assert 1e-8 < far.error_estimate < 1e-4
+    assert far.status is Status.FLOOR
+
+
+# ---- what it says about the picture -----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("omega", [(0.8, -0.2), (0.3, -0.9), (-1.0, 0.1)])
+def test_limit_circles_are_where_the_motion_comes_from_and_goes(omega):
+    rate = passage(GENERIC, omega).rate
+    past = free_motion(GENERIC, omega, UP, [-35.0 / rate], level("reference"))
+    future = free_motion(GENERIC, omega, UP, [35.0 / rate], level("reference"))
+    assert past.limits == pytest.approx(future.limits, abs=1e-13)
+    assert past.Gamma[0] == pytest.approx(past.limits[0], abs=1e-12)
+    assert future.Gamma[0] == pytest.approx(past.limits[1], abs=1e-12)
+    h = GENERIC.I11 * omega[0] ** 2 / 2 + GENERIC.I22 * omega[1] ** 2 / 2
+    points = equilibria(GENERIC, h)
+    assert past.omega[0] == pytest.approx(points.unstable, abs=1e-12)
+    assert future.omega[0] == pytest.approx(points.stable, abs=1e-12)
+    assert rate == pytest.approx(points.rate, rel=1e-14)
+
+
+def test_phase_and_Gamma_give_the_vertical_back():
+    found = free_motion(GENERIC, (0.8, -0.2), UP, np.linspace(0, 9, 40), level("precise"))
+    xi, eta = np.array([0.5, -0.3, 0.0]) / math.hypot(0.5, 0.3), np.array([0.3, 0.5, 0.0]) / math.hypot(0.5, 0.3)
+    across = np.cos(found.phase)[:, None] * eta + np.sin(found.phase)[:, None] * np.array([0.0, 0.0, 1.0])
+    again = found.Gamma[:, None] * xi + np.sqrt(1 - found.Gamma**2)[:, None] * across
+    assert again == pytest.approx(found.gamma, abs=1e-8)
+    for array in (found.times, found.omega, found.gamma, found.Gamma, found.phase):
+        assert not array.flags.writeable
+
+
+def test_fixed_points_are_those_of_the_corrected_formula():
+    # biz138 with I22 in place of the second I23: I11 I23² + I22 I13² = 2·0.25 + 0.09 = 0.59.
+    found = equilibria(GENERIC, 1.3)
+    size = math.sqrt(2.6 / 0.59)
+    assert found.stable == pytest.approx([-0.5 * size, 0.3 * size], rel=1e-14)
+    assert found.unstable == pytest.approx([0.5 * size, -0.3 * size], rel=1e-14)
+    assert found.speed == pytest.approx(math.hypot(0.5, 0.3) * size, rel=1e-14)
+    assert found.rate == pytest.approx(math.sqrt(2 * 0.59 * 1.3) / 2, rel=1e-14)
+    y = [*found.stable, *UP]
+    assert SUSLOV.field(y, GENERIC.parameters)[:2] == pytest.approx((0.0, 0.0), abs=1e-15)
+    # Stable: the eigenvalue of biz132 along the ellipse there is −ω0.
+    w1, w2 = found.stable
+    assert (-0.3 * w2 / 2 + 0.5 * w1) == pytest.approx(-found.rate, rel=1e-14)
+
+
+def test_arcs_run_from_the_unstable_to_the_stable_point():
+    points = equilibria(GENERIC, 1.3)
+    for arc, sigma in zip(arcs(GENERIC, 1.3, 61), (1, -1), strict=True):
+        assert arc.shape == (61, 2)
+        assert arc[0] == pytest.approx(points.unstable, abs=1e-14)
+        assert arc[-1] == pytest.approx(points.stable, abs=1e-14)
+        assert arc[:, 0] ** 2 + arc[:, 1] ** 2 / 2 == pytest.approx(np.full(61, 1.3), rel=1e-14)
+        s = 0.3 * arc[1:-1, 0] + 0.5 * arc[1:-1, 1]
+        assert np.all(sigma * s > 0)
+        assert passage(GENERIC, arc[20]).arc == sigma
+
+
+def test_the_start_of_the_passage_has_no_cancellation():
+    # tan β for ω next to the slanting line, from 50 digits.
+    omega = (0.5, -0.3 + 1e-16)
+    with mpmath.workdps(50):
+        w1, w2, I13, I23 = (mpmath.mpf(x) for x in (*omega, 0.3, 0.5))
+        r = mpmath.sqrt(2 * w1**2 + w2**2)
+        D = mpmath.sqrt(I13**2 + 2 * I23**2)
+        cosine = mpmath.sqrt(2) * (I13 * w1 + I23 * w2) / D / r
+        sine = (w2 * I13 - 2 * w1 * I23) / D / r
+        u0 = float(mpmath.asinh(sine / abs(cosine)))
+    assert passage(GENERIC, omega).u0 == pytest.approx(u0, rel=2e-15)
+    # I13 = 0: sinh |u0| = √I11 |ω1|/(√I22 |ω2|); the last ω2 is 2^−1074.
+    size = math.log(2 * math.sqrt(2.44) * 2.0)
+    assert passage(FIGURE, (2.0, 1e-300)).u0 == pytest.approx(-size - 300 * math.log(10), rel=1e-15)
+    assert passage(FIGURE, (-2.0, -5e-324)).u0 == pytest.approx(size + 1074 * math.log(2), rel=1e-15)
+
+
+# ---- samples ----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("span", [30.0, -30.0])
+def test_samples_follow_the_curve(span):
+    omega = (0.3, -0.4)
+    times = sample_times(GENERIC, omega, span, (100.0, 300.0), 0.25, 6000)
+    assert times[0] == 0.0
+    assert times[-1] == span
+    assert np.all(np.diff(times) * span > 0)
+    assert times.size < 3000
+    half = np.empty(2 * times.size - 1)
+    half[::2], half[1::2] = times, 0.5 * (times[1:] + times[:-1])
+    found = free_motion(GENERIC, omega, UP, half, level("precise"))
+    for path, pixels in ((found.omega, 100.0), (found.gamma, 300.0)):
+        chord = 0.5 * (path[:-2:2] + path[2::2])
+        assert pixels * np.max(np.linalg.norm(path[1:-1:2] - chord, axis=1)) < 0.3
+
+
+def test_a_long_stay_next_to_the_line_keeps_the_samples_of_the_passage():
+    times = sample_times(FIGURE, (2.0, 1e-300), 1400.0, (100.0, 300.0), 0.25, 6000)
+    assert times.size <= 6000
+    assert np.all(np.diff(times) > 0)
+    middle = -passage(FIGURE, (2.0, 1e-300)).u0 / passage(FIGURE, (2.0, 1e-300)).rate
+    within = np.diff(times[np.abs(times - middle) < 10.0])
+    # |ω| = 2 on a circle of 300 pixels: 0.25 pixels are 0.04 of time.
+    assert np.max(within) < 0.05
+
+
+# ---- refusals ---------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("body", "omega", "times", "error", "words"),
+    [
+        (SuslovBody(2.0, 1.0, 0.3, 0.5, b3=1.0), (1.0, 1.0), [1.0], InvalidParameter, "field.*Set b1 = b2 = b3 = 0"),
+        (SuslovBody(2.0, 1.0, 0.0, 0.0), (1.0, 1.0), [1.0], InvalidParameter, "Choose I13 or I23 other than 0"),
+        (GENERIC, (0.0, 0.0), [1.0], InvalidParameter, "at rest.*h = 0.*other than 0"),
+        (FIGURE, (2.0, 0.0), [1.0], InvalidParameter, "line of equilibria.*turns about ξ for ever.*Move ω off"),
+        (SuslovBody(2.0, 1.0, 0.25, 0.5), (-1.0, 0.5), [1.0], InvalidParameter, "Move ω off the line"),
+        (GENERIC, (math.nan, 0.5), [1.0], InvalidParameter, "ω1 is not a finite number"),
+        (GENERIC, (1e308, 1e308), [1.0], InvalidParameter, "double precision"),
+        (GENERIC, (1e160, 1e160), [1e-160], InvalidParameter, "energy.*less extreme ω"),
+        (GENERIC, (1.0, 0.5), [1e308, 1.7e308], InvalidParameter, "double precision.*shorter"),
+        (GENERIC, (1.0, 0.5), [math.inf], InvalidParameter, "finite numbers"),
+        (SuslovBody(2.0, 1.0, 0.0, 1e-5), (1.0, 0.5), [1.0], WorkLimit, "larger I13, I23"),
+        (SuslovBody(1.0, 1.0, 5e-324, 0.0), (1.0, 0.5), [1.0], WorkLimit, "larger I13, I23"),
+    ],
+)
+def test_refusals(body, omega, times, error, words):
+    with pytest.raises(error, match=words):
+        free_motion(body, omega, UP, times, level("standard"))
+
+
+def test_refusals_of_energies_and_spans():
+    for h in (0.0, -1.0):
+        with pytest.raises(InvalidParameter, match="choose h > 0"):
+            equilibria(GENERIC, h)
+        with pytest.raises(InvalidParameter, match="choose h > 0"):
+            arcs(GENERIC, h)
+    with pytest.raises(InvalidParameter, match="span"):
+        sample_times(GENERIC, (1.0, 0.5), 0.0, (1.0, 1.0), 0.25, 100)
+    with pytest.raises(NotPositiveDefinite):
+        SuslovBody(-1.0, 1.0, 0.3, 0.5)
+
+
+def test_a_vertical_of_another_length_is_noted():
+    found = free_motion(FIGURE, (2.0, 1e-4), (0.5, 0.26, 0.83), [1.0], level("standard"))
+    assert len(found.notes) == 1
+    assert "normalised" in found.notes[0]
+    assert np.linalg.norm(found.gamma[0]) == pytest.approx(1.0, abs=1e-6)
+
+
+# ---- kernels ----------------------------------------------------------------------------------------------------
+
+WITHOUT_JIT = """
+import json
+import sys
+from hess_mechanics import SuslovBody, level
+from hess_mechanics.suslov.free import free_motion
+from hess_mechanics.suslov.free_kernels import integrate
+assert not hasattr(integrate, "signatures"), "the JIT is on"
+results = []
+for name in ("draft", "reference"):
+    for omega in ((0.8, -0.2), (0.5, -0.3 + 1e-12)):
+        found = free_motion(SuslovBody(2.0, 1.0, 0.3, 0.5), omega, (0.6, 0.0, 0.8), [1.0, 30.0, 60.0], level(name))
+        results += [*found.omega.ravel().tolist(), *found.gamma.ravel().tolist(), *found.limits]
+json.dump(results, sys.stdout)
+"""
+
+
+def test_the_kernel_without_the_jit_equals_the_compiled_one_to_round_off():
+    environment = {**os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": str(ROOT)}
+    run = subprocess.run([sys.executable, "-W", "error", "-c", WITHOUT_JIT], cwd=ROOT, env=environment,
+                         capture_output=True, text=True, timeout=120, check=False)
+    assert run.returncode == 0, run.stderr
+    compiled = []
+    for name in ("draft", "reference"):
+        for omega in ((0.8, -0.2), (0.5, -0.3 + 1e-12)):
+            found = free_motion(GENERIC, omega, UP, [1.0, 30.0, 60.0], level(name))
+            compiled += [*found.omega.ravel().tolist(), *found.gamma.ravel().tolist(), *found.limits]
+    assert json.loads(run.stdout) == pytest.approx(compiled, rel=1e-12, abs=1e-12)

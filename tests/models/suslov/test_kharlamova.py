@@ -1,0 +1,365 @@
+"""S5 and S6: brackets and measure on a principal axis; arcs of parabolas, their periods, fixed points, what touches.
+
+The arcs are held against the general Suslov system, integrated without anything of them.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+import sympy
+from scipy.integrate import quad
+
+from hess_mechanics import level, solve, systems
+from hess_mechanics.dynamics.section import Plane, section
+from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite
+from hess_mechanics.suslov.kharlamova import (
+    PlaneBody,
+    arc,
+    fixed_point_kinds,
+    mirrored,
+    periods,
+    rescaled_time,
+    state_at,
+    to_plane,
+)
+from hess_mechanics.suslov.principal_axis import divergence, energy_gradient, poisson_matrix
+from support.mechanics import REFERENCE, numbers
+
+SUSLOV = systems()["suslov"]
+FLOOR = level("reference")
+STATE = sympy.symbols("w1 w2 g1 g2 g3", real=True)
+BODY = sympy.symbols("I11 I22 I13 I23 b1 b2 b3", real=True)
+PRINCIPAL = tuple(0 if str(symbol) in ("I13", "I23") else symbol for symbol in BODY)
+HALF_PERIOD_OF_LEMNISCATE = 2.62205755429211981
+
+
+def random_points(count, seed=0):
+    """States and parameters with I13 = I23 = 0, off the equator."""
+    rng = np.random.default_rng(seed)
+    for _ in range(count):
+        gamma = rng.normal(size=3)
+        p = [*rng.uniform(0.3, 3.0, 2), 0.0, 0.0, *rng.normal(size=3)]
+        yield [*rng.normal(size=2), *(gamma / np.linalg.norm(gamma))], p
+
+
+def random_orbits(count, seed=1):
+    """Bodies with b3 = 0, and states on both halves of the sphere."""
+    rng = np.random.default_rng(seed)
+    for _ in range(count):
+        body = PlaneBody(*rng.uniform(0.3, 3.0, 2), *rng.normal(size=2))
+        radius, angle, alpha = math.sqrt(rng.uniform()), rng.uniform(0.0, 6.3), rng.uniform(-3.1, 3.1)
+        r1, r2 = body.axes
+        q = (r1 * radius * math.cos(angle), r2 * radius * math.sin(angle))
+        speed = rng.uniform(0.0, 2.5)
+        state = np.array(state_at(body, q, (speed * math.cos(alpha), speed * math.sin(alpha))))
+        yield body, tuple(mirrored(state[None])[0]) if rng.uniform() < 0.5 else tuple(state)
+
+
+def orbit(body, state, times):
+    return solve(SUSLOV, state, body.parameters, times, FLOOR)
+
+
+def back(body, state, period):
+    """How far from its start the orbit is after a time."""
+    return float(np.abs(orbit(body, state, [period]).states[0] - np.array(state)).max())
+
+
+# ---- S5: brackets and measure -----------------------------------------------------------------------------------
+
+
+def test_the_brackets_give_the_equations_of_motion():
+    for y, p in random_points(50):
+        P, gradient = np.array(poisson_matrix(y, p), float), np.array(energy_gradient(y, p))
+        assert pytest.approx(-P.T) == P
+        assert y[4] * P @ gradient == pytest.approx(SUSLOV.field(y, p), abs=1e-13)
+
+
+def test_the_jacobi_identity_and_the_casimir_function():
+    P = sympy.Matrix(poisson_matrix(STATE, PRINCIPAL))
+
+    def jacobiator(i, j, k):
+        turns = ((i, j, k), (j, k, i), (k, i, j))
+        return sum(P[one, m] * sympy.diff(P[two, three], x) for one, two, three in turns for m, x in enumerate(STATE))
+
+    for i in range(5):
+        for j in range(i):
+            for k in range(j):
+                assert sympy.simplify(jacobiator(i, j, k)) == 0
+    F1 = sympy.Matrix([0, 0, *(2 * g for g in STATE[2:])])
+    assert sympy.simplify(P * F1) == sympy.zeros(5, 1)
+    for y, p in random_points(20, seed=2):
+        assert np.linalg.matrix_rank(np.array(poisson_matrix(y, p), float), tol=1e-9) == 4
+        # γ3 P has a limit on the equator, of rank 2.
+        near = np.array(poisson_matrix([*y[:4], 1e-12], p), float)
+        assert np.linalg.matrix_rank(1e-12 * near, tol=1e-9) == 2
+
+
+def test_liouvilles_equation():
+    rates = SUSLOV.field(STATE, BODY)
+    total = sum(sympy.diff(rate, x) for rate, x in zip(rates, STATE, strict=True))
+    assert sympy.simplify(total - divergence(STATE, BODY)) == 0
+    assert divergence(STATE, PRINCIPAL) == 0
+    # In τ the density is γ3, and 1 would not do.
+    in_tau = sympy.Matrix(poisson_matrix(STATE, PRINCIPAL)) * sympy.Matrix(energy_gradient(STATE, PRINCIPAL))
+    for density, kept in ((STATE[4], True), (1, False)):
+        change = sum(sympy.diff(density * rate, x) for rate, x in zip(in_tau, STATE, strict=True))
+        assert (sympy.simplify(change) == 0) is kept
+
+
+@pytest.mark.parametrize(("I23", "kept"), [(0.0, True), (0.4, False)])
+def test_the_flow_keeps_volume_on_a_principal_axis_only(I23, kept):
+    p, y = [1.5, 1.0, 0.0, I23, 0.4, -0.3, 0.8], np.array([0.7, -0.2, 0.48, 0.6, 0.64])
+    d = 1e-5
+
+    def end(start):
+        return solve(SUSLOV, start, p, [3.0], FLOOR).states[0]
+
+    columns = [(end(y + d * e) - end(y - d * e)) / (2.0 * d) for e in np.eye(5)]
+    assert bool(abs(np.linalg.det(np.array(columns)) - 1.0) < 1e-7) is kept
+
+
+# ---- S6: the arc ------------------------------------------------------------------------------------------------
+
+
+def test_the_point_in_the_plane_obeys_the_corrected_hamiltonian():
+    for body, y in random_orbits(30):
+        rates = np.array([SUSLOV.field(y, body.parameters)])
+        (q,), (p,) = to_plane(body, np.array([y]))
+        (q_rate,), (p_rate,) = to_plane(body, rates)
+        r1, r2 = body.axes
+        # dτ = γ3 dt; V = b2 q1/√I11 − b1 q2/√I22.
+        assert q_rate == pytest.approx(y[4] * p, abs=1e-14)
+        assert p_rate == pytest.approx(y[4] * np.array([-body.b2 / r1, body.b1 / r2]), abs=1e-14)
+        assert 0.5 * p @ p + body.potential(q) == pytest.approx(SUSLOV.integrals(y, body.parameters)["E"], abs=1e-13)
+
+
+def test_orbits_run_on_their_arc_and_turn_where_it_ends():
+    for body, y in random_orbits(25, seed=3):
+        found = arc(body, y)
+        states = orbit(body, y, np.linspace(0.0, 1.5 * found.period, 400)).states
+        tau = rescaled_time(found, states)
+        assert found.u(tau) == pytest.approx(states[:, 2:4], abs=1e-11)
+        assert found.height(tau) ** 2 == pytest.approx(states[:, 4] ** 2, abs=1e-11)
+        length = found.tau[1] - found.tau[0]
+        assert found.tau == pytest.approx((tau.min(), tau.max()), abs=1e-3 * length)
+        assert found.height(np.array(found.tau)) ** 2 == pytest.approx(np.zeros(2), abs=1e-13)
+
+
+def test_every_orbit_with_b3_0_is_back_after_the_period_of_its_arc():
+    for body, y in random_orbits(60, seed=4):
+        found = arc(body, y)
+        assert found.kind == "periodic"
+        assert back(body, y, found.period) <= 1e-12
+        # Not sooner.
+        assert back(body, y, found.period / 2) > 1e-3
+
+
+def test_the_period_is_that_between_crossings_of_the_equator_and_that_of_a_quadrature():
+    for body, y in random_orbits(12, seed=5):
+        found = arc(body, y)
+        equator = Plane((0.0, 0.0, 0.0, 0.0, 1.0), sense=1)
+        times = section(SUSLOV, y, body.parameters, equator, 3.5 * found.period, FLOOR, 3).times
+        assert np.diff(times) == pytest.approx(found.period, rel=1e-11)
+        assert 2.0 * quad(rate_of, 1e-6, math.pi - 1e-6, (found,), epsabs=1e-9, limit=200)[0] == pytest.approx(
+            found.period, rel=1e-4)
+
+
+def rate_of(angle, found):
+    """dt/d(angle) where τ = m − s cos(angle)."""
+    low, high = found.tau
+    half = 0.5 * (high - low)
+    (height,) = found.height(np.array([0.5 * (low + high) - half * math.cos(angle)]))
+    return half * math.sin(angle) / height
+
+
+def test_periods_that_are_known():
+    # Without a field (dτ/dt)² = 1 − |u0 + v0 τ|²: an oscillator of the frequency |ω|.
+    free = PlaneBody(1.5, 0.7, 0.0, 0.0)
+    y = state_at(free, (0.3, -0.4), (0.8, 0.5))
+    assert arc(free, y).period == pytest.approx(2.0 * math.pi / math.hypot(y[0], y[1]), rel=1e-15)
+    # From rest at the pole: ∫dx/√(1 − x⁴).
+    body = PlaneBody(2.0, 2.0, 0.6, -0.8)
+    size = math.hypot(body.b1, body.b2) / 2.0
+    exact = 2.0 * math.sqrt(2.0 / size) * HALF_PERIOD_OF_LEMNISCATE
+    assert arc(body, state_at(body, (0.0, 0.0), (0.0, 0.0))).period == pytest.approx(exact, rel=1e-15)
+    # Next to a stable fixed point: small vibrations.
+    round_body = PlaneBody(1.0, 1.0, 1.0, 0.0)
+    y = (0.0, 0.0, -math.sqrt(1.0 - 1e-12), 0.0, 1e-6)
+    assert arc(round_body, y).period == pytest.approx(2.0 * math.pi, rel=1e-9)
+
+
+@pytest.mark.parametrize("y", [(0.3, -0.2, 0.0, 1.0, 0.0), (0.3, -0.2, 0.6, 0.8, 0.0), (0.3, -0.2, -0.8, -0.6, 0.0)])
+def test_a_start_on_the_equator_is_an_end_of_the_arc(y):
+    body = PlaneBody(1.5, 1.0, 0.4, 0.7)
+    found = arc(body, y)
+    assert 0.0 in found.tau
+    # γ̇3 = γ1 ω2 − γ2 ω1 > 0: τ will grow.
+    assert (found.tau[0] == 0.0) is (y[2] * y[1] > y[3] * y[0])
+    assert back(body, y, found.period) <= 1e-12
+
+
+def test_the_other_orbit_on_the_same_parabola():
+    seen = 0
+    for body, y in random_orbits(200, seed=6):
+        found = arc(body, y)
+        if found.other is None:
+            continue
+        seen += 1
+        middle = 0.5 * sum(found.other)
+        (u,), v = found.u(np.array([middle])), found.v0 + middle * found.a
+        there = (v[1], -v[0], *u, float(found.height(np.array([middle]))[0]))
+        again = arc(body, there)
+        assert np.array(again.tau) + middle == pytest.approx(found.other, abs=1e-12)
+        assert np.array(again.other) + middle == pytest.approx(found.tau, abs=1e-12)
+        assert back(body, there, again.period) <= 1e-12
+    assert seen > 5
+
+
+def test_the_mirror_image_of_an_orbit_is_an_orbit_for_b3_0_only():
+    times = np.linspace(0.0, 12.0, 50)
+    for b3, holds in ((0.0, True), (0.3, False)):
+        y, p = np.array([0.3, -0.2, 0.48, 0.6, 0.64]), (1.5, 1.0, 0.0, 0.0, 0.4, 0.7, b3)
+        past = mirrored(solve(SUSLOV, y, p, -times, FLOOR).states)
+        other = solve(SUSLOV, mirrored(y[None])[0], p, times, FLOOR).states
+        assert bool(np.abs(past - other).max() < 1e-12) is holds
+    # As printed, without the sign, it is not: already at the start.
+    assert mirrored(y[None])[0][4] == -y[4]
+
+
+def test_all_directions_at_once_are_each_by_itself():
+    body, q = PlaneBody(1.5, 1.0, 0.4, 0.7), (0.3, -0.2)
+    alpha = np.linspace(-3.0, 3.0, 25)
+    each = [arc(body, state_at(body, q, (0.9 * math.cos(x), 0.9 * math.sin(x)))).period for x in alpha]
+    assert periods(body, q, 0.9, alpha) == pytest.approx(each, rel=1e-14)
+    assert np.all(np.isinf(periods(PlaneBody(1.0, 1.0, 0.0, 0.0), q, 0.0, alpha)))
+
+
+# ---- What touches the equator, and what stands on it ------------------------------------------------------------
+
+ROUND = PlaneBody(1.0, 1.0, 1.0, 0.0)
+
+
+def touching(s, tau):
+    """On (γ1, γ2) = (1 − τ²/2, sτ), whose γ3² = κ²τ² − τ⁴/4, κ² = 1 − s²: ω = (s, τ)."""
+    return (s, tau, 1.0 - 0.5 * tau * tau, s * tau, math.sqrt((1.0 - s * s) * tau * tau - 0.25 * tau**4))
+
+
+@pytest.mark.parametrize("s", [0.0, 0.5, -0.5, 0.9])
+def test_an_arc_that_touches_from_inside_takes_for_ever(s):
+    kappa = math.sqrt(1.0 - s * s)
+    y = touching(s, kappa)
+    found = arc(ROUND, y)
+    assert (found.kind, found.period) == ("asymptotic", math.inf)
+    assert found.touch == found.tau[0] == pytest.approx(-kappa, abs=1e-7)
+    assert found.tau[1] == pytest.approx(kappa, abs=1e-13)
+    assert found.other == pytest.approx((-3.0 * kappa, -kappa), abs=1e-7)
+    # τ̇² = κ²τ² − τ⁴/4: τ = 2κ sech κ(t − t0), there and back.
+    times = np.linspace(0.0, 12.0, 60)
+    t0 = math.acosh(2.0) / kappa
+    tau = 2.0 * kappa / np.cosh(kappa * (times - t0))
+    states = orbit(ROUND, y, times).states
+    assert states[:, 1] == pytest.approx(tau, abs=1e-9)
+    assert states[-1] == pytest.approx((s, 0.0, 1.0, 0.0, 0.0), abs=20.0 * math.exp(-kappa * 11.0))
+
+
+@pytest.mark.parametrize("side", [1e-3, -1e-3, 1e-6, -1e-6, 1e-9, -1e-9])
+def test_next_to_it_the_period_is_long_and_right(side):
+    s, tau, g1, g2, g3 = touching(0.5, 0.7)
+    y = (s, tau + side, g1, g2, g3)
+    found = arc(ROUND, y)
+    assert found.kind == "periodic"
+    # The instability, e^{κT/2}, multiplies what rounding does to T.
+    assert back(ROUND, y, found.period) <= 1e-15 * (100.0 + 10.0 / abs(side))
+
+
+def test_fixed_points_stand_on_the_equator_and_their_stability_is_that_of_the_linear_equations():
+    body = PlaneBody(1.4, 0.8, 0.5, -0.9)
+    q, kind = fixed_point_kinds(body, 0.5, 73)
+    seen = set()
+    for point, expected in zip(q, kind, strict=True):
+        u = np.array([-point[1] / body.axes[1], point[0] / body.axes[0]])
+        kinetic = float(0.5 - body.b1 * u[0] - body.b2 * u[1])
+        seen.add(int(expected))
+        assert bool(expected == 0.0) is (kinetic < 0.0)
+        if kinetic < 0.0:
+            continue
+        omega = math.sqrt(2.0 * kinetic / (body.I11 * u[0] ** 2 + body.I22 * u[1] ** 2)) * u
+        y = np.array([*omega, *u, 0.0])
+        assert SUSLOV.field(y, body.parameters) == pytest.approx(np.zeros(5), abs=1e-15)
+        step = 1e-6
+        matrix = np.column_stack([
+            (np.array(SUSLOV.field(y + step * e, body.parameters)) - SUSLOV.field(y - step * e, body.parameters))
+            / (2.0 * step) for e in np.eye(5)])
+        growth = float(np.linalg.eigvals(matrix).real.max())
+        assert (growth > 1e-3) is bool(expected < 0.0), growth
+        found = arc(body, state_at(body, point, to_plane(body, y[None])[1][0]))
+        assert (found.kind, found.stable) == ("fixed", bool(expected > 0.0))
+    assert seen == {-1, 0, 1}
+
+
+def test_at_rest_without_a_field_everything_is_fixed():
+    found = arc(PlaneBody(1.0, 2.0, 0.0, 0.0), (0.0, 0.0, 0.6, 0.0, 0.8))
+    assert (found.kind, found.period, found.stable, found.rate) == ("fixed", 0.0, None, 0.0)
+    assert rescaled_time(found, np.array([[0.0, 0.0, 0.6, 0.0, 0.8]])) == pytest.approx([0.0])
+
+
+# ---- Reference, extremes, refusals ------------------------------------------------------------------------------
+
+
+def test_the_arc_reaches_the_reference_value():
+    row = next(row for row in REFERENCE["trajectories"] if row["name"] == "suslov principal axis, b3=0")
+    I11, I22, _, _ = numbers(row["params"]["I"])
+    b1, b2, _ = numbers(row["params"]["b"])
+    found = arc(PlaneBody(I11, I22, b1, b2), numbers(row["y0"]))
+    states = np.array([numbers(state["y"]) for state in row["states"]])
+    tau = rescaled_time(found, states)
+    assert found.u(tau) == pytest.approx(states[:, 2:4], abs=1e-15)
+    assert found.height(tau) == pytest.approx(np.abs(states[:, 4]), abs=5e-15)
+
+
+EXTREMES = {
+    "I11/I22 = 1e4": (PlaneBody(1e2, 1e-2, 0.4, 0.7), (3.0, -0.02), (1.0, 0.5)),
+    "b = 1e-10": (PlaneBody(1.5, 1.0, 1e-10, 2e-10), (0.3, -0.2), (1.0, 0.5)),
+    "b = 1e-10, at rest": (PlaneBody(1.5, 1.0, 1e-10, 2e-10), (0.3, -0.2), (0.0, 0.0)),
+    "|p| = 1e3": (PlaneBody(1.5, 1.0, 0.4, 0.7), (0.3, -0.2), (1e3, 10.0)),
+    "b = 100": (PlaneBody(1.5, 1.0, 100.0, 70.0), (0.3, -0.2), (1.0, 0.5)),
+    "1e-12 inside the edge": (PlaneBody(1.5, 1.0, 0.4, 0.7), (0.0, -math.sqrt(1.0 - 1e-11)), (1.0, 0.5)),
+}
+
+
+@pytest.mark.parametrize("name", ["draft", "standard", "precise", "reference"])
+@pytest.mark.parametrize("case", EXTREMES)
+def test_extreme_orbits_are_back_after_their_period(case, name):
+    body, q, p = EXTREMES[case]
+    y = np.array(state_at(body, q, p))
+    found = arc(body, y)
+    ended = solve(SUSLOV, y, body.parameters, [found.period], level(name))
+    unit = np.array([found.rate, found.rate, 1.0, 1.0, 1.0])
+    bound = {"draft": 1e-3, "standard": 1e-6, "precise": 1e-9, "reference": 1e-12}[name]
+    assert np.abs((ended.states[0] - y) / unit).max() <= bound
+
+
+def test_what_is_no_start_is_refused_in_words():
+    body = PlaneBody(1.5, 1.0, 0.4, 0.7)
+    with pytest.raises(InvalidParameter, match=r"outside the ellipse .* choose a start inside it\."):
+        state_at(body, (1.3, 0.0), (1.0, 0.0))
+    with pytest.raises(InvalidParameter, match="p1 is not a finite number"):
+        state_at(body, (0.3, 0.0), (math.nan, 0.0))
+    with pytest.raises(InvalidParameter, match="too fast"):
+        periods(PlaneBody(1.5, 1e-10, 1e308, 0.7), (0.0, 0.0), 1.0, np.zeros(1))
+    with pytest.raises(NotPositiveDefinite, match="choose I11 > 0"):
+        PlaneBody(0.0, 1.0, 0.4, 0.7)
+    with pytest.raises(InvalidParameter, match="b1 is not a finite number"):
+        PlaneBody(1.0, 1.0, math.inf, 0.7)
+
+
+def test_a_start_at_the_edge_is_on_the_equator():
+    body = PlaneBody(1.5, 1.0, 0.4, 0.7)
+    r1, _ = body.axes
+    y = state_at(body, (r1 * (1.0 + 1e-14), 0.0), (1e-14, 1.0))
+    assert y[2:] == (0.0, 1.0, 0.0)
+    assert arc(body, y).kind == "fixed"
+    assert state_at(body, (r1, 0.0), (0.1, 1.0))[:2] == pytest.approx((0.1 / r1, 1.0))

@@ -1,0 +1,364 @@
+"""Sections of the Suslov problem with gravity: their coordinates, points, divergence, exponents and basins.
+
+The equations are written out here and integrated by SciPy; nothing is compared with itself.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from hess_mechanics import SuslovBody, solve
+from hess_mechanics.dynamics.lyapunov import largest_exponent
+from hess_mechanics.dynamics.section import Plane, section_points
+from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.numerics.accuracy import PRECISE, REFERENCE, STANDARD
+from hess_mechanics.suslov.equations import SYSTEM
+from hess_mechanics.suslov.section import (
+    basins,
+    coordinates,
+    divergence,
+    lowest_energy,
+    plane_of,
+    possible,
+    seeds,
+    state_at,
+    states_at,
+    suslov_points,
+)
+from support.suslov import energy, field, permanent_rotations
+
+BODY = SuslovBody(1.5, 3.0, 0.4, -0.7, -0.5, 0.6, 0.7)
+SEA = SuslovBody(1.5, 3.0, 0.4, 0.4, -0.5, -0.5, 0.7), 0.005
+STRANGE = SuslovBody(1.0, 2.5, 0.6, 0.6, -1.0, -0.5, 0.7), 0.681
+TWO = SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), 1.842
+CYCLE = SuslovBody(1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3), 1.743
+MIRROR = np.array([-1.0, -1.0, 1.0, 1.0, 1.0])
+WHOLE = (-math.pi, math.pi, 0.0, math.pi)
+
+
+def crossings_by_scipy(body, start, k, count, direction=1):
+    """The first crossings (n, 5) of γ_k = 0, growing in t, followed forward or backward by SciPy."""
+    def height(t, y):
+        return y[k + 1]
+
+    # Along a backward run γ_k falls where it grows in t.
+    height.direction = direction
+    found = []
+    y, span = np.array(start), 20.0
+    while len(found) < count:
+        run = solve_ivp(lambda t, y: field(body, y), (0.0, direction * span), y, "DOP853", events=height, rtol=1e-12,
+                        atol=1e-13)
+        # The start itself is on the plane.
+        found += [state for t, state in zip(run.t_events[0], run.y_events[0], strict=True) if abs(t) > 1e-6]
+        y = run.y[:, -1]
+    return np.array(found[:count])
+
+
+def random_places(count, seed):
+    rng = np.random.default_rng(seed)
+    return rng.uniform(-math.pi, math.pi, count), rng.uniform(0.01, math.pi - 0.01, count)
+
+
+# ---- coordinates -------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("k", [1, 2, 3])
+@pytest.mark.parametrize("E", [-0.3, 0.4, 50.0])
+def test_states_are_on_the_plane_have_the_energy_and_grow_and_coordinates_bring_them_back(k, E):
+    psi, delta = random_places(400, seed=k)
+    states, ok = states_at(BODY, E, k, psi, delta)
+    gamma_energy = states[:, 2:] @ [BODY.b1, BODY.b2, BODY.b3]
+    assert np.array_equal(ok, gamma_energy < E)
+    assert 20 < ok.sum() <= 400
+    assert ok.all() == (E > 1.0)
+    assert np.all(states[:, k + 1] == 0.0)
+    assert np.linalg.norm(states[:, 2:], axis=1) == pytest.approx(np.ones(400), abs=1e-15)
+    for state in states[ok]:
+        assert energy(BODY, state) == pytest.approx(E, abs=1e-13 * max(1.0, E))
+        assert field(BODY, state)[k + 1] > 0.0
+    assert coordinates(states[ok], k) == pytest.approx(np.column_stack([psi, delta])[ok], abs=1e-7)
+
+
+@pytest.mark.parametrize("k", [1, 2, 3])
+def test_every_state_of_the_section_has_coordinates(k):
+    rng = np.random.default_rng(7)
+    for _ in range(100):
+        gamma = rng.normal(size=3)
+        gamma[k - 1] = 0.0
+        gamma /= np.linalg.norm(gamma)
+        state = np.array([*rng.normal(size=2), *gamma])
+        # Each crosses the plane one way or, turned round, the other.
+        state = state if field(BODY, state)[k + 1] > 0.0 else MIRROR * state
+        (psi, delta), = coordinates(state[None, :], k)
+        assert -math.pi <= psi <= math.pi
+        assert 0.0 < delta < math.pi
+        assert state_at(BODY, energy(BODY, state), k, psi, delta) == pytest.approx(tuple(state), abs=1e-12)
+
+
+@pytest.mark.parametrize("k", [1, 2, 3])
+def test_delta_is_counted_from_where_gamma_stays(k):
+    # At both ends of δ the component stays, in between it grows fastest relative to |ω| at δ = π/2.
+    psi = np.full(3, 0.8)
+    states, ok = states_at(BODY, 2.0, k, psi, np.array([1e-9, math.pi / 2, math.pi - 1e-9]))
+    assert ok.all()
+    rates = np.array([field(BODY, state)[k + 1] / np.hypot(*state[:2]) for state in states])
+    expected = 1.0 if k == 3 else math.sin(0.8)
+    assert rates == pytest.approx([0.0, expected, 0.0], abs=1e-8)
+
+
+@pytest.mark.parametrize("k", [1, 2, 3])
+def test_below_the_lowest_energy_nothing_is_possible_and_above_it_something(k):
+    lowest = lowest_energy(BODY, k)
+    psi = np.linspace(-math.pi, math.pi, 100_001)
+    gamma = np.zeros((3, psi.size))
+    gamma[[i for i in range(3) if i != k - 1]] = np.cos(psi), np.sin(psi)
+    assert lowest == pytest.approx(np.min(np.array([BODY.b1, BODY.b2, BODY.b3]) @ gamma), abs=1e-8)
+    assert not possible(BODY, lowest - 1e-9, k, psi).any()
+    assert possible(BODY, lowest + 1e-6, k, psi).any()
+    assert seeds(BODY, lowest, k, WHOLE, 5) == ()
+    with pytest.raises(InvalidParameter, match="choose a larger energy, or another point"):
+        state_at(BODY, lowest - 1e-9, k, 0.0, 1.0)
+
+
+@pytest.mark.parametrize("delta", [0.0, math.pi, -1.0, 4.0, math.nan])
+def test_a_delta_outside_is_no_point(delta):
+    with pytest.raises(InvalidParameter, match="0 < δ < π"):
+        state_at(BODY, 10.0, 3, 0.5, delta)
+
+
+@pytest.mark.parametrize("request_", [
+    lambda: plane_of(0), lambda: plane_of(4), lambda: lowest_energy(BODY, 5), lambda: states_at(BODY, 1.0, 0, 0.0, 1.0),
+    lambda: coordinates(np.zeros((1, 5)), 7), lambda: possible(BODY, 1.0, 9, np.zeros(2)),
+    lambda: seeds(BODY, 1.0, 0, WHOLE, 3),
+])
+def test_only_three_planes_are_known(request_):
+    with pytest.raises(InvalidParameter, match="choose 1, 2 or 3"):
+        request_()
+
+
+@pytest.mark.parametrize("E", [math.nan, math.inf])
+def test_an_energy_must_be_finite(E):
+    with pytest.raises(InvalidParameter):
+        states_at(BODY, E, 3, np.zeros(1), np.ones(1))
+
+
+# ---- seeds -------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("k", [1, 2, 3])
+@pytest.mark.parametrize("above", [1e-9, 1e-4, 0.1, 1.0, 30.0])
+@pytest.mark.parametrize("window", [WHOLE, (-0.2, 2.9, 0.5, 1.0), (-3.0 * math.pi, 3.0 * math.pi, 0.0, 2.0)])
+def test_seeds_are_as_many_as_asked_for_wherever_the_energy_allows_any(k, above, window):
+    E = lowest_energy(BODY, k) + above
+    found = np.array(seeds(BODY, E, k, window, 25)).reshape(-1, 5)
+    fine = np.linspace(window[0], window[1], 200_001)
+    if possible(BODY, E, k, fine).any():
+        assert len(found) == 25
+        assert len({tuple(state) for state in found}) == 25
+        for state in found:
+            assert energy(BODY, state) == pytest.approx(E, abs=1e-12 * max(1.0, E))
+            assert field(BODY, state)[k + 1] > 0.0
+        psi, delta = coordinates(found, k).T
+        turns = np.abs(psi[:, None] + 2.0 * math.pi * np.arange(-3, 4) - np.mean(window[:2]))
+        assert np.all(turns.min(axis=1) <= (window[1] - window[0]) / 2 + 1e-9)
+        assert np.all((delta > window[2]) & (delta < window[3] + 1e-9))
+    else:
+        assert len(found) == 0
+
+
+def test_seeds_fill_what_is_possible_evenly():
+    E = 0.1
+    psi, delta = coordinates(np.array(seeds(BODY, E, 3, WHOLE, 400)), 3).T
+    fine = np.linspace(-math.pi, math.pi, 8001)[:-1]
+    allowed = np.sort(fine[possible(BODY, E, 3, fine)])
+    # The seeds have the same share below each quarter of what is possible.
+    for share in (0.25, 0.5, 0.75):
+        assert np.mean(psi < allowed[int(share * len(allowed))]) == pytest.approx(share, abs=0.02)
+        assert np.mean(delta < share * math.pi) == pytest.approx(share, abs=0.02)
+
+
+# ---- points ------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("k", [1, 2, 3])
+@pytest.mark.parametrize("forward", [True, False])
+def test_points_are_on_the_plane_and_keep_the_integrals(k, forward):
+    body, E = SEA[0], 0.4
+    starts = seeds(body, E, k, WHOLE, 6)
+    found = suslov_points(body, k, starts, 40, forward, PRECISE)
+    # An orbit that crosses seldom is not followed to the end.
+    counts = [len(states) for states in found.states]
+    assert min(counts) >= 5
+    assert max(counts) == 40
+    states = np.concatenate(found.states)
+    assert np.max(np.abs(states[:, k + 1])) < 1e-9
+    assert np.max(np.abs([energy(body, y) - E for y in states])) < 1e-9
+    assert np.max(np.abs(np.sum(states[:, 2:] ** 2, axis=1) - 1.0)) < 1e-9
+    assert min(field(body, y)[k + 1] for y in states) > 0.0
+    assert set(found.drift) == {"E", "F1"}
+    assert max(found.drift.values()) < 1e-9
+
+
+@pytest.mark.parametrize(("k", "forward", "count"), [(1, True, 3), (2, False, 8), (3, True, 8), (3, False, 8)])
+def test_the_first_points_are_those_of_scipy(k, forward, count):
+    body = SEA[0]
+    start = state_at(body, 0.4, k, -0.3, 0.9)
+    found = suslov_points(body, k, [start], 8, forward, PRECISE).states[0][:count]
+    exact = crossings_by_scipy(body, start, k, count, 1 if forward else -1)
+    # A sea: neighbours part between crossings.
+    assert found == pytest.approx(exact, abs=1e-6)
+
+
+def test_backward_points_are_the_mirror_image_of_forward_ones_through_the_other_side():
+    body, E = STRANGE
+    starts = np.array(seeds(body, E, 3, WHOLE, 3))
+    nu = float(np.max(SYSTEM.frequency(starts.T, np.array(body.parameters))))
+    down, end = Plane(plane_of(3).normal, 0.0, -1), 600.0 / nu
+    back = section_points(SYSTEM, MIRROR * starts, body.parameters, plane_of(3), -end, STANDARD, 9)
+    there = section_points(SYSTEM, starts, body.parameters, down, end, STANDARD, 9)
+    for left, right in zip(back.states, there.states, strict=True):
+        assert len(left) == len(right) == 9
+        assert left == pytest.approx(MIRROR * right, abs=1e-13)
+
+
+def test_what_attracts_forward_are_permanent_rotations_and_their_mirror_images_attract_backward():
+    body, E = CYCLE
+    at_rest = np.array(list(permanent_rotations(body, E)))
+    assert max(np.max(np.abs(field(body, state))) for state in at_rest) < 1e-12
+    starts = seeds(body, E, 3, WHOLE, 8)
+    for forward in (True, False):
+        ends = [orbit[-1] for orbit in suslov_points(body, 3, starts, 600, forward, STANDARD).states]
+        for end in ends:
+            distances = np.linalg.norm(at_rest - end, axis=1)
+            assert distances.min() < 2e-5
+            # It attracts if its linear motion decays in the direction of time: all but two eigenvalues, as E and F1
+            # of neighbours stay.
+            state = at_rest[np.argmin(distances)]
+            small = 1e-6
+            jacobian = np.column_stack(
+                [(field(body, state + small * e) - field(body, state - small * e)) / (2.0 * small) for e in np.eye(5)])
+            rates = np.sort(np.linalg.eigvals(jacobian).real * (1.0 if forward else -1.0))
+            assert rates[2] < -1e-3
+            assert rates[3:] == pytest.approx([0.0, 0.0], abs=1e-4)
+
+
+def test_too_many_steps_are_refused():
+    with pytest.raises(WorkLimit, match="choose a shorter"):
+        suslov_points(BODY, 3, seeds(BODY, 0.6, 3, WHOLE, 2), 1000, True, PRECISE, most_steps=500)
+
+
+def test_too_many_crossings_are_refused():
+    with pytest.raises(WorkLimit, match="number of crossings"):
+        suslov_points(BODY, 3, seeds(BODY, 0.6, 3, WHOLE, 2), 10**7, True, PRECISE)
+
+
+# ---- divergence --------------------------------------------------------------------------------------------------
+
+
+def test_the_divergence_is_that_of_the_field():
+    states = np.random.default_rng(3).normal(size=(40, 5))
+    # The field is quadratic: central differences are exact.
+    exact = [sum((field(BODY, y + e) - field(BODY, y - e))[i] / 2.0 for i, e in enumerate(np.eye(5))) for y in states]
+    assert divergence(BODY, states) == pytest.approx(exact, abs=1e-12)
+
+
+def test_without_products_of_inertia_volume_is_kept():
+    assert not divergence(SuslovBody(1.0, 2.0, 0.0, 0.0, 1.0), np.random.default_rng(3).normal(size=(9, 5))).any()
+
+
+@pytest.mark.parametrize("span", [5.0, -5.0])
+def test_volume_grows_by_the_integral_of_the_divergence(span):
+    # Liouville: the determinant of five neighbours' differences against ∫ div dt.
+    start = np.array(state_at(BODY, 0.6, 3, 1.2, 0.9))
+    small = 1e-6
+
+    def end(state):
+        return solve(SYSTEM, state, BODY.parameters, [span], REFERENCE).states[0]
+
+    matrix = np.column_stack([(end(start + small * e) - end(start - small * e)) / (2.0 * small) for e in np.eye(5)])
+    times = np.linspace(0.0, span, 2001)
+    rates = divergence(BODY, solve(SYSTEM, start, BODY.parameters, times, REFERENCE).states)
+    weights = np.where(np.arange(2001) % 2, 4.0, 2.0)
+    weights[[0, -1]] = 1.0
+    integral = weights @ rates * span / 2000 / 3.0
+    assert abs(integral) > 0.01
+    assert math.log(np.linalg.det(matrix)) == pytest.approx(integral, abs=1e-7)
+
+
+def mean_divergence(problem, span, start=(1.0, 1.0)):
+    body, E = problem
+    times = np.linspace(0.0, span, 8001)
+    rates = divergence(body, solve(SYSTEM, state_at(body, E, 3, *start), body.parameters, times, STANDARD).states)
+    return float(np.mean(0.5 * (rates[1:] + rates[:-1])))
+
+
+def test_the_mean_divergence_is_negative_along_what_attracts_and_positive_along_what_repels():
+    for problem in (STRANGE, TWO, CYCLE):
+        assert mean_divergence(problem, 600.0) < -0.1
+        assert mean_divergence(problem, -600.0) > 0.1
+
+
+def test_the_mean_divergence_of_a_sea_goes_to_zero():
+    means = [abs(mean_divergence(SEA, span)) for span in (30.0, 1000.0)]
+    assert means[1] < 1e-3 < means[0]
+
+
+# ---- exponents ---------------------------------------------------------------------------------------------------
+
+
+def exponent(problem, span, start=(1.0, 1.0)):
+    body, E = problem
+    return largest_exponent(SYSTEM, state_at(body, E, 3, *start), body.parameters, span).value
+
+
+def test_the_exponents_of_chaotic_examples_are_positive_and_hardly_depend_on_the_time():
+    for problem in (SEA, STRANGE):
+        shorter, longer = exponent(problem, 5000.0), exponent(problem, 10_000.0)
+        assert shorter > 0.05
+        assert longer == pytest.approx(shorter, rel=0.05)
+
+
+def test_a_periodic_attractor_has_no_positive_exponent():
+    assert abs(exponent(CYCLE, 2000.0)) < 2e-3
+    assert exponent(CYCLE, 4000.0) <= 1e-3
+
+
+# ---- basins ------------------------------------------------------------------------------------------------------
+
+
+def test_basins_tell_two_groups_apart():
+    rng = np.random.default_rng(5)
+    which = rng.integers(0, 2, 200)
+    assert 20 < which.sum() < 180
+    ends = np.where(which == 1, 0.8, -0.3) + rng.uniform(-0.02, 0.02, 200)
+    assert np.array_equal(basins(ends), which)
+
+
+@pytest.mark.parametrize("ends", [
+    np.empty(0), np.array([0.4]), np.full(30, 0.7), 0.5 + 1e-4 * np.arange(8), np.linspace(-1.0, 1.0, 50)])
+def test_basins_of_one_group_are_one(ends):
+    assert np.array_equal(basins(ends), np.zeros(ends.size))
+
+
+def test_the_basins_of_the_example_are_those_that_scipy_finds():
+    body, E = TWO
+    starts = np.array(seeds(body, E, 3, WHOLE, 6))
+    found = suslov_points(body, 3, starts.tolist(), 240, True, STANDARD).states
+    ends = np.array([orbit[160:, 0].mean() for orbit in found])
+    which = basins(ends)
+    assert set(which) == {0.0, 1.0}
+    exact = []
+    for start in starts:
+        run = solve_ivp(lambda t, y: field(body, y), (0.0, 400.0), start, "DOP853", rtol=1e-8, atol=1e-9,
+                        t_eval=np.linspace(300.0, 400.0, 2001))
+        up = np.flatnonzero((run.y[4][1:] > 0.0) & (run.y[4][:-1] <= 0.0))
+        exact.append(run.y[0][up].mean())
+    assert np.array_equal(np.array(exact) > np.mean([min(exact), max(exact)]), which == 1.0)
+    assert np.ptp(exact) > 0.1
+    # Far apart, beside how closely those of one group agree.
+    for group in (0.0, 1.0):
+        assert np.ptp(ends[which == group]) < 0.1 * np.ptp(ends)

@@ -1,0 +1,159 @@
+"""The Suslov–Hess case: the body, and the map between `Biz131` and `eq01`."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hess_mechanics import HessBody, level, solve, systems
+from hess_mechanics.errors import InvalidParameter, NoField, NotPositiveDefinite
+from support.mechanics import PROPERTY
+
+SUSLOV, HESS = systems()["suslov"], systems()["hess"]
+
+moment = st.floats(0.05, 20.0)
+product = st.floats(-30.0, 30.0)
+field_strength = st.floats(-10.0, 10.0)
+with_field = field_strength.filter(lambda b3: abs(b3) > 1e-3)
+states = st.lists(st.floats(-3.0, 3.0), min_size=5, max_size=5).map(np.array)
+bodies = st.builds(HessBody, moment, product, field_strength)
+bodies_in_a_field = st.builds(HessBody, moment, product, with_field)
+
+BODIES = [HessBody(1.0, 0.5, -1.0), HessBody(2.0, -0.6, 3.0), HessBody(0.7, 1.1, 0.4), HessBody(1.0, 0.0, -2.0)]
+START = np.array([0.8, -0.4, 0.6, 0.0, 0.8])
+
+
+def angular_momentum_about_the_vertical(body, y):
+    """F2 of `Biz11` in the case of Hess, (Iω, γ), from the full tensor."""
+    w1, w2, g1, g2, g3 = y
+    inertia = np.array([[body.I11, 0, 0], [0, body.I22, body.I23], [0, body.I23, 0]])  # ω3 = 0: no I33
+    return (inertia @ [w1, w2, 0.0]) @ [g1, g2, g3]
+
+
+@PROPERTY
+@given(bodies)
+def test_derived_values_satisfy_the_conditions_of_hess(body):
+    product_of_moments = body.I11 * body.I22
+    assert product_of_moments == pytest.approx(body.I22**2 + body.I23**2, rel=1e-14)  # bizi1
+    assert abs(body.I22 * body.b2 + body.I23 * body.b3) <= 1e-14 * abs(body.I23 * body.b3) + 1e-300  # bizi2
+    assert math.tan(math.atan2(body.I23, body.I22)) == pytest.approx(body.a, rel=1e-13)
+    assert body.b**2 * (body.I22**2 + body.I23**2) == pytest.approx(body.b3**2, rel=1e-13, abs=1e-300)
+    assert body.b * body.b3 <= 0
+    assert body.suslov.parameters == (body.I11, body.I22, 0.0, body.I23, 0.0, body.b2, body.b3)
+
+
+@PROPERTY
+@given(bodies, states)
+def test_the_map_to_the_reduced_variables_has_an_inverse(body, y):
+    size = 1.0 + np.max(np.abs(y))
+    assert body.from_reduced(body.to_reduced(y)) == pytest.approx(y, abs=1e-14 * size)
+    assert body.to_reduced(body.from_reduced(y)) == pytest.approx(y, abs=1e-14 * size)
+
+
+@PROPERTY
+@given(bodies_in_a_field, states)
+def test_the_change_of_units_has_an_inverse(body, y):
+    assert body.from_units_of_b(body.in_units_of_b(y)) == pytest.approx(y, rel=1e-14)
+    assert body.in_units_of_b(body.from_units_of_b(y)) == pytest.approx(y, rel=1e-14)
+
+
+def test_maps_take_whole_orbits():
+    body, many = BODIES[0], np.arange(30.0).reshape(3, 2, 5)
+    for change in (body.to_reduced, body.from_reduced, body.in_units_of_b, body.from_units_of_b):
+        assert change(many).shape == many.shape
+        assert np.array_equal(change(many)[1, 0], change(many[1, 0]))
+
+
+@PROPERTY
+@given(bodies, states)
+def test_the_reduction_is_a_rotation_of_the_vertical(body, y):
+    reduced = body.to_reduced(y)
+    assert np.linalg.norm(reduced[2:]) == pytest.approx(np.linalg.norm(y[2:]), rel=1e-14, abs=1e-300)
+    assert reduced[0] == y[0]
+    assert reduced[1] * math.hypot(1.0, body.a) == pytest.approx(y[1], rel=1e-14)  # eq02, corrected
+
+
+@PROPERTY
+@given(bodies, states)
+def test_the_suslov_field_becomes_the_reduced_field(body, y):
+    # The map is linear, so that it takes the field as it takes the state.
+    image = body.to_reduced(np.array(SUSLOV.field(y, body.suslov.parameters)))
+    expected = np.array(HESS.field(body.to_reduced(y), (body.a, body.b)))
+    size = (1.0 + abs(body.a) + abs(body.b)) * (1.0 + np.max(np.abs(body.to_reduced(y)))) ** 2
+    assert np.max(np.abs(image - expected)) < 1e-13 * size
+
+
+@PROPERTY
+@given(bodies, states)
+def test_energy_and_angular_momentum_are_those_of_suslov_divided_by_I11(body, y):
+    suslov = SUSLOV.integrals(y, body.suslov.parameters)
+    hess = HESS.integrals(body.to_reduced(y), (body.a, body.b))
+    size = 1.0 + (1.0 + abs(body.b)) * np.max(np.abs(y)) ** 2
+    assert hess["E"] == pytest.approx(suslov["E"] / body.I11, abs=1e-13 * size)
+    assert hess["F1"] == pytest.approx(suslov["F1"], rel=1e-13, abs=1e-300)
+    assert hess["F2"] == pytest.approx(angular_momentum_about_the_vertical(body, y) / body.I11, abs=1e-13 * size)
+
+
+@PROPERTY
+@given(bodies_in_a_field, states)
+def test_in_units_of_b_the_field_and_the_integrals_have_b_one(body, y):
+    nu, sign = math.sqrt(abs(body.b)), math.copysign(1.0, body.b)
+    assert body.frequency_unit == pytest.approx(nu, rel=1e-15)
+    unit = body.in_units_of_b(y)
+    image = body.in_units_of_b(np.array(HESS.field(y, (body.a, body.b)))) / nu
+    expected = np.array(HESS.field(unit, (body.a, 1.0)))
+    size = (1.0 + abs(body.a)) * (1.0 + np.max(np.abs(unit))) ** 2
+    assert np.max(np.abs(image - expected)) < 1e-14 * size
+    own, in_units = HESS.integrals(y, (body.a, body.b)), HESS.integrals(unit, (body.a, 1.0))
+    assert in_units["E"] == pytest.approx(own["E"] / nu**2, abs=1e-13 * size)
+    assert in_units["F2"] == pytest.approx(sign * own["F2"] / nu, abs=1e-13 * size)
+
+
+@pytest.mark.parametrize("body", BODIES, ids=lambda body: f"a={body.a:.3g},b={body.b:.3g}")
+def test_orbits_of_the_body_and_of_the_reduced_system_are_the_same_motion(body):
+    assert {math.copysign(1.0, each.b) for each in BODIES} == {1.0, -1.0}
+    times = np.linspace(0.0, 10.0, 41)
+    full = solve(SUSLOV, START, body.suslov.parameters, times, level("reference")).states
+    own_units = solve(HESS, body.to_reduced(START), (body.a, body.b), times, level("reference")).states
+    start = body.in_units_of_b(body.to_reduced(START))
+    unit = solve(HESS, start, (body.a, 1.0), times * body.frequency_unit, level("reference")).states
+    assert np.max(np.abs(body.to_reduced(full) - own_units)) < 1e-11
+    assert np.max(np.abs(body.from_reduced(body.from_units_of_b(unit)) - full)) < 1e-11
+
+
+@pytest.mark.parametrize("b3", [0.0, -0.0])
+def test_without_a_field_there_are_no_units_of_b(b3):
+    body = HessBody(1.0, 0.5, b3)
+    assert body.suslov.parameters[4:] == (0.0, 0.0, 0.0)
+    assert np.all(np.isfinite(body.to_reduced(START)))
+    for use in (lambda: body.frequency_unit, lambda: body.in_units_of_b(START), lambda: body.from_units_of_b(START)):
+        with pytest.raises(NoField, match="b3 = 0"):
+            use()
+
+
+@pytest.mark.parametrize(
+    "values", [(1e-200, 1e200, 1.0), (1.0, 1e200, 1.0), (5e-324, 1.0, 1.0), (1e308, 1e308, 1.0), (1e-320, 0.0, 1e300)]
+)
+def test_bodies_beyond_double_precision_raise_a_sentence(values):
+    with pytest.raises(InvalidParameter, match="choose"):
+        HessBody(*values)
+
+
+@pytest.mark.parametrize("name", ["I22", "I23", "b3"])
+@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
+def test_a_value_that_is_not_finite_is_named(name, bad):
+    with pytest.raises(InvalidParameter, match=f"{name} is not a finite number"):
+        HessBody(**{"I22": 1.0, "I23": 0.5, "b3": 1.0, name: bad})
+
+
+@pytest.mark.parametrize("I22", [0.0, -0.0, -1.0])
+def test_a_body_needs_a_positive_moment(I22):
+    with pytest.raises(NotPositiveDefinite, match="choose I22 > 0"):
+        HessBody(I22, 0.5, 1.0)
+
+
+def test_a_body_cannot_be_changed_after_it_was_checked():
+    with pytest.raises(AttributeError):
+        BODIES[0].I22 = -1.0

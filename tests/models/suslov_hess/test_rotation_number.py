@@ -1,0 +1,277 @@
+"""The rotation number over a, h, f: against motions and iterations, closed forms and the reference values."""
+
+from __future__ import annotations
+
+import math
+
+import mpmath
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.interpolate import CubicSpline
+
+import oracle
+from hess_mechanics import circle_map, f_max
+from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.numerics.accuracy import DRAFT, PRECISE, REFERENCE, STANDARD
+from hess_mechanics.suslov_hess.rotation_number import (
+    MAX_POINTS,
+    PLANES,
+    Torus,
+    closed_after,
+    lock_curve,
+    perturbed_rotation,
+    place_of,
+    values_at,
+)
+from support.mechanics import REFERENCE as KNOWN
+from support.rotation_number import iterated
+
+LOCKS = [tuple(float(row[name]) for name in ("a", "h", "f")) for row in KNOWN["lock_boundary"] + KNOWN["a_critical"]]
+ELLIPTIC = [(0.5, 0.5, 0.5), (0.5, 0.2, 0.3), (0.3, -0.5, 0.2), (1.2, -0.6, 0.3), (0.1, 2.0, 1.5), (0.5, 0.5, -0.5)]
+HYPERBOLIC = [(0.5, 1.5, 0.6), (1.2, 0.9, 0.8), (0.5, 1.5, -0.6)]
+
+
+def rho_of(a, h, f, level=PRECISE):
+    return float(values_at(a, h, f, level).rho[0])
+
+
+def turns_of_the_motion(a, h, f, count):
+    """Turns of w per period of n3, from `eq01` by SciPy."""
+    n0, n1, n2 = np.sort(np.roots([-2.0, -2.0 * h, 2.0, 2.0 * h - f * f]).real)
+    m = (n2 - n1) / (n2 - n0)
+    period = 2.0 * math.sqrt(2.0 / (n2 - n0)) * float(mpmath.ellipk(m))
+    size = math.sqrt(2.0 * (h + n1))
+
+    def field(t, y):
+        w1, w2, n1, n2, n3, _ = y
+        rates = [-a * w2 * w2 - n2, a * w1 * w2 + n1, -(a * n2 + n3) * w2, a * w2 * n1 + w1 * n3, n1 * w2 - n2 * w1]
+        # φ of w = |w|(sin φ, cos φ).
+        return [*rates, (rates[0] * w2 - rates[1] * w1) / (w1 * w1 + w2 * w2)]
+
+    phi = 0.4
+    w = size * np.array([math.sin(phi), math.cos(phi)])
+    start = [*w, *(f / size**2 * w), n1, phi]
+    y = solve_ivp(field, (0.0, count * period), start, "DOP853", rtol=1e-9, atol=1e-10).y
+    return (y[5, -1] - phi) / (2.0 * math.pi * count)
+
+
+# ---- ρ and where it locks ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("torus", ELLIPTIC + HYPERBOLIC)
+def test_the_rotation_number_is_that_of_ten_thousand_iterations(torus):
+    # Of N returns less than one turn is not counted.
+    assert rho_of(*torus) == pytest.approx(iterated(*torus), abs=1e-4)
+
+
+@pytest.mark.parametrize("torus", ELLIPTIC[:3] + HYPERBOLIC[:1])
+def test_the_rotation_number_counts_the_turns_of_the_motion_itself(torus):
+    assert rho_of(*torus) == pytest.approx(turns_of_the_motion(*torus, 120), abs=1.0 / 120)
+
+
+@pytest.mark.parametrize(("h", "f"), [(0.5, 0.5), (-0.5, 0.3), (2.0, 1.5), (5.0, 0.1)])
+def test_without_a_the_rotation_number_is_an_elliptic_integral(h, f):
+    with mpmath.workdps(40):
+        exact = float(mpmath.arg(oracle.map_without_a(h, f).A) / mpmath.pi)
+    found = values_at(0.0, h, f, REFERENCE)
+    # A determines it up to whole turns; for f > 0 it lies between −½ and 0.
+    assert math.cos(2.0 * math.pi * found.rho[0]) == pytest.approx(math.cos(2.0 * math.pi * exact), abs=1e-12)
+    assert -0.5 <= found.rho[0] <= 0.0
+    assert not found.locked[0]
+
+
+@pytest.mark.parametrize(("a", "n"), [(0.5, 0.3), (0.5, 0.9), (1.5, 0.4), (0.0, 0.7)])
+def test_on_the_bifurcation_curve_the_trace_is_the_closed_form(a, n):
+    h, f = (1.0 - 3.0 * n * n) / (2.0 * n), (1.0 - n * n) / math.sqrt(n)
+    found = values_at(a, h, f * (1.0 - 1e-13), REFERENCE)
+    radicand = complex(n * n * (1.0 + a * a) - a * a) ** 0.5
+    t = 2.0 * np.cos(math.pi * radicand / math.sqrt(1.0 + 3.0 * n * n)).real
+    assert found.trace[0] == pytest.approx(abs(t), rel=1e-6)
+    assert found.locked[0] == (abs(t) > 2.0)
+
+
+@pytest.mark.parametrize("a", [0.2, 0.5, 1.0, 3.0])
+def test_for_vanishing_f_above_the_saddle_the_trace_is_the_closed_form(a):
+    found = values_at(a, np.array([1.1, 1.5, 4.0]), 1e-9, REFERENCE)
+    assert found.trace == pytest.approx(np.full(3, 2.0 * math.cosh(math.pi * a)), rel=1e-7)
+    assert found.locked.all()
+    assert not found.rho.any()
+
+
+def test_values_agree_whatever_their_shape_and_order():
+    rng = np.random.default_rng(1)
+    a, h, f = rng.choice([0.1, 0.5, 1.0], 40), rng.uniform(-0.9, 3.0, 40), rng.uniform(-2.0, 2.0, 40)
+    together = values_at(a, h, f, STANDARD)
+    assert 10 < together.possible.sum() < 40
+    for i in range(40):
+        assert together.possible[i] == (abs(f[i]) <= f_max(float(h[i])))
+        alone = values_at(float(a[i]), float(h[i]), float(f[i]), STANDARD)
+        assert (alone.rho[0], alone.trace[0]) == pytest.approx((together.rho[i], together.trace[i]), rel=1e-9)
+        if together.possible[i]:
+            exact = circle_map(float(a[i]), float(h[i]), float(f[i]), REFERENCE)
+            assert together.trace[i] == pytest.approx(exact.trace, rel=1e-6)
+            assert together.locked[i] == (exact.kind == "hyperbolic")
+            assert together.rho[i] == pytest.approx(exact.rotation_number, abs=1e-6)
+        else:
+            assert (together.rho[i], together.trace[i], together.locked[i]) == (0.0, 0.0, False)
+
+
+def test_the_rotation_number_is_odd_in_f_and_even_in_a():
+    f = np.linspace(-1.2, 1.2, 40)
+    there = values_at(0.4, 0.6, f, STANDARD)
+    assert there.rho == pytest.approx(-there.rho[::-1], abs=1e-13)
+    assert values_at(-0.4, 0.6, f, STANDARD).rho == pytest.approx(there.rho, abs=1e-9)
+
+
+def test_at_the_separatrix_there_is_no_map():
+    h, f = np.array([1.0, 1.0, 1.0 + 1e-6, -1.0, -5.0, 0.0]), np.array([0.0, 1e-12, 0.0, 0.0, 0.0, 3.0])
+    assert values_at(0.5, h, f, DRAFT).possible.tolist() == [False, False, True, False, False, False]
+
+
+@pytest.mark.parametrize("row", LOCKS, ids=str)
+def test_the_lock_curve_passes_through_the_known_values_in_all_planes(row):
+    a, h, f = row
+    torus = Torus(a, h, f)
+    # Where the curve is computed at this abscissa.
+    for plane, x, y in (("h, a", h, a), ("f, a", f, a)):
+        first = lock_curve(plane, torus, (x, x + 0.01, 0.0, 2.0), REFERENCE, points=2)[0]
+        assert first == pytest.approx((x, y), abs=1e-9)
+    curve = lock_curve("h, f", torus, (-1.0, 4.0, -3.0, 3.0), REFERENCE)
+    # Between its points, along the line from the lowest h to (1, 0) or from there on.
+    order = np.argsort(curve[:, 1])
+    assert float(CubicSpline(curve[order, 1], curve[order, 0])(f)) == pytest.approx(h, abs=2e-4)
+
+
+@pytest.mark.parametrize("plane", PLANES)
+def test_on_the_lock_curve_the_trace_is_two_and_to_one_side_it_locks(plane):
+    torus = Torus(0.5, 0.8, 0.7)
+    window = (0.3, 0.9, 0.0, 2.0) if plane != "h, f" else (-1.0, 4.0, -3.0, 3.0)
+    curve = lock_curve(plane, torus, window, REFERENCE, points=7)
+    assert len(curve) >= 5
+    names = plane.split(", ")
+    # In (h, f) it runs from the edge of the region to the saddle, and locks to the right.
+    across = 0 if plane == "h, f" else 1
+    for place in curve[1:-1]:
+        here = torus.at(**dict(zip(names, place.tolist(), strict=True)))
+        assert values_at(**vars(here), level=REFERENCE).trace[0] == pytest.approx(2.0, abs=1e-9)
+        beside = (place + step * np.eye(2)[across] for step in (-1e-3, 1e-3))
+        sides = [torus.at(**dict(zip(names, point.tolist(), strict=True))) for point in beside]
+        assert [bool(values_at(**vars(side), level=PRECISE).locked[0]) for side in sides] == [False, True]
+    middle = torus.at(**dict(zip(names, curve[2].tolist(), strict=True)))
+    exact = oracle.map_by_three_orbits(*vars(middle).values(), 24)
+    assert exact.log_trace == pytest.approx(math.log(2.0), abs=1e-9)
+
+
+def test_without_a_there_is_no_lock_curve():
+    assert lock_curve("h, f", Torus(0.0, 0.5, 0.5), (-1.0, 4.0), DRAFT).shape == (0, 2)
+    assert lock_curve("h, a", Torus(0.5, 0.5, 50.0), (-1.0, 4.0), DRAFT).shape == (0, 2)
+
+
+# ---- rational numbers --------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("p", "q", "name", "torus", "low", "high"), [
+    (-1, 4, "f", Torus(0.5, 0.5, 0.8), 0.0, 1.2), (-1, 3, "f", Torus(0.5, 0.25, 0.4), 0.0, 1.0),
+    (-1, 3, "h", Torus(0.5, 0.0, 0.5), -0.9, 0.9), (-2, 5, "h", Torus(0.8, 0.0, 0.3), -0.9, 0.9),
+    (-1, 4, "a", Torus(0.0, 0.5, 0.6), 0.0, 2.0), (1, 4, "f", Torus(0.5, 0.5, -0.8), -1.2, 0.0),
+    (-3, 7, "f", Torus(0.5, -0.3, 0.1), 0.0, 0.5)])
+def test_at_a_rational_number_every_orbit_is_periodic_and_not_elsewhere(p, q, name, torus, low, high):
+    place = place_of(p / q, name, torus, low, high, REFERENCE)
+    assert low < place < high
+    found = torus.at(**{name: place})
+    assert iterated(*vars(found).values(), count=1000 * q) == pytest.approx(p / q, abs=1e-6)
+    assert closed_after(found, q, REFERENCE) < 1e-12
+    assert closed_after(found, 2 * q, REFERENCE) < 1e-12
+    # No smaller number of returns, and not beside it.
+    assert min(closed_after(found, n, REFERENCE) for n in range(1, q)) > 0.1
+    assert closed_after(found.at(**{name: place + 1e-4}), q, REFERENCE) > 1e-5
+
+
+def test_a_map_with_two_limit_cycles_is_never_the_identity():
+    assert min(closed_after(Torus(0.5, 1.5, 0.6), q, REFERENCE) for q in (1, 2, 3, 4, 12)) > 1.0
+
+
+def test_below_the_saddle_two_returns_close_where_f_vanishes():
+    # f → 0, |h| < 1: the trace goes to 0.
+    assert closed_after(Torus(0.5, 0.3, 1e-12), 2, REFERENCE) < 1e-10
+    assert abs(rho_of(0.5, 0.3, 1e-9)) == pytest.approx(0.5, abs=1e-8)
+
+
+@pytest.mark.parametrize(("rho", "name", "torus", "low", "high"), [
+    (0.25, "f", Torus(0.5, 0.5, 0.5), 0.01, 1.2), (-0.25, "h", Torus(0.5, 5.0, 2.0), 4.0, 6.0),
+    (-0.25, "f", Torus(0.5, 0.5, 0.0), 5.0, 9.0)])
+def test_where_no_torus_has_the_number_none_is_found(rho, name, torus, low, high):
+    assert place_of(rho, name, torus, low, high, STANDARD) is None
+
+
+def test_the_jump_from_minus_a_half_to_a_half_is_no_place_of_zero():
+    # Across f = 0 below the saddle ρ jumps over all other numbers.
+    assert place_of(0.1, "f", Torus(0.5, 0.3, 0.0), -0.1, 0.1, STANDARD) is None
+
+
+# ---- the other family --------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("torus", ELLIPTIC)
+def test_without_epsilon_the_other_family_is_this_one(torus):
+    assert perturbed_rotation(*torus, 0.0, PRECISE)[0] == pytest.approx(rho_of(*torus), abs=1e-8)
+
+
+@pytest.mark.parametrize("torus", HYPERBOLIC)
+def test_without_epsilon_a_locked_torus_stays_locked(torus):
+    assert perturbed_rotation(*torus, 0.0, PRECISE)[0] == pytest.approx(0.0, abs=1e-8)
+
+
+@pytest.mark.parametrize("epsilon", [0.1, 0.25, -0.3])
+@pytest.mark.parametrize("torus", [*ELLIPTIC, HYPERBOLIC[0]])
+def test_the_other_family_has_the_rotation_number_of_plain_iteration(torus, epsilon):
+    # Both signs of f: its mirror image changes the sign of ε.
+    assert perturbed_rotation(*torus, epsilon, PRECISE)[0] == pytest.approx(iterated(*torus, epsilon), abs=1.2e-4)
+
+
+@pytest.mark.parametrize(("rho", "f"), [(-1.0 / 3.0, 0.3), (-1.0 / 4.0, 0.45)])
+def test_the_other_family_locks_at_rational_numbers_and_this_one_does_not(rho, f):
+    h, around = 0.5, np.linspace(0.05, 0.9, 1201)
+    other = perturbed_rotation(0.5, h, around, 0.3, STANDARD)
+    plateau = np.abs(other - rho) < 1e-6
+    assert plateau.sum() > 5
+    # One stretch without gaps, over which the number of this family changes all the time.
+    first, last = np.flatnonzero(plateau)[[0, -1]]
+    assert plateau[first : last + 1].all()
+    own = values_at(0.5, h, around[first : last + 1], PRECISE).rho
+    assert np.min(np.abs(np.diff(own))) > 1e-5
+    assert np.ptp(own) > 0.005
+    # The number goes up along f, outside of the plateau too.
+    assert np.all(np.diff(other) > -1e-4)
+
+
+def test_a_family_may_change_a_too():
+    a = np.array([0.1, 0.5, 0.1, 0.9])
+    together = perturbed_rotation(a, 0.3, 0.5, 0.2, STANDARD)
+    assert together == pytest.approx([perturbed_rotation(x, 0.3, 0.5, 0.2, STANDARD)[0] for x in a], abs=1e-12)
+    assert together[0] == together[2] != together[1]
+
+
+# ---- what is refused ---------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("request_", "error", "words"), [
+    (lambda: values_at(0.5, np.zeros(MAX_POINTS + 1), 0.1, DRAFT), WorkLimit, "choose fewer points"),
+    (lambda: values_at(0.5, np.zeros((2, 2)), 0.1, DRAFT), WorkLimit, "choose fewer points"),
+    (lambda: values_at(0.5, math.nan, 0.1, DRAFT), InvalidParameter, "needs finite h and f"),
+    (lambda: values_at(0.5, 0.5, math.inf, DRAFT), InvalidParameter, "needs finite h and f"),
+    (lambda: values_at(0.5, 1e13, 0.1, DRAFT), InvalidParameter, "1e12"),
+    (lambda: values_at(2e6, 0.5, 0.1, DRAFT), InvalidParameter, "a = "),
+    (lambda: values_at(math.nan, 0.5, 0.1, DRAFT), InvalidParameter, "a "),
+    (lambda: perturbed_rotation(0.5, 0.5, 0.1, 1.0 / 3.0, DRAFT), InvalidParameter, "choose |ε| < 1/3"),
+    (lambda: perturbed_rotation(0.5, 0.5, 0.1, -2.0, DRAFT), InvalidParameter, "choose |ε| < 1/3"),
+    (lambda: perturbed_rotation(0.5, 0.5, 0.1, math.nan, DRAFT), InvalidParameter, "epsilon"),
+    (lambda: closed_after(Torus(0.5, 0.5, 0.1), 0, DRAFT), InvalidParameter, "between 1 and 1000"),
+    (lambda: closed_after(Torus(0.5, 0.5, 0.1), 1001, DRAFT), InvalidParameter, "between 1 and 1000"),
+])
+def test_what_cannot_be_is_refused_in_a_sentence(request_, error, words):
+    with pytest.raises(error) as refused:
+        request_()
+    assert words in str(refused.value)
+    assert str(refused.value).endswith(".")

@@ -1,0 +1,54 @@
+"""Independent answers with more digits than a double has.
+
+Orbits: Taylor series of a system's plain `field` in whatever arithmetic the numbers bring: `np.longdouble` for many
+orbits at once, `decimal.Decimal` for as many digits as one likes.  Circle maps: three such orbits of `eq01`, from the
+section to the section, fix a Möbius map; and closed forms where there are any.  No kernel of `models` enters.
+
+What took long is kept in "oracle_values.json", by its arguments, and only looked up: `make_oracle_values.py` finds it
+anew.
+"""
+
+from oracle.circle_maps import (
+    MoebiusMap,
+    map_by_three_orbits,
+    map_of_vanishing_f,
+    map_on_the_curve,
+    map_without_a,
+    maps_by_three_orbits,
+    stable_cycle,
+)
+from oracle.closed_forms import pendulum, steady_rotation
+from oracle.kept import ANSWERED, FUNCTIONS, KEPT, found_anew, plain
+from oracle.orbits import (
+    as_decimals,
+    as_long_doubles,
+    coefficients,
+    distances,
+    orbit_in_decimals,
+    orbits_in_long_double,
+    uncompiled,
+)
+
+__all__ = [
+    "ANSWERED",
+    "FUNCTIONS",
+    "KEPT",
+    "MoebiusMap",
+    "as_decimals",
+    "as_long_doubles",
+    "coefficients",
+    "distances",
+    "found_anew",
+    "map_by_three_orbits",
+    "map_of_vanishing_f",
+    "map_on_the_curve",
+    "map_without_a",
+    "maps_by_three_orbits",
+    "orbit_in_decimals",
+    "orbits_in_long_double",
+    "pendulum",
+    "plain",
+    "stable_cycle",
+    "steady_rotation",
+    "uncompiled",
+]

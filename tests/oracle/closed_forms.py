@@ -1,0 +1,58 @@
+"""Closed forms of orbits, with many digits."""
+
+import math
+
+import mpmath
+import numpy as np
+
+
+def pendulum(a, h, phi, times, since=0.0, digits=40):
+    """The orbit of `eq01` with b = 1, f = 0: a loxodromic pendulum; doubles (n, 5).
+
+    θ̈ = −sin θ with θ(−since) = 0 and θ̇ > 0 there; φ slides by tan(φ/2 + π/4) ∝ e^{−aθ} from `phi` at time 0;
+    w = θ̇ (sin φ, cos φ) and n = (−sin θ cos φ, sin θ sin φ, cos θ).  As φ, the double next to ±π/2 stands for ±π/2:
+    a great circle.
+    """
+    with mpmath.workdps(digits):
+        k = mpmath.sqrt((mpmath.mpf(h) + 1) / 2)
+        m = k * k if k < 1 else 1 / (k * k)
+
+        def swing(t):
+            """θ and θ̇ at the time t after θ = 0."""
+            if k == 1:
+                return 2 * mpmath.asin(mpmath.tanh(t)), 2 / mpmath.cosh(t)
+            if k < 1:
+                return 2 * mpmath.asin(k * mpmath.ellipfun("sn", t, m=m)), 2 * k * mpmath.ellipfun("cn", t, m=m)
+            turn = 2 * mpmath.ellipk(m) / k
+            turns = mpmath.nint(t / turn)
+            within = k * (t - turns * turn)
+            theta = 2 * (mpmath.asin(mpmath.ellipfun("sn", within, m=m)) + mpmath.pi * turns)
+            return theta, 2 * k * mpmath.ellipfun("dn", within, m=m)
+
+        begin, _ = swing(mpmath.mpf(since))
+        slides = abs(phi) != math.pi / 2
+        phi = mpmath.mpf(phi) if slides else mpmath.sign(phi) * mpmath.pi / 2
+        slope = mpmath.tan(phi / 2 + mpmath.pi / 4)
+        rows = []
+        for t in times:
+            theta, speed = swing(mpmath.mpf(t) + mpmath.mpf(since))
+            now = 2 * mpmath.atan(slope * mpmath.exp(a * (begin - theta))) - mpmath.pi / 2 if slides else phi
+            s, c = mpmath.sin(now), mpmath.cos(now)
+            rows.append([speed * s, speed * c, -mpmath.sin(theta) * c, mpmath.sin(theta) * s, mpmath.cos(theta)])
+        return np.array(rows, dtype=float)
+
+
+def steady_rotation(omega, gamma, times, digits=40):
+    """γ̇ = γ × ω with constant ω = (ω1, ω2, 0), by the formula of Rodrigues; the state of `Biz131`, doubles (n, 5)."""
+    with mpmath.workdps(digits):
+        w = mpmath.matrix([*omega, 0])
+        speed = mpmath.norm(w)
+        axis, g = w / speed, mpmath.matrix(gamma)
+        along = axis * mpmath.fdot(axis, g)
+        across = mpmath.matrix([g[1] * axis[2] - g[2] * axis[1], g[2] * axis[0] - g[0] * axis[2],
+                                g[0] * axis[1] - g[1] * axis[0]])
+        rows = []
+        for t in times:
+            angle = speed * mpmath.mpf(t)
+            rows.append([*omega, *(along + (g - along) * mpmath.cos(angle) + across * mpmath.sin(angle))])
+        return np.array(rows, dtype=float)

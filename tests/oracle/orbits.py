@@ -1,0 +1,166 @@
+"""Taylor series of a system's plain `field`, in whatever arithmetic the numbers bring."""
+
+import decimal
+import math
+from dataclasses import replace
+from decimal import Decimal
+from functools import reduce
+from operator import mul
+
+import numpy as np
+
+from oracle.kept import kept
+
+
+class Series:
+    """A power series in time, for many orbits at once, whose coefficients are found when they are asked for.
+
+    `rule(k)` is coefficient k (one number for each orbit), from coefficients that are known by then.
+    """
+
+    __array_ufunc__ = None  # an array on the left of an operator leaves the work to the series
+
+    def __init__(self, rule, shape, dtype):
+        self.rule, self.c, self.known = rule, np.empty(shape, dtype), 0
+
+    def upto(self, k):
+        """All coefficients, filled up to order k."""
+        while self.known <= k:
+            self.c[self.known] = self.rule(self.known)
+            self.known += 1
+        return self.c
+
+    def like(self, rule):
+        return Series(rule, self.c.shape, self.c.dtype)
+
+    def lifted(self, other):
+        """`other` as a series: a number is one whose higher coefficients vanish."""
+        if isinstance(other, Series):
+            return other
+        return self.like(lambda k: self.upto(0)[0] * 0 + (other if k == 0 else 0))
+
+    def __neg__(self):
+        return self.like(lambda k: -self.upto(k)[k])
+
+    def __add__(self, other):
+        other = self.lifted(other)
+        return self.like(lambda k: self.upto(k)[k] + other.upto(k)[k])
+
+    __radd__ = __add__
+
+    def __sub__(self, other):
+        return self + -other
+
+    def __rsub__(self, other):
+        return -self + other
+
+    def __mul__(self, other):
+        if isinstance(other, Series):
+            return self.like(lambda k: folded(self.upto(k)[: k + 1], other.upto(k)[: k + 1]))
+        return self.like(lambda k: self.upto(k)[k] * other)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other):
+        if not isinstance(other, Series):
+            return self.like(lambda k: self.upto(k)[k] / other)
+
+        def rule(k):
+            known = folded(other.upto(k)[1:], quotient.c[:k]) if k else 0
+            return (self.upto(k)[k] - known) / other.upto(0)[0]
+
+        quotient = self.like(rule)
+        return quotient
+
+    def __rtruediv__(self, other):
+        return self.lifted(other) / self
+
+    def __pow__(self, exponent):
+        return reduce(mul, [self] * exponent)
+
+
+def folded(left, right):
+    """Σ left[m] right[k−m], over the k+1 coefficients that `right` has."""
+    left = left[: len(right)]
+    if left.dtype == object:
+        return (left * right[::-1]).sum(axis=0)
+    return np.einsum("kl,kl->l", left, right[::-1])
+
+
+def coefficients(field, y, p, order):
+    """Taylor coefficients of ẏ = field(y, p), shape (d, order + 1, orbits), for y (d, orbits) and p (q, orbits)."""
+    rates = []
+
+    def variable(i):
+        return Series(lambda k: y[i] if k == 0 else rates[i].upto(k - 1)[k - 1] / k, (order + 1, y.shape[1]), y.dtype)
+
+    variables = [variable(i) for i in range(len(y))]
+    rates.extend(variables[0].lifted(rate) for rate in field(variables, list(p)))
+    return np.array([series.upto(order) for series in variables])
+
+
+def taylor(field, y, p, times, order, tolerance):
+    """States (n, d, orbits) at times (n, orbits), from y (d, orbits) at t = 0, in the arithmetic of these arrays.
+
+    Every orbit has steps of its own: so long that the last two terms equal the tolerance (relative to a component
+    where that exceeds 1).  Nothing is interpolated: steps end at the times.
+    """
+    number = Decimal if y.dtype == object else y.dtype.type
+    y, t, out = y.copy(), times[0] * 0, []
+    for target in times:
+        while (moving := np.flatnonzero(t != target)).size:
+            c = coefficients(field, y[:, moving], p[:, moving], order)
+            size = np.maximum(np.abs(c[:, 0]).astype(float), 1.0)
+            step = np.full(moving.size, np.inf)
+            for k in (order - 1, order):
+                last = (np.abs(c[:, k]).astype(np.longdouble) / size).max(axis=0)
+                assert np.all(last < np.inf), "a coefficient beyond range: measure time in other units"
+                step = np.minimum(step, (tolerance / np.maximum(last, 1e-300)) ** (1 / k))
+            left = target[moving] - t[moving]
+            h = np.array([x if abs(x) <= s else number(math.copysign(s, x))
+                          for x, s in zip(left, step.astype(float), strict=True)])
+            total = c[:, order]
+            for k in range(order - 1, -1, -1):
+                total = total * h + c[:, k]
+            y[:, moving] = total
+            t[moving] = np.where(h == left, target[moving], t[moving] + h)
+        out.append(y.copy())
+    return np.array(out)
+
+
+def uncompiled(field):
+    """The description of a field with plain functions, which take numbers of any kind."""
+    constants = field.constants and (field.constants[0], field.constants[1].py_func)
+    stages = tuple((names, rule.py_func) for names, rule in field.stages)
+    return replace(field, rates=field.rates.py_func, stages=stages, constants=constants)
+
+
+def as_decimals(values):
+    """The same numbers, exactly, as decimals."""
+    return np.vectorize(Decimal, otypes=[object])(np.asarray(values, dtype=object))
+
+
+def as_long_doubles(texts):
+    """The numbers of these texts, not by way of doubles."""
+    return np.vectorize(np.longdouble, otypes=[np.longdouble])(np.array(texts))
+
+
+def orbits_in_long_double(system, states, parameters, times):
+    """Many orbits at once: states (orbits, d), parameters (orbits, q), times (orbits, n) → (orbits, n, d)."""
+    y, p, t = (np.asarray(values, np.longdouble).T for values in (states, parameters, times))
+    return np.moveaxis(taylor(system.field, y, p, t, order=28, tolerance=1e-22), -1, 0)
+
+
+@kept(as_decimals)
+def orbit_in_decimals(system, state, parameters, times, digits):
+    """One orbit (n, d) with so many digits in each step; an unstable motion loses some of them."""
+    with decimal.localcontext(prec=digits):
+        y, p = (as_decimals(np.reshape(values, (-1, 1)).tolist()) for values in (state, parameters))
+        t = as_decimals(np.reshape(times, (-1, 1)).tolist())
+        return taylor(system.field, y, p, t, order=round(1.15 * digits), tolerance=10.0**-digits)[:, :, 0]
+
+
+def distances(computed, exact):
+    """|computed − exact| as doubles, without first rounding what is exact."""
+    computed = as_decimals(np.asarray(computed).tolist()) if exact.dtype == object else computed.astype(exact.dtype)
+    return np.abs(computed - exact).astype(float)

@@ -1,0 +1,438 @@
+"""Every control of the page, as a user works it: keyboard, mouse, typing, and the player."""
+
+from __future__ import annotations
+
+import math
+import re
+from urllib.parse import parse_qsl, urlsplit
+
+import numpy as np
+import pytest
+
+from hess_explorer.headless.browser import wait_ready
+from hess_mechanics import f_max
+from hess_mechanics.numerics.accuracy import LEVELS
+from support.page import DEFAULTS, MOMENT, POINTS, SLIDERS, default_state, one_tab, wait_frames, wait_time
+from support.painted import yellow
+from support.suslov_hess import assert_orbit, exact_states, rounding
+
+tab = pytest.fixture(scope="module")(one_tab)
+explorer = pytest.fixture(default_state)
+
+# Where each slider ends at the default state; f at the last hundredth inside the region.
+ENDS = {
+    "I22": (0.2, 3.0), "I23": (-2.0, 2.0), "b3": (-3.0, -0.05), "h": (-0.99, 4.0), "f": (-1.81, 1.81),
+    "phi0": (-3.14, 3.14), "span": (1.0, 200.0),
+}
+every_number = pytest.mark.parametrize("name", SLIDERS)
+
+
+# --- Sliders and boxes -------------------------------------------------------------------------------
+
+@every_number
+def test_a_slider_obeys_the_keyboard(explorer, name):
+    slider, step = explorer.slider(name), SLIDERS[name]
+    slider.focus()
+    for key, steps in (("ArrowRight", 1), ("ArrowUp", 2), ("ArrowLeft", 1), ("ArrowDown", 0), ("ArrowRight", 1)):
+        explorer.change(slider.press, key)
+        expected = DEFAULTS[name] + steps * step
+        assert explorer.shown(name) == pytest.approx((expected, expected), abs=1e-9)
+    assert_orbit(explorer, {**DEFAULTS, name: DEFAULTS[name] + step})
+
+
+@every_number
+def test_a_slider_reaches_its_ends_and_no_further(explorer, name):
+    slider = explorer.slider(name)
+    slider.focus()
+    for key, end in (("End", ENDS[name][1]), ("Home", ENDS[name][0])):
+        explorer.change(slider.press, key)
+        assert explorer.shown(name)[0] == pytest.approx(end, abs=1e-9)
+        slider.press("ArrowRight" if key == "End" else "ArrowLeft")
+        assert explorer.shown(name)[0] == pytest.approx(end, abs=1e-9)
+    # What cannot be kept within reach of the other numbers is noted, and f alone depends on another.
+    admitted = {**DEFAULTS, name: ENDS[name][0]}
+    admitted["f"] = max(min(admitted["f"], f_max(admitted["h"])), -f_max(admitted["h"]))
+    assert_orbit(explorer, admitted)
+
+
+@every_number
+def test_a_slider_follows_the_mouse(explorer, name):
+    low, high = ENDS[name]
+    box = explorer.slider(name).bounding_box()
+    middle = box["y"] + box["height"] / 2
+    mouse = explorer.page.mouse
+    before = explorer.state
+    mouse.move(box["x"] + 0.35 * box["width"], middle)
+    mouse.down()
+    for share in (0.4, 0.5, 0.6, 0.65, 0.7):
+        mouse.move(box["x"] + share * box["width"], middle)
+    mouse.up()
+    wait_ready(explorer.page, after=before)
+    value, slider = explorer.shown(name)
+    assert slider == pytest.approx(value, abs=1e-9)
+    # The middle of the thumb (16 px) is under the pointer.
+    share = (0.7 * box["width"] - 8) / (box["width"] - 16)
+    assert value == pytest.approx(low + share * (high - low), abs=0.02 * (high - low) + SLIDERS[name])
+    assert_orbit(explorer, {**DEFAULTS, name: value})
+
+
+@pytest.mark.parametrize(("name", "text", "value"), [
+    ("I22", " 1.375 ", 1.375),
+    ("I23", "−0.5", -0.5),
+    ("b3", "-2e0", -2.0),
+    ("h", "0,7", 0.7),
+    ("h", "7.25", 7.25),
+    ("f", "1e-8", 1e-8),
+    ("f", "−1e−8", -1e-8),
+    ("phi0", "−0.5", -0.5),
+    ("span", "12.34567890123", 12.34567890123),
+])
+def test_a_box_takes_an_exact_value(explorer, name, text, value):
+    explorer.change(explorer.type, name, text)
+    box, slider = explorer.shown(name)
+    assert box == value
+    assert slider == pytest.approx(value, abs=0.51 * SLIDERS[name])
+    assert explorer.box(name).get_attribute("aria-invalid") != "true"
+    assert_orbit(explorer, {**DEFAULTS, name: value})
+    assert explorer.text("notes") == ""
+    assert float(explorer.wait_url(**{name: repr(value)})[name]) == value
+
+
+def test_a_box_is_read_when_it_is_left_too(explorer):
+    explorer.box("h").fill("0.25")
+    explorer.change(explorer.box("phi0").focus)
+    assert_orbit(explorer, {**DEFAULTS, "h": 0.25})
+
+
+@pytest.mark.parametrize("text", ["abc", "", "1e", "--1", "NaN", "Infinity", "1 2", "1,2,3", "<b>2</b>", "1e999"])
+def test_what_is_not_a_number_is_marked_and_changes_nothing(explorer, text):
+    before = explorer.state
+    explorer.type("h", text)
+    assert explorer.box("h").get_attribute("aria-invalid") == "true"
+    assert explorer.ready
+    explorer.change(lambda: explorer.slide(phi0=1.0))
+    assert explorer.state == before + 1
+    assert_orbit(explorer, {**DEFAULTS, "phi0": 1.0})
+
+
+def test_escape_brings_back_the_value_and_takes_the_mark_away(explorer):
+    explorer.type("h", "abc")
+    explorer.box("h").press("Escape")
+    assert explorer.box("h").input_value() == "1.5"
+    assert explorer.box("h").get_attribute("aria-invalid") != "true"
+
+
+@pytest.mark.parametrize(("name", "text", "value", "note"), [
+    ("I22", "0", 1e-3, "I₂₂ lies between"),
+    ("I23", "5000", 96.0, "within ±100"),
+    ("b3", "0", -1e-3, "b₃ lies between"),
+    ("h", "-5", -1 + 1e-9, "h lies between"),
+    ("f", "99", None, "f is at that edge"),
+    ("f", "-99", None, "f is at that edge"),
+    ("phi0", "4", math.pi, "φ₀ lies between"),
+    ("span", "-1", 0.01, "t lies between"),
+])
+def test_what_is_out_of_range_is_clamped_with_a_note_each_time(explorer, name, text, value, note):
+    if value is None:
+        # On the curve at h = 3/2: n = 1/(h + √(h² + 3)), f = (1 − n²)/√n (Geq3, corrected).
+        n = 1 / (1.5 + math.sqrt(5.25))
+        value = math.copysign((1 - n * n) / math.sqrt(n), float(text))
+    for _ in range(2):
+        explorer.change(explorer.type, name, text)
+        assert explorer.shown(name)[0] == pytest.approx(value, rel=1e-12)
+        assert note in explorer.text("notes")
+        assert explorer.page.locator(".text.notes").is_visible()
+
+
+def test_the_range_of_f_follows_h(explorer):
+    for h in (-0.9, 0.25, 3.5):
+        explorer.change(lambda h=h: explorer.slide(h=h))
+        slider = explorer.slider("f")
+        low, high, step = (float(slider.get_attribute(name)) for name in ("min", "max", "step"))
+        n = (math.sqrt(h * h + 3) - h) / 3
+        edge = math.sqrt(2 * (h + n) * (1 - n * n))
+        value = explorer.shown("f")[0]
+        assert low == pytest.approx(-edge, abs=1.01 * step)
+        assert high == pytest.approx(edge, abs=1.01 * step)
+        # No position is impossible; f = 0.6 itself is not at h = −0.9 and stands at the edge then.
+        assert max(-low, high) <= max(edge * (1 + 1e-15), value)
+        assert value == pytest.approx(min(0.6, edge), rel=1e-12)
+
+
+def test_the_f_slider_finds_zero_and_writes_round_numbers_at_any_h(explorer):
+    for h in (0.75, 1.01, 2.5, 3.99):
+        explorer.change(lambda h=h: explorer.slide(h=h))
+        explorer.change(lambda: explorer.slide(f=0.37))
+        assert explorer.box("f").input_value() == "0.37"
+        explorer.change(lambda: explorer.slide(f=0.0))
+        assert explorer.box("f").input_value() == "0"
+        assert explorer.here()[1] == 0.0
+
+
+def test_a_dragged_slider_leaves_the_axes_alone_until_it_is_let_go(explorer):
+    box = explorer.slider("b3").bounding_box()
+    middle = box["y"] + box["height"] / 2
+    mouse = explorer.page.mouse
+
+    def axes():
+        return [explorer.axes(name) for name in ("omega", "bifurcation", "circle")]
+
+    before = axes()
+    mouse.move(box["x"] + 0.6 * box["width"], middle)
+    mouse.down()
+    for share in (0.5, 0.25, 0.0):
+        explorer.change(mouse.move, box["x"] + share * box["width"], middle)
+        assert axes() == before
+        # While it is held all is drawn at the level draft.
+        assert_orbit(explorer, {**DEFAULTS, "b3": explorer.shown("b3")[0]}, within=LEVELS["draft"].promise)
+    explorer.change(mouse.up)
+    assert explorer.shown("b3")[0] == -3.0
+    assert_orbit(explorer, {**DEFAULTS, "b3": -3.0})
+    # |ω| grows with √b: at b3 = −3 the frame must hold √3 times more, up to the slider's h = 4.
+    body = math.sqrt(3.0 / math.hypot(0.96, 0.28)) * math.hypot(1.0, 0.28 / 0.96)
+    wide, *others = axes()
+    assert wide[1] > body * math.sqrt(10) > before[0][1]
+    assert wide[1] < 1.6 * body * math.sqrt(10)
+    assert wide == [-wide[1], wide[1]] * 2
+    assert others == before[1:]
+
+
+# --- Menus and buttons -------------------------------------------------------------------------------
+
+def test_the_accuracy_menu_changes_level_error_and_link_and_nothing_else(explorer):
+    for name in ("draft", "precise", "reference", "standard"):
+        explorer.change(explorer.choose, "accuracy", name)
+        status = explorer.text("status")
+        assert status.startswith(f"{name}:")
+        errors = [float(text.replace("−", "-")) for text in re.findall(r"error ≤ (\S+)", status)]
+        assert len(errors) == 2
+        if name != "reference":
+            assert max(errors) <= LEVELS[name].promise
+        assert explorer.accuracy == name
+        orbit = explorer.data("data-orbit")
+        exact = exact_states(DEFAULTS, orbit["t"])
+        # Sent in single precision.
+        allowed = LEVELS[name].promise + 4e-7 + rounding(DEFAULTS, orbit["t"], exact)[:, 0]
+        assert np.max(np.abs(np.array(orbit["omega1"]) - exact[:, 0]) - allowed) <= 0.0
+        explorer.wait_url(accuracy=name)
+    for name in SLIDERS:
+        assert explorer.shown(name)[0] == DEFAULTS[name]
+
+
+def test_the_menu_of_examples_sets_the_state_and_says_when_it_is_left(explorer):
+    explorer.change(explorer.choose, "preset", "No cycle: every orbit winds")
+    assert explorer.chosen("preset") == "No cycle: every orbit winds"
+    assert_orbit(explorer, {**DEFAULTS, "h": 0.2, "f": 0.5})
+    explorer.change(lambda: explorer.slide(phi0=1.0))
+    assert explorer.chosen("preset") == "Choose an example…"
+    # The same one again.
+    explorer.change(explorer.choose, "preset", "No cycle: every orbit winds")
+    assert_orbit(explorer, {**DEFAULTS, "h": 0.2, "f": 0.5})
+    explorer.change(explorer.choose, "preset", "Two limit cycles")
+    assert_orbit(explorer, DEFAULTS)
+    before = explorer.state
+    explorer.change(lambda: explorer.slide(h=2.0))
+    # The menu that follows the state asks for none itself.
+    assert explorer.state == before + 1
+
+
+def test_an_example_keeps_the_accuracy(explorer):
+    explorer.change(explorer.choose, "accuracy", "precise")
+    explorer.change(explorer.choose, "preset", "No cycle: every orbit winds")
+    assert explorer.text("status").startswith("precise:")
+
+
+def test_reset_brings_everything_back(explorer):
+    explorer.change(lambda: explorer.slide(I22=1.2, I23=-0.5, b3=-2.0, h=0.7, f=-0.3, phi0=2.0, span=11.0))
+    explorer.change(explorer.choose, "accuracy", "draft")
+    before = explorer.state
+    explorer.page.locator(".param-reset").click()
+    wait_ready(explorer.page, after=before)
+    assert_orbit(explorer, DEFAULTS)
+    assert explorer.text("status").startswith("standard:")
+    for name in SLIDERS:
+        assert explorer.shown(name)[0] == DEFAULTS[name]
+
+
+def test_copy_link_copies_the_state_that_is_on_the_screen(explorer):
+    explorer.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    explorer.wait_url(h="1.5", f="0.6")
+    explorer.change(lambda: explorer.slide(h=0.75))
+    # At once: a user does not wait for the address bar.
+    explorer.page.locator(".param-link").click()
+    copied = explorer.page.evaluate("navigator.clipboard.readText()")
+    assert copied.startswith(explorer.base)
+    assert dict(parse_qsl(urlsplit(copied).query))["h"] == "0.75"
+
+
+# --- The player --------------------------------------------------------------------------------------
+
+
+def moment(explorer):
+    found = explorer.page.evaluate(MOMENT, POINTS)
+    return found["t"], dict(zip(POINTS, found["points"], strict=True))
+
+
+def assert_on_orbit(explorer, values):
+    """The point of (ω1, ω2) stands where the body is at the time that the slider shows."""
+    t, points = moment(explorer)
+    exact = exact_states(values, [t])[0]
+    # Between two samples it runs straight, a quarter of a pixel (8/600) from the curve at most.
+    assert points["omega-point"] == pytest.approx(exact[:2], abs=4e-3)
+    return t
+
+
+def wait_silence(explorer):
+    """Let the server's last acknowledgements arrive."""
+    frames = None
+    while frames != (frames := len(explorer.received)):
+        wait_frames(explorer, 12)
+
+
+def test_play_moves_the_point_in_all_four_pictures_without_the_server(explorer):
+    wait_silence(explorer)
+    state, sent, received = explorer.state, len(explorer.sent), len(explorer.received)
+    _, before = moment(explorer)
+    spot = yellow(explorer)
+    explorer.page.locator(".param-play").click()
+    assert explorer.playing
+    wait_time(explorer, "t > 1.2")
+    t, after = moment(explorer)
+    assert t < 20
+    for name in POINTS:
+        if name != "circle-point":
+            assert math.dist(before[name], after[name]) > 0.05, name
+    # In the circle map the point goes from (φ0, φ0) to (φ0, Θ(φ0)) within one period.
+    assert after["circle-point"][0] == pytest.approx(0.5, abs=1e-5)
+    assert abs(after["circle-point"][1] - 0.5) > 0.05
+    assert math.dist(spot, yellow(explorer)) > 0.02
+    assert_on_orbit(explorer, DEFAULTS)
+    explorer.page.locator(".param-play").click()
+    assert not explorer.playing
+    assert (explorer.state, len(explorer.sent), len(explorer.received)) == (state, sent, received)
+    assert explorer.ready
+
+
+def test_pause_stops_the_point_and_writes_the_time_into_the_link(explorer):
+    play = explorer.page.locator(".param-play")
+    assert play.get_attribute("aria-label") == "Play (Space)"
+    play.click()
+    assert play.get_attribute("aria-label") == "Pause (Space)"
+    wait_time(explorer, "t > 0.3")
+    play.click()
+    t = explorer.time
+    wait_frames(explorer)
+    assert explorer.time == t
+    explorer.wait_url(t=f"{t:.3f}")
+    assert_on_orbit(explorer, DEFAULTS)
+
+
+def test_steps_go_forward_and_back_and_stop_at_the_start(explorer):
+    forward, back = explorer.page.locator(".param-forward"), explorer.page.locator(".param-back")
+    for steps in (1, 2, 3):
+        forward.click()
+        assert explorer.time == pytest.approx(steps * 40.0 / 200, rel=1e-5)
+        assert_on_orbit(explorer, DEFAULTS)
+    for steps in (2, 1, 0, 0):
+        back.click()
+        assert explorer.time == pytest.approx(steps * 40.0 / 200, abs=1e-5)
+    assert explorer.page.locator(".player output").inner_text() == "t = 0.00"
+
+
+def test_the_time_slider_moves_the_point_at_once(explorer):
+    box = explorer.page.locator("input.param-t").bounding_box()
+    state, sent = explorer.state, len(explorer.sent)
+    explorer.page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    assert explorer.time == pytest.approx(20.0, abs=0.5)
+    t = assert_on_orbit(explorer, DEFAULTS)
+    assert explorer.page.locator(".player output").inner_text() == f"t = {t:.2f}"
+    assert explorer.page.locator("input.param-t").get_attribute("aria-valuetext") == f"t = {t:.2f} of 40.00"
+    explorer.page.locator("input.param-t").press("End")
+    assert explorer.time == pytest.approx(40.0, rel=1e-6)
+    assert_on_orbit(explorer, DEFAULTS)
+    assert (explorer.state, len(explorer.sent)) == (state, sent)
+
+
+@pytest.mark.parametrize("speed", ["0.5", "8"])
+def test_the_speed_is_the_one_chosen(explorer, speed):
+    explorer.page.locator(".param-speed").select_option(speed)
+    explorer.page.locator(".param-play").click()
+    elapsed, passed = explorer.page.evaluate(
+        f"""async (names) => {{
+          const at = () => ({MOMENT})(names).t
+          const frame = () => new Promise((done) => requestAnimationFrame(done))
+          for (let i = 0; i < 3; i++) await frame()
+          const [start, from] = [await frame(), at()]
+          let now = start
+          while (now - start < 900) now = await frame()
+          return [(now - start) / 1000, at() - from]
+        }}""", list(POINTS))
+    # One frame more or less; a browser under load may drop time, never gain it.
+    assert passed <= float(speed) * (elapsed + 0.15)
+    assert passed >= 0.6 * float(speed) * elapsed
+    explorer.page.locator(".param-play").click()
+    explorer.wait_url(speed=speed)
+
+
+def test_every_speed_is_offered_with_its_factor(explorer):
+    options = explorer.page.locator(".param-speed option").all_inner_texts()
+    assert options == ["0.25×", "0.5×", "1×", "2×", "4×", "8×"]
+
+
+def test_at_the_end_the_motion_begins_again(explorer):
+    explorer.set_time(39.6)
+    explorer.page.locator(".param-speed").select_option("2")
+    explorer.page.locator(".param-play").click()
+    wait_time(explorer, "t < 5")
+    assert explorer.playing
+
+
+def test_space_and_arrow_keys_work_the_player_from_anywhere_on_the_page(explorer):
+    keyboard = explorer.page.keyboard
+    keyboard.press("ArrowRight")
+    keyboard.press("ArrowRight")
+    assert explorer.time == pytest.approx(0.4, rel=1e-5)
+    keyboard.press("ArrowLeft")
+    assert explorer.time == pytest.approx(0.2, rel=1e-5)
+    keyboard.press("Space")
+    assert explorer.playing
+    wait_time(explorer, "t > 0.5")
+    keyboard.press("Space")
+    assert not explorer.playing
+    keyboard.press("Control+ArrowRight")
+    t = explorer.time
+    wait_frames(explorer, 2)
+    assert explorer.time == t
+    assert_on_orbit(explorer, DEFAULTS)
+
+
+def test_keys_that_mean_something_where_the_focus_is_leave_the_player_alone(explorer):
+    explorer.change(explorer.slider("h").press, "ArrowRight")
+    assert explorer.time == 0.0
+    box = explorer.box("h")
+    box.focus()
+    explorer.page.keyboard.press("End")
+    explorer.page.keyboard.press("Space")
+    explorer.page.keyboard.press("ArrowLeft")
+    assert box.input_value() == "1.51 "
+    explorer.sphere.press("ArrowRight")
+    assert explorer.time == 0.0
+    assert not explorer.playing
+    # On the button itself Space is a click, once.
+    explorer.page.locator(".param-play").press("Space")
+    assert explorer.playing
+
+
+def test_the_motion_goes_on_along_the_new_orbit_when_a_slider_moves(explorer):
+    explorer.page.locator(".param-play").click()
+    wait_time(explorer, "t > 0.4")
+    explorer.change(lambda: explorer.slide(h=0.3))
+    t = assert_on_orbit(explorer, {**DEFAULTS, "h": 0.3})
+    assert explorer.playing
+    wait_time(explorer, f"t > {t + 0.3}")
+    explorer.page.locator(".param-play").click()
+    explorer.set_time(30.0)
+    # An orbit that ends earlier takes the time with it.
+    explorer.change(lambda: explorer.slide(span=10.0))
+    assert explorer.time == pytest.approx(10.0, rel=1e-6)
+    assert_on_orbit(explorer, {**DEFAULTS, "h": 0.3, "span": 10.0})

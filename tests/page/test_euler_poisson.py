@@ -1,0 +1,324 @@
+"""The scene "Euler–Poisson: sections" in a browser: examples, clicks, a box, Undo, Clear, Stop, links, refusals."""
+
+from __future__ import annotations
+
+import math
+import re
+from urllib.parse import parse_qsl, urlencode, urlsplit
+
+import numpy as np
+import pytest
+
+from hess_explorer.headless.browser import wait_ready
+from hess_explorer.headless.screenshot import running_server
+from hess_explorer.protocol.parameters import places
+from support.euler_poisson import EP, NUMBER, View
+from support.page import ENTER, Explorer, flat, one_tab
+from support.pointer import at
+
+tab = pytest.fixture(scope="module")(one_tab)
+SMALL = {"orbits": 8.0, "count": 40.0, "long": 20.0, "span": 5.0}
+
+
+def said(explorer, picture, pattern):
+    """The numbers where the pattern has #, in a caption."""
+    text = explorer.caption(picture)
+    found = re.search(re.escape(pattern).replace(r"\#", NUMBER).replace(r"\ ", r"\s"), text)
+    assert found, (pattern, text)
+    return [float(number.replace("−", "-")) for number in found.groups()]
+
+
+def values_of(explorer):
+    # The address bar follows after a pause of 0.4 s.
+    explorer.page.evaluate("new Promise((done) => setTimeout(done, 450))")
+    query = dict(parse_qsl(urlsplit(explorer.page.url).query, keep_blank_values=True))
+    return {spec.name: type(spec.default)(query[spec.name]) for spec in EP.specs}
+
+
+def completed(explorer):
+    """The page with all that its state needs."""
+    assert explorer.text("notes") == ""
+    return explorer
+
+
+def opened(tab, **values):
+    """The page with a small section; without opening it anew where the boxes can say all of it."""
+    tab.page.mouse.up()
+    if values or not tab.page.url.startswith(tab.base) or not tab.ready or tab.scene != EP.name:
+        tab.open(urlencode({"scene": EP.name, **SMALL, **values}))
+    else:
+        tab.change(tab.page.locator(".param-reset").click)
+        tab.change(lambda: tab.page.evaluate(ENTER, [*SMALL.items()]))
+    return completed(tab)
+
+
+@pytest.fixture
+def page(tab):
+    yield tab
+    tab.assert_quiet()
+
+
+def shown_points(explorer):
+    return sum(len(explorer.data(f"section-{layer}")["x"]) for layer in ("first", "second"))
+
+
+def drawn(explorer, name):
+    """Whether something is painted on each canvas of a picture."""
+    return explorer.picture(name).evaluate(
+        """picture => {
+          const canvases = (root) => [...root.querySelectorAll("*")].flatMap((item) =>
+            [...(item.tagName === "CANVAS" ? [item] : []), ...(item.shadowRoot ? canvases(item.shadowRoot) : [])])
+          return canvases(picture).some((canvas) => canvas.getContext("2d")
+            .getImageData(0, 0, canvas.width, canvas.height).data.some((value) => value !== 0))
+        }""")
+
+
+# --- Examples ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("preset", EP.presets, ids=lambda preset: preset.name)
+def test_an_example_is_drawn_with_the_numbers_of_its_captions(page, preset):
+    if not page.page.url.startswith(page.base) or page.scene != EP.name:
+        opened(page)
+    if page.chosen("preset") != preset.name:
+        page.change(page.choose, "preset", preset.name)
+    completed(page)
+    values = {**EP.defaults(), **preset.values}
+    page.wait_url(**values)
+    kept, count = said(page, "section", "keeps its sign along # of # orbits")
+    assert count == values["orbits"]
+    assert (kept == count) is (values["away"] == 0.0)
+    assert shown_points(page) == count * values["count"]
+    exponent, span = said(page, "exponent", "λ = # after t = #")
+    assert span == values["long"]
+    assert page.data("exponent-lambda")["ys"][0][-1] == pytest.approx(exponent, rel=6e-3)
+    low, high = said(page, "rotation", "From # to #")
+    rho = flat(page.data("rotation-rho")["ys"])
+    assert (min(rho), max(rho)) == (pytest.approx(low, abs=6e-5), pytest.approx(high, abs=6e-5))
+    for picture in EP.pictures:
+        assert drawn(page, picture)
+        words = page.picture(picture).locator(".caption")
+        assert words.evaluate("words => words.scrollHeight <= words.clientHeight"), words.inner_text()
+    assert all(isinstance(x, str) or math.isfinite(x) for x in flat(page.data("data-orbit")))
+
+
+# --- What a user does --------------------------------------------------------------------------------
+
+
+def test_a_slider_changes_the_section(page):
+    opened(page)
+    before = page.data("section-first")
+    page.change(lambda: page.slide(h=30.0))
+    completed(page)
+    assert values_of(page)["h"] == 30.0
+    assert page.data("section-first") != before
+    view = View({**SMALL, "h": 30.0})
+    drawn_points = page.data("section-first")
+    assert np.column_stack([drawn_points["x"], drawn_points["y"]]) == pytest.approx(view.points("first"), abs=1e-6)
+
+
+def test_a_click_starts_an_orbit_undo_and_clear_take_it_back(page):
+    opened(page)
+    (x, y), _ = at(page, "section", 0.8, -0.35)
+    page.change(lambda: page.page.mouse.click(x, y))
+    completed(page)
+    first, second = places(values_of(page)["starts"])
+    assert first == (0.0, 0.2)
+    assert second == (pytest.approx(0.8, abs=0.03), pytest.approx(-0.35, abs=0.01))
+    rings = page.data("section-chosen")
+    assert (rings["x"][1], rings["y"][1]) == (pytest.approx(second[0]), pytest.approx(second[1]))
+    own = page.data("section-own")
+    assert len(own["x"]) == 2 * SMALL["count"]
+    page.change(page.page.locator(".param-undo").click)
+    completed(page)
+    assert values_of(page)["starts"] == "0,0.2"
+    assert len(page.data("section-own")["x"]) == SMALL["count"]
+    for x, y in ((0.8, -0.35), (-1.0, 0.5)):
+        (left, top), _ = at(page, "section", x, y)
+        page.change(lambda left=left, top=top: page.page.mouse.click(left, top))
+    assert len(places(values_of(page)["starts"])) == 3
+    page.change(page.page.locator(".param-clear").click)
+    completed(page)
+    assert values_of(page)["starts"] == "0,0.2"
+
+
+def test_a_box_looks_closer_and_undo_looks_at_the_whole_again(page):
+    opened(page)
+    (x0, y0), _ = at(page, "section", -2.25, -0.27)
+    (x1, y1), _ = at(page, "section", -1.45, 0.33)
+    page.page.mouse.move(x0, y0)
+    page.page.mouse.down()
+    page.page.mouse.move(0.5 * (x0 + x1), 0.5 * (y0 + y1), steps=4)
+    page.page.mouse.move(x1, y1, steps=4)
+    page.change(page.page.mouse.up)
+    completed(page)
+    (l0, low), (l1, high) = places(values_of(page)["window"])
+    assert (l0, low, l1, high) == (pytest.approx(-2.25, abs=0.04), pytest.approx(-0.27, abs=0.015),
+                                   pytest.approx(-1.45, abs=0.04), pytest.approx(0.33, abs=0.015))
+    assert page.axes("section") == pytest.approx([l0, l1, low, high], abs=1e-5)
+    # It is filled with orbits of its own, all on one side of the barrier there.
+    assert shown_points(page) == SMALL["orbits"] * SMALL["count"]
+    page.change(page.page.locator(".param-undo").click)
+    completed(page)
+    assert values_of(page)["window"] == ""
+    assert page.axes("section") == pytest.approx([-math.pi, math.pi, -1.0, 1.0], abs=1e-5)
+
+
+# --- Long work ---------------------------------------------------------------------------------------
+
+HELD_BACK = """
+import functools, sys, time
+from collections import Counter
+from pathlib import Path
+from hess_explorer.__main__ import main
+from hess_explorer.scenes import euler_poisson
+
+gate, piece, begun = Path(sys.argv.pop(1)), euler_poisson._piece, Counter()
+
+@functools.wraps(piece)
+def held(body, h, f, starts, crossings):
+    begun[h] += crossings == 4000
+    while 20 < h < 21 and begun[h] > 6 and gate.exists():
+        time.sleep(0.02)
+    return piece(body, h, f, starts, crossings)
+
+euler_poisson._piece = held
+main()
+"""
+"""The server; a section of 4000 crossings at 20 < h < 21 stops growing after six pieces, while a file is there."""
+
+
+@pytest.fixture(scope="module")
+def gate(tmp_path_factory):
+    return tmp_path_factory.mktemp("gate") / "closed"
+
+
+@pytest.fixture(scope="module")
+def held_back(browser, tmp_path_factory, gate):
+    """One tab on that server."""
+    log = tmp_path_factory.mktemp("held back") / "server.log"
+    with running_server(log, ("-c", HELD_BACK, str(gate))) as base:
+        yield from one_tab(browser, base)
+        gate.unlink(missing_ok=True)
+    assert "Traceback" not in log.read_text()
+
+
+@pytest.fixture
+def long_section(held_back, gate):
+    """long_section(h) → the page while a section of that energy is computed, of which six pieces come."""
+    def begin(h):
+        opened(held_back)
+        gate.touch()
+        held_back.type("count", "4000")
+        held_back.type("h", str(h))
+        held_back.type("orbits", "400")
+        held_back.page.locator(".computing").wait_for(state="visible")
+        held_back.page.wait_for_function("window.hess.source('section-first').data.x.length > 0")
+        return held_back
+
+    yield begin
+    gate.unlink(missing_ok=True)
+    held_back.assert_quiet()
+
+
+@pytest.mark.parametrize(("how", "h"), [("button", 20.01), ("Escape", 20.02)])
+def test_a_long_section_fills_and_can_be_stopped(long_section, gate, how, h):
+    page = long_section(h)
+    box = page.page.locator(".computing")
+    bar = box.locator("progress")
+    assert 0 < float(bar.evaluate("bar => bar.value")) < float(bar.evaluate("bar => bar.max"))
+    assert not page.ready
+    if how == "button":
+        box.locator("button").click()
+    else:
+        page.page.keyboard.press("Escape")
+    # What has begun is still drawn.
+    gate.unlink()
+    page.page.wait_for_function("document.documentElement.dataset.ready === 'true'")
+    found = re.search(r"Stopped: (\d+) of (\d+) parts are drawn\.", page.text("notes"))
+    assert found
+    done, total = map(int, found.groups())
+    assert 0 < done < total
+    box.wait_for(state="hidden")
+    points, state = shown_points(page), page.state
+    page.page.evaluate("new Promise((done) => setTimeout(done, 300))")
+    assert (shown_points(page), page.state) == (points, state)
+
+
+def test_what_is_typed_while_points_arrive_stays_in_its_box(long_section, gate):
+    page = long_section(20.03)
+    before = page.state
+    box = page.box("h")
+    box.fill("43")
+    # States of the section come between the keys.
+    page.page.wait_for_function("state => Number(document.documentElement.dataset.state) > state + 1", arg=before)
+    assert not page.ready
+    assert box.input_value() == "43"
+    box.press("End")
+    box.type(".5")
+    gate.unlink()
+    page.change(lambda: page.page.evaluate(ENTER, [*SMALL.items()]))
+    assert box.input_value() == "43.5"
+    page.change(box.press, "Enter")
+    assert values_of(page)["h"] == 43.5
+    # What was taken in is written as the server has it, in the box that still has the focus too.
+    box = page.box("span")
+    box.fill("1e9")
+    page.change(box.press, "Enter")
+    assert float(box.input_value()) == next(spec for spec in EP.specs if spec.name == "span").highest
+
+
+def test_a_newer_choice_ends_the_older_work(long_section, gate):
+    page = long_section(20.04)
+    before = page.state
+    page.page.locator(".param-reset").click()
+    gate.unlink()
+    wait_ready(page.page, after=before)
+    completed(page)
+    assert values_of(page) == EP.defaults()
+    assert shown_points(page) == 60 * 300
+
+
+# --- Links and refusals ------------------------------------------------------------------------------
+
+
+def test_a_link_brings_back_window_and_starts(page):
+    opened(page, window="0.5,-0.2;1.9,0.6", starts="0.9,0.1;1.2,0.3", h=40.0)
+    assert page.axes("section") == pytest.approx([0.5, 1.9, -0.2, 0.6], abs=1e-5)
+    rings = page.data("section-chosen")
+    assert rings["x"] == pytest.approx([0.9, 1.2])
+    assert rings["y"] == pytest.approx([0.1, 0.3])
+    values = values_of(page)
+    assert (values["window"], values["starts"]) == ("0.5,-0.2;1.9,0.6", "0.9,0.1;1.2,0.3")
+
+
+@pytest.mark.parametrize(("name", "text"), [
+    ("starts", "nan,0"), ("window", "1,2,3"), ("starts", "<script>alert(1)</script>")])
+def test_bad_places_in_a_link_are_replaced_and_said(page, name, text):
+    page.open(urlencode({"scene": EP.name, **SMALL, name: text}))
+    assert "could not be read: what it is at first is shown" in page.text("notes")
+    assert text not in page.page.locator("body").inner_text()
+    assert values_of(page)[name] == EP.defaults()[name]
+    assert shown_points(page) > 0
+
+
+@pytest.mark.parametrize(("values", "words"), [
+    ({"I2": 2.0}, "must lie between I1 = 1 and I3 = 0.375"),
+    ({"h": -50.0}, "Nothing is possible here with h = -50 and f = 5: choose a larger h")])
+def test_a_refusal_is_a_sentence_and_the_way_back_is_open(page, values, words):
+    page.open(urlencode({"scene": EP.name, **SMALL, **values}))
+    assert words in page.text("status")
+    assert words in page.caption("section")
+    assert shown_points(page) == 0
+    page.change(page.page.locator(".param-reset").click)
+    assert "must lie" not in page.text("status")
+    assert shown_points(page) > 0
+
+
+def test_a_window_where_nothing_is_possible_is_cleared(page):
+    page.open(urlencode({"scene": EP.name, **SMALL, "h": -5.5, "f": 0.0, "starts": "3,0.85",
+                         "window": "3,0.8;3.1,0.9"}))
+    assert "press Clear" in page.text("status")
+    page.change(page.page.locator(".param-clear").click)
+    assert "press Clear" not in page.text("status")
+    assert isinstance(page, Explorer)

@@ -1,0 +1,356 @@
+"""How the page looks: its layouts, light and dark, and whether everyone can use it."""
+
+from __future__ import annotations
+
+import io
+import re
+from pathlib import Path
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from PIL import Image, ImageStat
+
+from hess_explorer.headless.browser import wait_ready
+from hess_explorer.protocol.wire import Wire
+from hess_explorer.scenes import scenes
+from support.page import HESS, SLIDERS, STUDY, Explorer
+
+SIZES = {"wide": (1600, 950), "laptop": (1280, 720), "phone": (390, 844)}
+COLUMNS = {"wide": 4, "laptop": 2, "phone": 1}
+SCENES = [name for name, scene in scenes().items() if scene.origin in (None, HESS)]
+LOOKS = [
+    *((scene, size, "light") for size in SIZES for scene in SCENES),
+    *((scene, "wide", "dark") for scene in SCENES),
+    *((HESS, size, "dark") for size in SIZES if size != "wide"),
+]
+# One list for all tests, and the scope of a module: so all that looks at one scene is done before the next is entered.
+every_look = pytest.mark.parametrize("look", LOOKS, indirect=True, scope="module", ids="-".join)
+
+
+@pytest.fixture(scope="module")
+def look_at(browser, server):
+    """look_at(scene, size, theme) → the page with that scene in its first state: one for each size and theme."""
+    tabs = {}
+
+    def enter(scene, size="wide", theme="light"):
+        if (size, theme) not in tabs:
+            width, height = SIZES[size]
+            context = browser.new_context(viewport={"width": width, "height": height})
+            tabs[size, theme] = Explorer(context.new_page(), server).open(f"scene={scene}&theme={theme}")
+        tab = tabs[size, theme]
+        tab.page.locator(".MuiBackdrop-root").first.wait_for(state="hidden")
+        if tab.page.evaluate("document.documentElement.dataset.scene") != scene:
+            tab.change(tell, tab.page, "scene", scene)
+        return tab.page
+
+    yield enter
+    for tab in tabs.values():
+        tab.assert_quiet()
+        tab.page.context.close()
+
+
+@pytest.fixture(scope="module")
+def look(look_at, request):
+    """(page, scene, size, theme)."""
+    return look_at(*request.param), *request.param
+
+
+def tell(page, name, detail=None):
+    """What the controls say when they are used, also where they are behind the menu button."""
+    page.evaluate("([name, detail]) => document.dispatchEvent(new CustomEvent(`hess:${name}`, { detail }))",
+                  [name, detail])
+
+
+def planar(scene):
+    """The names of the pictures that Bokeh draws."""
+    return [picture.name for picture in scenes()[scene].stage(Wire()).pictures if picture.kind == "plot"]
+
+
+def drawing(page, name):
+    """A picture without its caption."""
+    inside = ":is(canvas.sphere, canvas.solid, .bk-Figure)"
+    return page.locator(f".gallery:not(.away) .picture-{name} {inside}").first
+
+
+def corner(page, name, bottom):
+    """The colour of a picture in its lower or upper left corner, where nothing is drawn."""
+    shot = Image.open(io.BytesIO(drawing(page, name).screenshot())).convert("RGB")
+    return shot.getpixel((3, shot.height - 4 if bottom else 3))
+
+
+def brightness(shot):
+    return ImageStat.Stat(shot.convert("L")).median[0]
+
+
+def seen(page):
+    return Image.open(io.BytesIO(page.screenshot()))
+
+
+@every_look
+def test_of_every_size_and_theme_a_screenshot_is_kept_and_dark_is_dark(look, artefacts):
+    # The first of all tests of a look: nothing has been scrolled yet.
+    page, scene, size, theme = look
+    shot = Image.open(io.BytesIO(page.screenshot(path=artefacts / f"{scene}-{size}-{theme}.png")))
+    assert len(shot.convert("RGB").getcolors(1 << 24)) > 500
+    assert (brightness(shot) > 200) if theme == "light" else (brightness(shot) < 60)
+
+
+@every_look
+def test_pictures_stand_in_as_many_columns_as_fit_and_are_square(look):
+    page, scene, size, _ = look
+    boxes = [drawing(page, name).bounding_box() for name in scenes()[scene].open_pictures]
+    for box in boxes:
+        assert box["width"] == pytest.approx(box["height"], abs=4)
+        assert box["width"] >= 290
+        assert box["x"] >= 0
+        assert box["x"] + box["width"] <= SIZES[size][0]
+    columns = COLUMNS[size]
+    for i, box in enumerate(boxes):
+        row = boxes[i - i % columns]
+        assert box["y"] == pytest.approx(row["y"], abs=2)
+        if i % columns:
+            assert box["x"] >= boxes[i - 1]["x"] + boxes[i - 1]["width"] - 1
+        elif i:
+            assert box["y"] >= boxes[i - 1]["y"] + boxes[i - 1]["height"] - 1
+            assert box["x"] == pytest.approx(boxes[0]["x"], abs=2)
+
+
+@every_look
+def test_nothing_is_wider_than_the_window(look):
+    page, _, size, _ = look
+    assert page.evaluate("document.documentElement.scrollWidth") <= SIZES[size][0]
+    assert page.locator(".main-content").evaluate("item => item.scrollWidth - item.clientWidth") <= 0
+
+
+# What must keep clear of each other: in the main part and beside it.
+PARTS = (
+    "h2.caption, .bk-Figure, canvas.sphere, canvas.solid, .legend li, .text.status, .words",
+    ".scenes, .menu, .number, .text.help, .param-reset, .param-link, .text.derived",
+)
+# Of those that are to be seen.
+BOXES = """items => items.filter((item) => item.checkVisibility({ visibilityProperty: true })).map((item) => {
+  const { left, top, right, bottom } = item.getBoundingClientRect()
+  return [item.className, left, top, right, bottom]
+})"""
+CUT_OFF = """items => items.filter((item) => item.checkVisibility({ visibilityProperty: true })
+    && Math.max(item.scrollHeight - item.clientHeight, item.scrollWidth - item.clientWidth) > 1)
+  .map((item) => item.textContent)"""
+
+
+@every_look
+def test_nothing_covers_anything_else_and_no_text_is_cut_off(look):
+    page, _, size, _ = look
+    for selector in PARTS:
+        parts = page.locator(selector).evaluate_all(BOXES)
+        # On a phone the controls are not there.
+        assert len(parts) >= 12 or size == "phone"
+        for i, (name, left, top, right, bottom) in enumerate(parts):
+            for other, its_left, its_top, its_right, its_bottom in parts[:i]:
+                apart = (right <= its_left + 0.5 or its_right <= left + 0.5
+                         or bottom <= its_top + 0.5 or its_bottom <= top + 0.5)
+                assert apart, (name, other)
+    assert page.locator(".text, .scene, .legend li").evaluate_all(CUT_OFF) == []
+
+
+@every_look
+def test_every_caption_fits_into_its_place(look):
+    page, scene, size, theme = look
+    # Every example where pictures are smallest: four beside each other, and on a phone.
+    examples = scenes()[scene].presets if size != "laptop" and theme == "light" else ()
+    for wish in [*(("preset", preset.name) for preset in examples), ("reset",)]:
+        before = int(page.evaluate("document.documentElement.dataset.state"))
+        tell(page, *wish)
+        wait_ready(page, after=before)
+        for name in scenes()[scene].pictures:
+            caption = page.locator(f".gallery:not(.away) .picture-{name} h2")
+            assert caption.evaluate("item => item.scrollHeight - item.clientHeight") <= 1, caption.inner_text()
+
+
+def test_on_a_phone_ready_means_that_the_pictures_can_be_seen(open_page):
+    page = open_page(size=SIZES["phone"])
+    box = drawing(page, "omega").bounding_box()
+    # A screenshot is taken now: no drawer and no veil may be over the picture any more.
+    covering = page.evaluate(
+        """([x, y]) => document.elementsFromPoint(x, y)
+          .flatMap((item) => [item, ...(item.shadowRoot?.elementsFromPoint(x, y) ?? [])])
+          .map((item) => item.className).filter((name) => /Backdrop|Drawer-paper/.test(name))""",
+        [box["x"] + box["width"] / 2, box["y"] + box["height"] / 2])
+    assert covering == []
+
+
+def test_on_a_phone_the_controls_are_behind_the_menu_button(open_page):
+    page = open_page(size=SIZES["phone"])
+    slider = page.locator(".param-h input[type=range]")
+    page.wait_for_function("item => item === null || item.getBoundingClientRect().right <= 0",
+                           arg=slider.element_handle() if slider.count() else None)
+    page.get_by_role("button").first.click()
+    slider.wait_for(state="visible")
+    page.wait_for_function("item => item.getBoundingClientRect().left >= 0", arg=slider.element_handle())
+
+
+def axis_colour(page, name="omega"):
+    return page.evaluate(
+        "name => hess.plots.find(({ model }) => model.name === name).model.below[0].major_label_text_color", name)
+
+
+def test_a_scene_that_is_entered_is_as_dark_as_one_that_a_link_opens(open_page):
+    linked, entered = open_page(f"scene={STUDY}&theme=dark"), open_page("theme=dark")
+    before = int(entered.evaluate("document.documentElement.dataset.state"))
+    entered.locator(f".param-scene-{STUDY}").click()
+    wait_ready(entered, after=before)
+    for name in planar(STUDY):
+        assert axis_colour(entered, name) == axis_colour(linked, name), name
+    assert brightness(seen(entered)) == pytest.approx(brightness(seen(linked)), abs=1)
+
+
+def luminance(colour):
+    """Relative luminance of an (r, g, b), 0 to 1, as WCAG defines it."""
+    parts = [c / 255 / 12.92 if c / 255 <= 0.04045 else ((c / 255 + 0.055) / 1.055) ** 2.4 for c in colour[:3]]
+    return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2]
+
+
+def contrast(one, other):
+    light, dark = sorted((luminance(one), luminance(other)), reverse=True)
+    return (light + 0.05) / (dark + 0.05)
+
+
+TEXTS = """names => {
+  const canvas = document.createElement("canvas").getContext("2d")
+  const rgb = (colour) => {
+    canvas.fillStyle = colour
+    canvas.fillRect(0, 0, 1, 1)
+    return [...canvas.getImageData(0, 0, 1, 1).data].slice(0, 3)
+  }
+  return names.flatMap((name) => {
+    const { below, left } = window.hess.plots.find(({ model }) => model.name === name).model
+    return [below[0], left[0]].flatMap((axis) => [axis.major_label_text_color, axis.axis_label_text_color].map(rgb))
+  })
+}"""
+
+
+@every_look
+def test_every_text_of_the_pictures_stands_out_from_what_is_behind_it(look):
+    page, scene, _, _ = look
+    names = planar(scene)
+    behind = corner(page, names[-1], bottom=True)
+    texts = page.evaluate(TEXTS, names)
+    assert len(texts) == 4 * len(names)
+    for colour in texts:
+        assert contrast(colour, behind) >= 4.5, (colour, behind)
+    if "sphere" not in scenes()[scene].pictures:
+        return
+    # The sphere writes in the colour of the page's text.
+    colour = drawing(page, "sphere").evaluate("item => getComputedStyle(item).color")
+    behind = corner(page, "sphere", bottom=False)
+    assert contrast([int(part) for part in re.findall(r"\d+", colour)[:3]], behind) >= 4.5
+
+
+def test_the_button_turns_the_page_dark_and_the_link_says_so(open_page, look_at):
+    page = open_page()
+    page.get_by_role("button", name="theme").click()
+    page.wait_for_function("location.search.includes('theme=dark')")
+    assert brightness(seen(page)) < 60
+    assert axis_colour(page) == axis_colour(look_at(HESS, theme="dark"))
+
+
+def assert_accessible(page):
+    found = Axe().run(page, options={"runOnly": ["wcag2a", "wcag2aa"]})
+    broken = [(rule["id"], node["target"], node["html"][:200])
+              for rule in found.response["violations"] for node in rule["nodes"]]
+    assert not broken, broken
+    assert len(found.response["passes"]) > 10
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_no_rule_of_wcag_is_broken(open_page, theme):
+    # A state with a note, so that all there can be is there.
+    page = open_page(f"theme={theme}&I22=0.5&I23=1.5")
+    assert page.locator(".text.notes").is_visible()
+    assert_accessible(page)
+
+
+@pytest.mark.parametrize(("size", "theme"), [("wide", "light"), ("wide", "dark"), ("phone", "light")])
+def test_no_rule_of_wcag_is_broken_in_the_accuracy_scene(look_at, size, theme):
+    assert_accessible(look_at(STUDY, size, theme))
+
+
+def test_no_rule_of_wcag_is_broken_on_a_phone_with_the_controls_away_or_there(open_page):
+    page = open_page(size=SIZES["phone"])
+    page.locator(".MuiBackdrop-root").wait_for(state="hidden")
+    assert_accessible(page)
+    page.get_by_role("button").first.click()
+    page.locator(".MuiBackdrop-root").wait_for(state="visible")
+    page.wait_for_function("() => document.getAnimations().every((one) => one.playState !== 'running')")
+    assert_accessible(page)
+
+
+def test_a_box_that_holds_no_number_says_so_to_everyone(open_page):
+    page = open_page()
+    box = page.locator(".param-h input[type=text]")
+    box.fill("abc")
+    box.press("Enter")
+    assert box.get_attribute("aria-invalid") == "true"
+    assert "number" in box.evaluate("item => item.validationMessage")
+    assert_accessible(page)
+
+
+def test_every_control_is_reached_by_the_tab_key(open_page):
+    page = open_page()
+    reached = set()
+    for _ in range(60):
+        page.keyboard.press("Tab")
+        reached |= set(page.evaluate("""() => {
+            let item = document.activeElement
+            while (item?.shadowRoot?.activeElement) item = item.shadowRoot.activeElement
+            const names = []
+            for (let at = item; at; at = at.parentElement ?? at.getRootNode().host)
+                names.push(...[...(at.classList ?? [])].filter((name) => /^param-|^sphere$/.test(name)))
+            return names
+        }"""))
+    wanted = {"param-preset", "param-accuracy", "param-reset", "param-link", "param-play", "param-t", "param-speed",
+              "sphere", *(f"param-scene-{name}" for name in SCENES), *(f"param-{name}" for name in SLIDERS)}
+    assert wanted <= reached, wanted - reached
+
+
+# --- Ticks -------------------------------------------------------------------------------------------
+
+@pytest.mark.parametrize(("ticks", "labels"), [
+    ([-4, -2, 0, 2, 4], ["−4", "−2", "0", "2", "4"]),
+    ([0.1, 0.2, 0.1 + 0.2], ["0.1", "0.2", "0.3"]),
+    # Sums of steps that should be zero.
+    ([-2e-4, 1.3e-20, 2e-4], ["−2e−4", "0", "2e−4"]),
+    ([0, 2.5e5, 5e5], ["0", "2.5e5", "5e5"]),
+    # Seven letters each: only every second has room.
+    ([0.50001, 0.50002, 0.50003, 0.50004, 0.50005], ["0.50001", "", "0.50003", "", "0.50005"]),
+    ([1.5e-7 * n for n in range(-3, 4)], ["−4.5e−7", "", "−1.5e−7", "", "1.5e−7", "", "4.5e−7"]),
+])
+def test_labels_of_ticks_are_short_and_have_room(browser, ticks, labels):
+    code = (Path(__file__).parents[2] / "static" / "ticks.js").read_text()
+    page = browser.new_page()
+    found = page.evaluate("""([code, ticks]) => {
+      const label = new Function("tick", "index", "ticks", "letters", code)
+      return ticks.map((tick, index) => label(tick, index, ticks, 26))
+    }""", [code, ticks])
+    page.close()
+    assert found == labels
+
+
+@pytest.mark.parametrize("query", [
+    "scene=free-suslov&w1=1e-4&w2=2e-4", "scene=euler-poisson&window=0.5,0.2;0.50004,0.20004&orbits=4&count=20"])
+def test_on_tiny_axes_no_label_touches_the_next(browser, server, query):
+    context = browser.new_context(viewport={"width": 1280, "height": 720})
+    page = Explorer(context.new_page(), server).open(query)
+    gaps = page.page.evaluate("""() => window.hess.plots.flatMap((plot) => plot.computed_renderer_views
+      .filter(({ model }) => model.type === "LinearAxis" && plot.model.below.includes(model)).map((axis) => {
+        const ticks = axis.tick_coords.major[0].map(Number)
+        const at = axis.coordinates.x_scale.v_compute(ticks)
+        const boxes = axis.compute_labels(ticks).items.map(({ text }, i) => [at[i], text])
+        const { ctx } = axis.layer
+        ctx.font = "12px system-ui, sans-serif"
+        const seen = boxes.filter(([, text]) => text !== "").map(([x, text]) => [x, ctx.measureText(text).width / 2])
+        return Math.min(...seen.slice(1).map(([x, half], i) => x - half - (seen[i][0] + seen[i][1])))
+      }))""")
+    assert len(gaps) >= 3
+    assert min(gaps) > 2.0
+    page.assert_quiet()
+    context.close()

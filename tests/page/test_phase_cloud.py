@@ -1,0 +1,167 @@
+"""Clouds in the browser: every example as its captions say, points between two frames, play, clicks, refusals."""
+
+import io
+import math
+from urllib.parse import urlencode
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from hess_explorer.headless.browser import wait_ready
+from hess_mechanics import ensemble, level, systems
+from hess_mechanics.chaplygin_ball.equations import BallBody
+from hess_mechanics.chaplygin_ball.phase_cloud import carried, frame_times, patch, shell
+from support.page import Explorer
+from support.phase_cloud import SCENE, captions
+
+DEFAULTS = SCENE.defaults()
+HERE = ".gallery:not(.away) .picture-{} canvas"
+BLUE, PINK = (0, 114, 178), (204, 121, 167)
+WIDTH = 600
+"""Pixels of a picture that interpolation is to be right for."""
+SOME = 1e-4
+"""The share of a small patch: some ten pixels."""
+
+# Of each cloud the columns ω1, ω2, γ1, γ2, γ3.
+CLOUDS = "canvas => canvas.clouds().map(({ w1, w2, g1, g2, g3 }) => [w1, w2, g1, g2, g3].map((one) => Array.from(one)))"
+DENSITY = "() => { const { x, y } = window.hess.source('density-now').data; return [Array.from(x), Array.from(y)] }"
+
+
+def query(**changes):
+    return urlencode({"scene": SCENE.name, **changes})
+
+
+def clouds(page):
+    """(5, n) of each cloud on the page."""
+    return [np.array(one) for one in page.locator(HERE.format("omega")).evaluate(CLOUDS)]
+
+
+def share_of(page, picture, colour):
+    """The share of a canvas's pixels that are nearly of this colour."""
+    pixels = np.asarray(Image.open(io.BytesIO(page.locator(HERE.format(picture)).screenshot())).convert("RGB"), int)
+    return float(np.mean(np.abs(pixels - colour).max(axis=2) < 40))
+
+
+def text_of(page, picture):
+    return page.locator(f".gallery:not(.away) .picture-{picture} .caption").inner_text()
+
+
+def test_every_example_is_drawn_and_says_what_the_scene_says(open_page):
+    # At t = 0 the clouds of two bodies are one.
+    page = open_page(query(t=6.0))
+    for preset in SCENE.presets:
+        state = page.evaluate("Number(document.documentElement.dataset.state)")
+        page.locator(".param-preset select").select_option(preset.name)
+        if preset.values:
+            wait_ready(page, after=state)
+        values = {**DEFAULTS, **preset.values}
+        for name, text in captions(values).items():
+            if name in SCENE.pictures:
+                assert text_of(page, name).split() == text.split(), preset.name
+        found = clouds(page)
+        beside = values["beside"] != "nothing"
+        assert [one.shape for one in found] == [(5, 5000)] * 2 if beside else [(5, 10_000)]
+        for one in found:
+            assert np.all(np.isfinite(one))
+            assert np.linalg.norm(one[2:], axis=0) == pytest.approx(np.ones(one.shape[1]), abs=1e-6)
+        for picture in ("omega", "sphere"):
+            assert share_of(page, picture, BLUE) > SOME, (preset.name, picture)
+            assert (share_of(page, picture, PINK) > SOME) == beside
+        x, y = map(np.array, page.evaluate(DENSITY))
+        # Bins of 0.25 in ln|s|.
+        assert (y * x).sum() * 0.25 == pytest.approx(1.0, abs=1e-3)
+
+
+INTERPOLATED = [
+    {},
+    {"direction": "backward"},
+    {"start": "small patch", "beside": "principal axis"},
+    {"start": "small patch", "beside": "principal axis", "D": 2.0, "b3": -2.0, "direction": "backward", "span": 8.0},
+    {"I11": 1.0, "I22": 1.5, "I13": 0.7, "I23": 1.2, "D": 3.0, "h": 3.0, "span": 11.0},
+    {"I11": 1.0, "I22": 1.0, "I13": 1.0, "I23": 1.0, "h": 1.0, "span": 10.0},
+]
+
+
+@pytest.mark.parametrize("changes", INTERPOLATED, ids=str)
+def test_between_frames_nearly_all_points_are_right_to_a_pixel(open_page, changes):
+    values = {**DEFAULTS, **changes}
+    body = BallBody(*(values[name] for name in ("I11", "I22", "I13", "I23", "D")))
+    beside = values["beside"] != "nothing"
+    count = 5000 if beside else 10_000
+    states = (patch(body, values["h"], values["angle"], values["spread"], count) if values["start"] == "small patch"
+              else shell(body, values["h"], values["spread"], count))
+    sense = -1.0 if values["direction"] == "backward" else 1.0
+    frames = frame_times(body, states, values["span"], values["b3"] if beside else 0.0)
+    page = open_page(query(**changes))
+    for frame in (0, frames.size // 2, frames.size - 2):
+        t = 0.5 * float(frames[frame] + frames[frame + 1])
+        Explorer(page, page.url).set_time(t)
+        exact = carried(body, states, np.array([0.0, sense * t]), level("precise"))
+        expected = [np.hstack([exact.omega[:, 1], exact.gamma[:, 1]])]
+        if beside:
+            principal = (body.I11, body.I22, 0.0, 0.0, body.D, 0.0, 0.0, values["b3"])
+            expected.append(ensemble(systems()["ball"], states, principal, [sense * t], level("precise")).states[:, 0])
+        half = page.evaluate("window.hess.source('omega').data.half")
+        for found, right in zip(clouds(page), expected, strict=True):
+            omega, gamma = (np.linalg.norm(found.T[:, part] - right[:, part], axis=1)
+                            for part in (slice(0, 2), slice(2, 5)))
+            for error in (omega * WIDTH / (2.0 * half), gamma * WIDTH / 2.0):
+                assert np.quantile(error, 0.99) < 1.0
+                assert error.max() < 3.0
+
+
+def test_playing_moves_the_points_and_their_density(open_page):
+    page = open_page(query(t=1.0))
+    before, density = clouds(page)[0], page.evaluate(DENSITY)
+    painted = share_of(page, "omega", BLUE)
+    Explorer(page, page.url).play_until(2.2)
+    after = clouds(page)[0]
+    moved = np.linalg.norm(after[:2] - before[:2], axis=0)
+    assert np.median(moved) > 0.1
+    # Onto the stable half, where s = 0: |s| falls.
+    s = [np.median(np.abs(DEFAULTS["I13"] * one[0] + DEFAULTS["I23"] * one[1])) for one in (before, after)]
+    assert s[1] < 0.8 * s[0]
+    assert page.evaluate(DENSITY) != density
+    assert share_of(page, "omega", BLUE) < painted
+
+
+def test_a_click_in_the_plane_puts_a_patch_there(open_page):
+    page = open_page(query())
+    canvas = page.locator(HERE.format("omega"))
+    box = canvas.bounding_box()
+    state = page.evaluate("Number(document.documentElement.dataset.state)")
+    # Up and to the left, at the centre of the frame's upper left quarter.
+    canvas.click(position={"x": 46 + (box["width"] - 54) / 4, "y": 8 + (box["height"] - 50) / 4})
+    wait_ready(page, after=state)
+    assert page.locator(".param-start select").input_value() == "small patch"
+    angle = float(page.locator(".param-angle input[type=text]").input_value())
+    assert angle == pytest.approx(0.75 * math.pi, abs=0.01)
+    (found,) = clouds(page)
+    assert math.atan2(found[1].mean(), found[0].mean()) == pytest.approx(angle, abs=0.01)
+
+
+def test_a_state_without_a_manifold_is_refused_and_nothing_stale_is_drawn(open_page):
+    page = open_page(query(I13=0.0, I23=0.0))
+    for name in SCENE.pictures:
+        assert "Choose I13 or I23 other than 0" in text_of(page, name)
+    assert clouds(page) == []
+    assert page.evaluate(DENSITY) == [[], []]
+    assert share_of(page, "omega", BLUE) == share_of(page, "sphere", BLUE) == 0.0
+    # And the next state is drawn.
+    state = page.evaluate("Number(document.documentElement.dataset.state)")
+    page.locator(".param-I23 input[type=text]").fill("0.7")
+    page.locator(".param-I23 input[type=text]").press("Enter")
+    wait_ready(page, after=state)
+    assert share_of(page, "omega", BLUE) > 0.001
+
+
+@pytest.mark.parametrize("size", [(1600, 950), (1280, 720), (390, 844)])
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_the_plane_is_drawn_in_every_window_and_theme(open_page, artefacts, size, theme):
+    page = open_page(query(t=4.0, theme=theme), size=size)
+    assert share_of(page, "omega", BLUE) > 0.002
+    box = page.locator(HERE.format("omega")).bounding_box()
+    assert box["width"] == pytest.approx(box["height"], abs=1.0)
+    assert box["x"] + box["width"] <= size[0]
+    page.screenshot(path=artefacts / f"cloud-{size[0]}-{theme}.png")

@@ -1,0 +1,800 @@
+"""Scenes in each other's place, what is in sight, what is drawn during a drag, and the player between two samples."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from pathlib import Path
+from urllib.parse import parse_qs, urlencode, urlsplit
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from hess_explorer.headless.browser import wait_ready
+from hess_explorer.headless.screenshot import running_server
+from hess_explorer.protocol.wire import Wire
+from hess_explorer.scenes import scenes
+from hess_mechanics import level, solve, systems
+from hess_mechanics.numerics.accuracy import LEVELS
+from support.board import contents, shown
+from support.page import (
+    DEFAULTS,
+    FIRST,
+    HESS,
+    STUDY,
+    Explorer,
+    default_state,
+    flat,
+    one_tab,
+    page_on_a_line,
+    wait_frames,
+    wait_time,
+)
+from support.pointer import HOME, STEP, assert_turned, at, frame
+from support.suslov_hess import assert_defaults, assert_orbit, body_of, exact_states
+
+tab = pytest.fixture(scope="module")(one_tab)
+study_tab = pytest.fixture(scope="module")(one_tab)
+explorer = pytest.fixture(default_state)
+on_a_line = pytest.fixture(page_on_a_line)
+
+SCENES = scenes()
+# Of what looks into another scene only that of the scene on show is offered.
+OFFERED = [name for name, scene in SCENES.items() if scene.origin in (None, HESS)]
+PHONE = (390, 844)
+PIXELS = 600
+"""The width of the pictures that samples and levels are right for."""
+
+
+@pytest.fixture
+def study(study_tab):
+    """The page in the default state of "Speed and accuracy"."""
+    study_tab.fresh(STUDY)
+    study_tab.assert_quiet()
+    yield study_tab
+    study_tab.assert_quiet()
+
+
+def drawn(scene, values):
+    """What the sources of the pictures that a scene shows at first hold in this state."""
+    sources = contents(shown(SCENES[scene], values)[0].sources)
+    return {name: columns for name, columns in sources.items() if name not in SCENES[scene].folded}
+
+
+def picture_of(source, scene):
+    """The picture that a source belongs to."""
+    first, *_ = source.split("-")
+    return {HESS: "omega", STUDY: "growth"}[scene] if first == "data" else first
+
+
+def alike(found, expected, within=2e-6):
+    """The same texts, and the same numbers but for rounding."""
+    texts = [[x for x in items if isinstance(x, str)] for items in (found, expected)]
+    numbers = [[x for x in items if not isinstance(x, str)] for items in (found, expected)]
+    return texts[0] == texts[1] and numbers[0] == pytest.approx(numbers[1], rel=within, abs=within)
+
+
+def assert_drawn(explorer, scene, values, *pictures):
+    """These pictures (else all) show this state: their sources hold its data."""
+    seen = set()
+    for name, columns in drawn(scene, values).items():
+        own = picture_of(name, scene)
+        # The player moves the points, and milliseconds are never twice the same.
+        if (pictures and own not in pictures) or name.endswith("-point"):
+            continue
+        data = explorer.data(name)
+        for key, column in columns.items():
+            if own == "precision" and (key == "y" or name.startswith(("precision-DOP", "precision-LSO"))):
+                continue
+            assert alike(flat(data[key]), column), (name, key)
+            seen.add(own)
+    assert seen >= set(pictures or [name for name in SCENES[scene].open_pictures if name != "sphere"])
+
+
+SOURCES = """window.hess.plots.flatMap((plot) => [...plot.model.references()])
+  .filter((model) => model.type === "ColumnDataSource" && model.name !== null).map((model) => model.name).sort()"""
+# What would grow if each change of scene left something behind.
+HELD = """[Bokeh.documents.length, Object.keys(Bokeh.index).length, document.querySelectorAll("*").length,
+  window.hess.plots.flatMap((plot) => [...plot.model.references()]).length]"""
+
+
+def listeners(explorer):
+    """How many listeners the page has for each kind of event."""
+    session = explorer.page.context.new_cdp_session(explorer.page)
+    answer = session.send("Runtime.evaluate", {
+        "expression": """JSON.stringify([document, window].map(
+          (on) => Object.entries(getEventListeners(on)).map(([kind, all]) => [kind, all.length]).sort()))""",
+        "includeCommandLineAPI": True, "returnByValue": True})
+    session.detach()
+    return json.loads(answer["result"]["value"])
+
+
+def kept(explorer):
+    """(hits, misses) of the cache, as the status line says."""
+    hits, misses = re.search(r"cache (\d+) hits, (\d+) misses", explorer.text("status")).groups()
+    return int(hits), int(misses)
+
+
+# --- The menu of scenes ------------------------------------------------------------------------------
+
+def test_the_menu_offers_the_scenes_by_name_and_says_which_is_on_show(explorer):
+    menu = explorer.page.get_by_role("group", name="Scene", exact=True)
+    for name in OFFERED:
+        button = menu.get_by_role("button", name=SCENES[name].title, exact=True)
+        assert button.get_attribute("aria-pressed") == str(name == HESS).lower()
+        assert button.get_attribute("title") == SCENES[name].summary
+    assert [button.get_attribute("data-scene") for button in menu.get_by_role("button").all()] == OFFERED
+
+
+def test_the_pictures_of_the_menu_are_drawings_and_nothing_else(explorer):
+    drawings = explorer.page.locator(".scene svg")
+    assert drawings.count() == len(OFFERED)
+    for drawing in drawings.all():
+        box = drawing.bounding_box()
+        assert min(box["width"], box["height"]) >= 40
+        assert drawing.get_attribute("aria-hidden") == "true"
+        root = ElementTree.fromstring(drawing.evaluate("item => item.outerHTML"))
+        shapes = [item.tag.split("}")[-1] for item in root.iter()][1:]
+        assert len(shapes) >= 3
+        assert set(shapes) <= {"path", "ellipse", "circle", "rect", "line", "g"}
+        attributes = {name for item in root.iter() for name in item.attrib}
+        assert not [name for name in attributes if name.startswith("on") or "href" in name or name == "style"]
+
+
+def test_the_menu_obeys_the_keyboard_and_keeps_the_focus(explorer):
+    first, other = (explorer.page.locator(f".param-scene-{name}") for name in (HESS, STUDY))
+    steps = OFFERED.index(STUDY) - OFFERED.index(HESS)
+    first.focus()
+    for _ in range(steps):
+        explorer.page.keyboard.press("Tab")
+    focused = "item => item.getRootNode().activeElement === item"
+    assert other.evaluate(focused)
+    explorer.change(explorer.page.keyboard.press, "Enter")
+    assert [item.get_attribute("aria-pressed") for item in (first, other)] == ["false", "true"]
+    assert other.evaluate(focused)
+    for _ in range(steps):
+        explorer.page.keyboard.press("Shift+Tab")
+    assert first.evaluate(focused)
+    explorer.change(explorer.page.keyboard.press, "Space")
+    assert [item.get_attribute("aria-pressed") for item in (first, other)] == ["true", "false"]
+    # Space on a button is no "play".
+    assert not explorer.playing
+
+
+# --- From one scene to another -----------------------------------------------------------------------
+
+CHANGED = {"I22": 1.25, "I23": -0.5, "b3": -2.0, "h": 0.75, "f": -0.3, "phi0": 2.0, "span": 25.0}
+
+
+def test_a_scene_changes_in_place_and_back_with_all_that_was_chosen(explorer):
+    explorer.page.evaluate("window.same = true")
+    explorer.change(lambda: explorer.slide(**CHANGED))
+    explorer.change(explorer.choose, "accuracy", "precise")
+    explorer.page.locator(".param-speed").select_option("2")
+    explorer.set_time(7.5)
+    explorer.sphere.press("ArrowUp")
+    assert_turned(explorer, HOME[0], HOME[1] + STEP)
+    values = {**DEFAULTS, **CHANGED, "accuracy": "precise"}
+    assert_drawn(explorer, HESS, values)
+    names = explorer.page.evaluate(SOURCES)
+    before = {name: explorer.data(name) for name in names}
+    captions = [explorer.caption(name) for name in SCENES[HESS].pictures]
+
+    explorer.enter(STUDY)
+    assert explorer.scene == STUDY
+    assert explorer.page.get_by_text(f"Hess Explorer · {SCENES[STUDY].title}").is_visible()
+    assert_drawn(explorer, STUDY, values)
+    assert {name: explorer.shown(name)[0] for name in CHANGED} == CHANGED
+    assert (explorer.accuracy, explorer.time) == ("precise", pytest.approx(7.5))
+    link = explorer.wait_url(scene=STUDY)
+    assert {name: float(link[name]) for name in CHANGED} == CHANGED
+    assert [cell.get_attribute("data-name") for cell in explorer.page.locator(".picture:visible").all()] == list(
+        SCENES[STUDY].pictures)
+    assert explorer.sphere.count() == 0
+
+    explorer.enter(HESS)
+    assert explorer.scene == HESS
+    assert explorer.page.evaluate("window.same")
+    assert explorer.page.evaluate(SOURCES) == names
+    for name, data in before.items():
+        assert alike(flat(explorer.data(name)), flat(data), 1e-6), name
+    assert [explorer.caption(name) for name in SCENES[HESS].pictures] == captions
+    assert {name: explorer.shown(name)[0] for name in CHANGED} == CHANGED
+    assert (explorer.accuracy, explorer.time) == ("precise", pytest.approx(7.5))
+    assert_turned(explorer, HOME[0], HOME[1] + STEP)
+    assert explorer.page.locator(".param-speed").input_value() == "2"
+
+
+def test_the_pictures_of_a_scene_are_built_while_the_mouse_rests_on_it(browser, server):
+    context = browser.new_context(viewport={"width": 1600, "height": 950})
+    page = Explorer(context.new_page(), server).open(f"scene={HESS}")
+    built = "name => window.hess.has(name)"
+    card = page.page.locator
+    passed = next(name for name in OFFERED if name not in (HESS, STUDY))
+    card(f".param-scene-{STUDY}").hover()
+    page.page.wait_for_function(built, arg=STUDY)
+    # Whom it only passes by is not built, unless the keyboard comes to it.
+    page.page.mouse.move(900, 600)
+    card(f".param-scene-{passed}").evaluate("""card => {
+      for (const name of ["pointerenter", "pointerleave"]) card.dispatchEvent(new PointerEvent(name))
+    }""")
+    page.page.evaluate("new Promise((done) => setTimeout(done, 300))")
+    assert not page.page.evaluate(built, passed)
+    card(f".param-scene-{passed}").focus()
+    page.page.wait_for_function(built, arg=passed)
+    # Nothing of it is seen.
+    assert page.scene == HESS
+    assert page.page.locator(".gallery:not(.away)").count() == 1
+    assert_drawn(page, HESS, DEFAULTS)
+    page.enter(passed)
+    assert page.scene == passed
+    assert all(page.caption(name) for name in SCENES[passed].open_pictures)
+    page.enter(HESS)
+    page.enter(STUDY)
+    assert_drawn(page, STUDY, DEFAULTS)
+    page.assert_quiet()
+    context.close()
+
+
+def test_a_motion_that_plays_is_left_where_it_is(explorer):
+    explorer.page.locator(".param-speed").select_option("8")
+    explorer.page.locator(".param-play").click()
+    wait_time(explorer, "t > 3")
+    explorer.enter(STUDY)
+    assert not explorer.playing
+    left = explorer.time
+    assert left > 3
+    explorer.enter(HESS)
+    assert explorer.time == pytest.approx(left)
+
+
+def test_ten_changes_in_quick_succession_leave_one_scene_and_nothing_of_the_others(explorer):
+    def enter(name):
+        # Without the mouse: where that rests in between, the pictures of that scene would be built.
+        explorer.page.locator(f".param-scene-{name}").dispatch_event("click")
+
+    # Each is built when it is entered first.
+    for name in (STUDY, HESS):
+        explorer.change(enter, name)
+    at_rest, held, before = listeners(explorer), explorer.page.evaluate(HELD), explorer.state
+    for _ in range(5):
+        for name in (STUDY, HESS):
+            enter(name)
+    wait_ready(explorer.page, after=before)
+    assert explorer.page.evaluate(HELD) == held
+    assert explorer.scene == HESS
+    assert_drawn(explorer, HESS, DEFAULTS)
+    assert explorer.page.evaluate(SOURCES) == sorted(set(drawn(HESS, DEFAULTS)) - {"sphere"})
+    assert listeners(explorer) == at_rest
+    assert explorer.page.locator(".picture:not(.folded):visible").count() == 4
+    # One change is one state, and one key is pressed for one player.
+    before = explorer.state
+    explorer.change(lambda: explorer.slide(h=0.75))
+    explorer.change(lambda: explorer.slide(phi0=1.0))
+    assert explorer.state == before + 2
+    assert_drawn(explorer, HESS, {**DEFAULTS, "h": 0.75, "phi0": 1.0})
+    explorer.page.evaluate("document.activeElement?.blur()")
+    explorer.page.keyboard.press("ArrowRight")
+    assert explorer.time == pytest.approx(0.2, rel=1e-5)
+    explorer.wait_url(scene=HESS, h="0.75", t="0.200")
+    (x, y), (wide, high) = at(explorer, "bifurcation", 0.5, 0.4)
+    explorer.change(explorer.page.mouse.click, x, y)
+    # On its way the mouse asks what is under it.
+    assert explorer.state in {before + 3, before + 4}
+    assert explorer.here() == (pytest.approx(0.5, abs=wide), pytest.approx(0.4, abs=high))
+
+
+SPHERES = [name for name, scene in SCENES.items()
+           if scene.origin is None and any(one.kind == one.name == "sphere" for one in scene.stage(Wire()).pictures)]
+
+
+def test_the_spheres_of_all_scenes_are_seen_from_the_same_side_as_the_link_says(explorer):
+    sphere = explorer.picture("sphere").locator("canvas")
+
+    def turn():
+        return tuple(map(float, sphere.get_attribute("data-turn").split()))
+
+    assert len(SPHERES) > 1
+    last = HOME
+    for name in [*SPHERES, *SPHERES]:
+        if name != explorer.scene:
+            explorer.enter(name)
+        assert turn() == pytest.approx(last, abs=2e-4), name
+        sphere.press("ArrowLeft")
+        sphere.press("ArrowDown")
+        wait_frames(explorer, 3)
+        last = (last[0] + STEP, last[1] - STEP)
+        assert turn() == pytest.approx(last, abs=3e-4), name
+        explorer.wait_url(az=f"{turn()[0]:.4f}", el=f"{turn()[1]:.4f}")
+        last = turn()
+
+
+def clicks(explorer, *names, change=None):
+    """Change values and click on scenes before the browser does anything else; returns what it says of being ready."""
+    return explorer.page.locator(".scenes").evaluate(
+        """(menu, [names, detail]) => {
+          if (detail) document.dispatchEvent(new CustomEvent("hess:change", { detail }))
+          for (const name of names) menu.querySelector(`.param-scene-${name}`).click()
+          return document.documentElement.dataset.ready
+        }""", [names, change])
+
+
+def test_a_choice_that_is_taken_back_at_once_changes_nothing(explorer):
+    before = explorer.state
+    assert clicks(explorer, HESS) == "true"
+    assert clicks(explorer, STUDY, HESS) == "false"
+    wait_ready(explorer.page, after=before)
+    assert explorer.scene == HESS
+    explorer.change(lambda: explorer.slide(h=0.75))
+    assert_drawn(explorer, HESS, {**DEFAULTS, "h": 0.75})
+
+
+def test_the_last_scene_that_was_clicked_counts_even_while_another_is_computed(on_a_line):
+    explorer, line = on_a_line
+    # Not built yet, then built already.
+    for h in (1.5, 0.9):
+        if h != 1.5:
+            explorer.change(explorer.type, "h", str(h))
+        line.hold()
+        before = explorer.state
+        explorer.page.locator(f".param-scene-{STUDY}").click()
+        wait_frames(explorer, 3)
+        assert not explorer.ready
+        assert explorer.scene == HESS
+        explorer.page.locator(f".param-scene-{HESS}").click()
+        wait_frames(explorer, 3)
+        line.release()
+        # One answer for each click.
+        wait_ready(explorer.page, after=before + 1)
+        assert explorer.scene == HESS
+        assert_drawn(explorer, HESS, {**DEFAULTS, "h": h})
+        assert explorer.shown("h") == (h, h)
+
+
+def test_a_slider_that_is_only_touched_while_a_scene_is_on_its_way_leaves_the_new_controls_whole(on_a_line):
+    explorer, line = on_a_line
+    for scene in (STUDY, HESS):
+        line.hold()
+        before = explorer.state
+        explorer.page.locator(f".param-scene-{scene}").click()
+        wait_frames(explorer, 3)
+        box = explorer.slider("h").bounding_box()
+        x = box["x"] + 8 + (1.5 + 0.99) / 4.99 * (box["width"] - 16)
+        explorer.page.mouse.click(x, box["y"] + box["height"] / 2)
+        wait_frames(explorer, 3)
+        line.release()
+        wait_ready(explorer.page, after=before + 1)
+        assert_defaults(explorer, scene, h=explorer.shown("h")[0])
+        assert explorer.shown("h")[0] == pytest.approx(1.5, abs=0.1)
+        assert explorer.chosen("preset") in (SCENES[HESS].presets[0].name, "Choose an example…")
+
+
+def test_a_control_that_is_moved_on_is_not_moved_back_by_an_older_answer_and_the_others_follow(on_a_line):
+    explorer, line = on_a_line
+    line.hold()
+    before = explorer.state
+    explorer.choose("preset", "No cycle: every orbit winds")
+    wait_frames(explorer, 3)
+    explorer.slide(phi0=1.0)
+    explorer.slider("phi0").evaluate("""slider => {
+      window.shown = []
+      document.addEventListener("hess:controls", () => shown.push(Number(slider.value)))
+    }""")
+    line.release()
+    wait_ready(explorer.page, after=before + 1)
+    assert_drawn(explorer, HESS, {**DEFAULTS, "h": 0.2, "f": 0.5, "phi0": 1.0})
+    assert set(explorer.page.evaluate("shown")) == {1.0}
+    for name, value in {"h": 0.2, "f": 0.5, "phi0": 1.0}.items():
+        assert explorer.shown(name) == (value, value)
+
+
+def test_values_that_change_on_the_way_to_another_scene_arrive_there(explorer):
+    before = explorer.state
+    explorer.slide(h=0.9)
+    clicks(explorer, STUDY, change={"phi0": 1.0})
+    wait_ready(explorer.page, after=before)
+    assert explorer.scene == STUDY
+    assert_drawn(explorer, STUDY, {**DEFAULTS, "h": 0.9, "phi0": 1.0})
+    assert explorer.shown("h") == (0.9, 0.9)
+
+
+def test_a_state_that_was_seen_before_is_not_computed_again(explorer, study):
+    for page in (explorer, study):
+        page.change(lambda page=page: page.slide(phi0=2.34))
+        _, misses = kept(page)
+        page.change(lambda page=page: page.slide(phi0=2.36))
+        hits, more = kept(page)
+        assert more > misses
+        page.change(lambda page=page: page.slide(phi0=2.34))
+        assert kept(page)[0] > hits
+        assert kept(page)[1] == more
+
+
+def test_a_link_leads_into_a_scene(explorer):
+    values = {**DEFAULTS, "h": 0.75, "f": 0.2, "span": 60.0, "accuracy": "draft"}
+    explorer.open(urlencode({"scene": STUDY, **values, "t": 12.5}))
+    assert explorer.scene == STUDY
+    assert_drawn(explorer, STUDY, values)
+    assert explorer.time == pytest.approx(12.5)
+    assert explorer.text("notes") == ""
+    # What is drawn is the difference of two computations.
+    truth, drafted = (
+        solve(systems()["suslov"], exact_states(values, [0.0])[0], body_of(values).suslov.parameters,
+              np.linspace(0.0, 60.0, 400), level(name)).states for name in ("reference", "draft"))
+    error = np.max(np.abs(drafted - truth))
+    shown = explorer.data("growth-draft")
+    assert (shown["x"][0], shown["x"][-1]) == (0.0, pytest.approx(60.0))
+    # In other variables: of the same size.
+    assert error / 10 < max(shown["y"]) < 10 * error
+    explorer.enter(HESS)
+    assert_orbit(explorer, values, within=1e-3)
+
+
+def test_a_link_into_no_scene_opens_the_first_one_and_says_so(explorer):
+    explorer.open("scene=nowhere&h=0.75")
+    assert_defaults(explorer, FIRST, h=0.75)
+    assert explorer.text("notes").startswith("Scene was not one of")
+    assert "nowhere" not in explorer.text("notes")
+    explorer.wait_url(scene=FIRST)
+
+
+# --- Speed and accuracy ------------------------------------------------------------------------------
+
+def test_every_slider_of_the_accuracy_scene_draws_its_state(study):
+    for name, value in CHANGED.items():
+        before = study.state
+        study.change(lambda name=name, value=value: study.slide(**{name: value}))
+        assert study.state == before + 1
+    assert_drawn(study, STUDY, {**DEFAULTS, **CHANGED})
+    assert study.text("notes") == ""
+
+
+def test_an_example_and_reset_set_the_state_of_the_accuracy_scene(study):
+    study.change(study.choose, "preset", "No cycle: every orbit winds")
+    assert_drawn(study, STUDY, {**DEFAULTS, "h": 0.2, "f": 0.5})
+    study.change(study.choose, "accuracy", "draft")
+    assert study.text("status").startswith("draft chosen")
+    study.change(study.page.locator(".param-reset").click)
+    assert_drawn(study, STUDY, DEFAULTS)
+    assert (study.accuracy, study.scene) == ("standard", STUDY)
+
+
+def test_the_copied_link_leads_into_the_accuracy_scene(study):
+    study.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    study.change(lambda: study.slide(h=0.75))
+    study.page.locator(".param-link").click()
+    copied = parse_qs(urlsplit(study.page.evaluate("navigator.clipboard.readText()")).query)
+    assert (copied["scene"], copied["h"]) == ([STUDY], ["0.75"])
+
+
+def test_the_caption_and_the_status_say_what_is_drawn(study):
+    for name in ("draft", "reference", "standard"):
+        if study.accuracy != name:
+            study.change(study.choose, "accuracy", name)
+        drawn_errors = study.data(f"growth-{name}")["y"]
+        last = float(re.search(r"([\d.]+(?:e−\d+)?) at the end", study.caption("growth"))[1].replace("−", "-"))
+        assert last == pytest.approx(drawn_errors[-1], rel=0.06)
+        assert study.text("status").startswith(f"{name} chosen")
+        assert study.data("growth-limit")["y"][0] == LEVELS[name].promise
+        ring = study.data("precision-chosen")
+        marks = study.data("precision-Taylor-marks")
+        place = list(LEVELS).index(name)
+        assert (ring["x"][0], ring["y"][0]) == pytest.approx((marks["x"][place], marks["y"][place]), rel=1e-6)
+
+
+def test_the_points_move_along_the_curves_of_the_chosen_level(study):
+    points = ("growth", "drift", "pixels")
+
+    def places():
+        return {name: study.data(f"{name}-point") for name in points}
+
+    state, before = study.state, places()
+    study.page.locator(".param-speed").select_option("4")
+    study.page.locator(".param-play").click()
+    study.page.wait_for_function("window.hess.source('growth-point').data.x[0] > 2")
+    study.page.locator(".param-play").click()
+    after, t = places(), study.time
+    for name in points:
+        assert after[name]["x"][0] == pytest.approx(t, abs=1e-5)
+        assert after[name]["y"][0] > before[name]["y"][0]
+    for level_name in ("standard", "precise"):
+        if study.accuracy != level_name:
+            study.change(study.choose, "accuracy", level_name)
+        for name in ("growth", "pixels"):
+            curve = study.data(f"{name}-{level_name}")
+            assert study.data(f"{name}-point")["y"][0] == pytest.approx(np.interp(t, curve["x"], curve["y"]), rel=1e-3)
+        largest = np.max([np.interp(t, *study.data(f"drift-integral-{i}").values()) for i in range(3)])
+        assert study.data("drift-point")["y"][0] == pytest.approx(largest, rel=0.5)
+    assert study.data("precision-point")["x"] == []
+    assert study.state == state + 1
+
+
+def test_a_click_on_the_cost_of_a_level_chooses_it(study):
+    left, top, right, bottom = frame(study, "precision")
+    x0, x1, y0, y1 = (math.log10(end) for end in study.axes("precision"))
+    for name in ("draft", "precise", "reference", "standard"):
+        marks, place = study.data("precision-Taylor-marks"), list(LEVELS).index(name)
+        x = left + (math.log10(marks["x"][place]) - x0) / (x1 - x0) * (right - left)
+        y = bottom - (math.log10(marks["y"][place]) - y0) / (y1 - y0) * (bottom - top)
+        study.change(study.page.mouse.click, x, y)
+        assert study.accuracy == name
+        assert study.text("status").startswith(f"{name} chosen")
+
+
+# --- What cannot be computed -------------------------------------------------------------------------
+
+REFUSING = """
+import sys
+
+sys.path.insert(0, {root!r})
+from hess_explorer.scenes import speed_accuracy, suslov_hess
+from hess_mechanics.errors import WorkLimit
+
+
+def refusing(function, span):
+    def refuse(*arguments):
+        if arguments[span] > 100.0:
+            raise WorkLimit("That would take too many steps: choose a shorter time span.")
+        return function(*arguments)
+    return refuse
+
+
+speed_accuracy.growth = refusing(speed_accuracy.growth, 3)
+suslov_hess.track = refusing(suslov_hess.track, 4)
+"""
+SENTENCE = "That would take too many steps: choose a shorter time span."
+
+
+@pytest.fixture(scope="module")
+def refusing(browser, tmp_path_factory):
+    """A page whose server refuses time spans above 100: no admissible state is refused by the mechanics themselves."""
+    folder = tmp_path_factory.mktemp("refusing")
+    (folder / "sitecustomize.py").write_text(REFUSING.format(root=str(Path(__file__).parents[2])))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PYTHONPATH", str(folder))
+        with running_server(folder / "server.log") as base:
+            yield from one_tab(browser, base)
+    assert "Traceback" not in (folder / "server.log").read_text()
+
+
+def assert_refused(explorer, scene):
+    """Every picture says why, and shows nothing of another state."""
+    assert explorer.text("status").startswith(SENTENCE)
+    assert explorer.text("derived") == ""
+    for name in SCENES[scene].pictures:
+        assert explorer.caption(name) == SENTENCE
+    # What is true of every state may stay.
+    general = {"bifurcation-curve", "bifurcation-forbidden", "bifurcation-special"}
+    for name in explorer.page.evaluate(SOURCES):
+        data = flat(explorer.data(name))
+        said = " ".join(item for item in data if isinstance(item, str)).replace("\n", " ")
+        assert data == [] or name in general or (name.endswith("-message") and said == SENTENCE), name
+    assert explorer.shown("span") == (150.0, 150.0)
+    assert explorer.ready
+
+
+def test_what_cannot_be_computed_is_said_in_both_scenes_and_nothing_of_another_state_stays(refusing):
+    refusing.open()
+    refusing.set_time(10.0)
+    refusing.change(lambda: refusing.slide(span=150.0))
+    assert_refused(refusing, HESS)
+    refusing.enter(STUDY)
+    assert_refused(refusing, STUDY)
+    # All is there again when it can be.
+    refusing.change(lambda: refusing.slide(span=60.0))
+    assert_drawn(refusing, STUDY, {**DEFAULTS, "span": 60.0})
+    assert refusing.time == pytest.approx(10.0)
+    refusing.change(lambda: refusing.slide(span=150.0))
+    assert_refused(refusing, STUDY)
+    refusing.enter(HESS)
+    assert_refused(refusing, HESS)
+    refusing.change(lambda: refusing.slide(span=50.0))
+    assert_drawn(refusing, HESS, {**DEFAULTS, "span": 50.0})
+    assert not refusing.text("status").startswith(SENTENCE)
+    refusing.assert_quiet()
+
+
+# --- What is in sight --------------------------------------------------------------------------------
+
+@pytest.fixture
+def phone(open_page, server):
+    """phone(query) → a page on a phone."""
+    def open_one(query=""):
+        explorer = Explorer(open_page(query, size=PHONE, has_touch=True, is_mobile=True), server)
+        explorer.page.locator(".MuiBackdrop-root").wait_for(state="hidden")
+        return explorer
+    return open_one
+
+
+def send(explorer, **values):
+    """Change numbers as their controls do, which are not there on a phone while their drawer is closed."""
+    explorer.change(lambda: explorer.page.evaluate(
+        "detail => document.dispatchEvent(new CustomEvent('hess:change', { detail }))", values))
+
+
+def in_sight(explorer, name):
+    box = explorer.picture(name).locator("h2").bounding_box()
+    return box["y"] < PHONE[1]
+
+
+def test_on_a_phone_what_is_out_of_sight_waits_until_it_is_scrolled_there(phone):
+    explorer = phone()
+    assert in_sight(explorer, "omega")
+    assert not in_sight(explorer, "bifurcation")
+    waiting = ("bifurcation-boundary", "bifurcation-locked")
+    before = {name: explorer.data(name) for name in waiting}
+    values = {**DEFAULTS, "I23": 0.6, "h": 0.9}
+    send(explorer, I23=0.6)
+    send(explorer, h=0.9)
+    assert_drawn(explorer, HESS, values, "omega")
+    assert {name: explorer.data(name) for name in waiting} == before
+    # Its caption is none of what takes time.
+    assert "h = 0.9" in explorer.caption("bifurcation")
+    state = explorer.state
+    explorer.change(explorer.picture("bifurcation").scroll_into_view_if_needed)
+    assert {name: explorer.data(name) for name in waiting} != before
+    assert_drawn(explorer, HESS, values)
+    # What comes back into sight and is of this state is not sent again.
+    assert explorer.state <= state + 2
+    explorer.assert_quiet()
+
+
+def test_on_a_phone_the_costs_are_measured_only_where_they_are_seen(phone):
+    explorer = phone(f"scene={STUDY}")
+    explorer.page.locator(".words").scroll_into_view_if_needed()
+    explorer.picture("pixels").locator("canvas").first.scroll_into_view_if_needed()
+    wait_frames(explorer, 6)
+    before = {name: explorer.data(name) for name in ("precision-Taylor", "precision-chosen")}
+    values = {**DEFAULTS, "h": 0.9}
+    send(explorer, h=0.9)
+    assert_drawn(explorer, STUDY, values, "growth", "drift", "pixels")
+    assert {name: explorer.data(name) for name in before} == before
+    explorer.change(explorer.picture("precision").scroll_into_view_if_needed)
+    assert_drawn(explorer, STUDY, values)
+    assert explorer.data("precision-Taylor") != before["precision-Taylor"]
+    explorer.assert_quiet()
+
+
+def test_where_all_pictures_are_in_sight_each_change_draws_all_of_them(explorer):
+    for values in ({"I23": 0.6}, {"h": 0.9}, {"phi0": -1.0}):
+        explorer.change(lambda values=values: explorer.slide(**values))
+        assert_drawn(explorer, HESS, {**DEFAULTS, "I23": 0.6, **values} if "I23" in values else {
+            **DEFAULTS, "I23": 0.6, **({"h": 0.9} if "phi0" in values else {}), **values})
+
+
+def test_on_a_phone_the_controls_say_what_is_on_the_screen_whenever_they_are_opened(phone):
+    explorer = phone("h=0.75")
+    page = explorer.page
+
+    def opened():
+        page.get_by_role("button").first.click()
+        explorer.box("h").wait_for(state="visible")
+
+    def close():
+        page.locator(".MuiBackdrop-root").first.click(position={"x": 350, "y": 400})
+        page.locator(".MuiBackdrop-root").first.wait_for(state="hidden")
+
+    send(explorer, h=0.9)
+    opened()
+    assert explorer.shown("h") == (0.9, 0.9)
+    assert "E = I₁₁ b h = 0.9375" in explorer.text("derived")
+    explorer.change(explorer.type, "h", "1.25")
+    at_rest = listeners(explorer)
+    close()
+    opened()
+    assert explorer.shown("h") == (1.25, 1.25)
+    assert listeners(explorer) == at_rest
+    # Another scene is chosen here, and seen at once under the veil.
+    explorer.enter(STUDY)
+    assert explorer.shown("h") == (1.25, 1.25)
+    assert "Suslov–Hess" in explorer.text("derived")
+    close()
+    assert_drawn(explorer, STUDY, {**DEFAULTS, "h": 1.25})
+    explorer.assert_quiet()
+
+
+# --- While a slider is held --------------------------------------------------------------------------
+
+def pixels_off(explorer, found, exact):
+    """How far two states (ω1, ω2, γ1, γ2, γ3) are apart in the pictures, in pixels, the larger of plane and sphere."""
+    left, right, *_ = explorer.axes("omega")
+    difference = np.asarray(found) - exact
+    plane = np.hypot(difference[:, 0], difference[:, 1]) * PIXELS / (right - left)
+    sphere = np.linalg.norm(difference[:, 2:], axis=1) * PIXELS / 2
+    return np.maximum(plane, sphere)
+
+
+STATE = ("omega1", "omega2", "g1", "g2", "g3")
+
+
+@pytest.mark.parametrize("chosen", ["standard", "reference"])
+def test_while_a_slider_is_held_the_draft_is_drawn_right_to_half_a_pixel_and_then_the_chosen_level(explorer, chosen):
+    if chosen != "standard":
+        explorer.change(explorer.choose, "accuracy", chosen)
+    explorer.change(lambda: explorer.slide(span=100.0))
+    box, mouse = explorer.slider("h").bounding_box(), explorer.page.mouse
+    middle = box["y"] + box["height"] / 2
+    mouse.move(box["x"] + 0.6 * box["width"], middle)
+    explorer.change(mouse.down)
+    for share in (0.41, 0.2, 0.9):
+        explorer.change(mouse.move, box["x"] + share * box["width"], middle)
+        assert explorer.text("status").startswith("draft:")
+        assert explorer.accuracy == chosen
+        orbit = explorer.data("data-orbit")
+        values = {**DEFAULTS, "span": 100.0, "h": explorer.shown("h")[1]}
+        exact = exact_states(values, orbit["t"])
+        assert np.max(pixels_off(explorer, np.column_stack([orbit[name] for name in STATE]), exact)) < 0.5
+    explorer.change(mouse.up)
+    assert explorer.text("status").startswith(f"{chosen}:")
+    assert_drawn(explorer, HESS, {**DEFAULTS, "span": 100.0, "h": explorer.shown("h")[0], "accuracy": chosen})
+
+
+def test_while_a_slider_is_held_the_slow_methods_are_not_measured(study):
+    box, mouse = study.slider("h").bounding_box(), study.page.mouse
+    middle = box["y"] + box["height"] / 2
+    mouse.move(box["x"] + 0.5 * box["width"], middle)
+    mouse.down()
+    study.change(mouse.move, box["x"] + 0.4 * box["width"], middle)
+    assert study.data("precision-DOP853-marks")["x"] == []
+    assert len(study.data("precision-Taylor-marks")["x"]) == 4
+    study.change(mouse.up)
+    assert len(study.data("precision-DOP853-marks")["x"]) == 3
+    assert len(study.data("precision-LSODA-marks")["x"]) == 3
+
+
+# --- Between two samples -----------------------------------------------------------------------------
+
+# What the player tells the sphere, and where it puts the points of the other pictures, at each of these times.
+TOLD = """(slider, times) => {
+  const of = (name) => { const { x, y } = window.hess.source(name).data; return [x[0], y[0]] }
+  let told = null
+  const hear = (event) => { told = event.detail }
+  document.addEventListener("hess:time", hear)
+  const all = times.map((t) => {
+    slider.value = t
+    slider.dispatchEvent(new Event("input"))
+    return { ...told.state, t: told.t, points: ["omega-point", "bifurcation-point", "circle-point"].map(of) }
+  })
+  document.removeEventListener("hess:time", hear)
+  return all
+}"""
+
+
+@pytest.mark.parametrize("values", [
+    {}, {"span": 200.0}, {"h": 1.001, "f": 0.02, "span": 100.0}, {"I22": 0.5, "I23": 1.5}, {"h": 0.3, "f": 0.001},
+    {"b3": -3.0, "h": 3.9, "f": 0.1}, {"h": -0.98, "f": 0.01},
+], ids=["default", "long", "near the separatrix", "strong contraction", "through w = 0", "fast", "small"])
+def test_the_moving_point_is_right_to_half_a_pixel_at_any_time(explorer, values):
+    explorer.change(lambda: explorer.page.evaluate(
+        "detail => document.dispatchEvent(new CustomEvent('hess:change', { detail }))", {"h": 0.5, **values}))
+    values = {**DEFAULTS, "h": 0.5, **values}
+    samples = np.array(explorer.data("data-orbit")["t"])
+    # The samples follow the curve: they are not even in time.
+    gaps = np.diff(samples)
+    assert gaps.max() > 1.2 * gaps.min()
+    among = np.random.default_rng(5).uniform(0.0, samples[-1], 200)
+    times = np.sort([0.0, *among, *samples[1:-1:len(samples) // 20], samples[-1]])
+    told = explorer.page.locator("input.param-t").evaluate(TOLD, times.tolist())
+    assert [moment["t"] for moment in told] == pytest.approx(times, abs=1e-9)
+    exact = exact_states(values, times)
+    found = np.array([[moment[name] for name in STATE] for moment in told])
+    assert np.max(pixels_off(explorer, found, exact)) < 0.5
+    points = np.array([moment["points"][0] for moment in told])
+    assert points == pytest.approx(found[:, :2])
+
+
+def test_at_the_default_state_the_point_is_right_in_the_other_planes_too(explorer):
+    samples = explorer.data("data-orbit")["t"]
+    times = np.sort(np.random.default_rng(6).uniform(0.0, samples[-1], 200))
+    told = explorer.page.locator("input.param-t").evaluate(TOLD, times.tolist())
+    body = body_of(DEFAULTS)
+    w1, w2, n1, n2, _ = body.in_units_of_b(body.to_reduced(exact_states(DEFAULTS, times))).T
+    reach = np.hypot(DEFAULTS["f"], n1 * w2 - n2 * w1)
+    _, _, low, high = explorer.axes("bifurcation")
+    _, top, _, bottom = frame(explorer, "bifurcation")
+    off = np.abs([moment["points"][1][1] for moment in told] - reach)
+    assert np.max(off) < 0.5 * (high - low) / (bottom - top)
+    turned = np.array([moment["points"][2][1] for moment in told]) - np.arctan2(w1, w2)
+    assert np.max(np.abs(np.angle(np.exp(1j * turned)))) < 0.5 * 2 * math.pi / PIXELS

@@ -1,0 +1,296 @@
+"""The link: what it says is read key by key and never trusted; and which states a scene admits."""
+
+from __future__ import annotations
+
+import math
+from urllib.parse import parse_qsl, quote, urlencode
+
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+from mpmath import mp, mpf
+
+from hess_explorer.page.page import THEME
+from hess_explorer.protocol.parameters import (
+    CLIENT,
+    MAX_QUERY,
+    VERSION,
+    Choice,
+    Number,
+    Places,
+    decode,
+    encode,
+    written,
+)
+from hess_explorer.scenes import scenes
+from support.mechanics import PROPERTY
+
+SCENES = scenes()
+SCENE = SCENES["suslov-hess"]
+SPECS = (*SCENE.specs, *CLIENT, THEME)
+NUMBERS = [spec for spec in SPECS if isinstance(spec, Number)]
+every_scene = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
+every_key = pytest.mark.parametrize("spec", SPECS, ids=[spec.name for spec in SPECS])
+every_number = pytest.mark.parametrize("spec", NUMBERS, ids=[spec.name for spec in NUMBERS])
+
+
+def admissible(spec):
+    if isinstance(spec, Number):
+        return st.floats(spec.lowest, spec.highest)
+    return st.sampled_from(spec.options) if isinstance(spec, Choice) else texts_of(spec)
+
+
+def texts_of(places):
+    """Texts that name points of a picture."""
+    pair = st.tuples(*(st.floats(low, high, allow_subnormal=False) for low, high in zip(
+        places.low, places.high, strict=True)))
+    return st.lists(pair, max_size=places.most).map(written)
+
+
+def states(specs):
+    return st.fixed_dictionaries({spec.name: admissible(spec) for spec in specs})
+
+
+def is_admissible(spec, value):
+    if isinstance(spec, Choice):
+        return value in spec.options
+    if isinstance(spec, Places):
+        return spec.read(value) == (value, None)
+    return isinstance(value, float) and spec.lowest <= value <= spec.highest
+
+
+def understood(spec, text):
+    """What a text means if it is an admissible value as it stands, else None."""
+    if isinstance(spec, Choice):
+        return text if text in spec.options else None
+    try:
+        value = float(text)
+    except ValueError:
+        return None
+    return value if spec.lowest <= value <= spec.highest else None
+
+
+CHOICE = Choice("scene", "Scene", tuple(SCENES), next(iter(SCENES)))
+
+
+@PROPERTY
+@given(st.sampled_from(list(SCENES)), states(SPECS))
+def test_what_is_encoded_is_decoded_unchanged_and_without_a_note(name, values):
+    query = encode(name, values)
+    assert decode(query, SPECS) == (values, [])
+    assert decode(f"?{query}", SPECS) == (values, [])
+    assert decode(query, (CHOICE, *SPECS)) == ({"scene": name, **values}, [])
+    assert parse_qsl(query)[:2] == [("v", VERSION), ("scene", name)]
+    assert len(query) <= MAX_QUERY
+
+
+def test_a_scene_that_is_none_becomes_the_first_one_with_a_note():
+    for text in ("nowhere", "", "SUSLOV-HESS", "<b>"):
+        values, notes = decode(f"scene={quote(text)}&h=2.5", (CHOICE, *SPECS))
+        assert values == {"scene": next(iter(SCENES)), **DEFAULTS, "h": 2.5}
+        assert len(notes) == 1
+        assert "Scene" in notes[0]
+
+
+DEFAULTS = {spec.name: spec.default for spec in SPECS}
+
+
+def test_an_empty_link_is_the_default_state():
+    assert decode("", SPECS) == (DEFAULTS, [])
+
+
+def test_keys_of_nobody_are_ignored():
+    assert decode("utm_source=mail&h=2.5&I22[]=7&__proto__=1&=", SPECS) == ({**DEFAULTS, "h": 2.5}, [])
+
+
+@PROPERTY
+@given(st.one_of(
+    st.text(max_size=300),
+    st.binary(max_size=300).map(quote),
+    st.lists(st.tuples(st.sampled_from([*DEFAULTS, "v", "x"]), st.text(max_size=20)), max_size=30).map(
+        lambda pairs: "&".join(f"{key}={text}" for key, text in pairs)),
+    st.integers(0, 2 * MAX_QUERY).map(lambda length: "&" * length),
+    st.integers(0, MAX_QUERY).map(lambda count: "&".join(f"k{i}={i}" for i in range(count))),
+))
+def test_no_text_whatever_raises_or_gives_an_inadmissible_value(query):
+    values, notes = decode(query, SPECS)
+    assert list(values) == list(DEFAULTS)
+    for spec in SPECS:
+        assert is_admissible(spec, values[spec.name]), (spec.name, values[spec.name])
+    assert len(notes) <= len(SPECS) + 1
+    assert all(notes)
+
+
+# Texts that are nearly numbers, and every sort of nonsense.
+texts = st.one_of(
+    st.text(max_size=12),
+    st.floats().map(repr),
+    st.floats(-5, 5).map(repr),
+    st.integers(-10**30, 10**30).map(str),
+    st.sampled_from(["", "nan", "-nan", "inf", "-Infinity", "1e999", "-1e999", "1e-999", "9" * 400, "0x10", "1,5", "−1",
+                     "None", "true", "[1]", "1 2", "draft", "dark", "Dark"]),
+)
+
+
+@PROPERTY
+@given(st.dictionaries(st.sampled_from(list(DEFAULTS)), texts))
+def test_there_is_one_note_for_each_key_whose_value_had_to_be_changed(given_texts):
+    query = urlencode(given_texts)
+    assume(len(query) <= MAX_QUERY)
+    values, notes = decode(query, SPECS)
+    changed = 0
+    for spec in SPECS:
+        if spec.name not in given_texts:
+            assert values[spec.name] == spec.default
+            continue
+        meant = understood(spec, given_texts[spec.name])
+        changed += meant is None
+        if meant is not None:
+            assert values[spec.name] == meant
+        else:
+            assert is_admissible(spec, values[spec.name])
+    assert len(notes) == changed
+    assert len(set(notes)) == changed
+
+
+@every_key
+@PROPERTY
+@given(values=states(SPECS), text=st.one_of(
+    st.sampled_from(["nan", "inf", "-inf", "1e999", "-1e999", "", "<b>", "1e7", "-1e7"]), st.text(max_size=12)))
+def test_a_key_that_makes_no_sense_leaves_the_others_alone(spec, values, text):
+    assume(understood(spec, text) is None)
+    query = encode(SCENE.name, {**values, spec.name: text})
+    assume(len(query) <= MAX_QUERY)
+    read, notes = decode(query, SPECS)
+    assert is_admissible(spec, read.pop(spec.name))
+    assert read == {name: value for name, value in values.items() if name != spec.name}
+    assert len(notes) == 1
+    assert (spec.symbol if isinstance(spec, Number) else spec.label) in notes[0]
+
+
+@every_number
+@PROPERTY
+@given(value=st.floats(allow_nan=False, allow_infinity=False))
+def test_a_number_out_of_range_becomes_the_nearest_one_in_range(spec, value):
+    admitted, note = spec.admit(value)
+    nearest = sorted((spec.lowest, value, spec.highest))[1]
+    assert admitted == nearest
+    assert (note is None) == (spec.lowest <= value <= spec.highest)
+    assert spec.admit(admitted) == (admitted, None)
+    assert decode(f"{spec.name}={quote(repr(value))}", SPECS)[0][spec.name] == nearest
+
+
+@every_number
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+def test_what_is_not_finite_becomes_the_default(spec, value):
+    admitted, note = spec.admit(value)
+    assert admitted == spec.default
+    assert "not finite" in note
+    assert decode(f"{spec.name}={value}", SPECS)[0][spec.name] == spec.default
+
+
+def test_a_link_that_is_too_long_is_not_read_at_all():
+    longest = "h=2.5&x=".ljust(MAX_QUERY, "7")
+    assert decode(longest, SPECS) == ({**DEFAULTS, "h": 2.5}, [])
+    values, notes = decode(longest + "7", SPECS)
+    assert values == DEFAULTS
+    assert len(notes) == 1
+    assert str(MAX_QUERY) in notes[0]
+
+
+@pytest.mark.parametrize("version", ["0", "2", "", "one", "1.0"])
+def test_a_link_of_another_version_is_read_and_the_version_noted(version):
+    values, notes = decode(f"v={version}&h=2.5", SPECS)
+    assert values["h"] == 2.5
+    assert len(notes) == 1
+    assert "version" in notes[0]
+
+
+@every_key
+@PROPERTY
+@given(text=st.text("<>\"'&;=/()xyz§", min_size=3, max_size=20))
+def test_a_note_never_repeats_what_the_link_said(spec, text):
+    for key in (spec.name, "v"):
+        _, notes = decode(urlencode({key: text}), SPECS)
+        assert len(notes) == 1
+        assert text not in notes[0]
+
+
+@every_scene
+@PROPERTY
+@given(data=st.data())
+def test_what_a_scene_admits_it_admits_again_unchanged(scene, data):
+    values = data.draw(states(scene.specs))
+    admitted, _ = scene.admit(values)
+    assert list(admitted) == list(values)
+    for spec in scene.specs:
+        assert is_admissible(spec, admitted[spec.name])
+    assert scene.admit(admitted) == (admitted, [])
+
+
+def largest_f(h):
+    """The maximum over n of (2(h+n)(1−n²))^½, from its derivative, with 40 digits."""
+    with mp.workdps(40):
+        h = mpf(h)
+        n = (mp.sqrt(h * h + 3) - h) / 3
+        return mp.sqrt(2 * (h + n) * (1 - n * n))
+
+
+# Also energies that no slider has: everything that may be typed.
+energies = st.one_of(
+    st.floats(-1 + 1e-9, 4.0),
+    st.floats(-8.9, 0.0).map(lambda e: -1 + 10.0**e),
+    st.floats(0.0, 6.0).map(lambda e: 10.0**e),
+)
+
+
+@PROPERTY
+@given(energies, st.one_of(st.floats(-1e4, 1e4), st.floats(-1.1, 1.1)))
+def test_f_is_inside_the_region_and_changed_only_where_it_must_be(h, f):
+    edge = largest_f(h)
+    admitted, notes = SCENE.admit({**SCENE.defaults(), "h": h, "f": f})
+    assert abs(mpf(admitted["f"])) <= edge * (1 + mpf(1e-15))
+    assert admitted["h"] == h
+    assert bool(notes) == (admitted["f"] != f)
+    if abs(mpf(f)) < edge * (1 - mpf(1e-15)):
+        assert admitted["f"] == f
+    elif notes:
+        # Then it stands at the edge, on its own side.
+        assert abs(mpf(admitted["f"]) - mp.sign(f) * edge) <= edge * mpf(1e-15)
+
+
+@PROPERTY
+@given(st.floats(1e-3, 1e3), st.floats(-1e3, 1e3))
+def test_a_stays_within_a_hundred_and_is_changed_only_where_it_must_be(I22, I23):
+    admitted, notes = SCENE.admit({**SCENE.defaults(), "I22": I22, "I23": I23})
+    assert abs(admitted["I23"]) <= 100 * I22
+    assert admitted["I22"] == I22
+    assert bool(notes) == (abs(I23) > 100 * I22)
+    assert admitted["I23"] == pytest.approx(math.copysign(min(abs(I23), 100 * I22), I23))
+
+
+@PROPERTY
+@given(energies, st.floats(0.0, 1.0))
+def test_every_position_of_the_f_slider_is_possible(h, share):
+    values = {**SCENE.defaults(), "h": h}
+    low, high, step = SCENE.limits(values)["f"]
+    # As a browser counts: steps from the lower end.
+    position = low + round(share * (high - low) / step) * step
+    for f in (low, high, min(position, high)):
+        admitted, notes = SCENE.admit({**values, "f": f})
+        assert (admitted["f"], notes) == (f, [])
+    assert low == -high
+    # And it leaves out no more than a step at either end.
+    assert largest_f(h) - mpf(high) < step * (1 + 1e-9)
+    assert 100 <= 2 * high / step <= 2001
+    # Round numbers, so that what the slider writes into the box is one too, and f = 0 is among it.
+    assert high == float(f"{high:.4g}")
+    assert step == float(f"{step:.1g}")
+
+
+@every_scene
+def test_every_slider_spans_values_that_may_be_typed_and_holds_the_default(scene):
+    for spec in scene.specs:
+        if isinstance(spec, Number):
+            assert spec.lowest <= spec.low <= spec.default < spec.high <= spec.highest
+            assert 0 < spec.step < spec.high - spec.low

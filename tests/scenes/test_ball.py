@@ -1,0 +1,393 @@
+"""The scenes "Chaplygin ball" and "ball with a field": every example shows what its name and its captions promise.
+
+The numbers are held against `eq29` integrated by SciPy, its field solved as a matrix equation here, and against closed
+forms.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import time
+from functools import cache
+
+import numpy as np
+import pytest
+
+from hess_explorer.compute.cache import CACHE
+from hess_explorer.protocol.wire import Wire
+from hess_mechanics.errors import ModelError, WorkLimit
+from support.ball import (
+    BALL,
+    SECTION,
+    TENSOR,
+    angles,
+    circle_of,
+    energy_of,
+    first_returns,
+    integrate,
+    occupied,
+    shown,
+    xi_of,
+)
+from support.numbers import NUMBER
+from support.wire import read
+
+
+class View:
+    """What a scene shows of some values: `data` by source, `axes`, `text` by picture, `report`, `result`."""
+
+    def __init__(self, scene, values, dragging=False):
+        wire = Wire()
+        stage = scene.stage(wire)
+        self.values, notes = scene.admit({**scene.defaults(), **values})
+        assert notes == []
+        self.result = scene.compute(self.values, scene.pictures, dragging)
+        self.refused = []
+        if getattr(self.result, "todo", ()):
+            for task in self.result.todo:
+                try:
+                    CACHE.get(task.function, *task.arguments)
+                except WorkLimit as error:
+                    self.refused.append(str(error))
+            self.result = scene.compute(self.values, scene.pictures, dragging)
+            assert len(self.result.todo) == len(self.refused)
+        self.report = stage.show(self.result, False)
+        tree, block = wire.pack()
+        self.data = {name: {key: read(column, block) for key, column in columns.items()}
+                     for name, columns in tree["sources"].items()}
+        self.axes, self.text = tree["ranges"], tree["texts"]
+
+    def numbers(self, picture, pattern):
+        """The numbers in a caption that stand where the pattern has #."""
+        found = re.search(re.escape(pattern).replace(r"\#", NUMBER), self.text[picture])
+        assert found, (pattern, self.text[picture])
+        return [float(text.replace("−", "-")) for text in found.groups()]
+
+
+def columns(data, *names):
+    return np.column_stack([data[name] for name in names])
+
+
+def track(view):
+    return columns(view.data["data-orbit"], "omega1", "omega2", "g1", "g2", "g3").astype(float)
+
+
+@cache
+def ball(name):
+    preset = next(one for one in BALL.presets if one.name == name)
+    return View(BALL, preset.values)
+
+
+every_ball = pytest.mark.parametrize("name", [one.name for one in BALL.presets])
+
+
+# ---- the ball without a field -----------------------------------------------------------------------------------
+
+
+@every_ball
+def test_the_chosen_orbit_goes_from_its_circle_to_the_one_in_the_captions(name):
+    view = ball(name)
+    values, xi = view.values, xi_of(view.values)
+    start = view.result.orbit.states[0]
+    assert energy_of(values, start) == pytest.approx(values["h"], rel=1e-12)
+    # δ from the line, and, followed back, from the circle θ⁻.
+    delta = 10.0 ** -values["digits"]
+    assert (xi[0] * start[1] - xi[1] * start[0]) / (xi @ start[:2]) == pytest.approx(delta, rel=1e-9)
+    past = integrate(values, start, [-40.0])[-1]
+    assert circle_of(values, past) == pytest.approx(values["theta"], abs=1e-7)
+    times = np.linspace(0.0, values["span"], 9)
+    exact = integrate(values, start, times)
+    left, joined = math.cos(values["theta"]), exact[-1, 2:4] @ xi
+    for picture, pattern in (("sphere", "From Γ = # (the circle left) to Γ = # at the end"), ("Gamma", "From # to #.")):
+        assert view.numbers(picture, pattern) == [shown(left), pytest.approx(joined, abs=1e-4)]
+    # And it has arrived there: ω at rest on Nˢ.
+    assert xi @ exact[-1, :2] < 0.0
+    assert abs(xi[0] * exact[-1, 1] - xi[1] * exact[-1, 0]) < 1e-2
+    # The drawn orbit, between samples too: γ to half a pixel of 300, ω as seen in its picture.
+    drawn, half_width = view.data["data-orbit"], view.axes["omega"][1]
+    for i, column in enumerate(("omega1", "omega2", "g1", "g2", "g3")):
+        along = np.interp(times, drawn["t"], drawn[column])
+        assert along == pytest.approx(exact[:, i], abs=(half_width if i < 2 else 1.0) / 600 + 1e-5)
+    circles = view.data["sphere"]["circles"]
+    assert [circle[3:] for circle in circles] == [
+        [pytest.approx(left), "unstable"], [pytest.approx(joined, abs=1e-5), "stable"]]
+    assert all(circle[:2] == pytest.approx(xi) for circle in circles)
+
+
+@every_ball
+def test_theta_plus_over_the_phases_is_that_of_the_orbits_and_its_range_that_of_the_caption(name):
+    view = ball(name)
+    values = view.values
+    (phis,), (curve,) = (view.data["curve-ball"][key] for key in ("xs", "ys"))
+    assert (phis[0], phis[-1], len(phis)) == (pytest.approx(-math.pi), pytest.approx(math.pi), 65)
+    for phi in (-2.5, 0.0, 1.5):
+        at = {**values, "phi": phi}
+        start = BALL.compute(at, ("sphere",), False).orbit.states[0]
+        end = integrate(values, start, [1.3 * values["span"]])[-1]
+        assert np.interp(phi, phis, curve) == pytest.approx(circle_of(values, end), abs=4e-3)
+    numbers = view.numbers("curve", "θ⁻ = #:")
+    assert numbers == [shown(values["theta"])]
+    low, high = (view.numbers("curve", "θ⁺ = # for every φ") * 2 if "for every φ" in view.text["curve"]
+                 else view.numbers("curve", "θ⁺ from # to #"))
+    assert (low, high) == (pytest.approx(curve.min(), abs=6e-4), pytest.approx(curve.max(), abs=6e-4))
+    ring = view.data["curve-chosen"]
+    end = integrate(values, view.result.orbit.states[0], [1.3 * values["span"]])[-1]
+    assert (ring["x"][0], ring["y"][0]) == (values["phi"], pytest.approx(circle_of(values, end), abs=4e-3))
+
+
+# cos χ of the free Suslov problem with these tensors, of an independent computation with 40 digits.
+COSINES = {(1.0, 1.5, 0.7, 1.2): -0.47889450360074, (1.64, 1.0, 0.0, 0.8): -1.0}
+
+
+@pytest.mark.parametrize("name", [one.name for one in BALL.presets if one.values.get("D") == 0.0])
+def test_without_the_inner_ball_the_curve_is_the_dashed_one_and_that_of_the_rotation(name):
+    view = ball(name)
+    (curve,), (free,) = view.data["curve-ball"]["ys"], view.data["curve-free"]["ys"]
+    # Whether the start lies on its circle to first order in δ or not, as in S4.
+    assert np.max(np.abs(curve - free)) <= 3.0 * 10.0 ** -view.values["digits"]
+    chi, theta = math.acos(COSINES[tuple(view.values[key] for key in TENSOR[:4])]), view.values["theta"]
+    # Its extremes lie between two of the 65 phases.
+    assert curve.min() == pytest.approx(abs(chi - theta), abs=6e-3)
+    assert curve.max() == pytest.approx(min(chi + theta, 2.0 * math.pi - chi - theta), abs=6e-3)
+    # The strip is one ellipse.
+    (outer,), (inner,) = view.data["omega-forbidden"]["xs"]
+    assert np.max(np.abs(np.asarray(outer[1]) - np.asarray(inner[0]))) == 0.0
+    if "reversal" in name:
+        assert view.numbers("curve", "θ⁺ = # for every φ") == [shown(math.pi - theta)]
+
+
+def test_the_smaller_the_inner_ball_the_closer_the_curve_to_the_dashed_one():
+    apart = []
+    for D in (1e-1, 1e-2, 1e-3, 1e-4):
+        view = View(BALL, {"D": D, "digits": 6.0, "span": 15.0})
+        # The phase at which N^u is left turns with ln δ and 𝒟: compare the ranges.
+        (curve,), (free,) = view.data["curve-ball"]["ys"], view.data["curve-free"]["ys"]
+        apart.append(np.max(np.abs(curve - free)))
+    assert apart[0] > 5 * apart[1] > 25 * apart[2] > 60 * apart[3]
+    assert apart[3] < 5e-3
+
+
+def test_the_inner_ball_destroys_the_complete_reversal():
+    flat, bent = (np.ptp(ball(next(one.name for one in BALL.presets if word in one.name)).data["curve-ball"]["ys"][0])
+                  for word in ("complete reversal", "no longer flat"))
+    assert flat < 1e-6
+    assert bent > 0.1
+
+
+@every_ball
+def test_many_orbits_cross_the_strip_from_one_half_of_the_line_to_the_other(name):
+    view = ball(name)
+    values, xi = view.values, xi_of(view.values)
+    I11, I22, h, D = (values[key] for key in ("I11", "I22", "h", "D"))
+    tracks = [np.column_stack(pair).astype(float)
+              for pair in zip(view.data["omega-arcs"]["xs"], view.data["omega-arcs"]["ys"], strict=True)]
+    assert len(tracks) == 18
+    pixel = view.axes["omega"][1] / 150
+    for one in tracks:
+        assert np.max(one**2 @ [I11, I22]) <= 2.0 * h * (1.0 + 1e-3)
+        assert np.min(one**2 @ [I11 + D, I22 + D]) >= 2.0 * h * (1.0 - 1e-3)
+        assert one[0] @ xi > 0.0 > one[-1] @ xi
+        assert np.max(np.abs(one[[0, -1]] @ [-xi[1], xi[0]])) < 3.0 * pixel
+        assert np.max(np.linalg.norm(np.diff(one, axis=0), axis=1)) < 30.0 * pixel
+    arrows = view.data["omega-arrows"]
+    places = columns(arrows, "x", "y")
+    assert len(places) == 18
+    for (x, y), angle, one in zip(places, arrows["angle"], tracks, strict=True):
+        i = int(np.argmin(np.linalg.norm(one - (x, y), axis=1)))
+        assert one[i] == pytest.approx((x, y), abs=1e-5)
+        i = min(max(i, 1), len(one) - 2)
+        forward = one[i + 1] - one[i - 1]
+        assert np.array([-math.sin(angle), math.cos(angle)]) @ forward > 0.5 * np.linalg.norm(forward)
+    # All over the strip, from σ₂ to σ₁ and all round.
+    sines = (2.0 * h / np.sum(places**2, axis=1) - places**2 @ [I11, I22] / np.sum(places**2, axis=1)) / max(D, 1e-9)
+    if D > 0.0:
+        assert np.sort(sines) == pytest.approx((np.arange(18) + 0.5) / 18, abs=0.08)
+    assert np.max(np.diff(np.sort(np.arctan2(places[:, 1], places[:, 0])))) < 0.8
+    # N^s, N^u from σ₂ to σ₁.
+    moment = I11 * xi[0] ** 2 + I22 * xi[1] ** 2
+    ends = np.sqrt(2.0 * h / np.array([moment + D, moment]))
+    for half, sign in (("unstable", 1.0), ("stable", -1.0)):
+        assert columns(view.data[f"omega-{half}"], "x", "y") @ xi == pytest.approx(sign * ends, rel=1e-6)
+
+
+def test_every_energy_above_zero_is_drawn():
+    for h in (1e-6, 0.1, 20.0, 1e4):
+        view = View(BALL, {"h": h, "span": 60.0 * math.sqrt(10.0 / h)})
+        assert energy_of(view.values, view.result.orbit.states[-1]) == pytest.approx(h, rel=1e-6)
+        # ω and t scale with √h: the same circles.
+        assert view.numbers("sphere", "to Γ = # at")[0] == pytest.approx(
+            ball(BALL.presets[0].name).numbers("sphere", "to Γ = # at")[0], abs=2e-4)
+
+
+@pytest.mark.parametrize("values", [
+    {"D": 300.0, "digits": 10.0}, {"I13": 1e-3, "I23": 1e-3}, {"I13": 1e-3, "I23": 0.0, "digits": 10.0, "D": 300.0},
+    {"I11": 1e-3, "I22": 1e-3, "D": 300.0, "digits": 10.0}, {"I11": 1e-3, "D": 300.0, "I13": 1e3, "digits": 10.0},
+    {"I13": 1e-300, "I23": 0.0}, {"I13": 5e-324, "I23": -5e-324},
+], ids=str)
+def test_a_map_that_takes_long_is_left_out_and_the_page_says_so(values):
+    begun = time.process_time()
+    view = View(BALL, values)
+    # All threads together; a map that were computed would take minutes.
+    assert time.process_time() - begun < 20.0
+    if view.result.map is None:
+        assert view.text["curve"].endswith("Left out: it would take too many steps.")
+        (note,) = view.report.notes
+        assert note.endswith("choose larger I13 or I23, or a smaller 𝒟.")
+        assert " ".join(view.data["curve-message"]["text"][0].split()) == note
+        assert "curve-ball" not in view.data or not len(view.data["curve-ball"]["xs"])
+    else:
+        assert np.all(np.isfinite(view.result.map.theta_plus))
+        # Where only the draft is possible it stays, and the background's sentence is the note.
+        assert view.result.map.phis.size == (33 if view.refused else 65)
+        assert all(sentence.endswith("choose larger I13 or I23, or a smaller 𝒟.") for sentence in view.refused)
+    assert len(view.data["data-orbit"]["t"]) > 10
+
+
+def test_few_orbits_and_a_draft_of_the_map_until_the_others_are_known():
+    values = {**BALL.defaults(), "I11": 1.015}
+    first = BALL.compute(values, BALL.pictures, False)
+    assert (len(first.crowd), first.map.phis.size) == (8, 33)
+    assert (len(first.todo), first.total) == (2, 2)
+    whole = View(BALL, {"I11": 1.015}).result
+    assert (len(whole.crowd), whole.map.phis.size) == (18, 65)
+    assert (whole.todo, whole.total) == ((), 2)
+    # The draft is right to what its errors say.
+    assert np.all(np.abs(first.map.theta_plus - whole.map.theta_plus[::2]) <= first.map.errors + whole.map.errors[::2])
+    assert first.map.errors.max() < 5e-3
+
+
+@pytest.mark.parametrize(("values", "sentence"), [
+    ({"I13": 0.0, "I23": 0.0}, "I13 = I23 = 0: there is no line of equilibria"),
+])
+def test_a_ball_without_a_line_of_rest_is_refused(values, sentence):
+    with pytest.raises(ModelError, match=sentence):
+        View(BALL, values)
+
+
+# ---- the ball with a field --------------------------------------------------------------------------------------
+
+
+@cache
+def field(name):
+    preset = next(one for one in SECTION.presets if one.name == name)
+    return View(SECTION, preset.values)
+
+
+every_field = pytest.mark.parametrize("name", [one.name for one in SECTION.presets])
+
+
+@every_field
+def test_the_chosen_orbit_and_its_points_are_those_of_the_energy_in_the_caption(name):
+    view = field(name)
+    values = view.values
+    E = values["h"] - math.hypot(values["b1"], values["b2"])
+    assert view.numbers("omega", "E = #.") == [shown(E)]
+    orbit = view.result.orbit
+    assert energy_of(values, orbit.states) == pytest.approx(np.full(len(orbit.times), E), abs=2e-6)
+    start = orbit.states[0]
+    assert angles(start[None])[0] == pytest.approx((values["psi"], values["delta"]), abs=1e-12)
+    exact = integrate(values, start, np.array([2.0, 5.0]))
+    drawn = view.data["data-orbit"]
+    for i, column in enumerate(("omega1", "omega2", "g1", "g2", "g3")):
+        scale = view.axes["omega"][1] if i < 2 else 1.0
+        assert np.interp([2.0, 5.0], drawn["t"], drawn[column]) == pytest.approx(exact[:, i], abs=scale / 600 + 1e-5)
+    assert 0.4 < np.max(np.abs(columns(drawn, "omega1", "omega2"))) / view.axes["omega"][1] < 1.0
+    # The first points of the chosen orbit, where all of them are shown.
+    own = columns(view.data["section-own"], "x", "y").astype(float)
+    if values["drop"] == "all":
+        assert own[:3] == pytest.approx(angles(first_returns(values, start, 3)), abs=1e-4)
+    else:
+        assert np.all((own[:, 1] > 0.0) & (own[:, 1] < math.pi))
+    returns = columns(view.data["returns-own"], "x", "y")
+    assert np.array_equal(returns, np.column_stack([own[:-1, 0], own[1:, 0]]).astype(np.float32))
+    assert view.data["section-chosen"]["x"] == [values["psi"]]
+
+
+@every_field
+def test_the_numbers_in_the_caption_of_the_section_are_those_of_its_points(name):
+    view = field(name)
+    own = columns(view.data["section-own"], "x", "y").astype(float)
+    points, found, all_cells = view.numbers("section", "The chosen orbit: # points in # of # cells")
+    expected = view.values["count"] / (1 if view.values["drop"] == "all" else 2)
+    assert (points, all_cells) == (len(own), 1024)
+    assert points == expected
+    # In single precision a point may fall into the next cell.
+    assert found == pytest.approx(len(occupied(own)), abs=2)
+    kept = view.values["I13"] == view.values["I23"] == 0.0
+    assert ("the flow keeps volume" in view.text["section"]) == kept
+    assert len(view.data["section-others"]["x"]) == 20 * expected
+
+
+def test_closed_regular_and_chaotic_examples_look_it():
+    by_word = {word: field(next(one.name for one in SECTION.presets if word in one.name))
+               for word in ("Mixed", "Regular", "closes", "sea nearly", "Strange")}
+    cells = {word: view.numbers("section", "in # of")[0] for word, view in by_word.items()}
+    # A point; a line of constant δ, which is left in no cell of ψ empty; much more.
+    assert cells["closes"] == 1
+    assert cells["Regular"] == 32
+    assert min(cells["Mixed"], cells["sea nearly"]) > 80
+    assert cells["Strange"] < 40
+    view = by_word["Regular"]
+    start = view.result.orbit.states[0]
+    (returned,) = angles(first_returns(view.values, start, 1))
+    turn = returned[0] - view.values["psi"]
+    # A rotation by this turn: all points follow from it.
+    own = columns(view.data["section-own"], "x", "y")
+    for k in (0, 10, 50):
+        psi = view.values["psi"] + (k + 1) * turn
+        assert math.remainder(own[k, 0] - psi, 2.0 * math.pi) == pytest.approx(0.0, abs=1e-3)
+    view = by_word["closes"]
+    assert first_returns(view.values, view.result.orbit.states[0], 1)[0] == pytest.approx(
+        view.result.orbit.states[0], abs=1e-8)
+
+
+@pytest.mark.parametrize("start", [0.05, 1.0, -2.0])
+def test_where_the_energy_forbids_a_place_the_start_moves_to_the_edge_and_it_is_said(start):
+    values = {**SECTION.defaults(), "h": 0.3, "psi": start}
+    admitted, notes = SECTION.admit(values)
+    # b = (½, 0, …): E = −0.2 forbids |ψ| < arccos(−0.4).
+    half = math.acos(-0.4)
+    if abs(start) < half:
+        assert abs(admitted["psi"]) == pytest.approx(half, abs=5e-3)
+        assert math.copysign(1.0, admitted["psi"]) == math.copysign(1.0, start)
+        assert f"ψ = {start:g}".replace("-", "−") in notes[0]
+    else:
+        assert (admitted["psi"], notes) == (start, [])
+    result = SECTION.compute(admitted, SECTION.pictures, False)
+    assert np.all(np.cos(result.own[:, 0]) <= -0.4 + 1e-3)
+    stage_view = View(SECTION, {"h": 0.3, "psi": 3.0})
+    xs = np.array(stage_view.data["section-forbidden"]["xs"]).reshape(3, 4)
+    assert sorted(xs[1, :2]) == pytest.approx([-half, half], abs=1e-6)
+
+
+@pytest.mark.parametrize("values", [
+    {"h": 1e-3, "psi": 3.1}, {"delta": 1e-6}, {"delta": math.pi - 1e-6}, {"b1": 0.0, "b2": 0.0, "b3": 0.0},
+    {"b1": 0.0, "b2": 0.0, "b3": 0.0, "I13": 0.3}, {"D": 0.0}, {"D": 100.0}, {"I11": 100.0, "I22": 0.01}, {"b3": 100.0},
+    {"h": 1000.0}, {"I13": 20.0, "I23": -20.0}, {"count": 1.0}, {"count": 1.0, "drop": "the later half"},
+], ids=str)
+@pytest.mark.parametrize("dragging", [False, True])
+def test_what_is_extreme_is_drawn(values, dragging):
+    view = View(SECTION, values, dragging)
+    orbit = view.result.orbit
+    E = view.values["h"] - math.hypot(view.values["b1"], view.values["b2"])
+    assert np.max(np.abs(energy_of(view.values, orbit.states) - E)) <= 2e-3 * (1.0 + abs(E))
+    for name in ("data-orbit", "section-own", "section-others"):
+        assert all(np.all(np.isfinite(np.asarray(column, float))) for column in view.data[name].values())
+    assert "nan" not in " ".join(view.text.values())
+    if not any(view.values[name] for name in ("b1", "b2", "b3")):
+        assert "no field" in view.text["sphere"]
+        assert view.data["sphere"]["label"] == ""
+
+
+def test_a_section_that_takes_long_is_left_out_and_the_page_says_so(monkeypatch):
+    monkeypatch.setattr("hess_explorer.scenes.ball_section._MOST_STEPS", 100)
+    view = View(SECTION, {"psi": 1.2345, "count": 300.0})
+    reason = ("The section is left out: 300 crossings take an orbit more than 100 steps here: choose fewer of them, or "
+              "smaller I13 and I23.")
+    assert view.report.notes == [reason]
+    for picture in ("section", "returns"):
+        assert view.text[picture].endswith("Left out: it would take too many steps.")
+        assert " ".join(view.data[f"{picture}-message"]["text"][0].split()) == reason
+        assert not len(view.data[f"{picture}-own"]["x"])
+    assert len(view.data["data-orbit"]["t"]) > 10

@@ -1,0 +1,331 @@
+"""The scenes "leak off the Hess manifold" and "bridge": every example shows what its captions promise.
+
+The numbers are held against the reduced equations written out here and integrated by SciPy, and against closed forms.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from functools import cache
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from hess_explorer.protocol.wire import Wire
+from hess_mechanics import solve
+from hess_mechanics.errors import InvalidParameter, ModelError, NoField, Separatrix
+from hess_mechanics.numerics.accuracy import LEVELS, REFERENCE
+from support.bridge import BRIDGE, HELD, LEAK, STABLE, UNSTABLE, exact_growth, period_of, reduced, torus, values_of
+from support.free_suslov import shown
+from support.numbers import NUMBER
+from support.wire import read
+
+
+class View:
+    """What a scene shows of some values: `data` by source, `axes`, `text` by picture, `report`."""
+
+    def __init__(self, scene, values, dragging=False, seen=None):
+        wire = Wire()
+        stage = scene.stage(wire)
+        self.values, self.admitted = scene.admit({**scene.defaults(), **values})
+        result = scene.compute(self.values, scene.pictures if seen is None else seen, dragging)
+        self.report = stage.show(result, False)
+        tree, block = wire.pack()
+        self.data = {name: {key: read(column, block) for key, column in columns.items()}
+                     for name, columns in tree["sources"].items()}
+        self.axes, self.text = tree["ranges"], tree["texts"]
+
+    def numbers(self, picture, pattern):
+        return numbers(self.text[picture], pattern)
+
+    def derived(self, pattern):
+        return numbers("\n".join(self.report.derived), pattern)
+
+    def curve(self, name):
+        """The parts of a series of a graph, joined."""
+        columns = self.data[name]
+        return tuple(np.concatenate([np.asarray(part, float) for part in columns[key]]) for key in ("xs", "ys"))
+
+
+def numbers(text, pattern):
+    """The numbers in a text that stand where the pattern has #."""
+    found = re.search(re.escape(pattern).replace(r"\#", NUMBER), text)
+    assert found, (pattern, text)
+    return [float(number.replace("−", "-")) for number in found.groups()]
+
+
+@cache
+def leak(name, accuracy="standard"):
+    return View(LEAK, {**values_of(LEAK, name), "accuracy": accuracy})
+
+
+@cache
+def bridge(name):
+    return View(BRIDGE, values_of(BRIDGE, name))
+
+
+# ---- the leak ----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", UNSTABLE)
+def test_the_leak_grows_at_the_rate_in_the_caption_which_is_the_exact_one(name):
+    view = leak(name)
+    values = view.values
+    assert view.admitted == []
+    measured, count, exact = view.numbers("leak", "grows by # a period over # of them; exact #.")
+    a = torus(values)[0]
+    expected = 2.0 * math.pi * abs(a) if values["f"] == 0.0 else exact_growth(name)
+    assert exact == pytest.approx(expected, rel=1e-5)
+    assert measured == pytest.approx(expected, rel=1e-4)
+    assert count >= 3
+    # The line drawn has this slope, and lies on the curve where that is straight.
+    t, lg = view.curve("leak-own")
+    x, y = view.curve("leak-slope")
+    period, = view.derived("Period of n₃ = #")
+    assert (y[-1] - y[0]) / (x[-1] - x[0]) == pytest.approx(expected / (period * math.log(10.0)), rel=1e-5)
+    straight = (lg > -12.5) & (lg < -4.0) & (t < x[-1])
+    assert straight.sum() > 96
+    # What is left is the wiggle within a period.
+    assert np.max(np.abs(lg - np.interp(t, x, y))[straight]) < 0.6
+    assert lg[-1] > -4.0
+
+
+def test_figure_gess1_has_the_numbers_of_the_paper():
+    view = leak("Figure gess1: h = 50, f = 5")
+    assert view.numbers("leak", "grows by # a period over # of them; exact #.")[::2] == pytest.approx([3.09107] * 2)
+    assert view.derived("In units b = 1: h = #, f = #") == [5.01253, -2.0025]
+    assert view.derived("a = b′/a₁′ = #") == [-0.5]
+    assert view.derived("b = a₁′μ|r| = #") == [15.96]
+
+
+@pytest.mark.parametrize("name", STABLE)
+def test_without_cycles_nothing_grows_and_the_caption_says_so(name):
+    view = leak(name)
+    largest, = view.numbers("leak", "Stable: no cycles, no growth; after 60 periods |r·M| ≤ #.")
+    assert largest < 3e-14
+    assert np.max(view.curve("leak-own")[1]) == pytest.approx(math.log10(largest), abs=0.05)
+    assert len(view.data["leak-slope"]["xs"]) == 0
+    assert view.text["andoyer"].endswith("keeps to the Hess relation, to round-off.")
+    a, h, f, _ = torus(view.values)
+    period, lowest = period_of(h, f)
+    rho = math.sqrt(2.0 * (h + lowest))
+    start = [0.0, rho, 0.0, f / rho, lowest, 0.0]
+    times = np.linspace(0.0, 40.0 * period, 400)
+    exponent = solve_ivp(reduced(a), (0.0, times[-1]), start, "DOP853", times, rtol=1e-9, atol=1e-10).y[5]
+    # It only goes to and fro.
+    assert np.max(np.abs(exponent)) < 6.0
+    assert np.ptp(exponent[200:]) == pytest.approx(np.ptp(exponent[:200]), rel=0.3)
+
+
+def test_every_accuracy_leaks_alike_but_starts_at_its_own_distance():
+    name = "Figure gess1: h = 50, f = 5"
+    views = {accuracy: leak(name, accuracy) for accuracy in LEVELS}
+    apart = {}
+    for accuracy, view in views.items():
+        t, lg = view.curve("leak-own")
+        # In the first two periods the leak is round-off grown by two periods at most.
+        period, = view.derived("Period of n₃ = #")
+        assert np.max(lg[t < 2.0 * period]) < -13.0, accuracy
+        assert view.text["difference"].startswith(f"Distance from the exact motion\n{accuracy}: ")
+        t, lg = view.curve("difference-own")
+        apart[accuracy] = np.max(lg[t < 2.0 * period])
+    assert apart["draft"] > apart["standard"] + 2 > apart["precise"] + 4 > apart["reference"] + 4
+    assert apart["reference"] < -12.5
+
+
+def test_the_leaking_orbit_stays_in_one_layer_of_the_andoyer_picture():
+    view = leak("Figure gess1: h = 50, f = 5")
+    r1, r3 = 0.6, 0.8
+    l, x = view.curve("andoyer-orbit")
+    relation = r1 * np.sqrt(1.0 - x * x) * np.sin(l) + r3 * x
+    l, x = view.curve("andoyer-hess")
+    assert np.max(np.abs(r1 * np.sqrt(1.0 - x * x) * np.sin(l) + r3 * x)) < 1e-6
+    side = 1.0 if "> 0" in view.text["andoyer"] else -1.0
+    # In single precision, as the screen has it.
+    assert np.min(side * relation) > -1e-6
+    assert np.max(side * relation) > 0.1
+
+
+def test_the_exact_motion_beside_is_that_of_the_reduced_system():
+    view = leak("Figure gess1: h = 50, f = 5")
+    a, h, f, nu = torus(view.values)
+    _, lowest = period_of(h, f)
+    rho = math.sqrt(2.0 * (h + lowest))
+    w = rho * np.array([math.sin(0.5), math.cos(0.5)])
+    orbit = view.data["data-orbit"]
+    index = [0, 50, 333, len(orbit["t"]) - 1]
+    times = np.asarray(orbit["t"], float)[index] * nu
+    y = solve_ivp(reduced(a), (0.0, times[-1] * 1.001), [*w, *(f / rho**2 * w), lowest, 0.0], "DOP853", times,
+                  rtol=1e-11, atol=1e-12).y
+    n1, n2, n3 = y[2:5]
+    # γ = −n2 e1' − n1 e2 + n3 r, e1' = (0.8, 0, −0.6), r = (0.6, 0, 0.8).
+    expected = np.array([-0.8 * n2 + 0.6 * n3, -n1, 0.6 * n2 + 0.8 * n3])
+    assert np.array([np.asarray(orbit[name], float)[index] for name in ("g1", "g2", "g3")]) == pytest.approx(
+        expected, abs=2e-5)
+    low, high = view.numbers("sphere", "n₃ from # to #,")
+    assert (low, high) == (shown(lowest), shown(np.sort(np.roots([-2.0, -2.0 * h, 2.0, 2.0 * h - f * f]).real)[2]))
+
+
+@pytest.mark.parametrize(("values", "error", "words"), [
+    ({"I2": 2.0}, InvalidParameter, "I2 = 2 must lie between"),
+    ({"m": 0.0}, NoField, "Choose μ|r| of at least"),
+    ({"m": 4e-299}, NoField, "Choose μ|r| of at least"),
+    ({"h": 9.975, "f": 0.0}, Separatrix, "h = μ|r|, f = 0 is the separatrix"),
+])
+@pytest.mark.parametrize("scene", [LEAK, BRIDGE], ids=["leak", "bridge"])
+def test_what_cannot_be_is_refused_in_a_sentence(scene, values, error, words):
+    with pytest.raises(error, match=re.escape(words)):
+        View(scene, values)
+    with pytest.raises(ModelError):
+        scene.motion(scene.admit({**scene.defaults(), **values})[0])
+
+
+def test_energy_and_area_integral_are_kept_inside_what_is_possible():
+    view = View(LEAK, {"h": -500.0, "f": 3.0})
+    assert view.values["h"] == pytest.approx(-9.975)
+    assert abs(view.values["f"]) < 1e-4
+    assert len(view.admitted) == 2
+    view = View(LEAK, {"h": 9.975, "f": -8.0})
+    # At h = 1 in units b = 1 the curve `Geq3` has n = 1/3 and f = (1 − n²)/√n.
+    edge = 8.0 / 9.0 * math.sqrt(3.0) * math.sqrt(9.975 * 0.625)
+    assert view.values["f"] == pytest.approx(-edge, rel=1e-9)
+    assert LEAK.limits(view.values)["f"][1] == pytest.approx(edge, rel=0.01)
+
+
+# ---- the bridge --------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("preset", BRIDGE.presets, ids=lambda preset: preset.name)
+def test_both_sides_of_an_example_agree_to_1e_11_over_t_50(preset):
+    view = bridge(preset.name)
+    assert view.admitted == []
+    held, end, free = view.numbers("difference", HELD)
+    assert end == 50.0
+    assert 0.0 < held <= 1e-11
+    t, lg = view.curve("difference-held")
+    assert (t[0], t[-1]) == (0.0, 50.0)
+    assert np.max(lg) == pytest.approx(math.log10(held), abs=0.05)
+    cycles = "Two cycles" in view.text["circle"]
+    assert (free > 1e-10) == cycles
+    assert cycles == (len(view.data["data-stable"]["omega1"]) > 0)
+
+
+def test_figure_gess1_in_both_systems_of_units():
+    view = bridge("Figure gess1, given in Euler–Poisson")
+    assert view.numbers("omega", "h = #, f = # in units b = 1") == [5.01253, -2.0025]
+    assert view.numbers("andoyer", "H = #, F₁ = #:") == [50.0, 5.0]
+    assert view.derived("E = H = #") == [50.0]
+    assert view.derived("−F₂ = F₁ = #") == [5.0]
+    # I11 = I2, I22 = I11/(1 + a²), I23 = a I22, b3 = −b I22 √(1 + a²).
+    assert view.derived("I₁₁ = #, I₂₂ = #, I₂₃ = #") == [0.625, 0.5, -0.25]
+    assert view.derived("b₃ = #") == [pytest.approx(-15.96 * 0.5 * math.sqrt(1.25), rel=1e-4)]
+    trace, = view.numbers("circle", "|trace| #.")
+    growth = 3.09107
+    assert trace == pytest.approx(2.0 * math.cosh(growth / 2.0), abs=6e-5)
+    assert view.derived("Period of n₃ = #") == [pytest.approx(period_of(5.0125313, 2.0025047)[0] / math.sqrt(15.96),
+                                                               rel=1e-5)]
+
+
+def test_the_same_state_may_be_given_on_either_side():
+    heavy = bridge("Figure gess1, given in Euler–Poisson")
+    given = {"given": "Suslov–Hess", "I22": 0.5, "I23": -0.25, "b3": -15.96 * 0.5 * math.sqrt(1.25),
+             "h": 50.0 / 9.975, "f": -5.0 * math.sqrt(1.6 / 9.975)}
+    suslov = View(BRIDGE, given)
+    for picture in ("omega", "circle", "andoyer"):
+        assert suslov.text[picture] == heavy.text[picture]
+    at = np.linspace(0.0, 20.0, 50)
+    for name in ("omega1", "omega2", "g1", "g2", "g3"):
+        orbits = [view.data["data-orbit"] for view in (heavy, suslov)]
+        curves = [np.interp(at, orbit["t"], orbit[name]) for orbit in orbits]
+        assert curves[0] == pytest.approx(curves[1], abs=2e-3 * np.ptp(curves[0]))
+
+
+def test_the_orbit_of_the_suslov_side_obeys_its_equations():
+    view = bridge("No cycles, given in Suslov–Hess")
+    # Biz131 written out for I13 = 0, b1 = 0: I11 = 0.96 + 0.28²/0.96, b2 = −I23 b3/I22.
+    I22, I23, b3 = 0.96, 0.28, -1.0
+    I11, b2 = I22 + I23**2 / I22, -I23 * b3 / I22
+
+    def field(t, y):
+        w1, w2, g1, g2, g3 = y
+        return [(-I23 * w2 * w2 + b3 * g2 - b2 * g3) / I11, (I23 * w1 * w2 - b3 * g1) / I22,
+                -g3 * w2, g3 * w1, g1 * w2 - g2 * w1]
+
+    orbit = view.data["data-orbit"]
+    columns = np.array([np.asarray(orbit[name], float) for name in ("omega1", "omega2", "g1", "g2", "g3")])
+    times = np.asarray(orbit["t"], float)
+    index = np.searchsorted(times, [0.0, 5.0, 20.0, 49.0])
+    run = solve_ivp(field, (0.0, 50.0), columns[:, 0], "DOP853", times[index], rtol=1e-10, atol=1e-11)
+    assert columns[:, index] == pytest.approx(run.y, abs=5e-5)
+
+
+def test_the_andoyer_picture_of_the_bridge_lies_on_the_hess_relation_and_moves_with_the_orbit():
+    for preset in BRIDGE.presets:
+        view = bridge(preset.name)
+        l, x = view.curve("andoyer-orbit")
+        at, height = view.curve("andoyer-hess")
+        order = np.argsort(at)
+        assert x == pytest.approx(np.interp(l, at[order], height[order], period=2.0 * math.pi), abs=2e-3)
+        # Nothing is joined across the picture, nor where M passes through 0 and turns round.
+        for part in view.data["andoyer-orbit"]["xs"]:
+            assert np.max(np.abs(np.diff(part)), initial=0.0) < 1.0
+        orbit = view.data["data-orbit"]
+        assert len(orbit["l"]) == len(orbit["x"]) == len(orbit["apart"]) == len(orbit["t"])
+        assert np.ptp(orbit["x"]) > 0.1
+
+
+@pytest.mark.parametrize("scene", [LEAK, BRIDGE], ids=["leak", "bridge"])
+def test_the_motion_for_the_accuracy_scene_is_the_exact_one_on_show(scene):
+    motion = scene.motion(scene.defaults())
+    end = solve(motion.system, motion.state, motion.parameters, [motion.span], REFERENCE)
+    assert max(end.drift.values()) < 1e-12
+    energy, _, f = motion.system.integrals(motion.state, motion.parameters).values()
+    assert (energy, f) == pytest.approx((5.0125313, -2.0025047), rel=1e-7)
+    assert motion.unit == pytest.approx(1.0 / math.sqrt(15.96))
+    orbit = View(scene, {}).data["data-orbit"]
+    assert orbit["t"][-1] == pytest.approx(motion.span * motion.unit, rel=1e-5)
+
+
+def test_what_is_out_of_sight_is_not_computed_and_a_drag_looks_at_less():
+    view = View(BRIDGE, {}, seen={"circle"})
+    assert "difference-held" not in view.data
+    assert view.text["difference"].endswith("out of sight.")
+    _, end, _ = View(BRIDGE, {}, dragging=True).numbers("difference", HELD)
+    assert 10.0 < end < 50.0
+
+
+def test_with_a_large_a_the_leak_is_held_back_over_a_shorter_time():
+    view = View(BRIDGE, {"given": "Suslov–Hess", "I22": 0.1, "I23": 5.0, "h": 1.5, "f": 0.6, "span": 200.0})
+    held, end, free = view.numbers("difference", HELD)
+    assert held <= 1e-11
+    assert 1.0 < end < 200.0
+    assert free > 0.1
+
+
+def test_each_side_keeps_its_own_bounds():
+    below = View(BRIDGE, {"given": "Suslov–Hess", "h": -5.0, "f": 0.0})
+    assert below.values["h"] == pytest.approx(-1.0)
+    assert below.admitted[0].startswith("In units b = 1")
+    inside = View(BRIDGE, {"given": "Suslov–Hess", "h": 1.0, "f": 8.0})
+    assert inside.values["f"] == pytest.approx(8.0 / 9.0 * math.sqrt(3.0), rel=1e-9)
+    for values in (below.values, inside.values, BRIDGE.defaults()):
+        for low, high, step in BRIDGE.limits(values).values():
+            assert low < high
+            assert 0.0 < step < high - low
+
+
+def test_next_to_the_unstable_cycle_the_page_says_that_any_round_off_grows():
+    a, h, f, _ = torus(LEAK.defaults())
+    phi = next(preset.values["phi0"] for preset in LEAK.presets if "unstable" in preset.name)
+    for scene in (LEAK, BRIDGE):
+        assert any("next to the unstable cycle" in note for note in View(scene, {"phi0": phi}).report.notes)
+        assert not any("next to the unstable cycle" in note for note in View(scene, {}).report.notes)
+    # It is one: over one period the phase comes back.
+    period, lowest = period_of(h, f)
+    rho = math.sqrt(2.0 * (h + lowest))
+    w = rho * np.array([math.sin(phi), math.cos(phi)])
+    y = solve_ivp(reduced(a), (0.0, period), [*w, *(f / rho**2 * w), lowest, 0.0], "DOP853", rtol=1e-12, atol=1e-13).y
+    assert y[:5, -1] == pytest.approx(y[:5, 0], abs=1e-8)
+    assert y[5, -1] == pytest.approx(-3.09107, abs=1e-5)

@@ -1,0 +1,305 @@
+"""The scene of the Euler–Poisson sections: every example shows what its name and its captions promise.
+
+The numbers are held against orbits followed by SciPy or for longer, and against the energy written out here.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+
+import numpy as np
+import pytest
+
+from hess_explorer.compute.cache import CACHE
+from hess_explorer.protocol.parameters import places
+from hess_explorer.scenes.euler_poisson import body_of, motion
+from hess_mechanics import circle_map, f_max, level, solve
+from hess_mechanics.dynamics.birkhoff import rotation_number
+from hess_mechanics.dynamics.lyapunov import largest_exponent
+from hess_mechanics.errors import ModelError
+from hess_mechanics.euler_poisson.andoyer import andoyer_points, coordinates, state_at
+from hess_mechanics.euler_poisson.equations import SYSTEM
+from hess_mechanics.numerics.accuracy import REFERENCE, STANDARD
+from support.andoyer import GESS1, angles, crossings_by_scipy, dense, energies_at
+from support.euler_poisson import EP, View
+from support.lyapunov import finite_exponent
+
+every_preset = pytest.mark.parametrize("preset", EP.presets, ids=lambda preset: preset.name)
+
+
+def on_which_side(view, points):
+    """The sign of r·M at (l, L/G), from the place alone."""
+    l, x = points.T
+    r1, _, r3 = view.body.r
+    return np.sign(r1 * np.sqrt(np.maximum(0.0, 1.0 - x * x)) * np.sin(l) + r3 * x)
+
+
+# ---- Examples ---------------------------------------------------------------------------------------------------
+
+
+@every_preset
+def test_an_example_shows_what_its_name_and_its_captions_promise(preset):
+    view = View(preset.values, shown={"section", "exponent", "sphere"})
+    assert view.report.notes == []
+    assert not view.report.todo
+    kept, count = view.numbers("section", "keeps its sign along # of # orbits")
+    assert count == view.values["orbits"]
+    hess = view.values["away"] == 0.0
+    assert view.body.is_hess is hess
+    assert (kept == count) is hess
+    # The colours are those of the starts: in the Hess case of every point.
+    first, second, own = (view.points(layer) for layer in ("first", "second", "own"))
+    assert len(first) + len(second) == count * view.values["count"]
+    if hess:
+        assert np.all(on_which_side(view, first) >= -1e-6)
+        assert np.all(on_which_side(view, second) <= 1e-6)
+    else:
+        assert np.any(on_which_side(view, first) < 0.0)
+        assert np.any(on_which_side(view, second) > 0.0)
+    # The axes are those of a new page where they are not said.
+    assert ("section" in view.axes) is bool(view.values["window"])
+    if view.values["window"]:
+        (l0, x0), (l1, x1) = places(view.values["window"])
+        assert view.axes["section"] == pytest.approx([l0, l1, x0, x1], abs=1e-6)
+    # The first returns of the chosen orbit, by SciPy.
+    slow = math.sqrt(2.0 * max(view.body.a) * (view.h + view.body.strength))
+    times, states = crossings_by_scipy(view.body, view.start, 30.0 / slow)
+    assert len(times)
+    assert own[: min(2, len(times))] == pytest.approx(coordinates(states)[:2], abs=1e-4)
+    # What is said of the exponent.
+    exponent, end = view.numbers("exponent", "λ = # after t = #")
+    assert end == view.values["long"]
+    series = view.data["exponent-lambda"]
+    spans, means = (np.asarray(series[key][0], float) for key in ("xs", "ys"))
+    assert means[-1] == pytest.approx(exponent, rel=6e-3)
+    early = int(np.argmin(np.abs(spans - 3.0)))
+    assert means[early] == pytest.approx(finite_exponent(view.body, view.start, float(spans[early])), abs=1e-4)
+    words = "chaotic" if largest_exponent(SYSTEM, view.start, view.body.parameters, 2000.0).value > 0.03 else "regular"
+    assert words in view.text["exponent"]
+    # And of the orbit.
+    track = view.data["data-orbit"]
+    gamma = np.column_stack([track[name] for name in ("g1", "g2", "g3")])
+    assert np.sum(gamma**2, axis=1) == pytest.approx(1.0, abs=1e-5)
+    there = solve(SYSTEM, view.start, view.body.parameters, [float(track["t"][7])], REFERENCE).states[0]
+    assert gamma[7] == pytest.approx(there[3:], abs=1e-5)
+    assert (track["l"][7], track["x"][7]) == pytest.approx(tuple(coordinates(there[None])[0]), abs=1e-5)
+    assert not re.search(r"nan|inf", " ".join(view.text.values()), re.IGNORECASE)
+    for name in ("section", "rotation", "exponent", "sphere"):
+        title, second_line = view.text[name].split("\n")
+        assert title
+        assert len(second_line) <= 110
+
+
+@pytest.mark.parametrize("preset", EP.presets[1:2] + EP.presets[5:6] + EP.presets[10:16:5], ids=lambda p: p.name)
+def test_rotation_numbers_are_those_of_10000_points(preset):
+    view = View({**preset.values, "orbits": 0.0})
+    low, high = view.numbers("rotation", "From # to #")
+    series = view.data["rotation-rho"]
+    along, rho = (np.concatenate([*series[key]]).astype(float) for key in ("xs", "ys"))
+    assert (np.min(rho), np.max(rho)) == (pytest.approx(low, abs=6e-5), pytest.approx(high, abs=6e-5))
+    turning = view.values["turns"] == "about the middle"
+    ends = np.column_stack([view.data["section-line"][key] for key in ("x", "y")]).astype(float)
+    for i in np.linspace(0, len(rho) - 1, 5).astype(int):
+        place = (along[i], ends[0, 1]) if turning else (ends[0, 0], along[i])
+        start = [state_at(view.body, view.h, view.f, *place)]
+        states = andoyer_points(view.body, view.h, view.f, start, 10_000, STANDARD).states[0]
+        exact, spread = rotation_number(coordinates(states), tuple(ends[0]) if turning else None)
+        if spread < 1e-6:
+            assert math.remainder(rho[i] - exact, 1.0) == pytest.approx(0.0, abs=3e-4)
+
+
+def test_an_orbit_between_two_gaps_is_seen_too():
+    """A line of one point is none: every number that the caption speaks of is a point as well."""
+    view = View({"orbits": 0.0}, shown={"rotation"})
+    low, high = view.numbers("rotation", "From # to #")
+    lines, points = view.data["rotation-rho"], view.data["rotation-orbits"]
+    assert any(len(line) == 1 for line in lines["ys"])
+    for axis in "xy":
+        assert points[axis].tolist() == [value for line in lines[f"{axis}s"] for value in line]
+    assert (points["y"].min(), points["y"].max()) == pytest.approx((low, high), abs=1e-4)
+
+
+def test_at_the_meandering_torus_the_rotation_number_turns_round_at_an_eighth():
+    view = View({**EP.presets[1].values, "orbits": 0.0}, shown={"rotation"})
+    place, rho = view.numbers("rotation", "it turns round at # with ρ = #: no twist there.")
+    assert rho == pytest.approx(0.125, abs=1e-4)
+    centre = tuple(float(view.data["section-line"][key][0]) for key in ("x", "y"))
+
+    def exact(l):
+        start = [state_at(GESS1, 50.0, 5.0, l, centre[1])]
+        points = coordinates(andoyer_points(GESS1, 50.0, 5.0, start, 10_000, STANDARD).states[0])
+        return rotation_number(points, centre)[0], points
+
+    least, islands = exact(place)
+    assert least == pytest.approx(0.125, abs=1e-5)
+    # A twist map has no extremum: here it is more on both sides, also between islands and the next minimum.
+    meander, hump = exact(-1.5875)[0], exact(-1.5708)[0]
+    assert least < meander < hump < exact(-1.65)[0]
+    assert meander == pytest.approx(0.1251, abs=2e-5)
+    assert exact(-1.47)[0] > 0.1262
+    # Eight islands: every eighth point stays in a small part of the picture.
+    eighth = islands[::8]
+    assert np.ptp(eighth, axis=0).max() < 0.35 * np.ptp(islands, axis=0).max()
+
+
+def test_the_barrier_is_gone_away_from_hess_and_there_in_it():
+    """The same three orbits in time, without a section: the sign of r·M along them."""
+    times = np.linspace(0.0, 100.0, 4000)
+    for away, crosses in ((0.0, False), (0.02, True)):
+        body = body_of({**EP.defaults(), "away": away})
+        starts = [state_at(body, 50.0, 5.0, l, x) for l, x in ((0.0, 0.2), (2.6, -0.55), (-2.5, 0.3))]
+        along = [solve(SYSTEM, start, body.parameters, times, STANDARD).states[:, :3] @ body.r for start in starts]
+        assert any(np.min(values) < 0.0 < np.max(values) for values in along) is crosses
+
+
+def test_grey_is_where_no_motion_is_possible():
+    view = View({**EP.presets[4].values, "orbits": 0.0})
+    cells = np.asarray(view.data["section-impossible"]["image"][0])
+    rows, columns = cells.shape
+    assert 0.05 < np.mean(cells) < 0.95
+    x0, y0, width, height = (float(view.data["section-impossible"][key][0]) for key in ("x", "y", "dw", "dh"))
+    assert (x0, y0, width, height) == pytest.approx((-math.pi, -1.0, 2.0 * math.pi, 2.0), abs=1e-6)
+    top = math.sqrt(2.0 * (view.h + view.body.strength) / min(view.body.a))
+    wrong = 0
+    for j, i in np.random.default_rng(6).integers(0, (rows, columns), (300, 2)):
+        l, x = x0 + (i + 0.5) * width / columns, y0 + (j + 0.5) * height / rows
+        least = np.min(dense(view.body, view.f, float(l), float(x), top)[1])
+        if abs(least - view.h) > 0.01 * view.body.strength:
+            wrong += bool(cells[j, i]) is (least <= view.h)
+    assert wrong == 0
+
+
+def test_the_green_curve_is_the_hess_manifold():
+    view = View({"orbits": 0.0, "away": 0.3})
+    curve = np.column_stack([view.data["section-curve"][key] for key in ("x", "y")]).astype(float)
+    r1, _, r3 = view.body.r
+    M = np.column_stack([np.sqrt(1.0 - curve[:, 1] ** 2) * np.sin(curve[:, 0]), curve[:, 1]])
+    assert np.max(np.abs(M @ [r1, r3])) < 1e-6
+
+
+# ---- What changes -----------------------------------------------------------------------------------------------
+
+
+def test_a_new_start_is_drawn_and_its_neighbours_stay():
+    one, two = View({"orbits": 4.0, "starts": "0,0.2"}), View({"orbits": 4.0, "starts": "0,0.2;0.5,-0.3"})
+    assert np.array_equal(one.points("first"), two.points("first"))
+    assert np.array_equal(two.points("own")[: len(one.points("own"))], one.points("own"))
+    assert len(two.points("own")) == 2 * len(one.points("own"))
+    ring = two.data["section-chosen"]
+    assert np.column_stack([ring["x"], ring["y"]]) == pytest.approx(np.array([[0.0, 0.2], [0.5, -0.3]]))
+
+
+def test_a_window_is_filled_with_orbits_of_its_own():
+    view = View({"orbits": 20.0, "window": "0.5,0.1;1.5,0.6"})
+    assert view.axes["section"] == pytest.approx([0.5, 1.5, 0.1, 0.6])
+    starts = np.array(CACHE.get(*seeds_of(view))[0])
+    l, x = coordinates(starts).T
+    assert l.min() > 0.5
+    assert l.max() < 1.5
+    assert x.min() > 0.1
+    assert x.max() < 0.6
+    assert len(starts) == 20
+
+
+def seeds_of(view):
+    from hess_explorer.scenes import euler_poisson
+
+    return euler_poisson._seeds, view.body, view.h, view.f, view.result.window, int(view.values["orbits"])
+
+
+def test_a_drag_shows_the_section_at_once_with_fewer_orbits():
+    view = View({"h": 41.37}, dragging=True)
+    assert view.result.todo == ()
+    assert 0 < len(view.points("first")) + len(view.points("second")) <= 16 * 40
+    assert "let go" in view.text["rotation"]
+    assert "let go" in view.text["exponent"]
+
+
+@pytest.mark.parametrize("seen", [set(), {"section"}, {"rotation"}, {"exponent"}, {"sphere"}])
+def test_what_is_not_seen_is_not_left_to_do(seen):
+    values = {**EP.defaults(), "h": 33.3, "orbits": 8.0}
+    result = EP.compute(values, seen, False)
+    names = {task.function.__name__ for task in result.todo}
+    expected = set()
+    if seen & {"section", "rotation"}:
+        expected.add("_piece")
+    if "exponent" in seen:
+        expected.add("largest_exponent")
+    assert names == expected
+    assert result.total == len(result.todo)
+
+
+def test_the_motion_for_speed_and_accuracy_is_the_chosen_orbit():
+    values = {**EP.defaults(), "starts": "0,0.2;0.5,-0.3"}
+    found = motion(values)
+    assert found.system is SYSTEM
+    assert found.state == pytest.approx(state_at(GESS1, 50.0, 5.0, 0.5, -0.3), abs=1e-12)
+    assert found.span == values["span"]
+    energy = energies_at(GESS1, 5.0, 0.5, -0.3, np.linalg.norm(found.state[:3]))[0]
+    assert energy == pytest.approx(50.0, abs=1e-10)
+    assert angles(np.array(found.state))[1][0] == pytest.approx(math.pi / 2, abs=1e-10)
+
+
+def test_sliders_end_where_the_potential_does():
+    low, high, step = EP.limits(EP.defaults())["h"]
+    assert low == pytest.approx(-9.98, abs=0.011)
+    assert low < 50.0 < high
+    assert step > 0.0
+    assert EP.limits({**EP.defaults(), "m": 0.0})["h"][0] == 0.0
+
+
+# ---- Refusals ---------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("values", "words"), [
+    ({"I2": 2.0}, "I2 = 2 must lie between I1 = 1 and I3 = 0.375"),
+    ({"I1": 1.0, "I2": 1.0, "I3": 1.0}, "which differ"),
+    ({"h": -20.0}, "Nothing is possible here with h = -20 and f = 5: choose a larger h, a smaller .f., or press Clear"),
+    ({"f": 500.0}, "Nothing is possible here"),
+])
+def test_what_cannot_be_shown_is_a_sentence(values, words):
+    admitted, _ = EP.admit({**EP.defaults(), **values})
+    with pytest.raises(ModelError, match=words):
+        EP.compute(admitted, EP.pictures, False)
+
+
+def test_a_start_that_is_not_possible_is_replaced_and_said():
+    view = View({**EP.presets[9].values, "orbits": 4.0, "starts": "2.8,0.3"})
+    (note,) = view.report.notes
+    assert note.startswith("At l = 2.8, L/G = 0.3 no motion with this h and f crosses the section: "
+                           "the chosen orbit starts at l = ")
+    assert len(view.data["section-chosen"]["x"]) == 1
+
+
+@pytest.mark.parametrize("values", [
+    {"I1": 1000.0, "I2": 1.0, "I3": 0.001}, {"m": 0.0, "f": 0.0}, {"h": 1e5}, {"f": 0.0, "h": 10.0}, {"away": math.pi},
+    {"m": -9.975}, {"h": -9.9, "f": 0.0, "starts": "1.5,0"}, {"orbits": 0.0, "count": 2.0, "long": 1.0, "span": 0.01}])
+def test_at_the_ends_of_what_may_be_typed_there_is_a_picture_or_a_sentence(values):
+    try:
+        view = View({"orbits": 8.0, "count": 20.0, "long": 5.0, "span": 2.0, **values})
+    except ModelError as error:
+        assert re.search(r"choose|press", str(error))
+        return
+    for name, columns in view.data.items():
+        for column in columns.values():
+            parts = column if isinstance(column, list) else [column]
+            assert all(np.all(np.isfinite(np.asarray(part, float))) for part in parts if len(np.shape(part))), name
+    assert not re.search(r"nan|inf\b", " ".join([*view.text.values(), view.report.status]), re.IGNORECASE)
+
+
+SECOND_SERIES = [one for one in EP.presets if one.name.startswith("gess-ris2")]
+
+
+@pytest.mark.parametrize("preset", SECOND_SERIES, ids=lambda one: one.name)
+def test_what_an_example_of_the_second_series_says_of_the_hess_motion_is_so(preset):
+    """By the circle map of the same torus: a1′ = a2, b = a2 μ|r|, h → a2 H/b, f → a2 F1/√b."""
+    a2, b = 2.0 / 3.0, (2.0 / 3.0) * math.sqrt(0.5)
+    h, f = a2 * preset.values["h"] / b, a2 * preset.values["f"] / math.sqrt(b)
+    a = math.sqrt((1.0 - a2) * (a2 - 0.5)) / a2
+    if abs(f) > f_max(h):
+        expected = "no Hess motion yet"
+    else:
+        expected = {"elliptic": "the Hess motion is stable", "hyperbolic": "it is unstable, two layers part"}[
+            circle_map(a, h, f, level("precise")).kind]
+    assert preset.name.endswith(expected)

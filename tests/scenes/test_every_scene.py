@@ -1,0 +1,878 @@
+"""Conformance of every registered scene, the words of the Suslov–Hess scene, and sessions without a browser."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import logging
+import math
+import re
+import time
+from functools import cache
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from bokeh.models import LogScale
+from bokeh.models.glyphs import Line, Scatter
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hess_explorer.page import session
+from hess_explorer.page.description import describe
+from hess_explorer.protocol.parameters import Number, Places, decode, written
+from hess_explorer.protocol.wire import Wire
+from hess_explorer.scenes import speed_accuracy
+from hess_explorer.scenes.framework.scene import Report
+from hess_explorer.views.text import with_formulas
+from hess_mechanics import circle_map, f_max, level
+from hess_mechanics.errors import InvalidParameter, ModelError
+from support.board import (
+    ACCURACY,
+    HESS,
+    SCENES,
+    Board,
+    Browser,
+    contents,
+    description,
+    elsewhere,
+    empty_sources,
+    flat,
+    plots_of,
+    said,
+    shown,
+)
+from support.mechanics import PROPERTY
+
+# A state with other axes than the default one.
+OTHERS = {HESS.name: {"b3": -2.9, "h": 100.0, "f": -5.0, "phi0": -1.0, "I22": 1.3, "I23": -0.4}}
+every_scene = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
+every_preset = pytest.mark.parametrize(
+    ("scene", "preset"), [(scene, preset) for scene in SCENES.values() for preset in scene.presets],
+    ids=[f"{name}: {preset.name}" for name, scene in SCENES.items() for preset in scene.presets],
+)
+
+
+def preset_values(scene, name):
+    preset = next(preset for preset in scene.presets if preset.name.startswith(name))
+    return {**scene.defaults(), **preset.values}
+
+
+@every_scene
+def test_the_defaults_are_admitted_unchanged(scene):
+    assert scene.admit(scene.defaults()) == (scene.defaults(), [])
+    for name, (low, high, step) in scene.limits(scene.defaults()).items():
+        assert low < scene.defaults()[name] < high
+        assert step > 0
+
+
+@every_scene
+def test_a_scene_explains_itself_and_each_of_its_parameters(scene):
+    assert scene.title
+    assert scene.summary.endswith(".")
+    assert len({spec.name for spec in scene.specs}) == len(scene.specs)
+    # Places have no control to be explained.
+    for spec in (spec for spec in scene.specs if not isinstance(spec, Places)):
+        assert spec.label, spec.name
+        assert len(spec.help.split()) > 2, spec.name
+        assert spec.help.endswith((".", ")")), spec.name
+        assert spec.label.isprintable()
+    assert len({preset.name for preset in scene.presets}) == len(scene.presets) > 2
+    for preset in scene.presets:
+        assert preset.name.isprintable()
+        assert preset.name
+
+
+@every_scene
+def test_a_legend_is_a_list_and_a_thumbnail_a_drawing(scene):
+    legend = ElementTree.fromstring(scene.legend.strip())
+    assert (legend.tag, legend.get("aria-label")) == ("ul", "Legend")
+    assert len(legend) > 2
+    for item in legend:
+        assert item.tag == "li"
+        assert re.search(r"\w", "".join(item.itertext()))
+    drawing = ElementTree.fromstring(f"<svg>{scene.thumbnail}</svg>")
+    assert len(drawing) > 2
+
+
+@every_scene
+def test_a_scene_names_its_pictures_in_the_order_in_which_they_stand(scene):
+    stage = scene.stage(Wire())
+    assert tuple(picture.name for picture in stage.pictures) == scene.pictures
+    assert len(set(scene.pictures)) == len(scene.pictures)
+    # A caption is the text of its picture's name: the other texts of the page have others.
+    assert not set(scene.pictures) & {"status", "notes", "derived", "busy"}
+
+
+@every_scene
+def test_the_description_of_a_scene_has_all_that_the_browser_needs(scene):
+    found = description(scene.name)
+    assert describe(scene.name) is describe(scene.name)
+    assert (found["name"], found["title"]) == (scene.name, scene.title)
+    assert [picture["name"] for picture in found["pictures"]] == list(scene.pictures)
+    assert list(plots_of(scene.name)) == [one["name"] for one in found["pictures"] if one["kind"] == "plot"]
+    controlled = [spec for spec in scene.specs if not isinstance(spec, Places)]
+    assert found["drawn"] == (len(controlled) < len(scene.specs))
+    assert [control["name"] for control in found["controls"]] == [spec.name for spec in controlled]
+    for control, spec in zip(found["controls"], controlled, strict=True):
+        assert (control["label"], control["help"]) == (spec.label, spec.help)
+        if isinstance(spec, Number):
+            assert (control["kind"], control["symbol"]) == ("number", spec.symbol)
+        else:
+            assert (control["kind"], control["options"]) == ("choice", list(spec.options))
+    assert found["presets"] == [preset.name for preset in scene.presets]
+    assert found["legend"] == scene.legend
+    assert len(re.sub(r"<[^>]*>", "", found["words"])) > 200
+    assert "$" not in found["words"]
+    assert not re.search(r"<script|\son\w+=|javascript:|https?://(?!www\.w3\.org)", found["words"] + found["legend"])
+
+
+@every_scene
+def test_the_pictures_of_a_description_are_empty_and_belong_to_no_session(scene):
+    for root in plots_of(scene.name).values():
+        assert root.js_event_callbacks.keys() <= {"tap", "doubletap", "pan", "panstart", "panend", "mousemove"}
+        assert not root.tools
+        assert root.toolbar_location is None
+    assert "data-orbit" in empty_sources(scene.name) or not description(scene.name)["dots"]
+
+
+@every_scene
+def test_the_player_and_the_sphere_find_their_columns(scene):
+    board, _ = shown(scene, scene.defaults())
+    dots, angles = board.stage.dots, board.stage.angles
+    assert description(scene.name)["dots"] == {source: list(columns) for source, columns in dots.items()}
+    assert description(scene.name)["angles"] == list(angles)
+    assert set(dots) <= set(board.sources)
+    if not dots:
+        return
+    orbit = board.sources["data-orbit"]
+    assert {"t", *angles, *(column for columns in dots.values() for column in columns)} <= set(orbit)
+    assert len({len(column) for column in orbit.values()}) == 1
+    for track in (track for one in description(scene.name)["pictures"] for track in one.get("tracks", ())):
+        assert {"g1", "g2", "g3"} <= set(board.sources[track])
+
+
+@every_scene
+def test_a_scene_that_looks_into_another_one_has_its_parameters(scene):
+    if scene.origin is None:
+        looking = [one for one in SCENES.values() if one.origin == scene.name]
+        assert len(looking) == (scene.motion is not None)
+        return
+    origin = SCENES[scene.origin]
+    assert origin.motion is not None
+    assert (scene.specs, scene.presets) == (origin.specs, origin.presets)
+    assert scene.motion is None
+
+
+@every_scene
+def test_every_formula_of_the_words_becomes_mathml(scene):
+    formulas = re.findall(r"\$+.+?\$+", scene.words, re.DOTALL)
+    html = with_formulas(scene.words)
+    assert html.count("<math") == len(formulas) > (5 if scene.origin is None else 0)
+    assert "$" not in html
+    # What the converter does not know it passes on as a command.
+    assert not re.search(r"\\[A-Za-z]+", html)
+    # Browsers know no other variant: bold and script letters must be letters of their own.
+    assert set(re.findall(r'mathvariant="([^"]*)"', html)) <= {"normal"}
+
+
+@every_preset
+def test_a_preset_is_possible_as_it_stands_and_is_drawn(scene, preset):
+    values = {**scene.defaults(), **preset.values}
+    assert set(preset.values) <= set(scene.defaults())
+    assert scene.admit(values) == (values, [])
+    board, report = shown(scene, values)
+    assert isinstance(report, Report)
+    assert report.status
+    assert report.derived
+    assert all(re.search(r"\w", text) for text in (report.status, *report.derived, *report.notes))
+    for name, caption in board.captions.items():
+        title, sentence = caption.split("\n")
+        assert re.search(r"\w", title), name
+        assert re.search(r"\w.*\.$", sentence), name
+        # A title and two lines below it.
+        assert len(title) < 40, name
+        assert len(sentence) <= 110, (name, sentence)
+        assert not re.search(r"\bnan\b|\binf\b", caption, re.IGNORECASE)
+
+
+@every_preset
+def test_a_state_looks_the_same_whatever_was_shown_before(scene, preset):
+    values = {**scene.defaults(), **preset.values}
+    first, report = shown(scene, values)
+    board, _ = shown(scene, {**elsewhere(scene), **OTHERS.get(scene.origin or scene.name, {})})
+    _, again = shown(scene, values, board)
+    assert contents(board.sources) == contents(first.sources)
+    assert board.ranges == first.ranges
+    if scene.origin is None:
+        assert board.captions == first.captions
+    assert again.derived == report.derived
+    assert len(first.fresh) > 3
+
+
+@every_scene
+def test_axes_stay_while_a_slider_is_held_and_fit_when_it_is_let_go(scene):
+    board, _ = shown(scene, scene.defaults())
+    before = dict(board.ranges)
+    found = []
+    for values in (elsewhere(scene), {**scene.defaults(), **OTHERS.get(scene.origin or scene.name, {})}):
+        shown(scene, values, board, hold_axes=True)
+        assert board.ranges == before
+        shown(scene, values, board)
+        found.append(dict(board.ranges))
+        shown(scene, scene.defaults(), board)
+        assert board.ranges == before
+    assert (scene.origin or scene.name) not in OTHERS or any(ranges != before for ranges in found)
+
+
+@every_scene
+def test_going_back_draws_the_same_pictures_again(scene):
+    board, report = shown(scene, scene.defaults())
+    first = contents(board.sources)
+    for preset in scene.presets:
+        shown(scene, {**scene.defaults(), **preset.values}, board)
+        _, again = shown(scene, scene.defaults(), board)
+        assert contents(board.sources) == first, preset.name
+        assert again.derived == report.derived
+
+
+@every_scene
+def test_the_same_state_again_is_drawn_the_same(scene):
+    board, _ = shown(scene, scene.defaults())
+    before = contents(board.sources), board.ranges, board.captions
+    shown(scene, scene.defaults(), board)
+    assert (contents(board.sources), board.ranges, board.captions) == before
+
+
+@every_scene
+def test_a_stage_that_fails_shows_the_sentence_and_nothing_of_another_state(scene):
+    board, _ = shown(scene, scene.defaults())
+    before = contents(board.sources)
+    depends = set()
+    for preset in scene.presets[1:]:
+        shown(scene, {**scene.defaults(), **preset.values}, board)
+        after = contents(board.sources)
+        depends |= {name for name in before if before[name] != after[name]}
+    assert len(depends) > 3
+    board.fail("No motion here.")
+    left = contents(board.sources)
+    for name in depends:
+        assert name.endswith("-message") or not [x for values in left[name].values() for x in values if x != ""], name
+    assert any("No motion here." in values for columns in left.values() for values in columns.values())
+    assert set(board.captions.values()) == {"No motion here."}
+    # And the next state is drawn whole.
+    shown(scene, scene.defaults(), board)
+    assert contents(board.sources) == before
+
+
+def somewhere(spec):
+    """Values that may be typed: from the slider, from everywhere, and close to either end, to 0 and to ±1."""
+    if isinstance(spec, Places):
+        # No windows: of what is computed for one, some lies outside.
+        place = st.tuples(*(st.floats(low, high) for low, high in zip(spec.low, spec.high, strict=True)))
+        return st.lists(place, max_size=3 if spec.most > 2 else 0).map(written)
+    if not isinstance(spec, Number):
+        return st.sampled_from(spec.options)
+    distance = st.floats(-16.0, math.log10(spec.highest - spec.lowest)).map(lambda exponent: 10.0**exponent)
+    return st.one_of(
+        st.floats(spec.low, spec.high),
+        st.floats(spec.lowest, spec.highest),
+        st.sampled_from([0.0, 1.0, spec.default, spec.lowest, spec.highest]),
+        st.builds(lambda start, way: start + way, st.sampled_from([spec.lowest, -1.0, 0.0, 1.0]), distance),
+        st.builds(lambda start, way: start - way, st.sampled_from([spec.highest, 1.0, 0.0, -1.0]), distance),
+    ).map(lambda value: min(max(value, spec.lowest), spec.highest))
+
+
+def in_sight(scene):
+    """All pictures, as mostly, or some of them."""
+    return st.one_of(st.just(set(scene.pictures)), st.sets(st.sampled_from(scene.pictures)))
+
+
+@cache
+def lasting_board(name):
+    """A board that has shown a state."""
+    return shown(SCENES[name], SCENES[name].defaults())[0]
+
+
+def assert_within_the_axes(board):
+    """Every line and marker of what is fresh lies in its picture; so on a logarithmic axis it is positive."""
+    seen = set()
+    for plot, root in plots_of(board.scene.name).items():
+        x0, x1, y0, y1 = board.ranges[plot]
+        for renderer in root.renderers:
+            glyph, name = renderer.glyph, renderer.data_source.name
+            # The line that marks a limit runs out of the picture on purpose.
+            if not isinstance(glyph, Line | Scatter) or name not in board.fresh or name.endswith("-limit"):
+                continue
+            seen.add(name)
+            for column, low, high, scale in ((glyph.x, x0, x1, root.x_scale), (glyph.y, y0, y1, root.y_scale)):
+                values, ends = np.asarray(flat(board.fresh[name][column.field])), np.array([low, high])
+                if isinstance(scale, LogScale):
+                    assert np.all(values > 0.0), (name, column)
+                    values, ends = np.log10(values), np.log10(ends)
+                # What comes by the wire is in single precision.
+                room = 1e-6 * np.max(np.abs(ends))
+                assert np.all((values >= ends[0] - room) & (values <= ends[1] + room)), (name, column)
+    return seen
+
+
+def assert_drawn(scene, values, seen, dragging):
+    """Any values are admitted, computed and drawn: finite numbers, in the pictures' axes, and words beside them."""
+    board = lasting_board(scene.name)
+    getattr(board.stage, "_drawn", {}).clear()  # the same state again is to be drawn again
+    admitted, _ = scene.admit(values)
+    board.texts.clear()
+    try:
+        result = scene.compute(admitted, seen, dragging)
+    except ModelError as error:
+        # Every state of the Suslov–Hess case can be computed.
+        assert (scene.origin or scene.name) != HESS.name
+        assert str(error).endswith(".")
+        return
+    report = board.show(result)
+    drawn = assert_within_the_axes(board)
+    whole = set(seen) == set(scene.pictures) or (scene.origin or scene.name) == HESS.name
+    assert len(drawn) > 2 or not (whole and seen)
+    for words in (*board.texts.values(), report.status, *report.derived, *report.notes):
+        assert re.search(r"\w", words)
+        assert not re.search(r"\bnan\b|\binf\b", words, re.IGNORECASE), words
+    assert set(seen) <= set(board.texts) <= set(scene.pictures)
+    orbit = board.fresh.get("data-orbit")
+    if orbit is not None:
+        assert orbit["t"][0] == 0.0
+        assert np.all(np.diff(orbit["t"]) >= 0.0)
+        assert 0.0 < orbit["t"][-1] <= admitted.get("span", math.inf) * (1.0 + 1e-6)
+
+
+@settings(PROPERTY, max_examples=250)
+@given(data=st.data(), dragging=st.booleans())
+def test_every_admissible_state_is_computed_and_drawn_without_a_number_that_is_none(data, dragging):
+    values = {spec.name: data.draw(somewhere(spec), label=spec.name) for spec in HESS.specs}
+    assert_drawn(HESS, values, data.draw(in_sight(HESS), label="in sight"), dragging)
+
+
+@pytest.mark.parametrize("scene", [
+    pytest.param(scene, id=name) for name, scene in SCENES.items() if scene.origin is None and scene is not HESS])
+@settings(PROPERTY, max_examples=40)
+@given(data=st.data(), dragging=st.booleans())
+def test_an_admissible_state_of_the_other_scenes_is_drawn_whole_or_refused_with_a_sentence(scene, data, dragging):
+    values = {spec.name: data.draw(somewhere(spec), label=spec.name) for spec in scene.specs}
+    assert_drawn(scene, values, data.draw(in_sight(scene), label="in sight"), dragging)
+
+
+def assert_errors_drawn(scene, data):
+    values = {spec.name: data.draw(somewhere(spec), label=spec.name) for spec in scene.specs}
+    # Under a drag: without SciPy's methods, which take long.
+    assert_drawn(scene, values, data.draw(in_sight(scene), label="in sight"), True)
+
+
+@settings(PROPERTY, max_examples=80)
+@given(data=st.data())
+def test_the_errors_of_every_admissible_state_are_computed_and_drawn_too(data):
+    assert_errors_drawn(ACCURACY, data)
+
+
+@pytest.mark.parametrize("scene", [
+    pytest.param(scene, id=name) for name, scene in SCENES.items() if scene.origin not in (None, HESS.name)])
+@settings(PROPERTY, max_examples=20)
+@given(data=st.data())
+def test_the_errors_of_the_other_scenes_are_drawn_too_or_refused_with_a_sentence(scene, data):
+    assert_errors_drawn(scene, data)
+
+
+def test_at_the_separatrix_and_far_from_it_the_slow_methods_run_without_a_warning_too():
+    for change in ({"h": 1.0, "f": 0.0}, {"h": 1e6, "span": 0.01}, {"I22": 0.1, "I23": 10.0, "span": 1.0},
+                   {"h": -1.0 + 1e-9, "f": 0.0}, {"f": 1e4}):
+        values = {**ACCURACY.defaults(), **change}
+        assert_drawn(ACCURACY, values, ACCURACY.pictures, False)
+
+
+def test_on_the_separatrix_only_the_circle_map_is_silent():
+    board, report = shown(HESS, preset_values(HESS, "Separatrix"))
+    data = board.sources
+    assert flat(data["circle-message"]["text"]) == ["Separatrix: no return"]
+    for name in ("map", "cobweb", "stable", "unstable"):
+        assert flat(list(data[f"circle-{name}"].values())) == []
+    assert "no return" in board.captions["circle"]
+    assert "no return" in report.status
+    # The others go on: an orbit that loses its speed on the way to the upper equilibrium n3 = −1, w = 0.
+    orbit = data["data-orbit"]
+    assert len(orbit["t"]) > 50
+    assert math.hypot(orbit["omega1"][0], orbit["omega2"][0]) > 1.9
+    assert math.hypot(orbit["omega1"][-1], orbit["omega2"][-1]) < 1e-3
+    assert flat(data["bifurcation-here"]["h"]) == [1.0]
+    assert flat(data["bifurcation-here"]["f"]) == [0.0]
+
+
+def test_off_the_separatrix_the_circle_map_comes_back():
+    board, _ = shown(HESS, preset_values(HESS, "Separatrix"))
+    shown(HESS, HESS.defaults(), board)
+    data = board.sources
+    assert flat(data["circle-message"]["text"]) == []
+    assert len(flat(data["circle-map"]["xs"])) > 500
+    a = 0.28 / 0.96
+    stable, unstable = circle_map(a, 1.5, 0.6, level("reference")).fixed_points
+    assert flat(data["circle-stable"]["phi"]) == pytest.approx([stable.phi], abs=1e-5)
+    assert flat(data["circle-unstable"]["phi"]) == pytest.approx([unstable.phi], abs=1e-5)
+
+
+# Label of the paper, and the equation as it must be and as it was printed.
+CORRECTIONS = [
+    (r"h=\(1-3n_3\^2\)/\(2n_3\)", r"3n_3\^3"),
+    (r"b=-b_3\(I_\{22\}\^2\+I_\{23\}\^2\)\^\{-1/2\}", r"b=-m"),
+    (r"w_2=\\omega_2\(1\+a\^2\)\^\{-1/2\}", r"w_2=\\omega_1"),
+    (r"\$E\$ and \$F_2\$ are those of the Suslov problem divided by \$I_\{11\}\$", r"multiplied by"),
+    (r"\|a\|\\ge1", r"\|a\|\\ge2"),
+]
+
+
+@pytest.mark.parametrize(("correct", "printed"), CORRECTIONS)
+def test_the_words_give_the_corrected_equation(correct, printed):
+    assert re.search(correct, HESS.words)
+    assert not re.search(printed, HESS.words)
+
+
+def test_a_body_that_is_none_is_shown_and_said():
+    _, report = shown(HESS, preset_values(HESS, "Strong contraction"))
+    assert any("Not a rigid body" in note for note in report.notes)
+    assert any(re.search(r"rigid body\? no", row) for row in report.derived)
+    _, report = shown(HESS, HESS.defaults())
+    assert not any("Not a rigid body" in note for note in report.notes)
+    assert any(re.search(r"rigid body\? yes", row) for row in report.derived)
+
+
+# --- Sessions: what the browser may send -------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with pytest.MonkeyPatch.context() as patch:
+        # Many states of "Speed and accuracy" are met here: without SciPy's methods.
+        patch.setattr(speed_accuracy, "others_take_long", lambda *_: True)
+        yield Browser(HESS)
+
+
+names = st.sampled_from([*HESS.defaults(), "theme", "t", "__class__", "requested", ""])
+pictures = st.sampled_from([*HESS.pictures, *ACCURACY.pictures, "point", ""])
+huge = st.sampled_from([10**400, -(10**400)])
+numbers = st.one_of(st.floats(), st.integers(-5, 5), st.booleans(), huge, st.none(), st.text(max_size=5))
+garbage = st.recursive(
+    numbers, lambda part: st.one_of(st.lists(part, max_size=4), st.dictionaries(names, part, max_size=4)), max_leaves=8)
+messages = st.one_of(
+    garbage,
+    st.fixed_dictionaries({}, optional={
+        "requested": numbers, "held": garbage,
+        "values": st.one_of(garbage, st.dictionaries(names, numbers)),
+        "picked": st.one_of(garbage, st.tuples(pictures, numbers, numbers).map(list)),
+        "reset": garbage,
+        "preset": st.one_of(garbage, st.sampled_from([one.name for scene in SCENES.values() for one in scene.presets])),
+        "scene": st.one_of(garbage, st.sampled_from(list(SCENES))),
+        "hidden": st.one_of(garbage, st.lists(pictures, max_size=8)),
+    }),
+)
+
+
+@PROPERTY
+@given(message=messages)
+def test_no_message_raises_or_makes_a_state_inadmissible(browser, message):
+    browser.send(message)
+    state = browser.ask(requested=7)
+    browser.assert_admissible()
+    assert state["answers"] == 7
+
+
+@pytest.mark.parametrize("message", [
+    {}, [], "reset", None, 3, [1, 2], {"values": "h"}, {"values": [["h", 1]]}, {"values": {"h": "2.5"}},
+    {"values": {"h": None, "f": [1], "nobody": 1.0, "accuracy": 2}}, {"picked": ["circle"]},
+    {"picked": ["circle", "1", "1"]}, {"picked": ["bifurcation", math.nan, 0.0]}, {"picked": ["sphere", 1.0, 1.0]},
+    {"picked": [["bifurcation"], 1.0, 1.0]}, {"requested": "2"}, {"requested": None, "held": "yes"},
+    {"reset": 1}, {"reset": "yes"}, {"preset": "nobody"}, {"preset": 1}, {"preset": ["Separatrix: no return"]},
+    {"preset": None}, {"values": {"preset": "Separatrix: no return", "scene": "suslov-hess-accuracy"}},
+    {"scene": "nowhere"}, {"scene": ["suslov-hess-accuracy"]}, {"scene": None},
+    {"scene": "suslov-hess"}, {"scene": 0}, {"picked": ["precision", 1e-3, 1.0]},
+])
+def test_a_message_that_means_nothing_changes_nothing(message):
+    browser = Browser(HESS)
+    browser.send(message)
+    state = browser.ask()
+    assert browser.session.values == HESS.defaults()
+    assert browser.session.scene is HESS
+    assert state["number"] == 2
+    assert browser.texts["notes"] == ""
+    assert browser.entered == browser.described == [HESS.name]
+
+
+@pytest.mark.parametrize(("values", "expected"), [
+    ({"h": -5.0}, {"h": -1.0 + 1e-9}),
+    ({"h": 1e300}, {"h": 1e6}),
+    ({"h": math.nan}, {"h": 1.5}),
+    ({"I22": -1.0}, {"I22": 1e-3}),
+    ({"I22": 0.5, "I23": 900.0}, {"I22": 0.5, "I23": 50.0}),
+    ({"f": -math.inf}, {"f": 0.6}),
+    ({"h": 0.25, "f": 77.0}, {"h": 0.25, "f": f_max(0.25)}),
+])
+def test_a_number_from_the_wire_is_clamped_by_itself_with_a_note(values, expected):
+    browser = Browser(HESS)
+    browser.ask(values={**values, "phi0": -1.0})
+    found = browser.session.values
+    assert {name: found[name] for name in expected} == pytest.approx(expected, rel=1e-12)
+    assert found["phi0"] == -1.0
+    assert browser.texts["notes"] != ""
+    assert browser.controls["phi0"][0] == -1.0
+    for name, value in expected.items():
+        assert browser.controls[name][0] == pytest.approx(value, rel=1e-12)
+
+
+def test_a_change_is_drawn_with_the_request_and_not_before():
+    browser = Browser(HESS)
+    before = browser.state
+    browser.session.change({"h": 0.5})
+    assert browser.state is before
+    state = browser.ask(requested=3)
+    assert (state["number"], state["answers"]) == (before["number"] + 1, 3)
+    assert decode(state["query"], HESS.specs)[0]["h"] == 0.5
+    assert flat(browser.data["bifurcation-here"]["h"]) == [0.5]
+    assert np.all(browser.data["data-orbit"]["h"] == 0.5)
+
+
+def test_a_request_without_a_change_computes_nothing():
+    calls = []
+
+    def compute(values, shown, dragging):
+        calls.append(values)
+        return HESS.compute(values, shown, dragging)
+
+    browser = Browser(dataclasses.replace(HESS, compute=compute))
+    for requested in (1, 2, 3):
+        state = browser.ask(requested)
+        assert state["answers"] == requested
+        assert state["tree"]["sources"] == {}
+    assert len(calls) == 1
+    browser.ask(4, values={"h": 2.0})
+    browser.ask(5, values={"h": 2.0})
+    assert len(calls) == 2
+
+
+def test_reset_brings_back_the_defaults():
+    browser = Browser(HESS)
+    browser.ask(values={"h": 0.2, "f": 0.1, "I22": 2.0, "phi0": 3.0, "span": 7.0})
+    browser.session.change({"accuracy": "draft"})
+    browser.ask()
+    assert browser.session.values != HESS.defaults()
+    browser.session.reset()
+    browser.ask()
+    assert browser.session.values == HESS.defaults()
+    shown_ = {name: one if isinstance(one, str) else one[0] for name, one in browser.controls.items()}
+    assert shown_ == {**HESS.defaults(), "preset": HESS.presets[0].name}
+
+
+def test_f_returns_to_what_was_wanted_when_h_allows_it_again():
+    browser = Browser(HESS)
+    browser.ask(values={"f": 1.2})
+    browser.ask(values={"h": -0.5})
+    assert browser.session.values["f"] == pytest.approx(f_max(-0.5))
+    assert "f is at that edge" in browser.texts["notes"]
+    browser.ask(values={"h": 1.5})
+    assert browser.session.values["f"] == 1.2
+    assert browser.texts["notes"] == ""
+
+
+def test_a_value_that_is_refused_twice_is_corrected_twice():
+    browser = Browser(HESS)
+    for _ in range(2):
+        browser.controls.clear()
+        browser.ask(values={"f": 99.0})
+        assert browser.session.values["f"] == pytest.approx(f_max(1.5))
+        # The box says 99 now: only this message puts it right.
+        assert browser.controls["f"][0] == pytest.approx(f_max(1.5))
+
+
+def test_controls_wait_while_a_slider_is_held_and_follow_when_it_is_let_go():
+    browser = Browser(HESS)
+    browser.controls.clear()
+    browser.ask(1, values={"h": 0.5}, held=True)
+    assert browser.controls == {}
+    browser.ask(2)
+    assert browser.controls["h"][0] == 0.5
+    assert browser.controls["f"][2] <= f_max(0.5)
+
+
+def test_notes_of_the_link_are_shown_until_the_first_change():
+    browser = Browser(HESS, notes=["h was not a number and is 1.5 now."])
+    assert browser.texts["notes"] == "h was not a number and is 1.5 now."
+    browser.ask(values={"f": 0.5})
+    assert browser.texts["notes"] == ""
+
+
+@pytest.mark.parametrize(("error", "sentence"), [
+    (InvalidParameter("This is beyond us: choose less."), "This is beyond us: choose less."),
+    (ZeroDivisionError("secret <b>internals</b>"), "This state could not be computed."),
+])
+def test_a_computation_that_raises_draws_the_sentence_in_empty_pictures(error, sentence, caplog):
+    def compute(values, shown, dragging):
+        if values["h"] == 3.0:
+            raise error
+        return HESS.compute(values, shown, dragging)
+
+    browser = Browser(dataclasses.replace(HESS, compute=compute))
+    with caplog.at_level(logging.ERROR):
+        browser.ask(values={"h": 3.0})
+    for name in ("omega", "sphere", "bifurcation", "circle"):
+        assert browser.texts[name].startswith(sentence)
+    assert browser.texts["status"].startswith(sentence)
+    assert said(browser.data["circle-message"])[0].startswith(sentence)
+    assert "secret" not in json.dumps(browser.texts)
+    for name in ("data-orbit", "data-stable", "data-unstable", "circle-map", "circle-cobweb", "circle-stable",
+                 "circle-unstable", "bifurcation-here", "bifurcation-here-too"):
+        assert flat(list(browser.data[name].values())) == [], name
+    # What nobody expected is logged, with the state that makes it happen again.
+    expected_error = isinstance(error, InvalidParameter)
+    assert len(caplog.records) == (0 if expected_error else 1)
+    assert expected_error or "h=3.0" in caplog.text
+    browser.ask(values={"h": 2.0})
+    assert not browser.texts["omega"].startswith(sentence)
+    assert len(browser.data["data-orbit"]["t"]) > 100
+    assert flat(browser.data["circle-message"]["text"]) == []
+
+
+def test_a_first_state_that_cannot_be_computed_is_said_too(caplog):
+    def compute(values, shown, dragging):
+        raise InvalidParameter("This is beyond us: choose less.")
+
+    browser = Browser(dataclasses.replace(HESS, compute=compute))
+    assert re.fullmatch(r"This is beyond us: choose less\. · cache \d+ hits, \d+ misses", browser.texts["status"])
+    assert said(browser.data["circle-message"]) == ["This is beyond us: choose less."]
+    assert flat(browser.data["data-orbit"].get("omega1", [])) == []
+
+
+def test_two_sessions_share_nothing_but_results():
+    one, other = Browser(HESS), Browser(HESS)
+    one.ask(values={"h": 0.3})
+    other.ask()
+    assert other.session.values == HESS.defaults()
+    assert other.state["tree"]["sources"] == {}
+    assert flat(other.data["bifurcation-here"]["h"]) == [1.5]
+
+
+# --- Sessions: from one scene to another -------------------------------------------------------------
+
+
+@pytest.fixture
+def quick(monkeypatch):
+    """Without the methods of SciPy."""
+    monkeypatch.setattr(speed_accuracy, "others_take_long", lambda *_: True)
+
+
+def unfolded(scene, sources):
+    """What the sources hold, but for those of pictures that are not seen at first."""
+    return {name: columns for name, columns in contents(sources).items() if name not in scene.folded}
+
+
+@pytest.mark.usefixtures("quick")
+def test_another_scene_keeps_the_values_and_brings_its_own_pictures():
+    browser = Browser(HESS)
+    browser.ask(1, values={"h": 0.5, "f": 0.3, "phi0": -1.0})
+    before = browser.session.values
+    state = browser.ask(2, scene=ACCURACY.name)
+    assert browser.session.values == before
+    assert browser.entered[-1] == ACCURACY.name
+    browser.assert_admissible()
+    assert (state["scene"], state["answers"]) == (ACCURACY.name, 2)
+    # Its data are in the answer that enters it, and nothing of the old pictures is sent any more.
+    assert len(browser.screen.fresh["data-orbit"]["t"]) > 100
+    assert {name.split("-")[0] for name in browser.screen.fresh} <= {*ACCURACY.pictures, "data"}
+    assert set(state["tree"]["texts"]) == {*ACCURACY.pictures, "status", "notes", "derived"}
+    assert set(browser.controls) == {*(spec.name for spec in ACCURACY.specs), "preset"}
+    state = browser.ask(3, values={"phi0": 2.0})
+    assert {name.split("-")[0] for name in state["tree"]["sources"]} <= {*ACCURACY.pictures, "data"}
+    assert "growth-standard" in state["tree"]["sources"]
+    # And back, with what was changed there.
+    state = browser.ask(4, scene=HESS.name)
+    assert browser.entered == [HESS.name, ACCURACY.name, HESS.name]
+    assert browser.session.values == {**before, "phi0": 2.0}
+    assert browser.data["data-orbit"]["phi"][0] == pytest.approx(2.0)
+    # The browser has kept its pictures: what has not changed there is not sent again.
+    assert "bifurcation-boundary" not in state["tree"]["sources"]
+    whole, _ = shown(HESS, browser.session.values)
+    assert unfolded(HESS, browser.data) == unfolded(HESS, whole.sources)
+    assert set(state["tree"]["texts"]) == {*HESS.pictures, "status", "notes", "derived"}
+
+
+@pytest.mark.usefixtures("quick")
+def test_values_that_come_with_a_scene_count_in_it():
+    browser = Browser(HESS, notes=["h was not a number and is 1.5 now."])
+    browser.ask(1, scene=ACCURACY.name, values={"h": 0.25, "f": 77.0})
+    assert browser.session.scene is ACCURACY
+    assert browser.session.values["h"] == 0.25
+    assert browser.session.values["f"] == pytest.approx(f_max(0.25))
+    assert "f is at that edge" in browser.texts["notes"]
+    assert "not a number" not in browser.texts["notes"]
+
+
+@pytest.mark.usefixtures("quick")
+def test_the_scene_that_is_on_show_is_not_built_again():
+    browser = Browser(HESS)
+    for requested in (1, 2):
+        browser.ask(requested, scene=ACCURACY.name)
+        assert browser.entered == browser.described == [HESS.name, ACCURACY.name]
+    browser.ask(3, scene="nowhere")
+    assert len(browser.entered) == 2
+
+
+@pytest.mark.usefixtures("quick")
+def test_a_scene_is_described_once_however_often_it_is_entered():
+    browser = Browser(HESS)
+    for requested in range(1, 7):
+        browser.ask(requested, scene=(ACCURACY, HESS)[requested % 2 - 1].name)
+    assert browser.entered == [HESS.name] + [ACCURACY.name, HESS.name] * 3
+    assert browser.described == [HESS.name, ACCURACY.name]
+
+
+@pytest.mark.usefixtures("quick")
+def test_a_scene_that_may_come_next_is_described_once_and_not_entered():
+    browser = Browser(HESS)
+    for requested in (1, 2):
+        state = browser.ask(requested, near=ACCURACY.name)
+        assert state["scene"] == HESS.name
+        assert browser.described == [HESS.name, ACCURACY.name]
+    assert browser.entered == [HESS.name]
+    for near in ("nowhere", 7, None, [ACCURACY.name], HESS.name):
+        browser.ask(3, near=near)
+    assert browser.described == [HESS.name, ACCURACY.name]
+    browser.ask(4, scene=ACCURACY.name)
+    assert browser.entered == browser.described == [HESS.name, ACCURACY.name]
+
+
+@pytest.mark.usefixtures("quick")
+def test_with_the_state_of_a_scene_comes_the_description_of_no_other():
+    """The browser sees the last one only."""
+    browser = Browser(HESS)
+    other = next(name for name in SCENES if name not in (HESS.name, ACCURACY.name))
+    browser.ask(1, scene=ACCURACY.name, near=other)
+    assert browser.described == [HESS.name, ACCURACY.name]
+    browser.ask(2, near=other)
+    assert browser.described[-1] == other
+
+
+@pytest.mark.usefixtures("quick")
+def test_from_any_scene_to_any_other_and_back_everything_is_of_the_state():
+    browser = Browser(HESS)
+    others = [name for name in SCENES if name != HESS.name]
+    for requested, name in enumerate([name for other in others for name in (other, HESS.name)], 1):
+        state = browser.ask(requested, scene=name)
+        browser.assert_admissible()
+        assert (state["scene"], state["answers"]) == (name, requested)
+        scene = SCENES[name]
+        assert {*scene.pictures, "status", "notes", "derived"} == set(state["tree"]["texts"])
+        assert set(state["tree"]["controls"]) == {*(spec.name for spec in scene.specs), "preset"}
+        # What arrives later is waited for.
+        while browser.state["progress"] is not None:
+            time.sleep(0.02)
+            browser.ask(requested)
+        whole = Board(scene)
+        shown(scene, browser.session.values, whole)
+        assert unfolded(scene, browser.data) == unfolded(scene, whole.sources), name
+        assert browser.screen.ranges == whole.ranges, name
+
+
+def test_a_parameter_that_only_the_new_scene_has_takes_its_default(monkeypatch):
+    extra = Number("extra", "x", "Extra", 2.0, 1.0, 3.0, 0.1, 0.0, 4.0)
+    other = dataclasses.replace(HESS, name="other", specs=(*HESS.specs[1:], extra), admit=lambda values: (values, []),
+                                compute=lambda values, *rest: HESS.compute(HESS.defaults() | values, *rest))
+    monkeypatch.setitem(SCENES, other.name, other)
+    browser = Browser(HESS)
+    browser.ask(1, values={"h": 0.5, "I22": 1.25})
+    browser.ask(2, scene="other")
+    common = {name: value for name, value in HESS.defaults().items() if name != "I22"}
+    assert browser.session.values == {**common, "h": 0.5, "extra": 2.0}
+    # What the other scene does not know it does not keep.
+    browser.ask(3, values={"extra": 3.5, "I22": 2.0})
+    assert browser.session.values["extra"] == 3.5
+    browser.ask(4, scene=HESS.name)
+    # As it was left.
+    assert browser.session.values == {**HESS.defaults(), "h": 0.5, "I22": 1.25}
+
+
+@pytest.fixture
+def other(monkeypatch):
+    """Another scene, of the same parameters with other defaults, and one more; impossible for h > 2."""
+    own = {"h": 1.75, "f": 0.25}
+    extra = Number("extra", "x", "Extra", 2.0, 1.0, 3.0, 0.1, 0.0, 4.0)
+    specs = tuple(dataclasses.replace(spec, default=own.get(spec.name, spec.default)) for spec in HESS.specs)
+
+    def compute(values, *rest):
+        if values["h"] > 2.0:
+            raise InvalidParameter("Too fast here: choose h below 2.")
+        return HESS.compute(values, *rest)
+
+    scene = dataclasses.replace(HESS, name="other", specs=(*specs, extra), compute=compute)
+    monkeypatch.setitem(SCENES, scene.name, scene)
+    return scene
+
+
+def test_a_scene_begins_in_its_own_first_state_and_what_was_changed_comes_along(other):
+    browser = Browser(HESS)
+    browser.ask(1, scene="other")
+    assert browser.session.values == other.defaults()
+    browser.ask(2, values={"h": 0.5, "accuracy": "precise", "extra": 2.5})
+    browser.ask(3, scene=HESS.name)
+    assert browser.session.values == {**HESS.defaults(), "h": 0.5, "accuracy": "precise"}
+    # What is reset here stays as it was left there.
+    browser.ask(4, reset=True)
+    browser.ask(5, scene="other", values={"b3": -2.0})
+    assert browser.session.values == {**other.defaults(), "h": 0.5, "accuracy": "precise", "extra": 2.5, "b3": -2.0}
+    assert browser.texts["notes"] == ""
+
+
+def test_where_what_was_chosen_before_is_impossible_the_scene_begins_in_its_own_first_state(other):
+    browser = Browser(HESS)
+    browser.ask(1, values={"h": 3.0, "I22": 1.25})
+    browser.ask(2, scene="other")
+    assert browser.session.values == other.defaults()
+    assert browser.texts["notes"] == "What was chosen before is not possible here: this is the scene's own first state."
+    assert len(browser.data["data-orbit"]["omega1"]) > 100
+    # A choice in the scene itself is refused in its own words, and so is a link.
+    browser.ask(3, values={"h": 2.5})
+    assert browser.texts["status"].startswith("Too fast here")
+    assert browser.session.values["h"] == 2.5
+    browser.ask(4, scene=HESS.name)
+    assert browser.session.values["h"] == 2.5
+    assert Browser(other, {**other.defaults(), "h": 3.0}).texts["status"].startswith("Too fast here")
+
+
+def test_the_scene_that_looks_into_another_shows_its_motion_with_all_places():
+    sections, looking = (scene for scene in SCENES.values() if "euler-poisson" in (scene.name, scene.origin))
+    browser = Browser(sections, {**sections.defaults(), "orbits": 0.0, "starts": "1.2,0.3"})
+    browser.ask(1, scene=looking.name)
+    assert browser.session.values["starts"] == "1.2,0.3"
+    browser.ask(2, reset=True)
+    browser.ask(3, scene=sections.name)
+    assert browser.session.values == sections.defaults()
+
+
+def test_a_scene_that_cannot_be_computed_is_entered_with_its_sentence(monkeypatch):
+    def compute(values, shown, dragging):
+        raise InvalidParameter("This is beyond us: choose less.")
+
+    broken = dataclasses.replace(ACCURACY, compute=compute)
+    monkeypatch.setattr(session, "scenes", lambda: {HESS.name: HESS, broken.name: broken})
+    browser = Browser(HESS)
+    state = browser.ask(1, scene=broken.name)
+    assert state["scene"] == broken.name
+    assert browser.texts["status"].startswith("This is beyond us")
+    for name in ACCURACY.pictures:
+        assert said(browser.data[f"{name}-message"]) == ["This is beyond us: choose less."]
+        assert browser.texts[name] == "This is beyond us: choose less."
+    browser.ask(2, scene=HESS.name)
+    assert not browser.texts["status"].startswith("This is beyond us")
+
+
+def test_a_click_on_the_cost_of_a_level_chooses_it():
+    browser = Browser(ACCURACY)
+    browser.ask(1, picked=["precision", 3e-10, 0.5])
+    assert browser.session.values == {**ACCURACY.defaults(), "accuracy": "precise"}
+    assert browser.controls["accuracy"] == "precise"
+    assert browser.texts["precision"].startswith("Cost against error\nprecise: ")
+    assert "precise chosen" in browser.texts["status"]
+    browser.ask(2, picked=["growth", 10.0, 1e-3])
+    assert browser.session.values["accuracy"] == "precise"

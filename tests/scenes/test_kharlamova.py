@@ -1,0 +1,205 @@
+"""The scenes "principal axis, b3 = 0" and "b1 = b2 = 0": every example shows what its name and its captions promise."""
+
+from __future__ import annotations
+
+import math
+import re
+
+import numpy as np
+import pytest
+
+from hess_explorer.compute.cache import CACHE
+from hess_explorer.protocol.wire import Wire
+from hess_explorer.scenes import scenes
+from hess_mechanics import level, solve, systems
+from hess_mechanics.errors import NoField, OutsideRegion
+from hess_mechanics.suslov.kharlamova import arc, state_at
+from support.kharlamova import ARC, POINT
+from support.wire import read
+
+SUSLOV = systems()["suslov"]
+FLOOR = level("reference")
+NUMBER = r"(−?[\d.]+(?:e−?\d+)?)"
+
+
+class View:
+    """What a scene shows of some values: `data` by source, `text` by picture, `report`, `result`."""
+
+    def __init__(self, scene, values, dragging=False):
+        wire = Wire()
+        self.stage = scene.stage(wire)
+        self.values, notes = scene.admit({**scene.defaults(), **values})
+        assert notes == []
+        self.result = scene.compute(self.values, scene.pictures, dragging)
+        self.report = self.stage.show(self.result, False)
+        tree, block = wire.pack()
+        self.data = {name: {key: read(column, block) for key, column in columns.items()}
+                     for name, columns in tree["sources"].items()}
+        self.text = tree["texts"]
+
+    def numbers(self, picture, pattern):
+        """The numbers in a caption that stand where the pattern has #."""
+        return numbers_of(self.text[picture], pattern)
+
+
+def numbers_of(text, pattern):
+    found = re.search(re.escape(pattern).replace(r"\#", NUMBER), text)
+    assert found, (pattern, text)
+    return [float(one.replace("−", "-")) for one in found.groups()]
+
+
+def exact(view):
+    """The states of the orbit on show, computed by the general system from the first of them."""
+    orbit = view.result.orbit
+    return solve(SUSLOV, view.result.start, view.result.body.parameters, orbit.times, FLOOR).states
+
+
+@pytest.mark.parametrize("preset", ARC.presets, ids=lambda preset: preset.name)
+def test_an_example_of_b3_0_is_what_its_name_says(preset):
+    view = View(ARC, preset.values)
+    found, start, body = view.result.arc, np.array(view.result.start), view.result.body
+    kind = preset.name.split()[0].rstrip(":").lower()
+    assert found.kind == {"next": "periodic"}.get(kind, kind)
+    states = exact(view)
+    orbit = view.data["data-orbit"]
+    r1, r2 = math.sqrt(body.I11), math.sqrt(body.I22)
+    assert np.column_stack([orbit["q1"], orbit["q2"]]) == pytest.approx(
+        np.column_stack([r1 * states[:, 3], -r2 * states[:, 2]]), abs=2e-6)
+    if found.kind == "periodic":
+        (shown,) = view.numbers("domain", "to and fro in T = #.")
+        period, missed = view.numbers("period", "T = # here; after T back at the start to #.")
+        assert shown == period == pytest.approx(found.period, rel=6e-6)
+        assert np.abs(solve(SUSLOV, start, body.parameters, [found.period], FLOOR).states[0] - start).max() <= 1e-9
+        assert missed <= 1e-6
+        # γ̇3 where γ3 = 0, of the integrated orbit: its extremes there.
+        speeds = view.numbers("sphere", "|γ̇₃| = # and #.")
+        times = np.linspace(0.0, found.period, 4001)
+        all_of_it = solve(SUSLOV, start, body.parameters, times, FLOOR).states
+        g3 = all_of_it[:, 4]
+        rate = np.abs(all_of_it[:, 2] * all_of_it[:, 1] - all_of_it[:, 3] * all_of_it[:, 0])
+        at = np.flatnonzero(g3[1:] * g3[:-1] < 0.0)
+        assert sorted(rate[at]) == pytest.approx(sorted(speeds), rel=2e-2, abs=1e-3)
+    elif found.kind == "asymptotic":
+        assert "T = ∞" in view.text["period"]
+        assert np.abs(np.array(SUSLOV.field(states[-1], body.parameters))).max() < 1e-3
+    else:
+        assert np.ptp(states, axis=0) == pytest.approx(np.zeros(5), abs=1e-12)
+        assert ("unstable" in view.text["domain"]) is ("unstable" in preset.name)
+
+
+def test_the_straight_line_the_two_orbits_and_the_long_period():
+    line = View(ARC, ARC.presets[1].values)
+    assert "a straight line" in line.text["domain"]
+    q = np.column_stack([line.data["data-orbit"][name] for name in ("q1", "q2")])
+    assert np.linalg.svd(q - q.mean(axis=0))[1][1] < 1e-5
+    assert "parabola" in View(ARC, {}).text["domain"]
+    two = View(ARC, ARC.presets[3].values)
+    assert two.result.arc.other is not None
+    assert len(two.data["curve-other"]["xs"][0]) > 10
+    assert View(ARC, ARC.presets[-1].values).result.arc.period > 15.0
+
+
+def test_the_mirror_image_runs_along_the_same_curves():
+    view = View(ARC, {})
+    orbit, found = view.data["data-orbit"], view.result.arc
+    for tau, g3 in (("tau", "g3"), ("mirror_tau", "mirror_g3")):
+        assert np.abs(orbit[g3]) == pytest.approx(found.height(orbit[tau]), abs=2e-3)
+    # It starts below where the orbit starts, and is where that was.
+    assert orbit["mirror_g3"][0] == -orbit["g3"][0]
+    past = solve(SUSLOV, view.result.start, view.result.body.parameters, -view.result.orbit.times, FLOOR).states
+    assert orbit["mirror_g3"] == pytest.approx(-past[:, 4], abs=2e-6)
+
+
+def test_the_graph_of_the_period_is_the_period_of_each_direction():
+    view = View(ARC, {})
+    (alpha,), (T,) = view.data["period-T"]["xs"], view.data["period-T"]["ys"]
+    body, q = view.result.body, (view.values["q1"], view.values["q2"])
+    for i in range(0, len(alpha), 90):
+        y = state_at(body, q, (math.cos(alpha[i]), math.sin(alpha[i])))
+        assert T[i] == pytest.approx(arc(body, y).period, rel=1e-4)
+    assert (view.data["period-chosen"]["x"][0], view.data["period-chosen"]["y"][0]) == pytest.approx(
+        (view.values["alpha"], view.result.arc.period))
+
+
+def test_a_start_outside_moves_to_the_edge_and_says_so():
+    values, notes = ARC.admit({**ARC.defaults(), "q1": 3.0, "q2": 0.0})
+    assert values["q1"] == pytest.approx(math.sqrt(1.5))
+    assert "outside the ellipse" in notes[0]
+    assert ARC.compute(values, ARC.pictures, False).start[4] == 0.0
+    values, notes = POINT.admit({**POINT.defaults(), "h": 2.0, "Q1": 0.1, "Q2": 0.0})
+    assert "at the edge now" in notes[0]
+    assert POINT.compute(values, (), False).start[4] == pytest.approx(1.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("preset", POINT.presets, ids=lambda preset: preset.name)
+def test_an_example_of_the_quartic_potential_is_what_its_name_says(preset):
+    view = View(POINT, preset.values)
+    body, states = view.result.body, exact(view)
+    orbit = view.data["data-orbit"]
+    # q and γ of the body; in a sea errors grow.
+    assert np.column_stack([orbit["q1"], orbit["q2"]]) == pytest.approx(
+        np.column_stack([body.I22 * states[:, 1], -body.I11 * states[:, 0]]) / body.b3, abs=1e-4)
+    low, high = view.numbers("sphere", "γ₃ from # to #.")
+    assert (low, high) == pytest.approx((states[:, 4].min(), states[:, 4].max()), rel=6e-4, abs=1e-4)
+    G = (body.I11 * states[:, 0] * states[:, 2] + body.I22 * states[:, 1] * states[:, 3]) / body.b3
+    if preset.name.startswith("Integrable"):
+        value, kept = view.numbers("momentum", "an integral, #, kept to #.")
+        assert value == pytest.approx(G[0], rel=6e-4)
+        assert np.ptp(G) < 1e-12
+        assert kept <= 1e-6
+    else:
+        assert view.numbers("momentum", "from # to #.") == pytest.approx([G.min(), G.max()], rel=1e-3, abs=1e-3)
+    points, visited = view.numbers("section", "The orbit: # points in # of 1024 cells.")
+    assert points == len(view.data["section-own"]["x"])
+    assert (visited > 0.6 * points) is ("sea" in preset.name)
+    if "ring" in preset.name:
+        assert "a ring" in view.text["domain"]
+        assert body.h > abs(body.b3)
+    if "bouncing" in preset.name:
+        assert orbit["q2"].min() > 0.0
+
+
+@pytest.mark.parametrize("name", ["quartic", "ball-section"])
+def test_at_first_a_section_has_the_beginnings_of_all_its_orbits(name):
+    values = {"count": 45.0, "h": 0.83}
+    first = View(scenes()[name], values)
+    (task,) = first.report.todo
+    assert (first.result.others.shape, first.report.total) == ((20 * 30, 2), 1)
+    CACHE.get(task.function, *task.arguments)
+    whole = View(scenes()[name], values)
+    assert (whole.report.todo, whole.report.total) == ((), 1)
+    # Later a chaotic orbit shows that its steps were others.
+    begun = first.result.others.reshape(20, 30, 2)[:, :8]
+    assert whole.result.others.reshape(20, 45, 2)[:, :8] == pytest.approx(begun, abs=1e-5)
+    # The chosen orbit is there at once.
+    assert len(first.result.own) == 45
+    held = View(scenes()[name], values, dragging=True)
+    assert (held.report.todo, len(held.result.own)) == ((), 30)
+    assert held.result.others == pytest.approx(first.result.others)
+
+
+def test_a_click_chooses_where_the_orbit_starts():
+    view = View(POINT, {})
+    assert view.stage.pick("domain", 0.5, -0.25) == {"Q1": 0.5, "Q2": -0.25}
+    picked = view.stage.pick("section", 0.7, 0.3)
+    again = View(POINT, picked)
+    places, _ = again.result.body.to_plane(np.array([again.result.start]))
+    assert places[0] == pytest.approx((0.0, 0.7), abs=1e-12)
+    assert again.result.start[3] == pytest.approx(0.3, abs=1e-12)
+    # Grey: nothing.
+    assert view.stage.pick("section", 0.0, 1.0) == {}
+    assert View(ARC, {}).stage.pick("period", 1.0, 5.0) == {"alpha": 1.0}
+
+
+def test_what_is_no_motion_is_refused_in_words():
+    for values, error, words in (({"b3": 0.0}, NoField, "Choose b3"), ({"h": -1.5}, OutsideRegion, "choose h above")):
+        admitted, _ = POINT.admit({**POINT.defaults(), **values})
+        with pytest.raises(error, match=words):
+            POINT.compute(admitted, POINT.pictures, False)
+
+
+def test_the_motion_for_speed_and_accuracy_is_the_one_on_show():
+    for scene in (ARC, POINT):
+        view, motion = View(scene, {}), scene.motion(scene.defaults())
+        assert motion.state == pytest.approx(view.result.start)
+        assert (motion.parameters, motion.span) == (view.result.body.parameters, view.values["span"])

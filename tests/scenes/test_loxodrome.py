@@ -1,0 +1,219 @@
+"""The scene "loxodromic pendulum", and the body on the Suslov–Hess page: pictures and captions say what is so."""
+
+from __future__ import annotations
+
+import math
+import re
+
+import numpy as np
+import pytest
+
+from hess_explorer.protocol.wire import Wire
+from hess_explorer.scenes.framework.work import ACCURACY
+from hess_mechanics.errors import ModelError
+from support.loxodrome import HESS, LOXODROME, clock, slope, swing_at
+from support.wire import read
+
+NUMBER = r"(−?[\d.]+(?:e−?\d+)?)"
+
+
+class View:
+    """What a scene shows of some values: data by source, captions, report."""
+
+    def __init__(self, scene, values, shown=None, dragging=False):
+        wire = Wire()
+        stage = scene.stage(wire)
+        self.values, notes = scene.admit({**scene.defaults(), **values})
+        assert notes == []
+        self.result = scene.compute(self.values, scene.pictures if shown is None else shown, dragging)
+        self.report = stage.show(self.result, False)
+        tree, block = wire.pack()
+        self.data = {name: {key: unpacked(column, block) for key, column in columns.items()}
+                     for name, columns in tree["sources"].items()}
+        self.axes, self.text = tree["ranges"], tree["texts"]
+
+    def numbers(self, picture, pattern):
+        """The numbers in a caption that stand where the pattern has #."""
+        found = re.search(re.escape(pattern).replace(r"\#", NUMBER), self.text[picture])
+        assert found, (pattern, self.text[picture])
+        return [float(text.replace("−", "-")) for text in found.groups()]
+
+    def curve(self, picture, look):
+        """The only curve of that look, (n, 3)."""
+        (found,) = [np.array(curve, float) for name, *curve in self.data[picture]["curves"] if name == look]
+        return found.T
+
+
+def unpacked(column, block):
+    if isinstance(column, list):
+        return [unpacked(item, block) for item in column]
+    return read(column, block) if isinstance(column, dict) else column
+
+
+every_preset = pytest.mark.parametrize("preset", LOXODROME.presets, ids=lambda preset: preset.name)
+
+
+@every_preset
+def test_a_preset_shows_what_its_captions_promise(preset):
+    view = View(LOXODROME, preset.values)
+    values = view.values
+    a, h, l0 = slope(values), values["energy"], values["l"]
+    theta, error = view.numbers("angle", "θ = #, measured on the track, to #.")
+    assert theta == pytest.approx(math.asin(1.0 / math.hypot(1.0, a)), rel=6e-6)
+    assert error < 2e-5
+    drawn = view.data["angle-theta"]
+    assert len(drawn["x"]) > 5
+    assert drawn["y"] == pytest.approx(theta, abs=2e-5)
+    assert view.data["angle-promised"]["y"] == pytest.approx([theta] * 2, abs=1e-5)
+    assert view.numbers("body", "in a vertical plane, to #.")[0] < 1e-5
+    orbit = view.data["data-orbit"]
+    alpha = swing_at(h, orbit["t"].astype(float) / clock(values))
+    assert orbit["height"] == pytest.approx(-np.cos(alpha), abs=2e-5 * max(1.0, values["span"] / 20))
+    assert orbit["l"] == pytest.approx(2.0 * np.arctan(math.tan(l0 / 2) * np.exp(a * alpha)), abs=1e-4)
+    if h < 1.0:
+        reach, top = view.numbers("height", "It swings to α = ±#; the height reaches h = #.")
+        assert (reach, top) == (pytest.approx(math.acos(-h), rel=6e-4), pytest.approx(h))
+        low, high = view.numbers("space", "l from # to #.")
+        ends = sorted(2.0 * math.atan(math.tan(l0 / 2) * math.exp(a * side * math.acos(-h))) for side in (-1, 1))
+        assert [low, high] == pytest.approx(ends, rel=6e-4)
+        assert (orbit["l"].min(), orbit["l"].max()) == pytest.approx(tuple(ends), abs=2e-3)
+    elif h == 1.0:
+        start, end = view.numbers("space", "from l = # towards #.")
+        assert start == pytest.approx(l0)
+        assert end == pytest.approx(2.0 * math.atan(math.tan(l0 / 2) * math.exp(a * math.pi)), rel=6e-4)
+        assert orbit["height"][-1] == pytest.approx(1.0, abs=1e-5)
+        assert view.report.notes == [] or "at rest to the eye" in view.report.notes[0]
+    else:
+        assert view.numbers("height", "It goes round: # turns") == [
+            pytest.approx(abs(alpha[-1]) / (2 * math.pi), rel=6e-4)]
+        assert view.numbers("space", "l from # to #.") == [
+            pytest.approx(l0, rel=6e-4), pytest.approx(orbit["l"][-1], rel=6e-4)]
+
+
+@every_preset
+def test_the_computed_track_lies_on_the_loxodrome_and_both_are_seen_from_below_upwards(preset):
+    view = View(LOXODROME, preset.values)
+    loxodrome, track = view.curve("space", "muted"), view.curve("space", "orbit")
+    for points in (loxodrome, track):
+        assert np.linalg.norm(points, axis=1) == pytest.approx(1.0, abs=1e-6)
+    # In Mercator's chart about e, the first axis, both are a straight line of slope a, and the same one.
+    lines = []
+    for x, y, z in (track.T, loxodrome.T):
+        clear = np.flatnonzero(np.abs(x) < 0.999)
+        between = slice(clear[0], clear[-1] + 1)
+        latitude = np.log(np.tan(0.5 * np.arctan2(np.hypot(y, z), x)[between]))
+        lines.append(latitude - slope(view.values) * np.unwrap(np.arctan2(-z, -y)[between]))
+        assert np.ptp(lines[-1]) < 1e-3
+    turns = (lines[0][0] - lines[1][0]) / (2.0 * math.pi * slope(view.values))
+    assert turns == pytest.approx(round(turns), abs=1e-3)
+    # The centre of mass starts at the bottom, in the plane across e.
+    centre = view.curve("body", "stable")
+    assert centre[0] == pytest.approx([0.0, 0.0, -1.0], abs=1e-6)
+    assert np.max(np.abs(centre[:, 0])) < 1e-4
+    assert centre[:, 2] == pytest.approx(view.data["data-orbit"]["height"], abs=1e-6)
+
+
+def test_the_source_of_the_body_has_its_attitude_its_ellipsoid_and_its_centre_of_mass():
+    view = View(LOXODROME, {})
+    body = view.data["body"]
+    g, e = (np.stack([body[f"{name}{k}"] for k in (1, 2, 3)], axis=1) for name in "ge")
+    assert np.sum(g * g, axis=1) == pytest.approx(1.0, abs=1e-6)
+    assert np.sum(g * e, axis=1) == pytest.approx(0.0, abs=1e-6)
+    semi = np.array(body["semi"])
+    assert (semi / semi[0]) ** 2 == pytest.approx([1.0, 1.5, 2.0])
+    *normal, radius = body["section"]
+    # A circle of this radius across r lies on the ellipsoid.
+    u = np.cross(normal, [0.0, 1.0, 0.0])
+    assert radius == pytest.approx(semi[1])
+    assert np.sum((radius * u / semi) ** 2) == pytest.approx(1.0)
+    # The figure's potential γ1/√3 + γ3/√6: r along (√2, 0, 1).
+    assert body["rods"][1][:3] == pytest.approx([math.sqrt(2 / 3), 0.0, math.sqrt(1 / 3)])
+    # Where the centre of mass is in space: along (e, −γ × e, −γ).
+    r = np.array(normal)
+    place = np.stack([e @ r, -np.cross(g, e) @ r, -g @ r], axis=1)
+    assert place == pytest.approx(view.curve("body", "stable"), abs=2e-6)
+    assert "t" not in view.data["space"]
+
+
+def test_a_body_that_cannot_be_has_no_ellipsoid_and_says_so():
+    view = View(LOXODROME, {"I3": 9.0})
+    assert "semi" not in view.data["body"]
+    assert "No rigid body" in view.text["body"]
+    assert view.report.notes[0].startswith("Not a rigid body")
+    assert View(LOXODROME, {}).report.notes == []
+
+
+@pytest.mark.parametrize(("values", "words"), [
+    ({"I2": 2.5}, "I2 = 2.5 must lie between I1 = 1 and I3 = 2"),
+    ({"I2": 1.0, "I3": 1.0}, "which differ"),
+    ({"I1": -1.0}, "choose I1 > 0"),
+    ({"m": -0.5}, "choose μ > 0"),
+    ({"energy": -1.0}, "no motion"),
+    ({"l": 0.0}, "no track"),
+])
+def test_what_is_no_loxodromic_pendulum_is_refused(values, words):
+    with pytest.raises(ModelError, match=re.escape(words)) as refused:
+        LOXODROME.compute({**LOXODROME.defaults(), **values}, LOXODROME.pictures, False)
+    assert str(refused.value).endswith(".")
+
+
+def test_the_slider_of_the_middle_moment_lies_between_the_others():
+    assert LOXODROME.limits({**LOXODROME.defaults(), "I1": 3.0, "I3": 0.5}) == {"I2": (0.5, 3.0, 0.005)}
+    assert LOXODROME.limits({**LOXODROME.defaults(), "I1": 2.0, "I3": 2.0}) == {}
+
+
+@pytest.mark.parametrize("accuracy", ACCURACY.options)
+def test_the_status_line_says_error_drift_and_how_orthonormal_it_was(accuracy):
+    status = View(LOXODROME, {"accuracy": accuracy}).report.status
+    assert status.startswith(f"{accuracy}: orbit ")
+    assert re.search(rf"error ≤ {NUMBER} \(ok\)|floor", status)
+    assert "(e,γ)" in status
+    assert re.search(rf"γ, e made orthonormal from {NUMBER}", status)
+
+
+def test_the_motion_for_the_accuracy_scene_is_that_of_the_pictures():
+    values = {**LOXODROME.defaults(), "span": 10.0}
+    motion = LOXODROME.motion(values)
+    w1, w2, n1, n2, n3 = motion.state
+    assert (n1, n2, n3) == (0.0, 0.0, 1.0)
+    assert (w1**2 + w2**2) / 2 - n3 == pytest.approx(1.5, abs=1e-15)
+    assert motion.parameters[0] == pytest.approx(slope(values))
+    assert motion.span * motion.unit == pytest.approx(10.0)
+    assert motion.unit == pytest.approx(clock(values))
+
+
+# --- The body of the Suslov–Hess case ----------------------------------------------------------------
+
+
+def test_the_body_of_the_hess_case_is_one_of_the_admissible_ones():
+    view = View(HESS, {})
+    I33, *moments = view.numbers("body", "for I₃₃ = #, which is free: moments #, #, #.")
+    low, high = view.result.body.check.I33
+    assert abs(I33 - 0.5 * (low + high)) < 1e-3
+    I22, I23 = 0.96, 0.28
+    exact = np.linalg.eigvalsh([[I22 + I23**2 / I22, 0, 0], [0, I22, I23], [0, I23, I33]])
+    assert moments == pytest.approx(exact, rel=6e-4)
+    assert moments[2] <= moments[0] + moments[1]
+    body = view.data["body"]
+    assert (np.array(body["semi"]) / body["semi"][2]) ** 2 == pytest.approx(exact / exact[2], rel=1e-3)
+    # γ as the sphere shows it, in other axes, at the start and in the end.
+    orbit, turn = view.data["data-orbit"], view.result.body.turn
+    for at in (0, -1):
+        g = np.array([body[name][at] for name in ("g1", "g2", "g3")])
+        assert g @ turn == pytest.approx([orbit[name][at] for name in ("g1", "g2", "g3")], abs=1e-6)
+    assert body["t"][-1] == orbit["t"][-1] == 40.0
+    assert "body " in view.report.status
+
+
+def test_where_there_is_no_body_nothing_is_drawn_and_that_is_said():
+    view = View(HESS, {"I22": 0.5, "I23": 1.5})
+    assert view.data["body"] == {}
+    assert "Nothing is drawn: with |a| ≥ 1" in view.text["body"]
+    assert view.result.attitude is None
+
+
+def test_out_of_sight_the_body_is_not_computed():
+    view = View(HESS, {}, shown={"omega", "sphere", "bifurcation", "circle"})
+    assert view.result.attitude is None
+    assert "body" not in view.data
+    assert "I₃₃" in view.text["body"]

@@ -1,0 +1,264 @@
+"""The scene "rotation number": every example shows what its captions promise.
+
+Rotation numbers are counted by iterating the circle map, and tori looked for by SciPy.
+"""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from functools import cache
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+from hess_explorer.protocol.parameters import decode
+from hess_explorer.scenes import scenes
+from hess_explorer.scenes.framework.scene import Boxed
+from hess_mechanics import circle_map, f_max
+from hess_mechanics.errors import OutsideRegion, Separatrix
+from hess_mechanics.numerics.accuracy import REFERENCE
+from support.rotation_number import iterated
+from support.settled import Settled
+
+SCENE = scenes()["rotation-number"]
+
+
+@cache
+def example(name):
+    preset = next(one for one in SCENE.presets if one.name == name)
+    return Settled(SCENE, preset.values)
+
+
+def curve(view, source):
+    columns = view.data[source]
+    return tuple(np.concatenate([np.asarray(part, float) for part in columns[key]] or [[]]) for key in ("xs", "ys"))
+
+
+NAMES = [preset.name for preset in SCENE.presets]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_circle_map_of_an_example_is_as_its_caption_says(name):
+    view = example(name)
+    torus = tuple(view.values[key] for key in "ahf")
+    shown = view.numbers("circle", "a = #, h = #, f = #")
+    assert shown == pytest.approx(torus, rel=6e-4)
+    rho, = view.numbers("circle", "ρ = #.")
+    assert rho == pytest.approx(iterated(*torus), abs=2e-4)
+    hyperbolic = circle_map(*torus, REFERENCE).trace > 2.0
+    assert ("two cycles" if hyperbolic else "no cycle") in view.text["circle"]
+    assert (rho == 0.0) == hyperbolic
+    assert view.notes == []
+    view.assert_finite()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_rational_number_of_an_example_is_where_its_caption_says(name):
+    view = example(name)
+    line, rational = view.values["line"], Fraction(view.values["rational"].replace("−", "-"))
+    torus = {key: float(view.values[key]) for key in "ahf"}
+
+    def excess(x):
+        return circle_map(*{**torus, line: x}.values(), REFERENCE).rotation_number - float(rational)
+
+    def on_line(x):
+        try:
+            return excess(x)
+        except (OutsideRegion, Separatrix):
+            return math.nan
+
+    x = np.linspace(*view.result.x[[0, -1]], 90)
+    values = np.array([on_line(place) for place in x.tolist()])
+    with np.errstate(invalid="ignore"):
+        changes = np.flatnonzero((values[1:] * values[:-1] <= 0.0) & (np.abs(np.diff(values)) < 0.3))
+    if not changes.size:
+        assert f"No torus of the line has ρ = {view.values['rational']}." in view.text["line"]
+        assert name == "Euler–Poisson, figure gess1"
+        return
+    place, power, defect = view.numbers("line", f"ρ = {view.values['rational']} at {line} = #: |Θ^# − id| ≤ #")
+    exact = brentq(excess, x[changes[0]], x[changes[0] + 1], xtol=1e-13)
+    assert place == pytest.approx(exact, rel=2e-5)
+    assert power == rational.denominator
+    assert defect < 1e-12
+    assert iterated(*{**torus, line: exact}.values(), count=1200) == pytest.approx(float(rational), abs=1e-6)
+    # The dotted line in the graph.
+    assert view.data["line-levels"]["y0"] == pytest.approx([float(rational)])
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_plateaus_of_the_other_family_are_those_of_plain_iteration(name):
+    view = example(name)
+    line, epsilon = view.values["line"], view.values["epsilon"]
+    torus = {key: float(view.values[key]) for key in "ahf"}
+    text, = (line for line in view.report.derived if line.startswith("plateaus"))
+    named = text.rpartition(": ")[2].split(", ")
+    assert len(named) >= 1
+    x, perturbed = view.result.x, view.result.perturbed
+    for step in named[:4]:
+        rho = float(Fraction(step.replace("−", "-")))
+        at = np.flatnonzero((np.abs(perturbed - rho) < 1e-6) & view.result.along.possible)
+        assert at.size >= 2
+        for i in at[[0, -1]]:
+            here = {**torus, line: float(x[i])}
+            assert iterated(*here.values(), epsilon, 1000) == pytest.approx(rho, abs=1.1e-3)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_map_of_an_example_shows_the_number_where_it_belongs(name):
+    view = example(name)
+    assert view.report.todo == ()
+    assert "map 300 × 200" in view.report.status
+    across, up = view.values["over"].split(", ")
+    image = view.data["map-rho"]
+    rho = np.asarray(image["image"][0]).reshape(200, 300)
+    zones = np.asarray(view.data["map-zones"]["image"][0]).reshape(200, 300)
+    x0, y0, dw, dh = (float(image[key][0]) for key in ("x", "y", "dw", "dh"))
+    torus = {key: float(view.values[key]) for key in "ahf"}
+    rng = np.random.default_rng(2)
+    seen = set()
+    for row, column in zip(rng.integers(0, 200, 60), rng.integers(0, 300, 60), strict=True):
+        here = {**torus, across: x0 + (column + 0.5) * dw / 300, up: y0 + (row + 0.5) * dh / 200}
+        zone = zones[row, column]
+        if here["h"] <= -1.0 or abs(here["f"]) > f_max(here["h"]):
+            assert zone == 1.5
+            seen.add("impossible")
+            continue
+        exact = circle_map(here["a"], here["h"], here["f"], REFERENCE)
+        assert rho[row, column] == pytest.approx(exact.rotation_number, abs=1e-5)
+        assert zone == (2.5 if exact.trace > 2.0 else 0.5)
+        seen.add(exact.kind)
+    assert len(seen) >= (1 if view.values["part_hf"] else 2)
+    # The ring at the torus, the dashed line through it.
+    here = view.data["map-here"]
+    assert (here["x"][0], here["y"][0]) == (torus[across], torus[up])
+    xs, ys = view.data["map-across"]["xs"], view.data["map-across"]["ys"]
+    if view.values["line"] == across:
+        assert np.asarray(ys[0]) == pytest.approx([torus[up]] * 2, rel=1e-6)
+    elif view.values["line"] == up:
+        assert np.asarray(xs[0]) == pytest.approx([torus[across]] * 2, rel=1e-6)
+
+
+def test_the_boundary_in_the_map_divides_the_zones():
+    view = example(NAMES[0])
+    columns = view.data["map-boundary"]
+    curves = [np.column_stack(both) for both in zip(columns["xs"], columns["ys"], strict=True)]
+    assert len(curves) == 2
+    assert np.array_equal(curves[0] * [1, -1], curves[1])
+    for h, f in curves[0][5:-5:9].astype(float).tolist():
+        kinds = [circle_map(0.5, h + step, f, REFERENCE).kind for step in (-0.01, 0.01)]
+        assert kinds == ["elliptic", "hyperbolic"]
+
+
+def test_the_map_is_coarse_first_and_stays_coarse_under_a_drag():
+    values = {"a": 0.512}
+    view = Settled(SCENE, values, dragging=True)
+    assert view.report.todo == ()
+    assert "map 75 × 50" in view.report.status
+    released = Settled(SCENE, values)
+    assert "map 75 × 50" in released.first.status
+    assert 0 < len(released.first.todo) <= released.first.total
+    assert "map 300 × 200" in released.report.status
+
+
+def test_a_picture_that_is_not_seen_is_not_computed():
+    view = Settled(SCENE, {"a": 0.517}, seen=("circle",))
+    assert view.first.todo == ()
+    assert (view.result.grid, view.result.along, view.result.rational) == (None, None, None)
+
+
+@pytest.mark.parametrize("plane", ["h, f", "h, a", "f, a"])
+@pytest.mark.parametrize("line", ["a", "h", "f"])
+@pytest.mark.parametrize("f", [0.6, -0.6])
+def test_every_plane_and_line_shows_finite_numbers(plane, line, f):
+    view = Settled(SCENE, {"over": plane, "line": line, "f": f, "epsilon": 0.0})
+    view.assert_finite()
+    assert view.report.todo == ()
+    x, rho = curve(view, "line-rho")
+    _, trace = curve(view, "trace-t")
+    torus = {"a": 0.5, "h": 0.5, "f": f}
+    for i in range(3, len(x) - 3, len(x) // 4):
+        exact = circle_map(*{**torus, line: float(np.float64(x[i]))}.values(), REFERENCE)
+        assert rho[i] == pytest.approx(exact.rotation_number, abs=1e-3)
+        assert trace[i] == pytest.approx(min(exact.trace, 50.0), rel=1e-3)
+    # Without ε the other family is this one.
+    x_other, other = curve(view, "line-other")
+    assert np.array_equal(x_other, x)
+    assert other == pytest.approx(rho, abs=3e-3)
+    # For f < 0 the rational number that is looked for is positive.
+    sign = "" if f < 0 and line != "f" else "−"
+    assert f"ρ = {sign}1/4 at {line} = " in view.text["line"]
+
+
+def test_f_outside_the_region_is_put_on_its_edge_and_said():
+    view = Settled(SCENE, {"h": 0.2, "f": -2.9})
+    assert view.values["f"] == -f_max(0.2)
+    assert "f is at that edge now" in view.notes[0]
+    view.assert_finite()
+
+
+@pytest.mark.parametrize(("text", "window"), [
+    ("0.5,1;0.2,-1", "0.2,-1;0.5,1"), ("0.5,1;0.5,2", ""), ("0.5,1;0.7,1", ""), ("", "")])
+def test_a_window_is_brought_into_order(text, window):
+    assert SCENE.admit({**SCENE.defaults(), "part_hf": text})[0]["part_hf"] == window
+
+
+def test_a_window_beyond_what_is_allowed_is_refused_in_a_link_and_cut_in_a_box():
+    values, notes = decode("part_hf=-50,-2;3,2", SCENE.specs)
+    assert values["part_hf"] == ""
+    assert "The window of the map over h, f could not be read" in notes[0]
+    stage = Settled(SCENE, {}).stage
+    assert stage.box("map", (3.0, 2.0, -50.0, -2.0)) == {"part_hf": "-1,-2;3,2"}
+    assert stage.box("map", (-20.0, 2.0, -50.0, -2.0)) == {}
+
+
+def test_on_the_separatrix_there_is_no_circle_map():
+    view = Settled(SCENE, {"h": 1.0, "f": 0.0})
+    assert view.text["circle"] == "Circle map\nSeparatrix: no return."
+    assert view.report.todo == ()
+    view.assert_finite()
+
+
+@pytest.mark.parametrize("values", [
+    {"a": 0.0}, {"a": 100.0, "f": 0.5}, {"a": -0.5}, {"h": 1e6, "f": 1.0}, {"h": -0.99, "f": 0.01},
+    {"h": -1.0 + 1e-9, "f": 0.0}, {"f": 0.0}, {"epsilon": 0.33}])
+def test_extreme_values_are_shown(values):
+    view = Settled(SCENE, values)
+    view.assert_finite()
+    assert view.report.todo == ()
+
+
+def test_a_click_in_the_map_chooses_the_torus_and_one_on_the_line_its_place():
+    view = Settled(SCENE, {"over": "f, a", "line": "h"})
+    stage = view.stage
+    assert stage.pick("map", 0.4, 0.7) == {"f": 0.4, "a": 0.7}
+    assert stage.pick("line", 0.3, -0.2) == stage.pick("trace", 0.3, 3.0) == {"h": 0.3}
+    assert stage.pick("circle", 0.3, 3.0) == {}
+    assert isinstance(stage, Boxed)
+    assert stage.box("line", (0.9, 0.1, 0.2, 0.5)) == {}
+
+
+def test_a_box_is_the_window_of_its_own_map_and_of_no_other():
+    box = Settled(SCENE, {"over": "f, a", "line": "h"}).stage.box("map", (0.9, 0.1, 0.2, 0.5))
+    values, notes = SCENE.admit({**SCENE.defaults(), **box})
+    assert notes == []
+    assert values["part_fa"] == "0.2,0.1;0.9,0.5"
+    assert values["part_hf"] == values["part_ha"] == ""
+    assert Settled(SCENE, {**values, "over": "f, a"}, seen=("map",)).result.window == ((0.2, 0.9), (0.1, 0.5))
+    for plane in ("h, f", "h, a"):
+        seen = (Settled(SCENE, {**given, "over": plane}, seen=("map",)).result.window for given in (values, {}))
+        assert next(seen) == next(seen)
+
+
+def test_examples_say_which_plane_their_window_is_in():
+    for preset in SCENE.presets:
+        assert {"over", "line"} <= set(preset.values)
+
+
+def test_what_a_link_says_wrongly_is_put_right_and_said():
+    values, notes = decode("h=abc&a=1e9&epsilon=0.9&over=x&part_hf=1,nan;2,3", SCENE.specs)
+    assert [values[name] for name in ("h", "a", "epsilon", "over", "part_hf")] == [0.5, 100.0, 0.33, "h, f", ""]
+    said = " ".join(notes)
+    for word in ("h was not a number", "a lies between", "ε lies between", "Map over was not", "The window of the map"):
+        assert word in said

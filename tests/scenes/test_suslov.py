@@ -1,0 +1,356 @@
+"""The scene "Suslov problem with gravity": every example shows what its captions promise.
+
+Exponent, divergence and basins are computed again by SciPy, from the equations written out in `test_suslov_section`.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from hess_explorer.compute.cache import CACHE
+from hess_explorer.protocol.parameters import places
+from hess_explorer.scenes import scenes
+from hess_explorer.scenes.framework.scene import Boxed
+from hess_mechanics import SuslovBody, solve
+from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.numerics.accuracy import REFERENCE
+from support.free_suslov import shown
+from support.settled import Settled
+from support.suslov import energy, field, permanent_rotations
+
+SCENE = scenes()["suslov"]
+NAMES = [preset.name for preset in SCENE.presets]
+SEA, REGULAR, STRANGE, TWO, REVERSAL = NAMES
+FEW = {"orbits": 4.0, "count": 20.0, "long": 20.0}
+"""For what does not depend on how much is shown."""
+
+
+@cache
+def example(name):
+    preset = next(one for one in SCENE.presets if one.name == name)
+    return Settled(SCENE, preset.values)
+
+
+def body_of(view):
+    return SuslovBody(*(view.values[name] for name in ("I11", "I22", "I13", "I23", "b1", "b2", "b3")))
+
+
+def energy_of(view):
+    return view.values["h"] - math.hypot(*(view.values[name] for name in ("b1", "b2", "b3")))
+
+
+def points(view, layer):
+    columns = view.data[f"section-{layer}"]
+    return np.column_stack([columns["x"], columns["y"]]).astype(float)
+
+
+def start_of(view):
+    """The state (ψ, δ) of the chosen orbit by hand, on γ3 = 0."""
+    body, (psi, delta) = body_of(view), places(view.values["starts"])[-1]
+    gamma = np.array([math.cos(psi), math.sin(psi), 0.0])
+    u = np.array([math.cos(psi + delta), math.sin(psi + delta)])
+    kinetic = energy_of(view) - np.dot((body.b1, body.b2, body.b3), gamma)
+    return np.array([*(u * math.sqrt(2.0 * kinetic / (body.I11 * u[0] ** 2 + body.I22 * u[1] ** 2))), *gamma])
+
+
+@cache
+def exponent_and_divergence(name, span):
+    """Of the chosen orbit over the time `span`, from the linear equations along it."""
+    view = example(name)
+    body = body_of(view)
+
+    def rates(t, z):
+        y, v = z[:5], z[5:10]
+        # The field is quadratic: this difference is exact.
+        linear = 0.5 * (field(body, y + v) - field(body, y - v))
+        size = v @ v
+        growth = (v @ linear) / size
+        return [*field(body, y), *(linear - growth * v), growth,
+                body.I23 * y[0] / body.I22 - body.I13 * y[1] / body.I11]
+
+    v = np.array([0.3, -0.5, 0.2, 0.4, 0.6])
+    z = np.array([*start_of(view), *(v / np.linalg.norm(v)), 0.0, 0.0])
+    z = solve_ivp(rates, (0.0, span), z, "DOP853", rtol=1e-6, atol=1e-8).y[:, -1]
+    return z[10] / span, z[11] / span
+
+
+# ---- the examples ------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_an_example_is_complete_and_counts_its_points(name):
+    view = example(name)
+    assert view.notes == []
+    assert view.report.todo == ()
+    # What another test has asked for is there at once.
+    assert len(view.first.todo) <= view.first.total > 0
+    view.assert_finite()
+    for picture in SCENE.pictures:
+        title, promise = view.text[picture].split("\n")
+        assert title
+        assert len(promise) <= 110
+    forward, backward = points(view, "first"), points(view, "second")
+    both = view.values.get("colours") == "forward and backward in time"
+    assert (len(backward) > 0) == both
+    if name != TWO:
+        said = view.numbers("section", "\n# points forward")
+        assert said == [len(forward)]
+        cells, of = view.numbers("section", "forward ones lie in # of # cells.")
+        later = view.result.later
+        assert len(later) == pytest.approx(len(forward) * (0.5 if view.values["drop"] == "all" else 1.0), rel=0.01)
+        counted, _, _ = np.histogram2d(*later.T, bins=32, range=[[-math.pi, math.pi], [0.0, math.pi]])
+        # A point in double precision may fall into the next cell.
+        assert cells == pytest.approx(np.count_nonzero(counted), abs=1)
+        assert of == counted.size
+    assert np.all((forward[:, 1] >= 0.0) & (forward[:, 1] <= math.pi + 1e-6))
+    # Within the sea all is possible; grey is where (b, γ) > E.
+    body, image = body_of(view), view.data["section-impossible"]
+    grey = np.ravel(image["image"][0])
+    psi = -math.pi + (np.arange(240) + 0.5) * 2.0 * math.pi / 240
+    assert np.array_equal(grey == 1.0, body.b1 * np.cos(psi) + body.b2 * np.sin(psi) >= energy_of(view))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_chosen_orbit_of_an_example_is_drawn_with_the_energy_of_its_caption(name):
+    view = example(name)
+    body, E = body_of(view), energy_of(view)
+    assert view.numbers("omega", "E = #.") == [shown(E)]
+    start = start_of(view)
+    assert energy(body, start) == pytest.approx(E, abs=1e-12)
+    track = view.data["data-orbit"]
+    drawn = np.column_stack([track[key] for key in ("omega1", "omega2", "g1", "g2", "g3")]).astype(float)
+    assert drawn[0] == pytest.approx(start, abs=1e-6)
+    early = track["t"] < 10.0
+    exact = solve_ivp(lambda t, y: field(body, y), (0.0, 10.0), start, "DOP853", track["t"][early].astype(float),
+                      rtol=1e-10, atol=1e-11).y.T
+    assert drawn[early] == pytest.approx(exact, abs=2e-5)
+    assert track["t"][-1] == pytest.approx(view.values["span"])
+
+
+@pytest.mark.parametrize(("name", "span", "near"), [
+    (SEA, 400.0, 0.03), (REGULAR, 400.0, 0.02), (STRANGE, 400.0, 0.05), (TWO, 300.0, 0.04), (REVERSAL, 300.0, 0.02)])
+def test_exponent_and_divergence_of_an_example_are_near_those_of_the_linear_equations(name, span, near):
+    view = example(name)
+    exponent, spread, mean, end = view.numbers("exponent", "λ = # ± #, div = # after t = #.")
+    assert end == view.values["long"]
+    assert 0.0 <= spread < 0.05
+    lyapunov, divergence = exponent_and_divergence(name, span)
+    assert exponent == pytest.approx(lyapunov, abs=near)
+    assert mean == pytest.approx(divergence, abs=near)
+    # What the words and names say.
+    if name == SEA:
+        assert exponent > 0.05 > 50.0 * abs(mean)
+    if name == REGULAR:
+        assert abs(exponent) < 0.01
+        assert abs(mean) < 1e-3
+    if name == STRANGE:
+        assert exponent > 0.05
+        assert mean < -0.1
+    if name in (TWO, REVERSAL):
+        assert exponent < 0.02
+        assert mean < -0.1
+    for curve, value in (("lambda", exponent), ("divergence", mean)):
+        drawn = view.data[f"exponent-{curve}"]
+        last = float(np.asarray(drawn["ys"][-1])[-1])
+        assert last == pytest.approx(value, rel=6e-3, abs=1e-6)
+        assert float(np.asarray(drawn["xs"][-1])[-1]) == pytest.approx(end)
+
+
+def test_the_exponent_of_a_regular_orbit_goes_on_falling():
+    short = example(REGULAR).numbers("exponent", "λ = #")[0]
+    longer = Settled(SCENE, {**example(REGULAR).values, "long": 5000.0}, seen=("exponent",))
+    assert longer.numbers("exponent", "λ = #")[0] < 0.5 * short
+
+
+def test_the_sea_fills_the_section_and_attractors_do_not():
+    cells = {name: example(name).numbers("section", "lie in # of #")[0] for name in (SEA, STRANGE, REVERSAL)}
+    assert cells[SEA] > 400
+    assert 50 < cells[STRANGE] < 300
+    assert cells[REVERSAL] < 4
+
+
+def test_what_attracts_and_repels_in_the_reversal_are_permanent_rotations():
+    view = example(REVERSAL)
+    found = np.array(list(permanent_rotations(body_of(view), energy_of(view))))
+    psi = np.arctan2(found[:, 3], found[:, 2])
+    # δ → 0 where ω is along γ, π where it is against it.
+    delta = np.where(found[:, 0] * found[:, 2] > 0.0, 0.0, math.pi)
+    rests = np.column_stack([psi, delta])
+    met = {}
+    for layer in ("first", "second"):
+        # The last points of 40 orbits with 100 crossings each.
+        ends = points(view, layer)[99::100]
+        assert len(ends) == 40
+        gaps = np.linalg.norm(ends[:, None, :] - rests[None, :, :], axis=2)
+        assert np.max(gaps.min(axis=1)) < 0.01
+        met[layer] = set(np.argmin(gaps, axis=1).tolist())
+    forward, backward = met["first"], met["second"]
+    assert forward.isdisjoint(backward)
+    # The mirror image of each: the same ψ, the other end of δ.
+    images = {int(np.argmin(np.linalg.norm(rests - [psi[i], math.pi - delta[i]], axis=1))) for i in forward}
+    assert backward <= images
+
+
+def test_the_basins_of_the_example_are_those_that_scipy_finds():
+    view = example(TWO)
+    share, rest = view.numbers("section", "Two attractors, with # % and # % of the cells.")
+    cells = view.result.basin
+    assert cells.shape == (24, 36)
+    assert set(np.unique(cells)) == {0.0, 1.0}
+    assert share == pytest.approx(100.0 * np.mean(cells == 1.0), abs=0.51)
+    assert share + rest == pytest.approx(100.0, abs=1.1)
+    image = view.data["section-basins"]
+    assert np.asarray(image["image"][0]).reshape(24, 36) == pytest.approx(cells + 1.5)
+    # Inside of basins, not at their edges: neighbours of the same kind all round.
+    inner = [(i, j) for i in range(1, 23) for j in range(1, 35) if np.ptp(cells[i - 1 : i + 2, j - 1 : j + 2]) == 0.0]
+    chosen = [place for kind in (0.0, 1.0) for place in [p for p in inner if cells[p] == kind][::17][:3]]
+    body, means = body_of(view), {0.0: [], 1.0: []}
+    for i, j in chosen:
+        psi, delta = -math.pi + (j + 0.5) * 2.0 * math.pi / 36, (i + 0.5) * math.pi / 24
+        start = start_of(Settled(SCENE, {**view.values, **FEW, "colours": "forward only",
+                                         "starts": f"{psi},{delta}"}, seen=("sphere",)))
+        run = solve_ivp(lambda t, y: field(body, y), (0.0, 350.0), start, "DOP853", rtol=1e-7, atol=1e-8,
+                        t_eval=np.linspace(280.0, 350.0, 1401))
+        up = np.flatnonzero((run.y[4][1:] > 0.0) & (run.y[4][:-1] <= 0.0))
+        means[cells[i, j]].append(run.y[0][up].mean())
+    assert [len(means[kind]) for kind in (0.0, 1.0)] == [3, 3]
+    assert max(means[0.0]) < min(means[1.0]) - 0.1
+
+
+# ---- planes, choices, controls -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("plane", ["γ₃ = 0", "γ₁ = 0", "γ₂ = 0"])
+@pytest.mark.parametrize("colours", ["forward and backward in time", "forward only", "basins"])
+def test_every_plane_and_choice_is_shown(plane, colours):
+    view = Settled(SCENE, {**FEW, "plane": plane, "colours": colours, "starts": "-0.3,1"})
+    view.assert_finite()
+    assert view.report.todo == ()
+    assert plane in view.text["section"]
+    assert len(points(view, "first")) > 10
+    assert (len(points(view, "second")) > 10) == (colours == "forward and backward in time")
+    assert (view.result.basin is not None) == (colours == "basins")
+    psi, delta = points(view, "chosen")[0]
+    assert (psi, delta) == pytest.approx((-0.3, 1.0), abs=1e-6)
+    # The chosen orbit starts in the plane.
+    track = view.data["data-orbit"]
+    component = {"γ₃ = 0": "g3", "γ₁ = 0": "g1", "γ₂ = 0": "g2"}[plane]
+    assert track[component][0] == pytest.approx(0.0, abs=1e-7)
+    assert track[component][1] > 0.0
+
+
+def test_the_later_half_are_the_later_points():
+    every = Settled(SCENE, {**FEW, "drop": "all"}, seen=("section",))
+    later = Settled(SCENE, {**FEW, "drop": "the later half"}, seen=("section",))
+    whole, half = points(every, "first"), points(later, "first")
+    assert (len(whole), len(half)) == (80, 40)
+    assert np.array_equal(half, whole.reshape(4, 20, 2)[:, 10:].reshape(-1, 2))
+
+
+def test_without_orbits_only_the_chosen_one_is_shown():
+    view = Settled(SCENE, {**FEW, "orbits": 0.0}, seen=("section",))
+    assert len(points(view, "first")) == 0
+    assert len(points(view, "own")) == 20
+
+
+def test_a_drag_shows_fewer_points_at_once():
+    view = Settled(SCENE, {"I23": 0.437}, dragging=True)
+    assert view.report.todo == ()
+    assert 200 < len(points(view, "first")) <= 12 * 40
+    assert "found when a slider is let go" in view.text["exponent"]
+
+
+def test_a_click_adds_an_orbit_and_a_box_is_the_window():
+    view = Settled(SCENE, FEW)
+    assert isinstance(view.stage, Boxed)
+    assert places(view.stage.pick("section", 0.3, 2.0)["starts"]) == [(1.0, 1.0), (0.3, 2.0)]
+    assert view.stage.pick("omega", 0.3, 2.0) == {}
+    low, high = places(view.stage.box("section", (1.0, 4.0, -0.5, 2.0))["window"])
+    assert low == (-0.5, 2.0)
+    assert high == pytest.approx((1.0, math.pi), abs=1e-5)
+    assert view.stage.box("section", (1.0, 2.0, 1.0, 3.0)) == view.stage.box("sphere", (1.0, 2.0, 0.0, 3.0)) == {}
+    both = Settled(SCENE, {**FEW, "starts": "1,1;0.3,2"})
+    assert len(points(both, "own")) == 2 * len(points(view, "own"))
+    assert points(both, "chosen") == pytest.approx(np.array([[1.0, 1.0], [0.3, 2.0]]), abs=1e-6)
+    closer = Settled(SCENE, {**FEW, "window": "-0.5,2;1,3"})
+    assert closer.result.window == ((-0.5, 2.0), (1.0, 3.0))
+
+
+def test_a_start_where_nothing_is_possible_is_replaced_and_said():
+    # E = −0.1: not where (b, γ) > E, at the angle of b.
+    values = {**FEW, "h": -0.1 + math.hypot(0.5, 0.5, 0.7), "starts": f"1,1;{math.atan2(-0.5, -0.5)},1"}
+    view = Settled(SCENE, values)
+    note, = view.report.notes
+    assert "no motion has this energy" in note
+    psi, delta = points(view, "chosen")[-1]
+    assert -0.5 * (math.cos(psi) + math.sin(psi)) < -0.1
+    assert 0.0 < delta < math.pi
+
+
+@pytest.mark.parametrize("plane", ["γ₃ = 0", "γ₁ = 0", "γ₂ = 0"])
+@pytest.mark.parametrize("h", [1e-6, 0.1, 0.2, 0.3])
+def test_an_energy_that_does_not_reach_the_plane_is_raised_and_shown(plane, h):
+    view = Settled(SCENE, {**FEW, "h": h, "plane": plane})
+    size = {"γ₃ = 0": math.hypot(0.5, 0.5), "γ₁ = 0": math.hypot(0.5, 0.7), "γ₂ = 0": math.hypot(0.5, 0.7)}[plane]
+    bottom = math.hypot(0.5, 0.5, 0.7) - size
+    assert (view.values["h"] == h) == (h > bottom)
+    assert bool(view.notes) == (h <= bottom)
+    if view.notes:
+        assert f"only for h > {bottom:.4g}" in view.notes[0]
+        assert bottom < view.values["h"] < 1.02 * bottom
+    view.assert_finite()
+    assert len(points(view, "first")) > 1
+
+
+@pytest.mark.parametrize("text", ["", "0,0", "1,1;1,2", "1,1;2,1"])
+def test_a_window_that_is_none_is_the_whole_section(text):
+    values, _ = SCENE.admit({**SCENE.defaults(), "window": text})
+    assert values["window"] == ""
+
+
+def test_without_starts_there_is_the_first_one():
+    assert SCENE.admit({**SCENE.defaults(), "starts": ""})[0]["starts"] == "1,1"
+
+
+def test_nothing_possible_in_a_window_is_a_sentence():
+    values = {**SCENE.defaults(), "h": -0.1 + math.hypot(0.5, 0.5, 0.7), "starts": "-2.356,1",
+              "window": "-2.5,1;-2.2,2"}
+    with pytest.raises(InvalidParameter, match=r"Nothing is possible in this window .* press Clear"):
+        SCENE.compute(SCENE.admit(values)[0], SCENE.pictures, False)
+
+
+def test_an_exponent_over_too_long_a_time_is_a_sentence():
+    values = {**SCENE.defaults(), "h": 1e6, "I11": 1e-3, "I22": 1e-3, "long": 2e4}
+    todo = SCENE.compute(SCENE.admit(values)[0], ("exponent",), False).todo
+    with pytest.raises(WorkLimit, match="choose a shorter time span"):
+        for task in todo:
+            CACHE.get(task.function, *task.arguments)
+
+
+@pytest.mark.parametrize("values", [
+    {"b1": 0.0, "b2": 0.0, "b3": 0.0}, {"b1": 1e3, "b2": 0.0, "b3": 0.0, "h": 1e3}, {"I13": 0.0, "I23": 0.0},
+    {"h": 1e6}, {"I11": 1e-3}, {"I22": 1e3, "span": 1.0}, {"b1": 1e-6, "b2": 1e-6, "b3": 0.0, "h": 1e-6}])
+def test_extreme_values_are_shown(values):
+    view = Settled(SCENE, {**FEW, "span": 5.0, **values})
+    view.assert_finite()
+    assert view.report.todo == ()
+    assert view.axes
+
+
+def test_the_motion_of_the_scene_is_the_chosen_orbit():
+    view = example(STRANGE)
+    motion = SCENE.motion(view.values)
+    assert motion.state == pytest.approx(tuple(start_of(view)), abs=1e-12)
+    states = solve(motion.system, motion.state, motion.parameters, [motion.span], REFERENCE).states
+    assert energy(body_of(view), states[0]) == pytest.approx(energy_of(view), abs=1e-12)
+    assert len(motion.weights) == 5
+
+
+def test_examples_set_all_choices_that_their_captions_depend_on():
+    for preset in SCENE.presets:
+        assert {"plane", "colours", "drop"} <= set(preset.values)

@@ -1,0 +1,219 @@
+"""A scene without a browser: what its stage sends, as the browser has it."""
+
+from __future__ import annotations
+
+import importlib
+import json
+import pkgutil
+from functools import cache
+from types import SimpleNamespace
+from urllib.parse import parse_qs
+
+import numpy as np
+import pytest
+from bokeh.document import Document
+from bokeh.models import ColumnDataSource
+
+import hess_explorer.scenes
+from hess_explorer.page.description import describe
+from hess_explorer.page.session import Session
+from hess_explorer.protocol.parameters import Number, Places, decode
+from hess_explorer.protocol.wire import Wire
+from hess_explorer.scenes import scenes
+from support.wire import read
+
+SCENES = scenes()
+HESS = SCENES["suslov-hess"]
+ACCURACY = SCENES["suslov-hess-accuracy"]
+
+
+def modules_of_scenes():
+    """The modules that compute for scenes, each with the process's cache."""
+    modules = (importlib.import_module(f"hess_explorer.scenes.{one.name}")
+               for one in pkgutil.iter_modules(hess_explorer.scenes.__path__))
+    return [module for module in modules if hasattr(module, "CACHE")]
+
+
+@cache
+def description(name):
+    """What the browser gets of a scene, once."""
+    return json.loads(describe(name))
+
+
+@cache
+def plots_of(name):
+    """The empty pictures of a scene that Bokeh draws, by name, as the browser reads them."""
+    document = Document.from_json(json.loads(description(name)["document"]))
+    return {root.name: root for root in document.roots}
+
+
+@cache
+def empty_sources(name):
+    """The sources of a scene's pictures before there are data: those of its plots, and one for each other picture."""
+    # HoloViews has one of its own for the background of each.
+    found = [model for root in plots_of(name).values() for model in root.references()
+             if isinstance(model, ColumnDataSource) and model.name is not None]
+    assert len({model.name for model in found}) == len(found)
+    others = {picture["name"]: {} for picture in description(name)["pictures"] if picture["kind"] != "plot"}
+    empty = {model.name: dict(model.data) for model in found}
+    assert not any(column for columns in empty.values() for column in columns.values())
+    assert not set(empty) & set(others)
+    return {**empty, **others}
+
+
+class Screen:
+    """What the browser has of a scene: the data, axes and texts that came by the wire, the newest of each."""
+
+    def __init__(self, name):
+        self.sources = dict(empty_sources(name))
+        self.ranges = {
+            plot: [root.x_range.start, root.x_range.end, root.y_range.start, root.y_range.end]
+            for plot, root in plots_of(name).items()}
+        self.texts, self.controls = {}, {}
+        self.fresh = {}
+
+    def take(self, tree, block):
+        """What came; `fresh` are the sources among it.  Names that the browser does not know are errors."""
+        assert set(tree) == {"sources", "ranges", "texts", "controls"}
+        assert np.all(np.isfinite(np.frombuffer(block, "<f4")))
+        self.fresh = {name: {key: read(column, block) for key, column in columns.items()}
+                      for name, columns in tree["sources"].items()}
+        assert set(self.fresh) <= set(self.sources)
+        assert set(tree["ranges"]) <= set(self.ranges)
+        self.sources.update(self.fresh)
+        self.ranges.update(tree["ranges"])
+        self.texts.update(tree["texts"])
+        self.controls.update(tree["controls"])
+
+
+class Board(Screen):
+    """A stage and what is to be seen of it in the browser."""
+
+    def __init__(self, scene):
+        super().__init__(scene.name)
+        self.scene, self.wire = scene, Wire()
+        self.stage = scene.stage(self.wire)
+
+    def receive(self):
+        tree, block = self.wire.pack()
+        # JSON in a browser refuses NaN and Infinity.
+        self.take(json.loads(json.dumps(tree, allow_nan=False)), block)
+
+    def show(self, result, hold_axes=False):
+        report = self.stage.show(result, hold_axes)
+        self.receive()
+        return report
+
+    def fail(self, sentence):
+        self.stage.fail(sentence)
+        self.receive()
+
+    @property
+    def tracks(self):
+        """The sources that pictures draw which have none of their own for them."""
+        return {one["name"]: list(one["tracks"]) for one in description(self.scene.name)["pictures"] if "tracks" in one}
+
+    @property
+    def captions(self):
+        return {name: self.texts.get(name) for name in self.scene.pictures}
+
+
+def flat(item):
+    """The numbers and texts in a column, however deeply nested, in order."""
+    if isinstance(item, (list, tuple)) or (isinstance(item, np.ndarray) and item.dtype == object):
+        return [value for part in item for value in flat(part)]
+    return np.asarray(item).ravel().tolist()
+
+
+def said(message):
+    """The sentences of a source of texts; in a picture they are broken into lines."""
+    return [" ".join(text.split()) for text in flat(message["text"])]
+
+
+def contents(sources):
+    return {name: {key: flat(column) for key, column in columns.items()} for name, columns in sources.items()}
+
+
+def shown(scene, values, board=None, hold_axes=False):
+    """The board, with all pictures of these values drawn on it, and the report."""
+    board = board or Board(scene)
+    return board, board.show(scene.compute(scene.admit(values)[0], scene.pictures, False), hold_axes)
+
+
+def elsewhere(scene):
+    """Another state than the default one, that of the example which differs in most numbers."""
+    return {**scene.defaults(), **max(scene.presets, key=lambda preset: len(preset.values)).values}
+
+
+class Browser:
+    """The other end of a session's wire: sends what it likes, reads what comes, as a browser does."""
+
+    def __init__(self, scene, values=None, notes=()):
+        self._receive = None
+        self.block = b""
+        self.entered, self.described, self.screens = [], [], {}
+        self.session = Session(self, self.enter, scene, values or scene.defaults(), list(notes))
+
+    def enter(self, scene):
+        self.scene = scene
+        self.entered.append(scene.name)
+
+    def on_msg(self, callback):
+        self._receive = callback
+
+    def send(self, message):
+        self._receive(SimpleNamespace(data=message))
+
+    @property
+    def state(self):
+        return self._state
+
+    @state.setter
+    def state(self, text):
+        # JSON.parse in a browser refuses NaN and Infinity.
+        self._state = json.loads(text, parse_constant=pytest.fail)
+        name = self._state["scene"]
+        # It was described before.
+        assert name in self.described
+        self.screen = self.screens.setdefault(name, Screen(name))
+        self.screen.take(self._state["tree"], self.block)
+
+    def __setattr__(self, name, value):
+        if name == "scene" and isinstance(value, str):
+            self.described.append(json.loads(value)["name"])
+        else:
+            super().__setattr__(name, value)
+
+    @property
+    def data(self):
+        """The columns of the scene on show."""
+        return self.screen.sources
+
+    @property
+    def texts(self):
+        return self.screen.texts
+
+    @property
+    def controls(self):
+        """[value, low, high, step] of the numbers, the options of the menus."""
+        return self.screen.controls
+
+    def ask(self, requested=1, **message):
+        self.send({"requested": requested, "held": False, "values": {}, "picked": None, **message})
+        return self.state
+
+    def assert_admissible(self):
+        values = self.session.values
+        assert set(values) == {spec.name for spec in self.scene.specs}
+        for spec in self.scene.specs:
+            value = values[spec.name]
+            if isinstance(spec, Number):
+                assert isinstance(value, float)
+                assert spec.lowest <= value <= spec.highest
+            elif isinstance(spec, Places):
+                assert spec.read(value) == (value, None)
+            else:
+                assert value in spec.options
+        # The link says the same.
+        assert decode(self.state["query"], self.scene.specs) == (values, [])
+        assert parse_qs(self.state["query"])["scene"] == [self.scene.name] == [self.state["scene"]]

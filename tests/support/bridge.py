@@ -1,0 +1,67 @@
+"""The leak off the Hess manifold and the bridge, by the reduced equations written out."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+
+import numpy as np
+from scipy.integrate import solve_ivp
+from scipy.special import ellipk
+
+from hess_explorer.scenes import scenes
+
+HELD = "At most # up to t = #, held on r·M = 0; left to itself #."
+LEAK, BRIDGE = scenes()["hess-leak"], scenes()["bridge"]
+
+
+def torus(values):
+    """a, h, f in units b = 1 and the unit of frequency √b, by hand from the moments."""
+    a1, a2, a3 = (1.0 / values[name] for name in ("I1", "I2", "I3"))
+    # Here r1, r3 > 0: b' has the sign of a1 − a3.
+    a = math.copysign(math.sqrt((a3 - a2) * (a2 - a1)), a1 - a3) / a2
+    b = a2 * values["m"]
+    return a, a2 * values["h"] / b, -a2 * values["f"] / math.sqrt(b), math.sqrt(b)
+
+
+def period_of(h, f):
+    """One period of n3 in units b = 1, from the roots of 2(h+n)(1−n²) − f²."""
+    n0, n1, n2 = np.sort(np.roots([-2.0, -2.0 * h, 2.0, 2.0 * h - f * f]).real)
+    return 2.0 * math.sqrt(2.0 / (n2 - n0)) * ellipk((n2 - n1) / (n2 - n0)), n1
+
+
+def reduced(a):
+    """`eq01` with b = 1, and the exponent of r·M."""
+    def field(t, y):
+        w1, w2, n1, n2, n3, _ = y
+        return [-a * w2 * w2 - n2, a * w1 * w2 + n1, -(a * n2 + n3) * w2, a * w2 * n1 + w1 * n3, n1 * w2 - n2 * w1,
+                -a * w1]
+
+    return field
+
+
+@cache
+def exact_growth(name):
+    """The exponent that an example gains in a period on its stable cycle."""
+    return growth_at(values_of(LEAK, name))
+
+
+def growth_at(values):
+    """The exponent gained from the 15th to the 16th period."""
+    a, h, f, _ = torus(values)
+    period, lowest = period_of(h, f)
+    rho, phi = math.sqrt(2.0 * (h + lowest)), 0.5
+    w = rho * np.array([math.sin(phi), math.cos(phi)])
+    start = [*w, *(f / rho**2 * w), lowest, 0.0]
+    y = solve_ivp(reduced(a), (0.0, 16.0 * period), start, "DOP853", [15.0 * period, 16.0 * period],
+                  rtol=1e-11, atol=1e-12).y
+    return float(y[5, 1] - y[5, 0])
+
+
+def values_of(scene, name):
+    preset = next(one for one in scene.presets if one.name == name)
+    return {**scene.defaults(), **preset.values}
+
+
+UNSTABLE = [preset.name for preset in LEAK.presets if preset.values.get("h", 50.0) not in (5.0, 0.3)]
+STABLE = [preset.name for preset in LEAK.presets if preset.name not in UNSTABLE]

@@ -1,0 +1,35 @@
+"""The command line: as a process of its own, and its outputs read strictly."""
+
+from __future__ import annotations
+
+import csv
+import json
+import subprocess
+import sys
+
+from support.mechanics import ROOT
+
+
+def no_constant(name):
+    raise AssertionError(f"{name} is not JSON")
+
+
+def strict_json(text):
+    return json.loads(text, parse_constant=no_constant)
+
+
+def run(*words):
+    command = [sys.executable, "-m", "hess_explorer", *words]
+    return subprocess.run(command, cwd=ROOT, capture_output=True, timeout=120, check=False)
+
+
+def replaced(words, option, value):
+    at = words.index(option)
+    return [*words[:at + 1], value, *words[at + 2:]]
+
+
+def table(text):
+    lines = text.splitlines()
+    facts = dict(line.removeprefix("# ").split(": ", 1) for line in lines if line.startswith("#"))
+    header, *rows = csv.reader(line for line in lines if not line.startswith("#"))
+    return {key: strict_json(value) for key, value in facts.items()}, header, rows

@@ -1,0 +1,1 @@
+"""Rows of `test_extremes`, by subject."""

@@ -1,0 +1,31 @@
+"""A largest Lyapunov exponent by finite differences."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+
+def finite_exponent(body, state, span):
+    """The same by the variational equations of hh01, integrated with the motion.
+
+    Directions and lengths are in units of the largest velocity ν = √(2 max(a)(T + 2μ|r|)) and of M = I ω.
+    """
+    a, m = np.array(body.a), body.mu * np.array(body.r)
+    kinetic = 0.5 * np.sum(a * np.array(state[:3]) ** 2)
+    unit = math.sqrt(2.0 * a.max() * (kinetic + 2.0 * body.strength)) / a.min()
+    scale = np.array([unit, unit, unit, 1.0, 1.0, 1.0])
+    direction = np.cos(1.0 + np.arange(6) ** 2)
+    direction *= scale / np.linalg.norm(direction)
+
+    def rates(_, z):
+        M, gamma, dM, dgamma = z.reshape(4, 3)
+        return np.concatenate([
+            np.cross(M, a * M) + np.cross(m, gamma), np.cross(gamma, a * M),
+            np.cross(dM, a * M) + np.cross(M, a * dM) + np.cross(m, dgamma),
+            np.cross(dgamma, a * M) + np.cross(gamma, a * dM)])
+
+    run = solve_ivp(rates, (0.0, span), np.concatenate([state, direction]), method="DOP853", rtol=1e-11, atol=1e-12)
+    return math.log(np.linalg.norm(run.y[6:, -1] / scale)) / abs(span)

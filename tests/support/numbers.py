@@ -1,0 +1,3 @@
+"""Numbers as captions write them."""
+
+NUMBER = r"(−?[\d.]+(?:e−?\d+)?)"

@@ -1,0 +1,385 @@
+"""The page in a browser: what a user does with it (`Explorer`), and what is to be seen on it."""
+
+from __future__ import annotations
+
+import re
+from urllib.parse import parse_qsl, urlsplit
+
+from hess_explorer.headless.browser import wait_ready
+from hess_explorer.scenes import scenes
+from support.numbers import NUMBER
+
+HESS, STUDY = "suslov-hess", "suslov-hess-accuracy"
+FIRST = next(iter(scenes()))
+"""The scene of a page whose address names none."""
+DEFAULTS = scenes()[HESS].defaults()
+POINTS = ("omega-point", "bifurcation-point", "circle-point")
+PICTURES = ("omega", "sphere", "bifurcation", "circle")
+SLIDERS = {"I22": 0.01, "I23": 0.01, "b3": 0.01, "h": 0.01, "f": 0.01, "phi0": 0.01, "span": 1.0}
+"""The numbers, with the step of each slider at the default state."""
+
+
+def scene_of(query):
+    """The query, in the Suslov–Hess scene if it names none: which scene is the first one is no matter here."""
+    return query if "scene=" in query else f"scene=suslov-hess&{query}".rstrip("&")
+
+
+class Explorer:
+    """A page that is open: what a user does with it, and what is to be seen on it."""
+
+    def __init__(self, page, base):
+        self.page = page
+        self.base = base
+        self.errors, self.outside, self.sent, self.received = [], [], [], []
+        # Long enough for a machine that does much else; nothing is measured here.
+        page.set_default_timeout(60_000)
+        host = urlsplit(base).netloc
+
+        def on_url(url):
+            if urlsplit(url).netloc not in ("", host):
+                self.outside.append(url)
+
+        # Playwright takes no built-in methods.
+        def on_sent(frame):
+            self.sent.append(frame)
+
+        def on_received(frame):
+            self.received.append(frame)
+
+        def on_socket(socket):
+            on_url(socket.url)
+            socket.on("framesent", on_sent)
+            socket.on("framereceived", on_received)
+
+        page.on("console", lambda message: self.errors.append(message.text) if message.type == "error" else None)
+        page.on("pageerror", lambda error: self.errors.append(str(error)))
+        page.on("request", lambda request: on_url(request.url))
+        page.on("websocket", on_socket)
+
+    def open(self, query=""):
+        """The page of a query; one that names no scene is one of the Suslov–Hess scene."""
+        return self.goto(f"/?{scene_of(query)}")
+
+    def goto(self, address):
+        """The page of exactly this address."""
+        self.page.goto(self.base + address)
+        wait_ready(self.page)
+        return self
+
+    def fresh(self, scene=HESS):
+        """The default state, at t = 0, at rest, the sphere turned back: as if opened anew, but sooner."""
+        url = self.page.url
+        # Whatever a test that failed still held.
+        self.page.mouse.up()
+        if not url.startswith(self.base) or "theme=dark" in url or not self.ready or self.scene != scene:
+            return self.open(f"scene={scene}")
+        if self.playing:
+            self.page.locator(".param-play").click()
+        self.page.locator(".param-speed").select_option("1")
+        self.set_time(0.0)
+        if scene == HESS:
+            self.sphere.press("Home")
+        if self.accuracy != DEFAULTS["accuracy"]:
+            self.change(self.choose, "accuracy", DEFAULTS["accuracy"])
+        before = self.state
+        ready = self.page.evaluate(ENTER, [(name, DEFAULTS[name]) for name in SLIDERS])
+        wait_ready(self.page, after=before - (ready == "true"))
+        if self.text("notes"):
+            return self.open(f"scene={scene}")
+        self.page.evaluate("document.activeElement?.blur()")
+        self.page.mouse.move(5, 5)
+        return self
+
+    def assert_quiet(self):
+        """No error was reported and no other host was asked for anything."""
+        assert not self.errors, self.errors
+        assert not self.outside, self.outside
+
+    # What the page says.
+
+    @property
+    def state(self):
+        return int(self.page.evaluate("document.documentElement.dataset.state"))
+
+    @property
+    def ready(self):
+        return self.page.evaluate("document.documentElement.dataset.ready") == "true"
+
+    def data(self, name):
+        """The columns of a source of the scene on show; nested lists for polygons and lines of several parts."""
+        return self.page.evaluate(
+            """name => {
+              const plain = (x) => ArrayBuffer.isView(x) || Array.isArray(x) ? Array.from(x, plain) : x
+              const { data } = window.hess.source(name)
+              return Object.fromEntries(Object.entries(data).map(([key, column]) => [key, plain(column)]))
+            }""", name)
+
+    def here(self):
+        """(h, f) where the ring stands in the bifurcation diagram."""
+        ring = self.data("bifurcation-here")
+        return ring["h"][0], ring["f"][0]
+
+    def axes(self, name):
+        """(x from, x to, y from, y to) of a planar picture."""
+        return self.page.evaluate(
+            """name => {
+              const { x_range: x, y_range: y } = window.hess.plots.find(({ model }) => model.name === name).model
+              return [x.start, x.end, y.start, y.end]
+            }""", name)
+
+    def picture(self, name):
+        """A picture of the scene on show, with its caption: those of scenes seen before stay where they are, unseen."""
+        return self.page.locator(f".gallery:not(.away) .picture-{name}")
+
+    def caption(self, picture):
+        return self.picture(picture).locator(".caption").inner_text()
+
+    def text(self, look):
+        """What stands in the status line, the notes or the derived quantities."""
+        return self.page.locator(f".text.{look}").text_content()
+
+    @property
+    def scene(self):
+        """The name of the scene on show."""
+        return self.page.locator(".scene[aria-pressed=true]").get_attribute("data-scene")
+
+    @property
+    def accuracy(self):
+        """The level in the menu."""
+        return self.chosen("accuracy")
+
+    def chosen(self, menu):
+        """The option that a menu shows, in its words."""
+        return self.menu(menu).evaluate("menu => menu.selectedOptions[0]?.textContent ?? null")
+
+    def shown(self, name):
+        """(box, slider) of a number."""
+        return float(self.box(name).input_value()), float(self.slider(name).input_value())
+
+    @property
+    def time(self):
+        return float(self.page.locator("input.param-t").input_value())
+
+    @property
+    def playing(self):
+        return self.page.locator(".player[role=group]").get_attribute("data-playing") == "true"
+
+    @property
+    def turn(self):
+        """(azimuth, elevation) of the sphere as it is painted."""
+        return tuple(map(float, self.sphere.get_attribute("data-turn").split()))
+
+    def wait_url(self, **values):
+        """Wait until the address bar has these values, and return all that it has."""
+        self.page.wait_for_function(
+            "wanted => wanted.every(([key, value]) => new URLSearchParams(location.search).get(key) === value)",
+            arg=[[key, str(value)] for key, value in values.items()])
+        return dict(parse_qsl(urlsplit(self.page.url).query))
+
+    # What a user does.
+
+    def slider(self, name):
+        return self.page.locator(f".param-{name} input[type=range]")
+
+    def box(self, name):
+        return self.page.locator(f".param-{name} input[type=text]")
+
+    def menu(self, name):
+        return self.page.locator(f".param-{name} select")
+
+    @property
+    def sphere(self):
+        return self.page.locator(".gallery:not(.away) canvas.sphere")
+
+    def change(self, action, *arguments):
+        """Do something that asks for a new state, and wait until it is painted."""
+        before = self.state
+        action(*arguments)
+        wait_ready(self.page, after=before)
+
+    def enter(self, scene):
+        """Choose a scene from the menu."""
+        self.change(self.page.locator(f".param-scene-{scene}").click)
+
+    def type(self, name, text):
+        """Type into the box of a number, and Enter."""
+        box = self.box(name)
+        box.fill(text)
+        box.press("Enter")
+
+    def slide(self, **values):
+        """Move sliders all at once, as one input event each."""
+        return self.page.evaluate(SLIDE, list(values.items()))
+
+    def choose(self, menu, option):
+        """Choose an option of a menu."""
+        self.menu(menu).select_option(label=option)
+
+    def play_until(self, t):
+        """Let it play until the time slider has come past t."""
+        self.page.locator(".param-play").click()
+        while self.time <= t:
+            self.page.wait_for_timeout(20)
+        self.page.locator(".param-play").click()
+
+    def set_time(self, t):
+        """Move the time slider."""
+        self.page.locator("input.param-t").evaluate(
+            "(slider, t) => { slider.value = t; slider.dispatchEvent(new Event('input'));"
+            " slider.dispatchEvent(new Event('change')) }", t)
+
+
+FIND = """(name, kind) => {
+  const find = (root, selector) => {
+    const found = root.querySelector(selector)
+    if (found) return found
+    for (const item of root.querySelectorAll("*")) {
+      const inside = item.shadowRoot && find(item.shadowRoot, selector)
+      if (inside) return inside
+    }
+    return null
+  }
+  return find(document, `.param-${name} input[type=${kind}]`)
+}"""
+# All within one task of the browser; the answer is whether the page still says it is ready.
+SLIDE = f"""pairs => {{
+  for (const [name, value] of pairs) {{
+    const slider = ({FIND})(name, "range")
+    slider.value = value
+    slider.dispatchEvent(new Event("input", {{ bubbles: true }}))
+  }}
+  return document.documentElement.dataset.ready
+}}"""
+ENTER = f"""pairs => {{
+  for (const [name, value] of pairs) {{
+    const box = ({FIND})(name, "text")
+    box.value = value
+    box.dispatchEvent(new Event("change", {{ bubbles: true }}))
+  }}
+  return document.documentElement.dataset.ready
+}}"""
+
+
+def one_tab(browser, server):
+    """One tab for the tests of a module: loading a page is what takes longest."""
+    context = browser.new_context(viewport={"width": 1600, "height": 950})
+    yield Explorer(context.new_page(), server)
+    context.close()
+
+
+def default_state(tab):
+    """The page in its default state; when the test ends it may have reported no error and asked no other host."""
+    tab.fresh()
+    tab.assert_quiet()
+    yield tab
+    tab.assert_quiet()
+
+
+class Line:
+    """Between a page and its server: can hold back what the server says."""
+
+    def __init__(self, page):
+        self._socket, self._held, self._holding = None, [], False
+        page.route_web_socket(re.compile(r"/ws"), self._connect)
+
+    def _connect(self, socket):
+        self._socket = socket
+        socket.connect_to_server().on_message(self._hear)
+
+    def _hear(self, message):
+        if self._holding:
+            self._held.append(message)
+        else:
+            self._socket.send(message)
+
+    def hold(self):
+        self._holding = True
+
+    def cut(self):
+        """As when the server ends."""
+        self._socket.close()
+
+    def release(self):
+        self._holding = False
+        while self._held:
+            self._socket.send(self._held.pop(0))
+
+
+def page_on_a_line(browser, server):
+    """(explorer, line): the page in its default state, and what is between it and the server."""
+    context = browser.new_context(viewport={"width": 1600, "height": 950})
+    page = context.new_page()
+    line = Line(page)
+    explorer = Explorer(page, server).open()
+    yield explorer, line
+    explorer.assert_quiet()
+    context.close()
+
+
+def flat(data):
+    """All numbers of a source's columns, however nested, in order."""
+    if isinstance(data, dict):
+        return [x for key in sorted(data) for x in flat(data[key])]
+    return [x for part in data for x in flat(part)] if isinstance(data, list) else [data]
+
+
+# The time and the points that belong to it, and where the sphere shows its point: from one task of the browser.
+MOMENT = """names => {
+  const of = (name) => window.hess.source(name).data
+  const find = (root, selector) => {
+    for (const item of [root, ...root.querySelectorAll("*")]) {
+      const found = item.shadowRoot && (item.shadowRoot.querySelector(selector) ?? find(item.shadowRoot, selector))
+      if (found) return found
+    }
+    return null
+  }
+  const points = names.map((name) => [of(name).x[0], of(name).y[0]])
+  return { t: Number(find(document, "input.param-t").value), points }
+}"""
+
+
+def wait_frames(explorer, count=6):
+    """Let the browser paint so many frames."""
+    explorer.page.evaluate(
+        "async (count) => { while (count-- > 0) await new Promise((done) => requestAnimationFrame(done)) }", count)
+
+
+def wait_time(explorer, condition):
+    """Wait until the time slider fulfils a condition on t."""
+    explorer.page.wait_for_function(
+        f"() => {{ const {{ t }} = ({MOMENT})({list(POINTS)!r}); return {condition} }}")
+
+
+def brought(tab, scene):
+    """The tab with the defaults of a scene, at t = 0."""
+    tab.page.mouse.up()
+    if not tab.page.url.startswith(tab.base) or not tab.ready:
+        tab.open(f"scene={scene.name}")
+    elif tab.scene != scene.name:
+        tab.enter(scene.name)
+    if tab.playing:
+        tab.page.locator(".param-play").click()
+    tab.change(tab.page.locator(".param-reset").click)
+    tab.set_time(0.0)
+    tab.assert_quiet()
+    return tab
+
+
+def said(explorer, picture, pattern):
+    """The numbers where the pattern has #, in a caption."""
+    text = explorer.caption(picture)
+    found = re.search(re.escape(pattern).replace(r"\#", NUMBER).replace(r"\ ", r"\s"), text)
+    assert found, (pattern, text)
+    return [float(number.replace("−", "-")) for number in found.groups()]
+
+
+def values_of(explorer, scene):
+    """The state in the address bar."""
+    query = dict(parse_qsl(urlsplit(explorer.page.url).query))
+    return {spec.name: type(spec.default)(query[spec.name]) for spec in scene.specs}
+
+
+def chosen(explorer, scene, preset):
+    """The page shows this example; its values."""
+    explorer.change(explorer.choose, "preset", preset.name)
+    return {**scene.defaults(), **preset.values}

@@ -1,0 +1,25 @@
+"""The cloud of the ball: the scene and its captions."""
+
+from __future__ import annotations
+
+from hess_explorer.compute.cache import CACHE
+from hess_explorer.protocol.wire import Wire
+from hess_explorer.scenes import scenes
+
+SCENE = scenes()["singular-measures"]
+
+
+def captions(values):
+    """The texts beside the pictures, by their names."""
+    wire = Wire()
+    SCENE.stage(wire).show(complete(SCENE.admit(values)[0]), False)
+    return wire.pack()[0]["texts"]
+
+
+def complete(values):
+    """The result with all points."""
+    for task in SCENE.compute(values, SCENE.pictures, False).todo:
+        CACHE.get(task.function, *task.arguments)
+    result = SCENE.compute(values, SCENE.pictures, False)
+    assert result.todo == ()
+    return result

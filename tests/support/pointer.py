@@ -1,0 +1,54 @@
+"""Pixels of planar pictures, clicks on them, and the turn of a sphere."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+
+def frame(explorer, name):
+    """The rectangle between the axes of a planar picture, in pixels of the page: left, top, right, bottom."""
+    explorer.picture(name).scroll_into_view_if_needed()
+    return explorer.page.evaluate(
+        """name => {
+          const found = window.hess.plots.find(({ model }) => model.name === name)
+          const [{ x, y }, { x0, y0, x1, y1 }] = [found.el.getBoundingClientRect(), found.frame.bbox]
+          return [x + x0, y + y0, x + x1, y + y1]
+        }""", name)
+
+
+def at(explorer, name, x, y):
+    """The pixel at which a planar picture shows a point, and how many units a pixel is wide and high."""
+    left, top, right, bottom = frame(explorer, name)
+    x0, x1, y0, y1 = explorer.axes(name)
+    pixel = (left + (x - x0) / (x1 - x0) * (right - left), bottom - (y - y0) / (y1 - y0) * (bottom - top))
+    return pixel, ((x1 - x0) / (right - left), (y1 - y0) / (bottom - top))
+
+
+def click(explorer, x, y):
+    """Click there and wait for the state.  Two clicks in quick succession are to Bokeh one double click."""
+    explorer.page.evaluate("new Promise((done) => setTimeout(done, 400))")
+    explorer.change(explorer.page.mouse.click, x, y)
+
+
+HOME = (0.6, 0.35)
+STEP = math.pi / 36
+
+
+def assert_turned(explorer, azimuth, elevation):
+    """The sphere is painted in this direction of sight, now or a few frames later."""
+    azimuth = math.remainder(azimuth, 2 * math.pi)
+    explorer.sphere.evaluate(
+        """async (canvas, turn) => {
+          const off = () => Math.max(...canvas.dataset.turn.split(" ").map((x, i) => Math.abs(Number(x) - turn[i])))
+          for (let i = 0; i < 60 && off() > 2e-4; i++) await new Promise((done) => requestAnimationFrame(done))
+        }""", [azimuth, elevation])
+    assert explorer.turn == pytest.approx((azimuth, elevation), abs=2e-4)
+
+
+def click_on(explorer, picture, x, y):
+    """Click at a point; how far a pixel is."""
+    pixel, unit = at(explorer, picture, x, y)
+    explorer.change(explorer.page.mouse.click, *pixel)
+    return unit

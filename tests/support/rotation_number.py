@@ -1,0 +1,33 @@
+"""Rotation numbers by iteration."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from hess_mechanics import circle_map
+from hess_mechanics.numerics.accuracy import REFERENCE
+
+
+def displacement(a, h, f):
+    """Θ(φ) − φ as a continuous function of φ, from the angles that the map gives, lifted by hand."""
+    theta = circle_map(a, h, f, REFERENCE)
+    grid = np.linspace(-math.pi, math.pi, 40_001)
+    turn = np.unwrap(theta.theta(grid) - grid)
+    turn -= 2.0 * math.pi * round(turn.mean() / (2.0 * math.pi))
+
+    def lifted(phi):
+        return np.interp(np.remainder(phi + math.pi, 2.0 * math.pi) - math.pi, grid, turn)
+
+    return lifted
+
+
+def iterated(a, h, f, epsilon=0.0, count=10_000):
+    """Turns per return of Θ(φ + ε sin 3φ), by counting."""
+    lifted = displacement(a, h, f)
+    phi = 0.3
+    for _ in range(count):
+        first = phi + epsilon * math.sin(3.0 * phi)
+        phi = first + float(lifted(first))
+    return (phi - 0.3) / (2.0 * math.pi * count)

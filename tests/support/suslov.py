@@ -1,0 +1,40 @@
+"""The Suslov problem with gravity, written out."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from scipy.optimize import brentq
+
+
+def field(body, y):
+    """`Biz131`, with gravity."""
+    w1, w2, g1, g2, g3 = y
+    s = body.I13 * w1 + body.I23 * w2
+    return np.array([(-w2 * s + body.b3 * g2 - body.b2 * g3) / body.I11,
+                     (w1 * s + body.b1 * g3 - body.b3 * g1) / body.I22, -g3 * w2, g3 * w1, g1 * w2 - g2 * w1])
+
+
+def energy(body, y):
+    """`Biz11`."""
+    w1, w2, *gamma = y
+    return 0.5 * (body.I11 * w1**2 + body.I22 * w2**2) + np.dot((body.b1, body.b2, body.b3), gamma)
+
+
+def permanent_rotations(body, E):
+    """States γ3 = 0, ω = wγ with w²(I13γ1 + I23γ2) = b3 and energy E: the body turns for ever about the vertical."""
+    def excess(psi):
+        g1, g2 = math.cos(psi), math.sin(psi)
+        squared = body.b3 / (body.I13 * g1 + body.I23 * g2)
+        return energy(body, (math.sqrt(squared) * g1, math.sqrt(squared) * g2, g1, g2, 0.0)) - E
+
+    # Where I13γ1 + I23γ2 > 0, within 90° of its largest value.
+    middle = math.atan2(body.I23, body.I13)
+    psi = np.linspace(middle - 1.56, middle + 1.56, 2001)
+    values = np.array([excess(x) for x in psi])
+    roots = [brentq(excess, *psi[i : i + 2], xtol=1e-14) for i in np.flatnonzero(values[1:] * values[:-1] < 0.0)]
+    for x in roots:
+        g = np.array([math.cos(x), math.sin(x), 0.0])
+        for w in (1.0, -1.0):
+            yield np.array([*(w * math.sqrt(body.b3 / (body.I13 * g[0] + body.I23 * g[1])) * g[:2]), *g])

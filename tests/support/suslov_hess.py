@@ -1,0 +1,55 @@
+"""The orbit of the Suslov–Hess scene, by the general system."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from hess_explorer.protocol.parameters import Number
+from hess_explorer.scenes import scenes
+from hess_mechanics import HessBody, level, solve, systems, turning_points
+
+
+def body_of(values):
+    return HessBody(values["I22"], values["I23"], values["b3"])
+
+
+def exact_states(values, times):
+    """(ω1, ω2, γ1, γ2, γ3) at these times, in the variables of S1 and not, as the page does it, in those of S8."""
+    body = body_of(values)
+    start = turning_points(values["h"], values["f"]).state_at_lower_turn(values["phi0"])
+    state = body.from_reduced(body.from_units_of_b(start))
+    return solve(systems()["suslov"], state, body.suslov.parameters, times, level("reference")).states
+
+
+def rounding(values, times, states):
+    """How far the body gets in half of the last digit of these times, which are sent in single precision."""
+    rates = np.abs(systems()["suslov"].field(states.T, body_of(values).suslov.parameters)).T
+    return rates * np.spacing(np.float32(times))[:, None] / 2
+
+
+def assert_orbit(explorer, values, within=2e-6):
+    """The orbit in the browser is that of these values: where it starts, where it ends, and in between."""
+    orbit = explorer.data("data-orbit")
+    times = np.array(orbit["t"])
+    last = min(values["span"], 100 * turning_points(values["h"], values["f"]).period / body_of(values).frequency_unit)
+    assert times[0] == 0.0
+    assert times[-1] == pytest.approx(last, rel=1e-6)
+    assert np.all(np.diff(times) > 0)
+    picks = np.unique(np.linspace(0, times.size - 1, 7).astype(int))
+    exact = exact_states(values, times[picks])
+    found = np.column_stack([np.array(orbit[name])[picks] for name in ("omega1", "omega2", "g1", "g2", "g3")])
+    allowed = within * np.maximum(1.0, np.abs(exact)) + rounding(values, times[picks], exact)
+    assert np.max(np.abs(found - exact) - allowed) <= 0.0
+    assert explorer.here() == pytest.approx((values["h"], values["f"]), rel=1e-7)
+
+
+def assert_defaults(explorer, scene, **others):
+    """The page shows the default state of this scene, but for the values of others that it knows."""
+    assert explorer.scene == scene
+    for spec in scenes()[scene].specs:
+        value = others.get(spec.name, spec.default)
+        if isinstance(spec, Number):
+            assert explorer.shown(spec.name) == (value, value), spec.name
+        else:
+            assert explorer.chosen(spec.name) == value, spec.name
