@@ -1,10 +1,14 @@
 FROM python:3.12-slim
 
+# First what seldom changes: the dependencies, in exactly the versions and with the hashes of the lock file.
+COPY app/requirements.lock /src/app/
+RUN pip install --no-cache-dir --require-hashes -r /src/app/requirements.lock
+
 COPY pyproject.toml README.md LICENSE /src/
 COPY app /src/app
 COPY models /src/models
 COPY static /src/static
-RUN pip install --no-cache-dir /src
+RUN pip install --no-cache-dir --no-deps --no-build-isolation /src
 
 RUN useradd --create-home explorer
 USER explorer
@@ -19,7 +23,7 @@ RUN python -c "from hess_explorer.server.warm import warm; warm()"
 EXPOSE 5006
 HEALTHCHECK --start-period=30s --timeout=5s \
     CMD ["python", "-c", "from urllib.request import urlopen; urlopen('http://127.0.0.1:5006/liveness', timeout=4)"]
-# What the server takes as Ctrl-C.
+# The server treats it as Ctrl-C.
 STOPSIGNAL SIGINT
 # Served under another name or port: --allow-origin HOST:PORT as it stands in the browser's address bar.
 CMD ["hess-explorer", "serve", "--address", "0.0.0.0", "--port", "5006", "--no-browser", \

@@ -1,0 +1,135 @@
+"""The image can be built and serves: each line of the Dockerfile, carried out without Docker."""
+
+import hashlib
+import shutil
+import signal
+import socket
+import subprocess
+import zipfile
+from pathlib import Path
+
+import pytest
+from dockerfile import Image, instructions
+from processes import interruptible
+
+import hess_mechanics
+from hess_explorer.headless.browser import wait_ready
+from hess_explorer.headless.screenshot import wait_alive
+from hess_mechanics.numerics.jit import CACHE_FOLDER
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def with_compiled_kernels(image):
+    """Hand the image the kernels that this environment has compiled.
+
+    Numba files them under a hash of the source's folder; it takes them only for the very same source.
+    """
+    source, installed = Path(hess_mechanics.__file__).parent, image.site / "hess_mechanics"
+    cache = Path(image.set["NUMBA_CACHE_DIR"]) / "hess-explorer" / CACHE_FOLDER.name
+    for folder in (source, *(path for path in source.rglob("*") if path.is_dir())):
+        there = installed / folder.relative_to(source)
+        old, new = (f"{path.name}_{hashlib.sha1(str(path).encode()).hexdigest()}" for path in (folder, there))
+        if (CACHE_FOLDER / old).is_dir():
+            shutil.copytree(CACHE_FOLDER / old, cache / new)
+
+
+@pytest.fixture(scope="module")
+def image(tmp_path_factory):
+    made = Image(ROOT, tmp_path_factory.mktemp("image") / "root")
+    for instruction, rest in instructions((ROOT / "Dockerfile").read_text()):
+        made.carry_out(instruction, rest)
+        if instruction == "ENV":
+            with_compiled_kernels(made)
+    return made
+
+
+def test_what_runs_is_the_installed_package(image):
+    where = image.run(["python", "-c", "import hess_explorer, hess_mechanics as m; "
+                                       "print(hess_explorer.__file__, m.__file__, sep='\\n')"])
+    assert [Path(line).parent for line in where.split()] == [image.site / "hess_explorer", image.site / "hess_mechanics"]
+
+
+def test_neither_the_folder_nor_its_files_shadow_the_packages(image):
+    for name in ("models", "app", "static"):
+        (image.at(image.workdir) / f"{name}.py").write_text("raise SystemExit('the wrong module')\n")
+    image.run(["python", "-c", "import hess_mechanics, hess_explorer.page.page"])
+    assert image.run(["python", "-m", "hess_explorer", "--version"]).startswith("hess-explorer ")
+
+
+def test_its_user_has_the_kernels_compiled(image):
+    assert image.user != "root"
+    mark, = Path(image.set["NUMBA_CACHE_DIR"]).glob("hess-explorer/*/complete")
+    assert list(mark.parent.rglob("*.nbc"))
+
+
+def test_the_command_serves_the_page_is_healthy_and_ends(image, browser, tmp_path):
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+
+    def here(command):
+        return [word.replace(str(image.port), str(port)) for word in command]
+
+    log = tmp_path / "log"
+    with log.open("wb") as out, interruptible(), subprocess.Popen(
+            here(image.cmd), cwd=image.at(image.workdir), env=image.environment, stdout=out,
+            stderr=subprocess.STDOUT) as process:
+        try:
+            wait_alive(process, port, log)
+            image.run(here(image.health))
+            context = browser.new_context(viewport={"width": 1280, "height": 720})
+            failed = []
+            context.on("response", lambda response: failed.append(response.url) if response.status >= 400 else None)
+            context.on("weberror", lambda error: failed.append(str(error.error)))
+            page = context.new_page()
+            page.goto(f"http://localhost:{port}/")
+            wait_ready(page)
+            assert page.title() == "Hess Explorer"
+            context.close()
+            assert failed == []
+        finally:
+            process.send_signal(signal.Signals[image.stopsignal])
+        # Docker waits ten seconds before it kills.
+        assert process.wait(10) == 0
+    assert "Traceback" not in log.read_text()
+
+
+# The wheel
+
+
+@pytest.fixture(scope="module")
+def wheel(image, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("wheel")
+    image.run(["pip", "wheel", "--no-deps", "--no-build-isolation", "-w", str(folder), str(ROOT)])
+    file, = folder.glob("*.whl")
+    with zipfile.ZipFile(file) as opened:
+        return opened.namelist()
+
+
+def test_the_wheel_holds_distinctive_names_only(wheel):
+    tops = {name.split("/")[0] for name in wheel}
+    assert {name for name in tops if not name.endswith(".dist-info")} == {"hess_explorer", "hess_mechanics"}
+    assert len(tops) == 3
+
+
+def test_the_wheel_is_typed_and_holds_all_that_the_page_needs(wheel):
+    assert {"hess_explorer/py.typed", "hess_mechanics/py.typed"} <= set(wheel)
+    listed = subprocess.run(["git", "ls-files", "static", "app/hess_explorer", "models/hess_mechanics"], cwd=ROOT,
+                            capture_output=True, text=True, check=True).stdout.split("\n")
+    places = {"static/": "hess_explorer/static/", "app/": "", "models/": ""}
+    for name in filter(None, listed):
+        folder = name.split("/")[0] + "/"
+        assert places[folder] + name.removeprefix(folder) in wheel, f"{name} is not in the wheel"
+
+
+# The lock file
+
+
+def test_the_lock_file_names_no_host_and_has_a_hash_for_everything():
+    blocks = (ROOT / "app" / "requirements.lock").read_text().replace("\\\n", " ").splitlines()
+    assert len(blocks) > 20
+    for block in blocks:
+        assert "==" in block
+        assert " --hash=sha256:" in block
+        assert "://" not in block
