@@ -40,6 +40,7 @@ from hess_explorer.benchmark.works import REFERENCES, works
 from hess_explorer.commands import CommandError
 from hess_mechanics import circle_map, level, solve, systems
 from support.mechanics import ROOT
+from support.processes import interruptible
 
 # References
 
@@ -442,7 +443,8 @@ def test_a_picture_without_matplotlib_is_refused_before_measuring(monkeypatch):
 
 
 def test_ctrl_c_ends_it_cleanly():
-    with subprocess.Popen(bench("--works", "C"), cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+    with interruptible(), subprocess.Popen(bench("--works", "C"), cwd=ROOT, stdout=subprocess.PIPE,
+                                           stderr=subprocess.PIPE) as process:
         process.stderr.readline()
         process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=60)

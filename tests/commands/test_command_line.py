@@ -25,6 +25,7 @@ from hess_mechanics.dynamics.orbit import MAX_SAMPLES
 from support.andoyer import GESS1, crossings_by_scipy, start_by_hand
 from support.command_line import replaced, run, strict_json, table
 from support.mechanics import ROOT
+from support.processes import interruptible
 
 CIRCLE_MAP = ["circle-map", "--h", "1.5", "--f", "0.6", "--a", "0.5", "--phi", "0,1,2", "--accuracy", "reference"]
 SUSLOV = ["orbit", "suslov", "--I", "2,1,0.3,0.5", "--b", "0.3,-0.5,1", "--omega", "0.8,-0.4",
@@ -341,7 +342,8 @@ def test_taken_port(refusal, served):
 def test_interrupt_ends_the_server_cleanly(free_port, tmp_path):
     log = tmp_path / "log"
     command = [sys.executable, "-m", "hess_explorer", "serve", "--port", str(free_port), "--no-browser"]
-    with log.open("wb") as out, subprocess.Popen(command, cwd=ROOT, stdout=out, stderr=subprocess.STDOUT) as process:
+    with (log.open("wb") as out, interruptible(),
+          subprocess.Popen(command, cwd=ROOT, stdout=out, stderr=subprocess.STDOUT) as process):
         hess_explorer.headless.screenshot.wait_alive(process, free_port, log)
         process.send_signal(signal.SIGINT)
         assert process.wait(30) == 0

@@ -9,13 +9,13 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from dockerfile import Image, instructions
-from processes import interruptible
 
 import hess_mechanics
 from hess_explorer.headless.browser import wait_ready
 from hess_explorer.headless.screenshot import wait_alive
 from hess_mechanics.numerics.jit import CACHE_FOLDER
+from support.dockerfile import Image, instructions
+from support.processes import interruptible
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -45,9 +45,9 @@ def image(tmp_path_factory):
 
 
 def test_what_runs_is_the_installed_package(image):
-    where = image.run(["python", "-c", "import hess_explorer, hess_mechanics as m; "
-                                       "print(hess_explorer.__file__, m.__file__, sep='\\n')"])
-    assert [Path(line).parent for line in where.split()] == [image.site / "hess_explorer", image.site / "hess_mechanics"]
+    for name in ("hess_explorer", "hess_mechanics"):
+        where = image.run(["python", "-c", f"import {name}; print({name}.__file__)"])
+        assert Path(where.strip()).parent == image.site / name
 
 
 def test_neither_the_folder_nor_its_files_shadow_the_packages(image):
