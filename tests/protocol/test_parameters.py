@@ -36,7 +36,7 @@ every_number = pytest.mark.parametrize("spec", NUMBERS, ids=[spec.name for spec 
 
 def admissible(spec):
     if isinstance(spec, Number):
-        return st.floats(spec.lowest, spec.highest)
+        return st.floats(spec.bounds[0], spec.bounds[1])
     return st.sampled_from(spec.options) if isinstance(spec, Choice) else texts_of(spec)
 
 
@@ -56,7 +56,7 @@ def is_admissible(spec, value):
         return value in spec.options
     if isinstance(spec, Places):
         return spec.read(value) == (value, None)
-    return isinstance(value, float) and spec.lowest <= value <= spec.highest
+    return isinstance(value, float) and spec.bounds[0] <= value <= spec.bounds[1]
 
 
 def understood(spec, text):
@@ -67,7 +67,7 @@ def understood(spec, text):
         value = float(text)
     except ValueError:
         return None
-    return value if spec.lowest <= value <= spec.highest else None
+    return value if spec.bounds[0] <= value <= spec.bounds[1] else None
 
 
 CHOICE = Choice("scene", "Scene", tuple(SCENES), next(iter(SCENES)))
@@ -173,9 +173,9 @@ def test_a_key_that_makes_no_sense_leaves_the_others_alone(spec, values, text):
 @given(value=st.floats(allow_nan=False, allow_infinity=False))
 def test_a_number_out_of_range_becomes_the_nearest_one_in_range(spec, value):
     admitted, note = spec.admit(value)
-    nearest = sorted((spec.lowest, value, spec.highest))[1]
+    nearest = sorted((spec.bounds[0], value, spec.bounds[1]))[1]
     assert admitted == nearest
-    assert (note is None) == (spec.lowest <= value <= spec.highest)
+    assert (note is None) == (spec.bounds[0] <= value <= spec.bounds[1])
     assert spec.admit(admitted) == (admitted, None)
     assert decode(f"{spec.name}={quote(repr(value))}", SPECS)[0][spec.name] == nearest
 
@@ -292,5 +292,5 @@ def test_every_position_of_the_f_slider_is_possible(h, share):
 def test_every_slider_spans_values_that_may_be_typed_and_holds_the_default(scene):
     for spec in scene.specs:
         if isinstance(spec, Number):
-            assert spec.lowest <= spec.low <= spec.default < spec.high <= spec.highest
-            assert 0 < spec.step < spec.high - spec.low
+            assert spec.bounds[0] <= spec.softbounds[0] <= spec.default < spec.softbounds[1] <= spec.bounds[1]
+            assert 0 < spec.step < spec.softbounds[1] - spec.softbounds[0]

@@ -74,8 +74,8 @@ def test_a_scene_explains_itself_and_each_of_its_parameters(scene):
     # Places have no control to be explained.
     for spec in (spec for spec in scene.specs if not isinstance(spec, Places)):
         assert spec.label, spec.name
-        assert len(spec.help.split()) > 2, spec.name
-        assert spec.help.endswith((".", ")")), spec.name
+        assert len(spec.doc.split()) > 2, spec.name
+        assert spec.doc.endswith((".", ")")), spec.name
         assert spec.label.isprintable()
     assert len({preset.name for preset in scene.presets}) == len(scene.presets) > 2
     for preset in scene.presets:
@@ -115,7 +115,7 @@ def test_the_description_of_a_scene_has_all_that_the_browser_needs(scene):
     assert found["drawn"] == (len(controlled) < len(scene.specs))
     assert [control["name"] for control in found["controls"]] == [spec.name for spec in controlled]
     for control, spec in zip(found["controls"], controlled, strict=True):
-        assert (control["label"], control["help"]) == (spec.label, spec.help)
+        assert (control["label"], control["help"]) == (spec.label, spec.doc)
         if isinstance(spec, Number):
             assert (control["kind"], control["symbol"]) == ("number", spec.symbol)
         else:
@@ -273,14 +273,14 @@ def somewhere(spec):
         return st.lists(place, max_size=3 if spec.most > 2 else 0).map(written)
     if not isinstance(spec, Number):
         return st.sampled_from(spec.options)
-    distance = st.floats(-16.0, math.log10(spec.highest - spec.lowest)).map(lambda exponent: 10.0**exponent)
+    distance = st.floats(-16.0, math.log10(spec.bounds[1] - spec.bounds[0])).map(lambda exponent: 10.0**exponent)
     return st.one_of(
-        st.floats(spec.low, spec.high),
-        st.floats(spec.lowest, spec.highest),
-        st.sampled_from([0.0, 1.0, spec.default, spec.lowest, spec.highest]),
-        st.builds(lambda start, way: start + way, st.sampled_from([spec.lowest, -1.0, 0.0, 1.0]), distance),
-        st.builds(lambda start, way: start - way, st.sampled_from([spec.highest, 1.0, 0.0, -1.0]), distance),
-    ).map(lambda value: min(max(value, spec.lowest), spec.highest))
+        st.floats(*spec.softbounds),
+        st.floats(spec.bounds[0], spec.bounds[1]),
+        st.sampled_from([0.0, 1.0, spec.default, spec.bounds[0], spec.bounds[1]]),
+        st.builds(lambda start, way: start + way, st.sampled_from([spec.bounds[0], -1.0, 0.0, 1.0]), distance),
+        st.builds(lambda start, way: start - way, st.sampled_from([spec.bounds[1], 1.0, 0.0, -1.0]), distance),
+    ).map(lambda value: min(max(value, spec.bounds[0]), spec.bounds[1]))
 
 
 def in_sight(scene):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 from hess_explorer.protocol.parameters import Number, Values
 from hess_explorer.protocol.wire import Wire
@@ -16,15 +17,15 @@ CHOOSE = ""
 
 def slider_limits(spec: Number, limits: Mapping[str, tuple[float, float, float]]) -> tuple[float, float, float]:
     """(low, high, step) of a slider: the scene's where they depend on the state, else the parameter's own."""
-    return limits.get(spec.name, (spec.low, spec.high, spec.step))
+    return limits.get(spec.name, (*spec.softbounds, spec.step))
 
 
-def example_of(scene: Scene, values: Values) -> str:
+def example_of(scene: Scene[Any], values: Values) -> str:
     """The name of the example that these values are, or `CHOOSE`."""
     return next((one.name for one in scene.presets if scene.example(one).items() <= values.items()), CHOOSE)
 
 
-def show_controls(scene: Scene, values: Values, wire: Wire) -> None:
+def show_controls(scene: Scene[Any], values: Values, wire: Wire) -> None:
     """Bring all controls up to date."""
     limits = scene.limits(values)
     for spec in scene.specs:

@@ -86,7 +86,7 @@ def _page(query: str) -> pmui.Page:
         },
     )
 
-    def entered(scene: Scene) -> None:
+    def entered(scene: Scene[Any]) -> None:
         result.title = f"Hess Explorer · {scene.title}"
 
     session = Session(ready, entered, scene, state, notes)
@@ -98,7 +98,7 @@ def _page(query: str) -> pmui.Page:
     return result
 
 
-def _entry(scene: Scene) -> dict[str, str | None]:
+def _entry(scene: Scene[Any]) -> dict[str, str | None]:
     """What the menu of scenes says of one."""
     return {"name": scene.name, "title": scene.title, "summary": scene.summary, "picture": scene.thumbnail,
             "origin": scene.origin}

@@ -14,14 +14,14 @@ from typing import Any
 from panel.io.document import unlocked
 
 from hess_explorer.compute.background import Background
-from hess_explorer.compute.cache import CACHE
 from hess_explorer.page.components import Ready
 from hess_explorer.page.controls import show_controls
 from hess_explorer.page.description import describe
 from hess_explorer.protocol.parameters import Choice, Number, Places, Values, encode
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
-from hess_explorer.scenes.framework.scene import Boxed, Hovered, Report, Scene, Stage
+from hess_explorer.scenes.framework.scene import Report, Scene
+from hess_explorer.scenes.framework.stage import Stage
 from hess_mechanics.errors import ModelError
 
 __all__ = ["Session"]
@@ -52,13 +52,13 @@ class Session:
     scene : what is shown first; values : the state to begin with; notes : what had to be changed in the link.
     """
 
-    def __init__(self, ready: Ready, entered: Callable[[Scene], None], scene: Scene, values: Values,
+    def __init__(self, ready: Ready, entered: Callable[[Scene[Any]], None], scene: Scene[Any], values: Values,
                  notes: list[str]) -> None:
         self.ready = ready
         self.wire = Wire()
         self.background = Background()
         self._entered = entered
-        self._stages: dict[str, Stage] = {}
+        self._stages: dict[str, Stage[Any]] = {}
         self._described: set[str] = set()
         self._left: dict[str, Values] = {}
         self._own_instead = False
@@ -70,7 +70,7 @@ class Session:
         self._send(0)
         ready.on_msg(lambda event: self._receive(event.data))
 
-    def _enter(self, scene: Scene, values: Values, notes: list[str]) -> None:
+    def _enter(self, scene: Scene[Any], values: Values, notes: list[str]) -> None:
         self.scene = scene
         self._specs = {spec.name: spec for spec in scene.specs}
         self._wanted = scene.defaults() | {name: values[name] for name in self._specs if name in values}
@@ -79,7 +79,7 @@ class Session:
         self._history: list[Values] = []
         # The browser keeps the pictures of all scenes that it has seen, and a stage knows what it has drawn on them.
         if scene.name not in self._stages:
-            self._stages[scene.name] = scene.stage(self.wire)
+            self._stages[scene.name] = Stage(scene, self.wire)
             self._describe(scene.name)
         self.stage = self._stages[scene.name]
         self._dirty = True
@@ -92,7 +92,7 @@ class Session:
             self._described.add(name)
             self.ready.scene = describe(name)
 
-    def _change_scene(self, scene: Scene) -> None:
+    def _change_scene(self, scene: Scene[Any]) -> None:
         """Another scene as it was left (at first: in its own first state), with what was changed in this one."""
         here, wanted = self._specs, self._wanted
         self._left[self.scene.name] = values = wanted
@@ -133,11 +133,11 @@ class Session:
             self._history = [*self._history, before][-MOST_UNDONE:]
         self.change(values)
 
-    def _hover(self, stage: Hovered, picture: Any, x: float, y: float) -> None:
+    def _hover(self, picture: Any, x: float, y: float) -> None:
         text = ""
         if picture in self.scene.pictures and math.isfinite(x) and math.isfinite(y):
             try:
-                text = stage.hover(picture, x, y)
+                text = self.stage.hover(picture, x, y)
             except ModelError as error:
                 text = str(error)
             self.wire.say(f"hover-{picture}", text)
@@ -176,11 +176,11 @@ class Session:
             numbers = [*map(_float, picked[1:5])]
             if len(numbers) == 2 and all(map(math.isfinite, numbers)):
                 self._draw_on(self.stage.pick(picked[0], *numbers))
-            elif len(numbers) == 4 and all(map(math.isfinite, numbers)) and isinstance(self.stage, Boxed):
+            elif len(numbers) == 4 and all(map(math.isfinite, numbers)):
                 self._draw_on(self.stage.box(picked[0], (numbers[0], numbers[1], numbers[2], numbers[3])))
         hover = message.get("hover")
-        if isinstance(hover, list) and len(hover) == 3 and isinstance(self.stage, Hovered):
-            self._hover(self.stage, hover[0], *map(_float, hover[1:]))
+        if isinstance(hover, list) and len(hover) == 3:
+            self._hover(hover[0], *map(_float, hover[1:]))
         if message.get("stop") is True and self._progress is not None:
             self._stopped = True
             self.background.stop()
@@ -225,11 +225,11 @@ class Session:
         self._dirty = False
         # Before the pieces are looked for: the last one may come while this is drawn.
         ended = self.background.left == 0 if more else self._stopped
-        admitted, notes = self.scene.admit(self._wanted)
-        self.values = admitted
+        notes: list[str] = []
         try:
-            result = self.scene.compute(admitted, self._shown, self._held)
-            report = self.stage.show(result, hold_axes=self._held)
+            self.values, notes = self.scene.admit(self._wanted)
+            state = self.scene.compute(self.values, self._shown, self._held)
+            report = self.stage.show(state, hold_axes=self._held)
         except ModelError as error:
             if self._own_instead:
                 # Whoever enters a scene meets a picture, not a refusal of what was chosen elsewhere.
@@ -237,19 +237,21 @@ class Session:
                 self._wanted = self.scene.defaults()
                 self._link_notes = ["What was chosen before is not possible here: this is the scene's own first state."]
                 return self._draw()
-            self.stage.fail(str(error))
-            report = Report([], str(error))
+            report = self._refuse(str(error))
         # Whatever it is, no traceback and no older picture stays on the page; the log says all.
         except Exception:
-            logger.exception("a computation failed at %s", encode(self.scene.name, admitted))
-            sentence = "This state could not be computed. Press Reset, and please report the link."
-            self.stage.fail(sentence)
-            report = Report([], sentence)
+            logger.exception("a computation failed at %s", encode(self.scene.name, self._wanted))
+            report = self._refuse("This state could not be computed. Press Reset, and please report the link.")
         self._own_instead = False
         notes = [*notes, *self._follow(report, more, ended)]
         # Under a drag the controls wait, unless the state had to differ from what they say.
         if not self._held or notes:
-            show_controls(self.scene, admitted, self.wire)
-        self.wire.say("status", f"{report.status} · cache {CACHE.hits} hits, {CACHE.misses} misses")
+            show_controls(self.scene, self.values, self.wire)
+        self.wire.say("status", report.status)
         self.wire.say("notes", "\n".join([*self._link_notes, *notes, *report.notes]))
         self.wire.say("derived", "\n".join(report.derived))
+
+    def _refuse(self, sentence: str) -> Report:
+        """Show why there is nothing to see."""
+        self.stage.fail(sentence)
+        return Report((), sentence, (), (), 0)

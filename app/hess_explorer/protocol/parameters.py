@@ -25,18 +25,19 @@ Values = Mapping[str, Value]
 
 @dataclass(frozen=True)
 class Number:
-    """A number with a slider from `low` to `high`; values from `lowest` to `highest` may be typed."""
+    """A number with a slider over `softbounds`; values within `bounds` may be typed.
+
+    The words are those of the library param.
+    """
 
     name: str
     symbol: str
     label: str
     default: float
-    low: float
-    high: float
+    softbounds: tuple[float, float]
     step: float
-    lowest: float
-    highest: float
-    help: str = ""
+    bounds: tuple[float, float]
+    doc: str = ""
 
     def read(self, text: str) -> tuple[float, str | None]:
         """The value that a text from outside means, and a note where it had to be changed."""
@@ -50,9 +51,10 @@ class Number:
         """The value clamped to what may be, and a note where it was."""
         if not math.isfinite(value):
             return self.default, f"{self.symbol} was not finite and is {self.default:g} now."
-        clamped = min(max(value, self.lowest), self.highest)
+        low, high = self.bounds
+        clamped = min(max(value, low), high)
         if clamped != value:
-            return clamped, f"{self.symbol} lies between {self.lowest:g} and {self.highest:g}: it is {clamped:g} now."
+            return clamped, f"{self.symbol} lies between {low:g} and {high:g}: it is {clamped:g} now."
         return value, None
 
 
@@ -64,7 +66,7 @@ class Choice:
     label: str
     options: tuple[str, ...]
     default: str
-    help: str = ""
+    doc: str = ""
 
     def read(self, text: str) -> tuple[str, str | None]:
         """The option of that name, or the default and a note (which does not repeat the text)."""
@@ -114,10 +116,10 @@ def places(text: Value) -> list[tuple[float, float]]:
 Spec = Number | Choice | Places
 
 CLIENT: tuple[Number, ...] = (
-    Number("t", "t", "Time", 0.0, 0.0, 1000.0, 0.0, 0.0, 1e6),
-    Number("speed", "speed", "Speed", 1.0, 0.25, 8.0, 0.0, 0.25, 8.0),
-    Number("az", "azimuth", "Azimuth of the sphere", 0.6, -3.1416, 3.1416, 0.0, -3.1416, 3.1416),
-    Number("el", "elevation", "Elevation of the sphere", 0.35, -1.5708, 1.5708, 0.0, -1.5708, 1.5708),
+    Number("t", "t", "Time", 0.0, (0.0, 1000.0), 0.0, (0.0, 1e6)),
+    Number("speed", "speed", "Speed", 1.0, (0.25, 8.0), 0.0, (0.25, 8.0)),
+    Number("az", "azimuth", "Azimuth of the sphere", 0.6, (-3.1416, 3.1416), 0.0, (-3.1416, 3.1416)),
+    Number("el", "elevation", "Elevation of the sphere", 0.35, (-1.5708, 1.5708), 0.0, (-1.5708, 1.5708)),
 )
 """Keys of the URL that the browser itself keeps: they need no computation."""
 

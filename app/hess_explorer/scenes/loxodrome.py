@@ -1,278 +1,198 @@
-"""The loxodromic pendulum (S14): a heavy body in the Hess case with area integral 0, as it moves in space."""
+"""The loxodromic pendulum: a heavy body in the Hess case with area integral 0, as it moves in space."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from pathlib import Path
+from functools import cached_property
 
 import numpy as np
 
-from hess_explorer.protocol.parameters import Number, Value, Values
-from hess_explorer.protocol.wire import Wire
-from hess_explorer.scenes.framework.scene import Motion, Preset, Report, Scene
-from hess_explorer.scenes.framework.work import ACCURACY, Work, orbit_status, refuse
+from hess_explorer.scenes.framework.parameters import accuracy_level, number
+from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
+from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import theme
-from hess_explorer.views.body import BodyView, Curve, Rod, Shape
-from hess_explorer.views.figure import Figure
+from hess_explorer.views.body import BodyInSpace, Curve, Rod, Shape
+from hess_explorer.views.layers import Columns, Sign, f32, line
+from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Mark
-from hess_explorer.views.text import number
+from hess_explorer.views.text import digits, power
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.loxodromic_pendulum import LoxodromicMotion, LoxodromicPendulum, loxodromic_motion
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.equations import SYSTEM
 
-_SWING = (-1.05, 1.05)
-_ANGLES = (0.0, math.pi)
 _TO_THE_POLE = 0.02
 """The loxodrome never comes to its poles: it is drawn to this distance from them."""
 _MOST_TURNS = 30.0
 _DRAWN = 2000
 
-SPECS = (
-    Number("I1", "I₁", "Moment I₁", 1.0, 0.1, 3.0, 0.005, 1e-3, 1e3, "First principal moment of inertia."),
-    Number("I2", "I₂", "Moment I₂", 1.5, 0.1, 3.0, 0.005, 1e-3, 1e3,
-           "Middle principal moment: it must lie between I₁ and I₃."),
-    Number("I3", "I₃", "Moment I₃", 2.0, 0.1, 3.0, 0.005, 1e-3, 1e3, "Third principal moment of inertia."),
-    Number("m", "μ|r|", "Weight times distance, μ|r|", 0.7071, 0.05, 20.0, 0.05, 1e-3, 1e3,
-           "It sets the unit of energy and of time; the direction of r follows from the moments."),
-    Number("energy", "h", "Energy h", 1.5, -0.95, 4.0, 0.01, -1.0 + 1e-4, 1e4,
-           "In units of μ|r|: −1 hanging at rest, 1 the separatrix, on which it comes to rest upright."),
-    Number("l", "l", "Middle axis l(0)", 0.15, 0.02, 3.12, 0.01, 1e-3, math.pi - 1e-3,
-           "Angle of the middle axis from M, which is horizontal, when the centre of mass passes its lowest place."),
-    Number("span", "t", "Time span", 30.0, 1.0, 200.0, 1.0, 0.01, 1e4, "How long the motion is followed."),
-    ACCURACY,
-)
-
 PRESETS = (
-    Preset("h above: the whole loxodrome (gess-ris1)", {}),
-    Preset("h below: a segment of it", {"energy": 0.3, "l": 1.1}),
-    Preset("h at the separatrix: once, to the top", {"energy": 1.0, "l": 0.6}),
-    Preset("Small swings", {"energy": -0.9, "l": 1.2}),
-    Preset("The body of figure gess1, f = 0", {
-        "I1": 1.0, "I2": 0.625, "I3": 0.375, "m": 9.975, "energy": 5.0, "l": 2.9, "span": 5.0}),
-    Preset("Almost round: many turns", {"I1": 1.0, "I2": 1.03, "I3": 1.06, "energy": 2.0, "l": 0.1, "span": 150.0}),
+    Preset("h above: the whole loxodrome (gess-ris1)"),
+    Preset("h below: a segment of it", energy=0.3, l=1.1),
+    Preset("h at the separatrix: once, to the top", energy=1.0, l=0.6),
+    Preset("Small swings", energy=-0.9, l=1.2),
+    Preset("The body of figure gess1, f = 0", I1=1.0, I2=0.625, I3=0.375, m=9.975, energy=5.0, l=2.9, span=5.0),
+    Preset("Almost round: many turns", I1=1.0, I2=1.03, I3=1.06, energy=2.0, l=0.1, span=150.0),
 )
-
-LEGEND = """
-<ul class="legend" aria-label="Legend">
-<li><span class="line orbit"></span>middle axis, its track, θ</li>
-<li><span class="line muted"></span>loxodrome; gyration ellipsoid</li>
-<li><span class="line stable"></span>path of the centre of mass</li>
-<li><span class="dot point"></span>centre of mass</li>
-<li><span class="line second"></span>circular section; l</li>
-</ul>
-"""
-
-THUMBNAIL = """
-<circle cx="24" cy="16" r="13" fill="none" stroke="#808080"/>
-<path d="M11 16C14 8 19 24 24 16C27 9 31 22 34 15C35 12 36 14 37 16" fill="none" stroke="#0072B2" stroke-width="2"/>
-<ellipse cx="24" cy="16" rx="4" ry="13" fill="none" stroke="#009E73" stroke-width="1.5"/>
-<circle cx="22" cy="28" r="3" fill="#F0E442" stroke="#000"/>
-"""
-
-WORDS = Path(__file__).with_suffix(".md").read_text(encoding="utf-8")
 
 
 @dataclass(frozen=True)
-class LoxodromeResult:
-    """One motion; `loxodrome` the closed form (n, 3), along (γ, e, γ × e)."""
+class Loxodrome(State):
+    """One motion of one pendulum."""
 
-    values: Values
-    motion: LoxodromicMotion
-    loxodrome: Array
-    ended: str
+    I1: float = number("I₁", 1.0, (0.1, 3.0), 0.005, bounds=(1e-3, 1e3), label="Moment I₁",
+                       doc="First principal moment of inertia.")
+    I2: float = number("I₂", 1.5, (0.1, 3.0), 0.005, bounds=(1e-3, 1e3), label="Moment I₂",
+                       doc="Middle principal moment: it must lie between I₁ and I₃.")
+    I3: float = number("I₃", 2.0, (0.1, 3.0), 0.005, bounds=(1e-3, 1e3), label="Moment I₃",
+                       doc="Third principal moment of inertia.")
+    m: float = number("μ|r|", 0.7071, (0.05, 20.0), 0.05, bounds=(1e-3, 1e3), label="Weight times distance, μ|r|",
+                      doc="It sets the unit of energy and of time; the direction of r follows from the moments.")
+    energy: float = number("h", 1.5, (-0.95, 4.0), 0.01, bounds=(-1.0 + 1e-4, 1e4), label="Energy h",
+                           doc="In units of μ|r|: −1 hanging at rest, 1 the separatrix, on which it comes to rest "
+                               "upright.")
+    l: float = number("l", 0.15, (0.02, 3.12), 0.01, bounds=(1e-3, math.pi - 1e-3), label="Middle axis l(0)",
+                      doc="Angle of the middle axis from M, which is horizontal, when the centre of mass passes its "
+                          "lowest place.")
+    span: float = number("t", 30.0, (1.0, 200.0), 1.0, bounds=(0.01, 1e4), label="Time span",
+                         doc="How long the motion is followed.")
+    accuracy: str = accuracy_level()
 
+    def limits(self) -> Mapping[str, tuple[float, float, float]]:
+        """The slider of I2 between the two others."""
+        low, high = sorted((self.I1, self.I3))
+        return {"I2": (low, high, 0.005)} if high - low > 0.01 else {}
 
-def pendulum_of(values: Values) -> LoxodromicPendulum:
-    """Raises `InvalidParameter`, `NotPositiveDefinite`, `OutsideRegion`."""
-    I1, I2, I3, m, energy, l = (float(values[name]) for name in ("I1", "I2", "I3", "m", "energy", "l"))
-    return LoxodromicPendulum(HeavyBody.hess((I1, I2, I3), m), energy, l)
+    @cached_property
+    def pendulum(self) -> LoxodromicPendulum:
+        """Raises `InvalidParameter`, `NotPositiveDefinite`, `OutsideRegion`."""
+        return LoxodromicPendulum(HeavyBody.hess((self.I1, self.I2, self.I3), self.m), self.energy, self.l)
 
+    @cached_property
+    def found(self) -> LoxodromicMotion:
+        """The motion, from which all pictures are drawn."""
+        return self.work.get(loxodromic_motion, self.pendulum, self.span, self.level)
 
-def admit(values: Values) -> tuple[dict[str, Value], list[str]]:
-    """Everything is possible together; what is no body of the Hess case says so when it is computed."""
-    return dict(values), []
+    def motion(self) -> Motion:
+        """The reduced motion, in units b = 1."""
+        p, radius = self.pendulum, 0.5 * PIXELS
+        w = radius / math.sqrt(2.0 * (p.h + 1.0))
+        return Motion(SYSTEM, tuple(p.start[:5]), (p.a, 1.0), p.length(self.span), (w, w, radius, radius, radius),
+                      1.0 / p.frequency_unit)
 
+    def shape(self) -> Shape | None:
+        """The gyration ellipsoid; None where this is no rigid body."""
+        heavy = self.pendulum.body
+        return Shape(np.eye(3), 1.0 / np.array(heavy.a), np.array(heavy.r)) if heavy.check.is_body else None
 
-def limits(values: Values) -> Mapping[str, tuple[float, float, float]]:
-    """The slider of I2 between the two others."""
-    low, high = sorted((float(values["I1"]), float(values["I3"])))
-    return {"I2": (low, high, 0.005)} if high - low > 0.01 else {}
+    def rods(self, label: str = "") -> list[Rod]:
+        """The middle axis and the centre of mass."""
+        return [Rod((0.0, 1.0, 0.0), "orbit", label), Rod(self.pendulum.body.r, "mass")]
 
+    def loxodrome(self) -> Array:
+        """All of the loxodrome but its last windings about the poles, (n, 3)."""
+        p, most = self.pendulum, 2.0 * math.pi * _MOST_TURNS
+        reach, middle = -math.log(math.tan(0.5 * _TO_THE_POLE)), math.log(math.tan(0.5 * p.l))
+        ends = [(side * reach - middle) / p.a if abs(p.a) * most > reach + abs(middle) else side * most
+                for side in (-1.0, 1.0)]
+        return p.middle_axis_at(np.linspace(*ends, _DRAWN))
 
-def loxodrome_of(pendulum: LoxodromicPendulum) -> Array:
-    """All of the loxodrome but its last windings about the poles, (n, 3)."""
-    reach = -math.log(math.tan(0.5 * _TO_THE_POLE))
-    middle = math.log(math.tan(0.5 * pendulum.l))
-    most = 2.0 * math.pi * _MOST_TURNS
-    ends = [(side * reach - middle) / pendulum.a if abs(pendulum.a) * most > reach + abs(middle) else side * most
-            for side in (-1.0, 1.0)]
-    return pendulum.middle_axis_at(np.linspace(*ends, _DRAWN))
+    def track(self) -> Columns:
+        """Height of the centre of mass and l, over time."""
+        return {"t": f32(self.found.times), "height": f32(-self.found.centre[:, 0]), "l": f32(self.found.l)}
 
+    # ---- words --------------------------------------------------------------------------------------------------
 
-def compute(values: Values, shown: Collection[str], dragging: bool) -> LoxodromeResult:
-    """The motion, from which all pictures are drawn."""
-    work = Work(values, dragging)
-    pendulum = pendulum_of(values)
-    found = work.get(loxodromic_motion, pendulum, float(values["span"]), work.level)
-    return LoxodromeResult(values, found, loxodrome_of(pendulum), work.ended())
+    def _about_body(self) -> str:
+        said = "" if self.pendulum.body.check.is_body else "No rigid body, so no ellipsoid. "
+        return f"{said}The centre of mass stays in a vertical plane, to {power(self.found.off_plane)}."
 
+    def _about_space(self) -> str:
+        p, l = self.pendulum, self.found.l
+        if p.h < 1.0:
+            low, high = sorted(map(float, p.l_at(np.array([-p.amplitude, p.amplitude]))))
+            return f"Middle axis: to and fro on a segment of the loxodrome, l from {digits(low)} to {digits(high)}."
+        if p.h == 1.0:
+            top = float(p.l_at(np.array([math.pi]))[0])
+            return f"Middle axis: once along the loxodrome, from l = {digits(l[0])} towards {digits(top)}."
+        return f"Middle axis: along the whole loxodrome to a pole; l from {digits(l[0])} to {digits(l[-1])}."
 
-def motion(values: Values) -> Motion:
-    """The reduced motion, in units b = 1.  Raises `ModelError`."""
-    pendulum = pendulum_of(values)
-    radius = 0.5 * PIXELS
-    w = radius / math.sqrt(2.0 * (pendulum.h + 1.0))
-    return Motion(SYSTEM, tuple(pendulum.start[:5]), (pendulum.a, 1.0), pendulum.length(float(values["span"])),
-                  (w, w, radius, radius, radius), 1.0 / pendulum.frequency_unit)
+    def _about_angle(self) -> str:
+        measured, theta = self.found.measured[1], self.pendulum.angle
+        error = f", to {power(np.max(np.abs(measured - theta)))}" if measured.size else ""
+        return f"sin θ = 1/√(1+a²): θ = {digits(theta, 6)}, measured on the track{error}."
 
+    def _about_height(self) -> str:
+        p = self.pendulum
+        if p.h < 1.0:
+            return f"It swings to α = ±{digits(p.amplitude)}; the height reaches h = {digits(p.h)}."
+        if p.h == 1.0:
+            return "It rises to the top, 1, and never quite comes there."
+        return f"It goes round: {digits(abs(float(self.found.swing[-1])) / (2.0 * math.pi))} turns in this time."
 
-class LoxodromeStage:
-    """The four pictures of one session."""
+    def derived(self) -> Iterator[str]:
+        """a, the angle of the loxodrome, what follows of the body."""
+        p, heavy = self.pendulum, self.pendulum.body
+        yield f"a = ±√((a₃−a₂)(a₂−a₁))/a₂ = {digits(p.a, 6)}"
+        yield f"θ = {digits(p.angle, 6)} = {digits(math.degrees(p.angle), 6)}°"
+        yield f"r = ({digits(heavy.r[0])}, 0, {digits(heavy.r[2])})"
+        yield f"H = h μ|r| = {digits(p.h * heavy.mu, 6)}"
+        yield f"Unit of time = {digits(1.0 / p.frequency_unit, 6)}"
+        yield f"l(0) = {digits(p.l, 6)}"
+        yield f"A rigid body? {'yes' if heavy.check.is_body else 'no'}"
+        yield f"ln of what full equations leave it by in a turn, 2π|a| = {digits(2.0 * math.pi * abs(p.a))}"
 
-    dots: Mapping[str, tuple[str, str]] = {"angle-point": ("t", "l"), "height-point": ("t", "height")}
-    angles: Sequence[str] = ()
+    def status(self) -> Iterator[str]:
+        """The attitude and its orbit."""
+        yield from orbit_status(self.found.attitude.orbit)
+        yield f"γ, e made orthonormal from {power(self.found.attitude.defect)}"
 
-    def __init__(self, wire: Wire) -> None:
-        self.wire = wire
-        self.body = BodyView(wire, "body", "The body in space", bare=True)
-        self.space = BodyView(wire, "space", "Sphere fixed in space", attitude="body")
-        self.angle = Figure(wire, "angle", ("t", "θ, l"), (0.0, 30.0), _ANGLES)
-        for layer, color, dash in (("l", theme.MAP, "solid"), ("theta", theme.ORBIT, "solid"),
-                                   ("promised", theme.MUTED, "dotted")):
-            self.angle.add(layer, "line", ("x", "y"), color=color, line_dash=dash, line_width=2)
-        self.angle.add_point_and_message()
-        self.height = Figure(wire, "height", ("t", "height"), (0.0, 30.0), _SWING)
-        self.height.add("orbit", "line", ("t", "height"), source="data-orbit", color=theme.STABLE, line_width=2)
-        self.height.add_point_and_message()
-        self.pictures = (self.body, self.space, self.angle, self.height)
-
-    def show(self, result: LoxodromeResult, hold_axes: bool) -> Report:
-        """Draw the body, the tracks, both angles."""
-        found = result.motion
-        if not hold_axes:
-            for plot, y in ((self.angle, _ANGLES), (self.height, _SWING)):
-                plot.set_ranges((0.0, float(result.values["span"])), y)
-        for plot in (self.angle, self.height):
-            plot.say("")
-        self._show_body(result)
-        self._show_space(result)
-        span = float(found.times[-1])
-        for layer, x, y in (("theta", *found.measured), ("l", found.times, found.l),
-                            ("promised", [0.0, span], [found.pendulum.angle] * 2)):
-            self.angle.assign(layer, x=np.asarray(x, np.float32), y=np.asarray(y, np.float32))
-        self.height.assign("orbit", t=found.times.astype(np.float32), height=(-found.centre[:, 0]).astype(np.float32),
-                           l=found.l.astype(np.float32))
-        for picture, text in zip(self.pictures, _captions(result), strict=True):
-            self.wire.say(picture.name, text)
-        return Report(_derived(result), _status(result), _notes(result))
-
-    def _show_body(self, result: LoxodromeResult) -> None:
-        found = result.motion
-        heavy = found.pendulum.body
-        shape = Shape(np.eye(3), 1.0 / np.array(heavy.a), np.array(heavy.r)) if heavy.check.is_body else None
-        self.body.show(shape, found.attitude, found.times, _rods(found, ""), [Curve(found.centre, "stable")])
-
-    def _show_space(self, result: LoxodromeResult) -> None:
-        found = result.motion
-        poles = [Mark((1.0, 0.0, 0.0), "muted", "e"), Mark((-1.0, 0.0, 0.0), "muted", "−e")]
-        curves = [Curve(result.loxodrome, "muted"), Curve(found.middle, "orbit"), Curve(found.centre, "stable")]
-        plane = [Circle((1.0, 0.0, 0.0), 0.0, "limit")]
-        self.space.show(rods=_rods(found, "2"), curves=curves, circles=plane, marks=poles)
-
-    def fail(self, sentence: str) -> None:
-        """Empty pictures, and the sentence where the eye is."""
-        refuse(self.pictures, self.wire, sentence)
-
-    def pick(self, picture: str, x: float, y: float) -> Values:
-        """Nothing is chosen by a click."""
-        return {}
-
-
-def _rods(found: LoxodromicMotion, label: str) -> list[Rod]:
-    return [Rod((0.0, 1.0, 0.0), "orbit", label), Rod(found.pendulum.body.r, "mass")]
-
-
-def _captions(result: LoxodromeResult) -> tuple[str, str, str, str]:
-    found = result.motion
-    pendulum = found.pendulum
-    start, end = number(found.l[0]), number(found.l[-1])
-    if pendulum.h < 1.0:
-        reach = pendulum.amplitude
-        low, high = sorted(map(float, pendulum.l_at(np.array([-reach, reach]))))
-        track = f"Middle axis: to and fro on a segment of the loxodrome, l from {number(low)} to {number(high)}."
-        swing = f"It swings to α = ±{number(reach)}; the height reaches h = {number(pendulum.h)}."
-    elif pendulum.h == 1.0:
-        top = float(pendulum.l_at(np.array([math.pi]))[0])
-        track = f"Middle axis: once along the loxodrome, from l = {start} towards {number(top)}."
-        swing = "It rises to the top, 1, and never quite comes there."
-    else:
-        track = f"Middle axis: along the whole loxodrome to a pole; l from {start} to {end}."
-        swing = f"It goes round: {number(abs(float(found.swing[-1])) / (2.0 * math.pi))} turns in this time."
-    measured = found.measured[1]
-    error = f", to {_power(np.max(np.abs(measured - pendulum.angle)))}" if measured.size else ""
-    return (
-        f"The body in space\n{'' if pendulum.body.check.is_body else 'No rigid body, so no ellipsoid. '}"
-        f"The centre of mass stays in a vertical plane, to {_power(found.off_plane)}.",
-        f"Sphere fixed in space\n{track}",
-        f"Angles θ and l\nsin θ = 1/√(1+a²): θ = {number(pendulum.angle, 6)}, measured on the track"
-        f"{error}.",
-        f"Height of the centre of mass\n{swing}",
-    )
-
-
-def _power(value: float) -> str:
-    return f"{value:.0e}".replace("e-", "e−")
-
-
-def _derived(result: LoxodromeResult) -> list[str]:
-    pendulum = result.motion.pendulum
-    heavy, a = pendulum.body, pendulum.a
-    return [
-        f"a = ±√((a₃−a₂)(a₂−a₁))/a₂ = {number(a, 6)}",
-        f"θ = {number(pendulum.angle, 6)} = {number(math.degrees(pendulum.angle), 6)}°",
-        f"r = ({number(heavy.r[0])}, 0, {number(heavy.r[2])})",
-        f"H = h μ|r| = {number(pendulum.h * heavy.mu, 6)}",
-        f"Unit of time = {number(1.0 / pendulum.frequency_unit, 6)}",
-        f"l(0) = {number(pendulum.l, 6)}",
-        f"A rigid body? {'yes' if heavy.check.is_body else 'no'}",
-        f"ln of what full equations leave it by in a turn, 2π|a| = {number(2.0 * math.pi * abs(a))}",
-    ]
-
-
-def _status(result: LoxodromeResult) -> str:
-    lying = result.motion.attitude
-    parts = [*orbit_status(lying.orbit), f"γ, e made orthonormal from {_power(lying.defect)}", result.ended]
-    return " · ".join(parts).replace("e-", "e−")
-
-
-def _notes(result: LoxodromeResult) -> list[str]:
-    found = result.motion
-    pendulum = found.pendulum
-    notes = [] if pendulum.body.check.is_body else [pendulum.body.check.sentence]
-    if found.times[-1] < float(result.values["span"]) * (1 - 1e-9):
-        notes.append(f"The motion is shown up to t = {number(float(found.times[-1]))}: after that it is at rest to the "
-                     "eye.")
-    return notes
+    def notes(self) -> Iterator[str]:
+        """No body; a motion that is not shown to its end."""
+        if not self.pendulum.body.check.is_body:
+            yield self.pendulum.body.check.sentence
+        if self.found.times[-1] < self.span * (1 - 1e-9):
+            yield (f"The motion is shown up to t = {digits(float(self.found.times[-1]))}: after that it is at rest to "
+                   "the eye.")
 
 
 SCENE = Scene(
-    name="loxodrome",
+    Loxodrome, __file__, place=14, presets=PRESETS,
     title="Loxodromic pendulum",
     summary="A heavy body whose centre of mass swings in a plane while its middle axis runs along a loxodrome.",
-    specs=SPECS,
-    presets=PRESETS,
-    words=WORDS,
-    admit=admit,
-    limits=limits,
-    pictures=("body", "space", "angle", "height"),
-    compute=compute,
-    stage=LoxodromeStage,
-    legend=LEGEND,
-    thumbnail=THUMBNAIL,
-    motion=motion,
-    place=14,
+    tracks={"orbit": Loxodrome.track},
+    views=(
+        BodyInSpace(
+            name="body", title="The body in space", caption=Loxodrome._about_body, bare=True, shape=Loxodrome.shape,
+            motion=lambda s: (s.found.attitude, s.found.times), rods=Loxodrome.rods,
+            curves=lambda s: [Curve(s.found.centre, "stable")],
+            signs=(Sign("gyration ellipsoid", "line", "border-top: 2px solid #808080"),
+                   Sign("circular section", "line", "border-top: 2px solid #CC79A7"))),
+        BodyInSpace(
+            name="space", title="Sphere fixed in space", caption=Loxodrome._about_space, attitude="body",
+            rods=lambda s: s.rods("2"),
+            curves=lambda s: [Curve(s.loxodrome(), "muted"), Curve(s.found.middle, "orbit"),
+                              Curve(s.found.centre, "stable")],
+            circles=(Circle((1.0, 0.0, 0.0), 0.0, "limit"),),
+            marks=(Mark((1.0, 0.0, 0.0), "muted", "e"), Mark((-1.0, 0.0, 0.0), "muted", "−e")),
+            signs=(Sign("loxodrome", "line", "border-top: 2px solid #808080"),
+                   Sign("middle axis, its track", "line", "border-top: 2px solid #0072B2"),
+                   Sign("centre of mass", "dot", "background: #F0E442; border: 1.5px solid black"))),
+        Plot(
+            name="angle", title="Angles θ and l", caption=Loxodrome._about_angle, axes=("t", "θ, l"),
+            x=lambda s: (0.0, s.span), y=(0.0, math.pi), dot=("t", "l"),
+            layers=(
+                line("l", lambda s: (s.found.times, s.found.l), color=theme.MAP, label="l"),
+                line("theta", lambda s: s.found.measured, color=theme.ORBIT, label="θ"),
+                line("promised", lambda s: ((0.0, s.found.times[-1]), (s.pendulum.angle,) * 2), color=theme.MUTED,
+                     dash="dotted"))),
+        Plot(
+            name="height", title="Height of the centre of mass", caption=Loxodrome._about_height,
+            axes=("t", "height"), x=lambda s: (0.0, s.span), y=(-1.05, 1.05), dot=("t", "height"),
+            layers=(line("orbit", track="orbit", columns=("t", "height"), color=theme.STABLE,
+                         label="path of the centre of mass"),)),
+    ),
 )

@@ -1,26 +1,26 @@
-"""The Suslov–Hess case (S8): torus, Poisson sphere, bifurcation diagram, circle map."""
+"""The Hess case of the Suslov problem: torus, Poisson sphere, bifurcation diagram, circle map."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
-from pathlib import Path
-from typing import Any
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
-from hess_explorer.protocol.parameters import Number, Value, Values
-from hess_explorer.protocol.wire import Wire
-from hess_explorer.scenes.framework.scene import Motion, Preset, Report, Scene
-from hess_explorer.scenes.framework.work import ACCURACY, Work, orbit_status, refuse
-from hess_explorer.views.bifurcation_diagram import BifurcationDiagram, window
-from hess_explorer.views.body import BodyView, Curve, Rod, Shape
-from hess_explorer.views.circle_map import CircleMapView
-from hess_explorer.views.omega_plane import OmegaPlane
-from hess_explorer.views.poisson_sphere import Circle, PoissonSphere
-from hess_explorer.views.text import number
-from hess_explorer.views.velocity_plane import nice_above
+from hess_explorer.scenes.framework.parameters import accuracy_level, number
+from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
+from hess_explorer.scenes.framework.work import orbit_status
+from hess_explorer.views import bifurcation_diagram as diagram
+from hess_explorer.views import circle_map as circle
+from hess_explorer.views import theme
+from hess_explorer.views.body import BodyInSpace, Curve, Rod, Shape
+from hess_explorer.views.layers import Columns, Grid, line, region
+from hess_explorer.views.plot import Plot
+from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere
+from hess_explorer.views.text import digits
+from hess_explorer.views.velocity_plane import centred, nice_above, ring_outside, velocity_columns
 from hess_mechanics.errors import Separatrix
 from hess_mechanics.numerics.accuracy import DRAFT, STANDARD, Level
 from hess_mechanics.numerics.results import Array
@@ -42,113 +42,283 @@ from hess_mechanics.suslov_hess.torus import (
 
 GRID = (100, 75)
 MAX_A = 100.0
-_COBWEB = 60
-
-SPECS = (
-    Number("I22", "I₂₂", "Inertia I₂₂", 0.96, 0.2, 3.0, 0.01, 1e-3, 1e3,
-           "Moment of inertia about the second body axis. I₁₁ follows from it and I₂₃."),
-    Number("I23", "I₂₃", "Inertia I₂₃", 0.28, -2.0, 2.0, 0.01, -1e3, 1e3,
-           "Product of inertia. a = I₂₃/I₂₂ tilts the circular section; a = 0 decouples the motion."),
-    Number("b3", "b₃", "Centre of mass b₃", -1.0, -3.0, -0.05, 0.01, -1e3, -1e-3,
-           "Third component of b = −mg r. It sets the unit of time; b₂ follows from it."),
-    Number("h", "h", "Energy h", 1.5, -0.99, 4.0, 0.01, -1.0 + 1e-9, 1e6,
-           "Energy integral in units b = 1: h > −1; the separatrix is at h = 1, f = 0."),
-    Number("f", "f", "Area integral f", 0.6, -3.0, 3.0, 0.01, -1e4, 1e4,
-           "Area integral in units b = 1. Its range follows h."),
-    Number("phi0", "φ₀", "Phase φ₀", 0.5, -3.14, 3.14, 0.01, -math.pi, math.pi,
-           "Phase of the orbit on the section n₃ = n₃⁽¹⁾, in radians."),
-    Number("span", "t", "Time span", 40.0, 1.0, 200.0, 1.0, 0.01, 1e5,
-           "How long the orbit is followed, in the time of the body (at most 100 returns)."),
-    ACCURACY,
-)
+COBWEB = 60
 
 PRESETS = (
-    Preset("Two limit cycles", {}),
-    Preset("No cycle: every orbit winds", {"h": 0.2, "f": 0.5}),
-    Preset("At the lock boundary (a = 0.5)", {"I22": 1.0, "I23": 0.5, "h": 0.5, "f": 1.01563456028796105}),
-    Preset("Pendulum, f = 0: multiplier e^(2πa)", {"h": 1.5, "f": 0.0, "I22": 1.0, "I23": 0.3}),
-    Preset("Oscillation, f → 0: Θ∘Θ = id", {"h": 0.3, "f": 1e-8}),
-    Preset("Separatrix: no return", {"h": 1.0, "f": 0.0}),
-    Preset("On the bifurcation curve", dict(zip("hf", curve_point(0.5), strict=True))),
-    Preset("Strong contraction, a = 3 (not a body)", {"I22": 0.5, "I23": 1.5}),
+    Preset("Two limit cycles"),
+    Preset("No cycle: every orbit winds", h=0.2, f=0.5),
+    Preset("At the lock boundary (a = 0.5)", I22=1.0, I23=0.5, h=0.5, f=1.01563456028796105),
+    Preset("Pendulum, f = 0: multiplier e^(2πa)", h=1.5, f=0.0, I22=1.0, I23=0.3),
+    Preset("Oscillation, f → 0: Θ∘Θ = id", h=0.3, f=1e-8),
+    Preset("Separatrix: no return", h=1.0, f=0.0),
+    Preset("On the bifurcation curve", **dict(zip("hf", curve_point(0.5), strict=True))),
+    Preset("Strong contraction, a = 3 (not a body)", I22=0.5, I23=1.5),
 )
 
-LEGEND = """
-<ul class="legend" aria-label="Legend">
-<li><span class="line orbit"></span>orbit</li>
-<li><span class="line stable"></span>stable cycle</li>
-<li><span class="line unstable"></span>unstable cycle</li>
-<li><span class="dot point"></span>moving point</li>
-<li><span class="box forbidden"></span>impossible</li>
-<li><span class="box locked"></span>locked</li>
-<li><span class="box rho"></span>ρ from −½ to ½</li>
-</ul>
-"""
-
-THUMBNAIL = """
-<ellipse cx="24" cy="16" rx="21" ry="14" fill="none" stroke="#808080"/>
-<ellipse cx="24" cy="16" rx="7" ry="4.5" fill="none" stroke="#808080"/>
-<ellipse cx="22" cy="15" rx="12" ry="9" fill="none" stroke="#009E73" stroke-width="2"/>
-<ellipse cx="27" cy="17" rx="14" ry="10" fill="none" stroke="#D55E00" stroke-width="2" stroke-dasharray="3 2"/>
-"""
-
-WORDS = Path(__file__).with_suffix(".md").read_text(encoding="utf-8")
-
 
 @dataclass(frozen=True)
-class Zones:
-    """What the bifurcation diagram shows for all (h, f)."""
+class SuslovHess(State):
+    """One orbit on one torus M²(h, f), all tori beside it."""
 
-    boundary: Array
-    curve: Array
-    grid: Array
+    I22: float = number("I₂₂", 0.96, (0.2, 3.0), 0.01, bounds=(1e-3, 1e3), label="Inertia I₂₂",
+                        doc="Moment of inertia about the second body axis. I₁₁ follows from it and I₂₃.")
+    I23: float = number("I₂₃", 0.28, (-2.0, 2.0), 0.01, bounds=(-1e3, 1e3), label="Inertia I₂₃",
+                        doc="Product of inertia. a = I₂₃/I₂₂ tilts the circular section; a = 0 decouples the motion.")
+    b3: float = number("b₃", -1.0, (-3.0, -0.05), 0.01, bounds=(-1e3, -1e-3), label="Centre of mass b₃",
+                       doc="Third component of b = −mg r. It sets the unit of time; b₂ follows from it.")
+    h: float = number("h", 1.5, (-0.99, 4.0), 0.01, bounds=(-1.0 + 1e-9, 1e6), label="Energy h",
+                      doc="Energy integral in units b = 1: h > −1; the separatrix is at h = 1, f = 0.")
+    f: float = number("f", 0.6, (-3.0, 3.0), 0.01, bounds=(-1e4, 1e4), label="Area integral f",
+                      doc="Area integral in units b = 1. Its range follows h.")
+    phi0: float = number("φ₀", 0.5, (-3.14, 3.14), 0.01, bounds=(-math.pi, math.pi), label="Phase φ₀",
+                         doc="Phase of the orbit on the section n₃ = n₃⁽¹⁾, in radians.")
+    span: float = number("t", 40.0, (1.0, 200.0), 1.0, bounds=(0.01, 1e5), label="Time span",
+                         doc="How long the orbit is followed, in the time of the body (at most 100 returns).")
+    accuracy: str = accuracy_level()
+
+    def admitted(self, notes: list[str]) -> SuslovHess:
+        """|a| ≤ 100, and f inside the region of this h."""
+        state, bound, largest = self, MAX_A * self.I22, f_max(self.h)
+        if abs(self.I23) > bound:
+            state = replace(state, I23=math.copysign(bound, self.I23))
+            notes.append(f"a = I₂₃/I₂₂ is kept within ±{MAX_A:g}: I₂₃ is {digits(state.I23)} now.")
+        if abs(self.f) > largest:
+            state = replace(state, f=math.copysign(largest, self.f))
+            notes.append(f"At h = {digits(self.h)} only |f| ≤ {digits(largest)} is possible: f is at that edge now.")
+        return state
+
+    def limits(self) -> Mapping[str, tuple[float, float, float]]:
+        """The slider of f spans the region at this h, in round steps."""
+        largest = f_max(self.h)
+        digits = 2 - math.floor(math.log10(largest))
+        step = float(f"1e{-digits}")
+        end = round(math.floor(largest / step) * step, digits)
+        return {"f": (-end, end, step)}
+
+    @cached_property
+    def body(self) -> HessBody:
+        """The body."""
+        return HessBody(self.I22, self.I23, self.b3)
+
+    @cached_property
+    def turning(self) -> TurningPoints | None:
+        """Between which heights n3 swings; None on the separatrix."""
+        try:
+            return turning_points(self.h, self.f)
+        except Separatrix:
+            return None
+
+    @cached_property
+    def map(self) -> CircleMap | None:
+        """The circle map; None on the separatrix."""
+        if self.turning is None:
+            return None
+        return self.work.get(circle_map, self.body.a, self.h, self.f, self.level)
+
+    @cached_property
+    def half_width(self) -> float:
+        """Of the frame of the (ω1, ω2)-plane: room for every h of the slider, so that it can stay."""
+        largest = math.sqrt(2.0 * (diagram.window(self.h).x[1] + 1.0))
+        return nice_above(1.02 * self.body.frequency_unit * math.hypot(1.0, self.body.a) * largest)
+
+    @cached_property
+    def track(self) -> Track:
+        """The orbit on show."""
+        return self.work.get(track, self.body, self.h, self.f, self.phi0, self.span, self.level,
+                                     self.half_width)
+
+    @cached_property
+    def cycles(self) -> tuple[Track, Track] | None:
+        """The stable and the unstable limit cycle, where there are two."""
+        if self.map is None or self.map.kind != "hyperbolic":
+            return None
+        return self.work.get(
+            cycles, self.body, self.h, self.f, self.map.fixed_points[0], self.level, self.half_width)
+
+    @cached_property
+    def iterates(self) -> Array | None:
+        """φ0 and its images, as far as the orbit goes."""
+        if self.map is None:
+            return None
+        returns = math.ceil(self.track.orbit.times[-1] / self.map.period)
+        return self.map.iterate(self.phi0, max(1, returns))
+
+    @cached_property
+    def attitude(self) -> Attitude | None:
+        """How the body lies in space; None where this is no rigid body."""
+        if not self.body.check.is_body:
+            return None
+        return self.work.get(attitude_of_track, self.body, self.h, self.f, self.phi0, self.span, self.level)
+
+    @cached_property
+    def middle_I33(self) -> float:
+        """I33 is no parameter of the problem: here the middle of those of a rigid body, which this must be."""
+        assert self.body.check.I33 is not None
+        return 0.5 * sum(self.body.check.I33)
+
+    def motion(self) -> Motion:
+        """The orbit on show, in units b = 1."""
+        state, length = start_of_track(self.body, self.h, self.f, self.phi0, self.span)
+        weights = pixels_per_unit(self.body, self.half_width)
+        return Motion(SYSTEM, tuple(state), (self.body.a, 1.0), length, tuple(weights), 1.0 / self.body.frequency_unit)
+
+    # ---- what the pictures show --------------------------------------------------------------------------------
+
+    def orbit_columns(self) -> Columns:
+        """The orbit, and what the moving points of the other pictures follow."""
+        found, n3 = self.track, self.track.n3
+        start = found.phi
+        if self.map is not None and self.iterates is not None:
+            index = np.floor(found.orbit.times / self.map.period).astype(int)
+            start = self.iterates[np.minimum(index, len(self.iterates) - 1)]
+        reach = math.copysign(1.0, self.f) * np.sqrt(np.maximum(0.0, 2.0 * (self.h + n3) * (1.0 - n3 * n3)))
+        return velocity_columns(found.times, found.omega, found.gamma, phi=found.phi, phi_start=start,
+                                h=np.full(n3.size, self.h), reach=reach)
+
+    def cycle_columns(self, i: int) -> Columns | None:
+        """The stable (0) or the unstable (1) cycle."""
+        if self.cycles is None:
+            return None
+        one = self.cycles[i]
+        return velocity_columns(None, one.omega, one.gamma)
+
+    def n3_axis(self) -> Direction:
+        """The direction n3 in the axes of the body."""
+        sign, r = math.copysign(1.0, self.body.b), math.hypot(1.0, self.body.a)
+        return Direction((0.0, -sign * self.body.a / r, sign / r), "n₃")
+
+    def heights(self) -> list[Circle]:
+        """The circles between which n3 swings."""
+        ends = (-1.0, 1.0) if self.turning is None else self.turning.roots[1:]
+        return [Circle(self.n3_axis().along, end, "limit") for end in ends if abs(end) < 1 - 1e-9]
+
+    def rotation(self) -> Grid:
+        """The rotation number over the diagram."""
+        axes = diagram.window(self.h)
+        cells: Array = self.work.get(_rotation, self.body.a, axes.x, axes.y, DRAFT)
+        return Grid(cells, axes.x, axes.y)
+
+    def lock_boundary(self) -> Array:
+        """|t| = 2 in the half f ≥ 0 of the diagram."""
+        return self.work.get(lock_boundary, self.body.a, STANDARD)
+
+    def bifurcation_curve(self) -> Array:
+        """The upper branch of the edge of what is possible."""
+        return self.work.get(curve, diagram.window(self.h).x[1])
+
+    def about_torus(self, h: float, f: float) -> str:
+        """What the torus (h, f) under the mouse does."""
+        if h <= -1.0 or abs(f) > f_max(h):
+            return f"h = {digits(h)}, f = {digits(f)}: impossible"
+        theta = circle_map(self.body.a, h, f, DRAFT)
+        said = f"h = {digits(h)}, f = {digits(f)}: ρ = {digits(theta.rotation_number)}, |trace| = {digits(theta.trace)}"
+        multipliers = ", ".join(digits(point.multiplier) for point in theta.fixed_points)
+        return f"{said}, multipliers {multipliers}" if multipliers else f"{said}, no cycle"
+
+    def shape(self) -> Shape | None:
+        """The gyration ellipsoid in the axes of n."""
+        return None if self.attitude is None else Shape.of_tensor(self.body.tensor(self.middle_I33), (0.0, 0.0, 1.0))
+
+    def lying(self) -> tuple[Attitude, Array] | None:
+        """The attitude, and its times in the body's time."""
+        return None if self.attitude is None else (self.attitude, self.attitude.times / self.body.frequency_unit)
+
+    def rods(self) -> list[Rod]:
+        """The axis of the constraint and the centre of mass."""
+        return [Rod(self.body.turn[:, 2], "muted", "3"), Rod((0.0, 0.0, 1.0), "mass")]
+
+    def path(self) -> list[Curve]:
+        """The path of the centre of mass in space."""
+        assert self.attitude is not None
+        return [Curve(self.attitude.in_space((0.0, 0.0, 1.0)), "orbit")]
+
+    # ---- words --------------------------------------------------------------------------------------------------
+
+    def about_velocity(self) -> str:
+        """The caption of the (ω1, ω2)-plane."""
+        if self.map is None or self.turning is None:
+            return "The orbit needs infinite time to come to rest."
+        n1, n2 = self.turning.roots[1:]
+        orbit = {"hyperbolic": "The orbit tends to the stable limit cycle",
+                 "parabolic": "The two limit cycles have merged"}.get(
+                     self.map.kind, "The orbit winds round the torus, no limit cycle")
+        if n2 - n1 < 1e-6:
+            orbit = "On the bifurcation curve the torus is a circle"
+        high = math.sqrt(2 * max(0.0, self.h + n2))
+        return f"{orbit}; |w| from {digits(self.turning.initial_rho)} to {digits(high)}."
+
+    def about_sphere(self) -> str:
+        """The caption of the Poisson sphere."""
+        if self.turning is None:
+            return "Towards the upper equilibrium, n₃ = −1."
+        n1, n2 = self.turning.roots[1:]
+        return f"The vertical γ, between heights n₃ = {digits(n1)} and {digits(n2)}."
+
+    def about_zone(self) -> str:
+        """The caption of the bifurcation diagram."""
+        zone = "the separatrix" if self.map is None else {
+            "hyperbolic": "locked, two limit cycles", "parabolic": "on the lock boundary"}.get(
+                self.map.kind, f"not locked, ρ = {digits(self.map.rotation_number)}")
+        return f"h = {digits(self.h)}, f = {digits(self.f)}: {zone}."
+
+    def about_map(self) -> str:
+        """The caption of the circle map."""
+        theta = self.map
+        if theta is None:
+            return "Separatrix: no return."
+        points = {"hyperbolic": f"multipliers {', '.join(digits(point.multiplier) for point in theta.fixed_points)}",
+                  "parabolic": "multiplier 1"}.get(theta.kind, "no fixed point")
+        sign = ";" if theta.kind != "elliptic" else ";"
+        return f"{theta.kind}, |trace| {digits(theta.trace, 5)}, ρ = {digits(theta.rotation_number)}{sign} {points}."
+
+    def about_body(self) -> str:
+        """The caption of the body."""
+        if not self.body.check.is_body:
+            return "Nothing is drawn: with |a| ≥ 1 there is no such rigid body, whatever I₃₃."
+        moments = np.linalg.eigvalsh(self.body.tensor(self.middle_I33))
+        return (f"Gyration ellipsoid for I₃₃ = {digits(self.middle_I33)}, which is free: moments "
+                f"{', '.join(map(digits, moments))}.")
+
+    def derived(self) -> Iterator[str]:
+        """a, b, what follows of the body, the integrals in its own units, the period."""
+        body = self.body
+        yield f"a = I₂₃/I₂₂ = {digits(body.a, 6)}"
+        yield f"b = {digits(body.b, 6)}"
+        yield f"I₁₁ = {digits(body.I11, 6)}"
+        yield f"b₂ = {digits(body.b2, 6)}"
+        yield f"E = I₁₁ b h = {digits(body.I11 * body.b * self.h, 6)}"
+        yield f"F₂ = I₁₁ √b f = {digits(body.I11 * body.frequency_unit * self.f, 6)}"
+        yield f"A rigid body? {'yes' if body.check.is_body else 'no: |a| ≥ 1'}"
+        if body.check.I33 is not None:
+            yield f"I₃₃ from {digits(body.check.I33[0])} to {digits(body.check.I33[1])}"
+        if self.map is not None:
+            yield f"Period of n₃ = {digits(self.map.period / body.frequency_unit, 6)}"
+
+    def status(self) -> Iterator[str]:
+        """The orbit, the circle map, the attitude."""
+        if self.known("track"):
+            yield from orbit_status(self.track.orbit)
+        if self.map is None:
+            yield "circle map: separatrix, no return"
+        else:
+            yield f"circle map {self.map.cost.steps} steps, error ≤ {self.map.error_estimate:.1e} ({self.map.status})"
+        if self.known("attitude") and self.attitude is not None:
+            lying = self.attitude.orbit
+            yield f"body {lying.cost.steps} steps, error ≤ {lying.error_estimate:.1e} ({lying.status})"
+
+    def notes(self) -> Iterator[str]:
+        """No body; an orbit that is not shown to its end; an angle that jumps."""
+        if not self.body.check.is_body:
+            yield self.body.check.sentence
+        shown = float(self.track.times[-1]) if self.known("track") else math.inf
+        if shown < self.span * (1 - 1e-9):
+            reason = "after that it is at rest to the eye" if self.map is None else f"{MAX_RETURNS} returns"
+            yield f"The orbit is shown up to t = {digits(shown)}: {reason}."
+        if self.f == 0.0 and self.map is not None and self.h < 1.0:
+            yield "At f = 0, h < 1 the angle φ jumps where w = 0: the circle map is its limit f → 0."
 
 
-@dataclass(frozen=True)
-class HessResult:
-    """What the pictures that are seen need.
-
-    `turning`, `map` are None on the separatrix; `track`, `cycles`, `zones`, `attitude` where no picture asks for them,
-    and `attitude` where this is no rigid body.
-    """
-
-    values: Values
-    body: HessBody
-    turning: TurningPoints | None
-    track: Track | None
-    map: CircleMap | None
-    iterates: Array | None
-    cycles: tuple[Track, Track] | None
-    zones: Zones | None
-    attitude: Attitude | None
-    ended: str
-
-
-def admit(values: Values) -> tuple[dict[str, Value], list[str]]:
-    """|a| ≤ 100, and f inside the region of this h."""
-    out, notes = dict(values), []
-    bound = MAX_A * float(out["I22"])
-    if abs(float(out["I23"])) > bound:
-        out["I23"] = math.copysign(bound, float(out["I23"]))
-        notes.append(f"a = I₂₃/I₂₂ is kept within ±{MAX_A:g}: I₂₃ is {number(out['I23'])} now.")
-    largest = f_max(float(out["h"]))
-    if abs(float(out["f"])) > largest:
-        out["f"] = math.copysign(largest, float(out["f"]))
-        where = f"At h = {number(float(out['h']))} only |f| ≤ {number(largest)} is possible"
-        notes.append(f"{where}: f is at that edge now.")
-    return out, notes
-
-
-def limits(values: Values) -> Mapping[str, tuple[float, float, float]]:
-    """The slider of f spans the region at this h, in round steps."""
-    largest = f_max(float(values["h"]))
-    digits = 2 - math.floor(math.log10(largest))
-    step = float(f"1e{-digits}")
-    end = round(math.floor(largest / step) * step, digits)
-    return {"f": (-end, end, step)}
-
-
-def _grid(a: float, x: tuple[float, float], y: tuple[float, float], accuracy: Level) -> Array:
+def _rotation(a: float, x: tuple[float, float], y: tuple[float, float], accuracy: Level) -> Array:
     """ρ at the centres of the cells of the window; fewer cells where a makes each one dear."""
     share = min(1.0, math.sqrt(10.0 / max(abs(a), 1e-9)))
     m, n = (max(8, round(size * share)) for size in GRID)
@@ -157,307 +327,42 @@ def _grid(a: float, x: tuple[float, float], y: tuple[float, float], accuracy: Le
     return rotation_number_grid(a, np.maximum(h, -1.0 + 1e-6), f, accuracy)
 
 
-def compute(values: Values, shown: Collection[str], dragging: bool) -> HessResult:
-    """What the pictures shown need, from admitted values; each part is cached by itself."""
-    work = Work(values, dragging)
-    accuracy = work.level
-    I22, I23, b3, h, f, phi0, span = (float(values[spec.name]) for spec in SPECS[:-1])
-    body = HessBody(I22, I23, b3)
-    width = half_width(body, h)
-    turning: TurningPoints | None = None
-    theta: CircleMap | None = None
-    pair: tuple[Track, Track] | None = None
-    orbit: Track | None = None
-    iterates: Array | None = None
-    zones: Zones | None = None
-    attitude: Attitude | None = None
-    try:
-        turning = turning_points(h, f)
-        theta = work.get(circle_map, body.a, h, f, accuracy)
-        if theta.kind == "hyperbolic" and not {"omega", "sphere"}.isdisjoint(shown):
-            pair = work.get(cycles, body, h, f, theta.fixed_points[0], accuracy, width)
-    except Separatrix:
-        pass
-    if shown:
-        orbit = work.get(track, body, h, f, phi0, span, accuracy, width)
-        if theta is not None:
-            returns = math.ceil(orbit.orbit.times[-1] / theta.period)
-            iterates = theta.iterate(phi0, max(1, returns))
-    if "bifurcation" in shown:
-        x, y = window(h)
-        zones = Zones(boundary=work.get(lock_boundary, body.a, STANDARD), curve=work.get(curve, x[1]),
-                      grid=work.get(_grid, body.a, x, y, DRAFT))
-    if "body" in shown and body.check.is_body:
-        attitude = work.get(attitude_of_track, body, h, f, phi0, span, accuracy)
-    return HessResult(
-        values=values, body=body, turning=turning, track=orbit, map=theta, iterates=iterates, cycles=pair,
-        zones=zones, attitude=attitude, ended=work.ended(),
-    )
-
-
-def motion(values: Values) -> Motion:
-    """The orbit on show, in units b = 1.  Raises `ModelError`."""
-    I22, I23, b3, h, f, phi0, span = (float(values[spec.name]) for spec in SPECS[:-1])
-    body = HessBody(I22, I23, b3)
-    state, length = start_of_track(body, h, f, phi0, span)
-    weights = pixels_per_unit(body, half_width(body, h))
-    return Motion(SYSTEM, tuple(state), (body.a, 1.0), length, tuple(weights), 1.0 / body.frequency_unit)
-
-
-def half_width(body: HessBody, h: float) -> float:
-    """The frame of the (ω1, ω2)-plane: room for every h of the slider, so that it can stay."""
-    largest = math.sqrt(2.0 * (window(h)[0][1] + 1.0))
-    return nice_above(1.02 * body.frequency_unit * math.hypot(1.0, body.a) * largest)
-
-
-class HessStage:
-    """The five pictures of one session."""
-
-    dots: Mapping[str, tuple[str, str]] = {
-        "omega-point": ("omega1", "omega2"),
-        "bifurcation-point": ("h", "reach"),
-        "circle-point": ("phi_start", "phi"),
-    }
-    angles: Sequence[str] = ("phi", "phi_start")
-
-    def __init__(self, wire: Wire) -> None:
-        self.wire = wire
-        self.omega = OmegaPlane(wire)
-        self.sphere = PoissonSphere(wire, {f"data-{name}": name for name in ("orbit", "stable", "unstable")})
-        self.diagram = BifurcationDiagram(wire)
-        self.circle = CircleMapView(wire)
-        self._drawn: dict[str, Any] = {}
-        self._a = 0.0
-        self.body = BodyView(wire, "body", "The body in space", bare=True)
-        self.pictures = (self.omega, self.sphere, self.diagram, self.circle, self.body)
-
-    def _once(self, name: str, *things: Any) -> bool:
-        """Whether something else than last time is to be drawn under this name."""
-        before = self._drawn.get(name)
-        self._drawn[name] = things
-        return before is None or any(
-            # Results are compared by identity: the cache returns the same one for the same question.
-            new is not old and (not isinstance(new, float | tuple) or new != old)
-            for new, old in zip(things, before, strict=True)
-        )
-
-    def show(self, result: HessResult, hold_axes: bool) -> Report:
-        """Draw everything that has changed."""
-        h, f = float(result.values["h"]), float(result.values["f"])
-        width = half_width(result.body, h)
-        self._a = result.body.a
-        x, y = window(h)
-        for plane in (self.omega, self.diagram):
-            plane.say("")
-        if result.track is not None:
-            self._show_motion(result, result.track, h, f)
-        inner, outer = annulus(result.body, h, result.turning)
-        self.omega.show_region(inner, outer, width)
-        if not hold_axes:
-            self.omega.fit(width)
-            self.diagram.set_ranges(x, y)
-        if result.zones is not None:
-            self._show_zones(result.zones, x, y)
-        if self._once("here", h, f):
-            self.diagram.show_here(h, f)
-        if result.map is None:
-            self._drawn.pop("map", None)
-            self.circle.show_nothing("Separatrix: no return")
-        elif result.iterates is not None and self._once("map", result.map, result.track):
-            self.circle.show(result.map, result.iterates[: _COBWEB + 1])
-        if result.attitude is not None:
-            self._show_body(result.body, result.attitude)
-        elif not result.body.check.is_body and self._once("body", None):
-            self.body.show_nothing()
-        self._say(_captions(result))
-        return Report(_derived(result), _status(result), _notes(result))
-
-    def _say(self, captions: Sequence[str]) -> None:
-        for picture, text in zip(self.pictures, captions, strict=True):
-            self.wire.say(picture.name, text)
-
-    def _show_zones(self, zones: Zones, x: tuple[float, float], y: tuple[float, float]) -> None:
-        if self._once("curve", zones.curve):
-            self.diagram.show_region(zones.curve, x, y)
-        if self._once("grid", zones.grid):
-            self.diagram.show_rotation(zones.grid, x, y)
-        if self._once("boundary", zones.boundary, x):
-            self.diagram.show_lock(zones.boundary, x, y)
-
-    def _show_motion(self, result: HessResult, track_: Track, h: float, f: float) -> None:
-        if self._once("track", track_, result.map):
-            n3 = track_.n3
-            reach = math.copysign(1.0, f) * np.sqrt(np.maximum(0.0, 2.0 * (h + n3) * (1.0 - n3 * n3)))
-            phi_start = track_.phi
-            if result.map is not None and result.iterates is not None:
-                index = np.floor(track_.orbit.times / result.map.period).astype(int)
-                phi_start = result.iterates[np.minimum(index, len(result.iterates) - 1)]
-            self.omega.show_orbit(
-                track_, phi=track_.phi.astype(np.float32), phi_start=phi_start.astype(np.float32),
-                h=np.full(n3.size, h, np.float32), reach=reach.astype(np.float32),
-            )
-        if self._once("cycles", *(result.cycles or (None, None))):
-            self.omega.show_cycles(result.cycles)
-        body, sign = result.body, math.copysign(1.0, result.body.b)
-        r = math.hypot(1.0, body.a)
-        heights = (-1.0, 1.0) if result.turning is None else result.turning.roots[1:]
-        n3 = (0.0, -sign * body.a / r, sign / r)
-        self.sphere.show(n3, "n₃", [Circle(n3, x, "limit") for x in heights if abs(x) < 1 - 1e-9])
-
-    def _show_body(self, body: HessBody, attitude: Attitude) -> None:
-        if self._once("body", attitude):
-            centre = (0.0, 0.0, 1.0)
-            rods = [Rod(body.turn[:, 2], "muted", "3"), Rod(centre, "mass")]
-            self.body.show(Shape.of_tensor(body.tensor(_middle_I33(body)), centre), attitude,
-                           attitude.times / body.frequency_unit, rods, [Curve(attitude.in_space(centre), "orbit")])
-
-    def fail(self, sentence: str) -> None:
-        """Empty pictures, and the sentence where the eye is."""
-        self._drawn.clear()
-        refuse(self.pictures, self.wire, sentence)
-
-    def hover(self, picture: str, x: float, y: float) -> str:
-        """What the torus (h, f) under the mouse does."""
-        if picture != "bifurcation":
-            return ""
-        if x <= -1.0 or abs(y) > f_max(x):
-            return f"h = {number(x)}, f = {number(y)}: impossible"
-        theta = circle_map(self._a, x, y, DRAFT)
-        text = (f"h = {number(x)}, f = {number(y)}: ρ = {number(theta.rotation_number)}, "
-                f"|trace| = {number(theta.trace)}")
-        multipliers = ", ".join(number(point.multiplier) for point in theta.fixed_points)
-        return f"{text}, multipliers {multipliers}" if multipliers else f"{text}, no cycle"
-
-    def pick(self, picture: str, x: float, y: float) -> Values:
-        """A click in the diagram chooses (h, f), in the circle map φ0."""
-        if picture == "bifurcation":
-            return {"h": x, "f": y}
-        if picture == "circle":
-            return {"phi0": x}
-        return {}
-
-
-def _middle_I33(body: HessBody) -> float:
-    """I33 is no parameter of the problem: here the middle of those of a rigid body, which this must be."""
-    assert body.check.I33 is not None
-    return 0.5 * sum(body.check.I33)
-
-
-def _caption_of_body(body: HessBody) -> str:
-    title = "The body in space\n"
-    if not body.check.is_body:
-        return f"{title}Nothing is drawn: with |a| ≥ 1 there is no such rigid body, whatever I₃₃."
-    moments = np.linalg.eigvalsh(body.tensor(_middle_I33(body)))
-    return (f"{title}Gyration ellipsoid for I₃₃ = {number(_middle_I33(body))}, which is free: moments "
-            f"{', '.join(map(number, moments))}.")
-
-
-def _captions(result: HessResult) -> tuple[str, str, str, str, str]:
-    h, f = float(result.values["h"]), float(result.values["f"])
-    theta, turning = result.map, result.turning
-    where = f"h = {number(h)}, f = {number(f)}"
-    if theta is None or turning is None:
-        return (
-            "Angular velocity (ω₁, ω₂)\nThe orbit needs infinite time to come to rest.",
-            "Poisson sphere\nTowards the upper equilibrium, n₃ = −1.",
-            f"Bifurcation diagram\n{where}: the separatrix.",
-            "Circle map\nSeparatrix: no return.",
-            _caption_of_body(result.body),
-        )
-    n1, n2 = turning.roots[1:]
-    low, high = turning.initial_rho, math.sqrt(2 * max(0.0, h + n2))
-    rho = number(theta.rotation_number)
-    trace = number(theta.trace, 5)
-    if theta.kind == "hyperbolic":
-        orbit = "The orbit tends to the stable limit cycle"
-        zone = "locked, two limit cycles"
-        stable, unstable = theta.fixed_points
-        multipliers = f"{number(stable.multiplier)}, {number(unstable.multiplier)}"
-        last = f"hyperbolic, |trace| {trace}, ρ = {rho}; multipliers {multipliers}"
-    elif theta.kind == "parabolic":
-        orbit = "The two limit cycles have merged"
-        zone = "on the lock boundary"
-        last = f"parabolic, |trace| {trace}, ρ = {rho}; multiplier 1"
-    else:
-        orbit = "The orbit winds round the torus, no limit cycle"
-        zone = f"not locked, ρ = {rho}"
-        last = f"elliptic, |trace| {trace}, ρ = {rho}; no fixed point"
-    if n2 - n1 < 1e-6:
-        orbit = "On the bifurcation curve the torus is a circle"
-    return (
-        f"Angular velocity (ω₁, ω₂)\n{orbit}; |w| from {number(low)} to {number(high)}.",
-        f"Poisson sphere\nThe vertical γ, between heights n₃ = {number(n1)} and {number(n2)}.",
-        f"Bifurcation diagram\n{where}: {zone}.",
-        f"Circle map\n{last}.",
-        _caption_of_body(result.body),
-    )
-
-
-def _derived(result: HessResult) -> list[str]:
-    body = result.body
-    check = body.check
-    h, f = float(result.values["h"]), float(result.values["f"])
-    rows = [
-        f"a = I₂₃/I₂₂ = {number(body.a, 6)}",
-        f"b = {number(body.b, 6)}",
-        f"I₁₁ = {number(body.I11, 6)}",
-        f"b₂ = {number(body.b2, 6)}",
-        f"E = I₁₁ b h = {number(body.I11 * body.b * h, 6)}",
-        f"F₂ = I₁₁ √b f = {number(body.I11 * body.frequency_unit * f, 6)}",
-        f"A rigid body? {'yes' if check.is_body else 'no: |a| ≥ 1'}",
-    ]
-    if check.I33 is not None:
-        rows.append(f"I₃₃ from {number(check.I33[0])} to {number(check.I33[1])}")
-    if result.map is not None:
-        rows.append(f"Period of n₃ = {number(result.map.period / body.frequency_unit, 6)}")
-    return rows
-
-
-def _status(result: HessResult) -> str:
-    parts = []
-    if result.track is not None:
-        parts += orbit_status(result.track.orbit)
-    if result.map is not None:
-        theta = result.map
-        parts.append(f"circle map {theta.cost.steps} steps, error ≤ {theta.error_estimate:.1e} ({theta.status})")
-    else:
-        parts.append("circle map: separatrix, no return")
-    if result.attitude is not None:
-        lying = result.attitude.orbit
-        parts.append(f"body {lying.cost.steps} steps, error ≤ {lying.error_estimate:.1e} ({lying.status})")
-    parts.append(result.ended)
-    return " · ".join(parts).replace("e-", "e−")
-
-
-def _notes(result: HessResult) -> list[str]:
-    notes = []
-    check = result.body.check
-    if not check.is_body:
-        notes.append(check.sentence)
-    shown = math.inf if result.track is None else float(result.track.times[-1])
-    if shown < float(result.values["span"]) * (1 - 1e-9):
-        reason = "after that it is at rest to the eye" if result.map is None else f"{MAX_RETURNS} returns"
-        notes.append(f"The orbit is shown up to t = {number(shown)}: {reason}.")
-    if float(result.values["f"]) == 0.0 and result.map is not None and float(result.values["h"]) < 1.0:
-        notes.append("At f = 0, h < 1 the angle φ jumps where w = 0: the circle map is its limit f → 0.")
-    return notes
-
-
 SCENE = Scene(
-    name="suslov-hess",
+    SuslovHess, __file__, place=1, presets=PRESETS,
     title="The Suslov–Hess case",
     summary="A heavy rigid body with ω₃ = 0 whose motions live on tori: rotation, locking, limit cycles.",
-    specs=SPECS,
-    presets=PRESETS,
-    words=WORDS,
-    admit=admit,
-    limits=limits,
-    pictures=("omega", "sphere", "bifurcation", "circle", "body"),
-    compute=compute,
-    stage=HessStage,
-    legend=LEGEND,
-    thumbnail=THUMBNAIL,
-    motion=motion,
-    folded={"body": "Show the body in space"},
-    place=1,
+    tracks={"orbit": SuslovHess.orbit_columns, "stable": lambda s: s.cycle_columns(0),
+            "unstable": lambda s: s.cycle_columns(1)},
+    angles=("phi", "phi_start"),
+    views=(
+        Plot(name="omega", title="Angular velocity (ω₁, ω₂)", caption=SuslovHess.about_velocity, axes=("ω₁", "ω₂"),
+             x=lambda s: centred(s.half_width), y=lambda s: centred(s.half_width), dot=("omega1", "omega2"),
+             layers=(
+                 region("forbidden", lambda s: ring_outside(*annulus(s.body, s.h, s.turning), s.half_width),
+                        edge=theme.MUTED, label="impossible", moving=True),
+                 line("orbit", track="orbit", columns=("omega1", "omega2"), color=theme.ORBIT, width=1.3,
+                      label="orbit"),
+                 line("stable", track="stable", columns=("omega1", "omega2"), color=theme.STABLE, width=3,
+                      label="stable cycle"),
+                 line("unstable", track="unstable", columns=("omega1", "omega2"), color=theme.UNSTABLE, width=3,
+                      dash="dashed", label="unstable cycle"),
+             )),
+        Sphere(caption=SuslovHess.about_sphere, axis=SuslovHess.n3_axis, circles=SuslovHess.heights,
+               looks={"orbit": "orbit", "stable": "stable", "unstable": "unstable"}),
+        Plot(name="bifurcation", title="Bifurcation diagram", caption=SuslovHess.about_zone, axes=("h", "f"),
+             x=lambda s: diagram.window(s.h).x, y=lambda s: diagram.window(s.h).y, dot=("h", "reach"),
+             on_click=lambda s, x, y: {"h": x, "f": y}, on_drag=True, on_hover=SuslovHess.about_torus,
+             layers=diagram.layers(rotation=SuslovHess.rotation, boundary=SuslovHess.lock_boundary,
+                                   curve=SuslovHess.bifurcation_curve, here=lambda s: [(s.h, s.f)],
+                                   axes=lambda s: diagram.window(s.h))),
+        Plot(name="circle", title="Circle map", caption=SuslovHess.about_map, axes=("φ", "Θ(φ)"),
+             x=circle.SIDE, y=circle.SIDE, ticks=circle.TICKS, dot=("phi_start", "phi"),
+             message=lambda s: "" if s.map is not None else "Separatrix: no return",
+             on_click=lambda s, x, y: {"phi0": x},
+             layers=circle.layers(map=lambda s: s.map,
+                                  iterates=lambda s: None if s.iterates is None else s.iterates[: COBWEB + 1])),
+        BodyInSpace(name="body", title="The body in space", caption=SuslovHess.about_body, bare=True,
+                    folded="Show the body in space", shape=SuslovHess.shape, motion=SuslovHess.lying,
+                    rods=lambda s: s.rods(), curves=lambda s: s.path()),
+    ),
 )

@@ -8,10 +8,10 @@ import os
 import subprocess
 import sys
 import time
+from typing import Any
 
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.page.description import describe
-from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_mechanics.errors import ModelError
@@ -26,14 +26,14 @@ _MARK = None if CACHE_FOLDER is None else CACHE_FOLDER / "complete"
 """The file that says that everything is compiled."""
 
 
-def compute(scene: Scene, folded: bool = True) -> None:
+def compute(scene: Scene[Any], folded: bool = True) -> None:
     """Compile (or load) every kernel of a scene, by computing its default state once; folded: of all pictures.
 
     Of what it leaves to the background, one piece of each kind.
     """
     try:
-        result = scene.compute(scene.defaults(), scene.pictures if folded else scene.open_pictures, False)
-        for task in {task.function: task for task in scene.stage(Wire()).show(result, False).todo}.values():
+        state = scene.compute(scene.defaults(), scene.pictures if folded else scene.open_pictures, False)
+        for task in {task.function: task for task in state.work.todo}.values():
             CACHE.get(task.function, *task.arguments)
     except ModelError as error:
         # One scene that cannot be shown keeps no other from being ready.

@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 
-from hess_explorer.protocol.wire import Wire
-from hess_explorer.views.figure import columns_of
+from hess_explorer.views.layers import Axes, Columns, f32
+from hess_explorer.views.picture import Picture
 from hess_explorer.views.poisson_sphere import Circle, Mark
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.rigid_body.attitude import Attitude
 
-__all__ = ["BodyView", "Curve", "Rod", "Shape", "seen_in_space"]
+__all__ = ["BodyInSpace", "Curve", "Rod", "Shape", "seen_in_space"]
+
+S = TypeVar("S")
 
 LARGEST = 0.8
 """Half the longest axis of the ellipsoid, in radii of the sphere that the picture turns on."""
@@ -74,49 +76,64 @@ def seen_in_space(points: Array) -> Array:
     return np.stack([points[..., 1], -points[..., 2], -points[..., 0]], axis=-1)
 
 
-class BodyView:
+@dataclass(frozen=True, kw_only=True)
+class BodyInSpace(Picture[S]):
     """The sphere fixed in space, γ downwards as gravity, and in it the body at the time of the player.
 
-    attitude : the source with the attitude, that of another such picture, or None for its own; title : what a screen
-    reader calls it; bare : without the lines of the sphere.
+    shape(state) : the body with its ellipsoid, None for none.
+    motion(state) : its attitude, and the times (n,) of that in the player's units; None for none.
+    attitude : the picture whose attitude it follows, where it has none of its own.
+    rods, curves : drawn with the body, and in space; circles, marks : fixed in the picture's space.
+    bare : without the lines of the sphere.
     """
 
-    kind = "sphere"
+    shape: Callable[[S], Shape | None] | None = None
+    motion: Callable[[S], tuple[Attitude, Array] | None] | None = None
+    attitude: str = ""
+    rods: Callable[[S], Sequence[Rod]] | None = None
+    curves: Callable[[S], Sequence[Curve]] | None = None
+    circles: Sequence[Circle] = ()
+    marks: Sequence[Mark] = ()
+    bare: bool = False
 
-    def __init__(self, wire: Wire, name: str, title: str, attitude: str | None = None, bare: bool = False) -> None:
-        self.wire = wire
-        self.name = name
-        self._attitude = attitude or name
-        self._title, self._bare = title, bare
+    kind: ClassVar[str] = "sphere"
+
+    @property
+    def tracks(self) -> frozenset[str]:
+        """The player takes the time from the track of the orbit."""
+        return frozenset({"orbit"})
 
     def describe(self) -> dict[str, Any]:
         """What the browser needs to know."""
-        return {"name": self.name, "kind": self.kind, "tracks": {}, "attitude": self._attitude, "title": self._title,
-                "bare": self._bare}
+        title = self.title if isinstance(self.title, str) else "The body in space"
+        return {**super().describe(), "tracks": {}, "attitude": self.attitude or self.name, "title": title,
+                "bare": self.bare}
 
-    def show(self, shape: Shape | None = None, attitude: Attitude | None = None, times: Array | None = None,
-             rods: Sequence[Rod] = (), curves: Sequence[Curve] = (), circles: Sequence[Circle] = (),
-             marks: Sequence[Mark] = ()) -> None:
-        """The body with its ellipsoid, None for none; circles and marks are fixed in the picture's space.
-
-        times : (n,) of the attitude in the player's units.
-        """
+    def data(self, state: S) -> dict[str, Columns]:
+        """The body, its motion, and what is drawn beside."""
+        shape = None if self.shape is None else self.shape(state)
+        motion = None if self.motion is None else self.motion(state)
+        if self.motion is not None and motion is None:
+            return self.nothing("", None)
         columns: dict[str, Any] = {}
-        if attitude is not None and times is not None:
+        if motion is not None:
+            attitude, times = motion
             directions = attitude.axes[:, :2].reshape(len(times), 6)
-            columns = {"t": times.astype(np.float32), **columns_of(directions, _COLUMNS)}
+            columns = {"t": f32(times), **{name: f32(directions[:, i]) for i, name in enumerate(_COLUMNS)}}
         if shape is not None:
             radius = LARGEST * math.sqrt(float(np.median(shape.moments) / np.max(shape.moments)))
             columns |= {"axes": shape.axes.tolist(), "semi": shape.semi_axes.tolist(), "names": list(shape.names),
                         "section": [*map(float, shape.centre), radius]}
-        self.wire.put(self.name, {
+        rods = () if self.rods is None else self.rods(state)
+        curves = () if self.curves is None else self.curves(state)
+        return {self.name: {
             **columns,
             "rods": [[*map(float, one.along), one.look, one.label] for one in rods],
-            "curves": [[one.look, *np.ascontiguousarray(seen_in_space(one.points).T, np.float32)] for one in curves],
+            "curves": [[one.look, *f32(seen_in_space(one.points).T)] for one in curves],
             "axis": [0.0, 0.0, -1.0], "label": "γ",
-            "circles": [[*map(float, one.axis), float(one.height), one.look] for one in circles],
-            "marks": [[*map(float, one.at), one.look, one.label] for one in marks]})
+            "circles": [[*map(float, one.axis), float(one.height), one.look] for one in self.circles],
+            "marks": [[*map(float, one.at), one.look, one.label] for one in self.marks]}}
 
-    def show_nothing(self, sentence: str = "") -> None:
+    def nothing(self, sentence: str, axes: Axes | None) -> dict[str, Columns]:
         """The empty sphere; the reason is for the caption to say."""
-        self.wire.put(self.name, {})
+        return {self.name: {}}

@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from typing import TypeVar
 
 import numpy as np
 
-from hess_explorer.protocol.wire import Wire
 from hess_explorer.views import theme
-from hess_explorer.views.figure import Figure
+from hess_explorer.views.layers import Layer, curves, line, points
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.circle_map import CircleMap
 
-_TICKS = [(-math.pi, "−π"), (-math.pi / 2, "−π/2"), (0.0, "0"), (math.pi / 2, "π/2"), (math.pi, "π")]
+__all__ = ["SIDE", "TICKS", "cobweb", "graph", "layers"]
+
+S = TypeVar("S")
+
+SIDE = (-math.pi, math.pi)
+TICKS = [(-math.pi, "−π"), (-math.pi / 2, "−π/2"), (0.0, "0"), (math.pi / 2, "π/2"), (math.pi, "π")]
 _GRID = np.linspace(-math.pi, math.pi, 193)
 
 
@@ -31,31 +37,34 @@ def cobweb(iterates: Array) -> tuple[Array, Array]:
     return np.repeat(iterates, 2)[:-1], np.repeat(iterates, 2)[1:]
 
 
-class CircleMapView(Figure):
-    """Θ, the diagonal, stable (filled) and unstable (hollow) fixed points, the cobweb.  A click picks φ0."""
+def _copies(circle_map: CircleMap | None) -> list[Array]:
+    """The graph and its copies one turn up and down: the frame cuts out the square."""
+    if circle_map is None:
+        return []
+    phi, theta = graph(circle_map)
+    return [np.column_stack([phi, theta + turn]) for turn in (0.0, -2 * math.pi, 2 * math.pi)]
 
-    def __init__(self, wire: Wire) -> None:
-        side = (-math.pi, math.pi)
-        super().__init__(wire, "circle", ("φ", "Θ(φ)"), side, side, picks=("tap", "doubletap"), ticks=_TICKS)
-        here = ("phi", "theta")
-        self.add("diagonal", "line", here, moving=False, color=theme.MUTED, line_dash="dotted", line_width=1.5)
-        self.add("cobweb", "line", here, color=theme.ORBIT, line_width=1)
-        self.add("map", "multi_line", ("xs", "ys"), color=theme.MAP, line_width=2.5)
-        self.add("stable", "scatter", here, size=12, line_width=3, color=theme.STABLE)
-        self.add("unstable", "scatter", here, size=12, line_width=3, fill_alpha=0, line_color=theme.UNSTABLE)
-        self.add_point_and_message()
 
-    def show(self, circle_map: CircleMap, iterates: Array) -> None:
-        """One map, with the cobweb through its iterates."""
-        self.say("")
-        self.assign("diagonal", phi=[-math.pi, math.pi], theta=[-math.pi, math.pi])
-        phi, theta = graph(circle_map)
-        phi32, theta32 = phi.astype(np.float32), theta.astype(np.float32)
-        turn = np.float32(2 * math.pi)
-        # The graph and its copies one turn up and down: the frame cuts out the square.
-        self.assign("map", xs=[phi32] * 3, ys=[theta32, theta32 - turn, theta32 + turn])
-        xs, ys = cobweb(iterates)
-        self.assign("cobweb", phi=xs.astype(np.float32), theta=ys.astype(np.float32))
-        self.clear("stable", "unstable")
-        for point in circle_map.fixed_points:
-            self.assign("stable" if point.log_multiplier <= 0 else "unstable", phi=[point.phi], theta=[point.phi])
+def _fixed(circle_map: CircleMap | None, stable: bool) -> tuple[list[float], list[float]]:
+    found = [point.phi for point in (circle_map.fixed_points if circle_map else ())
+             if (point.log_multiplier <= 0) == stable]
+    return found, found
+
+
+def layers(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array | None]) -> tuple[Layer[S], ...]:
+    """Θ, the diagonal, stable (filled) and unstable (hollow) fixed points, the cobweb of some iterates."""
+    here = ("phi", "theta")
+
+    def staircase(state: S) -> tuple[Array, Array] | None:
+        found = iterates(state)
+        return None if found is None else cobweb(found)
+
+    return (
+        line("diagonal", lambda s: None if map(s) is None else (SIDE, SIDE), columns=here, moving=False,
+             color=theme.MUTED, dash="dotted", width=1.5),
+        line("cobweb", staircase, columns=here, color=theme.ORBIT, width=1),
+        curves("map", lambda s: _copies(map(s)), color=theme.MAP, width=2.5, label="circle map Θ"),
+        points("stable", lambda s: _fixed(map(s), True), columns=here, size=12, edge_width=3, color=theme.STABLE),
+        points("unstable", lambda s: _fixed(map(s), False), columns=here, size=12, edge_width=3, hollow=True,
+               color=theme.UNSTABLE),
+    )

@@ -1,21 +1,25 @@
-"""The Poisson sphere: the vertical γ as seen from the body, drawn by "sphere.js"."""
+"""The Poisson sphere: the vertical γ as seen from the body; the browser draws it on a canvas of its own."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar, TypeVar
 
-from hess_explorer.protocol.wire import Wire
+from hess_explorer.views.layers import Axes, Columns
+from hess_explorer.views.picture import Picture
+from hess_mechanics.numerics.results import Array
 
-__all__ = ["Circle", "Mark", "PoissonSphere"]
+__all__ = ["Circle", "Direction", "Mark", "Sphere"]
+
+S = TypeVar("S")
 
 
 @dataclass(frozen=True)
 class Circle:
     """The circle (γ, axis) = height; look: "limit", "stable", "unstable" or "muted"."""
 
-    axis: Sequence[float]
+    axis: Sequence[float] | Array
     height: float
     look: str
 
@@ -24,41 +28,63 @@ class Circle:
 class Mark:
     """A point of the sphere with a label; look: "stable", "unstable" or "muted"."""
 
-    at: Sequence[float]
+    at: Sequence[float] | Array
     look: str
     label: str = ""
 
 
-class PoissonSphere:
-    """Draws tracks that other pictures hold in their sources (columns g1, g2, g3).
+@dataclass(frozen=True)
+class Direction:
+    """A unit vector (3,) of the body with its label."""
 
-    tracks : source → look: "orbit", "second", "stable", "unstable" or "muted".
+    along: Sequence[float] | Array
+    label: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sphere(Picture[S]):
+    """Draws tracks of the scene that have columns g1, g2, g3.
+
+    looks : track → look, "orbit", "second", "stable", "unstable" or "muted".
+    axis(state), circles(state), marks(state) : drawn besides.
+    clouds : the picture whose clouds it shows too.
     """
 
-    kind = "sphere"
+    name: str = "sphere"
+    title: str | Callable[[S], str] = "Poisson sphere"
+    looks: Mapping[str, str]
+    axis: Callable[[S], Direction | None] | None = None
+    circles: Callable[[S], Sequence[Circle]] | None = None
+    marks: Callable[[S], Sequence[Mark]] | None = None
+    clouds: str = ""
 
-    def __init__(self, wire: Wire, tracks: Mapping[str, str], name: str = "sphere") -> None:
-        self.wire = wire
-        self.name = name
-        self._tracks = dict(tracks)
-        self._shown: dict[str, Any] | None = None
+    kind: ClassVar[str] = "sphere"
+
+    @property
+    def tracks(self) -> frozenset[str]:
+        """The tracks of the scene that it needs."""
+        return frozenset(self.looks)
 
     def describe(self) -> dict[str, Any]:
         """What the browser needs to know."""
-        return {"name": self.name, "kind": self.kind, "tracks": self._tracks}
+        clouds = {"clouds": self.clouds} if self.clouds else {}
+        return {**super().describe(), "tracks": {f"data-{track}": look for track, look in self.looks.items()}, **clouds}
 
-    def show(self, axis: Sequence[float] = (), label: str = "", circles: Sequence[Circle] = (),
-             marks: Sequence[Mark] = ()) -> None:
-        """The axis (a unit vector, or none) with its label, circles and marks."""
-        plain = {
-            "axis": [float(x) for x in axis], "label": label,
-            "circles": [[*map(float, one.axis), float(one.height), one.look] for one in circles],
-            "marks": [[*map(float, one.at), one.look, one.label] for one in marks],
-        }
-        if plain != self._shown:
-            self._shown = plain
-            self.wire.put(self.name, plain)
+    def data(self, state: S) -> dict[str, Columns]:
+        """Its axis, circles and marks."""
+        return {self.name: _drawn(
+            None if self.axis is None else self.axis(state),
+            () if self.circles is None else self.circles(state),
+            () if self.marks is None else self.marks(state))}
 
-    def show_nothing(self, sentence: str = "") -> None:
-        """Neither axis nor circles nor marks; tracks are their own pictures' to clear, the reason its caption's."""
-        self.show()
+    def nothing(self, sentence: str, axes: Axes | None) -> dict[str, Columns]:
+        """Neither axis nor circles nor marks; the reason is for the caption to say."""
+        return {self.name: _drawn(None, (), ())}
+
+
+def _drawn(axis: Direction | None, circles: Sequence[Circle], marks: Sequence[Mark]) -> Columns:
+    return {
+        "axis": [] if axis is None else [float(x) for x in axis.along], "label": "" if axis is None else axis.label,
+        "circles": [[*map(float, one.axis), float(one.height), one.look] for one in circles],
+        "marks": [[*map(float, one.at), one.look, one.label] for one in marks],
+    }

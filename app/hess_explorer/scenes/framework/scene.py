@@ -1,39 +1,55 @@
-"""What a scene is: its parameters, what it computes, its pictures, its words."""
+"""What a scene is: a state with its parameters, pictures of it, words about it."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+import re
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Protocol, runtime_checkable
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Generic, Self, TypeVar, cast
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.parameters import Choice, Spec, Value, Values
-from hess_explorer.protocol.wire import Wire
+from hess_explorer.protocol.parameters import Choice, Number, Spec, Value, Values
+from hess_explorer.scenes.framework.parameters import specs_of
+from hess_explorer.scenes.framework.work import Work
+from hess_explorer.views.layers import Columns
+from hess_explorer.views.picture import Picture
 from hess_mechanics.dynamics.system import System
+from hess_mechanics.errors import ModelError
+from hess_mechanics.numerics.accuracy import Level
 
-__all__ = ["Boxed", "Hovered", "Motion", "Picture", "Preset", "Report", "Scene", "Stage"]
+__all__ = ["Motion", "Preset", "Report", "Scene", "State"]
+
+S = TypeVar("S", bound="State")
+
+Slider = tuple[float, float, float]
+"""(low, high, step)."""
 
 
-@dataclass(frozen=True)
 class Preset:
     """A named state: the differences from the scene's defaults."""
 
-    name: str
-    values: Values
+    def __init__(self, name: str, **values: Value) -> None:
+        self.name = name
+        self.values: Values = values
 
 
-class Picture(Protocol):
-    """One picture on the page; its caption is the text of that name."""
+@dataclass(frozen=True)
+class Motion:
+    """One motion of a system: what "Speed and accuracy" looks into.
 
-    name: str
-    kind: str
-    """Who draws it in the browser: "plot" is Bokeh, others are in "pictures.js"."""
+    system, state, parameters, span : as for `hess_mechanics.solve`, in the units of the computation.
+    weights : (d,) from the variables to the scene's pictures, in pixels for a unit.
+    unit : the time of the page in these units of time, so that t = time of the computation × unit.
+    """
 
-    def describe(self) -> dict[str, Any]:
-        """Name, kind, and what else the browser needs to know before the first data."""
-
-    def show_nothing(self, sentence: str) -> None:
-        """Draw nothing but the reason."""
+    system: System
+    state: tuple[float, ...]
+    parameters: tuple[float, ...]
+    span: float
+    weights: tuple[float, ...]
+    unit: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -45,104 +61,151 @@ class Report:
 
     derived: Sequence[str]
     status: str
-    notes: Sequence[str] = field(default=())
-    todo: Sequence[Task] = field(default=())
-    total: int = 0
-
-
-@runtime_checkable
-class Boxed(Protocol):
-    """A stage in whose pictures a box can be drawn with the mouse."""
-
-    def box(self, picture: str, corners: tuple[float, float, float, float]) -> Values:
-        """The values that a box from (x0, y0) to (x1, y1) of a picture chooses."""
-
-
-@runtime_checkable
-class Hovered(Protocol):
-    """A stage that says something of the place under the mouse."""
-
-    def hover(self, picture: str, x: float, y: float) -> str:
-        """One line on the place (x, y) of a picture.  Raises `ModelError`."""
-
-
-class Stage(Protocol):
-    """The pictures of a scene in one session; what they show goes by the wire that they were made with."""
-
-    pictures: Sequence[Picture]
-
-    dots: Mapping[str, tuple[str, str]]
-    """For the player: source of a moving point → columns of the source `data-orbit`."""
-
-    angles: Sequence[str]
-    """Those of the columns that are angles."""
-
-    def show(self, result: Any, hold_axes: bool) -> Report:
-        """Draw a result, and say the captions."""
-
-    def fail(self, sentence: str) -> None:
-        """Draw nothing but this sentence."""
-
-    def pick(self, picture: str, x: float, y: float) -> Values:
-        """The values that a click at (x, y) of a picture chooses."""
+    notes: Sequence[str]
+    todo: Sequence[Task]
+    total: int
 
 
 @dataclass(frozen=True)
-class Motion:
-    """One motion of a system: what "Speed and accuracy" looks into.
+class State:
+    """One state of a scene: its fields are the parameters, its cached properties what follows from them.
 
-    system, state, parameters, span : as for `models.solve`, in the units of the computation.
-    weights : (d,) from the variables to the scene's pictures, in pixels for a unit.
-    unit : the time of the page in these units of time, so that t = time of the computation × unit.
+    work : level and cache; seen : the pictures in sight; drawn : the columns that they show, by source.
+    A property is computed when a picture in sight asks for it, and once.  What is worth keeping for later states
+    goes through `work` into the process-wide cache.
     """
 
-    system: System
-    state: tuple[float, ...]
-    parameters: tuple[float, ...]
-    span: float
-    weights: tuple[float, ...]
-    unit: float
+    work: Work = field(default_factory=Work, kw_only=True, compare=False, repr=False)
+    seen: frozenset[str] = field(default=frozenset(), kw_only=True, compare=False, repr=False)
+    drawn: dict[str, Columns] = field(default_factory=dict, kw_only=True, compare=False, repr=False)
+
+    @property
+    def level(self) -> Level:
+        """The accuracy to compute with; while a slider is dragged, the cheapest that is right to half a pixel."""
+        return self.work.level
+
+    @property
+    def dragging(self) -> bool:
+        """Whether a slider is held."""
+        return self.work.dragging
+
+    def known(self, name: str) -> Any | None:
+        """A cached property, if a picture in sight has asked for it."""
+        return vars(self).get(name)
+
+    def admitted(self, notes: list[str]) -> Self:
+        """The nearest possible state; what was changed is said in the notes."""
+        return self
+
+    def limits(self) -> Mapping[str, Slider]:
+        """Ranges of sliders that depend on the state."""
+        return {}
+
+    def motion(self) -> Motion | None:
+        """The motion on show, for "Speed and accuracy"; None where there is none.  Raises `ModelError`."""
+        return None
+
+    def derived(self) -> Iterable[str]:
+        """Quantities that follow from the parameters, a line each."""
+        return ()
+
+    def status(self) -> Iterable[str]:
+        """Parts of the status line: size, cost, errors of what was computed."""
+        return ()
+
+    def notes(self) -> Iterable[str]:
+        """What the user should know of this state."""
+        return ()
 
 
 @dataclass(frozen=True)
-class Scene:
+class Scene(Generic[S]):
     """One scene of the explorer.
 
-    pictures : their names.  A picture that cannot be seen is not computed.
-    folded : those of them that are not seen until a button is pressed, and what it says.
-    admit(values) : values that are possible together, and notes on what was changed.
-    limits(values) : slider ranges (low, high, step) that depend on other values.
-    compute(values, shown, dragging) : what the pictures `shown` need, from admitted values; while a slider is
-        dragged at the cheapest accuracy that is right to a pixel.  Raises `ModelError`.
-    stage(wire) : the pictures of one session.
-    legend : HTML; thumbnail : the inside of a 48 × 32 SVG for the menu of scenes.
-    motion(values) : the motion on show, for the scene "Speed and accuracy" of this one.
-    origin : the name of the scene whose motion this one looks into.
+    Parameters
+    ----------
+    state : the class of its states; module : the file that declares it: words and thumbnail are the Markdown and SVG
+        of the same name beside it.
+    title, summary : a few words; a sentence for the menu.
+    presets : named states; the first one is that of a newcomer.
+    views : its pictures.  What no picture in sight asks for is not computed.
+    tracks : columns that several pictures and the player share; the player follows "orbit", by its column t.
+    angles : those of its columns that are angles.
     place : its place in the menu; the first one opens the page.
+    origin : the name of the scene whose motion this one looks into.
     """
 
-    name: str
+    state: type[S]
+    module: str
     title: str
     summary: str
-    specs: tuple[Spec, ...]
     presets: tuple[Preset, ...]
-    words: str
-    pictures: tuple[str, ...]
-    admit: Callable[[Values], tuple[dict[str, Value], list[str]]]
-    limits: Callable[[Values], Mapping[str, tuple[float, float, float]]]
-    compute: Callable[[Values, Collection[str], bool], Any]
-    stage: Callable[[Wire], Stage]
-    legend: str
-    thumbnail: str
-    motion: Callable[[Values], Motion] | None = None
-    origin: str | None = None
+    views: tuple[Picture[S], ...]
+    tracks: Mapping[str, Callable[[S], Columns | None]] = field(default_factory=dict)
+    angles: tuple[str, ...] = ()
     place: int = 0
-    folded: Mapping[str, str] = field(default_factory=dict)
+    origin: str | None = None
+
+    @property
+    def name(self) -> str:
+        """As in a link."""
+        name = Path(self.module).stem.replace("_", "-")
+        return name if self.origin is None else f"{self.origin}-accuracy"
+
+    @cached_property
+    def words(self) -> str:
+        """Markdown with formulas."""
+        return Path(self.module).with_suffix(".md").read_text(encoding="utf-8")
+
+    @cached_property
+    def thumbnail(self) -> str:
+        """The inside of an SVG of 48 × 32."""
+        drawing = Path(self.module).with_suffix(".svg").read_text(encoding="utf-8")
+        found = re.search(r"<svg[^>]*>(.*)</svg>", drawing, re.DOTALL)
+        assert found is not None, self.module
+        return found[1]
+
+    @cached_property
+    def legend(self) -> str:
+        """HTML: a list of the signs of all pictures; one sign has one entry."""
+        words: dict[tuple[str, str], list[str]] = {}
+        for sign in (sign for view in self.views for sign in view.legend):
+            said = words.setdefault((sign.kind, sign.style), [])
+            if sign.label not in said:
+                said.append(sign.label)
+        items = (f'<li><span class="{kind}" style="{style}"></span>{", ".join(labels)}</li>'
+                 for (kind, style), labels in words.items())
+        return f'<ul class="legend" aria-label="Legend">{"".join(items)}</ul>'
+
+    @cached_property
+    def specs(self) -> tuple[Spec, ...]:
+        """The parameters."""
+        return specs_of(self.state)
+
+    @property
+    def pictures(self) -> tuple[str, ...]:
+        """The names of the pictures."""
+        return tuple(view.name for view in self.views)
+
+    @property
+    def folded(self) -> Mapping[str, str]:
+        """Those that are not seen until a button is pressed, and what it says."""
+        return {view.name: view.folded for view in self.views if view.folded}
 
     @property
     def open_pictures(self) -> tuple[str, ...]:
         """The pictures that are seen at first."""
-        return tuple(name for name in self.pictures if name not in self.folded)
+        return tuple(view.name for view in self.views if not view.folded)
+
+    @property
+    def dots(self) -> dict[str, tuple[str, str]]:
+        """Sources of moving points → the columns of the track "orbit" that they follow."""
+        return {source: columns for view in self.views for source, columns in view.followers.items()}
+
+    @property
+    def has_motion(self) -> bool:
+        """Whether "Speed and accuracy" has something to look into."""
+        return self.origin is None and self.state.motion is not State.motion
 
     def defaults(self) -> dict[str, Value]:
         """The state a newcomer sees."""
@@ -152,3 +215,44 @@ class Scene:
         """All numbers and places of a preset; choices such as the accuracy stay as they are."""
         numbers = {spec.name: spec.default for spec in self.specs if not isinstance(spec, Choice)}
         return {**numbers, **preset.values}
+
+    def of(self, values: Values, seen: Collection[str] = (), dragging: bool = False) -> S:
+        """The state of these values; nothing is computed yet."""
+        work = Work(str(values.get("accuracy", "standard")), dragging)
+        typed: dict[str, Any] = {
+            spec.name: float(values[spec.name]) if isinstance(spec, Number) else str(values[spec.name])
+            for spec in self.specs}
+        return self.state(**typed, work=work, seen=frozenset(seen))
+
+    def admit(self, values: Values) -> tuple[dict[str, Value], list[str]]:
+        """Values that are possible together, each within its bounds, and notes on what was changed."""
+        within: dict[str, Value] = {}
+        notes: list[str] = []
+        for spec in self.specs:
+            value, note = (spec.admit(float(values[spec.name])) if isinstance(spec, Number)
+                           else spec.read(str(values[spec.name])))
+            within[spec.name] = value
+            notes += [note] if note else []
+        try:
+            state = self.of(within).admitted(notes)
+        except ModelError:
+            # What is impossible says so when it is computed.
+            return within, notes
+        return {spec.name: cast(Value, getattr(state, spec.name)) for spec in self.specs}, notes
+
+    def limits(self, values: Values) -> Mapping[str, Slider]:
+        """Slider ranges (low, high, step) that depend on the state of admitted values."""
+        try:
+            return self.of(values).limits()
+        except ModelError:
+            return {}
+
+    def compute(self, values: Values, seen: Collection[str], dragging: bool) -> S:
+        """The state of admitted values, with all that the pictures `seen` ask for.  Raises `ModelError`."""
+        state = self.of(values, seen, dragging)
+        views = [view for view in self.views if view.name in state.seen]
+        for view in views:
+            state.drawn.update(view.data(state))
+        for name in frozenset[str]().union(*(view.tracks for view in views)):
+            state.drawn[f"data-{name}"] = self.tracks[name](state) or {}
+        return state

@@ -7,18 +7,16 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from hess_explorer.protocol.parameters import Values, written
-from hess_explorer.scenes.framework.work import Window, orbit_status
+from hess_explorer.scenes.framework.windows import Window
+from hess_explorer.scenes.framework.work import orbit_status
 from hess_mechanics.numerics.results import Array, Orbit
 
-__all__ = ["PIECE", "TURN", "boxed", "possible_starts", "section_status", "started", "thinned", "worst"]
+__all__ = ["PIECE", "TURN", "boxed", "possible_starts", "section_status", "started", "worst"]
 
 PIECE = 4
 """Orbits that are computed together: few enough for points to arrive soon."""
 TURN = 3.14159
 """Half a turn, as a place in a link is written."""
-
-_POINTS = 600
-"""Of a curve over a long time, as many as a picture shows."""
 
 Place = tuple[float, float]
 State = tuple[float, ...]
@@ -49,12 +47,6 @@ def boxed(corners: tuple[float, float, float, float], bounds: Window, name: str 
     left, right = max(x0, min(corners[0], corners[2])), min(x1, max(corners[0], corners[2]))
     low, high = max(y0, min(corners[1], corners[3])), min(y1, max(corners[1], corners[3]))
     return {name: written([(left, low), (right, high)])} if low < high and left < right else {}
-
-
-def thinned(x: Array, y: Array) -> tuple[Array, Array]:
-    """A curve with as many points as a picture shows."""
-    kept = np.unique(np.linspace(0, len(x) - 1, _POINTS).astype(int))
-    return x[kept], y[kept]
 
 
 def worst(drift: Mapping[str, float], other: Mapping[str, float]) -> dict[str, float]:

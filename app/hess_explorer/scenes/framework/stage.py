@@ -1,0 +1,103 @@
+"""The pictures of a scene in one session: what of a state goes by the wire, and what the mouse chooses."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Generic, TypeVar
+
+import numpy as np
+
+from hess_explorer.protocol.wire import Wire
+from hess_explorer.scenes.framework.scene import Report, Scene, State
+from hess_explorer.views.layers import Axes, Columns
+from hess_explorer.views.picture import Corners, Picture, Values
+
+__all__ = ["Stage"]
+
+S = TypeVar("S", bound=State)
+
+
+class Stage(Generic[S]):
+    """The same for all scenes: sends what pictures in sight show, and nothing that has not changed."""
+
+    def __init__(self, scene: Scene[S], wire: Wire) -> None:
+        self.scene, self.wire = scene, wire
+        self._views: dict[str, Picture[S]] = {view.name: view for view in scene.views}
+        self._axes = {view.name: view.first_axes for view in scene.views}
+        self._canvases = {view.name for view in scene.views if view.kind != "plot"}
+        self._sent: dict[str, Columns] = {}
+        self._state: S | None = None
+
+    def show(self, state: S, hold_axes: bool) -> Report:
+        """Draw what `Scene.compute` has found; the axes stay as they are while a slider is held."""
+        self._state = state
+        for name, view in self._views.items():
+            if name in state.seen:
+                self._set_axes(view, None if hold_axes else view.ranges(state))
+                self.wire.say(name, view.said(state))
+        framed = {source: columns for name in state.seen
+                  for source, columns in self._views[name].framed(state, self._axes[name]).items()}
+        for source, columns in (state.drawn | framed).items():
+            self._put(source, columns)
+        derived, notes = [*state.derived()], [*state.notes()]
+        status = " · ".join([*state.status(), state.work.ended()]).replace("e-", "e−")
+        return Report(derived, status, notes, tuple(state.work.todo), state.work.pieces)
+
+    def fail(self, sentence: str) -> None:
+        """Clear all pictures, and show the sentence in their captions."""
+        self._state = None
+        for name in self.scene.tracks:
+            self._put(f"data-{name}", {})
+        for name, view in self._views.items():
+            for source, columns in view.nothing(sentence, self._axes[name]).items():
+                self._put(source, columns)
+            self.wire.say(name, sentence)
+
+    def pick(self, picture: str, x: float, y: float) -> Values:
+        """The values that a click at (x, y) of a picture chooses."""
+        view = self._views.get(picture)
+        if self._state is None or view is None or view.on_click is None:
+            return {}
+        return view.on_click(self._state, x, y)
+
+    def box(self, picture: str, corners: Corners) -> Values:
+        """The values that a box from (x0, y0) to (x1, y1) of a picture chooses."""
+        view = self._views.get(picture)
+        if self._state is None or view is None or view.on_box is None:
+            return {}
+        return view.on_box(self._state, corners)
+
+    def hover(self, picture: str, x: float, y: float) -> str:
+        """One line on the place (x, y) of a picture.  Raises `ModelError`."""
+        view = self._views.get(picture)
+        if self._state is None or view is None or view.on_hover is None:
+            return ""
+        return view.on_hover(self._state, x, y)
+
+    def _set_axes(self, view: Picture[S], axes: Axes | None) -> None:
+        if axes is not None and axes != self._axes[view.name]:
+            self._axes[view.name] = axes
+            self.wire.put_ranges(view.name, axes.x, axes.y)
+
+    def _put(self, source: str, columns: Columns) -> None:
+        """Send columns that differ from those in the browser."""
+        before = self._sent.get(source, {})
+        # Bokeh wants the columns of a glyph to stay: what is not there any more has no entries.
+        whole = columns if source in self._canvases else {**{name: [] for name in before}, **columns}
+        if not _same(whole, before):
+            self._sent[source] = whole
+            self.wire.put(source, whole)
+
+
+def _same(left: Any, right: Any) -> bool:
+    """Whether two columns, or mappings and lists of them, are equal number by number."""
+    if left is right:
+        return True
+    if isinstance(left, np.ndarray) or isinstance(right, np.ndarray):
+        return (isinstance(left, np.ndarray) and isinstance(right, np.ndarray) and left.shape == right.shape
+                and bool(np.array_equal(left, right)))
+    if isinstance(left, Mapping) and isinstance(right, Mapping):
+        return left.keys() == right.keys() and all(_same(value, right[name]) for name, value in left.items())
+    if isinstance(left, list) and isinstance(right, list):
+        return len(left) == len(right) and all(map(_same, left, right))
+    return bool(left == right)

@@ -1,0 +1,33 @@
+"""Windows of a picture: what of its plane is seen, as a text in the link."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from hess_explorer.protocol.parameters import Value, places, written
+
+__all__ = ["Window", "inside", "tidy_window", "window_of"]
+
+Window = tuple[tuple[float, float], tuple[float, float]]
+"""Two opposite corners of what is seen, the lower left one first."""
+
+
+def tidy_window(text: Value) -> str:
+    """The text of a window with its corners in order; empty where it is none."""
+    corners = places(text)
+    if len(corners) != 2 or corners[0][0] == corners[1][0] or corners[0][1] == corners[1][1]:
+        return ""
+    (x0, y0), (x1, y1) = corners
+    return written([(min(x0, x1), min(y0, y1)), (max(x0, x1), max(y0, y1))])
+
+
+def window_of(text: Value, full: Window) -> Window:
+    """The window that an admitted text means; `full` where it is empty."""
+    corners = places(text)
+    return (corners[0], corners[1]) if len(corners) == 2 else full
+
+
+def inside(points: Sequence[tuple[float, float]], window: Window) -> list[tuple[float, float]]:
+    """Those of the points that lie in the window."""
+    (x0, y0), (x1, y1) = window
+    return [(x, y) for x, y in points if x0 <= x <= x1 and y0 <= y <= y1]

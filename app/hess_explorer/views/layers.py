@@ -1,0 +1,232 @@
+"""What a plot is made of: layers of glyphs, each with a look, a word for the legend, and where its data come from.
+
+A layer is data: `data(state)` gives what it shows of a state, and nothing here remembers anything.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Generic, TypeVar
+
+import numpy as np
+
+from hess_explorer.views import theme
+from hess_mechanics.numerics.results import Array
+
+__all__ = [
+    "Axes", "Columns", "Grid", "Layer", "Range", "Sign", "arrows", "curves", "f32", "image", "levels", "line", "points",
+    "region", "ring", "target", "text",
+]
+
+S = TypeVar("S")
+Range = tuple[float, float]
+Columns = Mapping[str, Any]
+"""Columns of a source by name: arrays, or lists of arrays and plain values."""
+Place = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Axes:
+    """The axes of a plot as they stand; while a slider is held they may be those of an earlier state."""
+
+    x: Range
+    y: Range
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Numbers at the centres of cells (m, n) that fill the rectangle x × y; rows of equal y."""
+
+    cells: Array
+    x: Range
+    y: Range
+
+
+@dataclass(frozen=True)
+class Sign:
+    """One entry of a legend: a word, and a sign of that kind ("line", "dot", "dot small", "box") in a CSS style."""
+
+    label: str
+    kind: str
+    style: str
+
+
+@dataclass(frozen=True)
+class Layer(Generic[S]):
+    """One layer of glyphs.
+
+    name : within the plot; its source is "<plot>-<name>", or "data-<track>" where it draws a track of the scene.
+    glyph : Bokeh's name of it; columns : those of its positions; style : Bokeh's words.
+    data(state) : its columns, none for nothing; within(state, axes) : the same where it depends on the axes.
+    moving : whether it changes with every state: such layers lie above axes and background, which then stay painted.
+    legend : what it adds to the legend of the scene.
+    """
+
+    name: str
+    glyph: str
+    columns: tuple[str, ...]
+    style: Mapping[str, Any]
+    data: Callable[[S], Columns] | None = None
+    within: Callable[[S, Axes], Columns] | None = None
+    track: str | None = None
+    moving: bool = True
+    legend: tuple[Sign, ...] = ()
+
+
+def f32(values: Any) -> Array:
+    """In the single precision that a screen needs, contiguous."""
+    return np.ascontiguousarray(values, dtype=np.float32)
+
+
+def _positions(columns: Sequence[str], value: Any) -> Columns:
+    """Arrays, one for each column; nothing for None."""
+    return {} if value is None else {name: f32(one) for name, one in zip(columns, value, strict=True)}
+
+
+def _parts(value: Sequence[Array] | None) -> Columns:
+    curves_ = [f32(np.asarray(curve).T) for curve in value or ()]
+    return {"xs": [curve[0] for curve in curves_], "ys": [curve[1] for curve in curves_]} if curves_ else {}
+
+
+def _regions(value: Sequence[Sequence[Array]] | None) -> Columns:
+    if not value:
+        return {}
+    polygons = [[f32(np.asarray(curve).T) for curve in one] for one in value]
+    return {"xs": [[[curve[0] for curve in one]] for one in polygons],
+            "ys": [[[curve[1] for curve in one]] for one in polygons]}
+
+
+def _cells(value: Grid | None) -> Columns:
+    if value is None:
+        return {}
+    (x0, x1), (y0, y1) = value.x, value.y
+    return {"image": [f32(value.cells)], "x": [x0], "y": [y0], "dw": [x1 - x0], "dh": [y1 - y0]}
+
+
+def _places(value: Sequence[Place] | None) -> Columns:
+    return {"x": [float(x) for x, _ in value], "y": [float(y) for _, y in value]} if value else {}
+
+
+def _dash(dash: str) -> str:
+    """Bokeh's word for dashes in CSS's."""
+    return {"dotdash": "dashed"}.get(dash, dash)
+
+
+def _signed(label: str, kind: str, style: str) -> tuple[Sign, ...]:
+    return (Sign(label, kind, style),) if label else ()
+
+
+def _layer(layer: Layer[S], convert: Callable[[Any], Columns], data: Callable[[S], Any] | None,
+           within: Callable[[S, Axes], Any] | None) -> Layer[S]:
+    """The layer with its data converted to columns."""
+    return replace(layer, data=None if data is None else lambda state: convert(data(state)),
+                   within=None if within is None else lambda state, axes: convert(within(state, axes)))
+
+
+def line(name: str, data: Callable[[S], Any] | None = None, *, color: str, width: float = 2.0, dash: str = "solid",
+         alpha: float = 1.0, label: str = "", moving: bool = True, columns: tuple[str, str] = ("x", "y"),
+         track: str | None = None, within: Callable[[S, Axes], Any] | None = None) -> Layer[S]:
+    """One curve: data(state) = (x, y), or None; `track`: columns of a track of the scene."""
+    style = {"color": color, "line_width": width, "line_dash": dash, "line_alpha": alpha}
+    sign = _signed(label, "line", f"border-top: {max(2.0, width):g}px {_dash(dash)} {color}")
+    layer: Layer[S] = Layer(name, "line", columns, style, track=track, moving=moving, legend=sign)
+    return _layer(layer, lambda value: _positions(columns, value), data, within)
+
+
+def curves(name: str, data: Callable[[S], Sequence[Array]] | None = None, *, color: str, width: float = 2.0,
+           dash: str = "solid", alpha: float = 1.0, label: str = "", moving: bool = True,
+           within: Callable[[S, Axes], Any] | None = None) -> Layer[S]:
+    """Some curves: data(state) = arrays (n, 2)."""
+    style = {"color": color, "line_width": width, "line_dash": dash, "line_alpha": alpha}
+    sign = _signed(label, "line", f"border-top: {max(2.0, width):g}px {_dash(dash)} {color}")
+    layer: Layer[S] = Layer(name, "multi_line", ("xs", "ys"), style, moving=moving, legend=sign)
+    return _layer(layer, _parts, data, within)
+
+
+def region(name: str, data: Callable[[S], Sequence[Sequence[Array]]] | None = None, *, color: str = theme.FORBIDDEN,
+           edge: str | None = None, label: str = "", moving: bool = False,
+           within: Callable[[S, Axes], Any] | None = None) -> Layer[S]:
+    """Filled parts: data(state) = parts, each an outer closed curve (n, 2) and those of its holes."""
+    style = {"fill_color": color, **({"line_alpha": 0} if edge is None else {"line_color": edge})}
+    sign = _signed(label, "box", f"background: {color}")
+    layer: Layer[S] = Layer(name, "multi_polygons", ("xs", "ys"), style, moving=moving, legend=sign)
+    return _layer(layer, _regions, data, within)
+
+
+def points(name: str, data: Callable[[S], Any] | None = None, *, color: str, size: float, marker: str = "circle",
+           hollow: bool = False, edge: str | None = None, edge_width: float = 1.0, alpha: float = 1.0, label: str = "",
+           moving: bool = True, columns: tuple[str, ...] = ("x", "y"), track: str | None = None,
+           within: Callable[[S, Axes], Any] | None = None) -> Layer[S]:
+    """Markers: data(state) = (x, y), or (x, y, angle), or None."""
+    style: dict[str, Any] = {"marker": marker, "size": size, "line_width": edge_width, "alpha": alpha,
+                             "fill_color": color, "line_color": edge or color}
+    if hollow:
+        style["fill_alpha"] = 0
+    if "angle" in columns:
+        style["angle"] = "angle"
+    small = size < 10 and not hollow
+    look = f"background: none; border: {min(3.0, max(2.0, edge_width)):g}px solid {color}" if hollow else (
+        f"background: {color}" + (f"; border: 1.5px solid {edge}" if edge else ""))
+    sign = _signed(label, "dot small" if small else "dot", look)
+    layer: Layer[S] = Layer(name, "scatter", columns, style, track=track, moving=moving, legend=sign)
+    return _layer(layer, lambda value: _positions(columns, value), data, within)
+
+
+def arrows(name: str, data: Callable[[S], Any] | None = None, *, color: str, size: float = 10.0, alpha: float = 1.0,
+           within: Callable[[S, Axes], Any] | None = None) -> Layer[S]:
+    """Triangles that point along a motion: data(state) = (x, y, angle), angle 0 upwards, or None."""
+    layer: Layer[S] = points(name, data, color=color, size=size, marker="triangle", alpha=alpha,
+                             columns=("x", "y", "angle"), within=within)
+    return replace(layer, style={**layer.style, "line_alpha": 0})
+
+
+def ring(name: str, data: Callable[[S], Sequence[Place]] | None = None, *, color: str = theme.UNSTABLE,
+         size: float = 16.0, width: float = 3.0, label: str = "", columns: tuple[str, str] = ("x", "y"),
+         within: Callable[[S, Axes], Any] | None = None) -> Layer[S]:
+    """Rings about some places [(x, y), …]."""
+    style = {"size": size, "fill_alpha": 0, "line_color": color, "line_width": width}
+    sign = _signed(label, "dot", f"background: none; border: 3px solid {color}")
+    layer: Layer[S] = Layer(name, "scatter", columns, style, legend=sign)
+    return _layer(layer, lambda value: dict(zip(columns, _places(value).values(), strict=False)), data, within)
+
+
+def target(name: str, data: Callable[[S], Sequence[Place]], size: float = 21.0,
+           columns: tuple[str, str] = ("x", "y")) -> tuple[Layer[S], Layer[S]]:
+    """A ring that is seen on any colour: white, and black on it."""
+    return (ring(name, data, color="white", size=size, width=6.0, columns=columns),
+            ring(f"{name}-too", data, color="black", size=size, width=2.5, columns=columns))
+
+
+def image(name: str, data: Callable[[S], Grid | None], *, palette: str | tuple[str, ...], low: float, high: float,
+          legend: tuple[Sign, ...] = ()) -> Layer[S]:
+    """Numbers on a grid, under all other layers."""
+    style = {"palette": palette, "low": low, "high": high}
+    layer: Layer[S] = Layer(name, "image", ("image", "x", "y", "dw", "dh"), style, moving=False,
+                            legend=legend)
+    return _layer(layer, _cells, data, None)
+
+
+def levels(name: str, data: Callable[[S], Sequence[float]]) -> Layer[S]:
+    """Dotted lines across the frame at some heights."""
+
+    def across(state: S, axes: Axes) -> Columns:
+        heights = [float(y) for y in data(state)]
+        (low, high), n = axes.x, len(heights)
+        reach = high - low
+        return {"x0": [low - reach] * n, "y0": heights, "x1": [high + reach] * n, "y1": heights} if n else {}
+
+    style = {"color": theme.MUTED, "line_dash": "dotted", "line_width": 1.5}
+    return Layer(name, "segment", ("x0", "y0", "x1", "y1"), style, within=across)
+
+
+def text(name: str, data: Callable[[S], str]) -> Layer[S]:
+    """A word in the lower right corner of the frame."""
+
+    def there(state: S, axes: Axes) -> Columns:
+        said = data(state)
+        return {"x": [axes.x[1]], "y": [axes.y[0]], "text": [said]} if said else {}
+
+    style = {"text_color": theme.MUTED, "text_font_size": theme.FONT_SIZE, "text_align": "right", "x_offset": -6,
+             "y_offset": -4}
+    return Layer(name, "text", ("x", "y", "text"), style, within=there)

@@ -1,0 +1,91 @@
+"""What every picture of a scene is, whoever draws it in the browser."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar, Generic, TypeVar
+
+from hess_explorer.views.layers import Axes, Columns, Sign
+
+__all__ = ["Corners", "Picture", "Values"]
+
+S = TypeVar("S")
+Values = Mapping[str, float | str]
+Corners = tuple[float, float, float, float]
+"""x0, y0, x1, y1 of two opposite corners."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Picture(ABC, Generic[S]):
+    """One picture on the page, as data: what it shows of a state of its scene, and what the mouse means in it.
+
+    Parameters
+    ----------
+    name, title : identifier; what stands over it, of a state where it depends on that.
+    caption(state) : one or two lines under the title, ending with a full stop.
+    on_click(state, x, y) : the values that a click chooses; on_drag : whether a drag does the same.
+    on_box(state, corners) : the values that a box chooses.
+    on_hover(state, x, y) : a line about the place under the mouse.  Raises `ModelError`.
+    signs : entries of the legend besides those of its layers.
+    folded : what the button says that shows the picture, if it is not seen at first.
+    """
+
+    name: str
+    title: str | Callable[[S], str]
+    caption: Callable[[S], str]
+    on_click: Callable[[S, float, float], Values] | None = None
+    on_drag: bool = False
+    on_box: Callable[[S, Corners], Values] | None = None
+    on_hover: Callable[[S, float, float], str] | None = None
+    signs: tuple[Sign, ...] = ()
+    folded: str = ""
+
+    kind: ClassVar[str]
+    """Who draws it in the browser: "plot" is Bokeh, the others draw on canvases of their own."""
+
+    @property
+    def tracks(self) -> frozenset[str]:
+        """The tracks of the scene that it needs."""
+        return frozenset()
+
+    @property
+    def followers(self) -> Mapping[str, tuple[str, str]]:
+        """Sources of moving points → the columns of the track "orbit" that they follow."""
+        return {}
+
+    @property
+    def legend(self) -> tuple[Sign, ...]:
+        """What it adds to the legend of its scene."""
+        return self.signs
+
+    @property
+    def first_axes(self) -> Axes | None:
+        """Its axes before the first state."""
+        return None
+
+    def describe(self) -> dict[str, Any]:
+        """What the browser needs to know before the first data."""
+        return {"name": self.name, "kind": self.kind}
+
+    def ranges(self, state: S) -> Axes | None:
+        """The axes that fit a state."""
+        return None
+
+    @abstractmethod
+    def data(self, state: S) -> dict[str, Columns]:
+        """The columns of its sources, by the name of the source, but those that depend on the axes."""
+
+    def framed(self, state: S, axes: Axes | None) -> dict[str, Columns]:
+        """The columns of those that do."""
+        return {}
+
+    @abstractmethod
+    def nothing(self, sentence: str, axes: Axes | None) -> dict[str, Columns]:
+        """The columns of its sources where there is nothing to see but the reason."""
+
+    def said(self, state: S) -> str:
+        """The title and the caption."""
+        title = self.title if isinstance(self.title, str) else self.title(state)
+        return f"{title}\n{self.caption(state)}"

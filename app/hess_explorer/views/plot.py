@@ -1,0 +1,125 @@
+"""A planar picture as data: axes, layers, caption, and what a click means.
+
+How it is drawn is for `bokeh_figure` to know; what is told of a state, for the stage of its scene.
+"""
+
+from __future__ import annotations
+
+import math
+import textwrap
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar, TypeVar
+
+from hess_explorer.views import theme
+from hess_explorer.views.layers import Axes, Columns, Layer, Range, Sign
+from hess_explorer.views.picture import Picture
+
+__all__ = ["MESSAGE", "POINT", "Plot"]
+
+S = TypeVar("S")
+Ticks = Sequence[tuple[float, str]]
+
+POINT: Layer[Any] = Layer("point", "scatter", ("x", "y"), {
+    "color": theme.POINT, "line_color": "black", "line_width": 1.5, "size": 13})
+MESSAGE: Layer[Any] = Layer("message", "text", ("x", "y", "text"), {
+    "text_color": theme.MUTED, "text_font_style": "bold", "text_font_size": "15px", "text_align": "center",
+    "text_baseline": "middle"})
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plot(Picture[S]):
+    """A square picture.
+
+    Parameters
+    ----------
+    axes : the names of the axes; x, y : their ranges, of a state where they depend on it.
+    layers : what is drawn, from the back to the front.  The moving point and a message come on top.
+    message(state) : a sentence in the middle of the frame where there is nothing to see; empty for none.
+    dot : columns of the track "orbit" that the moving point follows; dots : further layers that follow it.
+    ticks : positions and labels on both axes, where the usual ones would not do; y_ticks : others on the vertical one.
+    log : the axes that are logarithmic, "x", "y" or "xy".
+    x_ticks : positions on the horizontal axis; y_tick_count : how many labels the vertical one wants.
+    """
+
+    axes: tuple[str, str]
+    x: Range | Callable[[S], Range]
+    y: Range | Callable[[S], Range]
+    layers: tuple[Layer[S], ...]
+    message: Callable[[S], str] | None = None
+    dot: tuple[str, str] | None = None
+    dots: Mapping[str, tuple[str, str]] | None = None
+    ticks: Ticks | None = None
+    y_ticks: Ticks | None = None
+    log: str = ""
+    x_ticks: Sequence[float] | None = None
+    y_tick_count: int | None = None
+
+    kind: ClassVar[str] = "plot"
+
+    @property
+    def events(self) -> tuple[str, ...]:
+        """What the browser tells of the mouse: Bokeh's events, "box" and "hover"."""
+        return (
+            *(("tap", "doubletap") if self.on_click else ()), *(("pan",) if self.on_click and self.on_drag else ()),
+            *(("box",) if self.on_box else ()), *(("hover",) if self.on_hover else ()),
+        )
+
+    @property
+    def followers(self) -> Mapping[str, tuple[str, str]]:
+        """Sources of moving points → the columns of the track "orbit" that they follow."""
+        moving = {**({"point": self.dot} if self.dot else {}), **(self.dots or {})}
+        return {f"{self.name}-{layer}": columns for layer, columns in moving.items()}
+
+    @property
+    def tracks(self) -> frozenset[str]:
+        """The tracks of the scene that it needs."""
+        drawn = {layer.track for layer in self.layers if layer.track is not None}
+        return frozenset(drawn | ({"orbit"} if self.followers else set()))
+
+    @property
+    def legend(self) -> tuple[Sign, ...]:
+        """What it adds to the legend of its scene."""
+        moving = (Sign("moving point", "dot", f"background: {theme.POINT}; border: 1.5px solid"),)
+        return (*(sign for layer in self.layers for sign in layer.legend), *self.signs,
+                *(moving if self.dot is not None else ()))
+
+    @property
+    def first_axes(self) -> Axes:
+        """The axes before the first state: any that are possible, where they depend on it."""
+        x, y = ((1.0, 10.0) if side in self.log else (0.0, 1.0) for side in "xy")
+        return Axes(x if callable(self.x) else self.x, y if callable(self.y) else self.y)
+
+    def source_of(self, layer: Layer[S]) -> str:
+        """The name of the source of a layer."""
+        return f"data-{layer.track}" if layer.track else f"{self.name}-{layer.name}"
+
+    def ranges(self, state: S) -> Axes:
+        """The axes that fit a state."""
+        return Axes(self.x(state) if callable(self.x) else self.x, self.y(state) if callable(self.y) else self.y)
+
+    def data(self, state: S) -> dict[str, Columns]:
+        """The columns of its own sources, but those that depend on the axes."""
+        return {self.source_of(layer): layer.data(state) for layer in self.layers if layer.data is not None}
+
+    def framed(self, state: S, axes: Axes | None) -> dict[str, Columns]:
+        """The columns of those that do."""
+        assert axes is not None
+        found = {self.source_of(layer): layer.within(state, axes) for layer in self.layers if layer.within is not None}
+        sentence = "" if self.message is None else self.message(state)
+        return {**found, f"{self.name}-message": self._said(sentence, axes)}
+
+    def nothing(self, sentence: str, axes: Axes | None) -> dict[str, Columns]:
+        """The columns of all its sources where there is nothing to see but the reason."""
+        assert axes is not None
+        empty: dict[str, Columns] = {self.source_of(layer): {} for layer in (*self.layers, POINT)}
+        return {**empty, f"{self.name}-message": self._said(sentence, axes)}
+
+    def _said(self, sentence: str, axes: Axes) -> Columns:
+        return {} if not sentence else {
+            "x": [_middle(axes.x, "x" in self.log)], "y": [_middle(axes.y, "y" in self.log)],
+            "text": [textwrap.fill(sentence, 24)]}
+
+
+def _middle(axis: Range, log: bool) -> float:
+    return math.sqrt(axis[0] * axis[1]) if log else (axis[0] + axis[1]) / 2
