@@ -300,7 +300,7 @@ def own_sources(board, name):
         own |= {model.name for model in references if isinstance(model, ColumnDataSource)}
     found = {key: data for key, data in board.sources.items() if key in own}
     # In the orbit that all share: not what only the moving point of another picture needs.
-    dots = board.stage.dots.items()
+    dots = board.scene.dots.items()
     others = {column for dot, columns in dots if not dot.startswith(f"{name}-") for column in columns}
     needed = {column for dot, columns in dots if dot.startswith(f"{name}-") for column in columns}
     alone = others - needed - {"t", "g1", "g2", "g3", "omega1", "omega2"}

@@ -11,7 +11,6 @@ from axe_playwright_python.sync_playwright import Axe
 from PIL import Image, ImageStat
 
 from hess_explorer.headless.browser import wait_ready
-from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from support.page import HESS, SLIDERS, STUDY, Explorer
 
@@ -63,7 +62,7 @@ def tell(page, name, detail=None):
 
 def planar(scene):
     """The names of the pictures that Bokeh draws."""
-    return [picture.name for picture in scenes()[scene].stage(Wire()).pictures if picture.kind == "plot"]
+    return [picture.name for picture in scenes()[scene].views if picture.kind == "plot"]
 
 
 def drawing(page, name):

@@ -14,7 +14,6 @@ import pytest
 
 from hess_explorer.headless.browser import wait_ready
 from hess_explorer.headless.screenshot import running_server
-from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_mechanics import level, solve, systems
 from hess_mechanics.numerics.accuracy import LEVELS
@@ -287,7 +286,7 @@ def test_ten_changes_in_quick_succession_leave_one_scene_and_nothing_of_the_othe
 
 
 SPHERES = [name for name, scene in SCENES.items()
-           if scene.origin is None and any(one.kind == one.name == "sphere" for one in scene.stage(Wire()).pictures)]
+           if scene.origin is None and any(one.kind == one.name == "sphere" for one in scene.views)]
 
 
 def test_the_spheres_of_all_scenes_are_seen_from_the_same_side_as_the_link_says(explorer):

@@ -16,6 +16,7 @@ import pytest
 
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.protocol.wire import Wire
+from hess_explorer.scenes.framework.stage import Stage
 from hess_mechanics.errors import ModelError, WorkLimit
 from support.ball import (
     BALL,
@@ -39,7 +40,7 @@ class View:
 
     def __init__(self, scene, values, dragging=False):
         wire = Wire()
-        stage = scene.stage(wire)
+        stage = Stage(scene, wire)
         self.values, notes = scene.admit({**scene.defaults(), **values})
         assert notes == []
         self.result = scene.compute(self.values, scene.pictures, dragging)

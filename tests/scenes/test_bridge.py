@@ -14,6 +14,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from hess_explorer.protocol.wire import Wire
+from hess_explorer.scenes.framework.stage import Stage
 from hess_mechanics import solve
 from hess_mechanics.errors import InvalidParameter, ModelError, NoField, Separatrix
 from hess_mechanics.numerics.accuracy import LEVELS, REFERENCE
@@ -28,7 +29,7 @@ class View:
 
     def __init__(self, scene, values, dragging=False, seen=None):
         wire = Wire()
-        stage = scene.stage(wire)
+        stage = Stage(scene, wire)
         self.values, self.admitted = scene.admit({**scene.defaults(), **values})
         result = scene.compute(self.values, scene.pictures if seen is None else seen, dragging)
         self.report = stage.show(result, False)

@@ -24,6 +24,7 @@ from hess_explorer.protocol.parameters import Number, Places, decode, written
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import speed_accuracy
 from hess_explorer.scenes.framework.scene import Report
+from hess_explorer.scenes.framework.stage import Stage
 from hess_explorer.views.text import with_formulas
 from hess_mechanics import circle_map, f_max, level
 from hess_mechanics.errors import InvalidParameter, ModelError
@@ -97,7 +98,7 @@ def test_a_legend_is_a_list_and_a_thumbnail_a_drawing(scene):
 
 @every_scene
 def test_a_scene_names_its_pictures_in_the_order_in_which_they_stand(scene):
-    stage = scene.stage(Wire())
+    stage = Stage(scene, Wire())
     assert tuple(picture.name for picture in stage.pictures) == scene.pictures
     assert len(set(scene.pictures)) == len(scene.pictures)
     # A caption is the text of its picture's name: the other texts of the page have others.
@@ -139,7 +140,7 @@ def test_the_pictures_of_a_description_are_empty_and_belong_to_no_session(scene)
 @every_scene
 def test_the_player_and_the_sphere_find_their_columns(scene):
     board, _ = shown(scene, scene.defaults())
-    dots, angles = board.stage.dots, board.stage.angles
+    dots, angles = scene.dots, scene.angles
     assert description(scene.name)["dots"] == {source: list(columns) for source, columns in dots.items()}
     assert description(scene.name)["angles"] == list(angles)
     assert set(dots) <= set(board.sources)

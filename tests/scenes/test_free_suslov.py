@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 from hess_explorer.protocol.wire import Wire
+from hess_explorer.scenes.framework.stage import Stage
 from hess_explorer.scenes.scattering import PRESETS as EXAMPLES
 from hess_mechanics.errors import ModelError
 from hess_mechanics.suslov.additional_integral import formula
@@ -43,7 +44,7 @@ class View:
 
     def __init__(self, scene, values, dragging=False):
         wire = Wire()
-        stage = scene.stage(wire)
+        stage = Stage(scene, wire)
         self.values, notes = scene.admit({**scene.defaults(), **values})
         assert notes == []
         self.result = scene.compute(self.values, scene.pictures, dragging)

@@ -11,6 +11,7 @@ import pytest
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
+from hess_explorer.scenes.framework.stage import Stage
 from hess_mechanics import level, solve, systems
 from hess_mechanics.errors import NoField, OutsideRegion
 from hess_mechanics.suslov.kharlamova import arc, state_at
@@ -27,7 +28,7 @@ class View:
 
     def __init__(self, scene, values, dragging=False):
         wire = Wire()
-        self.stage = scene.stage(wire)
+        self.stage = Stage(scene, wire)
         self.values, notes = scene.admit({**scene.defaults(), **values})
         assert notes == []
         self.result = scene.compute(self.values, scene.pictures, dragging)

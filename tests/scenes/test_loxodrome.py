@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from hess_explorer.protocol.wire import Wire
+from hess_explorer.scenes.framework.stage import Stage
 from hess_explorer.scenes.framework.work import ACCURACY
 from hess_mechanics.errors import ModelError
 from support.loxodrome import HESS, LOXODROME, clock, slope, swing_at
@@ -22,7 +23,7 @@ class View:
 
     def __init__(self, scene, values, shown=None, dragging=False):
         wire = Wire()
-        stage = scene.stage(wire)
+        stage = Stage(scene, wire)
         self.values, notes = scene.admit({**scene.defaults(), **values})
         assert notes == []
         self.result = scene.compute(self.values, scene.pictures if shown is None else shown, dragging)

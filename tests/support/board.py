@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import importlib
 import json
-import pkgutil
 from functools import cache
 from types import SimpleNamespace
 from urllib.parse import parse_qs
@@ -14,12 +12,13 @@ import pytest
 from bokeh.document import Document
 from bokeh.models import ColumnDataSource
 
-import hess_explorer.scenes
 from hess_explorer.page.description import describe
 from hess_explorer.page.session import Session
 from hess_explorer.protocol.parameters import Number, Places, decode
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
+from hess_explorer.scenes.framework import work
+from hess_explorer.scenes.framework.stage import Stage
 from support.wire import read
 
 SCENES = scenes()
@@ -29,9 +28,7 @@ ACCURACY = SCENES["suslov-hess-accuracy"]
 
 def modules_of_scenes():
     """The modules that compute for scenes, each with the process's cache."""
-    modules = (importlib.import_module(f"hess_explorer.scenes.{one.name}")
-               for one in pkgutil.iter_modules(hess_explorer.scenes.__path__))
-    return [module for module in modules if hasattr(module, "CACHE")]
+    return [work]
 
 
 @cache
@@ -51,14 +48,14 @@ def plots_of(name):
 def empty_sources(name):
     """The sources of a scene's pictures before there are data: those of its plots, and one for each other picture."""
     # HoloViews has one of its own for the background of each.
-    found = [model for root in plots_of(name).values() for model in root.references()
-             if isinstance(model, ColumnDataSource) and model.name is not None]
+    found = {model.id: model for root in plots_of(name).values() for model in root.references()
+             if isinstance(model, ColumnDataSource) and model.name is not None}.values()
     assert len({model.name for model in found}) == len(found)
     others = {picture["name"]: {} for picture in description(name)["pictures"] if picture["kind"] != "plot"}
     empty = {model.name: dict(model.data) for model in found}
     assert not any(column for columns in empty.values() for column in columns.values())
     assert not set(empty) & set(others)
-    return {**empty, **others}
+    return {**{track: {} for track in description(name)["tracks"]}, **empty, **others}
 
 
 class Screen:
@@ -92,7 +89,7 @@ class Board(Screen):
     def __init__(self, scene):
         super().__init__(scene.name)
         self.scene, self.wire = scene, Wire()
-        self.stage = scene.stage(self.wire)
+        self.stage = Stage(scene, self.wire)
 
     def receive(self):
         tree, block = self.wire.pack()
@@ -209,7 +206,7 @@ class Browser:
             value = values[spec.name]
             if isinstance(spec, Number):
                 assert isinstance(value, float)
-                assert spec.lowest <= value <= spec.highest
+                assert spec.bounds[0] <= value <= spec.bounds[1]
             elif isinstance(spec, Places):
                 assert spec.read(value) == (value, None)
             else:

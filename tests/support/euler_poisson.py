@@ -11,6 +11,7 @@ from hess_explorer.protocol.parameters import places
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.euler_poisson import body_of
+from hess_explorer.scenes.framework.stage import Stage
 from hess_mechanics.euler_poisson.andoyer import state_at
 from support.wire import read
 
@@ -23,7 +24,7 @@ class View:
 
     def __init__(self, values, dragging=False, shown=EP.pictures):
         wire = Wire()
-        stage = EP.stage(wire)
+        stage = Stage(EP, wire)
         self.values, notes = EP.admit({**EP.defaults(), **values})
         assert notes == []
         self.result = EP.compute(self.values, shown, dragging)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
+from hess_explorer.scenes.framework.stage import Stage
 
 SCENE = scenes()["singular-measures"]
 
@@ -12,7 +13,7 @@ SCENE = scenes()["singular-measures"]
 def captions(values):
     """The texts beside the pictures, by their names."""
     wire = Wire()
-    SCENE.stage(wire).show(complete(SCENE.admit(values)[0]), False)
+    Stage(SCENE, wire).show(complete(SCENE.admit(values)[0]), False)
     return wire.pack()[0]["texts"]
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.protocol.wire import Wire
+from hess_explorer.scenes.framework.stage import Stage
 from support.numbers import NUMBER
 from support.wire import read
 
@@ -20,7 +21,7 @@ class Settled:
 
     def __init__(self, scene, values, dragging=False, seen=None):
         self.wire = Wire()
-        self.stage = scene.stage(self.wire)
+        self.stage = Stage(scene, self.wire)
         self.values, self.notes = scene.admit({**scene.defaults(), **values})
         seen = scene.pictures if seen is None else seen
         self.first = self.stage.show(scene.compute(self.values, seen, dragging), False)

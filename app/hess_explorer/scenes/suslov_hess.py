@@ -268,8 +268,7 @@ class SuslovHess(State):
             return "Separatrix: no return."
         points = {"hyperbolic": f"multipliers {', '.join(digits(point.multiplier) for point in theta.fixed_points)}",
                   "parabolic": "multiplier 1"}.get(theta.kind, "no fixed point")
-        sign = ";" if theta.kind != "elliptic" else ";"
-        return f"{theta.kind}, |trace| {digits(theta.trace, 5)}, ρ = {digits(theta.rotation_number)}{sign} {points}."
+        return f"{theta.kind}, |trace| {digits(theta.trace, 5)}, ρ = {digits(theta.rotation_number)}; {points}."
 
     def about_body(self) -> str:
         """The caption of the body."""

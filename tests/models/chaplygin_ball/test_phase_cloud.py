@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 import oracle
 from hess_explorer.protocol.wire import Wire
+from hess_explorer.scenes.framework.stage import Stage
 from hess_mechanics import ensemble, level, solve, systems
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud import (
@@ -420,9 +421,9 @@ def test_fewer_points_until_all_of_them_are_known(beside):
 
 
 def test_a_click_in_the_plane_chooses_a_patch_there():
-    picked = SCENE.stage(Wire()).pick("omega", -1.0, 1.0)
+    picked = Stage(SCENE, Wire()).pick("omega", -1.0, 1.0)
     assert picked == {"start": "small patch", "angle": pytest.approx(0.75 * math.pi)}
-    assert SCENE.stage(Wire()).pick("sphere", 1.0, 1.0) == {}
+    assert Stage(SCENE, Wire()).pick("sphere", 1.0, 1.0) == {}
 
 
 def test_what_another_scene_left_is_put_within_bounds():

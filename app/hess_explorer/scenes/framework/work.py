@@ -1,4 +1,4 @@
-"""The computation of one state: at which level, what comes from the cache, what can wait, and what the status line says."""
+"""The computation of one state: at which level, what comes from the cache, what can wait."""
 
 from __future__ import annotations
 
