@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import functools
 import gc
 import itertools
@@ -20,7 +19,18 @@ from hess_explorer.page import session
 from hess_explorer.scenes import suslov_hess
 from hess_explorer.server import warm
 from hess_mechanics.errors import WorkLimit
-from support.board import ACCURACY, HESS, SCENES, Board, Browser, contents, elsewhere, modules_of_scenes, plots_of
+from support.board import (
+    ACCURACY,
+    HESS,
+    SCENES,
+    Board,
+    Browser,
+    contents,
+    elsewhere,
+    modules_of_scenes,
+    plots_of,
+    variant,
+)
 
 every_scene = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
 
@@ -555,7 +565,7 @@ def test_a_scene_that_refuses_its_first_state_keeps_no_other_from_being_ready(ca
         raise WorkLimit("Too many steps: choose a shorter time span.")
 
     scenes = [*SCENES.values()]
-    refusing = [dataclasses.replace(scene, compute=refuse) if i == 1 else scene for i, scene in enumerate(scenes[:3])]
+    refusing = [variant(scene, compute=refuse) if i == 1 else scene for i, scene in enumerate(scenes[:3])]
     monkeypatch.setattr(warm, "scenes", lambda: {scene.name: scene for scene in refusing})
     monkeypatch.setattr(warm, "QUIET_SECONDS", 0.0)
     warm.warm()

@@ -8,7 +8,6 @@ import logging
 import math
 import re
 import time
-from functools import cache
 from xml.etree import ElementTree
 
 import numpy as np
@@ -21,10 +20,8 @@ from hypothesis import strategies as st
 from hess_explorer.page import session
 from hess_explorer.page.description import describe
 from hess_explorer.protocol.parameters import Number, Places, decode, written
-from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import speed_accuracy
 from hess_explorer.scenes.framework.scene import Report
-from hess_explorer.scenes.framework.stage import Stage
 from hess_explorer.views.text import with_formulas
 from hess_mechanics import circle_map, f_max, level
 from hess_mechanics.errors import InvalidParameter, ModelError
@@ -42,6 +39,7 @@ from support.board import (
     plots_of,
     said,
     shown,
+    variant,
 )
 from support.mechanics import PROPERTY
 
@@ -98,8 +96,7 @@ def test_a_legend_is_a_list_and_a_thumbnail_a_drawing(scene):
 
 @every_scene
 def test_a_scene_names_its_pictures_in_the_order_in_which_they_stand(scene):
-    stage = Stage(scene, Wire())
-    assert tuple(picture.name for picture in stage.pictures) == scene.pictures
+    assert tuple(view.name for view in scene.views) == scene.pictures
     assert len(set(scene.pictures)) == len(scene.pictures)
     # A caption is the text of its picture's name: the other texts of the page have others.
     assert not set(scene.pictures) & {"status", "notes", "derived", "busy"}
@@ -157,12 +154,12 @@ def test_the_player_and_the_sphere_find_their_columns(scene):
 def test_a_scene_that_looks_into_another_one_has_its_parameters(scene):
     if scene.origin is None:
         looking = [one for one in SCENES.values() if one.origin == scene.name]
-        assert len(looking) == (scene.motion is not None)
+        assert len(looking) == scene.has_motion
         return
     origin = SCENES[scene.origin]
-    assert origin.motion is not None
+    assert origin.has_motion
     assert (scene.specs, scene.presets) == (origin.specs, origin.presets)
-    assert scene.motion is None
+    assert not scene.has_motion
 
 
 @every_scene
@@ -289,12 +286,6 @@ def in_sight(scene):
     return st.one_of(st.just(set(scene.pictures)), st.sets(st.sampled_from(scene.pictures)))
 
 
-@cache
-def lasting_board(name):
-    """A board that has shown a state."""
-    return shown(SCENES[name], SCENES[name].defaults())[0]
-
-
 def assert_within_the_axes(board):
     """Every line and marker of what is fresh lies in its picture; so on a logarithmic axis it is positive."""
     seen = set()
@@ -319,8 +310,7 @@ def assert_within_the_axes(board):
 
 def assert_drawn(scene, values, seen, dragging):
     """Any values are admitted, computed and drawn: finite numbers, in the pictures' axes, and words beside them."""
-    board = lasting_board(scene.name)
-    getattr(board.stage, "_drawn", {}).clear()  # the same state again is to be drawn again
+    board = Board(scene)
     admitted, _ = scene.admit(values)
     board.texts.clear()
     try:
@@ -543,7 +533,7 @@ def test_a_request_without_a_change_computes_nothing():
         calls.append(values)
         return HESS.compute(values, shown, dragging)
 
-    browser = Browser(dataclasses.replace(HESS, compute=compute))
+    browser = Browser(variant(HESS, compute=compute))
     for requested in (1, 2, 3):
         state = browser.ask(requested)
         assert state["answers"] == requested
@@ -615,7 +605,7 @@ def test_a_computation_that_raises_draws_the_sentence_in_empty_pictures(error, s
             raise error
         return HESS.compute(values, shown, dragging)
 
-    browser = Browser(dataclasses.replace(HESS, compute=compute))
+    browser = Browser(variant(HESS, compute=compute))
     with caplog.at_level(logging.ERROR):
         browser.ask(values={"h": 3.0})
     for name in ("omega", "sphere", "bifurcation", "circle"):
@@ -640,7 +630,7 @@ def test_a_first_state_that_cannot_be_computed_is_said_too(caplog):
     def compute(values, shown, dragging):
         raise InvalidParameter("This is beyond us: choose less.")
 
-    browser = Browser(dataclasses.replace(HESS, compute=compute))
+    browser = Browser(variant(HESS, compute=compute))
     assert re.fullmatch(r"This is beyond us: choose less\. · cache \d+ hits, \d+ misses", browser.texts["status"])
     assert said(browser.data["circle-message"]) == ["This is beyond us: choose less."]
     assert flat(browser.data["data-orbit"].get("omega1", [])) == []
@@ -777,8 +767,8 @@ def test_from_any_scene_to_any_other_and_back_everything_is_of_the_state():
 
 
 def test_a_parameter_that_only_the_new_scene_has_takes_its_default(monkeypatch):
-    extra = Number("extra", "x", "Extra", 2.0, 1.0, 3.0, 0.1, 0.0, 4.0)
-    other = dataclasses.replace(HESS, name="other", specs=(*HESS.specs[1:], extra), admit=lambda values: (values, []),
+    extra = Number("extra", "x", "Extra", 2.0, (1.0, 3.0), 0.1, (0.0, 4.0))
+    other = variant(HESS, name="other", specs=(*HESS.specs[1:], extra), admit=lambda values: (values, []),
                                 compute=lambda values, *rest: HESS.compute(HESS.defaults() | values, *rest))
     monkeypatch.setitem(SCENES, other.name, other)
     browser = Browser(HESS)
@@ -798,7 +788,7 @@ def test_a_parameter_that_only_the_new_scene_has_takes_its_default(monkeypatch):
 def other(monkeypatch):
     """Another scene, of the same parameters with other defaults, and one more; impossible for h > 2."""
     own = {"h": 1.75, "f": 0.25}
-    extra = Number("extra", "x", "Extra", 2.0, 1.0, 3.0, 0.1, 0.0, 4.0)
+    extra = Number("extra", "x", "Extra", 2.0, (1.0, 3.0), 0.1, (0.0, 4.0))
     specs = tuple(dataclasses.replace(spec, default=own.get(spec.name, spec.default)) for spec in HESS.specs)
 
     def compute(values, *rest):
@@ -806,7 +796,7 @@ def other(monkeypatch):
             raise InvalidParameter("Too fast here: choose h below 2.")
         return HESS.compute(values, *rest)
 
-    scene = dataclasses.replace(HESS, name="other", specs=(*specs, extra), compute=compute)
+    scene = variant(HESS, name="other", specs=(*specs, extra), compute=compute)
     monkeypatch.setitem(SCENES, scene.name, scene)
     return scene
 
@@ -855,7 +845,7 @@ def test_a_scene_that_cannot_be_computed_is_entered_with_its_sentence(monkeypatc
     def compute(values, shown, dragging):
         raise InvalidParameter("This is beyond us: choose less.")
 
-    broken = dataclasses.replace(ACCURACY, compute=compute)
+    broken = variant(ACCURACY, compute=compute)
     monkeypatch.setattr(session, "scenes", lambda: {HESS.name: HESS, broken.name: broken})
     browser = Browser(HESS)
     state = browser.ask(1, scene=broken.name)

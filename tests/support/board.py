@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 from functools import cache
 from types import SimpleNamespace
@@ -128,7 +129,16 @@ def said(message):
 
 
 def contents(sources):
-    return {name: {key: flat(column) for key, column in columns.items()} for name, columns in sources.items()}
+    """What is drawn: an empty column is the same as none."""
+    flattened = {name: {key: flat(column) for key, column in columns.items()} for name, columns in sources.items()}
+    return {name: {key: column for key, column in columns.items() if column} for name, columns in flattened.items()}
+
+
+def variant(scene, **changed):
+    """The scene with other attributes or methods; a function in the place of a method takes no `self`."""
+    members = {name: staticmethod(value) if callable(value) else value for name, value in changed.items()}
+    kind = type("Variant", (type(scene),), members)
+    return kind(**{one.name: getattr(scene, one.name) for one in dataclasses.fields(scene)})
 
 
 def shown(scene, values, board=None, hold_axes=False):
