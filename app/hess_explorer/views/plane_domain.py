@@ -2,61 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import TypeVar
 
-import numpy as np
-
-from hess_explorer.protocol.wire import Wire
 from hess_explorer.views import theme
-from hess_explorer.views.figure import Figure, columns_of
+from hess_explorer.views.layers import Axes, Columns, Layer, curves, f32, line, region, ring
+from hess_explorer.views.velocity_plane import square
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["PlaneDomain", "plane_columns"]
+__all__ = ["ground", "orbit", "plane_columns"]
 
-COLUMNS = ("q1", "q2", "g1", "g2", "g3")
-
-
-def plane_columns(q: Array, gamma: Array) -> dict[str, Array]:
-    """The columns of a motion, q (m, 2) and γ (m, 3), for this plane and the sphere."""
-    return dict(columns_of(np.hstack([q, gamma]), COLUMNS))
+S = TypeVar("S")
 
 
-class PlaneDomain(Figure):
-    """Grey: impossible.  The source `data-orbit` feeds the sphere too.  A click starts an orbit there."""
+def plane_columns(times: Array, q: Array, gamma: Array, **more: Array) -> Columns:
+    """The columns of a motion for this plane and the sphere: q (m, 2), γ (m, 3), and further ones for the player."""
+    return {"t": f32(times), "q1": f32(q[:, 0]), "q2": f32(q[:, 1]),
+            **{f"g{i + 1}": f32(gamma[:, i]) for i in range(3)}, **{name: f32(one) for name, one in more.items()}}
 
-    def __init__(self, wire: Wire) -> None:
-        super().__init__(wire, "domain", ("q₁", "q₂"), (-1.5, 1.5), (-1.5, 1.5), picks=("tap", "doubletap"))
-        self.add("forbidden", "multi_polygons", ("xs", "ys"), moving=False, color=theme.FORBIDDEN, line_alpha=0)
-        self.add("levels", "multi_line", ("xs", "ys"), color=theme.MUTED, line_width=1)
-        self.add("path", "multi_line", ("xs", "ys"), color=theme.ORBIT, line_alpha=0.7, line_width=1.5,
-                 line_dash="dotted")
-        self.add("stable", "multi_line", ("xs", "ys"), color=theme.STABLE, line_width=3)
-        self.add("unstable", "multi_line", ("xs", "ys"), color=theme.UNSTABLE, line_width=3, line_dash="dashed")
-        self.add("orbit", "line", COLUMNS, source="data-orbit", color=theme.ORBIT, line_width=2)
-        self.add("start", "scatter", ("x", "y"), size=16, fill_alpha=0, line_color=theme.UNSTABLE, line_width=3)
-        self.add("mirror", "scatter", ("x", "y"), color=theme.MAP, line_color="black", line_width=1.5, size=11)
-        self.add_point_and_message()
 
-    def show_forbidden(self, parts: Sequence[Sequence[Array]]) -> None:
-        """Grey parts, each an outer closed curve (m, 2) and those of its holes."""
-        self.assign("forbidden", xs=[[[curve[:, 0] for curve in one]] for one in parts],
-                    ys=[[[curve[:, 1] for curve in one]] for one in parts])
+def ground(edge: Callable[[S], Array], forbidden: Callable[[S], Sequence[Array]],
+           levels: Callable[[S], Sequence[Array]]) -> tuple[Layer[S], Layer[S]]:
+    """What lies under the orbit: grey outside the edge (n, 2) and inside closed curves (n, 2); equipotentials (n, 2)."""
 
-    def frame(self, half_width: float) -> Array:
-        """A square (4, 2) around all that is to be seen, for `show_forbidden`."""
-        # Axes that are held may be the larger ones.
-        r = 2.0 * max(half_width, self.x_range[1])
-        return np.array([[-r, -r], [r, -r], [r, r], [-r, r]])
+    def grey(state: S, axes: Axes) -> list[list[Array]]:
+        outer = edge(state)
+        # Axes that are held may be smaller than the domain, or larger.
+        frame = square(2.0 * max(axes.x[1], float(abs(outer).max())))
+        return [[frame, outer], *([part] for part in forbidden(state))]
 
-    def show_curves(self, layer: str, curves: Sequence[Array]) -> None:
-        """Curves (m, 2) of the layer "levels", "path", "stable" or "unstable"."""
-        self.assign(layer, xs=[curve[:, 0].astype(np.float32) for curve in curves],
-                    ys=[curve[:, 1].astype(np.float32) for curve in curves])
+    return (region("forbidden", within=grey, label="impossible"),
+            curves("levels", levels, color=theme.MUTED, width=1, label="equipotentials"))
 
-    def show_start(self, q: Sequence[float]) -> None:
-        """A ring where the orbit starts."""
-        self.assign("start", x=[float(q[0])], y=[float(q[1])])
 
-    def fit(self, half_width: float) -> None:
-        """Axes ± half_width."""
-        self.set_ranges((-half_width, half_width), (-half_width, half_width))
+def orbit(start: Callable[[S], tuple[float, float]]) -> tuple[Layer[S], Layer[S]]:
+    """The track of the orbit, and a ring where it starts."""
+    return (line("orbit", track="orbit", columns=("q1", "q2"), color=theme.ORBIT, label="orbit"),
+            ring("start", lambda s: [start(s)]))
