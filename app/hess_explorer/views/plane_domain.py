@@ -23,7 +23,7 @@ def plane_columns(times: Array, q: Array, gamma: Array, **more: Array) -> Column
 
 def ground(edge: Callable[[S], Array], forbidden: Callable[[S], Sequence[Array]],
            levels: Callable[[S], Sequence[Array]]) -> tuple[Layer[S], Layer[S]]:
-    """What lies under the orbit: grey outside the edge (n, 2) and inside closed curves (n, 2); equipotentials (n, 2)."""
+    """What lies under the orbit: grey outside the edge (n, 2) and inside closed curves; equipotentials."""
 
     def grey(state: S, axes: Axes) -> list[list[Array]]:
         outer = edge(state)
