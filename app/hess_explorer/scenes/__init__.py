@@ -20,7 +20,6 @@ _UNCONVERTED = {
     "euler_poisson",
     "free_suslov",
     "hess_leak",
-    "kharlamova",
     "quartic",
     "rotation_number",
     "scattering",

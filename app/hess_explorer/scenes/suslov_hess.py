@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from hess_explorer.scenes.framework.parameters import accuracy_level, number
+from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, number, slider_within
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import bifurcation_diagram as diagram
@@ -87,13 +87,9 @@ class SuslovHess(State):
             notes.append(f"At h = {digits(self.h)} only |f| ≤ {digits(largest)} is possible: f is at that edge now.")
         return state
 
-    def limits(self) -> Mapping[str, tuple[float, float, float]]:
+    def limits(self) -> Mapping[str, Slider]:
         """The slider of f spans the region at this h, in round steps."""
-        largest = f_max(self.h)
-        digits = 2 - math.floor(math.log10(largest))
-        step = float(f"1e{-digits}")
-        end = round(math.floor(largest / step) * step, digits)
-        return {"f": (-end, end, step)}
+        return {"f": slider_within(f_max(self.h))}
 
     @cached_property
     def body(self) -> HessBody:

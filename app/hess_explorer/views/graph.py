@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["branches", "thinned"]
+__all__ = ["branches", "pieces", "thinned"]
 
 _POINTS = 600
 """Of a curve over a long time, as many as a picture shows."""
@@ -29,3 +31,10 @@ def branches(x: Array, y: Array, period: float) -> list[Array]:
     at = np.repeat(cuts + 1, 2)
     x, y = np.insert(x, at, np.column_stack([edges, -edges]).ravel()), np.insert(y, at, np.repeat(heights, 2))
     return np.split(np.column_stack([x, y]), cuts + 2 + 2 * np.arange(cuts.size))
+
+
+def pieces(curve: Array, kept: Array, jump: float = math.inf) -> list[Array]:
+    """For `curves`: the parts of one (n, 2) along which `kept` (n,) holds, not joined across jumps in height."""
+    cuts = np.flatnonzero(~kept[1:] | ~kept[:-1] | (np.abs(np.diff(curve[:, 1])) > jump)) + 1
+    return [part for part, whole in zip(np.split(curve, cuts), np.split(kept, cuts), strict=True)
+            if whole.all() and len(part) > 1]

@@ -22,14 +22,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hess_mechanics.dynamics.orbit import solve
+from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA, sample_times
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.results import Array, Orbit, frozen
 from hess_mechanics.rigid_body.inertia import require_finite, require_positive_definite
+from hess_mechanics.suslov.equations import SYSTEM
 from hess_mechanics.suslov.kharlamova_kernels import arcs
 
 __all__ = [
-    "Arc", "PlaneBody", "arc", "fixed_point_kinds", "mirrored", "periods", "rescaled_time", "state_at", "to_plane",
+    "MOST_SAMPLES", "Arc", "PlaneBody", "arc", "equipotentials", "fixed_point_kinds", "forbidden", "mirrored",
+    "missed", "periods", "periods_all_round", "rescaled_time", "sampled_orbit", "state_at", "to_plane",
 ]
+
+MOST_SAMPLES = 6000
+"""Of an orbit, for a picture."""
 
 _ON_EQUATOR = 1e-12
 
@@ -62,6 +70,21 @@ class PlaneBody:
         """√I11, √I22: the half axes of the domain `Biz1360`."""
         return math.sqrt(self.I11), math.sqrt(self.I22)
 
+    def energy(self, state: Sequence[float]) -> float:
+        """E of a state (5,)."""
+        return float(SYSTEM.integrals(state, self.parameters)["E"])
+
+    def pixels_per_unit(self, h: float) -> tuple[float, ...]:
+        """For each variable, in pictures where ω that is as large as the energy h allows fills half the width."""
+        radius = 0.5 * PIXELS
+        largest = 2.0 * max(h + math.hypot(self.b1, self.b2), 1e-300)
+        return (radius * math.sqrt(self.I11 / largest), radius * math.sqrt(self.I22 / largest), radius, radius, radius)
+
+    def place(self, u: Array) -> Array:
+        """q (m, 2) of u = (γ1, γ2), (m, 2)."""
+        r1, r2 = self.axes
+        return np.column_stack([r1 * u[:, 1], -r2 * u[:, 0]])
+
     def potential(self, q: Array) -> Array:
         """V of `eqs03` at q (..., 2); the field is V = b2 q1/√I11 − b1 q2/√I22 (`Biz136`, its signs corrected)."""
         r1, r2 = self.axes
@@ -71,8 +94,7 @@ class PlaneBody:
 def to_plane(body: PlaneBody, states: Array) -> tuple[Array, Array]:
     """q and p (m, 2) of `Biz136` from states (m, 5); on γ3 < 0 too."""
     r1, r2 = body.axes
-    return (np.column_stack([r1 * states[:, 3], -r2 * states[:, 2]]),
-            np.column_stack([r1 * states[:, 0], r2 * states[:, 1]]))
+    return body.place(states[:, 2:4]), np.column_stack([r1 * states[:, 0], r2 * states[:, 1]])
 
 
 def state_at(body: PlaneBody, q: Sequence[float], p: Sequence[float]) -> tuple[float, ...]:
@@ -135,6 +157,31 @@ class Arc:
         """|γ3| at τ (m,), 0 where the parabola is outside the domain."""
         u = self.u(tau)
         return np.sqrt(np.maximum(0.0, 1.0 - np.sum(u * u, axis=1)))
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """The ends in τ of all that is inside the domain, with the other orbit's arc."""
+        both = self.tau + (self.other or ())
+        return min(both), max(both)
+
+    @property
+    def length(self) -> float:
+        """In τ, of what is inside the domain; of a point the time in which it would change, if it did."""
+        low, high = self.ends
+        return (high - low) or 1.0 / (self.rate or 1.0)
+
+    @property
+    def crossing_speeds(self) -> list[float]:
+        """|γ̇3| = |(u, v)| where the orbit crosses the equator, at τ₋ and τ₊."""
+        tau = np.array(self.tau)
+        speeds = np.abs(np.sum(self.u(tau) * (self.v0 + tau[:, None] * self.a), axis=1))
+        return [float(speed) for speed in speeds]
+
+    def oval(self, ends: tuple[float, float]) -> Array:
+        """(τ, γ3), (m, 2), on γ3² = P(τ) over τ from one end to the other, both signs."""
+        angle = np.linspace(0.0, 2.0 * math.pi, 241)
+        tau = 0.5 * (ends[0] + ends[1]) + 0.5 * (ends[1] - ends[0]) * np.cos(angle)
+        return np.column_stack([tau, np.copysign(self.height(tau), np.sin(angle))])
 
 
 def rescaled_time(arc: Arc, states: Array) -> Array:
@@ -203,6 +250,18 @@ def periods(body: PlaneBody, q: Sequence[float], speed: float, directions: Array
     return np.where(rate > 0.0, rows[:, 2], math.inf)
 
 
+def periods_all_round(body: PlaneBody, q: Sequence[float], speed: float) -> Array:
+    """(α, T), (n, 2), of `periods` for α from −π to π."""
+    directions = np.linspace(-math.pi, math.pi, 721)
+    return frozen(np.column_stack([directions, periods(body, q, speed, directions)]))
+
+
+def missed(body: PlaneBody, start: Sequence[float], period: float, accuracy: Level) -> float:
+    """How far from its start (5,) an orbit is after its period, in the largest of the variables."""
+    after = solve(SYSTEM, start, body.parameters, [period], accuracy).states[0]
+    return float(np.abs(after - np.array(start)).max())
+
+
 def fixed_point_kinds(body: PlaneBody, h: float, count: int = 361) -> tuple[Array, Array]:
     """Points q (n, 2) all round the boundary, and for each what the fixed points with E = h there are.
 
@@ -213,6 +272,39 @@ def fixed_point_kinds(body: PlaneBody, h: float, count: int = 361) -> tuple[Arra
     u = np.column_stack([np.cos(angle), np.sin(angle)])
     kinetic = h - u @ np.array([body.b1, body.b2])
     squared = 2.0 * kinetic / (body.I11 * u[:, 0] ** 2 + body.I22 * u[:, 1] ** 2)
-    r1, r2 = body.axes
     kind = np.where(kinetic < 0.0, 0.0, np.where(squared + u @ body.acceleration > 0.0, 1.0, -1.0))
-    return frozen(np.column_stack([r1 * u[:, 1], -r2 * u[:, 0]])), frozen(kind)
+    return frozen(body.place(u)), frozen(kind)
+
+
+def _along_the_force(body: PlaneBody) -> tuple[Array, Array]:
+    """Unit vectors of the plane of u: b/|b|, and across it."""
+    n = np.array([body.b1, body.b2]) / math.hypot(body.b1, body.b2)
+    return n, np.array([-n[1], n[0]])
+
+
+def equipotentials(body: PlaneBody, levels: Sequence[float]) -> list[Array]:
+    """Chords q (2, 2) of the ellipse on which V is that share of its largest value; none without a field."""
+    if body.b1 == 0.0 == body.b2:
+        return []
+    n, across = _along_the_force(body)
+    half = [math.sqrt(1.0 - share * share) for share in levels]
+    return [body.place(share * n + np.outer([-end, end], across)) for share, end in zip(levels, half, strict=True)]
+
+
+def forbidden(body: PlaneBody, h: float) -> list[Array]:
+    """The part of the ellipse, a closed curve q (m, 2), where V is above the energy h; empty where there is none."""
+    size = math.hypot(body.b1, body.b2)
+    if size == 0.0 or h >= size:
+        return []
+    n, across = _along_the_force(body)
+    half_angle = math.acos(max(-1.0, h / size))
+    s = np.linspace(-half_angle, half_angle, 91)
+    return [body.place(np.outer(np.cos(s), n) + np.outer(np.sin(s), across))]
+
+
+def sampled_orbit(body: PlaneBody, start: Sequence[float], span: float, accuracy: Level) -> tuple[Orbit, Array]:
+    """The orbit at times that a picture needs, and the mirror image (m, 5) of its past at the same times."""
+    weights = np.array(body.pixels_per_unit(body.energy(start)))
+    times = sample_times(SYSTEM, np.array(start), np.array(body.parameters), span, weights, SAGITTA, MOST_SAMPLES)
+    past = solve(SYSTEM, start, body.parameters, -times, accuracy)
+    return solve(SYSTEM, start, body.parameters, times, accuracy), frozen(mirrored(past.states))

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import field, fields, replace
 from typing import Any
 
 from hess_explorer.protocol.parameters import Choice, Number, Places, Spec
 from hess_mechanics.numerics.accuracy import LEVELS
 
-__all__ = ["accuracy_level", "choice", "number", "places", "specs_of"]
+__all__ = ["Slider", "accuracy_level", "choice", "number", "places", "slider_within", "specs_of"]
+
+Slider = tuple[float, float, float]
+"""(low, high, step)."""
 
 _SPEC = "spec"
 
@@ -37,6 +41,14 @@ def accuracy_level() -> Any:
     """The accuracy level, by its name."""
     return choice("Accuracy", tuple(LEVELS), "standard", doc="Promised error: draft 1e-3, standard 1e-6, precise 1e-9; "
                   "reference: the floor of double precision.")
+
+
+def slider_within(largest: float) -> Slider:
+    """A slider from −largest to largest, with round ends and some hundreds of round steps."""
+    digits = 2 - math.floor(math.log10(largest))
+    step = float(f"1e{-digits}")
+    end = round(math.floor(largest / step) * step, digits)
+    return -end, end, step
 
 
 def specs_of(state: type[Any]) -> tuple[Spec, ...]:

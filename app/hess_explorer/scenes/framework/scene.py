@@ -11,7 +11,7 @@ from typing import Any, Generic, Self, TypeVar, cast
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Choice, Number, Spec, Value, Values
-from hess_explorer.scenes.framework.parameters import specs_of
+from hess_explorer.scenes.framework.parameters import Slider, specs_of
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.layers import Columns
 from hess_explorer.views.picture import Picture
@@ -22,9 +22,6 @@ from hess_mechanics.numerics.accuracy import Level
 __all__ = ["Motion", "Preset", "Report", "Scene", "State"]
 
 S = TypeVar("S", bound="State")
-
-Slider = tuple[float, float, float]
-"""(low, high, step)."""
 
 
 class Preset:

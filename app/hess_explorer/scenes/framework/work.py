@@ -63,12 +63,18 @@ class Work:
 
 
 class _Motion(Protocol):
-    times: Array
-    level: str
-    status: Status
-    error_estimate: float
-    drift: Mapping[str, float]
-    cost: Cost
+    @property
+    def times(self) -> Array: ...
+    @property
+    def level(self) -> str: ...
+    @property
+    def status(self) -> Status: ...
+    @property
+    def error_estimate(self) -> float: ...
+    @property
+    def drift(self) -> Mapping[str, float]: ...
+    @property
+    def cost(self) -> Cost: ...
 
 
 def orbit_status(orbit: _Motion) -> list[str]:

@@ -1,0 +1,43 @@
+"""The period of an orbit over the direction in which it starts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeVar
+
+import numpy as np
+
+from hess_explorer.views import theme
+from hess_explorer.views.layers import Axes, Layer, Range, curves, ring
+from hess_explorer.views.velocity_plane import nice_above
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["has_periods", "layers", "period_axis"]
+
+S = TypeVar("S")
+
+
+def has_periods(periods: Array) -> bool:
+    """Whether any of (α, T), (n, 2), is finite."""
+    return bool(np.isfinite(periods[:, 1]).any())
+
+
+def period_axis(periods: Array) -> Range:
+    """Room for most of the periods: some are infinite."""
+    finite = periods[np.isfinite(periods[:, 1]), 1]
+    return 0.0, nice_above(1.5 * float(np.median(finite))) if finite.size else 20.0
+
+
+def layers(periods: Callable[[S], Array], here: Callable[[S], tuple[float, float] | None]
+           ) -> tuple[Layer[S], Layer[S]]:
+    """T against α from (α, T), (n, 2), and a ring round the one on show; what is infinite is beyond the frame."""
+
+    def curve(state: S, axes: Axes) -> list[Array]:
+        found = periods(state)
+        return [np.minimum(found, (np.inf, 4.0 * axes.y[1]))] if has_periods(found) else []
+
+    def chosen(state: S, axes: Axes) -> list[tuple[float, float]]:
+        place = here(state) if has_periods(periods(state)) else None
+        return [] if place is None else [(place[0], min(place[1], axes.y[1]))]
+
+    return curves("T", within=curve, color=theme.ORBIT), ring("chosen", within=chosen, size=18)
