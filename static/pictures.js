@@ -112,6 +112,8 @@ export function render({ model, view, el }) {
     // In place, for its size, but not to be seen before it is filled.
     grid.classList.add("away")
     shelf.append(grid)
+    // A track that no plot draws has a source all the same: the player and the spheres read it.
+    for (const track of description.tracks) scene.sources.set(track, new Plain())
     const plots = Bokeh.require("document").Document.from_json(JSON.parse(description.document))
     const views = await Bokeh.embed.add_document_standalone(plots, grid, hosts)
     for (const item of plots.all_models) {

@@ -136,9 +136,9 @@ def contents(sources):
 
 def variant(scene, **changed):
     """The scene with other attributes or methods; a function in the place of a method takes no `self`."""
+    fields = {one.name: changed.pop(one.name, getattr(scene, one.name)) for one in dataclasses.fields(scene)}
     members = {name: staticmethod(value) if callable(value) else value for name, value in changed.items()}
-    kind = type("Variant", (type(scene),), members)
-    return kind(**{one.name: getattr(scene, one.name) for one in dataclasses.fields(scene)})
+    return type("Variant", (type(scene),), members)(**fields)
 
 
 def shown(scene, values, board=None, hold_axes=False):

@@ -99,7 +99,7 @@ class Session:
         # "Speed and accuracy" of a scene is of the very same state.
         self._own_instead = scene.specs != self.scene.specs
         if self._own_instead:
-            values = self._left.get(scene.name, scene.defaults()) | {
+            values = dict(self._left.get(scene.name, scene.defaults())) | {
                 spec.name: wanted[spec.name] for spec in scene.specs
                 if spec.name in here and wanted[spec.name] != here[spec.name].default and (
                     (isinstance(spec, Number) and isinstance(here[spec.name], Number))

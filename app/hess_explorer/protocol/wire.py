@@ -7,7 +7,7 @@ browser turns back into the sources' columns ("ready.js").  A picture is filled 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -19,12 +19,12 @@ class Wire:
     """Collects the columns, axes, texts and control values that change, and packs them."""
 
     def __init__(self) -> None:
-        self._pending: dict[str, dict[str, Any]] = {}
+        self._pending: dict[str, Mapping[str, Any]] = {}
         self._texts: dict[str, str] = {}
         self._ranges: dict[str, list[float]] = {}
         self._controls: dict[str, list[float] | str] = {}
 
-    def put(self, source: str, columns: dict[str, Any]) -> None:
+    def put(self, source: str, columns: Mapping[str, Any]) -> None:
         """New columns for the source of that name; the last ones put before `pack` count."""
         self._pending[source] = columns
 

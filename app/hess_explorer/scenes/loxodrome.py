@@ -96,9 +96,9 @@ class Loxodrome(State):
         """All of the loxodrome but its last windings about the poles, (n, 3)."""
         p, most = self.pendulum, 2.0 * math.pi * _MOST_TURNS
         reach, middle = -math.log(math.tan(0.5 * _TO_THE_POLE)), math.log(math.tan(0.5 * p.l))
-        ends = [(side * reach - middle) / p.a if abs(p.a) * most > reach + abs(middle) else side * most
-                for side in (-1.0, 1.0)]
-        return p.middle_axis_at(np.linspace(*ends, _DRAWN))
+        start, end = ((side * reach - middle) / p.a if abs(p.a) * most > reach + abs(middle) else side * most
+                      for side in (-1.0, 1.0))
+        return p.middle_axis_at(np.linspace(start, end, _DRAWN))
 
     def track(self) -> Columns:
         """Height of the centre of mass and l, over time."""

@@ -29,7 +29,7 @@ def possible_starts(chosen: Sequence[Place], states: Array, possible: Array, ins
     Where the last one, that of the chosen orbit, is not possible, all are replaced by the one of `instead`.
     """
     if possible[-1]:
-        kept = np.flatnonzero(possible)
+        kept = np.flatnonzero(possible).tolist()
         return [chosen[i] for i in kept], [tuple(map(float, states[i])) for i in kept], True
     place, state = instead()
     return [place], [state], False

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
-from typing import Any, ParamSpec, Protocol, TypeVar, cast
+from collections.abc import Callable
+from typing import Any, ParamSpec, TypeVar, cast
 
 from hess_explorer.compute.cache import CACHE, Task
 from hess_mechanics.dynamics.sampling import HALF_A_PIXEL
-from hess_mechanics.numerics.accuracy import Level, Status, cheapest, level
-from hess_mechanics.numerics.results import Array, Cost
+from hess_mechanics.numerics.accuracy import Level, cheapest, level
+from hess_mechanics.numerics.results import Orbit
 
 __all__ = ["Work", "orbit_status"]
 
@@ -62,22 +62,7 @@ class Work:
         return f"{ms:.1f} ms, {'computed' if self._misses else 'cached'}"
 
 
-class _Motion(Protocol):
-    @property
-    def times(self) -> Array: ...
-    @property
-    def level(self) -> str: ...
-    @property
-    def status(self) -> Status: ...
-    @property
-    def error_estimate(self) -> float: ...
-    @property
-    def drift(self) -> Mapping[str, float]: ...
-    @property
-    def cost(self) -> Cost: ...
-
-
-def orbit_status(orbit: _Motion) -> list[str]:
+def orbit_status(orbit: Orbit) -> list[str]:
     """For the status line: size, cost, error and drift of an orbit."""
     return [
         f"{orbit.level}: orbit {orbit.times.size} points, {orbit.cost.steps} Taylor steps, "
