@@ -7,7 +7,7 @@ from urllib.parse import parse_qsl, urlsplit
 
 from hess_explorer.headless.browser import wait_ready
 from hess_explorer.scenes import scenes
-from support.numbers import NUMBER
+from support.view import numbers_in
 
 HESS, STUDY = "suslov-hess", "suslov-hess-accuracy"
 FIRST = next(iter(scenes()))
@@ -367,10 +367,7 @@ def brought(tab, scene):
 
 def said(explorer, picture, pattern):
     """The numbers where the pattern has #, in a caption."""
-    text = explorer.caption(picture)
-    found = re.search(re.escape(pattern).replace(r"\#", NUMBER).replace(r"\ ", r"\s"), text)
-    assert found, (pattern, text)
-    return [float(number.replace("−", "-")) for number in found.groups()]
+    return numbers_in(explorer.caption(picture), pattern)
 
 
 def values_of(explorer, scene):
