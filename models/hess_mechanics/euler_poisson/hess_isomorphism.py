@@ -1,16 +1,17 @@
-"""S13, S12.3: the Hess manifold of Euler–Poisson as the Suslov–Hess case, and how numerics leave it.
+"""The isomorphism of the Hess manifold of Euler–Poisson with the Suslov–Hess case, and how numerics leave it.
 
-On r1 M1 + r3 M3 = 0 (`g2p6f1`) the equations `hh01` of a body that obeys `gess-*1` are closed.  In the axes
-e2, e3' = r/|r|, e1' = e2 × e3' (`m15.9`, `m15.14`) the matrix A has a1' = a2 twice on its diagonal and b' beside it,
-M3' = 0 (`m15.10`), and with m = μ|r|
+On r1 M1 + r3 M3 = 0 (`g2p6f1`) the Euler–Poisson equations of a body with the Hess condition (`gess-*1`) are closed.
+In the axes e2, e3' = r/|r|, e1' = e2 × e3' (`m15.9`, `m15.14`) the matrix A has a1' = a2 twice on its diagonal and b'
+off it, M3' = 0 (`m15.10`), and with m = μ|r|
 
     w = (a1' M2', a1' M1'),  n = (−γ2', −γ1', γ3'),  a = b'/a1',  b = a1' m
 
-turn `gess05` into `eq01` in the same time; the map of the axes is a reflection.  (Printed with another factor of n
-and of b.)  For the Suslov body with I11 = 1/a1' energy and area integral are the same numbers: E = H, F2 = −F1.
+turn the equations on the manifold (`gess05`) into the reduced Suslov–Hess equations (`eq01`) without rescaling time;
+the map of the axes is a reflection.  (The paper prints other factors of n and b.)  For the Suslov body with
+I11 = 1/a1' energy and area integral are the same numbers: E = H, F2 = −F1.
 
-Off the manifold u = (r, M)/|r| obeys u' = −b' M2 u along every motion, so along one that starts on it, u grows as
-exp(−∫a w1 dt): over a period of n3 on the stable limit cycle by the multiplier of the unstable one.
+Off the manifold u = (r, M)/|r| obeys u' = −b' M2 u, so close to a motion on the manifold u grows as exp(−∫a w1 dt):
+over a period of n3 on the stable limit cycle by the multiplier of the unstable one.
 """
 
 from __future__ import annotations
@@ -48,7 +49,7 @@ def _tilt(body: HeavyBody) -> tuple[float, float]:
 def hess_body(body: HeavyBody) -> HessBody:
     """The Suslov body, I11 = 1/a1', whose motions are those of a heavy body on the Hess manifold.
 
-    a = b'/a1' has the sign of r1 r3 (a1 − a3).  Raises `InvalidParameter` out of the Hess case, `NoField` (r = 0).
+    a = b'/a1' has the sign of r1 r3 (a1 − a3).  Raises `InvalidParameter` outside the Hess case, `NoField` (r = 0).
     """
     s, c = _tilt(body)
     a = s * c * (body.a[0] - body.a[2]) / body.a[1] + 0.0  # no −0.0
@@ -61,8 +62,8 @@ def heavy_body(body: HessBody, share: float = 0.5) -> HeavyBody:
     """A heavy body in the Hess case, a1' = 1/I11, whose motions on the Hess manifold are those of a Suslov body.
 
     It has r1, r3 ≥ 0, |r| = 1, μ = b/a1', and a1 > a3 for a > 0.  One of its moments is free, as I33 is in the
-    Suslov problem: with a1 = a2 (1 − x), a3 = a2 (1 + a²/x), or the other way round, it is a rigid body's for
-    0 < x ≤ (1 − a²)/2, and x is this `share` of that, or of ½ where |a| ≥ 1.
+    Suslov problem: with a1 = a2 (1 − x), a3 = a2 (1 + a²/x), or a1 and a3 exchanged, it is a rigid body for
+    0 < x ≤ (1 − a²)/2; x is `share` times that bound, or times ½ where |a| ≥ 1.
     Raises `InvalidParameter` for a share outside (0, 1].
     """
     require_finite(share=share)
@@ -76,9 +77,9 @@ def heavy_body(body: HessBody, share: float = 0.5) -> HeavyBody:
 
 @dataclass(frozen=True)
 class Bridge:
-    """A heavy body in the Hess case and the Suslov body of the same motions.
+    """A heavy body in the Hess case and the Suslov body with the same motions.
 
-    Made by `of_heavy` or `of_suslov`; states of `hh01` are (…, 6), of `eq01` (…, 5), in the same time.
+    Made by `of_heavy` or `of_suslov`.  States (M, γ) are (…, 6), reduced states (w, n) (…, 5), in the same time.
     """
 
     heavy: HeavyBody
@@ -95,7 +96,7 @@ class Bridge:
         return cls(heavy_body(hess), hess)
 
     def to_reduced(self, states: Array) -> Array:
-        """(M, γ) → (w, n); what leads off the manifold, M3', is left out."""
+        """(M, γ) → (w, n), dropping the component M3' off the manifold."""
         M1, M2, M3, g1, g2, g3 = np.moveaxis(np.asarray(states, float), -1, 0)
         s, c = _tilt(self.heavy)
         a = self.heavy.a[1]
@@ -109,7 +110,7 @@ class Bridge:
         return np.stack([c * w2 / a, w1 / a, -s * w2 / a, s * n3 - c * n2, -n1, c * n3 + s * n2], axis=-1)
 
     def to_suslov(self, states: Array) -> Array:
-        """(M, γ) → (ω1, ω2, γ1, γ2, γ3) of `Biz131`; shape (..., 5)."""
+        """(M, γ) → (ω1, ω2, γ1, γ2, γ3) of the Suslov problem; shape (..., 5)."""
         return self.hess.from_reduced(self.to_reduced(states))
 
     def from_suslov(self, states: Array) -> Array:
@@ -117,14 +118,14 @@ class Bridge:
         return self.from_reduced(self.hess.to_reduced(states))
 
     def distance(self, states: Array, reduced: Array) -> Array:
-        """How far states (n, 6) of `hh01` are from states (n, 5) of `eq01` with b = 1; shape (n,).
+        """The distance (n,) of states (M, γ) (n, 6) from reduced states (n, 5) with b = 1.
 
-        The largest difference of a component of `eq01`, or of a1' M3', which is not in it, in units b = 1.
+        The largest difference of any component of (w, n), or |a1' M3'|, in units b = 1.
         """
         difference = self.hess.in_units_of_b(self.to_reduced(states)) - reduced
         s, c = _tilt(self.heavy)
         off = self.heavy.a[1] * (s * states[:, 0] + c * states[:, 2]) / self.hess.frequency_unit
-        return np.maximum(np.max(np.abs(difference), axis=1), np.abs(off))
+        return np.asarray(np.maximum(np.max(np.abs(difference), axis=1), np.abs(off)), float)
 
     def in_units_of_b(self, H: float, F1: float) -> tuple[float, float]:
         """Energy and area integral of Euler–Poisson → (h, f) in units b = 1.  Raises `NoField`."""
@@ -138,16 +139,16 @@ class Bridge:
 
 
 def _relative(body: HeavyBody, states: Array) -> Array:
-    """(r, M)/(|r| max |M|) of the states (n, 6) of one motion."""
+    """(r, M)/(|r| max |M|) (n,) of the states (n, 6) of one motion."""
     largest = float(np.max(np.linalg.norm(states[:, :3], axis=1)))
-    return states[:, :3] @ np.array(body.r) / (math.hypot(*body.r) * largest or 1.0)
+    return np.asarray(states[:, :3] @ np.array(body.r) / (math.hypot(*body.r) * largest or 1.0), float)
 
 
 @dataclass(frozen=True)
 class FreeRun:
-    """One orbit of `hh01` computed once, with the error of the level that it was computed at, leak and all.
+    """One orbit of the Euler–Poisson equations, computed once at one level, with the leak off the Hess manifold.
 
-    times (n,), states (n, 6); off (n,) : (r, M)/(|r| max |M|); steps; drift as in `Orbit`.
+    times : (n,); states : (n, 6); off : (n,), (r, M)/(|r| max |M|); steps : taken; drift : as in `Orbit`.
     """
 
     level: str
@@ -173,9 +174,9 @@ def _ended(body: HeavyBody, problem: Problem, times: Array, states: Array, level
 
 
 def run_free(body: HeavyBody, start: tuple[float, ...], end: float, count: int, level: Level) -> FreeRun:
-    """The orbit of `hh01` from a state on the Hess manifold, at `count` even times from 0 to `end`, left to itself.
+    """The Euler–Poisson orbit from a state on the Hess manifold, at `count` even times from 0 to `end`, unconstrained.
 
-    It is computed once: `solve` would repeat it more exactly until the leak is that of round-off.
+    It is computed once: `solve` would repeat it with smaller tolerances until the leak is that of round-off.
     Raises `InvalidParameter`, `WorkLimit`.
     """
     times = frozen(np.linspace(0.0, end, count))
@@ -186,14 +187,14 @@ def run_free(body: HeavyBody, start: tuple[float, ...], end: float, count: int, 
 
 
 _BEFORE_HELD = 3.0
-"""How much ln |(r, M)| may grow before it is held again."""
+"""Growth of ln |(r, M)| allowed between two projections."""
 _HELD_SAMPLES = 32
 
 
 def on_manifold(body: HeavyBody, start: tuple[float, ...], end: float, count: int, level: Level) -> FreeRun:
-    """As `run_free`, but what M has of r is taken away again and again, before any leak can grow.
+    """`run_free` with M projected onto the Hess manifold so often that the leak cannot grow.
 
-    That is `gess05`, the restriction to the manifold, in the variables and with the kernel of `hh01`.
+    This integrates the restriction to the manifold (`gess05`) in the variables and with the kernel of Euler–Poisson.
     Raises `InvalidParameter`, `WorkLimit`.
     """
     times = frozen(np.linspace(0.0, end, count))
@@ -221,18 +222,18 @@ def on_manifold(body: HeavyBody, start: tuple[float, ...], end: float, count: in
 
 
 def _fastest(body: HeavyBody, start: tuple[float, ...]) -> float:
-    """No |w| of the motion on the manifold from this state exceeds it."""
+    """A bound on |w| of the motion on the manifold from this state."""
     a = body.a[1]
     return math.sqrt(a * a * (start[0] ** 2 + start[1] ** 2 + start[2] ** 2) + 4.0 * a * body.strength)
 
 
 _STRAIGHT = (3e-14, 1e-3)
-"""Below it the round-off that is still being added counts; above it the growth depends on how large the leak is."""
+"""Range of exponential growth of the leak: below it round-off is still added, above it growth is nonlinear."""
 
 
 @dataclass(frozen=True)
 class Growth:
-    """How ln |(r, M)| grows: per period of n3, from the period `first` on, over so many of them."""
+    """The growth of ln |(r, M)| per period of n3, measured over `periods` periods from the period `first` on."""
 
     per_period: float
     first: int
@@ -240,10 +241,10 @@ class Growth:
 
 
 def growth_of(run: FreeRun, samples: int) -> Growth | None:
-    """The growth of the leak where it is straight; None where that is for less than two periods.
+    """The growth of the leak where it is exponential; None where that lasts less than two periods.
 
-    samples : of the run in one period of n3.  Least squares of a straight line and a wiggle of that period: the slope
-    of ln |(r, M)| against the number of the period, with a level for each place in it.
+    samples : of the run per period of n3.  Least-squares fit of a straight line plus a function of that period: the
+    slope of ln |(r, M)| against the number of the period.
     """
     rows = (run.off.size - 1) // samples
     table = np.abs(run.off[: rows * samples].reshape(rows, samples))
