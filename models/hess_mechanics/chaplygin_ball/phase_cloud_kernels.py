@@ -15,7 +15,7 @@ __all__ = ["QUADRATIC", "integrate"]
 
 @inner
 def constants(y, p):
-    """The constants of a step: 1/J1, 1/J2, 𝒟γ² and 1/d at its start, see `equations`."""
+    """What stays the same during a step: 1/J1, 1/J2, 𝒟γ² and 1/d at its start, see `chaplygin_ball`."""
     _, _, g1, g2, g3 = y
     I11, I22, _, _, _, D = p
     added = D * (g1 * g1 + g2 * g2 + g3 * g3)
@@ -52,7 +52,7 @@ def turning(y, q, p):
 
 @inner
 def rates(y, q, p):
-    """The equations of `phase_cloud`."""
+    """The equations of the module's docstring."""
     J = p[2]
     g3w2, g3w1, g1w2, g2w1 = q[0], q[1], q[2], q[3]
     return J * q[12], J * q[13], -g3w2, g3w1, g1w2 - g2w1

@@ -42,5 +42,5 @@ _cross = crossing_finder(QUADRATIC, Surface(_along, _height, _on_this_side, curv
 
 @kernel
 def cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states):
-    """Crossings of g = π/2 by one orbit of the Euler–Poisson equations, see `crossing_finder`; normal = (f,)."""
+    """Crossings of g = π/2 by one orbit of `hh01`, see `crossing_finder`; normal = (f,)."""
     return _cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states)

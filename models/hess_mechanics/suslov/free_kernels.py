@@ -11,7 +11,7 @@ __all__ = ["QUADRATIC", "integrate"]
 
 @inner
 def rates(y, q, p):
-    """The equations of `free`: T = tanh u, S = sech u, V = v1 + i v2, A = a1 + i a2, B = b1 + i b2."""
+    """The equations of the module's docstring: T = tanh u, S = sech u, V = v1 + i v2, A = a1 + i a2, B = b1 + i b2."""
     K, c = p
     SS, ST, Tv1, Tv2, Sv1, Sv2, v1b1, v2b2, v1b2, v2b1, v1a1, v2a2, v1a2, v2a1 = q
     return (
@@ -36,5 +36,5 @@ _orbit = orbit_integrator(QUADRATIC)
 
 @kernel
 def integrate(y, p, u, order, tolerance, max_steps, out):
-    """T, S, V, A, B from u = 0 to the given u, see `orbit_integrator`; p = (K, σc)."""
+    """From u = 0 to the given u, see `orbit_integrator`."""
     return _orbit(y, p, u, order, tolerance, max_steps, out)

@@ -17,7 +17,7 @@ __all__ = ["QUADRATIC", "images", "matrices_into", "monodromy", "theta_of"]
 
 @inner
 def rates(y, q, p):
-    """The reduced equations (`eq01`) at a = 0 with A = a1 + i a2 and B = b1 + i b2, in terms of their products."""
+    """`eq01` at a = 0 with A = a1 + i a2 and B = b1 + i b2, in terms of their products."""
     _, _, n1, n2, _, _, _, _, _ = y
     half_a, b = p
     n3w2, w1n3, n1w2, n2w1, w2b2, w1b1, w2b1, w1b2, w2a2, w1a1, w2a1, w1a2 = q
@@ -52,7 +52,7 @@ _evaluate = evaluation(9)
 def monodromy(h, f, a, order, tolerance, max_steps):
     """(Re α, Im α, Im β, L, ζ, steps): the first three times e^{−L}; ζ is arg α, lifted.
 
-    A and B are rescaled as they grow, for large a and h; steps = −1 where there would be too many.
+    A, B are rescaled as they grow, so that a and h may be large; steps = −1: too many.
     """
     _, n1, _, g10, _, g20, w_low, v_low = roots(h, f)
     half_period = 0.5 * period_from_gaps(g10, g20)
@@ -98,7 +98,7 @@ def monodromy(h, f, a, order, tolerance, max_steps):
     ratio = (B.conjugate() / A) ** 2
     zeta = 2.0 * (arg_A + 0.5 * chi) + math.atan2(-ratio.imag, 1.0 - ratio.real)
     if f == 0.0 and h < 1.0:
-        # The limit f → 0+, in which Re α vanishes; its two parts are too large to cancel numerically.
+        # The limit f → 0+, in which Re α vanishes: its two parts are too large to cancel by themselves.
         return 0.0, alpha.imag, beta, 2.0 * log_scale, -0.5 * math.pi, float(steps)
     return alpha.real, alpha.imag, beta, 2.0 * log_scale, zeta, float(steps)
 
