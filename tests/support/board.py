@@ -29,8 +29,8 @@ ACCURACY = SCENES["suslov-hess-accuracy"]
 
 def modules_of_scenes():
     """The modules that compute for scenes, each with the process's cache."""
-    modules = (importlib.import_module(f"hess_explorer.scenes.{one.name}")
-               for one in pkgutil.iter_modules(hess_explorer.scenes.__path__))
+    modules = (importlib.import_module(one.name)
+               for one in pkgutil.walk_packages(hess_explorer.scenes.__path__, "hess_explorer.scenes."))
     return [module for module in modules if hasattr(module, "CACHE")]
 
 
