@@ -1,4 +1,4 @@
-"""S13, S12: the Hess manifold of Euler–Poisson is the Suslov–Hess case, whatever the signs; and orbits leave it."""
+"""The Hess manifold of Euler–Poisson is the Suslov–Hess case, whatever the signs; and orbits leave it."""
 
 from __future__ import annotations
 
