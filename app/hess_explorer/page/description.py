@@ -7,14 +7,11 @@ import threading
 from functools import cache
 from typing import Any
 
-from bokeh.core.json_encoder import serialize_json
-from bokeh.document import Document
 from markdown_it import MarkdownIt
 
 from hess_explorer.protocol.parameters import Choice, Number, Places
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
-from hess_explorer.views.figure import Figure
 from hess_explorer.views.text import with_formulas
 
 __all__ = ["describe"]
@@ -34,15 +31,10 @@ def describe(name: str) -> str:
 def _describe(name: str) -> str:
     scene = scenes()[name]
     stage = scene.stage(Wire())
-    document = Document()
-    for picture in stage.pictures:
-        if isinstance(picture, Figure):
-            document.add_root(picture.build())
     return json.dumps({
         "name": scene.name,
         "title": scene.title,
         "pictures": [{**picture.describe(), "folded": scene.folded.get(picture.name)} for picture in stage.pictures],
-        "document": serialize_json(document.to_json(deferred=False)),
         "controls": [_control(spec) for spec in scene.specs if not isinstance(spec, Places)],
         "drawn": any(isinstance(spec, Places) for spec in scene.specs),
         "presets": [preset.name for preset in scene.presets],

@@ -8,13 +8,14 @@ import time
 from collections.abc import Callable, Sequence
 
 import panel as pn
-from panel.io.server import WSHandler, per_app_patterns
 from tornado.web import RequestHandler
 from tornado.websocket import WebSocketClosedError
 
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.page.page import page
 from hess_explorer.server.liveness import is_alive
+from hess_explorer.server.modules import module_routes
+from hess_explorer.server.prompt_socket import send_promptly
 from hess_explorer.server.warm import warm
 
 __all__ = ["serve"]
@@ -26,15 +27,6 @@ UNUSED_SESSION_MS = 60_000
 _EVERY_ADDRESS = ("", "0.0.0.0", "::")
 
 logger = logging.getLogger("hess_explorer")
-
-
-class PromptSocket(WSHandler):
-    """The websocket of a page, without the delay of up to 40 ms by which TCP gathers small messages."""
-
-    def open(self) -> None:
-        """Send every message at once."""
-        super().open()
-        self.set_nodelay(True)
 
 
 class Metrics(RequestHandler):
@@ -73,8 +65,7 @@ def serve(port: int, address: str, show: bool, origins: Sequence[str], ready: Ca
     logger.setLevel(logging.INFO)
     logging.getLogger("asyncio").addFilter(_is_news)
     pn.extension()
-    per_app_patterns[:] = [
-        ("/ws", PromptSocket) if pattern[1] is WSHandler else pattern for pattern in per_app_patterns]
+    send_promptly()
     # Kernels are compiled while the browser loads the page.
     threading.Thread(target=_prepare, args=(address, port, ready), name="warm", daemon=True).start()
     pn.serve(
@@ -84,8 +75,8 @@ def serve(port: int, address: str, show: bool, origins: Sequence[str], ready: Ca
         address=address,
         show=show,
         websocket_origin=[f"localhost:{port}", f"127.0.0.1:{port}", *origins],
+        extra_patterns=[("/metrics", Metrics), *module_routes()],
         liveness=True,
-        extra_patterns=[("/metrics", Metrics)],
         verbose=False,
         websocket_max_message_size=MESSAGE_LIMIT,
         unused_session_lifetime_milliseconds=UNUSED_SESSION_MS,

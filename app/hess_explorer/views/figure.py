@@ -13,10 +13,11 @@ from typing import Any
 
 import holoviews as hv
 import numpy as np
-from bokeh.models import ColumnDataSource, CustomJS, CustomJSTickFormatter, LinearColorMapper
+from bokeh import palettes
+from bokeh.embed import json_item
+from bokeh.models import ColumnDataSource
 from bokeh.plotting import figure
 
-from hess_explorer.assets import STATIC
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.views import theme
 
@@ -26,28 +27,6 @@ hv.extension("bokeh", logo=False)
 _renderer = hv.renderer("bokeh")
 _renderer.webgl = False  # costs several times the canvas at these sizes
 
-_PICK = """
-    const detail = { pick: [name, cb_obj.x, cb_obj.y], drag: cb_obj.event_name === "pan" }
-    document.dispatchEvent(new CustomEvent("hess:pick", { detail }))
-"""
-
-_HOVER = """
-    document.dispatchEvent(new CustomEvent("hess:hover", { detail: [name, cb_obj.x, cb_obj.y] }))
-"""
-
-_BOX = """
-    const here = [cb_obj.x, cb_obj.y]
-    if (cb_obj.event_name === "panstart") source.tags = here
-    const [x, y] = source.tags
-    const ended = cb_obj.event_name === "panend"
-    source.data = ended ? { left: [], right: [], top: [], bottom: [] }
-      : { left: [x], right: [here[0]], top: [y], bottom: [here[1]] }
-    if (!ended) return
-    const detail = { pick: [name, x, y, ...here], drag: true }
-    document.dispatchEvent(new CustomEvent("hess:pick", { detail }))
-"""
-
-_TICKS = (STATIC / "ticks.js").read_text(encoding="utf-8")
 _LETTERS = 26
 """As many stand side by side under the smallest picture; beside it there is room for any number."""
 
@@ -57,6 +36,9 @@ _POSITIONS = {
     "image": ("image", "x", "y", "dw", "dh"), "segment": ("x0", "y0", "x1", "y1"),
 }
 """Those of a glyph's properties that are columns; (x, y) for all others."""
+
+_ON_CANVAS = ("image", "dots")
+"""Glyphs that are none of Bokeh's: cells and dots by the thousand, which the page draws itself."""
 
 Range = tuple[float, float]
 
@@ -120,7 +102,8 @@ class Figure:
     def add_image(self, layer: str, palette: str | tuple[str, ...], low: float, high: float) -> None:
         """A layer of numbers on a grid, under all others (not HoloViews', which would import pandas)."""
         columns = _POSITIONS["image"]
-        style = {"palette": palette, "low": low, "high": high}
+        colors = getattr(palettes, palette) if isinstance(palette, str) else palette
+        style = {"palette": list(colors), "low": low, "high": high}
         self._layers[layer] = _Layer(f"{self.name}-{layer}", "image", columns, "image", style)
         self._columns[layer] = columns
 
@@ -144,38 +127,35 @@ class Figure:
             **({} if self._ticks is None else {"xticks": list(self._ticks), "yticks": list(self._y_ticks or ())}),
         ))
         root: figure = plot.state
-        # The page shines through, whatever its theme.
+        # The page shines through, whatever its theme.  A background that is invisible and yet painted makes Bokeh begin a
+        # new path for the outline; without one it draws the last ticks once more.
         root.update(name=self.name, min_border=4, sizing_mode="stretch_width", aspect_ratio=1,
-                    background_fill_alpha=0, border_fill_alpha=0)
-        for axis, side, letters in ((root.xaxis, "x", _LETTERS), (root.yaxis, "y", 1000)):
-            if self._ticks is None and side not in self._log:
-                axis.formatter = CustomJSTickFormatter(args={"letters": letters}, code=_TICKS)
+                    background_fill_color="#00000000", background_fill_alpha=1, border_fill_alpha=0)
         if self._x_ticks is not None:
             root.xaxis.ticker = list(self._x_ticks)
         if self._y_tick_count is not None:
             root.yaxis.ticker.desired_num_ticks = self._y_tick_count
         for layer in self._layers.values():
-            source = ColumnDataSource({column: [] for column in layer.columns}, name=layer.source)
-            positions = dict(zip(_POSITIONS.get(layer.glyph, ("x", "y")), layer.columns, strict=False))
-            style = dict(layer.style)
-            if layer.glyph == "image":
-                style = {"color_mapper": LinearColorMapper(**style)}
-            getattr(root, layer.glyph)(source=source, level=layer.level, **positions, **style)
-        for event in self._picks:
-            if event == "box":
-                source = ColumnDataSource({column: [] for column in _POSITIONS["quad"]})
-                root.quad(source=source, level="overlay", fill_alpha=0.1, color=theme.UNSTABLE)
-                for stage in ("panstart", "pan", "panend"):
-                    root.js_on_event(stage, CustomJS(args={"name": self.name, "source": source}, code=_BOX))
-            elif event == "hover":
-                root.js_on_event("mousemove", CustomJS(args={"name": self.name}, code=_HOVER))
-            else:
-                root.js_on_event(event, CustomJS(args={"name": self.name}, code=_PICK))
+            if layer.glyph not in _ON_CANVAS:
+                source = ColumnDataSource({column: [] for column in layer.columns}, name=layer.source)
+                positions = dict(zip(_POSITIONS.get(layer.glyph, ("x", "y")), layer.columns, strict=False))
+                getattr(root, layer.glyph)(source=source, level=layer.level, **positions, **layer.style)
+        if "box" in self._picks:
+            source = ColumnDataSource({column: [] for column in _POSITIONS["quad"]}, name=f"{self.name}-box")
+            root.quad(source=source, level="overlay", fill_alpha=0.1, color=theme.UNSTABLE)
         return root
 
     def describe(self) -> dict[str, Any]:
-        """What the browser needs to know besides the model."""
-        return {"name": self.name, "kind": self.kind}
+        """What the browser needs to know: see "plot.js"."""
+        drawn = self._layers.values()
+        return {
+            "name": self.name, "kind": self.kind, "item": json_item(self.build()), "picks": list(self._picks),
+            "letters": [None if self._ticks is not None or side in self._log else letters
+                        for side, letters in (("x", _LETTERS), ("y", 1000))],
+            "cells": [{"source": layer.source, **layer.style} for layer in drawn if layer.glyph == "image"],
+            "dots": [{"source": layer.source, "x": layer.columns[0], "y": layer.columns[1], "alpha": 1.0, **layer.style}
+                     for layer in drawn if layer.glyph == "dots"],
+        }
 
     def assign(self, layer: str, **columns: Any) -> None:
         """New data for one layer."""
