@@ -20,7 +20,7 @@ export const gallery = {
   standing: new Promise((resolve) => { stand = resolve }),
   has: (name) => built.has(name),
   source: (name) => shown?.sources.get(name),
-  get plots() { return shown?.plots ?? [] },
+  get shown() { return shown },
   build, enter,
 }
 

@@ -205,7 +205,7 @@ def long_section(held_back, gate):
         held_back.type("h", str(h))
         held_back.type("orbits", "400")
         held_back.page.locator(".computing").wait_for(state="visible")
-        held_back.page.wait_for_function("window.hess.source('section-first').data.x.length > 0")
+        held_back.page.wait_for_function("hess.source('section-first').data.x.length > 0")
         return held_back
 
     yield begin
