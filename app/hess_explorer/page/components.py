@@ -1,8 +1,8 @@
 """The page's own browser components.
 
 Each is an ES module under `static/`, and they share one instance of every module that they import.  They know each
-other only by the events of "page/bus.js": "page/client.js" tells all of them of a scene that is entered, of texts and of
-values; they tell it of changes.
+other only by the events of "page/bus.js": "page/client.js" tells all of them of a scene that is entered, of texts and
+of values; they tell it of changes.
 """
 
 from __future__ import annotations

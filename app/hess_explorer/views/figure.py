@@ -127,8 +127,8 @@ class Figure:
             **({} if self._ticks is None else {"xticks": list(self._ticks), "yticks": list(self._y_ticks or ())}),
         ))
         root: figure = plot.state
-        # The page shines through, whatever its theme.  A background that is invisible and yet painted makes Bokeh begin a
-        # new path for the outline; without one it draws the last ticks once more.
+        # The page shines through, whatever its theme.  An invisible background that is painted all the same makes Bokeh
+        # begin a new path for the outline; without one it strokes the ticks of the last painting once more.
         root.update(name=self.name, min_border=4, sizing_mode="stretch_width", aspect_ratio=1,
                     background_fill_color="#00000000", background_fill_alpha=1, border_fill_alpha=0)
         if self._x_ticks is not None:
