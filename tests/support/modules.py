@@ -8,8 +8,10 @@ from __future__ import annotations
 
 from hess_explorer.assets import modules_path
 
-_SCRIPT = """if (location.protocol.startsWith("http")) {
-  const load = (path) => import(new URL(`MODULES/${path}`, location.href).href)
+# By Panel's loader, as the page does: the browser's own `import` would make a second instance of each module.
+_SCRIPT = """const begin = () => {
+  if (window.importShim === undefined) return void setTimeout(begin, 5)
+  const load = (path) => importShim(new URL(`MODULES/${path}`, document.baseURI).href)
   Promise.all([
     load("page/bus.js"), load("pictures/gallery.js"), load("pictures/cloud.js"), load("pictures/ticks.js"),
   ]).then(([bus, { gallery }, { cloudsOf }, ticks]) => {
@@ -23,7 +25,8 @@ _SCRIPT = """if (location.protocol.startsWith("http")) {
       },
     }
   })
-}""".replace("MODULES", modules_path())
+}
+if (location.protocol.startsWith("http")) begin()""".replace("MODULES", modules_path())
 
 
 def look_inside(page):
