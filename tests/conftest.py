@@ -58,6 +58,7 @@ def open_page(browser, server):
     When the test ends no page may have reported an error or asked another host for anything.  Warnings of the
     console are kept in `open_page.warnings`.
     """
+    from support.modules import look_inside
     from support.page import scene_of
 
     host = urlsplit(server).netloc
@@ -81,6 +82,7 @@ def open_page(browser, server):
         context.on("weberror", lambda error: errors.append(str(error.error)))
         context.on("request", lambda request: on_url(request.url))
         page = context.new_page()
+        look_inside(page)
         page.on("websocket", lambda socket: on_url(socket.url))
         page.goto(f"{server}/?{scene_of(query)}")
         wait_ready(page)

@@ -2,9 +2,21 @@
 
 from __future__ import annotations
 
+import hashlib
 from pathlib import Path
 
-__all__ = ["STATIC"]
+__all__ = ["MODULES", "STATIC", "modules_path"]
 
 _HERE = Path(__file__).resolve().parent
 STATIC = next(folder for folder in (_HERE / "static", _HERE.parents[1] / "static") if folder.is_dir())
+
+MODULES = r"(?:page|controls|pictures)/[a-z_]+\.js"
+"""A regular expression for the paths of JavaScript modules in that folder."""
+
+
+def modules_path() -> str:
+    """The folder of their URL, relative to the page's: another one when any of them has changed."""
+    digest = hashlib.sha256()
+    for file in sorted(STATIC.glob("*/*.js")):
+        digest.update(file.relative_to(STATIC).as_posix().encode() + b"\0" + file.read_bytes() + b"\0")
+    return f"modules-{digest.hexdigest()[:16]}"

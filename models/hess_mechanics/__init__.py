@@ -1,22 +1,35 @@
-"""The mechanics of the explorer: formulas, kernels, results.  No user interface.
+"""Mechanics of the Suslov problem, its Hess case, the Chaplygin ball and the Euler–Poisson equations.
 
->>> from models import HessBody, circle_map, level
+>>> from hess_mechanics import circle_map, level
 >>> circle_map(a=0.5, h=1.5, f=0.6, level=level("reference")).kind
 'hyperbolic'
+
+What is used most can be imported from here; subjects have modules of their own, such as `suslov.quartic`.
+models/README.md lists them with the paper's equations.
 """
 
+from hess_mechanics.chaplygin_ball.energy_surface import Strip
 from hess_mechanics.chaplygin_ball.equations import BallBody
+from hess_mechanics.chaplygin_ball.scattering import BallScattering, ball_scattering
 from hess_mechanics.dynamics.ensemble import ensemble
+from hess_mechanics.dynamics.lyapunov import Exponent, largest_exponent
 from hess_mechanics.dynamics.orbit import solve
-from hess_mechanics.dynamics.section import Plane, section, sections
+from hess_mechanics.dynamics.section import Plane, Points, section, section_points, sections
 from hess_mechanics.dynamics.system import System, systems
 from hess_mechanics.errors import ModelError
+from hess_mechanics.euler_poisson.andoyer import AndoyerPlane
+from hess_mechanics.euler_poisson.equations import HeavyBody
+from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
+from hess_mechanics.euler_poisson.loxodromic_pendulum import LoxodromicMotion, LoxodromicPendulum, loxodromic_motion
 from hess_mechanics.numerics.accuracy import LEVELS, Level, Status, level
 from hess_mechanics.numerics.results import Cost, Ensemble, Orbit, Section
 from hess_mechanics.rigid_body.inertia import BodyCheck, check_body
+from hess_mechanics.suslov.additional_integral import AdditionalIntegral, additional_integral
 from hess_mechanics.suslov.equations import SuslovBody, unit_vector
-from hess_mechanics.suslov.free import free_motion
-from hess_mechanics.suslov.scattering import scattering
+from hess_mechanics.suslov.free import FreeMotion, free_motion
+from hess_mechanics.suslov.kharlamova import PlaneBody
+from hess_mechanics.suslov.quartic import QuarticBody
+from hess_mechanics.suslov.scattering import Scattering, scattering
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, curve, curve_point, f_max, turning_points
 from hess_mechanics.suslov_hess.circle_map import CircleMap, FixedPoint, circle_map
 from hess_mechanics.suslov_hess.equations import HessBody
@@ -28,10 +41,22 @@ from hess_mechanics.suslov_hess.mode_locking import (
     trace_on_curve,
 )
 
-__all__ = [
-    "LEVELS", "BallBody", "BodyCheck", "CircleMap", "Cost", "Ensemble", "FixedPoint", "HessBody", "Level", "ModelError",
-    "Orbit", "Plane", "Section", "Status", "SuslovBody", "System", "TurningPoints", "check_body", "circle_map",
-    "critical_a", "curve", "curve_point", "ensemble", "f_max", "free_motion", "level", "lock_boundary",
-    "lock_boundary_f", "rotation_number_grid", "scattering", "section", "sections", "solve", "systems",
-    "trace_on_curve", "turning_points", "unit_vector",
+__all__ = [  # noqa: RUF022 (by subject)
+    # Any system
+    "System", "systems", "solve", "Orbit", "ensemble", "Ensemble",
+    "section", "sections", "section_points", "Plane", "Section", "Points", "largest_exponent", "Exponent",
+    # Accuracy, cost, errors
+    "LEVELS", "Level", "level", "Status", "Cost", "ModelError",
+    # Bodies
+    "SuslovBody", "PlaneBody", "QuarticBody", "HessBody", "BallBody", "HeavyBody", "BodyCheck", "check_body",
+    "unit_vector",
+    # Free Suslov problem
+    "free_motion", "FreeMotion", "scattering", "Scattering", "additional_integral", "AdditionalIntegral",
+    # Suslov–Hess case
+    "circle_map", "CircleMap", "FixedPoint", "turning_points", "TurningPoints", "curve", "curve_point", "f_max",
+    "critical_a", "lock_boundary", "lock_boundary_f", "rotation_number_grid", "trace_on_curve",
+    # Chaplygin ball with Suslov's constraint
+    "Strip", "ball_scattering", "BallScattering",
+    # Euler–Poisson equations
+    "AndoyerPlane", "Bridge", "LoxodromicPendulum", "LoxodromicMotion", "loxodromic_motion",
 ]

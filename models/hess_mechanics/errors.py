@@ -1,31 +1,31 @@
-"""What can be wrong with a request, each as a type with a sentence that says what to change."""
+"""Errors of the mechanics: the type says what is wrong, the message what to change."""
 
 from __future__ import annotations
 
 
 class ModelError(ValueError):
-    """A request the mechanics cannot answer; its text is written for the user."""
+    """A request that cannot be answered; the message is written for the user."""
 
 
 class InvalidParameter(ModelError):
-    """A number that is not finite, or lies where the equations mean nothing."""
+    """A value that is not finite, or lies outside the domain of the equations."""
 
 
 class NotPositiveDefinite(ModelError):
-    """Moments of inertia that give no kinetic energy: I11 and I22 must be positive."""
+    """Moments of inertia whose kinetic energy is not positive: I11 and I22 must be."""
 
 
 class OutsideRegion(ModelError):
-    """Values of (h, f) that no motion has (left of the curve `Geq3`, or h ≤ −1)."""
+    """Values of (h, f) that no motion has: h ≤ −1, or beyond the bifurcation curve (`Geq3`)."""
 
 
 class Separatrix(ModelError):
-    """f = 0, h = 1: the motion tends to the upper equilibrium and never returns (`Geq4`)."""
+    """f = 0, h = 1 (`Geq4`): the motion tends to the upper equilibrium and never returns."""
 
 
 class NoField(ModelError):
-    """b3 = 0: h and f, measured in units of b, have no meaning without a field."""
+    """No field: h and f, which are measured in units of b, are undefined."""
 
 
 class WorkLimit(ModelError):
-    """More steps than one request may cost."""
+    """A request that takes more steps than one request may."""

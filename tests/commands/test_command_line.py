@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import gc
 import math
+import os
+import shutil
 import signal
 import socket
 import subprocess
@@ -11,6 +13,7 @@ import sys
 import types
 import webbrowser
 from io import BytesIO
+from urllib.request import urlopen
 
 import numpy as np
 import pytest
@@ -22,6 +25,7 @@ from hess_explorer.__main__ import main
 from hess_explorer.headless.browser import BrowserError
 from hess_explorer.headless.screenshot import running_server
 from hess_mechanics.dynamics.orbit import MAX_SAMPLES
+from hess_mechanics.numerics.jit import CACHE_FOLDER
 from support.andoyer import GESS1, crossings_by_scipy, start_by_hand
 from support.command_line import replaced, run, strict_json, table
 from support.mechanics import ROOT
@@ -291,10 +295,14 @@ def test_version_and_help(capsys):
 
 @pytest.fixture
 def served(monkeypatch):
-    """The calls of a server that returns at once."""
+    """The calls of a server that is ready at once and then returns."""
     calls = []
-    serving = types.SimpleNamespace(serve=lambda **given: calls.append(given))
-    monkeypatch.setitem(sys.modules, "hess_explorer.server.serving", serving)
+
+    def serve(*, ready, **given):
+        calls.append(given)
+        ready()
+
+    monkeypatch.setitem(sys.modules, "hess_explorer.server.serving", types.SimpleNamespace(serve=serve))
     yield calls
     # The command leaves this to the server.
     gc.enable()
@@ -311,6 +319,25 @@ def test_serve(served, free_port, capsys):
     assert main(["serve", "--port", str(free_port), "--no-browser", "--allow-origin", "a.org:80", "b.org"]) == 0
     assert served == [{"port": free_port, "address": "127.0.0.1", "show": False, "origins": ["a.org:80", "b.org"]}]
     assert f"http://localhost:{free_port}" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(("compiled", "words"), [
+    (False, "Compiling, ready in about 20 s."), (True, "Starting, ready in a few seconds.")])
+def test_the_address_is_printed_only_when_the_server_is_ready(monkeypatch, free_port, capsys, compiled, words):
+    said = []
+
+    def serve(*, ready, **given):
+        said.append(capsys.readouterr().out)
+        ready()
+        said.append(capsys.readouterr().out)
+
+    monkeypatch.setitem(sys.modules, "hess_explorer.server.serving", types.SimpleNamespace(serve=serve))
+    monkeypatch.setattr("hess_explorer.server.compiled.all_compiled", lambda: compiled)
+    try:
+        assert main(["--port", str(free_port), "--no-browser"]) == 0
+    finally:
+        gc.enable()
+    assert said == [f"{words}\n", f"Hess Explorer runs at http://localhost:{free_port} (Ctrl-C ends it).\n"]
 
 
 def test_options_alone_mean_serve_with_a_browser(served, free_port, monkeypatch):
@@ -339,15 +366,26 @@ def test_taken_port(refusal, served):
     assert not served
 
 
-def test_interrupt_ends_the_server_cleanly(free_port, tmp_path):
-    log = tmp_path / "log"
+def test_a_first_start_answers_at_the_address_it_prints_and_ends_silently(free_port, tmp_path):
+    # Kernels without the mark that all are there: as a first start, but soon over.
+    cache = tmp_path / "hess-explorer" / CACHE_FOLDER.name
+    shutil.copytree(CACHE_FOLDER, cache, ignore=shutil.ignore_patterns("complete"))
     command = [sys.executable, "-m", "hess_explorer", "serve", "--port", str(free_port), "--no-browser"]
-    with (log.open("wb") as out, interruptible(),
-          subprocess.Popen(command, cwd=ROOT, stdout=out, stderr=subprocess.STDOUT) as process):
-        hess_explorer.headless.screenshot.wait_alive(process, free_port, log)
-        process.send_signal(signal.SIGINT)
+    url = f"http://localhost:{free_port}"
+    with interruptible(), subprocess.Popen(
+            command, cwd=ROOT, env={**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}, text=True, start_new_session=True,
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as process:
+        assert process.stdout.readline() == "Compiling, ready in about 20 s.\n"
+        assert process.stdout.readline() == f"Hess Explorer runs at {url} (Ctrl-C ends it).\n"
+        with urlopen(url, timeout=10) as answer:
+            assert b"<title>Hess Explorer</title>" in answer.read()
+        with urlopen(f"{url}/metrics", timeout=10) as answer:
+            counters = dict(line.split() for line in answer.read().decode().splitlines())
+        assert int(counters["hess_explorer_cache_misses"]) > 0
+        # As a terminal does: to the whole group.
+        os.killpg(process.pid, signal.SIGINT)
         assert process.wait(30) == 0
-    assert "Traceback" not in log.read_text()
+        assert process.stdout.read() == ""
 
 
 # shot
@@ -375,7 +413,7 @@ def test_a_server_that_does_not_start_says_why(monkeypatch, tmp_path):
     # Taken: the port is given away a second time.
     with socket.create_server(("127.0.0.1", 0)) as other:
         monkeypatch.setattr(hess_explorer.headless.screenshot, "_free_port", lambda: other.getsockname()[1])
-        monkeypatch.setattr(hess_explorer.headless.screenshot, "_is_alive", lambda port: False)
+        monkeypatch.setattr(hess_explorer.headless.screenshot, "is_alive", lambda host, port: False)
         with (pytest.raises(hess_explorer.headless.screenshot.ServerError, match=r"did not start .*taken"),
               running_server(tmp_path / "log")):
             pass

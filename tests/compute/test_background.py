@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import importlib
 import math
-import pkgutil
 import threading
 import time
 from collections import Counter
@@ -12,7 +10,6 @@ from collections import Counter
 import numpy as np
 import pytest
 
-import hess_explorer.scenes
 from hess_explorer.compute import background
 from hess_explorer.compute.background import Background
 from hess_explorer.compute.cache import ResultCache, Task
@@ -21,7 +18,7 @@ from hess_explorer.protocol.parameters import MAX_QUERY, Places, decode, encode,
 from hess_explorer.scenes.framework.work import Work
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.parallel import THREADS
-from support.board import SCENES, Browser
+from support.board import SCENES, Browser, modules_of_scenes
 
 EP = SCENES["euler-poisson"]
 STARTS = next(spec for spec in EP.specs if spec.name == "starts")
@@ -61,10 +58,8 @@ class Gate(ResultCache):
 def gate(monkeypatch):
     """The gate, closed, in place of the process's cache."""
     closed, begun = Gate(), []
-    names = [one.name for one in pkgutil.iter_modules(hess_explorer.scenes.__path__)]
-    for module in (background, session, *(importlib.import_module(f"hess_explorer.scenes.{name}") for name in names)):
-        if hasattr(module, "CACHE"):
-            monkeypatch.setattr(module, "CACHE", closed)
+    for module in (background, session, *modules_of_scenes()):
+        monkeypatch.setattr(module, "CACHE", closed)
     init = Background.__init__
 
     def recorded(work):

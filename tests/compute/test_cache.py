@@ -173,11 +173,9 @@ def test_the_metrics_say_what_was_asked_and_what_is_held():
         cache.get(function, key)
     with pytest.raises(ZeroDivisionError):
         cache.get(lambda: 1 // 0)
-    words = cache.metrics().split()
-    assert dict(zip(words[::2], map(int, words[1::2]), strict=True)) == {
+    assert cache.metrics() == {
         "cache_hits": 2, "cache_misses": 4, "cache_entries": 3,
         "cache_bytes": 3 * size_of(Result("", np.zeros(KILOBYTE, np.uint8)))}
-    assert len(cache.metrics().splitlines()) == 1
 
 
 def test_a_result_larger_than_the_cache_is_given_but_not_kept():

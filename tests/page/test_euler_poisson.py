@@ -12,20 +12,12 @@ import pytest
 from hess_explorer.headless.browser import wait_ready
 from hess_explorer.headless.screenshot import running_server
 from hess_explorer.protocol.parameters import places
-from support.euler_poisson import EP, NUMBER, View
-from support.page import ENTER, Explorer, flat, one_tab
+from support.euler_poisson import EP, EulerPoisson
+from support.page import ENTER, Explorer, flat, one_tab, said
 from support.pointer import at
 
 tab = pytest.fixture(scope="module")(one_tab)
 SMALL = {"orbits": 8.0, "count": 40.0, "long": 20.0, "span": 5.0}
-
-
-def said(explorer, picture, pattern):
-    """The numbers where the pattern has #, in a caption."""
-    text = explorer.caption(picture)
-    found = re.search(re.escape(pattern).replace(r"\#", NUMBER).replace(r"\ ", r"\s"), text)
-    assert found, (pattern, text)
-    return [float(number.replace("−", "-")) for number in found.groups()]
 
 
 def values_of(explorer):
@@ -112,7 +104,7 @@ def test_a_slider_changes_the_section(page):
     completed(page)
     assert values_of(page)["h"] == 30.0
     assert page.data("section-first") != before
-    view = View({**SMALL, "h": 30.0})
+    view = EulerPoisson({**SMALL, "h": 30.0})
     drawn_points = page.data("section-first")
     assert np.column_stack([drawn_points["x"], drawn_points["y"]]) == pytest.approx(view.points("first"), abs=1e-6)
 
@@ -213,7 +205,7 @@ def long_section(held_back, gate):
         held_back.type("h", str(h))
         held_back.type("orbits", "400")
         held_back.page.locator(".computing").wait_for(state="visible")
-        held_back.page.wait_for_function("window.hess.source('section-first').data.x.length > 0")
+        held_back.page.wait_for_function("hess.source('section-first').data.x.length > 0")
         return held_back
 
     yield begin

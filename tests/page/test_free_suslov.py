@@ -348,7 +348,7 @@ def test_play_moves_the_points_along_the_motion(free):
     gamma = gamma_at(values, math.acos(values["Gamma"]), values["phi"])
     before = yellow(free)
     free.page.locator(".param-play").click()
-    free.page.wait_for_function("window.hess.source('Gamma-point').data.x[0] > 0.7")
+    free.page.wait_for_function("hess.source('Gamma-point').data.x[0] > 0.7")
     free.page.locator(".param-play").click()
     wait_frames(free)
     t = free.time

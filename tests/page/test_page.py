@@ -60,8 +60,8 @@ def test_a_page_says_it_is_ready_once_and_when_its_pictures_are_drawn(browser, s
     assert [entry["ready"] for entry in record].count("true") == 1
     assert record[-1]["ready"] == "true"
     assert record[-1]["state"] == 1
-    # Three planar pictures of two canvases each, and the sphere.
-    assert record[-1]["drawn"] == 7
+    # Three planar pictures of two canvases each, the coloured cells of one, and the sphere.
+    assert record[-1]["drawn"] == 8
     explorer.assert_quiet()
 
 
@@ -130,7 +130,7 @@ def test_an_answer_that_takes_long_is_said_to_be_under_way(on_a_line):
     # What comes in time is not announced.
     page.evaluate("""() => {
       window.said = []
-      document.addEventListener("hess:texts", (event) => { if (event.detail.busy) said.push(event.detail.busy) })
+      hess.listen("texts", ({ busy }) => { if (busy) said.push(busy) })
     }""")
     for h in (0.8, 0.7):
         explorer.change(lambda h=h: explorer.slide(h=h))
@@ -299,7 +299,7 @@ def test_a_script_in_any_key_of_a_link_is_neither_run_nor_shown(explorer, payloa
 def test_whatever_a_text_of_the_page_is_told_to_say_it_shows_as_text(explorer):
     payload = "<img src=x onerror=window.pwned=1><b>bold</b>"
     said = {"status": payload, "omega": payload}
-    explorer.page.evaluate("detail => document.dispatchEvent(new CustomEvent('hess:texts', { detail }))", said)
+    explorer.page.evaluate("detail => hess.tell('texts', detail)", said)
     assert explorer.text("status") == payload
     assert explorer.caption("omega") == payload
     assert explorer.page.locator(".text img, .text b").count() == 0
@@ -344,12 +344,12 @@ def test_what_no_control_of_the_page_would_send_does_no_harm(explorer):
     explorer.change(lambda: explorer.page.evaluate(
         """() => {
           for (const detail of [{ nobody: 1 }, { h: "<b>", f: null, I22: [1], accuracy: 3 }, { b3: {} }])
-            document.dispatchEvent(new CustomEvent("hess:change", { detail }))
-          document.dispatchEvent(new CustomEvent("hess:pick", { detail: ["nowhere", 1, 1] }))
+            hess.tell("change", detail)
+          hess.tell("pick", ["nowhere", 1, 1])
         }"""))
     assert_orbit(explorer, DEFAULTS)
     explorer.change(lambda: explorer.page.evaluate(
-        """document.dispatchEvent(new CustomEvent("hess:change", { detail: { h: 1e300, phi0: 1 } }))"""))
+        """hess.tell("change", { h: 1e300, phi0: 1 })"""))
     assert explorer.here()[0] == 1e6
     explorer.change(lambda: explorer.slide(h=1.5))
     assert_orbit(explorer, {**DEFAULTS, "phi0": 1.0})
@@ -371,11 +371,11 @@ def test_a_page_whose_server_has_ended_keeps_its_pictures_and_plays_on(browser, 
     assert {name: explorer.data(name) for name in names} == before
     assert [explorer.caption(name) for name in PICTURES] == captions
     page.locator(".param-play").click()
-    page.wait_for_function("window.hess.source('data-orbit') != null")
+    page.wait_for_function("hess.source('data-orbit') != null")
     page.wait_for_function("document.querySelector('html').dataset.ready === 'true'")
     playing_from = explorer.data("omega-point")
     page.wait_for_function(
-        "x => window.hess.source('omega-point').data.x[0] !== x", arg=playing_from["x"][0])
+        "x => hess.source('omega-point').data.x[0] !== x", arg=playing_from["x"][0])
     explorer.sphere.press("ArrowLeft")
     page.wait_for_function("location.search.includes('az=0.687')")
     assert explorer.turn[0] == pytest.approx(0.6 + math.pi / 36, abs=1e-4)

@@ -24,8 +24,9 @@ SOME = 1e-4
 """The share of a small patch: some ten pixels."""
 
 # Of each cloud the columns ω1, ω2, γ1, γ2, γ3.
-CLOUDS = "canvas => canvas.clouds().map(({ w1, w2, g1, g2, g3 }) => [w1, w2, g1, g2, g3].map((one) => Array.from(one)))"
-DENSITY = "() => { const { x, y } = window.hess.source('density-now').data; return [Array.from(x), Array.from(y)] }"
+CLOUDS = """slider => hess.clouds(hess.source("omega"), Number(slider.value))
+  .map(({ w1, w2, g1, g2, g3 }) => [w1, w2, g1, g2, g3].map((one) => Array.from(one)))"""
+DENSITY = "() => { const { x, y } = hess.source('density-now').data; return [Array.from(x), Array.from(y)] }"
 
 
 def query(**changes):
@@ -34,7 +35,7 @@ def query(**changes):
 
 def clouds(page):
     """(5, n) of each cloud on the page."""
-    return [np.array(one) for one in page.locator(HERE.format("omega")).evaluate(CLOUDS)]
+    return [np.array(one) for one in page.locator("input.param-t").evaluate(CLOUDS)]
 
 
 def share_of(page, picture, colour):
@@ -102,7 +103,7 @@ def test_between_frames_nearly_all_points_are_right_to_a_pixel(open_page, change
         if beside:
             principal = (body.I11, body.I22, 0.0, 0.0, body.D, 0.0, 0.0, values["b3"])
             expected.append(ensemble(systems()["ball"], states, principal, [sense * t], level("precise")).states[:, 0])
-        half = page.evaluate("window.hess.source('omega').data.half")
+        half = page.evaluate("hess.source('omega').data.half")
         for found, right in zip(clouds(page), expected, strict=True):
             omega, gamma = (np.linalg.norm(found.T[:, part] - right[:, part], axis=1)
                             for part in (slice(0, 2), slice(2, 5)))

@@ -461,9 +461,9 @@ def test_the_edge_of_the_region_is_the_corrected_curve(explorer):
 def test_the_colours_are_rotation_numbers(explorer):
     image = explorer.page.evaluate(
         """() => {
-          const { data } = window.hess.source("bifurcation-rotation")
+          const { data } = hess.source("bifurcation-rotation")
           const grid = data.image[0]
-          return { values: Array.from(grid.flat?.(2) ?? grid, Number), shape: grid.shape,
+          return { values: Array.from(grid.numbers), shape: [grid.rows, grid.columns],
                    x: data.x[0], y: data.y[0], dw: data.dw[0], dh: data.dh[0] }
         }""")
     rows, columns = image["shape"]

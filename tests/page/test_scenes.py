@@ -31,6 +31,7 @@ from support.page import (
     wait_frames,
     wait_time,
 )
+from support.painted import SOURCES
 from support.pointer import HOME, STEP, assert_turned, at, frame
 from support.suslov_hess import assert_defaults, assert_orbit, body_of, exact_states
 
@@ -92,11 +93,9 @@ def assert_drawn(explorer, scene, values, *pictures):
     assert seen >= set(pictures or [name for name in SCENES[scene].open_pictures if name != "sphere"])
 
 
-SOURCES = """window.hess.plots.flatMap((plot) => [...plot.model.references()])
-  .filter((model) => model.type === "ColumnDataSource" && model.name !== null).map((model) => model.name).sort()"""
 # What would grow if each change of scene left something behind.
 HELD = """[Bokeh.documents.length, Object.keys(Bokeh.index).length, document.querySelectorAll("*").length,
-  window.hess.plots.flatMap((plot) => [...plot.model.references()]).length]"""
+  hess.plots.flatMap((plot) => [...plot.model.references()]).length]"""
 
 
 def listeners(explorer):
@@ -209,7 +208,7 @@ def test_a_scene_changes_in_place_and_back_with_all_that_was_chosen(explorer):
 def test_the_pictures_of_a_scene_are_built_while_the_mouse_rests_on_it(browser, server):
     context = browser.new_context(viewport={"width": 1600, "height": 950})
     page = Explorer(context.new_page(), server).open(f"scene={HESS}")
-    built = "name => window.hess.has(name)"
+    built = "name => hess.has(name)"
     card = page.page.locator
     passed = next(name for name in OFFERED if name not in (HESS, STUDY))
     card(f".param-scene-{STUDY}").hover()
@@ -314,7 +313,7 @@ def clicks(explorer, *names, change=None):
     """Change values and click on scenes before the browser does anything else; returns what it says of being ready."""
     return explorer.page.locator(".scenes").evaluate(
         """(menu, [names, detail]) => {
-          if (detail) document.dispatchEvent(new CustomEvent("hess:change", { detail }))
+          if (detail) hess.tell("change", detail)
           for (const name of names) menu.querySelector(`.param-scene-${name}`).click()
           return document.documentElement.dataset.ready
         }""", [names, change])
@@ -379,7 +378,7 @@ def test_a_control_that_is_moved_on_is_not_moved_back_by_an_older_answer_and_the
     explorer.slide(phi0=1.0)
     explorer.slider("phi0").evaluate("""slider => {
       window.shown = []
-      document.addEventListener("hess:controls", () => shown.push(Number(slider.value)))
+      hess.listen("controls", () => shown.push(Number(slider.value)))
     }""")
     line.release()
     wait_ready(explorer.page, after=before + 1)
@@ -492,7 +491,7 @@ def test_the_points_move_along_the_curves_of_the_chosen_level(study):
     state, before = study.state, places()
     study.page.locator(".param-speed").select_option("4")
     study.page.locator(".param-play").click()
-    study.page.wait_for_function("window.hess.source('growth-point').data.x[0] > 2")
+    study.page.wait_for_function("hess.source('growth-point').data.x[0] > 2")
     study.page.locator(".param-play").click()
     after, t = places(), study.time
     for name in points:
@@ -610,7 +609,7 @@ def phone(open_page, server):
 def send(explorer, **values):
     """Change numbers as their controls do, which are not there on a phone while their drawer is closed."""
     explorer.change(lambda: explorer.page.evaluate(
-        "detail => document.dispatchEvent(new CustomEvent('hess:change', { detail }))", values))
+        "detail => hess.tell('change', detail)", values))
 
 
 def in_sight(explorer, name):
@@ -747,16 +746,17 @@ def test_while_a_slider_is_held_the_slow_methods_are_not_measured(study):
 
 # What the player tells the sphere, and where it puts the points of the other pictures, at each of these times.
 TOLD = """(slider, times) => {
-  const of = (name) => { const { x, y } = window.hess.source(name).data; return [x[0], y[0]] }
+  const of = (name) => { const { x, y } = hess.source(name).data; return [x[0], y[0]] }
   let told = null
-  const hear = (event) => { told = event.detail }
-  document.addEventListener("hess:time", hear)
+  const hear = (detail) => { told = detail }
+  const controller = new AbortController()
+  hess.listen("time", hear, controller.signal)
   const all = times.map((t) => {
     slider.value = t
     slider.dispatchEvent(new Event("input"))
     return { ...told.state, t: told.t, points: ["omega-point", "bifurcation-point", "circle-point"].map(of) }
   })
-  document.removeEventListener("hess:time", hear)
+  controller.abort()
   return all
 }"""
 
@@ -767,7 +767,7 @@ TOLD = """(slider, times) => {
 ], ids=["default", "long", "near the separatrix", "strong contraction", "through w = 0", "fast", "small"])
 def test_the_moving_point_is_right_to_half_a_pixel_at_any_time(explorer, values):
     explorer.change(lambda: explorer.page.evaluate(
-        "detail => document.dispatchEvent(new CustomEvent('hess:change', { detail }))", {"h": 0.5, **values}))
+        "detail => hess.tell('change', detail)", {"h": 0.5, **values}))
     values = {**DEFAULTS, "h": 0.5, **values}
     samples = np.array(explorer.data("data-orbit")["t"])
     # The samples follow the curve: they are not even in time.

@@ -17,7 +17,7 @@ from support.free_suslov import shown
 from support.page import brought, chosen, flat, one_tab, said, values_of
 from support.painted import SOURCES, assert_painted
 from support.pointer import at, click
-from support.settled import Settled
+from support.view import View
 
 SUSLOV, ROTATION = scenes()["suslov"], scenes()["rotation-number"]
 tab = pytest.fixture(scope="module")(one_tab)
@@ -91,7 +91,7 @@ def test_an_example_of_the_suslov_problem_is_drawn_with_the_numbers_of_its_capti
 def test_a_slider_of_the_suslov_problem_changes_section_and_orbit(suslov):
     before = points(suslov, "first")
     suslov.change(lambda: suslov.slide(b3=0.9))
-    expected = Settled(SUSLOV, {**{name: float(value) for name, value in FEW.items()}, "b3": 0.9})
+    expected = View(SUSLOV, {**{name: float(value) for name, value in FEW.items()}, "b3": 0.9})
     assert points(suslov, "first") == pytest.approx(
         np.column_stack([expected.data["section-first"][axis] for axis in "xy"]), abs=1e-5)
     assert len(points(suslov, "first")) == len(before)

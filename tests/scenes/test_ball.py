@@ -7,17 +7,13 @@ forms.
 from __future__ import annotations
 
 import math
-import re
 import time
 from functools import cache
 
 import numpy as np
 import pytest
 
-from hess_explorer.compute.cache import CACHE
-from hess_explorer.protocol.wire import Wire
-from hess_explorer.scenes.framework.stage import Stage
-from hess_mechanics.errors import ModelError, WorkLimit
+from hess_mechanics.errors import ModelError
 from support.ball import (
     BALL,
     SECTION,
@@ -31,39 +27,7 @@ from support.ball import (
     shown,
     xi_of,
 )
-from support.numbers import NUMBER
-from support.wire import read
-
-
-class View:
-    """What a scene shows of some values: `data` by source, `axes`, `text` by picture, `report`, `result`."""
-
-    def __init__(self, scene, values, dragging=False):
-        wire = Wire()
-        stage = Stage(scene, wire)
-        self.values, notes = scene.admit({**scene.defaults(), **values})
-        assert notes == []
-        self.result = scene.compute(self.values, scene.pictures, dragging)
-        self.refused = []
-        if getattr(self.result, "todo", ()):
-            for task in self.result.todo:
-                try:
-                    CACHE.get(task.function, *task.arguments)
-                except WorkLimit as error:
-                    self.refused.append(str(error))
-            self.result = scene.compute(self.values, scene.pictures, dragging)
-            assert len(self.result.todo) == len(self.refused)
-        self.report = stage.show(self.result, False)
-        tree, block = wire.pack()
-        self.data = {name: {key: read(column, block) for key, column in columns.items()}
-                     for name, columns in tree["sources"].items()}
-        self.axes, self.text = tree["ranges"], tree["texts"]
-
-    def numbers(self, picture, pattern):
-        """The numbers in a caption that stand where the pattern has #."""
-        found = re.search(re.escape(pattern).replace(r"\#", NUMBER), self.text[picture])
-        assert found, (pattern, self.text[picture])
-        return [float(text.replace("−", "-")) for text in found.groups()]
+from support.view import View
 
 
 def columns(data, *names):
@@ -228,7 +192,7 @@ def test_every_energy_above_zero_is_drawn():
 ], ids=str)
 def test_a_map_that_takes_long_is_left_out_and_the_page_says_so(values):
     begun = time.process_time()
-    view = View(BALL, values)
+    view = View(BALL, values, refusing=True)
     # All threads together; a map that were computed would take minutes.
     assert time.process_time() - begun < 20.0
     if view.result.map is None:
@@ -272,7 +236,7 @@ def test_a_ball_without_a_line_of_rest_is_refused(values, sentence):
 @cache
 def field(name):
     preset = next(one for one in SECTION.presets if one.name == name)
-    return View(SECTION, preset.values)
+    return View(SECTION, preset.values, refusing=True)
 
 
 every_field = pytest.mark.parametrize("name", [one.name for one in SECTION.presets])

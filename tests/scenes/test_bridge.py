@@ -13,48 +13,12 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from hess_explorer.protocol.wire import Wire
-from hess_explorer.scenes.framework.stage import Stage
 from hess_mechanics import solve
 from hess_mechanics.errors import InvalidParameter, ModelError, NoField, Separatrix
 from hess_mechanics.numerics.accuracy import LEVELS, REFERENCE
 from support.bridge import BRIDGE, HELD, LEAK, STABLE, UNSTABLE, exact_growth, period_of, reduced, torus, values_of
 from support.free_suslov import shown
-from support.numbers import NUMBER
-from support.wire import read
-
-
-class View:
-    """What a scene shows of some values: `data` by source, `axes`, `text` by picture, `report`."""
-
-    def __init__(self, scene, values, dragging=False, seen=None):
-        wire = Wire()
-        stage = Stage(scene, wire)
-        self.values, self.admitted = scene.admit({**scene.defaults(), **values})
-        result = scene.compute(self.values, scene.pictures if seen is None else seen, dragging)
-        self.report = stage.show(result, False)
-        tree, block = wire.pack()
-        self.data = {name: {key: read(column, block) for key, column in columns.items()}
-                     for name, columns in tree["sources"].items()}
-        self.axes, self.text = tree["ranges"], tree["texts"]
-
-    def numbers(self, picture, pattern):
-        return numbers(self.text[picture], pattern)
-
-    def derived(self, pattern):
-        return numbers("\n".join(self.report.derived), pattern)
-
-    def curve(self, name):
-        """The parts of a series of a graph, joined."""
-        columns = self.data[name]
-        return tuple(np.concatenate([np.asarray(part, float) for part in columns[key]]) for key in ("xs", "ys"))
-
-
-def numbers(text, pattern):
-    """The numbers in a text that stand where the pattern has #."""
-    found = re.search(re.escape(pattern).replace(r"\#", NUMBER), text)
-    assert found, (pattern, text)
-    return [float(number.replace("−", "-")) for number in found.groups()]
+from support.view import View
 
 
 @cache
@@ -74,7 +38,7 @@ def bridge(name):
 def test_the_leak_grows_at_the_rate_in_the_caption_which_is_the_exact_one(name):
     view = leak(name)
     values = view.values
-    assert view.admitted == []
+    assert view.notes == []
     measured, count, exact = view.numbers("leak", "grows by # a period over # of them; exact #.")
     a = torus(values)[0]
     expected = 2.0 * math.pi * abs(a) if values["f"] == 0.0 else exact_growth(name)
@@ -184,11 +148,11 @@ def test_what_cannot_be_is_refused_in_a_sentence(scene, values, error, words):
 
 
 def test_energy_and_area_integral_are_kept_inside_what_is_possible():
-    view = View(LEAK, {"h": -500.0, "f": 3.0})
+    view = View(LEAK, {"h": -500.0, "f": 3.0}, noted=True)
     assert view.values["h"] == pytest.approx(-9.975)
     assert abs(view.values["f"]) < 1e-4
-    assert len(view.admitted) == 2
-    view = View(LEAK, {"h": 9.975, "f": -8.0})
+    assert len(view.notes) == 2
+    view = View(LEAK, {"h": 9.975, "f": -8.0}, noted=True)
     # At h = 1 in units b = 1 the curve `Geq3` has n = 1/3 and f = (1 − n²)/√n.
     edge = 8.0 / 9.0 * math.sqrt(3.0) * math.sqrt(9.975 * 0.625)
     assert view.values["f"] == pytest.approx(-edge, rel=1e-9)
@@ -201,7 +165,7 @@ def test_energy_and_area_integral_are_kept_inside_what_is_possible():
 @pytest.mark.parametrize("preset", BRIDGE.presets, ids=lambda preset: preset.name)
 def test_both_sides_of_an_example_agree_to_1e_11_over_t_50(preset):
     view = bridge(preset.name)
-    assert view.admitted == []
+    assert view.notes == []
     held, end, free = view.numbers("difference", HELD)
     assert end == 50.0
     assert 0.0 < held <= 1e-11
@@ -306,10 +270,10 @@ def test_with_a_large_a_the_leak_is_held_back_over_a_shorter_time():
 
 
 def test_each_side_keeps_its_own_bounds():
-    below = View(BRIDGE, {"given": "Suslov–Hess", "h": -5.0, "f": 0.0})
+    below = View(BRIDGE, {"given": "Suslov–Hess", "h": -5.0, "f": 0.0}, noted=True)
     assert below.values["h"] == pytest.approx(-1.0)
-    assert below.admitted[0].startswith("In units b = 1")
-    inside = View(BRIDGE, {"given": "Suslov–Hess", "h": 1.0, "f": 8.0})
+    assert below.notes[0].startswith("In units b = 1")
+    inside = View(BRIDGE, {"given": "Suslov–Hess", "h": 1.0, "f": 8.0}, noted=True)
     assert inside.values["f"] == pytest.approx(8.0 / 9.0 * math.sqrt(3.0), rel=1e-9)
     for values in (below.values, inside.values, BRIDGE.defaults()):
         for low, high, step in BRIDGE.limits(values).values():

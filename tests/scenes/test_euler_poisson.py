@@ -22,7 +22,7 @@ from hess_mechanics.euler_poisson.andoyer import andoyer_points, coordinates, st
 from hess_mechanics.euler_poisson.equations import SYSTEM
 from hess_mechanics.numerics.accuracy import REFERENCE, STANDARD
 from support.andoyer import GESS1, angles, crossings_by_scipy, dense, energies_at
-from support.euler_poisson import EP, View
+from support.euler_poisson import EP, EulerPoisson
 from support.lyapunov import finite_exponent
 
 every_preset = pytest.mark.parametrize("preset", EP.presets, ids=lambda preset: preset.name)
@@ -40,7 +40,7 @@ def on_which_side(view, points):
 
 @every_preset
 def test_an_example_shows_what_its_name_and_its_captions_promise(preset):
-    view = View(preset.values, shown={"section", "exponent", "sphere"})
+    view = EulerPoisson(preset.values, seen={"section", "exponent", "sphere"})
     assert view.report.notes == []
     assert not view.report.todo
     kept, count = view.numbers("section", "keeps its sign along # of # orbits")
@@ -93,7 +93,7 @@ def test_an_example_shows_what_its_name_and_its_captions_promise(preset):
 
 @pytest.mark.parametrize("preset", EP.presets[1:2] + EP.presets[5:6] + EP.presets[10:16:5], ids=lambda p: p.name)
 def test_rotation_numbers_are_those_of_10000_points(preset):
-    view = View({**preset.values, "orbits": 0.0})
+    view = EulerPoisson({**preset.values, "orbits": 0.0})
     low, high = view.numbers("rotation", "From # to #")
     series = view.data["rotation-rho"]
     along, rho = (np.concatenate([*series[key]]).astype(float) for key in ("xs", "ys"))
@@ -111,7 +111,7 @@ def test_rotation_numbers_are_those_of_10000_points(preset):
 
 def test_an_orbit_between_two_gaps_is_seen_too():
     """A line of one point is none: every number that the caption speaks of is a point as well."""
-    view = View({"orbits": 0.0}, shown={"rotation"})
+    view = EulerPoisson({"orbits": 0.0}, seen={"rotation"})
     low, high = view.numbers("rotation", "From # to #")
     lines, points = view.data["rotation-rho"], view.data["rotation-orbits"]
     assert any(len(line) == 1 for line in lines["ys"])
@@ -121,7 +121,7 @@ def test_an_orbit_between_two_gaps_is_seen_too():
 
 
 def test_at_the_meandering_torus_the_rotation_number_turns_round_at_an_eighth():
-    view = View({**EP.presets[1].values, "orbits": 0.0}, shown={"rotation"})
+    view = EulerPoisson({**EP.presets[1].values, "orbits": 0.0}, seen={"rotation"})
     place, rho = view.numbers("rotation", "it turns round at # with ρ = #: no twist there.")
     assert rho == pytest.approx(0.125, abs=1e-4)
     centre = tuple(float(view.data["section-line"][key][0]) for key in ("x", "y"))
@@ -154,7 +154,7 @@ def test_the_barrier_is_gone_away_from_hess_and_there_in_it():
 
 
 def test_grey_is_where_no_motion_is_possible():
-    view = View({**EP.presets[4].values, "orbits": 0.0})
+    view = EulerPoisson({**EP.presets[4].values, "orbits": 0.0})
     cells = np.asarray(view.data["section-impossible"]["image"][0])
     rows, columns = cells.shape
     assert 0.05 < np.mean(cells) < 0.95
@@ -171,7 +171,7 @@ def test_grey_is_where_no_motion_is_possible():
 
 
 def test_the_green_curve_is_the_hess_manifold():
-    view = View({"orbits": 0.0, "away": 0.3})
+    view = EulerPoisson({"orbits": 0.0, "away": 0.3})
     curve = np.column_stack([view.data["section-curve"][key] for key in ("x", "y")]).astype(float)
     r1, _, r3 = view.body.r
     M = np.column_stack([np.sqrt(1.0 - curve[:, 1] ** 2) * np.sin(curve[:, 0]), curve[:, 1]])
@@ -182,7 +182,8 @@ def test_the_green_curve_is_the_hess_manifold():
 
 
 def test_a_new_start_is_drawn_and_its_neighbours_stay():
-    one, two = View({"orbits": 4.0, "starts": "0,0.2"}), View({"orbits": 4.0, "starts": "0,0.2;0.5,-0.3"})
+    one = EulerPoisson({"orbits": 4.0, "starts": "0,0.2"})
+    two = EulerPoisson({"orbits": 4.0, "starts": "0,0.2;0.5,-0.3"})
     assert np.array_equal(one.points("first"), two.points("first"))
     assert np.array_equal(two.points("own")[: len(one.points("own"))], one.points("own"))
     assert len(two.points("own")) == 2 * len(one.points("own"))
@@ -191,7 +192,7 @@ def test_a_new_start_is_drawn_and_its_neighbours_stay():
 
 
 def test_a_window_is_filled_with_orbits_of_its_own():
-    view = View({"orbits": 20.0, "window": "0.5,0.1;1.5,0.6"})
+    view = EulerPoisson({"orbits": 20.0, "window": "0.5,0.1;1.5,0.6"})
     assert view.axes["section"] == pytest.approx([0.5, 1.5, 0.1, 0.6])
     starts = np.array(CACHE.get(*seeds_of(view))[0])
     l, x = coordinates(starts).T
@@ -209,7 +210,7 @@ def seeds_of(view):
 
 
 def test_a_drag_shows_the_section_at_once_with_fewer_orbits():
-    view = View({"h": 41.37}, dragging=True)
+    view = EulerPoisson({"h": 41.37}, dragging=True)
     assert view.result.todo == ()
     assert 0 < len(view.points("first")) + len(view.points("second")) <= 16 * 40
     assert "let go" in view.text["rotation"]
@@ -265,7 +266,7 @@ def test_what_cannot_be_shown_is_a_sentence(values, words):
 
 
 def test_a_start_that_is_not_possible_is_replaced_and_said():
-    view = View({**EP.presets[9].values, "orbits": 4.0, "starts": "2.8,0.3"})
+    view = EulerPoisson({**EP.presets[9].values, "orbits": 4.0, "starts": "2.8,0.3"})
     (note,) = view.report.notes
     assert note.startswith("At l = 2.8, L/G = 0.3 no motion with this h and f crosses the section: "
                            "the chosen orbit starts at l = ")
@@ -277,7 +278,7 @@ def test_a_start_that_is_not_possible_is_replaced_and_said():
     {"m": -9.975}, {"h": -9.9, "f": 0.0, "starts": "1.5,0"}, {"orbits": 0.0, "count": 2.0, "long": 1.0, "span": 0.01}])
 def test_at_the_ends_of_what_may_be_typed_there_is_a_picture_or_a_sentence(values):
     try:
-        view = View({"orbits": 8.0, "count": 20.0, "long": 5.0, "span": 2.0, **values})
+        view = EulerPoisson({"orbits": 8.0, "count": 20.0, "long": 5.0, "span": 2.0, **values})
     except ModelError as error:
         assert re.search(r"choose|press", str(error))
         return

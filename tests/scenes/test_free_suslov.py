@@ -13,8 +13,6 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from hess_explorer.protocol.wire import Wire
-from hess_explorer.scenes.framework.stage import Stage
 from hess_explorer.scenes.scattering import PRESETS as EXAMPLES
 from hess_mechanics.errors import ModelError
 from hess_mechanics.suslov.additional_integral import formula
@@ -35,36 +33,7 @@ from support.free_suslov import (
     start_of,
     tensor_of,
 )
-from support.numbers import NUMBER
-from support.wire import read
-
-
-class View:
-    """What a scene shows of some values: `data` by source, `axes`, `text` by picture, `report`, `result`."""
-
-    def __init__(self, scene, values, dragging=False):
-        wire = Wire()
-        stage = Stage(scene, wire)
-        self.values, notes = scene.admit({**scene.defaults(), **values})
-        assert notes == []
-        self.result = scene.compute(self.values, scene.pictures, dragging)
-        self.report = stage.show(self.result, False)
-        tree, block = wire.pack()
-        self.data = {name: {key: read(column, block) for key, column in columns.items()}
-                     for name, columns in tree["sources"].items()}
-        self.axes, self.text, self.stage = tree["ranges"], tree["texts"], stage
-        self.I11, *self.tensor = tensor_of(self.values)
-
-    def numbers(self, picture, pattern):
-        """The numbers in a caption that stand where the pattern has #, as 4 digits of them are shown."""
-        found = re.search(re.escape(pattern).replace(r"\#", NUMBER), self.text[picture])
-        assert found, (pattern, self.text[picture])
-        return [float(text.replace("−", "-")) for text in found.groups()]
-
-    def derived(self, name):
-        row = next(row for row in self.report.derived if row.startswith(f"{name} = "))
-        return float(row.split(" = ")[1].replace("−", "-"))
-
+from support.view import NUMBER, View
 
 every_free = pytest.mark.parametrize("preset", FREE.presets, ids=lambda preset: preset.name)
 every_scattering = pytest.mark.parametrize("preset", SCATTERING.presets, ids=lambda preset: preset.name)
@@ -84,8 +53,8 @@ def test_the_rate_the_energy_and_the_last_turning_are_those_of_the_paper(preset)
     rate, E = view.numbers("omega", "at rate ω₀ = #, E = #.")
     (speed,) = view.numbers("gamma1", "about ξ at # radians")
     assert (rate, E, speed) == (shown(rate_of(view.values, h)), shown(h), shown(size))
-    assert view.derived("I₁₁") == pytest.approx(I11, rel=1e-5)
-    assert view.derived("ω₀") == pytest.approx(rate_of(view.values, h), rel=1e-5)
+    assert view.derived("I₁₁ = #")[0] == pytest.approx(I11, rel=1e-5)
+    assert view.derived("ω₀ = #")[0] == pytest.approx(rate_of(view.values, h), rel=1e-5)
     points = {name: [view.data[f"omega-{name}-point"][axis][0] for axis in "xy"] for name in ("stable", "unstable")}
     assert points["stable"] == pytest.approx(-size * xi[:2], rel=1e-6)
     assert points["unstable"] == pytest.approx(size * xi[:2], rel=1e-6)
@@ -345,11 +314,11 @@ def test_cos_chi_computed_and_in_closed_form_are_both_right(preset):
     computed, closed, difference = view.numbers("chi", "Computed #; closed form #, difference #.")
     if view.values["I13"] == 0.0:
         exact = cos_chi_on_an_axis(view.values)
-        assert view.derived("cos χ") == pytest.approx(exact, abs=2e-12)
+        assert view.derived("cos χ = #")[0] == pytest.approx(exact, abs=2e-12)
     else:
         # ξ itself goes to the circle χ: from 1e-6 of the unstable point, to 1e-6.
         exact = circle_joined(view.values, 0.0, 0.0, 1e-6)
-        assert view.derived("cos χ") == pytest.approx(exact, abs=5e-6)
+        assert view.derived("cos χ = #")[0] == pytest.approx(exact, abs=5e-6)
     assert computed == pytest.approx(exact, abs=6e-6)
     assert closed == pytest.approx(exact, abs=6e-6)
     assert difference < 1e-13
@@ -369,7 +338,7 @@ def test_the_curve_leads_where_the_general_system_does_whatever_the_energy(prese
         assert math.cos(curve[i]) == pytest.approx(exact, abs=2e-6)
     # From the lowest to the highest: the image of the circle θ⁻ about an axis turned by χ.
     theta = view.values["theta"]
-    chi = math.acos(view.derived("cos χ"))
+    chi = math.acos(view.derived("cos χ = #")[0])
     low, high = abs(chi - theta), min(chi + theta, 2.0 * math.pi - chi - theta)
     assert (np.min(curve), np.max(curve)) == (pytest.approx(low, abs=5e-4), pytest.approx(high, abs=5e-4))
     if high - low > 1e-3:
@@ -407,7 +376,7 @@ def test_the_map_holds_all_curves(preset):
     assert [view.data["map-theta"][key][0] for key in ("x", "y", "dw", "dh")] == pytest.approx(
         [-math.pi, 0.0, 2.0 * math.pi, math.pi])
     # The mean of cos θ⁺ over a circle is cos χ cos θ⁻.
-    assert np.cos(grid).mean(axis=1) == pytest.approx(view.derived("cos χ") * np.cos(thetas), abs=1e-5)
+    assert np.cos(grid).mean(axis=1) == pytest.approx(view.derived("cos χ = #")[0] * np.cos(thetas), abs=1e-5)
     exact = circle_joined(view.values, thetas[rows // 3], phis[columns // 5], 10.0 ** -view.values["digits"])
     assert math.cos(grid[rows // 3, columns // 5]) == pytest.approx(exact, abs=2e-6)
 

@@ -3,50 +3,19 @@
 from __future__ import annotations
 
 import math
-import re
 
 import numpy as np
 import pytest
 
-from hess_explorer.compute.cache import CACHE
-from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
-from hess_explorer.scenes.framework.stage import Stage
 from hess_mechanics import level, solve, systems
 from hess_mechanics.errors import NoField, OutsideRegion
 from hess_mechanics.suslov.kharlamova import arc, state_at
 from support.kharlamova import ARC, POINT
-from support.wire import read
+from support.view import View
 
 SUSLOV = systems()["suslov"]
 FLOOR = level("reference")
-NUMBER = r"(−?[\d.]+(?:e−?\d+)?)"
-
-
-class View:
-    """What a scene shows of some values: `data` by source, `text` by picture, `report`, `result`."""
-
-    def __init__(self, scene, values, dragging=False):
-        wire = Wire()
-        self.stage = Stage(scene, wire)
-        self.values, notes = scene.admit({**scene.defaults(), **values})
-        assert notes == []
-        self.result = scene.compute(self.values, scene.pictures, dragging)
-        self.report = self.stage.show(self.result, False)
-        tree, block = wire.pack()
-        self.data = {name: {key: read(column, block) for key, column in columns.items()}
-                     for name, columns in tree["sources"].items()}
-        self.text = tree["texts"]
-
-    def numbers(self, picture, pattern):
-        """The numbers in a caption that stand where the pattern has #."""
-        return numbers_of(self.text[picture], pattern)
-
-
-def numbers_of(text, pattern):
-    found = re.search(re.escape(pattern).replace(r"\#", NUMBER), text)
-    assert found, (pattern, text)
-    return [float(one.replace("−", "-")) for one in found.groups()]
 
 
 def exact(view):
@@ -163,20 +132,18 @@ def test_an_example_of_the_quartic_potential_is_what_its_name_says(preset):
 @pytest.mark.parametrize("name", ["quartic", "ball-section"])
 def test_at_first_a_section_has_the_beginnings_of_all_its_orbits(name):
     values = {"count": 45.0, "h": 0.83}
-    first = View(scenes()[name], values)
-    (task,) = first.report.todo
-    assert (first.result.others.shape, first.report.total) == ((20 * 30, 2), 1)
-    CACHE.get(task.function, *task.arguments)
-    whole = View(scenes()[name], values)
-    assert (whole.report.todo, whole.report.total) == ((), 1)
+    view = View(scenes()[name], values)
+    first, whole = view.begun, view.result
+    assert (len(view.first.todo), first.others.shape, view.first.total) == (1, (20 * 30, 2), 1)
+    assert (view.report.todo, view.report.total) == ((), 1)
     # Later a chaotic orbit shows that its steps were others.
-    begun = first.result.others.reshape(20, 30, 2)[:, :8]
-    assert whole.result.others.reshape(20, 45, 2)[:, :8] == pytest.approx(begun, abs=1e-5)
+    begun = first.others.reshape(20, 30, 2)[:, :8]
+    assert whole.others.reshape(20, 45, 2)[:, :8] == pytest.approx(begun, abs=1e-5)
     # The chosen orbit is there at once.
-    assert len(first.result.own) == 45
+    assert len(first.own) == 45
     held = View(scenes()[name], values, dragging=True)
     assert (held.report.todo, len(held.result.own)) == ((), 30)
-    assert held.result.others == pytest.approx(first.result.others)
+    assert held.result.others == pytest.approx(first.others)
 
 
 def test_a_click_chooses_where_the_orbit_starts():
@@ -201,6 +168,6 @@ def test_what_is_no_motion_is_refused_in_words():
 
 def test_the_motion_for_speed_and_accuracy_is_the_one_on_show():
     for scene in (ARC, POINT):
-        view, motion = View(scene, {}), scene.of(scene.defaults()).motion()
+        view, motion = View(scene, {}), scene.motion(scene.defaults())
         assert motion.state == pytest.approx(view.result.start)
         assert (motion.parameters, motion.span) == (view.result.body.parameters, view.values["span"])

@@ -8,47 +8,16 @@ import re
 import numpy as np
 import pytest
 
-from hess_explorer.protocol.wire import Wire
-from hess_explorer.scenes.framework.stage import Stage
 from hess_explorer.scenes.framework.work import ACCURACY
 from hess_mechanics.errors import ModelError
 from support.loxodrome import HESS, LOXODROME, clock, slope, swing_at
-from support.wire import read
-
-NUMBER = r"(−?[\d.]+(?:e−?\d+)?)"
+from support.view import NUMBER, View
 
 
-class View:
-    """What a scene shows of some values: data by source, captions, report."""
-
-    def __init__(self, scene, values, shown=None, dragging=False):
-        wire = Wire()
-        stage = Stage(scene, wire)
-        self.values, notes = scene.admit({**scene.defaults(), **values})
-        assert notes == []
-        self.result = scene.compute(self.values, scene.pictures if shown is None else shown, dragging)
-        self.report = stage.show(self.result, False)
-        tree, block = wire.pack()
-        self.data = {name: {key: unpacked(column, block) for key, column in columns.items()}
-                     for name, columns in tree["sources"].items()}
-        self.axes, self.text = tree["ranges"], tree["texts"]
-
-    def numbers(self, picture, pattern):
-        """The numbers in a caption that stand where the pattern has #."""
-        found = re.search(re.escape(pattern).replace(r"\#", NUMBER), self.text[picture])
-        assert found, (pattern, self.text[picture])
-        return [float(text.replace("−", "-")) for text in found.groups()]
-
-    def curve(self, picture, look):
-        """The only curve of that look, (n, 3)."""
-        (found,) = [np.array(curve, float) for name, *curve in self.data[picture]["curves"] if name == look]
-        return found.T
-
-
-def unpacked(column, block):
-    if isinstance(column, list):
-        return [unpacked(item, block) for item in column]
-    return read(column, block) if isinstance(column, dict) else column
+def curve_of(view, picture, look):
+    """The only curve of that look, (n, 3)."""
+    (found,) = [np.array(curve, float) for name, *curve in view.data[picture]["curves"] if name == look]
+    return found.T
 
 
 every_preset = pytest.mark.parametrize("preset", LOXODROME.presets, ids=lambda preset: preset.name)
@@ -94,7 +63,7 @@ def test_a_preset_shows_what_its_captions_promise(preset):
 @every_preset
 def test_the_computed_track_lies_on_the_loxodrome_and_both_are_seen_from_below_upwards(preset):
     view = View(LOXODROME, preset.values)
-    loxodrome, track = view.curve("space", "muted"), view.curve("space", "orbit")
+    loxodrome, track = curve_of(view, "space", "muted"), curve_of(view, "space", "orbit")
     for points in (loxodrome, track):
         assert np.linalg.norm(points, axis=1) == pytest.approx(1.0, abs=1e-6)
     # In Mercator's chart about e, the first axis, both are a straight line of slope a, and the same one.
@@ -108,7 +77,7 @@ def test_the_computed_track_lies_on_the_loxodrome_and_both_are_seen_from_below_u
     turns = (lines[0][0] - lines[1][0]) / (2.0 * math.pi * slope(view.values))
     assert turns == pytest.approx(round(turns), abs=1e-3)
     # The centre of mass starts at the bottom, in the plane across e.
-    centre = view.curve("body", "stable")
+    centre = curve_of(view, "body", "stable")
     assert centre[0] == pytest.approx([0.0, 0.0, -1.0], abs=1e-6)
     assert np.max(np.abs(centre[:, 0])) < 1e-4
     assert centre[:, 2] == pytest.approx(view.data["data-orbit"]["height"], abs=1e-6)
@@ -132,7 +101,7 @@ def test_the_source_of_the_body_has_its_attitude_its_ellipsoid_and_its_centre_of
     # Where the centre of mass is in space: along (e, −γ × e, −γ).
     r = np.array(normal)
     place = np.stack([e @ r, -np.cross(g, e) @ r, -g @ r], axis=1)
-    assert place == pytest.approx(view.curve("body", "stable"), abs=2e-6)
+    assert place == pytest.approx(curve_of(view, "body", "stable"), abs=2e-6)
     assert "t" not in view.data["space"]
 
 
@@ -214,7 +183,7 @@ def test_where_there_is_no_body_nothing_is_drawn_and_that_is_said():
 
 
 def test_out_of_sight_the_body_is_not_computed():
-    view = View(HESS, {}, shown={"omega", "sphere", "bifurcation", "circle"})
+    view = View(HESS, {}, seen={"omega", "sphere", "bifurcation", "circle"})
     assert view.result.attitude is None
     assert "body" not in view.data
     assert "I₃₃" in view.text["body"]

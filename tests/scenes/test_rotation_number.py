@@ -20,7 +20,7 @@ from hess_mechanics import circle_map, f_max
 from hess_mechanics.errors import OutsideRegion, Separatrix
 from hess_mechanics.numerics.accuracy import REFERENCE
 from support.rotation_number import iterated
-from support.settled import Settled
+from support.view import View
 
 SCENE = scenes()["rotation-number"]
 
@@ -28,12 +28,7 @@ SCENE = scenes()["rotation-number"]
 @cache
 def example(name):
     preset = next(one for one in SCENE.presets if one.name == name)
-    return Settled(SCENE, preset.values)
-
-
-def curve(view, source):
-    columns = view.data[source]
-    return tuple(np.concatenate([np.asarray(part, float) for part in columns[key]] or [[]]) for key in ("xs", "ys"))
+    return View(SCENE, preset.values)
 
 
 NAMES = [preset.name for preset in SCENE.presets]
@@ -153,17 +148,17 @@ def test_the_boundary_in_the_map_divides_the_zones():
 
 def test_the_map_is_coarse_first_and_stays_coarse_under_a_drag():
     values = {"a": 0.512}
-    view = Settled(SCENE, values, dragging=True)
+    view = View(SCENE, values, dragging=True)
     assert view.report.todo == ()
     assert "map 75 × 50" in view.report.status
-    released = Settled(SCENE, values)
+    released = View(SCENE, values)
     assert "map 75 × 50" in released.first.status
     assert 0 < len(released.first.todo) <= released.first.total
     assert "map 300 × 200" in released.report.status
 
 
 def test_a_picture_that_is_not_seen_is_not_computed():
-    view = Settled(SCENE, {"a": 0.517}, seen=("circle",))
+    view = View(SCENE, {"a": 0.517}, seen=("circle",))
     assert view.first.todo == ()
     assert (view.result.grid, view.result.along, view.result.rational) == (None, None, None)
 
@@ -172,18 +167,18 @@ def test_a_picture_that_is_not_seen_is_not_computed():
 @pytest.mark.parametrize("line", ["a", "h", "f"])
 @pytest.mark.parametrize("f", [0.6, -0.6])
 def test_every_plane_and_line_shows_finite_numbers(plane, line, f):
-    view = Settled(SCENE, {"over": plane, "line": line, "f": f, "epsilon": 0.0})
+    view = View(SCENE, {"over": plane, "line": line, "f": f, "epsilon": 0.0})
     view.assert_finite()
     assert view.report.todo == ()
-    x, rho = curve(view, "line-rho")
-    _, trace = curve(view, "trace-t")
+    x, rho = view.curve("line-rho")
+    _, trace = view.curve("trace-t")
     torus = {"a": 0.5, "h": 0.5, "f": f}
     for i in range(3, len(x) - 3, len(x) // 4):
         exact = circle_map(*{**torus, line: float(np.float64(x[i]))}.values(), REFERENCE)
         assert rho[i] == pytest.approx(exact.rotation_number, abs=1e-3)
         assert trace[i] == pytest.approx(min(exact.trace, 50.0), rel=1e-3)
     # Without ε the other family is this one.
-    x_other, other = curve(view, "line-other")
+    x_other, other = view.curve("line-other")
     assert np.array_equal(x_other, x)
     assert other == pytest.approx(rho, abs=3e-3)
     # For f < 0 the rational number that is looked for is positive.
@@ -192,7 +187,7 @@ def test_every_plane_and_line_shows_finite_numbers(plane, line, f):
 
 
 def test_f_outside_the_region_is_put_on_its_edge_and_said():
-    view = Settled(SCENE, {"h": 0.2, "f": -2.9})
+    view = View(SCENE, {"h": 0.2, "f": -2.9}, noted=True)
     assert view.values["f"] == -f_max(0.2)
     assert "f is at that edge now" in view.notes[0]
     view.assert_finite()
@@ -208,13 +203,13 @@ def test_a_window_beyond_what_is_allowed_is_refused_in_a_link_and_cut_in_a_box()
     values, notes = decode("part_hf=-50,-2;3,2", SCENE.specs)
     assert values["part_hf"] == ""
     assert "The window of the map over h, f could not be read" in notes[0]
-    stage = Settled(SCENE, {}).stage
+    stage = View(SCENE, {}).stage
     assert stage.box("map", (3.0, 2.0, -50.0, -2.0)) == {"part_hf": "-1,-2;3,2"}
     assert stage.box("map", (-20.0, 2.0, -50.0, -2.0)) == {}
 
 
 def test_on_the_separatrix_there_is_no_circle_map():
-    view = Settled(SCENE, {"h": 1.0, "f": 0.0})
+    view = View(SCENE, {"h": 1.0, "f": 0.0})
     assert view.text["circle"] == "Circle map\nSeparatrix: no return."
     assert view.report.todo == ()
     view.assert_finite()
@@ -224,13 +219,13 @@ def test_on_the_separatrix_there_is_no_circle_map():
     {"a": 0.0}, {"a": 100.0, "f": 0.5}, {"a": -0.5}, {"h": 1e6, "f": 1.0}, {"h": -0.99, "f": 0.01},
     {"h": -1.0 + 1e-9, "f": 0.0}, {"f": 0.0}, {"epsilon": 0.33}])
 def test_extreme_values_are_shown(values):
-    view = Settled(SCENE, values)
+    view = View(SCENE, values, noted=values == {"h": -0.99, "f": 0.01})
     view.assert_finite()
     assert view.report.todo == ()
 
 
 def test_a_click_in_the_map_chooses_the_torus_and_one_on_the_line_its_place():
-    view = Settled(SCENE, {"over": "f, a", "line": "h"})
+    view = View(SCENE, {"over": "f, a", "line": "h"})
     stage = view.stage
     assert stage.pick("map", 0.4, 0.7) == {"f": 0.4, "a": 0.7}
     assert stage.pick("line", 0.3, -0.2) == stage.pick("trace", 0.3, 3.0) == {"h": 0.3}
@@ -240,14 +235,14 @@ def test_a_click_in_the_map_chooses_the_torus_and_one_on_the_line_its_place():
 
 
 def test_a_box_is_the_window_of_its_own_map_and_of_no_other():
-    box = Settled(SCENE, {"over": "f, a", "line": "h"}).stage.box("map", (0.9, 0.1, 0.2, 0.5))
+    box = View(SCENE, {"over": "f, a", "line": "h"}).stage.box("map", (0.9, 0.1, 0.2, 0.5))
     values, notes = SCENE.admit({**SCENE.defaults(), **box})
     assert notes == []
     assert values["part_fa"] == "0.2,0.1;0.9,0.5"
     assert values["part_hf"] == values["part_ha"] == ""
-    assert Settled(SCENE, {**values, "over": "f, a"}, seen=("map",)).result.window == ((0.2, 0.9), (0.1, 0.5))
+    assert View(SCENE, {**values, "over": "f, a"}, seen=("map",)).result.window == ((0.2, 0.9), (0.1, 0.5))
     for plane in ("h, f", "h, a"):
-        seen = (Settled(SCENE, {**given, "over": plane}, seen=("map",)).result.window for given in (values, {}))
+        seen = (View(SCENE, {**given, "over": plane}, seen=("map",)).result.window for given in (values, {}))
         assert next(seen) == next(seen)
 
 

@@ -20,8 +20,8 @@ from hess_mechanics import SuslovBody, solve
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import REFERENCE
 from support.free_suslov import shown
-from support.settled import Settled
 from support.suslov import energy, field, permanent_rotations
+from support.view import View
 
 SCENE = scenes()["suslov"]
 NAMES = [preset.name for preset in SCENE.presets]
@@ -33,7 +33,7 @@ FEW = {"orbits": 4.0, "count": 20.0, "long": 20.0}
 @cache
 def example(name):
     preset = next(one for one in SCENE.presets if one.name == name)
-    return Settled(SCENE, preset.values)
+    return View(SCENE, preset.values)
 
 
 def body_of(view):
@@ -42,11 +42,6 @@ def body_of(view):
 
 def energy_of(view):
     return view.values["h"] - math.hypot(*(view.values[name] for name in ("b1", "b2", "b3")))
-
-
-def points(view, layer):
-    columns = view.data[f"section-{layer}"]
-    return np.column_stack([columns["x"], columns["y"]]).astype(float)
 
 
 def start_of(view):
@@ -94,7 +89,7 @@ def test_an_example_is_complete_and_counts_its_points(name):
         title, promise = view.text[picture].split("\n")
         assert title
         assert len(promise) <= 110
-    forward, backward = points(view, "first"), points(view, "second")
+    forward, backward = view.points("first"), view.points("second")
     both = view.values.get("colours") == "forward and backward in time"
     assert (len(backward) > 0) == both
     if name != TWO:
@@ -163,7 +158,7 @@ def test_exponent_and_divergence_of_an_example_are_near_those_of_the_linear_equa
 
 def test_the_exponent_of_a_regular_orbit_goes_on_falling():
     short = example(REGULAR).numbers("exponent", "λ = #")[0]
-    longer = Settled(SCENE, {**example(REGULAR).values, "long": 5000.0}, seen=("exponent",))
+    longer = View(SCENE, {**example(REGULAR).values, "long": 5000.0}, seen=("exponent",))
     assert longer.numbers("exponent", "λ = #")[0] < 0.5 * short
 
 
@@ -184,7 +179,7 @@ def test_what_attracts_and_repels_in_the_reversal_are_permanent_rotations():
     met = {}
     for layer in ("first", "second"):
         # The last points of 40 orbits with 100 crossings each.
-        ends = points(view, layer)[99::100]
+        ends = view.points(layer)[99::100]
         assert len(ends) == 40
         gaps = np.linalg.norm(ends[:, None, :] - rests[None, :, :], axis=2)
         assert np.max(gaps.min(axis=1)) < 0.01
@@ -212,7 +207,7 @@ def test_the_basins_of_the_example_are_those_that_scipy_finds():
     body, means = body_of(view), {0.0: [], 1.0: []}
     for i, j in chosen:
         psi, delta = -math.pi + (j + 0.5) * 2.0 * math.pi / 36, (i + 0.5) * math.pi / 24
-        start = start_of(Settled(SCENE, {**view.values, **FEW, "colours": "forward only",
+        start = start_of(View(SCENE, {**view.values, **FEW, "colours": "forward only",
                                          "starts": f"{psi},{delta}"}, seen=("sphere",)))
         run = solve_ivp(lambda t, y: field(body, y), (0.0, 350.0), start, "DOP853", rtol=1e-7, atol=1e-8,
                         t_eval=np.linspace(280.0, 350.0, 1401))
@@ -228,14 +223,14 @@ def test_the_basins_of_the_example_are_those_that_scipy_finds():
 @pytest.mark.parametrize("plane", ["γ₃ = 0", "γ₁ = 0", "γ₂ = 0"])
 @pytest.mark.parametrize("colours", ["forward and backward in time", "forward only", "basins"])
 def test_every_plane_and_choice_is_shown(plane, colours):
-    view = Settled(SCENE, {**FEW, "plane": plane, "colours": colours, "starts": "-0.3,1"})
+    view = View(SCENE, {**FEW, "plane": plane, "colours": colours, "starts": "-0.3,1"})
     view.assert_finite()
     assert view.report.todo == ()
     assert plane in view.text["section"]
-    assert len(points(view, "first")) > 10
-    assert (len(points(view, "second")) > 10) == (colours == "forward and backward in time")
+    assert len(view.points("first")) > 10
+    assert (len(view.points("second")) > 10) == (colours == "forward and backward in time")
     assert (view.result.basin is not None) == (colours == "basins")
-    psi, delta = points(view, "chosen")[0]
+    psi, delta = view.points("chosen")[0]
     assert (psi, delta) == pytest.approx((-0.3, 1.0), abs=1e-6)
     # The chosen orbit starts in the plane.
     track = view.data["data-orbit"]
@@ -245,28 +240,28 @@ def test_every_plane_and_choice_is_shown(plane, colours):
 
 
 def test_the_later_half_are_the_later_points():
-    every = Settled(SCENE, {**FEW, "drop": "all"}, seen=("section",))
-    later = Settled(SCENE, {**FEW, "drop": "the later half"}, seen=("section",))
-    whole, half = points(every, "first"), points(later, "first")
+    every = View(SCENE, {**FEW, "drop": "all"}, seen=("section",))
+    later = View(SCENE, {**FEW, "drop": "the later half"}, seen=("section",))
+    whole, half = every.points("first"), later.points("first")
     assert (len(whole), len(half)) == (80, 40)
     assert np.array_equal(half, whole.reshape(4, 20, 2)[:, 10:].reshape(-1, 2))
 
 
 def test_without_orbits_only_the_chosen_one_is_shown():
-    view = Settled(SCENE, {**FEW, "orbits": 0.0}, seen=("section",))
-    assert len(points(view, "first")) == 0
-    assert len(points(view, "own")) == 20
+    view = View(SCENE, {**FEW, "orbits": 0.0}, seen=("section",))
+    assert len(view.points("first")) == 0
+    assert len(view.points("own")) == 20
 
 
 def test_a_drag_shows_fewer_points_at_once():
-    view = Settled(SCENE, {"I23": 0.437}, dragging=True)
+    view = View(SCENE, {"I23": 0.437}, dragging=True)
     assert view.report.todo == ()
-    assert 200 < len(points(view, "first")) <= 12 * 40
+    assert 200 < len(view.points("first")) <= 12 * 40
     assert "found when a slider is let go" in view.text["exponent"]
 
 
 def test_a_click_adds_an_orbit_and_a_box_is_the_window():
-    view = Settled(SCENE, FEW)
+    view = View(SCENE, FEW)
     assert isinstance(view.stage, Boxed)
     assert places(view.stage.pick("section", 0.3, 2.0)["starts"]) == [(1.0, 1.0), (0.3, 2.0)]
     assert view.stage.pick("omega", 0.3, 2.0) == {}
@@ -274,20 +269,20 @@ def test_a_click_adds_an_orbit_and_a_box_is_the_window():
     assert low == (-0.5, 2.0)
     assert high == pytest.approx((1.0, math.pi), abs=1e-5)
     assert view.stage.box("section", (1.0, 2.0, 1.0, 3.0)) == view.stage.box("sphere", (1.0, 2.0, 0.0, 3.0)) == {}
-    both = Settled(SCENE, {**FEW, "starts": "1,1;0.3,2"})
-    assert len(points(both, "own")) == 2 * len(points(view, "own"))
-    assert points(both, "chosen") == pytest.approx(np.array([[1.0, 1.0], [0.3, 2.0]]), abs=1e-6)
-    closer = Settled(SCENE, {**FEW, "window": "-0.5,2;1,3"})
+    both = View(SCENE, {**FEW, "starts": "1,1;0.3,2"})
+    assert len(both.points("own")) == 2 * len(view.points("own"))
+    assert both.points("chosen") == pytest.approx(np.array([[1.0, 1.0], [0.3, 2.0]]), abs=1e-6)
+    closer = View(SCENE, {**FEW, "window": "-0.5,2;1,3"})
     assert closer.result.window == ((-0.5, 2.0), (1.0, 3.0))
 
 
 def test_a_start_where_nothing_is_possible_is_replaced_and_said():
     # E = −0.1: not where (b, γ) > E, at the angle of b.
     values = {**FEW, "h": -0.1 + math.hypot(0.5, 0.5, 0.7), "starts": f"1,1;{math.atan2(-0.5, -0.5)},1"}
-    view = Settled(SCENE, values)
+    view = View(SCENE, values)
     note, = view.report.notes
     assert "no motion has this energy" in note
-    psi, delta = points(view, "chosen")[-1]
+    psi, delta = view.points("chosen")[-1]
     assert -0.5 * (math.cos(psi) + math.sin(psi)) < -0.1
     assert 0.0 < delta < math.pi
 
@@ -295,7 +290,7 @@ def test_a_start_where_nothing_is_possible_is_replaced_and_said():
 @pytest.mark.parametrize("plane", ["γ₃ = 0", "γ₁ = 0", "γ₂ = 0"])
 @pytest.mark.parametrize("h", [1e-6, 0.1, 0.2, 0.3])
 def test_an_energy_that_does_not_reach_the_plane_is_raised_and_shown(plane, h):
-    view = Settled(SCENE, {**FEW, "h": h, "plane": plane})
+    view = View(SCENE, {**FEW, "h": h, "plane": plane}, noted=True)
     size = {"γ₃ = 0": math.hypot(0.5, 0.5), "γ₁ = 0": math.hypot(0.5, 0.7), "γ₂ = 0": math.hypot(0.5, 0.7)}[plane]
     bottom = math.hypot(0.5, 0.5, 0.7) - size
     assert (view.values["h"] == h) == (h > bottom)
@@ -304,7 +299,7 @@ def test_an_energy_that_does_not_reach_the_plane_is_raised_and_shown(plane, h):
         assert f"only for h > {bottom:.4g}" in view.notes[0]
         assert bottom < view.values["h"] < 1.02 * bottom
     view.assert_finite()
-    assert len(points(view, "first")) > 1
+    assert len(view.points("first")) > 1
 
 
 @pytest.mark.parametrize("text", ["", "0,0", "1,1;1,2", "1,1;2,1"])
@@ -336,7 +331,7 @@ def test_an_exponent_over_too_long_a_time_is_a_sentence():
     {"b1": 0.0, "b2": 0.0, "b3": 0.0}, {"b1": 1e3, "b2": 0.0, "b3": 0.0, "h": 1e3}, {"I13": 0.0, "I23": 0.0},
     {"h": 1e6}, {"I11": 1e-3}, {"I22": 1e3, "span": 1.0}, {"b1": 1e-6, "b2": 1e-6, "b3": 0.0, "h": 1e-6}])
 def test_extreme_values_are_shown(values):
-    view = Settled(SCENE, {**FEW, "span": 5.0, **values})
+    view = View(SCENE, {**FEW, "span": 5.0, **values})
     view.assert_finite()
     assert view.report.todo == ()
     assert view.axes

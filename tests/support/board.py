@@ -41,22 +41,31 @@ def description(name):
 @cache
 def plots_of(name):
     """The empty pictures of a scene that Bokeh draws, by name, as the browser reads them."""
-    document = Document.from_json(json.loads(description(name)["document"]))
-    return {root.name: root for root in document.roots}
+    documents = [Document.from_json(one["item"]["doc"]) for one in description(name)["pictures"] if one["kind"] == "plot"]
+    return {root.name: root for document in documents for root in document.roots}
 
 
 @cache
 def empty_sources(name):
     """The sources of a scene's pictures before there are data: those of its plots, and one for each other picture."""
     # HoloViews has one of its own for the background of each.
-    found = {model.id: model for root in plots_of(name).values() for model in root.references()
-             if isinstance(model, ColumnDataSource) and model.name is not None}.values()
-    assert len({model.name for model in found}) == len(found)
-    others = {picture["name"]: {} for picture in description(name)["pictures"] if picture["kind"] != "plot"}
+    found = [model for root in plots_of(name).values() for model in root.references()
+             if isinstance(model, ColumnDataSource) and model.name is not None]
+    assert len({model.name for model in found} - tracks_of(name)) == len(
+        [model for model in found if model.name not in tracks_of(name)])
+    pictures = description(name)["pictures"]
+    canvases = {picture["name"]: {} for picture in pictures if picture["kind"] != "plot"}
+    cells = {one["source"]: {} for picture in pictures for one in picture.get("cells", ())}
+    dots = {one["source"]: {one["x"]: [], one["y"]: []} for picture in pictures for one in picture.get("dots", ())}
     empty = {model.name: dict(model.data) for model in found}
     assert not any(column for columns in empty.values() for column in columns.values())
-    assert not set(empty) & set(others)
-    return {**{track: {} for track in description(name)["tracks"]}, **empty, **others}
+    assert not set(empty) & set(canvases)
+    return {**dict.fromkeys(tracks_of(name), {}), **cells, **dots, **empty, **canvases}
+
+
+def tracks_of(name):
+    """The sources that several pictures of a scene share."""
+    return {f"data-{track}" for track in SCENES[name].tracks}
 
 
 class Screen:

@@ -7,7 +7,8 @@ from urllib.parse import parse_qsl, urlsplit
 
 from hess_explorer.headless.browser import wait_ready
 from hess_explorer.scenes import scenes
-from support.numbers import NUMBER
+from support.modules import look_inside
+from support.view import numbers_in
 
 HESS, STUDY = "suslov-hess", "suslov-hess-accuracy"
 FIRST = next(iter(scenes()))
@@ -31,6 +32,7 @@ class Explorer:
         self.page = page
         self.base = base
         self.errors, self.outside, self.sent, self.received = [], [], [], []
+        look_inside(page)
         # Long enough for a machine that does much else; nothing is measured here.
         page.set_default_timeout(60_000)
         host = urlsplit(base).netloc
@@ -109,8 +111,9 @@ class Explorer:
         """The columns of a source of the scene on show; nested lists for polygons and lines of several parts."""
         return self.page.evaluate(
             """name => {
-              const plain = (x) => ArrayBuffer.isView(x) || Array.isArray(x) ? Array.from(x, plain) : x
-              const { data } = window.hess.source(name)
+              const plain = (x) => ArrayBuffer.isView(x) || Array.isArray(x) ? Array.from(x, plain)
+                : x?.numbers ? plain(x.numbers) : x
+              const { data } = hess.source(name)
               return Object.fromEntries(Object.entries(data).map(([key, column]) => [key, plain(column)]))
             }""", name)
 
@@ -123,7 +126,7 @@ class Explorer:
         """(x from, x to, y from, y to) of a planar picture."""
         return self.page.evaluate(
             """name => {
-              const { x_range: x, y_range: y } = window.hess.plots.find(({ model }) => model.name === name).model
+              const { x_range: x, y_range: y } = hess.plots.find(({ model }) => model.name === name).model
               return [x.start, x.end, y.start, y.end]
             }""", name)
 
@@ -325,7 +328,7 @@ def flat(data):
 
 # The time and the points that belong to it, and where the sphere shows its point: from one task of the browser.
 MOMENT = """names => {
-  const of = (name) => window.hess.source(name).data
+  const of = (name) => hess.source(name).data
   const find = (root, selector) => {
     for (const item of [root, ...root.querySelectorAll("*")]) {
       const found = item.shadowRoot && (item.shadowRoot.querySelector(selector) ?? find(item.shadowRoot, selector))
@@ -367,10 +370,7 @@ def brought(tab, scene):
 
 def said(explorer, picture, pattern):
     """The numbers where the pattern has #, in a caption."""
-    text = explorer.caption(picture)
-    found = re.search(re.escape(pattern).replace(r"\#", NUMBER).replace(r"\ ", r"\s"), text)
-    assert found, (pattern, text)
-    return [float(number.replace("−", "-")) for number in found.groups()]
+    return numbers_in(explorer.caption(picture), pattern)
 
 
 def values_of(explorer, scene):

@@ -26,8 +26,7 @@ def yellow(explorer):
         }""")
 
 
-SOURCES = """window.hess.plots.flatMap((plot) => [...plot.model.references()])
-  .filter((model) => model.type === "ColumnDataSource" && model.name).map((model) => model.name)"""
+SOURCES = "hess.plotted()"
 
 
 def track(explorer, source="data-orbit"):

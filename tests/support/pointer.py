@@ -12,7 +12,7 @@ def frame(explorer, name):
     explorer.picture(name).scroll_into_view_if_needed()
     return explorer.page.evaluate(
         """name => {
-          const found = window.hess.plots.find(({ model }) => model.name === name)
+          const found = hess.plots.find(({ model }) => model.name === name)
           const [{ x, y }, { x0, y0, x1, y1 }] = [found.el.getBoundingClientRect(), found.frame.bbox]
           return [x + x0, y + y0, x + x1, y + y1]
         }""", name)

@@ -15,7 +15,7 @@ def body_of(values):
 
 
 def exact_states(values, times):
-    """(ω1, ω2, γ1, γ2, γ3) at these times, in the variables of S1 and not, as the page does it, in those of S8."""
+    """(ω1, ω2, γ1, γ2, γ3) at these times, integrated in these variables; the page uses the reduced ones."""
     body = body_of(values)
     start = turning_points(values["h"], values["f"]).state_at_lower_turn(values["phi0"])
     state = body.from_reduced(body.from_units_of_b(start))

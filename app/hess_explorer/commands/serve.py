@@ -38,20 +38,31 @@ def _origin(text: str) -> str:
 
 def _run(options: argparse.Namespace) -> None:
     _require_free(options.address, options.port)
-    # "Every address" is none that a browser can open.
+    # A browser cannot open the address that stands for all interfaces.
     host = "localhost" if options.address in ("127.0.0.1", "0.0.0.0", "::") else options.address
     url = f"http://{f'[{host}]' if ':' in host else host}:{options.port}"
     show = options.browser and _has_browser()
-    print(f"Hess Explorer runs at {url} (Ctrl-C ends it).", flush=True)
-    if options.browser and not show:
-        print(f"There is no browser to open here: open {url} in one.", flush=True)
-    # What is made by importing stays as long as the process: the collector would only walk through it
-    # again and again (0.25 s).  `hess_explorer.server.serving` turns it on again.
+    print(_first_words(), flush=True)
+
+    def ready() -> None:
+        print(f"Hess Explorer runs at {url} (Ctrl-C ends it).", flush=True)
+        if options.browser and not show:
+            print(f"There is no browser to open here: open {url} in one.", flush=True)
+
+    # Imported objects live as long as the process: collecting garbage among them would only cost 0.25 s of the start.
+    # `hess_explorer.server.warm` turns the collector on again.
     gc.disable()
     with suppress(KeyboardInterrupt):
         from hess_explorer.server.serving import serve
 
-        serve(port=options.port, address=options.address, show=show, origins=options.origins)
+        serve(port=options.port, address=options.address, show=show, origins=options.origins, ready=ready)
+
+
+def _first_words() -> str:
+    """What is about to take time, before it does."""
+    from hess_explorer.server.compiled import all_compiled
+
+    return "Starting, ready in a few seconds." if all_compiled() else "Compiling, ready in about 20 s."
 
 
 def _require_free(address: str, port: int) -> None:

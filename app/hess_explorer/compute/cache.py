@@ -104,11 +104,11 @@ class ResultCache:
         """How many results have been asked for."""
         return self.hits + self.misses
 
-    def metrics(self) -> str:
-        """One line "name value …" for the log."""
+    def metrics(self) -> dict[str, int]:
+        """The counters, all of one moment."""
         with self._lock:
-            return (f"cache_hits {self.hits} cache_misses {self.misses} cache_entries {len(self._entries)} "
-                    f"cache_bytes {self.bytes}")
+            return {"cache_hits": self.hits, "cache_misses": self.misses, "cache_entries": len(self._entries),
+                    "cache_bytes": self.bytes}
 
     def _shrink(self) -> None:
         while self.bytes > self.capacity and self._entries:

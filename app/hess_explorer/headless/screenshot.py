@@ -1,4 +1,4 @@
-"""The page served by a process of its own, and a picture of it."""
+"""The page served by a separate process, and screenshots of it."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ import tempfile
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from http.client import HTTPConnection, HTTPException
 from pathlib import Path
 
 from hess_explorer.headless.browser import BrowserError, launched, wait_ready
+from hess_explorer.server.liveness import is_alive
 
 __all__ = ["ServerError", "running_server", "screenshot", "wait_alive"]
 
@@ -29,21 +29,10 @@ def _free_port() -> int:
         return probe.getsockname()[1]
 
 
-def _is_alive(port: int) -> bool:
-    connection = HTTPConnection("127.0.0.1", port, timeout=5)
-    try:
-        connection.request("GET", "/liveness")
-        return connection.getresponse().status == 200
-    except (OSError, HTTPException):
-        return False
-    finally:
-        connection.close()
-
-
 def wait_alive(process: subprocess.Popen[bytes], port: int, log: Path) -> None:
     """Wait until the server of this process answers.  Raises `ServerError` with the last line of its log."""
     deadline = time.monotonic() + _START_SECONDS
-    while not _is_alive(port):
+    while not is_alive("127.0.0.1", port):
         if process.poll() is not None or time.monotonic() > deadline:
             said = log.read_text(errors="replace").strip().splitlines()
             raise ServerError(f"The server did not start ({said[-1] if said else 'silent'}).")
@@ -52,13 +41,13 @@ def wait_alive(process: subprocess.Popen[bytes], port: int, log: Path) -> None:
 
 @contextmanager
 def running_server(log: Path, program: Sequence[str] = ("-m", "hess_explorer")) -> Iterator[str]:
-    """`hess-explorer serve` in a process of its own, on a free port; its base URL.  Raises `ServerError`.
+    """`hess-explorer serve` in a separate process on a free port; yields its base URL.  Raises `ServerError`.
 
-    log : the file that takes all it prints; program : what Python runs.
+    log : file for all its output; program : arguments of Python that start the command line.
     """
     port = _free_port()
     command = [sys.executable, *program, "serve", "--port", str(port), "--no-browser"]
-    # Started beside this package, or a folder `app` of the user's would be run in its place.
+    # `-m` looks in the current folder first: start in this package, where nothing can shadow it.
     with log.open("wb") as out, subprocess.Popen(command, cwd=Path(__file__).resolve().parents[1],
                                                  stdout=out, stderr=subprocess.STDOUT) as process:
         try:
@@ -74,7 +63,7 @@ def running_server(log: Path, program: Sequence[str] = ("-m", "hess_explorer")) 
 
 def screenshot(query: str, size: tuple[int, int], *, dark: bool = False) -> bytes:
     """The page in the state of this (encoded) query, as PNG.  Raises `ServerError`, `BrowserError`."""
-    # The browser first: if there is none, that is known before the server has started.
+    # The browser first: a missing one is reported without waiting for the server.
     with launched() as browser, tempfile.TemporaryDirectory() as folder:
         from playwright.sync_api import Error
 

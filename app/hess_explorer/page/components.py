@@ -1,7 +1,8 @@
 """The page's own browser components.
 
-They know each other only by events of the document ("hess:…"): "ready.js" tells all of them of a scene that is entered,
-of texts and of values; they tell it of changes.
+Each is an ES module under `static/`, and they share one instance of every module that they import.  They know each
+other only by the events of "page/bus.js": "page/client.js" tells all of them of a scene that is entered, of texts and
+of values; they tell it of changes.
 """
 
 from __future__ import annotations
@@ -9,16 +10,21 @@ from __future__ import annotations
 import param
 from panel.custom import JSComponent
 
-from hess_explorer.assets import STATIC
+from hess_explorer.assets import STATIC, modules_path
 
 __all__ = ["Controls", "Pictures", "Player", "Progress", "Prose", "Ready", "SceneMenu", "Text"]
 
-_CSS = (STATIC / "components.css").read_text(encoding="utf-8")
+_MODULES = modules_path()
 
 
-def _module(*names: str) -> str:
-    """One JavaScript module made of these files: Panel loads one for each component."""
-    return "\n".join((STATIC / name).read_text(encoding="utf-8") for name in names)
+def _module(entry: str) -> str:
+    """What Panel loads: it fetches the module from its own URL, also where a proxy serves the page under a prefix."""
+    url = f'new URL("{_MODULES}/{entry}", document.baseURI).href'
+    return f"export const render = async (component) => (await import({url})).render(component)\n"
+
+
+def _css(*names: str) -> list[str]:
+    return [(STATIC / name).read_text(encoding="utf-8") for name in ("page/base.css", *names)]
 
 
 class SceneMenu(JSComponent):
@@ -26,8 +32,8 @@ class SceneMenu(JSComponent):
 
     scenes = param.List(default=[], doc="{name, title, summary, picture, origin} of each.")
 
-    _esm = _module("scenes.js")
-    _stylesheets = [_CSS]
+    _esm = _module("controls/scenes.js")
+    _stylesheets = _css("controls/controls.css")
 
 
 class Controls(JSComponent):
@@ -37,15 +43,15 @@ class Controls(JSComponent):
     change travels with the request for the next state, and no widget framework runs in between.
     """
 
-    _esm = _module("controls.js")
-    _stylesheets = [_CSS]
+    _esm = _module("controls/controls.js")
+    _stylesheets = _css("controls/controls.css")
 
 
 class Pictures(JSComponent):
     """The pictures of the scene on show, with their captions."""
 
-    _esm = _module("sphere.js", "cloud.js", "body.js", "pictures.js")
-    _stylesheets = [_CSS]
+    _esm = _module("pictures/gallery.js")
+    _stylesheets = _css("pictures/pictures.css")
 
 
 class Player(JSComponent):
@@ -53,15 +59,15 @@ class Player(JSComponent):
 
     SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
 
-    _esm = _module("player.js")
-    _stylesheets = [_CSS]
+    _esm = _module("controls/player.js")
+    _stylesheets = _css("controls/controls.css")
 
 
 class Progress(JSComponent):
     """How much of a state is computed, while it is on its way, and Stop."""
 
-    _esm = _module("progress.js")
-    _stylesheets = [_CSS]
+    _esm = _module("page/progress.js")
+    _stylesheets = _css("page/page.css")
 
 
 class Prose(JSComponent):
@@ -69,8 +75,8 @@ class Prose(JSComponent):
 
     part = param.Selector(default="words", objects=["legend", "words"])
 
-    _esm = _module("prose.js")
-    _stylesheets = [_CSS]
+    _esm = _module("page/prose.js")
+    _stylesheets = _css("page/page.css")
 
 
 class Ready(JSComponent):
@@ -91,7 +97,7 @@ class Ready(JSComponent):
     block = param.Bytes(default=b"", doc="The numbers of that tree.")
     client = param.Dict(default={}, doc="URL keys that the browser itself keeps: t, speed, az, el.")
 
-    _esm = _module("ready.js")
+    _esm = _module("page/client.js")
 
 
 class Text(JSComponent):
@@ -102,5 +108,5 @@ class Text(JSComponent):
     look = param.Selector(default="", objects=["", "status", "notes", "derived", "busy"], doc="Its style.")
     live = param.Boolean(default=False, doc="Whether screen readers are told of changes.")
 
-    _esm = _module("text.js")
-    _stylesheets = [_CSS]
+    _esm = _module("page/text.js")
+    _stylesheets = _css("page/page.css")

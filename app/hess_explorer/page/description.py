@@ -7,15 +7,10 @@ import threading
 from functools import cache
 from typing import Any
 
-from bokeh.core.json_encoder import serialize_json
-from bokeh.document import Document
-from bokeh.models import ColumnDataSource
 from markdown_it import MarkdownIt
 
 from hess_explorer.protocol.parameters import Choice, Number, Places
 from hess_explorer.scenes import scenes
-from hess_explorer.views.bokeh_figure import build
-from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import with_formulas
 
 __all__ = ["describe"]
@@ -34,22 +29,15 @@ def describe(name: str) -> str:
 @cache
 def _describe(name: str) -> str:
     scene = scenes()[name]
-    document = Document()
-    sources: dict[str, ColumnDataSource] = {}
-    for view in scene.views:
-        if isinstance(view, Plot):
-            document.add_root(build(view, sources))
     return json.dumps({
         "name": scene.name,
         "title": scene.title,
-        "pictures": [{**picture.describe(), "folded": scene.folded.get(picture.name)} for picture in scene.views],
-        "document": serialize_json(document.to_json(deferred=False)),
+        "pictures": [{**view.describe(), "folded": view.folded or None} for view in scene.views],
         "controls": [_control(spec) for spec in scene.specs if not isinstance(spec, Places)],
         "drawn": any(isinstance(spec, Places) for spec in scene.specs),
         "presets": [preset.name for preset in scene.presets],
         "legend": scene.legend,
         "words": MarkdownIt().enable("table").render(with_formulas(scene.words)),
-        "tracks": [f"data-{name}" for name in scene.tracks],
         "dots": {source: list(columns) for source, columns in scene.dots.items()},
         "angles": list(scene.angles),
     })

@@ -38,7 +38,8 @@ from hess_explorer.views.text import number
 from hess_explorer.views.velocity_plane import nice_above
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.euler_poisson.andoyer import coordinates
-from hess_mechanics.euler_poisson.hess_isomorphism import Bridge, on_manifold, run_free
+from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
+from hess_mechanics.euler_poisson.hess_manifold import on_manifold, run_free
 from hess_mechanics.numerics.accuracy import REFERENCE
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.suslov import equations as suslov

@@ -25,7 +25,8 @@ from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.errors import NoField, Separatrix
 from hess_mechanics.euler_poisson.andoyer import coordinates
 from hess_mechanics.euler_poisson.equations import HeavyBody
-from hess_mechanics.euler_poisson.hess_isomorphism import Bridge, FreeRun, Growth, growth_of, run_free
+from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
+from hess_mechanics.euler_poisson.hess_manifold import FreeRun, Growth, growth_of, run_free
 from hess_mechanics.numerics.accuracy import REFERENCE
 from hess_mechanics.numerics.results import Array, Orbit, frozen
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, f_max, turning_points

@@ -1,18 +1,21 @@
-"""Serving: one process, this machine only unless told otherwise."""
+"""The web server: one process, reachable from this machine only unless told otherwise."""
 
 from __future__ import annotations
 
 import logging
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import panel as pn
-from panel.io.server import WSHandler, per_app_patterns
+from tornado.web import RequestHandler
 from tornado.websocket import WebSocketClosedError
 
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.page.page import page
+from hess_explorer.server.liveness import is_alive
+from hess_explorer.server.modules import module_routes
+from hess_explorer.server.prompt_socket import send_promptly
 from hess_explorer.server.warm import warm
 
 __all__ = ["serve"]
@@ -21,51 +24,50 @@ MESSAGE_LIMIT = 256 * 1024
 """Bytes of one websocket message from the browser: slider values and clicks are far smaller."""
 
 UNUSED_SESSION_MS = 60_000
-REPORT_SECONDS = 60
+_EVERY_ADDRESS = ("", "0.0.0.0", "::")
 
 logger = logging.getLogger("hess_explorer")
 
 
-class PromptSocket(WSHandler):
-    """The websocket of a page; without this the system keeps small messages back, up to 40 ms for each state."""
+class Metrics(RequestHandler):
+    """GET /metrics: the counters of the cache, one `name value` in a line, as Prometheus reads them."""
 
-    def open(self) -> None:
-        """Send every message at once."""
-        super().open()
-        self.set_nodelay(True)
+    def get(self) -> None:
+        """Answer with the counters as they are now."""
+        self.set_header("Content-Type", "text/plain; version=0.0.4; charset=utf-8")
+        self.finish("".join(f"hess_explorer_{name} {value}\n" for name, value in CACHE.metrics().items()))
 
 
 def _is_news(record: logging.LogRecord) -> bool:
-    """A page that was closed while an answer was on its way is no error."""
+    """False for a page that was closed while an answer was on its way: not an error."""
     return not (record.exc_info and isinstance(record.exc_info[1], WebSocketClosedError))
 
 
-def _report() -> None:
-    """Now and then a line "metrics name value …" in the log, when something has changed."""
-    last = ""
-    while True:
-        line = CACHE.metrics()
-        if line != last:
-            logger.info("metrics %s", line)
-        last = line
-        time.sleep(REPORT_SECONDS)
+def _prepare(address: str, port: int, ready: Callable[[], None]) -> None:
+    """Prepare all scenes; call `ready` once the first is prepared and the server answers."""
+    host = "127.0.0.1" if address in _EVERY_ADDRESS else address
+
+    def first_is_ready() -> None:
+        while not is_alive(host, port):
+            time.sleep(0.05)
+        ready()
+
+    warm(first_is_ready)
 
 
-def serve(port: int, address: str, show: bool, origins: Sequence[str]) -> None:
+def serve(port: int, address: str, show: bool, origins: Sequence[str], ready: Callable[[], None]) -> None:
     """Serve the explorer until interrupted.
 
-    Parameters: `address` to listen on; `show` opens the browser; `origins` are the HOST:PORT pairs
-    whose pages may open a websocket, besides this machine's own.
+    address : to listen on; show : open the browser; origins : HOST:PORT pairs whose pages may open a websocket,
+    besides this machine's own; ready : called from another thread when the page answers without compiling first.
     """
     logging.basicConfig(format="%(asctime)s %(name)s %(message)s")
     logger.setLevel(logging.INFO)
     logging.getLogger("asyncio").addFilter(_is_news)
     pn.extension()
-    per_app_patterns[:] = [
-        ("/ws", PromptSocket) if pattern[1] is WSHandler else pattern for pattern in per_app_patterns]
+    send_promptly()
     # Kernels are compiled while the browser loads the page.
-    threading.Thread(target=warm, name="warm", daemon=True).start()
-    threading.Thread(target=_report, name="report", daemon=True).start()
+    threading.Thread(target=_prepare, args=(address, port, ready), name="warm", daemon=True).start()
     pn.serve(
         {"/": page},
         title="Hess Explorer",
@@ -73,6 +75,7 @@ def serve(port: int, address: str, show: bool, origins: Sequence[str]) -> None:
         address=address,
         show=show,
         websocket_origin=[f"localhost:{port}", f"127.0.0.1:{port}", *origins],
+        extra_patterns=[("/metrics", Metrics), *module_routes()],
         liveness=True,
         verbose=False,
         websocket_max_message_size=MESSAGE_LIMIT,

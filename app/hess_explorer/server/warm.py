@@ -1,4 +1,4 @@
-"""All scenes made ready before they are asked for, out of the way of whoever uses one."""
+"""Compile and load the kernels of all scenes, and build their descriptions, before a user asks for them."""
 
 from __future__ import annotations
 
@@ -8,56 +8,55 @@ import os
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from typing import Any
 
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.page.description import describe
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
+from hess_explorer.server.compiled import KEEPS_KERNELS, all_compiled, mark_all_compiled
 from hess_mechanics.errors import ModelError
-from hess_mechanics.numerics.jit import CACHE_FOLDER
 
 __all__ = ["compile_all", "warm"]
 
 logger = logging.getLogger("hess_explorer")
 
 QUIET_SECONDS = 0.3
-_MARK = None if CACHE_FOLDER is None else CACHE_FOLDER / "complete"
-"""The file that says that everything is compiled."""
 
 
 def compute(scene: Scene[Any], folded: bool = True) -> None:
-    """Compile (or load) every kernel of a scene, by computing its default state once; folded: of all pictures.
+    """Compile or load the kernels of a scene by computing its default state once.
 
-    Of what it leaves to the background, one piece of each kind.
+    folded : also for the pictures that are folded away at first.  Of its background work one task of each kind is done.
     """
     try:
         state = scene.compute(scene.defaults(), scene.pictures if folded else scene.open_pictures, False)
         for task in {task.function: task for task in state.work.todo}.values():
             CACHE.get(task.function, *task.arguments)
     except ModelError as error:
-        # One scene that cannot be shown keeps no other from being ready.
+        # A scene that fails must not stop the others.
         logger.warning("%s: %s", scene.name, error)
 
 
 def compile_all() -> None:
-    """Leave the kernels of all scenes on disk; ends early when the process that wanted it has ended."""
+    """Leave the kernels of all scenes on disk; stops early when the parent process has ended."""
     parent = os.getppid()
-    if _is_compiled():
+    if all_compiled():
         return
     for scene in scenes().values():
         if os.getppid() != parent:
             return
         compute(scene)
-    if _MARK is not None:
-        _MARK.touch()
+    mark_all_compiled()
 
 
-def warm() -> None:
-    """Make all scenes ready: the one that opens the page at once, the others while nobody asks for anything.
+def warm(first_is_ready: Callable[[], None] = lambda: None) -> None:
+    """Prepare all scenes: the first one at once, the others while the server is idle.
 
-    Compiling holds the interpreter's lock: what is not on disk yet is compiled by another process.
-    What is made here stays: garbage is collected again when the first scene stands, but not among these.
+    `first_is_ready` is called as soon as the page can be shown without compiling.  Compiling holds the interpreter's
+    lock, so another process compiles what is not on disk yet.  Everything made here lives as long as the process: the
+    garbage collector, off since the start, is turned on again after the first scene and told to skip these objects.
     """
     first, *others = scenes().values()
     try:
@@ -66,9 +65,12 @@ def warm() -> None:
     finally:
         gc.freeze()
         gc.enable()
-    if _MARK is not None and not _is_compiled():
+        first_is_ready()
+    if KEEPS_KERNELS and not all_compiled():
+        # A session of its own: Ctrl-C in the terminal ends the server, and this process then stops by itself.
         subprocess.run([sys.executable, "-c", "import os; os.name == 'posix' and os.nice(10); "
-                        "from hess_explorer.server.warm import compile_all; compile_all()"], check=False)
+                        "from hess_explorer.server.warm import compile_all; compile_all()"],
+                       check=False, start_new_session=True)
     _wait_until_quiet()
     compute(first)
     for scene in others:
@@ -79,12 +81,8 @@ def warm() -> None:
     gc.freeze()
 
 
-def _is_compiled() -> bool:
-    return _MARK is not None and _MARK.exists()
-
-
 def _wait_until_quiet() -> None:
-    """Return when nobody has asked for a result for a moment."""
+    """Return when no result has been requested for `QUIET_SECONDS`."""
     asked = -1
     while asked != CACHE.asked:
         asked = CACHE.asked

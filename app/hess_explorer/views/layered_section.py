@@ -29,14 +29,14 @@ class LayeredSection(Figure):
         super().__init__(wire, name, labels, x_range, y_range, picks=("tap", "doubletap", "box"))
         self.add_image("basins", (theme.FORBIDDEN + "00", theme.POINT + "90", theme.STABLE + "70"), 0.0, 3.0)
         self.add_image("impossible", (theme.FORBIDDEN + "00", theme.FORBIDDEN), 0.0, 1.0)
-        self.add("first", "scatter", ("x", "y"), marker="dot", size=5, color=theme.ORBIT)
-        self.add("second", "scatter", ("x", "y"), marker="dot", size=5, color=theme.UNSTABLE)
+        self.add("first", "dots", ("x", "y"), size=5, color=theme.ORBIT)
+        self.add("second", "dots", ("x", "y"), size=5, color=theme.UNSTABLE)
         self.add("curve", "line", ("x", "y"), color=theme.STABLE, line_width=2)
         if path:
-            self.add("path", "scatter", ("l", "x"), source="data-orbit", marker="dot", size=3, color=theme.MAP,
+            self.add("path", "dots", ("l", "x"), source="data-orbit", size=3, color=theme.MAP,
                      alpha=0.4)
         self.add("line", "line", ("x", "y"), color=theme.MUTED, line_dash="dashed", line_width=1.5)
-        self.add("own", "scatter", ("x", "y"), marker="dot", size=10, color=theme.MAP)
+        self.add("own", "dots", ("x", "y"), size=10, color=theme.MAP)
         self.add("chosen", "scatter", ("x", "y"), size=16, fill_alpha=0, line_color=theme.MAP, line_width=3)
         self.add_point_and_message()
 

@@ -10,13 +10,14 @@ from dataclasses import dataclass, replace
 from typing import Any, Generic, TypeVar
 
 import numpy as np
+from bokeh import palettes
 
 from hess_explorer.views import theme
 from hess_mechanics.numerics.results import Array
 
 __all__ = [
-    "Axes", "Columns", "Grid", "Layer", "Range", "Sign", "arrows", "curves", "f32", "image", "levels", "line", "points",
-    "region", "ring", "target", "text",
+    "MESSAGE", "POINT", "Axes", "Columns", "Grid", "Layer", "Range", "Sign", "arrows", "curves", "dots", "f32", "image",
+    "levels", "line", "points", "region", "ring", "target", "text",
 ]
 
 S = TypeVar("S")
@@ -72,6 +73,16 @@ class Layer(Generic[S]):
     track: str | None = None
     moving: bool = True
     legend: tuple[Sign, ...] = ()
+
+
+POINT: Layer[Any] = Layer("point", "scatter", ("x", "y"), {
+    "color": theme.POINT, "line_color": "black", "line_width": 1.5, "size": 13})
+"""The moving point of a plot."""
+
+MESSAGE: Layer[Any] = Layer("message", "text", ("x", "y", "text"), {
+    "text_color": theme.MUTED, "text_font_style": "bold", "text_font_size": "15px", "text_align": "center",
+    "text_baseline": "middle"})
+"""A sentence where there is nothing to see."""
 
 
 def f32(values: Any) -> Array:
@@ -173,6 +184,16 @@ def points(name: str, data: Callable[[S], Any] | None = None, *, color: str, siz
     return _layer(layer, lambda value: _positions(columns, value), data, within)
 
 
+def dots(name: str, data: Callable[[S], Any] | None = None, *, color: str, size: float, alpha: float = 1.0,
+         label: str = "", columns: tuple[str, str] = ("x", "y"), track: str | None = None,
+         within: Callable[[S, Axes], Any] | None = None) -> Layer[S]:
+    """Points by the thousand, which the page draws itself: data(state) = (x, y), or None."""
+    style = {"size": size, "color": color, "alpha": alpha}
+    sign = _signed(label, "dot small", f"background: {color}")
+    layer: Layer[S] = Layer(name, "dots", columns, style, track=track, legend=sign)
+    return _layer(layer, lambda value: _positions(columns, value), data, within)
+
+
 def arrows(name: str, data: Callable[[S], Any] | None = None, *, color: str, size: float = 10.0, alpha: float = 1.0,
            within: Callable[[S, Axes], Any] | None = None) -> Layer[S]:
     """Triangles that point along a motion: data(state) = (x, y, angle), angle 0 upwards, or None."""
@@ -201,7 +222,8 @@ def target(name: str, data: Callable[[S], Sequence[Place]], size: float = 21.0,
 def image(name: str, data: Callable[[S], Grid | None], *, palette: str | tuple[str, ...], low: float, high: float,
           legend: tuple[Sign, ...] = ()) -> Layer[S]:
     """Numbers on a grid, under all other layers."""
-    style = {"palette": palette, "low": low, "high": high}
+    colors = getattr(palettes, palette) if isinstance(palette, str) else palette
+    style = {"palette": list(colors), "low": low, "high": high}
     layer: Layer[S] = Layer(name, "image", ("image", "x", "y", "dw", "dh"), style, moving=False,
                             legend=legend)
     return _layer(layer, _cells, data, None)

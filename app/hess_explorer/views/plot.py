@@ -11,20 +11,14 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, TypeVar
 
-from hess_explorer.views import theme
-from hess_explorer.views.layers import Axes, Columns, Layer, Range, Sign
+from hess_explorer.views import bokeh_figure, theme
+from hess_explorer.views.layers import POINT, Axes, Columns, Layer, Range, Sign
 from hess_explorer.views.picture import Picture
 
-__all__ = ["MESSAGE", "POINT", "Plot"]
+__all__ = ["Plot"]
 
 S = TypeVar("S")
 Ticks = Sequence[tuple[float, str]]
-
-POINT: Layer[Any] = Layer("point", "scatter", ("x", "y"), {
-    "color": theme.POINT, "line_color": "black", "line_width": 1.5, "size": 13})
-MESSAGE: Layer[Any] = Layer("message", "text", ("x", "y", "text"), {
-    "text_color": theme.MUTED, "text_font_style": "bold", "text_font_size": "15px", "text_align": "center",
-    "text_baseline": "middle"})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,6 +64,10 @@ class Plot(Picture[S]):
         """Sources of moving points → the columns of the track "orbit" that they follow."""
         moving = {**({"point": self.dot} if self.dot else {}), **(self.dots or {})}
         return {f"{self.name}-{layer}": columns for layer, columns in moving.items()}
+
+    def describe(self) -> dict[str, Any]:
+        """What the browser needs to know before the first data."""
+        return {**super().describe(), **bokeh_figure.describe(self)}
 
     @property
     def tracks(self) -> frozenset[str]:

@@ -22,8 +22,8 @@ class SectionPlane(Figure):
                  y_ticks: Sequence[tuple[float, str]] | None = None) -> None:
         super().__init__(wire, name, labels, x_range, y_range, picks=picks, ticks=ticks, y_ticks=y_ticks)
         self.add("forbidden", "multi_polygons", ("xs", "ys"), moving=False, color=theme.FORBIDDEN, line_alpha=0)
-        self.add("others", "scatter", ("x", "y"), marker="dot", size=6, color=theme.MUTED)
-        self.add("own", "scatter", ("x", "y"), marker="dot", size=11, color=theme.ORBIT)
+        self.add("others", "dots", ("x", "y"), size=6, color=theme.MUTED)
+        self.add("own", "dots", ("x", "y"), size=11, color=theme.ORBIT)
         self.add("chosen", "scatter", ("x", "y"), size=16, fill_alpha=0, line_color=theme.UNSTABLE, line_width=3)
         self.add_point_and_message()
 

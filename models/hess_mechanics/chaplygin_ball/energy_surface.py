@@ -1,11 +1,11 @@
-"""S9, S10: the motions of the Chaplygin ball with a given energy, E = h (`eq29`, `eq30`).
+"""The Chaplygin ball with Suslov's constraint at a given energy, E = h (`eq30`; figures 9 and 10).
 
 Without a field the surface E = h, F1 = 1 lies over a strip of the (ω1, ω2) plane, between the ellipses
 
     σ1: 2h = I11 ω1² + I22 ω2²,   σ2: 2h = (I11+𝒟) ω1² + (I22+𝒟) ω2²
 
-(in the paper's σ2 𝒟 is called mR²).  In it the line I13 ω1 + I23 ω2 = 0 along ξ = (I23, −I13)/√(I13² + I23²)
-is at rest; every other motion goes from its half N^u, ω along +ξ, to its half N^s, ω along −ξ.
+(in σ2 the paper writes mR² for 𝒟).  On the line I13 ω1 + I23 ω2 = 0 along ξ = (I23, −I13)/√(I13² + I23²) ω is
+constant; every other motion goes from its half N^u, ω along +ξ, to its half N^s, ω along −ξ.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
 def line_of_rest(body: BallBody) -> tuple[Array, Array]:
     """ξ = (I23, −I13)/|…| and η = (I13, I23)/|…|, each (2,): the line along ξ, and across it.
 
-    Raises `InvalidParameter` for I13 = I23 = 0, where every ω is at rest without a field.
+    Raises `InvalidParameter` for I13 = I23 = 0, where without a field every ω is constant.
     """
     length = math.hypot(body.I13, body.I23)
     if length == 0.0:
@@ -58,49 +58,50 @@ class Strip:
         return np.stack([np.cos(angles), np.sin(angles)], axis=-1) * np.sqrt(2.0 * self.h / moments)
 
     def sigma1(self, angles: Sequence[float] | Array) -> Array:
-        """Points (n, 2) of the outer ellipse σ1, (√(2h/I11) cos, √(2h/I22) sin) of the angles (n,)."""
+        """Points (n, 2) of the outer ellipse σ1, (√(2h/I11) cos α, √(2h/I22) sin α), for the angles α (n,)."""
         return self._ellipse(angles, 0.0)
 
     def sigma2(self, angles: Sequence[float] | Array) -> Array:
-        """Points (n, 2) of the inner ellipse σ2, as `sigma1` with I + 𝒟."""
+        """Points (n, 2) of the inner ellipse σ2: `sigma1` with I + 𝒟."""
         return self._ellipse(angles, self.body.D)
 
     def spread(self, count: int) -> Array:
-        """States (count, 5) with E = h whose ω are spread evenly over the strip."""
+        """States (count, 5) with E = h, their ω spread evenly over the strip."""
         states = np.empty((count, 5))
         for i in range(count):
             angle, turn = 2.0 * math.pi * _GOLDEN * (i + 0.5), 2.0 * math.pi * math.sqrt(2.0) * i
             along = np.array([math.cos(angle), math.sin(angle), 0.0])
-            # From γ along ω, on σ1, to γ across ω, on σ2.
+            # From γ ∥ ω, on σ1, to γ ⊥ ω, on σ2.
             sine = math.sqrt((i + 0.5) / count)
             across = math.cos(turn) * np.array([-along[1], along[0], 0.0]) + math.sin(turn) * np.array([0.0, 0.0, 1.0])
             gamma = math.sqrt(1.0 - sine * sine) * along + sine * across
-            states[i] = *omega_of_energy(self.body, along[:2], gamma, self.h), *gamma
+            states[i] = *omega_of_energy(self.body, along[:2].tolist(), gamma.tolist(), self.h), *gamma
         return states
 
     @property
     def unstable(self) -> Array:
-        """N^u in the (ω1, ω2) plane: its ends on σ2 and on σ1, (2, 2).  Raises `InvalidParameter`."""
+        """N^u in the (ω1, ω2) plane: its ends on σ2 and on σ1, shape (2, 2).  Raises `InvalidParameter`."""
         xi, _ = line_of_rest(self.body)
         moment = self.body.I11 * xi[0] ** 2 + self.body.I22 * xi[1] ** 2
-        return np.sqrt(2.0 * self.h / np.array([[moment + self.body.D], [moment]])) * xi
+        ends: Array = np.sqrt(2.0 * self.h / np.array([[moment + self.body.D], [moment]])) * xi
+        return ends
 
     @property
     def stable(self) -> Array:
-        """N^s, as `unstable`."""
+        """N^s: see `unstable`."""
         return -self.unstable
 
 
 def lowest_energy(body: BallBody) -> float:
-    """−|b|: the ball at rest with its centre of mass below, the minimum of E over all states with F1 = 1."""
+    """−|b|, the minimum of E over states with F1 = 1: the ball at rest, its centre of mass at the bottom."""
     return -math.hypot(body.b1, body.b2, body.b3)
 
 
 def omega_of_energy(body: BallBody, direction: Sequence[float], gamma: Sequence[float], h: float
                     ) -> tuple[float, float]:
-    """(ω1, ω2) along `direction` (2,) with E = h, for this γ (3,).
+    """(ω1, ω2) along `direction` (2,) with E = h at this γ (3,).
 
-    Raises `OutsideRegion` for h < (b, γ), `InvalidParameter` for a direction that is none.
+    Raises `OutsideRegion` for h < (b, γ), `InvalidParameter` for a direction that is 0 or not finite.
     """
     length = math.hypot(*direction)
     if not (math.isfinite(length) and length > 0.0):
@@ -114,7 +115,7 @@ def omega_of_energy(body: BallBody, direction: Sequence[float], gamma: Sequence[
 
 
 def spread_states(body: BallBody, h: float, count: int) -> Array:
-    """States (count, 5) with E = h spread evenly over the directions of ω and over the γ that allow this energy.
+    """States (count, 5) with E = h, spread evenly over the directions of ω and over the γ that allow this energy.
 
     Raises `OutsideRegion` unless h > −|b|, `InvalidParameter` (h not finite, count < 1).
     """
@@ -128,14 +129,14 @@ def spread_states(body: BallBody, h: float, count: int) -> Array:
     top = min(1.0, h / -lowest) if lowest else 1.0
     states = np.empty((count, 5))
     for i in range(count):
-        # Points of a sphere in turns of the golden section, from γ along −b up to where the energy ends.
+        # A golden-section spiral on the sphere, from γ along −b to the highest possible potential.
         share = (i + 0.5) / count
         z = -1.0 + (top + 1.0) * share
         turn, radius = 2.0 * math.pi * _GOLDEN * i, math.sqrt(1.0 - z * z)
         gamma = np.array([radius * math.cos(turn), radius * math.sin(turn), z]) @ axes
         gamma /= np.linalg.norm(gamma)
         angle = 2.0 * math.pi * math.sqrt(2.0) * i
-        states[i, :2] = omega_of_energy(body, (math.cos(angle), math.sin(angle)), gamma, h)
+        states[i, :2] = omega_of_energy(body, (math.cos(angle), math.sin(angle)), gamma.tolist(), h)
         states[i, 2:] = gamma
     return states
 

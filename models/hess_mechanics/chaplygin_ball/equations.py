@@ -1,4 +1,4 @@
-"""S9, S10: the Chaplygin ball with Suslov's constraint (`eq29`, `eq30`).
+"""The Chaplygin ball with Suslov's constraint (`eq29`, `eq30`).
 
 A body with the constraint ω3 = 0 along e = e3 and I12 = 0, whose spherical cavity rolls on a ball with a fixed centre,
 potential (b, γ).  State y = (ω1, ω2, γ1, γ2, γ3), parameters p = (I11, I22, I13, I23, 𝒟, b1, b2, b3).

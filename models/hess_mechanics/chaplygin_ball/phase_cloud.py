@@ -1,18 +1,19 @@
-"""S16: clouds of phase points of the ball with Suslov's constraint (`eq29`; 𝒟 = 0 is `biz132`), and their density.
+"""Singular invariant measures: clouds of phase points of the ball with Suslov's constraint, and their density.
 
-With s = I13ω1 + I23ω2 and h = Î⁻¹(−ω2, ω1) the motion without a field is ω̇ = s h, and
+With s = I13ω1 + I23ω2 and h = Î⁻¹(−ω2, ω1) the motion without a field (`eq29`; the free Suslov problem for 𝒟 = 0) is
+ω̇ = s h, and
 
     div v = I13h1 + I23h2 = ṡ/s.
 
-So 1/|s| is the density of an invariant measure (propositions 1 and 2), and Liouville's equation is solved along
-every motion: a volume of the phase space (ω1, ω2, γ) grows by s(t)/s(0), a density by s(0)/s(t).  With
+So 1/|s| is the density of an invariant measure (propositions 1 and 2), and solves Liouville's equation along every
+motion: a volume of the phase space (ω1, ω2, γ) grows by s(t)/s(0), a density by s(0)/s(t).  With
 I13 = I23 = 0, field or not, div v = 0.
 
 With ξ = (I23, −I13)/J, η = (I13, I23)/J, J² = I13² + I23², the motion is integrated in x = (ω, ξ) and y = (ω, η) = s/J,
 
     ẋ = J y (h, ξ),  ẏ = J y (h, η),
 
-so that s, which is a factor, keeps all its digits however small it becomes.  h is found as in `chaplygin_ball`.
+so that s, a factor, keeps its relative accuracy however small it becomes.  Î⁻¹ is applied as in `equations`.
 """
 
 from __future__ import annotations
@@ -38,25 +39,25 @@ __all__ = ["Cloud", "carried", "divergence", "frame_times", "histogram", "occupa
 
 _SHARE = 64
 _CLOSEST = 1e-300
-"""Below, doubles have fewer digits."""
+"""Least |s|: below it doubles lose digits."""
 _CHECKED = 16
-"""Of so many points one is computed twice, for the error."""
+"""One point in so many is computed twice, for the error estimate."""
 _MOST_NUMBERS = 1_500_000
-"""Of all frames, in single precision 6 MB."""
+"""Numbers in all frames: 6 MB in single precision."""
 _LEAST_FRAMES = 9
 _TURN, _CHANGE = 0.9, 0.55
-"""Between two frames: of γ in radians, and of ln|s|.  So cubic curves are right to less than a pixel."""
+"""Change of γ, in radians, and of ln|s| between two frames: cubic interpolation is then accurate to a pixel."""
 _MOST_STEPS, _LEAST_STEPS = 6_000_000, 100
-"""Of all points together, some seconds; and of one."""
+"""Steps of all points together, some seconds; and at least allowed for one point."""
 _SPARSE = 1.5
-"""So many times as far apart, and they are still right to two pixels."""
+"""Frame spacing may grow by this factor within two pixels."""
 
 
 @dataclass(frozen=True)
 class Cloud:
     """n phase points at m times, without a field.
 
-    times : (m,); along : (n, m), x = (ω, ξ); log_s : (n, m), ln|s|; signs : (n,), those of s, which never changes;
+    times : (m,); along : (n, m), x = (ω, ξ); log_s : (n, m), ln|s|; signs : (n,), the sign of s, which is constant;
     gamma : (n, m, 3).
     error_estimate : the largest estimated error of x/ν, ln|s| and γ, ν a bound on |ω|.
     """
@@ -74,7 +75,7 @@ class Cloud:
 
     @cached_property
     def omega(self) -> Array:
-        """ω1, ω2, shape (n, m, 2)."""
+        """(ω1, ω2), shape (n, m, 2)."""
         J, n1, n2 = _axes(self.body)
         across = self.signs[:, None] * np.exp(self.log_s) / J
         return frozen(np.stack([n2 * self.along + n1 * across, n2 * across - n1 * self.along], axis=-1))
@@ -86,13 +87,14 @@ class Cloud:
 
     @property
     def log_growth(self) -> Array:
-        """ln s(t)/s(0), (n, m): what small volumes have grown by; minus that of the density about each point."""
+        """ln s(t)/s(0), (n, m): logarithm of the growth of small volumes; minus that of the density."""
         return self.log_s - self.log_s[:, :1]
 
     @property
     def volume(self) -> Array:
-        """The volume of the cloud in that at the first time, (m,): for points that began evenly spread."""
-        return np.exp(self.log_growth).mean(axis=0)
+        """The volume of the cloud relative to that at the first time, (m,), for points that start evenly spread."""
+        relative: Array = np.exp(self.log_growth).mean(axis=0)
+        return relative
 
 
 def _axes(body: BallBody) -> tuple[float, float, float]:
@@ -114,10 +116,10 @@ def _tensor(body: BallBody, gamma: Array) -> tuple[Array, Array, Array, Array]:
 
 
 def divergence(body: BallBody, omega: Array, gamma: Array) -> Array:
-    """div v = (I13, I23) Î⁻¹ (−ω2, ω1), with a field too; ω (..., 2), γ (..., 3) of length 1, result (...)."""
+    """div v = (I13, I23) Î⁻¹ (−ω2, ω1), also with a field; ω (..., 2), γ (..., 3) of length 1, result (...)."""
     A11, A12, A22, det = _tensor(body, gamma)
     w1, w2 = omega[..., 0], omega[..., 1]
-    return (body.I23 * (A11 * w1 + A12 * w2) - body.I13 * (A22 * w2 + A12 * w1)) / det
+    return np.asarray((body.I23 * (A11 * w1 + A12 * w2) - body.I13 * (A22 * w2 + A12 * w1)) / det, float)
 
 
 def _require_cloud(h: float, spread: float, count: int) -> None:
@@ -131,14 +133,14 @@ def _require_cloud(h: float, spread: float, count: int) -> None:
 
 
 def shell(body: BallBody, h: float, spread: float, count: int) -> Array:
-    """States (count, 5) evenly spread over the phase volume h(1 − spread) < E < h(1 + spread), F1 = 1, for b = 0.
+    """States (count, 5) spread evenly over the phase volume h(1 − spread) < E < h(1 + spread), F1 = 1, for b = 0.
 
-    The volume dω1 dω2 dA(γ) is dE dθ dA/√det Î, with ω = √(2E) Î^(−1/2) (cos θ, sin θ): so γ are accepted with a
-    probability ∝ 1/√det Î.  The same points in every call.  Raises `InvalidParameter`.
+    The volume dω1 dω2 dA(γ) is dE dθ dA/√det Î with ω = √(2E) Î^(−1/2) (cos θ, sin θ), so γ is accepted with a
+    probability ∝ 1/√det Î.  Every call returns the same points.  Raises `InvalidParameter`.
     """
     _require_cloud(h, spread, count)
     random = np.random.default_rng(1)
-    # det Î is linear in γ1², γ2², γ3², so it is smallest where γ is an axis.
+    # det Î is linear in γ1², γ2², γ3², so its minimum is at an axis.
     smallest = body.I11 * body.I22 + body.D * min(body.I11, body.I22)
     gammas: list[Array] = []
     while sum(map(len, gammas)) < count:
@@ -155,10 +157,11 @@ def shell(body: BallBody, h: float, spread: float, count: int) -> Array:
 
 
 def patch(body: BallBody, h: float, angle: float, spread: float, count: int) -> Array:
-    """States (count, 5) evenly spread over a disc of ω and a cap of γ about e3.
+    """States (count, 5) spread evenly over a disc of ω and a cap of γ about e3.
 
-    The disc's centre has this angle in the (ω1, ω2) plane, and with γ = e3 the energy h; its radius is `spread` of
-    |ω| there; that of the cap is `spread` radians.  The same points in every call.  Raises `InvalidParameter`.
+    The centre of the disc is at `angle` in the (ω1, ω2) plane and has the energy h with γ = e3; the radius of the disc
+    is `spread` times |ω| there, that of the cap `spread` radians.  Every call returns the same points.
+    Raises `InvalidParameter`.
     """
     _require_cloud(h, spread, count)
     require_finite(angle=angle)
@@ -179,12 +182,11 @@ def _twice_energy(body: BallBody, states: Array) -> float:
 
 
 def frame_times(body: BallBody, states: Array, span: float, field: float = 0.0) -> Array:
-    """Even times from 0 to `span`, both included, at which a cloud from `states` (n, 5) is to be known.
+    """Even times from 0 to `span`, both included, for the frames of a cloud from `states` (n, 5).
 
-    A cubic curve through γ and γ̇ a time Δ apart is wrong by |γ|Δ⁴/384, and |γ| is about r|ω|⁴ with
-    r = sin(γ, ω), for which 2E ≥ (min(I11, I22) + 𝒟r²) ω².  ω changes at the rate div v.  field : |b|, with which a
-    second cloud from the same points may move.
-    Raises `InvalidParameter`, and `WorkLimit` where so many numbers would be too many that it shows.
+    The error of cubic interpolation of γ over a time Δ is |d⁴γ/dt⁴| Δ⁴/384, about r|ω|⁴Δ⁴/384 with r = sin(γ, ω), for
+    which 2E ≥ (min(I11, I22) + 𝒟r²) ω².  ω changes at the rate div v.  field : |b| of a second cloud from the same
+    points.  Raises `InvalidParameter`, and `WorkLimit` where the frames allowed are too few.
     """
     twice, least = _twice_energy(body, states) + 4.0 * abs(field), min(body.I11, body.I22)
     r = min(1.0, math.sqrt(least / (3.0 * body.D))) if body.D else 1.0
@@ -225,8 +227,8 @@ def _run(states: Array, p: Array, times: Array, level: Level, max_steps: int) ->
 def carried(body: BallBody, states: Array, times: Array, level: Level) -> Cloud:
     """The cloud of the phase points `states` (n, 5) at `times` (m,), all ≥ 0 or all ≤ 0, with b = 0.
 
-    Of every sixteenth point the error is measured, by a second run with steps a hundred times more exact; if it
-    exceeds the level's promise all points are computed so, as far as double precision goes.
+    The error of every sixteenth point is measured by a second run with a hundredth of the tolerance; if it exceeds the
+    level's promise all points are recomputed with that, down to the floor of double precision.
     Raises `InvalidParameter` (a field; I13 = I23 = 0; a point with s = 0), `WorkLimit`.
     """
     start = time.perf_counter()
@@ -269,11 +271,11 @@ def _shares(log_s: Array, edges: Array) -> Array:
 
 
 def histogram(cloud: Cloud, frame: int, edges: Array) -> Array:
-    """The share of points per unit of ln|s| at one of the times, between even edges (k + 1,) of ln|s|; (k,)."""
+    """Density (k,) of points per unit of ln|s| in one frame, between even edges (k + 1,) of ln|s|."""
     return _shares(cloud.log_s[:, frame], edges)
 
 
 def occupation(cloud: Cloud, edges: Array) -> Array:
-    """`histogram`'s mean over all the time: the share of time that the cloud spends per unit of ln|s|, (k,)."""
+    """The time average of `histogram`: the share of time that the cloud spends per unit of ln|s|, (k,)."""
     before, after = cloud.log_s[:, :-1, None], cloud.log_s[:, 1:, None]
     return _shares(before + (after - before) * ((np.arange(_PARTS) + 0.5) / _PARTS), edges)

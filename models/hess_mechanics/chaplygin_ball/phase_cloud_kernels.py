@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Kernel of `phase_cloud`: the motion of the ball without a field in x = (ω, ξ), y = (ω, η) and γ.
 
 The equations are derived in `phase_cloud`; the quotient is that of `chaplygin_ball.equations`.

@@ -1,16 +1,16 @@
-"""S9: θ⁻ → θ⁺ of the Chaplygin ball without a field (`eq29` with b = 0).
+"""The scattering θ⁻ → θ⁺ of the Chaplygin ball with Suslov's constraint, without a field (`eq29`, b = 0).
 
-On N^u and N^s, ω = ±uξ is constant and γ turns about ξ on a circle, cos θ = (γ, ξ).  Across the line the motion
-leaves N^u and approaches N^s at the rate, with J = √(I13² + I23²) and I_ξ = I11 ξ1² + I22 ξ2²,
+On N^u and N^s ω = ±uξ is constant and γ turns about ξ on a circle, cos θ = (γ, ξ).  Transversally the motion leaves
+N^u and approaches N^s at the rate, with J = √(I13² + I23²) and I_ξ = I11 ξ1² + I22 ξ2²,
 
     λ = J √(2h (I_ξ + 𝒟 sin²θ)) / det Î,   u = √(2h / (I_ξ + 𝒟 sin²θ)).
 
-A motion whose ω is still δu away from the line, ω = u(ξ + δη) + …, has left its circle by a first-order term in δ,
-found by integrating back along N^u, where φ decreases at the rate u.  With μ(φ) = λ/u and
+A motion with ω = u(ξ + δη) + … has left its circle by a term of first order in δ, found by integrating back along N^u,
+where φ decreases at the rate u.  With μ(φ) = λ/u and
 
     H(φ) = ∫_0^∞ exp(iφ + is − ∫_0^s μ(φ + s') ds') ds
 
-γ is γ_circle + δ v, (v, ξ) = −sin θ Im H, (v, η) + i(v, e3) = i cos θ e^{iφ} H̄.
+it is γ = γ_circle + δ v, (v, ξ) = −sin θ Im H, (v, η) + i(v, e3) = i cos θ e^{iφ} H̄.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from hess_mechanics.dynamics.ensemble import ensemble
 from hess_mechanics.dynamics.orbit import status_of
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import REFERENCE, Level, Status
-from hess_mechanics.numerics.results import Array, Cost, frozen
+from hess_mechanics.numerics.results import Array, Complex, Cost, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 
 __all__ = ["BallScattering", "ball_scattering", "starts"]
@@ -36,18 +36,18 @@ __all__ = ["BallScattering", "ball_scattering", "starts"]
 MOST_STEPS = 20_000_000
 _MOST_SWING = 300.0
 _MOST_TURN = 0.3
-"""Where γ has turned farther from its circle than this, the first order in the distance means nothing."""
+"""Angle from the circle beyond which the first order in the distance is not used."""
 _TINY = 1e-280
-"""In the place of a rate whose inverse is beyond double range."""
+"""Replaces a rate whose inverse would overflow."""
 _STEPS = 2.0
-"""Taylor steps of both runs in the time 1/ν, at a tolerance of 1e-9 and the order of `REFERENCE`."""
+"""Taylor steps of both runs per time 1/ν, at a tolerance of 1e-9 and the order of `REFERENCE`."""
 
 
 @dataclass(frozen=True)
 class BallScattering:
-    """Where the motions go that leave the circle θ⁻ of N^u.
+    """The circles θ⁺ that motions from the circle θ⁻ of N^u approach.
 
-    phis : (n,), the phases of γ at the start; theta_plus : (n,), 0 … π; errors : (n,) their estimated errors.
+    phis : (n,), phases of γ at the start; theta_plus : (n,), in [0, π]; errors : (n,), their error estimates.
     """
 
     theta_minus: float
@@ -60,7 +60,7 @@ class BallScattering:
 
 
 def _phases(body: BallBody) -> Array:
-    """Phases all round, so many that λ is resolved where γ passes the plane γ3 = 0: its peak is √(I/(I+𝒟)) wide."""
+    """Even phases, enough to resolve the peak of λ at γ3 = 0, which is √(I/(I+𝒟)) wide."""
     width = 1.0 / math.sqrt(1.0 + body.D / min(body.I11, body.I22))
     count = 2 ** math.ceil(math.log2(min(64.0 / width, 8192.0)))
     return np.linspace(0.0, 2.0 * math.pi, count, endpoint=False)
@@ -77,44 +77,44 @@ def _circle(body: BallBody, theta: Array | float, phi: Array) -> Array:
 def _moment(body: BallBody, theta: Array | float) -> Array:
     """(ξ, Îξ) on the circles θ."""
     xi, _ = line_of_rest(body)
-    return body.I11 * xi[0] ** 2 + body.I22 * xi[1] ** 2 + body.D * np.sin(theta) ** 2
+    return np.asarray(body.I11 * xi[0] ** 2 + body.I22 * xi[1] ** 2 + body.D * np.sin(theta) ** 2, float)
 
 
 def _growth(body: BallBody, theta: Array, phi: Array) -> Array:
     """μ = λ/u on the circles θ (m,) at the phases φ (n,), shape (m, n)."""
-    gamma = np.moveaxis(_circle(body, theta[:, None], phi), -1, 0)
-    growth = math.hypot(body.I13, body.I23) * _moment(body, theta)[:, None] / determinant(gamma, body.parameters)
-    return np.maximum(growth, _TINY)
+    gamma = list(np.moveaxis(_circle(body, theta[:, None], phi), -1, 0))
+    growth: Array = math.hypot(body.I13, body.I23) * _moment(body, theta)[:, None] / determinant(gamma, body.parameters)
+    return np.maximum(growth, _TINY, out=growth)
 
 
-def _lag(body: BallBody, theta: float, phis: Array) -> Array | None:
-    """H of the phases φ (n,); None where e^∫μ is beyond double range."""
+def _lag(body: BallBody, theta: float, phis: Array) -> Complex | None:
+    """H (n,) of the phases φ (n,); None where e^∫μ overflows."""
     grid = _phases(body)
     growth = np.fft.fft(_growth(body, np.array([theta]), grid)[0]) / grid.size
     order = np.fft.fftfreq(grid.size, 1.0 / grid.size)
     mean = growth[0].real
     wave = np.divide(growth, 1j * order, out=np.zeros_like(growth), where=order != 0.0)
-    # The integral of μ less its mean, and what is left to integrate: a periodic function times e^(−mean s).
+    # ∫(μ − mean) is periodic; what is left to integrate is a periodic function times e^(−mean s).
     swing = np.fft.ifft(wave * grid.size).real
     if np.ptp(swing) > _MOST_SWING:
         return None
     parts = np.fft.fft(np.exp(1j * grid - swing)) / grid.size / (mean - 1j * order)
     swings, rest = (np.exp(1j * np.outer(phis, order)) @ np.column_stack([wave, parts])).T
-    return np.exp(swings.real) * rest
+    return np.asarray(np.exp(swings.real) * rest, complex)
 
 
 def starts(strip: Strip, theta: float, phis: Array, distance: float) -> tuple[Array, Array]:
-    """States (n, 5) of motions that come from the circle θ of N^u, with phases φ (n,), ω along ξ + distance·η.
+    """States (n, 5) of motions that come from the circle θ of N^u, with phases φ (n,) and ω along ξ + distance·η.
 
-    And their errors (n,): how far from θ, in radians, the circles may be from which they truly come.  γ is at φ on the
-    circle but for a term of the order of `distance`, which the module's docstring derives.
+    Also their errors (n,), in radians: how far θ may be from the circles that they come from.  γ is at φ on the circle
+    up to a term of the order of `distance`, which the module derives.
     """
     body = strip.body
     xi, eta = line_of_rest(body)
     lag = _lag(body, theta, phis)
     reach = 1.0 / float(_growth(body, np.array([theta]), _phases(body)).min())
     known = lag is not None and abs(distance) * float(np.max(np.abs(lag))) < _MOST_TURN
-    H = lag if known else np.zeros(phis.size, complex)
+    H = lag if lag is not None and known else np.zeros(phis.size, complex)
     z = math.sin(theta) * np.exp(1j * phis) + 1j * distance * math.cos(theta) * np.exp(1j * phis) * H.conj()
     across = np.column_stack([math.cos(theta) - distance * math.sin(theta) * H.imag, z.real, z.imag])
     across /= np.linalg.norm(across, axis=1)[:, None]
@@ -126,7 +126,7 @@ def starts(strip: Strip, theta: float, phis: Array, distance: float) -> tuple[Ar
 
 
 def _speed_and_rate(strip: Strip, theta: Array) -> tuple[Array, Array]:
-    """u and the mean of λ over one turn, on the circles θ (m,)."""
+    """u and the mean of λ over one turn, each (m,), on the circles θ (m,)."""
     speeds = np.sqrt(2.0 * strip.h / _moment(strip.body, theta))
     return speeds, speeds * np.mean(_growth(strip.body, theta, _phases(strip.body)), axis=1)
 
@@ -136,10 +136,9 @@ def ball_scattering(body: BallBody, theta_minus: float, phis: Sequence[float] | 
     """θ⁺ for each phase φ of γ(0) ≈ cos θ⁻ ξ + sin θ⁻ (cos φ η + sin φ e3), η = e3 × ξ; see `starts`.
 
     The motion starts with ω along ξ + distance·η and E = h, and is followed until γ has settled on a circle of N^s.
-    distance : of either sign, for the two sides of N^u, 1e-10 ≤ |distance| ≤ 0.1.  The curve θ⁺(φ) of other
-    distances is the same but for a shift of φ, the farther out the more turns γ has made; and for an error of the
-    order of `distance`², which the estimates contain.
-    most_steps : what it may take, as estimated before.
+    distance : of either sign, for the two sides of N^u, 1e-10 ≤ |distance| ≤ 0.1.  Another distance shifts the curve
+    θ⁺(φ) along φ, by the turns γ makes in between, up to an error of order `distance`², which the estimates include.
+    most_steps : limit for the steps, which are estimated beforehand.
     Raises `InvalidParameter`, `WorkLimit`.
     """
     start = time.perf_counter()
@@ -156,22 +155,22 @@ def ball_scattering(body: BallBody, theta_minus: float, phis: Sequence[float] | 
 
     states, before = starts(strip, theta_minus, phis, distance)
     _, rates = _speed_and_rate(strip, np.array([theta_minus, *np.linspace(0.0, math.pi, 33)]))
-    # Out of N^u at the rate of θ⁻, into N^s at that of the slowest circle; in between about e^1.4 each.
+    # It leaves N^u at the rate of θ⁻ and approaches N^s at that of the slowest circle; the factors cover the middle.
     span = math.log(4.0 / abs(distance)) / rates[0] + math.log(40.0 / level.promise) / rates.min()
-    # Steps must be exact beside the small distance too, which decides when γ leaves; and other errors need room.
-    rung = Level(level.name, 0.5 * level.promise, max(0.01 * abs(distance) * level.promise, REFERENCE.tolerance),
+    # Steps must resolve the small distance too, which decides when γ leaves; half the promise is for other errors.
+    tight = Level(level.name, 0.5 * level.promise, max(0.01 * abs(distance) * level.promise, REFERENCE.tolerance),
                  REFERENCE.order)
     nu = float(np.max(SYSTEM.frequency(states.T, np.array(body.parameters))))
-    steps = _STEPS * (1e-9 / rung.tolerance) ** (1.0 / rung.order) * (nu + rates.max()) * span * phis.size
+    steps = _STEPS * (1e-9 / tight.tolerance) ** (1.0 / tight.order) * (nu + rates.max()) * span * phis.size
     if steps > most_steps:
         raise WorkLimit(f"γ settles on its circle so slowly that θ⁺ takes some {steps:.0e} steps: choose larger I13 or "
                         "I23, or a smaller 𝒟.")
-    found = ensemble(SYSTEM, states, body.parameters, [span], rung)
+    found = ensemble(SYSTEM, states, body.parameters, [span], tight)
     end = found.states[:, 0]
     along, across = end[:, 2:4] @ xi, np.hypot(end[:, 2:4] @ eta, end[:, 4])
     theta_plus = np.arctan2(across, along)
 
-    # What γ still turns towards ξ, ∫ (ω, η) dt ≈ (ω, η)/λ.
+    # The angle by which θ would still change, ∫ (ω, η) dt ≈ (ω, η)/λ.
     _, last = _speed_and_rate(strip, theta_plus)
     errors = found.errors + before + np.abs(end[:, :2] @ eta) / last
     wall_ms = (time.perf_counter() - start) * 1e3

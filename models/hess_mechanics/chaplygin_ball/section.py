@@ -1,6 +1,6 @@
-"""S10: the section γ3 = 0 of the Chaplygin ball with a field at E = h, F1 = 1, in coordinates that cover it.
+"""The section γ3 = 0 of the Chaplygin ball with Suslov's constraint at E = h, F1 = 1, in coordinates that cover it.
 
-Where γ3 grows through 0, γ = (cos ψ, sin ψ, 0) and ω points at an angle δ ∈ (0, π) from it:
+Where γ3 grows through 0, γ = (cos ψ, sin ψ, 0) and ω is at an angle δ ∈ (0, π) from it:
 ω = |ω| (cos(ψ+δ), sin(ψ+δ)), as γ̇3 = |ω| sin δ.  The energy gives |ω| wherever h > (b, γ).
 """
 
@@ -24,7 +24,7 @@ __all__ = ["EQUATOR", "ball_section", "coordinates", "forbidden_band", "seeds", 
 EQUATOR = Plane((0.0, 0.0, 0.0, 0.0, 1.0))
 _EDGE = 1e-3
 _TURNS = 30.0
-"""Time given for a crossing, in units of 1/ν: few orbits take longer."""
+"""Time allowed per crossing, in units of 1/ν; few orbits take longer."""
 
 
 def state_at(body: BallBody, h: float, psi: float, delta: float) -> tuple[float, ...]:
@@ -45,9 +45,9 @@ def coordinates(states: Array) -> Array:
 
 
 def forbidden_band(body: BallBody, h: float) -> tuple[float, float] | None:
-    """(middle, half width) of the band of ψ that h forbids, (b, γ) > h; None where it forbids nothing.
+    """(middle, half width) of the band of ψ that h forbids, (b, γ) > h; None where every ψ is possible.
 
-    Raises `InvalidParameter` where it forbids all.
+    Raises `InvalidParameter` where none is.
     """
     size = math.hypot(body.b1, body.b2)
     if h <= -size:
@@ -59,7 +59,7 @@ def forbidden_band(body: BallBody, h: float) -> tuple[float, float] | None:
 
 
 def seeds(body: BallBody, h: float, count: int) -> list[tuple[float, ...]]:
-    """States of the section spread evenly over what h allows of (ψ, cos δ).  Raises `InvalidParameter`."""
+    """States of the section, spread evenly over the possible (ψ, cos δ).  Raises `InvalidParameter`."""
     band = forbidden_band(body, h)
     middle, forbidden = (0.0, 0.0) if band is None else band
     golden = (math.sqrt(5.0) - 1.0) / 2.0
@@ -73,9 +73,9 @@ def seeds(body: BallBody, h: float, count: int) -> list[tuple[float, ...]]:
 
 def ball_section(body: BallBody, h: float, starts: Sequence[Sequence[float]], crossings: int, level: Level,
                  most_steps: int = MAX_STEPS) -> Points:
-    """The first crossings of each orbit that starts on the section, on all cores, states as in `section_points`.
+    """The first `crossings` crossings of each orbit from `starts`, on all cores, as in `section_points`.
 
-    most_steps : of one orbit.  Raises `InvalidParameter`, `WorkLimit`.
+    most_steps : per orbit.  Raises `InvalidParameter`, `WorkLimit`.
     """
     speed = math.sqrt(2.0 * (h + math.hypot(*body.parameters[5:])) / min(body.I11, body.I22))
     end = crossings * _TURNS * math.sqrt(1.0 + body.D / min(body.I11, body.I22)) / speed

@@ -1,1 +1,1 @@
-"""What can be asked of any system: orbits, ensembles, sections, exponents."""
+"""What can be computed for any system: orbits, ensembles, sections, exponents."""

@@ -1,4 +1,4 @@
-"""Rotation numbers of orbits on a section, by weighted averages of the turns from point to point."""
+"""Rotation numbers of orbits on a section, by weighted Birkhoff averages."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ __all__ = ["rotation_number"]
 
 
 def weighted_mean(values: Array) -> float:
-    """Mean with the weight exp(−1/(t(1 − t))): of a quasi-periodic sequence it converges faster than any power."""
+    """Mean with the weight exp(−1/(t(1 − t))), which converges super-polynomially for quasi-periodic sequences."""
     t = (np.arange(values.size) + 0.5) / values.size
     weight = np.exp(-1.0 / (t * (1.0 - t)))
     return float(weight @ values / weight.sum())
 
 
 def rotation_number(points: Array, centre: tuple[float, float] | None = None) -> tuple[float, float]:
-    """Turns from point to point of an orbit (n, 2), in (−½, ½], and how far its two halves disagree.
+    """Rotation number of an orbit (n, 2) in turns per point, in (−½, ½], and the difference between its halves.
 
-    centre : the turns are about it; without one, the first coordinate is itself the angle.  Where the halves
-    disagree, the orbit is no closed curve.  Raises `InvalidParameter` for fewer than five points.
+    centre : of the turns; without one, the first coordinate is the angle.  Halves that differ mean that the orbit is
+    no invariant curve.  Raises `InvalidParameter` for fewer than five points.
     """
     if len(points) < 5:
         raise InvalidParameter(f"A rotation number needs five points of an orbit, and there are {len(points)}: follow "
@@ -31,9 +31,9 @@ def rotation_number(points: Array, centre: tuple[float, float] | None = None) ->
     else:
         angle = np.arctan2(points[:, 1] - centre[1], points[:, 0] - centre[0])
     turns = np.diff(angle) / (2.0 * np.pi)
-    # Turns of about ½ lie on both sides of it: which of them are the same is counted from their mean direction.
+    # Turns near ½ scatter about the branch cut: unwrap them about their mean direction.
     middle = float(np.angle(np.mean(np.exp(2j * np.pi * turns)))) / (2.0 * np.pi)
-    turns = middle + _within_half(turns - middle)
+    turns = middle + np.asarray(_within_half(turns - middle))
     half = turns.size // 2
     return (float(_within_half(weighted_mean(turns))),
             abs(weighted_mean(turns[:half]) - weighted_mean(turns[half:])))

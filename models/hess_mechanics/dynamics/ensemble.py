@@ -1,4 +1,4 @@
-"""Many orbits of one system at given times, on all cores, with their errors."""
+"""Many orbits of one system at given times, on all cores, with error estimates."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ from hess_mechanics.numerics.taylor import STEP_LIMIT_REACHED
 __all__ = ["MAX_NUMBERS", "ensemble"]
 
 MAX_NUMBERS = 20_000_000
-"""Of all states at all times: 160 MB."""
+"""Numbers in all states at all times: 160 MB."""
 
 _SHARE = 64
-"""Orbits of one piece of work: enough to fill the lanes, few enough for the threads to end together."""
+"""Orbits per piece of work: enough to fill the lanes, few enough for the threads to finish together."""
 
 
 def _run(system: System, problem: Problem, states: Array, times: Array, level: Level, threads: int
@@ -44,10 +44,10 @@ def _run(system: System, problem: Problem, states: Array, times: Array, level: L
 
 def ensemble(system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float],
              times: Sequence[float] | Array, level: Level, threads: int = THREADS) -> Ensemble:
-    """The orbits that start at the rows of `states` (n, d), at the given times (m,).
+    """The orbits from the rows of `states` (n, d), sampled at the times (m,).
 
-    Errors are measured as in `solve`, orbit by orbit; those that miss the level's promise are computed
-    again, more exactly, as far as double precision goes.
+    Errors are measured as in `solve`, orbit by orbit; orbits that miss the level's promise are recomputed with
+    smaller tolerances, down to the floor of double precision.
     Raises `InvalidParameter`, `WorkLimit`.
     """
     start = time.perf_counter()

@@ -1,6 +1,6 @@
-"""The largest Lyapunov exponent of one motion, from its distance to a neighbour that is brought back again and again.
+"""The largest Lyapunov exponent of one orbit, from its distance to a neighbour that is renormalised periodically.
 
-Benettin, Galgani, Strelcyn (1976).  The neighbour starts in a fixed direction that is none of a symmetry.
+Benettin, Galgani, Strelcyn (1976).  The neighbour starts in a fixed direction that no symmetry singles out.
 """
 
 from __future__ import annotations
@@ -22,17 +22,17 @@ __all__ = ["Exponent", "largest_exponent"]
 
 MAX_RETURNS = 200_000
 _DISTANCE = 1e-7
-"""Of the neighbour, where the state is O(1): small enough for a linear motion, large beside round-off."""
+"""Distance of the neighbour, where the state is O(1): small enough to be linear, large compared with round-off."""
 _TOLERANCE = 1e-14
 _INTERVAL = 2.0
-"""Time until the neighbour is brought back, in units of 1/ν."""
+"""Time between renormalisations, in units of 1/ν."""
 
 
 @dataclass(frozen=True)
 class Exponent:
     """The mean growth rate up to each time: times (n,), rates (n,), the last of which is the estimate.
 
-    spread : how far the rates of the last half lie apart.
+    spread : range of the rates in the second half.
     """
 
     times: Array
@@ -46,7 +46,7 @@ class Exponent:
 
 
 def largest_exponent(system: System, state: Sequence[float], parameters: Sequence[float], span: float) -> Exponent:
-    """The exponent of the motion from `state` over the time `span` (negative: backwards).
+    """The exponent of the orbit from `state` (d,) over the time `span` (negative: backwards), per unit of time.
 
     Raises `InvalidParameter`, `WorkLimit`.
     """

@@ -1,4 +1,4 @@
-"""One orbit at given times, with an error that is measured and not assumed."""
+"""One orbit at given times, with a measured error."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ MAX_SAMPLES = 200_000
 
 
 def checked_times(times: Sequence[float] | Array) -> Array:
-    """The times (n,) as an array of its own.  Raises `InvalidParameter`, `WorkLimit`."""
+    """A copy of the times (n,), checked.  Raises `InvalidParameter`, `WorkLimit`."""
     t = np.array(times, dtype=float, ndmin=1)
     if t.ndim != 1 or t.size == 0 or not np.all(np.isfinite(t)):
         raise InvalidParameter("The times must be one or more finite numbers.")
@@ -39,7 +39,7 @@ def require_finite_states(states: Array) -> None:
 
 
 def status_of(error: float, level: Level) -> Status:
-    """How a computation with this estimated error (in units in which the state is O(1)) ended."""
+    """The status of a result with this error estimate, in units in which the state is O(1)."""
     if error <= level.promise:
         return Status.OK
     return Status.FLOOR if level.is_floor else Status.PROMISE_NOT_MET
@@ -48,10 +48,11 @@ def status_of(error: float, level: Level) -> Status:
 def drift_of(system: System, start: Array, states: Array, parameters: Array) -> dict[str, float]:
     """For each integral max |F(y) − F(start)|, relative to |F(start)| where that exceeds 1.
 
-    start (d,) and states (m, d) of one orbit, or (n, d) and (n, m, d) of many, of which the largest counts.
+    start (d,) and states (m, d) of one orbit, or (n, d) and (n, m, d) of many; the maximum is over all of them.
     """
-    initial = system.integrals(np.moveaxis(start, -1, 0), parameters)
-    along = system.integrals(np.moveaxis(states, -1, 0), parameters)
+    p = list(parameters)
+    initial = system.integrals(list(np.moveaxis(start, -1, 0)), p)
+    along = system.integrals(list(np.moveaxis(states, -1, 0)), p)
     drift = {}
     for name, value in initial.items():
         origin = np.asarray(value)[..., None]
@@ -73,16 +74,16 @@ def _run(system: System, problem: Problem, times: Array, level: Level, max_steps
 
 def solve(system: System, state: Sequence[float] | Array, parameters: Sequence[float],
           times: Sequence[float] | Array, level: Level) -> Orbit:
-    """The orbit at the given times, with an error measured and not assumed.
+    """The orbit from `state` (d,) at the given times (n,), monotonic from 0, with a measured error.
 
-    The motion is computed twice, the second time with steps a hundred times more exact; the
-    difference is the error estimate of the first.  If that exceeds the level's promise the
-    second run takes its place and is measured in turn, down to the floor of double precision.
+    The orbit is computed twice, the second time with a hundredth of the tolerance; the difference is the error
+    estimate of the first run.  If that exceeds the level's promise, the second run takes its place and is measured in
+    turn, down to the floor of double precision.
     Raises `InvalidParameter` (not finite, times out of order), `WorkLimit`.
     """
     start = time.perf_counter()
     t = checked_times(times)
-    problem = Problem.of(system, [state], parameters)
+    problem = Problem.of(system, np.array(state, float, ndmin=2), parameters)
     scaled_times = problem.times(t)
 
     current = level
@@ -91,7 +92,7 @@ def solve(system: System, state: Sequence[float] | Array, parameters: Sequence[f
         tighter = current.tightened()
         fine, steps = _run(system, problem, scaled_times, tighter, MAX_STEPS - total)
         total += steps
-        # Two runs at the floor differ by their round-off, which says less of the true error.
+        # Two runs at the floor differ by round-off only, which underestimates the true error.
         safety = 4.0 if current.is_floor else 1.25
         difference = np.abs(coarse - fine)
         error = safety * float(difference.max()) + 2e-16

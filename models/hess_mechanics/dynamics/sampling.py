@@ -1,7 +1,7 @@
 """Where to sample an orbit so that straight lines between the samples look like the curve.
 
-Between two samples Δt apart a curve x(t) lies within |ẍ| Δt²/8 of its chord, at every time: both the line
-drawn and a point that moves along it are right to that.  So the density of samples is √(|ẍ|/(8 sagitta)).
+Between two samples Δt apart a curve x(t) stays within |ẍ| Δt²/8 of its chord, at every time: that bounds the error of
+the line drawn and of a point that moves along it.  So the density of samples is √(|ẍ|/(8 sagitta)).
 """
 
 from __future__ import annotations
@@ -23,20 +23,20 @@ HALF_A_PIXEL = 1.0 / PIXELS
 """Half a pixel where the state is O(1) and spans the picture from −1 to 1."""
 
 _COARSE = 0.2
-"""Spacing of the first look, in units in which the fastest angular velocity is 1."""
+"""Spacing of the first pass, in units in which the fastest angular velocity is 1."""
 _MOST_COARSE = 40_000
-_LOOKS_PER_STEP = 16
+_SAMPLES_PER_STEP = 16
 
 
 def sample_times(system: System, state: Array, parameters: Array, span: float, weights: Array, sagitta: float,
                  most: int) -> Array:
     """At most `most` times from 0 to `span` (not 0), both included, at which to sample the orbit from `state`.
 
-    weights (d,) : from the variables to the picture, such as pixels for a unit; sagitta : the largest
-    distance between curve and chord, in the same units.  Where the orbit cannot be followed the
-    times are even, and its computation proper will say why.
+    weights (d,) : pixels per unit of each variable; sagitta : largest distance between curve and chord, in pixels.
+    Where the orbit cannot be computed the times are even; computing the orbit itself then raises the error.
+    Raises `InvalidParameter`.
     """
-    problem = Problem.of(system, state, parameters)
+    problem = Problem.of(system, np.array(state, float, ndmin=2), list(parameters))
     count = int(min(_MOST_COARSE, max(64.0, abs(span) * problem.nu / _COARSE))) + 1
     while True:
         even = np.linspace(0.0, span, count)
@@ -45,15 +45,15 @@ def sample_times(system: System, state: Array, parameters: Array, span: float, w
                              PRECISE.tolerance, MAX_STEPS, states)
         if steps < 0 or not np.all(np.isfinite(states)):
             return np.linspace(0.0, span, min(most, count))
-        # Where the steps are short the motion is quicker than its angular velocity: look again, closer.
-        needed_count = min(_MOST_COARSE, _LOOKS_PER_STEP * steps) + 1
+        # Short steps mean that the motion is faster than its angular velocity suggests: sample it more densely.
+        needed_count = min(_MOST_COARSE, _SAMPLES_PER_STEP * steps) + 1
         if count >= needed_count:
             break
         count = needed_count
-    rates = np.array(system.field((states * problem.scale).T, parameters))
+    rates = np.array(system.field(list((states * problem.scale).T), list(parameters)))
     accelerations = np.gradient(rates, span / (count - 1), axis=1) * weights[:, None]
     density = np.sqrt(np.linalg.norm(accelerations, axis=0) / (8.0 * sagitta))
-    density = np.maximum(density, 16.0 / abs(span))  # a point at rest too is a curve of some samples
+    density = np.maximum(density, 16.0 / abs(span))  # some samples for a motion at rest too
     needed = np.concatenate([[0.0], np.cumsum(0.5 * (density[1:] + density[:-1]) * (abs(span) / (count - 1)))])
     samples = int(min(most - 1, np.ceil(needed[-1]))) + 1
     times = np.interp(np.linspace(0.0, needed[-1], samples), needed, even)

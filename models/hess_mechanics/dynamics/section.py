@@ -1,4 +1,4 @@
-"""Poincaré sections: the crossings of a plane by one orbit or many, with their errors."""
+"""Poincaré sections: crossings of a plane or another surface by one orbit or many, with error estimates."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ __all__ = ["MAX_CROSSINGS", "Plane", "Points", "Surface", "occupied_cells", "sec
 MAX_CROSSINGS = 100_000
 MAX_STEPS = 10_000_000
 _ROOM = 1000
-"""Crossings for which there is room at first: few orbits have more."""
+"""Crossings for which memory is allocated at first: few orbits have more."""
 _PARTS = 8
-"""Those of the time of a section of many orbits."""
+"""Time intervals into which a section of many orbits is divided."""
 _SHARE = 4
-"""Orbits of one piece of work."""
+"""Orbits per piece of work."""
 
 
 @dataclass(frozen=True)
 class Plane:
-    """normal·y = offset in the space of the states; sense 1: crossed from below, −1: from above, 0: both."""
+    """The plane normal·y = offset in state space; sense 1: crossed from below, −1: from above, 0: both ways."""
 
     normal: tuple[float, ...]
     offset: float = 0.0
@@ -45,7 +45,7 @@ class Plane:
             raise InvalidParameter("The sense of a crossing is 1 (from below), −1 (from above) or 0 (both).")
 
     def scaled(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
-        """What `Surface` says, with a normal of length 1.  Raises `InvalidParameter`."""
+        """See `Surface.scaled`; the normal has length 1.  Raises `InvalidParameter`."""
         if len(self.normal) != len(system.variables):
             raise InvalidParameter(f"The normal of the plane has {len(system.variables)} components here.")
         largest = max(map(abs, self.normal))
@@ -58,11 +58,11 @@ class Plane:
 
 
 class Surface(Protocol):
-    """A surface in the space of the states."""
+    """A surface in state space."""
 
     @property
     def sense(self) -> int:
-        """1: crossed from below, −1: from above, 0: both."""
+        """1: crossed from below, −1: from above, 0: both ways."""
 
     def scaled(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
         """The kernel that finds its crossings, and normal and offset in units in which the states are O(1)."""
@@ -70,7 +70,7 @@ class Surface(Protocol):
 
 @dataclass(frozen=True)
 class _Search:
-    """What is looked for, in units in which the states are O(1)."""
+    """A search for crossings, in units in which the states are O(1)."""
 
     system: System
     problem: Problem
@@ -94,15 +94,15 @@ class _Search:
         cross, normal, offset = plane.scaled(system, problem)
         return cls(system, problem, cross, normal, offset, plane.sense, end * problem.nu, level, crossings)
 
-    def run(self, i: int, rung: Level, max_steps: int, start: Array | None = None) -> tuple[Array, Array, int]:
-        """Times, states and steps of the crossings of orbit i, or of the one from `start`, at one tolerance."""
+    def run(self, i: int, level: Level, max_steps: int, start: Array | None = None) -> tuple[Array, Array, int]:
+        """Times, states and steps of the crossings of orbit i, or of the orbit from `start`, at one tolerance."""
         start = self.problem.states[i] if start is None else start
         room, total = min(self.crossings, _ROOM), 0
         while True:
             times, states = np.empty(room), np.empty((room, self.problem.scale.size))
             found, steps = self.cross(
                 start, self.problem.parameters, self.normal, self.offset, self.sense, self.end,
-                rung.order, rung.tolerance, max_steps - total, times, states)
+                level.order, level.tolerance, max_steps - total, times, states)
             if found == STEP_LIMIT_REACHED:
                 raise WorkLimit(f"This section needs more than {MAX_STEPS} steps: choose a shorter time span.")
             total += steps
@@ -113,7 +113,7 @@ class _Search:
         return times[:found].copy(), states[:found].copy(), total
 
     def measured(self, i: int) -> _Found:
-        """The crossings of orbit i, and how far they are from those of a more exact run."""
+        """The crossings of orbit i, with errors measured against a more accurate run."""
         start = time.perf_counter()
         current = self.level
         coarse_times, coarse, total = self.run(i, current, MAX_STEPS)
@@ -125,7 +125,7 @@ class _Search:
             safety = 4.0 if current.is_floor else 1.25
             difference = safety * np.abs(coarse[:both] - fine[:both])
             error = float(difference.max(initial=0.0)) + 2e-16
-            # One crossing more or less only at the very end of the span.
+            # One crossing may differ, at the very end of the time span.
             extra = np.concatenate((coarse_times[both:], fine_times[both:]))
             same = len(extra) == 0 or (len(extra) == 1 and abs(extra[0] - self.end) <= 10 * self.level.promise)
             if (same and error <= self.level.promise) or current.is_floor:
@@ -146,7 +146,7 @@ class _Search:
 
 @dataclass(frozen=True)
 class _Found:
-    """Times (n,), states (n, d), their estimated errors (m, d), the largest (∞: other crossings), and the cost."""
+    """Times (n,), states (n, d), their errors (m, d), the largest error (∞: other crossings), and the cost."""
 
     times: Array
     states: Array
@@ -157,18 +157,18 @@ class _Found:
 
 def section(system: System, state: Sequence[float] | Array, parameters: Sequence[float], plane: Surface,
             end: float, level: Level, crossings: int = MAX_CROSSINGS) -> Section:
-    """The first `crossings` crossings of the plane after t = 0 and up to t = `end` (which may be negative).
+    """The first `crossings` crossings of the plane from t = 0 to t = `end`, which may be negative.
 
-    They are roots of the Taylor polynomials of the orbit itself.  The error is measured as in `solve`,
-    crossing by crossing; a run that finds other crossings than the more exact one is replaced by it.
+    Crossings are roots of the orbit's own Taylor polynomials.  The error is measured as in `solve`, crossing by
+    crossing; a run whose crossings are not those of the more accurate run is replaced by it.
     Raises `InvalidParameter`, `WorkLimit`.
     """
-    return sections(system, [state], parameters, plane, end, level, crossings, threads=1)[0]
+    return sections(system, np.array(state, float, ndmin=2), parameters, plane, end, level, crossings, threads=1)[0]
 
 
 def sections(system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float], plane: Surface,
              end: float, level: Level, crossings: int = MAX_CROSSINGS, threads: int = THREADS) -> list[Section]:
-    """`section` for each row of `states` (n, d), on all cores, with the fastest motion's unit of time for all."""
+    """`section` for each row of `states` (n, d), on all cores; the fastest orbit sets the unit of time for all."""
     search = _Search.of(system, states, parameters, plane, end, level, crossings)
     found: dict[int, _Found] = {}
 
@@ -183,10 +183,11 @@ def sections(system: System, states: Sequence[Sequence[float]] | Array, paramete
 
 @dataclass(frozen=True)
 class Points:
-    """Crossings of many orbits, each followed once: states, a list of (n, d); drift : of each integral, the largest.
+    """Crossings of many orbits, each computed once.
 
-    They lie on the plane and on their levels of the integrals.  Whether each is where its own orbit is, nobody can
-    say of chaotic motions after some time, and nothing is said here: see `section` for that.
+    states : a list of (n, d), one per orbit; drift : for each integral the largest.
+    The points lie on the plane and on their levels of the integrals.  There is no error estimate along the orbits,
+    which for chaotic motions would soon be meaningless: see `section`.
     """
 
     states: list[Array]
@@ -197,10 +198,10 @@ class Points:
 def section_points(system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float],
                    plane: Surface, end: float, level: Level, crossings: int, threads: int = THREADS,
                    most_steps: int = MAX_STEPS) -> Points:
-    """For pictures: the first `crossings` crossings of each orbit, rows of `states` (n, d), in one run.
+    """The first `crossings` crossings of the orbits from the rows of `states` (n, d), in one run, for pictures.
 
-    An orbit that in some part of the time crosses less often than it must on an average is not followed to the end.
-    most_steps : of one orbit.  Raises `InvalidParameter`, `WorkLimit`.
+    An orbit that falls behind the average rate of crossings in one part of the time span ends there.
+    most_steps : per orbit.  Raises `InvalidParameter`, `WorkLimit`.
     """
     begun = time.perf_counter()
     search = _Search.of(system, states, parameters, plane, end, level, crossings)
@@ -225,7 +226,7 @@ def section_points(system: System, states: Sequence[Sequence[float]] | Array, pa
 
     def part(i: int) -> None:
         for orbit in range(i * _SHARE, min((i + 1) * _SHARE, count)):
-            # Where one takes too long the others need not be tried.
+            # One orbit beyond the limit refuses the whole section.
             if not refused:
                 try:
                     found[orbit] = follow(orbit)

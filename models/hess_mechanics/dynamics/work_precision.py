@@ -1,4 +1,4 @@
-"""Speed against accuracy on one motion: errors over time, drift of the integrals, cost; all measured."""
+"""Work and precision on one motion: errors over time, drift of the integrals and cost, all measured."""
 
 from __future__ import annotations
 
@@ -22,18 +22,17 @@ SLOW_METHODS = ("DOP853", "LSODA")
 _TOLERANCES = (1e-4, 1e-7, 1e-10)
 _LONGEST_FOR_OTHERS = 150.0
 _LONGEST = 5000.0
-"""Spans in units of 1/ν: SciPy's methods, and the levels, take a second or so up to there."""
+"""Time spans, in units of 1/ν, that SciPy's methods and the levels integrate in about a second."""
 _MOST_STEPS_FOR_OTHERS = 1500
-"""Of the level `reference`; for each of them SciPy's methods take about 0.16 ms together."""
+"""Steps of the level `reference`; for each of them SciPy's methods take about 0.16 ms together."""
 
 
 @dataclass(frozen=True)
 class Growth:
-    """Errors along one motion.
+    """Errors along one motion, each by level.
 
-    times : (n,); errors, pixels, drift : for each level (n,): the largest error of any variable, where the
-    state is O(1); the error in the pictures; the largest relative change of any integral.
-    drifts : for each level, each integral's (n,).
+    times : (n,); errors : (n,), largest error of any variable where the state is O(1);
+    pixels : (n,), error in the pictures; drifts : relative change (n,) of each integral.
     """
 
     times: Array
@@ -44,7 +43,7 @@ class Growth:
 
 @dataclass(frozen=True)
 class WorkPoint:
-    """One way to compute the motion: method and setting, milliseconds, largest error (where the state is O(1))."""
+    """One way to compute the motion: method, setting, milliseconds, and largest error where the state is O(1)."""
 
     method: str
     setting: str
@@ -54,21 +53,21 @@ class WorkPoint:
 
 def _truth(name: str, state: Sequence[float], parameters: Sequence[float], span: float, samples: int
            ) -> tuple[System, Array, Array, Array]:
-    """System, even times, the motion at them, and the units in which it is O(1).
+    """System, even times (n,), states (n, d) at those times, and the units (d,) in which the states are O(1).
 
-    It is computed at the floor of double precision, in other steps than those of the level `reference`.
+    Computed at the floor of double precision, with other steps than the level `reference` takes.
     """
     system = systems()[name]
     times = np.linspace(0.0, span, samples)
     states = solve(system, state, parameters, times, REFERENCE.tightened()).states
-    return system, times, states, Problem.of(system, state, parameters).scale
+    return system, times, states, Problem.of(system, [state], parameters).scale
 
 
 def growth(name: str, state: tuple[float, ...], parameters: tuple[float, ...], span: float,
            weights: tuple[float, ...], samples: int) -> Growth:
-    """Errors of all levels at even times up to `span`.
+    """Errors of all levels at `samples` even times up to `span`.
 
-    name : of the system; weights (d,) : pixels for a unit of each variable.
+    name : of the system; weights (d,) : pixels per unit of each variable.
     Raises `InvalidParameter`, `WorkLimit`.
     """
     system, times, truth, scale = _truth(name, state, parameters, span, samples)
@@ -84,13 +83,13 @@ def growth(name: str, state: tuple[float, ...], parameters: tuple[float, ...], s
         initial = system.integrals(state, parameters)
         drifts[level.name] = {
             key: frozen(np.abs(value - initial[key]) / max(1.0, abs(float(initial[key]))))
-            for key, value in system.integrals(states.T, parameters).items()
+            for key, value in system.integrals(list(states.T), parameters).items()
         }
     return Growth(frozen(times), errors, pixels, drifts)
 
 
 def _best_of(run: Callable[[], Array], repeats: int) -> tuple[float, Array]:
-    """Milliseconds of the fastest of some runs, and its result."""
+    """Milliseconds of the fastest of `repeats` runs, and the result."""
     best = np.inf
     for _ in range(repeats):
         start = time.perf_counter()
@@ -101,7 +100,7 @@ def _best_of(run: Callable[[], Array], repeats: int) -> tuple[float, Array]:
 
 def measure_levels(name: str, state: tuple[float, ...], parameters: tuple[float, ...], span: float, samples: int
                    ) -> tuple[WorkPoint, ...]:
-    """Cost and error of each level, its error estimate included, here and now.  Raises as `growth`."""
+    """Cost and error of each level, measured now; the cost includes the error estimate.  Raises as `growth`."""
     system, times, truth, scale = _truth(name, state, parameters, span, samples)
     points = []
     for level in LEVELS.values():
@@ -111,24 +110,24 @@ def measure_levels(name: str, state: tuple[float, ...], parameters: tuple[float,
 
 
 def longest_span(name: str, state: Sequence[float], parameters: Sequence[float]) -> float:
-    """How long the motion can be studied within about a second.  Raises `InvalidParameter`."""
-    return _LONGEST / Problem.of(systems()[name], state, parameters).nu
+    """The longest time span that all levels integrate in about a second.  Raises `InvalidParameter`."""
+    return _LONGEST / Problem.of(systems()[name], [state], parameters).nu
 
 
 def others_take_long(name: str, state: Sequence[float], parameters: Sequence[float], span: float) -> bool:
     """Whether SciPy's methods would take long for this motion.  Raises as `growth`.
 
-    Decided by the motion and not by a clock: so the same state always shows the same.
+    Decided by steps and not by a clock, so that equal states always show the same.
     """
     system = systems()[name]
-    return (span * Problem.of(system, state, parameters).nu > _LONGEST_FOR_OTHERS
+    return (span * Problem.of(system, [state], parameters).nu > _LONGEST_FOR_OTHERS
             or solve(system, state, parameters, np.array([0.0, span]), REFERENCE).cost.steps > _MOST_STEPS_FOR_OTHERS)
 
 
 def measure_others(name: str, state: tuple[float, ...], parameters: tuple[float, ...], span: float, samples: int
                    ) -> tuple[WorkPoint, ...]:
-    """The same for SciPy's methods with the plain field, at three tolerances each; without error estimates."""
-    from scipy.integrate import solve_ivp  # 0.3 s of import that other scenes do not need
+    """`measure_levels` for SciPy's methods on the plain field, at three tolerances each, without error estimates."""
+    from scipy.integrate import solve_ivp  # imported here because it takes 0.3 s
 
     system, times, truth, scale = _truth(name, state, parameters, span, samples)
     points = []

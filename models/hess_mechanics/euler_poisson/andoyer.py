@@ -1,4 +1,4 @@
-"""S11: Andoyer–Deprit variables of the Euler–Poisson equations, and the section g = π/2.
+"""Andoyer–Deprit variables of the Euler–Poisson equations, and the section g = π/2 (figures 11, 13 and 14).
 
 G = |M|, L = M3, (M, γ) = f, x = L/G, s = √(1 − x²); M = G (s sin l, s cos l, x), and
 
@@ -26,7 +26,7 @@ from hess_mechanics.euler_poisson.andoyer_kernels import cross
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody, field
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.parallel import THREADS
-from hess_mechanics.numerics.results import Array
+from hess_mechanics.numerics.results import Array, Mask
 from hess_mechanics.rigid_body.inertia import require_finite
 
 __all__ = [
@@ -43,14 +43,14 @@ class AndoyerPlane:
     sense: int = 1
 
     def scaled(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
-        """As `section.Surface` says.  Raises `InvalidParameter` for other systems."""
+        """See `section.Surface`.  Raises `InvalidParameter` for systems other than Euler–Poisson."""
         if system is not SYSTEM:
             raise InvalidParameter("Andoyer–Deprit variables are those of the Euler–Poisson equations.")
         return cross, np.array([self.f / problem.scale[0]]), 0.0
 
 
 def _factors(body: HeavyBody, l: Array, x: Array) -> tuple[Array, Array, Array]:
-    """K, P, Q of the module's docstring."""
+    """K, P, Q of the energy on the plane, see the module."""
     a1, a2, a3 = body.a
     m1, m2, m3 = (body.mu * r for r in body.r)
     s = np.sqrt(np.maximum(0.0, 1.0 - x * x))
@@ -63,10 +63,10 @@ _ROUGH = 24
 
 
 def _scan(body: HeavyBody, h: float, f: float, l: Array, x: Array, count: int = _SCAN) -> tuple[Array, Array, Array]:
-    """G (n, m) from the largest possible downwards to |f|, the energy less h there, and K, P, Q (3, n)."""
+    """G (n, m) from the largest possible down to |f|, the energy minus h there, and K, P, Q (3, n)."""
     factors = np.stack(_factors(body, l, x))
     K, P, Q = factors[:, :, None]
-    # The potential is never below −|m|: above this G the energy is more than h.
+    # The potential is at least −|m|, so above this G the energy exceeds h.
     top = np.sqrt(np.maximum(0.0, 2.0 * (h + body.strength) / K))
     smallest = abs(f) if f else 0.0
     share = np.linspace(0.0, 1.0, count) ** 2
@@ -76,14 +76,13 @@ def _scan(body: HeavyBody, h: float, f: float, l: Array, x: Array, count: int = 
 
 
 def _energy(G: Array, f: float, K: Array, P: Array, Q: Array) -> Array:
-    if f == 0.0:
-        return 0.5 * K * G * G - Q
-    ratio = f / G
-    return 0.5 * K * G * G - ratio * P - np.sqrt(np.maximum(0.0, 1.0 - ratio * ratio)) * Q
+    ratio = f / G if f != 0.0 else np.zeros_like(G)
+    energy: Array = 0.5 * K * G * G - ratio * P - np.sqrt(np.maximum(0.0, 1.0 - ratio * ratio)) * Q
+    return energy
 
 
 def momenta(body: HeavyBody, h: float, f: float, l: Array, x: Array) -> Array:
-    """The largest G ≥ |f| with the energy h at each (l, x) (n,) of the plane; NaN where there is none.
+    """The largest G ≥ |f| (n,) with the energy h at points l, x (n,) of the plane; NaN where there is none.
 
     Raises `InvalidParameter`.
     """
@@ -93,7 +92,7 @@ def momenta(body: HeavyBody, h: float, f: float, l: Array, x: Array) -> Array:
         raise InvalidParameter("On the section l is an angle and x = L/G lies between −1 and 1.")
     G, excess, (K, P, Q) = _scan(body, h, f, l, x)
     if f == 0.0:
-        return np.sqrt(np.where(h + Q >= 0.0, 2.0 * (h + Q) / K, np.nan))
+        return np.asarray(np.sqrt(np.where(h + Q >= 0.0, 2.0 * (h + Q) / K, np.nan)), float)
     below = excess <= 0.0
     found = below.any(axis=1) & (excess[:, 0] >= -1e-12 * (abs(h) + body.strength))
     first = np.maximum(np.argmax(below, axis=1), 1)
@@ -103,18 +102,18 @@ def momenta(body: HeavyBody, h: float, f: float, l: Array, x: Array) -> Array:
         middle = 0.5 * (high + low)
         above = _energy(middle, f, K, P, Q) > h
         high, low = np.where(above, middle, high), np.where(above, low, middle)
-    return np.where(found, 0.5 * (high + low), np.nan)
+    return np.asarray(np.where(found, 0.5 * (high + low), np.nan), float)
 
 
-def possible(body: HeavyBody, h: float, f: float, l: Array, x: Array) -> Array:
-    """Whether some G ≥ |f| has an energy of at most h at (l, x) (n,), to what a picture shows."""
-    return np.min(_scan(body, h, f, l, x, _ROUGH)[1], axis=1) <= 0.0
+def possible(body: HeavyBody, h: float, f: float, l: Array, x: Array) -> Mask:
+    """Whether some G ≥ |f| has an energy of at most h at l, x (n,), accurate enough for a picture."""
+    return np.asarray(np.min(_scan(body, h, f, l, x, _ROUGH)[1], axis=1) <= 0.0)
 
 
-def states_at(body: HeavyBody, h: float, f: float, l: Array, x: Array) -> tuple[Array, Array, Array]:
-    """The states (n, 6) on the section at (l, x = L/G) (n,), G (n,), and whether g grows through π/2 there (n,).
+def states_at(body: HeavyBody, h: float, f: float, l: Array, x: Array) -> tuple[Array, Array, Mask]:
+    """States (n, 6) of the section at l, x = L/G (n,), G (n,), and whether g grows through π/2 there (n,).
 
-    Where there is no G ≥ |f| of this energy, it is NaN.  Raises `InvalidParameter`.
+    G is NaN where no G ≥ |f| has this energy.  Raises `InvalidParameter`.
     """
     G = momenta(body, h, f, l, x)
     safe = np.where(G > 0.0, G, 1.0)
@@ -123,13 +122,13 @@ def states_at(body: HeavyBody, h: float, f: float, l: Array, x: Array) -> tuple[
     sin, cos = np.sin(l), np.cos(l)
     y = np.stack([
         safe * s * sin, safe * s * cos, safe * x, c * s * sin + across * cos, c * s * cos - across * sin, c * x])
-    rates = np.stack(field(y, body.parameters))
+    rates = np.stack(field(list(y), body.parameters))
     growth = 2.0 * np.sum(y[:3] * rates[:3], axis=0) * y[5] + safe * safe * rates[5] - f * rates[2]
     return y.T, np.where(G > 0.0, G, np.nan), (G > 0.0) & (growth > 0.0)
 
 
 def state_at(body: HeavyBody, h: float, f: float, l: float, x: float) -> tuple[float, ...]:
-    """The state (6,) on the section at (l, x = L/G).
+    """The state (6,) of the section at (l, x = L/G).
 
     Raises `InvalidParameter` where no real G ≥ |f| has this energy, or g does not grow through π/2.
     """
@@ -151,22 +150,22 @@ def coordinates(states: Array) -> Array:
 
 
 def relation(body: HeavyBody, states: Array) -> Array:
-    """r1 M1 + r3 M3 (n,) of states (n, 6), whose sign no motion changes in the Hess case (`g2p6f1`)."""
+    """r1 M1 + r3 M3 (n,) of states (n, 6); in the Hess case its sign is invariant (`g2p6f1`)."""
     return body.r[0] * states[:, 0] + body.r[2] * states[:, 2]
 
 
 def hess_curve(body: HeavyBody, l: Array) -> Array:
-    """L/G (n,) where the Hess relation holds: r1 s sin l + r3 x = 0."""
+    """L/G (n,) at l (n,) on the Hess manifold: r1 s sin l + r3 x = 0."""
     r1, _, r3 = body.r
     across = r1 * np.sin(l)
-    return -across / np.maximum(np.hypot(r3, across), 1e-300)
+    return np.asarray(-across / np.maximum(np.hypot(r3, across), 1e-300), float)
 
 
 def seeds(body: HeavyBody, h: float, f: float, window: Sequence[float], count: int) -> list[tuple[float, ...]]:
-    """At most `count` states of the section, spread evenly over what is possible of l0 … l1, x0 … x1."""
+    """At most `count` states of the section, spread evenly over the possible part of `window` (l0, l1, x0, x1)."""
     l0, l1, x0, x1 = window
-    # A sequence that fills the window evenly, however far it is followed (Roberts, 2018).
-    n = np.arange(1, 4 * count + 1)
+    # A low-discrepancy sequence: each of its beginnings fills the window evenly (Roberts, 2018).
+    n = np.arange(1.0, 4 * count + 1)
     l = l0 + (l1 - l0) * ((0.5 + 0.7548776662466927 * n) % 1.0)
     x = x0 + (x1 - x0) * ((0.5 + 0.5698402909980532 * n) % 1.0)
     states, _, growing = states_at(body, h, f, l, x)
@@ -174,17 +173,17 @@ def seeds(body: HeavyBody, h: float, f: float, window: Sequence[float], count: i
 
 
 _TURNS = 40.0
-"""Time given for a crossing, in units of 1/ν: few orbits take longer."""
+"""Time allowed per crossing, in units of 1/ν; few orbits take longer."""
 
 
 def time_for(body: HeavyBody, h: float, f: float, crossings: int) -> float:
-    """A time in which orbits of the energy h usually have that many crossings."""
+    """A time in which orbits with the energy h usually cross the plane `crossings` times."""
     speed = math.sqrt(2.0 * max(body.a) * max(h + body.strength, 1e-300))
     return crossings * _TURNS * math.sqrt(max(body.a) / min(body.a)) / speed
 
 
 def andoyer_points(body: HeavyBody, h: float, f: float, starts: Sequence[Sequence[float]], crossings: int, level: Level,
                    threads: int = THREADS, most_steps: int = MAX_STEPS) -> Points:
-    """The first crossings of each orbit, states as in `section_points`.  Raises `InvalidParameter`, `WorkLimit`."""
+    """The first crossings of g = π/2 by each orbit, as in `section_points`.  Raises `InvalidParameter`, `WorkLimit`."""
     return section_points(SYSTEM, starts, body.parameters, AndoyerPlane(f), time_for(body, h, f, crossings), level,
                           crossings, threads, most_steps)

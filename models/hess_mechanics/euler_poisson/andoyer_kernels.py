@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Kernel of `andoyer`: crossings of the surface g = π/2, G²γ3 − f M3 = 0 with (γ, v) > 0."""
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""S11–S14: the Euler–Poisson equations of a heavy rigid body with a fixed point (`hh01`, `hh001`), and their Hess case.
+"""The Euler–Poisson equations of a heavy rigid body with a fixed point, and their Hess case (`hh01`, `hh001`).
 
 State y = (M1, M2, M3, γ1, γ2, γ3): angular momentum and vertical in the principal axes of the body.
 Parameters p = (a1, a2, a3, r1, r2, r3, μ): inverse moments, centre of mass, weight; ω = AM, potential −μ(r, γ).

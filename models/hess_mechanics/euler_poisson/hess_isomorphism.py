@@ -1,36 +1,30 @@
-"""S13, S12.3: the Hess manifold of Euler–Poisson as the Suslov–Hess case, and how numerics leave it.
+"""The isomorphism of the Hess manifold of Euler–Poisson with the Suslov–Hess case.
 
-On r1 M1 + r3 M3 = 0 (`g2p6f1`) the equations `hh01` of a body that obeys `gess-*1` are closed.  In the axes
-e2, e3' = r/|r|, e1' = e2 × e3' (`m15.9`, `m15.14`) the matrix A has a1' = a2 twice on its diagonal and b' beside it,
-M3' = 0 (`m15.10`), and with m = μ|r|
+On r1 M1 + r3 M3 = 0 (`g2p6f1`) the Euler–Poisson equations of a body with the Hess condition (`gess-*1`) are closed.
+In the axes e2, e3' = r/|r|, e1' = e2 × e3' (`m15.9`, `m15.14`) the matrix A has a1' = a2 twice on its diagonal and b'
+off it, M3' = 0 (`m15.10`), and with m = μ|r|
 
     w = (a1' M2', a1' M1'),  n = (−γ2', −γ1', γ3'),  a = b'/a1',  b = a1' m
 
-turn `gess05` into `eq01` in the same time; the map of the axes is a reflection.  (Printed with another factor of n
-and of b.)  For the Suslov body with I11 = 1/a1' energy and area integral are the same numbers: E = H, F2 = −F1.
-
-Off the manifold u = (r, M)/|r| obeys u' = −b' M2 u along every motion, so along one that starts on it, u grows as
-exp(−∫a w1 dt): over a period of n3 on the stable limit cycle by the multiplier of the unstable one.
+turn the equations on the manifold (`gess05`) into the reduced Suslov–Hess equations (`eq01`) without rescaling time;
+the map of the axes is a reflection.  (The paper prints other factors of n and b.)  For the Suslov body with
+I11 = 1/a1' energy and area integral are the same numbers: E = H, F2 = −F1.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import MAX_STEPS, drift_of, require_finite_states
-from hess_mechanics.dynamics.system import Problem
-from hess_mechanics.errors import InvalidParameter, NoField, WorkLimit
-from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
-from hess_mechanics.numerics.accuracy import Level
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.errors import InvalidParameter, NoField
+from hess_mechanics.euler_poisson.equations import HeavyBody
+from hess_mechanics.numerics.results import Array
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov_hess.equations import HessBody
 
-__all__ = ["Bridge", "FreeRun", "Growth", "growth_of", "heavy_body", "hess_body", "on_manifold", "run_free"]
+__all__ = ["Bridge", "heavy_body", "hess_body"]
 
 
 def _tilt(body: HeavyBody) -> tuple[float, float]:
@@ -48,7 +42,7 @@ def _tilt(body: HeavyBody) -> tuple[float, float]:
 def hess_body(body: HeavyBody) -> HessBody:
     """The Suslov body, I11 = 1/a1', whose motions are those of a heavy body on the Hess manifold.
 
-    a = b'/a1' has the sign of r1 r3 (a1 − a3).  Raises `InvalidParameter` out of the Hess case, `NoField` (r = 0).
+    a = b'/a1' has the sign of r1 r3 (a1 − a3).  Raises `InvalidParameter` outside the Hess case, `NoField` (r = 0).
     """
     s, c = _tilt(body)
     a = s * c * (body.a[0] - body.a[2]) / body.a[1] + 0.0  # no −0.0
@@ -61,8 +55,8 @@ def heavy_body(body: HessBody, share: float = 0.5) -> HeavyBody:
     """A heavy body in the Hess case, a1' = 1/I11, whose motions on the Hess manifold are those of a Suslov body.
 
     It has r1, r3 ≥ 0, |r| = 1, μ = b/a1', and a1 > a3 for a > 0.  One of its moments is free, as I33 is in the
-    Suslov problem: with a1 = a2 (1 − x), a3 = a2 (1 + a²/x), or the other way round, it is a rigid body's for
-    0 < x ≤ (1 − a²)/2, and x is this `share` of that, or of ½ where |a| ≥ 1.
+    Suslov problem: with a1 = a2 (1 − x), a3 = a2 (1 + a²/x), or a1 and a3 exchanged, it is a rigid body for
+    0 < x ≤ (1 − a²)/2; x is `share` times that bound, or times ½ where |a| ≥ 1.
     Raises `InvalidParameter` for a share outside (0, 1].
     """
     require_finite(share=share)
@@ -76,9 +70,9 @@ def heavy_body(body: HessBody, share: float = 0.5) -> HeavyBody:
 
 @dataclass(frozen=True)
 class Bridge:
-    """A heavy body in the Hess case and the Suslov body of the same motions.
+    """A heavy body in the Hess case and the Suslov body with the same motions.
 
-    Made by `of_heavy` or `of_suslov`; states of `hh01` are (…, 6), of `eq01` (…, 5), in the same time.
+    Made by `of_heavy` or `of_suslov`.  States (M, γ) are (…, 6), reduced states (w, n) (…, 5), in the same time.
     """
 
     heavy: HeavyBody
@@ -95,7 +89,7 @@ class Bridge:
         return cls(heavy_body(hess), hess)
 
     def to_reduced(self, states: Array) -> Array:
-        """(M, γ) → (w, n); what leads off the manifold, M3', is left out."""
+        """(M, γ) → (w, n), dropping the component M3' off the manifold."""
         M1, M2, M3, g1, g2, g3 = np.moveaxis(np.asarray(states, float), -1, 0)
         s, c = _tilt(self.heavy)
         a = self.heavy.a[1]
@@ -109,7 +103,7 @@ class Bridge:
         return np.stack([c * w2 / a, w1 / a, -s * w2 / a, s * n3 - c * n2, -n1, c * n3 + s * n2], axis=-1)
 
     def to_suslov(self, states: Array) -> Array:
-        """(M, γ) → (ω1, ω2, γ1, γ2, γ3) of `Biz131`; shape (..., 5)."""
+        """(M, γ) → (ω1, ω2, γ1, γ2, γ3) of the Suslov problem; shape (..., 5)."""
         return self.hess.from_reduced(self.to_reduced(states))
 
     def from_suslov(self, states: Array) -> Array:
@@ -117,14 +111,14 @@ class Bridge:
         return self.from_reduced(self.hess.to_reduced(states))
 
     def distance(self, states: Array, reduced: Array) -> Array:
-        """How far states (n, 6) of `hh01` are from states (n, 5) of `eq01` with b = 1; shape (n,).
+        """The distance (n,) of states (M, γ) (n, 6) from reduced states (n, 5) with b = 1.
 
-        The largest difference of a component of `eq01`, or of a1' M3', which is not in it, in units b = 1.
+        The largest difference of any component of (w, n), or |a1' M3'|, in units b = 1.
         """
         difference = self.hess.in_units_of_b(self.to_reduced(states)) - reduced
         s, c = _tilt(self.heavy)
         off = self.heavy.a[1] * (s * states[:, 0] + c * states[:, 2]) / self.hess.frequency_unit
-        return np.maximum(np.max(np.abs(difference), axis=1), np.abs(off))
+        return np.asarray(np.maximum(np.max(np.abs(difference), axis=1), np.abs(off)), float)
 
     def in_units_of_b(self, H: float, F1: float) -> tuple[float, float]:
         """Energy and area integral of Euler–Poisson → (h, f) in units b = 1.  Raises `NoField`."""
@@ -135,124 +129,3 @@ class Bridge:
         """The inverse of `in_units_of_b`: H = E and F1 = −F2 of the Suslov body."""
         nu, a = self.hess.frequency_unit, self.heavy.a[1]
         return nu * nu * h / a, 0.0 - math.copysign(nu, self.hess.b) * f / a
-
-
-def _relative(body: HeavyBody, states: Array) -> Array:
-    """(r, M)/(|r| max |M|) of the states (n, 6) of one motion."""
-    largest = float(np.max(np.linalg.norm(states[:, :3], axis=1)))
-    return states[:, :3] @ np.array(body.r) / (math.hypot(*body.r) * largest or 1.0)
-
-
-@dataclass(frozen=True)
-class FreeRun:
-    """One orbit of `hh01` computed once, with the error of the level that it was computed at, leak and all.
-
-    times (n,), states (n, 6); off (n,) : (r, M)/(|r| max |M|); steps; drift as in `Orbit`.
-    """
-
-    level: str
-    times: Array
-    states: Array
-    off: Array
-    steps: int
-    drift: Mapping[str, float]
-
-
-def _run(problem: Problem, start: Array, times: Array, level: Level, out: Array) -> int:
-    steps = SYSTEM.orbit(start, problem.parameters, times, level.order, level.tolerance, MAX_STEPS, out)
-    if steps < 0:
-        raise WorkLimit(f"This time span needs more than {MAX_STEPS} steps: choose a shorter one, or a cheaper level.")
-    require_finite_states(out)
-    return steps
-
-
-def _ended(body: HeavyBody, problem: Problem, times: Array, states: Array, level: Level, steps: int) -> FreeRun:
-    states = states * problem.scale
-    drift = drift_of(SYSTEM, states[0], states, np.array(body.parameters))
-    return FreeRun(level.name, times, frozen(states), frozen(_relative(body, states)), steps, drift)
-
-
-def run_free(body: HeavyBody, start: tuple[float, ...], end: float, count: int, level: Level) -> FreeRun:
-    """The orbit of `hh01` from a state on the Hess manifold, at `count` even times from 0 to `end`, left to itself.
-
-    It is computed once: `solve` would repeat it more exactly until the leak is that of round-off.
-    Raises `InvalidParameter`, `WorkLimit`.
-    """
-    times = frozen(np.linspace(0.0, end, count))
-    problem = Problem.of(SYSTEM, [start], body.parameters)
-    out = np.empty((count, 6))
-    steps = _run(problem, problem.states[0], problem.times(times), level, out)
-    return _ended(body, problem, times, out, level, steps)
-
-
-_BEFORE_HELD = 3.0
-"""How much ln |(r, M)| may grow before it is held again."""
-_HELD_SAMPLES = 32
-
-
-def on_manifold(body: HeavyBody, start: tuple[float, ...], end: float, count: int, level: Level) -> FreeRun:
-    """As `run_free`, but what M has of r is taken away again and again, before any leak can grow.
-
-    That is `gess05`, the restriction to the manifold, in the variables and with the kernel of `hh01`.
-    Raises `InvalidParameter`, `WorkLimit`.
-    """
-    times = frozen(np.linspace(0.0, end, count))
-    problem = Problem.of(SYSTEM, [start], body.parameters)
-    scaled = problem.times(times)
-    axis = np.array(body.r) / math.hypot(*body.r)
-    growth = body.hess_a * _fastest(body, start) * end
-    pieces = math.ceil(max((count - 1) / _HELD_SAMPLES, growth / _BEFORE_HELD))
-    if pieces > MAX_STEPS:
-        raise WorkLimit("The manifold is too unstable to be held over this time span: choose a shorter one.")
-    edges = np.linspace(0.0, scaled[-1], pieces + 1)
-    first = np.searchsorted(scaled, edges)
-    out = np.empty((count, 6))
-    state = problem.states[0].copy()
-    steps = 0
-    for i in range(pieces):
-        state[:3] -= (state[:3] @ axis) * axis
-        piece = np.append(scaled[first[i] : first[i + 1]], edges[i + 1]) - edges[i]
-        states = np.empty((piece.size, 6))
-        steps += _run(problem, state, piece, level, states)
-        out[first[i] : first[i + 1]] = states[:-1]
-        state = states[-1].copy()
-    out[first[-1] :] = state
-    return _ended(body, problem, times, out, level, steps)
-
-
-def _fastest(body: HeavyBody, start: tuple[float, ...]) -> float:
-    """No |w| of the motion on the manifold from this state exceeds it."""
-    a = body.a[1]
-    return math.sqrt(a * a * (start[0] ** 2 + start[1] ** 2 + start[2] ** 2) + 4.0 * a * body.strength)
-
-
-_STRAIGHT = (3e-14, 1e-3)
-"""Below it the round-off that is still being added counts; above it the growth depends on how large the leak is."""
-
-
-@dataclass(frozen=True)
-class Growth:
-    """How ln |(r, M)| grows: per period of n3, from the period `first` on, over so many of them."""
-
-    per_period: float
-    first: int
-    periods: int
-
-
-def growth_of(run: FreeRun, samples: int) -> Growth | None:
-    """The growth of the leak where it is straight; None where that is for less than two periods.
-
-    samples : of the run in one period of n3.  Least squares of a straight line and a wiggle of that period: the slope
-    of ln |(r, M)| against the number of the period, with a level for each place in it.
-    """
-    rows = (run.off.size - 1) // samples
-    table = np.abs(run.off[: rows * samples].reshape(rows, samples))
-    low, high = _STRAIGHT
-    over = np.flatnonzero(table.max(axis=1) > high)
-    last = int(over[0]) if over.size else rows
-    begun = np.flatnonzero(table[:last].min(axis=1) < low)
-    first = int(begun[-1]) + 1 if begun.size else 0
-    if last - first < 2:
-        return None
-    count = np.arange(last - first) - 0.5 * (last - first - 1)
-    return Growth(float(count @ np.log(table[first:last]).mean(axis=1) / (count @ count)), first, last - first)

@@ -1,16 +1,17 @@
-"""S14: the loxodromic pendulum, a heavy body in the Hess case with area integral f = 0 (`eq6-14` … `klas-gess-4`).
+"""The loxodromic pendulum: a heavy body in the Hess case with area integral f = 0 (`eq6-14` … `klas-gess-4`).
 
 The centre of mass swings as a pendulum in a vertical plane, M stays along the normal e of that plane, and the middle
 axis makes the angle l with M (M1 = K sin l, M2 = K cos l).  With α the angle of the centre of mass from its lowest
-place, α̇ = w, l̇ = a w sin l, so that
+point, α̇ = w, l̇ = a w sin l, so that
 
     ln tan(l/2) = ln tan(l(0)/2) + a α:
 
-on the sphere fixed in space, with the pole e, l is the distance from the pole and α the longitude (up to a constant) of
-the middle axis: its track is a loxodrome.  Corrections to the paper used here: in `klas-gess-4` it is the rate of
-ln tan(l/2) that is ±a13 K, and the constant angle θ of `klas-gess-3` is not the nutation angle, which is l.
+on the sphere fixed in space with the pole e, l is the polar distance and α, up to a constant, the longitude of the
+middle axis: its track is a loxodrome.  Two corrections to the paper: ±a13 K is the rate of ln tan(l/2)
+(`klas-gess-4`), and the constant angle θ (`klas-gess-3`) is not the nutation angle, which is l.
 
-It is computed by `eq01` on the invariant manifold itself: for h > 1 `hh01` leaves it by a factor e^{2πa} in each turn.
+The motion is computed by the reduced Suslov–Hess equations (`eq01`), that is, on the invariant manifold: for h > 1
+the Euler–Poisson equations leave it by a factor e^{2πa} per turn.
 """
 
 from __future__ import annotations
@@ -33,18 +34,19 @@ from hess_mechanics.rigid_body.inertia import require_finite
 __all__ = ["SETTLED", "LoxodromicMotion", "LoxodromicPendulum", "loxodromic_motion"]
 
 SETTLED = 20.0
-"""Time on the separatrix, in units b = 1, after which the centre of mass is at rest to the eye, e^−20 from the top."""
+"""Time on the separatrix, in units b = 1, after which the centre of mass is e^−20 from the top: visibly at rest."""
 _MOST = 4000
 _AT_THE_POLE = 0.02
-"""Distance from the pole below which a direction of the track means nothing."""
+"""Distance from the pole below which the direction of the track is not measured."""
 _SHORT = 0.1
+"""Steps in longitude shorter than this share of the longest are not measured."""
 
 
 @dataclass(frozen=True)
 class LoxodromicPendulum:
-    """A body of the Hess case, |r| = 1, at the energy H = h μ, h in units of the field; h = 1 is the separatrix.
+    """A body in the Hess case, |r| = 1, with the energy H = h μ; h = 1 is the separatrix.
 
-    l : the angle between M and the middle axis when the centre of mass passes its lowest place.
+    l : angle between M and the middle axis when the centre of mass passes its lowest point.
     Raises `OutsideRegion` (h ≤ −1), `InvalidParameter` (no field; not the Hess case; l not inside (0, π)).
     """
 
@@ -64,12 +66,12 @@ class LoxodromicPendulum:
 
     @cached_property
     def bridge(self) -> Bridge:
-        """The Suslov body of the same motions, and the way to its states."""
+        """The Suslov body with the same motions, and the map of the states."""
         return Bridge.of_heavy(self.body)
 
     @property
     def a(self) -> float:
-        """a = b'/a1' of `m15.14`, with its sign."""
+        """a = b'/a1' (`m15.14`), with its sign."""
         return self.bridge.hess.a
 
     @property
@@ -79,7 +81,7 @@ class LoxodromicPendulum:
 
     @property
     def angle(self) -> float:
-        """θ of `klas-gess-3`, sin θ = 1/√(1+a²): between the track and the plane of the circular section."""
+        """θ, sin θ = 1/√(1+a²) (`klas-gess-3`): the angle between the track and the plane of the circular section."""
         return math.atan2(1.0, abs(self.a))
 
     @property
@@ -89,28 +91,29 @@ class LoxodromicPendulum:
 
     @property
     def start(self) -> Array:
-        """The state of `attitude.HESS` at the lowest place of the centre of mass, e along M; shape (8,)."""
+        """The state of `attitude.HESS` with the centre of mass at its lowest point and e along M; shape (8,)."""
         s, c = math.cos(self.l), math.sin(self.l)
         w = math.sqrt(2.0 * (self.h + 1.0))
         return np.array([w * s, w * c, 0.0, 0.0, 1.0, -s, -c, 0.0])
 
     @property
     def principal(self) -> Array:
-        """(3, 3): (n1, n2, n3) → principal axes, v @ principal; a reflection."""
+        """The reflection (3, 3) from (n1, n2, n3) to principal axes, v @ principal."""
         return self.bridge.from_reduced(np.hstack([np.zeros((3, 2)), np.eye(3)]))[:, 3:]
 
     def l_at(self, swing: Array) -> Array:
-        """l at the angle α = swing (n,) of the centre of mass, from the closed form."""
+        """l (n,) at the angles α = swing (n,) of the centre of mass, in closed form."""
         with np.errstate(over="ignore"):
-            return 2.0 * np.arctan(math.tan(0.5 * self.l) * np.exp(self.a * np.asarray(swing)))
+            l: Array = 2.0 * np.arctan(math.tan(0.5 * self.l) * np.exp(self.a * np.asarray(swing)))
+        return l
 
     def middle_axis_at(self, swing: Array) -> Array:
-        """The middle axis in space, along (γ, e, γ × e), at the angles α = swing (n,): the loxodrome, (n, 3)."""
+        """The loxodrome (n, 3): the middle axis in space, along (γ, e, γ × e), at the angles α = swing (n,)."""
         l, alpha = self.l_at(swing), np.asarray(swing)
         return np.stack([np.sin(l) * np.sin(alpha), np.cos(l), np.sin(l) * np.cos(alpha)], axis=1)
 
     def length(self, span: float) -> float:
-        """`span` in units b = 1; on the separatrix at most `SETTLED`."""
+        """`span` in units b = 1, at most `SETTLED` on the separatrix."""
         length = span * self.frequency_unit
         return min(length, SETTLED) if self.h == 1.0 else length
 
@@ -119,8 +122,8 @@ class LoxodromicPendulum:
 class LoxodromicMotion:
     """One motion of a loxodromic pendulum.
 
-    times : (n,), in the body's units; attitude : `axes` in the principal axes, its orbit in units b = 1.
-    centre, middle : (n, 3) centre of mass and middle axis in space, along (γ, e, γ × e).
+    times : (n,), in the body's units; attitude : its `axes` in principal axes, its orbit in units b = 1.
+    centre, middle : (n, 3), centre of mass and middle axis in space, along (γ, e, γ × e).
     """
 
     pendulum: LoxodromicPendulum
@@ -131,7 +134,7 @@ class LoxodromicMotion:
 
     @cached_property
     def swing(self) -> Array:
-        """α (n,): the angle of the centre of mass from its lowest place."""
+        """α (n,): the angle of the centre of mass from its lowest point."""
         return frozen(np.unwrap(np.arctan2(-self.centre[:, 2], self.centre[:, 0])))
 
     @cached_property
@@ -141,15 +144,15 @@ class LoxodromicMotion:
 
     @property
     def off_plane(self) -> float:
-        """How far the centre of mass comes from its great circle."""
+        """The largest distance of the centre of mass from its great circle."""
         return float(np.max(np.abs(self.centre[:, 1])))
 
     @cached_property
     def measured(self) -> tuple[Array, Array]:
-        """Times and θ (m,) from one sample of the middle axis to the next, by nothing but where it is on the sphere.
+        """Times and θ (m,) between consecutive samples, measured from the middle axis on the sphere alone.
 
-        A loxodrome meets all meridians, great circles through ±e, at one angle: that between two points of it has
-        the tangent Δ longitude / Δ ln tan(l/2).  Not near the poles, nor where the axis turns back.
+        A loxodrome meets all meridians, the great circles through ±e, at one angle, whose tangent between two of its
+        points is Δ longitude / Δ ln tan(l/2).  Samples near the poles and where the axis turns back are left out.
         """
         m, l = self.middle, self.l
         longitude = np.unwrap(np.arctan2(m[:, 0], m[:, 2]))
@@ -165,7 +168,7 @@ class LoxodromicMotion:
 
 
 def loxodromic_motion(pendulum: LoxodromicPendulum, span: float, level: Level) -> LoxodromicMotion:
-    """The motion over `span` of the body's time, sampled for pictures of `PIXELS`, from the lowest place.
+    """The motion over `span` of the body's time from the lowest point, sampled for pictures of `PIXELS`.
 
     Raises `InvalidParameter`, `WorkLimit`.
     """

@@ -1,4 +1,4 @@
-"""The accuracy ladder: four named levels, and the error each of them promises."""
+"""Accuracy levels: four names, and the error that each of them promises."""
 
 from __future__ import annotations
 
@@ -20,16 +20,15 @@ class Status(StrEnum):
 
 @dataclass(frozen=True)
 class Level:
-    """One rung of the ladder.
+    """One accuracy level.
 
     Parameters
     ----------
-    name : the word the user chooses.
-    promise : the largest global error a result may have, in units in which the state is O(1).
-        At `reference` it is nominal: the level goes to the floor of double precision, wherever
-        the motion puts that.
-    tolerance : the local error of one Taylor step, first attempt.
-    order : the order of the Taylor series.
+    name : what the user chooses.
+    promise : the largest global error of a result, in units in which the state is O(1).
+        For `reference` it is nominal: that level goes to the floor of double precision, which depends on the motion.
+    tolerance : local error of one Taylor step, first attempt.
+    order : of the Taylor series.
     """
 
     name: str
@@ -39,13 +38,13 @@ class Level:
 
     @property
     def is_floor(self) -> bool:
-        """True for the last rung, whose error round-off decides and not the step."""
+        """True for the last level, whose error is round-off and not truncation."""
         return self.tolerance <= FLOOR_TOLERANCE
 
     def tightened(self) -> Level:
-        """The same level with steps a hundred times more exact: what its error is measured against.
+        """The same level with a hundredth of the tolerance, against which its error is measured.
 
-        The order is another one too: so a motion that fits into one step is not compared with itself.
+        The order differs too, so that a motion that fits into one step is not compared with itself.
         """
         if self.is_floor:
             return Level(self.name, self.promise, self.tolerance / 30.0, self.order - 3)
@@ -60,11 +59,11 @@ STANDARD = Level("standard", 1e-6, 1e-8, 16)
 PRECISE = Level("precise", 1e-9, 1e-11, 20)
 REFERENCE = Level("reference", 1e-12, FLOOR_TOLERANCE, 24)
 
-LEVELS: dict[str, Level] = {rung.name: rung for rung in (DRAFT, STANDARD, PRECISE, REFERENCE)}
+LEVELS: dict[str, Level] = {each.name: each for each in (DRAFT, STANDARD, PRECISE, REFERENCE)}
 
 
 def level(name: str) -> Level:
-    """The level of that name; raises `InvalidParameter` with the list of names."""
+    """The level of this name.  Raises `InvalidParameter`, which lists the names."""
     try:
         return LEVELS[name]
     except KeyError:
@@ -74,5 +73,5 @@ def level(name: str) -> Level:
 
 
 def cheapest(error: float) -> Level:
-    """The first rung that promises this error or less; the last one if none does."""
-    return next((rung for rung in LEVELS.values() if rung.promise <= error), REFERENCE)
+    """The first level that promises this error or less; the last one if none does."""
+    return next((each for each in LEVELS.values() if each.promise <= error), REFERENCE)

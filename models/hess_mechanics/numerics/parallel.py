@@ -1,4 +1,4 @@
-"""Work shared by two threads: kernels release the interpreter's lock."""
+"""Work shared between threads; kernels release the global interpreter lock."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _pool = ThreadPoolExecutor(max_workers=THREADS, thread_name_prefix="kernel")
 
 
 def share(work: Callable[[int], None], parts: int, threads: int = THREADS) -> None:
-    """work(0), …, work(parts − 1), on that many threads; the first error of a part is raised."""
+    """Run work(0), …, work(parts − 1) on the pool, or in order if `threads` is 1; the first error is raised."""
     if threads == 1 or parts == 1:
         for part in range(parts):
             work(part)

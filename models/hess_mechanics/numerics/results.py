@@ -1,29 +1,34 @@
-"""What computations return: frozen, with read-only arrays, an error estimate and the cost."""
+"""Results of computations: frozen, with read-only arrays, an error estimate and the cost."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hess_mechanics.numerics.accuracy import Status
 
-__all__ = ["Array", "Cost", "Ensemble", "Orbit", "Section", "frozen"]
+__all__ = ["Array", "Complex", "Cost", "Ensemble", "Mask", "Orbit", "Section", "frozen"]
 
 Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+Mask = NDArray[np.bool_]
+
+_Item = TypeVar("_Item", bound=np.generic)
 
 
-def frozen(array: Array) -> Array:
-    """The same array, read-only: results are shared by every session that asks for them."""
+def frozen(array: NDArray[_Item]) -> NDArray[_Item]:
+    """The same array, read-only: results are cached and shared between sessions."""
     array.setflags(write=False)
     return array
 
 
 @dataclass(frozen=True)
 class Cost:
-    """Taylor steps taken (all runs together) and wall-clock milliseconds."""
+    """Taylor steps of all runs together, and wall-clock milliseconds."""
 
     steps: int
     wall_ms: float
@@ -34,7 +39,7 @@ class Orbit:
     """A trajectory sampled at given times.
 
     times : (n,); states : (n, d), in the order of the system's `variables`.
-    error_estimate : the largest estimated error of any component at any sample.
+    error_estimate : largest estimated error of any component at any sample, absolute.
     drift : for each integral, max |F(t) − F(0)|, relative to |F(0)| where that exceeds 1.
     """
 
@@ -53,8 +58,8 @@ class Orbit:
 class Ensemble:
     """Many trajectories sampled at the same times.
 
-    times : (m,); states : (n, m, d); errors : (n,) the largest estimated error of each orbit;
-    drift : for each integral the largest over all orbits, as in `Orbit`.
+    times : (m,); states : (n, m, d); errors : (n,), largest estimated error of each orbit;
+    drift : as in `Orbit`, the largest over all orbits.
     """
 
     system: str
@@ -69,7 +74,7 @@ class Ensemble:
 
 @dataclass(frozen=True)
 class Section:
-    """The crossings of a plane by one orbit: times (n,), states (n, d), the rest as in `Orbit`."""
+    """Crossings of a surface by one orbit: times (n,), states (n, d), the rest as in `Orbit`."""
 
     system: str
     level: str

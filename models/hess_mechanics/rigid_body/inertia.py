@@ -1,7 +1,7 @@
-"""Which inertia tensors belong to a rigid body (`Biz03`: I12 = 0, constraint axis e = e3).
+"""Which inertia tensors belong to a rigid body; axes with I12 = 0 and the constraint along e = e3 (`Biz03`).
 
-The Suslov problem never asks for I33.  The tensor is a body's if for some I33 its second
-moments ½ tr I − I are not negative (for principal moments: the triangle inequality).
+I33 does not enter the Suslov problem.  A tensor belongs to a body if, for some I33, its second moments ½ tr I − I are
+not negative (for principal moments: the triangle inequality).
 """
 
 from __future__ import annotations
@@ -30,12 +30,12 @@ def require_positive_definite(I11: float, I22: float) -> None:
             )
 
 
-SEARCH = {"xtol": 1e-300, "rtol": 1e-15, "maxiter": 1000}
+_SEARCH = {"xtol": 1e-300, "rtol": 1e-15, "maxiter": 1000}
 
 
 @dataclass(frozen=True)
 class BodyCheck:
-    """Is this a rigid body's tensor?  `I33` is the admissible interval, or None if there is none."""
+    """Whether a tensor belongs to a rigid body; `I33` is the admissible interval, None if there is none."""
 
     is_body: bool
     I33: tuple[float, float] | None
@@ -43,7 +43,7 @@ class BodyCheck:
 
 
 def body_check(I33: tuple[float, float] | None) -> BodyCheck:
-    """The answer in words, from the admissible interval of I33 (None: there is none)."""
+    """The result in words, from the admissible interval of I33 (None: there is none)."""
     if I33 is None:
         return BodyCheck(
             False, None,
@@ -54,20 +54,20 @@ def body_check(I33: tuple[float, float] | None) -> BodyCheck:
 
 
 def check_body(I11: float, I22: float, I13: float, I23: float) -> BodyCheck:
-    """The values of I33 for which ½ tr I − I ≥ 0.
+    """The interval of I33 for which ½ tr I − I ≥ 0.
 
     With s = (I11+I22)/2, d = (I11−I22)/2, y = I33/2 ≥ |d| the condition is
-    g(y) = s − y − I23²/(y+d) − I13²/(y−d) ≥ 0, and g is concave: the answer is an interval.
+    g(y) = s − y − I23²/(y+d) − I13²/(y−d) ≥ 0, and g is concave, so the solution is an interval.
     Raises `InvalidParameter`, `NotPositiveDefinite`.
     """
     require_finite(I11=I11, I22=I22, I13=I13, I23=I23)
     require_positive_definite(I11, I22)
     scale = max(I11, I22)
     s, d = (I11 + I22) / (2 * scale), (I11 - I22) / (2 * scale)
-    # Beyond 2 the answer is no in any case: the bound keeps squares in range.
+    # Beyond 2 there is no body in any case; the bound keeps the squares in range.
     p, q = min(abs(I23) / scale, 2.0) ** 2, min(abs(I13) / scale, 2.0) ** 2
 
-    # Here and not above: the import takes 0.3 s, and a page of the Hess case has a closed form.
+    # Imported here because it takes 0.3 s, and the Hess case has a closed form.
     from scipy.optimize import brentq
 
     def g(y: float) -> float:
@@ -77,9 +77,9 @@ def check_body(I11: float, I22: float, I13: float, I23: float) -> BodyCheck:
         return -1.0 + (p / (y + d) ** 2 if p else 0.0) + (q / (y - d) ** 2 if q else 0.0)
 
     low = abs(d) * (1 + 1e-15) + 1e-150  # clear of the poles, and its square of underflow
-    top = low if slope(low) <= 0 else brentq(slope, low, low + 2 * (math.sqrt(p) + math.sqrt(q)), **SEARCH)
+    top = low if slope(low) <= 0 else brentq(slope, low, low + 2 * (math.sqrt(p) + math.sqrt(q)), **_SEARCH)
     if not g(top) > 1e-15 * s:
         return body_check(None)
-    lower = abs(d) if g(low) >= 0 else brentq(g, low, top, **SEARCH)
-    upper = brentq(g, top, s, **SEARCH) if g(s) < 0 else s
+    lower = abs(d) if g(low) >= 0 else brentq(g, low, top, **_SEARCH)
+    upper = brentq(g, top, s, **_SEARCH) if g(s) < 0 else s
     return body_check((2 * lower * scale, 2 * upper * scale))

@@ -1,1 +1,1 @@
-"""The Suslov problem."""
+"""The Suslov problem: general, without a field, and with the constraint along a principal axis."""

@@ -1,18 +1,18 @@
-"""S3: the additional integral F2 of the free Suslov problem (`eq834`), for every odd k.
+"""The additional integral F2 of the free Suslov problem, for every odd k (`eq834`; table in models/README.md).
 
 Where I13 = 0 and I11 I22 = I22² + k² I23², k odd, F2 = (γ, V(ω)) is an integral of `biz132` with γ̇ = γ × ω if
 V̇ = V × ω.  With n = (k+1)/2 and
 
     V1 = Σ a_j ω1^(k−2j) ω2^(2j),  V2 = Σ b_j ω1^(k−1−2j) ω2^(2j+1),  V3 = Σ c_j ω1^(k−1−2j) ω2^(2j+1),  0 ≤ j < n,
 
-that is a recursion upwards in j, rational in I22 and I23:
+this is an upward recursion in j, rational in I22 and I23:
 
     c_j       = I23 ((2j+1) b_j/I22 − (k+1−2j) b_(j−1)/I11)
     a_j − b_j = I23 ((2j+1) c_j/I22 − (k+1−2j) c_(j−1)/I11)
     a_(j+1)   = I22/(2j+2) ((k−2j) a_j/I11 − c_j/I23),
 
-begun with b_0 = I22^n I11^(k−1), the paper's scale; a_n = 0 is the condition `eq834`.  The other case, I23 = 0, comes
-from the permutation 1 ↔ 2, with γ3 → −γ3, I13 → −I23 and I23 → −I13: so its condition is I11 I22 = I11² + k² I13²
+which starts from b_0 = I22^n I11^(k−1), the paper's scale; a_n = 0 is the condition `eq834`.  Case 2, I23 = 0, follows
+by the permutation 1 ↔ 2, with γ3 → −γ3, I13 → −I23 and I23 → −I13, so its condition is I11 I22 = I11² + k² I13²
 (the paper prints I22² there).
 """
 
@@ -51,7 +51,7 @@ def I11_of(k: int, I22: float, I23: float) -> float:
 
 @dataclass(frozen=True)
 class Coefficients:
-    """a, b, c : n = (k+1)/2 exact coefficients each, see the module's docstring; rest : a_n, 0 if F2 is conserved."""
+    """a, b, c : n = (k+1)/2 exact coefficients each, see the module; rest : a_n, 0 if F2 is conserved."""
 
     k: int
     a: tuple[Fraction, ...]
@@ -62,7 +62,7 @@ class Coefficients:
 
 @lru_cache(maxsize=64)
 def coefficients(k: int, I22: Fraction | float, I23: Fraction | float) -> Coefficients:
-    """Of case 1 of `eq834`, exact for these I22 and I23 ≠ 0, with I11 from k.
+    """The coefficients of case 1 of `eq834`, exact for these I22 and I23 ≠ 0, with I11 from k.
 
     Raises `InvalidParameter`.
     """
@@ -117,7 +117,8 @@ class AdditionalIntegral:
 
     def __call__(self, omega: Array, gamma: Array) -> Array:
         """F2, shape (…), for ω (…, 2) and γ (…, 3)."""
-        return np.sum(self.vector(omega) * np.asarray(gamma, float), axis=-1)
+        value: Array = np.sum(self.vector(omega) * np.asarray(gamma, float), axis=-1)
+        return value
 
     def at_fixed_points(self, h: float) -> tuple[float, float]:
         """(f^+, f^−): F2 at ω^(±), γ^(±) = ±ξ with energy h (`biz138`).  They are equal; −f^± belongs to γ = ∓ξ.
@@ -127,14 +128,14 @@ class AdditionalIntegral:
         require_finite(h=h)
         if not h > 0.0:
             raise InvalidParameter(f"E = h = {h:g}, but without a field energy is positive: choose h > 0.")
-        # There V = ∓a_0 |ω|^k ξ, whatever the signs of I13 and I23 are: k is odd.
+        # There V = ∓a_0 |ω|^k ξ for all signs of I13 and I23, as k is odd.
         f = -float(self.a[0]) * math.sqrt(2.0 * h / self.inertia) ** self.k
         return f, f
 
     def cycles(self, h: float, f: float) -> tuple[float, float]:
-        """(Γ on C^+, Γ on C^−): the two limit cycles on the torus E = h, F2 = f; they are −Γ of one another.
+        """(Γ on C^+, Γ on C^−) of the two limit cycles on the torus E = h, F2 = f; they differ in sign.
 
-        Raises `InvalidParameter` where |f| exceeds |f^±|: no motion has these values.
+        Raises `InvalidParameter` for |f| > |f^±|, which no motion has.
         """
         top, _ = self.at_fixed_points(h)
         require_finite(f=f)
@@ -145,7 +146,7 @@ class AdditionalIntegral:
 
 
 def order(body: SuslovBody) -> int | None:
-    """The odd k ≤ 15 for which the body fulfils `eq834` to round-off, or None."""
+    """The odd k ≤ 15 for which the body satisfies `eq834` to round-off, or None."""
     I11, I22, I13, I23, *b = body.parameters
     if any(b) or (I13 == 0.0) == (I23 == 0.0):
         return None
@@ -155,13 +156,13 @@ def order(body: SuslovBody) -> int | None:
     if not 0.5 < squared < (MAX_K + 1) ** 2:
         return None
     k = 2 * int(math.sqrt(squared) // 2) + 1
-    # I11 is known to a few units in the last place; where that blurs k itself, no k can be told.
+    # I11 is known to a few units in the last place; None where that is not enough to tell k.
     blur = 2e-15 * (I11 / abs(I23)) * (I22 / abs(I23)) + 4e-15 * squared
     return k if k <= MAX_K and abs(squared - k * k) <= blur < 1e-3 else None
 
 
 def additional_integral(k: int, body: SuslovBody) -> AdditionalIntegral:
-    """F2 of degree k for a body with I13 = 0 or I23 = 0 whose I11 (in case 2: I22) comes from k.
+    """F2 of degree k for a body with I13 = 0 or I23 = 0; I11 (in case 2: I22) is computed from k.
 
     Raises `InvalidParameter` (k even or too large, neither or both of I13, I23 zero).
     """
@@ -193,7 +194,7 @@ _FORMULAS = {
 
 
 def formula(k: int) -> str:
-    """F2 in LaTeX, case 1 of `eq834`: written out for k = 1 and 3, else the sum.  Raises `InvalidParameter`."""
+    """F2 in LaTeX, case 1 of `eq834`: written out for k = 1 and 3, otherwise as a sum.  Raises `InvalidParameter`."""
     _check_order(k)
     return _FORMULAS.get(k, (
         rf"F_2 = \sum_{{j=0}}^{{{(k - 1) // 2}}} \omega_1^{{{k - 1}-2j}}\omega_2^{{2j}}"

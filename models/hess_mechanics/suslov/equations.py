@@ -1,4 +1,4 @@
-"""S1: the Suslov problem with gravity (`Biz131`, `Biz11`).
+"""The Suslov problem with gravity (`Biz131`, `Biz11`).
 
 A rigid body with a fixed point, the constraint ω3 = 0 along e = e3, I12 = 0, potential (b, γ).
 State y = (ω1, ω2, γ1, γ2, γ3), parameters p = (I11, I22, I13, I23, b1, b2, b3).

@@ -1,8 +1,8 @@
-"""S2: the Suslov problem without a field, b = 0 (`biz132`).
+"""The free Suslov problem, b = 0 (`biz132`): closed-form ω(t), and γ(t) by one rotation.
 
 ξ = (I23, −I13, 0)/J and η = (I13, I23, 0)/J, J² = I13² + I23²; ξ, η, e3 are right-handed.  Every ω that is not on
 the line of equilibria ω ∥ ξ passes once from the unstable to the stable point of its ellipse E = h.  With
-u = ω0 (t − t0) and σ = ±1 for the two arcs (the sign of I13ω1 + I23ω2)
+u = ω0 (t − t0), σ = ±1 for the two arcs (the sign of I13ω1 + I23ω2)
 
     ω/ω0 = (−K tanh u + σc sech u) ξ + σκ sech u η,
     w = (I22 I13² + I11 I23²)/J²,  K = I11 I22/(J w),  κ = √(I11 I22)/J,  c = κ I13 I23 (I22 − I11)/(J² w),
@@ -13,8 +13,8 @@ which is the paper's solution.  γ̇ = γ × ω is linear.  In the frame that ha
 
     A' = −(i/2) V B,  B' = −(i/2) V̄ A,  V = σκ sech u e^{iΦ},  V' = (−iK tanh u + iσc sech u − tanh u) V.
 
-V decays on both sides of u = 0, where the integration begins: so neither nearness to the line nor long times cost
-steps or digits.  Not in the paper: see the README.
+V decays on both sides of u = 0, where the integration starts, so neither starts close to the line nor long times cost
+steps or digits.  This rotation is not in the paper: see models/README.md.
 """
 
 from __future__ import annotations
@@ -26,12 +26,11 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hess_mechanics.dynamics.orbit import checked_times, drift_of, require_finite_states, status_of
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Level, Status
-from hess_mechanics.numerics.results import Array, Cost, frozen
+from hess_mechanics.numerics.results import Array, Complex, Cost, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov import additional_integral
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody, unit_vector
@@ -42,16 +41,14 @@ __all__ = [
     "propagate", "rotation", "sample_times", "shape", "turning",
 ]
 
-Complex = NDArray[np.complex128]
-
 _MAX_STEPS = 100_000
 _MAX_SHAPE = 1e4
-"""Of K, κ and |c|: the work grows with them, and so does round-off."""
+"""Limit of K + κ + |c|: the work grows with it, and so does round-off."""
 
 
 @dataclass(frozen=True)
 class Shape:
-    """What a tensor says about every passage: see the module's docstring.
+    """The constants of a tensor that determine every passage, see the module.
 
     xi, eta : (3,) unit vectors; J, w, K, kappa, c : numbers (c for the arc σ = +1).
     """
@@ -85,7 +82,7 @@ def _log_cosh(u: Array | float) -> Array:
 
 
 def _gd(u: Array | float) -> Array:
-    """The function of Gudermann, ∫ sech u du."""
+    """The Gudermannian function, ∫ sech u du."""
     return 2.0 * np.arctan(np.tanh(0.5 * np.asarray(u)))
 
 
@@ -119,8 +116,8 @@ def shape(body: SuslovBody) -> Shape:
 class Equilibria:
     """The line of equilibria I13ω1 + I23ω2 = 0 on the ellipse E = h (`biz138`, its denominator corrected).
 
-    stable, unstable : (2,) ω^(+) = −|ω|ξ and ω^(−) = +|ω|ξ; on them γ turns about ξ, −|ω^(±)| = `speed` per unit of
-    time, on the circles Γ = (ξ, γ) = const (limit cycles).  xi : (3,); rate : ω0, at which ω comes and goes.
+    stable, unstable : (2,) ω^(+) = −|ω|ξ and ω^(−) = +|ω|ξ, where γ turns about ξ on the circles Γ = (ξ, γ) = const,
+    the limit cycles; speed : |ω^(±)|, its angular velocity; xi : (3,); rate : ω0, at which ω leaves and arrives.
     """
 
     stable: Array
@@ -204,7 +201,7 @@ def passage(body: SuslovBody, omega: Sequence[float]) -> Passage:
     r = math.hypot(math.sqrt(body.I11) * w1, math.sqrt(body.I22) * w2)
     if r == 0.0:
         raise InvalidParameter("ω = 0: the body is at rest for ever, h = 0. Choose ω1 or ω2 other than 0.")
-    # Exact: next to the line of equilibria the two products all but cancel.
+    # Exact, because close to the line of equilibria the two products nearly cancel.
     s = Fraction(body.I13) * Fraction(w1) + Fraction(body.I23) * Fraction(w2)
     if s == 0:
         raise InvalidParameter(
@@ -216,7 +213,7 @@ def passage(body: SuslovBody, omega: Sequence[float]) -> Passage:
         raise InvalidParameter("This ω leaves the range of double precision: choose a less extreme one.")
     n1, n2 = of.eta[:2]
     sin = (body.I22 * n1 * (w2 / r) - body.I11 * n2 * (w1 / r)) / math.sqrt(of.w)
-    # ln |cos β|, as the cosine itself may be less than any double.
+    # ln |cos β|, because the cosine itself may underflow.
     factor = math.sqrt(body.I11 / of.w) * math.sqrt(body.I22) / of.J
     log_cos = _log(abs(s)) - math.log(r) + math.log(factor)
     if log_cos > -20.0:
@@ -227,12 +224,12 @@ def passage(body: SuslovBody, omega: Sequence[float]) -> Passage:
 
 
 def _log(x: Fraction) -> float:
-    """ln x, also where x lies beyond the range of double."""
+    """ln x, also for x beyond the range of doubles."""
     shift = x.numerator.bit_length() - x.denominator.bit_length()
     return math.log(float(x / Fraction(2) ** shift)) + shift * math.log(2.0)
 
 
-def propagate(of: Shape, arc: int, u: Array, rung: Level) -> tuple[Complex, Complex, int]:
+def propagate(of: Shape, arc: int, u: Array, level: Level) -> tuple[Complex, Complex, int]:
     """A and B at each u (m,), in any order, and the Taylor steps this took.  Raises `WorkLimit`."""
     inside = np.clip(u, -of.end, of.end)
     start = np.array([0.0, 1.0, arc * of.kappa, 0.0, 1.0, 0.0, 0.0, 0.0])
@@ -245,7 +242,7 @@ def propagate(of: Shape, arc: int, u: Array, rung: Level) -> tuple[Complex, Comp
             continue
         outwards = index[np.argsort(np.abs(inside[index]), kind="stable")]
         states = np.empty((index.size, 8))
-        steps = integrate(start, p, inside[outwards], rung.order, rung.tolerance, _MAX_STEPS, states)
+        steps = integrate(start, p, inside[outwards], level.order, level.tolerance, _MAX_STEPS, states)
         if steps < 0:
             raise WorkLimit("This passage needs too many steps: choose larger I13, I23, or a cheaper level.")
         out[outwards] = states
@@ -254,9 +251,9 @@ def propagate(of: Shape, arc: int, u: Array, rung: Level) -> tuple[Complex, Comp
 
 
 def turning(of: Shape, arc: int, u: Array, level: Level) -> tuple[Complex, Complex, float, int]:
-    """A and B at each u (m,), the estimated error of the rotation from one of these u to another, and all steps.
+    """A and B at each u (m,), the error estimate of the rotation between any two of them, and all steps.
 
-    Computed twice, the second time more exactly, as in `orbit.solve`.  Raises `WorkLimit`.
+    The error is measured as in `orbit.solve`.  Raises `WorkLimit`.
     """
     current = level
     A, B, total = propagate(of, arc, u, current)
@@ -265,7 +262,7 @@ def turning(of: Shape, arc: int, u: Array, level: Level) -> tuple[Complex, Compl
         fine_A, fine_B, steps = propagate(of, arc, u, tighter)
         total += steps
         safety = 4.0 if current.is_floor else 1.25
-        # A rotation is quadratic in A and B, and both its ends have errors.
+        # A rotation is quadratic in A and B, and both its ends have errors: a factor of 4.
         difference = np.abs(A - fine_A) + np.abs(B - fine_B)
         error = 4.0 * safety * float(difference.max()) + 1e-15 * (1.0 + of.size)
         if error <= level.promise or current.is_floor:
@@ -275,7 +272,7 @@ def turning(of: Shape, arc: int, u: Array, level: Level) -> tuple[Complex, Compl
 
 @dataclass(frozen=True)
 class Rotation:
-    """The motion of all γ that share one ω(0).
+    """The motion of every γ that shares one ω(0).
 
     times : (m,); omega : (m, 2); matrices : (m, 3, 3), γ(t) = matrix · γ(0).
     limits : (2, 3), the same for Γ at t → −∞ and t → +∞: Γ^∓ = limits · γ(0).
@@ -293,7 +290,8 @@ class Rotation:
 
     def carry(self, gamma: Array) -> Array:
         """γ(t) for every γ(0) in the rows of gamma (n, 3); shape (n, m, 3)."""
-        return np.einsum("mij,nj->nmi", self.matrices, np.asarray(gamma, float))
+        carried: Array = np.einsum("mij,nj->nmi", self.matrices, np.asarray(gamma, float))
+        return carried
 
 
 def rotation(body: SuslovBody, omega: Sequence[float], times: Sequence[float] | Array, level: Level) -> Rotation:
@@ -313,17 +311,17 @@ def rotation(body: SuslovBody, omega: Sequence[float], times: Sequence[float] | 
         raise InvalidParameter("This time is too long for double precision: choose a shorter one.")
     u = u0 + elapsed
     A, B, error, steps = turning(of, arc, np.concatenate([[u0, -of.end, of.end], u]), level)
-    # From u0 on, M(u) M(u0)^−1, and back into the frame of the body.
+    # M(u) M(u0)^−1, then back into the frame of the body.
     A, B = A * A[0].conj() + B.conj() * B[0], B * A[0].conj() - A.conj() * B[0]
     before = float(of.turned(u0, arc))
     outside = -of.K * (_elapsed_size(u0, u, elapsed) + _tail(u) - _tail(u0)) + arc * of.c * (_gd(u) - _gd(u0))
     limits = _gamma_row(A[1:3], B[1:3] * np.exp(1j * before)) @ _axes(of).T
-    # One factor for both: in Γ, which has AB, it cancels however large the angle is.
+    # The same factor in both: it cancels exactly in Γ, which contains AB, however large the angle.
     half = np.exp(-0.5j * outside)
     A, B = A[3:] * half, B[3:] * half.conj() * np.exp(1j * before)
     found = _axes(of) @ _matrices(A, B) @ _axes(of).T
 
-    # Beyond the steps: ω0, K and u0 are known to a few units in the last place.
+    # Errors of the data: ω0, K and u0 are known to a few units in the last place.
     error += 1e-15 * of.K * float(np.max(np.abs(elapsed))) + 3e-16 * abs(u0) * (1.0 + of.size)
     error = min(error, 2.0)
     velocity = motion.omega(u)
@@ -363,11 +361,11 @@ def _matrices(A: Complex, B: Complex) -> Array:
 
 @dataclass(frozen=True)
 class FreeMotion:
-    """One motion without a field.
+    """One motion of the free Suslov problem.
 
     times : (m,); omega : (m, 2); gamma : (m, 3); Gamma : (m,) = (ξ, γ);
     phase : (m,) in (−π, π], of γ about ξ: γ = Γξ + √(1−Γ²)(cos φ η + sin φ e3);
-    limits : (Γ^(−), Γ^(+)), the circles γ comes from (t → −∞) and goes to (t → +∞);
+    limits : (Γ^(−), Γ^(+)) for t → −∞ and t → +∞;
     error_estimate : of any component of ω and γ; drift : of E, F1 and, where it exists, F2, as in `Orbit`.
     """
 
@@ -388,9 +386,9 @@ class FreeMotion:
 
 def free_motion(body: SuslovBody, omega: Sequence[float], gamma: Sequence[float], times: Sequence[float] | Array,
                 level: Level) -> FreeMotion:
-    """The motion from ω(0) and γ(0) at the given times, which run away from 0.
+    """The motion from ω(0) (2,) and γ(0) (3,) at times as in `orbit.solve`.
 
-    γ is brought to length one, with a note.  Raises as `rotation`.
+    γ(0) is normalised, with a note where that changed it.  Raises as `rotation`.
     """
     begun = time.perf_counter()
     unit, note = unit_vector(gamma)
@@ -417,22 +415,23 @@ def free_motion(body: SuslovBody, omega: Sequence[float], gamma: Sequence[float]
 
 
 _PASSING = 20.0
-"""Beyond |u| = 20 γ turns uniformly to 1e-8."""
+"""Beyond |u| = 20 the rotation of γ is uniform to 1e-8."""
 
 
 def sample_times(body: SuslovBody, omega: Sequence[float], span: float, weights: tuple[float, float], sagitta: float,
                  most: int) -> Array:
     """At most `most` times from 0 to `span` (not 0) at which straight lines between samples look like the curves.
 
-    weights : pixels for a unit of ω and of γ; sagitta : the largest distance between curve and chord, in pixels, as
-    in `sampling.sample_times`, with the accelerations in closed form.  Where `most` times are too few, the uniform
-    turning next to the line of equilibria is thinned out first.  Raises as `passage`.
+    weights : pixels per unit of ω and of γ; sagitta : largest distance between curve and chord, in pixels, as in
+    `sampling.sample_times`, with the accelerations in closed form.  Where `most` times are too few, the uniform
+    rotation near the line of equilibria is thinned out first.  Raises as `passage`.
     """
     motion = passage(body, omega)
     of, length = motion.shape, motion.rate * span
     if not (math.isfinite(length) and length != 0.0):
         raise InvalidParameter("The time span must be a finite number other than 0.")
-    knots = np.clip(np.linspace(-_PASSING, _PASSING, 801), *sorted((motion.u0, motion.u0 + length)))
+    first_u, last_u = sorted((motion.u0, motion.u0 + length))
+    knots = np.clip(np.linspace(-_PASSING, _PASSING, 801), first_u, last_u)
     u = np.unique(np.concatenate([[motion.u0, motion.u0 + length], knots]))
     tanh, sech = np.tanh(u), _sech(u)
     speed = np.linalg.norm(_omega(of, motion.arc, tanh, sech), axis=1)
@@ -449,8 +448,7 @@ def sample_times(body: SuslovBody, omega: Sequence[float], span: float, weights:
     needed = np.concatenate([[0.0], np.cumsum(share)])
     count = int(min(most - 1, math.ceil(needed[-1]))) + 1
     samples = np.interp(np.linspace(0.0, needed[-1], count), needed, u)
-    times = (samples - motion.u0) / motion.rate
-    times = times if span > 0.0 else times[::-1]
-    times = np.clip(times, *sorted((0.0, float(span))))
+    times: Array = (samples - motion.u0) / motion.rate
+    times = np.clip(times if span > 0.0 else times[::-1], min(0.0, span), max(0.0, span))
     times[0], times[-1] = 0.0, span
     return times

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Kernel of `free`: the rotation of γ along one passage, as a matrix of SU(2)."""
 
 from __future__ import annotations

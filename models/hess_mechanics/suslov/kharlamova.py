@@ -4,14 +4,14 @@ In the time τ of `principal_axis`, dτ = γ3 dt, nothing depends on γ3: with u
 
     u(τ) = u0 + v0 τ + a τ²/2,  v = u' = (−ω2, ω1),  a = (−b1/I22, −b2/I11),
 
-a parabola, and the rest is (dτ/dt)² = γ3² = P(τ) = 1 − |u(τ)|²: τ runs to and fro between two neighbouring zeros of
-this quartic, and each time it turns γ3 changes its sign.  With τ = m + sx, P = (1 − x²)(A + Bx + Cx²), R± the second
-factor at x = ±1, a whole period is
+a parabola (the paper says straight lines), and (dτ/dt)² = γ3² = P(τ) = 1 − |u(τ)|²: τ oscillates between two
+neighbouring zeros of this quartic, and γ3 changes sign at each of them.  With τ = m + sx, P = (1 − x²)(A + Bx + Cx²)
+and R± the second factor at x = ±1, the period is
 
     T = 2 ∫ dτ/√P = 2πs / AGM(√((A − C + √(R₊R₋))/2), (R₊R₋)^¼).
 
-At a double zero τ needs infinite time: a fixed point on the equator, on which u touches the circle from inside.
-Then P never keeps its sign for ever: with a field, no arc ends but on the equator.
+At a double zero, where u touches the circle |u| = 1 from inside, τ takes infinite time: the orbit is asymptotic to a
+fixed point on the equator.  With a field P → −∞, so every arc ends on the equator.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ _ON_EQUATOR = 1e-12
 
 @dataclass(frozen=True)
 class PlaneBody:
-    """A body with I13 = I23 = 0 and b3 = 0 (S6).  Raises `InvalidParameter`, `NotPositiveDefinite`."""
+    """A body with I13 = I23 = 0 and b3 = 0.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
 
     I11: float
     I22: float
@@ -57,7 +57,7 @@ class PlaneBody:
 
     @property
     def parameters(self) -> tuple[float, ...]:
-        """Those of the system "suslov"."""
+        """p of the system "suslov"."""
         return (self.I11, self.I22, 0.0, 0.0, self.b1, self.b2, 0.0)
 
     @property
@@ -67,7 +67,7 @@ class PlaneBody:
 
     @property
     def axes(self) -> tuple[float, float]:
-        """√I11, √I22: the half axes of the domain `Biz1360`."""
+        """√I11, √I22: semi-axes of the elliptic domain (`Biz1360`)."""
         return math.sqrt(self.I11), math.sqrt(self.I22)
 
     def energy(self, state: Sequence[float]) -> float:
@@ -86,21 +86,22 @@ class PlaneBody:
         return np.column_stack([r1 * u[:, 1], -r2 * u[:, 0]])
 
     def potential(self, q: Array) -> Array:
-        """V of `eqs03` at q (..., 2); the field is V = b2 q1/√I11 − b1 q2/√I22 (`Biz136`, its signs corrected)."""
+        """V = b2 q1/√I11 − b1 q2/√I22 at q (..., 2) (`eqs03`; `Biz136` with its signs corrected)."""
         r1, r2 = self.axes
         return np.asarray(self.b2 / r1 * q[..., 0] - self.b1 / r2 * q[..., 1])
 
 
 def to_plane(body: PlaneBody, states: Array) -> tuple[Array, Array]:
-    """q and p (m, 2) of `Biz136` from states (m, 5); on γ3 < 0 too."""
+    """q and p (m, 2) of the motion in the plane (`Biz136`) from states (m, 5), for either sign of γ3."""
     r1, r2 = body.axes
     return body.place(states[:, 2:4]), np.column_stack([r1 * states[:, 0], r2 * states[:, 1]])
 
 
 def state_at(body: PlaneBody, q: Sequence[float], p: Sequence[float]) -> tuple[float, ...]:
-    """The state (5,) with γ3 ≥ 0.  Within 1e-12 of the equator it is on it; and there, along it, if p is to 1e-12.
+    """The state (5,) with γ3 ≥ 0 at q and p (2,).
 
-    Raises `InvalidParameter` where q is outside the domain `Biz1360`.
+    Within 1e-12 of the equator it is put on it; if there ω ∥ γ to 1e-12, it is made exactly parallel, a fixed point.
+    Raises `InvalidParameter` where q is outside the elliptic domain (`Biz1360`).
     """
     require_finite(q1=q[0], q2=q[1], p1=p[0], p2=p[1])
     r1, r2 = body.axes
@@ -122,19 +123,20 @@ def state_at(body: PlaneBody, q: Sequence[float], p: Sequence[float]) -> tuple[f
 
 
 def mirrored(states: Array) -> Array:
-    """γ3 → −γ3: with t → −t this carries orbits of b3 = 0 to orbits."""
-    return np.asarray(states) * np.array([1.0, 1.0, 1.0, 1.0, -1.0])
+    """γ3 → −γ3, which together with t → −t maps orbits with b3 = 0 to orbits; states (..., 5)."""
+    image: Array = np.asarray(states, float) * np.array([1.0, 1.0, 1.0, 1.0, -1.0])
+    return image
 
 
 @dataclass(frozen=True)
 class Arc:
-    """The arc of the parabola on which an orbit runs to and fro.
+    """The arc of the parabola on which an orbit oscillates.
 
     kind : "periodic", "asymptotic" (to a fixed point on the equator, both ways) or "fixed".
-    u0, v0, a : (2,) of the module's docstring; rate : ν = max(|v0|, √|a|).
-    tau : (τ₋, τ₊), where it meets the equator, the start at τ = 0; touch : the one of them that takes infinite time.
-    other : the same of another orbit on the same parabola, or None; period : T, ∞ for asymptotic ones.
-    stable : of a fixed point, whether orbits about it stay near; None of others.
+    u0, v0, a : (2,), see the module; rate : ν = max(|v0|, √|a|).
+    tau : (τ₋, τ₊) where it meets the equator, with the start at τ = 0; touch : the one reached in infinite time.
+    other : (τ₋, τ₊) of another orbit on the same parabola, or None; period : T, ∞ if asymptotic.
+    stable : for a fixed point, whether nearby orbits stay near; otherwise None.
     """
 
     kind: str
@@ -151,12 +153,14 @@ class Arc:
     def u(self, tau: Array) -> Array:
         """(γ1, γ2) at τ (m,); shape (m, 2)."""
         t = np.asarray(tau, float)[:, None]
-        return self.u0 + t * (self.v0 + 0.5 * t * self.a)
+        u: Array = self.u0 + t * (self.v0 + 0.5 * t * self.a)
+        return u
 
     def height(self, tau: Array) -> Array:
         """|γ3| at τ (m,), 0 where the parabola is outside the domain."""
         u = self.u(tau)
-        return np.sqrt(np.maximum(0.0, 1.0 - np.sum(u * u, axis=1)))
+        height: Array = np.sqrt(np.maximum(0.0, 1.0 - np.sum(u * u, axis=1)))
+        return height
 
     @property
     def ends(self) -> tuple[float, float]:
@@ -201,7 +205,7 @@ def _quartic(u0: Array, v0: Array, a: Array, height: float) -> tuple[Array, Arra
     v, bent = v0 / unit[:, None], a / (unit * unit)[:, None]
     slope = -2.0 * (v @ u0)
     if height == 0.0:
-        # On the equator that is rounding, and the point is fixed.
+        # On the equator so small a slope is round-off: the point is fixed.
         slope[np.abs(slope) <= 1e-15] = 0.0
     c = np.column_stack([
         np.full(len(v), height * height), slope, -np.sum(v * v, axis=1) - bent @ u0,
@@ -210,7 +214,7 @@ def _quartic(u0: Array, v0: Array, a: Array, height: float) -> tuple[Array, Arra
 
 
 def _solved(u0: Array, v0: Array, a: Array, height: float) -> tuple[Array, Array, Array]:
-    """`arcs` in the user's time, (n, 6), the coefficients and ν (n,).  Raises `InvalidParameter`."""
+    """`arcs` (n, 6) in the user's time, the coefficients of P (n, 5) and ν (n,).  Raises `InvalidParameter`."""
     with np.errstate(over="ignore", under="ignore", invalid="ignore"):
         c, rate = _quartic(u0, v0, a, height)
     if not (np.all(np.isfinite(c)) and np.all(np.isfinite(rate))):
@@ -239,9 +243,9 @@ def arc(body: PlaneBody, state: Sequence[float]) -> Arc:
 
 
 def periods(body: PlaneBody, q: Sequence[float], speed: float, directions: Array) -> Array:
-    """T of the orbits from q with p = speed (cos α, sin α), for each direction α (n,); ∞ for asymptotic ones.
+    """Periods (n,) of the orbits from q (2,) with p = speed (cos α, sin α), for directions α (n,).
 
-    Where nothing moves (speed 0 and no field) the period is ∞ too.  Raises `InvalidParameter`.
+    ∞ for asymptotic orbits and where nothing moves (speed 0, no field).  Raises `InvalidParameter`.
     """
     state = state_at(body, q, (0.0, 0.0))
     r1, r2 = body.axes
@@ -263,9 +267,9 @@ def missed(body: PlaneBody, start: Sequence[float], period: float, accuracy: Lev
 
 
 def fixed_point_kinds(body: PlaneBody, h: float, count: int = 361) -> tuple[Array, Array]:
-    """Points q (n, 2) all round the boundary, and for each what the fixed points with E = h there are.
+    """Points q (n, 2) around the boundary, and the kind (n,) of the fixed points with E = h there.
 
-    1: stable, −1: unstable, 0: the energy allows none.  On the equator with ω ∥ γ nothing changes, and nearby
+    1: stable, −1: unstable, 0: the energy allows none.  States on the equator with ω ∥ γ are fixed, and nearby
     τ̈ = P''τ/2, P'' = −2(|v|² + (u, a)).
     """
     angle = np.linspace(0.0, 2.0 * math.pi, count)

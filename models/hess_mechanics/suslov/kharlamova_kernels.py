@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Kernel of `kharlamova`: the zeros of the quartic P(τ) next to τ = 0, and the period between them."""
 
 from __future__ import annotations
@@ -11,13 +12,13 @@ from hess_mechanics.numerics.jit import kernel, part
 __all__ = ["arcs"]
 
 _REACH = 10.0
-"""In units of 1/ν, in which |v0| ≤ 1, |a| ≤ 1 and one of them is 1, every arc has left the disk by then."""
+"""Every arc has left the disk by this τ, in units of 1/ν, in which |v0| ≤ 1, |a| ≤ 1 and one of them is 1."""
 
 _LEAST = 1e-50
-"""Of |a| in those units: below it nothing but a straight line is to be seen."""
+"""Least |a| in those units; below it the parabola is a straight line to double precision."""
 
 _TOUCH = 1e-14
-"""Of γ3²: so near to a double zero rounding decides on which side it is."""
+"""Below this γ3² a least value counts as a double zero: its sign is round-off."""
 
 
 @part
@@ -32,7 +33,7 @@ def _slope(c, x):
 
 @part
 def _zero(c, a, b):
-    """The zero between a and b, at which the values have different signs."""
+    """The zero between a and b, where the values differ in sign: Newton's method, safeguarded by bisection."""
     rising = _value(c, b) > 0.0
     x = 0.5 * (a + b)
     for _ in range(200):
@@ -56,9 +57,9 @@ def _zero(c, a, b):
 
 @part
 def _zeros(c, knots, count, touching, found):
-    """Zeros between the knots, among which are all places with slope 0; their number.
+    """The number of zeros between the knots, which include all extrema; found[i] = (zero, 1 if double).
 
-    touching : a least value of at most this is one zero, found[i, 1] = 1.
+    touching : a minimum of at most this size counts as one double zero.
     """
     n = 0
     before = _value(c, knots[0])
@@ -79,7 +80,7 @@ def _zeros(c, knots, count, touching, found):
 
 @part
 def _zeros_beyond(c, reach, knots, found):
-    """All zeros in (0, reach) of a quartic with c[0] ≠ 0, in their order; their number."""
+    """The number of zeros in (0, reach) of a quartic with c[0] ≠ 0; `found` lists them in order, see `_zeros`."""
     c1 = (c[1], 2.0 * c[2], 3.0 * c[3], 4.0 * c[4], 0.0)
     A, B, C = 3.0 * c1[3], 2.0 * c1[2], c1[1]
     knots[0] = 0.0
@@ -127,7 +128,10 @@ def _period(c, low, high):
 
 @kernel
 def arcs(coefficients, out):
-    """For each P, from c[0] = P(0) ≥ 0: τ₋, τ₊, T, the side of a double zero (−1, 1; 0: none), the other two zeros."""
+    """For each P, coefficients (n, 5) with P(0) ≥ 0, the zeros next to τ = 0 and the period between them.
+
+    out : (n, 6), τ₋, τ₊, T, side of a double zero (−1, 1; 0: none), and the zeros of another orbit (0, 0: none).
+    """
     knots = np.empty(8)
     left, right = np.empty((5, 2)), np.empty((5, 2))
     for k in range(len(coefficients)):
@@ -149,7 +153,7 @@ def arcs(coefficients, out):
         if c0 > 0.0 or c1 > 0.0:
             high, j = right[0, 0], 1
             touch = right[0, 1] if right[0, 1] > 0.0 else touch
-        # Where the arc only touches, the next one begins there.
+        # Where the arc only touches the equator, the next one starts there.
         if touch < 0.0 and n > 1:
             other_low, other_high = -left[1, 0], low
         elif touch > 0.0 and m > 1:

@@ -1,12 +1,12 @@
-"""S7: the Suslov problem with e on a principal axis and the centre of mass on it, b1 = b2 = 0 (`eqs02`).
+"""The Suslov problem with e and the centre of mass on one principal axis, b1 = b2 = 0 (`eqs02`).
 
 At E = h the energy gives γ3 = h/b3 − (b3/2)(q1²/I22 + q2²/I11) with q = (I22 ω2, −I11 ω1)/b3, and p = (γ1, γ2) obeys
 
     q̇ = −p,  ṗ = ∇V(q),  V = γ3²/2,  H = p²/2 + V = 1/2:
 
-a point in a quartic potential, always at the level ½, run backwards ({p_i, q_k} = δ_ik).  It may be where |γ3| ≤ 1: in
-an ellipse for |h| < |b3|, between two for h > |b3|.  For I11 = I22 the potential is central, and q1 p2 − q2 p1 =
-I11(ω1γ1 + ω2γ2)/b3 is an integral.  The body's own time is the point's.
+a point in a quartic potential, always at the level ½, with time reversed ({p_i, q_k} = δ_ik).  It moves where |γ3| ≤ 1:
+inside an ellipse for |h| < |b3|, between two for h > |b3|.  For I11 = I22 the potential is central, and q1 p2 − q2 p1 =
+I11(ω1γ1 + ω2γ2)/b3 is an integral.  Time is not rescaled.
 """
 
 from __future__ import annotations
@@ -27,10 +27,10 @@ from hess_mechanics.suslov.equations import SYSTEM
 __all__ = ["QuarticBody", "angular_momentum", "quartic_section", "seeds", "state_at", "state_on_section"]
 
 _TURNS = 120.0
-"""Time given for a crossing, in units in which ω is at most 1: few orbits take longer."""
+"""Time allowed per crossing, in units in which ω is at most 1; few orbits take longer."""
 _EDGE = 1e-9
 _MOST_SIZE = 1e30
-"""Of q: a picture's numbers are single precision."""
+"""Largest q: numbers in pictures are single precision."""
 
 
 @dataclass(frozen=True)
@@ -61,32 +61,32 @@ class QuarticBody:
 
     @property
     def parameters(self) -> tuple[float, ...]:
-        """Those of the system "suslov"."""
+        """p of the system "suslov"."""
         return (self.I11, self.I22, 0.0, 0.0, 0.0, 0.0, self.b3)
 
     @property
     def axes(self) -> tuple[float, float]:
-        """Half axes of the ellipse in which the point may be: there γ3 b3 = −|b3|."""
+        """Semi-axes of the ellipse that bounds the motion, γ3 b3 = −|b3|."""
         size = 2.0 * (self.h + abs(self.b3))
         return math.sqrt(size * self.I22) / abs(self.b3), math.sqrt(size * self.I11) / abs(self.b3)
 
     @property
     def hole(self) -> float:
-        """The ellipse in which it may not be, in units of `axes`; 0 for h ≤ |b3|."""
+        """Size of the forbidden inner ellipse, in units of `axes`; 0 for h ≤ |b3|."""
         size = abs(self.b3)
         return math.sqrt(max(0.0, self.h - size) / (self.h + size))
 
     @property
     def across(self) -> int:
-        """Which q the section holds at 0: that along which the ellipse is narrower.
+        """The index of the q that is 0 on the section: the one along the minor axis.
 
-        For h > |b3| a point can stay near one end of the longer axis for ever; it always crosses that axis.
+        For h > |b3| a point can stay near one end of the major axis for ever, but it always crosses that axis.
         """
         return 0 if self.I11 > self.I22 else 1
 
     @property
     def plane(self) -> Plane:
-        """The section q_i = 0, i = `across`, where that q grows: in terms of ω."""
+        """The section q_i = 0, i = `across`, crossed while q_i grows, in terms of ω."""
         sense = 1 if self.b3 > 0.0 else -1
         if self.across == 0:
             return Plane((0.0, 1.0, 0.0, 0.0, 0.0), sense=sense)
@@ -111,7 +111,7 @@ class QuarticBody:
     def section_boundary(self, count: int = 181) -> Array:
         """A closed curve (n, 2) that bounds the section, p² + γ3² = 1.
 
-        With a hole it bounds the right half only; the left one is its image under q → −q.
+        With a hole it bounds the right half only; the left half is its image under q → −q.
         """
         size = abs(self.b3)
         first = math.acos(self.h / size) if self.h < size else 0.0
@@ -123,7 +123,7 @@ class QuarticBody:
 
 
 def state_at(body: QuarticBody, q: Sequence[float], direction: float) -> tuple[float, ...]:
-    """The state (5,) at q, with −p, its velocity, in the direction (cos, sin) of an angle.
+    """The state (5,) at q (2,) with the velocity q̇ = −p in `direction`, an angle in radians.
 
     Raises `OutsideRegion` where |γ3| > 1.
     """
@@ -146,7 +146,7 @@ def state_on_section(body: QuarticBody, x: float, y: float) -> tuple[float, ...]
     left = (1.0 - g3) * (1.0 + g3) - y * y
     if left < -_EDGE:
         raise OutsideRegion("There p² + γ₃² would exceed 1: choose a place that is not grey.")
-    # The q that is held at 0 grows where its p is negative.
+    # The q that is 0 grows where its p is negative.
     other = -math.sqrt(max(0.0, left))
     velocity = (-y, -other) if body.across else (-other, -y)
     return state_at(body, q, math.atan2(velocity[1], velocity[0]))
@@ -159,14 +159,14 @@ def angular_momentum(body: QuarticBody, states: Array) -> Array:
 
 
 def seeds(body: QuarticBody, count: int) -> list[tuple[float, ...]]:
-    """States of the section spread over what the energy allows of it."""
+    """States of the section, spread over the part that the energy allows."""
     golden = (math.sqrt(5.0) - 1.0) / 2.0
     longest = body.axes[1 - body.across]
     found = []
     for i in range(count):
         share = (i * golden) % 1.0
         inner = body.hole**2
-        # Evenly in q² from the hole to the edge, and in p there.
+        # Even in q² from the hole to the edge, and in p for this q.
         x = longest * math.sqrt(inner + (1.0 - inner) * (0.002 + 0.996 * (i + 0.5) / count))
         g3 = float(body.height(np.array((x, 0.0) if body.across else (0.0, x))))
         size = math.sqrt(max(0.0, (1.0 - g3) * (1.0 + g3)))
@@ -178,7 +178,7 @@ def quartic_section(body: QuarticBody, starts: Sequence[Sequence[float]], crossi
                     most_steps: int) -> Points:
     """The first crossings of `body.plane` by each orbit, states as in `section_points`.
 
-    most_steps : of one orbit.  Raises `InvalidParameter`, `WorkLimit`.
+    most_steps : per orbit.  Raises `InvalidParameter`, `WorkLimit`.
     """
     speed = math.sqrt(2.0 * (body.h + abs(body.b3)) / max(body.I11, body.I22))
     end = crossings * _TURNS / speed

@@ -1,21 +1,22 @@
-"""S4: the scattering θ⁻, φ → θ⁺ of the free Suslov problem, by one rotation.
+"""The scattering (θ⁻, φ) → θ⁺ of the free Suslov problem, by one rotation (figure 4).
 
-Every motion comes from a circle Γ⁻ = cos θ⁻ round the unstable point and goes to one, Γ⁺ = cos θ⁺, round the stable
-one.  With (A, B) of `free_suslov` from one end to the other
+Every motion leaves a circle Γ⁻ = cos θ⁻ about the unstable point and approaches a circle Γ⁺ = cos θ⁺ about the stable
+one.  With (A, B) of `free` from one end to the other
 
     Γ⁺ = cos χ Γ⁻ + sin χ √(1−Γ⁻²) cos(φ − φ*),   cos χ = |A|² − |B|²,  φ* = π − arg AB.
 
-Two meanings of the phase φ:
+The phase φ has two meanings:
  - asymptotic: the limit t → −∞ of (azimuth of γ about ξ) + Φ(u), that is the azimuth at u = 0 if only the part of ω
    along ξ had turned γ;
- - at the start: the azimuth of γ(0) about ξ, with ω(0) at a given distance from the unstable point (the caption of
-   fig0111), θ⁻ being the angle of γ(0) and ξ.  For a small distance that is the same curve, shifted by Φ(u0).
+ - at the start: the azimuth of γ(0) about ξ, with ω(0) at a given distance from the unstable point (caption of
+   `fig0111`) and θ⁻ the angle between γ(0) and ξ.  For small distances that is the same curve, shifted by Φ(u0).
 The azimuth is counted from η towards e3: γ = Γξ + √(1−Γ²)(cos φ η + sin φ e3).  Nothing depends on h.
 
 cos χ has a closed form for every tensor.  In s = sinh u the equations have three regular singular points, ±i and ∞:
-round i the monodromy has the trace 2C, C = cos(π/2 √(κ² − (K + ic)²)), and round the half circle at ∞ it is diagonal,
+about i the monodromy has the trace 2C, C = cos(π/2 √(κ² − (K + ic)²)), and along the half circle at ∞ it is diagonal,
 e^{±πK/2}.  Hence |A|² = (Re C/cosh(πK/2))² + (Im C/sinh(πK/2))²; for I13 = 0 or I23 = 0, where c = 0 and
-k² = κ² − K², cos χ = 2cos²(πk/2)/cosh²(πK/2) − 1.  Not in the paper: see the README.
+k² = κ² − K², cos χ = 2cos²(πk/2)/cosh²(πK/2) − 1.  This formula is not in the paper: see
+models/README.md.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ import numpy as np
 from hess_mechanics.dynamics.orbit import status_of
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Level, Status
-from hess_mechanics.numerics.results import Array, Cost
+from hess_mechanics.numerics.results import Array, Complex, Cost
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.free import Shape, equilibria, shape, turning
@@ -43,9 +44,9 @@ __all__ = ["Scattering", "cos_chi", "scattering", "start"]
 class Scattering:
     """The rotation from the circles S₋ to the circles S₊ along one arc.
 
-    A, B : its matrix ((A, −B̄), (B, Ā)) of SU(2), in the frame that turns with Φ; arc : σ = ±1;
+    A, B : its matrix ((A, −B̄), (B, Ā)) of SU(2), in the frame turned by Φ; arc : σ = ±1;
     distance : of the start from the unstable point, or None (asymptotic phases);
-    cos_chi, sin_chi ≥ 0, phi_star : of the module's docstring (φ* = 0 where sin χ = 0);
+    cos_chi, sin_chi ≥ 0, phi_star : see the module (φ* = 0 where sin χ = 0);
     error_estimate : of Γ⁺, for any θ⁻ and φ.
     """
 
@@ -66,26 +67,28 @@ class Scattering:
         Gamma, y = _spherical(theta, phi)
         A, B = self.A, self.B
         image = 2.0 * A * B.conjugate() * Gamma + A * A * y - B.conjugate() ** 2 * y.conj()
-        # Not the arc cosine, which loses half of all digits at 0 and π.
-        return np.arctan2(np.abs(image), self._Gamma_plus(Gamma, y))
+        # Not the arc cosine, which loses half the digits at 0 and π.
+        return np.asarray(np.arctan2(np.abs(image), self._Gamma_plus(Gamma, y)), float)
 
     def Gamma_plus(self, theta: Array | float, phi: Array | Sequence[float] | float) -> Array:
         """Γ⁺ = cos θ⁺ in [−1, 1]; the shape to which θ⁻ and φ broadcast."""
         return np.clip(self._Gamma_plus(*_spherical(theta, phi)), -1.0, 1.0)
 
-    def _Gamma_plus(self, Gamma: Array, y: Array) -> Array:
-        return self.cos_chi * Gamma - 2.0 * np.real(self.A * self.B * y)
+    def _Gamma_plus(self, Gamma: Array, y: Complex) -> Array:
+        value: Array = self.cos_chi * Gamma - 2.0 * np.real(self.A * self.B * y)
+        return value
 
 
-def _spherical(theta: Array | float, phi: Array | Sequence[float] | float) -> tuple[Array, Array]:
+def _spherical(theta: Array | float, phi: Array | Sequence[float] | float) -> tuple[Array, Complex]:
+    """Γ = cos θ and y = sin θ e^{iφ}."""
     theta, phi = np.asarray(theta, float), np.asarray(phi, float)
     return np.cos(theta), np.sin(theta) * np.exp(1j * phi)
 
 
 def _u_at(of: Shape, distance: float) -> float:
-    """u < 0 at which the part of ω across ξ, ω0 κ sech u, is `distance` |ω⁻| = `distance` ω0 K.
+    """The u < 0 at which the part of ω across ξ, ω0 κ sech u, is `distance` |ω⁻| = `distance` ω0 K.
 
-    Raises `InvalidParameter` where ω never comes so far from the line.
+    Raises `InvalidParameter` where ω never gets so far from the line.
     """
     require_finite(distance=distance)
     most = of.kappa / of.K
@@ -116,7 +119,7 @@ def scattering(body: SuslovBody, level: Level, arc: int = 1, distance: float | N
     of = shape(body)
     first = -of.end if distance is None else _u_at(of, float(distance))
     A, B, error, steps = turning(of, arc, np.array([first, of.end]), level)
-    # M(∞) M(u0)^−1, and the azimuth at the start carried to the frame that turns.
+    # M(∞) M(u0)^−1, and the azimuth at the start taken to the turning frame.
     before = 0.0 if distance is None else float(of.turned(first, arc))
     half = cmath.exp(0.5j * before)
     alpha = complex(A[1] * A[0].conj() + B[1].conj() * B[0]) * half
@@ -130,13 +133,13 @@ def scattering(body: SuslovBody, level: Level, arc: int = 1, distance: float | N
 
 
 def cos_chi(body: SuslovBody) -> float:
-    """cos χ in closed form, for every tensor; see the module's docstring.
+    """cos χ in closed form, for every tensor; see the module.
 
     Raises `InvalidParameter` (a field, I13 = I23 = 0), `WorkLimit` (see `shape`).
     """
     of = shape(body)
     root = cmath.sqrt(of.kappa**2 - complex(of.K, of.c) ** 2)
-    # cos(π/2 root) with its growth e^{|Im|} taken out, as cosh(πK/2) is.
+    # cos(π/2 root) and cosh(πK/2) without their exponential growth, which would overflow.
     angle = 0.5 * math.pi * root
     grown = abs(angle.imag)
     C_re = math.cos(angle.real) * 0.5 * (1.0 + math.exp(-2.0 * grown))
@@ -152,9 +155,9 @@ def start(body: SuslovBody, h: float, theta: float, phi: float, distance: float,
           ) -> tuple[tuple[float, float], tuple[float, float, float]]:
     """ω(0), γ(0) of the orbit with energy h that starts at θ⁻ and azimuth φ, at `distance` from the unstable point.
 
-    The phase of `scattering` with that distance.  Where I13 I23 ≠ 0, ω as a double is known to 1e-16, and with it the
-    time of the passage: with a distance below 1e-8 that shifts the phase of the arrival, though not Γ⁺ by more than
-    1e-16/distance.  Raises `InvalidParameter`, `WorkLimit`.
+    φ is the phase of `scattering` with that distance.  For I13 I23 ≠ 0 rounding ω to doubles limits how well the time
+    of the passage is known: below a distance of 1e-8 the phase of arrival shifts, and Γ⁺ by at most 1e-16/distance.
+    Raises `InvalidParameter`, `WorkLimit`.
     """
     _check_arc(arc)
     require_finite(theta=theta, phi=phi)

@@ -1,7 +1,7 @@
-"""S1: sections γ_k = 0 of the Suslov problem at E = h, F1 = 1, in coordinates that cover them.
+"""Sections γ_k = 0 of the Suslov problem with gravity at E = h, F1 = 1, in coordinates that cover them.
 
-Where γ_k grows through 0, γ is at the angle ψ in the plane of the two other axes, and ω = |ω|u has a direction u at an
-angle δ ∈ (0, π) from where γ_k stays:
+Where γ_k grows through 0, ψ is the angle of γ in the plane of the other two axes, and δ ∈ (0, π) the angle of the
+direction u of ω = |ω|u from the direction that keeps γ_k:
 
     k = 3: γ = (cos ψ, sin ψ, 0),  u = (cos(ψ+δ), sin(ψ+δ)),        as γ̇3 = γ1ω2 − γ2ω1;
     k = 1: γ = (0, cos ψ, sin ψ),  u = −sgn(sin ψ) (cos δ, sin δ),  as γ̇1 = −γ3ω2;
@@ -21,7 +21,7 @@ from hess_mechanics.dynamics.section import MAX_STEPS, Plane, Points, section_po
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.parallel import THREADS
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.results import Array, Mask, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov import principal_axis
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
@@ -32,7 +32,7 @@ __all__ = [
 ]
 
 _TURNS = 40.0
-"""Time given for a crossing, in units of 1/ν: few orbits take longer."""
+"""Time allowed per crossing, in units of 1/ν; few orbits take longer."""
 _EDGE = 1e-6
 
 
@@ -42,13 +42,13 @@ def _check(k: int) -> None:
 
 
 def plane_of(k: int) -> Plane:
-    """γ_k = 0, crossed while γ_k grows.  Raises `InvalidParameter`."""
+    """The plane γ_k = 0, crossed while γ_k grows.  Raises `InvalidParameter`."""
     _check(k)
     return Plane(tuple(float(i == k + 1) for i in range(5)))
 
 
 def lowest_energy(body: SuslovBody, k: int) -> float:
-    """Below it no motion reaches the plane γ_k = 0."""
+    """The energy below which no motion reaches the plane γ_k = 0."""
     _check(k)
     return -math.hypot(*(b for i, b in enumerate((body.b1, body.b2, body.b3), 1) if i != k))
 
@@ -60,8 +60,8 @@ def _gamma(k: int, psi: Array) -> Array:
     return gamma
 
 
-def states_at(body: SuslovBody, E: float, k: int, psi: Array, delta: Array) -> tuple[Array, Array]:
-    """The states (n, 5) on γ_k = 0 at (ψ, δ) (n,), and whether this energy is possible there (n,).
+def states_at(body: SuslovBody, E: float, k: int, psi: Array, delta: Array) -> tuple[Array, Mask]:
+    """States (n, 5) on γ_k = 0 at (ψ, δ), each (n,), and whether the energy E is possible there (n,).
 
     Raises `InvalidParameter`.
     """
@@ -83,7 +83,7 @@ def states_at(body: SuslovBody, E: float, k: int, psi: Array, delta: Array) -> t
 
 
 def state_at(body: SuslovBody, E: float, k: int, psi: float, delta: float) -> tuple[float, ...]:
-    """One of them.  Raises `InvalidParameter` where it is not possible."""
+    """The state (5,) on γ_k = 0 at (ψ, δ).  Raises `InvalidParameter` where the energy E is impossible."""
     states, ok = states_at(body, E, k, np.array([psi]), np.array([delta]))
     if not ok[0]:
         raise InvalidParameter(f"At ψ = {psi:.6g}, δ = {delta:.6g} no motion has the energy E = {E:.6g}: choose a "
@@ -107,14 +107,14 @@ def coordinates(states: Array, k: int) -> Array:
     return np.column_stack([psi, delta])
 
 
-def possible(body: SuslovBody, E: float, k: int, psi: Array) -> Array:
-    """Whether the energy allows γ at ψ (n,)."""
+def possible(body: SuslovBody, E: float, k: int, psi: Array) -> Mask:
+    """Whether the energy E allows γ at ψ (n,)."""
     _check(k)
-    return np.array([body.b1, body.b2, body.b3]) @ _gamma(k, np.asarray(psi, float)) < E
+    return np.asarray(np.array([body.b1, body.b2, body.b3]) @ _gamma(k, np.asarray(psi, float)) < E)
 
 
 def _arcs(body: SuslovBody, E: float, k: int, psi0: float, psi1: float) -> list[tuple[float, float]]:
-    """The parts of ψ0 … ψ1 where (b, γ) < E, in order."""
+    """The intervals of ψ0 … ψ1 where (b, γ) < E, in order."""
     first, second = (b for i, b in enumerate((body.b1, body.b2, body.b3), 1) if i != k)
     size = math.hypot(first, second)
     if size < E:
@@ -129,16 +129,16 @@ def _arcs(body: SuslovBody, E: float, k: int, psi0: float, psi1: float) -> list[
 
 
 def seeds(body: SuslovBody, E: float, k: int, window: Sequence[float], count: int) -> tuple[tuple[float, ...], ...]:
-    """At most `count` states of the section, spread evenly over what is possible of ψ0 … ψ1, δ0 … δ1.
+    """At most `count` states of the section, spread evenly over the possible part of `window` (ψ0, ψ1, δ0, δ1).
 
-    Fewer only where nothing is possible, or no double inside it.
+    Fewer only where nothing is possible, or the possible part holds no double.
     """
     psi0, psi1, delta0, delta1 = window
     _check(k)
     arcs = _arcs(body, E, k, psi0, psi1)
     if not arcs:
         return ()
-    # A sequence that fills the window evenly, however far it is followed (Roberts, 2018).
+    # A low-discrepancy sequence: each of its beginnings fills the window evenly (Roberts, 2018).
     n = np.arange(1, count + 1)
     ends = np.cumsum([0.0, *(high - low for low, high in arcs)])
     along = ends[-1] * ((0.5 + 0.7548776662466927 * n) % 1.0)
@@ -151,7 +151,7 @@ def seeds(body: SuslovBody, E: float, k: int, window: Sequence[float], count: in
 
 def suslov_points(body: SuslovBody, k: int, starts: Sequence[Sequence[float]], crossings: int, forward: bool,
                   level: Level, threads: int = THREADS, most_steps: int = MAX_STEPS) -> Points:
-    """The first crossings of γ_k = 0 of each orbit, forward or backward in time, as in `section_points`.
+    """The first `crossings` crossings of γ_k = 0 by each orbit, forward or backward in time, as in `section_points`.
 
     Raises `InvalidParameter`, `WorkLimit`.
     """
@@ -163,18 +163,18 @@ def suslov_points(body: SuslovBody, k: int, starts: Sequence[Sequence[float]], c
 
 
 def divergence(body: SuslovBody, states: Array) -> Array:
-    """div ẏ = I23ω1/I22 − I13ω2/I11 (n,) of states (n, 5): the rate at which volume grows."""
-    return frozen(np.asarray(principal_axis.divergence(states.T, body.parameters)))
+    """div ẏ = I23ω1/I22 − I13ω2/I11 (n,) of states (n, 5), the growth rate of phase volume."""
+    return frozen(np.asarray(principal_axis.divergence(list(states.T), body.parameters), float))
 
 
 def basins(ends: Array) -> Array:
-    """0 or 1 for each orbit, by which of two attractors it came to: `ends` (n,) are averages along its later part.
+    """0 or 1 for each orbit, by the attractor it ends on; `ends` (n,) are averages over the later part of the orbits.
 
-    All 0 where the averages do not fall into two groups.
+    All 0 where the averages do not form two groups.
     """
     order = np.sort(ends)
     gaps = np.diff(order)
     if not gaps.size or gaps.max() < 0.1 * (order[-1] - order[0]) or order[-1] - order[0] < 1e-3:
         return np.zeros(ends.size)
     i = int(np.argmax(gaps))
-    return (ends > 0.5 * (order[i] + order[i + 1])).astype(float)
+    return np.asarray(ends > 0.5 * (order[i] + order[i + 1]), float)

@@ -1,7 +1,7 @@
-"""S8: the possible values of (h, f), and the turning points of n3 (`eq0003`, `Geq3`, `Geq4`).
+"""The bifurcation diagram of the Suslov–Hess case: possible (h, f), and the turning points of n3 (`Geq3`, `Geq4`).
 
-Units b = 1.  The gyroscopic function is p(n) = 2(h+n)(1−n²) − f².  Motion needs
-|f| ≤ f_max(h); on the curve f = ±f_max the torus shrinks to a circle.
+Units b = 1.  The gyroscopic function is p(n) = 2(h+n)(1−n²) − f².  Motion needs |f| ≤ f_max(h); on the curve
+f = ±f_max the torus shrinks to a circle.
 `Geq3` is printed with h = (1−3n³)/(2n); correct is h = (1−3n²)/(2n).
 """
 
@@ -20,16 +20,15 @@ from hess_mechanics.suslov_hess.bifurcation_kernels import f_max_and_roots, larg
 __all__ = ["SPECIAL_POINTS", "TurningPoints", "curve", "curve_point", "f_max", "turning_points"]
 
 SPECIAL_POINTS: tuple[tuple[float, float], ...] = ((1.0, 0.0), (-1.0, 0.0))
-"""`Geq4`: the upper and lower equilibrium (h, f)."""
+"""(h, f) of the upper and the lower equilibrium (`Geq4`)."""
 
 
 @dataclass(frozen=True)
 class TurningPoints:
-    """Where n3 turns for given (h, f), units b = 1.
+    """The turning points of n3 for given (h, f), units b = 1.
 
     roots : n0 < n1 ≤ n2 of 2(h+n)(1−n²) − f²; the motion has n1 ≤ n3 ≤ n2.
-    w_squared : |w|² at n1; sine_squared : 1 − n1²; period : one period of n3;
-    f_max : the region's edge at this h.
+    w_squared : |w|² at n1; sine_squared : 1 − n1²; period : of n3; f_max : the largest |f| at this h.
     """
 
     h: float
@@ -46,9 +45,9 @@ class TurningPoints:
         return math.sqrt(self.w_squared)
 
     def state_at_lower_turn(self, phi: float) -> Array:
-        """The state of `eq01` (b = 1) on the section n3 = n1 with w = ρ(sin φ, cos φ), shape (5,).
+        """The reduced state (w1, w2, n1, n2, n3) on the section n3 = n1 with w = ρ(sin φ, cos φ), shape (5,).
 
-        There (n1, n2) is parallel to w, on the side given by the sign of f (f = 0: the limit f → 0+).
+        There (n1, n2) is parallel to w, with the sign of f (f = 0: the limit f → 0+).
         """
         s, c = math.sin(phi), math.cos(phi)
         rho = self.initial_rho
@@ -65,7 +64,7 @@ def _check_h(h: float) -> None:
 
 
 def f_max(h: float) -> float:
-    """The largest |f| at this h (`Geq3`).  Raises `OutsideRegion` for h ≤ −1."""
+    """The largest |f| of motions with this h (`Geq3`).  Raises `OutsideRegion` for h ≤ −1."""
     _check_h(h)
     return float(largest_f(float(h)))
 
@@ -80,7 +79,7 @@ def turning_points(h: float, f: float) -> TurningPoints:
     h, f = float(h), float(f) + 0.0  # f = −0.0 is f = 0
     fm, found, period = f_max_and_roots(h, f)
     if abs(f) > fm * (1 + 1e-15):
-        # The bound is shown a little below, so that what is shown is accepted.
+        # Rounded down, so that the bound in the message is itself accepted.
         raise OutsideRegion(
             f"No motion has h = {h:.15g} and f = {f:.15g}: at this h choose |f| ≤ {fm * (1 - 1e-11):.12g}, "
             "or a larger h."
@@ -92,16 +91,18 @@ def turning_points(h: float, f: float) -> TurningPoints:
 
 
 def curve_point(n: float) -> tuple[float, float]:
-    """The point (h, f ≥ 0) of `Geq3` (corrected) at 0 < n3 = n ≤ 1.  Raises `InvalidParameter`."""
+    """The point (h, f ≥ 0) of the bifurcation curve (`Geq3`, corrected) at n3 = n.
+
+    Raises `InvalidParameter` unless 0 < n ≤ 1.
+    """
     if not 0.0 < n <= 1.0:
         raise InvalidParameter(f"n3 = {n:g} is not on the curve: choose 0 < n3 ≤ 1.")
     return (1.0 - 3.0 * n * n) / (2.0 * n), (1.0 - n * n) / math.sqrt(n)
 
 
 def curve(h_end: float, points: int = 200) -> Array:
-    """The upper branch of `Geq3` from (−1, 0) to h = h_end, shape (points, 2)."""
+    """The branch f ≥ 0 of the bifurcation curve (`Geq3`) from (−1, 0) to h = h_end, shape (points, 2)."""
     _check_h(h_end)
     n_end = 2.0 / (2.0 * h_end + 2.0 * math.sqrt(h_end * h_end + 3.0))
-    # Towards (−1, 0) the curve is a parabola on its side: squares of n make the points even.
     n = 1.0 - (1.0 - n_end) * np.linspace(0.0, 1.0, points)
     return frozen(np.column_stack([(1 - 3 * n * n) / (2 * n), (1 - n * n) / np.sqrt(n)]))

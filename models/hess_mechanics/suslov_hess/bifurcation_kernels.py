@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Kernels of `bifurcation`: the largest f, the roots of the gyroscopic function, and the period of n3, units b = 1.
 
 The roots of p(n) = 2(h+n)(1−n²) − f² come from its expansions about its two extrema, p(n_c+s) = p_c ∓ 2D s² − 2s³
@@ -31,7 +32,7 @@ def largest_f(h):
 
 @inner
 def roots(h, f):
-    """The roots of p(n) = 2(h+n)(1−n²) − f², and what cancels in them, for |f| ≤ f_max(h).
+    """The roots of p(n) = 2(h+n)(1−n²) − f² and their differences, free of cancellation, for |f| ≤ f_max(h).
 
     Returns (n0, n1, n2, g10, g21, g20, w1, v1): n0 ≤ n1 ≤ n2; gaps g_ij = n_i − n_j;
     w1 = h + n1 (half of |w|² at the lower turning point) and v1 = 1 − n1².
@@ -69,8 +70,8 @@ def roots(h, f):
         one_minus = min(2.0, 1.0 + h)
         n1 = -min(1.0, h)
     elif min(w1 / k, u1) < 0.1:
-        # Near the pole or the rim |w| = 0 what is small of h+n1 and 1+n1 has cancelled.  With v = 1−n1
-        # it solves x² ± (1−h)x = f²/2v; Newton on p then.  Never near the curve, a double root of p.
+        # Near the pole or the rim |w| = 0 the smaller of h+n1 and 1+n1 has cancelled.  With v = 1−n1 it
+        # solves x² ± (1−h)x = f²/2v, refined by Newton on p; this is never near the curve, a double root of p.
         v = one_minus
         x = f * f / v
         root = math.sqrt((1.0 - h) * (1.0 - h) + 2.0 * x)
@@ -98,7 +99,7 @@ def roots(h, f):
 
 @inner
 def period_from_gaps(g10, g20):
-    """One period of n3, T = 2√2/√(n2−n0) K(m), by the arithmetic–geometric mean of 1 and √(1−m)."""
+    """The period of n3, T = 2√2/√(n2−n0) K(m), by the arithmetic–geometric mean of 1 and √(1−m)."""
     x = 1.0
     y = math.sqrt(g10 / g20)
     for _ in range(60):

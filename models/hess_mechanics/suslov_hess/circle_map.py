@@ -1,14 +1,18 @@
-"""S8, S15: the circle map Θ(φ) of the Suslov–Hess torus as one matrix of SU(1,1).
+"""The circle map Θ(φ) of the Suslov–Hess torus (figure 7) as one matrix of SU(1,1).
 
-Section n3 = n3^(1) (the lower turning point), w = |w|(sin φ, cos φ), units b = 1.
-`eq0003` is a Riccati equation in e^{iφ}; with (w, n) a solution of `eq01` at a = 0 and
+Section n3 = n3^(1) (the lower turning point), w = |w|(sin φ, cos φ), units b = 1.  The equation of φ on the torus
+(`eq0003`) is a Riccati equation in e^{iφ}; with (w, n) a solution of the reduced equations (`eq01`) at a = 0 and
 W = w2 + i w1 it becomes the linear system
+
     A' = −(ia/2)·conj(W B),   B' = −(ia/2)·conj(W A),   A(0) = 1, B(0) = 0,
-which is regular also where h + n3 → 0.  From the lower to the upper turning point it gives
-U = (A, B)·e^{iχ/2}, χ the angle through which W turns; time reversal with φ → −φ gives the way
-back, so that the whole map z → (αz+β)/(β̄z+ᾱ), z = e^{iφ}, is
+
+which is regular also where h + n3 → 0.  From the lower to the upper turning point it gives U = (A, B)·e^{iχ/2}, χ the
+angle through which W turns; time reversal with φ → −φ gives the way back, so that the whole map
+z → (αz+β)/(β̄z+ᾱ), z = e^{iφ}, is
+
     α = A² − conj(B)²,   β = 2i Im(AB).
-β is imaginary: the fixed points are ±φ*, cos φ* = −Im α/Im β.  Not in the paper: see the README.
+
+β is imaginary, so the fixed points are ±φ*, cos φ* = −Im α/Im β.  Not in the paper: see models/README.md.
 """
 
 from __future__ import annotations
@@ -37,9 +41,9 @@ _MAX_STEPS = 200_000
 
 
 def matrices(h: Array, f: Array, a: float, level: Level) -> Array:
-    """(Re α, Im α, Im β, L, ζ, steps) as in `monodromy` for each torus (h[i], f[i]); shape (n, 6).
+    """(Re α, Im α, Im β, L, ζ, steps), see `monodromy`, for each torus (h[i], f[i]); shape (n, 6).
 
-    All (h[i], f[i]) must lie in the region.  Raises `WorkLimit`.
+    All (h[i], f[i]) must be possible, |f| ≤ f_max(h).  Raises `WorkLimit`.
     """
     out = np.empty((h.size, 6))
     matrices_into(h, f, float(a), level.order, level.tolerance, _MAX_STEPS, out)
@@ -49,36 +53,38 @@ def matrices(h: Array, f: Array, a: float, level: Level) -> Array:
 
 
 def discriminants(rows: Array) -> Array:
-    """(Re α)² − |det| = (Im β)² − (Im α)², times e^{−2L}, from the rows of `matrices`: positive where it locks.
+    """(Re α)² − |det| = (Im β)² − (Im α)², times e^{−2L}, from the rows of `matrices`; positive where the map locks.
 
-    Where Im α and Im β are large and nearly equal, the first form is exact and the second is not.
+    The first form is used where Im α and Im β are large and nearly equal, and would cancel.
     """
     re, im, im_beta, log_scale, *_ = np.moveaxis(rows, -1, 0)
     unit = np.exp(-log_scale)
     cancels = im**2 + im_beta**2 > 1e4 * (re**2 + unit**2)
-    return np.where(cancels, (re - unit) * (re + unit), (im_beta - im) * (im_beta + im))
+    found: Array = np.where(cancels, (re - unit) * (re + unit), (im_beta - im) * (im_beta + im))
+    return found
 
 
 def rotation_numbers(rows: Array) -> Array:
-    """ρ from the rows of `matrices`: an integer where it locks, else k + arccos(±Re α)/π; shape (n,)."""
+    """ρ from the rows of `matrices`: an integer where the map locks, otherwise k + arccos(±Re α)/π; shape (n,)."""
     re, _, _, _, zeta, _ = rows.T
     discriminant = discriminants(rows)
     k = np.floor(zeta / np.pi)
     sign = 1.0 - 2.0 * (k % 2)
     turning = k + np.arctan2(np.sqrt(np.maximum(-discriminant, 0.0)), sign * re) / np.pi
-    return np.where(discriminant < 0.0, turning, np.round(zeta / np.pi)) + 0.0  # no −0.0
+    rho: Array = np.where(discriminant < 0.0, turning, np.round(zeta / np.pi)) + 0.0  # no −0.0
+    return rho
 
 
 @dataclass(frozen=True)
 class FixedPoint:
-    """A fixed point of Θ, that is a limit cycle.  The multiplier itself may exceed double range."""
+    """A fixed point of Θ, that is, a limit cycle.  The multiplier itself may exceed double range."""
 
     phi: float
     log_multiplier: float
 
     @property
     def stable(self) -> bool:
-        """True for the attracting one."""
+        """Whether the limit cycle attracts."""
         return self.log_multiplier < 0.0
 
     @property
@@ -134,7 +140,7 @@ def _theta(matrix: tuple[float, float, float], phi: Array) -> Array:
 
 @dataclass(frozen=True)
 class Phases:
-    """Angles φ (n,) at which many maps are wanted, with their sines and cosines."""
+    """Angles φ (n,) at which many maps are evaluated, with their sines and cosines."""
 
     phi: Array
     cos: Array
@@ -142,17 +148,17 @@ class Phases:
 
     @classmethod
     def of(cls, phi: Array | Sequence[float]) -> Phases:
-        """From the angles alone."""
+        """From the angles (n,)."""
         angles = np.array(phi, float)
         return cls(angles, np.cos(angles), np.sin(angles))
 
 
 def theta_at(phases: Phases, a: float, h: float, f: float, level: Level) -> Array:
-    """Θ at these angles, up to whole turns, at the level's tolerance; no error estimate.  Raises `WorkLimit`."""
+    """Θ (n,) at the phases, up to whole turns, at the level's tolerance; no error estimate.  Raises `WorkLimit`."""
     x, y = np.empty_like(phases.cos), np.empty_like(phases.cos)
     if images(h, f, a, level.order, level.tolerance, _MAX_STEPS, phases.cos, phases.sin, x, y) < 0:
         raise WorkLimit("This torus needs too many steps: choose smaller a, or (h, f) farther from (1, 0).")
-    theta = np.arctan2(y, x, out=y)
+    theta: Array = np.arctan2(y, x, out=y)
     theta *= 2.0
     theta -= phases.phi
     return theta
@@ -169,28 +175,28 @@ _PROBES = np.linspace(-math.pi, math.pi, 32, endpoint=False)
 
 
 def _difference(m: Array, n: Array) -> float:
-    """How far two computed maps lie apart: in Θ over 32 phases, and in the trace."""
-    turned = _theta(tuple(m[:3]), _PROBES) - _theta(tuple(n[:3]), _PROBES)
+    """The difference of two computed maps, rows of `matrices`: in Θ over 32 phases, and in the trace."""
+    turned = _theta((m[0], m[1], m[2]), _PROBES) - _theta((n[0], n[1], n[2]), _PROBES)
     angle = float(np.max(np.abs(np.angle(np.exp(1j * turned)))))
     other = m[0] - n[0] * math.exp(n[3] - m[3])
-    return max(angle, 2 * abs(other) * _weight(m))
+    return max(angle, 2 * abs(float(other)) * _weight(m))
 
 
 def _weight(m: Array) -> float:
-    """From an error of Re α e^{−L} to one of the trace, relative where that exceeds 1."""
+    """The factor from an error of Re α e^{−L} to one of the trace, relative where the trace exceeds 1."""
     scale = math.exp(min(m[3], 700.0))
-    return scale / max(1.0, 2 * abs(m[0]) * scale)
+    return scale / max(1.0, 2 * abs(float(m[0])) * scale)
 
 
 def _rounding(m: Array) -> float:
-    """What round-off does to the trace where its large parts cancel, as below the separatrix with a large a."""
-    return 2 * 8e-16 * (math.hypot(m[0], m[1]) + abs(m[2])) * _weight(m) if m[0] else 0.0
+    """The round-off of the trace where its large parts cancel, as below the separatrix for large a."""
+    return 2 * 8e-16 * (math.hypot(m[0], m[1]) + abs(float(m[2]))) * _weight(m) if m[0] else 0.0
 
 
 def _neighbour(h: float, f: float) -> tuple[float, float]:
-    """The next double in f, towards the inside of the region, and in h.
+    """(h, f) with f moved by one double into the region and h by one double.
 
-    Near the edge h moves inwards as well, else away from the separatrix.
+    h moves into the region near its edge, otherwise away from the separatrix.
     """
     upwards = h >= 1.0 or abs(f) > 0.5 * largest_f(h)
     return math.nextafter(h, math.inf if upwards else -1.0) if h > -1.0 + 1e-9 else h, math.nextafter(f, 0.0)
@@ -199,9 +205,8 @@ def _neighbour(h: float, f: float) -> tuple[float, float]:
 def circle_map(a: float, h: float, f: float, level: Level) -> CircleMap:
     """The circle map of the torus (h, f) at this a.
 
-    The error estimate is the difference to a second computation with steps a hundred times more
-    exact and with h and f moved by one unit in the last place (as numbers they are known no
-    better), in Θ and (relatively, where it exceeds 1) in the trace.
+    The error estimate is the difference, in Θ and in the trace (relative where that exceeds 1), from a second run with
+    a hundredth of the tolerance and with h and f moved by one unit in the last place, the accuracy of the input.
     Raises `OutsideRegion`, `Separatrix`, `InvalidParameter`, `WorkLimit`.
     """
     start = time.perf_counter()
@@ -210,8 +215,9 @@ def circle_map(a: float, h: float, f: float, level: Level) -> CircleMap:
     turning = turning_points(h, f)
     neighbour = _neighbour(h, f)
 
-    def run(at: tuple[float, float], rung: Level) -> Array:
-        return matrices(np.array([at[0]]), np.array([at[1]]), a, rung)[0]
+    def run(at: tuple[float, float], chosen: Level) -> Array:
+        row: Array = matrices(np.array([at[0]]), np.array([at[1]]), a, chosen)[0]
+        return row
 
     current = level
     coarse = run((h, f), current)
@@ -223,7 +229,7 @@ def circle_map(a: float, h: float, f: float, level: Level) -> CircleMap:
         error = (4.0 if current.is_floor else 1.25) * _difference(coarse, fine) + _rounding(coarse) + 4e-16
         if error <= level.promise or current.is_floor:
             break
-        # Not `fine`: that is the map of the neighbour.
+        # Not `fine`, which is the map of the neighbour.
         current = tighter
         coarse = run((h, f), current)
         total += coarse[5]
@@ -245,7 +251,7 @@ def circle_map(a: float, h: float, f: float, level: Level) -> CircleMap:
         kind = "hyperbolic"
         root = math.sqrt(discriminant)
         log_multiplier = -2.0 * (log_scale + math.log(abs(re) + root))
-        # dΘ/dφ = (Re α + Im β sin φ*)^−2 at ±φ*: small where the two terms have one sign.
+        # dΘ/dφ = (Re α + Im β sin φ*)^−2 at ±φ*: stable where the two terms have the same sign.
         phi = math.copysign(math.atan2(root, -im * math.copysign(1.0, im_beta)), re * im_beta)
         fixed = (FixedPoint(phi, log_multiplier), FixedPoint(-phi, -log_multiplier))
     else:

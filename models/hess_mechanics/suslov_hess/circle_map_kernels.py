@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Kernels of `circle_map`: the matrix of SU(1,1) of one torus or many, and images of angles under it."""
 
 from __future__ import annotations

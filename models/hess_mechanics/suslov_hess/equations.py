@@ -1,9 +1,9 @@
-"""S8: the Suslov–Hess case (`bizi1`, `bizi2`, `eq02`, `eq01`, `eq03`).
+"""The Suslov–Hess case (`bizi1`, `bizi2`, `eq02`, `eq01`, `eq03`).
 
 I13 = 0, I11 I22 = I22² + I23², b1 = 0, I22 b2 + I23 b3 = 0.  A rotation about Ox1 through
 arctan a brings `Biz131` to `eq01`, state (w1, w2, n1, n2, n3), parameters (a, b).
 Corrections to the paper used here: b = −b3/√(I22²+I23²) (no further mg), w2 = ω2/√(1+a²),
-and E, F2 of `eq03` are those of S1 divided by I11.
+and E, F2 of `eq03` are those of the Suslov problem divided by I11.
 """
 
 from __future__ import annotations

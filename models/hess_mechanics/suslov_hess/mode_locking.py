@@ -1,7 +1,7 @@
-"""S8, S15: where the circle map locks: rotation number over (h, f), and the boundary |t| = 2.
+"""Mode locking of the circle map: the rotation number over (h, f), and the boundary |t| = 2 of the lock zone.
 
-A Möbius map locks at integers only; in this family only the plateau ρ = 0 was seen.  The zone ends
-on the curve `Geq3` at h* = (1−2a²)/(2a√(1+a²)) and at the point (1, 0).
+A Möbius map locks at integers only; in this family only the plateau ρ = 0 was found.  The lock zone ends on the
+bifurcation curve (`Geq3`) at h* = (1−2a²)/(2a√(1+a²)) and at the point (1, 0).
 """
 
 from __future__ import annotations
@@ -30,18 +30,19 @@ _MAX_A_OF_BOUNDARY = 1e5
 
 
 def _f_max(h: Array) -> Array:
-    """`f_max` of an array."""
+    """`f_max` of each component."""
     return np.array([largest_f(x) for x in h])
 
 
 def _locked(h: Array, f: Array, a: float, level: Level) -> Array:
     """(Im β² − Im α²)/(Im β² + Im α²): positive where the map is locked, 0 where |t| = 2, bounded and smooth."""
     _, im, im_beta, *_ = matrices(h, f, a, level).T
-    return (im_beta - im) * (im_beta + im) / (im_beta**2 + im**2)
+    locked: Array = (im_beta - im) * (im_beta + im) / (im_beta**2 + im**2)
+    return locked
 
 
 def _rising_roots(function: Callable[[Array], Array], low: Array, high: Array) -> Array:
-    """Where the components of `function` change from − to +, by regula falsi (Illinois) on all at once."""
+    """The roots where the components of `function` rise, by regula falsi (Illinois) on all of them at once."""
     f_low, f_high = function(low), function(high)
     side = np.zeros(low.size)
     x = low
@@ -62,8 +63,8 @@ def _rising_roots(function: Callable[[Array], Array], low: Array, high: Array) -
 def rotation_number_grid(a: float, h: Sequence[float] | Array, f: Sequence[float] | Array, level: Level) -> Array:
     """ρ on the grid h × f, shape (f.size, h.size), read-only.
 
-    Points outside the region take the value at its edge (the same h), so that a picture can be
-    cut exactly along `Geq3`.  ρ is odd in f, and only |f| is computed.  Two threads share the points.
+    Points outside the region take the value at its edge (same h), so that a picture can be clipped along the
+    bifurcation curve.  ρ is odd in f, so only |f| is computed.  Two threads share the points.
     Raises `InvalidParameter`, `WorkLimit`.
     """
     check_a(a)
@@ -72,7 +73,7 @@ def rotation_number_grid(a: float, h: Sequence[float] | Array, f: Sequence[float
         raise WorkLimit("A grid has at most a million points on two axes: choose fewer.")
     if not (np.all(np.isfinite(hs)) and np.all(np.isfinite(fs)) and np.all(hs > -1.0) and np.all(hs <= 1e12)):
         raise InvalidParameter("The grid needs finite values, and −1 < h ≤ 1e12.")
-    # f and −f may differ in the last places where an axis was made by additions.
+    # f and −f may differ in the last digits of an axis built by repeated addition.
     mantissas, exponents = np.frexp(np.abs(fs))
     magnitudes, back = np.unique(np.ldexp(np.round(mantissas, 13), exponents), return_inverse=True)
     H, F = (x.ravel() for x in np.meshgrid(hs, magnitudes))
@@ -80,23 +81,23 @@ def rotation_number_grid(a: float, h: Sequence[float] | Array, f: Sequence[float
     F[(F == 0.0) & (H == 1.0)] = 1e-12
     out = np.empty(H.size)
 
-    # Near the separatrix the motion takes long, and the saddle magnifies every error.
+    # Near the separatrix the motion is slow and the saddle magnifies every error.
     near = np.abs(H - 1.0) + F < 1e-3
     exact = level.tightened().tightened()
 
     def part(i: int) -> None:
-        # Every second point: both threads get the same share of slow ones.
+        # Every second point, so that both threads get their share of slow ones.
         own = np.arange(H.size) % 2 == i
-        for points, rung in ((own & ~near, level), (own & near, exact)):
+        for points, chosen in ((own & ~near, level), (own & near, exact)):
             if points.any():
-                out[points] = rotation_numbers(matrices(H[points], F[points], a, rung))
+                out[points] = rotation_numbers(matrices(H[points], F[points], a, chosen))
 
     share(part, 2)
     return frozen(np.where(fs < 0, -1.0, 1.0)[:, None] * out.reshape(magnitudes.size, hs.size)[back])
 
 
 def trace_on_curve(a: float, n: float) -> float:
-    """t on the bifurcation curve at n3 = n: 2cos(π√(n²(1+a²)−a²)/√(1+3n²)), cosh if the root is imaginary.
+    """The trace t on the bifurcation curve at n3 = n: 2cos(π√(n²(1+a²)−a²)/√(1+3n²)), cosh if the root is imaginary.
 
     ∞ beyond double range.  Raises `InvalidParameter` (a or n not finite, |a| too large).
     """
@@ -110,7 +111,7 @@ def trace_on_curve(a: float, n: float) -> float:
 
 
 def lock_boundary_end(a: float) -> float:
-    """h* = (1−2a²)/(2|a|√(1+a²)), where the lock boundary meets the curve.  a = 0: ∞, nothing locks."""
+    """h* = (1−2a²)/(2|a|√(1+a²)), where the lock boundary meets the bifurcation curve; ∞ for a = 0 (no lock zone)."""
     a = abs(a)
     return math.inf if a == 0 else (1 - 2 * a * a) / (2 * a * math.hypot(1.0, a))
 
@@ -118,7 +119,7 @@ def lock_boundary_end(a: float) -> float:
 def lock_boundary(a: float, level: Level, points: int = 48) -> Array:
     """The curve |t| = 2 with f ≥ 0, from the bifurcation curve down to (1, 0); shape (n, 2), read-only.
 
-    The map is locked to the right of it.  Empty for a = 0 (no map locks).  Raises `InvalidParameter` (|a| > 1e5).
+    The map locks to its right.  Empty for a = 0, where no map locks.  Raises `InvalidParameter` (|a| > 1e5).
     """
     check_a(a)
     if abs(a) > _MAX_A_OF_BOUNDARY:
@@ -131,7 +132,7 @@ def lock_boundary(a: float, level: Level, points: int = 48) -> Array:
     def locked(e: Array) -> Array:
         return _locked(e - 1.0, s * _f_max(e - 1.0), abs(float(a)), level)
 
-    # In e = h + 1 the boundary lies between half the smaller and twice the larger of its ends.
+    # In e = h + 1 the boundary lies between half the smaller and twice the larger of its end values.
     ends = (end + 1.0, 2.0)
     e = _rising_roots(locked, np.full(s.size, 0.5 * min(ends)), np.full(s.size, 2.0 * max(ends)))
     inside = np.column_stack([e - 1.0, s * _f_max(e - 1.0)])
@@ -143,7 +144,7 @@ def _locked_at(h: float, f: float, a: float, level: Level) -> float:
 
 
 def _root(function: Callable[[float], float], low: float, high: float, what: str) -> float:
-    from scipy.optimize import brentq  # 0.3 s of import that no page needs
+    from scipy.optimize import brentq  # imported here because it takes 0.3 s
 
     if function(low) * function(high) > 0:
         raise InvalidParameter(f"The lock boundary has no {what} between {low:g} and {high:g} here.")

@@ -1,11 +1,12 @@
-"""S15: the rotation number of the Suslov–Hess torus over its parameters (a, h, f), and of a map that is not Möbius.
+"""The rotation number of the Suslov–Hess torus over its parameters (a, h, f), and of a map that is not Möbius.
 
-Θ(φ) = φ + 2ζ + 2 arg(1 + (β/α) e^{−iφ}) is the lift that `circle_map` means; ζ is arg α, lifted.  After a term that no
+`circle_map` uses the lift Θ(φ) = φ + 2ζ + 2 arg(1 + (β/α) e^{−iφ}), ζ the lift of arg α.  With a harmonic that no
 Möbius map has,
 
     Θ_ε(φ) = Θ(φ + ε sin 3φ),  3|ε| < 1,
 
-which is still one to one, the map locks at other rational numbers too.
+which is still one-to-one, the map also locks at other rational numbers.  This answers the open problem at the end of
+the paper's appendix for these tori.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ import numpy as np
 
 from hess_mechanics.errors import InvalidParameter, ModelError, WorkLimit
 from hess_mechanics.numerics.accuracy import Level
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.results import Array, Mask, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov_hess.bifurcation import f_max
 from hess_mechanics.suslov_hess.circle_map import MAX_A, check_a, circle_map, discriminants, matrices, rotation_numbers
@@ -33,38 +34,38 @@ PLANES = ("h, f", "h, a", "f, a")
 
 MAX_POINTS = 1_000_000
 _TERM = 3
-"""A Möbius map has the harmonics 0 and ±1 of one fraction: this one breaks it."""
+"""The harmonic that breaks the Möbius form."""
 _NEAR_SEPARATRIX = 1e-9
 
 
 @dataclass(frozen=True)
 class Torus:
-    """One torus, units b = 1."""
+    """The parameters of one torus, units b = 1."""
 
     a: float
     h: float
     f: float
 
     def at(self, **values: float) -> Torus:
-        """The same with other values of some parameters."""
+        """The torus with some parameters replaced."""
         return Torus(**{**vars(self), **values})
 
 
 @dataclass(frozen=True)
 class TorusValues:
-    """At some tori (n,): rotation number, trace |t| (∞ beyond double range), whether it locks, whether there is one.
+    """Values at tori (n,), 0 where no motion is possible.
 
-    Where there is none, 0 stands for the numbers.
+    rho : rotation number; trace : |t|, ∞ beyond double range; locked : whether the map locks.
     """
 
     rho: Array
     trace: Array
-    locked: Array
-    possible: Array
+    locked: Mask
+    possible: Mask
 
 
 def _matrices(a: Array, h: Array, f: Array, level: Level) -> Array:
-    """`matrices` of tori (a, h, |f|) (n,), whose a may differ."""
+    """`matrices` of tori (a, h, |f|), each (n,)."""
     rows = np.zeros((a.size, 6))
     for value in np.unique(a):
         own = a == value
@@ -73,7 +74,7 @@ def _matrices(a: Array, h: Array, f: Array, level: Level) -> Array:
 
 
 def values_at(a: Array | float, h: Array | float, f: Array | float, level: Level) -> TorusValues:
-    """ρ and |t| of tori (a, h, f), arrays (n,) or numbers.  Raises `InvalidParameter`, `WorkLimit`."""
+    """ρ, |t| and locking of tori (a, h, f), arrays (n,) or numbers.  Raises `InvalidParameter`, `WorkLimit`."""
     a, h, f = (np.ascontiguousarray(x, float) for x in np.broadcast_arrays(*np.atleast_1d(a, h, f)))
     if a.ndim != 1 or a.size > MAX_POINTS:
         raise WorkLimit(f"At most {MAX_POINTS} tori at a time: choose fewer points.")
@@ -93,9 +94,9 @@ def values_at(a: Array | float, h: Array | float, f: Array | float, level: Level
 
 
 def lock_curve(plane: str, torus: Torus, window: Sequence[float], level: Level, points: int = 40) -> Array:
-    """The boundary |t| = 2 in a plane of `PLANES` through the torus, within x0 … x1 of `window`; (n, 2), NaN-free.
+    """The boundary |t| = 2 in a plane of `PLANES` through the torus, for x0 … x1 of `window`; (n, 2).
 
-    In (h, f) it is `lock_boundary` (its upper branch); in the others a = a(h) or a = a(f).
+    In (h, f) it is `lock_boundary`, f ≥ 0; in the other planes a(h) or a(f), where it exists.
     """
     x0, x1 = window[:2]
     if plane == "h, f":
@@ -112,9 +113,7 @@ def lock_curve(plane: str, torus: Torus, window: Sequence[float], level: Level, 
 
 def perturbed_rotation(a: Array | float, h: Array | float, f: Array | float, epsilon: float, level: Level,
                        count: int = 1500) -> Array:
-    """ρ of Θ_ε for tori (a, h, f), arrays (n,) or numbers, that are possible; (n,).
-
-    From a weighted average of `count` turns.
+    """ρ (n,) of Θ_ε for possible tori (a, h, f), arrays (n,) or numbers, by a weighted average of `count` turns.
 
     Raises `InvalidParameter` (|ε| ≥ 1/3), `WorkLimit`.
     """
@@ -131,7 +130,7 @@ def perturbed_rotation(a: Array | float, h: Array | float, f: Array | float, eps
     weights = np.exp(-1.0 / (t * (1.0 - t)))
     total = np.zeros(re.size)
     for weight in weights / weights.sum():
-        # The torus of −f has the mirror image φ → π − φ of Θ, in which ε changes its sign.
+        # Θ of −f is the mirror image φ → π − φ of Θ, in which ε changes sign.
         first = sign * epsilon * np.sin(_TERM * phi)
         turn = first + 2.0 * zeta + 2.0 * np.angle(1.0 + ratio * np.exp(-1j * (phi + first)))
         total += weight * turn
@@ -140,16 +139,16 @@ def perturbed_rotation(a: Array | float, h: Array | float, f: Array | float, eps
 
 
 def place_of(rho: float, name: str, torus: Torus, low: float, high: float, level: Level) -> float | None:
-    """The value of the parameter `name` ("a", "h", "f") between low and high at which ρ is this, if one is seen."""
+    """A value of the parameter `name` ("a", "h", "f") between low and high with this ρ; None where none is found."""
     x = np.linspace(low, high, 121)
     values = values_at(**{**vars(torus), name: x}, level=level)
     excess = values.rho - rho
     both = values.possible[1:] & values.possible[:-1]
-    # Not where ρ jumps from −½ to ½.
+    # Not the jump of ρ from −½ to ½.
     changes = np.flatnonzero(both & (excess[1:] * excess[:-1] <= 0.0) & (np.abs(np.diff(values.rho)) < 0.25))
     if not changes.size:
         return None
-    from scipy.optimize import brentq  # 0.3 s of import that no other page needs
+    from scipy.optimize import brentq  # imported here because it takes 0.3 s
 
     i = int(changes[0])
 
@@ -162,7 +161,10 @@ def place_of(rho: float, name: str, torus: Torus, low: float, high: float, level
 
 
 def closed_after(torus: Torus, q: int, level: Level) -> float:
-    """max |Θ^q(φ) − φ| over 64 phases: round-off where every orbit is periodic with q returns."""
+    """max |Θ^q(φ) − φ| over 64 phases: round-off where every orbit closes after q returns.
+
+    Raises `InvalidParameter` for q < 1 or q > 1000.
+    """
     if not (abs(torus.a) <= MAX_A and 1 <= q <= 1000):
         raise InvalidParameter("The number of returns q lies between 1 and 1000.")
     theta = circle_map(torus.a, torus.h, torus.f, level)

@@ -1,6 +1,6 @@
-"""S8: orbits and limit cycles on one torus M²(h, f), in the variables of `Biz131`.
+"""Orbits and limit cycles on one Suslov–Hess torus, in the variables (ω1, ω2, γ) of the Suslov problem.
 
-h and f are in units b = 1 (`eq03`); time and angular velocity are the body's own.
+h and f (`eq03`) are in units b = 1; time and angular velocity are the body's own.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class Track:
     """One orbit on a torus.
 
     times : (n,), in the body's units; omega : (n, 2); gamma : (n, 3);
-    phi : (n,) the angle of (w2, w1) in (−π, π]; n3 : (n,); orbit : the computation in units b = 1.
+    phi : (n,), the angle of (w2, w1) in (−π, π]; n3 : (n,); orbit : the reduced orbit in units b = 1.
     """
 
     times: Array
@@ -65,8 +65,8 @@ def _solve_reduced(body: HessBody, start: Array, times: Array, level: Level) -> 
 def start_of_track(body: HessBody, h: float, f: float, phi0: float, span: float) -> tuple[Array, float]:
     """State (5,) and time span, in units b = 1, of the orbit with phase φ0 that `track` follows.
 
-    It starts at n3 = n3^(1), and the span is cut at `MAX_RETURNS` periods of n3.  On the separatrix
-    (h = 1, f = 0), which never comes to its lower turning point, it starts at the top of n3 instead.
+    It starts at n3 = n3^(1), and the span is limited to `MAX_RETURNS` periods of n3.  On the separatrix
+    (h = 1, f = 0), which has no lower turning point, it starts at the maximum of n3.
     Raises `OutsideRegion`, `NoField`, `InvalidParameter`.
     """
     require_finite(phi0=phi0, span=span)
@@ -79,9 +79,9 @@ def start_of_track(body: HessBody, h: float, f: float, phi0: float, span: float)
 
 
 def pixels_per_unit(body: HessBody, half_width: float) -> Array:
-    """Pixels for a unit of w1, w2, n1, n2, n3 (units b = 1) in pictures of `PIXELS`; shape (5,).
+    """Pixels per unit of w1, w2, n1, n2, n3 (units b = 1) in pictures of `PIXELS`; shape (5,).
 
-    In them ω reaches to ± half_width, and γ to the sphere's rim.
+    The pictures show ω within ± half_width, and γ within the unit circle.
     """
     radius = 0.5 * PIXELS
     w = radius * body.frequency_unit / half_width
@@ -98,9 +98,9 @@ def track(body: HessBody, h: float, f: float, phi0: float, span: float, level: L
 
 
 def attitude_of_track(body: HessBody, h: float, f: float, phi0: float, span: float, level: Level) -> Attitude:
-    """How the body lies in space along the orbit of `start_of_track`; time and axes (n1, n2, n3) are those of b = 1.
+    """The attitude of the body in space along the orbit of `start_of_track`, axes (n1, n2, n3), units b = 1.
 
-    e starts across the plane of the vertical and the centre of mass.
+    e starts normal to the plane of the vertical and the centre of mass.
     Raises `OutsideRegion`, `NoField`, `InvalidParameter`, `WorkLimit`.
     """
     start, length = start_of_track(body, h, f, phi0, span)
@@ -119,7 +119,7 @@ def cycles(body: HessBody, h: float, f: float, stable: FixedPoint, level: Level,
     """The stable and the unstable limit cycle, over one period each.
 
     Sampled as `track`.  Only the stable one is integrated; the other is its image under the reversor
-    (w1, n1, t) → (−w1, −n1, −t) of `eq01`, so that no instability touches it.
+    (w1, n1, t) → (−w1, −n1, −t), so that its instability does no harm.
     """
     turning = turning_points(h, f)
     start = turning.state_at_lower_turn(stable.phi)
@@ -132,9 +132,9 @@ def cycles(body: HessBody, h: float, f: float, stable: FixedPoint, level: Level,
 
 
 def annulus(body: HessBody, h: float, turning: TurningPoints | None) -> tuple[Array, Array]:
-    """The inner and outer ellipse in the (ω1, ω2)-plane that bound the motion, shape (181, 2) each.
+    """The inner and outer ellipse that bound the motion in the (ω1, ω2) plane, shape (181, 2) each.
 
-    |w|² = 2(h + n3) between its turning points; on the separatrix (`turning` None) between 0 and 4.
+    |w|² = 2(h + n3) between the turning points; on the separatrix (`turning` None) between 0 and 4.
     """
     inner, outer = (
         (0.0, 2.0) if turning is None else (turning.initial_rho, math.sqrt(2.0 * max(0.0, h + turning.roots[2])))

@@ -1,4 +1,4 @@
-"""S11: the section g = π/2 in Andoyer–Deprit variables, against the geometry of the angles and SciPy's integrators.
+"""The section g = π/2 in Andoyer–Deprit variables, against the geometry of the angles and SciPy's integrators.
 
 Nothing here uses the polynomial G²γ3 − f M3 of the mechanics: l and g are angles between lines in space.
 """

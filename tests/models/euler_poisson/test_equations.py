@@ -1,4 +1,4 @@
-"""S11: the Euler–Poisson equations against 20-digit values, and against integrals and motions known in closed form."""
+"""The Euler–Poisson equations against 20-digit values, and against integrals and motions known in closed form."""
 
 from __future__ import annotations
 

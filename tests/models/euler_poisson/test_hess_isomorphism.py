@@ -1,4 +1,4 @@
-"""S13, S12: the Hess manifold of Euler–Poisson is the Suslov–Hess case, whatever the signs; and orbits leave it."""
+"""The Hess manifold of Euler–Poisson is the Suslov–Hess case, whatever the signs; and orbits leave it."""
 
 from __future__ import annotations
 
@@ -11,15 +11,8 @@ from scipy.integrate import solve_ivp
 from hess_mechanics import circle_map, f_max, level, solve, systems, turning_points
 from hess_mechanics.errors import InvalidParameter, NoField, WorkLimit
 from hess_mechanics.euler_poisson.equations import HeavyBody
-from hess_mechanics.euler_poisson.hess_isomorphism import (
-    Bridge,
-    FreeRun,
-    growth_of,
-    heavy_body,
-    hess_body,
-    on_manifold,
-    run_free,
-)
+from hess_mechanics.euler_poisson.hess_isomorphism import Bridge, heavy_body, hess_body
+from hess_mechanics.euler_poisson.hess_manifold import FreeRun, growth_of, on_manifold, run_free
 from hess_mechanics.numerics.accuracy import LEVELS
 from hess_mechanics.suslov_hess.equations import HessBody
 

@@ -1,4 +1,4 @@
-"""S3: the additional integral F2 for odd k, exact and in double precision."""
+"""The additional integral F2 for odd k, exact and in double precision."""
 
 import math
 from fractions import Fraction

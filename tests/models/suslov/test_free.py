@@ -1,4 +1,4 @@
-"""S2, the Suslov problem without a field: closed form of ω, rotation of γ, limit circles, refusals."""
+"""The Suslov problem without a field: closed form of ω, rotation of γ, limit circles, refusals."""
 
 import json
 import math

@@ -1,4 +1,4 @@
-"""S7: the point in the quartic potential, its integral for I11 = I22, its section, and the way back to the body."""
+"""The point in the quartic potential, its integral for I11 = I22, its section, and the way back to the body."""
 
 from __future__ import annotations
 

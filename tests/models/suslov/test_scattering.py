@@ -1,4 +1,4 @@
-"""S4, the scattering of the free Suslov problem: values, closed forms, phases, orbits, refusals, its command."""
+"""The scattering of the free Suslov problem: values, closed forms, phases, orbits, refusals, its command."""
 
 import argparse
 import json

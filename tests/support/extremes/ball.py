@@ -97,7 +97,7 @@ def rows(Row, an_orbit, symmetric, there_and_back, drift):
         return ball(name, (1.0, small, *GAMMA), (2.0, 1.0, 0.0, I23, 1.0, 0.0, 0.0, 0.0), times,
                     truth=lambda: off_the_line(I23, small, times), against="closed form, then Taylor series, 50 digits")
 
-    # cos χ of S4, of an independent computation with 40 digits.
+    # cos χ of the free Suslov problem, by an independent computation with 40 digits.
     slanting, steep = (1.0, 1.5, 0.7, 1.2), (1.64, 1.0, 0.0, 0.8)
     return [
         ball("𝒟 = 0", START, with_field(0.0), [1.0, 5.0, 20.0]),

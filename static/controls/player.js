@@ -1,8 +1,14 @@
 // Play, pause, step, speed and the time slider.  The moving point is computed here, from the
 // samples of the orbit that the page already has: no traffic while it plays.
-// Sends "hess:time" {t, state} to whoever draws the point, and moves the one-point sources.
+// Tells "time" {t, state} to whoever draws the point, and moves the sources of one point.
+
+import { listen, tell } from "../page/bus.js"
+import { element, lifetime } from "../page/mount.js"
+import { gallery } from "../pictures/gallery.js"
 
 const SPEEDS = [0.25, 0.5, 1, 2, 4, 8]
+// Where a key means something already.
+const OWN_KEYS = "input, textarea, select, button, a, [role=combobox], [role=option], [role=slider], [contenteditable]"
 const ICONS = {
   play: "M8 5v14l11-7z",
   pause: "M6 5h4v14H6zm8 0h4v14h-4z",
@@ -10,10 +16,9 @@ const ICONS = {
   forward: "M16 6h2v12h-2zM6 18l8.5-6L6 6z",
 }
 
+// [button, set(icon, label)].
 function button(name, label, onClick) {
-  const item = document.createElement("button")
-  item.type = "button"
-  item.className = `transport param-${name}`
+  const item = element("button", { type: "button", className: `transport param-${name}` })
   item.innerHTML = `<svg viewBox="0 0 24 24" width="22" height="22" aria-hidden="true"><path fill="currentColor"/></svg>`
   item.addEventListener("click", onClick)
   const set = (icon, text) => {
@@ -25,28 +30,36 @@ function button(name, label, onClick) {
   return [item, set]
 }
 
+// The columns of `data` at a time; `angles`: those that may jump by a turn.
+function stateAt(data, angles, time) {
+  const { t } = data
+  // The last sample not after this time: samples lie closer where the curve bends.
+  let i = 0
+  let above = t.length - 1
+  while (above - i > 1) {
+    const middle = (i + above) >> 1
+    if (t[middle] <= time) i = middle
+    else above = middle
+  }
+  const s = Math.max(0, Math.min(1, (time - t[i]) / (t[i + 1] - t[i])))
+  const state = {}
+  for (const [name, column] of Object.entries(data)) {
+    const [a, b] = [column[i], column[i + 1]]
+    // An angle that crosses ±π between two samples is not interpolated.
+    const jump = angles.includes(name) && Math.abs(b - a) > 1
+    state[name] = jump ? (s < 0.5 ? a : b) : a + s * (b - a)
+  }
+  return state
+}
+
 export function render({ model, view, el }) {
-  // Listeners go with the view: when it is removed, or rendered once more.
-  view.living?.abort()
-  view.living = new AbortController()
-  model.on("remove", () => view.living.abort())
-  const { signal } = view.living
-  const bar = document.createElement("div")
-  bar.className = "player"
-  bar.setAttribute("role", "group")
-  bar.setAttribute("aria-label", "Motion in time")
-  const slider = document.createElement("input")
-  slider.type = "range"
-  slider.className = "param-t"
-  slider.min = 0
-  slider.step = "any"
-  slider.setAttribute("aria-label", "Time t")
-  const output = document.createElement("output")
-  const speed = document.createElement("select")
-  speed.className = "param-speed"
-  speed.setAttribute("aria-label", "Speed")
-  speed.title = "Speed: units of t per second"
-  for (const value of SPEEDS) speed.add(new Option(`${value}×`, value))
+  const signal = lifetime({ model, view })
+  const slider = element("input", { type: "range", className: "param-t", min: 0, step: "any", "aria-label": "Time t" })
+  const output = element("output")
+  const speed = element("select", {
+    className: "param-speed", "aria-label": "Speed", title: "Speed: units of t per second",
+  }, ...SPEEDS.map((value) => new Option(`${value}×`, value)))
+  const bar = element("div", { className: "player", role: "group", "aria-label": "Motion in time" })
 
   let scene = { dots: {}, angles: [] }
   let source = null
@@ -56,7 +69,6 @@ export function render({ model, view, el }) {
     t = Number(own.t)
     speed.value = SPEEDS.includes(Number(own.speed)) ? Number(own.speed) : 1
   }
-  document.addEventListener("hess:client", (event) => begin(event.detail), { signal })
   let playing = false
   let last = null
 
@@ -64,40 +76,18 @@ export function render({ model, view, el }) {
     const times = source?.data.t
     return times?.length ? times[times.length - 1] : 0
   }
-  const announce = (detail) => document.dispatchEvent(new CustomEvent("hess:url", { detail }))
-
-  function stateAt(time) {
-    const data = source.data
-    const n = data.t.length
-    // The last sample not after this time: samples lie closer where the curve bends.
-    let i = 0
-    let above = n - 1
-    while (above - i > 1) {
-      const middle = (i + above) >> 1
-      if (data.t[middle] <= time) i = middle
-      else above = middle
-    }
-    const s = Math.max(0, Math.min(1, (time - data.t[i]) / (data.t[i + 1] - data.t[i])))
-    const state = {}
-    for (const name of Object.keys(data)) {
-      const [a, b] = [data[name][i], data[name][i + 1]]
-      // An angle that crosses ±π between two samples is not interpolated.
-      const jump = scene.angles.includes(name) && Math.abs(b - a) > 1
-      state[name] = jump ? (s < 0.5 ? a : b) : a + s * (b - a)
-    }
-    return state
-  }
+  const announce = (keys) => tell("url", keys)
 
   function show() {
     const usable = source !== null && source.data.t?.length > 1
-    const state = usable ? stateAt(t) : null
+    const state = usable ? stateAt(source.data, scene.angles, t) : null
     for (const [name, [x, y]] of Object.entries(scene.dots)) {
-      window.hess.source(name).put(state ? { x: [state[x]], y: [state[y]] } : { x: [], y: [] })
+      gallery.source(name).put(state ? { x: [state[x]], y: [state[y]] } : { x: [], y: [] })
     }
     slider.value = t
     output.textContent = `t = ${t.toFixed(2)}`
     slider.setAttribute("aria-valuetext", `t = ${t.toFixed(2)} of ${end().toFixed(2)}`)
-    document.dispatchEvent(new CustomEvent("hess:time", { detail: { t, state } }))
+    tell("time", { t, state })
   }
 
   function move(to) {
@@ -143,7 +133,7 @@ export function render({ model, view, el }) {
   const onKey = (event) => {
     const target = event.composedPath()[0]
     if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey) return
-    if (target instanceof HTMLElement && target.closest("input, textarea, select, button, a, [role=combobox], [role=option], [role=slider], [contenteditable]")) return
+    if (target instanceof HTMLElement && target.closest(OWN_KEYS)) return
     if (event.key === " ") play(!playing)
     else if (event.key === "ArrowLeft") step(-1)
     else if (event.key === "ArrowRight") step(1)
@@ -152,7 +142,7 @@ export function render({ model, view, el }) {
   }
   document.addEventListener("keydown", onKey, { signal })
   // The player of the next scene goes on from here.
-  document.addEventListener("hess:scene", () => { if (playing) play(false) }, { signal })
+  listen("scene", () => { if (playing) play(false) }, signal)
 
   const onData = () => {
     slider.max = end()
@@ -160,17 +150,20 @@ export function render({ model, view, el }) {
     if (end() > 0 && t > end()) t = end()
     show()
   }
-  const onEnter = (event) => {
+  const enter = (entered) => {
     watching?.abort()
     watching = new AbortController()
-    scene = event.detail
-    source = window.hess.source("data-orbit") ?? null
+    scene = entered
+    source = gallery.source("data-orbit") ?? null
     // A scene without a motion needs no time.
     bar.hidden = source === null
     source?.watch(onData, watching.signal)
     onData()
   }
-  document.addEventListener("hess:enter", onEnter, { signal })
+  listen("client", begin, signal)
+  listen("enter", enter, signal)
+  tell("mounted", { kind: "client", show: begin })
+  tell("mounted", { kind: "scene", show: enter })
   signal.addEventListener("abort", () => {
     playing = false
     watching?.abort()

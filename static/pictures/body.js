@@ -1,5 +1,5 @@
 // A body as it lies in space: an ellipsoid in its principal axes, rods to points of the unit sphere, and curves fixed in
-// space.  "sphere.js" turns the picture and paints it in two halves, the far one first.
+// space: a guest of "sphere.js", which turns the picture and paints it in two halves, the far one first.
 //
 // Space is seen with e to x and γ downwards, as gravity is for the potential −μ(r, γ).  The source that the option
 // `attitude` names holds, along the orbit, the columns t, g1, g2, g3, e1, e2, e3: γ and e as seen from the body.  The
@@ -8,7 +8,12 @@
 //   section [x, y, z, radius]: a circular section of it, by its normal;  rods [[x, y, z, look, label]];
 //   curves [[look, xs, ys, zs]] in space.
 
-function bodyIn(source, attitude) {
+import { circle, graticule } from "./circles.js"
+import { LOOKS } from "./looks.js"
+
+const dot = (u, v) => u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
+
+export function bodyIn(source, attitude) {
   const lines = graticule()
   let t = 0
 
@@ -35,13 +40,10 @@ function bodyIn(source, attitude) {
     return [g, unit(raw.map((x, k) => x - along * g[k]))]
   }
 
-  const dot = (u, v) => u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
-
   return {
     set t(value) { t = value },
-    paint(ctx, size, ratio, px, py, depth, near, stroke, use) {
+    paint({ ctx, ratio, text, px, py, depth, stroke, use }, near) {
       const { axes = [], semi = [], names = [], section = [], rods = [], curves = [] } = source.data
-      const text = ctx.fillStyle
       const alpha = ctx.globalAlpha
       for (const [look, ...curve] of curves) {
         use(LOOKS[look])

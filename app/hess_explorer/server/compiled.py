@@ -1,0 +1,23 @@
+"""Whether the kernels of all scenes are on disk: a mark beside them says so.  Imports no more than Numba."""
+
+from __future__ import annotations
+
+from hess_mechanics.numerics.jit import CACHE_FOLDER
+
+__all__ = ["KEEPS_KERNELS", "all_compiled", "mark_all_compiled"]
+
+KEEPS_KERNELS = CACHE_FOLDER is not None
+"""False where no folder can be written: then every start compiles what it needs."""
+
+_MARK = None if CACHE_FOLDER is None else CACHE_FOLDER / "complete"
+
+
+def all_compiled() -> bool:
+    """Whether a start only has to load kernels."""
+    return _MARK is not None and _MARK.exists()
+
+
+def mark_all_compiled() -> None:
+    """Say so from now on, for this version of the mechanics and of Numba."""
+    if _MARK is not None:
+        _MARK.touch()

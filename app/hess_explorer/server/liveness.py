@@ -1,0 +1,19 @@
+"""Whether a server answers."""
+
+from __future__ import annotations
+
+from http.client import HTTPConnection, HTTPException
+
+__all__ = ["is_alive"]
+
+
+def is_alive(host: str, port: int) -> bool:
+    """Whether an explorer answers at this address within 5 s."""
+    connection = HTTPConnection(host, port, timeout=5)
+    try:
+        connection.request("GET", "/liveness")
+        return connection.getresponse().status == 200
+    except (OSError, HTTPException):
+        return False
+    finally:
+        connection.close()

@@ -1,0 +1,144 @@
+"""The Hess manifold of Euler–Poisson in numerics: how orbits leave it, how fast, and how to stay on it.
+
+On r1 M1 + r3 M3 = 0 (`g2p6f1`) the equations of a body with the Hess condition (`gess-*1`) are closed.  Off it
+u = (r, M)/|r| obeys u' = −b' M2 u, so close to a motion on the manifold u grows as exp(−∫a w1 dt), with a and w1 of
+`hess_isomorphism`: over a period of n3 on the stable limit cycle by the multiplier of the unstable one.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from hess_mechanics.dynamics.orbit import MAX_STEPS, drift_of, require_finite_states
+from hess_mechanics.dynamics.system import Problem
+from hess_mechanics.errors import WorkLimit
+from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
+from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.results import Array, frozen
+
+__all__ = ["FreeRun", "Growth", "growth_of", "on_manifold", "run_free"]
+
+
+def _relative(body: HeavyBody, states: Array) -> Array:
+    """(r, M)/(|r| max |M|) (n,) of the states (n, 6) of one motion."""
+    largest = float(np.max(np.linalg.norm(states[:, :3], axis=1)))
+    return np.asarray(states[:, :3] @ np.array(body.r) / (math.hypot(*body.r) * largest or 1.0), float)
+
+
+@dataclass(frozen=True)
+class FreeRun:
+    """One orbit of the Euler–Poisson equations, computed once at one level, with the leak off the Hess manifold.
+
+    times : (n,); states : (n, 6); off : (n,), (r, M)/(|r| max |M|); steps : taken; drift : as in `Orbit`.
+    """
+
+    level: str
+    times: Array
+    states: Array
+    off: Array
+    steps: int
+    drift: Mapping[str, float]
+
+
+def _run(problem: Problem, start: Array, times: Array, level: Level, out: Array) -> int:
+    steps = SYSTEM.orbit(start, problem.parameters, times, level.order, level.tolerance, MAX_STEPS, out)
+    if steps < 0:
+        raise WorkLimit(f"This time span needs more than {MAX_STEPS} steps: choose a shorter one, or a cheaper level.")
+    require_finite_states(out)
+    return steps
+
+
+def _ended(body: HeavyBody, problem: Problem, times: Array, states: Array, level: Level, steps: int) -> FreeRun:
+    states = states * problem.scale
+    drift = drift_of(SYSTEM, states[0], states, np.array(body.parameters))
+    return FreeRun(level.name, times, frozen(states), frozen(_relative(body, states)), steps, drift)
+
+
+def run_free(body: HeavyBody, start: tuple[float, ...], end: float, count: int, level: Level) -> FreeRun:
+    """The Euler–Poisson orbit from a state on the Hess manifold, at `count` even times from 0 to `end`, unconstrained.
+
+    It is computed once: `solve` would repeat it with smaller tolerances until the leak is that of round-off.
+    Raises `InvalidParameter`, `WorkLimit`.
+    """
+    times = frozen(np.linspace(0.0, end, count))
+    problem = Problem.of(SYSTEM, [start], body.parameters)
+    out = np.empty((count, 6))
+    steps = _run(problem, problem.states[0], problem.times(times), level, out)
+    return _ended(body, problem, times, out, level, steps)
+
+
+_BEFORE_HELD = 3.0
+"""Growth of ln |(r, M)| allowed between two projections."""
+_HELD_SAMPLES = 32
+
+
+def on_manifold(body: HeavyBody, start: tuple[float, ...], end: float, count: int, level: Level) -> FreeRun:
+    """`run_free` with M projected onto the Hess manifold so often that the leak cannot grow.
+
+    This integrates the restriction to the manifold (`gess05`) in the variables and with the kernel of Euler–Poisson.
+    Raises `InvalidParameter`, `WorkLimit`.
+    """
+    times = frozen(np.linspace(0.0, end, count))
+    problem = Problem.of(SYSTEM, [start], body.parameters)
+    scaled = problem.times(times)
+    axis = np.array(body.r) / math.hypot(*body.r)
+    growth = body.hess_a * _fastest(body, start) * end
+    pieces = math.ceil(max((count - 1) / _HELD_SAMPLES, growth / _BEFORE_HELD))
+    if pieces > MAX_STEPS:
+        raise WorkLimit("The manifold is too unstable to be held over this time span: choose a shorter one.")
+    edges = np.linspace(0.0, scaled[-1], pieces + 1)
+    first = np.searchsorted(scaled, edges)
+    out = np.empty((count, 6))
+    state = problem.states[0].copy()
+    steps = 0
+    for i in range(pieces):
+        state[:3] -= (state[:3] @ axis) * axis
+        piece = np.append(scaled[first[i] : first[i + 1]], edges[i + 1]) - edges[i]
+        states = np.empty((piece.size, 6))
+        steps += _run(problem, state, piece, level, states)
+        out[first[i] : first[i + 1]] = states[:-1]
+        state = states[-1].copy()
+    out[first[-1] :] = state
+    return _ended(body, problem, times, out, level, steps)
+
+
+def _fastest(body: HeavyBody, start: tuple[float, ...]) -> float:
+    """A bound on |w| of the motion on the manifold from this state."""
+    a = body.a[1]
+    return math.sqrt(a * a * (start[0] ** 2 + start[1] ** 2 + start[2] ** 2) + 4.0 * a * body.strength)
+
+
+_STRAIGHT = (3e-14, 1e-3)
+"""Range of exponential growth of the leak: below it round-off is still added, above it growth is nonlinear."""
+
+
+@dataclass(frozen=True)
+class Growth:
+    """The growth of ln |(r, M)| per period of n3, measured over `periods` periods from the period `first` on."""
+
+    per_period: float
+    first: int
+    periods: int
+
+
+def growth_of(run: FreeRun, samples: int) -> Growth | None:
+    """The growth of the leak where it is exponential; None where that lasts less than two periods.
+
+    samples : of the run per period of n3.  Least-squares fit of a straight line plus a function of that period: the
+    slope of ln |(r, M)| against the number of the period.
+    """
+    rows = (run.off.size - 1) // samples
+    table = np.abs(run.off[: rows * samples].reshape(rows, samples))
+    low, high = _STRAIGHT
+    over = np.flatnonzero(table.max(axis=1) > high)
+    last = int(over[0]) if over.size else rows
+    begun = np.flatnonzero(table[:last].min(axis=1) < low)
+    first = int(begun[-1]) + 1 if begun.size else 0
+    if last - first < 2:
+        return None
+    count = np.arange(last - first) - 0.5 * (last - first - 1)
+    return Growth(float(count @ np.log(table[first:last]).mean(axis=1) / (count @ count)), first, last - first)

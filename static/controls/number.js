@@ -1,0 +1,56 @@
+// A number: a slider for the hand, a box for exact values.
+
+import { tell } from "../page/bus.js"
+import { element } from "../page/mount.js"
+
+// [element, show([value, low, high, step])].
+export function number({ name, label, symbol, help }) {
+  const title = element("span", { className: "label", textContent: label, title: help })
+  const box = element("input", {
+    type: "text", inputMode: "decimal", spellcheck: false, title: `${help} Type an exact value and press Enter.`,
+    "aria-label": `${symbol}, exact value`,
+  })
+  const slider = element("input", {
+    type: "range", className: "hand", title: help, "aria-label": label, "aria-description": help,
+  })
+  let shown = null
+  const change = (value) => {
+    shown = value
+    tell("change", { [name]: value })
+  }
+  slider.addEventListener("input", () => {
+    box.value = slider.value
+    change(Number(slider.value))
+  })
+  box.addEventListener("change", () => {
+    const text = box.value.trim().replaceAll("−", "-").replace(",", ".")
+    const value = Number(text)
+    const valid = text !== "" && Number.isFinite(value)
+    box.setAttribute("aria-invalid", String(!valid))
+    box.setCustomValidity(valid ? "" : "This is not a number: type one like 1.5 or 1e-8.")
+    if (!valid) box.reportValidity()
+    else if (value !== shown) change(value)
+    // As the server will write it: from here on another text is one that is being typed.
+    if (valid) box.value = String(value)
+  })
+  box.addEventListener("input", () => box.setCustomValidity(""))
+  box.addEventListener("keydown", (event) => {
+    if (event.key !== "Escape") return
+    box.value = String(shown)
+    box.setCustomValidity("")
+    box.removeAttribute("aria-invalid")
+  })
+  const show = ([value, low, high, step]) => {
+    // States may come while a number is typed, piece by piece of a section: they leave it alone.
+    const typing = box.getRootNode().activeElement === box && box.value !== String(shown)
+    shown = value
+    slider.min = Math.min(low, value)
+    slider.max = Math.max(high, value)
+    slider.step = step
+    slider.value = value
+    if (typing) return
+    box.value = String(value)
+    box.removeAttribute("aria-invalid")
+  }
+  return [element("div", { className: `number param-${name}` }, title, box, slider), show]
+}

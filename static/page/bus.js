@@ -1,0 +1,17 @@
+// How the parts of the page speak to each other.  Every module of the page imports the same instance.
+//
+// To the client ("client.js"):            change {name: value}, preset name, scene name, near name, reset, undo, clear,
+//                                         stop, link, pick {pick, drag}, hover [picture, x, y], folded {name, folded},
+//                                         url {key: text}, mounted {kind, key, show}
+// From the client to whoever is concerned: enter description, texts {key: text}, controls {name: value},
+//                                         progress [done, of] or null, client {key: text}, paint
+// From the player to the pictures:         time {t, state}
+
+const bus = new EventTarget()
+
+export const tell = (name, detail) => { bus.dispatchEvent(new CustomEvent(name, { detail })) }
+
+// hear(detail) is called for every event of that name, until the signal aborts.
+export const listen = (name, hear, signal) => {
+  bus.addEventListener(name, ({ detail }) => hear(detail), { signal })
+}

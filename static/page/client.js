@@ -1,0 +1,143 @@
+// Asks for states, fills the pictures with them, and tells when they are painted.
+//
+// <html data-ready> is "false" from a change by the user until the answer to it is on the screen; data-state counts the
+// painted states, and data-scene names the scene on show.
+
+import { gallery } from "../pictures/gallery.js"
+import { createAddress } from "./address.js"
+import { listen, tell } from "./bus.js"
+import { lifetime } from "./mount.js"
+import { paint } from "./painting.js"
+import { createPage } from "./panel_page.js"
+import { createRequests } from "./requests.js"
+import { createSight } from "./sight.js"
+import { unpack } from "./unpack.js"
+
+// The next pieces are asked for after a pause as long as the last ones took: half of the time is the user's.
+const PAUSE_BETWEEN_PIECES = 80
+const LOST = "The connection to the server is lost. See that it runs, and reload this page: its address keeps the state."
+
+export function render({ model, view }) {
+  const signal = lifetime({ model, view })
+  const root = document.documentElement
+  // What the browser itself keeps of the address: t, speed, az, el.
+  const own = model.client
+  // Scene → its description.
+  const descriptions = new Map()
+  let scene = null
+  let state = null
+  let more = null
+  // What has been said of the scene on show, for what is mounted later (controls in a drawer that opens).
+  let latest = { scene: null, texts: {}, controls: {} }
+  root.dataset.ready = "false"
+  root.dataset.state = "0"
+
+  const page = createPage(view)
+  const address = createAddress({ query: () => state.query, isDark: page.isDark, own })
+  const sight = createSight(() => requests.request(), signal)
+  const requests = createRequests({
+    send: (message) => model.send_msg(message),
+    changed: () => { root.dataset.ready = "false" },
+    hidden: sight.hidden,
+    known: (name) => descriptions.has(name),
+  }, signal)
+
+  listen("url", (keys) => {
+    Object.assign(own, keys)
+    address.write()
+  }, signal)
+  listen("link", () => {
+    // The link of what is on the screen, not of what the address bar has come to.
+    address.writeNow()
+    navigator.clipboard?.writeText(window.location.href)
+  }, signal)
+  listen("mounted", ({ kind, key, show }) => {
+    const known = kind === "client" ? own : kind === "texts" ? latest.texts[key] : latest[kind]
+    if (known != null) show(known)
+  }, signal)
+
+  // Put a state into the pictures, texts and controls; the plots that have other axes now.
+  const fill = ({ tree, answers }, block) => {
+    const reframed = new Set(scene.painted ? [] : scene.plots)
+    for (const [name, [x0, x1, y0, y1]] of Object.entries(tree.ranges)) {
+      const plot = scene.plots.find((one) => one.model.name === name)
+      plot.model.x_range.setv({ start: x0, end: x1 })
+      plot.model.y_range.setv({ start: y0, end: y1 })
+      reframed.add(plot)
+    }
+    scene.painted = true
+    for (const [name, columns] of unpack(tree.sources, block)) scene.sources.get(name).put(columns)
+    Object.assign(latest.texts, tree.texts)
+    Object.assign(latest.controls, tree.controls)
+    tell("texts", tree.texts)
+    // A control that has been moved on since is not moved back.
+    tell("controls", Object.fromEntries(
+      Object.entries(tree.controls).filter(([name]) => !requests.hasMoved(name, answers))))
+    return reframed
+  }
+
+  const enter = (name) => {
+    scene = gallery.enter(name)
+    latest = { scene: descriptions.get(name), texts: {}, controls: {} }
+    sight.watch(scene.cells)
+    requests.entered(name)
+    root.dataset.scene = name
+    tell("enter", latest.scene)
+  }
+
+  const show = async (next, block) => {
+    const since = performance.now()
+    state = next
+    if (scene?.name !== state.scene) enter(state.scene)
+    await paint(scene.plots, () => fill(state, block))
+    address.write()
+    root.dataset.state = String(state.number)
+    requests.settled()
+    if (!requests.lost) tell("texts", { busy: "" })
+    tell("progress", state.progress)
+    clearTimeout(more)
+    if (requests.isBehind(state.answers)) requests.ask()
+    else if (state.progress === null) root.dataset.ready = "true"
+    else more = setTimeout(requests.ask, Math.max(PAUSE_BETWEEN_PIECES, performance.now() - since))
+  }
+
+  const build = async (description) => {
+    if (!gallery.has(description.name)) await gallery.build(description)
+  }
+  // States come one by one; the pictures of a scene that may be chosen next are built behind those on show.
+  let arriving = Promise.resolve()
+  let described = ""
+  const onState = () => {
+    const { state: text, block } = model
+    const next = JSON.parse(text)
+    let description = null
+    if (model.scene !== described) {
+      described = model.scene
+      description = JSON.parse(described)
+      descriptions.set(description.name, description)
+    }
+    arriving = arriving.then(async () => {
+      await build(descriptions.get(next.scene))
+      await show(next, block)
+      if (description !== null) await build(description)
+    }).catch((error) => {
+      // One state that cannot be shown must not keep the next ones away.
+      requests.settled()
+      console.error(error)
+    })
+  }
+
+  const start = async () => {
+    await Promise.all([gallery.standing, page.standing()])
+    page.onConnectionLost(() => {
+      requests.lose()
+      tell("texts", { busy: LOST })
+    })
+    page.onThemeChange(address.write)
+    tell("client", own)
+    // The first state is read when the page stands, even if the user was faster and it is no longer the first.
+    model.on("state", onState)
+    onState()
+  }
+  start()
+}

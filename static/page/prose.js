@@ -1,0 +1,13 @@
+// HTML of the scene on show, from the project's own files: its legend or its words.
+
+import { listen, tell } from "./bus.js"
+import { element, lifetime } from "./mount.js"
+
+export function render({ model, view, el }) {
+  const signal = lifetime({ model, view })
+  const item = element("div", { className: model.part })
+  const show = (scene) => { item.innerHTML = scene[model.part] }
+  listen("enter", show, signal)
+  tell("mounted", { kind: "scene", show })
+  el.append(item)
+}

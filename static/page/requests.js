@@ -1,0 +1,128 @@
+// What the user has asked for since the last request, and when the next one goes.
+//
+// One request at a time: the next one goes when the answer to the last is painted.  So nothing queues, however fast a
+// slider is dragged, and the newest values win.
+
+import { listen, tell } from "./bus.js"
+
+const PATIENCE = 400
+
+const LATE = "Computing… A scene is compiled when it is first used."
+
+// send(message) takes the message to the server.  changed() is called whenever the user asks for another state.
+// hidden() gives the names of the pictures out of sight.  known(scene) says whether its description is here.
+export function createRequests({ send, changed, hidden, known }, signal) {
+  let requested = 0
+  let asked = null
+  let asking = false
+  let lost = false
+  let held = false
+  let touched = false
+  let wish = {}
+  let values = {}
+  let shown = null
+  let chosen = null
+  let target = null
+  let late = null
+  // Control → the request by which it was changed last.
+  const moved = new Map()
+
+  const ask = () => {
+    if (shown === null || asked !== null || asking || lost) return
+    asking = true
+    // After all that is changed in the same task.
+    queueMicrotask(() => {
+      asking = false
+      asked = requested
+      const entering = chosen !== null && chosen !== shown
+      send({
+        requested, held, values, ...wish, scene: entering ? chosen : null, hidden: entering ? null : hidden(),
+      })
+      values = {}
+      wish = {}
+      chosen = null
+      clearTimeout(late)
+      late = setTimeout(() => tell("texts", { busy: LATE }), PATIENCE)
+    })
+  }
+  const request = () => {
+    requested += 1
+    changed()
+    ask()
+  }
+  const want = (what) => {
+    Object.assign(wish, what)
+    request()
+  }
+  // A preset or reset discards pending changes.
+  const restart = (what) => {
+    moved.set("preset", requested + 1)
+    values = {}
+    wish = {}
+    want(what)
+  }
+
+  // While a pointer holds a slider the axes hold still; letting go is a request of its own.
+  document.addEventListener("pointerdown", (event) => {
+    touched = event.pointerType === "touch"
+    held = event.composedPath().some((item) => item.classList?.contains("hand"))
+  }, { capture: true, signal })
+  for (const name of ["pointerup", "pointercancel"]) {
+    document.addEventListener(name, () => {
+      if (!held) return
+      held = false
+      request()
+    }, { capture: true, signal })
+  }
+  listen("change", (changes) => {
+    Object.assign(values, changes)
+    for (const name of Object.keys(changes)) moved.set(name, requested + 1)
+    request()
+  }, signal)
+  listen("preset", (preset) => restart({ preset }), signal)
+  for (const what of ["reset", "undo", "clear"]) listen(what, () => restart({ [what]: true }), signal)
+  listen("stop", () => want({ stop: true }), signal)
+  listen("pick", ({ pick, drag }) => {
+    // A finger that moves scrolls the page.
+    if ((drag && touched) || !Array.isArray(pick) || !pick.slice(1).every(Number.isFinite)) return
+    want({ picked: pick })
+  }, signal)
+  listen("hover", (place) => {
+    if (!place.slice(1).every(Number.isFinite)) return
+    wish.hover = place
+    ask()
+  }, signal)
+  listen("near", (scene) => {
+    if (known(scene)) return
+    wish.near = scene
+    ask()
+  }, signal)
+  listen("scene", (scene) => {
+    // The scene chosen last, though its pictures may still be on their way.
+    if (scene === (target ?? shown)) return
+    chosen = target = scene
+    request()
+  }, signal)
+
+  return {
+    ask,
+    request,
+    get lost() { return lost },
+    // This scene is on show; only now can anything be asked for.
+    entered: (scene) => { shown = scene },
+    // A state was painted, or failed to be: the next request may go.
+    settled() {
+      clearTimeout(late)
+      asked = null
+    },
+    // Whether the user has changed something since the request with this number.
+    isBehind: (answers) => answers < requested,
+    // Whether a control has been moved since the request with this number.
+    hasMoved: (control, answers) => moved.get(control) > answers,
+    // The connection is gone: nothing is asked for any more.
+    lose() {
+      lost = true
+      clearTimeout(late)
+    },
+  }
+}

@@ -1,0 +1,29 @@
+// Circles on the unit sphere, as columns [xs, ys, zs].
+
+// The circle (γ, axis) = height.
+export function circle(axis, height, count = 96) {
+  const [a, b, c] = axis
+  const u = Math.abs(a) < 0.9 ? [0, c, -b] : [-c, 0, a]
+  const length = Math.hypot(...u)
+  const e = u.map((x) => x / length)
+  const g = [b * e[2] - c * e[1], c * e[0] - a * e[2], a * e[1] - b * e[0]]
+  const radius = Math.sqrt(Math.max(0, 1 - height * height))
+  const points = [[], [], []]
+  for (let i = 0; i <= count; i++) {
+    const s = (2 * Math.PI * i) / count
+    for (let k = 0; k < 3; k++) {
+      points[k].push(height * axis[k] + radius * (Math.cos(s) * e[k] + Math.sin(s) * g[k]))
+    }
+  }
+  return points
+}
+
+// Three parallels and six meridians.
+export function graticule() {
+  const lines = [-0.5, 0, 0.5].map((height) => circle([0, 0, 1], height))
+  for (let i = 0; i < 6; i++) {
+    const s = (Math.PI * i) / 6
+    lines.push(circle([Math.cos(s), Math.sin(s), 0], 0))
+  }
+  return lines
+}

@@ -1,0 +1,124 @@
+// The pictures of the scenes: each scene's are built once, then kept, and only filled with new data.
+
+import { listen, tell } from "../page/bus.js"
+import { element, lifetime } from "../page/mount.js"
+import { cloudPlane } from "./cloud_plane.js"
+import { buildPlot, colourPlot } from "./plot.js"
+import { Source } from "./sources.js"
+import { sphere } from "./sphere.js"
+
+const KINDS = { sphere, cloud: cloudPlane }
+
+const built = new Map()
+let shelf = null
+let shown = null
+let signal = null
+let stand = null
+
+// For the client; only one page has it.  `standing` resolves when there is a place for pictures.
+export const gallery = {
+  standing: new Promise((resolve) => { stand = resolve }),
+  has: (name) => built.has(name),
+  source: (name) => shown?.sources.get(name),
+  get shown() { return shown },
+  build, enter,
+}
+
+// A button that shows a picture which is not seen at first, or folds it again.
+function unfolding(cell, label) {
+  const button = element("button", { type: "button", className: "button unfold" })
+  const show = () => {
+    const folded = cell.classList.contains("folded")
+    button.textContent = folded ? label : "Hide"
+    button.setAttribute("aria-expanded", String(!folded))
+  }
+  button.addEventListener("click", () => {
+    const folded = cell.classList.toggle("folded")
+    show()
+    tell("folded", { name: cell.dataset.name, folded })
+  })
+  show()
+  return button
+}
+
+// [cell, host]: caption, place for the picture, line under the mouse.
+function cellOf({ name, folded }) {
+  const host = element("div", { className: "host" })
+  const under = element("output", { className: "text hover", hidden: true })
+  const cell = element("section", { className: `picture picture-${name}` },
+    element("h2", { className: "text caption" }), host, under)
+  cell.dataset.name = name
+  cell.classList.toggle("folded", folded !== null)
+  if (folded !== null) cell.append(unfolding(cell, folded))
+  cell.addEventListener("mouseleave", () => { under.hidden = true })
+  return [cell, host]
+}
+
+function colour(scene) {
+  const style = getComputedStyle(shelf)
+  const muted = style.getPropertyValue("--mui-palette-text-secondary") || style.color
+  for (const plot of scene.plots) colourPlot(plot, style.color, muted)
+}
+
+// The pictures of a scene that the server has described, not seen yet: {name, grid, cells, plots, sources}.
+async function build(description) {
+  const grid = element("div", { className: "gallery" })
+  const scene = { name: description.name, grid, sources: new Map(), cells: [], plots: [], painted: false }
+  const places = description.pictures.map((picture) => {
+    const [cell, host] = cellOf(picture)
+    grid.append(cell)
+    scene.cells.push(cell)
+    return [host, picture]
+  })
+  const source = (name) => {
+    if (!scene.sources.has(name)) scene.sources.set(name, new Source())
+    return scene.sources.get(name)
+  }
+  // In place, for its size, but not to be seen before it is filled.
+  grid.classList.add("away")
+  shelf.append(grid)
+  for (const [host, picture] of places) {
+    KINDS[picture.kind]?.(host, picture, source, signal, () => shown === scene)
+  }
+  scene.plots = await Promise.all(places.filter(([, { kind }]) => kind === "plot")
+    .map(([host, picture]) => buildPlot(host, picture, source, signal)))
+  colour(scene)
+  while (!scene.plots.every((plot) => plot.has_finished())) await new Promise(requestAnimationFrame)
+  built.set(scene.name, scene)
+  return scene
+}
+
+// Show the pictures of this scene in place of those on show.
+function enter(name) {
+  shown?.grid.classList.add("away")
+  shown = built.get(name)
+  shown.grid.classList.remove("away")
+  return shown
+}
+
+function showTexts(texts) {
+  for (const cell of shown?.cells ?? []) {
+    const { [cell.dataset.name]: text, [`hover-${cell.dataset.name}`]: hover } = texts
+    if (text !== undefined) cell.querySelector(".caption").textContent = text
+    if (hover !== undefined) {
+      const under = cell.querySelector(".hover")
+      under.textContent = hover
+      under.hidden = hover === "" || !cell.matches(":hover")
+    }
+  }
+}
+
+export function render({ model, view, el }) {
+  // Rendered once more: the same pictures in the new place.
+  if (shelf !== null) return void el.append(shelf)
+  signal = lifetime({ model, view })
+  shelf = element("div", { className: "shelf" })
+  el.append(shelf)
+  listen("texts", showTexts, signal)
+  const theme = new MutationObserver(() => { for (const scene of built.values()) colour(scene) })
+  for (const item of [document.documentElement, document.body]) {
+    theme.observe(item, { attributes: true, attributeFilter: ["data-theme", "class"] })
+  }
+  signal.addEventListener("abort", () => theme.disconnect())
+  stand()
+}

@@ -1,0 +1,35 @@
+// What the mouse does in a Bokeh plot: clicks, drags and boxes choose, and a place is looked at.
+
+import { tell } from "../page/bus.js"
+
+const NOTHING = { left: [], right: [], top: [], bottom: [] }
+
+// picks: Bokeh's events that choose a point ("tap", "doubletap", "pan"); "box": a drag draws a box, in the source
+// `box`, and chooses its corners; "hover": where the mouse is.
+export function connectPicks(model, picks, box) {
+  const { name } = model
+  const callbacks = {}
+  const point = ({ x, y, event_name: event }) => tell("pick", { pick: [name, x, y], drag: event === "pan" })
+  for (const pick of picks) {
+    if (pick === "hover") callbacks.mousemove = [({ x, y }) => tell("hover", [name, x, y])]
+    else if (pick === "box") Object.assign(callbacks, boxCallbacks(name, box))
+    else callbacks[pick] = [point]
+  }
+  model.setv({ js_event_callbacks: { ...model.js_event_callbacks, ...callbacks } }, { sync: false })
+}
+
+function boxCallbacks(name, box) {
+  let start = null
+  const draw = ({ x, y }) => box.put({ left: [start.x], right: [x], top: [start.y], bottom: [y] })
+  return {
+    panstart: [({ x, y }) => {
+      start = { x, y }
+      draw(start)
+    }],
+    pan: [draw],
+    panend: [({ x, y }) => {
+      box.put(NOTHING)
+      tell("pick", { pick: [name, start.x, start.y, x, y], drag: true })
+    }],
+  }
+}

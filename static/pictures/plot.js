@@ -1,0 +1,68 @@
+// A picture that Bokeh draws: axes, lines and markers, from the description that "figure.py" makes of it.
+
+import { listen } from "../page/bus.js"
+import { waitLongForPress } from "./bokeh_private.js"
+import { cellsPainter } from "./cells.js"
+import { dotsPainter } from "./dots.js"
+import { frameCanvas } from "./frame_canvas.js"
+import { connectPicks } from "./picks.js"
+import { tickFormatter } from "./ticks.js"
+
+// Moving layers lie on a canvas of their own, which Bokeh does not clip to the frame.
+function clipOverlays(plot) {
+  const { x0, y0, x1, y1 } = plot.frame.bbox
+  const { width, height } = plot.bbox
+  const clip = `inset(${y0}px ${width - x1 - 1}px ${height - y1 - 1}px ${x0}px)`
+  const { style } = plot.canvas_view.overlays.el
+  if (style.clipPath !== clip) style.clipPath = clip
+}
+
+// Canvases for what Bokeh would draw slowly: cells under everything else, dots under the moving layers.
+function addCanvases(plot, { cells, dots }, source, signal) {
+  const { primary, overlays } = plot.canvas_view
+  const add = (layers, before, painter) => {
+    if (layers.length === 0) return
+    const canvas = frameCanvas(plot, before, painter(layers, source))
+    for (const layer of layers) source(layer.source).watch(canvas.request, signal)
+    listen("paint", canvas.draw, signal)
+  }
+  add(cells, primary.el, cellsPainter)
+  add(dots, overlays.el, dotsPainter)
+}
+
+// source(name) gives the source of that name, a new one if there is none.  The plot's view.
+export async function buildPlot(host, picture, source, signal) {
+  waitLongForPress()
+  const views = await Bokeh.embed.embed_item(picture.item, host)
+  const [plot] = views.roots
+  const { model } = plot
+  for (const one of model.document.all_models) {
+    if (one.data !== undefined && one.name !== null) source(one.name).add(one)
+  }
+  addCanvases(plot, picture, source, signal)
+  plot.repainted.connect(() => clipOverlays(plot))
+  picture.letters.forEach((letters, i) => {
+    if (letters === null) return
+    const [axis] = i === 0 ? model.below : model.left
+    axis.formatter = tickFormatter(letters)
+  })
+  connectPicks(model, picture.picks, source(`${picture.name}-box`))
+  return plot
+}
+
+// Colours of the page's theme, on whatever Bokeh draws itself.
+export function colourPlot(plot, text, muted) {
+  for (const part of plot.model.references()) {
+    if (part.axis_label_text_color !== undefined) {
+      part.setv({
+        axis_label_text_color: text, axis_label_text_font_style: "normal", axis_label_text_font: "system-ui, sans-serif",
+        major_label_text_color: muted, major_label_text_font: "system-ui, sans-serif",
+        axis_line_color: muted, axis_line_alpha: 0.4, major_tick_line_color: muted, major_tick_line_alpha: 0.4,
+        minor_tick_line_alpha: 0,
+      })
+    } else if (part.text_color !== undefined && part.text_baseline !== undefined) {
+      part.setv({ text_color: text })
+    }
+  }
+  plot.model.setv({ outline_line_color: muted, outline_line_alpha: 0.4 })
+}

@@ -1,0 +1,50 @@
+// A square canvas of our own, as wide as its place: painted again when its data, its size or the page's theme change.
+
+import { listen } from "../page/bus.js"
+import { element } from "../page/mount.js"
+
+// paint(ctx, {size, ratio, text}): the side in device pixels, their number for each of CSS's, the colour of text.
+// `width` is the side in pixels of CSS.
+export function squareCanvas(el, properties, paint, signal) {
+  const canvas = element("canvas", properties)
+  el.append(canvas)
+  const ctx = canvas.getContext("2d")
+  const own = { canvas, width: 0, request }
+  let requested = false
+
+  function draw() {
+    if (!requested) return
+    requested = false
+    const ratio = window.devicePixelRatio || 1
+    const size = Math.round(own.width * ratio)
+    if (size === 0) return
+    if (canvas.width !== size) canvas.width = canvas.height = size
+    ctx.setTransform(1, 0, 0, 1, 0, 0)
+    ctx.clearRect(0, 0, size, size)
+    paint(ctx, { size, ratio, text: getComputedStyle(canvas).color })
+  }
+
+  function request() {
+    if (requested) return
+    requested = true
+    requestAnimationFrame(draw)
+  }
+
+  // With all the others of a state, rather than in the next frame.
+  listen("paint", draw, signal)
+  const theme = new MutationObserver(request)
+  for (const item of [document.documentElement, document.body]) {
+    theme.observe(item, { attributes: true, attributeFilter: ["data-theme", "class", "style"] })
+  }
+  const resize = new ResizeObserver(() => {
+    own.width = canvas.clientWidth
+    request()
+  })
+  resize.observe(canvas)
+  signal.addEventListener("abort", () => {
+    theme.disconnect()
+    resize.disconnect()
+  })
+  request()
+  return own
+}

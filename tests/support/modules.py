@@ -1,0 +1,34 @@
+"""What tests look at inside the page: its own modules, imported once more, as `window.hess`.
+
+hess.plots, hess.source(name), hess.has(scene) are the gallery's; hess.tell(name, detail) and hess.listen(name, hear,
+signal) the bus's; hess.plotted() names the sources of the planar pictures on show; hess.clouds(source, t), hess.ticks.
+"""
+
+from __future__ import annotations
+
+from hess_explorer.assets import modules_path
+
+# By Panel's loader, as the page does: the browser's own `import` would make a second instance of each module.
+_SCRIPT = """const begin = () => {
+  if (window.importShim === undefined) return void setTimeout(begin, 5)
+  const load = (path) => importShim(new URL(`MODULES/${path}`, document.baseURI).href)
+  Promise.all([
+    load("page/bus.js"), load("pictures/gallery.js"), load("pictures/cloud.js"), load("pictures/ticks.js"),
+  ]).then(([bus, { gallery }, { cloudsOf }, ticks]) => {
+    window.hess = {
+      get plots() { return gallery.shown.plots }, source: gallery.source, has: gallery.has, tell: bus.tell,
+      listen: bus.listen, clouds: (source, t) => cloudsOf(source).at(t), ticks,
+      plotted() {
+        const { sources, cells } = gallery.shown
+        const drawn = cells.filter((cell) => cell.querySelector("canvas") !== null).map((cell) => cell.dataset.name)
+        return [...sources.keys()].filter((name) => !name.endsWith("-box") && !drawn.includes(name)).sort()
+      },
+    }
+  })
+}
+if (location.protocol.startsWith("http")) begin()""".replace("MODULES", modules_path())
+
+
+def look_inside(page):
+    """From the next address on."""
+    page.add_init_script(_SCRIPT)

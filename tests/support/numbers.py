@@ -1,3 +1,0 @@
-"""Numbers as captions write them."""
-
-NUMBER = r"(−?[\d.]+(?:e−?\d+)?)"

@@ -1,0 +1,84 @@
+"""What a scene shows of some values, without a browser."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+
+from hess_explorer.compute.cache import CACHE
+from hess_explorer.protocol.wire import Wire
+from hess_explorer.scenes.framework.stage import Stage
+from hess_mechanics.errors import WorkLimit
+from support.wire import read
+
+NUMBER = r"(−?\d+(?:\.\d+)?(?:e−?\d+)?)"
+"""A number as captions write it."""
+
+
+def numbers_in(text, pattern):
+    """The numbers in a text that stand where the pattern has #; a space there is any white space."""
+    found = re.search(re.escape(pattern).replace(r"\#", NUMBER).replace(r"\ ", r"\s"), text)
+    assert found, (pattern, text)
+    return [float(number.replace("−", "-")) for number in found.groups()]
+
+
+class View:
+    """What a scene shows of some values when all that it leaves to be computed is there.
+
+    `values` as they were admitted, and the `notes` on that; `begun` and `first`, result and report of what is seen at
+    once; `result` and `report` when all is there; `data` by source, `axes` and `text` by picture.  Notes, and work that
+    is too much, are errors unless they are expected: then `notes` and `refused` have the sentences.
+    """
+
+    def __init__(self, scene, values, dragging=False, seen=None, noted=False, refusing=False):
+        self.wire = Wire()
+        self.stage = Stage(scene, self.wire)
+        self.values, self.notes = scene.admit({**scene.defaults(), **values})
+        assert noted or self.notes == []
+        seen = scene.pictures if seen is None else seen
+        self.refused = []
+        self.begun = self.result = scene.compute(self.values, seen, dragging)
+        self.first = self.report = self.stage.show(self.result, False)
+        if self.first.todo:
+            for task in self.first.todo:
+                try:
+                    CACHE.get(task.function, *task.arguments)
+                except WorkLimit as error:
+                    assert refusing, error
+                    self.refused.append(str(error))
+            self.result = scene.compute(self.values, seen, dragging)
+            self.report = self.stage.show(self.result, False)
+            assert len(self.report.todo) == len(self.refused)
+        tree, block = self.wire.pack()
+        self.data = {name: {key: read(column, block) for key, column in columns.items()}
+                     for name, columns in tree["sources"].items()}
+        self.axes, self.text = tree["ranges"], tree["texts"]
+
+    def numbers(self, picture, pattern):
+        """The numbers in a caption that stand where the pattern has #."""
+        return numbers_in(self.text[picture], pattern)
+
+    def derived(self, pattern):
+        """The numbers beside the pictures that stand where the pattern has #."""
+        return numbers_in("\n".join(self.report.derived), pattern)
+
+    def curve(self, source):
+        """The parts of a series of a graph, joined: xs, ys."""
+        columns = self.data[source]
+        return tuple(np.concatenate([np.asarray(part, float) for part in columns[key]] or [[]]) for key in ("xs", "ys"))
+
+    def points(self, layer):
+        """The points of a layer of the section, (n, 2)."""
+        columns = self.data.get(f"section-{layer}", {"x": [], "y": []})
+        return np.column_stack([columns["x"], columns["y"]]).astype(float)
+
+    def assert_finite(self):
+        """No number is NaN or infinite, neither drawn nor written."""
+        for name, columns in self.data.items():
+            for column in columns.values():
+                for part in column if isinstance(column, list) else [column]:
+                    if not isinstance(part, str):
+                        assert np.all(np.isfinite(np.asarray(part, float))), name
+        for text in [*self.text.values(), self.report.status, *self.report.derived]:
+            assert not re.search(r"nan|inf\b|None", text), text
