@@ -41,7 +41,8 @@ def description(name):
 @cache
 def plots_of(name):
     """The empty pictures of a scene that Bokeh draws, by name, as the browser reads them."""
-    documents = [Document.from_json(one["item"]["doc"]) for one in description(name)["pictures"] if one["kind"] == "plot"]
+    pictures = description(name)["pictures"]
+    documents = [Document.from_json(one["item"]["doc"]) for one in pictures if one["kind"] == "plot"]
     return {root.name: root for document in documents for root in document.roots}
 
 
@@ -60,7 +61,7 @@ def empty_sources(name):
     empty = {model.name: dict(model.data) for model in found}
     assert not any(column for columns in empty.values() for column in columns.values())
     assert not set(empty) & set(canvases)
-    return {**dict.fromkeys(tracks_of(name), {}), **cells, **dots, **empty, **canvases}
+    return {**{track: {} for track in tracks_of(name)}, **cells, **dots, **empty, **canvases}
 
 
 def tracks_of(name):
