@@ -15,11 +15,9 @@ __all__ = ["scenes"]
 
 _UNCONVERTED = {
     "ball_section",
-    "bridge",
     "chaplygin_ball",
     "euler_poisson",
     "free_suslov",
-    "hess_leak",
     "quartic",
     "rotation_number",
     "scattering",

@@ -1,22 +1,36 @@
-"""Curves on logarithmic scales: what is too small for the axis is drawn on its edge."""
+"""Curves on logarithmic scales, or of logarithms: what is too small for the axis is drawn on its edge."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import TypeVar
 
 import numpy as np
 
 from hess_explorer.views import theme
-from hess_explorer.views.layers import Layer, line
+from hess_explorer.views.layers import Layer, Range, line
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["POWERS", "clipped", "limit"]
+__all__ = ["LG_OF_0", "POWERS", "clipped", "lg", "lg_axis", "limit"]
 
 S = TypeVar("S")
 
 POWERS = [1e-16, 1e-12, 1e-8, 1e-4, 1.0]
 """Ticks of errors on a horizontal axis: fewer than Bokeh would set, as powers of ten are wide."""
+
+LG_OF_0 = -17.5
+"""Where lg 0 is drawn."""
+
+
+def lg(distance: Array) -> Array:
+    """lg of what is not negative, from `LG_OF_0` on."""
+    return np.log10(np.maximum(distance, 10.0**LG_OF_0))
+
+
+def lg_axis(largest: float) -> Range:
+    """From lg 0 to above that of the largest value, in steps of one half."""
+    return LG_OF_0, math.ceil(2.0 * math.log10(largest)) / 2.0
 
 
 def clipped(values: Array, floor: float) -> Array:

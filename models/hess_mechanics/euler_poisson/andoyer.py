@@ -30,8 +30,8 @@ from hess_mechanics.numerics.results import Array, Mask
 from hess_mechanics.rigid_body.inertia import require_finite
 
 __all__ = [
-    "AndoyerPlane", "andoyer_points", "coordinates", "hess_curve", "possible", "relation", "seeds", "state_at",
-    "states_at",
+    "AndoyerPlane", "andoyer_points", "coordinates", "hess_circle", "hess_curve", "possible", "relation", "seeds",
+    "state_at", "states_at",
 ]
 
 
@@ -159,6 +159,12 @@ def hess_curve(body: HeavyBody, l: Array) -> Array:
     r1, _, r3 = body.r
     across = r1 * np.sin(l)
     return np.asarray(-across / np.maximum(np.hypot(r3, across), 1e-300), float)
+
+
+def hess_circle(body: HeavyBody) -> Array:
+    """(l, L/G), (241, 2), of M all the way round across r: also where r lies along an axis, and l hardly changes."""
+    turn = np.linspace(-math.pi, math.pi, 241)
+    return coordinates(np.column_stack([body.r[2] * np.sin(turn), np.cos(turn), -body.r[0] * np.sin(turn)]))
 
 
 def seeds(body: HeavyBody, h: float, f: float, window: Sequence[float], count: int) -> list[tuple[float, ...]]:

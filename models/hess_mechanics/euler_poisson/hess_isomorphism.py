@@ -22,9 +22,10 @@ from hess_mechanics.errors import InvalidParameter, NoField
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.rigid_body.inertia import require_finite
+from hess_mechanics.suslov_hess.bifurcation import f_max
 from hess_mechanics.suslov_hess.equations import HessBody
 
-__all__ = ["Bridge", "heavy_body", "hess_body"]
+__all__ = ["Bridge", "heavy_body", "hess_body", "largest_area_integral", "largest_distance"]
 
 
 def _tilt(body: HeavyBody) -> tuple[float, float]:
@@ -129,3 +130,13 @@ class Bridge:
         """The inverse of `in_units_of_b`: H = E and F1 = −F2 of the Suslov body."""
         nu, a = self.hess.frequency_unit, self.heavy.a[1]
         return nu * nu * h / a, 0.0 - math.copysign(nu, self.hess.b) * f / a
+
+
+def largest_area_integral(weight: float, I2: float, h: float) -> float:
+    """The largest |(M, γ)| on the Hess manifold at the energy h of a body with μ|r| = weight."""
+    return f_max(h / abs(weight)) * math.sqrt(abs(weight) * I2)
+
+
+def largest_distance(h: float) -> float:
+    """No two motions of the energy h, units b = 1, are further apart, as `Bridge.distance` measures it."""
+    return 4.0 * math.sqrt(2.0 * (h + 1.0)) + 4.0

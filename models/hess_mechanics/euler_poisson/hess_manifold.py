@@ -13,14 +13,26 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import MAX_STEPS, drift_of, require_finite_states
+from hess_mechanics.dynamics.orbit import MAX_STEPS, drift_of, require_finite_states, solve
 from hess_mechanics.dynamics.system import Problem
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
-from hess_mechanics.numerics.accuracy import Level
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
+from hess_mechanics.numerics.accuracy import REFERENCE, Level
+from hess_mechanics.numerics.results import Array, Orbit, frozen
+from hess_mechanics.suslov.equations import SYSTEM as SUSLOV
+from hess_mechanics.suslov_hess.circle_map import CircleMap
+from hess_mechanics.suslov_hess.equations import SYSTEM as REDUCED
 
-__all__ = ["FreeRun", "Growth", "growth_of", "on_manifold", "run_free"]
+__all__ = [
+    "Difference", "FreeRun", "Growth", "difference", "exact_growth", "exact_motion", "growth_of", "on_manifold",
+    "run_free",
+]
+
+
+def exact_motion(a: float, start: tuple[float, ...], end: float, count: int) -> Orbit:
+    """The motion of `eq01` from a state (5,), units b = 1, at even times: on the manifold nothing leaks."""
+    return solve(REDUCED, start, (a, 1.0), np.linspace(0.0, end, count), REFERENCE)
 
 
 def _relative(body: HeavyBody, states: Array) -> Array:
@@ -112,6 +124,35 @@ def _fastest(body: HeavyBody, start: tuple[float, ...]) -> float:
     return math.sqrt(a * a * (start[0] ** 2 + start[1] ** 2 + start[2] ** 2) + 4.0 * a * body.strength)
 
 
+@dataclass(frozen=True)
+class Difference:
+    """At even times the distance of Euler–Poisson, held on the manifold and left to itself, from Suslov's motion.
+
+    times, held, free : (n,), in units b = 1, computed at reference; error : the estimate for Suslov's, in its own units.
+    """
+
+    times: Array
+    held: Array
+    free: Array
+    error: float
+
+
+def difference(bridge: Bridge, start: tuple[float, ...], end: float, count: int) -> Difference:
+    """Along the motion from a state (5,) of `eq01` with b = 1, over a time `end` of the bodies.
+
+    Raises `InvalidParameter`, `WorkLimit`.
+    """
+    hess = bridge.hess
+    reduced = hess.from_units_of_b(np.array(start))
+    times = np.linspace(0.0, end, count)
+    orbit = solve(SUSLOV, hess.from_reduced(reduced), hess.suslov.parameters, times, REFERENCE)
+    there = hess.in_units_of_b(hess.to_reduced(orbit.states))
+    heavy = tuple(bridge.from_reduced(reduced).tolist())
+    held, free = (bridge.distance(run(bridge.heavy, heavy, end, count, REFERENCE).states, there)
+                  for run in (on_manifold, run_free))
+    return Difference(frozen(times), frozen(held), frozen(free), orbit.error_estimate)
+
+
 _STRAIGHT = (3e-14, 1e-3)
 """Range of exponential growth of the leak: below it round-off is still added, above it growth is nonlinear."""
 
@@ -123,6 +164,11 @@ class Growth:
     per_period: float
     first: int
     periods: int
+
+
+def exact_growth(theta: CircleMap) -> float:
+    """The growth of ln |(r, M)| in one period of n3 on the stable cycle; 0 without cycles."""
+    return abs(theta.fixed_points[0].log_multiplier) if theta.fixed_points else 0.0
 
 
 def growth_of(run: FreeRun, samples: int) -> Growth | None:

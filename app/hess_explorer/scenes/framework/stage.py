@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from typing import Any, Generic, TypeVar
 
@@ -40,7 +41,7 @@ class Stage(Generic[S]):
         for source, columns in (state.drawn | framed).items():
             self._put(source, columns)
         derived, notes = [*state.derived()], [*state.notes()]
-        status = " · ".join([*state.status(), state.work.ended()]).replace("e-", "e−")
+        status = re.sub(r"(?<=\d)e-(?=\d)", "e−", " · ".join([*state.status(), state.work.ended()]))
         return Report(derived, status, notes, tuple(state.work.todo), state.work.pieces)
 
     def fail(self, sentence: str) -> None:

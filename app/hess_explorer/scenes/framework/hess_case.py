@@ -1,0 +1,149 @@
+"""What the scenes of the Hess case have in common: the parameters of both bodies, what is possible, words."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Self
+
+from hess_explorer.scenes.framework.parameters import Slider, number, slider_within
+from hess_explorer.scenes.framework.scene import Motion, State
+from hess_explorer.views.text import digits
+from hess_mechanics.dynamics.sampling import PIXELS
+from hess_mechanics.errors import NoField, Separatrix
+from hess_mechanics.euler_poisson.equations import HeavyBody
+from hess_mechanics.euler_poisson.hess_isomorphism import Bridge, largest_area_integral
+from hess_mechanics.suslov_hess.bifurcation import TurningPoints, f_max, turning_points
+from hess_mechanics.suslov_hess.equations import SYSTEM, HessBody
+
+__all__ = ["BY_THE_UNSTABLE_CYCLE", "RIS", "UNSURE", "HeavyMotion", "SuslovBody", "possible_f", "reduced_motion"]
+
+_MAX_A = 100.0
+
+_INSIDE = 1.0 - 1e-12
+"""Room for the round-off of the translation at the edge of what is possible."""
+
+UNSURE = 1e-9
+BY_THE_UNSTABLE_CYCLE = "This motion starts next to the unstable cycle: on the torus too any round-off grows there."
+
+RIS = {"I1": 1.0, "I2": 1.5, "I3": 2.0, "m": math.sqrt(0.5)}
+"""The body of figures gess-ris1 and gess-ris2, after half a turn about its middle axis."""
+
+
+def reduced_motion(hess: HessBody, turning: TurningPoints, phi0: float, length: float) -> Motion:
+    """The motion of a torus with phase φ0, over a length of time in units b = 1, for "Speed and accuracy"."""
+    radius = 0.5 * PIXELS
+    w = radius / math.sqrt(2.0 * (turning.h + 1.0))
+    start = tuple(turning.state_at_lower_turn(phi0).tolist())
+    return Motion(SYSTEM, start, (hess.a, 1.0), length, (w, w, radius, radius, radius), 1.0 / hess.frequency_unit)
+
+
+def possible_f(h: float, f: float, notes: list[str]) -> float:
+    """f, in units b = 1, inside the region of this h; what was changed is said in the notes."""
+    largest = f_max(h)
+    if abs(f) <= largest:
+        return f
+    notes.append(f"At h = {digits(h)} only |f| ≤ {digits(largest)} is possible: f is at that edge now.")
+    return math.copysign(largest, f)
+
+
+@dataclass(frozen=True)
+class SuslovBody(State):
+    """The body of a motion in the Suslov problem; mixed into the state of a scene."""
+
+    I22: float = number("I₂₂", 0.96, (0.2, 3.0), 0.01, bounds=(1e-3, 1e3), label="Inertia I₂₂",
+                        doc="Moment of inertia about the second body axis. I₁₁ follows from it and I₂₃.")
+    I23: float = number("I₂₃", 0.28, (-2.0, 2.0), 0.01, bounds=(-1e3, 1e3), label="Inertia I₂₃",
+                        doc="Product of inertia. a = I₂₃/I₂₂ tilts the circular section; a = 0 decouples the motion.")
+    b3: float = number("b₃", -1.0, (-3.0, -0.05), 0.01, bounds=(-1e3, -1e-3), label="Centre of mass b₃",
+                       doc="Third component of b = −mg r. It sets the unit of time; b₂ follows from it.")
+
+    @cached_property
+    def body(self) -> HessBody:
+        """The body."""
+        return HessBody(self.I22, self.I23, self.b3)
+
+    def possible_I23(self, notes: list[str]) -> float:
+        """I23 with |a| ≤ 100; what was changed is said in the notes."""
+        bound = _MAX_A * self.I22
+        if abs(self.I23) <= bound:
+            return self.I23
+        I23 = math.copysign(bound, self.I23)
+        notes.append(f"a = I₂₃/I₂₂ is kept within ±{_MAX_A:g}: I₂₃ is {digits(I23)} now.")
+        return I23
+
+
+@dataclass(frozen=True)
+class HeavyMotion(State):
+    """A motion of Euler–Poisson on the Hess manifold: body, integrals, phase; mixed into the state of a scene."""
+
+    I1: float = number("I₁", 1.0, (0.1, 3.0), 0.005, bounds=(1e-3, 1e3), label="Moment I₁",
+                       doc="First principal moment of inertia.")
+    I2: float = number("I₂", 0.625, (0.1, 3.0), 0.005, bounds=(1e-3, 1e3), label="Moment I₂",
+                       doc="Middle principal moment: it lies between I₁ and I₃, else there is no Hess condition.")
+    I3: float = number("I₃", 0.375, (0.1, 3.0), 0.005, bounds=(1e-3, 1e3), label="Moment I₃",
+                       doc="Third principal moment of inertia.")
+    m: float = number("μ|r|", 9.975, (-20.0, 20.0), 0.005, bounds=(-1e3, 1e3), label="Weight times distance, μ|r|",
+                      doc="The potential is −μ(r, γ). Its sign is that of r.")
+    h: float = number("h", 50.0, (-9.0, 100.0), 0.05, bounds=(-1e3, 1e5), label="Energy h", doc="H = h; above −μ|r|.")
+    f: float = number("f", 5.0, (-8.0, 8.0), 0.05, bounds=(-1e3, 1e3), label="Area integral f",
+                      doc="(M, γ) = f. Its range follows h.")
+    phi0: float = number("φ₀", 0.5, (-3.14, 3.14), 0.01, bounds=(-math.pi, math.pi), label="Phase φ₀",
+                         doc="Phase of the start on the torus, at the lowest place of the centre of mass, in radians.")
+
+    @property
+    def _least_weight(self) -> float:
+        """So that h in units of μ|r| is a number to compute with."""
+        return max(1e-3, 1e-9 * abs(self.h))
+
+    @property
+    def _largest_f(self) -> float:
+        return largest_area_integral(self.m, self.I2, self.h) * _INSIDE
+
+    def admitted(self, notes: list[str]) -> Self:
+        """h above the bottom, and f inside the region of this h."""
+        state, bottom = self, -abs(self.m) * _INSIDE
+        if abs(self.m) < self._least_weight:
+            return self
+        if self.h < bottom:
+            state = replace(state, h=bottom)
+            notes.append(f"The energy is above −μ|r|: h is {digits(bottom)} now.")
+        largest = state._largest_f
+        if abs(self.f) > largest:
+            state = replace(state, f=math.copysign(largest, self.f))
+            notes.append(f"At h = {digits(state.h)} only |f| ≤ {digits(largest)} is possible on the Hess manifold: "
+                         "f is at that edge now.")
+        return state
+
+    def limits(self) -> Mapping[str, Slider]:
+        """The sliders of h and f span what is possible, in round steps."""
+        m = abs(self.m)
+        if m < self._least_weight or self.h <= -m:
+            return {}
+        step = 10.0 ** (math.floor(math.log10(m)) - 2)
+        low = -math.floor(m / step * 0.995) * step
+        return {"h": (low, max(10.0 * m, self.h), step), "f": slider_within(self._largest_f)}
+
+    @cached_property
+    def bridge(self) -> Bridge:
+        """The heavy body, and the Suslov body of its motions.  Raises `InvalidParameter`, `NoField`."""
+        if abs(self.m) < self._least_weight:
+            raise NoField(f"μ|r| = {digits(self.m)}: without weight there is no Hess case. Choose μ|r| of at least "
+                          f"{digits(self._least_weight)}.")
+        return Bridge.of_heavy(HeavyBody.hess((self.I1, self.I2, self.I3), self.m))
+
+    @cached_property
+    def turning(self) -> TurningPoints:
+        """(h, f) in units b = 1, and where n3 turns.  Raises `Separatrix`, `OutsideRegion`."""
+        try:
+            return turning_points(*self.bridge.in_units_of_b(self.h, self.f))
+        except Separatrix:
+            raise Separatrix("h = μ|r|, f = 0 is the separatrix: n₃ has no period. Choose another h, or f other than "
+                             "0.") from None
+
+    @cached_property
+    def start(self) -> tuple[float, ...]:
+        """The state of the reduced system where n3 turns below, in units b = 1."""
+        return tuple(self.turning.state_at_lower_turn(self.phi0).tolist())

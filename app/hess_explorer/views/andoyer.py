@@ -1,0 +1,51 @@
+"""(l, L/G) of a motion on the Hess manifold, the curve of the Hess relation."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TypeVar
+
+import numpy as np
+
+from hess_explorer.views import theme
+from hess_explorer.views.layers import Layer, curves, ring
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["L_TICKS", "SIDES", "X_TICKS", "layers"]
+
+S = TypeVar("S")
+
+SIDES = ((-math.pi, math.pi), (-1.0, 1.0))
+"""The axes of l and of L/G."""
+L_TICKS = [(-math.pi, "−π"), (-math.pi / 2, "−π/2"), (0.0, "0"), (math.pi / 2, "π/2"), (math.pi, "π")]
+X_TICKS = [(-1.0, "−1"), (-0.5, "−½"), (0.0, "0"), (0.5, "½"), (1.0, "1")]
+
+
+def layers(relation: Callable[[S], Array], orbit: Callable[[S], Array]) -> tuple[Layer[S], ...]:
+    """The Hess relation and an orbit, (l, L/G) in rows (n, 2) of each, with a ring where the orbit starts."""
+    return (
+        curves("hess", lambda s: _parts(relation(s)), color=theme.STABLE, label="Hess manifold, r·M = 0"),
+        curves("orbit", lambda s: _parts(orbit(s)), color=theme.ORBIT),
+        ring("chosen", lambda s: [(float(orbit(s)[0, 0]), float(orbit(s)[0, 1]))], size=18, label="start"),
+    )
+
+
+def _parts(points: Array) -> list[Array]:
+    """A curve of points (l, L/G), cut where M turns round through 0, and where l passes ±π: there past the edge."""
+    l, x = points.T
+    s = np.sqrt(np.maximum(0.0, 1.0 - x * x))
+    direction = np.column_stack([s * np.sin(l), s * np.cos(l), x])
+    round_ = np.sum(direction[1:] * direction[:-1], axis=1) < 0.0
+    passes = (np.abs(np.diff(l)) > math.pi) & ~round_
+    turn = np.column_stack([2.0 * math.pi * np.sign(np.diff(l)), np.zeros(l.size - 1)])
+    cuts = np.flatnonzero(round_ | passes) + 1
+    parts = []
+    for first, last in zip([0, *cuts], [*cuts, l.size], strict=True):
+        pieces = [points[first:last]]
+        if first and passes[first - 1]:
+            pieces.insert(0, points[first - 1 : first] + turn[first - 1])
+        if last < l.size and passes[last - 1]:
+            pieces.append(points[last : last + 1] - turn[last - 1])
+        parts.append(np.concatenate(pieces))
+    return parts

@@ -1,0 +1,49 @@
+"""A torus M²(h, f) of the Hess case in the (ω1, ω2)-plane: the ring where motions are, an orbit, the limit cycles."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeVar
+
+import numpy as np
+
+from hess_explorer.views import theme
+from hess_explorer.views.layers import Columns, Layer, line, region
+from hess_explorer.views.velocity_plane import ring_outside, velocity_columns
+from hess_mechanics.numerics.results import Array
+from hess_mechanics.suslov_hess.circle_map import CircleMap
+from hess_mechanics.suslov_hess.torus import Track
+
+__all__ = ["cycle_columns", "layers", "phases_at_returns", "track_columns"]
+
+S = TypeVar("S")
+
+_PLANE = ("omega1", "omega2")
+
+
+def layers(ring: Callable[[S], tuple[Array, Array]], half_width: Callable[[S], float]) -> tuple[Layer[S], ...]:
+    """The tracks "orbit", "stable" and "unstable" in the ring between two ellipses (n, 2)."""
+    return (
+        region("forbidden", lambda s: ring_outside(*ring(s), half_width(s)), edge=theme.MUTED, label="impossible",
+               moving=True),
+        line("orbit", track="orbit", columns=_PLANE, color=theme.ORBIT, width=1.3, label="orbit"),
+        line("stable", track="stable", columns=_PLANE, color=theme.STABLE, width=3, label="stable cycle"),
+        line("unstable", track="unstable", columns=_PLANE, color=theme.UNSTABLE, width=3, dash="dashed",
+             label="unstable cycle"),
+    )
+
+
+def phases_at_returns(track: Track, theta: CircleMap, iterates: Array) -> Array:
+    """At each time of an orbit (n,) the phase of its last return to the section; `iterates`: of all its returns."""
+    index = np.floor(track.orbit.times / theta.period).astype(int)
+    return np.asarray(iterates[np.minimum(index, len(iterates) - 1)])
+
+
+def track_columns(track: Track, **more: Array) -> Columns:
+    """The columns of an orbit, and further ones for the player."""
+    return velocity_columns(track.times, track.omega, track.gamma, phi=track.phi, **more)
+
+
+def cycle_columns(cycles: tuple[Track, Track] | None, i: int) -> Columns | None:
+    """Those of the stable (0) or the unstable (1) limit cycle."""
+    return None if cycles is None else velocity_columns(None, cycles[i].omega, cycles[i].gamma)
