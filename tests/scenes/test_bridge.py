@@ -71,7 +71,7 @@ def test_without_cycles_nothing_grows_and_the_caption_says_so(name):
     largest, = view.numbers("leak", "Stable: no cycles, no growth; after 60 periods |r·M| ≤ #.")
     assert largest < 3e-14
     assert np.max(view.curve("leak-own")[1]) == pytest.approx(math.log10(largest), abs=0.05)
-    assert len(view.data["leak-slope"]["xs"]) == 0
+    assert "leak-slope" not in view.data
     assert view.text["andoyer"].endswith("keeps to the Hess relation, to round-off.")
     a, h, f, _ = torus(view.values)
     period, lowest = period_of(h, f)
@@ -174,7 +174,7 @@ def test_both_sides_of_an_example_agree_to_1e_11_over_t_50(preset):
     assert np.max(lg) == pytest.approx(math.log10(held), abs=0.05)
     cycles = "Two cycles" in view.text["circle"]
     assert (free > 1e-10) == cycles
-    assert cycles == (len(view.data["data-stable"]["omega1"]) > 0)
+    assert cycles == ("data-stable" in view.data) == ("data-unstable" in view.data)
 
 
 def test_figure_gess1_in_both_systems_of_units():
