@@ -19,7 +19,6 @@ _UNCONVERTED = {
     "euler_poisson",
     "free_suslov",
     "quartic",
-    "rotation_number",
     "scattering",
     "singular_measures",
     "suslov",

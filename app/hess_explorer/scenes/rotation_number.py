@@ -1,42 +1,33 @@
-"""The rotation number of the Suslov–Hess torus and the open problem (S15)."""
+"""The rotation number of the Suslov–Hess torus over its parameters, and the open problem."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from pathlib import Path
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 
-from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.parameters import Choice, Number, Places, Value, Values
-from hess_explorer.protocol.wire import Wire
-from hess_explorer.scenes.framework.scene import Preset, Report, Scene
+from hess_explorer.scenes.framework.hess_case import possible_f
+from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number, places
+from hess_explorer.scenes.framework.scene import Preset, Scene, State
 from hess_explorer.scenes.framework.sections import boxed
-from hess_explorer.scenes.framework.work import ACCURACY, Window, Work, inside, refuse, tidy_window, window_of
-from hess_explorer.views import theme
-from hess_explorer.views.chart import Series
-from hess_explorer.views.circle_map import CircleMapView
-from hess_explorer.views.graph import Graph
-from hess_explorer.views.rotation_plane import RotationPlane
-from hess_explorer.views.text import number
+from hess_explorer.scenes.framework.windows import Window, inside, tidy_window, window_of
+from hess_explorer.views import circle_map as circle
+from hess_explorer.views import rotation_line, rotation_plane
+from hess_explorer.views.layers import Grid, Range
+from hess_explorer.views.picture import Corners, Values
+from hess_explorer.views.plot import Plot
+from hess_explorer.views.text import digits
 from hess_mechanics.errors import Separatrix
 from hess_mechanics.numerics.accuracy import REFERENCE, STANDARD
-from hess_mechanics.numerics.results import Array, frozen
-from hess_mechanics.suslov_hess.bifurcation import f_max
+from hess_mechanics.numerics.results import Array
+from hess_mechanics.suslov_hess import rotation_number as mechanics
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
-from hess_mechanics.suslov_hess.rotation_number import (
-    PLANES,
-    Torus,
-    TorusValues,
-    closed_after,
-    lock_curve,
-    perturbed_rotation,
-    place_of,
-    values_at,
-)
+from hess_mechanics.suslov_hess.rotation_number import PLANES, Line, PeriodicTorus, Torus, TorusValues
 
 _COARSE, _FINE = (75, 50), (300, 200)
 _ROWS = 25
@@ -46,11 +37,7 @@ _RATIONALS = ("−1/2", "−1/3", "−1/4", "−2/5", "−1/5", "−3/7", "−1/
 _FULL = {"h": (-1.0, 4.0), "f": (-3.0, 3.0), "a": (0.0, 2.0)}
 _AT_MOST = {"h": (-1.0, 1e6), "f": (-1e4, 1e4), "a": (-100.0, 100.0)}
 _ITERATES = 40
-
-
-def _part(plane: str) -> str:
-    """The name of the window of the map over a plane: each map has its own."""
-    return "part_" + plane.replace(", ", "")
+_BOTTOM = -1.0 + 1e-9
 
 
 def _corners(plane: str, ranges: Mapping[str, tuple[float, float]]) -> Window:
@@ -59,390 +46,254 @@ def _corners(plane: str, ranges: Mapping[str, tuple[float, float]]) -> Window:
     return (x[0], y[0]), (x[1], y[1])
 
 
-SPECS = (
-    Number("a", "a", "Inertia parameter a", 0.5, 0.0, 2.0, 0.005, -100.0, 100.0,
-           "a = I₂₃/I₂₂ in the Suslov problem, √((a₃−a₂)(a₂−a₁))/a₂ in Euler–Poisson; a body has |a| < 1."),
-    Number("h", "h", "Energy h", 0.5, -0.99, 4.0, 0.005, -1.0 + 1e-9, 1e6, "Energy integral in units b = 1."),
-    Number("f", "f", "Area integral f", 0.8, -3.0, 3.0, 0.005, -1e4, 1e4, "Area integral in units b = 1."),
-    Choice("over", "Map over", PLANES, "h, f", "The two parameters of the map; the third stays."),
-    Choice("line", "Line along", ("f", "h", "a"), "f", "The parameter along which ρ and the trace are drawn."),
-    Choice("rational", "Rational number", _RATIONALS, "−1/4",
-           "On the line the torus with this ρ is looked for, and how many cycles it has."),
-    Number("epsilon", "ε", "Away from Möbius, ε", 0.25, 0.0, 0.3, 0.005, 0.0, 0.33,
-           "The other family: Θ(φ + ε sin 3φ). It is no Möbius map, and its ρ makes a ladder."),
-    ACCURACY,
-    *(Places(_part(plane), f"The window of the map over {plane}", 2, *_corners(plane, _AT_MOST)) for plane in PLANES),
-)
+def _window(plane: str) -> Any:
+    return places(f"The window of the map over {plane}", 2, *_corners(plane, _AT_MOST))
+
 
 PRESETS = (
-    Preset("One plateau, and no ladder", {"over": "h, f", "line": "f"}),
-    Preset("Along h", {"over": "h, f", "line": "h", "f": 0.6}),
-    Preset("Along a, to the boundary of the plateau", {"over": "h, a", "line": "a", "h": 0.5, "f": 0.6}),
-    Preset("A closer look at ρ = −1/3", {
-        "over": "h, f", "line": "f", "part_hf": "0.1,0.4;0.3,0.6", "rational": "−1/3", "h": 0.25, "f": 0.45}),
-    Preset("Euler–Poisson, figure gess1", {
-        "over": "h, f", "line": "h", "h": 5.01253, "f": 2.0025, "part_hf": "-1,-4;8,4"}),
+    Preset("One plateau, and no ladder", over="h, f", line="f"),
+    Preset("Along h", over="h, f", line="h", f=0.6),
+    Preset("Along a, to the boundary of the plateau", over="h, a", line="a", h=0.5, f=0.6),
+    Preset("A closer look at ρ = −1/3", over="h, f", line="f", part_hf="0.1,0.4;0.3,0.6", rational="−1/3", h=0.25,
+           f=0.45),
+    Preset("Euler–Poisson, figure gess1", over="h, f", line="h", h=5.01253, f=2.0025, part_hf="-1,-4;8,4"),
 )
 
-LEGEND = """
-<ul class="legend" aria-label="Legend">
-<li><span class="box rho"></span>ρ from −½ to ½</li>
-<li><span class="box locked"></span>locked, two limit cycles</li>
-<li><span class="line" style="border-top: 2px solid"></span>its boundary, |trace| = 2</li>
-<li><span class="box forbidden"></span>impossible</li>
-<li><span class="line muted" style="border-top-style: dashed"></span>the line</li>
-<li><span class="line orbit"></span>ρ, trace of Θ</li>
-<li><span class="line second" style="border-top-style: dashed"></span>ρ of Θ(φ + ε sin 3φ)</li>
-</ul>
-"""
-
-THUMBNAIL = """
-<path d="M4 29V3M4 29H45" fill="none" stroke="#808080" stroke-width="1.5"/>
-<path d="M5 27C14 26 20 22 24 15S34 6 44 6" fill="none" stroke="#0072B2" stroke-width="2"/>
-<path d="M5 28H13V24H18V20H25V13H30V9H36V6H44" fill="none" stroke="#CC79A7" stroke-width="2" stroke-dasharray="3 2"/>
-"""
-
-WORDS = Path(__file__).with_suffix(".md").read_text(encoding="utf-8")
-
 
 @dataclass(frozen=True)
-class Rational:
-    """The torus of the line with ρ = p/q, and max |Θ^q − id| there."""
+class RotationNumber(State):
+    """One torus, a map of ρ over two parameters, and a line through the torus along one."""
 
-    torus: Torus
-    defect: float
+    a: float = number("a", 0.5, (0.0, 2.0), 0.005, bounds=(-100.0, 100.0), label="Inertia parameter a",
+                      doc="a = I₂₃/I₂₂ in the Suslov problem, √((a₃−a₂)(a₂−a₁))/a₂ in Euler–Poisson; a body has "
+                          "|a| < 1.")
+    h: float = number("h", 0.5, (-0.99, 4.0), 0.005, bounds=(_BOTTOM, 1e6), label="Energy h",
+                      doc="Energy integral in units b = 1.")
+    f: float = number("f", 0.8, (-3.0, 3.0), 0.005, bounds=(-1e4, 1e4), label="Area integral f",
+                      doc="Area integral in units b = 1.")
+    over: str = choice("Map over", PLANES, "h, f", doc="The two parameters of the map; the third stays.")
+    line: str = choice("Line along", ("f", "h", "a"), "f",
+                       doc="The parameter along which ρ and the trace are drawn.")
+    rational: str = choice("Rational number", _RATIONALS, "−1/4",
+                           doc="On the line the torus with this ρ is looked for, and how many cycles it has.")
+    epsilon: float = number("ε", 0.25, (0.0, 0.3), 0.005, bounds=(0.0, 0.33), label="Away from Möbius, ε",
+                            doc="The other family: Θ(φ + ε sin 3φ). It is no Möbius map, and its ρ makes a ladder.")
+    accuracy: str = accuracy_level()
+    # Each map has a window of its own.
+    part_hf: str = _window("h, f")
+    part_ha: str = _window("h, a")
+    part_fa: str = _window("f, a")
 
+    def admitted(self, notes: list[str]) -> RotationNumber:
+        """f inside the region of this h, and windows that are some."""
+        return replace(self, f=possible_f(self.h, self.f, notes), part_hf=tidy_window(self.part_hf),
+                       part_ha=tidy_window(self.part_ha), part_fa=tidy_window(self.part_fa))
 
-@dataclass(frozen=True)
-class RotationResult:
-    """What the pictures that are seen need; None what no picture asks for, or what is not computed yet.
+    @property
+    def torus(self) -> Torus:
+        """The torus on show."""
+        return Torus(self.a, self.h, self.f)
 
-    grid : the map, of cells (m, n); x : (k,) the places on the line, along : what Θ has there, perturbed : its ρ for
-    the other family where there is a torus; rational : None where the line has no such torus.
-    """
+    @property
+    def across(self) -> str:
+        """The parameter on the horizontal axis of the map."""
+        return self.over.split(", ")[0]
 
-    values: Values
-    torus: Torus
-    window: Window
-    grid: TorusValues | None
-    cells: tuple[int, int]
-    boundary: Array | None
-    x: Array
-    along: TorusValues | None
-    perturbed: Array | None
-    rational: Rational | None
-    map: CircleMap | None
-    iterates: Array
-    todo: Sequence[Task]
-    total: int
-    ended: str
+    @property
+    def up(self) -> str:
+        """That on the vertical one."""
+        return self.over.split(", ")[1]
 
+    @property
+    def _part(self) -> str:
+        return f"part_{self.across}{self.up}"
 
-def admit(values: Values) -> tuple[dict[str, Value], list[str]]:
-    """f inside the region of this h, and a window that is one."""
-    out, notes = dict(values), []
-    h, f = float(out["h"]), float(out["f"])
-    largest = f_max(h)
-    if abs(f) > largest:
-        out["f"] = math.copysign(largest, f)
-        notes.append(f"At h = {number(h)} only |f| ≤ {number(largest)} is possible: f is at that edge now.")
-    for plane in PLANES:
-        out[_part(plane)] = tidy_window(out[_part(plane)])
-    return out, notes
+    @cached_property
+    def window(self) -> Window:
+        """The ranges of the map's axes, of the horizontal one and of the vertical one."""
+        (x0, y0), (x1, y1) = window_of(getattr(self, self._part), _corners(self.over, _FULL))
+        return (x0, x1), (y0, y1)
 
+    @cached_property
+    def grid(self) -> tuple[TorusValues, tuple[int, int]]:
+        """The map and its cells (m, n), coarse first."""
+        # Only what the map depends on: it stays while the torus moves in its plane.
+        beside = self.torus.at(**{self.across: 0.0, self.up: 0.0})
+        common = (self.over, beside, self.window)
+        parts = [] if self.dragging else [
+            self.work.later(mechanics.rows, *common, _FINE, first, first + _ROWS, STANDARD)
+            for first in range(0, _FINE[1], _ROWS)]
+        known = [part for part in parts if part is not None]
+        if parts and len(known) == len(parts):
+            return mechanics.together(known), _FINE
+        return self.work.get(mechanics.rows, *common, _COARSE, 0, _COARSE[1], STANDARD), _COARSE
 
-def limits(values: Values) -> Mapping[str, tuple[float, float, float]]:
-    """No slider depends on another."""
-    return {}
+    @cached_property
+    def grids(self) -> tuple[Grid, Grid]:
+        """ρ and the zones over the window."""
+        return rotation_plane.grids(*self.grid, *self.window)
 
+    @cached_property
+    def boundary(self) -> list[Array]:
+        """|t| = 2 in the map, as soon as it is known."""
+        if self.dragging:
+            return []
+        beside = self.torus.at(**{self.across: 0.0, self.up: 0.0})
+        found = self.work.later(mechanics.lock_curve, self.over, beside, (*self.window[0], *self.window[1]), STANDARD)
+        if found is None or not len(found):
+            return []
+        return [found, found * np.array([1.0, -1.0])] if self.up == "f" else [found]
 
-def axes_of(values: Values) -> tuple[str, str]:
-    """The parameters on the horizontal and the vertical axis of the map."""
-    x, y = str(values["over"]).split(", ")
-    return x, y
+    @cached_property
+    def on_line(self) -> Line:
+        """The tori on the line; as far as the map is seen, where the line lies in its plane."""
+        names = (self.across, self.up)
+        low, high = self.window[names.index(self.line)] if self.line in names else _FULL[self.line]
+        # Only what the line depends on: it stays while the torus moves along it.
+        return Line(self.line, self.torus.at(**{self.line: 0.0}), max(low, _BOTTOM) if self.line == "h" else low, high)
 
+    @property
+    def x(self) -> Array:
+        """Places (n,) on the line."""
+        return self.on_line.places(_ON_LINE // 4 if self.dragging else _ON_LINE)
 
-def ranges_of(values: Values) -> Window:
-    """The ranges of both axes, of the horizontal one and of the vertical one."""
-    plane = str(values["over"])
-    (x0, y0), (x1, y1) = window_of(values[_part(plane)], _corners(plane, _FULL))
-    return (x0, x1), (y0, y1)
+    @cached_property
+    def along(self) -> TorusValues:
+        """ρ and trace at these places."""
+        return self.work.get(mechanics.along, self.on_line, self.x.size, STANDARD)
 
+    @cached_property
+    def perturbed(self) -> Array | None:
+        """ρ of the other family there, as soon as it is known; 0 where there is no torus."""
+        return None if self.dragging else self.work.later(
+            mechanics.perturbed_along, self.on_line, self.x.size, self.epsilon, STANDARD)
 
-def _centres(low: float, high: float, count: int) -> Array:
-    return low + (np.arange(count) + 0.5) * (high - low) / count
+    @property
+    def sought(self) -> Fraction:
+        """The rational number that is looked for on the line: for f < 0 ρ is positive."""
+        rho = Fraction(self.rational.replace("−", "-"))
+        return -rho if self.line != "f" and self.f < 0.0 else rho
 
+    @cached_property
+    def periodic(self) -> PeriodicTorus | None:
+        """The torus of the line with that ρ, as soon as it is known, if there is one."""
+        if self.dragging:
+            return None
+        found = self.work.later(_periodic, self.sought, self.on_line)
+        return None if found is None else found[0]
 
-def _rows(plane: str, torus: Torus, window: Window, cells: tuple[int, int], first: int, last: int) -> TorusValues:
-    """Rows of the map, from the `first` to before the `last`, one after the other."""
-    names = plane.split(", ")
-    x, y = (_centres(*window[i], cells[i]) for i in (0, 1))
-    X, Y = np.meshgrid(x, y[first:last])
-    return values_at(**{**vars(torus), names[0]: X.ravel(), names[1]: Y.ravel()}, level=STANDARD)
+    @cached_property
+    def map(self) -> CircleMap | None:
+        """The circle map of the torus on show; None on the separatrix."""
+        try:
+            return self.work.get(circle_map, self.a, self.h, self.f, self.level)
+        except Separatrix:
+            return None
 
+    # ---- what the pictures show --------------------------------------------------------------------------------
 
-def _together(parts: Sequence[TorusValues]) -> TorusValues:
-    return TorusValues(*(frozen(np.concatenate([getattr(part, name) for part in parts]))
-                         for name in ("rho", "trace", "locked", "possible")))
+    def ends(self) -> Range:
+        """The horizontal axis of the graphs over the line."""
+        return self.on_line.low, self.on_line.high
 
+    def place(self) -> float:
+        """The torus on show, on the line."""
+        return float(vars(self.torus)[self.line])
 
-def _along(name: str, torus: Torus, low: float, high: float, count: int) -> TorusValues:
-    return values_at(**{**vars(torus), name: np.linspace(low, high, count)}, level=STANDARD)
+    def here(self) -> list[tuple[float, float]]:
+        """The torus on show, in the map if that shows it."""
+        x, y = vars(self.torus)[self.across], vars(self.torus)[self.up]
+        (x0, x1), (y0, y1) = self.window
+        return inside([(x, y)], ((x0, y0), (x1, y1)))
 
+    def line_in_map(self) -> list[Array]:
+        """The line through the torus, as far as the map shows it."""
+        x, y = vars(self.torus)[self.across], vars(self.torus)[self.up]
+        (x0, x1), (y0, y1) = self.window
+        if self.line == self.across and y0 <= y <= y1:
+            return [np.array([[x0, y], [x1, y]])]
+        return [np.array([[x, y0], [x, y1]])] if self.line == self.up and x0 <= x <= x1 else []
 
-def _ladder(name: str, torus: Torus, low: float, high: float, epsilon: float) -> Array:
-    """ρ of the other family on the line; 0 where there is no torus."""
-    x = np.linspace(low, high, _ON_LINE)
-    possible = _along(name, torus, low, high, _ON_LINE).possible
-    out = np.zeros(x.size)
-    if possible.any():
-        out[possible] = perturbed_rotation(**{**vars(torus), name: x[possible]}, epsilon=epsilon, level=STANDARD)
-    return frozen(out)
+    def choose(self, x: float, y: float) -> Values:
+        """A click in the map chooses the torus."""
+        return {self.across: x, self.up: y}
 
-
-def sought(values: Values) -> Fraction:
-    """The rational number that is looked for on the line: for f < 0 ρ is positive."""
-    rho = Fraction(str(values["rational"]).replace("−", "-"))
-    return -rho if values["line"] != "f" and float(values["f"]) < 0.0 else rho
-
-
-def _rational(rho: Fraction, name: str, torus: Torus, low: float, high: float) -> tuple[Rational | None]:
-    place = place_of(float(rho), name, torus, low, high, REFERENCE)
-    if place is None:
-        return (None,)
-    found = torus.at(**{name: place})
-    return (Rational(found, closed_after(found, rho.denominator, REFERENCE)),)
-
-
-def compute(values: Values, shown: Collection[str], dragging: bool) -> RotationResult:
-    """The map, coarse first; ρ and trace along the line; the circle map of the torus."""
-    work = Work(values, dragging)
-    torus = Torus(*(float(values[name]) for name in ("a", "h", "f")))
-    plane, line, window = str(values["over"]), str(values["line"]), ranges_of(values)
-    names = axes_of(values)
-    # Only what the map depends on: it stays while the torus moves in its plane.
-    beside = torus.at(**dict.fromkeys(names, 0.0))
-    grid: TorusValues | None = None
-    boundary: Array | None = None
-    cells = _COARSE
-    if "map" in shown:
-        grid = work.get(_rows, plane, beside, window, _COARSE, 0, _COARSE[1])
-        if not dragging:
-            parts = [work.later(_rows, plane, beside, window, _FINE, i, i + _ROWS) for i in range(0, _FINE[1], _ROWS)]
-            if all(part is not None for part in parts):
-                grid, cells = _together(parts), _FINE
-            boundary = work.later(lock_curve, plane, beside, (*window[0], *window[1]), STANDARD)
-    low, high = window[names.index(line)] if line in names else _FULL[line]
-    if line == "h":
-        low = max(low, -1.0 + 1e-9)
-    on_line = torus.at(**{line: 0.0})
-    count = _ON_LINE // 4 if dragging else _ON_LINE
-    along = perturbed = rational = None
-    if not {"line", "trace"}.isdisjoint(shown):
-        along = work.get(_along, line, on_line, low, high, count)
-    if "line" in shown and not dragging:
-        perturbed = work.later(_ladder, line, on_line, low, high, float(values["epsilon"]))
-        found = work.later(_rational, sought(values), line, on_line, low, high)
-        rational = found[0] if found is not None else None
-    theta: CircleMap | None = None
-    iterates = np.empty(0)
-    try:
-        theta = work.get(circle_map, torus.a, torus.h, torus.f, work.level)
-        iterates = theta.iterate(0.5, _ITERATES)
-    except Separatrix:
-        pass
-    return RotationResult(
-        values=values, torus=torus, window=window, grid=grid, cells=cells, boundary=boundary,
-        x=np.linspace(low, high, count), along=along, perturbed=perturbed, rational=rational, map=theta,
-        iterates=iterates, todo=tuple(work.todo), total=work.pieces, ended=work.ended())
-
-
-def _parts(x: Array, y: Array, possible: Array, jump: float) -> list[tuple[Array, Array]]:
-    """A curve without what is impossible, and not joined across jumps."""
-    ends = np.flatnonzero(~possible[1:] | ~possible[:-1] | (np.abs(np.diff(y)) > jump)) + 1
-    pieces = zip(np.split(x, ends), np.split(y, ends), np.split(possible, ends), strict=True)
-    return [(px, py) for px, py, ok in pieces if ok.all() and px.size > 1]
-
-
-class RotationStage:
-    """The four pictures of one session."""
-
-    dots: Mapping[str, tuple[str, str]] = {}
-    angles: Sequence[str] = ()
-
-    def __init__(self, wire: Wire) -> None:
-        self.wire = wire
-        self._axes = ("h", "f")
-        self._line = "f"
-        self.map = RotationPlane(wire, "map", (" ", " "), _FULL["h"], _FULL["f"])
-        self.line = Graph(wire, "line", (" ", "ρ"), _FULL["f"], (-0.52, 0.52),
-                          [Series("other", theme.MAP, "dashed"), Series("rho", theme.ORBIT)],
-                          picks=("tap", "doubletap"))
-        self.trace = Graph(wire, "trace", (" ", "|trace|"), _FULL["f"], (0.0, 6.0), [Series("t", theme.ORBIT)],
-                           picks=("tap", "doubletap"))
-        self.circle = CircleMapView(wire)
-        self.pictures = (self.map, self.line, self.trace, self.circle)
-
-    def show(self, result: RotationResult, hold_axes: bool) -> Report:
-        """Draw what is known by now."""
-        self._axes, self._line = axes_of(result.values), str(result.values["line"])
-        for view in (self.map, self.line, self.trace):
-            view.say("")
-        if not hold_axes:
-            self.map.set_ranges(*result.window)
-            ends = (float(result.x[0]), float(result.x[-1]))
-            self.line.set_ranges(ends, (-0.52, 0.52))
-            self.trace.set_ranges(ends, (0.0, 6.0))
-        self._show_map(result)
-        self._show_line(result)
-        if result.map is None:
-            self.circle.show_nothing("Separatrix: no return")
-        elif result.iterates.size:
-            self.circle.show(result.map, result.iterates)
-        for name, text in _captions(result).items():
-            self.wire.say(name, text)
-        return Report(_derived(result), _status(result), [], result.todo, result.total)
-
-    def _show_map(self, result: RotationResult) -> None:
-        x, y = self._axes
-        torus = vars(result.torus)
-        if result.grid is not None:
-            m, n = result.cells
-            grid = result.grid
-            cells = (field.reshape(n, m) for field in (grid.rho, grid.possible, grid.locked))
-            self.map.show(*cells, *result.window)
-        (x0, x1), (y0, y1) = result.window
-        across = []
-        if self._line == x and y0 <= torus[y] <= y1:
-            across = [np.array([[x0, torus[y]], [x1, torus[y]]])]
-        elif self._line == y and x0 <= torus[x] <= x1:
-            across = [np.array([[torus[x], y0], [torus[x], y1]])]
-        curves = []
-        if result.boundary is not None and len(result.boundary):
-            curves = [result.boundary, result.boundary * np.array([1.0, -1.0])] if y == "f" else [result.boundary]
-        self.map.show_lines(curves, across)
-        here = inside([(torus[x], torus[y])], ((x0, y0), (x1, y1)))
-        self.map.show_here(here, f"{x} across, {y} up")
-
-    def _show_line(self, result: RotationResult) -> None:
-        here = vars(result.torus)[self._line]
-        for view in (self.line, self.trace):
-            view.name_across(self._line)
-        if result.along is None:
-            return
-        along = result.along
-        for view, name, y, jump in ((self.line, "rho", along.rho, 0.3), (self.trace, "t", along.trace, math.inf)):
-            drawn = _parts(result.x, np.minimum(y, 50.0), along.possible, jump)
-            view.assign(name, xs=[part.astype(np.float32) for part, _ in drawn],
-                        ys=[part.astype(np.float32) for _, part in drawn])
-        self.trace.show_levels([2.0])
-        self.line.show_levels([] if result.rational is None else [float(sought(result.values))])
-        if result.perturbed is None:
-            self.line.clear("other")
-        else:
-            drawn = _parts(result.x, result.perturbed, result.along.possible, 0.3)
-            self.line.assign("other", xs=[part.astype(np.float32) for part, _ in drawn],
-                             ys=[part.astype(np.float32) for _, part in drawn])
-        for view, y in ((self.line, along.rho), (self.trace, along.trace)):
-            height = float(np.interp(here, result.x, np.minimum(y, 50.0)))
-            (x0, x1), (y0, y1) = view.x_range, view.y_range
-            if inside([(here, height)], ((x0, y0), (x1, y1))):
-                view.choose(here, height)
-            else:
-                view.clear("chosen")
-
-    def fail(self, sentence: str) -> None:
-        """Empty pictures, and the sentence where the eye is."""
-        refuse(self.pictures, self.wire, sentence)
-
-    def pick(self, picture: str, x: float, y: float) -> Values:
-        """A click in the map chooses the torus, on the line its place there."""
-        if picture == "map":
-            return {self._axes[0]: x, self._axes[1]: y}
-        return {self._line: x} if picture in {"line", "trace"} else {}
-
-    def box(self, picture: str, corners: tuple[float, float, float, float]) -> Values:
+    def look_closer(self, corners: Corners) -> Values:
         """A box in the map is the new window."""
-        plane = ", ".join(self._axes)
-        return boxed(corners, _corners(plane, _AT_MOST), _part(plane)) if picture == "map" else {}
+        return boxed(corners, _corners(self.over, _AT_MOST), self._part)
+
+    # ---- words --------------------------------------------------------------------------------------------------
+
+    def _about_line(self) -> str:
+        rho = str(self.sought).replace("-", "−")
+        if self.periodic is not None:
+            place = digits(vars(self.periodic.torus)[self.line], 6)
+            return (f"ρ = {rho} at {self.line} = {place}: |Θ^{self.sought.denominator} − id| ≤ "
+                    f"{digits(self.periodic.defect, 1)}, every orbit is periodic.")
+        return "No plateau but ρ = 0." if self.perturbed is None else f"No torus of the line has ρ = {rho}."
+
+    def _about_circle(self) -> str:
+        if self.map is None:
+            return "Separatrix: no return."
+        kind = {"elliptic": "no cycle", "parabolic": "one cycle", "hyperbolic": "two cycles"}[self.map.kind]
+        return (f"a = {digits(self.a)}, h = {digits(self.h)}, f = {digits(self.f)}: {self.map.kind}, {kind}, "
+                f"ρ = {digits(self.map.rotation_number)}.")
+
+    def derived(self) -> Iterator[str]:
+        """The circle map, and the ladder of the other family."""
+        if self.map is not None:
+            re, im, beta = (value * math.exp(min(self.map.log_scale, 700.0)) for value in self.map.matrix)
+            yield (f"Riccati matrix α = {digits(re)} {'−' if im < 0.0 else '+'} {digits(abs(im))} i, "
+                   f"β = {digits(beta)} i")
+            yield f"|trace| = {digits(self.map.trace, 6)}, ρ = {digits(self.map.rotation_number, 8)}"
+            if self.map.fixed_points:
+                yield "multipliers " + ", ".join(digits(point.multiplier) for point in self.map.fixed_points)
+        perturbed = self.known("perturbed")
+        if perturbed is not None:
+            steps = ", ".join(map(str, mechanics.plateaus(perturbed, self.along.possible)[:8]))
+            yield f"plateaus of Θ(φ + ε sin 3φ): {steps.replace('-', '−') or 'none seen'}"
+
+    def status(self) -> Iterator[str]:
+        """The map and the circle map."""
+        if self.known("grid"):
+            m, n = self.grid[1]
+            yield f"map {m} × {n}"
+        if self.map is not None:
+            yield f"{self.map.level}: circle map error ≤ {self.map.error_estimate:.1e} ({self.map.status})"
 
 
-def _steps(rho: Array, possible: Array) -> set[str]:
-    """The heights of the plateaus of a ladder: rational numbers that neighbours share to 1e-6."""
-    level = np.flatnonzero(possible[1:] & possible[:-1] & (np.abs(np.diff(rho)) < 1e-6))
-    return {str(Fraction(float(rho[i])).limit_denominator(12)) for i in level
-            if abs(float(Fraction(float(rho[i])).limit_denominator(12)) - rho[i]) < 1e-5}
-
-
-def _height(step: str) -> tuple[int, float]:
-    """For sorting: the least denominators first, as their plateaus are the longest."""
-    fraction = Fraction(step)
-    return fraction.denominator, float(fraction)
-
-
-def _captions(result: RotationResult) -> dict[str, str]:
-    line = str(result.values["line"])
-    torus = result.torus
-    captions = {
-        "map": f"Rotation number ρ over ({result.values['over']})\nOne plateau, ρ = 0, where it locks; else ρ changes "
-               "everywhere.",
-        "line": f"ρ along {line}\nNo plateau but ρ = 0.",
-        "trace": f"|trace| along {line}\nElliptic below 2: no cycle; hyperbolic above: two limit cycles.",
-    }
-    rho = sought(result.values)
-    name = str(rho).replace("-", "−")
-    if result.rational is not None:
-        place = number(vars(result.rational.torus)[line], 6)
-        captions["line"] = (f"ρ along {line}\nρ = {name} at {line} = {place}: |Θ^{rho.denominator} − id| ≤ "
-                            f"{number(result.rational.defect, 1)}, every orbit is periodic.")
-    elif result.perturbed is not None:
-        captions["line"] = f"ρ along {line}\nNo torus of the line has ρ = {name}."
-    if result.map is not None:
-        kind = {"elliptic": "no cycle", "parabolic": "one cycle", "hyperbolic": "two cycles"}[result.map.kind]
-        captions["circle"] = (f"Circle map\na = {number(torus.a)}, h = {number(torus.h)}, f = {number(torus.f)}: "
-                              f"{result.map.kind}, {kind}, ρ = {number(result.map.rotation_number)}.")
-    else:
-        captions["circle"] = "Circle map\nSeparatrix: no return."
-    return captions
-
-
-def _derived(result: RotationResult) -> list[str]:
-    lines = []
-    if result.map is not None:
-        re, im, beta = (value * math.exp(min(result.map.log_scale, 700.0)) for value in result.map.matrix)
-        lines += [
-            f"Riccati matrix α = {number(re)} {'−' if im < 0.0 else '+'} {number(abs(im))} i, β = {number(beta)} i",
-            f"|trace| = {number(result.map.trace, 6)}, ρ = {number(result.map.rotation_number, 8)}",
-        ]
-        if result.map.fixed_points:
-            lines.append("multipliers " + ", ".join(number(point.multiplier) for point in result.map.fixed_points))
-    if result.perturbed is not None and result.along is not None:
-        steps = sorted(_steps(result.perturbed, result.along.possible), key=_height)
-        lines.append(f"plateaus of Θ(φ + ε sin 3φ): {', '.join(steps[:8]).replace('-', '−') or 'none seen'}")
-    return lines
-
-
-def _status(result: RotationResult) -> str:
-    m, n = result.cells
-    parts = [f"map {m} × {n}"] if result.grid is not None else []
-    if result.map is not None:
-        parts.append(f"{result.map.level}: circle map error ≤ {result.map.error_estimate:.1e} ({result.map.status})")
-    return " · ".join([*parts, result.ended]).replace("e-", "e−")
+def _periodic(rho: Fraction, line: Line) -> tuple[PeriodicTorus | None]:
+    """In a tuple: None by itself would mean that it is not known yet."""
+    return (mechanics.periodic_torus(rho, line, REFERENCE),)
 
 
 SCENE = Scene(
-    name="rotation-number",
+    RotationNumber, __file__, place=8, presets=PRESETS,
     title="Rotation number",
     summary="Is ρ of the Suslov–Hess torus a ladder, as the paper asks? One plateau, and a family that has many.",
-    specs=SPECS,
-    presets=PRESETS,
-    words=WORDS,
-    admit=admit,
-    limits=limits,
-    pictures=("map", "line", "trace", "circle"),
-    compute=compute,
-    stage=RotationStage,
-    legend=LEGEND,
-    thumbnail=THUMBNAIL,
-    place=8,
+    views=(
+        Plot(name="map", title=lambda s: f"Rotation number ρ over ({s.over})", axes=(" ", " "),
+             caption=lambda s: "One plateau, ρ = 0, where it locks; else ρ changes everywhere.",
+             x=lambda s: s.window[0], y=lambda s: s.window[1], on_click=RotationNumber.choose,
+             on_box=RotationNumber.look_closer,
+             layers=rotation_plane.layers(
+                 grids=lambda s: s.grids, boundary=lambda s: s.boundary, across=RotationNumber.line_in_map,
+                 here=RotationNumber.here,
+                 names=lambda s: f"{s.across} across, {s.up} up")),
+        Plot(name="line", title=lambda s: f"ρ along {s.line}", caption=RotationNumber._about_line, axes=(" ", "ρ"),
+             x=RotationNumber.ends, y=rotation_line.RHO, on_click=lambda s, x, y: {s.line: x},
+             layers=rotation_line.rho_layers(
+                 line=lambda s: s.on_line, values=lambda s: s.along, perturbed=lambda s: s.perturbed,
+                 rational=lambda s: None if s.periodic is None else float(s.sought), place=RotationNumber.place)),
+        Plot(name="trace", title=lambda s: f"|trace| along {s.line}", axes=(" ", "|trace|"),
+             caption=lambda s: "Elliptic below 2: no cycle; hyperbolic above: two limit cycles.",
+             x=RotationNumber.ends, y=rotation_line.TRACE, on_click=lambda s, x, y: {s.line: x},
+             layers=rotation_line.trace_layers(line=lambda s: s.on_line, values=lambda s: s.along,
+                                               place=RotationNumber.place)),
+        Plot(name="circle", title="Circle map", caption=RotationNumber._about_circle, axes=("φ", "Θ(φ)"),
+             x=circle.SIDE, y=circle.SIDE, ticks=circle.TICKS,
+             message=lambda s: "" if s.map is not None else "Separatrix: no return",
+             layers=circle.layers(map=lambda s: s.map,
+                                  iterates=lambda s: None if s.map is None else s.map.iterate(0.5, _ITERATES))),
+    ),
 )

@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 
 import numpy as np
 
@@ -26,7 +27,8 @@ from hess_mechanics.suslov_hess.circle_map import MAX_A, check_a, circle_map, di
 from hess_mechanics.suslov_hess.mode_locking import critical_a, lock_boundary
 
 __all__ = [
-    "PLANES", "Torus", "TorusValues", "closed_after", "lock_curve", "perturbed_rotation", "place_of", "values_at",
+    "PLANES", "Line", "PeriodicTorus", "Torus", "TorusValues", "along", "closed_after", "lock_curve",
+    "periodic_torus", "perturbed_along", "perturbed_rotation", "place_of", "plateaus", "rows", "together", "values_at",
 ]
 
 PLANES = ("h, f", "h, a", "f, a")
@@ -52,6 +54,20 @@ class Torus:
 
 
 @dataclass(frozen=True)
+class Line:
+    """The tori whose parameter `name` ("a", "h", "f") lies between low and high, the others as of one torus."""
+
+    name: str
+    torus: Torus
+    low: float
+    high: float
+
+    def places(self, count: int) -> Array:
+        """Even places (count,), both ends included."""
+        return np.linspace(self.low, self.high, count)
+
+
+@dataclass(frozen=True)
 class TorusValues:
     """Values at tori (n,), 0 where no motion is possible.
 
@@ -62,6 +78,14 @@ class TorusValues:
     trace: Array
     locked: Mask
     possible: Mask
+
+
+@dataclass(frozen=True)
+class PeriodicTorus:
+    """A torus with ρ = p/q, and max |Θ^q − id| there."""
+
+    torus: Torus
+    defect: float
 
 
 def _matrices(a: Array, h: Array, f: Array, level: Level) -> Array:
@@ -173,3 +197,58 @@ def closed_after(torus: Torus, q: int, level: Level) -> float:
     for _ in range(q):
         image = theta.theta(image)
     return float(np.max(np.abs(np.angle(np.exp(1j * (image - phi))))))
+
+
+def _centres(low: float, high: float, count: int) -> Array:
+    return low + (np.arange(count) + 0.5) * (high - low) / count
+
+
+def rows(plane: str, torus: Torus, window: tuple[tuple[float, float], tuple[float, float]], cells: tuple[int, int],
+         first: int, last: int, level: Level) -> TorusValues:
+    """`values_at` the centres of cells (m, n) that fill the window of a plane, from the row `first` to before `last`.
+
+    The rows (last − first) × m stand one after the other.
+    """
+    names = plane.split(", ")
+    x, y = (_centres(*window[i], cells[i]) for i in (0, 1))
+    X, Y = np.meshgrid(x, y[first:last])
+    return values_at(**{**vars(torus), names[0]: X.ravel(), names[1]: Y.ravel()}, level=level)
+
+
+def together(parts: Sequence[TorusValues]) -> TorusValues:
+    """Parts of one map, one after the other."""
+    return TorusValues(*(frozen(np.concatenate([getattr(part, name) for part in parts]))
+                         for name in ("rho", "trace", "locked", "possible")))
+
+
+def along(line: Line, count: int, level: Level) -> TorusValues:
+    """`values_at` even places of a line."""
+    return values_at(**{**vars(line.torus), line.name: line.places(count)}, level=level)
+
+
+def perturbed_along(line: Line, count: int, epsilon: float, level: Level) -> Array:
+    """`perturbed_rotation` at even places of a line, (count,); 0 where there is no torus."""
+    x, possible = line.places(count), along(line, count, level).possible
+    out = np.zeros(count)
+    if possible.any():
+        tori = {**vars(line.torus), line.name: x[possible]}
+        out[possible] = perturbed_rotation(**tori, epsilon=epsilon, level=level)
+    return frozen(out)
+
+
+def periodic_torus(rho: Fraction, line: Line, level: Level) -> PeriodicTorus | None:
+    """The torus of a line with this ρ, if one is seen."""
+    place = place_of(float(rho), line.name, line.torus, line.low, line.high, level)
+    if place is None:
+        return None
+    found = line.torus.at(**{line.name: place})
+    return PeriodicTorus(found, closed_after(found, rho.denominator, level))
+
+
+def plateaus(rho: Array, possible: Array) -> list[Fraction]:
+    """The rational numbers that neighbours of a curve ρ (n,) share to 1e-6, the least denominators first."""
+    both = np.logical_and(possible[1:], possible[:-1])
+    level = np.flatnonzero(both & (np.abs(np.diff(rho)) < 1e-6))
+    steps = [(Fraction(float(rho[i])).limit_denominator(12), float(rho[i])) for i in level]
+    near = {step for step, value in steps if abs(float(step) - value) < 1e-5}
+    return sorted(near, key=lambda step: (step.denominator, step))

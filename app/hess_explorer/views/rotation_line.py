@@ -1,0 +1,77 @@
+"""Rotation number and trace over the tori of a line through one of them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TypeVar
+
+import numpy as np
+
+from hess_explorer.views import theme
+from hess_explorer.views.graph import pieces
+from hess_explorer.views.layers import Axes, Layer, curves, levels, ring, text
+from hess_mechanics.numerics.results import Array
+from hess_mechanics.suslov_hess.rotation_number import Line, TorusValues
+
+__all__ = ["RHO", "TRACE", "rho_layers", "trace_layers"]
+
+S = TypeVar("S")
+LineOf = Callable[[S], Line]
+ValuesOf = Callable[[S], TorusValues]
+
+RHO, TRACE = (-0.52, 0.52), (0.0, 6.0)
+"""The axes."""
+_JUMP = 0.3
+"""ρ jumps from −½ to ½: what differs by more is not joined."""
+_DRAWN_TRACE = 50.0
+"""Larger traces are drawn at this height, which is beyond the frame."""
+
+
+def _curve(line: Line, values: TorusValues, y: Array, jump: float) -> list[Array]:
+    return pieces(np.column_stack([line.places(len(y)), y]), values.possible, jump)
+
+
+def _here(line: LineOf[S], place: Callable[[S], float], curve: Callable[[S], Array]) -> tuple[Layer[S], Layer[S]]:
+    """What the horizontal axis is, and a ring on a curve at the place of the torus on show, if it is in sight."""
+
+    def chosen(state: S, axes: Axes) -> list[tuple[float, float]]:
+        x, heights = place(state), curve(state)
+        y = float(np.interp(x, line(state).places(len(heights)), heights))
+        return [(x, y)] if axes.x[0] <= x <= axes.x[1] and axes.y[0] <= y <= axes.y[1] else []
+
+    return text("across", lambda s: line(s).name), ring("chosen", within=chosen, size=18)
+
+
+def rho_layers(line: LineOf[S], values: ValuesOf[S], perturbed: Callable[[S], Array | None],
+               rational: Callable[[S], float | None], place: Callable[[S], float]) -> tuple[Layer[S], ...]:
+    """ρ along a line, that of another family, and the height that is looked for, where there is a torus with it."""
+
+    def other(state: S) -> list[Array]:
+        found = perturbed(state)
+        return [] if found is None else _curve(line(state), values(state), found, _JUMP)
+
+    def sought(state: S) -> list[float]:
+        height = rational(state)
+        return [] if height is None else [height]
+
+    return (
+        levels("levels", sought),
+        curves("other", other, color=theme.MAP, dash="dashed", label="ρ of Θ(φ + ε sin 3φ)"),
+        curves("rho", lambda s: _curve(line(s), values(s), values(s).rho, _JUMP), color=theme.ORBIT,
+               label="ρ, trace of Θ"),
+        *_here(line, place, lambda s: values(s).rho),
+    )
+
+
+def trace_layers(line: LineOf[S], values: ValuesOf[S], place: Callable[[S], float]) -> tuple[Layer[S], ...]:
+    """|t| along a line; above 2 it locks."""
+
+    def trace(state: S) -> Array:
+        return np.minimum(values(state).trace, _DRAWN_TRACE)
+
+    return (
+        levels("levels", lambda s: [2.0]),
+        curves("t", lambda s: _curve(line(s), values(s), trace(s), math.inf), color=theme.ORBIT),
+        *_here(line, place, trace),
+    )
