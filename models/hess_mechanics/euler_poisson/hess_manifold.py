@@ -128,7 +128,7 @@ def _fastest(body: HeavyBody, start: tuple[float, ...]) -> float:
 class Difference:
     """At even times the distance of Euler–Poisson, held on the manifold and left to itself, from Suslov's motion.
 
-    times, held, free : (n,), in units b = 1, computed at reference; error : the estimate for Suslov's, in its own units.
+    times, held, free : (n,), units b = 1, both at reference; error : the estimate for Suslov's, in its own.
     """
 
     times: Array
