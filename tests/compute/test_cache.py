@@ -239,9 +239,9 @@ def test_a_scene_asked_twice_computes_nothing_and_shares_its_arrays():
     assert second.track is first.track
     assert second.map is first.map
     assert second.cycles is first.cycles
-    assert second.zones.grid is first.zones.grid
-    assert second.zones.boundary is first.zones.boundary
-    assert second.zones.curve is first.zones.curve
+    assert second.rotation.cells is first.rotation.cells
+    assert second.lock_boundary is first.lock_boundary
+    assert second.bifurcation_curve is first.bifurcation_curve
 
 
 @pytest.mark.parametrize("name", scenes())

@@ -6,7 +6,7 @@ import json
 import math
 import re
 from pathlib import Path
-from urllib.parse import parse_qs, urlencode, urlsplit
+from urllib.parse import parse_qs, urlencode, urljoin, urlsplit
 from xml.etree import ElementTree
 
 import numpy as np
@@ -110,9 +110,9 @@ def listeners(explorer):
 
 
 def kept(explorer):
-    """(hits, misses) of the cache, as the status line says."""
-    hits, misses = re.search(r"cache (\d+) hits, (\d+) misses", explorer.text("status")).groups()
-    return int(hits), int(misses)
+    """(hits, misses) of the server's cache."""
+    counted = explorer.page.request.get(urljoin(explorer.page.url, "/metrics")).text()
+    return tuple(int(re.search(rf"cache_{name} (\d+)", counted)[1]) for name in ("hits", "misses"))
 
 
 # --- The menu of scenes ------------------------------------------------------------------------------
