@@ -15,12 +15,8 @@ __all__ = ["scenes"]
 
 _UNCONVERTED = {
     "ball_section",
-    "chaplygin_ball",
     "euler_poisson",
-    "free_suslov",
     "quartic",
-    "scattering",
-    "singular_measures",
     "suslov",
 }
 

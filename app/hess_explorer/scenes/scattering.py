@@ -1,302 +1,232 @@
-"""Scattering of the free Suslov problem (S4): from the circle θ⁻ and the phase φ to the circle θ⁺."""
+"""Scattering of the free Suslov problem: from the circle θ⁻ and the phase φ to the circle θ⁺."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
-from pathlib import Path
-from typing import Any
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
-from hess_explorer.protocol.parameters import Number, Value, Values
-from hess_explorer.protocol.wire import Wire
-from hess_explorer.scenes.framework.scene import Motion, Preset, Report, Scene
-from hess_explorer.scenes.framework.work import ACCURACY, Work, refuse
-from hess_explorer.scenes.free_suslov import body_of, limits
+from hess_explorer.scenes.framework.free_body import FreeBody
+from hess_explorer.scenes.framework.parameters import accuracy_level, number
+from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
+from hess_explorer.views import scattering_map as square
 from hess_explorer.views import theme
-from hess_explorer.views.chart import Series
-from hess_explorer.views.graph import Graph
-from hess_explorer.views.poisson_sphere import Circle, Mark, PoissonSphere
-from hess_explorer.views.scattering_map import ANGLE_TICKS, POLAR_TICKS, ScatteringMap
-from hess_explorer.views.text import number
-from hess_explorer.views.velocity_plane import nice_above, sphere_columns
-from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA
-from hess_mechanics.errors import ModelError
-from hess_mechanics.numerics.results import Array, frozen
-from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
-from hess_mechanics.suslov.free import Equilibria, FreeMotion, equilibria, free_motion, sample_times
-from hess_mechanics.suslov.scattering import Scattering, cos_chi, scattering, start
+from hess_explorer.views.layers import Columns, Sign, curves, levels, ring
+from hess_explorer.views.plot import Plot
+from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, ends
+from hess_explorer.views.text import digits as in_digits
+from hess_explorer.views.velocity_plane import nice_above, velocity_columns
+from hess_mechanics.dynamics.sampling import PIXELS
+from hess_mechanics.numerics.results import Array
+from hess_mechanics.suslov import scattering as model
+from hess_mechanics.suslov.equations import SYSTEM
+from hess_mechanics.suslov.free import Equilibria, FreeMotion, energy_of_unit_rate, equilibria, sampled_motion
 
-_GRIDS = {False: (240, 120), True: (120, 60)}
-"""Cells of the map; fewer while a slider is dragged."""
-
+_CELLS, _FEW_CELLS = (240, 120), (120, 60)
+"""Of the map; few while a slider is dragged."""
 _PHASES = np.linspace(-math.pi, math.pi, 361)
-_MOST = 4000
 _MOST_DIGITS = 12.0
-
-SPECS = (
-    Number("I22", "I₂₂", "Inertia I₂₂", 1.0, 0.2, 3.0, 0.01, 1e-3, 1e3,
-           "Moment of inertia about the second body axis."),
-    Number("I13", "I₁₃", "Inertia I₁₃", 0.0, -1.0, 1.0, 0.01, -1e3, 1e3, "Product of inertia."),
-    Number("I23", "I₂₃", "Inertia I₂₃", 0.8, -1.0, 1.0, 0.01, -1e3, 1e3,
-           "Product of inertia; not 0 together with I₁₃."),
-    Number("k", "k", "k, drives I₁₁", 2.0, -2.0, 7.0, 0.05, -50.0, 50.0,
-           "I₁₁ = I₂₂ + k|k| (I₁₃² + I₂₃²)/I₂₂. With I₁₃ = 0 and k odd all orbits are reversed: θ⁺ = π − θ⁻."),
-    Number("theta", "θ⁻", "Angle θ⁻ of the circle left", math.pi / 2, 0.0, 3.14, 0.01, 0.0, math.pi,
-           "The angle between ξ and γ at the start, in radians."),
-    Number("phi", "φ", "Phase φ of the orbit shown", 0.5, -3.14, 3.14, 0.01, -math.pi, math.pi,
-           "Where on that circle γ starts, in radians."),
-    Number("digits", "−lg δ", "Distance δ of the start, digits", 5.30103, 1.0, 12.0, 0.05, 0.5, 300.0,
-           "The start is δ = 10^−digits of |ω| away from the unstable point; it only shifts the phase."),
-    ACCURACY,
-)
+_RADIUS = 0.5 * PIXELS
 
 PRESETS = (
-    Preset("I₁₁ = 3.56, θ⁻ = π/2 (figure 5)", {}),
-    Preset("k = 1: complete reversal, the curve is flat", {"k": 1.0, "theta": 1.0}),
-    Preset("k = 3: complete reversal again", {"k": 3.0, "I23": 0.4, "theta": 1.0}),
-    Preset("k = 2, small θ⁻", {"theta": 0.3}),
-    Preset("k² < 0: I₁₁ below I₂₂", {"k": -0.9, "I23": 0.5, "theta": 1.2}),
-    Preset("I₁₃ ≠ 0", {"I13": 0.3, "I23": 0.5, "k": 1.7, "theta": 1.2}),
+    Preset("I₁₁ = 3.56, θ⁻ = π/2 (figure 5)"),
+    Preset("k = 1: complete reversal, the curve is flat", k=1.0, theta=1.0),
+    Preset("k = 3: complete reversal again", k=3.0, I23=0.4, theta=1.0),
+    Preset("k = 2, small θ⁻", theta=0.3),
+    Preset("k² < 0: I₁₁ below I₂₂", k=-0.9, I23=0.5, theta=1.2),
+    Preset("I₁₃ ≠ 0", I13=0.3, I23=0.5, k=1.7, theta=1.2),
 )
-
-LEGEND = """
-<ul class="legend" aria-label="Legend">
-<li><span class="line orbit"></span>orbit; θ⁺(φ)</li>
-<li><span class="line second" style="border-top-style: dashed"></span>closed form</li>
-<li><span class="line stable"></span>circle joined</li>
-<li><span class="line unstable"></span>circle left</li>
-<li><span class="dot point"></span>moving point</li>
-<li><span class="dot" style="background: #808080"></span>fixed points Γ = ±1</li>
-<li><span class="box rho"></span>θ⁺ from 0 to π</li>
-</ul>
-"""
-
-THUMBNAIL = """
-<path d="M4 28h40M4 28V3" fill="none" stroke="#808080" stroke-width="1.5"/>
-<path d="M5 20C12 2 18 2 24 14S37 28 44 10" fill="none" stroke="#0072B2" stroke-width="2.5"/>
-<path d="M5 16h39" stroke="#CC79A7" stroke-width="1.5" stroke-dasharray="3 3"/>
-"""
-
-WORDS = Path(__file__).with_suffix(".md").read_text(encoding="utf-8")
 
 
 @dataclass(frozen=True)
-class ScatteringResult:
-    """`map` is of the start that is shown, `limit` of δ → 0; `closed`: the closed form of its cos χ.
+class Scattering(FreeBody):
+    """One rotation, which gives the curve and the map, and the orbit of the phase chosen."""
 
-    `orders`: pairs (k, cos χ); `grid`, `orders`, `orbit` where a picture asks.
-    """
+    I23: float = number("I₂₃", 0.8, (-1.0, 1.0), 0.01, bounds=(-1e3, 1e3), label="Inertia I₂₃",
+                        doc="Product of inertia; not 0 together with I₁₃.")
+    k: float = number("k", 2.0, (-2.0, 7.0), 0.05, bounds=(-50.0, 50.0), label="k, drives I₁₁",
+                      doc="I₁₁ = I₂₂ + k|k| (I₁₃² + I₂₃²)/I₂₂. With I₁₃ = 0 and k odd all orbits are reversed: "
+                          "θ⁺ = π − θ⁻.")
+    theta: float = number("θ⁻", math.pi / 2, (0.0, 3.14), 0.01, bounds=(0.0, math.pi),
+                          label="Angle θ⁻ of the circle left",
+                          doc="The angle between ξ and γ at the start, in radians.")
+    phi: float = number("φ", 0.5, (-3.14, 3.14), 0.01, bounds=(-math.pi, math.pi), label="Phase φ of the orbit shown",
+                        doc="Where on that circle γ starts, in radians.")
+    digits: float = number("−lg δ", 5.30103, (1.0, 12.0), 0.05, bounds=(0.5, 300.0),
+                           label="Distance δ of the start, digits",
+                           doc="The start is δ = 10^−digits of |ω| away from the unstable point; it only shifts the "
+                               "phase.")
+    accuracy: str = accuracy_level()
 
-    values: Values
-    body: SuslovBody
-    map: Scattering
-    limit: Scattering
-    closed: float
-    curve: Array
-    grid: Array | None
-    orders: Array | None
-    orbit: FreeMotion | None
-    points: Equilibria
-    ended: str
+    def admitted(self, notes: list[str]) -> Scattering:
+        """Next to a slanting line a double keeps the start to 1e-16 only; on an axis it may be as close as it likes."""
+        if self.I13 * self.I23 == 0.0 or self.digits <= _MOST_DIGITS:
+            return self
+        notes.append(f"With I₁₃I₂₃ ≠ 0 a start is known to 1e−16 only: its distance is 1e−{_MOST_DIGITS:g} now.")
+        return replace(self, digits=_MOST_DIGITS)
 
+    @cached_property
+    def h(self) -> float:
+        """The energy with ω0 = 1: nothing else depends on it."""
+        return energy_of_unit_rate(self.body)
 
-def admit(values: Values) -> tuple[dict[str, Value], list[str]]:
-    """Next to a slanting line a double keeps the start to 1e-16 only; on an axis it may be as close as it likes."""
-    if float(values["I13"]) * float(values["I23"]) == 0.0 or float(values["digits"]) <= _MOST_DIGITS:
-        return dict(values), []
-    return {**values, "digits": _MOST_DIGITS}, [
-        f"With I₁₃I₂₃ ≠ 0 a start is known to 1e−16 only: its distance is 1e−{_MOST_DIGITS:g} now."]
+    @cached_property
+    def points(self) -> Equilibria:
+        """The equilibria with that energy."""
+        return equilibria(self.body, self.h)
 
+    @property
+    def distance(self) -> float:
+        """δ."""
+        return float(10.0**-self.digits)
 
-def _grid_of(found: Scattering, m: int, n: int) -> Array:
-    phi = -math.pi + (np.arange(m) + 0.5) * (2 * math.pi / m)
-    theta_minus = (np.arange(n) + 0.5) * (math.pi / n)
-    return frozen(found.theta_plus(theta_minus[:, None], phi[None, :]))
+    @cached_property
+    def start(self) -> tuple[tuple[float, float], tuple[float, float, float]]:
+        """ω(0) and γ(0) of the orbit shown.  Raises `InvalidParameter`, `WorkLimit`."""
+        return model.start(self.body, self.h, self.theta, self.phi, self.distance)
 
+    @property
+    def span(self) -> float:
+        """Until γ has settled on the second circle: as long after the passage as before it."""
+        return 2.0 * math.log(10.0) * self.digits + 8.0
 
-def _range_of_k(k: float) -> tuple[int, int]:
-    """The horizontal axis of cos χ."""
-    return min(0, math.floor(k)), max(7, math.ceil(k))
+    @cached_property
+    def map(self) -> model.Scattering:
+        """The rotation from the start that is shown."""
+        return self.work.get(model.scattering, self.body, self.level, 1, self.distance)
 
+    @cached_property
+    def limit(self) -> model.Scattering:
+        """The same for δ → 0."""
+        return self.work.get(model.scattering, self.body, self.level)
 
-def _orders(I22: float, I13: float, I23: float, low: int, high: int) -> Array:
-    """(k, cos χ) in rows, where k gives a body that is in bounds."""
-    rows = []
-    for k in np.linspace(low, high, 20 * (high - low) + 1):
-        try:
-            rows.append((k, cos_chi(body_of({"I22": I22, "I13": I13, "I23": I23, "k": float(k)}))))
-        except ModelError:
-            continue
-    return frozen(np.array(rows).reshape(-1, 2))
+    @cached_property
+    def curve(self) -> Array:
+        """θ⁺ over the phases."""
+        return self.map.theta_plus(self.theta, _PHASES)
 
+    @cached_property
+    def theta_plus(self) -> float:
+        """Of the orbit shown."""
+        return float(self.map.theta_plus(self.theta, self.phi))
 
-def _unit_rate(body: SuslovBody) -> float:
-    """The energy with ω0 = 1: nothing else depends on it."""
-    return 1.0 / equilibria(body, 1.0).rate ** 2
+    @cached_property
+    def orbit(self) -> FreeMotion:
+        """The orbit shown."""
+        return self.work.get(sampled_motion, self.body, *self.start, self.span, (1.0, _RADIUS), self.level)
 
+    @property
+    def k_axis(self) -> tuple[int, int]:
+        """The horizontal axis of cos χ."""
+        return min(0, math.floor(self.k)), max(7, math.ceil(self.k))
 
-def _start(values: Values) -> tuple[SuslovBody, float, tuple[float, float], tuple[float, float, float]]:
-    body = body_of(values)
-    h = _unit_rate(body)
-    distance = 10.0 ** -float(values["digits"])
-    return body, h, *start(body, h, float(values["theta"]), float(values["phi"]), distance)
+    @cached_property
+    def orders(self) -> Array:
+        """(k, cos χ) in rows."""
+        low, high = self.k_axis
+        over = tuple(np.linspace(low, high, 20 * (high - low) + 1).tolist())
+        return self.work.get(model.cos_chi_over, over, self.I22, self.I13, self.I23)
 
+    def motion(self) -> Motion:
+        """The orbit as one of the general system."""
+        omega, gamma = self.start
+        return Motion(SYSTEM, (*omega, *gamma), self.body.parameters, self.span, (1.0, 1.0, *(_RADIUS,) * 3))
 
-def _span(values: Values) -> float:
-    """Until γ has settled on the second circle: as long after the passage as before it."""
-    return 2.0 * math.log(10.0) * float(values["digits"]) + 8.0
+    # ---- what the pictures show --------------------------------------------------------------------------------
 
+    def grid(self) -> Array:
+        """θ⁺ over all circles and phases."""
+        return self.work.get(model.theta_plus_grid, self.map, *(_FEW_CELLS if self.dragging else _CELLS))
 
-def _orbit(body: SuslovBody, omega: tuple[float, float], gamma: tuple[float, float, float], span: float,
-           accuracy: Any) -> FreeMotion:
-    radius = 0.5 * PIXELS
-    return free_motion(body, omega, gamma, sample_times(body, omega, span, (1.0, radius), SAGITTA, _MOST), accuracy)
+    def cosine_axis(self) -> tuple[float, float]:
+        """From −1, the least cos χ, to the largest one."""
+        reach = nice_above(max(1e-3, 1.0 + float(self.orders[:, 1].max(initial=self.limit.cos_chi))))
+        return -1.0 - 0.05 * reach, -1.0 + 1.05 * reach
 
+    def track(self) -> Columns:
+        """The orbit."""
+        return velocity_columns(self.orbit.times, self.orbit.omega, self.orbit.gamma)
 
-def compute(values: Values, shown: Collection[str], dragging: bool) -> ScatteringResult:
-    """One rotation gives the curve and the map; the orbit is that of the phase chosen."""
-    work = Work(values, dragging)
-    accuracy = work.level
-    body, h, omega, gamma = _start(values)
-    found = work.get(scattering, body, accuracy, 1, 10.0 ** -float(values["digits"]))
-    return ScatteringResult(
-        values=values, body=body, map=found, limit=work.get(scattering, body, accuracy), closed=cos_chi(body),
-        curve=found.theta_plus(float(values["theta"]), _PHASES),
-        grid=work.get(_grid_of, found, *_GRIDS[dragging]) if "map" in shown else None,
-        orders=work.get(_orders, *(float(values[name]) for name in ("I22", "I13", "I23")),
-                      *_range_of_k(float(values["k"]))) if "chi" in shown else None,
-        orbit=work.get(_orbit, body, omega, gamma, _span(values), accuracy) if shown else None,
-        points=equilibria(body, h), ended=work.ended())
+    def circles(self) -> list[Circle]:
+        """The circle that is left and the one that is joined."""
+        return [Circle(self.points.xi, math.cos(self.theta), "unstable"),
+                Circle(self.points.xi, math.cos(self.theta_plus), "stable")]
 
+    # ---- words --------------------------------------------------------------------------------------------------
 
-def motion(values: Values) -> Motion:
-    """The orbit as one of the general system, for "Speed and accuracy".  Raises `ModelError`."""
-    body, _, omega, gamma = _start(values)
-    radius = 0.5 * PIXELS
-    return Motion(SYSTEM, (*omega, *gamma), body.parameters, _span(values), (1.0, 1.0, radius, radius, radius), 1.0)
+    def _about_curve(self) -> str:
+        return f"θ⁻ = {in_digits(self.theta)}: {square.spread(self.curve)} (dotted: θ⁻, π − θ⁻)."
 
+    def _about_map(self) -> str:
+        return f"All of it from one rotation, which turns ξ by χ = {in_digits(math.acos(self.limit.cos_chi))}."
 
-class ScatteringStage:
-    """The four pictures of one session."""
+    def _about_chi(self) -> str:
+        computed, closed = self.limit.cos_chi, model.cos_chi(self.body)
+        return (f"Computed {in_digits(computed, 6)}; closed form {in_digits(closed, 6)}, "
+                f"difference {in_digits(abs(computed - closed), 2)}.")
 
-    dots: Mapping[str, tuple[str, str]] = {}
-    angles: Sequence[str] = ()
+    def _about_sphere(self) -> str:
+        return f"φ = {in_digits(self.phi)}: from θ⁻ = {in_digits(self.theta)} to θ⁺ = {in_digits(self.theta_plus)}."
 
-    def __init__(self, wire: Wire) -> None:
-        self.wire = wire
-        self.curve = Graph(wire, "curve", ("φ", "θ⁺"), (-math.pi, math.pi), (0.0, math.pi),
-                           [Series("theta", theme.ORBIT)], picks=("tap", "doubletap", "pan"),
-                           ticks=ANGLE_TICKS, y_ticks=POLAR_TICKS)
-        self.map = ScatteringMap(wire)
-        self.chi = Graph(wire, "chi", ("k", "cos χ"), (0.0, 7.0), (-1.05, 1.05),
-                         [Series("closed", theme.MAP, "dashed")], picks=("tap", "doubletap", "pan"))
-        self.sphere = PoissonSphere(wire, {"data-orbit": "orbit"})
-        # The sphere and the player read the orbit from the source of that name; the map does not show it.
-        self.map.add("orbit", "line", ("phase", "polar"), source="data-orbit", visible=False)
-        self.pictures = (self.curve, self.map, self.chi, self.sphere)
+    def derived(self) -> Iterator[str]:
+        """I11 and k², the rotation, the start."""
+        xi = self.points.xi
+        yield f"I₁₁ = {in_digits(self.body.I11, 6)}"
+        yield f"k² = {in_digits(self.k * abs(self.k), 6)}"
+        yield f"cos χ = {in_digits(self.limit.cos_chi, 12)}"
+        yield f"φ* = {in_digits(self.map.phi_star, 6)}"
+        yield f"δ = {in_digits(self.distance, 3)}"
+        yield f"ξ = ({in_digits(xi[0])}, {in_digits(xi[1])}, 0)"
+        yield "Time in units of 1/ω₀; θ⁺ does not depend on the energy"
 
-    def show(self, result: ScatteringResult, hold_axes: bool) -> Report:
-        """Draw the curve, the map, cos χ and the orbit."""
-        theta_minus, phi, k = (float(result.values[name]) for name in ("theta", "phi", "k"))
-        for view in (self.curve, self.map, self.chi):
-            view.say("")
-        self.curve.show("theta", _PHASES, result.curve)
-        self.curve.show_levels([theta_minus, math.pi - theta_minus])
-        theta_plus = float(result.map.theta_plus(theta_minus, phi))
-        self.curve.choose(phi, theta_plus)
-        if result.grid is not None:
-            self.map.show(result.grid)
-        self.map.choose(phi, theta_minus)
-        if result.orders is not None:
-            self.chi.show("closed", result.orders[:, 0], result.orders[:, 1])
-            if not hold_axes:
-                reach = nice_above(max(1e-3, 1.0 + float(result.orders[:, 1].max(initial=result.limit.cos_chi))))
-                self.chi.set_ranges(_range_of_k(k), (-1.0 - 0.05 * reach, -1.0 + 1.05 * reach))
-            self.chi.choose(k, result.limit.cos_chi)
-        orbit, xi = result.orbit, result.points.xi
-        if orbit is not None:
-            polar = np.arccos(np.clip(orbit.Gamma, -1.0, 1.0))
-            self.map.assign("orbit", t=orbit.times.astype(np.float32), phase=orbit.phase.astype(np.float32),
-                            polar=polar.astype(np.float32), **sphere_columns(orbit.omega, orbit.gamma))
-        self.sphere.show(xi, "ξ", [Circle(xi, math.cos(theta_minus), "unstable"),
-                                   Circle(xi, math.cos(theta_plus), "stable")], [Mark(xi, "muted"), Mark(-xi, "muted")])
-        for picture, text in zip(self.pictures, _captions(result, theta_plus), strict=True):
-            self.wire.say(picture.name, text)
-        return Report(_derived(result), _status(result), _notes(result))
+    def status(self) -> Iterator[str]:
+        """The rotation and the orbit."""
+        found = self.map
+        yield (f"{found.level}: rotation {found.cost.steps} Taylor steps, error ≤ {found.error_estimate:.1e} "
+               f"({found.status})")
+        if self.known("orbit"):
+            yield f"orbit {self.orbit.times.size} points, error ≤ {self.orbit.error_estimate:.1e}"
+            yield "drift " + " ".join(f"{name} {drift:.0e}" for name, drift in self.orbit.drift.items())
 
-    def fail(self, sentence: str) -> None:
-        """Empty pictures, and the sentence where the eye is."""
-        refuse(self.pictures, self.wire, sentence)
-
-    def pick(self, picture: str, x: float, y: float) -> Values:
-        """A click on the curve chooses φ, on the map φ and θ⁻, on the graph of cos χ the k."""
-        return {"curve": {"phi": x}, "map": {"phi": x, "theta": y}, "chi": {"k": x}}.get(picture, {})
-
-
-def _captions(result: ScatteringResult, theta_plus: float) -> tuple[str, str, str, str]:
-    low, high = float(result.curve.min()), float(result.curve.max())
-    spread = f"θ⁺ = {number(low)} for every φ" if high - low < 1e-4 else f"θ⁺ from {number(low)} to {number(high)}"
-    computed = result.limit.cos_chi
-    return (
-        f"θ⁺ against the phase φ\nθ⁻ = {number(float(result.values['theta']))}: {spread} (dotted: θ⁻, π − θ⁻).",
-        f"θ⁺ over (φ, θ⁻)\nAll of it from one rotation, which turns ξ by χ = {number(math.acos(computed))}.",
-        f"cos χ against k\nComputed {number(computed, 6)}; closed form {number(result.closed, 6)}, "
-        f"difference {number(abs(computed - result.closed), 2)}.",
-        f"Poisson sphere\nφ = {number(float(result.values['phi']))}: from θ⁻ = {number(float(result.values['theta']))} "
-        f"to θ⁺ = {number(theta_plus)}.",
-    )
-
-
-def _derived(result: ScatteringResult) -> list[str]:
-    k = float(result.values["k"])
-    xi = result.points.xi
-    return [
-        f"I₁₁ = {number(result.body.I11, 6)}",
-        f"k² = {number(k * abs(k), 6)}",
-        f"cos χ = {number(result.limit.cos_chi, 12)}",
-        f"φ* = {number(result.map.phi_star, 6)}",
-        f"δ = {number(10.0 ** -float(result.values['digits']), 3)}",
-        f"ξ = ({number(xi[0])}, {number(xi[1])}, 0)",
-        "Time in units of 1/ω₀; θ⁺ does not depend on the energy",
-    ]
-
-
-def _status(result: ScatteringResult) -> str:
-    found = result.map
-    parts = [f"{found.level}: rotation {found.cost.steps} Taylor steps, error ≤ {found.error_estimate:.1e} "
-             f"({found.status})"]
-    if result.orbit is not None:
-        parts.append(f"orbit {result.orbit.times.size} points, error ≤ {result.orbit.error_estimate:.1e}")
-        parts.append("drift " + " ".join(f"{name} {drift:.0e}" for name, drift in result.orbit.drift.items()))
-    parts.append(result.ended)
-    return " · ".join(parts).replace("e-", "e−")
-
-
-def _notes(result: ScatteringResult) -> list[str]:
-    digits = float(result.values["digits"])
-    if result.body.I13 * result.body.I23 != 0.0 and digits > 8.0:
-        return ["With I₁₃I₂₃ ≠ 0 the start of the orbit is rounded to 1e−16: its passage is a little early or late, "
-                f"and its Γ⁺ is off by up to 1e−{16.0 - digits:.0f}."]
-    return []
+    def notes(self) -> Iterator[str]:
+        """A start that is rounded."""
+        if self.I13 * self.I23 != 0.0 and self.digits > 8.0:
+            yield ("With I₁₃I₂₃ ≠ 0 the start of the orbit is rounded to 1e−16: its passage is a little early or late, "
+                   f"and its Γ⁺ is off by up to 1e−{16.0 - self.digits:.0f}.")
 
 
 SCENE = Scene(
-    name="scattering",
+    Scattering, __file__, place=4, presets=PRESETS,
     title="Scattering",
     summary="No field: from the circle γ leaves and its phase to the circle it joins, exact for all phases at once.",
-    specs=SPECS,
-    presets=PRESETS,
-    words=WORDS,
-    admit=admit,
-    limits=limits,
-    pictures=("curve", "map", "chi", "sphere"),
-    compute=compute,
-    stage=ScatteringStage,
-    legend=LEGEND,
-    thumbnail=THUMBNAIL,
-    motion=motion,
-    place=4,
+    tracks={"orbit": Scattering.track},
+    views=(
+        Plot(
+            name="curve", title="θ⁺ against the phase φ", caption=Scattering._about_curve, axes=("φ", "θ⁺"),
+            x=square.AZIMUTH, y=square.POLAR, ticks=square.AZIMUTH_TICKS, y_ticks=square.POLAR_TICKS,
+            on_click=lambda s, x, y: {"phi": x}, on_drag=True,
+            layers=(levels("levels", lambda s: [s.theta, math.pi - s.theta]),
+                    curves("theta", lambda s: [np.column_stack([_PHASES, s.curve])], color=theme.ORBIT,
+                           label="θ⁺(φ); orbit"),
+                    ring("chosen", lambda s: [(s.phi, s.theta_plus)], size=18.0, label="chosen"))),
+        Plot(
+            name="map", title="θ⁺ over (φ, θ⁻)", caption=Scattering._about_map, axes=("φ", "θ⁻"),
+            x=square.AZIMUTH, y=square.POLAR, ticks=square.AZIMUTH_TICKS, y_ticks=square.POLAR_TICKS,
+            on_click=lambda s, x, y: {"phi": x, "theta": y}, on_drag=True,
+            layers=square.layers(Scattering.grid, lambda s: (s.phi, s.theta))),
+        Plot(
+            name="chi", title="cos χ against k", caption=Scattering._about_chi, axes=("k", "cos χ"),
+            x=lambda s: s.k_axis, y=Scattering.cosine_axis, on_click=lambda s, x, y: {"k": x}, on_drag=True,
+            layers=(curves("closed", lambda s: [s.orders], color=theme.MAP, dash="dashed", label="closed form"),
+                    ring("chosen", lambda s: [(s.k, s.limit.cos_chi)], size=18.0))),
+        Sphere(
+            caption=Scattering._about_sphere, looks={"orbit": "orbit"}, axis=lambda s: Direction(s.points.xi, "ξ"),
+            circles=Scattering.circles, marks=lambda s: ends(s.points.xi),
+            signs=(Sign("circle joined", "line", f"border-top: 3px solid {theme.STABLE}"),
+                   Sign("circle left", "line", f"border-top: 3px dashed {theme.UNSTABLE}"),
+                   Sign("fixed points Γ = ±1", "dot", f"background: {theme.MUTED}"))),
+    ),
 )

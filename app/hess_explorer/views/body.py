@@ -99,6 +99,11 @@ class BodyInSpace(Picture[S]):
     kind: ClassVar[str] = "sphere"
 
     @property
+    def needs(self) -> frozenset[str]:
+        """The pictures whose data must be there for it."""
+        return super().needs | ({self.attitude} if self.attitude else set())
+
+    @property
     def tracks(self) -> frozenset[str]:
         """The player takes the time from the track of the orbit."""
         return frozenset({"orbit"})

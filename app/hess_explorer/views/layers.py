@@ -16,8 +16,8 @@ from hess_explorer.views import theme
 from hess_mechanics.numerics.results import Array
 
 __all__ = [
-    "MESSAGE", "POINT", "Axes", "Columns", "Grid", "Layer", "Range", "Sign", "arrows", "curves", "dots", "f32", "image",
-    "levels", "line", "points", "region", "ring", "target", "text",
+    "MESSAGE", "MOVING_POINT", "POINT", "Axes", "Columns", "Grid", "Layer", "Range", "Sign", "arrows", "curves", "dots",
+    "f32", "image", "levels", "line", "points", "region", "ring", "target", "text",
 ]
 
 S = TypeVar("S")
@@ -51,6 +51,9 @@ class Sign:
     label: str
     kind: str
     style: str
+
+
+MOVING_POINT = Sign("moving point", "dot", f"background: {theme.POINT}; border: 1.5px solid")
 
 
 @dataclass(frozen=True)

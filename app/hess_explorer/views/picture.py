@@ -29,6 +29,7 @@ class Picture(ABC, Generic[S]):
     on_box(state, corners) : the values that a box chooses.
     on_hover(state, x, y) : a line about the place under the mouse.  Raises `ModelError`.
     signs : entries of the legend besides those of its layers.
+    drawn_from : names of the pictures whose sources it draws from besides its own.
     folded : what the button says that shows the picture, if it is not seen at first.
     """
 
@@ -40,10 +41,16 @@ class Picture(ABC, Generic[S]):
     on_box: Callable[[S, Corners], Values] | None = None
     on_hover: Callable[[S, float, float], str] | None = None
     signs: tuple[Sign, ...] = ()
+    drawn_from: tuple[str, ...] = ()
     folded: str = ""
 
     kind: ClassVar[str]
     """Who draws it in the browser: "plot" is Bokeh, the others draw on canvases of their own."""
+
+    @property
+    def needs(self) -> frozenset[str]:
+        """The pictures whose data must be there for it."""
+        return frozenset(self.drawn_from)
 
     @property
     def tracks(self) -> frozenset[str]:
@@ -78,7 +85,7 @@ class Picture(ABC, Generic[S]):
         """The columns of its sources, by the name of the source, but those that depend on the axes."""
 
     def framed(self, state: S, axes: Axes | None) -> dict[str, Columns]:
-        """The columns of those that do."""
+        """The columns that do, which join those of the same source."""
         return {}
 
     @abstractmethod

@@ -11,8 +11,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, TypeVar
 
-from hess_explorer.views import bokeh_figure, theme
-from hess_explorer.views.layers import POINT, Axes, Columns, Layer, Range, Sign
+from hess_explorer.views import bokeh_figure
+from hess_explorer.views.layers import MOVING_POINT, POINT, Axes, Columns, Layer, Range, Sign
 from hess_explorer.views.picture import Picture
 
 __all__ = ["Plot"]
@@ -78,9 +78,8 @@ class Plot(Picture[S]):
     @property
     def legend(self) -> tuple[Sign, ...]:
         """What it adds to the legend of its scene."""
-        moving = (Sign("moving point", "dot", f"background: {theme.POINT}; border: 1.5px solid"),)
         return (*(sign for layer in self.layers for sign in layer.legend), *self.signs,
-                *(moving if self.dot is not None else ()))
+                *((MOVING_POINT,) if self.dot is not None else ()))
 
     @property
     def first_axes(self) -> Axes:

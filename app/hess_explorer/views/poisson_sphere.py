@@ -6,11 +6,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, TypeVar
 
-from hess_explorer.views.layers import Axes, Columns
+from hess_explorer.views.layers import MOVING_POINT, Axes, Columns, Sign
 from hess_explorer.views.picture import Picture
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Circle", "Direction", "Mark", "Sphere"]
+__all__ = ["Circle", "Direction", "Mark", "Sphere", "ends"]
 
 S = TypeVar("S")
 
@@ -41,6 +41,11 @@ class Direction:
     label: str
 
 
+def ends(axis: Array) -> tuple[Mark, Mark]:
+    """Both ends of an axis, a unit vector (3,)."""
+    return Mark(axis, "muted"), Mark(-axis, "muted")
+
+
 @dataclass(frozen=True, kw_only=True)
 class Sphere(Picture[S]):
     """Draws tracks of the scene that have columns g1, g2, g3.
@@ -61,9 +66,19 @@ class Sphere(Picture[S]):
     kind: ClassVar[str] = "sphere"
 
     @property
+    def needs(self) -> frozenset[str]:
+        """The pictures whose data must be there for it."""
+        return super().needs | ({self.clouds} if self.clouds else set())
+
+    @property
     def tracks(self) -> frozenset[str]:
-        """The tracks of the scene that it needs."""
-        return frozenset(self.looks)
+        """The tracks of the scene that it needs; clouds move with the time of the orbit."""
+        return frozenset(self.looks) | ({"orbit"} if self.clouds else set())
+
+    @property
+    def legend(self) -> tuple[Sign, ...]:
+        """What it adds to the legend of its scene."""
+        return (*self.signs, *((MOVING_POINT,) if "orbit" in self.looks else ()))
 
     def describe(self) -> dict[str, Any]:
         """What the browser needs to know."""

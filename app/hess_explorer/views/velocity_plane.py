@@ -1,15 +1,22 @@
-"""The (ω1, ω2)-plane: columns of a motion, what the energy forbids, arrows along curves, round axes."""
+"""The (ω1, ω2)-plane: columns of a motion, what the energy forbids, its line of equilibria, arrows, round axes."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import TypeVar
 
 import numpy as np
 
-from hess_explorer.views.layers import Columns, Range, f32
+from hess_explorer.views import theme
+from hess_explorer.views.layers import Axes, Columns, Layer, Range, arrows, curves, f32, line, points
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["arrows_on", "centred", "nice_above", "outside", "ring_outside", "square", "velocity_columns"]
+__all__ = [
+    "arcs", "arrows_at", "arrows_on", "centred", "energy_levels", "equilibria", "halves", "nice_above", "outside",
+    "ring_outside", "square", "to_the_edge", "velocity_columns",
+]
+
+S = TypeVar("S")
 
 
 def velocity_columns(times: Array | None, omega: Array, gamma: Array, **more: Array) -> Columns:
@@ -45,6 +52,57 @@ def ring_outside(inner: Array, outer: Array, half_width: float) -> list[list[Arr
     return [outside(outer, 4.0 * half_width), [inner]]
 
 
+def halves(stable: Callable[[S, Axes], Array], unstable: Callable[[S, Axes], Array], labels: tuple[str, str]
+           ) -> tuple[Layer[S], Layer[S]]:
+    """The stable and the unstable half of the line of equilibria, (2, 2) each, from one end to the other."""
+    return (line("stable", within=lambda s, axes: stable(s, axes).T, color=theme.STABLE, width=3, label=labels[0]),
+            line("unstable", within=lambda s, axes: unstable(s, axes).T, color=theme.UNSTABLE, width=3, dash="dashed",
+                 label=labels[1]))
+
+
+def to_the_edge(point: Array, half_width: float, axes: Axes) -> Array:
+    """The half line (2, 2) from 0 through a point (2,) out of the picture; axes that are held may be larger ones."""
+    far = max(half_width, axes.x[1]) / max(float(np.max(np.abs(point))), 1e-300)
+    return np.array([np.zeros(2), far * np.asarray(point)])
+
+
+def equilibria(stable: Callable[[S], Array], unstable: Callable[[S], Array]) -> tuple[Layer[S], Layer[S]]:
+    """A stable point (2,), filled, and an unstable one, hollow."""
+    return (points("stable-point", lambda s: stable(s)[:, None], color=theme.STABLE, size=11, edge_width=3),
+            points("unstable-point", lambda s: unstable(s)[:, None], color=theme.UNSTABLE, size=11, edge_width=3,
+                   hollow=True))
+
+
+def energy_levels(data: Callable[[S], Sequence[Array]], half_width: Callable[[S], float], label: str
+                  ) -> tuple[Layer[S], Layer[S]]:
+    """Curves (m, 2) of other energies, passed from their first to their last point, with arrows."""
+    return (curves("levels", data, color=theme.MUTED, width=1, label=label),
+            arrows("level-arrows", lambda s: arrows_on(data(s), half_width(s)), color=theme.MUTED, size=8))
+
+
+def arcs(data: Callable[[S], Sequence[Array]]) -> Layer[S]:
+    """Thin curves (m, 2) that orbits follow; `arrows` say which way."""
+    return curves("arcs", data, color=theme.ORBIT, width=1, alpha=0.5)
+
+
+def arrows_at(places: Sequence[tuple[Array, int]]) -> tuple[list[float], list[float], list[float]]:
+    """For `arrows`: x, y, angle at the i-th point of each curve (m, 2), or the next one that is not its end."""
+    x, y, angle = [], [], []
+    for curve, place in places:
+        if len(curve) > 2:
+            i = min(max(place, 1), len(curve) - 2)
+            step = curve[i + 1] - curve[i - 1]
+            x.append(float(curve[i, 0]))
+            y.append(float(curve[i, 1]))
+            angle.append(_angle(step))
+    return x, y, angle
+
+
+def _angle(step: Array) -> float:
+    """Of a triangle, which points upwards at angle 0."""
+    return float(np.arctan2(step[1], step[0]) - np.pi / 2)
+
+
 def arrows_on(curves: Sequence[Array], half_width: float) -> tuple[list[float], list[float], list[float]]:
     """For `arrows`: x, y, angle in the middle of each curve (m, 2) that is long enough for one."""
     x, y, angle = [], [], []
@@ -56,6 +114,5 @@ def arrows_on(curves: Sequence[Array], half_width: float) -> tuple[list[float], 
         step = curve[i] - curve[i - 1]
         x.append(float(curve[i, 0]))
         y.append(float(curve[i, 1]))
-        # A triangle points upwards at angle 0.
-        angle.append(float(np.arctan2(step[1], step[0]) - np.pi / 2))
+        angle.append(_angle(step))
     return x, y, angle

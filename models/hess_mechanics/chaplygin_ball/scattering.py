@@ -27,11 +27,13 @@ from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody, determinan
 from hess_mechanics.dynamics.ensemble import ensemble
 from hess_mechanics.dynamics.orbit import status_of
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.numerics.accuracy import REFERENCE, Level, Status
+from hess_mechanics.numerics.accuracy import REFERENCE, STANDARD, Level, Status
 from hess_mechanics.numerics.results import Array, Complex, Cost, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
+from hess_mechanics.suslov.equations import SuslovBody
+from hess_mechanics.suslov.scattering import scattering
 
-__all__ = ["BallScattering", "ball_scattering", "starts"]
+__all__ = ["BallScattering", "ball_scattering", "free_theta_plus", "start", "starts"]
 
 MOST_STEPS = 20_000_000
 _MOST_SWING = 300.0
@@ -123,6 +125,21 @@ def starts(strip: Strip, theta: float, phis: Array, distance: float) -> tuple[Ar
     omega = direction * np.sqrt(strip.h / kinetic_energy((*direction, *gamma.T), body.parameters))[:, None]
     left = (distance * (1.0 + np.abs(H))) ** 2 if known else abs(distance) * reach
     return np.hstack([omega, gamma]), np.minimum(left + 2e-16 / abs(distance) * reach, math.pi) + np.zeros(phis.size)
+
+
+def start(body: BallBody, h: float, theta: float, phi: float, distance: float) -> tuple[float, ...]:
+    """One of the `starts`: the state (5,) with the phase φ and E = h.  Raises `InvalidParameter`."""
+    states, _ = starts(Strip(body, h), theta, np.array([phi]), distance)
+    return tuple(map(float, states[0]))
+
+
+def free_theta_plus(body: BallBody, theta: float, distance: float, phis: tuple[float, ...]) -> Array:
+    """θ⁺ (n,) of the free Suslov problem with the same tensor, 𝒟 = 0, at these phases.
+
+    Raises `InvalidParameter`, `WorkLimit`.
+    """
+    free = SuslovBody(body.I11, body.I22, body.I13, body.I23)
+    return frozen(scattering(free, STANDARD, 1, distance).theta_plus(theta, np.array(phis)))
 
 
 def _speed_and_rate(strip: Strip, theta: Array) -> tuple[Array, Array]:

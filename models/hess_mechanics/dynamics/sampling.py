@@ -6,19 +6,23 @@ the line drawn and of a point that moves along it.  So the density of samples is
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import MAX_STEPS
+from hess_mechanics.dynamics.orbit import MAX_STEPS, solve
 from hess_mechanics.dynamics.system import Problem, System
-from hess_mechanics.numerics.accuracy import PRECISE
-from hess_mechanics.numerics.results import Array
+from hess_mechanics.numerics.accuracy import PRECISE, Level
+from hess_mechanics.numerics.results import Array, Orbit
 
-__all__ = ["HALF_A_PIXEL", "PIXELS", "SAGITTA", "sample_times"]
+__all__ = ["HALF_A_PIXEL", "MOST_SAMPLES", "PIXELS", "SAGITTA", "sample_times", "sampled_orbit"]
 
 PIXELS = 600.0
 """Width, in pixels, of the pictures that orbits are sampled for; a wider one shows proportionally more."""
 SAGITTA = 0.25
 """The largest distance between an orbit and its chords in those pictures, in pixels."""
+MOST_SAMPLES = 4000
+"""Of one orbit in those pictures."""
 HALF_A_PIXEL = 1.0 / PIXELS
 """Half a pixel where the state is O(1) and spans the picture from −1 to 1."""
 
@@ -59,3 +63,13 @@ def sample_times(system: System, state: Array, parameters: Array, span: float, w
     times = np.interp(np.linspace(0.0, needed[-1], samples), needed, even)
     times[0], times[-1] = 0.0, span
     return times
+
+
+def sampled_orbit(system: System, state: Sequence[float], parameters: Sequence[float], span: float,
+                  weights: Sequence[float], level: Level, most: int = MOST_SAMPLES) -> Orbit:
+    """The orbit from `state` over `span`, sampled as `sample_times` says for pictures of these weights, in pixels.
+
+    Raises as `solve`.
+    """
+    times = sample_times(system, np.array(state), np.array(parameters), span, np.array(weights), SAGITTA, most)
+    return solve(system, state, parameters, times, level)

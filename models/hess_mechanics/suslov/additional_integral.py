@@ -30,8 +30,8 @@ from hess_mechanics.numerics.results import Array
 from hess_mechanics.rigid_body.inertia import require_finite, require_positive_definite
 from hess_mechanics.suslov.equations import SuslovBody
 
-__all__ = ["MAX_K", "AdditionalIntegral", "Coefficients", "I11_of", "additional_integral", "coefficients", "formula",
-           "of_body", "order"]
+__all__ = ["MAX_K", "AdditionalIntegral", "Coefficients", "I11_at", "I11_of", "additional_integral", "coefficients",
+           "formula", "of_body", "order"]
 
 MAX_K = 15
 
@@ -47,6 +47,11 @@ def I11_of(k: int, I22: float, I23: float) -> float:
     require_finite(I22=I22, I23=I23)
     require_positive_definite(1.0, I22)
     return I22 + k * k * (I23 / I22) * I23
+
+
+def I11_at(k: float, I22: float, I13: float, I23: float) -> float:
+    """I11 = I22 + k|k| (I13² + I23²)/I22: `I11_of` for any real k and both cases; less than I22 for k < 0."""
+    return I22 + k * abs(k) * (I13 * I13 + I23 * I23) / I22
 
 
 @dataclass(frozen=True)
@@ -114,6 +119,12 @@ class AdditionalIntegral:
         even = w1[..., None] ** (self.k - 1 - 2 * j) * w2[..., None] ** (2 * j + 1)
         v1, v2, v3 = odd @ self.a, even @ self.b, even @ self.c
         return np.stack([v2, v1, -v3] if self.permuted else [v1, v2, v3], axis=-1)
+
+    def circle(self, omega: Array, level: float) -> tuple[Array, float]:
+        """The circle (n, γ) = d of all γ with F2 = level at ω (2,): the unit vector n (3,), and d."""
+        V = self.vector(omega)
+        length = float(np.linalg.norm(V))
+        return V / length, level / length
 
     def __call__(self, omega: Array, gamma: Array) -> Array:
         """F2, shape (…), for ω (…, 2) and γ (…, 3)."""

@@ -28,6 +28,7 @@ from fractions import Fraction
 import numpy as np
 
 from hess_mechanics.dynamics.orbit import checked_times, drift_of, require_finite_states, status_of
+from hess_mechanics.dynamics.sampling import MOST_SAMPLES, SAGITTA
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Level, Status
 from hess_mechanics.numerics.results import Array, Complex, Cost, frozen
@@ -37,8 +38,9 @@ from hess_mechanics.suslov.equations import SYSTEM, SuslovBody, unit_vector
 from hess_mechanics.suslov.free_kernels import integrate
 
 __all__ = [
-    "Equilibria", "FreeMotion", "Passage", "Rotation", "Shape", "arcs", "equilibria", "free_motion", "passage",
-    "propagate", "rotation", "sample_times", "shape", "turning",
+    "Equilibria", "FreeMotion", "Passage", "Rotation", "Shape", "arcs", "energy_of_unit_rate", "equilibria",
+    "free_motion", "passage", "propagate", "rotation", "sample_times", "sampled_motion", "shape", "turned_along_circle",
+    "turning",
 ]
 
 _MAX_STEPS = 100_000
@@ -126,6 +128,13 @@ class Equilibria:
     speed: float
     rate: float
 
+    def gamma(self, Gamma: float, phi: float) -> tuple[float, float, float]:
+        """γ = Γξ + √(1−Γ²)(cos φ η + sin φ e3), η = e3 × ξ."""
+        x1, x2, _ = self.xi
+        across = math.sqrt(max(0.0, 1.0 - Gamma * Gamma))
+        return (float(Gamma * x1 - across * math.cos(phi) * x2), float(Gamma * x2 + across * math.cos(phi) * x1),
+                across * math.sin(phi))
+
 
 def _rate(body: SuslovBody, of: Shape, r: float) -> float:
     """ω0 for r = √(2h)."""
@@ -146,6 +155,11 @@ def _radius(h: float) -> float:
     if not h > 0.0:
         raise InvalidParameter(f"E = h = {h:g}, but without a field the energy of a motion is positive: choose h > 0.")
     return math.sqrt(2.0) * math.sqrt(h)
+
+
+def energy_of_unit_rate(body: SuslovBody) -> float:
+    """The energy h at which ω0 = 1.  Raises `InvalidParameter`, `WorkLimit`."""
+    return 1.0 / equilibria(body, 1.0).rate ** 2
 
 
 def arcs(body: SuslovBody, h: float, count: int = 91) -> tuple[Array, Array]:
@@ -452,3 +466,24 @@ def sample_times(body: SuslovBody, omega: Sequence[float], span: float, weights:
     times = np.clip(times if span > 0.0 else times[::-1], min(0.0, span), max(0.0, span))
     times[0], times[-1] = 0.0, span
     return times
+
+
+def sampled_motion(body: SuslovBody, omega: Sequence[float], gamma: Sequence[float], span: float,
+                   weights: tuple[float, float], level: Level, most: int = MOST_SAMPLES) -> FreeMotion:
+    """The motion over `span`, at times as `sample_times` says for pictures of these weights.  Raises as `rotation`."""
+    return free_motion(body, omega, gamma, sample_times(body, omega, span, weights, SAGITTA, most), level)
+
+
+def turned_along_circle(body: SuslovBody, omega: Sequence[float], gamma: Sequence[float], turn: float, level: Level
+                        ) -> tuple[float, float, float]:
+    """γ(0) of the motion with the same ω(0) that comes from the same circle Γ^(−), turned along it by `turn` radians.
+
+    Raises as `rotation`.
+    """
+    # Γ^(−) = (n, γ(0)).
+    n = rotation(body, omega, [1.0], level).limits[0]
+    n = n / np.linalg.norm(n)
+    g = np.array(gamma, float)
+    along = n * (n @ g)
+    g1, g2, g3 = along + math.cos(turn) * (g - along) + math.sin(turn) * np.cross(n, g)
+    return float(g1), float(g2), float(g3)

@@ -30,14 +30,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from hess_mechanics.dynamics.orbit import status_of
-from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.errors import InvalidParameter, ModelError
 from hess_mechanics.numerics.accuracy import Level, Status
-from hess_mechanics.numerics.results import Array, Complex, Cost
+from hess_mechanics.numerics.results import Array, Complex, Cost, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
+from hess_mechanics.suslov.additional_integral import I11_at
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.free import Shape, equilibria, shape, turning
 
-__all__ = ["Scattering", "cos_chi", "scattering", "start"]
+__all__ = ["Scattering", "cos_chi", "cos_chi_over", "scattering", "start", "theta_plus_grid"]
 
 
 @dataclass(frozen=True)
@@ -149,6 +150,24 @@ def cos_chi(body: SuslovBody) -> float:
     A_re = factor * 2.0 * C_re / (1.0 + math.exp(-2.0 * height))
     A_im = factor * 2.0 * C_im / -math.expm1(-2.0 * height) if C_im else 0.0
     return min(1.0, 2.0 * (A_re**2 + A_im**2) - 1.0)
+
+
+def cos_chi_over(k: tuple[float, ...], I22: float, I13: float, I23: float) -> Array:
+    """(k, cos χ) in closed form, I11 from k by `I11_at`; rows (m, 2), without those k that give no body."""
+    rows = []
+    for one in k:
+        try:
+            rows.append((one, cos_chi(SuslovBody(I11_at(one, I22, I13, I23), I22, I13, I23))))
+        except ModelError:
+            continue
+    return frozen(np.array(rows).reshape(-1, 2))
+
+
+def theta_plus_grid(found: Scattering, m: int, n: int) -> Array:
+    """θ⁺ at the centres of m × n cells of −π < φ < π, 0 < θ⁻ < π; (n, m), rows of equal θ⁻."""
+    phi = -math.pi + (np.arange(m) + 0.5) * (2 * math.pi / m)
+    theta = (np.arange(n) + 0.5) * (math.pi / n)
+    return frozen(found.theta_plus(theta[:, None], phi[None, :]))
 
 
 def start(body: SuslovBody, h: float, theta: float, phi: float, distance: float, arc: int = 1

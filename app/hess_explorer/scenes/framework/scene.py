@@ -248,8 +248,10 @@ class Scene(Generic[S]):
         """The state of admitted values, with all that the pictures `seen` ask for.  Raises `ModelError`."""
         state = self.of(values, seen, dragging)
         views = [view for view in self.views if view.name in state.seen]
-        for view in views:
-            state.drawn.update(view.data(state))
+        needed = state.seen.union(*(view.needs for view in views))
+        for view in self.views:
+            if view.name in needed:
+                state.drawn.update(view.data(state))
         for name in frozenset[str]().union(*(view.tracks for view in views)):
             state.drawn[f"data-{name}"] = self.tracks[name](state) or {}
         return state

@@ -36,9 +36,11 @@ class Stage(Generic[S]):
             if name in state.seen:
                 self._set_axes(view, None if hold_axes else view.ranges(state))
                 self.wire.say(name, view.said(state))
-        framed = {source: columns for name in state.seen
-                  for source, columns in self._views[name].framed(state, self._axes[name]).items()}
-        for source, columns in (state.drawn | framed).items():
+        drawn = dict(state.drawn)
+        for name in state.seen:
+            for source, columns in self._views[name].framed(state, self._axes[name]).items():
+                drawn[source] = {**drawn.get(source, {}), **columns}
+        for source, columns in drawn.items():
             self._put(source, columns)
         derived, notes = [*state.derived()], [*state.notes()]
         status = re.sub(r"(?<=\d)e-(?=\d)", "e−", " · ".join([*state.status(), state.work.ended()]))
@@ -78,7 +80,9 @@ class Stage(Generic[S]):
     def _set_axes(self, view: Picture[S], axes: Axes | None) -> None:
         if axes is not None and axes != self._axes[view.name]:
             self._axes[view.name] = axes
-            self.wire.put_ranges(view.name, axes.x, axes.y)
+            # The others have their axes among their columns.
+            if view.name not in self._canvases:
+                self.wire.put_ranges(view.name, axes.x, axes.y)
 
     def _put(self, source: str, columns: Columns) -> None:
         """Send columns that differ from those in the browser."""

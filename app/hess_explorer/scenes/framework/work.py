@@ -10,6 +10,7 @@ from hess_explorer.compute.cache import CACHE, Task
 from hess_mechanics.dynamics.sampling import HALF_A_PIXEL
 from hess_mechanics.numerics.accuracy import Level, cheapest, level
 from hess_mechanics.numerics.results import Orbit
+from hess_mechanics.suslov.free import FreeMotion
 
 __all__ = ["Work", "orbit_status"]
 
@@ -62,7 +63,7 @@ class Work:
         return f"{ms:.1f} ms, {'computed' if self._misses else 'cached'}"
 
 
-def orbit_status(orbit: Orbit) -> list[str]:
+def orbit_status(orbit: Orbit | FreeMotion) -> list[str]:
     """For the status line: size, cost, error and drift of an orbit."""
     return [
         f"{orbit.level}: orbit {orbit.times.size} points, {orbit.cost.steps} Taylor steps, "

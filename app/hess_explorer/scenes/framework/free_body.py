@@ -1,0 +1,50 @@
+"""The body of the free Suslov problem, whose I11 is chosen by k: for the motion of one orbit and for the scattering."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+from hess_explorer.scenes.framework.parameters import number
+from hess_explorer.scenes.framework.scene import State
+from hess_explorer.views.text import digits
+from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.suslov.additional_integral import I11_at
+from hess_mechanics.suslov.equations import SuslovBody
+
+__all__ = ["FreeBody"]
+
+
+@dataclass(frozen=True)
+class FreeBody(State):
+    """A body without a field, I13 and I23 not both 0."""
+
+    I22: float = number("I₂₂", 1.0, (0.2, 3.0), 0.01, bounds=(1e-3, 1e3), label="Inertia I₂₂",
+                        doc="Moment of inertia about the second body axis.")
+    I13: float = number("I₁₃", 0.0, (-1.0, 1.0), 0.01, bounds=(-1e3, 1e3), label="Inertia I₁₃",
+                        doc="Product of inertia; with I₂₃ it sets the line of equilibria I₁₃ω₁ + I₂₃ω₂ = 0.")
+    I23: float = number("I₂₃", 0.5, (-1.0, 1.0), 0.01, bounds=(-1e3, 1e3), label="Inertia I₂₃",
+                        doc="Product of inertia; not 0 together with I₁₃.")
+    k: float = number("k", 2.4, (-2.0, 7.0), 0.05, bounds=(-50.0, 50.0), label="k, drives I₁₁",
+                      doc="I₁₁ = I₂₂ + k|k| (I₁₃² + I₂₃²)/I₂₂. With I₁₃ = 0 and k odd there is an additional integral "
+                          "F₂.")
+
+    def limits(self) -> Mapping[str, tuple[float, float, float]]:
+        """The slider of k begins where I11 is still positive."""
+        J = math.hypot(self.I13, self.I23)
+        lowest = -self.I22 / J if J > 0.0 else -2.0
+        return {"k": (max(-2.0, math.ceil(lowest * 19.0) / 20.0), 7.0, 0.05)}
+
+    @cached_property
+    def body(self) -> SuslovBody:
+        """Raises `NotPositiveDefinite`, `InvalidParameter`, in the words of the controls."""
+        if self.I13 == self.I23 == 0.0:
+            raise InvalidParameter(
+                "I₁₃ = I₂₃ = 0: without a field ω does not change, and there is no ξ. Choose one of them other than 0.")
+        I11 = I11_at(self.k, self.I22, self.I13, self.I23)
+        if I11 <= 0.0:
+            raise InvalidParameter(f"k = {digits(self.k)} would make I₁₁ = {digits(I11)}; a moment of inertia is "
+                                   "positive. Choose a larger k.")
+        return SuslovBody(I11, self.I22, self.I13, self.I23)

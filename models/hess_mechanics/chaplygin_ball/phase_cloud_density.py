@@ -1,0 +1,108 @@
+"""What becomes of a cloud of phase points: its density over |s|, and what small volumes about its points grow by.
+
+With I13 = I23 = 0 and a field volume is kept: a second cloud from the same points shows the difference.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
+from hess_mechanics.chaplygin_ball.phase_cloud import Cloud, carried, frame_times, histogram, occupation, patch, shell
+from hess_mechanics.dynamics.ensemble import ensemble
+from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.results import Array, Ensemble, frozen
+
+__all__ = ["BIN", "SMALLEST", "Clouds", "Course", "Density", "clouds", "course", "density"]
+
+BIN = 0.25
+"""Of ln|s|."""
+SMALLEST = math.log(1e-30)
+"""ln|s| of what is counted: a smaller |s| has no place in single precision."""
+
+
+@dataclass(frozen=True)
+class Course:
+    """Mean, least and largest at each time, (3, m): of div v and of ln s(t)/s(0); volume: (m,), see `Cloud`."""
+
+    divergence: Array
+    log_growth: Array
+    volume: Array
+
+
+@dataclass(frozen=True)
+class Density:
+    """Shares of the points per unit of ln|s|, in the bins about `log_s`: at the start, at the end, mean over the time.
+
+    height : the mean where all points pass.
+    """
+
+    log_s: Array
+    first: Array
+    last: Array
+    mean: Array
+    height: float
+
+    @property
+    def passed_by_most(self) -> tuple[float, float]:
+        """|s| after a quarter of the way (of ln|s|), passed by most points, and the mean there."""
+        i = 3 * self.log_s.size // 4
+        return math.exp(float(self.log_s[i])), float(self.mean[i])
+
+
+@dataclass(frozen=True)
+class Clouds:
+    """A cloud and what becomes of it; `other`: the one on a principal axis."""
+
+    cloud: Cloud
+    course: Course
+    density: Density
+    other: Ensemble | None
+
+    @property
+    def fastest(self) -> float:
+        """The largest |ω|."""
+        fastest = float(np.sqrt((self.cloud.omega**2).sum(axis=2).max()))
+        if self.other is None:
+            return fastest
+        return max(fastest, float(np.sqrt((self.other.states[..., :2] ** 2).sum(axis=2).max())))
+
+
+def course(cloud: Cloud) -> Course:
+    """Along all of its times."""
+    def of(values: Array) -> Array:
+        return frozen(np.stack([values.mean(axis=0), values.min(axis=0), values.max(axis=0)]))
+
+    return Course(of(cloud.divergence), of(cloud.log_growth), frozen(cloud.volume))
+
+
+def density(cloud: Cloud) -> Density:
+    """In bins of `BIN` from the smallest |s|, but not below `SMALLEST`, to the largest."""
+    low = max(SMALLEST, float(cloud.log_s.min()))
+    first = math.floor(low / BIN)
+    edges = BIN * np.arange(first, max(first + 1, math.floor(float(cloud.log_s.max()) / BIN) + 1) + 1)
+    # What each point spends per unit of ln|s| in the end, where ln|s| falls at an even rate.
+    late = 3 * cloud.times.size // 4
+    rate = np.abs(cloud.log_s[:, -1] - cloud.log_s[:, late]) / abs(cloud.times[-1] - cloud.times[late])
+    return Density(frozen(0.5 * (edges[1:] + edges[:-1])), histogram(cloud, 0, edges), histogram(cloud, -1, edges),
+                   occupation(cloud, edges), 1.0 / float(np.median(rate) * abs(cloud.times[-1])))
+
+
+def clouds(body: BallBody, h: float, angle: float | None, spread: float, count: int, span: float,
+           field: float | None, level: Level) -> Clouds:
+    """`count` points of a `patch` at an angle, or of a `shell`; times reach to `span`, which may be negative.
+
+    field : b3, in which half of them move with I13 = I23 = 0; None for no second cloud.
+    Raises `InvalidParameter`, `WorkLimit`.
+    """
+    one = count if field is None else count // 2
+    states = shell(body, h, spread, one) if angle is None else patch(body, h, angle, spread, one)
+    times = frame_times(body, states, span, abs(field or 0.0))
+    cloud, other = carried(body, states, times, level), None
+    if field is not None:
+        principal = BallBody(body.I11, body.I22, 0.0, 0.0, body.D, 0.0, 0.0, field)
+        other = ensemble(SYSTEM, states, principal.parameters, times, level)
+    return Clouds(cloud, course(cloud), density(cloud), other)

@@ -1,0 +1,57 @@
+"""Orbits of the Chaplygin ball across the strip of the (ω1, ω2) plane, from N^u to N^s, as curves to be drawn."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from hess_mechanics.chaplygin_ball.energy_surface import Strip, line_of_rest
+from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
+from hess_mechanics.dynamics.ensemble import ensemble
+from hess_mechanics.dynamics.sampling import PIXELS
+from hess_mechanics.numerics.accuracy import DRAFT
+from hess_mechanics.numerics.results import Array, frozen
+
+__all__ = ["StripOrbit", "strip_orbits"]
+
+StripOrbit = tuple[Array, int]
+"""ω (m, 2), a point for each pixel of a picture of the strip, and the index of the state followed both ways."""
+
+
+def strip_orbits(body: BallBody, count: int) -> tuple[StripOrbit, ...]:
+    """Orbits of E = 1 through states spread evenly over the strip, until they have all but arrived; b = 0.
+
+    Without a field the energy only sets the unit of time: those of E = h are √h times as large.
+    Raises `InvalidParameter`, `WorkLimit`.
+    """
+    states = Strip(body, 1.0).spread(count)
+    _, eta = line_of_rest(body)
+    speed = math.sqrt(2.0 / min(body.I11, body.I22))
+    tick = 2.0 * 1.1 * speed / PIXELS
+    times = _times(body, speed)
+    there = ensemble(SYSTEM, states, body.parameters, times, DRAFT).states[:, :, :2]
+    back = ensemble(SYSTEM, states, body.parameters, -times, DRAFT).states[:, :, :2]
+    orbits = []
+    for i in range(count):
+        before, after = (_as_far_as_the_line(states[i, :2], half[i], eta, tick) for half in (back, there))
+        track = np.concatenate([before[:0:-1], after])
+        length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(track, axis=0), axis=1))])
+        kept = np.unique(np.floor(length / tick), return_index=True)[1]
+        orbits.append((frozen(track[kept]), int(np.searchsorted(kept, len(before) - 1))))
+    return tuple(orbits)
+
+
+def _times(body: BallBody, speed: float) -> Array:
+    """How long to follow them; `speed`: the largest |ω|."""
+    # No slower than this they leave and arrive, from one pixel to the next one; but not too many turns of γ.
+    moment = 2.0 / float(np.sum(Strip(body, 1.0).unstable[1] ** 2))
+    rate = math.hypot(body.I13, body.I23) * math.sqrt(2.0 * moment) / (body.I11 + body.D) / (body.I22 + body.D)
+    end = min(10.0 / max(rate, 1e-290), 250.0 / speed)
+    return np.linspace(0.0, end, int(min(1200.0, max(60.0, end * speed / 0.2))) + 1)[1:]
+
+
+def _as_far_as_the_line(first: Array, others: Array, eta: Array, tick: float) -> Array:
+    track = np.vstack([first, others])
+    away = np.flatnonzero(np.abs(track @ eta) > tick)
+    return track[: away[-1] + 2] if away.size else track[:1]
