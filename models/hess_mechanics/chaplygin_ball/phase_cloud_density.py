@@ -83,7 +83,7 @@ def density(cloud: Cloud) -> Density:
     """In bins of `BIN` from the smallest |s|, but not below `SMALLEST`, to the largest."""
     low = max(SMALLEST, float(cloud.log_s.min()))
     first = math.floor(low / BIN)
-    edges = BIN * np.arange(first, max(first + 1, math.floor(float(cloud.log_s.max()) / BIN) + 1) + 1)
+    edges = BIN * np.arange(first, max(first + 1, math.floor(float(cloud.log_s.max()) / BIN) + 1) + 1, dtype=float)
     # What each point spends per unit of ln|s| in the end, where ln|s| falls at an even rate.
     late = 3 * cloud.times.size // 4
     rate = np.abs(cloud.log_s[:, -1] - cloud.log_s[:, late]) / abs(cloud.times[-1] - cloud.times[late])

@@ -165,8 +165,8 @@ def cos_chi_over(k: tuple[float, ...], I22: float, I13: float, I23: float) -> Ar
 
 def theta_plus_grid(found: Scattering, m: int, n: int) -> Array:
     """θ⁺ at the centres of m × n cells of −π < φ < π, 0 < θ⁻ < π; (n, m), rows of equal θ⁻."""
-    phi = -math.pi + (np.arange(m) + 0.5) * (2 * math.pi / m)
-    theta = (np.arange(n) + 0.5) * (math.pi / n)
+    phi = -math.pi + (np.arange(m, dtype=float) + 0.5) * (2 * math.pi / m)
+    theta = (np.arange(n, dtype=float) + 0.5) * (math.pi / n)
     return frozen(found.theta_plus(theta[:, None], phi[None, :]))
 
 

@@ -405,7 +405,7 @@ def test_fewer_points_while_a_slider_is_dragged():
 
 @pytest.mark.parametrize("beside", ["nothing", "principal axis"])
 def test_fewer_points_until_all_of_them_are_known(beside):
-    values = {**SCENE.defaults(), "I11": 2.015, "beside": beside, "b3": 1.0, "points": 3000.0}
+    values = {**SCENE.defaults(), "I11": 2.015, "beside": beside, "b3": 1.0, "points": "3000"}
     clouds = 2 if beside == "principal axis" else 1
     first = SCENE.compute(values, SCENE.pictures, False)
     assert first.clouds.cloud.signs.size == 1000 // clouds
@@ -416,7 +416,7 @@ def test_fewer_points_until_all_of_them_are_known(beside):
     if clouds == 2:
         assert (first.clouds.other.states.shape[0], whole.clouds.other.states.shape[0]) == (500, 1500)
     # So few are computed at once.
-    few = SCENE.compute({**values, "points": 900.0}, SCENE.pictures, False)
+    few = SCENE.compute({**values, "points": "900"}, SCENE.pictures, False)
     assert (few.clouds.cloud.signs.size, few.todo) == (900 // clouds, ())
 
 
