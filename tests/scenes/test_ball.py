@@ -213,10 +213,10 @@ def test_few_orbits_and_a_draft_of_the_map_until_the_others_are_known():
     values = {**BALL.defaults(), "I11": 1.015}
     first = BALL.compute(values, BALL.pictures, False)
     assert (len(first.crowd), first.map.phis.size) == (8, 33)
-    assert (len(first.todo), first.total) == (2, 2)
+    assert (len(first.work.todo), first.work.pieces) == (2, 2)
     whole = View(BALL, {"I11": 1.015}).result
     assert (len(whole.crowd), whole.map.phis.size) == (18, 65)
-    assert (whole.todo, whole.total) == ((), 2)
+    assert (whole.work.todo, whole.work.pieces) == ([], 2)
     # The draft is right to what its errors say.
     assert np.all(np.abs(first.map.theta_plus - whole.map.theta_plus[::2]) <= first.map.errors + whole.map.errors[::2])
     assert first.map.errors.max() < 5e-3

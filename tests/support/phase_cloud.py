@@ -19,8 +19,8 @@ def captions(values):
 
 def complete(values):
     """The result with all points."""
-    for task in SCENE.compute(values, SCENE.pictures, False).todo:
+    for task in SCENE.compute(values, SCENE.pictures, False).work.todo:
         CACHE.get(task.function, *task.arguments)
     result = SCENE.compute(values, SCENE.pictures, False)
-    assert result.todo == ()
+    assert result.work.todo == []
     return result

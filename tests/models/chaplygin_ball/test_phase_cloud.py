@@ -409,15 +409,15 @@ def test_fewer_points_until_all_of_them_are_known(beside):
     clouds = 2 if beside == "principal axis" else 1
     first = SCENE.compute(values, SCENE.pictures, False)
     assert first.clouds.cloud.signs.size == 1000 // clouds
-    assert (len(first.todo), first.total) == (1, 1)
+    assert (len(first.work.todo), first.work.pieces) == (1, 1)
     whole = complete(values)
-    assert whole.todo == ()
+    assert whole.work.todo == []
     assert whole.clouds.cloud.signs.size == 3000 // clouds
     if clouds == 2:
         assert (first.clouds.other.states.shape[0], whole.clouds.other.states.shape[0]) == (500, 1500)
     # So few are computed at once.
     few = SCENE.compute({**values, "points": "900"}, SCENE.pictures, False)
-    assert (few.clouds.cloud.signs.size, few.todo) == (900 // clouds, ())
+    assert (few.clouds.cloud.signs.size, few.work.todo) == (900 // clouds, [])
 
 
 def test_a_click_in_the_plane_chooses_a_patch_there():
