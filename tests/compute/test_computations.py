@@ -34,7 +34,7 @@ every_scene = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
 
 # By the names of the functions.
 MAP, CYCLES, TRACK, BODY = "circle_map", "cycles", "track", "attitude_of_track"
-BOUNDARY, CURVE, GRID = "lock_boundary", "curve", "_rotation"
+BOUNDARY, CURVE, GRID = "lock_boundary", "curve", "rotation_number_window"
 LEVELS, OTHERS, GROWTH = "measure_levels", "measure_others", "growth"
 MOTION = {MAP, CYCLES, TRACK}
 ZONES = {BOUNDARY, CURVE, GRID}

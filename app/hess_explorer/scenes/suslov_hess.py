@@ -9,26 +9,27 @@ from functools import cached_property
 
 import numpy as np
 
+from hess_explorer.scenes.framework.hess_case import SuslovBody, possible_f
 from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, number, slider_within
-from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
+from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import bifurcation_diagram as diagram
 from hess_explorer.views import circle_map as circle
-from hess_explorer.views import theme
+from hess_explorer.views import torus_plane
 from hess_explorer.views.body import BodyInSpace, Curve, Rod, Shape
-from hess_explorer.views.layers import Columns, Grid, line, region
+from hess_explorer.views.layers import Columns, Grid
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere
 from hess_explorer.views.text import digits
-from hess_explorer.views.velocity_plane import centred, nice_above, ring_outside, velocity_columns
+from hess_explorer.views.velocity_plane import centred, nice_above
 from hess_mechanics.errors import Separatrix
-from hess_mechanics.numerics.accuracy import DRAFT, STANDARD, Level
+from hess_mechanics.numerics.accuracy import DRAFT, STANDARD
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.rigid_body.attitude import Attitude
-from hess_mechanics.suslov_hess.bifurcation import TurningPoints, curve, curve_point, f_max, turning_points
+from hess_mechanics.suslov_hess.bifurcation import TurningPoints, curve, curve_point, f_max, reach, turning_points
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
-from hess_mechanics.suslov_hess.equations import SYSTEM, HessBody
-from hess_mechanics.suslov_hess.mode_locking import lock_boundary, rotation_number_grid
+from hess_mechanics.suslov_hess.equations import SYSTEM
+from hess_mechanics.suslov_hess.mode_locking import lock_boundary, rotation_number_window
 from hess_mechanics.suslov_hess.torus import (
     MAX_RETURNS,
     Track,
@@ -40,8 +41,6 @@ from hess_mechanics.suslov_hess.torus import (
     track,
 )
 
-GRID = (100, 75)
-MAX_A = 100.0
 COBWEB = 60
 
 PRESETS = (
@@ -57,15 +56,9 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class SuslovHess(State):
+class SuslovHess(SuslovBody):
     """One orbit on one torus M²(h, f), all tori beside it."""
 
-    I22: float = number("I₂₂", 0.96, (0.2, 3.0), 0.01, bounds=(1e-3, 1e3), label="Inertia I₂₂",
-                        doc="Moment of inertia about the second body axis. I₁₁ follows from it and I₂₃.")
-    I23: float = number("I₂₃", 0.28, (-2.0, 2.0), 0.01, bounds=(-1e3, 1e3), label="Inertia I₂₃",
-                        doc="Product of inertia. a = I₂₃/I₂₂ tilts the circular section; a = 0 decouples the motion.")
-    b3: float = number("b₃", -1.0, (-3.0, -0.05), 0.01, bounds=(-1e3, -1e-3), label="Centre of mass b₃",
-                       doc="Third component of b = −mg r. It sets the unit of time; b₂ follows from it.")
     h: float = number("h", 1.5, (-0.99, 4.0), 0.01, bounds=(-1.0 + 1e-9, 1e6), label="Energy h",
                       doc="Energy integral in units b = 1: h > −1; the separatrix is at h = 1, f = 0.")
     f: float = number("f", 0.6, (-3.0, 3.0), 0.01, bounds=(-1e4, 1e4), label="Area integral f",
@@ -78,23 +71,11 @@ class SuslovHess(State):
 
     def admitted(self, notes: list[str]) -> SuslovHess:
         """|a| ≤ 100, and f inside the region of this h."""
-        state, bound, largest = self, MAX_A * self.I22, f_max(self.h)
-        if abs(self.I23) > bound:
-            state = replace(state, I23=math.copysign(bound, self.I23))
-            notes.append(f"a = I₂₃/I₂₂ is kept within ±{MAX_A:g}: I₂₃ is {digits(state.I23)} now.")
-        if abs(self.f) > largest:
-            state = replace(state, f=math.copysign(largest, self.f))
-            notes.append(f"At h = {digits(self.h)} only |f| ≤ {digits(largest)} is possible: f is at that edge now.")
-        return state
+        return replace(self, I23=self.possible_I23(notes), f=possible_f(self.h, self.f, notes))
 
     def limits(self) -> Mapping[str, Slider]:
         """The slider of f spans the region at this h, in round steps."""
         return {"f": slider_within(f_max(self.h))}
-
-    @cached_property
-    def body(self) -> HessBody:
-        """The body."""
-        return HessBody(self.I22, self.I23, self.b3)
 
     @cached_property
     def turning(self) -> TurningPoints | None:
@@ -120,16 +101,15 @@ class SuslovHess(State):
     @cached_property
     def track(self) -> Track:
         """The orbit on show."""
-        return self.work.get(track, self.body, self.h, self.f, self.phi0, self.span, self.level,
-                                     self.half_width)
+        return self.work.get(track, self.body, self.h, self.f, self.phi0, self.span, self.level, self.half_width)
 
     @cached_property
     def cycles(self) -> tuple[Track, Track] | None:
         """The stable and the unstable limit cycle, where there are two."""
         if self.map is None or self.map.kind != "hyperbolic":
             return None
-        return self.work.get(
-            cycles, self.body, self.h, self.f, self.map.fixed_points[0], self.level, self.half_width)
+        stable = self.map.fixed_points[0]
+        return self.work.get(cycles, self.body, self.h, self.f, stable, self.level, self.half_width)
 
     @cached_property
     def iterates(self) -> Array | None:
@@ -147,10 +127,9 @@ class SuslovHess(State):
         return self.work.get(attitude_of_track, self.body, self.h, self.f, self.phi0, self.span, self.level)
 
     @cached_property
-    def middle_I33(self) -> float:
-        """I33 is no parameter of the problem: here the middle of those of a rigid body, which this must be."""
-        assert self.body.check.I33 is not None
-        return 0.5 * sum(self.body.check.I33)
+    def tensor(self) -> Array | None:
+        """Of inertia, along the axes of n; None where this is no rigid body."""
+        return None if self.body.middle_I33 is None else self.body.tensor(self.body.middle_I33)
 
     def motion(self) -> Motion:
         """The orbit on show, in units b = 1."""
@@ -162,45 +141,21 @@ class SuslovHess(State):
 
     def orbit_columns(self) -> Columns:
         """The orbit, and what the moving points of the other pictures follow."""
-        found, n3 = self.track, self.track.n3
-        start = found.phi
+        found, start = self.track, self.track.phi
         if self.map is not None and self.iterates is not None:
-            index = np.floor(found.orbit.times / self.map.period).astype(int)
-            start = self.iterates[np.minimum(index, len(self.iterates) - 1)]
-        reach = math.copysign(1.0, self.f) * np.sqrt(np.maximum(0.0, 2.0 * (self.h + n3) * (1.0 - n3 * n3)))
-        return velocity_columns(found.times, found.omega, found.gamma, phi=found.phi, phi_start=start,
-                                h=np.full(n3.size, self.h), reach=reach)
-
-    def cycle_columns(self, i: int) -> Columns | None:
-        """The stable (0) or the unstable (1) cycle."""
-        if self.cycles is None:
-            return None
-        one = self.cycles[i]
-        return velocity_columns(None, one.omega, one.gamma)
-
-    def n3_axis(self) -> Direction:
-        """The direction n3 in the axes of the body."""
-        sign, r = math.copysign(1.0, self.body.b), math.hypot(1.0, self.body.a)
-        return Direction((0.0, -sign * self.body.a / r, sign / r), "n₃")
+            start = torus_plane.phases_at_returns(found, self.map, self.iterates)
+        return torus_plane.track_columns(found, phi_start=start, h=np.full(found.n3.size, self.h),
+                                         reach=math.copysign(1.0, self.f) * reach(self.h, found.n3))
 
     def heights(self) -> list[Circle]:
         """The circles between which n3 swings."""
         ends = (-1.0, 1.0) if self.turning is None else self.turning.roots[1:]
-        return [Circle(self.n3_axis().along, end, "limit") for end in ends if abs(end) < 1 - 1e-9]
+        return [Circle(self.body.n3, end, "limit") for end in ends if abs(end) < 1 - 1e-9]
 
     def rotation(self) -> Grid:
         """The rotation number over the diagram."""
         axes = diagram.window(self.h)
-        cells: Array = self.work.get(_rotation, self.body.a, axes.x, axes.y, DRAFT)
-        return Grid(cells, axes.x, axes.y)
-
-    def lock_boundary(self) -> Array:
-        """|t| = 2 in the half f ≥ 0 of the diagram."""
-        return self.work.get(lock_boundary, self.body.a, STANDARD)
-
-    def bifurcation_curve(self) -> Array:
-        """The upper branch of the edge of what is possible."""
-        return self.work.get(curve, diagram.window(self.h).x[1])
+        return Grid(self.work.get(rotation_number_window, self.body.a, axes.x, axes.y, DRAFT), axes.x, axes.y)
 
     def about_torus(self, h: float, f: float) -> str:
         """What the torus (h, f) under the mouse does."""
@@ -213,20 +168,11 @@ class SuslovHess(State):
 
     def shape(self) -> Shape | None:
         """The gyration ellipsoid in the axes of n."""
-        return None if self.attitude is None else Shape.of_tensor(self.body.tensor(self.middle_I33), (0.0, 0.0, 1.0))
+        return None if self.tensor is None else Shape.of_tensor(self.tensor, (0.0, 0.0, 1.0))
 
     def lying(self) -> tuple[Attitude, Array] | None:
         """The attitude, and its times in the body's time."""
         return None if self.attitude is None else (self.attitude, self.attitude.times / self.body.frequency_unit)
-
-    def rods(self) -> list[Rod]:
-        """The axis of the constraint and the centre of mass."""
-        return [Rod(self.body.turn[:, 2], "muted", "3"), Rod((0.0, 0.0, 1.0), "mass")]
-
-    def path(self) -> list[Curve]:
-        """The path of the centre of mass in space."""
-        assert self.attitude is not None
-        return [Curve(self.attitude.in_space((0.0, 0.0, 1.0)), "orbit")]
 
     # ---- words --------------------------------------------------------------------------------------------------
 
@@ -268,11 +214,10 @@ class SuslovHess(State):
 
     def about_body(self) -> str:
         """The caption of the body."""
-        if not self.body.check.is_body:
+        if self.tensor is None or self.body.middle_I33 is None:
             return "Nothing is drawn: with |a| ≥ 1 there is no such rigid body, whatever I₃₃."
-        moments = np.linalg.eigvalsh(self.body.tensor(self.middle_I33))
-        return (f"Gyration ellipsoid for I₃₃ = {digits(self.middle_I33)}, which is free: moments "
-                f"{', '.join(map(digits, moments))}.")
+        moments = ", ".join(map(digits, np.linalg.eigvalsh(self.tensor)))
+        return f"Gyration ellipsoid for I₃₃ = {digits(self.body.middle_I33)}, which is free: moments {moments}."
 
     def derived(self) -> Iterator[str]:
         """a, b, what follows of the body, the integrals in its own units, the period."""
@@ -313,43 +258,26 @@ class SuslovHess(State):
             yield "At f = 0, h < 1 the angle φ jumps where w = 0: the circle map is its limit f → 0."
 
 
-def _rotation(a: float, x: tuple[float, float], y: tuple[float, float], accuracy: Level) -> Array:
-    """ρ at the centres of the cells of the window; fewer cells where a makes each one dear."""
-    share = min(1.0, math.sqrt(10.0 / max(abs(a), 1e-9)))
-    m, n = (max(8, round(size * share)) for size in GRID)
-    h = x[0] + (np.arange(m) + 0.5) * (x[1] - x[0]) / m
-    f = y[0] + (np.arange(n) + 0.5) * (y[1] - y[0]) / n
-    return rotation_number_grid(a, np.maximum(h, -1.0 + 1e-6), f, accuracy)
-
-
 SCENE = Scene(
     SuslovHess, __file__, place=1, presets=PRESETS,
     title="The Suslov–Hess case",
     summary="A heavy rigid body with ω₃ = 0 whose motions live on tori: rotation, locking, limit cycles.",
-    tracks={"orbit": SuslovHess.orbit_columns, "stable": lambda s: s.cycle_columns(0),
-            "unstable": lambda s: s.cycle_columns(1)},
+    tracks={"orbit": SuslovHess.orbit_columns, "stable": lambda s: torus_plane.cycle_columns(s.cycles, 0),
+            "unstable": lambda s: torus_plane.cycle_columns(s.cycles, 1)},
     angles=("phi", "phi_start"),
     views=(
         Plot(name="omega", title="Angular velocity (ω₁, ω₂)", caption=SuslovHess.about_velocity, axes=("ω₁", "ω₂"),
              x=lambda s: centred(s.half_width), y=lambda s: centred(s.half_width), dot=("omega1", "omega2"),
-             layers=(
-                 region("forbidden", lambda s: ring_outside(*annulus(s.body, s.h, s.turning), s.half_width),
-                        edge=theme.MUTED, label="impossible", moving=True),
-                 line("orbit", track="orbit", columns=("omega1", "omega2"), color=theme.ORBIT, width=1.3,
-                      label="orbit"),
-                 line("stable", track="stable", columns=("omega1", "omega2"), color=theme.STABLE, width=3,
-                      label="stable cycle"),
-                 line("unstable", track="unstable", columns=("omega1", "omega2"), color=theme.UNSTABLE, width=3,
-                      dash="dashed", label="unstable cycle"),
-             )),
-        Sphere(caption=SuslovHess.about_sphere, axis=SuslovHess.n3_axis, circles=SuslovHess.heights,
+             layers=torus_plane.layers(lambda s: annulus(s.body, s.h, s.turning), half_width=lambda s: s.half_width)),
+        Sphere(caption=SuslovHess.about_sphere, axis=lambda s: Direction(s.body.n3, "n₃"), circles=SuslovHess.heights,
                looks={"orbit": "orbit", "stable": "stable", "unstable": "unstable"}),
         Plot(name="bifurcation", title="Bifurcation diagram", caption=SuslovHess.about_zone, axes=("h", "f"),
              x=lambda s: diagram.window(s.h).x, y=lambda s: diagram.window(s.h).y, dot=("h", "reach"),
              on_click=lambda s, x, y: {"h": x, "f": y}, on_drag=True, on_hover=SuslovHess.about_torus,
-             layers=diagram.layers(rotation=SuslovHess.rotation, boundary=SuslovHess.lock_boundary,
-                                   curve=SuslovHess.bifurcation_curve, here=lambda s: [(s.h, s.f)],
-                                   axes=lambda s: diagram.window(s.h))),
+             layers=diagram.layers(
+                 rotation=SuslovHess.rotation, boundary=lambda s: s.work.get(lock_boundary, s.body.a, STANDARD),
+                 curve=lambda s: s.work.get(curve, diagram.window(s.h).x[1]), here=lambda s: [(s.h, s.f)],
+                 axes=lambda s: diagram.window(s.h))),
         Plot(name="circle", title="Circle map", caption=SuslovHess.about_map, axes=("φ", "Θ(φ)"),
              x=circle.SIDE, y=circle.SIDE, ticks=circle.TICKS, dot=("phi_start", "phi"),
              message=lambda s: "" if s.map is not None else "Separatrix: no return",
@@ -358,6 +286,7 @@ SCENE = Scene(
                                   iterates=lambda s: None if s.iterates is None else s.iterates[: COBWEB + 1])),
         BodyInSpace(name="body", title="The body in space", caption=SuslovHess.about_body, bare=True,
                     folded="Show the body in space", shape=SuslovHess.shape, motion=SuslovHess.lying,
-                    rods=lambda s: s.rods(), curves=lambda s: s.path()),
+                    rods=lambda s: [Rod(s.body.turn[:, 2], "muted", "3"), Rod((0.0, 0.0, 1.0), "mass")],
+                    curves=lambda s: [Curve(s.attitude.in_space((0.0, 0.0, 1.0)), "orbit")] if s.attitude else []),
     ),
 )

@@ -17,7 +17,7 @@ from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov_hess.bifurcation_kernels import f_max_and_roots, largest_f
 
-__all__ = ["SPECIAL_POINTS", "TurningPoints", "curve", "curve_point", "f_max", "turning_points"]
+__all__ = ["SPECIAL_POINTS", "TurningPoints", "curve", "curve_point", "f_max", "reach", "turning_points"]
 
 SPECIAL_POINTS: tuple[tuple[float, float], ...] = ((1.0, 0.0), (-1.0, 0.0))
 """(h, f) of the upper and the lower equilibrium (`Geq4`)."""
@@ -67,6 +67,11 @@ def f_max(h: float) -> float:
     """The largest |f| of motions with this h (`Geq3`).  Raises `OutsideRegion` for h ≤ −1."""
     _check_h(h)
     return float(largest_f(float(h)))
+
+
+def reach(h: float, n3: Array) -> Array:
+    """The largest |f| of motions with this h that come to the heights n3 (n,); at a turning point it is |f|."""
+    return np.sqrt(np.maximum(0.0, 2.0 * (h + n3) * (1.0 - n3 * n3)))
 
 
 def turning_points(h: float, f: float) -> TurningPoints:

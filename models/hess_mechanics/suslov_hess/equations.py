@@ -78,6 +78,16 @@ class HessBody:
             return body_check((self.a**2 * self.I22, (2.0 - self.a**2) * self.I22))
         return body_check(None)
 
+    @property
+    def middle_I33(self) -> float | None:
+        """I33 is no parameter of the problem: this is the middle of those of a rigid body, if this may be one."""
+        return None if self.check.I33 is None else 0.5 * sum(self.check.I33)
+
+    @property
+    def n3(self) -> Array:
+        """The direction of n3, in units b = 1, along the axes of the body; shape (3,)."""
+        return np.asarray(math.copysign(1.0, self.b) * self.turn[2], float)
+
     def tensor(self, I33: float) -> Array:
         """The tensor of inertia with this I33 along the axes of (n1, n2, n3); shape (3, 3)."""
         tensor = np.array([[self.I11, 0.0, 0.0], [0.0, self.I22, self.I23], [0.0, self.I23, I33]])

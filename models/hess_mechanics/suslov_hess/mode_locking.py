@@ -22,7 +22,7 @@ from hess_mechanics.suslov_hess.circle_map import check_a, matrices, rotation_nu
 
 __all__ = [
     "critical_a", "lock_boundary", "lock_boundary_end", "lock_boundary_f", "lock_boundary_h", "rotation_number_grid",
-    "trace_on_curve",
+    "rotation_number_window", "trace_on_curve",
 ]
 
 
@@ -175,3 +175,15 @@ def critical_a(h: float, f: float, level: Level, high: float = 10.0) -> float:
     check_a(high)
     turning_points(h, f)
     return _root(lambda a: _locked_at(h, f, a, level), 1e-9, high, "a")
+
+
+_CELLS = (100, 75)
+
+
+def rotation_number_window(a: float, h: tuple[float, float], f: tuple[float, float], level: Level) -> Array:
+    """`rotation_number_grid` at the centres of the cells of a window, fewer where a makes each one expensive."""
+    share_ = min(1.0, math.sqrt(10.0 / max(abs(a), 1e-9)))
+    m, n = (max(8, round(size * share_)) for size in _CELLS)
+    hs = h[0] + (np.arange(m) + 0.5) * (h[1] - h[0]) / m
+    fs = f[0] + (np.arange(n) + 0.5) * (f[1] - f[0]) / n
+    return rotation_number_grid(a, np.maximum(hs, -1.0 + 1e-6), fs, level)

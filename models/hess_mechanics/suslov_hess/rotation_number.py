@@ -245,10 +245,9 @@ def periodic_torus(rho: Fraction, line: Line, level: Level) -> PeriodicTorus | N
     return PeriodicTorus(found, closed_after(found, rho.denominator, level))
 
 
-def plateaus(rho: Array, possible: Array) -> list[Fraction]:
+def plateaus(rho: Array, possible: Mask) -> list[Fraction]:
     """The rational numbers that neighbours of a curve ρ (n,) share to 1e-6, the least denominators first."""
-    both = np.logical_and(possible[1:], possible[:-1])
-    level = np.flatnonzero(both & (np.abs(np.diff(rho)) < 1e-6))
+    level = np.flatnonzero(possible[1:] & possible[:-1] & (np.abs(np.diff(rho)) < 1e-6))
     steps = [(Fraction(float(rho[i])).limit_denominator(12), float(rho[i])) for i in level]
     near = {step for step, value in steps if abs(float(step) - value) < 1e-5}
     return sorted(near, key=lambda step: (step.denominator, step))
