@@ -13,19 +13,10 @@ from hess_explorer.scenes.speed_accuracy import looking_into
 __all__ = ["scenes"]
 
 
-_UNCONVERTED = {
-    "ball_section",
-    "euler_poisson",
-    "quartic",
-    "suslov",
-}
-
-
 @cache
 def scenes() -> dict[str, Scene[Any]]:
     """All scenes by name, in the order of the menu; those that look into another one come last."""
-    modules = (importlib.import_module(f"{__name__}.{module.name}") for module in pkgutil.iter_modules(__path__)
-               if module.name not in _UNCONVERTED)
+    modules = (importlib.import_module(f"{__name__}.{module.name}") for module in pkgutil.iter_modules(__path__))
     own = [module.SCENE for module in modules if isinstance(getattr(module, "SCENE", None), Scene)]
     own += [looking_into(scene) for scene in own if scene.has_motion]
     return {scene.name: scene for scene in sorted(own, key=lambda scene: (scene.origin is not None, scene.place))}

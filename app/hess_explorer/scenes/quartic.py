@@ -1,34 +1,32 @@
-"""e on a principal axis, b1 = b2 = 0 (S7): a point in a quartic potential, its section, and the body again."""
+"""The constraint axis on a principal axis, b1 = b2 = 0: a point in a quartic potential, its section, and the body."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
-from pathlib import Path
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.parameters import Number, Value, Values
-from hess_explorer.protocol.wire import Wire
-from hess_explorer.scenes.framework.scene import Motion, Preset, Report, Scene
-from hess_explorer.scenes.framework.sections import section_status
-from hess_explorer.scenes.framework.work import ACCURACY, Work, refuse
-from hess_explorer.views import theme
-from hess_explorer.views.chart import Series
-from hess_explorer.views.graph import Graph
-from hess_explorer.views.plane_domain import PlaneDomain, plane_columns
-from hess_explorer.views.poisson_sphere import Circle, PoissonSphere
-from hess_explorer.views.section_plane import SectionPlane
-from hess_explorer.views.text import number
-from hess_explorer.views.velocity_plane import nice_above
-from hess_mechanics.dynamics.orbit import solve
-from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA, sample_times
+from hess_explorer.protocol.parameters import Values
+from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, number, slider_within
+from hess_explorer.scenes.framework.scene import Preset, Scene
+from hess_explorer.scenes.framework.sections import Crossings, Start, joined
+from hess_explorer.views import plane_domain, section_plane, theme
+from hess_explorer.views.layers import Axes, Columns, curves
+from hess_explorer.views.plot import Plot
+from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere
+from hess_explorer.views.text import digits, power
+from hess_explorer.views.velocity_plane import centred, nice_above
+from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.section import Points, occupied_cells
-from hess_mechanics.errors import ModelError, WorkLimit
-from hess_mechanics.numerics.accuracy import STANDARD, Level
-from hess_mechanics.numerics.results import Array, Orbit, frozen
+from hess_mechanics.dynamics.system import System
+from hess_mechanics.errors import ModelError
+from hess_mechanics.numerics.accuracy import STANDARD
+from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov.equations import SYSTEM
 from hess_mechanics.suslov.quartic import (
     QuarticBody,
@@ -39,359 +37,216 @@ from hess_mechanics.suslov.quartic import (
     state_on_section,
 )
 
-_MOST = 6000
 _ORBITS = 20
-_FEW = 30
-"""Crossings of each, while a slider is dragged and until all are known."""
 _MOST_STEPS = 40_000
 _CELLS = 32
-_LEVELS = (-0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75)
-"""Of γ3."""
 _INSIDE = 1e-9
-_ANGLE = np.linspace(0.0, 2.0 * math.pi, 181)
-_CIRCLE = np.column_stack([np.cos(_ANGLE), np.sin(_ANGLE)])
-
-SPECS = (
-    Number("I22", "I₂₂", "Inertia I₂₂", 1.0, 0.2, 3.0, 0.01, 1e-2, 1e2,
-           "Moment of inertia about the second body axis."),
-    Number("ratio", "I₁₁/I₂₂", "Ratio I₁₁/I₂₂", 2.0, 0.2, 5.0, 0.01, 1e-2, 1e2,
-           "At 1 the potential is central and the motion integrable."),
-    Number("b3", "b₃", "Centre of mass b₃", 1.0, -3.0, 3.0, 0.01, -1e2, 1e2, "b = −mg r; not 0 here, b₁ = b₂ = 0."),
-    Number("h", "h", "Energy E = h", 0.8, -0.9, 4.0, 0.01, -1e2, 1e3,
-           "Above −|b₃|. Beyond |b₃| the point may not come near the middle."),
-    Number("Q1", "q₁", "Start q₁ = I₂₂ω₂/b₃", 0.6, -2.0, 2.0, 0.01, -1e30, 1e30,
-           "A click in the plane chooses the start."),
-    Number("Q2", "q₂", "Start q₂ = −I₁₁ω₁/b₃", 0.3, -2.0, 2.0, 0.01, -1e30, 1e30,
-           "A click in the plane chooses the start."),
-    Number("beta", "β", "Start: direction β", 1.0, -3.14, 3.14, 0.01, -math.pi, math.pi,
-           "Where the point runs at first: q̇ = −p, |p| = √(1 − γ₃²). A click in the section chooses all three."),
-    Number("count", "n", "Crossings of each orbit", 200.0, 50.0, 600.0, 10.0, 1.0, 1000.0, "Points for each orbit."),
-    Number("span", "t", "Time span", 40.0, 1.0, 200.0, 1.0, 0.01, 1e3, "How long the chosen orbit is followed."),
-    ACCURACY,
-)
+_HEIGHTS = (-0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75)
+"""Values of γ3 on the equipotentials."""
 
 PRESETS = (
-    Preset("Mixed: in the sea", {}),
-    Preset("Mixed: on a curve", {"Q1": 0.2, "Q2": 1.9, "beta": 0.0}),
-    Preset("Integrable: I₁₁ = I₂₂", {"ratio": 1.0, "h": 0.6}),
-    Preset("Integrable, in a ring: h > |b₃|", {"ratio": 1.0, "h": 1.5, "Q1": 1.8, "Q2": 0.0}),
-    Preset("Regular: nearly round", {"ratio": 1.05, "h": 0.6}),
-    Preset("A sea nearly everywhere", {"ratio": 3.0, "h": 1.2, "Q1": 0.9, "Q2": 1.2}),
-    Preset("In a ring: bouncing at its far end", {
-        "ratio": 1.5, "h": 3.0, "Q1": 0.3, "Q2": 3.0, "beta": 1.571, "span": 60.0}),
+    Preset("Mixed: in the sea"),
+    Preset("Mixed: on a curve", Q1=0.2, Q2=1.9, beta=0.0),
+    Preset("Integrable: I₁₁ = I₂₂", ratio=1.0, h=0.6),
+    Preset("Integrable, in a ring: h > |b₃|", ratio=1.0, h=1.5, Q1=1.8, Q2=0.0),
+    Preset("Regular: nearly round", ratio=1.05, h=0.6),
+    Preset("A sea nearly everywhere", ratio=3.0, h=1.2, Q1=0.9, Q2=1.2),
+    Preset("In a ring: bouncing at its far end", ratio=1.5, h=3.0, Q1=0.3, Q2=3.0, beta=1.571, span=60.0),
 )
-
-LEGEND = """
-<ul class="legend" aria-label="Legend">
-<li><span class="line orbit"></span>chosen orbit</li>
-<li><span class="dot small" style="background: #808080"></span>other orbits</li>
-<li><span class="dot" style="background: none; border: 3px solid #D55E00"></span>where it starts</li>
-<li><span class="dot point"></span>moving point</li>
-<li><span class="line muted"></span>equipotentials</li>
-<li><span class="box forbidden"></span>impossible</li>
-</ul>
-"""
-
-THUMBNAIL = """
-<ellipse cx="24" cy="16" rx="21" ry="13" fill="none" stroke="#808080"/>
-<ellipse cx="24" cy="16" rx="12" ry="7" fill="none" stroke="#808080"/>
-<path d="M8 16C14 2 18 2 24 16S34 30 40 16 34 2 24 16 14 30 8 16" fill="none" stroke="#0072B2" stroke-width="2"/>
-"""
-
-WORDS = Path(__file__).with_suffix(".md").read_text(encoding="utf-8")
 
 
 @dataclass(frozen=True)
-class QuarticResult:
-    """`others`, `own`: (n, 2) points of the section; None where no picture asks, or for this `reason`.
+class Quartic(Crossings):
+    """The orbit of one point in the potential, among others of its energy."""
 
-    todo : the others in full, where they are not computed yet.
-    """
+    I22: float = number("I₂₂", 1.0, (0.2, 3.0), 0.01, bounds=(1e-2, 1e2), label="Inertia I₂₂",
+                        doc="Moment of inertia about the second body axis.")
+    ratio: float = number("I₁₁/I₂₂", 2.0, (0.2, 5.0), 0.01, bounds=(1e-2, 1e2), label="Ratio I₁₁/I₂₂",
+                          doc="At 1 the potential is central and the motion integrable.")
+    b3: float = number("b₃", 1.0, (-3.0, 3.0), 0.01, bounds=(-1e2, 1e2), label="Centre of mass b₃",
+                       doc="b = −mg r; not 0 here, b₁ = b₂ = 0.")
+    h: float = number("h", 0.8, (-0.9, 4.0), 0.01, bounds=(-1e2, 1e3), label="Energy E = h",
+                      doc="Above −|b₃|. Beyond |b₃| the point may not come near the middle.")
+    Q1: float = number("q₁", 0.6, (-2.0, 2.0), 0.01, bounds=(-1e30, 1e30), label="Start q₁ = I₂₂ω₂/b₃",
+                       doc="A click in the plane chooses the start.")
+    Q2: float = number("q₂", 0.3, (-2.0, 2.0), 0.01, bounds=(-1e30, 1e30), label="Start q₂ = −I₁₁ω₁/b₃",
+                       doc="A click in the plane chooses the start.")
+    beta: float = number("β", 1.0, (-3.14, 3.14), 0.01, bounds=(-math.pi, math.pi), label="Start: direction β",
+                         doc="Where the point runs at first: q̇ = −p, |p| = √(1 − γ₃²). A click in the section chooses "
+                             "all three.")
+    count: float = number("n", 200.0, (50.0, 600.0), 10.0, bounds=(1.0, 1e3), label="Crossings of each orbit",
+                          doc="Points for each orbit.")
+    span: float = number("t", 40.0, (1.0, 200.0), 1.0, bounds=(0.01, 1e3), label="Time span",
+                         doc="How long the chosen orbit is followed.")
+    accuracy: str = accuracy_level()
 
-    values: Values
-    body: QuarticBody
-    start: tuple[float, ...]
-    orbit: Orbit | None
-    others: Array | None
-    own: Array | None
-    drift: Mapping[str, float]
-    steps: int
-    reason: str
-    todo: Sequence[Task]
-    total: int
-    ended: str
+    system: ClassVar[System] = SYSTEM
 
-
-def body_of(values: Values) -> QuarticBody:
-    """The body at its energy.  Raises `NoField`, `OutsideRegion`, `InvalidParameter`, `NotPositiveDefinite`."""
-    I22 = float(values["I22"])
-    return QuarticBody(float(values["ratio"]) * I22, I22, float(values["b3"]), float(values["h"]))
-
-
-def admit(values: Values) -> tuple[dict[str, Value], list[str]]:
-    """A start that the energy forbids moves to the edge of the region."""
-    out, notes = dict(values), []
-    try:
-        body = body_of(values)
-    except ModelError:
-        # Its sentence is that of the computation.
-        return out, notes
-    first, second = body.axes
-    x, y = float(out["Q1"]) / first, float(out["Q2"]) / second
-    size, inner = math.hypot(x, y), body.hole
-    if not inner <= size <= 1.0:
+    def admitted(self, notes: list[str]) -> Quartic:
+        """A start that the energy forbids moves to the edge of the region."""
+        first, second = self.body.axes
+        x, y = self.Q1 / first, self.Q2 / second
+        size, inner = math.hypot(x, y), self.body.hole
+        if inner <= size <= 1.0:
+            return self
         if size < 1e-100:
             x, y, size = 1.0, 0.0, 1.0
         # The ring may be thin.
         room = min(_INSIDE, 0.25 * (1.0 - inner))
         inside = min(1.0 - room, max(inner + room, size)) / size
-        out["Q1"], out["Q2"] = inside * x * first, inside * y * second
-        notes.append(f"With this energy the point cannot be at the start: it is at the edge now, q = "
-                     f"({number(float(out['Q1']))}, {number(float(out['Q2']))}).")
-    return out, notes
+        state = replace(self, Q1=inside * x * first, Q2=inside * y * second)
+        notes.append("With this energy the point cannot be at the start: it is at the edge now, q = "
+                     f"({digits(state.Q1)}, {digits(state.Q2)}).")
+        return state
 
+    def limits(self) -> Mapping[str, Slider]:
+        """The slider of h begins above −|b3|, those of q span the region."""
+        low, top, step = slider_within(abs(self.body.b3))
+        first, second = map(slider_within, self.body.axes)
+        return {"h": (0.9 * low, 4.0 * top, step), "Q1": first, "Q2": second}
 
-def limits(values: Values) -> Mapping[str, tuple[float, float, float]]:
-    """The slider of h begins above −|b3|, those of q span the region."""
-    try:
-        body = body_of(values)
-    except ModelError:
-        return {}
-    field, ranges = abs(body.b3), {}
-    for name, end in (("h", field), ("Q1", body.axes[0]), ("Q2", body.axes[1])):
-        digits = 2 - math.floor(math.log10(end))
-        step = float(f"1e{-digits}")
-        top = round(math.floor(end / step) * step, digits)
-        ranges[name] = (-0.9 * top, 4.0 * top, step) if name == "h" else (-top, top, step)
-    return ranges
+    @cached_property
+    def body(self) -> QuarticBody:
+        """The body at its energy.  Raises `NoField`, `OutsideRegion`, `InvalidParameter`, `NotPositiveDefinite`."""
+        return QuarticBody(self.ratio * self.I22, self.I22, self.b3, self.h)
 
+    @cached_property
+    def start(self) -> Start:
+        """The state at q with the direction β."""
+        return state_at(self.body, (self.Q1, self.Q2), self.beta)
 
-def _start(values: Values) -> tuple[QuarticBody, tuple[float, ...]]:
-    body = body_of(values)
-    return body, state_at(body, (float(values["Q1"]), float(values["Q2"])), float(values["beta"]))
+    @property
+    def half_width(self) -> float:
+        """Of the plane of the point."""
+        return nice_above(1.05 * max(self.body.axes))
 
+    @property
+    def weights(self) -> tuple[float, ...]:
+        """From the variables to the pictures, in pixels for a unit."""
+        radius = 0.5 * PIXELS
+        scale = radius / (self.half_width * abs(self.body.b3))
+        return (scale * self.body.I11, scale * self.body.I22, radius, radius, radius)
 
-def _half_width(body: QuarticBody) -> float:
-    return nice_above(1.05 * max(body.axes))
+    def crossing(self, crossings: int) -> tuple[Task, Task]:
+        """What finds so many crossings of the orbit on show, and of the others."""
+        return Task(_own, (self.body, self.start, crossings)), Task(_others, (self.body, crossings))
 
+    def places_of(self, points: Points) -> Array:
+        """The q along the section and its p."""
+        return joined(map(self.body.on_section, points.states))
 
-def _weights(body: QuarticBody) -> tuple[float, ...]:
-    """Pixels for a unit of each variable."""
-    radius = 0.5 * PIXELS
-    scale = radius / (_half_width(body) * abs(body.b3))
-    return (scale * body.I11, scale * body.I22, radius, radius, radius)
+    @cached_property
+    def momentum(self) -> Array:
+        """q1p2 − q2p1 along the orbit (n,)."""
+        return angular_momentum(self.body, self.orbit.states)
 
+    @property
+    def integrable(self) -> bool:
+        """Whether it is an integral."""
+        return self.body.I11 == self.body.I22
 
-def _orbit(body: QuarticBody, start: tuple[float, ...], span: float, accuracy: Level) -> Orbit:
-    times = sample_times(SYSTEM, np.array(start), np.array(body.parameters), span, np.array(_weights(body)), SAGITTA,
-                         _MOST)
-    return solve(SYSTEM, start, body.parameters, times, accuracy)
+    def track(self) -> Columns:
+        """The orbit on show."""
+        states = self.orbit.states
+        q, _ = self.body.to_plane(states)
+        return plane_domain.plane_columns(self.orbit.times, q, states[:, 2:], momentum=self.momentum)
+
+    def impossible(self, axes: Axes) -> list[list[Array]]:
+        """All of the section but the inside of its boundary."""
+        if self.own is None:
+            return []
+        r = 4.0 * max(axes.x[1], self.body.longest)
+        frame = np.array([[-r, -4.0], [r, -4.0], [r, 4.0], [-r, 4.0]])
+        return [[frame, *self.body.section_boundaries()]]
+
+    def start_on_section(self, x: float, y: float) -> Values:
+        """A click in the section: the start and its direction; nothing where that is impossible."""
+        try:
+            (q,), (p,) = self.body.to_plane(np.array([state_on_section(self.body, x, y)]))
+        except ModelError:
+            return {}
+        return {"Q1": float(q[0]), "Q2": float(q[1]), "beta": math.atan2(-p[1], -p[0])}
+
+    def momentum_range(self) -> tuple[float, float]:
+        """The axis of q1p2 − q2p1."""
+        return centred(nice_above(1.2 * max(float(np.abs(self.momentum).max()), 1e-3 * max(self.body.axes))))
+
+    # ---- words --------------------------------------------------------------------------------------------------
+
+    def _about_domain(self) -> str:
+        first, second = map(digits, self.body.axes)
+        ring = f"a ring, inside {digits(self.body.hole)} of it grey" if self.body.hole > 0.0 else "no hole"
+        return f"Level ½, half axes {first} and {second}, {ring}."
+
+    def _section_title(self) -> str:
+        held = "q₁" if self.body.across == 0 else "q₂"
+        return f"Section {held} = 0, {held} growing"
+
+    def _about_section(self) -> str:
+        if self.own is None:
+            return self.reason
+        square = np.column_stack([math.pi / self.body.longest * self.own[:, 0], 0.5 * math.pi * (1.0 + self.own[:, 1])])
+        return f"The orbit: {len(self.own)} points in {occupied_cells(square, _CELLS)} of {_CELLS * _CELLS} cells."
+
+    def _about_sphere(self) -> str:
+        g3 = self.orbit.states[:, 4]
+        return f"Back to the body: γ = (p₁, p₂, γ₃), γ₃ from {digits(float(g3.min()))} to {digits(float(g3.max()))}."
+
+    def _about_momentum(self) -> str:
+        low, high = float(self.momentum.min()), float(self.momentum.max())
+        if self.integrable:
+            return f"I₁₁ = I₂₂: an integral, {digits(float(self.momentum[0]))}, kept to {power(high - low)}."
+        return f"I₁₁ ≠ I₂₂: no integral, from {digits(low)} to {digits(high)}."
+
+    def derived(self) -> Iterator[str]:
+        """Moment of inertia, energy, start; how well the point stays on its level."""
+        body = self.body
+        yield f"I₁₁ = {digits(body.I11, 6)}"
+        yield f"h/|b₃| = {digits(body.h / abs(body.b3), 6)}"
+        yield f"Start: γ₃ = {digits(self.start[4], 6)}"
+        yield f"ω(0) = ({digits(self.start[0])}, {digits(self.start[1])})"
+        if self.known("orbit"):
+            q, p = body.to_plane(self.orbit.states)
+            level = 0.5 * (np.sum(p * p, axis=1) + body.height(q) ** 2)
+            yield f"H = ½ to {power(float(np.abs(level - 0.5).max()))}"
+        yield "Integrable" if self.integrable else "Not integrable"
+        yield "div v = 0: the standard measure"
 
 
 def _others(body: QuarticBody, crossings: int) -> Points:
     return quartic_section(body, seeds(body, _ORBITS), crossings, STANDARD, _MOST_STEPS)
 
 
-def _own(body: QuarticBody, start: tuple[float, ...], crossings: int) -> Points:
+def _own(body: QuarticBody, start: Start, crossings: int) -> Points:
     return quartic_section(body, [start], crossings, STANDARD, _MOST_STEPS)
 
 
-def _points(body: QuarticBody, points: Points) -> Array:
-    return frozen(np.concatenate([np.empty((0, 2)), *(body.on_section(states) for states in points.states)]))
-
-
-def compute(values: Values, shown: Collection[str], dragging: bool) -> QuarticResult:
-    """The chosen orbit and its crossings, those of others."""
-    work = Work(values, dragging)
-    body, start = _start(values)
-    count = int(float(values["count"]))
-    few = min(count, _FEW)
-    orbit = work.get(_orbit, body, start, float(values["span"]), work.level)
-    others = own = None
-    drift: dict[str, float] = {}
-    steps, reason = 0, ""
-    if "section" in shown:
-        try:
-            one = work.get(_own, body, start, few if dragging else count)
-            many = work.sooner(Task(_others, (body, count)), Task(_others, (body, few)))
-            others, own = _points(body, many), _points(body, one)
-            drift = {name: max(many.drift.get(name, 0.0), one.drift.get(name, 0.0)) for name in ("E", "F1")}
-            steps = many.cost.steps + one.cost.steps
-        except WorkLimit as error:
-            reason = f"The section is left out: {error}"
-    return QuarticResult(values, body, start, orbit, others, own, drift, steps, reason, tuple(work.todo), work.pieces,
-                         work.ended())
-
-
-def motion(values: Values) -> Motion:
-    """The chosen orbit, for "Speed and accuracy".  Raises `ModelError`."""
-    body, start = _start(values)
-    return Motion(SYSTEM, start, body.parameters, float(values["span"]), _weights(body), 1.0)
-
-
-class QuarticStage:
-    """The four pictures of one session."""
-
-    dots: Mapping[str, tuple[str, str]] = {"domain-point": ("q1", "q2"), "momentum-point": ("t", "momentum")}
-    angles: Sequence[str] = ()
-
-    def __init__(self, wire: Wire) -> None:
-        self.wire = wire
-        self.domain = PlaneDomain(wire)
-        self.section = SectionPlane(wire, "section", ("q", "p"), (-1.5, 1.5), (-1.05, 1.05), picks=("tap", "doubletap"))
-        self.sphere = PoissonSphere(wire, {"data-orbit": "orbit"})
-        self.momentum = Graph(wire, "momentum", ("t", "q₁p₂ − q₂p₁"), (0.0, 40.0), (-1.0, 1.0),
-                              [Series("G", theme.ORBIT)])
-        self.pictures = (self.domain, self.section, self.sphere, self.momentum)
-        self._body: QuarticBody | None = None
-
-    def show(self, result: QuarticResult, hold_axes: bool) -> Report:
-        """Draw the orbit in the potential, on the sphere and in the section."""
-        body = self._body = result.body
-        for view in (self.domain, self.section, self.momentum):
-            view.say("")
-        if not hold_axes:
-            self.domain.fit(_half_width(body))
-            reach = nice_above(1.05 * body.axes[1 - body.across])
-            self.section.set_ranges((-reach, reach), (-1.05, 1.05))
-        self._show_region(body)
-        self.domain.show_start((float(result.values["Q1"]), float(result.values["Q2"])))
-        self._show_section(result)
-        self._show_orbit(result, hold_axes)
-        bound = body.h / body.b3
-        circles = [Circle((0.0, 0.0, 1.0), bound, "limit")] if abs(bound) < 1.0 else []
-        self.sphere.show((0.0, 0.0, -math.copysign(1.0, body.b3)), "r", circles)
-        for picture, text in zip(self.pictures, _captions(result), strict=True):
-            self.wire.say(picture.name, text)
-        notes = [result.reason] if result.reason else []
-        return Report(_derived(result), _status(result), notes, result.todo, result.total)
-
-    def _show_region(self, body: QuarticBody) -> None:
-        unit = _CIRCLE * np.array(body.axes)
-        hole = [[body.hole * unit]] if body.hole > 0.0 else []
-        self.domain.show_forbidden([[self.domain.frame(_half_width(body)), unit], *hole])
-        share = [(body.h - body.b3 * g3) / (body.h + abs(body.b3)) for g3 in _LEVELS]
-        self.domain.show_curves("levels", [math.sqrt(one) * unit for one in share if one > 0.0])
-
-    def _show_section(self, result: QuarticResult) -> None:
-        if result.others is not None and result.own is not None:
-            self.section.show(result.others, result.own)
-            curve = result.body.section_boundary()
-            r = 4.0 * max(self.section.x_range[1], result.body.axes[1 - result.body.across])
-            frame = np.array([[-r, -4.0], [r, -4.0], [r, 4.0], [-r, 4.0]])
-            mirror = [curve * np.array([-1.0, 1.0])] if result.body.hole > 0.0 else []
-            rings = [frame, curve, *mirror]
-            self.section.assign("forbidden", xs=[[[ring[:, 0] for ring in rings]]],
-                                ys=[[[ring[:, 1] for ring in rings]]])
-        elif result.reason:
-            self.section.show_nothing(result.reason)
-
-    def _show_orbit(self, result: QuarticResult, hold_axes: bool) -> None:
-        if result.orbit is None:
-            return
-        states, times = result.orbit.states, result.orbit.times
-        q, _ = result.body.to_plane(states)
-        G = angular_momentum(result.body, states)
-        self.domain.assign("orbit", t=times.astype(np.float32), **plane_columns(q, states[:, 2:]),
-                           momentum=G.astype(np.float32))
-        self.momentum.show("G", times, G)
-        if not hold_axes:
-            top = nice_above(1.2 * max(float(np.abs(G).max()), 1e-3 * max(result.body.axes)))
-            self.momentum.set_ranges((0.0, float(times[-1])), (-top, top))
-
-    def fail(self, sentence: str) -> None:
-        """Empty pictures, and the sentence where the eye is."""
-        self._body = None
-        refuse(self.pictures, self.wire, sentence)
-
-    def pick(self, picture: str, x: float, y: float) -> Values:
-        """A click in the plane chooses the start, in the section the start and its direction."""
-        if picture == "domain":
-            return {"Q1": x, "Q2": y}
-        if picture != "section" or self._body is None:
-            return {}
-        try:
-            state = np.array([state_on_section(self._body, x, y)])
-        except ModelError:
-            return {}
-        (q,), (p,) = self._body.to_plane(state)
-        return {"Q1": float(q[0]), "Q2": float(q[1]), "beta": math.atan2(-p[1], -p[0])}
-
-
-def _visited(result: QuarticResult) -> int:
-    """Cells of the section that the chosen orbit comes to."""
-    assert result.own is not None
-    half = math.pi / result.body.axes[1 - result.body.across]
-    return occupied_cells(np.column_stack([half * result.own[:, 0], 0.5 * math.pi * (1.0 + result.own[:, 1])]), _CELLS)
-
-
-def _integrable(body: QuarticBody) -> bool:
-    return body.I11 == body.I22
-
-
-def _captions(result: QuarticResult) -> tuple[str, str, str, str]:
-    body, orbit = result.body, result.orbit
-    first, second = (number(axis) for axis in body.axes)
-    ring = f"a ring, inside {number(body.hole)} of it grey" if body.hole > 0.0 else "no hole"
-    held = "q₁" if body.across == 0 else "q₂"
-    section = result.reason if result.own is None else (
-        f"The orbit: {len(result.own)} points in {_visited(result)} of {_CELLS * _CELLS} cells.")
-    heights, momentum = "", ""
-    if orbit is not None:
-        g3, G = orbit.states[:, 4], angular_momentum(body, orbit.states)
-        heights = f"Back to the body: γ = (p₁, p₂, γ₃), γ₃ from {number(float(g3.min()))} to {number(float(g3.max()))}."
-        low, high = float(G.min()), float(G.max())
-        momentum = (f"I₁₁ = I₂₂: an integral, {number(float(G[0]))}, kept to {_power(high - low)}." if _integrable(body)
-                    else f"I₁₁ ≠ I₂₂: no integral, from {number(low)} to {number(high)}.")
-    return (
-        f"Point in the potential γ₃²/2\nLevel ½, half axes {first} and {second}, {ring}.",
-        f"Section {held} = 0, {held} growing\n{section}",
-        f"Poisson sphere\n{heights}",
-        f"q₁p₂ − q₂p₁ against time\n{momentum}",
-    )
-
-
-def _power(value: float) -> str:
-    return f"{value:.0e}".replace("e-", "e−")
-
-
-def _derived(result: QuarticResult) -> list[str]:
-    body = result.body
-    rows = [
-        f"I₁₁ = {number(body.I11, 6)}",
-        f"h/|b₃| = {number(body.h / abs(body.b3), 6)}",
-        f"Start: γ₃ = {number(result.start[4], 6)}",
-        f"ω(0) = ({number(result.start[0])}, {number(result.start[1])})",
-    ]
-    if result.orbit is not None:
-        q, p = body.to_plane(result.orbit.states)
-        level = 0.5 * (np.sum(p * p, axis=1) + body.height(q) ** 2)
-        rows.append(f"H = ½ to {_power(float(np.abs(level - 0.5).max()))}")
-    rows.append("Integrable" if _integrable(body) else "Not integrable")
-    rows.append("div v = 0: the standard measure")
-    return rows
-
-
-def _status(result: QuarticResult) -> str:
-    section = "" if result.others is None or result.own is None else (
-        f"section {len(result.others) + len(result.own)} points, {result.steps} Taylor steps")
-    return section_status(section, result.drift, result.orbit, result.ended)
+def _bounds(state: Quartic) -> list[Circle]:
+    bound = state.body.h / state.body.b3
+    return [Circle((0.0, 0.0, 1.0), bound, "limit")] if abs(bound) < 1.0 else []
 
 
 SCENE = Scene(
-    name="quartic",
+    Quartic, __file__, place=7, presets=PRESETS,
     title="Principal axis, b₁ = b₂ = 0",
     summary="The body as a point in a quartic potential: integrable for I₁₁ = I₂₂, else curves and seas in a section.",
-    specs=SPECS,
-    presets=PRESETS,
-    words=WORDS,
-    admit=admit,
-    limits=limits,
-    pictures=("domain", "section", "sphere", "momentum"),
-    compute=compute,
-    stage=QuarticStage,
-    legend=LEGEND,
-    thumbnail=THUMBNAIL,
-    motion=motion,
-    place=7,
+    tracks={"orbit": Quartic.track},
+    views=(
+        Plot(name="domain", title="Point in the potential γ₃²/2", caption=Quartic._about_domain, axes=("q₁", "q₂"),
+             x=lambda s: centred(s.half_width), y=lambda s: centred(s.half_width), dot=("q1", "q2"),
+             on_click=lambda s, x, y: {"Q1": x, "Q2": y},
+             layers=(*plane_domain.ground(lambda s: s.body.ellipse(), lambda s: s.body.holes(),
+                                            lambda s: s.body.equipotentials(_HEIGHTS)),
+                     *plane_domain.orbit(lambda s: (s.Q1, s.Q2)))),
+        Plot(name="section", title=Quartic._section_title, caption=Quartic._about_section, axes=("q", "p"),
+             x=lambda s: centred(nice_above(1.05 * s.body.longest)), y=(-1.05, 1.05), message=lambda s: s.reason,
+             on_click=Quartic.start_on_section,
+             layers=section_plane.layers(lambda s: s.own, others=lambda s: s.others, forbidden=Quartic.impossible)),
+        Sphere(caption=Quartic._about_sphere, looks={"orbit": "orbit"}, circles=_bounds,
+               axis=lambda s: Direction((0.0, 0.0, -math.copysign(1.0, s.body.b3)), "r")),
+        Plot(name="momentum", title="q₁p₂ − q₂p₁ against time", caption=Quartic._about_momentum,
+             axes=("t", "q₁p₂ − q₂p₁"), x=lambda s: (0.0, float(s.orbit.times[-1])), y=Quartic.momentum_range,
+             dot=("t", "momentum"),
+             layers=(curves("G", lambda s: [np.column_stack([s.orbit.times, s.momentum])], color=theme.ORBIT),)),
+    ),
 )

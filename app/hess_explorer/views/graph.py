@@ -3,15 +3,25 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
+from hess_explorer.views.layers import Range
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["branches", "pieces", "thinned"]
+__all__ = ["branches", "pieces", "settled_range", "thinned"]
 
 _POINTS = 600
 """Of a curve over a long time, as many as a picture shows."""
+
+
+def settled_range(curves: Sequence[Array]) -> Range:
+    """An axis for curves (n,) over a long time: room for all but their first tenth, and for 0."""
+    settled = np.concatenate([y[len(y) // 10 :] for y in curves])
+    low, high = float(settled.min()), float(settled.max())
+    room = 0.08 * max(1e-6, high - low)
+    return min(0.0, low) - room, max(0.0, high) + room
 
 
 def thinned(x: Array, y: Array) -> tuple[Array, Array]:

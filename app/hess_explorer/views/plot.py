@@ -27,7 +27,8 @@ class Plot(Picture[S]):
 
     Parameters
     ----------
-    axes : the names of the axes; x, y : their ranges, of a state where they depend on it.
+    axes : the names of the axes; x, y : their ranges, of a state where they depend on it; both stay as they are where
+        one is None.
     layers : what is drawn, from the back to the front.  The moving point and a message come on top.
     message(state) : a sentence in the middle of the frame where there is nothing to see; empty for none.
     dot : columns of the track "orbit" that the moving point follows; dots : further layers that follow it.
@@ -37,8 +38,8 @@ class Plot(Picture[S]):
     """
 
     axes: tuple[str, str]
-    x: Range | Callable[[S], Range]
-    y: Range | Callable[[S], Range]
+    x: Range | Callable[[S], Range | None]
+    y: Range | Callable[[S], Range | None]
     layers: tuple[Layer[S], ...]
     message: Callable[[S], str] | None = None
     dot: tuple[str, str] | None = None
@@ -91,9 +92,10 @@ class Plot(Picture[S]):
         """The name of the source of a layer."""
         return f"data-{layer.track}" if layer.track else f"{self.name}-{layer.name}"
 
-    def ranges(self, state: S) -> Axes:
+    def ranges(self, state: S) -> Axes | None:
         """The axes that fit a state."""
-        return Axes(self.x(state) if callable(self.x) else self.x, self.y(state) if callable(self.y) else self.y)
+        x, y = self.x(state) if callable(self.x) else self.x, self.y(state) if callable(self.y) else self.y
+        return None if x is None or y is None else Axes(x, y)
 
     def data(self, state: S) -> dict[str, Columns]:
         """The columns of its own sources, but those that depend on the axes."""

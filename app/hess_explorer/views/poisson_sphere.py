@@ -6,11 +6,13 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, TypeVar
 
+import numpy as np
+
 from hess_explorer.views.layers import MOVING_POINT, Axes, Columns, Sign
 from hess_explorer.views.picture import Picture
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Circle", "Direction", "Mark", "Sphere", "ends"]
+__all__ = ["Circle", "Direction", "Mark", "Sphere", "centre_of_mass", "ends"]
 
 S = TypeVar("S")
 
@@ -44,6 +46,12 @@ class Direction:
 def ends(axis: Array) -> tuple[Mark, Mark]:
     """Both ends of an axis, a unit vector (3,)."""
     return Mark(axis, "muted"), Mark(-axis, "muted")
+
+
+def centre_of_mass(b: Sequence[float]) -> Direction | None:
+    """The direction r of the centre of mass, b = −mg r; None without a field."""
+    length = float(np.linalg.norm(b))
+    return Direction(-np.array(b) / length, "r") if length > 0.0 else None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -2,42 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import TypeVar
 
-import numpy as np
-
-from hess_explorer.protocol.wire import Wire
 from hess_explorer.views import theme
-from hess_explorer.views.figure import Figure, Range
+from hess_explorer.views.layers import Axes, Layer, dots, region, ring
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["SectionPlane"]
+__all__ = ["layers"]
+
+S = TypeVar("S")
+Points = Callable[[S], Array | None]
 
 
-class SectionPlane(Figure):
-    """Grey: impossible.  Small points: other orbits; large ones: the chosen orbit.  A click starts an orbit there."""
+def layers(own: Points[S], others: Points[S] | None = None,
+           forbidden: Callable[[S, Axes], Sequence[Sequence[Array]]] | None = None,
+           start: Callable[[S], Sequence[tuple[float, float]]] | None = None) -> tuple[Layer[S], ...]:
+    """Points (n, 2) of the chosen orbit and small ones of others, a ring where it starts; grey where all is impossible.
 
-    def __init__(self, wire: Wire, name: str, labels: tuple[str, str], x_range: Range, y_range: Range,
-                 picks: Sequence[str] = (), ticks: Sequence[tuple[float, str]] | None = None,
-                 y_ticks: Sequence[tuple[float, str]] | None = None) -> None:
-        super().__init__(wire, name, labels, x_range, y_range, picks=picks, ticks=ticks, y_ticks=y_ticks)
-        self.add("forbidden", "multi_polygons", ("xs", "ys"), moving=False, color=theme.FORBIDDEN, line_alpha=0)
-        self.add("others", "dots", ("x", "y"), size=6, color=theme.MUTED)
-        self.add("own", "dots", ("x", "y"), size=11, color=theme.ORBIT)
-        self.add("chosen", "scatter", ("x", "y"), size=16, fill_alpha=0, line_color=theme.UNSTABLE, line_width=3)
-        self.add_point_and_message()
+    forbidden : parts as of `region`.
+    """
+    found: list[Layer[S]] = []
+    if forbidden is not None:
+        found.append(region("forbidden", within=forbidden, label="impossible"))
+    if others is not None:
+        found.append(_points("others", others, theme.MUTED, 6, "other orbits"))
+    found.append(_points("own", own, theme.ORBIT, 11, ""))
+    if start is not None:
+        found.append(ring("chosen", start, label="where it starts"))
+    return tuple(found)
 
-    def show(self, others: Array, own: Array) -> None:
-        """Points (n, 2) and (m, 2)."""
-        for layer, points in (("others", others), ("own", own)):
-            self.assign(layer, x=points[:, 0].astype(np.float32), y=points[:, 1].astype(np.float32))
 
-    def show_forbidden(self, bands: Sequence[Range]) -> None:
-        """Bands of the horizontal axis, over the whole height."""
-        low, high = self.y_range
-        self.assign("forbidden", xs=[[[[a, b, b, a]]] for a, b in bands],
-                    ys=[[[[low, low, high, high]]] for _ in bands])
+def _points(name: str, of: Points[S], color: str, size: float, label: str) -> Layer[S]:
+    def columns(state: S) -> Array | None:
+        found = of(state)
+        return None if found is None else found.T
 
-    def choose(self, x: float, y: float) -> None:
-        """A ring where the chosen orbit starts."""
-        self.assign("chosen", x=[x], y=[y])
+    return dots(name, columns, color=color, size=size, label=label)

@@ -9,11 +9,13 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.layers import Axes, Columns, Layer, Range, arrows, curves, f32, line, points
+from hess_explorer.views.plot import Plot
+from hess_explorer.views.text import digits
 from hess_mechanics.numerics.results import Array
 
 __all__ = [
-    "arcs", "arrows_at", "arrows_on", "centred", "energy_levels", "equilibria", "halves", "nice_above", "outside",
-    "ring_outside", "square", "to_the_edge", "velocity_columns",
+    "arcs", "arrows_at", "arrows_on", "centred", "energy_levels", "equilibria", "halves", "nice_above", "orbit_alone",
+    "outside", "ring_outside", "square", "to_the_edge", "velocity_columns",
 ]
 
 S = TypeVar("S")
@@ -24,6 +26,16 @@ def velocity_columns(times: Array | None, omega: Array, gamma: Array, **more: Ar
     moving = {} if times is None else {"t": f32(times)}
     return {**moving, "omega1": f32(omega[:, 0]), "omega2": f32(omega[:, 1]),
             **{f"g{i + 1}": f32(gamma[:, i]) for i in range(3)}, **{name: f32(one) for name, one in more.items()}}
+
+
+def orbit_alone(half_width: Callable[[S], float], energy: Callable[[S], float]) -> Plot[S]:
+    """The plane with nothing but the track of the orbit, which has this energy."""
+    return Plot(
+        name="omega", title="Angular velocity (ω₁, ω₂)", axes=("ω₁", "ω₂"),
+        caption=lambda s: f"The chosen orbit, E = {digits(energy(s))}.",
+        x=lambda s: centred(half_width(s)), y=lambda s: centred(half_width(s)), dot=("omega1", "omega2"),
+        layers=(line("orbit", track="orbit", columns=("omega1", "omega2"), color=theme.ORBIT, width=2.5,
+                     label="chosen orbit"),))
 
 
 def nice_above(value: float) -> float:

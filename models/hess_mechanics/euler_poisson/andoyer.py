@@ -26,12 +26,12 @@ from hess_mechanics.euler_poisson.andoyer_kernels import cross
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody, field
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.parallel import THREADS
-from hess_mechanics.numerics.results import Array, Mask
+from hess_mechanics.numerics.results import Array, Mask, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 
 __all__ = [
-    "AndoyerPlane", "andoyer_points", "coordinates", "hess_circle", "hess_curve", "possible", "relation", "seeds",
-    "state_at", "states_at",
+    "AndoyerPlane", "AndoyerSection", "andoyer_points", "coordinates", "hess_circle", "hess_curve", "possible",
+    "relation", "seeds", "state_at", "states_at",
 ]
 
 
@@ -60,6 +60,7 @@ def _factors(body: HeavyBody, l: Array, x: Array) -> tuple[Array, Array, Array]:
 
 _SCAN = 96
 _ROUGH = 24
+_CELLS = (96, 64)
 
 
 def _scan(body: HeavyBody, h: float, f: float, l: Array, x: Array, count: int = _SCAN) -> tuple[Array, Array, Array]:
@@ -193,3 +194,38 @@ def andoyer_points(body: HeavyBody, h: float, f: float, starts: Sequence[Sequenc
     """The first crossings of g = π/2 by each orbit, as in `section_points`.  Raises `InvalidParameter`, `WorkLimit`."""
     return section_points(SYSTEM, starts, body.parameters, AndoyerPlane(f), time_for(body, h, f, crossings), level,
                           crossings, threads, most_steps)
+
+
+Window = tuple[tuple[float, float], tuple[float, float]]
+"""(l0, x0), (l1, x1)."""
+
+
+@dataclass(frozen=True)
+class AndoyerSection:
+    """The section g = π/2 of a body at H = h, F1 = f.  Its methods raise `InvalidParameter`."""
+
+    body: HeavyBody
+    h: float
+    f: float
+
+    def states_at(self, l: Array, x: Array) -> tuple[Array, Mask]:
+        """The states (n, 6) at (l, L/G) (n,), and whether motions cross the section there (n,)."""
+        states, _, growing = states_at(self.body, self.h, self.f, l, x)
+        return states, growing
+
+    def places_of(self, states: Array) -> Array:
+        """(l, L/G) (n, 2) of states (n, 6)."""
+        return coordinates(states)
+
+    def spread(self, window: Window, count: int) -> tuple[tuple[float, ...], ...]:
+        """At most `count` states, spread evenly over what is possible of the window."""
+        (l0, x0), (l1, x1) = window
+        return tuple(seeds(self.body, self.h, self.f, (l0, l1, x0, x1), count)) if count else ()
+
+    def impossible(self, window: Window) -> Array:
+        """Cells (m, n) over the window: 1 where no motion has this energy."""
+        (l0, x0), (l1, x1) = window
+        m, n = _CELLS
+        l, x = np.meshgrid(l0 + (np.arange(m) + 0.5) * (l1 - l0) / m, x0 + (np.arange(n) + 0.5) * (x1 - x0) / n)
+        inside = possible(self.body, self.h, self.f, l.ravel(), np.clip(x.ravel(), -1.0, 1.0))
+        return frozen(1.0 - inside.reshape(n, m).astype(float))

@@ -85,6 +85,25 @@ class QuarticBody:
         return 0 if self.I11 > self.I22 else 1
 
     @property
+    def longest(self) -> float:
+        """Half the longer axis of the ellipse, along which the section lies."""
+        return self.axes[1 - self.across]
+
+    def ellipse(self, size: float = 1.0) -> Array:
+        """The ellipse in which the point may be, a closed curve (n, 2), or one of another size."""
+        angle = np.linspace(0.0, 2.0 * math.pi, 181)
+        return np.asarray(size * np.array(self.axes) * np.column_stack([np.cos(angle), np.sin(angle)]))
+
+    def holes(self) -> list[Array]:
+        """The ellipse in which it may not be, if there is one."""
+        return [self.ellipse(self.hole)] if self.hole > 0.0 else []
+
+    def equipotentials(self, heights: Sequence[float]) -> list[Array]:
+        """Closed curves (n, 2) on which γ3 has these values."""
+        share = [(self.h - self.b3 * g3) / (self.h + abs(self.b3)) for g3 in heights]
+        return [self.ellipse(math.sqrt(one)) for one in share if one > 0.0]
+
+    @property
     def plane(self) -> Plane:
         """The section q_i = 0, i = `across`, crossed while q_i grows, in terms of ω."""
         sense = 1 if self.b3 > 0.0 else -1
@@ -117,9 +136,14 @@ class QuarticBody:
         first = math.acos(self.h / size) if self.h < size else 0.0
         angle = np.linspace(first, 2.0 * math.pi - first, count)
         share = (self.h - size * np.cos(angle)) / (self.h + size)
-        x, y = self.axes[1 - self.across] * np.sqrt(np.maximum(0.0, share)), np.sin(angle)
+        x, y = self.longest * np.sqrt(np.maximum(0.0, share)), np.sin(angle)
         right = np.column_stack([x, y])
         return right if first == 0.0 else np.vstack([right, right[::-1] * np.array([-1.0, 1.0])])
+
+    def section_boundaries(self) -> list[Array]:
+        """The closed curves (n, 2) that bound the section: two with a hole."""
+        right = self.section_boundary()
+        return [right, right * np.array([-1.0, 1.0])] if self.hole > 0.0 else [right]
 
 
 def state_at(body: QuarticBody, q: Sequence[float], direction: float) -> tuple[float, ...]:
@@ -161,7 +185,7 @@ def angular_momentum(body: QuarticBody, states: Array) -> Array:
 def seeds(body: QuarticBody, count: int) -> list[tuple[float, ...]]:
     """States of the section, spread over the part that the energy allows."""
     golden = (math.sqrt(5.0) - 1.0) / 2.0
-    longest = body.axes[1 - body.across]
+    longest = body.longest
     found = []
     for i in range(count):
         share = (i * golden) % 1.0

@@ -14,12 +14,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
+from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.section import MAX_STEPS, Plane, Points, section_points
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.accuracy import DRAFT, Level
 from hess_mechanics.numerics.parallel import THREADS
 from hess_mechanics.numerics.results import Array, Mask, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
@@ -27,13 +29,14 @@ from hess_mechanics.suslov import principal_axis
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 
 __all__ = [
-    "basins", "coordinates", "divergence", "lowest_energy", "plane_of", "possible", "seeds", "state_at", "states_at",
-    "suslov_points",
+    "Course", "SuslovSection", "basins", "coordinates", "divergence", "lowest_energy", "mean_divergence", "plane_of",
+    "possible", "seeds", "state_at", "states_at", "suslov_points",
 ]
 
 _TURNS = 40.0
 """Time allowed per crossing, in units of 1/ν; few orbits take longer."""
 _EDGE = 1e-6
+_COLUMNS = 240
 
 
 def _check(k: int) -> None:
@@ -167,6 +170,22 @@ def divergence(body: SuslovBody, states: Array) -> Array:
     return frozen(np.asarray(principal_axis.divergence(list(states.T), body.parameters), float))
 
 
+@dataclass(frozen=True)
+class Course:
+    """The mean divergence (n,) along a motion up to the times (n,)."""
+
+    times: Array
+    mean: Array
+
+
+def mean_divergence(body: SuslovBody, start: Sequence[float], span: float, count: int = 4000) -> Course:
+    """Along the motion from `start` over the time `span`, up to `count` times.  Raises as `solve`."""
+    times = np.linspace(0.0, span, count + 1)
+    rates = divergence(body, solve(SYSTEM, start, body.parameters, times, DRAFT).states)
+    steps = 0.5 * (rates[1:] + rates[:-1]) * np.diff(times)
+    return Course(frozen(times[1:]), frozen(np.cumsum(steps) / times[1:]))
+
+
 def basins(ends: Array) -> Array:
     """0 or 1 for each orbit, by the attractor it ends on; `ends` (n,) are averages over the later part of the orbits.
 
@@ -178,3 +197,52 @@ def basins(ends: Array) -> Array:
         return np.zeros(ends.size)
     i = int(np.argmax(gaps))
     return np.asarray(ends > 0.5 * (order[i] + order[i + 1]), float)
+
+
+Window = tuple[tuple[float, float], tuple[float, float]]
+"""(ψ0, δ0), (ψ1, δ1)."""
+
+
+@dataclass(frozen=True)
+class SuslovSection:
+    """The section γ_k = 0 of a body at E = h.  Its methods raise `InvalidParameter`."""
+
+    body: SuslovBody
+    E: float
+    k: int
+
+    def states_at(self, psi: Array, delta: Array) -> tuple[Array, Mask]:
+        """The states (n, 5) at (ψ, δ) (n,), and whether motions are possible there (n,)."""
+        return states_at(self.body, self.E, self.k, psi, delta)
+
+    def places_of(self, states: Array) -> Array:
+        """(ψ, δ) (n, 2) of states (n, 5) of the section."""
+        return coordinates(states, self.k)
+
+    def spread(self, window: Window, count: int) -> tuple[tuple[float, ...], ...]:
+        """At most `count` states, spread evenly over what is possible of the window."""
+        (x0, y0), (x1, y1) = window
+        return seeds(self.body, self.E, self.k, (x0, x1, y0, y1), count) if count else ()
+
+    def impossible(self, window: Window) -> Array:
+        """Cells (1, n) over the window: 1 where the energy does not allow ψ."""
+        psi = np.linspace(window[0][0], window[1][0], _COLUMNS + 1)
+        return frozen(1.0 - possible(self.body, self.E, self.k, 0.5 * (psi[1:] + psi[:-1]))[None, :].astype(float))
+
+    def ends(self, window: Window, cells: tuple[int, int], row: int, crossings: int, most_steps: int = MAX_STEPS
+             ) -> Array:
+        """For `basins`: the mean of ω1 over the last third of the crossings of the orbits from the cells of a row.
+
+        cells : (m, n) across and up the window; of shape (m,), ∞ where there is no orbit.  Raises `WorkLimit`.
+        """
+        (x0, y0), (x1, y1) = window
+        m, n = cells
+        psi = x0 + (np.arange(m) + 0.5) * (x1 - x0) / m
+        states, ok = self.states_at(psi, np.full(m, y0 + (row + 0.5) * (y1 - y0) / n))
+        out = np.full(m, np.inf)
+        if ok.any():
+            found = suslov_points(self.body, self.k, states[ok].tolist(), crossings, True, DRAFT, threads=1,
+                                  most_steps=most_steps)
+            out[ok] = [float(orbit[2 * len(orbit) // 3 :, 0].mean()) if len(orbit) > 30 else math.inf
+                       for orbit in found.states]
+        return frozen(out)

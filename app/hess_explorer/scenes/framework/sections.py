@@ -1,44 +1,413 @@
-"""What the scenes of sections have in common: starts, clicks, boxes, curves over time, status line."""
+"""What the scenes of sections have in common: the orbit on show, orbits over a window, those of clicks, status line."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import ClassVar, Protocol, Self, TypeVar
 
 import numpy as np
 
-from hess_explorer.protocol.parameters import Values, written
-from hess_explorer.scenes.framework.windows import Window
+from hess_explorer.compute.cache import Task
+from hess_explorer.protocol.parameters import Values, places, written
+from hess_explorer.scenes.framework.scene import Motion, State
+from hess_explorer.scenes.framework.windows import Window, inside, tidy_window, window_of
 from hess_explorer.scenes.framework.work import orbit_status
-from hess_mechanics.numerics.results import Array, Orbit
+from hess_explorer.views import layered_section
+from hess_explorer.views.layers import Layer
+from hess_explorer.views.plot import Plot
+from hess_mechanics.dynamics.lyapunov import Exponent, largest_exponent
+from hess_mechanics.dynamics.sampling import sampled_orbit
+from hess_mechanics.dynamics.section import Points
+from hess_mechanics.dynamics.system import System
+from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.results import Array, Mask, Orbit
 
-__all__ = ["PIECE", "TURN", "boxed", "possible_starts", "section_status", "started", "worst"]
+__all__ = [
+    "TURN", "Crossings", "FilledWindow", "Piece", "Start", "boxed", "filled_window", "in_pieces", "joined",
+]
 
-PIECE = 4
-"""Orbits that are computed together: few enough for points to arrive soon."""
 TURN = 3.14159
 """Half a turn, as a place in a link is written."""
 
+_TOGETHER = 4
+"""Orbits that are computed together: few enough for points to arrive soon."""
+_FEW = 30
+"""Crossings of each orbit, while a slider is dragged and until all are known."""
+
+T = TypeVar("T")
 Place = tuple[float, float]
-State = tuple[float, ...]
+Start = tuple[float, ...]
 
 
-def possible_starts(chosen: Sequence[Place], states: Array, possible: Array, instead: Callable[[], tuple[Place, State]]
-                    ) -> tuple[Sequence[Place], Sequence[State], bool]:
-    """Those of the chosen places where a motion is `possible` (n,), their states (n, d), and whether they were kept.
+class _Body(Protocol):
+    @property
+    def parameters(self) -> tuple[float, ...]: ...
 
-    Where the last one, that of the chosen orbit, is not possible, all are replaced by the one of `instead`.
+
+class _Section(Protocol):
+    def states_at(self, x: Array, y: Array, /) -> tuple[Array, Mask]:
+        """The states (n, d) at places (n,), and whether motions are possible there (n,)."""
+
+    def places_of(self, states: Array) -> Array:
+        """The places (n, 2) of states (n, d)."""
+
+    def spread(self, window: Window, count: int) -> tuple[Start, ...]:
+        """At most `count` states, spread over what is possible of the window."""
+
+    def impossible(self, window: Window) -> Array:
+        """Cells (m, n) over the window: 1 where no motion is possible."""
+
+
+class _OneOrbit(State):
+    """A state with one orbit on show, of a body of a `system`, from `start`; `most`: as many samples."""
+
+    system: ClassVar[System]
+    most: ClassVar[int] = 4000
+
+    span: float
+
+    @property
+    def body(self) -> _Body:
+        """The body.  Raises `ModelError`."""
+        raise NotImplementedError
+
+    @property
+    def start(self) -> Start:
+        """Where the orbit starts.  Raises `ModelError`."""
+        raise NotImplementedError
+
+    @property
+    def weights(self) -> tuple[float, ...]:
+        """From the variables to the scene's pictures, in pixels for a unit."""
+        raise NotImplementedError
+
+    @cached_property
+    def orbit(self) -> Orbit:
+        """The orbit on show."""
+        return self.work.get(sampled_orbit, self.system, self.start, self.body.parameters, self.span, self.weights,
+                             self.orbit_level, self.most)
+
+    @property
+    def orbit_level(self) -> Level:
+        """The accuracy of the orbit on show."""
+        return self.level
+
+    def motion(self) -> Motion:
+        """The orbit on show."""
+        return Motion(self.system, self.start, self.body.parameters, self.span, self.weights)
+
+    def _orbit_status(self) -> Iterator[str]:
+        if self.known("orbit"):
+            yield orbit_status(self.orbit)[0]
+
+
+# ---- A window filled with orbits ------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Piece:
+    """Some orbits: points (n, 2) of each, as they are passed, and of which of two kinds it is; the largest drifts.
+
+    kept : whether all its points lie on its side of the curve that divides the kinds, where there is one.
     """
-    if possible[-1]:
-        kept = np.flatnonzero(possible).tolist()
-        return [chosen[i] for i in kept], [tuple(map(float, states[i])) for i in kept], True
-    place, state = instead()
-    return [place], [state], False
+
+    orbits: tuple[Array, ...]
+    firsts: tuple[bool, ...]
+    drift: Mapping[str, float]
+    kept: tuple[bool, ...] = ()
 
 
-def started(starts: Sequence[Place], x: float, y: float, bounds: Window) -> Values:
-    """An orbit at (x, y), besides those that there are."""
-    (x0, y0), (x1, y1) = bounds
-    return {"starts": written([*starts, (min(max(x, x0), x1), min(max(y, y0), y1))])}
+@dataclass(frozen=True)
+class _Chosen:
+    """Where the orbits of clicks start, the last of which is the one on show.
+
+    refused : the chosen place of that one, where no motion is possible there.
+    """
+
+    places: Sequence[Place]
+    states: Sequence[Start]
+    refused: Place | None = None
+
+
+class FilledWindow(_OneOrbit):
+    """A section whose window is filled with orbits, besides those started by clicks; all come piece by piece.
+
+    The scene declares the parameters that stand here without a value.
+    full : the whole section; bounds : the same, as places in a link are written; held : how many orbits and crossings
+    there are at most while a slider is held.
+    """
+
+    orbits: float
+    count: float
+    long: float
+    starts: str
+    window: str
+
+    full: ClassVar[Window]
+    bounds: ClassVar[Window]
+    held: ClassVar[tuple[int, int]]
+
+    @property
+    def section(self) -> _Section:
+        """The section.  Raises `ModelError`."""
+        raise NotImplementedError
+
+    def follow(self, starts: tuple[Start, ...], forward: bool) -> Piece | None:
+        """What is known of these orbits, by `work.soon`."""
+        raise NotImplementedError
+
+    @property
+    def impossible_here(self) -> str:
+        """What is said where nothing is possible in the window."""
+        raise NotImplementedError
+
+    @property
+    def ways(self) -> tuple[bool, ...]:
+        """Whether orbits are followed forward in time, or both forward and backward."""
+        return (True,)
+
+    def shown(self, orbit: Array) -> Array:
+        """Those points (m, 2) of an orbit that are drawn."""
+        return orbit
+
+    def admitted(self, notes: list[str]) -> Self:
+        """A window that is one, and at least one start."""
+        default: str = type(self).starts
+        return replace(self, window=tidy_window(self.window), starts=self.starts if places(self.starts) else default)
+
+    # ---- what is computed ---------------------------------------------------------------------------------------
+
+    @cached_property
+    def frame(self) -> Window:
+        """What of the section is seen."""
+        return window_of(self.window, self.full)
+
+    @property
+    def wanted(self) -> tuple[int, int]:
+        """How many orbits, and crossings of each."""
+        orbits, crossings = int(self.orbits), int(self.count)
+        return (min(orbits, self.held[0]), min(crossings, self.held[1])) if self.dragging else (orbits, crossings)
+
+    @cached_property
+    def picked(self) -> _Chosen:
+        """The chosen starts where motions are possible; where the last one is not, another one instead of all.
+
+        Raises `InvalidParameter` where nothing is possible in the window.
+        """
+        wanted = places(self.starts)
+        states, possible = self.section.states_at(*np.array(wanted).T)
+        if possible[-1]:
+            kept = np.flatnonzero(possible).tolist()
+            return _Chosen([wanted[i] for i in kept], [tuple(map(float, states[i])) for i in kept])
+        others = self._spread(1)
+        if not others:
+            raise InvalidParameter(self.impossible_here)
+        x, y = self.section.places_of(np.array(others))[0]
+        return _Chosen([(float(x), float(y))], [others[0]], wanted[-1])
+
+    @property
+    def start(self) -> Start:
+        """Where the orbit on show starts."""
+        return self.picked.states[-1]
+
+    def _spread(self, count: int) -> tuple[Start, ...]:
+        return self.work.get(_seeds, self.section, self.frame, count)
+
+    @cached_property
+    def impossible(self) -> Array:
+        """Cells (m, n) over the window: 1 where no motion is possible."""
+        return self.work.get(_impossible, self.section, self.frame)
+
+    @cached_property
+    def _known(self) -> tuple[list[Piece], list[Piece]]:
+        """Pieces of the chosen orbits, which come first, and of those all over the window."""
+        own = [self.follow((state,), True) for state in self.picked.states]
+        seeds = self._spread(self.wanted[0])
+        others = [self.follow(starts, forward) for starts in in_pieces(seeds) for forward in self.ways]
+        return [piece for piece in own if piece is not None], [piece for piece in others if piece is not None]
+
+    @property
+    def pieces(self) -> list[Piece]:
+        """What is known of the orbits all over the window."""
+        return self._known[1]
+
+    def kind(self, first: bool) -> list[Array]:
+        """The orbits of one kind, all their points."""
+        return [orbit for piece in self.pieces for orbit, is_first in zip(piece.orbits, piece.firsts, strict=True)
+                if is_first is first]
+
+    @cached_property
+    def first(self) -> Array:
+        """Points (n, 2) of orbits of the first kind."""
+        return joined(map(self.shown, self.kind(True)))
+
+    @cached_property
+    def second(self) -> Array:
+        """Points (n, 2) of orbits of the second kind."""
+        return joined(map(self.shown, self.kind(False)))
+
+    @cached_property
+    def own(self) -> Array:
+        """Points (n, 2) of the chosen orbits."""
+        return joined(self.shown(orbit) for piece in self._known[0] for orbit in piece.orbits)
+
+    @cached_property
+    def exponent(self) -> Exponent | None:
+        """The largest Lyapunov exponent of the orbit on show, when it is known; not while a slider is held."""
+        if self.dragging:
+            return None
+        return self.work.later(largest_exponent, self.system, self.start, self.body.parameters, self.long)
+
+    # ---- what is shown ------------------------------------------------------------------------------------------
+
+    def rings(self) -> list[Place]:
+        """Where the chosen orbits start, as far as that is seen."""
+        return inside(self.picked.places, self.frame)
+
+    def nothing_seen(self) -> str:
+        """What is said in the frame where no point lies in it and no more are to come."""
+        (x0, y0), (x1, y1) = self.frame
+        if self.dragging or self.work.todo or any(
+                np.any((x >= x0) & (x <= x1) & (y >= y0) & (y <= y1))
+                for x, y in (points.T for points in (self.first, self.second, self.own))):
+            return ""
+        return "None of the points lies in this window: choose more crossings, or press Undo"
+
+    def start_here(self, x: float, y: float) -> Values:
+        """A click: an orbit at (x, y), besides those that there are."""
+        (x0, y0), (x1, y1) = self.bounds
+        return {"starts": written([*self.picked.places, (min(max(x, x0), x1), min(max(y, y0), y1))])}
+
+    def look_closer(self, corners: tuple[float, float, float, float]) -> Values:
+        """A box: the new window."""
+        return boxed(corners, self.bounds)
+
+    def status(self) -> Iterator[str]:
+        """Size and drift of the section, the orbit on show."""
+        if self.known("_known"):
+            yield f"section {len(self.first) + len(self.second) + len(self.own)} points"
+            yield from drift_status(piece.drift for piece in self.pieces)
+        yield from self._orbit_status()
+
+
+W = TypeVar("W", bound=FilledWindow)
+
+
+def filled_window(title: str | Callable[[W], str], caption: Callable[[W], str], axes: tuple[str, str],
+                  labels: tuple[str, str], dot: tuple[str, str] | None = None, under: tuple[Layer[W], ...] = (),
+                  between: tuple[Layer[W], ...] = ()) -> Plot[W]:
+    """The picture of such a section; labels : of the two kinds of orbits; between : as of `layered_section.layers`."""
+    return Plot(
+        name="section", title=title, caption=caption, axes=axes, dot=dot, message=lambda s: s.nothing_seen(),
+        x=lambda s: (s.frame[0][0], s.frame[1][0]), y=lambda s: (s.frame[0][1], s.frame[1][1]),
+        on_click=lambda s, x, y: s.start_here(x, y), on_box=lambda s, corners: s.look_closer(corners),
+        layers=(*under, *layered_section.layers(
+            lambda s: s.first, lambda s: s.second, lambda s: s.own, chosen=lambda s: s.rings(),
+            impossible=lambda s: s.impossible, window=lambda s: s.frame, labels=labels, between=between)))
+
+
+def _seeds(section: _Section, window: Window, count: int) -> tuple[Start, ...]:
+    return section.spread(window, count)
+
+
+def _impossible(section: _Section, window: Window) -> Array:
+    return section.impossible(window)
+
+
+# ---- One orbit among others -----------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class _Crossed:
+    """Crossings of the orbit on show and of the others; None where they are left out, for that reason."""
+
+    own: Points | None
+    others: Points | None
+    reason: str
+
+
+class Crossings(_OneOrbit):
+    """A section with the orbit on show, and others; of the others a few crossings come first.
+
+    The scene declares the parameters that stand here without a value.
+    """
+
+    most: ClassVar[int] = 6000
+
+    count: float
+
+    def crossing(self, crossings: int) -> tuple[Task, Task]:
+        """What finds so many crossings of the orbit on show, and of the others."""
+        raise NotImplementedError
+
+    def places_of(self, points: Points) -> Array:
+        """The places (n, 2) on the section of all these points."""
+        raise NotImplementedError
+
+    @cached_property
+    def _crossed(self) -> _Crossed:
+        count = int(self.count)
+        few, whole = self.crossing(min(count, _FEW)), self.crossing(count)
+        mine = few[0] if self.dragging else whole[0]
+        try:
+            own: Points = self.work.get(mine.function, *mine.arguments)
+            return _Crossed(own, self.work.sooner(whole[1], few[1]), "")
+        except WorkLimit as error:
+            return _Crossed(None, None, f"The section is left out: {error}")
+
+    @property
+    def reason(self) -> str:
+        """Why the section is left out; empty where it is not."""
+        return self._crossed.reason
+
+    @cached_property
+    def own(self) -> Array | None:
+        """Places (n, 2) of the orbit on show; None where the section is left out."""
+        return None if self._crossed.own is None else self.places_of(self._crossed.own)
+
+    @cached_property
+    def others(self) -> Array | None:
+        """Places (n, 2) of the others; None where the section is left out."""
+        return None if self._crossed.others is None else self.places_of(self._crossed.others)
+
+    def status(self) -> Iterator[str]:
+        """Size, cost and drift of the section, the orbit on show."""
+        found: _Crossed | None = self.known("_crossed")
+        if found and found.own and found.others and self.own is not None and self.others is not None:
+            steps = found.own.cost.steps + found.others.cost.steps
+            yield f"section {len(self.own) + len(self.others)} points, {steps} Taylor steps"
+            yield from drift_status((found.own.drift, found.others.drift))
+        yield from self._orbit_status()
+
+    def notes(self) -> Iterator[str]:
+        """A section that is left out."""
+        if self.known("_crossed") and self.reason:
+            yield self.reason
+
+
+# ---- Parts ----------------------------------------------------------------------------------------------------------
+
+
+def in_pieces(items: Sequence[T]) -> Iterator[tuple[T, ...]]:
+    """As many at a time as are computed together."""
+    return (tuple(items[i : i + _TOGETHER]) for i in range(0, len(items), _TOGETHER))
+
+
+def joined(parts: Iterable[Array]) -> Array:
+    """All points of some orbits (n, 2)."""
+    return np.concatenate([np.empty((0, 2)), *parts])
+
+
+def drift_status(drifts: Iterable[Mapping[str, float]]) -> Iterator[str]:
+    """For the status line: the largest drift of each integral."""
+    largest: dict[str, float] = {}
+    for drift in drifts:
+        largest |= {name: max(largest.get(name, 0.0), value) for name, value in drift.items()}
+    if largest:
+        yield "drift " + " ".join(f"{name} {value:.0e}" for name, value in largest.items())
 
 
 def boxed(corners: tuple[float, float, float, float], bounds: Window, name: str = "window") -> Values:
@@ -47,18 +416,3 @@ def boxed(corners: tuple[float, float, float, float], bounds: Window, name: str 
     left, right = max(x0, min(corners[0], corners[2])), min(x1, max(corners[0], corners[2]))
     low, high = max(y0, min(corners[1], corners[3])), min(y1, max(corners[1], corners[3]))
     return {name: written([(left, low), (right, high)])} if low < high and left < right else {}
-
-
-def worst(drift: Mapping[str, float], other: Mapping[str, float]) -> dict[str, float]:
-    """The larger drift of each integral."""
-    return {name: max(drift.get(name, 0.0), value) for name, value in other.items()}
-
-
-def section_status(section: str, drift: Mapping[str, float], orbit: Orbit | None, ended: str) -> str:
-    """The status line: what the section is, drift of the integrals on it, the chosen orbit, time."""
-    parts = [section] if section else []
-    if drift:
-        parts.append("drift " + " ".join(f"{name} {value:.0e}" for name, value in drift.items()))
-    if orbit is not None:
-        parts += orbit_status(orbit)[:1]
-    return " · ".join([*parts, ended]).replace("e-", "e−")

@@ -46,6 +46,10 @@ class Work:
             self.todo.append(Task(function, arguments))
         return cast("T | None", value)
 
+    def soon(self, function: Callable[P, T], *arguments: P.args, **none: P.kwargs) -> T | None:
+        """At once while a slider is held, when little is asked for; else later."""
+        return (self.get if self.dragging else self.later)(function, *arguments)
+
     def sooner(self, whole: Task, few: Task) -> Any:
         """The result of `whole` if it is known and no slider is dragged; for now that of `few`."""
         known = None if self.dragging else CACHE.peek(whole.function, *whole.arguments)

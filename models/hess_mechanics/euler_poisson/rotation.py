@@ -1,0 +1,85 @@
+"""Rotation numbers of the orbits that start on a line across the section g = π/2, where they are closed curves."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from hess_mechanics.dynamics.birkhoff import rotation_number
+from hess_mechanics.euler_poisson.andoyer import AndoyerSection
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["RESOLVED", "Rotation", "on_line", "rotation_along"]
+
+RESOLVED = 1e-4
+"""Where the rotation numbers of both halves of an orbit agree to this, it is taken for a closed curve."""
+_FEWEST = 20
+
+Ends = tuple[tuple[float, float], tuple[float, float]]
+
+
+@dataclass(frozen=True)
+class Rotation:
+    """Rotation numbers `rho` (n,) of orbits that start at `along` (n,) on a line, each in parts without a gap."""
+
+    along: tuple[Array, ...]
+    rho: tuple[Array, ...]
+
+    @property
+    def places(self) -> Array:
+        """All places on the line (n,)."""
+        return np.concatenate([np.empty(0), *self.along])
+
+    @property
+    def numbers(self) -> Array:
+        """All rotation numbers (n,)."""
+        return np.concatenate([np.empty(0), *self.rho])
+
+    @property
+    def extremum(self) -> tuple[float, float] | None:
+        """Place and number where ρ turns round between the ends of the line; None where it does not."""
+        along, rho = self.places, self.numbers
+        for i in (int(np.argmin(rho)), int(np.argmax(rho))) if rho.size else ():
+            if 2 <= i <= len(rho) - 3 and min(abs(rho[i] - rho[0]), abs(rho[i] - rho[-1])) > 3 * RESOLVED:
+                return float(along[i]), float(rho[i])
+        return None
+
+
+def on_line(section: AndoyerSection, ends: Ends, count: int) -> tuple[tuple[float, tuple[float, ...]], ...]:
+    """Shares of the way along the line between the ends (l, L/G), at most `count`, and the states there.
+
+    Raises `InvalidParameter`.
+    """
+    shares = (np.arange(count) + 0.5) / count
+    l, x = ((1.0 - shares) * a + shares * b for a, b in zip(*ends, strict=True))
+    states, growing = section.states_at(l, x)
+    return tuple((float(share), tuple(map(float, state)))
+                 for share, state in zip(shares[growing], states[growing], strict=True))
+
+
+def rotation_along(ends: Ends, shares: Sequence[float], orbits: Sequence[Array], about_first: bool, count: int
+                   ) -> Rotation:
+    """Of orbits (n, 2) that start at these shares of the way, of `count` even ones.
+
+    about_first : turns are counted about the first end, and the place is l; else by the angle l, and it is L/G.
+    """
+    centre, axis = (ends[0], 0) if about_first else (None, 1)
+    along: list[list[float]] = [[]]
+    rho: list[list[float]] = [[]]
+    last = -1.0
+    for share, points in zip(shares, orbits, strict=True):
+        if len(points) < _FEWEST:
+            continue
+        turns, spread = rotation_number(points, centre)
+        if spread > RESOLVED:
+            continue
+        # A gap, or the jump from ½ to −½, divides the curve.
+        if rho[-1] and (share - last > 1.5 / count or abs(turns - rho[-1][-1]) > 0.5):
+            along.append([])
+            rho.append([])
+        along[-1].append((1.0 - share) * ends[0][axis] + share * ends[1][axis])
+        rho[-1].append(turns)
+        last = share
+    return Rotation(tuple(map(np.array, along)), tuple(map(np.array, rho)))
