@@ -13,7 +13,7 @@ import pytest
 
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.protocol.parameters import places
-from hess_explorer.scenes.euler_poisson import body_of, motion
+from hess_explorer.scenes.framework import sections
 from hess_mechanics import circle_map, f_max, level, solve
 from hess_mechanics.dynamics.birkhoff import rotation_number
 from hess_mechanics.dynamics.lyapunov import largest_exponent
@@ -147,7 +147,7 @@ def test_the_barrier_is_gone_away_from_hess_and_there_in_it():
     """The same three orbits in time, without a section: the sign of r·M along them."""
     times = np.linspace(0.0, 100.0, 4000)
     for away, crosses in ((0.0, False), (0.02, True)):
-        body = body_of({**EP.defaults(), "away": away})
+        body = EP.of({**EP.defaults(), "away": away}).body
         starts = [state_at(body, 50.0, 5.0, l, x) for l, x in ((0.0, 0.2), (2.6, -0.55), (-2.5, 0.3))]
         along = [solve(SYSTEM, start, body.parameters, times, STANDARD).states[:, :3] @ body.r for start in starts]
         assert any(np.min(values) < 0.0 < np.max(values) for values in along) is crosses
@@ -204,14 +204,12 @@ def test_a_window_is_filled_with_orbits_of_its_own():
 
 
 def seeds_of(view):
-    from hess_explorer.scenes import euler_poisson
-
-    return euler_poisson._seeds, view.body, view.h, view.f, view.result.window, int(view.values["orbits"])
+    return sections._seeds, view.result.section, view.result.frame, int(view.values["orbits"])
 
 
 def test_a_drag_shows_the_section_at_once_with_fewer_orbits():
     view = EulerPoisson({"h": 41.37}, dragging=True)
-    assert view.result.todo == ()
+    assert view.report.todo == ()
     assert 0 < len(view.points("first")) + len(view.points("second")) <= 16 * 40
     assert "let go" in view.text["rotation"]
     assert "let go" in view.text["exponent"]
@@ -221,19 +219,19 @@ def test_a_drag_shows_the_section_at_once_with_fewer_orbits():
 def test_what_is_not_seen_is_not_left_to_do(seen):
     values = {**EP.defaults(), "h": 33.3, "orbits": 8.0}
     result = EP.compute(values, seen, False)
-    names = {task.function.__name__ for task in result.todo}
+    names = {task.function.__name__ for task in result.work.todo}
     expected = set()
     if seen & {"section", "rotation"}:
         expected.add("_piece")
     if "exponent" in seen:
         expected.add("largest_exponent")
     assert names == expected
-    assert result.total == len(result.todo)
+    assert result.work.pieces == len(result.work.todo)
 
 
 def test_the_motion_for_speed_and_accuracy_is_the_chosen_orbit():
     values = {**EP.defaults(), "starts": "0,0.2;0.5,-0.3"}
-    found = motion(values)
+    found = EP.of(values).motion()
     assert found.system is SYSTEM
     assert found.state == pytest.approx(state_at(GESS1, 50.0, 5.0, 0.5, -0.3), abs=1e-12)
     assert found.span == values["span"]

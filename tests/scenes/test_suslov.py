@@ -15,7 +15,6 @@ from scipy.integrate import solve_ivp
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.protocol.parameters import places
 from hess_explorer.scenes import scenes
-from hess_explorer.scenes.framework.scene import Boxed
 from hess_mechanics import SuslovBody, solve
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import REFERENCE
@@ -262,7 +261,6 @@ def test_a_drag_shows_fewer_points_at_once():
 
 def test_a_click_adds_an_orbit_and_a_box_is_the_window():
     view = View(SCENE, FEW)
-    assert isinstance(view.stage, Boxed)
     assert places(view.stage.pick("section", 0.3, 2.0)["starts"]) == [(1.0, 1.0), (0.3, 2.0)]
     assert view.stage.pick("omega", 0.3, 2.0) == {}
     low, high = places(view.stage.box("section", (1.0, 4.0, -0.5, 2.0))["window"])
@@ -273,7 +271,7 @@ def test_a_click_adds_an_orbit_and_a_box_is_the_window():
     assert len(both.points("own")) == 2 * len(view.points("own"))
     assert both.points("chosen") == pytest.approx(np.array([[1.0, 1.0], [0.3, 2.0]]), abs=1e-6)
     closer = View(SCENE, {**FEW, "window": "-0.5,2;1,3"})
-    assert closer.result.window == ((-0.5, 2.0), (1.0, 3.0))
+    assert closer.result.frame == ((-0.5, 2.0), (1.0, 3.0))
 
 
 def test_a_start_where_nothing_is_possible_is_replaced_and_said():
@@ -285,6 +283,24 @@ def test_a_start_where_nothing_is_possible_is_replaced_and_said():
     psi, delta = view.points("chosen")[-1]
     assert -0.5 * (math.cos(psi) + math.sin(psi)) < -0.1
     assert 0.0 < delta < math.pi
+
+
+@pytest.mark.parametrize("count", [20.0, 600.0])
+def test_a_window_without_a_point_says_so_when_no_more_will_come(count):
+    values = {**FEW, "count": count, "orbits": 0.0, "starts": "2,2", "window": "-0.01,0.01;0.01,0.011"}
+    view = Settled(SCENE, values, seen=("section",))
+    x, y = points(view, "own").T
+    assert len(x) == count
+    none = not np.any((np.abs(x) <= 0.01) & (y >= 0.01) & (y <= 0.011))
+    said = " ".join(view.data.get("section-message", {}).get("text", [""])).replace("\n", " ")
+    assert none
+    assert said == "None of the points lies in this window: choose more crossings, or press Undo"
+    # While more may come, it is not said; nor where there is one.
+    waiting = SCENE.compute({**view.values, "h": 1.01 + 1e-5 * count}, ("section",), False)
+    assert waiting.work.todo
+    assert waiting.nothing_seen() == ""
+    whole = Settled(SCENE, {**values, "window": ""}, seen=("section",))
+    assert "section-message" not in whole.data
 
 
 @pytest.mark.parametrize("plane", ["γ₃ = 0", "γ₁ = 0", "γ₂ = 0"])
@@ -321,7 +337,7 @@ def test_nothing_possible_in_a_window_is_a_sentence():
 
 def test_an_exponent_over_too_long_a_time_is_a_sentence():
     values = {**SCENE.defaults(), "h": 1e6, "I11": 1e-3, "I22": 1e-3, "long": 2e4}
-    todo = SCENE.compute(SCENE.admit(values)[0], ("exponent",), False).todo
+    todo = SCENE.compute(SCENE.admit(values)[0], ("exponent",), False).work.todo
     with pytest.raises(WorkLimit, match="choose a shorter time span"):
         for task in todo:
             CACHE.get(task.function, *task.arguments)
@@ -339,7 +355,7 @@ def test_extreme_values_are_shown(values):
 
 def test_the_motion_of_the_scene_is_the_chosen_orbit():
     view = example(STRANGE)
-    motion = SCENE.motion(view.values)
+    motion = SCENE.of(view.values).motion()
     assert motion.state == pytest.approx(tuple(start_of(view)), abs=1e-12)
     states = solve(motion.system, motion.state, motion.parameters, [motion.span], REFERENCE).states
     assert energy(body_of(view), states[0]) == pytest.approx(energy_of(view), abs=1e-12)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from hess_explorer.protocol.parameters import places
 from hess_explorer.scenes import scenes
-from hess_explorer.scenes.euler_poisson import body_of
 from hess_mechanics.euler_poisson.andoyer import state_at
 from support.view import View
 
@@ -16,7 +15,7 @@ class EulerPoisson(View):
 
     def __init__(self, values, **options):
         super().__init__(EP, values, **options)
-        self.body = body_of(self.values)
+        self.body = self.result.body
         self.h, self.f = self.values["h"], self.values["f"]
 
     @property

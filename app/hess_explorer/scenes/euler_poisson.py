@@ -17,7 +17,7 @@ from hess_explorer.scenes.framework.sections import TURN, FilledWindow, Piece, S
 from hess_explorer.scenes.framework.windows import Window, inside
 from hess_explorer.views import theme
 from hess_explorer.views.graph import thinned
-from hess_explorer.views.layers import Columns, Range, curves, dots, f32, line, points, text
+from hess_explorer.views.layers import Axes, Columns, Range, curves, dots, f32, line, points, text
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Direction, Sphere
 from hess_explorer.views.text import digits
@@ -262,13 +262,13 @@ SCENE = Scene(
     views=(
         filled_window(
             title="Section g = π/2 (Andoyer–Deprit)", caption=EulerPoisson._about_section, axes=("l", "L/G"),
-            labels=("r·M > 0", "r·M < 0"), dot=("l", "x"),
+            full=EulerPoisson.full, labels=("r·M > 0", "r·M < 0"), dot=("l", "x"),
             between=(line("curve", EulerPoisson.hess_curve, color=theme.STABLE, label="Hess manifold, r·M = 0"),
                      dots("path", track="orbit", columns=("l", "x"), size=3, color=theme.MAP, alpha=0.4),
                      line("line", lambda s: tuple(zip(*inside(s.ends, s.frame), strict=True)) or None,
                           color=theme.MUTED, dash="dashed", width=1.5, label="line of the rotation number"))),
         Plot(name="rotation", title="Rotation number across the section", caption=EulerPoisson._about_rotation,
-             axes=(" ", "ρ"), message=EulerPoisson._rotation_message,
+             axes=(" ", "ρ"), first=Axes((-1.0, 1.0), (-0.5, 0.5)), message=EulerPoisson._rotation_message,
              x=lambda s: (s.ends[0][s.axis], s.ends[1][s.axis]), y=EulerPoisson._rotation_axis,
              layers=(
                  curves("rho", lambda s: [] if s.rotation is None else [
@@ -279,7 +279,8 @@ SCENE = Scene(
                  points("orbits", lambda s: None if s.rotation is None else (s.rotation.places, s.rotation.numbers),
                         size=4, color=theme.ORBIT))),
         Plot(name="exponent", title="Largest Lyapunov exponent", caption=EulerPoisson._about_exponent,
-             axes=("t", "λ"), x=lambda s: (0.0, s.long), y=EulerPoisson._exponent_axis,
+             axes=("t", "λ"), first=Axes((0.0, 200.0), (0.0, 1.0)), x=lambda s: (0.0, s.long),
+             y=EulerPoisson._exponent_axis,
              layers=(curves("lambda", lambda s: [] if s.exponent is None else [
                  np.column_stack(thinned(s.exponent.times, s.exponent.rates))], color=theme.ORBIT),)),
         Sphere(caption=lambda s: "The vertical γ along the chosen orbit; r: the centre of mass.",

@@ -17,7 +17,7 @@ from hess_explorer.scenes.framework.sections import TURN, FilledWindow, Piece, S
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views import layered_section, theme
 from hess_explorer.views.graph import settled_range, thinned
-from hess_explorer.views.layers import Columns, curves, levels
+from hess_explorer.views.layers import Axes, Columns, curves, levels
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Sphere, centre_of_mass
 from hess_explorer.views.text import digits
@@ -200,8 +200,9 @@ class Suslov(FilledWindow):
     @property
     def rates(self) -> tuple[tuple[Array, Array], ...]:
         """Times and values of the exponent and of the mean divergence, when both are known."""
-        return () if self.exponent is None or self.course is None else (
-            (self.exponent.times, self.exponent.rates), (self.course.times, self.course.mean))
+        exponent, course = self.exponent, self.course
+        return () if exponent is None or course is None else (
+            (exponent.times, exponent.rates), (course.times, course.mean))
 
     def rate(self, i: int) -> list[Array]:
         """The curve of the exponent (0), or of the mean divergence (1)."""
@@ -272,10 +273,10 @@ SCENE = Scene(
     tracks={"orbit": Suslov.track},
     views=(
         filled_window(title=Suslov._section_title, caption=Suslov._about_section, axes=("ψ", "δ"),
-                      labels=("forward in time", "backward"),
+                      full=Suslov.full, labels=("forward in time", "backward"),
                       under=(layered_section.basins(lambda s: s.basin, lambda s: s.frame),)),
         Plot(name="exponent", title="Lyapunov exponent and divergence", caption=Suslov._about_rates,
-             axes=("t", "λ"), x=lambda s: (0.0, s.long),
+             axes=("t", "λ"), first=Axes((0.0, 1000.0), (-0.2, 0.2)), x=lambda s: (0.0, s.long),
              y=lambda s: settled_range([y for _, y in s.rates]) if s.rates else None,
              layers=(levels("levels", lambda s: [0.0] if s.rates else []),
                      curves("divergence", lambda s: s.rate(1), color=theme.MAP, dash="dashed",

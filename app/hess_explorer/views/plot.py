@@ -34,6 +34,7 @@ class Plot(Picture[S]):
     dot : columns of the track "orbit" that the moving point follows; dots : further layers that follow it.
     ticks : positions and labels on both axes, where the usual ones would not do; y_ticks : others on the vertical one.
     log : the axes that are logarithmic, "x", "y" or "xy".
+    first : the axes before the first state, where those depend on it.
     x_ticks : positions on the horizontal axis; y_tick_count : how many labels the vertical one wants.
     """
 
@@ -47,6 +48,7 @@ class Plot(Picture[S]):
     ticks: Ticks | None = None
     y_ticks: Ticks | None = None
     log: str = ""
+    first: Axes | None = None
     x_ticks: Sequence[float] | None = None
     y_tick_count: int | None = None
 
@@ -84,7 +86,9 @@ class Plot(Picture[S]):
 
     @property
     def first_axes(self) -> Axes:
-        """The axes before the first state: any that are possible, where they depend on it."""
+        """The axes before the first state: any that are possible, where they depend on it and none are given."""
+        if self.first is not None:
+            return self.first
         x, y = ((1.0, 10.0) if side in self.log else (0.0, 1.0) for side in "xy")
         return Axes(x if callable(self.x) else self.x, y if callable(self.y) else self.y)
 

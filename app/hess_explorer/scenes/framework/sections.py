@@ -15,7 +15,7 @@ from hess_explorer.scenes.framework.scene import Motion, State
 from hess_explorer.scenes.framework.windows import Window, inside, tidy_window, window_of
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import layered_section
-from hess_explorer.views.layers import Layer
+from hess_explorer.views.layers import Axes, Layer
 from hess_explorer.views.plot import Plot
 from hess_mechanics.dynamics.lyapunov import Exponent, largest_exponent
 from hess_mechanics.dynamics.sampling import sampled_orbit
@@ -297,12 +297,14 @@ W = TypeVar("W", bound=FilledWindow)
 
 
 def filled_window(title: str | Callable[[W], str], caption: Callable[[W], str], axes: tuple[str, str],
-                  labels: tuple[str, str], dot: tuple[str, str] | None = None, under: tuple[Layer[W], ...] = (),
-                  between: tuple[Layer[W], ...] = ()) -> Plot[W]:
+                  full: Window, labels: tuple[str, str], dot: tuple[str, str] | None = None,
+                  under: tuple[Layer[W], ...] = (), between: tuple[Layer[W], ...] = ()) -> Plot[W]:
     """The picture of such a section; labels : of the two kinds of orbits; between : as of `layered_section.layers`."""
+    (x0, y0), (x1, y1) = full
     return Plot(
         name="section", title=title, caption=caption, axes=axes, dot=dot, message=lambda s: s.nothing_seen(),
         x=lambda s: (s.frame[0][0], s.frame[1][0]), y=lambda s: (s.frame[0][1], s.frame[1][1]),
+        first=Axes((x0, x1), (y0, y1)),
         on_click=lambda s, x, y: s.start_here(x, y), on_box=lambda s, corners: s.look_closer(corners),
         layers=(*under, *layered_section.layers(
             lambda s: s.first, lambda s: s.second, lambda s: s.own, chosen=lambda s: s.rings(),
