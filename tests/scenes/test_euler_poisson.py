@@ -85,7 +85,7 @@ def test_an_example_shows_what_its_name_and_its_captions_promise(preset):
     assert gamma[7] == pytest.approx(there[3:], abs=1e-5)
     assert (track["l"][7], track["x"][7]) == pytest.approx(tuple(coordinates(there[None])[0]), abs=1e-5)
     assert not re.search(r"nan|inf", " ".join(view.text.values()), re.IGNORECASE)
-    for name in ("section", "rotation", "exponent", "sphere"):
+    for name in ("section", "exponent", "sphere"):
         title, second_line = view.text[name].split("\n")
         assert title
         assert len(second_line) <= 110
@@ -95,6 +95,9 @@ def test_an_example_shows_what_its_name_and_its_captions_promise(preset):
 def test_rotation_numbers_are_those_of_10000_points(preset):
     view = EulerPoisson({**preset.values, "orbits": 0.0})
     low, high = view.numbers("rotation", "From # to #")
+    title, second_line = view.text["rotation"].split("\n")
+    assert title
+    assert len(second_line) <= 110
     series = view.data["rotation-rho"]
     along, rho = (np.concatenate([*series[key]]).astype(float) for key in ("xs", "ys"))
     assert (np.min(rho), np.max(rho)) == (pytest.approx(low, abs=6e-5), pytest.approx(high, abs=6e-5))
@@ -124,7 +127,7 @@ def test_at_the_meandering_torus_the_rotation_number_turns_round_at_an_eighth():
     view = EulerPoisson({**EP.presets[1].values, "orbits": 0.0}, seen={"rotation"})
     place, rho = view.numbers("rotation", "it turns round at # with ρ = #: no twist there.")
     assert rho == pytest.approx(0.125, abs=1e-4)
-    centre = tuple(float(view.data["section-line"][key][0]) for key in ("x", "y"))
+    centre = view.result.ends[0]
 
     def exact(l):
         start = [state_at(GESS1, 50.0, 5.0, l, centre[1])]
