@@ -288,8 +288,8 @@ def test_a_start_where_nothing_is_possible_is_replaced_and_said():
 @pytest.mark.parametrize("count", [20.0, 600.0])
 def test_a_window_without_a_point_says_so_when_no_more_will_come(count):
     values = {**FEW, "count": count, "orbits": 0.0, "starts": "2,2", "window": "-0.01,0.01;0.01,0.011"}
-    view = Settled(SCENE, values, seen=("section",))
-    x, y = points(view, "own").T
+    view = View(SCENE, values, seen=("section",))
+    x, y = view.points("own").T
     assert len(x) == count
     none = not np.any((np.abs(x) <= 0.01) & (y >= 0.01) & (y <= 0.011))
     said = " ".join(view.data.get("section-message", {}).get("text", [""])).replace("\n", " ")
@@ -299,7 +299,7 @@ def test_a_window_without_a_point_says_so_when_no_more_will_come(count):
     waiting = SCENE.compute({**view.values, "h": 1.01 + 1e-5 * count}, ("section",), False)
     assert waiting.work.todo
     assert waiting.nothing_seen() == ""
-    whole = Settled(SCENE, {**values, "window": ""}, seen=("section",))
+    whole = View(SCENE, {**values, "window": ""}, seen=("section",))
     assert "section-message" not in whole.data
 
 
