@@ -31,7 +31,7 @@ def apart(found: Array, window: Window) -> Array:
     cells = np.minimum((within - low) * (_ACROSS / (high - low)), _ACROSS - 1).astype(int)
     one = np.full(_ACROSS * _ACROSS, -1)
     one[cells @ (_ACROSS, 1)] = np.arange(len(within))
-    return within[np.sort(one[one >= 0])]
+    return np.asarray(within[np.sort(one[one >= 0])])
 
 
 def _grid(cells: Callable[[S], Array | None], window: Callable[[S], Window]) -> Callable[[S], Grid | None]:

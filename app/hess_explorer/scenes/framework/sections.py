@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import ClassVar, Protocol, Self, TypeVar
+from typing import Any, ClassVar, Protocol, Self, TypeVar
 
 import numpy as np
 
@@ -176,7 +176,10 @@ class FilledWindow(_OneOrbit):
     def admitted(self, notes: list[str]) -> Self:
         """A window that is one, and at least one start."""
         default: str = type(self).starts
-        return replace(self, window=tidy_window(self.window), starts=self.starts if places(self.starts) else default)
+        state: Any = self  # a dataclass only where the scene declares its parameters
+        starts = self.starts if places(self.starts) else default
+        admitted: Self = replace(state, window=tidy_window(self.window), starts=starts)
+        return admitted
 
     # ---- what is computed ---------------------------------------------------------------------------------------
 

@@ -48,7 +48,8 @@ class Work:
 
     def soon(self, function: Callable[P, T], *arguments: P.args, **none: P.kwargs) -> T | None:
         """At once while a slider is held, when little is asked for; else later."""
-        return (self.get if self.dragging else self.later)(function, *arguments)
+        get = self.get if self.dragging else self.later
+        return get(function, *arguments, **none)
 
     def sooner(self, whole: Task, few: Task) -> Any:
         """The result of `whole` if it is known and no slider is dragged; for now that of `few`."""
