@@ -14,8 +14,8 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.parameters import choice, number
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.sections import Crossings, Start, joined
+from hess_explorer.views import scattering_map as square
 from hess_explorer.views import section_plane
-from hess_explorer.views.angles import ANGLE_TICKS, POLAR_TICKS
 from hess_explorer.views.layers import Axes, Columns
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Sphere, centre_of_mass
@@ -197,7 +197,6 @@ def _own(body: BallBody, E: float, start: Start, crossings: int) -> Points:
     return ball_section(body, E, [start], crossings, STANDARD, _MOST_STEPS)
 
 
-_CIRCLE = (-math.pi, math.pi)
 SCENE = Scene(
     BallSection, __file__, place=10, presets=PRESETS,
     title="Ball with a field",
@@ -205,15 +204,16 @@ SCENE = Scene(
     tracks={"orbit": BallSection.track},
     views=(
         Plot(name="section", title="Section: γ₃ grows through 0", caption=BallSection._about_section,
-             axes=("ψ", "δ"), x=_CIRCLE, y=(0.0, math.pi), ticks=ANGLE_TICKS, y_ticks=POLAR_TICKS,
-             message=lambda s: s.reason, on_click=lambda s, x, y: {"psi": x, "delta": y},
+             axes=("ψ", "δ"), x=square.AZIMUTH, y=square.POLAR, ticks=square.AZIMUTH_TICKS,
+             y_ticks=square.POLAR_TICKS, message=lambda s: s.reason,
+             on_click=lambda s, x, y: {"psi": x, "delta": y},
              layers=section_plane.layers(
                  lambda s: s.own, others=lambda s: s.others, forbidden=BallSection.forbidden,
                  start=lambda s: [] if s.own is None else [(s.psi, s.delta)])),
         Plot(name="returns", title="First return", caption=BallSection._about_returns,
-             axes=("ψ", "ψ at the next crossing"), x=_CIRCLE, y=_CIRCLE, ticks=ANGLE_TICKS,
+             axes=("ψ", "ψ at the next crossing"), x=square.AZIMUTH, y=square.AZIMUTH, ticks=square.AZIMUTH_TICKS,
              message=lambda s: s.reason, layers=section_plane.layers(BallSection.returns)),
-        orbit_alone(lambda s: _half_width(s.orbit.states[:, :2]), energy=lambda s: s.E),
+        orbit_alone(lambda s: _half_width(s.orbit.states[:, :2]), energy=lambda s: s.E, label="chosen orbit"),
         Sphere(caption=BallSection._about_sphere, looks={"orbit": "orbit"},
                axis=lambda s: centre_of_mass((s.b1, s.b2, s.b3))),
     ),

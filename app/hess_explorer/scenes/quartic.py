@@ -16,7 +16,7 @@ from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, nu
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.sections import Crossings, Start, joined
 from hess_explorer.views import plane_domain, section_plane, theme
-from hess_explorer.views.layers import Axes, Columns, curves
+from hess_explorer.views.layers import Axes, Columns, Sign, curves
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere
 from hess_explorer.views.text import digits, power
@@ -235,6 +235,7 @@ SCENE = Scene(
         Plot(name="domain", title="Point in the potential γ₃²/2", caption=Quartic._about_domain, axes=("q₁", "q₂"),
              x=lambda s: centred(s.half_width), y=lambda s: centred(s.half_width), dot=("q1", "q2"),
              on_click=lambda s, x, y: {"Q1": x, "Q2": y},
+             signs=(Sign("where it starts", "dot", f"background: none; border: 3px solid {theme.UNSTABLE}"),),
              layers=(*plane_domain.ground(lambda s: s.body.ellipse(), lambda s: s.body.holes(),
                                             lambda s: s.body.equipotentials(_HEIGHTS)),
                      *plane_domain.orbit(lambda s: (s.Q1, s.Q2)))),

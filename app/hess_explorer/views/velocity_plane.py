@@ -28,14 +28,14 @@ def velocity_columns(times: Array | None, omega: Array, gamma: Array, **more: Ar
             **{f"g{i + 1}": f32(gamma[:, i]) for i in range(3)}, **{name: f32(one) for name, one in more.items()}}
 
 
-def orbit_alone(half_width: Callable[[S], float], energy: Callable[[S], float]) -> Plot[S]:
+def orbit_alone(half_width: Callable[[S], float], energy: Callable[[S], float], label: str = "") -> Plot[S]:
     """The plane with nothing but the track of the orbit, which has this energy."""
     return Plot(
         name="omega", title="Angular velocity (ω₁, ω₂)", axes=("ω₁", "ω₂"),
         caption=lambda s: f"The chosen orbit, E = {digits(energy(s))}.",
         x=lambda s: centred(half_width(s)), y=lambda s: centred(half_width(s)), dot=("omega1", "omega2"),
         layers=(line("orbit", track="orbit", columns=("omega1", "omega2"), color=theme.ORBIT, width=2.5,
-                     label="chosen orbit"),))
+                     label=label),))
 
 
 def nice_above(value: float) -> float:

@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from html import escape
 from pathlib import Path
 from typing import Any, Generic, Self, TypeVar, cast
 
@@ -170,7 +171,7 @@ class Scene(Generic[S]):
             said = words.setdefault((sign.kind, sign.style), [])
             if sign.label not in said:
                 said.append(sign.label)
-        items = (f'<li><span class="{kind}" style="{style}"></span>{", ".join(labels)}</li>'
+        items = (f'<li><span class="{kind}" style="{style}"></span>{escape(", ".join(labels))}</li>'
                  for (kind, style), labels in words.items())
         return f'<ul class="legend" aria-label="Legend">{"".join(items)}</ul>'
 
