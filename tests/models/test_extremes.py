@@ -49,6 +49,7 @@ from hess_mechanics.suslov_hess.torus import cycles, track
 from support.extremes import ball as extremes_ball
 from support.extremes import euler_poisson as extremes_euler_poisson
 from support.extremes import suslov as extremes_suslov
+from support.measured import write_measured
 
 HESS, SUSLOV = systems()["hess"], systems()["suslov"]
 # What each level promises; `reference` goes to the floor of double precision, wherever the motion puts that.
@@ -803,15 +804,16 @@ def measured_rows():
 
 
 def main():
-    """Print the measured rows as a table, with a column for each level."""
+    """Write the measured rows as a table, with a column for each level."""
     cells = {}
     for name, column, value in measured_rows():
         cells.setdefault(name, {})[column] = value
     rows = {row.name: row for row in ROWS}
-    print("| what is extreme | checked against | draft | standard | precise | reference |\n|---|---|---|---|---|---|")
+    lines = ["| what is extreme | checked against | draft | standard | precise | reference |",
+             "|---|---|---|---|---|---|"]
     for name, values in cells.items():
         if "refusal" in values:
-            print(f"| {name} | refused: `{values['refusal']}` | | | | |")
+            lines.append(f"| {name} | refused: `{values['refusal']}` | | | | |")
             continue
         row, shown = rows[name], []
         for column in PROMISE:
@@ -819,11 +821,10 @@ def main():
             error = values.get(key)
             mark = "" if error is None or error <= row.bound(key) else " admitted" if row.admitted(key) else " ✗"
             shown.append("" if error is None else f"{error:.0e}{mark}")
-        print(f"| {name}{' ¹' if row.because else ''} | {row.against} | {' | '.join(shown)} |")
-    print()
-    for row in rows.values():
-        if row.because:
-            print(f"¹ {row.name}: {row.because}.  ")
+        escaped = name.replace("|", r"\|")
+        lines.append(f"| {escaped}{' ¹' if row.because else ''} | {row.against} | {' | '.join(shown)} |")
+    lines += ["", *(f"¹ {row.name}: {row.because}.  " for row in rows.values() if row.because)]
+    write_measured(Path(__file__).with_name("README.md"), "\n".join(lines))
 
 
 if __name__ == "__main__":

@@ -74,7 +74,7 @@ def _ball_parameters(options: argparse.Namespace) -> tuple[tuple[float, ...], Bo
     from hess_mechanics import check_body
     from hess_mechanics.chaplygin_ball.equations import BallBody
 
-    return BallBody(*options.I, options.D, *options.b).parameters, check_body(*options.I)
+    return BallBody(*(*options.I, options.D, *options.b)).parameters, check_body(*options.I)
 
 
 def _hess_parameters(options: argparse.Namespace) -> tuple[tuple[float, ...], BodyCheck]:
