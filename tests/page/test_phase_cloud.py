@@ -12,6 +12,7 @@ from hess_mechanics import ensemble, level, systems
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud import carried, frame_times, patch, shell
 from support.page import Explorer, brought, one_tab
+from support.painted import assert_captions_fit
 from support.phase_cloud import SCENE, captions
 
 DEFAULTS = SCENE.defaults()
@@ -64,6 +65,7 @@ def test_every_example_is_drawn_and_says_what_the_scene_says(cloud):
         for name, text in captions(values).items():
             if name in SCENE.pictures:
                 assert cloud.caption(name).split() == text.split(), preset.name
+        assert_captions_fit(cloud, SCENE)
         found = clouds(cloud)
         beside = values["beside"] != "nothing"
         assert [one.shape for one in found] == [(5, 5000)] * 2 if beside else [(5, 10_000)]
