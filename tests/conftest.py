@@ -18,8 +18,8 @@ pytest.register_assert_rewrite("support", "oracle")
 
 
 def pytest_configure(config):
-    """Compile everything once, before the processes that share it begin."""
-    if not hasattr(config, "workerinput") and not config.option.collectonly:
+    """Compile everything once, before several processes share it; one process compiles what it needs."""
+    if config.getoption("numprocesses", None) and not config.option.collectonly:
         subprocess.run([sys.executable, "-c", "from hess_explorer.server.warm import compile_all; compile_all()"],
                        check=True)
 

@@ -1,4 +1,4 @@
-"""How fast the page is: `python tests/benchmark_page.py` prints a table; nothing here is asserted.
+"""How fast the page is: `python tests/benchmarks/benchmark_page.py` writes its README; nothing here is asserted.
 
 Slider to four painted pictures: from the key's event to `data-ready`, in the page's own time, for moves
 one after the other.  Drag: the mouse moves every 16 ms whether or not the page follows.
@@ -22,6 +22,9 @@ from datetime import date
 from importlib.metadata import version
 from pathlib import Path
 
+if __name__ == "__main__":
+    sys.path[:0] = [str(Path(__file__).parents[1])]
+
 import numpy as np
 from playwright.async_api import Page, async_playwright
 
@@ -33,6 +36,7 @@ from hess_mechanics import level, rotation_number_grid
 from hess_mechanics.euler_poisson.andoyer import andoyer_points, seeds
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.suslov_hess.rotation_number import values_at
+from support.measured import write_measured
 
 ROOT = Path(__file__).resolve().parents[2]
 MOVES = 45
@@ -326,10 +330,11 @@ async def measure() -> None:
     rows.append(("rotation number on 300 × 200 (h, f), one core", f"{map_milliseconds():.0f} ms", "≤ 1 s"))
     rows.append(("section of figure gess1, 117 orbits × 400 crossings", f"{section_milliseconds():.0f} ms", ""))
     versions = ", ".join(f"{name} {version(name)}" for name in ("panel", "bokeh", "holoviews", "numba", "numpy"))
-    print(f"{date.today()}, {processor()}, {os.cpu_count()} cores, Python {platform.python_version()}, {versions}\n")
-    print("| what | measured | asked |\n|---|---|---|")
-    for row in rows:
-        print("| " + " | ".join(row) + " |")
+    heading = (f"{date.today()}, {processor()}, {os.cpu_count()} cores, Python {platform.python_version()}, "
+               f"{versions}.")
+    table = "\n".join("| " + " | ".join(row) + " |" for row in rows)
+    write_measured(Path(__file__).with_name("README.md"),
+                   f"{heading}\n\n| what | measured | asked |\n|---|---|---|\n{table}")
 
 
 if __name__ == "__main__":

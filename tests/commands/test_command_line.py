@@ -369,7 +369,7 @@ def test_taken_port(refusal, served):
 def test_a_first_start_answers_at_the_address_it_prints_and_ends_silently(free_port, tmp_path):
     # Kernels without the mark that all are there: as a first start, but soon over.
     cache = tmp_path / "hess-explorer" / CACHE_FOLDER.name
-    shutil.copytree(CACHE_FOLDER, cache, ignore=shutil.ignore_patterns("complete"))
+    shutil.copytree(CACHE_FOLDER, cache, ignore=shutil.ignore_patterns("complete-*"))
     command = [sys.executable, "-m", "hess_explorer", "serve", "--port", str(free_port), "--no-browser"]
     url = f"http://localhost:{free_port}"
     with interruptible(), subprocess.Popen(

@@ -26,6 +26,7 @@ from oracle.orbits import (
     distances,
     orbit_in_decimals,
     orbits_in_long_double,
+    taylor,
     uncompiled,
 )
 
@@ -50,5 +51,6 @@ __all__ = [
     "plain",
     "stable_cycle",
     "steady_rotation",
+    "taylor",
     "uncompiled",
 ]

@@ -14,6 +14,7 @@ from hess_explorer.headless.screenshot import running_server
 from hess_explorer.protocol.parameters import places
 from support.euler_poisson import EP, EulerPoisson
 from support.page import ENTER, Explorer, flat, one_tab, said
+from support.painted import assert_captions_fit
 from support.pointer import at
 
 tab = pytest.fixture(scope="module")(one_tab)
@@ -68,7 +69,11 @@ def drawn(explorer, name):
 # --- Examples ----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("preset", EP.presets, ids=lambda preset: preset.name)
+# Of each kind one; the numbers of all are checked without a browser.  Others on a figure differ in h and f alone.
+SHOWN = [EP.presets[i] for i in (0, 1, 2, 6, 9, 12, 16)]
+
+
+@pytest.mark.parametrize("preset", SHOWN, ids=lambda preset: preset.name)
 def test_an_example_is_drawn_with_the_numbers_of_its_captions(page, preset):
     if not page.page.url.startswith(page.base) or page.scene != EP.name:
         opened(page)
@@ -89,8 +94,7 @@ def test_an_example_is_drawn_with_the_numbers_of_its_captions(page, preset):
     assert (min(rho), max(rho)) == (pytest.approx(low, abs=6e-5), pytest.approx(high, abs=6e-5))
     for picture in EP.pictures:
         assert drawn(page, picture)
-        words = page.picture(picture).locator(".caption")
-        assert words.evaluate("words => words.scrollHeight <= words.clientHeight"), words.inner_text()
+    assert_captions_fit(page, EP)
     assert all(isinstance(x, str) or math.isfinite(x) for x in flat(page.data("data-orbit")))
 
 

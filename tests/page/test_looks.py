@@ -9,9 +9,9 @@ import pytest
 from axe_playwright_python.sync_playwright import Axe
 from PIL import Image, ImageStat
 
-from hess_explorer.headless.browser import wait_ready
 from hess_explorer.scenes import scenes
 from support.page import HESS, SLIDERS, STUDY, Explorer
+from support.painted import assert_captions_fit
 
 SIZES = {"wide": (1600, 950), "laptop": (1280, 720), "phone": (390, 844)}
 COLUMNS = {"wide": 4, "laptop": 2, "phone": 1}
@@ -149,21 +149,25 @@ def test_nothing_covers_anything_else_and_no_text_is_cut_off(look):
     assert page.locator(".text, .scene, .legend li").evaluate_all(CUT_OFF) == []
 
 
+# Those of the examples are looked at where examples are chosen, in the tests of each scene.
 @every_look
 def test_every_caption_fits_into_its_place(look):
-    page, scene, size, theme = look
-    # Every example where pictures are smallest: four beside each other, and on a phone.
-    examples = scenes()[scene].presets if size != "laptop" and theme == "light" else ()
-    for wish in [*(("preset", preset.name) for preset in examples), ("reset",)]:
-        before = int(page.evaluate("document.documentElement.dataset.state"))
-        tell(page, *wish)
-        wait_ready(page, after=before)
-        for name in scenes()[scene].pictures:
-            caption = page.locator(f".gallery:not(.away) .picture-{name} h2")
-            assert caption.evaluate("item => item.scrollHeight - item.clientHeight") <= 1, caption.inner_text()
+    page, scene, _, _ = look
+    for name in scenes()[scene].pictures:
+        caption = page.locator(f".gallery:not(.away) .picture-{name} h2")
+        assert caption.evaluate("item => item.scrollHeight - item.clientHeight") <= 1, caption.inner_text()
 
 
-def test_on_a_phone_ready_means_that_the_pictures_can_be_seen(open_page):
+def test_every_caption_of_the_accuracy_scene_fits_into_its_place(look_at):
+    tab = Explorer(look_at(STUDY), "")
+    for preset in scenes()[STUDY].presets:
+        if tab.chosen("preset") != preset.name:
+            tab.change(tab.choose, "preset", preset.name)
+        assert_captions_fit(tab, scenes()[STUDY])
+    tab.change(tell, tab.page, "reset")
+
+
+def test_on_a_phone_the_pictures_are_seen_and_the_controls_are_behind_the_menu_button(open_page):
     page = open_page(size=SIZES["phone"])
     box = drawing(page, "omega").bounding_box()
     # A screenshot is taken now: no drawer and no veil may be over the picture any more.
@@ -173,16 +177,17 @@ def test_on_a_phone_ready_means_that_the_pictures_can_be_seen(open_page):
           .map((item) => item.className).filter((name) => /Backdrop|Drawer-paper/.test(name))""",
         [box["x"] + box["width"] / 2, box["y"] + box["height"] / 2])
     assert covering == []
-
-
-def test_on_a_phone_the_controls_are_behind_the_menu_button(open_page):
-    page = open_page(size=SIZES["phone"])
+    page.locator(".MuiBackdrop-root").wait_for(state="hidden")
+    assert_accessible(page)
     slider = page.locator(".param-h input[type=range]")
     page.wait_for_function("item => item === null || item.getBoundingClientRect().right <= 0",
                            arg=slider.element_handle() if slider.count() else None)
     page.get_by_role("button").first.click()
     slider.wait_for(state="visible")
     page.wait_for_function("item => item.getBoundingClientRect().left >= 0", arg=slider.element_handle())
+    page.locator(".MuiBackdrop-root").wait_for(state="visible")
+    page.wait_for_function("() => document.getAnimations().every((one) => one.playState !== 'running')")
+    assert_accessible(page)
 
 
 def axis_colour(page, name="omega"):
@@ -190,11 +195,10 @@ def axis_colour(page, name="omega"):
         "name => hess.plots.find(({ model }) => model.name === name).model.below[0].major_label_text_color", name)
 
 
-def test_a_scene_that_is_entered_is_as_dark_as_one_that_a_link_opens(open_page):
-    linked, entered = open_page(f"scene={STUDY}&theme=dark"), open_page("theme=dark")
-    before = int(entered.evaluate("document.documentElement.dataset.state"))
-    entered.locator(f".param-scene-{STUDY}").click()
-    wait_ready(entered, after=before)
+def test_a_scene_that_is_entered_is_as_dark_as_one_that_a_link_opens(open_page, look_at):
+    linked = open_page(f"scene={STUDY}&theme=dark")
+    look_at(HESS, theme="dark")
+    entered = look_at(STUDY, theme="dark")
     for name in planar(STUDY):
         assert axis_colour(entered, name) == axis_colour(linked, name), name
     assert brightness(seen(entered)) == pytest.approx(brightness(seen(linked)), abs=1)
@@ -259,11 +263,13 @@ def assert_accessible(page):
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
-def test_no_rule_of_wcag_is_broken(open_page, theme):
+def test_no_rule_of_wcag_is_broken(look_at, theme):
     # A state with a note, so that all there can be is there.
-    page = open_page(f"theme={theme}&I22=0.5&I23=1.5")
-    assert page.locator(".text.notes").is_visible()
-    assert_accessible(page)
+    tab = Explorer(look_at(HESS, theme=theme), "")
+    tab.change(lambda: tab.slide(I22=0.5, I23=1.5))
+    assert tab.page.locator(".text.notes").is_visible()
+    assert_accessible(tab.page)
+    tab.change(tell, tab.page, "reset")
 
 
 @pytest.mark.parametrize(("size", "theme"), [("wide", "light"), ("wide", "dark"), ("phone", "light")])
@@ -271,28 +277,21 @@ def test_no_rule_of_wcag_is_broken_in_the_accuracy_scene(look_at, size, theme):
     assert_accessible(look_at(STUDY, size, theme))
 
 
-def test_no_rule_of_wcag_is_broken_on_a_phone_with_the_controls_away_or_there(open_page):
-    page = open_page(size=SIZES["phone"])
-    page.locator(".MuiBackdrop-root").wait_for(state="hidden")
-    assert_accessible(page)
-    page.get_by_role("button").first.click()
-    page.locator(".MuiBackdrop-root").wait_for(state="visible")
-    page.wait_for_function("() => document.getAnimations().every((one) => one.playState !== 'running')")
-    assert_accessible(page)
-
-
-def test_a_box_that_holds_no_number_says_so_to_everyone(open_page):
-    page = open_page()
+def test_a_box_that_holds_no_number_says_so_to_everyone(look_at):
+    page = look_at(HESS)
     box = page.locator(".param-h input[type=text]")
     box.fill("abc")
     box.press("Enter")
     assert box.get_attribute("aria-invalid") == "true"
     assert "number" in box.evaluate("item => item.validationMessage")
     assert_accessible(page)
+    box.fill("1.5")
+    box.press("Enter")
 
 
-def test_every_control_is_reached_by_the_tab_key(open_page):
-    page = open_page()
+def test_every_control_is_reached_by_the_tab_key(look_at):
+    page = look_at(HESS)
+    page.evaluate("document.activeElement?.blur()")
     reached = set()
     for _ in range(60):
         page.keyboard.press("Tab")

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from hess_explorer.headless.browser import wait_ready
 from hess_mechanics import ensemble, level, systems
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud import carried, frame_times, patch, shell
-from support.page import Explorer
+from support.page import Explorer, brought, one_tab
+from support.painted import assert_captions_fit
 from support.phase_cloud import SCENE, captions
 
 DEFAULTS = SCENE.defaults()
@@ -20,6 +20,8 @@ HERE = ".gallery:not(.away) .picture-{} canvas"
 BLUE, PINK = (0, 114, 178), (204, 121, 167)
 WIDTH = 600
 """Pixels of a picture that interpolation is to be right for."""
+EVERY = 4
+"""Of so many points one is compared: all go the same way through the code."""
 SOME = 1e-4
 """The share of a small patch: some ten pixels."""
 
@@ -27,49 +29,53 @@ SOME = 1e-4
 CLOUDS = """slider => hess.clouds(hess.source("omega"), Number(slider.value))
   .map(({ w1, w2, g1, g2, g3 }) => [w1, w2, g1, g2, g3].map((one) => Array.from(one)))"""
 DENSITY = "() => { const { x, y } = hess.source('density-now').data; return [Array.from(x), Array.from(y)] }"
+FILLED = """canvas => innerWidth === document.documentElement.clientWidth
+  && Math.abs(canvas.width - canvas.getBoundingClientRect().width * devicePixelRatio) <= 2"""
 
 
-def query(**changes):
-    return urlencode({"scene": SCENE.name, **changes})
+tab = pytest.fixture(scope="module")(one_tab)
 
 
-def clouds(page):
+@pytest.fixture
+def cloud(tab):
+    """The scene in its first state, at t = 0."""
+    yield brought(tab, SCENE)
+    tab.assert_quiet()
+
+
+def clouds(cloud):
     """(5, n) of each cloud on the page."""
-    return [np.array(one) for one in page.locator("input.param-t").evaluate(CLOUDS)]
+    return [np.array(one) for one in cloud.page.locator("input.param-t").evaluate(CLOUDS)]
 
 
-def share_of(page, picture, colour):
+def share_of(cloud, picture, colour):
     """The share of a canvas's pixels that are nearly of this colour."""
-    pixels = np.asarray(Image.open(io.BytesIO(page.locator(HERE.format(picture)).screenshot())).convert("RGB"), int)
+    shot = cloud.page.locator(HERE.format(picture)).screenshot()
+    pixels = np.asarray(Image.open(io.BytesIO(shot)).convert("RGB"), int)
     return float(np.mean(np.abs(pixels - colour).max(axis=2) < 40))
 
 
-def text_of(page, picture):
-    return page.locator(f".gallery:not(.away) .picture-{picture} .caption").inner_text()
-
-
-def test_every_example_is_drawn_and_says_what_the_scene_says(open_page):
+def test_every_example_is_drawn_and_says_what_the_scene_says(cloud):
     # At t = 0 the clouds of two bodies are one.
-    page = open_page(query(t=6.0))
+    cloud.set_time(6.0)
     for preset in SCENE.presets:
-        state = page.evaluate("Number(document.documentElement.dataset.state)")
-        page.locator(".param-preset select").select_option(preset.name)
-        if preset.values:
-            wait_ready(page, after=state)
+        if cloud.chosen("preset") != preset.name:
+            cloud.change(cloud.choose, "preset", preset.name)
         values = {**DEFAULTS, **preset.values}
         for name, text in captions(values).items():
             if name in SCENE.pictures:
-                assert text_of(page, name).split() == text.split(), preset.name
-        found = clouds(page)
+                assert cloud.caption(name).split() == text.split(), preset.name
+        assert_captions_fit(cloud, SCENE)
+        found = clouds(cloud)
         beside = values["beside"] != "nothing"
         assert [one.shape for one in found] == [(5, 5000)] * 2 if beside else [(5, 10_000)]
         for one in found:
             assert np.all(np.isfinite(one))
             assert np.linalg.norm(one[2:], axis=0) == pytest.approx(np.ones(one.shape[1]), abs=1e-6)
         for picture in ("omega", "sphere"):
-            assert share_of(page, picture, BLUE) > SOME, (preset.name, picture)
-            assert (share_of(page, picture, PINK) > SOME) == beside
-        x, y = map(np.array, page.evaluate(DENSITY))
+            assert share_of(cloud, picture, BLUE) > SOME, (preset.name, picture)
+            assert (share_of(cloud, picture, PINK) > SOME) == beside
+        x, y = map(np.array, cloud.page.evaluate(DENSITY))
         # Bins of 0.25 in ln|s|.
         assert (y * x).sum() * 0.25 == pytest.approx(1.0, abs=1e-3)
 
@@ -85,7 +91,7 @@ INTERPOLATED = [
 
 
 @pytest.mark.parametrize("changes", INTERPOLATED, ids=str)
-def test_between_frames_nearly_all_points_are_right_to_a_pixel(open_page, changes):
+def test_between_frames_nearly_all_points_are_right_to_a_pixel(cloud, changes):
     values = {**DEFAULTS, **changes}
     body = BallBody(*(values[name] for name in ("I11", "I22", "I13", "I23", "D")))
     beside = values["beside"] != "nothing"
@@ -94,75 +100,77 @@ def test_between_frames_nearly_all_points_are_right_to_a_pixel(open_page, change
               else shell(body, values["h"], values["spread"], count))
     sense = -1.0 if values["direction"] == "backward" else 1.0
     frames = frame_times(body, states, values["span"], values["b3"] if beside else 0.0)
-    page = open_page(query(**changes))
+    cloud.give(**changes)
     for frame in (0, frames.size // 2, frames.size - 2):
         t = 0.5 * float(frames[frame] + frames[frame + 1])
-        Explorer(page, page.url).set_time(t)
-        exact = carried(body, states, np.array([0.0, sense * t]), level("precise"))
+        cloud.set_time(t)
+        exact = carried(body, states[::EVERY], np.array([0.0, sense * t]), level("precise"))
         expected = [np.hstack([exact.omega[:, 1], exact.gamma[:, 1]])]
         if beside:
             principal = (body.I11, body.I22, 0.0, 0.0, body.D, 0.0, 0.0, values["b3"])
-            expected.append(ensemble(systems()["ball"], states, principal, [sense * t], level("precise")).states[:, 0])
-        half = page.evaluate("hess.source('omega').data.half")
-        for found, right in zip(clouds(page), expected, strict=True):
-            omega, gamma = (np.linalg.norm(found.T[:, part] - right[:, part], axis=1)
+            there = ensemble(systems()["ball"], states[::EVERY], principal, [sense * t], level("precise"))
+            expected.append(there.states[:, 0])
+        half = cloud.page.evaluate("hess.source('omega').data.half")
+        for found, right in zip(clouds(cloud), expected, strict=True):
+            omega, gamma = (np.linalg.norm(found.T[::EVERY, part] - right[:, part], axis=1)
                             for part in (slice(0, 2), slice(2, 5)))
             for error in (omega * WIDTH / (2.0 * half), gamma * WIDTH / 2.0):
                 assert np.quantile(error, 0.99) < 1.0
                 assert error.max() < 3.0
 
 
-def test_playing_moves_the_points_and_their_density(open_page):
-    page = open_page(query(t=1.0))
-    before, density = clouds(page)[0], page.evaluate(DENSITY)
-    painted = share_of(page, "omega", BLUE)
-    Explorer(page, page.url).play_until(2.2)
-    after = clouds(page)[0]
+def test_playing_moves_the_points_and_their_density(cloud):
+    cloud.set_time(1.0)
+    before, density = clouds(cloud)[0], cloud.page.evaluate(DENSITY)
+    painted = share_of(cloud, "omega", BLUE)
+    cloud.play_until(2.2)
+    after = clouds(cloud)[0]
     moved = np.linalg.norm(after[:2] - before[:2], axis=0)
     assert np.median(moved) > 0.1
     # Onto the stable half, where s = 0: |s| falls.
     s = [np.median(np.abs(DEFAULTS["I13"] * one[0] + DEFAULTS["I23"] * one[1])) for one in (before, after)]
     assert s[1] < 0.8 * s[0]
-    assert page.evaluate(DENSITY) != density
-    assert share_of(page, "omega", BLUE) < painted
+    assert cloud.page.evaluate(DENSITY) != density
+    assert share_of(cloud, "omega", BLUE) < painted
 
 
-def test_a_click_in_the_plane_puts_a_patch_there(open_page):
-    page = open_page(query())
-    canvas = page.locator(HERE.format("omega"))
+def test_a_click_in_the_plane_puts_a_patch_there(cloud):
+    canvas = cloud.page.locator(HERE.format("omega"))
     box = canvas.bounding_box()
-    state = page.evaluate("Number(document.documentElement.dataset.state)")
     # Up and to the left, at the centre of the frame's upper left quarter.
-    canvas.click(position={"x": 46 + (box["width"] - 54) / 4, "y": 8 + (box["height"] - 50) / 4})
-    wait_ready(page, after=state)
-    assert page.locator(".param-start select").input_value() == "small patch"
-    angle = float(page.locator(".param-angle input[type=text]").input_value())
+    upper_left = {"x": 46 + (box["width"] - 54) / 4, "y": 8 + (box["height"] - 50) / 4}
+    cloud.change(lambda: canvas.click(position=upper_left))
+    assert cloud.chosen("start") == "small patch"
+    angle = cloud.shown("angle")[0]
     assert angle == pytest.approx(0.75 * math.pi, abs=0.01)
-    (found,) = clouds(page)
+    (found,) = clouds(cloud)
     assert math.atan2(found[1].mean(), found[0].mean()) == pytest.approx(angle, abs=0.01)
 
 
-def test_a_state_without_a_manifold_is_refused_and_nothing_stale_is_drawn(open_page):
-    page = open_page(query(I13=0.0, I23=0.0))
+def test_a_state_without_a_manifold_is_refused_and_nothing_stale_is_drawn(cloud):
+    # Something is drawn before.
+    assert share_of(cloud, "omega", BLUE) > 0.001
+    cloud.give(I13=0.0, I23=0.0)
     for name in SCENE.pictures:
-        assert "Choose I13 or I23 other than 0" in text_of(page, name)
-    assert clouds(page) == []
-    assert page.evaluate(DENSITY) == [[], []]
-    assert share_of(page, "omega", BLUE) == share_of(page, "sphere", BLUE) == 0.0
+        assert "Choose I13 or I23 other than 0" in cloud.caption(name)
+    assert clouds(cloud) == []
+    assert cloud.page.evaluate(DENSITY) == [[], []]
+    assert share_of(cloud, "omega", BLUE) == share_of(cloud, "sphere", BLUE) == 0.0
     # And the next state is drawn.
-    state = page.evaluate("Number(document.documentElement.dataset.state)")
-    page.locator(".param-I23 input[type=text]").fill("0.7")
-    page.locator(".param-I23 input[type=text]").press("Enter")
-    wait_ready(page, after=state)
-    assert share_of(page, "omega", BLUE) > 0.001
+    cloud.change(cloud.type, "I23", "0.7")
+    assert share_of(cloud, "omega", BLUE) > 0.001
 
 
-@pytest.mark.parametrize("size", [(1600, 950), (1280, 720), (390, 844)])
 @pytest.mark.parametrize("theme", ["light", "dark"])
-def test_the_plane_is_drawn_in_every_window_and_theme(open_page, artefacts, size, theme):
-    page = open_page(query(t=4.0, theme=theme), size=size)
-    assert share_of(page, "omega", BLUE) > 0.002
-    box = page.locator(HERE.format("omega")).bounding_box()
-    assert box["width"] == pytest.approx(box["height"], abs=1.0)
-    assert box["x"] + box["width"] <= size[0]
-    page.screenshot(path=artefacts / f"cloud-{size[0]}-{theme}.png")
+def test_the_plane_is_drawn_in_every_window_and_theme(open_page, artefacts, theme):
+    page = open_page(urlencode({"scene": SCENE.name, "t": 4.0, "theme": theme}))
+    canvas = page.locator(HERE.format("omega"))
+    for width, height in ((1600, 950), (1280, 720), (390, 844)):
+        page.set_viewport_size({"width": width, "height": height})
+        # The canvas has as many pixels as its place again: it was painted anew.
+        page.wait_for_function(FILLED, arg=canvas.element_handle())
+        assert share_of(Explorer(page, page.url), "omega", BLUE) > 0.002
+        box = canvas.bounding_box()
+        assert box["width"] == pytest.approx(box["height"], abs=1.0)
+        assert box["x"] + box["width"] <= width
+        page.screenshot(path=artefacts / f"cloud-{width}-{theme}.png")

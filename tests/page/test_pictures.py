@@ -16,6 +16,7 @@ from hess_explorer.views import theme
 from hess_mechanics import circle_map, f_max, level, solve, systems, trace_on_curve, turning_points
 from support.mechanics import angle_between, lifted_return
 from support.page import DEFAULTS, PICTURES, Explorer, default_state, one_tab
+from support.painted import assert_captions_fit
 from support.pointer import HOME, STEP, assert_turned, at, click
 from support.suslov_hess import assert_orbit, body_of, exact_states
 
@@ -207,6 +208,8 @@ class Finger:
             self.send("touchMove", (x + dx * share, y + dy * share))
             self.page.evaluate("new Promise((done) => requestAnimationFrame(done))")
         self.send("touchEnd")
+        # What scrolls is moved with the next frame.
+        self.page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
         return self.scrolled - scrolled
 
     @property
@@ -231,7 +234,8 @@ def test_a_finger_that_scrolls_the_page_over_the_diagram_chooses_nothing(phone):
     finger = Finger(phone.page)
     scrolled = finger.drag(phone.picture("bifurcation").locator("canvas").first, 0, -120)
     wait_ready(phone.page)
-    assert scrolled == 0 or phone.here() == before
+    assert scrolled > 50
+    assert phone.here() == before
 
 
 def on_sphere(gamma, turn):
@@ -566,6 +570,7 @@ def test_every_example_is_painted(explorer, name, artefacts):
             continue
         wanted = {"omega": theme.ORBIT, "sphere": theme.ORBIT, "bifurcation": theme.FORBIDDEN, "circle": theme.MAP}
         assert painted(pixels, wanted[picture_name]) >= 40, picture_name
+    assert_captions_fit(explorer, scenes()["suslov-hess"])
     explorer.page.screenshot(path=artefacts / f"example-{list(PRESETS).index(name) + 1}.png")
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from .measure import Effort, Measured, Timing, race
 from .method import Method, Setting
-from .works import Work, works
+from .works import MotionWork, Work, works
 
 __all__ = ["Scaling", "scaling"]
 
@@ -32,10 +32,11 @@ class Scaling:
 
 def _many(work: Work) -> Work:
     """What can be shared between threads: the work itself, and for D, one orbit, the sections of 64."""
-    if work.name != "D":
+    ensemble = works()["B2"]
+    if work.name != "D" or not (isinstance(work, MotionWork) and isinstance(ensemble, MotionWork)):
         return work
     return replace(work, title="crossings of γ3 = 0 by 64 random orbits up to t = 200",
-                   initial=works()["B2"].initial[:64], times=np.array([200.0]))
+                   initial=ensemble.initial[:64], times=np.array([200.0]))
 
 
 def scaling(measured: Sequence[Measured], methods: Sequence[Method], effort: Effort,

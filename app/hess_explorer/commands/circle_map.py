@@ -1,11 +1,11 @@
-"""`hess-explorer circle-map`: the circle map Θ of one Suslov–Hess torus (S8)."""
+"""`hess-explorer circle-map`: the circle map Θ of one Suslov–Hess torus."""
 
 from __future__ import annotations
 
 import argparse
 
 from .arguments import number, samples
-from .output import add_options, computing, write
+from .output import add_options, computing, quality, write
 
 __all__ = ["add"]
 
@@ -16,8 +16,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         "circle-map", help="the circle map of a Suslov–Hess torus (h, f)",
         description="The circle map Θ(φ) of the torus (h, f), units b = 1, on the section n3 = lower turning point, "
                     "w = |w|(sin φ, cos φ): trace, kind, rotation number, period, fixed points (the stable one "
-                    "first) with their multipliers, and Θ at the given angles.  log_trace and log_multipliers say "
-                    "the same where a number exceeds double precision.",
+                    "first) with their multipliers, and Θ at the given angles.  log_trace and log_multipliers give "
+                    "their logarithms, for numbers beyond double precision.",
         epilog="Example: hess-explorer circle-map --h 1.5 --f 0.6 --a 0.5 --phi 0,1,2 --accuracy reference")
     parser.add_argument("--h", type=number, required=True, help="energy, h > -1")
     parser.add_argument("--f", type=number, required=True, help="area integral, |f| ≤ f_max(h)")
@@ -44,10 +44,6 @@ def _run(options: argparse.Namespace) -> None:
         "fixed_points": [point.phi for point in result.fixed_points],
         "multipliers": [point.multiplier for point in result.fixed_points],
         "log_multipliers": [point.log_multiplier for point in result.fixed_points],
-        "error_estimate": result.error_estimate,
-        "status": str(result.status),
-        "level": result.level,
-        "steps": result.cost.steps,
-        "wall_ms": result.cost.wall_ms,
+        **quality(result),
     }
     write(options, {"phi": options.phi, "theta": theta}, ("phi", "theta"), facts, notes=())

@@ -1,4 +1,4 @@
-"""`hess-explorer lyapunov suslov|euler-poisson`: the largest Lyapunov exponent of one motion (S1, S11)."""
+"""`hess-explorer lyapunov suslov|euler-poisson`: the largest Lyapunov exponent of one motion."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .output import add_options, computing, write
 __all__ = ["add"]
 
 _SHOWN = 100
-"""Of the running averages, evenly spread."""
+"""Running averages in the answer, evenly spread over the time."""
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -42,7 +42,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 
 def _add_rest(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--t", type=number, required=True, help="time of the average; backward where it is negative")
+    parser.add_argument("--t", type=number, required=True, help="time over which to average; negative: backward")
     add_options(parser)
 
 

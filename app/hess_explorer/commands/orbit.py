@@ -1,4 +1,4 @@
-"""`hess-explorer orbit suslov|ball|hess|euler-poisson`: states of one motion at given times (S1, S8, S9, S11)."""
+"""`hess-explorer orbit suslov|ball|hess|euler-poisson`: states of one motion at given times."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from .arguments import number, samples
 from .bodies import add_heavy_body, add_start, add_suslov_body
-from .output import add_options, computing, write
+from .output import add_options, computing, quality, whether_body, write
 
 if TYPE_CHECKING:
     from hess_mechanics import BodyCheck
@@ -74,13 +74,13 @@ def _ball_parameters(options: argparse.Namespace) -> tuple[tuple[float, ...], Bo
     from hess_mechanics import check_body
     from hess_mechanics.chaplygin_ball.equations import BallBody
 
-    return BallBody(*options.I, options.D, *options.b).parameters, check_body(*options.I)
+    return BallBody(*(*options.I, options.D, *options.b)).parameters, check_body(*options.I)
 
 
 def _hess_parameters(options: argparse.Namespace) -> tuple[tuple[float, ...], BodyCheck]:
     from hess_mechanics import HessBody
 
-    # (a, b) leave the scale of the inertia open: I22 = 1 speaks for all of them.
+    # (a, b) do not fix the scale of the inertia, and whether a body has it does not depend on the scale: I22 = 1.
     return (options.a, options.b), HessBody(I22=1.0, I23=options.a, b3=0.0).check
 
 
@@ -101,14 +101,8 @@ def _run(options: argparse.Namespace) -> None:
         result = solve(system, (*options.omega, *gamma), parameters, options.t, level(options.accuracy))
     facts = {
         "variables": list(system.variables),
-        "error_estimate": result.error_estimate,
-        "drift": dict(result.drift),
-        "status": str(result.status),
-        "level": result.level,
-        "steps": result.cost.steps,
-        "wall_ms": result.cost.wall_ms,
-        "is_body": body.is_body,
-        "body": body.sentence,
+        **quality(result),
+        **whether_body(body),
     }
     write(options, {"t": result.times.tolist(), "y": result.states.tolist()}, ("t", *system.variables), facts,
           notes=[*result.notes, *([note] if note else [])])

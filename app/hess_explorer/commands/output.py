@@ -1,4 +1,4 @@
-"""What the computing commands share: their options, and strict JSON or CSV on standard output or in a file."""
+"""What the computing commands share: options, and results as strict JSON or CSV on standard output or in a file."""
 
 from __future__ import annotations
 
@@ -10,11 +10,15 @@ import sys
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import CommandError
 
-__all__ = ["add_options", "computing", "show", "write", "write_file"]
+if TYPE_CHECKING:
+    from hess_mechanics import BodyCheck, CircleMap, Orbit, Section
+    from hess_mechanics.suslov.scattering import Scattering
+
+__all__ = ["add_options", "computing", "quality", "show", "whether_body", "write", "write_file"]
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -23,18 +27,18 @@ def add_options(parser: argparse.ArgumentParser) -> None:
                         help="draft, standard, precise (default) or reference")
     parser.add_argument("--format", choices=("json", "csv"), default="json",
                         help="json (default): strict, all digits; csv: a table, the other results as # comments")
-    parser.add_argument("--out", type=Path, metavar="FILE", help="write to this file, not to standard output")
+    parser.add_argument("--out", type=Path, metavar="FILE", help="write to this file instead of standard output")
 
 
 @contextmanager
 def computing() -> Iterator[None]:
-    """Turn what the mechanics refuse into a `CommandError`."""
+    """Turn an error of the mechanics into a `CommandError`."""
     import numpy as np
 
     from hess_mechanics import ModelError
 
     try:
-        # The models check their results for overflow themselves: NumPy's warnings would only be noise.
+        # The mechanics check their results for overflow themselves: NumPy's warnings would only be noise.
         with np.errstate(all="ignore"):
             yield
     except ModelError as error:
@@ -44,8 +48,21 @@ def computing() -> Iterator[None]:
         raise CommandError("These numbers leave the range of double precision; choose less extreme ones.") from error
 
 
+def quality(result: CircleMap | Orbit | Scattering | Section) -> dict[str, Any]:
+    """How exact a result is and what it cost, as every command reports it."""
+    drift = getattr(result, "drift", None)
+    return {"error_estimate": result.error_estimate, **({} if drift is None else {"drift": dict(drift)}),
+            "status": str(result.status), "level": result.level, "steps": result.cost.steps,
+            "wall_ms": result.cost.wall_ms}
+
+
+def whether_body(check: BodyCheck) -> dict[str, Any]:
+    """Whether a rigid body can have these moments of inertia."""
+    return {"is_body": check.is_body, "body": check.sentence}
+
+
 def _strict(value: Any) -> Any:
-    """The value (of numbers, texts, lists, dicts) with None in place of every number that JSON cannot write."""
+    """The value (numbers, strings, lists, dicts) with None for every number that JSON cannot represent."""
     if isinstance(value, float):
         return value if math.isfinite(value) else None
     if isinstance(value, dict):
@@ -57,13 +74,13 @@ def _strict(value: Any) -> Any:
 
 def write(options: argparse.Namespace, series: Mapping[str, Sequence[Any]], columns: Sequence[str],
           facts: Mapping[str, Any], notes: Sequence[str]) -> None:
-    """Write the answer as --format and --out say.
+    """Write the answer in the chosen format, to the chosen place.
 
-    series : what runs along the samples, each of the same length (in CSV the table, headed `columns`);
+    series : columns of equal length, one row for each sample (in CSV the table, with the heading `columns`);
     facts : everything else.  Raises `CommandError` if the file cannot be written.
     """
     strict = {key: _strict(value) for key, value in facts.items()}
-    lost = [f"{key}: what is null there lies beyond the range of double precision."
+    lost = [f"{key}: null stands for a number beyond the range of double precision."
             for key, value in facts.items() if strict[key] != value]
     strict["notes"] = [*notes, *lost]
     if options.format == "json":
@@ -90,12 +107,12 @@ def _row(cells: Sequence[Any]) -> str:
 
 
 def show(data: bytes) -> None:
-    """Write to standard output.  Bytes, because names like ω1 are UTF-8 whatever the terminal's encoding is."""
+    """Write to standard output, in UTF-8 whatever the encoding of the terminal: names like ω1 need it."""
     try:
         sys.stdout.buffer.write(data)
         sys.stdout.flush()
     except BrokenPipeError:
-        # The reader (`| head`) has seen enough; Python must not try to flush the rest at exit.
+        # The reader (`| head`) has closed the pipe; Python must not try to flush the rest at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 

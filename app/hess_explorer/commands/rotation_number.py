@@ -1,4 +1,4 @@
-"""`hess-explorer rotation-number`: ρ of the Suslov–Hess torus over its parameters (S15)."""
+"""`hess-explorer rotation-number`: ρ of the Suslov–Hess torus over its parameters."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def _run(options: argparse.Namespace) -> None:
         accuracy = level(options.accuracy)
         count = len(options.a) * len(options.h) * len(options.f)
         if count > MAX_POINTS:
-            raise CommandError(f"These are {count} tori, at most {MAX_POINTS} are allowed: choose fewer values.")
+            raise CommandError(f"These are {count} tori; at most {MAX_POINTS} are allowed: choose fewer values.")
         a, h, f = (axis.ravel() for axis in np.meshgrid(options.a, options.h, options.f, indexing="ij"))
         found = values_at(a, h, f, accuracy)
     series = {"a": a.tolist(), "h": h.tolist(), "f": f.tolist(), "rotation_number": found.rho.tolist(),

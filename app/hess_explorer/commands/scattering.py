@@ -1,11 +1,11 @@
-"""`hess-explorer scattering`: to which cycle the motions from one unstable cycle go (S4)."""
+"""`hess-explorer scattering`: to which limit circle the motions from another one go."""
 
 from __future__ import annotations
 
 import argparse
 
 from .arguments import number, samples, vector
-from .output import add_options, computing, write
+from .output import add_options, computing, quality, whether_body, write
 
 __all__ = ["add"]
 
@@ -50,12 +50,7 @@ def _run(options: argparse.Namespace) -> None:
         "phi_star": result.phi_star,
         "arc": result.arc,
         "distance": result.distance,
-        "error_estimate": result.error_estimate,
-        "status": str(result.status),
-        "level": result.level,
-        "steps": result.cost.steps,
-        "wall_ms": result.cost.wall_ms,
-        "is_body": check.is_body,
-        "body": check.sentence,
+        **quality(result),
+        **whether_body(check),
     }
     write(options, {"phi": options.phi, "theta_plus": theta_plus}, ("phi", "theta_plus"), facts, notes=())

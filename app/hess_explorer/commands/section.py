@@ -1,4 +1,4 @@
-"""`hess-explorer section euler-poisson|suslov`: the crossings of a surface by one motion (S1, S11)."""
+"""`hess-explorer section euler-poisson|suslov`: the crossings of a surface by one motion."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from .arguments import integer, number, vector
 from .bodies import add_heavy_body, add_start, add_suslov_body
-from .output import add_options, computing, write
+from .output import add_options, computing, quality, whether_body, write
 
 if TYPE_CHECKING:
     from hess_mechanics import BodyCheck, Section
@@ -38,8 +38,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     heavy.add_argument("--h", type=number, required=True, help="energy")
     heavy.add_argument("--f", type=number, required=True, help="area integral (M, γ); the section needs G ≥ |f|")
     heavy.add_argument("--start", type=vector("l,x"), required=True, metavar="l,x", help="the first point")
-    heavy.add_argument("--t", type=number, help="the last time (default: as many crossings usually need; backward "
-                                                "where it is negative)")
+    heavy.add_argument("--t", type=number, help="the last time; negative: backward (default: what this many crossings "
+                                                "usually need)")
     _add_count(heavy)
     heavy.set_defaults(run=_run_heavy)
 
@@ -53,16 +53,16 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     add_start(suslov)
     suslov.add_argument("--plane", type=vector("n1,n2,n3,n4,n5"), required=True, metavar="n1,n2,n3,n4,n5",
                         help="the normal of the plane")
-    suslov.add_argument("--offset", type=number, default=0.0, help="where the plane is (default 0)")
+    suslov.add_argument("--offset", type=number, default=0.0, help="offset of the plane along its normal (default 0)")
     suslov.add_argument("--sense", type=int, choices=(-1, 0, 1), default=1,
                         help="1 (default): crossed from below as time grows, -1: from above, 0: both")
-    suslov.add_argument("--t", type=number, required=True, help="the last time; backward where it is negative")
+    suslov.add_argument("--t", type=number, required=True, help="the last time; negative: backward")
     _add_count(suslov)
     suslov.set_defaults(run=_run_suslov)
 
 
 def _add_count(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--crossings", type=_count, default=100, metavar="N", help="at most so many (default 100)")
+    parser.add_argument("--crossings", type=_count, default=100, metavar="N", help="at most this many (default 100)")
     add_options(parser)
 
 
@@ -103,18 +103,12 @@ def _run_suslov(options: argparse.Namespace) -> None:
 def _facts(result: Section, start: tuple[float, ...], body: BodyCheck) -> Mapping[str, Any]:
     return {
         "start": list(start),
-        "error_estimate": result.error_estimate,
-        "drift": dict(result.drift),
-        "status": str(result.status),
-        "level": result.level,
-        "steps": result.cost.steps,
-        "wall_ms": result.cost.wall_ms,
-        "is_body": body.is_body,
-        "body": body.sentence,
+        **quality(result),
+        **whether_body(body),
     }
 
 
 def _fewer(result: Section, asked: int, end: float) -> list[str]:
-    """A note where the time was over before all crossings had come."""
+    """A note if the time ended before all crossings were found."""
     found = len(result.times)
     return [f"Up to t = {end:.6g} there are {found} of {asked} crossings."] if found < asked else []

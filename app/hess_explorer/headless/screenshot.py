@@ -17,6 +17,8 @@ from hess_explorer.server.liveness import is_alive
 __all__ = ["ServerError", "running_server", "screenshot", "wait_alive"]
 
 _START_SECONDS = 60
+_LOAD_SECONDS = 120
+"""A first start compiles while the page loads, and a busy machine takes its time for that."""
 
 
 class ServerError(RuntimeError):
@@ -26,7 +28,8 @@ class ServerError(RuntimeError):
 def _free_port() -> int:
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
+        port: int = probe.getsockname()[1]
+        return port
 
 
 def wait_alive(process: subprocess.Popen[bytes], port: int, log: Path) -> None:
@@ -71,7 +74,7 @@ def screenshot(query: str, size: tuple[int, int], *, dark: bool = False) -> byte
             page = browser.new_page(viewport={"width": size[0], "height": size[1]},
                                     color_scheme="dark" if dark else "light")
             try:
-                page.goto(f"{base}/?{query}")
+                page.goto(f"{base}/?{query}", timeout=1000 * _LOAD_SECONDS)
                 wait_ready(page)
                 return page.screenshot()
             except Error as error:

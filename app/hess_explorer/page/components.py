@@ -7,6 +7,8 @@ of values; they tell it of changes.
 
 from __future__ import annotations
 
+from typing import Any
+
 import param
 from panel.custom import JSComponent
 
@@ -73,7 +75,7 @@ class Progress(JSComponent):
 class Prose(JSComponent):
     """HTML of the scene on show: its legend or its words."""
 
-    part = param.Selector(default="words", objects=["legend", "words"])
+    part: Any = param.Selector(default="words", objects=["legend", "words"])
 
     _esm = _module("page/prose.js")
     _stylesheets = _css("page/page.css")
@@ -104,8 +106,8 @@ class Text(JSComponent):
     """A piece of text that changes often; whatever it contains, it is shown as text."""
 
     key = param.String(default="", doc="By this the wire finds it.")
-    tag = param.Selector(default="p", objects=["p", "div"], doc="The element.")
-    look = param.Selector(default="", objects=["", "status", "notes", "derived", "busy"], doc="Its style.")
+    tag: Any = param.Selector(default="p", objects=["p", "div"], doc="The element.")
+    look: Any = param.Selector(default="", objects=["", "status", "notes", "derived", "busy"], doc="Its style.")
     live = param.Boolean(default=False, doc="Whether screen readers are told of changes.")
 
     _esm = _module("page/text.js")

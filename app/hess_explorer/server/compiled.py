@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import hashlib
+from pathlib import Path
+
+import hess_mechanics
 from hess_mechanics.numerics.jit import CACHE_FOLDER
 
 __all__ = ["KEEPS_KERNELS", "all_compiled", "mark_all_compiled"]
@@ -9,7 +13,9 @@ __all__ = ["KEEPS_KERNELS", "all_compiled", "mark_all_compiled"]
 KEEPS_KERNELS = CACHE_FOLDER is not None
 """False where no folder can be written: then every start compiles what it needs."""
 
-_MARK = None if CACHE_FOLDER is None else CACHE_FOLDER / "complete"
+# Numba files kernels under the path of their source: a second copy of this version has to compile its own.
+_PLACE = hashlib.sha256(str(Path(hess_mechanics.__file__).parent).encode()).hexdigest()[:16]
+_MARK = None if CACHE_FOLDER is None else CACHE_FOLDER / f"complete-{_PLACE}"
 
 
 def all_compiled() -> bool:

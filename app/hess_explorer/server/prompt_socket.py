@@ -23,7 +23,7 @@ class PromptSocket(WSHandler):
 
     def open(self) -> None:
         """Send every message at once."""
-        super().open()
+        super().open()  # type: ignore[no-untyped-call]  # Panel declares no types
         self.set_nodelay(True)
 
 

@@ -97,7 +97,7 @@ def kinetic_energy(y: Sequence[Any], p: Sequence[Any]) -> Any:
 
 
 def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
-    """`eq30`: energy E and F1 = γ²."""
+    """Energy E and F1 = γ² (`eq30`)."""
     _, _, g1, g2, g3 = y
     b1, b2, b3 = p[5:]
     return {
@@ -107,7 +107,7 @@ def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
 
 
 _MAX_RATIO = 1e20
-"""Beyond it the slow motion would drown in units of the fast one."""
+"""Beyond this ratio the slow motion is lost in round-off, in units of the fast one."""
 
 
 def frequency(y: Array, p: Array) -> Array | float:

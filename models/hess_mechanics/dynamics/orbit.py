@@ -83,7 +83,7 @@ def solve(system: System, state: Sequence[float] | Array, parameters: Sequence[f
     """
     start = time.perf_counter()
     t = checked_times(times)
-    problem = Problem.of(system, np.array(state, float, ndmin=2), parameters)
+    problem = Problem.of(system, np.array(state, float)[None], parameters)
     scaled_times = problem.times(t)
 
     current = level

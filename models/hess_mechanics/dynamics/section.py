@@ -163,7 +163,7 @@ def section(system: System, state: Sequence[float] | Array, parameters: Sequence
     crossing; a run whose crossings are not those of the more accurate run is replaced by it.
     Raises `InvalidParameter`, `WorkLimit`.
     """
-    return sections(system, np.array(state, float, ndmin=2), parameters, plane, end, level, crossings, threads=1)[0]
+    return sections(system, np.array(state, float)[None], parameters, plane, end, level, crossings, threads=1)[0]
 
 
 def sections(system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float], plane: Surface,

@@ -25,7 +25,7 @@ from hess_mechanics.rigid_body.inertia import BodyCheck, require_finite
 __all__ = ["SYSTEM", "HeavyBody"]
 
 _MAX_RATIO = 1e20
-"""Beyond it the slow motion would drown in units of the fast one."""
+"""Beyond this ratio the slow motion is lost in round-off, in units of the fast one."""
 
 
 def _require_positive(a: Sequence[float]) -> None:
@@ -78,18 +78,18 @@ class HeavyBody:
 
     @property
     def strength(self) -> float:
-        """|μ||r|: the potential lies between minus this and this."""
+        """|μ||r|, the maximum of the potential."""
         return abs(self.mu) * math.hypot(*self.r)
 
     @property
     def hess_a(self) -> float:
-        """a = √((a3 − a2)(a2 − a1))/a2, the parameter of `eq01` on the Hess manifold."""
+        """a = √((a3 − a2)(a2 − a1))/a2, the parameter of the reduced equations (`eq01`) on the Hess manifold."""
         a1, a2, a3 = self.a
         return math.sqrt(max(0.0, (a3 - a2) * (a2 - a1))) / a2
 
     @property
     def is_hess(self) -> bool:
-        """Whether the Hess condition `gess-*1` holds to round-off."""
+        """Whether the Hess condition (`gess-*1`) holds to round-off."""
         a1, a2, a3 = self.a
         r1, r2, r3 = self.r
         if (a2 - a1) * (a3 - a2) < 0.0:
@@ -99,7 +99,7 @@ class HeavyBody:
 
     @property
     def check(self) -> BodyCheck:
-        """Whether the moments are a body's: the triangle inequality."""
+        """Whether the moments satisfy the triangle inequality."""
         moments = sorted(1.0 / a for a in self.a)
         if moments[2] <= (moments[0] + moments[1]) * (1 + 1e-15):
             return BodyCheck(True, None, "A rigid body: its moments satisfy the triangle inequality.")
@@ -108,7 +108,7 @@ class HeavyBody:
 
 
 def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
-    """The right-hand side of `hh01`."""
+    """The right-hand side of the equations of motion (`hh01`)."""
     M1, M2, M3, g1, g2, g3 = y
     a1, a2, a3, r1, r2, r3, mu = p
     return (
@@ -122,7 +122,7 @@ def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
 
 
 def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
-    """Energy H (`hh001`), area integral F1 = (M, γ), F2 = γ²."""
+    """Energy H, area integral F1 = (M, γ), F2 = γ² (`hh001`)."""
     M1, M2, M3, g1, g2, g3 = y
     a1, a2, a3, r1, r2, r3, mu = p
     return {

@@ -85,7 +85,7 @@ def _extended(system: System, orbit: Callable[..., int]) -> System:
 
 
 def across(vertical: Sequence[float] | Array) -> Array:
-    """A unit vector (3,) across the vertical: the start of e where it is no matter which."""
+    """A unit vector (3,) normal to the vertical, for the start of e where any will do."""
     g = np.asarray(vertical, float)
     e = np.zeros(3)
     e[np.argmin(np.abs(g))] = 1.0
@@ -108,7 +108,7 @@ HESS = _extended(hess.SYSTEM, _hess_orbit)
 
 @dataclass(frozen=True)
 class Attitude:
-    """How the body lies in space along an orbit.
+    """The attitude of a body in space along an orbit.
 
     times : (n,); axes : (n, 3, 3), in its rows the vertical γ, e and γ × e as seen from the body, orthonormal to
     round-off; defect : how far γ and e were from that before, at the worst; orbit : the computation.
@@ -142,7 +142,7 @@ def _orthonormal(g: Array, e: Array) -> tuple[Array, float]:
     long_g, long_e = np.linalg.norm(g, axis=1), np.linalg.norm(e, axis=1)
     defect = max(np.max(np.abs(x)) for x in (long_g - 1.0, long_e - 1.0, np.sum(g * e, axis=1)))
     g = g / long_g[:, None]
-    # Twice is enough: what the first pass leaves along γ is round-off of round-off.
+    # A second pass removes what round-off leaves along γ after the first.
     for _ in range(2):
         e = e - g * np.sum(g * e, axis=1)[:, None]
         e = e / np.linalg.norm(e, axis=1)[:, None]

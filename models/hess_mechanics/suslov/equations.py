@@ -48,7 +48,7 @@ class SuslovBody:
 
 
 def unit_vector(gamma: Sequence[float]) -> tuple[tuple[float, float, float], str | None]:
-    """γ of length one, and a note if it had to be normalised.  Raises `InvalidParameter` for γ = 0."""
+    """γ normalised, and a note where its length was not 1.  Raises `InvalidParameter` for γ = 0."""
     length = math.hypot(*gamma)
     if not (math.isfinite(length) and length > 0):
         raise InvalidParameter("γ must be a finite vector other than 0: it is the direction of the vertical.")
@@ -58,7 +58,7 @@ def unit_vector(gamma: Sequence[float]) -> tuple[tuple[float, float, float], str
 
 
 def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
-    """The right-hand side of `Biz131`."""
+    """The right-hand side of the equations of motion (`Biz131`)."""
     w1, w2, g1, g2, g3 = y
     I11, I22, I13, I23, b1, b2, b3 = p
     s = I13 * w1 + I23 * w2
@@ -72,7 +72,7 @@ def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
 
 
 def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
-    """`Biz11`: energy E and F1 = γ²."""
+    """Energy E and F1 = γ² (`Biz11`)."""
     w1, w2, g1, g2, g3 = y
     I11, I22, _, _, b1, b2, b3 = p
     return {
@@ -82,7 +82,7 @@ def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
 
 
 _MAX_RATIO = 1e20
-"""Beyond it the slow motion would drown in units of the fast one."""
+"""Beyond this ratio the slow motion is lost in round-off, in units of the fast one."""
 
 
 def frequency(y: Array, p: Array) -> Array | float:

@@ -447,6 +447,8 @@ def sample_times(body: SuslovBody, omega: Sequence[float], span: float, weights:
     first_u, last_u = sorted((motion.u0, motion.u0 + length))
     knots = np.clip(np.linspace(-_PASSING, _PASSING, 801), first_u, last_u)
     u = np.unique(np.concatenate([[motion.u0, motion.u0 + length], knots]))
+    if u.size == 1:  # so little happens that the phase of the passage stays the same number
+        return np.linspace(0.0, span, min(most, 17))
     tanh, sech = np.tanh(u), _sech(u)
     speed = np.linalg.norm(_omega(of, motion.arc, tanh, sech), axis=1)
     across = math.hypot(of.c, of.kappa)

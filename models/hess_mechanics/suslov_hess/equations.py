@@ -1,9 +1,9 @@
-"""The Suslov–Hess case (`bizi1`, `bizi2`, `eq02`, `eq01`, `eq03`).
+"""The Suslov–Hess case (`bizi1`, `bizi2`) and its reduced equations (`eq02`, `eq01`, `eq03`).
 
-I13 = 0, I11 I22 = I22² + I23², b1 = 0, I22 b2 + I23 b3 = 0.  A rotation about Ox1 through
-arctan a brings `Biz131` to `eq01`, state (w1, w2, n1, n2, n3), parameters (a, b).
-Corrections to the paper used here: b = −b3/√(I22²+I23²) (no further mg), w2 = ω2/√(1+a²),
-and E, F2 of `eq03` are those of the Suslov problem divided by I11.
+I13 = 0, I11 I22 = I22² + I23², b1 = 0, I22 b2 + I23 b3 = 0.  A rotation about Ox1 through arctan a turns the equations
+of the Suslov problem into the reduced ones: state (w1, w2, n1, n2, n3), parameters (a, b).
+Corrections to the paper: b = −b3/√(I22²+I23²) without a further mg, w2 = ω2/√(1+a²), and E, F2 of `eq03` are those of
+the Suslov problem divided by I11.
 """
 
 from __future__ import annotations
@@ -68,12 +68,12 @@ class HessBody:
 
     @property
     def suslov(self) -> SuslovBody:
-        """The same body with all its parameters, for `Biz131`."""
+        """The same body as one of the general Suslov problem."""
         return SuslovBody(self.I11, self.I22, 0.0, self.I23, 0.0, self.b2, self.b3)
 
     @property
     def check(self) -> BodyCheck:
-        """Whether this is a rigid body: under `bizi1` exactly for |a| < 1, with a² ≤ I33/I22 ≤ 2 − a²."""
+        """Whether this is a rigid body: under the Hess condition (`bizi1`) for |a| < 1, with a² ≤ I33/I22 ≤ 2 − a²."""
         if abs(self.a) < 1.0:
             return body_check((self.a**2 * self.I22, (2.0 - self.a**2) * self.I22))
         return body_check(None)
@@ -89,13 +89,13 @@ class HessBody:
         return np.asarray(math.copysign(1.0, self.b) * self.turn[2], float)
 
     def tensor(self, I33: float) -> Array:
-        """The tensor of inertia with this I33 along the axes of (n1, n2, n3); shape (3, 3)."""
+        """The inertia tensor (3, 3) with this I33, in the axes of (n1, n2, n3)."""
         tensor = np.array([[self.I11, 0.0, 0.0], [0.0, self.I22, self.I23], [0.0, self.I23, I33]])
         return self.turn @ tensor @ self.turn.T
 
     @property
     def turn(self) -> Array:
-        """The rotation of `eq02`, γ → n = turn γ; shape (3, 3)."""
+        """The rotation γ → n = turn γ (`eq02`); shape (3, 3)."""
         c, s = 1.0 / math.hypot(1.0, self.a), self.a / math.hypot(1.0, self.a)
         return np.array([[1.0, 0.0, 0.0], [0.0, c, s], [0.0, -s, c]])
 
@@ -107,7 +107,7 @@ class HessBody:
         return math.sqrt(abs(self.b))
 
     def to_reduced(self, states: Array) -> Array:
-        """(ω1, ω2, γ1, γ2, γ3) → (w1, w2, n1, n2, n3) of `eq02`; shape (..., 5)."""
+        """(ω1, ω2, γ1, γ2, γ3) → (w1, w2, n1, n2, n3) (`eq02`); shape (..., 5)."""
         w1, w2, g1, g2, g3 = np.moveaxis(np.asarray(states, float), -1, 0)
         a, r = self.a, math.hypot(1.0, self.a)
         return np.stack([w1, w2 / r, g1, (g2 + a * g3) / r, (g3 - a * g2) / r], axis=-1)
@@ -119,7 +119,7 @@ class HessBody:
         return np.stack([w1, w2 * r, n1, (n2 - a * n3) / r, (n3 + a * n2) / r], axis=-1)
 
     def in_units_of_b(self, reduced: Array) -> Array:
-        """`eq01` with this b → with b = 1.  For b < 0 the vertical is turned over too, n → −n."""
+        """Reduced states (..., 5) with this b → with b = 1.  For b < 0 the vertical is reversed too, n → −n."""
         nu = self.frequency_unit
         sign = math.copysign(1.0, self.b)
         return np.asarray(reduced, float) * np.array([1 / nu, 1 / nu, sign, sign, sign])
@@ -132,7 +132,7 @@ class HessBody:
 
 
 def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
-    """The right-hand side of `eq01`."""
+    """The right-hand side of the reduced equations (`eq01`)."""
     w1, w2, n1, n2, n3 = y
     a, b = p
     return (
@@ -145,7 +145,7 @@ def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
 
 
 def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
-    """`eq03`: E, F1 = n², F2 = w1 n1 + w2 n2."""
+    """Energy E, F1 = n², area integral F2 = w1 n1 + w2 n2 (`eq03`)."""
     w1, w2, n1, n2, n3 = y
     _, b = p
     return {

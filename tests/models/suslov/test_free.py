@@ -292,6 +292,12 @@ def test_a_long_stay_next_to_the_line_keeps_the_samples_of_the_passage():
     assert np.max(within) < 0.05
 
 
+def test_a_motion_that_hardly_moves_is_sampled_from_its_beginning_to_its_end():
+    body, span = SuslovBody(1.0, 1.0, 1.0, 1.0), 1.0
+    times = sample_times(body, (0.0, 3.5e-145), span, (100.0, 300.0), 0.25, 6000)
+    assert times == pytest.approx(np.linspace(0.0, span, 17))
+
+
 # ---- refusals ---------------------------------------------------------------------------------------------------
 
 

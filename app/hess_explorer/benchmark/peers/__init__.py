@@ -23,4 +23,5 @@ PEERS = {
 
 def load(name: str) -> Method:
     """The peer of that name.  Raises `ImportError` where it is not installed or does not work."""
-    return import_module(f".{PEERS[name]}", __name__).METHOD
+    method: Method = import_module(f".{PEERS[name]}", __name__).METHOD
+    return method

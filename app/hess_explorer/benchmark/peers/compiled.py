@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """The fields as Numba functions, for the peers that take compiled right-hand sides."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """CyRK: its C++ Runge–Kutta methods, called from Numba code."""
 
 from __future__ import annotations

@@ -34,7 +34,7 @@ def _ladders(work: Work) -> Sequence[Ladder]:
 
 
 def _options(setting: Setting) -> dict[str, float | bool]:
-    return {"tol": setting[0], "high_accuracy": "high accuracy" in setting}
+    return {"tol": float(setting[0]), "high_accuracy": "high accuracy" in setting}
 
 
 def _motion_equations(work: MotionWork) -> list[tuple[heyoka.expression, heyoka.expression]]:
@@ -49,7 +49,8 @@ def _dense(work: MotionWork, setting: Setting, threads: int) -> Run:
     def run() -> Array:
         integrator.time = 0.0
         integrator.state[:] = work.initial[0]
-        return integrator.propagate_grid(work.times)[-1]
+        states: Array = integrator.propagate_grid(work.times)[-1]
+        return states
 
     return run
 
@@ -61,7 +62,8 @@ def _end(work: MotionWork, setting: Setting, threads: int) -> Run:
         integrator.time = 0.0
         integrator.state[:] = work.initial[0]
         integrator.propagate_until(work.times[0])
-        return integrator.state[None].copy()
+        state: Array = integrator.state[None].copy()
+        return state
 
     return run
 

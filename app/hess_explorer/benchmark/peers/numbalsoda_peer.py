@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """numbalsoda: LSODA and DOP853 in C and Fortran, called from Numba code."""
 
 from __future__ import annotations
@@ -54,7 +55,7 @@ def _all_orbits(solver: Any) -> Any:
 def _one(work: MotionWork | MapWork, times: Array, setting: Setting) -> Callable[[], Array]:
     """States (n, d) at the times, which start with 0."""
     name, tolerance = setting
-    solver, address, state = _SOLVERS[name], _right_hand_side(work).address, initial_state(work)
+    solver, address, state = _SOLVERS[str(name)], _right_hand_side(work).address, initial_state(work)
 
     def run() -> Array:
         states, success = solver(address, state, times, rtol=tolerance, atol=tolerance, mxstep=_MAX_STEPS)
@@ -74,7 +75,7 @@ def _end(work: MotionWork, setting: Setting) -> Run:
 
 def _ensemble(work: MotionWork, setting: Setting) -> Run:
     name, tolerance = setting
-    all_orbits, address = _all_orbits(_SOLVERS[name]), _right_hand_side(work).address
+    all_orbits, address = _all_orbits(_SOLVERS[str(name)]), _right_hand_side(work).address
     times, out = np.array([0.0, work.times[0]]), np.empty_like(work.initial)
 
     def run() -> Array:

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """SciPy: solve_ivp with a right-hand side compiled by Numba; an ensemble is one large system."""
 
 from __future__ import annotations
@@ -64,9 +65,10 @@ def _circle_map(work: MapWork, setting: Setting) -> Run:
 
 def _crossings(work: MotionWork, setting: Setting) -> Run:
     def height(t: float, y: Array) -> float:
-        return y[4]
+        return float(y[4])
 
-    height.direction = 1.0
+    # How solve_ivp is told: upward crossings only.
+    setattr(height, "direction", 1.0)  # noqa: B010
     solve = _solve(work, work.initial[0], work.times, setting, events=height)
     return lambda: solve().y_events[0]
 

@@ -1,0 +1,101 @@
+"""What the README and its companions say is true: code runs, links lead somewhere, tables can be measured anew."""
+
+import re
+import shlex
+import tomllib
+
+import pytest
+
+from hess_explorer.__main__ import _parser, _with_command, _with_negative_values, main
+from hess_explorer.scenes import scenes
+from support.measured import write_measured
+from support.mechanics import ROOT
+
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+DOCUMENTS = [ROOT / name for name in (
+    "README.md", "app/README.md", "models/README.md", "app/hess_explorer/benchmark/README.md", "tests/models/README.md",
+    "tests/benchmarks/README.md", ".github/CONTRIBUTING.md", ".github/CHANGELOG.md")]
+MEASURED = {
+    "tests/models/README.md": "tests/models/test_extremes.py",
+    "tests/benchmarks/README.md": "tests/benchmarks/benchmark_page.py",
+    "app/hess_explorer/benchmark/README.md": "tests/benchmarks/benchmark_peers.py",
+}
+
+
+def blocks(language, text=README):
+    return re.findall(rf"^```{language}\n(.*?)^```", text, re.DOTALL | re.MULTILINE)
+
+
+COMMANDS = [shlex.split(line, comments=True)[1:] for block in blocks("sh") for line in block.splitlines()
+            if line.startswith("hess-explorer ")]
+
+
+def test_it_is_short_and_begins_with_a_picture():
+    lines = README.splitlines()
+    assert len(lines) <= 150
+    assert next(line for line in lines[1:] if line).startswith("![")
+
+
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: str(path.relative_to(ROOT)))
+def test_its_links_lead_somewhere(document):
+    text = document.read_text(encoding="utf-8")
+    links = re.findall(r"\]\(([^)#\s]+)\)", text) + re.findall(r'(?:src|href)="([^"#]+)"', text)
+    for link in links:
+        if "://" not in link:
+            assert (document.parent / link).exists(), link
+
+
+def test_every_scene_is_there_with_its_picture_and_words():
+    for scene in scenes().values():
+        if scene.origin is None:
+            assert f'src=".github/pictures/{scene.name}.png"' in README, scene.name
+
+
+def test_pictures_are_light():
+    assert (ROOT / ".github/pictures/page.png").stat().st_size <= 250_000
+    assert sum(path.stat().st_size for path in (ROOT / ".github/pictures").glob("*.png")) <= 750_000
+
+
+def test_the_python_of_the_readme_runs(capsys):
+    code, = blocks("python")
+    exec(compile(code, "README.md", "exec"), {})
+    said = capsys.readouterr().out.splitlines()
+    assert said[0].startswith("hyperbolic ")
+    assert len(said) >= 2
+
+
+def test_there_are_commands():
+    assert {words[0] for words in COMMANDS} == {
+        "circle-map", "orbit", "section", "scattering", "rotation-number", "lyapunov", "shot", "bench", "serve"}
+
+
+@pytest.mark.parametrize("words", COMMANDS, ids=lambda words: words[0])
+def test_the_commands_of_the_readme_work(words, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    if words[0] in ("shot", "bench", "serve"):
+        # They take long, and have tests of their own: here, that they are understood.
+        _parser().parse_args(_with_negative_values(_with_command(words)))
+        return
+    assert main(words) == 0
+    out, err = capsys.readouterr()
+    assert err == ""
+    assert out or list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("readme", MEASURED)
+def test_a_measured_table_is_replaced_and_the_rest_stays(readme, tmp_path):
+    text = (ROOT / readme).read_text(encoding="utf-8")
+    assert f"<!-- measured by {MEASURED[readme]} -->" in text
+    assert (ROOT / MEASURED[readme]).is_file()
+    copy = tmp_path / "README.md"
+    copy.write_text(text, encoding="utf-8")
+    write_measured(copy, "| new |")
+    before, _, rest = text.partition("-->\n")
+    _, _, after = rest.partition("\n<!-- end of measured -->")
+    assert copy.read_text(encoding="utf-8") == f"{before}-->\n\n| new |\n\n<!-- end of measured -->{after}"
+
+
+def test_the_change_log_begins_with_the_version():
+    version = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["version"]
+    newest = re.search(r"^## (\S+)", (ROOT / ".github/CHANGELOG.md").read_text(), re.MULTILINE)
+    assert newest[1] == version

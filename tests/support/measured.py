@@ -1,0 +1,14 @@
+"""Tables of a README that a script measures: they stand between two comments and are replaced as a whole."""
+
+import re
+
+__all__ = ["write_measured"]
+
+
+def write_measured(readme, text):
+    """Replace what stands in `readme` between its comments `measured` and `end of measured`."""
+    whole = readme.read_text(encoding="utf-8")
+    pattern = re.compile(r"(<!-- measured[^>]*-->\n).*?(\n<!-- end of measured -->)", re.DOTALL)
+    if len(pattern.findall(whole)) != 1:
+        raise ValueError(f"{readme}: write the comments <!-- measured … --> and <!-- end of measured --> once.")
+    readme.write_text(pattern.sub(lambda found: f"{found[1]}\n{text.strip()}\n{found[2]}", whole), encoding="utf-8")
