@@ -91,7 +91,7 @@ class LoxodromicPendulum:
 
     @property
     def start(self) -> Array:
-        """The state of `attitude.HESS` with the centre of mass at its lowest point and e along M; shape (8,)."""
+        """The state of `WITH_ATTITUDE` with the centre of mass at its lowest point and e along M; shape (8,)."""
         s, c = math.cos(self.l), math.sin(self.l)
         w = math.sqrt(2.0 * (self.h + 1.0))
         return np.array([w * s, w * c, 0.0, 0.0, 1.0, -s, -c, 0.0])

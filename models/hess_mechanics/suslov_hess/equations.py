@@ -17,15 +17,12 @@ import numpy as np
 
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, NoField
-from hess_mechanics.numerics.batch import ensemble_integrator
-from hess_mechanics.numerics.events import crossing_finder
-from hess_mechanics.numerics.jit import inner, kernel
 from hess_mechanics.numerics.results import Array
-from hess_mechanics.numerics.taylor import Quadratic, orbit_integrator
+from hess_mechanics.rigid_body.attitude import with_attitude
 from hess_mechanics.rigid_body.inertia import BodyCheck, body_check, require_finite, require_positive_definite
 from hess_mechanics.suslov.equations import SuslovBody
 
-__all__ = ["SYSTEM", "HessBody"]
+__all__ = ["SYSTEM", "WITH_ATTITUDE", "HessBody"]
 
 
 @dataclass(frozen=True)
@@ -158,58 +155,18 @@ def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:
     return y, p
 
 
-@inner
-def rates(y, q, p):
-    """`eq01` in terms of its products."""
-    _, _, n1, n2, _ = y
-    a, b = p
-    w2w2, w1w2, n2w2, n3w2, n1w2, w1n3, n2w1 = q
-    return (
-        -b * n2 - a * w2w2,
-        b * n1 + a * w1w2,
-        -n3w2 - a * n2w2,
-        w1n3 + a * n1w2,
-        n1w2 - n2w1,
-    )
-
-
-QUADRATIC = Quadratic("w1 w2 n1 n2 n3", "w2*w2 w1*w2 n2*w2 n3*w2 n1*w2 w1*n3 n2*w1", rates, parameters=2)
-_orbit = orbit_integrator(QUADRATIC)
-_ensemble = ensemble_integrator(QUADRATIC)
-_cross = crossing_finder(QUADRATIC)
-
-
-@kernel
-def orbit(y, p, times, order, tolerance, max_steps, out):
-    """One orbit of `eq01`, see `orbit_integrator`."""
-    return _orbit(y, p, times, order, tolerance, max_steps, out)
-
-
-
-@kernel
-def ensemble(states, p, times, order, tolerance, max_steps, out):
-    """Many orbits of `eq01`, see `ensemble_integrator`."""
-    return _ensemble(states, p, times, order, tolerance, max_steps, out)
-
-
-@kernel
-def cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states):
-    """Crossings of a plane by one orbit of `eq01`, see `crossing_finder`."""
-    return _cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states)
-
-
 SYSTEM = System(
     name="hess",
     title="Suslov–Hess case, reduced",
-    labels=("eq01", "eq03"),
+    source="section 2; `eq01`, `eq03` in the paper's LaTeX source",
     variables=("w1", "w2", "n1", "n2", "n3"),
     parameters=("a", "b"),
     field=field,
     integrals=integrals,
     frequency=frequency,
     rescale=rescale,
-    orbit=orbit,
-    ensemble=ensemble,
-    cross=cross,
     example=((0.3, 0.9, 0.6, 0.0, 0.8), (0.75, 1.0)),
 )
+
+WITH_ATTITUDE = with_attitude(SYSTEM)
+"""`eq01`, ω = (w1, w2, −a w2), with e: state (w1, w2, n1, n2, n3, e1, e2, e3)."""

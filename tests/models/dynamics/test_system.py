@@ -18,7 +18,7 @@ from hess_mechanics import SuslovBody, level, solve, systems, unit_vector
 from hess_mechanics.dynamics.orbit import MAX_SAMPLES
 from hess_mechanics.errors import InvalidParameter, ModelError, NotPositiveDefinite, WorkLimit
 from hess_mechanics.numerics.accuracy import LEVELS, Level, Status
-from hess_mechanics.numerics.taylor import columns_of, compensated, convolution, expansion, workspace
+from hess_mechanics.numerics.taylor_kernels import columns_of, compensated, convolution, expansion, workspace
 from support.mechanics import PROPERTY, ROOT
 
 SYSTEMS = systems()
