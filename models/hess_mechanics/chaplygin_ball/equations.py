@@ -76,7 +76,7 @@ def inverse_times(F: Sequence[Any], gamma: Sequence[Any], I11: Any, I22: Any, D:
     J1, J2 = I11 + D * square, I22 + D * square
     # det Î/(J1 J2) by parts: det Î itself may leave the range of double precision.
     u1, u2, v1, v2 = I11 / J1, I22 / J2, D / J1, D / J2
-    d = u1 * u2 + u1 * v2 * (g1**2 + g3**2) + u2 * v1 * (g2**2 + g3**2) + v1 * v2 * square * g3**2
+    d = u1 * u2 + u1 * v2 * g1**2 + u2 * v1 * g2**2 + (u1 * v2 + u2 * v1 + v1 * v2 * square) * g3**2
     f1, f2 = F[0] / J1, F[1] / J2
     z = (g1 * f1 + g2 * f2) / d
     return f1 + v1 * (g1 * z), f2 + v2 * (g2 * z)

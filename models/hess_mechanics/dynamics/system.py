@@ -96,9 +96,9 @@ class System:
                 names["adjusted"] = inner(self.tolerance)
                 passed = arguments.replace("tolerance", "adjusted(y, p, order, tolerance)")
             # The comment tells one system's file from another's, and whoever reads it what is computed.
-            recursion = "".join(f"# {line}".rstrip() + "\n" for line in self.recursion.source.splitlines())
-            source = (f"# The {task} of the system {self.name!r}.  Derived from its field, whose Taylor recursion is\n#\n"
-                      f"{recursion}\n\ndef {name}({arguments}):\n    return run({passed})\n")
+            derived = "".join(f"# {line}".rstrip() + "\n" for line in self.recursion.source.splitlines())
+            source = (f"# The {task} of the system {self.name!r}, derived from its field.  The Taylor recursion:\n#\n"
+                      f"{derived}\n\ndef {name}({arguments}):\n    return run({passed})\n")
             return derived_kernel(name, source, self.field.__module__, **names)
 
     @property

@@ -177,9 +177,9 @@ class _Tape:
         square = self.apply("*", half, half)
         return self.apply("*", square, a) if exponent % 2 else square
 
-    def linear(self, operation: str, *arguments: _Node) -> _Node:
-        """A node of the recursion: "product", "scaled", "one" and the like, with what it depends on left out."""
-        return self._node(operation, arguments, None, True, False)
+    def linear(self, operation: str, *arguments: _Node, signs: tuple[int, ...] = ()) -> _Node:
+        """A node of the recursion: "one", "product", "scaled", or "sum" with a sign, 1 or −1, for each term."""
+        return self._node(operation, arguments, signs, True, False)
 
 
 class Symbol:
@@ -241,14 +241,6 @@ class Symbol:
     __mod__ = __floordiv__ = __rpow__ = __rmod__ = __rfloordiv__ = __matmul__ = __rmatmul__ = _refuse
 
 
-@dataclass
-class _Auxiliary:
-    """An auxiliary series: its rule, and whether it is a quotient, whose rule has its own product in it."""
-
-    rule: _Node
-    is_quotient: bool
-
-
 class _Series:
     """What a tape says, in terms of series and their products."""
 
@@ -256,8 +248,9 @@ class _Series:
         self._tape, self._variables = tape, variables
         self._one = tape.linear("one")
         self._lowered: dict[_Node, _Node] = {}
-        self._auxiliary: list[_Auxiliary] = []
+        self._rules: list[_Node] = []  # of the auxiliary series
         self._places: dict[_Node, int] = {}
+        self._divided: set[_Node] = set()  # the products d·z of the quotients
 
     def lowered(self, node: _Node) -> _Node:
         """The node as a sum of series and products with constant factors."""
@@ -271,10 +264,10 @@ class _Series:
         if node.operation == "variable":
             return self._tape.leaf("series", node.value)
         if node.operation == "negative":
-            return self._tape.linear("negative", self.lowered(node.arguments[0]))
+            return self._sum((-1, self.lowered(node.arguments[0])))
         a, b = node.arguments
         if node.operation in "+-":
-            return self._sum(node.operation, self.lowered(a), self.lowered(b))
+            return self._sum((1, self.lowered(a)), (1 if node.operation == "+" else -1, self.lowered(b)))
         if node.operation == "*":
             if not a.moves or not b.moves:
                 factor, series = (a, b) if not a.moves else (b, a)
@@ -284,8 +277,11 @@ class _Series:
             return self._scaled(self._tape.apply("/", self._tape.number(1), b), self.lowered(a))
         return self._quotient(self.lowered(a), b)
 
-    def _sum(self, operation: str, a: _Node, b: _Node) -> _Node:
-        return self._tape.linear(operation, a, b)
+    def _sum(self, *signed: tuple[int, _Node]) -> _Node:
+        terms: list[tuple[int, _Node]] = []
+        for sign, form in signed:
+            terms += [(sign * inner, term) for inner, term in _terms(form)]
+        return self._tape.linear("sum", *(term for _, term in terms), signs=tuple(sign for sign, _ in terms))
 
     def _scaled(self, factor: _Node, series: _Node) -> _Node:
         if series.operation == "scaled":
@@ -296,13 +292,11 @@ class _Series:
         for factor, other in ((a, b), (b, a)):
             if factor is self._one:
                 return other
-            if factor.operation == "negative":
-                return self._tape.linear("negative", self._product(factor.arguments[0], other))
             if factor.operation == "scaled":
                 return self._scaled(factor.arguments[0], self._product(factor.arguments[1], other))
         for factor, other in ((a, b), (b, a)):
-            if factor.operation in "+-" and self._is_of_variables(factor):
-                return self._sum(factor.operation, *(self._product(term, other) for term in factor.arguments))
+            if factor.operation == "sum" and (len(factor.arguments) == 1 or self._is_of_variables(factor)):
+                return self._sum(*((sign, self._product(term, other)) for sign, term in _terms(factor)))
         left, right = sorted((self._series(a), self._series(b)), key=lambda node: node.value)
         return self._tape.linear("product", left, right)
 
@@ -311,38 +305,32 @@ class _Series:
             return bool(form.value < self._variables)
         if form.operation == "scaled":
             return self._is_of_variables(form.arguments[1])
-        return form is self._one or (
-            form.operation in ("+", "-", "negative") and all(map(self._is_of_variables, form.arguments)))
+        return form is self._one or (form.operation == "sum" and all(map(self._is_of_variables, form.arguments)))
 
     def _series(self, form: _Node) -> _Node:
         """A series that has this form."""
         if form.operation == "series":
             return form
         if form not in self._places:
-            self._places[form] = self._new(_Auxiliary(form, is_quotient=False))
+            self._places[form] = self._variables + len(self._rules)
+            self._rules.append(form)
         return self._tape.leaf("series", self._places[form])
-
-    def _new(self, auxiliary: _Auxiliary) -> int:
-        self._auxiliary.append(auxiliary)
-        return self._variables + len(self._auxiliary) - 1
 
     def _quotient(self, numerator: _Node, divisor: _Node) -> _Node:
         d = self._series(self.lowered(divisor))
         inverse = self._tape.apply("/", self._tape.number(1), self._tape.start(divisor))
-        place = self._variables + len(self._auxiliary)
-        z = self._tape.leaf("series", place)
-        # d's index is less than z's: it was there before.
-        known = self._sum("-", numerator, self._tape.linear("product", d, z))
-        self._new(_Auxiliary(self._scaled(inverse, known), is_quotient=True))
+        z = self._tape.leaf("series", self._variables + len(self._rules))
+        product = self._tape.linear("product", d, z)
+        self._divided.add(product)
+        self._rules.append(self._scaled(inverse, self._sum((-1, product), (1, numerator))))
         return z
 
     def _levels(self) -> list[int]:
         """The stage of each auxiliary series: after all that its rule needs."""
         levels: list[int] = []
-        for i, auxiliary in enumerate(self._auxiliary):
-            own = self._variables + i
-            needed = [node.value - self._variables for node in _below([auxiliary.rule]) if node.operation == "series"]
-            levels.append(1 + max((levels[j] for j in needed if j >= 0 and j + self._variables != own), default=-1))
+        for i, rule in enumerate(self._rules):
+            needed = [node.value - self._variables for node in _below([rule]) if node.operation == "series"]
+            levels.append(1 + max((levels[j] for j in needed if 0 <= j != i), default=-1))
         return levels
 
     def recursion(self, rates: Sequence[_Node], parameters: int) -> Recursion:
@@ -355,26 +343,32 @@ class _Series:
         stages = [[i for i in order if levels[i] == level] for level in sorted({levels[i] for i in order})]
         places = {i: i for i in range(self._variables)}
         places |= {self._variables + i: self._variables + at for at, i in enumerate(order)}
-        rules = [[self._auxiliary[i].rule for i in stage] for stage in stages]
+        rules = [[self._rules[i] for i in stage] for stage in stages]
         everything = _below([*forms, *(rule for stage in rules for rule in stage)])
         products = [node for node in everything if node.operation == "product"]
         kept = [node for node in dict.fromkeys(
             node.arguments[0] for node in everything if node.operation == "scaled") if node.started]
 
         names: dict[_Node, str] = {}
+        late = {self._one: 0}
         for node in everything:
             if node.operation == "series":
                 names[node] = f"y[{places[node.value]}]"
+                late[node] = 0 if node.value < self._variables else 2 + 2 * levels[node.value - self._variables]
+        for node in everything:
+            if node.operation == "product":
+                # The product in the rule of a quotient waits for the divisor only.
+                late[node] = 1 + (min if node in self._divided else max)(late[factor] for factor in node.arguments)
         names |= {node: f"q[{j}]" for j, node in enumerate(products)} | {self._one: "one"}
         names |= {node: f"p[{parameters + j}]" for j, node in enumerate(kept)}
         functions = []
         for i, (stage, rule) in enumerate(zip(stages, rules, strict=True)):
-            functions.append(_function(f"stage{i}(y, q, p, one)", rule, names))
+            functions.append(_function(f"stage{i}(y, q, p, one)", rule, names, late))
             # From here on what the stage has found need not be found again.
-            names |= {self._auxiliary[j].rule: f"y[{places[self._variables + j]}]" for j in stage}
-        functions.insert(0, _function("rates(y, q, p, one)", forms, names))
+            names |= {self._rules[j]: f"y[{places[self._variables + j]}]" for j in stage}
+        functions.insert(0, _function("rates(y, q, p, one)", forms, names, late))
         if kept:
-            functions.append(_function("constants(y, p)", kept, {}))
+            functions.append(_function("constants(y, p)", kept, {}, {}))
         pairs = tuple((places[a.value], places[b.value]) for a, b in (node.arguments for node in products))
         return Recursion(self._variables, parameters, tuple(map(len, stages)), pairs, len(kept), "\n\n".join(functions))
 
@@ -386,7 +380,7 @@ class _Series:
                 i = node.value - self._variables if node.operation == "series" else -1
                 if i >= 0 and i not in found:
                     found[i] = None
-                    waiting.append(self._auxiliary[i].rule)
+                    waiting.append(self._rules[i])
         return list(found)
 
 
@@ -405,8 +399,24 @@ def _below(roots: Iterable[_Node]) -> list[_Node]:
     return list(found)
 
 
-def _function(head: str, results: Sequence[_Node], names: dict[_Node, str]) -> str:
-    """The source of a function that returns these expressions; names : those that are at hand."""
+def _terms(form: _Node) -> list[tuple[int, _Node]]:
+    """A form as terms with their signs."""
+    return list(zip(form.value, form.arguments, strict=True)) if form.operation == "sum" else [(1, form)]
+
+
+def _function(head: str, results: Sequence[_Node], names: dict[_Node, str], late: dict[_Node, int]) -> str:
+    """The source of a function that returns these expressions.
+
+    names : those that are at hand; late : when which series and product becomes known.  The processor waits for what is
+    found last, so that comes last in a sum.
+    """
+    latest = dict(late)
+
+    def when(node: _Node) -> int:
+        if node not in latest:
+            latest[node] = max(map(when, node.arguments), default=0)
+        return latest[node]
+
     uses = Counter(id(result) for result in results)
     seen: set[_Node] = set()
 
@@ -424,7 +434,7 @@ def _function(head: str, results: Sequence[_Node], names: dict[_Node, str]) -> s
 
     def text(node: _Node) -> str:
         if node not in texts:
-            written = _written(node, text)
+            written = _written(node, text, when)
             if uses[id(node)] > 1 and node.arguments and node.operation != "start":
                 lines.append(f"    t{len(lines)} = {written}")
                 written = f"t{len(lines) - 1}"
@@ -435,12 +445,19 @@ def _function(head: str, results: Sequence[_Node], names: dict[_Node, str]) -> s
     return "\n".join([f"def {head}:", *lines, f"    return ({', '.join(values)},)"])
 
 
-def _written(node: _Node, text: Callable[[_Node], str]) -> str:
+def _written(node: _Node, text: Callable[[_Node], str], when: Callable[[_Node], int]) -> str:
     """An expression of names; every number a float, so that Numba sees one type."""
     if node.operation in ("variable", "parameter"):
         return f"{'y' if node.operation == 'variable' else 'p'}[{node.value}]"
     if node.operation == "number":
         return f"({float(node.value)!r})" if node.value < 0 else repr(float(node.value))
+    if node.operation == "sum":
+        terms = sorted(_terms(node), key=lambda term: when(term[1]))
+        # A sum that begins with a minus costs a sign: among what is known as early, a plus goes first.
+        first = next((term for term in terms if term[0] > 0 and when(term[1]) == when(terms[0][1])), terms[0])
+        terms.remove(first)
+        rest = "".join(f" {'+' if sign > 0 else '-'} {text(term)}" for sign, term in terms)
+        return f"({'' if first[0] > 0 else '-'}{text(first[1])}{rest})"
     arguments = [text(argument) for argument in node.arguments]
     if node.operation == "start":
         return arguments[0]
