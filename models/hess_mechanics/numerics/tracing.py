@@ -91,7 +91,8 @@ def trace(field: Field, variables: int, parameters: int) -> Recursion:
         raise NotTraceable(f"This field cannot be traced: {error}. {_ALLOWED}") from error
     if len(rates) != variables:
         raise NotTraceable(f"This field has {variables} variables and returns {len(rates)} rates: return one for each.")
-    return _Series(tape, variables).recursion(rates, parameters)
+    plain = _Series(tape, variables, multiplies_out=True).recursion(rates, parameters)
+    return _Series(tape, variables, multiplies_out=False).recursion(rates, parameters) if plain.stages else plain
 
 
 _ALLOWED = ("Use +, −, *, / and whole powers of numbers, variables and parameters only, without conditions, and unpack "
@@ -244,8 +245,8 @@ class Symbol:
 class _Series:
     """What a tape says, in terms of series and their products."""
 
-    def __init__(self, tape: _Tape, variables: int) -> None:
-        self._tape, self._variables = tape, variables
+    def __init__(self, tape: _Tape, variables: int, multiplies_out: bool) -> None:
+        self._tape, self._variables, self._multiplies_out = tape, variables, multiplies_out
         self._one = tape.linear("one")
         self._lowered: dict[_Node, _Node] = {}
         self._rules: list[_Node] = []  # of the auxiliary series
@@ -280,7 +281,9 @@ class _Series:
     def _sum(self, *signed: tuple[int, _Node]) -> _Node:
         terms: list[tuple[int, _Node]] = []
         for sign, form in signed:
-            terms += [(sign * inner, term) for inner, term in _terms(form)]
+            terms += [(sign * own, term) for own, term in _terms(form)]
+        if [sign for sign, _ in terms] == [1]:
+            return terms[0][1]
         return self._tape.linear("sum", *(term for _, term in terms), signs=tuple(sign for sign, _ in terms))
 
     def _scaled(self, factor: _Node, series: _Node) -> _Node:
@@ -295,7 +298,11 @@ class _Series:
             if factor.operation == "scaled":
                 return self._scaled(factor.arguments[0], self._product(factor.arguments[1], other))
         for factor, other in ((a, b), (b, a)):
-            if factor.operation == "sum" and (len(factor.arguments) == 1 or self._is_of_variables(factor)):
+            if factor.operation == "sum" and factor.value[0] < 0:
+                # So x and −x are one factor.
+                return self._sum((-1, self._product(self._sum((-1, factor)), other)))
+        for factor, other in ((a, b), (b, a)):
+            if factor.operation == "sum" and self._multiplies_out and self._is_of_variables(factor):
                 return self._sum(*((sign, self._product(term, other)) for sign, term in _terms(factor)))
         left, right = sorted((self._series(a), self._series(b)), key=lambda node: node.value)
         return self._tape.linear("product", left, right)
