@@ -225,7 +225,7 @@ def _derived(study: Study) -> list[str]:
     system = study.motion.system
     return [
         f"System: {system.title}",
-        f"Equations: {system.source}",
+        f"Equations: {system.source} ({', '.join(system.labels)} in the LaTeX source)",
         *(f"{name} = {number(value, 6)}"
           for name, value in zip(system.parameters, study.motion.parameters, strict=True)),
         *(f"{name}(0) = {number(value, 6)}"

@@ -165,7 +165,8 @@ def tolerance(y: Array, p: Array, order: int, asked: float) -> float:
 SYSTEM = System(
     name="ball",
     title="Chaplygin ball with Suslov's constraint",
-    source="section 3; `eq29`, `eq30` in the paper's LaTeX source",
+    source="section 3, equations (3.1), (3.2)",
+    labels=("eq29", "eq30"),
     variables=("ω1", "ω2", "γ1", "γ2", "γ3"),
     parameters=("I11", "I22", "I13", "I23", "D", "b1", "b2", "b3"),
     field=field,

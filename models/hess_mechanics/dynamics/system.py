@@ -37,7 +37,8 @@ _DERIVING = RLock()
 class System:
     """One system of differential equations ẏ = f(y, p).
 
-    name, title : identifier and words; source : where the paper has its equations.
+    name, title : identifier and words.
+    source, labels : the paper's equations: as numbered in print, and their labels in its LaTeX source.
     variables, parameters : the names of the components of y and p.
     field(y, p), integrals(y, p) : plain arithmetic on sequences; the field is traced, see `numerics.tracing`.
     frequency(y, p) : a bound ν on every |ω|, of y (d,) or (d, n); time is measured in 1/ν when integrating.
@@ -51,6 +52,7 @@ class System:
     name: str
     title: str
     source: str
+    labels: tuple[str, ...]
     variables: tuple[str, ...]
     parameters: tuple[str, ...]
     field: Field

@@ -158,7 +158,8 @@ def momentum_unit(p: Array) -> float:
 SYSTEM = System(
     name="euler-poisson",
     title="Euler–Poisson equations",
-    source="appendix; `hh01`, `hh001` in the paper's LaTeX source",
+    source="appendix, equations (3.3), (3.4)",
+    labels=("hh01", "hh001"),
     variables=("M1", "M2", "M3", "γ1", "γ2", "γ3"),
     parameters=("a1", "a2", "a3", "r1", "r2", "r3", "mu"),
     field=field,

@@ -106,7 +106,8 @@ def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:
 SYSTEM = System(
     name="suslov",
     title="Suslov problem with gravity",
-    source="section 2; `Biz131`, `Biz11` in the paper's LaTeX source",
+    source="section 2, equations (2.4), (2.5)",
+    labels=("Biz131", "Biz11"),
     variables=("ω1", "ω2", "γ1", "γ2", "γ3"),
     parameters=("I11", "I22", "I13", "I23", "b1", "b2", "b3"),
     field=field,

@@ -158,7 +158,8 @@ def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:
 SYSTEM = System(
     name="hess",
     title="Suslov–Hess case, reduced",
-    source="section 2; `eq01`, `eq03` in the paper's LaTeX source",
+    source="section 2, equations (2.18), (2.19)",
+    labels=("eq01", "eq03"),
     variables=("w1", "w2", "n1", "n2", "n3"),
     parameters=("a", "b"),
     field=field,
