@@ -2,6 +2,7 @@
 
 import decimal
 import math
+import re
 from decimal import Decimal
 from functools import reduce
 from operator import mul
@@ -128,11 +129,14 @@ def taylor(field, y, p, times, order, tolerance):
     return np.array(out)
 
 
-def uncompiled(recursion):
-    """`taylor_kernels.expansion` and all it calls as plain functions, by name, which take numbers of any kind."""
-    functions = {}
+def uncompiled(recursion, number=None):
+    """`taylor_kernels.expansion` and all it calls as plain functions, by name, which take numbers of any kind.
+
+    number : makes one of these from the text of a constant, where a float would not do.
+    """
+    functions = {"number": number}
     for source in (recursion.source, convolution_source(columns_of(recursion)), expansion_source(recursion)):
-        exec(source, functions)
+        exec(re.sub(r"\b\d+\.\d+(e[-+]?\d+)?", r"number('\g<0>')", source) if number else source, functions)
     return functions
 
 

@@ -89,7 +89,7 @@ def determinant(gamma: Sequence[Any], p: Sequence[Any]) -> Any:
     return I11 * I22 + D * (I11 * (g1**2 + g3**2) + I22 * (g2**2 + g3**2) + D * g3**2 * (g1**2 + g2**2 + g3**2))
 
 
-def kinetic_energy(y: Sequence[Any], p: Sequence[Any]) -> Any:
+def kinetic_energy(y: Sequence[Any] | Array, p: Sequence[Any] | Array) -> Any:
     """½(Îω, ω) of `eq30`, as a sum of squares."""
     w1, w2, g1, g2, g3 = y
     I11, I22, D = p[0], p[1], p[4]
@@ -124,7 +124,8 @@ def frequency(y: Array, p: Array) -> Array | float:
     length = np.sqrt(y[2] ** 2 + y[3] ** 2 + y[4] ** 2)
     if not np.all(D / smallest * length**2 <= _MAX_RATIO):
         raise InvalidParameter(f"𝒟 is too large: choose it below {_MAX_RATIO:g} times I11 and I22.")
-    return np.sqrt(2 * (kinetic_energy(y, p) + 2 * math.hypot(*p[5:]) * length) / smallest)
+    nu: Array | float = np.sqrt(2 * (kinetic_energy(y, p) + 2 * math.hypot(*p[5:]) * length) / smallest)
+    return nu
 
 
 def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:

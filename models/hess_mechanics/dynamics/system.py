@@ -88,7 +88,8 @@ class System:
         return self._kernel("cross", "y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states",
                             crossing_finder)
 
-    def _kernel(self, task: str, arguments: str, make: Callable[[Recursion], Any], adjusts: bool = True) -> Any:
+    def _kernel(self, task: str, arguments: str, make: Callable[[Recursion], Callable[..., Any]],
+                adjusts: bool = True) -> Callable[..., Any]:
         """The compiled `make(recursion)`; adjusts : whether it has to ask for the tolerance of its orbit."""
         with _DERIVING:
             name = f"{re.sub(r'[^0-9A-Za-z]', '_', self.name)}_{task}"
@@ -149,8 +150,8 @@ class Problem:
             raise InvalidParameter("The motion is too fast for double precision: choose less extreme parameters.")
         scale = np.ones(len(system.variables))
         scale[: system.angular_velocities] = nu * system.unit(p)
-        states, parameters = system.rescale(given.T, p, nu)
-        return cls(np.ascontiguousarray(states.T), parameters, nu, scale)
+        scaled, p = system.rescale(given.T, p, nu)
+        return cls(np.ascontiguousarray(scaled.T), p, nu, scale)
 
     def times(self, t: Array) -> Array:
         """The times (m,) in units of 1/ν; ∞ where that leaves double range, which no budget of steps reaches."""

@@ -137,7 +137,8 @@ def frequency(y: Array, p: Array) -> Array | float:
     _require_positive(a.tolist())
     kinetic = (a[0] * y[0] ** 2 + a[1] * y[1] ** 2 + a[2] * y[2] ** 2) / 2
     strength = abs(p[6]) * math.hypot(*p[3:6]) * np.sqrt(y[3] ** 2 + y[4] ** 2 + y[5] ** 2)
-    return np.sqrt(2 * a.max() * (kinetic + 2 * strength))
+    nu: Array | float = np.sqrt(2 * a.max() * (kinetic + 2 * strength))
+    return nu
 
 
 def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Many orbits of one system: eight at a time, each with its own steps, on as many threads as wanted.
 
 The recursion of `taylor_kernels` with eight orbits in the place of one number, which the processor computes

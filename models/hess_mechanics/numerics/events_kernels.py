@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Crossings of a plane by one orbit: the roots of each step's own polynomial, none lost, none doubled.
 
 On a step the height e(s) over the plane is a polynomial, |e″| ≤ D on the whole of it.  A piece of width w

@@ -30,6 +30,10 @@ _OPTIONS: dict[str, Any] = {
     "fastmath": {"contract"},
     "nogil": True,
 }
+_INLINED = {**_OPTIONS, "forceinline": True}
+_ONLY_INLINED = {**_INLINED, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+
+_CONFIG: Any = numba.config
 
 _PACKAGE = Path(__file__).parents[1]
 _FOR_ALL = {"numerics", "dynamics"}
@@ -173,7 +177,7 @@ def _part_of(name: str) -> str:
 
 
 # Numba leaves LLVM's packing of straight-line arithmetic into vectors off; here it is worth a quarter of the time.
-numba.config.SLP_VECTORIZE = 1
+_CONFIG.SLP_VECTORIZE = 1
 
 
 def _folder_for(module: str) -> Path | None:
@@ -184,20 +188,20 @@ def _folder_for(module: str) -> Path | None:
     return CACHE_FOLDER / source_hash(_part_of(inside.replace(".", "/")) if package == _PACKAGE.name else "numerics")
 
 
-def kernel(function: Callable[..., Any]) -> Any:
+def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
     """Compile an entry point: machine code is kept on disk and the GIL is released."""
     folder = _folder_for(function.__module__)
     if folder is None:
-        return numba.njit(**_OPTIONS)(function)
+        return _compiled(function, _OPTIONS)
     # Numba asks for the folder when it is told to cache, here and now.
-    before, numba.config.CACHE_DIR = numba.config.CACHE_DIR, str(folder)
+    before, _CONFIG.CACHE_DIR = _CONFIG.CACHE_DIR, str(folder)
     try:
-        return numba.njit(cache=True, **_OPTIONS)(function)
+        return _compiled(function, {**_OPTIONS, "cache": True})
     finally:
-        numba.config.CACHE_DIR = before
+        _CONFIG.CACHE_DIR = before
 
 
-def derived_kernel(name: str, source: str, module: str, **names: Any) -> Any:
+def derived_kernel(name: str, source: str, module: str, **names: Any) -> Callable[..., Any]:
     """`kernel` of the function of this name in derived source, which may call what `names` holds.
 
     module : the importable module whose kernel it is.  Numba caches only what stands in a file: the source is written
@@ -213,18 +217,24 @@ def derived_kernel(name: str, source: str, module: str, **names: Any) -> Any:
             _write(path, source)
     namespace: dict[str, Any] = {"__name__": module, **names}
     exec(compile(source, file, "exec"), namespace)
-    function = namespace[name]
-    return kernel(function) if folder is not None and Path(file).exists() else numba.njit(**_OPTIONS)(function)
+    # Where the file could not be written there is nothing to cache.
+    return kernel(namespace[name]) if Path(file).exists() else _compiled(namespace[name], _OPTIONS)
 
 
-def inner(function: Callable[..., Any]) -> Any:
+def inner(function: Callable[..., Any]) -> Callable[..., Any]:
     """Compile a building block; its machine code is kept as part of the kernels that call it."""
-    return numba.njit(forceinline=True, **_OPTIONS)(function)
+    return _compiled(function, _INLINED)
 
 
-def part(function: Callable[..., Any]) -> Any:
+def part(function: Callable[..., Any]) -> Callable[..., Any]:
     """As `inner`, for closures and generated functions, which only kernels call.
 
     It has no entry for Python, where a call would end the process, and is compiled a tenth sooner for that.
     """
-    return numba.njit(forceinline=True, no_cpython_wrapper=True, no_cfunc_wrapper=True, **_OPTIONS)(function)
+    return _compiled(function, _ONLY_INLINED)
+
+
+def _compiled(function: Callable[..., Any], options: dict[str, Any]) -> Callable[..., Any]:
+    jit: Any = numba.njit
+    dispatcher: Callable[..., Any] = jit(**options)(function)
+    return dispatcher

@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Taylor series of traced fields: steps, dense output, compensated sums.
 
 From the `Recursion` of a field (see `tracing`) all kernels are made: one orbit here, many orbits in `batch_kernels`,

@@ -33,6 +33,9 @@ Field = Callable[[Sequence[Any], Sequence[Any]], Sequence[Any]]
 """field(y, p) → ẏ in plain arithmetic."""
 
 
+_Number = int | float | np.integer | np.floating
+
+
 class NotTraceable(TypeError):
     """A field that is not made of sums, products, quotients and whole powers of its variables and parameters."""
 
@@ -87,7 +90,7 @@ def trace(field: Field, variables: int, parameters: int) -> Recursion:
         rates = [tape.lifted(rate) for rate in field(y, p)]
     except NotTraceable:
         raise
-    except (TypeError, ValueError, AttributeError, ArithmeticError) as error:
+    except (TypeError, ValueError, AttributeError, ArithmeticError, LookupError) as error:
         raise NotTraceable(f"This field cannot be traced: {error}. {_ALLOWED}") from error
     if len(rates) != variables:
         raise NotTraceable(f"This field has {variables} variables and returns {len(rates)} rates: return one for each.")
@@ -135,7 +138,7 @@ class _Tape:
         """The node of a symbol or a number.  Raises `NotTraceable` for anything else."""
         if isinstance(x, Symbol):
             return x.node
-        if isinstance(x, int | float | np.integer | np.floating) and math.isfinite(x):
+        if isinstance(x, _Number) and math.isfinite(x):
             return self.number(x.item() if isinstance(x, np.generic) else x)
         raise NotTraceable(f"This field cannot be traced: {x!r} is no finite number. {_ALLOWED}")
 
@@ -193,31 +196,33 @@ class Symbol:
     def __init__(self, tape: _Tape, node: _Node) -> None:
         self.tape, self.node = tape, node
 
-    def _with(self, operation: str, left: Any, right: Any) -> Symbol:
+    def _with(self, operation: str, left: Any, right: Any) -> Any:
+        if not all(isinstance(x, Symbol | _Number) for x in (left, right)):
+            return NotImplemented
         return Symbol(self.tape, self.tape.apply(operation, self.tape.lifted(left), self.tape.lifted(right)))
 
-    def __add__(self, other: Any) -> Symbol:
+    def __add__(self, other: Any) -> Any:
         return self._with("+", self, other)
 
-    def __radd__(self, other: Any) -> Symbol:
+    def __radd__(self, other: Any) -> Any:
         return self._with("+", other, self)
 
-    def __sub__(self, other: Any) -> Symbol:
+    def __sub__(self, other: Any) -> Any:
         return self._with("-", self, other)
 
-    def __rsub__(self, other: Any) -> Symbol:
+    def __rsub__(self, other: Any) -> Any:
         return self._with("-", other, self)
 
-    def __mul__(self, other: Any) -> Symbol:
+    def __mul__(self, other: Any) -> Any:
         return self._with("*", self, other)
 
-    def __rmul__(self, other: Any) -> Symbol:
+    def __rmul__(self, other: Any) -> Any:
         return self._with("*", other, self)
 
-    def __truediv__(self, other: Any) -> Symbol:
+    def __truediv__(self, other: Any) -> Any:
         return self._with("/", self, other)
 
-    def __rtruediv__(self, other: Any) -> Symbol:
+    def __rtruediv__(self, other: Any) -> Any:
         return self._with("/", other, self)
 
     def __neg__(self) -> Symbol:
@@ -289,6 +294,8 @@ class _Series:
     def _scaled(self, factor: _Node, series: _Node) -> _Node:
         if series.operation == "scaled":
             factor, series = self._tape.apply("*", factor, series.arguments[0]), series.arguments[1]
+        if factor.operation == "negative" or (factor.operation == "number" and factor.value < 0):
+            return self._sum((-1, self._scaled(self._tape.negative(factor), series)))
         return series if factor is self._tape.number(1) else self._tape.linear("scaled", factor, series)
 
     def _product(self, a: _Node, b: _Node) -> _Node:

@@ -74,7 +74,7 @@ class Attitude:
 
     def in_space(self, vector: Sequence[float] | Array) -> Array:
         """The components along γ, e, γ × e of a direction of the body: (3,), or one for each time (n, 3) → (n, 3)."""
-        return np.einsum("nij,nj->ni", self.axes, np.broadcast_to(vector, self.axes.shape[:2]))
+        return np.asarray(np.einsum("nij,nj->ni", self.axes, np.broadcast_to(vector, self.axes.shape[:2])))
 
 
 def attitude(system: System, start: Sequence[float] | Array, parameters: Sequence[float], span: float, level: Level,

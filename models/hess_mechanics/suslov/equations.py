@@ -92,7 +92,8 @@ def frequency(y: Array, p: Array) -> Array | float:
         raise InvalidParameter(f"The moments I11 and I22 are too different: choose a ratio below {_MAX_RATIO:g}.")
     field_strength = math.hypot(*p[4:7]) * np.sqrt(y[2] ** 2 + y[3] ** 2 + y[4] ** 2)
     kinetic_now = (I11 * y[0] ** 2 + I22 * y[1] ** 2) / 2
-    return np.sqrt(2 * (kinetic_now + 2 * field_strength) / min(I11, I22))
+    nu: Array | float = np.sqrt(2 * (kinetic_now + 2 * field_strength) / min(I11, I22))
+    return nu
 
 
 def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:

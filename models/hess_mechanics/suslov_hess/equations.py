@@ -78,7 +78,7 @@ class HessBody:
     def tensor(self, I33: float) -> Array:
         """The inertia tensor (3, 3) with this I33, in the axes of (n1, n2, n3)."""
         tensor = np.array([[self.I11, 0.0, 0.0], [0.0, self.I22, self.I23], [0.0, self.I23, I33]])
-        return self.turn @ tensor @ self.turn.T
+        return np.asarray(self.turn @ tensor @ self.turn.T)
 
     @property
     def turn(self) -> Array:
@@ -109,13 +109,13 @@ class HessBody:
         """Reduced states (..., 5) with this b → with b = 1.  For b < 0 the vertical is reversed too, n → −n."""
         nu = self.frequency_unit
         sign = math.copysign(1.0, self.b)
-        return np.asarray(reduced, float) * np.array([1 / nu, 1 / nu, sign, sign, sign])
+        return np.multiply(reduced, [1 / nu, 1 / nu, sign, sign, sign])
 
     def from_units_of_b(self, reduced: Array) -> Array:
         """The inverse of `in_units_of_b`."""
         nu = self.frequency_unit
         sign = math.copysign(1.0, self.b)
-        return np.asarray(reduced, float) * np.array([nu, nu, sign, sign, sign])
+        return np.multiply(reduced, [nu, nu, sign, sign, sign])
 
 
 def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
@@ -144,7 +144,8 @@ def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
 
 def frequency(y: Array, p: Array) -> Array | float:
     """ν = √(w² + 4|b||n|) of a state (5,) or many (5, n): no |w| of the motion exceeds it."""
-    return np.sqrt(y[0] ** 2 + y[1] ** 2 + 4 * abs(p[1]) * np.sqrt(y[2] ** 2 + y[3] ** 2 + y[4] ** 2))
+    nu: Array | float = np.sqrt(y[0] ** 2 + y[1] ** 2 + 4 * abs(p[1]) * np.sqrt(y[2] ** 2 + y[3] ** 2 + y[4] ** 2))
+    return nu
 
 
 def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:
