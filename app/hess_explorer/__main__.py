@@ -1,4 +1,4 @@
-"""The command line: `hess-explorer` opens the explorer, its other commands compute or draw without it."""
+"""The command line: `hess-explorer` alone opens the explorer; other commands compute or draw without the page."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ __all__ = ["main"]
 
 
 class _Parser(argparse.ArgumentParser):
-    """Reports a mistake as one sentence, without the usage text."""
+    """Reports a mistake in one sentence, without the usage text."""
 
     def error(self, message: str) -> NoReturn:
         raise CommandError(f"{message} (see {self.prog} --help).")

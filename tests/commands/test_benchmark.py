@@ -421,11 +421,11 @@ def test_the_command_from_end_to_end(tmp_path):
 
 
 @pytest.mark.parametrize(("words", "sentence"), [
-    (["--works", "A,X"], "'X' is not a work; choose of A,A2,B,B2,C,D"),
+    (["--works", "A,X"], "'X' is not a work; choose from A,A2,B,B2,C,D"),
     (["--works", ""], "'' is not a work"),
     (["--targets", "1e-3,0"], "'1e-3,0' has an error that is not positive"),
     (["--targets", "small"], "'small' is not a number"),
-    (["--picture", "bench.pdf"], "'bench.pdf' is not a picture; let it end in .svg or .png"),
+    (["--picture", "bench.pdf"], "'bench.pdf' is not a picture; end the name in .svg or .png"),
 ])
 def test_a_bad_option_gives_one_sentence(words, sentence, capsys):
     assert main(["bench", *words]) == 2

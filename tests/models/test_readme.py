@@ -1,5 +1,6 @@
-"""models/README.md: its example runs, its table names every subject once with the paper's labels."""
+"""What models/README.md says: its example runs, its table is complete, kernels have files of their own."""
 
+import ast
 import re
 from pathlib import Path
 
@@ -44,3 +45,17 @@ def test_files_cite_labels_of_the_table_only(path):
     assert not NUMBERED.search(text), "internal numbers of subjects mean nothing to a reader"
     cited = set(re.findall(r"`((?:Biz|biz|bizi|eqs?|Geq|hh|gess|klas|m15|fig|g2p)[-\w*.]*\d[-\w*.]*)`", text))
     assert cited <= LABELS, cited - LABELS
+
+
+def decorators(path):
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    functions = (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef))
+    return {ast.unparse(decorator) for function in functions for decorator in function.decorator_list}
+
+
+@pytest.mark.parametrize("path", sorted(PACKAGE.rglob("*.py")), ids=lambda path: str(path.relative_to(PACKAGE)))
+def test_kernels_are_in_files_told_apart_by_name(path):
+    has_kernels = bool(decorators(path) & {"kernel", "inner", "part"})
+    assert has_kernels == path.name.endswith("kernels.py")
+    # mypy's patterns cannot tell them by the end of their names: each says so itself.
+    assert path.read_text(encoding="utf-8").startswith("# mypy: allow-untyped-defs\n") == has_kernels

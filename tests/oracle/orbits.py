@@ -2,13 +2,14 @@
 
 import decimal
 import math
-from dataclasses import replace
+import re
 from decimal import Decimal
 from functools import reduce
 from operator import mul
 
 import numpy as np
 
+from hess_mechanics.numerics.taylor_kernels import columns_of, convolution_source, expansion_source
 from oracle.kept import kept
 
 
@@ -128,11 +129,15 @@ def taylor(field, y, p, times, order, tolerance):
     return np.array(out)
 
 
-def uncompiled(field):
-    """The description of a field with plain functions, which take numbers of any kind."""
-    constants = field.constants and (field.constants[0], field.constants[1].py_func)
-    stages = tuple((names, rule.py_func) for names, rule in field.stages)
-    return replace(field, rates=field.rates.py_func, stages=stages, constants=constants)
+def uncompiled(recursion, number=None):
+    """`taylor_kernels.expansion` and all it calls as plain functions, by name, which take numbers of any kind.
+
+    number : makes one of these from the text of a constant, where a float would not do.
+    """
+    functions = {"number": number}
+    for source in (recursion.source, convolution_source(columns_of(recursion)), expansion_source(recursion)):
+        exec(re.sub(r"\b\d+\.\d+(e[-+]?\d+)?", r"number('\g<0>')", source) if number else source, functions)
+    return functions
 
 
 def as_decimals(values):

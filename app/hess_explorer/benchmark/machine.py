@@ -11,7 +11,7 @@ __all__ = ["describe"]
 
 
 def _processor() -> str:
-    """The name of the processor's model, as far as the system tells it."""
+    """Model name of the processor, as far as the system reports it."""
     info = Path("/proc/cpuinfo")
     if info.exists():
         for line in info.read_text().splitlines():

@@ -16,11 +16,11 @@ __all__ = ["FULL", "QUICK", "Effort", "Sample", "Timing", "cheapest", "climb", "
 
 @dataclass(frozen=True)
 class Effort:
-    """How long to measure.  Times in seconds.
+    """Limits on the measuring time; times in seconds.
 
-    tries : runs of each setting; enough : after that long no further one; slow : a run that takes longer ends its
-    ladder; budget : for all settings of one method in one work; turns : rounds of the race; turn : length of a turn
-    of one run in it (at least one run is made); share : after that long a run is out of the race.
+    tries : runs of each setting; enough : no further run after this long; slow : a slower run ends its ladder;
+    budget : for all settings of one method in one work; turns : rounds of the race; turn : length of one turn in it
+    (at least one run); share : a run leaves the race after this long.
     """
 
     tries: int
@@ -93,7 +93,7 @@ def _left_out(method: Method, work: Work, settings: Sequence[Setting], why: str)
 
 
 def race(runs: Sequence[Run], effort: Effort) -> list[Timing]:
-    """Time the runs in turn, so that whatever else the machine does meets all of them."""
+    """Time the runs in turn, so that other load on the machine affects all of them alike."""
     seconds: list[list[float]] = [[] for _ in runs]
     collecting = gc.isenabled()
     gc.disable()

@@ -24,7 +24,7 @@ Setting = tuple[str | int | float, ...]
 Ladder = tuple[Setting, ...]
 """Settings from coarse to fine: each costs more than the one before."""
 Run = Callable[[], Array]
-"""Does the work once more from its initial data; what need not be done again for other data is done before."""
+"""Does the work again from its initial data; whatever does not depend on the data has been prepared."""
 
 
 class Prepare(Protocol):

@@ -31,7 +31,7 @@ class Scaling:
 
 
 def _many(work: Work) -> Work:
-    """What can be shared between threads: the work itself, and for D, one orbit, the sections of 64."""
+    """A work that threads can share: the work itself; for D, which is one orbit, the sections of 64 orbits."""
     ensemble = works()["B2"]
     if work.name != "D" or not (isinstance(work, MotionWork) and isinstance(ensemble, MotionWork)):
         return work

@@ -1,4 +1,4 @@
-"""How many threads there are: one for every library, and work shared between threads on purpose."""
+"""Threads: one for every library; work is shared between threads on purpose only."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ _ONE_THREAD = {
 
 
 def one_each() -> None:
-    """Tell the libraries to use one thread each; they listen only when they are first imported."""
+    """Tell the libraries to use one thread each.  They read this only when they are first imported."""
     os.environ.update(_ONE_THREAD)
 
 
 def shared(part: Callable[[int], None], threads: int) -> Callable[[], None]:
-    """What calls part(0), …, part(threads − 1), each in a thread of its own; without any thread if it is one."""
+    """A function that calls part(0), …, part(threads − 1), each in its own thread; directly if there is only one."""
     if threads == 1:
         return lambda: part(0)
     pool = ThreadPoolExecutor(threads)

@@ -1,4 +1,4 @@
-"""Numbers, lists of numbers and times as they are written on the command line."""
+"""Types of arguments: numbers, lists of numbers, ranges of times."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _SHOWN = 60
 
 
 def shown(text: str) -> str:
-    """The text as a message quotes it: cut, and with control characters escaped."""
+    """The text quoted for a message: shortened, with control characters escaped."""
     return repr(text if len(text) <= _SHOWN else text[:_SHOWN] + "…")
 
 
@@ -36,7 +36,7 @@ def integer(low: int, high: int) -> Callable[[str], int]:
     """The type of a whole number from `low` to `high`."""
 
     def parse(text: str) -> int:
-        # Ten digits are more than any number asked for here has.
+        # No bound here has more than ten digits.
         if not (text.isascii() and text.isdigit() and len(text) <= 10 and low <= int(text) <= high):
             _refuse(text, f"is not a whole number from {low} to {high}")
         return int(text)
@@ -71,5 +71,5 @@ def samples(text: str) -> list[float]:
         _refuse(text, "is not a range; write it lo:hi:n, like 0:10:101")
     low, high = number(ends[0]), number(ends[1])
     count = integer(2, MAX_SAMPLES)(ends[2])
-    # Weights, not steps: both ends come out exactly, and hi − lo cannot overflow.
+    # Weighted, not stepped: both ends are exact, and hi − lo cannot overflow.
     return [low * ((count - 1 - i) / (count - 1)) + high * (i / (count - 1)) for i in range(count)]

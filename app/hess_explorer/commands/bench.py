@@ -1,4 +1,4 @@
-"""`hess-explorer bench`: how fast this project computes, beside other integrators, at the same measured error."""
+"""`hess-explorer bench`: the speed of this project beside other integrators, at the same measured error."""
 
 from __future__ import annotations
 
@@ -27,7 +27,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
                     "the cheapest setting of each that keeps the error asked for.  Some minutes; the table goes to "
                     "standard output.",
         epilog="Example: hess-explorer bench --works A,C --targets 1e-6,1e-9 --picture bench.svg")
-    parser.add_argument("--works", type=_works, default=_WORKS, metavar="LIST", help="of A,A2,B,B2,C,D (default: all)")
+    parser.add_argument("--works", type=_works, default=_WORKS, metavar="LIST",
+                        help="from A,A2,B,B2,C,D (default: all)")
     parser.add_argument("--targets", type=_targets, default=(1e-3, 1e-6, 1e-9, 1e-12), metavar="LIST",
                         help="largest errors (default 1e-3,1e-6,1e-9,1e-12)")
     parser.add_argument("--quick", action="store_true", help="few repeats: a trial, not a measurement")
@@ -40,7 +41,7 @@ def _works(text: str) -> tuple[str, ...]:
     names = tuple(text.split(","))
     for name in names:
         if name not in _WORKS:
-            raise argparse.ArgumentTypeError(f"{shown(name)} is not a work; choose of {','.join(_WORKS)}")
+            raise argparse.ArgumentTypeError(f"{shown(name)} is not a work; choose from {','.join(_WORKS)}")
     return tuple(name for name in _WORKS if name in names)
 
 
@@ -54,7 +55,7 @@ def _targets(text: str) -> tuple[float, ...]:
 def _picture(text: str) -> Path:
     path = Path(text)
     if path.suffix not in _PICTURES:
-        raise argparse.ArgumentTypeError(f"{shown(text)} is not a picture; let it end in {' or '.join(_PICTURES)}")
+        raise argparse.ArgumentTypeError(f"{shown(text)} is not a picture; end the name in {' or '.join(_PICTURES)}")
     return path
 
 
@@ -67,7 +68,7 @@ def _run(options: argparse.Namespace) -> None:
 
     one_each()
     if options.picture is not None:
-        # Not after minutes of measuring.
+        # Better now than after minutes of measuring.
         _require_matplotlib()
     from hess_explorer.benchmark.report import as_json, as_text
     from hess_explorer.benchmark.run import run

@@ -1,4 +1,4 @@
-"""Options that say which body and which start are meant, the same in every command."""
+"""Options for the body and the initial state, the same in every command."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def add_heavy_body(parser: argparse.ArgumentParser) -> None:
 
 def add_start(parser: argparse.ArgumentParser, omega: str = "w1,w2", gamma: str = "g1,g2,g3", option: str = "--omega",
               what: str = "angular velocity") -> None:
-    """`option` (kept as `omega`) and --gamma: the motion at t = 0."""
+    """`option` (stored as `omega`) and --gamma: the state at t = 0."""
     parser.add_argument(option, dest="omega", type=vector(omega), required=True, metavar=omega, help=f"{what} at t = 0")
     parser.add_argument("--gamma", type=vector(gamma), required=True, metavar=gamma,
-                        help="the vertical at t = 0; brought to length 1")
+                        help="the vertical at t = 0; normalised")

@@ -72,7 +72,7 @@ def _require_free(address: str, port: int) -> None:
             address, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)[0]
         with socket.socket(family, kind, protocol) as probe:
             if os.name == "posix":
-                # As the server will: a port whose last connections are still closing counts as free.
+                # As the server does: a port whose last connections are still closing counts as free.
                 probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
             probe.bind(target)
     except (OSError, UnicodeError) as error:
@@ -91,5 +91,5 @@ def _has_browser() -> bool:
         found = webbrowser.get()
     except webbrowser.Error:
         return False
-    # A text browser, all there is without a display, would hold the terminal and could not draw the page.
+    # Without a display only text browsers are found; they would hold the terminal and cannot draw the page.
     return type(found) is not webbrowser.GenericBrowser or "BROWSER" in os.environ

@@ -1,4 +1,4 @@
-"""What a state still lacks, computed piece by piece on all cores while the page goes on."""
+"""The missing parts of a state, computed task by task on all cores while the page stays responsive."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class _Job:
         self._running = 0
 
     def one(self) -> None:
-        """One piece, and then back into the queue: so all sessions get their turns."""
+        """Do one task, then queue again: sessions take turns."""
         with self._lock:
             if not self.tasks:
                 return
@@ -38,7 +38,7 @@ class _Job:
         except ModelError as error:
             self.error = str(error)
             self.tasks.clear()
-        # A worker that ends would leave the page waiting for ever: it is told, and the log says all.
+        # A worker that died silently would leave the page waiting for ever: report here, details in the log.
         except Exception:
             logger.exception("a computation in the background failed: %s", task.function.__qualname__)
             self.error = "A part of this state could not be computed. Please report the link."
@@ -54,28 +54,28 @@ class _Job:
 
 
 class Background:
-    """The work of one session: a newer state ends what was left of the older one's."""
+    """The background work of one session: a new state discards what is left of the previous one."""
 
     def __init__(self) -> None:
         self._job = _Job(())
 
     def follow(self, tasks: Iterable[Task]) -> None:
-        """Compute these, into the cache, and nothing else any more."""
+        """Compute these into the cache, and discard all earlier tasks."""
         self.stop()
         self._job = _Job(tasks)
         for _ in range(THREADS):
             _pool.submit(self._job.one)
 
     def stop(self) -> None:
-        """Pieces that have not begun are not computed."""
+        """Discard the tasks that have not begun."""
         self._job.tasks.clear()
 
     @property
     def left(self) -> int:
-        """How many pieces are not computed yet."""
+        """The number of tasks not finished."""
         return self._job.left
 
     @property
     def error(self) -> str:
-        """The sentence of a piece that could not be computed, after which no other is."""
+        """Message of a task that failed, which discards the others; empty if none did."""
         return self._job.error

@@ -21,7 +21,7 @@ _OVERHEAD = 512
 
 
 def size_of(value: Any) -> int:
-    """Bytes held by a result: its arrays, wherever they are in dataclasses, mappings, tuples, and a rate for each."""
+    """Bytes held by a result: its arrays, nested in dataclasses, mappings and tuples, and an overhead for each."""
     if isinstance(value, np.ndarray):
         return value.nbytes + _OVERHEAD
     if isinstance(value, (tuple, list)):
@@ -35,17 +35,17 @@ def size_of(value: Any) -> int:
 
 @dataclass(frozen=True)
 class Task:
-    """A computation that can wait: function(*arguments), for the cache."""
+    """A computation that can wait: function(*arguments), its result for the cache."""
 
     function: Callable[..., Any]
     arguments: tuple[Hashable, ...]
 
 
 class ResultCache:
-    """Results by function and arguments; the least recently used go first.
+    """Results by function and arguments; the least recently used are dropped first.
 
     Safe to use from several threads.  Functions must be pure, arguments hashable, results frozen.
-    A computation that raises is not kept: everyone who waited for it gets the error.
+    A computation that raises is not kept; all who waited for it get the error.
     """
 
     def __init__(self, capacity: int) -> None:
@@ -80,7 +80,7 @@ class ResultCache:
             raise
         size = size_of(value)
         with self._lock:
-            # While we computed, the entry may have been pushed out: then it is not counted.
+            # The entry may have been dropped during the computation: then it is not counted.
             if key in self._entries:
                 self._entries[key] = (future, size)
                 self.bytes += size

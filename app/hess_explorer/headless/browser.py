@@ -1,4 +1,4 @@
-"""A headless Chromium: where it is, how to get one, how it is started, when the page in it is ready."""
+"""A headless Chromium: found or installed, started, and waited for until the page is ready."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ __all__ = ["BrowserError", "find_browser", "install_browser", "launched", "wait_
 VARIABLE = "HESS_EXPLORER_BROWSER"
 _COMMANDS = ("chromium", "chromium-headless-shell", "google-chrome")
 _INSTALL_SECONDS = 900
-# Most are Playwright's defaults already; here they are a promise: the browser asks nothing of any other host.
+# No third-party requests by the browser itself.  Most are Playwright's defaults; here they are a promise.
 _QUIET = ("--disable-background-networking", "--disable-component-update", "--disable-domain-reliability",
           "--no-pings")
 
 
 class BrowserError(RuntimeError):
-    """There is no usable browser; the text is a sentence for the user."""
+    """No usable browser; the message tells the user what to do."""
 
 
 def find_browser(playwright_own: str) -> str | None:
-    """Path of a Chromium: the environment variable's, one on PATH, or Playwright's own; None if there is none.
+    """Path of a Chromium: from the environment variable, on PATH, or Playwright's own; None if there is none.
 
     Raises `BrowserError` if the environment variable names a file that is not there.
     """
@@ -38,7 +38,7 @@ def find_browser(playwright_own: str) -> str | None:
     if chosen:
         path = shutil.which(chosen)
         if path is None:
-            raise BrowserError(f"{VARIABLE} names {chosen!r}, which is no program: correct it or remove it.")
+            raise BrowserError(f"{VARIABLE} names {chosen!r}, which is not a program: correct it or remove it.")
         return path
     for command in _COMMANDS:
         path = shutil.which(command)
@@ -106,7 +106,7 @@ def _launch(chromium: BrowserType, path: str, *, sandbox: bool) -> Browser:
         return chromium.launch(executable_path=path, args=_QUIET, chromium_sandbox=sandbox)
     except Error as error:
         if sandbox and "sandbox" in error.message.lower():
-            # A container or kernel that forbids user namespaces; the page is our own, from this machine.
+            # Some containers and kernels forbid user namespaces.  The page is our own, from this machine.
             return _launch(chromium, path, sandbox=False)
         why = error.message.splitlines()[0]
         raise BrowserError(f"{path} did not start ({why}); choose another in {VARIABLE}.") from error

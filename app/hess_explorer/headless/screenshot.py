@@ -22,7 +22,7 @@ _LOAD_SECONDS = 120
 
 
 class ServerError(RuntimeError):
-    """The server or the page did not get ready; the text is a sentence for the user."""
+    """The server or the page did not get ready; the message says why."""
 
 
 def _free_port() -> int:

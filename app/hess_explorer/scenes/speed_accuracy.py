@@ -145,7 +145,7 @@ class Study(State):
         """The system, its parameters and the initial state."""
         motion, system = self.followed, self.followed.system
         yield f"System: {system.title}"
-        yield f"Equations: {', '.join(system.labels)}"
+        yield f"Equations: {system.source} ({', '.join(system.labels)} in the LaTeX source)"
         for name, value in zip(system.parameters, motion.parameters, strict=True):
             yield f"{name} = {digits(value, 6)}"
         for name, value in zip(system.variables, motion.state, strict=True):

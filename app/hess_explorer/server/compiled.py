@@ -6,7 +6,7 @@ import hashlib
 from pathlib import Path
 
 import hess_mechanics
-from hess_mechanics.numerics.jit import CACHE_FOLDER
+from hess_mechanics.numerics.jit import CACHE_FOLDER, source_hash
 
 __all__ = ["KEEPS_KERNELS", "all_compiled", "mark_all_compiled"]
 
@@ -15,7 +15,7 @@ KEEPS_KERNELS = CACHE_FOLDER is not None
 
 # Numba files kernels under the path of their source: a second copy of this version has to compile its own.
 _PLACE = hashlib.sha256(str(Path(hess_mechanics.__file__).parent).encode()).hexdigest()[:16]
-_MARK = None if CACHE_FOLDER is None else CACHE_FOLDER / f"complete-{_PLACE}"
+_MARK = None if CACHE_FOLDER is None else CACHE_FOLDER / f"complete-{_PLACE}-{source_hash()}"
 
 
 def all_compiled() -> bool:

@@ -16,7 +16,7 @@ from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import REFERENCE
 from hess_mechanics.numerics.results import Array, frozen
-from hess_mechanics.numerics.taylor import STEP_LIMIT_REACHED
+from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
 __all__ = ["Exponent", "largest_exponent"]
 

@@ -11,7 +11,7 @@ from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Level, Status
 from hess_mechanics.numerics.results import Array, Cost, Orbit, frozen
-from hess_mechanics.numerics.taylor import STEP_LIMIT_REACHED
+from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
 __all__ = ["MAX_SAMPLES", "MAX_STEPS", "checked_times", "drift_of", "require_finite_states", "solve", "status_of"]
 

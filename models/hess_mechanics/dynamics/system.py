@@ -1,56 +1,108 @@
 """What every system of equations offers, and the registry that finds them.
 
-A system is one module of this package with a `SYSTEM`.  Its field and integrals are written
-in plain arithmetic, so that floats, arrays, symbols and multiple-precision numbers all pass
-through them; its kernels are compiled from the same field as a `Quadratic`.
+A system is one module of this package with a `SYSTEM`.  Its field and integrals are written in plain arithmetic, so
+that floats, arrays, symbols and multiple-precision numbers all pass through them; its kernels are derived from the
+field.
 """
 
 from __future__ import annotations
 
 import importlib
 import pkgutil
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
+from threading import RLock
 from typing import Any
 
 import numpy as np
 
 from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.batch_kernels import ensemble_integrator, one_by_one
+from hess_mechanics.numerics.events_kernels import crossing_finder
+from hess_mechanics.numerics.jit import derived_kernel, inner
 from hess_mechanics.numerics.results import Array
+from hess_mechanics.numerics.taylor_kernels import orbit_integrator
+from hess_mechanics.numerics.tracing import Field, Recursion, trace
 
 __all__ = ["Problem", "System", "systems"]
+
+
+_DERIVING = RLock()
+"""Threads that want the same kernel get the same one: it is compiled once."""
 
 
 @dataclass(frozen=True)
 class System:
     """One system of differential equations ẏ = f(y, p).
 
-    name, title : identifier and words; labels : the paper's equations.
+    name, title : identifier and words.
+    source, labels : the paper's equations: as numbered in print, and their labels in its LaTeX source.
     variables, parameters : the names of the components of y and p.
-    field(y, p), integrals(y, p) : plain arithmetic on sequences.
+    field(y, p), integrals(y, p) : plain arithmetic on sequences; the field is traced, see `numerics.tracing`.
     frequency(y, p) : a bound ν on every |ω|, of y (d,) or (d, n); time is measured in 1/ν when integrating.
     rescale(y, p, ν) : states (d,) or (d, n) and parameters in units of time 1/ν.
-    unit(p) : what the leading variables, angular velocities or momenta, are divided by besides ν.
-    orbit, ensemble, cross : the compiled kernels, see `taylor.orbit_integrator`,
-        `lanes.ensemble_integrator`, `crossings.crossing_finder`.
     example : a state and parameters to try.
+    unit(p) : what the leading variables, angular velocities or momenta, are divided by besides ν.
+    tolerance(y, p, order, asked) : the tolerance for an orbit from y, where its series needs a smaller one than was
+        asked for.  It is compiled: numbers and arrays only.
     """
 
     name: str
     title: str
+    source: str
     labels: tuple[str, ...]
     variables: tuple[str, ...]
     parameters: tuple[str, ...]
-    field: Callable[[Sequence[Any], Sequence[Any]], tuple[Any, ...]]
+    field: Field
     integrals: Callable[[Sequence[Any], Sequence[Any]], Mapping[str, Any]]
     frequency: Callable[[Array, Array], Array | float]
     rescale: Callable[[Array, Array, float], tuple[Array, Array]]
-    orbit: Callable[..., int]
-    ensemble: Callable[..., int]
-    cross: Callable[..., tuple[int, int]]
     example: tuple[tuple[float, ...], tuple[float, ...]]
     unit: Callable[[Array], float] = lambda p: 1.0
+    tolerance: Callable[[Array, Array, int, float], float] | None = None
+
+    @cached_property
+    def recursion(self) -> Recursion:
+        """The Taylor recursion of the field.  Raises `NotTraceable`."""
+        return trace(self.field, len(self.variables), len(self.parameters))
+
+    @cached_property
+    def orbit(self) -> Callable[..., int]:
+        """The kernel of one orbit, see `taylor_kernels.orbit_integrator`."""
+        return self._kernel("orbit", "y, p, times, order, tolerance, max_steps, out", orbit_integrator)
+
+    @cached_property
+    def ensemble(self) -> Callable[..., int]:
+        """The kernel of many orbits, see `batch_kernels.ensemble_integrator`."""
+        if self.recursion.is_quadratic and self.tolerance is None:
+            return self._kernel("ensemble", "states, p, times, order, tolerance, max_steps, out", ensemble_integrator)
+        orbit = self.orbit
+        return self._kernel("ensemble", "states, p, times, order, tolerance, max_steps, out",
+                            lambda _: one_by_one(orbit), adjusts=False)
+
+    @cached_property
+    def cross(self) -> Callable[..., tuple[int, int]]:
+        """The kernel of the crossings of a plane by one orbit, see `events_kernels.crossing_finder`."""
+        return self._kernel("cross", "y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states",
+                            crossing_finder)
+
+    def _kernel(self, task: str, arguments: str, make: Callable[[Recursion], Callable[..., Any]],
+                adjusts: bool = True) -> Callable[..., Any]:
+        """The compiled `make(recursion)`; adjusts : whether it has to ask for the tolerance of its orbit."""
+        with _DERIVING:
+            name = f"{re.sub(r'[^0-9A-Za-z]', '_', self.name)}_{task}"
+            names = {"run": make(self.recursion)}
+            passed = arguments
+            if adjusts and self.tolerance is not None:
+                names["adjusted"] = inner(self.tolerance)
+                passed = arguments.replace("tolerance", "adjusted(y, p, order, tolerance)")
+            # The comment tells one system's file from another's, and whoever reads it what is computed.
+            derived = "".join(f"# {line}".rstrip() + "\n" for line in self.recursion.source.splitlines())
+            source = (f"# The {task} of the system {self.name!r}, derived from its field.  The Taylor recursion:\n#\n"
+                      f"{derived}\n\ndef {name}({arguments}):\n    return run({passed})\n")
+            return derived_kernel(name, source, self.field.__module__, **names)
 
     @property
     def angular_velocities(self) -> int:
@@ -98,8 +150,8 @@ class Problem:
             raise InvalidParameter("The motion is too fast for double precision: choose less extreme parameters.")
         scale = np.ones(len(system.variables))
         scale[: system.angular_velocities] = nu * system.unit(p)
-        states, parameters = system.rescale(given.T, p, nu)
-        return cls(np.ascontiguousarray(states.T), parameters, nu, scale)
+        scaled, p = system.rescale(given.T, p, nu)
+        return cls(np.ascontiguousarray(scaled.T), p, nu, scale)
 
     def times(self, t: Array) -> Array:
         """The times (m,) in units of 1/ν; ∞ where that leaves double range, which no budget of steps reaches."""

@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
-from hess_mechanics.euler_poisson.equations import QUADRATIC
-from hess_mechanics.numerics.events import Surface, crossing_finder
+from hess_mechanics.euler_poisson.equations import SYSTEM
+from hess_mechanics.numerics.events_kernels import Surface, crossing_finder
 from hess_mechanics.numerics.jit import kernel, part
 
 __all__ = ["cross"]
@@ -37,7 +37,7 @@ def _on_this_side(y, normal):
     return y[3] * y[1] - y[4] * y[0] > 0.0
 
 
-_cross = crossing_finder(QUADRATIC, Surface(_along, _height, _on_this_side, curved=True))
+_cross = crossing_finder(SYSTEM.recursion, Surface(_along, _height, _on_this_side, curved=True))
 
 
 @kernel

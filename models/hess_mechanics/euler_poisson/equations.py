@@ -15,11 +15,7 @@ import numpy as np
 
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite
-from hess_mechanics.numerics.batch import ensemble_integrator
-from hess_mechanics.numerics.events import crossing_finder
-from hess_mechanics.numerics.jit import inner, kernel
 from hess_mechanics.numerics.results import Array
-from hess_mechanics.numerics.taylor import Quadratic, orbit_integrator
 from hess_mechanics.rigid_body.inertia import BodyCheck, require_finite
 
 __all__ = ["SYSTEM", "HeavyBody"]
@@ -141,7 +137,8 @@ def frequency(y: Array, p: Array) -> Array | float:
     _require_positive(a.tolist())
     kinetic = (a[0] * y[0] ** 2 + a[1] * y[1] ** 2 + a[2] * y[2] ** 2) / 2
     strength = abs(p[6]) * math.hypot(*p[3:6]) * np.sqrt(y[3] ** 2 + y[4] ** 2 + y[5] ** 2)
-    return np.sqrt(2 * a.max() * (kinetic + 2 * strength))
+    nu: Array | float = np.sqrt(2 * a.max() * (kinetic + 2 * strength))
+    return nu
 
 
 def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:
@@ -159,49 +156,10 @@ def momentum_unit(p: Array) -> float:
     return 1.0 / float(p[:3].min())
 
 
-@inner
-def rates(y, q, p):
-    """`hh01` in terms of its products."""
-    _, _, _, g1, g2, g3 = y
-    a1, a2, a3, r1, r2, r3, mu = p
-    M2M3, M3M1, M1M2, g2M3, g3M2, g3M1, g1M3, g1M2, g2M1 = q
-    return (
-        (a3 - a2) * M2M3 + mu * (r2 * g3 - r3 * g2),
-        (a1 - a3) * M3M1 + mu * (r3 * g1 - r1 * g3),
-        (a2 - a1) * M1M2 + mu * (r1 * g2 - r2 * g1),
-        a3 * g2M3 - a2 * g3M2,
-        a1 * g3M1 - a3 * g1M3,
-        a2 * g1M2 - a1 * g2M1,
-    )
-
-
-QUADRATIC = Quadratic("M1 M2 M3 g1 g2 g3", "M2*M3 M3*M1 M1*M2 g2*M3 g3*M2 g3*M1 g1*M3 g1*M2 g2*M1", rates, parameters=7)
-_orbit = orbit_integrator(QUADRATIC)
-_ensemble = ensemble_integrator(QUADRATIC)
-_cross = crossing_finder(QUADRATIC)
-
-
-@kernel
-def orbit(y, p, times, order, tolerance, max_steps, out):
-    """One orbit of `hh01`, see `orbit_integrator`."""
-    return _orbit(y, p, times, order, tolerance, max_steps, out)
-
-
-@kernel
-def ensemble(states, p, times, order, tolerance, max_steps, out):
-    """Many orbits of `hh01`, see `ensemble_integrator`."""
-    return _ensemble(states, p, times, order, tolerance, max_steps, out)
-
-
-@kernel
-def cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states):
-    """Crossings of a plane by one orbit of `hh01`, see `crossing_finder`."""
-    return _cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states)
-
-
 SYSTEM = System(
     name="euler-poisson",
     title="Euler–Poisson equations",
+    source="appendix, equations (3.3), (3.4)",
     labels=("hh01", "hh001"),
     variables=("M1", "M2", "M3", "γ1", "γ2", "γ3"),
     parameters=("a1", "a2", "a3", "r1", "r2", "r3", "mu"),
@@ -210,8 +168,5 @@ SYSTEM = System(
     frequency=frequency,
     rescale=rescale,
     unit=momentum_unit,
-    orbit=orbit,
-    ensemble=ensemble,
-    cross=cross,
     example=((0.8, -0.4, 0.5, 0.36, 0.48, 0.8), (1.0, 1.25, 1.6, 0.3, -0.5, 1.0, 0.5)),
 )

@@ -28,8 +28,9 @@ from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array, frozen
-from hess_mechanics.rigid_body.attitude import HESS, Attitude, attitude
+from hess_mechanics.rigid_body.attitude import Attitude, attitude
 from hess_mechanics.rigid_body.inertia import require_finite
+from hess_mechanics.suslov_hess.equations import WITH_ATTITUDE
 
 __all__ = ["SETTLED", "LoxodromicMotion", "LoxodromicPendulum", "loxodromic_motion"]
 
@@ -91,7 +92,7 @@ class LoxodromicPendulum:
 
     @property
     def start(self) -> Array:
-        """The state of `attitude.HESS` with the centre of mass at its lowest point and e along M; shape (8,)."""
+        """The state of `WITH_ATTITUDE` with the centre of mass at its lowest point and e along M; shape (8,)."""
         s, c = math.cos(self.l), math.sin(self.l)
         w = math.sqrt(2.0 * (self.h + 1.0))
         return np.array([w * s, w * c, 0.0, 0.0, 1.0, -s, -c, 0.0])
@@ -174,7 +175,7 @@ def loxodromic_motion(pendulum: LoxodromicPendulum, span: float, level: Level) -
     """
     require_finite(span=span)
     radius = 0.5 * PIXELS
-    lying = attitude(HESS, pendulum.start, (pendulum.a, 1.0), pendulum.length(span), level,
+    lying = attitude(WITH_ATTITUDE, pendulum.start, (pendulum.a, 1.0), pendulum.length(span), level,
                      (0.0, 0.0, *(radius,) * 6), SAGITTA, _MOST)
     axes = lying.axes @ pendulum.principal
     axes[:, 2] = np.cross(axes[:, 0], axes[:, 1])

@@ -1,23 +1,27 @@
 """How kernels are compiled: one decorator, and a cache that cannot go stale.
 
-Numba looks only at the file of the compiled function when it decides whether its
-cache is still valid.  Our kernels are assembled from several files, so the cache
-folder is named by a hash of all of them (and of Numba's version): whatever changes,
-the old cache is simply not looked at.
+Numba looks only at the file of the compiled function when it decides whether its cache is still valid.  Our kernels are
+assembled from several files, so the cache folder of a kernel is named by a hash of its own subpackage, of those it
+imports, and of `numerics` and `dynamics`: whatever changes, the old cache is simply not looked at.  Comments and
+docstrings do not count.
 """
 
 from __future__ import annotations
 
+import ast
 import hashlib
+import json
 import os
+import stat
 import tempfile
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 import numba
 
-__all__ = ["CACHE_FOLDER", "inner", "kernel", "part"]
+__all__ = ["CACHE_FOLDER", "derived_kernel", "inner", "kernel", "part", "source_hash"]
 
 _OPTIONS: dict[str, Any] = {
     # NumPy's division lets LLVM vectorise; `contract` fuses a*b+c and nothing else, so
@@ -26,51 +30,211 @@ _OPTIONS: dict[str, Any] = {
     "fastmath": {"contract"},
     "nogil": True,
 }
+_INLINED = {**_OPTIONS, "forceinline": True}
+_ONLY_INLINED = {**_INLINED, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+
+_CONFIG: Any = numba.config
+
+_PACKAGE = Path(__file__).parents[1]
+_FOR_ALL = {"numerics", "dynamics"}
 
 
-def _source_hash() -> str:
+# ---- folders ----------------------------------------------------------------------------------------------------
+
+
+def _is_own(folder: Path) -> bool:
+    """Whether it is a folder of this user, now closed to all others."""
+    found = folder.lstat()
+    if not stat.S_ISDIR(found.st_mode):
+        return False
+    if hasattr(os, "getuid"):
+        if found.st_uid != os.getuid():
+            return False
+        # What others may have put there before is not trusted either.
+        if found.st_mode & 0o022:
+            return False
+        if found.st_mode & 0o055:
+            folder.chmod(0o700)
+    return True
+
+
+def _usable(folder: Path) -> bool:
+    """Whether compiled kernels can be kept in this folder, which is made where it is missing.
+
+    They are machine code that is run: a folder that belongs to somebody else, or that others may write to, is not used.
+    """
+    try:
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        folder.mkdir(mode=0o700, exist_ok=True)
+        if not _is_own(folder):
+            return False
+        with tempfile.TemporaryFile(dir=folder):
+            return True
+    except OSError:
+        return False
+
+
+def _cache_folder() -> Path | None:
+    """The first folder for compiled kernels that can be used, or None (then they are compiled in each process)."""
+    chosen = os.environ.get("NUMBA_CACHE_DIR") or os.environ.get("XDG_CACHE_HOME")
+    for base in filter(None, (chosen, "~/.cache")):
+        try:
+            folder = Path(base).expanduser() / "hess-explorer"
+        except RuntimeError:  # no home
+            continue
+        if _usable(folder):
+            return folder
+    # In a folder that all users share, under a name that nobody can guess and take first.
+    shared = Path(tempfile.gettempdir())
+    try:
+        earlier = sorted(shared.glob("hess-explorer-*"))
+        return next(filter(_usable, earlier), None) or Path(tempfile.mkdtemp(prefix="hess-explorer-"))
+    except OSError:
+        return None
+
+
+CACHE_FOLDER = _cache_folder()
+"""A folder of this user and nobody else, or None."""
+
+
+# ---- hashes -----------------------------------------------------------------------------------------------------
+
+
+def _read(path: Path) -> tuple[str, list[str]]:
+    """The hash of a file without comments and docstrings, and the parts of the package that it imports."""
+    tree = ast.parse(path.read_bytes())
+    imported = set()
+    for node in ast.walk(tree):
+        body = getattr(node, "body", None)
+        if isinstance(body, list):
+            node.body = [line for line in body if not _is_text(line)]  # type: ignore[attr-defined]
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith(f"{_PACKAGE.name}."):
+            imported.add((node.module or "").split(".")[1])
+    return hashlib.sha256(ast.dump(tree).encode()).hexdigest(), sorted(imported)
+
+
+def _is_text(line: Any) -> bool:
+    """Whether a statement is a docstring."""
+    return isinstance(line, ast.Expr) and isinstance(line.value, ast.Constant) and isinstance(line.value.value, str)
+
+
+@cache
+def _sources() -> dict[str, tuple[str, list[str]]]:
+    """`_read` of every file of the package, by its path there.
+
+    Reading takes a third of a second: the answers are kept, and a file is read again when its time or size differs.
+    """
+    memory = None if CACHE_FOLDER is None else (
+        CACHE_FOLDER / f"sources-{hashlib.sha256(str(_PACKAGE).encode()).hexdigest()[:16]}.json")
+    try:
+        known = json.loads(memory.read_text()) if memory is not None else {}
+    except (OSError, ValueError):
+        known = {}
+    found: dict[str, Any] = {}
+    for path in sorted(_PACKAGE.rglob("*.py")):
+        name, status = path.relative_to(_PACKAGE).as_posix(), path.stat()
+        mark = [status.st_mtime_ns, status.st_size]
+        found[name] = known[name] if name in known and known[name][0] == mark else [mark, *_read(path)]
+    if memory is not None and found != known:
+        _write(memory, json.dumps(found))
+    return {name: (digest, imported) for name, (_, digest, imported) in found.items()}
+
+
+def _write(path: Path, text: str) -> None:
+    """Write a file of the cache folder at once, so that no other process reads half of it."""
+    try:
+        with tempfile.NamedTemporaryFile("w", dir=path.parent, encoding="utf-8", delete=False) as file:
+            file.write(text)
+        Path(file.name).replace(path)
+    except OSError:
+        # Without it only more work is done.
+        pass
+
+
+@cache
+def source_hash(part: str | None = None) -> str:
+    """The hash of what kernels of this part of the package are made of; None: of any part."""
+    sources = _sources()
+    wanted, waiting = set(), [part, *_FOR_ALL] if part is not None else [name.split("/")[0] for name in sources]
+    while waiting:
+        one = waiting.pop()
+        if one not in wanted:
+            wanted.add(one)
+            waiting += [other for name, (_, imported) in sources.items() if _part_of(name) == one for other in imported]
     digest = hashlib.sha256(numba.__version__.encode())
-    for path in sorted(Path(__file__).parents[1].rglob("*.py")):
-        digest.update(path.read_bytes())
+    for name, (own, _) in sources.items():
+        if part is None or _part_of(name) in wanted:
+            digest.update(f"{name} {own}\n".encode())
     return digest.hexdigest()[:16]
 
 
-def _writable_cache_folder() -> Path | None:
-    """The first folder for compiled kernels that can be written, or None (then compile each time)."""
-    chosen = os.environ.get("NUMBA_CACHE_DIR") or os.environ.get("XDG_CACHE_HOME")
-    home = Path("~").expanduser() / ".cache"
-    for base in filter(None, (chosen, home, tempfile.gettempdir())):
-        folder = Path(base) / "hess-explorer" / _source_hash()
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-            with tempfile.TemporaryFile(dir=folder):
-                return folder
-        except OSError:
-            continue
-    return None
+def _part_of(name: str) -> str:
+    """The name "suslov" of "suslov/equations.py", "errors" of "errors.py"."""
+    return name.split("/", 1)[0].removesuffix(".py")
+
+
+# ---- compilation ------------------------------------------------------------------------------------------------
 
 
 # Numba leaves LLVM's packing of straight-line arithmetic into vectors off; here it is worth a quarter of the time.
-numba.config.SLP_VECTORIZE = 1
-
-CACHE_FOLDER = _writable_cache_folder()
-if CACHE_FOLDER is not None:
-    numba.config.CACHE_DIR = str(CACHE_FOLDER)
+_CONFIG.SLP_VECTORIZE = 1
 
 
-def kernel(function: Callable[..., Any]) -> Any:
+def _folder_for(module: str) -> Path | None:
+    """Where the kernels of a module are kept."""
+    if CACHE_FOLDER is None:
+        return None
+    package, _, inside = module.partition(".")
+    return CACHE_FOLDER / source_hash(_part_of(inside.replace(".", "/")) if package == _PACKAGE.name else "numerics")
+
+
+def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
     """Compile an entry point: machine code is kept on disk and the GIL is released."""
-    return numba.njit(cache=CACHE_FOLDER is not None, **_OPTIONS)(function)
+    folder = _folder_for(function.__module__)
+    if folder is None:
+        return _compiled(function, _OPTIONS)
+    # Numba asks for the folder when it is told to cache, here and now.
+    before, _CONFIG.CACHE_DIR = _CONFIG.CACHE_DIR, str(folder)
+    try:
+        return _compiled(function, {**_OPTIONS, "cache": True})
+    finally:
+        _CONFIG.CACHE_DIR = before
 
 
-def inner(function: Callable[..., Any]) -> Any:
+def derived_kernel(name: str, source: str, module: str, **names: Any) -> Callable[..., Any]:
+    """`kernel` of the function of this name in derived source, which may call what `names` holds.
+
+    module : the importable module whose kernel it is.  Numba caches only what stands in a file: the source is written
+    to the cache folder, under a name of its own for each text.
+    """
+    folder = _folder_for(module)
+    file = f"{name}.py"
+    if folder is not None:
+        path = folder / f"{name}-{hashlib.sha256(source.encode()).hexdigest()[:16]}.py"
+        file = str(path)
+        if not (path.exists() and path.read_text(encoding="utf-8") == source):
+            folder.mkdir(mode=0o700, exist_ok=True)
+            _write(path, source)
+    namespace: dict[str, Any] = {"__name__": module, **names}
+    exec(compile(source, file, "exec"), namespace)
+    # Where the file could not be written there is nothing to cache.
+    return kernel(namespace[name]) if Path(file).exists() else _compiled(namespace[name], _OPTIONS)
+
+
+def inner(function: Callable[..., Any]) -> Callable[..., Any]:
     """Compile a building block; its machine code is kept as part of the kernels that call it."""
-    return numba.njit(forceinline=True, **_OPTIONS)(function)
+    return _compiled(function, _INLINED)
 
 
-def part(function: Callable[..., Any]) -> Any:
+def part(function: Callable[..., Any]) -> Callable[..., Any]:
     """As `inner`, for closures and generated functions, which only kernels call.
 
     It has no entry for Python, where a call would end the process, and is compiled a tenth sooner for that.
     """
-    return numba.njit(forceinline=True, no_cpython_wrapper=True, no_cfunc_wrapper=True, **_OPTIONS)(function)
+    return _compiled(function, _ONLY_INLINED)
+
+
+def _compiled(function: Callable[..., Any], options: dict[str, Any]) -> Callable[..., Any]:
+    jit: Any = numba.njit
+    dispatcher: Callable[..., Any] = jit(**options)(function)
+    return dispatcher

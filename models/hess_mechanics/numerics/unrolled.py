@@ -6,30 +6,39 @@ Numba's loops over tuples hide them.  So the few loops that matter are written o
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import cache
+from types import FunctionType
 from typing import Any
 
 from hess_mechanics.numerics.jit import part
 
-__all__ = ["compiled", "evaluation"]
+__all__ = ["compiled", "evaluation", "items"]
 
 
-def compiled(source: str, **names: Callable[..., Any]) -> Callable[..., Any]:
-    """The compiled function of that name, `function`, in this source, which may call what `names` holds."""
+def compiled(source: str, **names: Callable[..., Any]) -> dict[str, Callable[..., Any]]:
+    """The functions of this source by name, compiled; they may call each other and what `names` holds."""
     namespace: dict[str, Any] = dict(names)
     exec(source, namespace)
-    return part(namespace["function"])
+    found = {name: part(value) for name, value in namespace.items() if isinstance(value, FunctionType)
+             and name not in names}
+    namespace.update(found)
+    return found
+
+
+def items(texts: Iterable[str]) -> str:
+    """What stands between the parentheses of a tuple."""
+    return "".join(f"{text}, " for text in texts).rstrip()
 
 
 @cache
 def evaluation(count: int) -> Callable[..., Any]:
     """The function of (c, s, increments) that sets increments[i] = Σ_{k≥1} c[k, i] s^k for i = 0 … count−1."""
-    items = range(count)
+    each = range(count)
     return compiled(f"""
-def function(c, s, increments):
-    {" = ".join(f"a{i}" for i in items)} = 0.0
+def evaluate(c, s, increments):
+    {" = ".join(f"a{i}" for i in each)} = 0.0
     for k in range(c.shape[0] - 1, 0, -1):
-        {"; ".join(f"a{i} = (a{i} + c[k, {i}]) * s" for i in items)}
-    {"; ".join(f"increments[{i}] = a{i}" for i in items)}
-""")
+        {"; ".join(f"a{i} = (a{i} + c[k, {i}]) * s" for i in each)}
+    {"; ".join(f"increments[{i}] = a{i}" for i in each)}
+""")["evaluate"]

@@ -6,7 +6,7 @@ three variables are the vertical γ is called a second time with e in the place 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -15,50 +15,17 @@ import numpy as np
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.sampling import sample_times
 from hess_mechanics.dynamics.system import System
-from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Level
-from hess_mechanics.numerics.jit import kernel
 from hess_mechanics.numerics.results import Array, Orbit, frozen
-from hess_mechanics.numerics.taylor import Quadratic, orbit_integrator
-from hess_mechanics.numerics.unrolled import compiled
-from hess_mechanics.suslov_hess import equations as hess
 
-__all__ = ["HESS", "Attitude", "across", "attitude", "with_attitude"]
+__all__ = ["Attitude", "across", "attitude", "with_attitude"]
 
 
-def with_attitude(field: Quadratic) -> Quadratic:
-    """The field with the variables e1, e2, e3 behind its own, the last three of which are the vertical.
+def with_attitude(system: System) -> System:
+    """The system with e1, e2, e3 behind its own variables, the last three of which are the vertical γ.
 
-    Raises `InvalidParameter` for a field with auxiliary series, whose stages would have to be told of e.
+    Among its integrals are e² = 1 and (e, γ) = 0.
     """
-    if field.stages or field.constants:
-        raise InvalidParameter("The attitude can be followed for fields that need no auxiliary series.")
-    names, products = field.variables.split(), field.products.split()
-    n, m = len(names), len(products)
-    instead = dict(zip(names[-3:], ("e1", "e2", "e3"), strict=True))
-    turned = ["*".join(instead.get(name, name) for name in product.split("*")) for product in products]
-    added = [product for product in turned if product not in products]
-    places = [(products + added).index(product) for product in turned]
-    rates = compiled(f"""
-def function(y, q, p):
-    r = rates(({_items("y", range(n))}), ({_items("q", range(m))}), p)
-    s = rates(({_items("y", [*range(n - 3), *range(n, n + 3)])}), ({_items("q", places)}), p)
-    return ({_items("r", range(n))} s[{n - 3}], s[{n - 2}], s[{n - 1}])
-""", rates=field.rates)
-    return Quadratic(" ".join([*names, "e1", "e2", "e3"]), " ".join(products + added), rates, field.parameters)
-
-
-def _items(name: str, places: Sequence[int]) -> str:
-    return " ".join(f"{name}[{i}]," for i in places)
-
-
-def _only_one_orbit(*arguments: Any) -> Any:
-    # A programmer's mistake: no scene draws the attitudes of many, and kernels for them would take long to compile.
-    raise NotImplementedError("attitudes are followed along one orbit at a time")
-
-
-def _extended(system: System, orbit: Callable[..., int]) -> System:
-    """The system of `with_attitude`, with the kernel of its orbits; among its integrals e² = 1 and (e, γ) = 0."""
     n = len(system.variables)
 
     def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
@@ -80,8 +47,7 @@ def _extended(system: System, orbit: Callable[..., int]) -> System:
     return replace(
         system, name=f"{system.name}-attitude", title=f"{system.title}, with the attitude",
         variables=(*system.variables, "e1", "e2", "e3"), field=field, integrals=integrals, frequency=frequency,
-        rescale=rescale, orbit=orbit, ensemble=_only_one_orbit, cross=_only_one_orbit,
-        example=((*state, *across(state[-3:])), p))
+        rescale=rescale, example=((*state, *across(state[-3:])), p))
 
 
 def across(vertical: Sequence[float] | Array) -> Array:
@@ -91,19 +57,6 @@ def across(vertical: Sequence[float] | Array) -> Array:
     e[np.argmin(np.abs(g))] = 1.0
     e -= g * (g @ e) / (g @ g)
     return e / np.linalg.norm(e)
-
-
-_hess = orbit_integrator(with_attitude(hess.QUADRATIC))
-
-
-@kernel
-def _hess_orbit(y, p, times, order, tolerance, max_steps, out):
-    """One orbit of `eq01` with the attitude, see `orbit_integrator`."""
-    return _hess(y, p, times, order, tolerance, max_steps, out)
-
-
-HESS = _extended(hess.SYSTEM, _hess_orbit)
-"""`eq01`, ω = (w1, w2, −a w2), with e: state (w1, w2, n1, n2, n3, e1, e2, e3)."""
 
 
 @dataclass(frozen=True)
@@ -121,7 +74,7 @@ class Attitude:
 
     def in_space(self, vector: Sequence[float] | Array) -> Array:
         """The components along γ, e, γ × e of a direction of the body: (3,), or one for each time (n, 3) → (n, 3)."""
-        return np.einsum("nij,nj->ni", self.axes, np.broadcast_to(vector, self.axes.shape[:2]))
+        return np.asarray(np.einsum("nij,nj->ni", self.axes, np.broadcast_to(vector, self.axes.shape[:2])))
 
 
 def attitude(system: System, start: Sequence[float] | Array, parameters: Sequence[float], span: float, level: Level,

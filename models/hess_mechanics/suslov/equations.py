@@ -15,11 +15,7 @@ import numpy as np
 
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.numerics.batch import ensemble_integrator
-from hess_mechanics.numerics.events import crossing_finder
-from hess_mechanics.numerics.jit import inner, kernel
 from hess_mechanics.numerics.results import Array
-from hess_mechanics.numerics.taylor import Quadratic, orbit_integrator
 from hess_mechanics.rigid_body.inertia import require_finite, require_positive_definite
 
 __all__ = ["SYSTEM", "SuslovBody", "unit_vector"]
@@ -96,7 +92,8 @@ def frequency(y: Array, p: Array) -> Array | float:
         raise InvalidParameter(f"The moments I11 and I22 are too different: choose a ratio below {_MAX_RATIO:g}.")
     field_strength = math.hypot(*p[4:7]) * np.sqrt(y[2] ** 2 + y[3] ** 2 + y[4] ** 2)
     kinetic_now = (I11 * y[0] ** 2 + I22 * y[1] ** 2) / 2
-    return np.sqrt(2 * (kinetic_now + 2 * field_strength) / min(I11, I22))
+    nu: Array | float = np.sqrt(2 * (kinetic_now + 2 * field_strength) / min(I11, I22))
+    return nu
 
 
 def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:
@@ -107,50 +104,10 @@ def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:
     return y, p
 
 
-@inner
-def rates(y, q, p):
-    """`Biz131` in terms of its products."""
-    _, _, g1, g2, g3 = y
-    I11, I22, I13, I23, b1, b2, b3 = p
-    w1w2, w2w2, w1w1, g3w2, g3w1, g1w2, g2w1 = q
-    return (
-        (b3 * g2 - b2 * g3 - I13 * w1w2 - I23 * w2w2) * (1.0 / I11),
-        (b1 * g3 - b3 * g1 + I13 * w1w1 + I23 * w1w2) * (1.0 / I22),
-        -g3w2,
-        g3w1,
-        g1w2 - g2w1,
-    )
-
-
-QUADRATIC = Quadratic("w1 w2 g1 g2 g3", "w1*w2 w2*w2 w1*w1 g3*w2 g3*w1 g1*w2 g2*w1", rates, parameters=7)
-_orbit = orbit_integrator(QUADRATIC)
-_ensemble = ensemble_integrator(QUADRATIC)
-_cross = crossing_finder(QUADRATIC)
-
-
-@kernel
-def orbit(y, p, times, order, tolerance, max_steps, out):
-    """One orbit of `Biz131`, see `orbit_integrator`."""
-    return _orbit(y, p, times, order, tolerance, max_steps, out)
-
-
-
-@kernel
-def ensemble(states, p, times, order, tolerance, max_steps, out):
-    """Many orbits of `Biz131`, see `ensemble_integrator`."""
-    return _ensemble(states, p, times, order, tolerance, max_steps, out)
-
-
-
-@kernel
-def cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states):
-    """Crossings of a plane by one orbit of `Biz131`, see `crossing_finder`."""
-    return _cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states)
-
-
 SYSTEM = System(
     name="suslov",
     title="Suslov problem with gravity",
+    source="section 2, equations (2.4), (2.5)",
     labels=("Biz131", "Biz11"),
     variables=("ω1", "ω2", "γ1", "γ2", "γ3"),
     parameters=("I11", "I22", "I13", "I23", "b1", "b2", "b3"),
@@ -158,9 +115,6 @@ SYSTEM = System(
     integrals=integrals,
     frequency=frequency,
     rescale=rescale,
-    orbit=orbit,
-    ensemble=ensemble,
-    cross=cross,
     example=((0.8, -0.4, 0.6, 0.0, 0.8), (2.0, 1.0, 0.3, 0.5, 0.3, -0.5, 1.0)),
 )
 

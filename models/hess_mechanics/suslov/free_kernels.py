@@ -3,35 +3,36 @@
 
 from __future__ import annotations
 
-from hess_mechanics.numerics.jit import inner, kernel
-from hess_mechanics.numerics.taylor import Quadratic, orbit_integrator
+from collections.abc import Sequence
+from typing import Any
 
-__all__ = ["QUADRATIC", "integrate"]
+from hess_mechanics.numerics.jit import kernel
+from hess_mechanics.numerics.taylor_kernels import orbit_integrator
+from hess_mechanics.numerics.tracing import trace
+
+__all__ = ["field", "integrate"]
 
 
-@inner
-def rates(y, q, p):
-    """The equations of the module's docstring: T = tanh u, S = sech u, V = v1 + i v2, A = a1 + i a2, B = b1 + i b2."""
+def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
+    """The equations of `free` in u: V = v1 + i v2, A = a1 + i a2, B = b1 + i b2.
+
+    T = tanh u, S = sech u; p = (K, σc).
+    """
+    T, S, v1, v2, a1, a2, b1, b2 = y
     K, c = p
-    SS, ST, Tv1, Tv2, Sv1, Sv2, v1b1, v2b2, v1b2, v2b1, v1a1, v2a2, v1a2, v2a1 = q
     return (
-        SS,
-        -ST,
-        K * Tv2 - c * Sv2 - Tv1,
-        c * Sv1 - K * Tv1 - Tv2,
-        0.5 * (v1b2 + v2b1),
-        0.5 * (v2b2 - v1b1),
-        0.5 * (v1a2 - v2a1),
-        -0.5 * (v1a1 + v2a2),
+        S**2,
+        -S * T,
+        K * T * v2 - c * S * v2 - T * v1,
+        c * S * v1 - K * T * v1 - T * v2,
+        (v1 * b2 + v2 * b1) / 2,
+        (v2 * b2 - v1 * b1) / 2,
+        (v1 * a2 - v2 * a1) / 2,
+        -(v1 * a1 + v2 * a2) / 2,
     )
 
 
-QUADRATIC = Quadratic(
-    "T S v1 v2 a1 a2 b1 b2", "S*S S*T T*v1 T*v2 S*v1 S*v2 v1*b1 v2*b2 v1*b2 v2*b1 v1*a1 v2*a2 v1*a2 v2*a1",
-    rates, parameters=2,
-)
-
-_orbit = orbit_integrator(QUADRATIC)
+_orbit = orbit_integrator(trace(field, variables=8, parameters=2))
 
 
 @kernel

@@ -4,47 +4,37 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
-from hess_mechanics.numerics.jit import inner, kernel, part
-from hess_mechanics.numerics.taylor import Quadratic, columns_of, convolution, expansion, step_of, workspace
+from hess_mechanics.numerics.jit import kernel, part
+from hess_mechanics.numerics.taylor_kernels import columns_of, expansion, step_of, workspace
+from hess_mechanics.numerics.tracing import trace
 from hess_mechanics.numerics.unrolled import evaluation
+from hess_mechanics.suslov_hess import equations
 from hess_mechanics.suslov_hess.bifurcation_kernels import period_from_gaps, roots
 
-__all__ = ["QUADRATIC", "images", "matrices_into", "monodromy", "theta_of"]
+__all__ = ["field", "images", "matrices_into", "monodromy", "theta_of"]
 
 
-@inner
-def rates(y, q, p):
-    """`eq01` at a = 0 with A = a1 + i a2 and B = b1 + i b2, in terms of their products."""
-    _, _, n1, n2, _, _, _, _, _ = y
+def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
+    """`eq01` at a = 0 and the linear system of `circle_map`; A = a1 + i a2, B = b1 + i b2, p = (a/2, b)."""
+    w1, w2, _, _, _, a1, a2, b1, b2 = y
     half_a, b = p
-    n3w2, w1n3, n1w2, n2w1, w2b2, w1b1, w2b1, w1b2, w2a2, w1a1, w2a1, w1a2 = q
     return (
-        -b * n2,
-        b * n1,
-        -n3w2,
-        w1n3,
-        n1w2 - n2w1,
+        *equations.field(y[:5], (0, b)),
         # conj(W B) = re − i im with W = w2 + i w1; −i(re − i im) = −im − i re.
-        -half_a * (w2b2 + w1b1),
-        -half_a * (w2b1 - w1b2),
-        -half_a * (w2a2 + w1a1),
-        -half_a * (w2a1 - w1a2),
+        -half_a * (w2 * b2 + w1 * b1),
+        -half_a * (w2 * b1 - w1 * b2),
+        -half_a * (w2 * a2 + w1 * a1),
+        -half_a * (w2 * a1 - w1 * a2),
     )
 
 
-QUADRATIC = Quadratic(
-    "w1 w2 n1 n2 n3 a1 a2 b1 b2",
-    "n3*w2 w1*n3 n1*w2 n2*w1 w2*b2 w1*b1 w2*b1 w1*b2 w2*a2 w1*a1 w2*a1 w1*a2",
-    rates, parameters=2,
-)
-
-_columns = columns_of(QUADRATIC)
-
-_expand, _convolve = expansion(QUADRATIC), convolution(QUADRATIC)
-
+_recursion = trace(field, variables=9, parameters=2)
+_columns, _expand = columns_of(_recursion), expansion(_recursion)
 _evaluate = evaluation(9)
 
 
@@ -69,7 +59,7 @@ def monodromy(h, f, a, order, tolerance, max_steps):
     arg_A = 0.0
     steps = 0
     while left > 0.0:
-        _expand(c, left_factors, right_factors, inverses, p, rates, _convolve)
+        _expand(c, left_factors, right_factors, inverses, p)
         s = step_of(c, 9, tolerance)
         if not s > 0.0 or steps >= max_steps:
             return 0.0, 0.0, 0.0, 0.0, 0.0, -1.0

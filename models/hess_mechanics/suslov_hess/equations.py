@@ -17,15 +17,12 @@ import numpy as np
 
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, NoField
-from hess_mechanics.numerics.batch import ensemble_integrator
-from hess_mechanics.numerics.events import crossing_finder
-from hess_mechanics.numerics.jit import inner, kernel
 from hess_mechanics.numerics.results import Array
-from hess_mechanics.numerics.taylor import Quadratic, orbit_integrator
+from hess_mechanics.rigid_body.attitude import with_attitude
 from hess_mechanics.rigid_body.inertia import BodyCheck, body_check, require_finite, require_positive_definite
 from hess_mechanics.suslov.equations import SuslovBody
 
-__all__ = ["SYSTEM", "HessBody"]
+__all__ = ["SYSTEM", "WITH_ATTITUDE", "HessBody"]
 
 
 @dataclass(frozen=True)
@@ -91,7 +88,7 @@ class HessBody:
     def tensor(self, I33: float) -> Array:
         """The inertia tensor (3, 3) with this I33, in the axes of (n1, n2, n3)."""
         tensor = np.array([[self.I11, 0.0, 0.0], [0.0, self.I22, self.I23], [0.0, self.I23, I33]])
-        return self.turn @ tensor @ self.turn.T
+        return np.asarray(self.turn @ tensor @ self.turn.T)
 
     @property
     def turn(self) -> Array:
@@ -122,13 +119,13 @@ class HessBody:
         """Reduced states (..., 5) with this b → with b = 1.  For b < 0 the vertical is reversed too, n → −n."""
         nu = self.frequency_unit
         sign = math.copysign(1.0, self.b)
-        return np.asarray(reduced, float) * np.array([1 / nu, 1 / nu, sign, sign, sign])
+        return np.multiply(reduced, [1 / nu, 1 / nu, sign, sign, sign])
 
     def from_units_of_b(self, reduced: Array) -> Array:
         """The inverse of `in_units_of_b`."""
         nu = self.frequency_unit
         sign = math.copysign(1.0, self.b)
-        return np.asarray(reduced, float) * np.array([nu, nu, sign, sign, sign])
+        return np.multiply(reduced, [nu, nu, sign, sign, sign])
 
 
 def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
@@ -157,7 +154,8 @@ def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
 
 def frequency(y: Array, p: Array) -> Array | float:
     """ν = √(w² + 4|b||n|) of a state (5,) or many (5, n): no |w| of the motion exceeds it."""
-    return np.sqrt(y[0] ** 2 + y[1] ** 2 + 4 * abs(p[1]) * np.sqrt(y[2] ** 2 + y[3] ** 2 + y[4] ** 2))
+    nu: Array | float = np.sqrt(y[0] ** 2 + y[1] ** 2 + 4 * abs(p[1]) * np.sqrt(y[2] ** 2 + y[3] ** 2 + y[4] ** 2))
+    return nu
 
 
 def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:
@@ -168,49 +166,10 @@ def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:
     return y, p
 
 
-@inner
-def rates(y, q, p):
-    """`eq01` in terms of its products."""
-    _, _, n1, n2, _ = y
-    a, b = p
-    w2w2, w1w2, n2w2, n3w2, n1w2, w1n3, n2w1 = q
-    return (
-        -b * n2 - a * w2w2,
-        b * n1 + a * w1w2,
-        -n3w2 - a * n2w2,
-        w1n3 + a * n1w2,
-        n1w2 - n2w1,
-    )
-
-
-QUADRATIC = Quadratic("w1 w2 n1 n2 n3", "w2*w2 w1*w2 n2*w2 n3*w2 n1*w2 w1*n3 n2*w1", rates, parameters=2)
-_orbit = orbit_integrator(QUADRATIC)
-_ensemble = ensemble_integrator(QUADRATIC)
-_cross = crossing_finder(QUADRATIC)
-
-
-@kernel
-def orbit(y, p, times, order, tolerance, max_steps, out):
-    """One orbit of `eq01`, see `orbit_integrator`."""
-    return _orbit(y, p, times, order, tolerance, max_steps, out)
-
-
-
-@kernel
-def ensemble(states, p, times, order, tolerance, max_steps, out):
-    """Many orbits of `eq01`, see `ensemble_integrator`."""
-    return _ensemble(states, p, times, order, tolerance, max_steps, out)
-
-
-@kernel
-def cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states):
-    """Crossings of a plane by one orbit of `eq01`, see `crossing_finder`."""
-    return _cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states)
-
-
 SYSTEM = System(
     name="hess",
     title="Suslov–Hess case, reduced",
+    source="section 2, equations (2.18), (2.19)",
     labels=("eq01", "eq03"),
     variables=("w1", "w2", "n1", "n2", "n3"),
     parameters=("a", "b"),
@@ -218,8 +177,8 @@ SYSTEM = System(
     integrals=integrals,
     frequency=frequency,
     rescale=rescale,
-    orbit=orbit,
-    ensemble=ensemble,
-    cross=cross,
     example=((0.3, 0.9, 0.6, 0.0, 0.8), (0.75, 1.0)),
 )
+
+WITH_ATTITUDE = with_attitude(SYSTEM)
+"""`eq01`, ω = (w1, w2, −a w2), with e: state (w1, w2, n1, n2, n3, e1, e2, e3)."""

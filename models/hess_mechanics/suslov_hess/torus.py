@@ -15,11 +15,11 @@ from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA, sample_times
 from hess_mechanics.errors import Separatrix
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array, Orbit, frozen
-from hess_mechanics.rigid_body.attitude import HESS, Attitude, attitude
+from hess_mechanics.rigid_body.attitude import Attitude, attitude
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, turning_points
 from hess_mechanics.suslov_hess.circle_map import FixedPoint
-from hess_mechanics.suslov_hess.equations import SYSTEM, HessBody
+from hess_mechanics.suslov_hess.equations import SYSTEM, WITH_ATTITUDE, HessBody
 
 __all__ = [
     "Track", "annulus", "attitude_of_track", "cycles", "pixels_per_unit", "start_of_track", "track",
@@ -106,7 +106,7 @@ def attitude_of_track(body: HessBody, h: float, f: float, phi0: float, span: flo
     start, length = start_of_track(body, h, f, phi0, span)
     e = (math.cos(phi0), -math.sin(phi0), 0.0)
     weights = (0.0, 0.0, *(0.5 * PIXELS,) * 6)
-    return attitude(HESS, [*start, *e], (body.a, 1.0), length, level, weights, SAGITTA, _MOST)
+    return attitude(WITH_ATTITUDE, [*start, *e], (body.a, 1.0), length, level, weights, SAGITTA, _MOST)
 
 
 def _times(body: HessBody, start: Array, length: float, half_width: float) -> Array:

@@ -11,8 +11,8 @@ from hess_mechanics import LEVELS, Level, Status, ensemble, level, solve, system
 from hess_mechanics.dynamics.ensemble import MAX_NUMBERS
 from hess_mechanics.dynamics.orbit import MAX_SAMPLES
 from hess_mechanics.errors import InvalidParameter, ModelError, NotPositiveDefinite, WorkLimit
-from hess_mechanics.numerics.batch import LANES
-from hess_mechanics.numerics.taylor import STEP_LIMIT_REACHED
+from hess_mechanics.numerics.batch_kernels import LANES
+from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 from support.mechanics import REFERENCE, numbers
 
 SYSTEMS = systems()

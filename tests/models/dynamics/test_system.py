@@ -18,7 +18,7 @@ from hess_mechanics import SuslovBody, level, solve, systems, unit_vector
 from hess_mechanics.dynamics.orbit import MAX_SAMPLES
 from hess_mechanics.errors import InvalidParameter, ModelError, NotPositiveDefinite, WorkLimit
 from hess_mechanics.numerics.accuracy import LEVELS, Level, Status
-from hess_mechanics.numerics.taylor import columns_of, compensated, convolution, expansion, workspace
+from hess_mechanics.numerics.taylor_kernels import columns_of, compensated, workspace
 from support.mechanics import PROPERTY, ROOT
 
 SYSTEMS = systems()
@@ -42,10 +42,10 @@ def module_of(system):
 
 
 def taylor_by_kernel(system, y, p, order):
-    field = oracle.uncompiled(module_of(system).QUADRATIC)
-    c, left, right, inverses = workspace.py_func(order, len(y), columns_of(field))
+    expand = oracle.uncompiled(system.recursion)["expand"]
+    c, left, right, inverses = workspace.py_func(order, len(y), columns_of(system.recursion))
     c[0, : len(y)] = y
-    expansion(field).py_func(c, left, right, inverses, p, field.rates, convolution(field).py_func)
+    expand(c, left, right, inverses, p)
     return c[:, : len(y)].T
 
 
@@ -69,6 +69,7 @@ def test_names_and_shapes_fit_together(system):
     assert module_of(system).SYSTEM is system
     assert SYSTEMS[system.name] is system
     assert system.title
+    assert system.source
     assert system.labels
     state, parameters = system.example
     assert len(state) == len(system.variables) == len(set(system.variables))

@@ -1,14 +1,12 @@
 """Orders of convergence, measured as slopes."""
 
-import sys
-
 import mpmath
 import numpy as np
 import pytest
 
 from hess_mechanics import level, solve, systems
-from hess_mechanics.numerics import taylor
 from hess_mechanics.numerics.accuracy import LEVELS
+from hess_mechanics.numerics.taylor_kernels import columns_of
 from hess_mechanics.numerics.unrolled import evaluation
 from oracle import uncompiled
 
@@ -36,15 +34,14 @@ def truth(request):
 @pytest.mark.parametrize("order", ORDERS)
 def test_the_local_error_of_one_step_has_the_order_of_the_series(truth, order):
     system, state, parameters, exact = truth
-    field = uncompiled(sys.modules[system.field.__module__].QUADRATIC)
+    expand = uncompiled(system.recursion)["expand"]
     # In multiple precision, so that round-off does not end the slope: the same source, uncompiled.
     with mpmath.workdps(75):
         c, left, right = (np.full((order + 1, columns), mpmath.mpf(0))
-                          for columns in (len(state), *[taylor.columns_of(field)] * 2))
+                          for columns in (len(state), *[columns_of(system.recursion)] * 2))
         inverses = np.array([1 / mpmath.mpf(k + 1) for k in range(order)])
         c[0] = state
-        taylor.expansion(field).py_func(
-            c, left, right, inverses, parameters, field.rates, taylor.convolution(field).py_func)
+        expand(c, left, right, inverses, parameters)
         errors = []
         for h in STEPS:
             increments = [0] * len(state)

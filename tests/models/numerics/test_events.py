@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from numpy.polynomial import Polynomial, chebyshev
 from scipy.optimize import brentq
 
-from hess_mechanics.numerics import events as crossings
-from hess_mechanics.numerics.events import largest_bend, root_between, value_and_slope
+from hess_mechanics.numerics import events_kernels as crossings
+from hess_mechanics.numerics.events_kernels import largest_bend, root_between, value_and_slope
 from support.mechanics import PROPERTY
 
 EPS = np.finfo(float).eps

@@ -12,19 +12,20 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from hess_mechanics import level
+from hess_mechanics import ensemble, level, solve
 from hess_mechanics.chaplygin_ball import equations as chaplygin_ball
 from hess_mechanics.errors import InvalidParameter, ModelError, NotPositiveDefinite, OutsideRegion
 from hess_mechanics.euler_poisson import equations as euler_poisson
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.loxodromic_pendulum import LoxodromicPendulum, loxodromic_motion
 from hess_mechanics.numerics.accuracy import LEVELS
-from hess_mechanics.rigid_body import attitude as lying
-from hess_mechanics.rigid_body.attitude import HESS, across, attitude, with_attitude
+from hess_mechanics.numerics.taylor_kernels import columns_of, workspace
+from hess_mechanics.rigid_body.attitude import across, attitude, with_attitude
 from hess_mechanics.suslov import equations as suslov
 from hess_mechanics.suslov_hess import equations as hess
-from hess_mechanics.suslov_hess.equations import HessBody
+from hess_mechanics.suslov_hess.equations import WITH_ATTITUDE, HessBody
 from hess_mechanics.suslov_hess.torus import attitude_of_track, track
+from oracle import uncompiled
 from support.loxodrome import swing_at
 
 WEIGHTS = (0.0, 0.0, *(300.0,) * 6)
@@ -33,7 +34,7 @@ P = (0.75, 1.0)
 
 
 def followed(start, p, span, name, most=400):
-    return attitude(HESS, [*start, *across(start[2:])], p, span, level(name), WEIGHTS, 0.25, most)
+    return attitude(WITH_ATTITUDE, [*start, *across(start[2:])], p, span, level(name), WEIGHTS, 0.25, most)
 
 
 def turned(velocity, field, start, times):
@@ -79,8 +80,8 @@ def test_how_far_it_was_from_orthonormal_is_said():
 def test_a_steady_rotation_turns_by_its_angle():
     # a = b = 0: ω = (w1, w2, 0) stays.
     w = np.array([0.6, -0.8, 0.0]) * 1.7
-    found = attitude(HESS, [w[0], w[1], 0.0, 0.0, 1.0, 1.0, 0.0, 0.0], (0.0, 0.0), 20.0, level("reference"), WEIGHTS,
-                     0.25, 200)
+    found = attitude(WITH_ATTITUDE, [w[0], w[1], 0.0, 0.0, 1.0, 1.0, 0.0, 0.0], (0.0, 0.0), 20.0, level("reference"),
+                     WEIGHTS, 0.25, 200)
     turn = Rotation.from_rotvec(found.times[:, None] * w).as_matrix()
     assert np.max(np.abs(found.axes - found.axes[0] @ turn)) < 1e-14
     # What is fixed in the body is seen in space where the rotation has brought it.
@@ -88,34 +89,56 @@ def test_a_steady_rotation_turns_by_its_angle():
     assert found.in_space(body) == pytest.approx((turn @ body) @ found.axes[0].T, abs=1e-14)
 
 
-@pytest.mark.parametrize(("module", "parameters", "omega"), [
-    (hess, (0.7, 1.3), lambda y: (y[0], y[1], -0.7 * y[1])),
-    (suslov, (1.4, 0.8, 0.1, 0.3, 0.2, -0.5, 0.7), lambda y: (y[0], y[1], 0.0)),
-    (euler_poisson, (1.0, 1.6, 8 / 3, 0.6, 0.0, 0.8, 0.5), lambda y: (y[0], 1.6 * y[1], 8 / 3 * y[2])),
-], ids=["hess", "suslov", "euler-poisson"])
-def test_every_quadratic_field_can_follow_another_direction(module, parameters, omega):
-    field = with_attitude(module.QUADRATIC)
-    n = module.QUADRATIC.dimension
+FIELDS = {
+    "hess": (hess.SYSTEM, (0.7, 1.3), lambda y: (y[0], y[1], -0.7 * y[1])),
+    "suslov": (suslov.SYSTEM, (1.4, 0.8, 0.1, 0.3, 0.2, -0.5, 0.7), lambda y: (y[0], y[1], 0.0)),
+    "ball": (chaplygin_ball.SYSTEM, (1.4, 0.8, 0.1, 0.3, 2.0, 0.2, -0.5, 0.7), lambda y: (y[0], y[1], 0.0)),
+    "euler-poisson": (euler_poisson.SYSTEM, (1.0, 1.6, 8 / 3, 0.6, 0.0, 0.8, 0.5),
+                      lambda y: (y[0], 1.6 * y[1], 8 / 3 * y[2])),
+}
+
+
+@pytest.mark.parametrize(("system", "parameters", "omega"), FIELDS.values(), ids=FIELDS)
+def test_every_field_can_follow_another_direction(system, parameters, omega):
+    with_e, n = with_attitude(system), len(system.variables)
+    expand = uncompiled(with_e.recursion)["expand"]
+    c, left, right, inverses = workspace.py_func(2, n + 3, columns_of(with_e.recursion))
     rng = np.random.default_rng(5)
     for _ in range(5):
-        y = tuple(rng.normal(size=n + 3))
-        q = tuple(y[i] * y[j] for i, j in field.pairs)
-        found = field.rates.py_func(y, q, parameters)
-        assert found[:n] == pytest.approx(module.field(y[:n], parameters), abs=1e-13)
-        assert found[n:] == pytest.approx(np.cross(y[n:], omega(y)), abs=1e-13)
-    # Nothing is computed twice.
-    assert len(set(field.products.split())) == len(field.products.split())
+        c[0, : n + 3] = y = rng.normal(size=n + 3)
+        expand(c, left, right, inverses, parameters)
+        assert c[1, :n] == pytest.approx(system.field(y[:n], parameters), abs=1e-13)
+        assert c[1, n : n + 3] == pytest.approx(np.cross(y[n:], omega(y)), abs=1e-13)
 
 
-def test_a_field_with_auxiliary_series_is_refused():
-    with pytest.raises(InvalidParameter, match=r"auxiliary series\.$"):
-        with_attitude(chaplygin_ball.QUADRATIC)
+@pytest.mark.parametrize(("system", "parameters", "omega"), FIELDS.values(), ids=FIELDS)
+def test_what_does_not_turn_e_is_not_computed_for_it(system, parameters, omega):
+    own, more, n = system.recursion, with_attitude(system).recursion, len(system.variables)
+    e = range(n, n + 3)
+    before = {tuple(factor + 3 * (factor >= n) for factor in pair) for pair in own.pairs}
+    added = [pair for pair in more.pairs if set(pair) & set(e)]
+    assert len(set(more.pairs)) == len(more.pairs)
+    assert {pair for pair in more.pairs if pair not in added} == before
+    # e × ω has four terms for ω in a plane of the body, six otherwise.
+    assert len(added) == (6 if system is euler_poisson.SYSTEM else 4 + (system is hess.SYSTEM))
+    assert more.stages == own.stages
 
 
-def test_many_attitudes_at_once_are_not_to_be_had():
-    for kernel in (HESS.ensemble, HESS.cross):
-        with pytest.raises(NotImplementedError):
-            kernel()
+def test_the_ball_can_be_followed():
+    ball, p = with_attitude(chaplygin_ball.SYSTEM), chaplygin_ball.SYSTEM.example[1]
+    start = np.array(ball.example[0])
+    found = attitude(ball, start, p, 12.0, level("precise"), WEIGHTS, 0.25, 400)
+    y, turn = turned(lambda x: np.array([x[0], x[1], 0.0]), lambda x: chaplygin_ball.field(x, p), start[:5],
+                     found.times)
+    assert np.max(np.abs(found.orbit.states[:, :5] - y)) < 1e-9
+    assert np.max(np.abs(found.axes - found.axes[0] @ turn)) < 1e-9
+
+
+def test_attitudes_of_many_are_those_of_each():
+    starts = [[*start, *across(start[2:])] for start in (START, -START, START[[1, 0, 4, 3, 2]])]
+    many = ensemble(WITH_ATTITUDE, starts, P, [1.0, 5.0], level("precise"))
+    for start, states in zip(starts, many.states, strict=True):
+        assert states == pytest.approx(solve(WITH_ATTITUDE, start, P, [1.0, 5.0], level("precise")).states, abs=1e-9)
 
 
 @pytest.mark.parametrize("vertical", [(0.0, 0.0, 1.0), (0.0, -1.0, 0.0), (0.6, 0.0, 0.8), (1e-9, 1.0, 0.0)])
@@ -127,7 +150,7 @@ def test_across_is_a_unit_vector_across(vertical):
 
 def test_the_same_numbers_are_read_only():
     assert not followed(START, P, 3.0, "draft").axes.flags.writeable
-    assert lying.HESS.name == "hess-attitude"
+    assert WITH_ATTITUDE.name == "hess-attitude"
 
 
 # --- The body of the Suslov–Hess case ----------------------------------------------------------------
@@ -238,7 +261,7 @@ def test_a_motion_with_another_area_integral_draws_no_loxodrome():
     start = one.start
     start[4], start[2] = 0.8, 0.6  # γ elsewhere: f ≠ 0, and e no longer along M
     start[5:] = across(start[2:5])
-    found = attitude(HESS, start, (one.a, 1.0), 8.0, level("reference"), WEIGHTS, 0.25, 400)
+    found = attitude(WITH_ATTITUDE, start, (one.a, 1.0), 8.0, level("reference"), WEIGHTS, 0.25, 400)
     axes = found.axes @ one.principal
     axes[:, 2] = np.cross(axes[:, 0], axes[:, 1])
     middle = axes @ (0.0, 1.0, 0.0)

@@ -1,6 +1,6 @@
 """The other integrators, one file each, used as their documentation tells an expert to.
 
-Each has a `METHOD` and imports its library: a peer whose file cannot be imported is not here.
+Each has a `METHOD` and imports its library; a peer whose file cannot be imported is left out.
 """
 
 from __future__ import annotations

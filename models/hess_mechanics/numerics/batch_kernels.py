@@ -1,6 +1,7 @@
+# mypy: allow-untyped-defs
 """Many orbits of one system: eight at a time, each with its own steps, on as many threads as wanted.
 
-The recursion of `taylor` with eight orbits in the place of one number, which the processor computes
+The recursion of `taylor_kernels` with eight orbits in the place of one number, which the processor computes
 together.  A lane whose orbit is done takes the next one, so that no lane waits for another.
 """
 
@@ -13,8 +14,9 @@ from typing import Any
 import numpy as np
 
 from hess_mechanics.numerics.jit import inner, part
-from hess_mechanics.numerics.taylor import STEP_LIMIT_REACHED, Quadratic, compensated
-from hess_mechanics.numerics.unrolled import compiled
+from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED, compensated, parts
+from hess_mechanics.numerics.tracing import Recursion
+from hess_mechanics.numerics.unrolled import compiled, items
 
 __all__ = ["LANES", "ensemble_integrator", "one_by_one"]
 
@@ -26,40 +28,41 @@ _TINY = 1e-280
 """In the place of the coefficients of a motion at rest."""
 
 
-def expansion_of_lanes(field: Quadratic) -> Callable[..., Any]:
-    """expand(c, q, parameters, order, rates, convolve): the Taylor coefficients c[k, variable, lane].
+def expansion_of_lanes(recursion: Recursion) -> Callable[..., Any]:
+    """expand(c, q, parameters, order): the Taylor coefficients c[k, variable, lane]; q[product, lane] is scratch.
 
-    q[product, lane] is scratch; convolve : see `convolution_of_lanes`.
+    For recursions without auxiliary series.
     """
-    m, n = len(field.pairs), field.dimension
-    states = [", ".join(f"c[k, {i}, {lane}]" for i in range(n)) for lane in range(LANES)]
-    products = [", ".join(f"q[{j}, {lane}]" for j in range(m)) for lane in range(LANES)]
+    m, n = len(recursion.pairs), recursion.variables
+    states = [items(f"c[k, {i}, {lane}]" for i in range(n)) for lane in range(LANES)]
+    products = [items(f"q[{j}, {lane}]" for j in range(m)) for lane in range(LANES)]
     results = [f"c[k + 1, {i}, {lane}] = y{lane}[{i}] * s" for i in range(n) for lane in range(LANES)]
     # Of all lanes first everything is read, then everything written: so the compiler may do it together.
     return compiled(f"""
-def function(c, q, parameters, order, rates, convolve):
-    p = ({", ".join(f"parameters[{i}]" for i in range(field.parameters))},)
+def expand(c, q, parameters, order):
+    p = ({items(f"parameters[{i}]" for i in range(recursion.parameters))})
     for k in range(order):
         convolve(c, q, k)
         s = 1.0 / (k + 1.0)
-        {_for_lanes(lambda lane: f"y{lane} = rates(({states[lane]},), ({products[lane]},), p)")}
+        one = 1.0 if k == 0 else 0.0
+        {_for_lanes(lambda lane: f"y{lane} = rates(({states[lane]}), ({products[lane]}), p, one)")}
         {"; ".join(results)}
-""")
+""", **parts(recursion), convolve=convolution_of_lanes(recursion))["expand"]
 
 
 def _for_lanes(statement: Callable[[int], str]) -> str:
     return "; ".join(map(statement, range(LANES)))
 
 
-def convolution_of_lanes(field: Quadratic) -> Callable[..., Any]:
+def convolution_of_lanes(recursion: Recursion) -> Callable[..., Any]:
     """The function of (c, q, k) that sets q[j, lane] = Σ_m c[m, left, lane] c[k−m, right, lane] for each product j.
 
     Every coefficient is read once for all products; of a square half the sum is enough.
     """
-    rows = sorted({row for pair in field.pairs for row in pair})
+    rows = sorted({row for pair in recursion.pairs for row in pair})
     lanes = range(LANES)
-    squares = [(j, a, b) for j, (a, b) in enumerate(field.pairs) if a == b]
-    others = [(j, a, b) for j, (a, b) in enumerate(field.pairs) if a != b]
+    squares = [(j, a, b) for j, (a, b) in enumerate(recursion.pairs) if a == b]
+    others = [(j, a, b) for j, (a, b) in enumerate(recursion.pairs) if a != b]
 
     def lines(template: str, products: list[tuple[int, int, int]]) -> str:
         return "\n        ".join(
@@ -69,7 +72,7 @@ def convolution_of_lanes(field: Quadratic) -> Callable[..., Any]:
         return "\n        ".join(f"{name}{row}_{lane} = c[{order}, {row}, {lane}]" for row in rows for lane in lanes)
 
     return compiled(f"""
-def function(c, q, k):
+def convolve(c, q, k):
     m = k // 2
     if 2 * m == k:
         {read("x", "m")}
@@ -86,7 +89,7 @@ def function(c, q, k):
     if True:
         {lines("q[{j}, {lane}] = 2.0 * s{j}_{lane}", squares)}
         {lines("q[{j}, {lane}] = s{j}_{lane}", others)}
-""")
+""")["convolve"]
 
 
 @inner
@@ -106,35 +109,33 @@ def steps_of_lanes(last, previous, order, tolerance, ratios, bits, h, h_bits):
         h[lane] = math.inf if last[lane] + previous[lane] == 0.0 else 0.97 * h[lane]
 
 
-def ensemble_integrator(field: Quadratic) -> Callable[..., Any]:
+def ensemble_integrator(recursion: Recursion) -> Callable[..., Any]:
     """The compiled solver of many orbits.
 
     integrate(states, parameters, times, order, tolerance, max_steps, out): the orbits that start at the rows of
     `states` (orbits, d), at the given times (n,), monotonic, all ≥ 0 or all ≤ 0, into `out` (orbits, n, d).
     Returns the number of steps of all orbits, or `STEP_LIMIT_REACHED` when one took more than `max_steps`.
     """
-    n, m = field.dimension, len(field.pairs)
-    rates, expand, convolve = field.rates, expansion_of_lanes(field), convolution_of_lanes(field)
-    largest = compiled(f"""
-def function(c, k, out):
+    n, m = recursion.variables, len(recursion.pairs)
+    expand = expansion_of_lanes(recursion)
+    largest, values, add = compiled(f"""
+def largest(c, k, out):
     {_for_lanes(lambda lane: f"a{lane} = 0.0")}
     for i in range({n}):
         {_for_lanes(lambda lane: f"a{lane} = max(a{lane}, abs(c[k, i, {lane}]))")}
     {_for_lanes(lambda lane: f"out[{lane}] = a{lane}")}
-""")
-    values = compiled(f"""
-def function(c, i, s):
+
+def values(c, i, s):
     {_for_lanes(lambda lane: f"a{lane} = 0.0")}
     for k in range(c.shape[0] - 1, 0, -1):
         {_for_lanes(lambda lane: f"a{lane} = (a{lane} + c[k, i, {lane}]) * s[{lane}]")}
     return ({", ".join(f"a{lane}" for lane in range(LANES))},)
-""")
-    add = compiled(f"""
-def function(y, low, s, compensated):
+
+def add(y, low, s, compensated):
     {_for_lanes(lambda lane: f"a{lane}, b{lane} = compensated(y[{lane}], low[{lane}], s[{lane}])")}
     {_for_lanes(lambda lane: f"y[{lane}] = a{lane}")}
     {_for_lanes(lambda lane: f"low[{lane}] = b{lane}")}
-""")
+""").values()
 
     @part
     def value(c, i, lane, s):
@@ -180,7 +181,7 @@ def function(y, low, s, compensated):
                     running += 1
             if running == 0:
                 return total
-            expand(c, q, parameters, order, rates, convolve)
+            expand(c, q, parameters, order)
             largest(c, order, last)
             largest(c, order - 1, previous)
             steps_of_lanes(last, previous, order, tolerance, ratios, bits, h, h_bits)
@@ -213,7 +214,7 @@ def function(y, low, s, compensated):
 
 
 def one_by_one(orbit: Callable[..., Any]) -> Callable[..., Any]:
-    """The compiled solver of `ensemble_integrator` from one of single orbits (`taylor.orbit_integrator`).
+    """The compiled solver of `ensemble_integrator` from one of single orbits (`taylor_kernels.orbit_integrator`).
 
     For fields with stages: lanes of these take three times as long to compile and are a third faster.
     """

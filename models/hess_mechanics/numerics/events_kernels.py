@@ -1,3 +1,4 @@
+# mypy: allow-untyped-defs
 """Crossings of a plane by one orbit: the roots of each step's own polynomial, none lost, none doubled.
 
 On a step the height e(s) over the plane is a polynomial, |e″| ≤ D on the whole of it.  A piece of width w
@@ -16,16 +17,15 @@ from typing import Any
 import numpy as np
 
 from hess_mechanics.numerics.jit import inner, part
-from hess_mechanics.numerics.taylor import (
+from hess_mechanics.numerics.taylor_kernels import (
     STEP_LIMIT_REACHED,
-    Quadratic,
     columns_of,
     compensated,
-    convolution,
     expansion,
     step_of,
     workspace,
 )
+from hess_mechanics.numerics.tracing import Recursion
 from hess_mechanics.numerics.unrolled import evaluation
 
 __all__ = ["PLANE", "Surface", "crossing_finder"]
@@ -173,7 +173,7 @@ def _always(y, normal):
 PLANE = Surface(_along_plane, _height_over_plane, _always, curved=False)
 
 
-def crossing_finder(field: Quadratic, surface: Surface = PLANE) -> Callable[..., Any]:
+def crossing_finder(recursion: Recursion, surface: Surface = PLANE) -> Callable[..., Any]:
     """The compiled search for the crossings of a plane, or of another surface, by one orbit.
 
     cross(state, parameters, normal, offset, sense, end, order, tolerance, max_steps, times, states): the
@@ -182,9 +182,8 @@ def crossing_finder(field: Quadratic, surface: Surface = PLANE) -> Callable[...,
     An orbit that starts on the plane has not crossed it there.
     Returns (crossings, steps); crossings is `STEP_LIMIT_REACHED` when that is so.
     """
-    n, columns, rates = field.dimension, columns_of(field), field.rates
-    expand, convolve = expansion(field), convolution(field)
-    evaluate = evaluation(n)
+    n, columns = recursion.variables, columns_of(recursion)
+    expand, evaluate = expansion(recursion), evaluation(n)
     along, height, counted, curved = surface.along, surface.height, surface.counted, surface.curved
 
     @part
@@ -207,7 +206,7 @@ def crossing_finder(field: Quadratic, surface: Surface = PLANE) -> Callable[...,
         while True:
             for i in range(n):
                 c[0, i] = y[i]
-            expand(c, left, right, inverses, parameters, rates, convolve)
+            expand(c, left, right, inverses, parameters)
             along(c, normal, e, scratch)
             e[0] -= offset
             if direction < 0.0:

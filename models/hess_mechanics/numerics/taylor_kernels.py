@@ -1,0 +1,204 @@
+# mypy: allow-untyped-defs
+"""Taylor series of traced fields: steps, dense output, compensated sums.
+
+From the `Recursion` of a field (see `tracing`) all kernels are made: one orbit here, many orbits in `batch_kernels`,
+crossings of a surface in `events_kernels`.
+
+The state is expected in units in which it is O(1), so tolerances are absolute.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from hess_mechanics.numerics.jit import inner, part
+from hess_mechanics.numerics.tracing import Recursion
+from hess_mechanics.numerics.unrolled import compiled, evaluation, items
+
+__all__ = [
+    "STEP_LIMIT_REACHED", "columns_of", "compensated", "convolution_source", "expansion", "expansion_source",
+    "orbit_integrator", "parts", "step_of", "step_size", "workspace",
+]
+
+STEP_LIMIT_REACHED = -1
+
+
+@cache
+def parts(recursion: Recursion) -> dict[str, Callable[..., Any]]:
+    """The compiled functions of its source."""
+    return compiled(recursion.source)
+
+
+@cache
+def expansion(recursion: Recursion) -> Callable[..., Any]:
+    """The compiled recursion of one orbit.
+
+    expand(c, left, right, inverses, parameters): from the state in c[0] the Taylor coefficients c[1 … order, variable].
+    left, right : those of the factors of the products once more, side by side; inverses : 1/(k+1) for k = 0 … order−1.
+    """
+    convolve = compiled(convolution_source(columns_of(recursion)))
+    return compiled(expansion_source(recursion), **parts(recursion), **convolve)["expand"]
+
+
+def expansion_source(recursion: Recursion) -> str:
+    """Python source of `expand`, which calls the functions of `recursion.source` and `convolve`."""
+    pairs, known = recursion.pairs, recursion.known
+    variables = range(recursion.variables)
+
+    def keep(order: str, y: str, since: int, count: int) -> str:
+        """Of the `count` series known now, `since` of them before."""
+        return "; ".join(
+            f"left[{order}, {j}] = {y}[{a}]; right[{order}, {j}] = {y}[{b}]"
+            for j, (a, b) in enumerate(pairs) if since <= max(a, b) < count) or "pass"
+
+    def first_products(count: int) -> str:
+        return items(f"y0[{a}] * y0[{b}]" if max(a, b) < count else "0.0" for a, b in pairs)
+
+    def products(count: int) -> str:
+        def ends(a: int, b: int) -> str:
+            return (f" + y0[{a}] * y[{b}]" if b < count else "") + (f" + y[{a}] * y0[{b}]" if a < count else "")
+
+        return items(f"s[{j}]{ends(a, b)}" for j, (a, b) in enumerate(pairs))
+
+    def stages(order: str, y: str, one: str, products: Callable[[int], str]) -> str:
+        return "".join(f"""
+        q = ({products(known[i])})
+        {y} = {y} + stage{i}({y}, q, p, {one})
+        {keep(order, y, known[i], known[i + 1])}""" for i in range(len(recursion.stages)))
+
+    return f"""
+def expand(c, left, right, inverses, parameters):
+    p = ({items(f"parameters[{i}]" for i in range(recursion.parameters))})
+    y0 = ({items(f"c[0, {i}]" for i in variables)})
+    {"p = p + constants(y0, p)" if recursion.constants else "pass"}
+    {keep("0", "y0", 0, recursion.variables)}
+    if True:{stages("0", "y0", "1.0", first_products) or " pass"}
+    y = rates(y0, ({first_products(known[-1])}), p, 1.0)
+    {"; ".join(f"c[1, {i}] = y[{i}]" for i in variables)}
+    for k in range(1, inverses.size):
+        {keep("k", "y", 0, recursion.variables)}
+        s = convolve(left, right, k){stages("k", "y", "0.0", products)}
+        q = ({products(known[-1])})
+        y = rates(y, q, p, 0.0)
+        y = ({items(f"y[{i}] * inverses[k]" for i in variables)})
+        {"; ".join(f"c[k + 1, {i}] = y[{i}]" for i in variables)}
+"""
+
+
+def convolution_source(columns: int) -> str:
+    """Python source of convolve(left, right, k): Σ_{0<m<k} left[m, j] right[k−m, j] for each column j, as a tuple.
+
+    From the middle outwards: the orders computed last, for which the processor still waits, come last.
+    The two ends are left to the caller, who has them in registers.
+    """
+    each = range(columns)
+    return f"""
+def convolve(left, right, k):
+    m = k // 2
+    if 2 * m == k:
+        {"; ".join(f"s{j} = left[m, {j}] * right[m, {j}]" for j in each)}
+    else:
+        {" = ".join(f"s{j}" for j in each)} = 0.0
+    {" = ".join(f"t{j}" for j in each)} = 0.0
+    for m in range((k - 1) // 2, 0, -1):
+        n = k - m
+        {"; ".join(f"s{j} += left[m, {j}] * right[n, {j}]; t{j} += left[n, {j}] * right[m, {j}]" for j in each)}
+    return ({items(f"s{j} + t{j}" for j in each)})
+"""
+
+
+def columns_of(recursion: Recursion) -> int:
+    """The products in whole vectors of four numbers, at least one: what is too many stays 0."""
+    m = len(recursion.pairs)
+    return max(4, m + -m % 4)
+
+
+@part
+def workspace(order, n, columns):
+    """c, left, right, inverses for `expansion`, with n variables."""
+    rows = order + 1
+    inverses = 1.0 / (1.0 + np.arange(order))
+    return np.zeros((rows, n + -n % 4)), np.zeros((rows, columns)), np.zeros((rows, columns)), inverses
+
+
+@inner
+def step_size(last, previous, order, tolerance):
+    """The step at which the terms of the two highest orders fall below the tolerance (Jorba and Zou, 2005).
+
+    `last`, `previous`: the largest coefficient of order N and N−1.
+    """
+    return np.exp2(min(math.log2(tolerance / last) / order, math.log2(tolerance / previous) / (order - 1.0)))
+
+
+@inner
+def step_of(c, n, tolerance):
+    """`step_size` from the coefficients of one orbit with n variables."""
+    order = c.shape[0] - 1
+    last = 0.0
+    previous = 0.0
+    for i in range(n):
+        last = max(last, abs(c[order, i]))
+        previous = max(previous, abs(c[order - 1, i]))
+    return step_size(last, previous, order, tolerance)
+
+
+@inner
+def compensated(total, low, increment):
+    """total + low + increment as a sum and what the sum cannot hold."""
+    increment += low
+    new = total + increment
+    return new, increment - (new - total)
+
+
+def orbit_integrator(recursion: Recursion) -> Callable[..., Any]:
+    """The compiled solver of ẏ = f(y, p) for one orbit with dense output.
+
+    integrate(state, parameters, times, order, tolerance, max_steps, out): from t = 0, writes the state (d,)
+    at the given times (n,), monotonic, all ≥ 0 or all ≤ 0, into `out` (n, d).  Returns the number
+    of steps, or `STEP_LIMIT_REACHED`.  State and time are summed with compensation, so that
+    round-off does not grow with the number of steps.
+    """
+    n, columns = recursion.variables, columns_of(recursion)
+    expand, evaluate = expansion(recursion), evaluation(n)
+
+    @part
+    def integrate(state, parameters, times, order, tolerance, max_steps, out):
+        c, left, right, inverses = workspace(order, n, columns)
+        y = state.copy()
+        low = np.zeros(n)
+        increments = np.zeros(n)
+        t = 0.0
+        t_low = 0.0
+        count = times.size
+        direction = 1.0 if times[count - 1] >= 0.0 else -1.0
+        j = 0
+        steps = 0
+        while True:
+            for i in range(n):
+                c[0, i] = y[i]
+            expand(c, left, right, inverses, parameters)
+            h = step_of(c, n, tolerance)
+            while j < count:
+                s = (times[j] - t) - t_low
+                if direction * s > h:
+                    break
+                evaluate(c, s, increments)
+                for i in range(n):
+                    out[j, i] = y[i] + (low[i] + increments[i])
+                j += 1
+            if j == count:
+                return steps + 1
+            if steps >= max_steps or not (h > 0.0):
+                return STEP_LIMIT_REACHED
+            evaluate(c, direction * h, increments)
+            for i in range(n):
+                y[i], low[i] = compensated(y[i], low[i], increments[i])
+            t, t_low = compensated(t, t_low, direction * h)
+            steps += 1
+
+    return integrate

@@ -1,0 +1,481 @@
+"""From a field as the paper prints it to the recursion of its Taylor series.
+
+`trace` calls field(y, p) once with symbols that record what is done with them.  The Taylor coefficients of sums are
+sums; those of a product are Cauchy products, q_k = Σ_m a_m b_(k−m); so what was recorded is brought into the form
+
+    ẏ = rates(y, q),   linear in the series y and in products q of two of them,
+
+which holds at every order k and gives (k+1) y_(k+1).  Factors that are sums of variables are multiplied out.  Any other
+factor and every quotient become auxiliary series, found at each order in stages: a stage is linear in the variables, in
+what earlier stages found, and in products of these.  For z = r/d that is z_k = (r_k − (d z)_k)/d_0, where (d z)_k lacks
+the term d_0 z_k, which is not known by then.
+
+What depends on parameters only is computed once, and so is `constant(x)`, which says that x does not change along
+the motion.  The expressions keep the shape in which they were written, so that round-off in a common factor stays one.
+
+All this asks of a field is plain arithmetic.  Called with pairs (value, tangent) instead of numbers it is its own
+variational equation, and traced like any other.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any, NoReturn
+
+import numpy as np
+
+__all__ = ["Field", "NotTraceable", "Recursion", "Symbol", "constant", "trace"]
+
+Field = Callable[[Sequence[Any], Sequence[Any]], Sequence[Any]]
+"""field(y, p) → ẏ in plain arithmetic."""
+
+
+_Number = int | float | np.integer | np.floating
+
+
+class NotTraceable(TypeError):
+    """A field that is not made of sums, products, quotients and whole powers of its variables and parameters."""
+
+
+@dataclass(frozen=True)
+class Recursion:
+    """The Taylor recursion of a field.
+
+    variables, parameters : how many y and p hold.
+    stages : how many auxiliary series each stage finds; they follow the variables in y.
+    pairs : the indices into y of the two factors of each product.
+    constants : how many numbers stay the same during a step; they follow the parameters in p.
+    source : Python source of `rates(y, q, p, one)`, `stage0(y, q, p, one)`, … and `constants(y, p)`, where there are
+        any; each returns a tuple.  one : 1 at order 0 and 0 at all others, the series of the number 1.
+    """
+
+    variables: int
+    parameters: int
+    stages: tuple[int, ...]
+    pairs: tuple[tuple[int, int], ...]
+    constants: int
+    source: str
+
+    @property
+    def known(self) -> list[int]:
+        """How many series, variables first, are known before the first stage and after each."""
+        return [self.variables + sum(self.stages[:i]) for i in range(len(self.stages) + 1)]
+
+    @property
+    def is_quadratic(self) -> bool:
+        """Whether products of variables are all it takes."""
+        return not self.stages and not self.constants
+
+
+def constant(x: Any) -> Any:
+    """x, of which the field's author knows that it does not change along a motion.
+
+    In a traced field its value at the start of a step is taken for the whole step.
+    """
+    return x.at_start() if isinstance(x, Symbol) else x
+
+
+def trace(field: Field, variables: int, parameters: int) -> Recursion:
+    """The Taylor recursion of a field of so many variables and parameters.
+
+    Raises `NotTraceable` where the field does anything but arithmetic.
+    """
+    tape = _Tape()
+    y = tuple(Symbol(tape, tape.leaf("variable", i)) for i in range(variables))
+    p = tuple(Symbol(tape, tape.leaf("parameter", i)) for i in range(parameters))
+    try:
+        rates = [tape.lifted(rate) for rate in field(y, p)]
+    except NotTraceable:
+        raise
+    except (TypeError, ValueError, AttributeError, ArithmeticError, LookupError) as error:
+        raise NotTraceable(f"This field cannot be traced: {error}. {_ALLOWED}") from error
+    if len(rates) != variables:
+        raise NotTraceable(f"This field has {variables} variables and returns {len(rates)} rates: return one for each.")
+    plain = _Series(tape, variables, multiplies_out=True).recursion(rates, parameters)
+    return _Series(tape, variables, multiplies_out=False).recursion(rates, parameters) if plain.stages else plain
+
+
+_ALLOWED = ("Use +, −, *, / and whole powers of numbers, variables and parameters only, without conditions, and unpack "
+            "as many variables and parameters as the system has.")
+
+
+@dataclass(frozen=True, eq=False)
+class _Node:
+    """One operation; equal ones on a tape are the same object.
+
+    value : of a "number", the index of a "variable", "parameter" or "series"; moves : whether it depends on the
+    variables other than by their values at the start of a step; started : whether it depends on those.
+    """
+
+    operation: str
+    arguments: tuple[_Node, ...]
+    value: Any
+    moves: bool
+    started: bool
+
+
+class _Tape:
+    """All operations of a trace, each once."""
+
+    def __init__(self) -> None:
+        self._nodes: dict[tuple[Any, ...], _Node] = {}
+
+    def _node(self, operation: str, arguments: tuple[_Node, ...], value: Any, moves: bool, started: bool) -> _Node:
+        key = (operation, *map(id, arguments), value)
+        return self._nodes.setdefault(key, _Node(operation, arguments, value, moves, started))
+
+    def leaf(self, operation: str, value: Any) -> _Node:
+        return self._node(operation, (), value, operation not in ("number", "parameter"), False)
+
+    def number(self, value: float) -> _Node:
+        # 0.0 stands for −0.0 too, and a whole number for the same float.
+        return self.leaf("number", int(value) if value == int(value) and abs(value) < 2**53 else float(value))
+
+    def lifted(self, x: Any) -> _Node:
+        """The node of a symbol or a number.  Raises `NotTraceable` for anything else."""
+        if isinstance(x, Symbol):
+            return x.node
+        if isinstance(x, _Number) and math.isfinite(x):
+            return self.number(x.item() if isinstance(x, np.generic) else x)
+        raise NotTraceable(f"This field cannot be traced: {x!r} is no finite number. {_ALLOWED}")
+
+    def start(self, a: _Node) -> _Node:
+        return self._node("start", (a,), None, False, True) if a.moves else a
+
+    def apply(self, operation: str, a: _Node, b: _Node) -> _Node:
+        """a + b, a − b, a b or a/b, without sums with 0 and products with 0 or 1.  Raises `NotTraceable` for a/0."""
+        zero, one = self.number(0), self.number(1)
+        if operation == "/" and b is zero:
+            raise NotTraceable("This field cannot be traced: it divides by 0.")
+        if a.operation == b.operation == "number":
+            return self.number({"+": a.value + b.value, "-": a.value - b.value, "*": a.value * b.value,
+                                "/": a.value / (b.value or 1)}[operation])
+        if b is zero and operation in "+-":
+            return a
+        if a is zero and operation in "+-":
+            return b if operation == "+" else self.negative(b)
+        if zero in (a, b):
+            return zero
+        if b is one and operation in "*/":
+            return a
+        if a is one and operation == "*":
+            return b
+        return self._node(operation, (a, b), None, a.moves or b.moves, a.started or b.started)
+
+    def negative(self, a: _Node) -> _Node:
+        if a.operation == "number":
+            return self.number(-a.value)
+        return a.arguments[0] if a.operation == "negative" else self._node("negative", (a,), None, a.moves, a.started)
+
+    def power(self, a: _Node, exponent: Any) -> _Node:
+        if not isinstance(exponent, int | np.integer):
+            raise NotTraceable(f"This field cannot be traced: {exponent!r} is no whole power. {_ALLOWED}")
+        if exponent < 0:
+            return self.apply("/", self.number(1), self.power(a, -exponent))
+        if exponent < 2:
+            return a if exponent else self.number(1)
+        half = self.power(a, exponent // 2)
+        square = self.apply("*", half, half)
+        return self.apply("*", square, a) if exponent % 2 else square
+
+    def linear(self, operation: str, *arguments: _Node, signs: tuple[int, ...] = ()) -> _Node:
+        """A node of the recursion: "one", "product", "scaled", or "sum" with a sign, 1 or −1, for each term."""
+        return self._node(operation, arguments, signs, True, False)
+
+
+class Symbol:
+    """A variable, a parameter, or what a field has made of them so far."""
+
+    __slots__ = ("node", "tape")
+    __array_ufunc__ = None  # arithmetic with NumPy's numbers comes here too
+    __hash__ = None  # type: ignore[assignment]
+
+    def __init__(self, tape: _Tape, node: _Node) -> None:
+        self.tape, self.node = tape, node
+
+    def _with(self, operation: str, left: Any, right: Any) -> Any:
+        if not all(isinstance(x, Symbol | _Number) for x in (left, right)):
+            return NotImplemented
+        return Symbol(self.tape, self.tape.apply(operation, self.tape.lifted(left), self.tape.lifted(right)))
+
+    def __add__(self, other: Any) -> Any:
+        return self._with("+", self, other)
+
+    def __radd__(self, other: Any) -> Any:
+        return self._with("+", other, self)
+
+    def __sub__(self, other: Any) -> Any:
+        return self._with("-", self, other)
+
+    def __rsub__(self, other: Any) -> Any:
+        return self._with("-", other, self)
+
+    def __mul__(self, other: Any) -> Any:
+        return self._with("*", self, other)
+
+    def __rmul__(self, other: Any) -> Any:
+        return self._with("*", other, self)
+
+    def __truediv__(self, other: Any) -> Any:
+        return self._with("/", self, other)
+
+    def __rtruediv__(self, other: Any) -> Any:
+        return self._with("/", other, self)
+
+    def __neg__(self) -> Symbol:
+        return Symbol(self.tape, self.tape.negative(self.node))
+
+    def __pos__(self) -> Symbol:
+        return self
+
+    def __pow__(self, exponent: Any) -> Symbol:
+        return Symbol(self.tape, self.tape.power(self.node, exponent))
+
+    def at_start(self) -> Symbol:
+        """Its value at the start of a step, see `constant`."""
+        return Symbol(self.tape, self.tape.start(self.node))
+
+    def _refuse(self, *_: Any) -> NoReturn:
+        raise NotTraceable("This field cannot be traced: it compares its variables or parameters, or passes them to a "
+                           f"function other than arithmetic. {_ALLOWED}")
+
+    __bool__ = __float__ = __int__ = __index__ = __complex__ = __abs__ = __round__ = _refuse
+    __eq__ = __ne__ = __lt__ = __le__ = __gt__ = __ge__ = _refuse
+    __mod__ = __floordiv__ = __rpow__ = __rmod__ = __rfloordiv__ = __matmul__ = __rmatmul__ = _refuse
+
+
+class _Series:
+    """What a tape says, in terms of series and their products."""
+
+    def __init__(self, tape: _Tape, variables: int, multiplies_out: bool) -> None:
+        self._tape, self._variables, self._multiplies_out = tape, variables, multiplies_out
+        self._one = tape.linear("one")
+        self._lowered: dict[_Node, _Node] = {}
+        self._rules: list[_Node] = []  # of the auxiliary series
+        self._places: dict[_Node, int] = {}
+        self._divided: set[_Node] = set()  # the products d·z of the quotients
+
+    def lowered(self, node: _Node) -> _Node:
+        """The node as a sum of series and products with constant factors."""
+        if node not in self._lowered:
+            self._lowered[node] = self._lower(node)
+        return self._lowered[node]
+
+    def _lower(self, node: _Node) -> _Node:
+        if not node.moves:
+            return self._scaled(node, self._one)
+        if node.operation == "variable":
+            return self._tape.leaf("series", node.value)
+        if node.operation == "negative":
+            return self._sum((-1, self.lowered(node.arguments[0])))
+        a, b = node.arguments
+        if node.operation in "+-":
+            return self._sum((1, self.lowered(a)), (1 if node.operation == "+" else -1, self.lowered(b)))
+        if node.operation == "*":
+            if not a.moves or not b.moves:
+                factor, series = (a, b) if not a.moves else (b, a)
+                return self._scaled(factor, self.lowered(series))
+            return self._product(self.lowered(a), self.lowered(b))
+        if not b.moves:
+            return self._scaled(self._tape.apply("/", self._tape.number(1), b), self.lowered(a))
+        return self._quotient(self.lowered(a), b)
+
+    def _sum(self, *signed: tuple[int, _Node]) -> _Node:
+        terms: list[tuple[int, _Node]] = []
+        for sign, form in signed:
+            terms += [(sign * own, term) for own, term in _terms(form)]
+        if [sign for sign, _ in terms] == [1]:
+            return terms[0][1]
+        return self._tape.linear("sum", *(term for _, term in terms), signs=tuple(sign for sign, _ in terms))
+
+    def _scaled(self, factor: _Node, series: _Node) -> _Node:
+        if series.operation == "scaled":
+            factor, series = self._tape.apply("*", factor, series.arguments[0]), series.arguments[1]
+        if factor.operation == "negative" or (factor.operation == "number" and factor.value < 0):
+            return self._sum((-1, self._scaled(self._tape.negative(factor), series)))
+        return series if factor is self._tape.number(1) else self._tape.linear("scaled", factor, series)
+
+    def _product(self, a: _Node, b: _Node) -> _Node:
+        for factor, other in ((a, b), (b, a)):
+            if factor is self._one:
+                return other
+            if factor.operation == "scaled":
+                return self._scaled(factor.arguments[0], self._product(factor.arguments[1], other))
+        for factor, other in ((a, b), (b, a)):
+            if factor.operation == "sum" and factor.value[0] < 0:
+                # So x and −x are one factor.
+                return self._sum((-1, self._product(self._sum((-1, factor)), other)))
+        for factor, other in ((a, b), (b, a)):
+            if factor.operation == "sum" and self._multiplies_out and self._is_of_variables(factor):
+                return self._sum(*((sign, self._product(term, other)) for sign, term in _terms(factor)))
+        left, right = sorted((self._series(a), self._series(b)), key=lambda node: node.value)
+        return self._tape.linear("product", left, right)
+
+    def _is_of_variables(self, form: _Node) -> bool:
+        if form.operation == "series":
+            return bool(form.value < self._variables)
+        if form.operation == "scaled":
+            return self._is_of_variables(form.arguments[1])
+        return form is self._one or (form.operation == "sum" and all(map(self._is_of_variables, form.arguments)))
+
+    def _series(self, form: _Node) -> _Node:
+        """A series that has this form."""
+        if form.operation == "series":
+            return form
+        if form not in self._places:
+            self._places[form] = self._variables + len(self._rules)
+            self._rules.append(form)
+        return self._tape.leaf("series", self._places[form])
+
+    def _quotient(self, numerator: _Node, divisor: _Node) -> _Node:
+        d = self._series(self.lowered(divisor))
+        inverse = self._tape.apply("/", self._tape.number(1), self._tape.start(divisor))
+        z = self._tape.leaf("series", self._variables + len(self._rules))
+        product = self._tape.linear("product", d, z)
+        self._divided.add(product)
+        self._rules.append(self._scaled(inverse, self._sum((-1, product), (1, numerator))))
+        return z
+
+    def _levels(self) -> list[int]:
+        """The stage of each auxiliary series: after all that its rule needs."""
+        levels: list[int] = []
+        for i, rule in enumerate(self._rules):
+            needed = [node.value - self._variables for node in _below([rule]) if node.operation == "series"]
+            levels.append(1 + max((levels[j] for j in needed if 0 <= j != i), default=-1))
+        return levels
+
+    def recursion(self, rates: Sequence[_Node], parameters: int) -> Recursion:
+        """The recursion of a field with these rates."""
+        forms = [self.lowered(rate) for rate in rates]
+        # Only what the rates need, stage by stage: an unused intermediate result costs nothing.
+        used = self._used(forms)
+        levels = self._levels()
+        order = sorted(used, key=lambda i: (levels[i], i))
+        stages = [[i for i in order if levels[i] == level] for level in sorted({levels[i] for i in order})]
+        places = {i: i for i in range(self._variables)}
+        places |= {self._variables + i: self._variables + at for at, i in enumerate(order)}
+        rules = [[self._rules[i] for i in stage] for stage in stages]
+        everything = _below([*forms, *(rule for stage in rules for rule in stage)])
+        products = [node for node in everything if node.operation == "product"]
+        kept = [node for node in dict.fromkeys(
+            node.arguments[0] for node in everything if node.operation == "scaled") if node.started]
+
+        names: dict[_Node, str] = {}
+        late = {self._one: 0}
+        for node in everything:
+            if node.operation == "series":
+                names[node] = f"y[{places[node.value]}]"
+                late[node] = 0 if node.value < self._variables else 2 + 2 * levels[node.value - self._variables]
+        for node in everything:
+            if node.operation == "product":
+                # The product in the rule of a quotient waits for the divisor only.
+                late[node] = 1 + (min if node in self._divided else max)(late[factor] for factor in node.arguments)
+        names |= {node: f"q[{j}]" for j, node in enumerate(products)} | {self._one: "one"}
+        names |= {node: f"p[{parameters + j}]" for j, node in enumerate(kept)}
+        functions = []
+        for i, (stage, rule) in enumerate(zip(stages, rules, strict=True)):
+            functions.append(_function(f"stage{i}(y, q, p, one)", rule, names, late))
+            # From here on what the stage has found need not be found again.
+            names |= {self._rules[j]: f"y[{places[self._variables + j]}]" for j in stage}
+        functions.insert(0, _function("rates(y, q, p, one)", forms, names, late))
+        if kept:
+            functions.append(_function("constants(y, p)", kept, {}, {}))
+        pairs = tuple((places[a.value], places[b.value]) for a, b in (node.arguments for node in products))
+        return Recursion(self._variables, parameters, tuple(map(len, stages)), pairs, len(kept), "\n\n".join(functions))
+
+    def _used(self, forms: Sequence[_Node]) -> list[int]:
+        found: dict[int, None] = {}
+        waiting = list(forms)
+        while waiting:
+            for node in _below([waiting.pop()]):
+                i = node.value - self._variables if node.operation == "series" else -1
+                if i >= 0 and i not in found:
+                    found[i] = None
+                    waiting.append(self._rules[i])
+        return list(found)
+
+
+def _below(roots: Iterable[_Node]) -> list[_Node]:
+    """All nodes of these expressions, each once and after its arguments."""
+    found: dict[_Node, None] = {}
+
+    def visit(node: _Node) -> None:
+        if node not in found:
+            for argument in node.arguments:
+                visit(argument)
+            found[node] = None
+
+    for root in roots:
+        visit(root)
+    return list(found)
+
+
+def _terms(form: _Node) -> list[tuple[int, _Node]]:
+    """A form as terms with their signs."""
+    return list(zip(form.value, form.arguments, strict=True)) if form.operation == "sum" else [(1, form)]
+
+
+def _function(head: str, results: Sequence[_Node], names: dict[_Node, str], late: dict[_Node, int]) -> str:
+    """The source of a function that returns these expressions.
+
+    names : those that are at hand; late : when which series and product becomes known.  The processor waits for what is
+    found last, so that comes last in a sum.
+    """
+    latest = dict(late)
+
+    def when(node: _Node) -> int:
+        if node not in latest:
+            latest[node] = max(map(when, node.arguments), default=0)
+        return latest[node]
+
+    uses = Counter(id(result) for result in results)
+    seen: set[_Node] = set()
+
+    def count(node: _Node) -> None:
+        if node not in seen and node not in names:
+            seen.add(node)
+            uses.update(map(id, node.arguments))
+            for argument in node.arguments:
+                count(argument)
+
+    for result in results:
+        count(result)
+    lines: list[str] = []
+    texts = dict(names)
+
+    def text(node: _Node) -> str:
+        if node not in texts:
+            written = _written(node, text, when)
+            if uses[id(node)] > 1 and node.arguments and node.operation != "start":
+                lines.append(f"    t{len(lines)} = {written}")
+                written = f"t{len(lines) - 1}"
+            texts[node] = written
+        return texts[node]
+
+    values = [text(result) for result in results]
+    return "\n".join([f"def {head}:", *lines, f"    return ({', '.join(values)},)"])
+
+
+def _written(node: _Node, text: Callable[[_Node], str], when: Callable[[_Node], int]) -> str:
+    """An expression of names; every number a float, so that Numba sees one type."""
+    if node.operation in ("variable", "parameter"):
+        return f"{'y' if node.operation == 'variable' else 'p'}[{node.value}]"
+    if node.operation == "number":
+        return f"({float(node.value)!r})" if node.value < 0 else repr(float(node.value))
+    if node.operation == "sum":
+        terms = sorted(_terms(node), key=lambda term: when(term[1]))
+        # A sum that begins with a minus costs a sign: among what is known as early, a plus goes first.
+        first = next((term for term in terms if term[0] > 0 and when(term[1]) == when(terms[0][1])), terms[0])
+        terms.remove(first)
+        rest = "".join(f" {'+' if sign > 0 else '-'} {text(term)}" for sign, term in terms)
+        return f"({'' if first[0] > 0 else '-'}{text(first[1])}{rest})"
+    arguments = [text(argument) for argument in node.arguments]
+    if node.operation == "start":
+        return arguments[0]
+    if node.operation == "negative":
+        return f"(-{arguments[0]})"
+    sign = "*" if node.operation == "scaled" else node.operation
+    return f"({arguments[0]} {sign} {arguments[1]})"

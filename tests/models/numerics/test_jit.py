@@ -1,0 +1,169 @@
+"""The cache of kernels: what makes it stale, whose folder it is, and that no kernel is taken for another."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import hess_mechanics
+from hess_mechanics.numerics import jit
+
+PACKAGE = Path(hess_mechanics.__file__).parent
+PARTS = ("numerics", "dynamics", "rigid_body", "suslov", "suslov_hess", "chaplygin_ball", "euler_poisson")
+
+
+def run(code, folder, path, *arguments):
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(folder), "PYTHONPATH": str(path)}
+    found = subprocess.run([sys.executable, "-W", "error", "-c", code, *arguments], env=environment,
+                           capture_output=True, text=True, timeout=300, check=False)
+    assert found.returncode == 0, found.stderr
+    return json.loads(found.stdout)
+
+
+# ---- what makes it stale ----------------------------------------------------------------------------------------
+
+
+HASHES = """
+import json, sys
+from hess_mechanics.numerics.jit import source_hash
+print(json.dumps({part: source_hash(part) for part in sys.argv[1:]} | {"all": source_hash()}))
+"""
+
+
+@pytest.mark.parametrize(("file", "change", "stale"), [
+    ("suslov/equations.py", lambda text: f"# a comment\n\n{text}", set()),
+    ("numerics/taylor_kernels.py", lambda text: text.replace('"""', '"""Another docstring. ', 1), set()),
+    ("euler_poisson/andoyer.py", lambda text: f"{text}\n_NEW = 1\n", {"euler_poisson"}),
+    ("chaplygin_ball/equations.py", lambda text: text.replace("s = I13 * w1", "s = 2 * I13 * w1"), {"chaplygin_ball"}),
+    ("suslov/equations.py", lambda text: f"{text}\n_NEW = 1\n", {"suslov", "suslov_hess", "euler_poisson"}),
+    ("numerics/taylor_kernels.py", lambda text: f"{text}\n_NEW = 1\n", set(PARTS)),
+    ("dynamics/system.py", lambda text: f"{text}\n_NEW = 1\n", set(PARTS)),
+], ids=["comment", "docstring", "another subject", "the field", "what others import", "numerics", "dynamics"])
+def test_a_change_makes_stale_what_it_is_part_of_and_nothing_else(tmp_path, file, change, stale):
+    package = tmp_path / "models" / "hess_mechanics"
+    shutil.copytree(PACKAGE, package, ignore=shutil.ignore_patterns("__pycache__"))
+    before = run(HASHES, tmp_path / "cache", package.parent, *PARTS)
+    assert run(HASHES, tmp_path / "cache", package.parent, *PARTS) == before
+    path = package / file
+    text = path.read_text(encoding="utf-8")
+    assert change(text) != text
+    path.write_text(change(text), encoding="utf-8")
+    after = run(HASHES, tmp_path / "cache", package.parent, *PARTS)
+    changed = {part for part in PARTS if before[part] != after[part]}
+    assert changed == stale
+    assert (before["all"] != after["all"]) == bool(changed)
+
+
+# ---- whose folder it is -----------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def nowhere(tmp_path, monkeypatch):
+    """No folder of the user's own can be written; the shared one is tmp_path/shared."""
+    file, shared = tmp_path / "file", tmp_path / "shared"
+    file.touch()
+    shared.mkdir()
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(file))
+    monkeypatch.setenv("HOME", str(file))
+    monkeypatch.setattr(jit.tempfile, "tempdir", str(shared))
+    return shared
+
+
+def test_the_users_own_folder_comes_first_and_is_closed_to_others(tmp_path, monkeypatch):
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    folder = jit._cache_folder()
+    assert folder == tmp_path / "hess-explorer"
+    assert folder.stat().st_mode & 0o777 == 0o700
+    folder.chmod(0o755)
+    assert jit._cache_folder() == folder
+    assert folder.stat().st_mode & 0o777 == 0o700
+
+
+def test_in_a_shared_folder_its_name_cannot_be_guessed_and_it_is_found_again(nowhere):
+    folder = jit._cache_folder()
+    assert folder.parent == nowhere
+    assert folder.name.startswith("hess-explorer-")
+    assert len(folder.name) >= len("hess-explorer-") + 8
+    assert folder.stat().st_mode & 0o777 == 0o700
+    assert jit._cache_folder() == folder
+    shutil.rmtree(folder)
+    assert jit._cache_folder().name != folder.name
+
+
+def test_a_folder_that_others_may_write_to_is_not_used(nowhere):
+    theirs = nowhere / "hess-explorer-0"
+    theirs.mkdir()
+    theirs.chmod(0o777)
+    assert jit._cache_folder() != theirs
+
+
+def test_a_folder_of_somebody_else_is_not_used(nowhere, monkeypatch):
+    theirs = nowhere / "hess-explorer-0"
+    theirs.mkdir(mode=0o700)
+    assert jit._cache_folder() == theirs
+    own = os.getuid()
+    monkeypatch.setattr(os, "getuid", lambda: own + 1)
+    assert jit._cache_folder() != theirs
+
+
+def test_a_link_to_a_folder_is_not_used(nowhere, tmp_path):
+    (tmp_path / "elsewhere").mkdir(mode=0o700)
+    (nowhere / "hess-explorer-0").symlink_to(tmp_path / "elsewhere")
+    assert jit._cache_folder() != nowhere / "hess-explorer-0"
+
+
+def test_without_any_folder_kernels_are_compiled_all_the_same(nowhere, monkeypatch):
+    monkeypatch.setattr(jit.tempfile, "tempdir", str(nowhere / "missing"))
+    assert jit._cache_folder() is None
+    monkeypatch.setattr(jit, "CACHE_FOLDER", None)
+    twice = jit.derived_kernel("twice", "def twice(x):\n    return factor() * x\n", __name__, factor=jit.inner(two))
+    assert twice(1.5) == 3.0
+
+
+def two():
+    return 2.0
+
+
+# ---- no kernel is taken for another -----------------------------------------------------------------------------
+
+
+TWO_OF_ONE_NAME = """
+import json, sys
+import numpy as np
+from hess_mechanics import System
+
+def system(field):
+    return System(name="same", title="same", source="a test", labels=(), variables=("x",), parameters=("a",),
+                  field=field, integrals=lambda y, p: {}, frequency=lambda y, p: 1.0, rescale=lambda y, p, nu: (y, p),
+                  example=((1.0,), (0.5,)))
+
+both = {"grows": system(lambda y, p: (p[0] * y[0],)), "falls": system(lambda y, p: (-p[0] * y[0],))}
+found = {}
+for name in sys.argv[1:]:
+    orbit, out = both[name].orbit, np.empty((1, 1))
+    orbit(np.array([1.0]), np.array([0.5]), np.array([2.0]), 20, 1e-16, 1000, out)
+    found[name] = [out[0, 0], sum(orbit.stats.cache_hits.values())]
+print(json.dumps(found))
+"""
+
+
+def test_systems_of_one_name_have_each_its_own_kernel_in_every_process(tmp_path):
+    path = PACKAGE.parent
+    grows, falls = pytest.approx(2.718281828459045, abs=1e-14), pytest.approx(0.36787944117144233, abs=1e-15)
+    first = run(TWO_OF_ONE_NAME, tmp_path, path, "grows", "falls")
+    assert first == {"grows": [grows, 0], "falls": [falls, 0]}
+    # Read from disk, in another order.
+    assert run(TWO_OF_ONE_NAME, tmp_path, path, "falls", "grows") == {"grows": [grows, 1], "falls": [falls, 1]}
+    assert run(TWO_OF_ONE_NAME, tmp_path, path, "falls") == {"falls": [falls, 1]}
+
+
+def test_the_derived_source_can_be_read(tmp_path):
+    run(TWO_OF_ONE_NAME, tmp_path, PACKAGE.parent, "grows")
+    (path,) = tmp_path.rglob("same_orbit-*.py")
+    text = path.read_text(encoding="utf-8")
+    assert "# def rates(y, q, p, one):\n#     return ((p[0] * y[0]),)" in text
+    assert "def same_orbit(y, p, times, order, tolerance, max_steps, out):" in text

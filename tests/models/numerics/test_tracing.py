@@ -1,0 +1,277 @@
+"""Traced fields: what is derived is the field itself, exactly; and what cannot be traced is refused."""
+
+import math
+from fractions import Fraction
+
+import mpmath
+import numpy as np
+import pytest
+import sympy
+
+from hess_mechanics import System, ensemble, level, solve, systems
+from hess_mechanics.chaplygin_ball import phase_cloud_kernels
+from hess_mechanics.numerics.taylor_kernels import columns_of
+from hess_mechanics.numerics.tracing import NotTraceable, Symbol, constant, trace
+from hess_mechanics.suslov import free_kernels
+from hess_mechanics.suslov_hess import circle_map_kernels
+from hess_mechanics.suslov_hess.equations import WITH_ATTITUDE
+from oracle import uncompiled
+
+FIELDS = {
+    **{name: (system.field, len(system.variables), len(system.parameters)) for name, system in systems().items()},
+    "hess-attitude": (WITH_ATTITUDE.field, 8, 2),
+    "circle map": (circle_map_kernels.field, 9, 2),
+    "free passage": (free_kernels.field, 8, 2),
+    "phase cloud": (phase_cloud_kernels.field, 5, 6),
+}
+
+
+def random_field(seed, quotients):
+    """A field of four variables and three parameters, and its parts: sums, products, powers, quotients, constants."""
+    def field(y, p):
+        draw = np.random.default_rng(seed)
+
+        def some(depth):
+            if depth == 0:
+                return (*y, *p)[draw.integers(len(y) + len(p))] * int(draw.integers(1, 4))
+            a, b = some(depth - 1), some(depth - 1)
+            kind = draw.integers(6 if quotients else 5)
+            if kind == 5:
+                return a / (b * b + p[0] * p[0] + 2)
+            if kind == 4:
+                return a ** int(draw.integers(1, 4)) - b / 4
+            return (a + b, a - b, a * b, -a * (b + 1))[kind]
+
+        return tuple(some(2) for _ in y)
+
+    return field
+
+
+def coefficients(recursion, y, p, order, number=float):
+    """Taylor coefficients (order + 1, d) by the derived source, uncompiled; number : the kind of y, from a text."""
+    functions, zero = uncompiled(recursion, number), number("0")
+    columns = columns_of(recursion)
+    c, left, right = (np.full((order + 1, n), zero, dtype=object) for n in (len(y), columns, columns))
+    c[0] = y
+    inverses = np.array([1 / (zero + k + 1) for k in range(order)], dtype=object)
+    functions["expand"](c, left, right, inverses, p)
+    return c
+
+
+def assert_reproduced(field, variables, parameters):
+    """The products and what is linear in them are the field, as rational functions of all symbols."""
+    y, p = sympy.symbols(f"y:{variables}"), sympy.symbols(f"p:{parameters}")
+    found = coefficients(trace(field, variables, parameters), y, p, 1, sympy.Rational)[1]
+    for one, rate in zip(found, field(y, p), strict=True):
+        assert sympy.cancel(one - rate) == 0
+
+
+@pytest.mark.parametrize(("field", "variables", "parameters"), FIELDS.values(), ids=FIELDS)
+def test_what_is_derived_from_a_field_is_the_field(field, variables, parameters):
+    assert_reproduced(field, variables, parameters)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_what_is_derived_from_any_field_is_the_field(seed):
+    assert_reproduced(random_field(seed, quotients=seed % 2 == 1), 4, 3)
+
+
+def derivatives(field, y, p, order):
+    """y^(k)/k! by differentiating the field symbolically along itself, exactly."""
+    names = sympy.symbols(f"y:{len(y)}")
+    rates = [sympy.sympify(rate) for rate in field(names, p)]
+    values, current = [list(y)], list(names)
+    for k in range(1, order + 1):
+        current = [sum(sympy.diff(x, name) * rate for name, rate in zip(names, rates, strict=True)) for x in current]
+        values.append([x.subs(dict(zip(names, y, strict=True))) / sympy.factorial(k) for x in current])
+    return values
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_the_recursion_is_exact_at_every_order_in_rationals(seed):
+    field = random_field(seed, quotients=seed % 2 == 1)
+    y = [sympy.Rational(k + 1, 3 + k) for k in range(4)]
+    p = [sympy.Rational(1, 2), sympy.Integer(2), sympy.Rational(-3, 4)]
+    found = coefficients(trace(field, 4, 3), y, p, 4, sympy.Rational)
+    for row, expected in zip(found, derivatives(field, y, p, 4), strict=True):
+        assert [sympy.cancel(one - other) for one, other in zip(row, expected, strict=True)] == [0] * 4
+
+
+@pytest.mark.parametrize(("field", "variables", "parameters"), FIELDS.values(), ids=FIELDS)
+def test_high_orders_agree_with_mpmath(field, variables, parameters):
+    # mpmath's own Taylor series of the solution, from a solver that shares nothing with the recursion.
+    with mpmath.workdps(50):
+        draw = np.random.default_rng(7)
+        y = [mpmath.mpf(x) for x in draw.uniform(0.3, 0.9, variables)]
+        p = [mpmath.mpf(x) for x in draw.uniform(0.5, 1.5, parameters)]
+        found = coefficients(trace(field, variables, parameters), y, p, 12, mpmath.mpf)
+        h = mpmath.mpf("0.02")
+        solution = mpmath.odefun(lambda _, x: list(field(x, p)), 0, y)(h)
+        summed = [sum(found[k, i] * h**k for k in range(13)) for i in range(variables)]
+        assert max(abs(one - other) for one, other in zip(summed, solution, strict=True)) < 1e-17
+        # One coefficient changed in its twelfth digit would be seen.
+        assert max(abs(found[8, i]) for i in range(variables)) * h**8 > 1e-25
+
+
+def test_a_constant_of_the_motion_is_taken_for_the_whole_step():
+    # ẋ = −y, ẏ = x at the rate x² + y², which stays.
+    def plain(y, p):
+        r = constant(y[0] ** 2 + y[1] ** 2)
+        return -r * y[1], r * y[0]
+
+    recursion = trace(plain, 2, 0)
+    assert (recursion.constants, recursion.pairs, recursion.stages) == (1, (), ())
+    found = coefficients(recursion, [Fraction(3), Fraction(1)], [], 3, Fraction)
+    assert found[1].tolist() == [-10, 30]
+    assert found[2].tolist() == [-150, -50]
+    assert constant(2.5) == 2.5
+
+
+def test_sums_of_variables_are_multiplied_out_and_products_occur_once():
+    def field(y, p):
+        s = p[0] * y[0] - y[1]
+        return s * y[1] + y[1] * y[0], -s * y[0], 3 * y[1] * y[0] / p[0]
+
+    recursion = trace(field, 3, 1)
+    assert recursion.is_quadratic
+    assert sorted(recursion.pairs) == [(0, 0), (0, 1), (1, 1)]
+
+
+def test_what_no_rate_needs_is_not_computed():
+    def field(y, p):
+        _ = y[0] / (y[1] * y[1] + 1)
+        return y[1], -y[0]
+
+    assert trace(field, 2, 0).pairs == ()
+    assert trace(field, 2, 0).is_quadratic
+
+
+def test_a_quotient_takes_one_auxiliary_series_and_one_for_its_divisor():
+    recursion = trace(lambda y, p: (y[1] / (1 + y[0] ** 2), y[1] / (1 + y[0] ** 2) - y[0]), 2, 0)
+    assert recursion.stages == (1, 1)
+    assert sorted(recursion.pairs) == [(0, 0), (2, 3)]
+
+
+def roessler(y, p):
+    """With a constant term, as no field of the paper has."""
+    a, b, c = p
+    return -y[1] - y[2], y[0] + a * y[1], b + y[2] * (y[0] - c)
+
+
+def pole(y, p):
+    """ẋ = 1/(1 + x²), ẏ = −y/x: x + x³/3 = t + …"""
+    return 1 / (1 + y[0] ** 2), -p[0] * y[1] / y[0]
+
+
+def system_of(field, variables, example):
+    return System(
+        name=field.__name__, title=field.__name__, source="a test", labels=(), variables=variables,
+        parameters=tuple(f"p{i}" for i in range(len(example[1]))), field=field, integrals=lambda y, p: {},
+        frequency=lambda y, p: 1.0, rescale=lambda y, p, nu: (y.copy(), p.copy()), example=example)
+
+
+@pytest.mark.parametrize("system", [
+    system_of(roessler, ("x", "y", "z"), ((0.3, -0.2, 0.1), (0.2, 0.2, 5.7))),
+    system_of(pole, ("x", "y"), ((0.5, 2.0), (0.75,))),
+], ids=lambda system: system.name)
+def test_a_system_of_ones_own_needs_its_field_only(system):
+    state, p = system.example
+    times = [0.5, 3.0]
+    found = solve(system, state, p, times, level("reference")).states
+    with mpmath.workdps(30):
+        exact_solution = mpmath.odefun(lambda _, x: list(system.field(x, p)), 0, [mpmath.mpf(x) for x in state])
+        expected = np.array([[float(x) for x in exact_solution(t)] for t in times])
+    assert found == pytest.approx(expected, abs=1e-13)
+    if system.recursion.is_quadratic:
+        starts = np.array(state) * np.linspace(0.9, 1.1, 11)[:, None]
+        many = ensemble(system, starts, p, times, level("reference")).states
+        assert many[5] == pytest.approx(expected, abs=1e-13)
+
+
+@pytest.mark.parametrize("field", [
+    lambda y, p: (math.sin(y[0]), y[1]),
+    lambda y, p: (np.sin(y[0]), y[1]),
+    lambda y, p: (abs(y[0]), y[1]),
+    lambda y, p: (y[0] if y[1] > 0 else -y[0], y[1]),
+    lambda y, p: (y[0] if y[1] == p[0] else -y[0], y[1]),
+    lambda y, p: (max(y[0], y[1]), y[1]),
+    lambda y, p: (y[0] ** 0.5, y[1]),
+    lambda y, p: (y[0] ** y[1], y[1]),
+    lambda y, p: (2 ** y[0], y[1]),
+    lambda y, p: (y[0] % 2, y[1]),
+    lambda y, p: (y[0] * 1j, y[1]),
+    lambda y, p: (y[0] * math.nan, y[1]),
+    lambda y, p: (y[0] / 0, y[1]),
+    lambda y, p: (y[0] / (p[0] - p[0] * 1 + y[0] * 0), "y"),
+    lambda y, p: (np.array([1.0, 2.0]) * y[0], y[1]),
+    lambda y, p: (y[0] * math.inf, y[1]),
+    lambda y, p: y[0],
+    lambda y, p: (p[1], y[1]) if len(p) > 1 else (y[0], *p[1:2], y[5]),
+], ids=["math", "numpy", "abs", "condition", "equal", "max", "root", "power", "exponential", "modulo", "complex", "nan",
+        "division by 0", "text", "array", "inf", "no sequence", "missing variable"])
+def test_what_is_no_arithmetic_is_refused(field):
+    with pytest.raises(NotTraceable, match=r"^This field cannot be traced: .*") as caught:
+        trace(field, 2, 1)
+    assert "Use +, −, *, /" in str(caught.value) or "divides by 0" in str(caught.value)
+
+
+@pytest.mark.parametrize("count", [1, 3])
+def test_a_field_returns_one_rate_for_each_variable(count):
+    with pytest.raises(NotTraceable, match=f"2 variables and returns {count} rates: return one for each"):
+        trace(lambda y, p: (y[0],) * count, 2, 0)
+
+
+def test_numbers_of_numpy_and_symbols_mix():
+    def field(y, p):
+        assert isinstance(np.float64(2.0) * y[0], Symbol)
+        return np.float64(2.0) * y[0] + np.int64(3), +y[1] - np.float32(0.5)
+
+    found = coefficients(trace(field, 2, 0), [1.0, 1.0], [], 1)
+    assert found[1].tolist() == [5.0, 0.5]
+
+
+def test_a_variational_equation_is_traced_like_any_field():
+    # Pairs (value, tangent) for numbers: what `tracing` says of them.
+    class Dual:
+        def __init__(self, x, dx=0):
+            self.x, self.dx = x, dx
+
+        @classmethod
+        def of(cls, other):
+            return other if isinstance(other, cls) else cls(other)
+
+        def __add__(self, other):
+            other = self.of(other)
+            return Dual(self.x + other.x, self.dx + other.dx)
+
+        def __sub__(self, other):
+            other = self.of(other)
+            return Dual(self.x - other.x, self.dx - other.dx)
+
+        def __mul__(self, other):
+            other = self.of(other)
+            return Dual(self.x * other.x, self.x * other.dx + self.dx * other.x)
+
+        def __truediv__(self, other):
+            other = self.of(other)
+            quotient = self.x / other.x
+            return Dual(quotient, (self.dx - quotient * other.dx) / other.x)
+
+        def __neg__(self):
+            return Dual(-self.x, -self.dx)
+
+        __radd__, __rmul__ = __add__, __mul__
+
+    system = systems()["suslov"]
+    n = len(system.variables)
+
+    def along(y, p):
+        rates = [Dual.of(rate) for rate in system.field([Dual(*pair) for pair in zip(y[:n], y[n:], strict=True)], p)]
+        return (*(rate.x for rate in rates), *(rate.dx for rate in rates))
+
+    recursion = trace(along, 2 * n, len(system.parameters))
+    assert recursion.is_quadratic
+    y, v, p = sympy.symbols(f"y:{n}"), sympy.symbols(f"v:{n}"), sympy.symbols(f"p:{len(system.parameters)}")
+    found = coefficients(recursion, (*y, *v), p, 1, sympy.Rational)[1]
+    for one, rate in zip(found[n:], system.field(y, p), strict=True):
+        assert sympy.cancel(one - sum(sympy.diff(rate, x) * dx for x, dx in zip(y, v, strict=True))) == 0
