@@ -25,7 +25,7 @@ LG_OF_0 = -17.5
 
 def lg(distance: Array) -> Array:
     """lg of what is not negative, from `LG_OF_0` on."""
-    return np.log10(np.maximum(distance, 10.0**LG_OF_0))
+    return np.asarray(np.log10(np.maximum(distance, 10.0**LG_OF_0)), float)
 
 
 def lg_axis(largest: float) -> Range:
@@ -35,7 +35,7 @@ def lg_axis(largest: float) -> Range:
 
 def clipped(values: Array, floor: float) -> Array:
     """Values (n,), none below the floor of the axis."""
-    return np.maximum(np.asarray(values, float), floor)
+    return np.asarray(np.maximum(values, floor), float)
 
 
 def limit(height: Callable[[S], float]) -> Layer[S]:

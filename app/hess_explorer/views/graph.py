@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from hess_explorer.views.layers import Range
-from hess_mechanics.numerics.results import Array
+from hess_mechanics.numerics.results import Array, Mask
 
 __all__ = ["branches", "pieces", "settled_range", "thinned"]
 
@@ -43,7 +43,7 @@ def branches(x: Array, y: Array, period: float) -> list[Array]:
     return np.split(np.column_stack([x, y]), cuts + 2 + 2 * np.arange(cuts.size))
 
 
-def pieces(curve: Array, kept: Array, jump: float = math.inf) -> list[Array]:
+def pieces(curve: Array, kept: Mask, jump: float = math.inf) -> list[Array]:
     """For `curves`: the parts of one (n, 2) along which `kept` (n,) holds, not joined across jumps in height."""
     cuts = np.flatnonzero(~kept[1:] | ~kept[:-1] | (np.abs(np.diff(curve[:, 1])) > jump)) + 1
     return [part for part, whole in zip(np.split(curve, cuts), np.split(kept, cuts), strict=True)
