@@ -152,6 +152,7 @@ class SuslovHess(SuslovBody):
         ends = (-1.0, 1.0) if self.turning is None else self.turning.roots[1:]
         return [Circle(self.body.n3, end, "limit") for end in ends if abs(end) < 1 - 1e-9]
 
+    @cached_property
     def rotation(self) -> Grid:
         """The rotation number over the diagram."""
         axes = diagram.window(self.h)
@@ -275,7 +276,7 @@ SCENE = Scene(
              x=lambda s: diagram.window(s.h).x, y=lambda s: diagram.window(s.h).y, dot=("h", "reach"),
              on_click=lambda s, x, y: {"h": x, "f": y}, on_drag=True, on_hover=SuslovHess.about_torus,
              layers=diagram.layers(
-                 rotation=SuslovHess.rotation, boundary=lambda s: s.work.get(lock_boundary, s.body.a, STANDARD),
+                 rotation=lambda s: s.rotation, boundary=lambda s: s.work.get(lock_boundary, s.body.a, STANDARD),
                  curve=lambda s: s.work.get(curve, diagram.window(s.h).x[1]), here=lambda s: [(s.h, s.f)],
                  axes=lambda s: diagram.window(s.h))),
         Plot(name="circle", title="Circle map", caption=SuslovHess.about_map, axes=("φ", "Θ(φ)"),
