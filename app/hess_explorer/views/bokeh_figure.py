@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import holoviews as hv
 import numpy as np
 from bokeh.embed import json_item
-from bokeh.models import ColumnDataSource
+from bokeh.models import ColumnDataSource, ContinuousTicker
 from bokeh.plotting import figure
 
 from hess_explorer.views import theme
@@ -60,7 +60,9 @@ def build(plot: Plot[Any]) -> figure:
     if plot.x_ticks is not None:
         root.xaxis.ticker = list(plot.x_ticks)
     if plot.y_tick_count is not None:
-        root.yaxis.ticker.desired_num_ticks = plot.y_tick_count
+        ticker = root.yaxis[0].ticker
+        assert isinstance(ticker, ContinuousTicker)
+        ticker.desired_num_ticks = plot.y_tick_count
     sources: dict[str, ColumnDataSource] = {}
     for layer in (*plot.layers, POINT, MESSAGE):
         if layer.glyph not in _ON_CANVAS:
@@ -73,7 +75,7 @@ def build(plot: Plot[Any]) -> figure:
             getattr(root, layer.glyph)(source=source, level=level, **positions, **layer.style)
     if plot.on_box is not None:
         box = ColumnDataSource({column: [] for column in _POSITIONS["quad"]}, name=f"{plot.name}-box")
-        root.quad(**{column: column for column in _POSITIONS["quad"]}, source=box, level="overlay", fill_alpha=0.1,
+        root.quad(left="left", right="right", top="top", bottom="bottom", source=box, level="overlay", fill_alpha=0.1,
                   color=theme.UNSTABLE)
     return root
 
