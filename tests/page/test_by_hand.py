@@ -20,7 +20,7 @@ PAUSE = 450
 """Milliseconds after which the address bar has followed, and two clicks are no double click."""
 
 # Planar picture → the events of Bokeh that choose something in it.
-PICKS = """() => Object.fromEntries(hess.plots.map(({ model }) => [model.name, Object.keys(model.js_event_callbacks)]))"""
+PICKS = "() => Object.fromEntries(hess.plots.map(({ model }) => [model.name, Object.keys(model.js_event_callbacks)]))"
 
 
 @pytest.fixture(scope="module")
@@ -37,9 +37,18 @@ def pause(explorer):
     explorer.page.evaluate("pause => new Promise((done) => setTimeout(done, pause))", PAUSE)
 
 
+# The picture that was clicked last has the focus, and a dotted line about it.
+BLUR = """() => {
+  let focused = document.activeElement
+  while (focused?.shadowRoot?.activeElement) focused = focused.shadowRoot.activeElement
+  focused?.blur()
+}"""
+
+
 def pictures(explorer):
     """All pictures with their captions as they are on the screen, as RGB."""
     explorer.page.mouse.move(5, 5)
+    explorer.page.evaluate(BLUR)
     pause(explorer)
     shot = explorer.page.locator(".gallery:not(.away)").screenshot()
     return Image.open(io.BytesIO(shot)).convert("RGB")
