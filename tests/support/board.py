@@ -43,8 +43,9 @@ def description(name):
 @cache
 def plots_of(name):
     """The empty pictures of a scene that Bokeh draws, by name, as the browser reads them."""
-    document = Document.from_json(json.loads(description(name)["document"]))
-    return {root.name: root for root in document.roots}
+    pictures = description(name)["pictures"]
+    documents = [Document.from_json(one["item"]["doc"]) for one in pictures if one["kind"] == "plot"]
+    return {root.name: root for document in documents for root in document.roots}
 
 
 @cache
@@ -54,11 +55,14 @@ def empty_sources(name):
     found = [model for root in plots_of(name).values() for model in root.references()
              if isinstance(model, ColumnDataSource) and model.name is not None]
     assert len({model.name for model in found}) == len(found)
-    others = {picture["name"]: {} for picture in description(name)["pictures"] if picture["kind"] != "plot"}
+    pictures = description(name)["pictures"]
+    others = {picture["name"]: {} for picture in pictures if picture["kind"] != "plot"}
+    cells = {one["source"]: {} for picture in pictures for one in picture.get("cells", ())}
+    dots = {one["source"]: {one["x"]: [], one["y"]: []} for picture in pictures for one in picture.get("dots", ())}
     empty = {model.name: dict(model.data) for model in found}
     assert not any(column for columns in empty.values() for column in columns.values())
     assert not set(empty) & set(others)
-    return {**empty, **others}
+    return {**cells, **dots, **empty, **others}
 
 
 class Screen:
