@@ -19,11 +19,14 @@ export function cloudPlane(el, options, source, signal, isShown) {
   const sheet = squareCanvas(el, {
     className: "sphere cloud", role: "img", "aria-label": "Cloud of phase points on the plane of ω₁ and ω₂",
   }, paint, signal)
-  let [t, half] = [0, 1]
+  let t = 0
+  // The axes stay while there are no clouds.
+  let range = 1
 
   function place() {
     const [w, h] = [sheet.width - MARGIN.left - MARGIN.right, sheet.width - MARGIN.top - MARGIN.bottom]
-    half = own.data.half ?? half
+    range = own.data.half ?? range
+    const half = range
     return {
       w, h, half, x: (a) => MARGIN.left + (w * (a + half)) / (2 * half), y: (b) => MARGIN.top + (h * (half - b)) / (2 * half),
     }

@@ -63,10 +63,11 @@ export function sphere(el, options, source, signal, isShown) {
   const { canvas, request } = sheet
   const lines = options.bare ? [circle([0, 0, 1], 0)] : graticule()
   let turn = HOME
-  const look = () => tell("mounted", { kind: "client", show: ({ az, el }) => { turn = [Number(az), Number(el)] } })
-  look()
+  const beginTurn = (keys) => { turn = [Number(keys.az), Number(keys.el)] }
+  const askForTurn = () => tell("mounted", { kind: "client", show: beginTurn })
+  askForTurn()
   // The sphere of another scene may have been turned since.
-  listen("enter", () => { if (isShown()) look() }, signal)
+  listen("enter", () => { if (isShown()) askForTurn() }, signal)
   let point = null
 
   const own = source(options.name)

@@ -1,7 +1,7 @@
 """Work C for all methods: one linear integration over half a period gives Θ at every angle.
 
-The method is that of `hess_mechanics.suslov_hess.circle_map`.  The peers are given the first state and the half period;
-this project computes them in every run.
+The method is that of `hess_mechanics.suslov_hess.circle_map`.  The peers are given the first state and
+the half period; this project computes them in every run.
 """
 
 from __future__ import annotations
