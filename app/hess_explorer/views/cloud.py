@@ -10,7 +10,7 @@ from typing import Any, ClassVar, TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
-from hess_explorer.views.layers import Axes, Columns, Layer, f32, line, points
+from hess_explorer.views.layers import Axes, Columns, Layer, Sign, f32, line, points
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.velocity_plane import centred
 from hess_mechanics.chaplygin_ball.energy_surface import Strip, line_of_rest
@@ -56,6 +56,12 @@ class CloudPlane(Picture[S]):
     def first_axes(self) -> Axes:
         """The axes before the first state."""
         return Axes(centred(1.0), centred(1.0))
+
+    @property
+    def legend(self) -> tuple[Sign, ...]:
+        """What it adds to the legend of its scene."""
+        return (Sign("stable half, s = 0", "line", f"border-top: 3px solid {theme.STABLE}"),
+                Sign("unstable half, s = 0", "line", f"border-top: 3px dashed {theme.UNSTABLE}"), *self.signs)
 
     def describe(self) -> dict[str, Any]:
         """What the browser needs to know."""
