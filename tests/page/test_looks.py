@@ -17,8 +17,11 @@ from support.painted import assert_captions_fit
 SIZES = {"wide": (1600, 950), "laptop": (1280, 720), "phone": (390, 844)}
 COLUMNS = {"wide": 4, "laptop": 2, "phone": 1}
 SCENES = [name for name, scene in scenes().items() if scene.origin in (None, HESS)]
+# Where pictures stand two by two their number alone makes a difference: one scene of each number.
+TWO_BY_TWO = {len(scenes()[name].open_pictures): name for name in SCENES}.values()
 LOOKS = [
-    *((scene, size, "light") for size in SIZES for scene in SCENES),
+    *((scene, size, "light") for size in ("wide", "phone") for scene in SCENES),
+    *((scene, "laptop", "light") for scene in TWO_BY_TWO),
     *((scene, "wide", "dark") for scene in SCENES),
     *((HESS, size, "dark") for size in SIZES if size != "wide"),
 ]
