@@ -68,10 +68,10 @@ def copied(folder: Path) -> Path:
     return folder
 
 
-def pytest_in(copy: Path, tests: list[str]) -> tuple[int, str]:
-    """Exit code and output of the tests, until the first fails."""
+def pytest_in(copy: Path, mechanics: Path, tests: list[str]) -> tuple[int, str]:
+    """Exit code and output of the tests in the copy, with these mechanics, until the first fails."""
     # Nothing compiled is kept: a copy with the time stamps of another fault would be taken for this one.
-    env = {**os.environ, "PYTHONPATH": os.pathsep.join(str(copy / root) for root in ("app", "models")),
+    env = {**os.environ, "PYTHONPATH": os.pathsep.join(map(str, (copy / "app", mechanics))),
            "PYTHONDONTWRITEBYTECODE": "1"}
     command = [sys.executable, "-m", "pytest", "-x", "-q", "-n", "0", "-p", "no:cacheprovider", "--tb=line", *tests]
     try:
@@ -91,7 +91,9 @@ def seeded(fault: Fault, copy: Path) -> Outcome:
         return Outcome(fault, False, f"THE TEXT STANDS THERE {count} TIMES", 0.0)
     path.write_text(text.replace(fault.old, fault.new), "utf-8")
     try:
-        code, said = pytest_in(copy, fault.tests)
+        # Kernels belong to the folder of their source: where that is whole, those that are there already will do.
+        whole = not fault.file.startswith("models/")
+        code, said = pytest_in(copy, (ROOT if whole else copy) / "models", fault.tests)
     finally:
         path.write_text(text, "utf-8")
     seconds = time.monotonic() - begun

@@ -5,7 +5,6 @@ from __future__ import annotations
 import gc
 import math
 import os
-import shutil
 import signal
 import socket
 import subprocess
@@ -25,9 +24,9 @@ from hess_explorer.__main__ import main
 from hess_explorer.headless.browser import BrowserError
 from hess_explorer.headless.screenshot import running_server
 from hess_mechanics.dynamics.orbit import MAX_SAMPLES
-from hess_mechanics.numerics.jit import CACHE_FOLDER
 from support.andoyer import GESS1, crossings_by_scipy, start_by_hand
 from support.command_line import replaced, run, strict_json, table
+from support.kernels import copy_kernels
 from support.mechanics import ROOT
 from support.processes import interruptible
 
@@ -368,8 +367,7 @@ def test_taken_port(refusal, served):
 
 def test_a_first_start_answers_at_the_address_it_prints_and_ends_silently(free_port, tmp_path):
     # Kernels without the mark that all are there: as a first start, but soon over.
-    cache = tmp_path / "hess-explorer" / CACHE_FOLDER.name
-    shutil.copytree(CACHE_FOLDER, cache, ignore=shutil.ignore_patterns("complete-*"))
+    copy_kernels(tmp_path)
     command = [sys.executable, "-m", "hess_explorer", "serve", "--port", str(free_port), "--no-browser"]
     url = f"http://localhost:{free_port}"
     with interruptible(), subprocess.Popen(

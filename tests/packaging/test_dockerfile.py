@@ -1,7 +1,5 @@
 """The image can be built and serves: each line of the Dockerfile, carried out without Docker."""
 
-import hashlib
-import shutil
 import signal
 import socket
 import subprocess
@@ -10,28 +8,13 @@ from pathlib import Path
 
 import pytest
 
-import hess_mechanics
 from hess_explorer.headless.browser import wait_ready
 from hess_explorer.headless.screenshot import wait_alive
-from hess_mechanics.numerics.jit import CACHE_FOLDER
 from support.dockerfile import Image, instructions
+from support.kernels import copy_kernels
 from support.processes import interruptible
 
 ROOT = Path(__file__).resolve().parents[2]
-
-
-def with_compiled_kernels(image):
-    """Hand the image the kernels that this environment has compiled.
-
-    Numba files them under a hash of the source's folder; it takes them only for the very same source.
-    """
-    source, installed = Path(hess_mechanics.__file__).parent, image.site / "hess_mechanics"
-    cache = Path(image.set["NUMBA_CACHE_DIR"]) / "hess-explorer" / CACHE_FOLDER.name
-    for folder in (source, *(path for path in source.rglob("*") if path.is_dir())):
-        there = installed / folder.relative_to(source)
-        old, new = (f"{path.name}_{hashlib.sha1(str(path).encode()).hexdigest()}" for path in (folder, there))
-        if (CACHE_FOLDER / old).is_dir():
-            shutil.copytree(CACHE_FOLDER / old, cache / new)
 
 
 @pytest.fixture(scope="module")
@@ -40,7 +23,7 @@ def image(tmp_path_factory):
     for instruction, rest in instructions((ROOT / "Dockerfile").read_text()):
         made.carry_out(instruction, rest)
         if instruction == "ENV":
-            with_compiled_kernels(made)
+            copy_kernels(made.set["NUMBA_CACHE_DIR"], made.site / "hess_mechanics")
     return made
 
 
@@ -59,7 +42,7 @@ def test_neither_the_folder_nor_its_files_shadow_the_packages(image):
 
 def test_its_user_has_the_kernels_compiled(image):
     assert image.user != "root"
-    mark, = Path(image.set["NUMBA_CACHE_DIR"]).glob("hess-explorer/*/complete-*")
+    mark, = Path(image.set["NUMBA_CACHE_DIR"]).glob("hess-explorer/complete-*")
     assert list(mark.parent.rglob("*.nbc"))
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from support.ball import BALL, SECTION, angles, circle_of, energy_of, first_returns, integrate, occupied, shown, xi_of
-from support.page import Explorer, brought, chosen, flat, one_tab, said, wait_frames
+from support.page import brought, chosen, flat, one_tab, said, wait_frames
 from support.painted import SOURCES, assert_painted, track, yellow
 from support.pointer import at, click_on, frame
 
@@ -297,16 +297,3 @@ def test_the_body_goes_from_scene_to_scene(tab):
     tab.enter("chaplygin-ball")
     assert [tab.shown(name)[0] for name in ("I11", "I23", "D")] == [1.25, 0.5, 2.5]
     assert_painted(tab, BALL)
-
-
-@pytest.mark.parametrize("size", [(1280, 720), (390, 844)], ids=lambda size: f"{size[0]}×{size[1]}")
-@pytest.mark.parametrize("scene", PLANAR)
-def test_on_smaller_screens_in_the_dark_every_picture_is_in_the_window_and_whole(open_page, server, scene, size):
-    explorer = Explorer(open_page(f"scene={scene}&theme=dark", size=size, color_scheme="dark"), server)
-    assert explorer.page.evaluate("document.documentElement.scrollWidth <= window.innerWidth")
-    for picture in PLANAR[scene]:
-        explorer.picture(picture).scroll_into_view_if_needed()
-        left, top, right, bottom = frame(explorer, picture)
-        assert 0 <= left < right <= size[0]
-        assert min(right - left, bottom - top) > 200
-    explorer.assert_quiet()

@@ -24,9 +24,9 @@ from support.free_suslov import (
     start_of,
     tensor_of,
 )
-from support.page import Explorer, brought, chosen, flat, one_tab, said, values_of, wait_frames
+from support.page import brought, chosen, flat, one_tab, said, values_of, wait_frames
 from support.painted import SOURCES, assert_painted, track, yellow
-from support.pointer import at, click_on, frame
+from support.pointer import at, click_on
 
 tab = pytest.fixture(scope="module")(one_tab)
 PLANAR = {"free-suslov": ("omega", "gamma1", "Gamma"), "scattering": ("curve", "map", "chi")}
@@ -400,16 +400,3 @@ def test_the_scenes_are_entered_from_the_menu_and_share_the_body(tab):
     assert went == other == -came
     tab.enter("suslov-hess")
     tab.assert_quiet()
-
-
-@pytest.mark.parametrize("size", [(1280, 720), (390, 844)], ids=lambda size: f"{size[0]}×{size[1]}")
-@pytest.mark.parametrize("scene", LINKED)
-def test_on_smaller_screens_in_the_dark_every_picture_is_in_the_window_and_whole(open_page, server, scene, size):
-    explorer = Explorer(open_page(f"scene={scene}&theme=dark", size=size, color_scheme="dark"), server)
-    assert explorer.page.evaluate("document.documentElement.scrollWidth <= window.innerWidth")
-    for picture in PLANAR[scene]:
-        explorer.picture(picture).scroll_into_view_if_needed()
-        left, top, right, bottom = frame(explorer, picture)
-        assert 0 <= left < right <= size[0]
-        assert min(right - left, bottom - top) > 200
-    explorer.assert_quiet()

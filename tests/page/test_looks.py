@@ -16,8 +16,11 @@ from support.painted import assert_captions_fit
 SIZES = {"wide": (1600, 950), "laptop": (1280, 720), "phone": (390, 844)}
 COLUMNS = {"wide": 4, "laptop": 2, "phone": 1}
 SCENES = [name for name, scene in scenes().items() if scene.origin in (None, HESS)]
+# Where pictures stand two by two their number alone makes a difference: one scene of each number.
+TWO_BY_TWO = {len(scenes()[name].open_pictures): name for name in SCENES}.values()
 LOOKS = [
-    *((scene, size, "light") for size in SIZES for scene in SCENES),
+    *((scene, size, "light") for size in ("wide", "phone") for scene in SCENES),
+    *((scene, "laptop", "light") for scene in TWO_BY_TWO),
     *((scene, "wide", "dark") for scene in SCENES),
     *((HESS, size, "dark") for size in SIZES if size != "wide"),
 ]
@@ -92,6 +95,13 @@ def test_of_every_size_and_theme_a_screenshot_is_kept_and_dark_is_dark(look, art
     assert (brightness(shot) > 200) if theme == "light" else (brightness(shot) < 60)
 
 
+# Where the axes of planar pictures begin and end, and how high they are.
+FRAMES = """names => hess.plots.filter(({ model }) => names.includes(model.name)).map(({ el, frame: { bbox } }) => {
+  const { x } = el.getBoundingClientRect()
+  return [x + bbox.x0, x + bbox.x1, bbox.y1 - bbox.y0]
+})"""
+
+
 @every_look
 def test_pictures_stand_in_as_many_columns_as_fit_and_are_square(look):
     page, scene, size, _ = look
@@ -101,6 +111,11 @@ def test_pictures_stand_in_as_many_columns_as_fit_and_are_square(look):
         assert box["width"] >= 290
         assert box["x"] >= 0
         assert box["x"] + box["width"] <= SIZES[size][0]
+    frames = page.evaluate(FRAMES, [name for name in planar(scene) if name in scenes()[scene].open_pictures])
+    assert frames
+    for left, right, height in frames:
+        assert 0 <= left < right <= SIZES[size][0]
+        assert min(right - left, height) > 200
     columns = COLUMNS[size]
     for i, box in enumerate(boxes):
         row = boxes[i - i % columns]

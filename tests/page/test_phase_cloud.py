@@ -1,6 +1,7 @@
 """Clouds in the browser: every example as its captions say, points between two frames, play, clicks, refusals."""
 
 import io
+import json
 import math
 from urllib.parse import urlencode
 
@@ -26,8 +27,8 @@ SOME = 1e-4
 """The share of a small patch: some ten pixels."""
 
 # Of each cloud the columns ω1, ω2, γ1, γ2, γ3.
-CLOUDS = """slider => hess.clouds(hess.source("omega"), Number(slider.value))
-  .map(({ w1, w2, g1, g2, g3 }) => [w1, w2, g1, g2, g3].map((one) => Array.from(one)))"""
+CLOUDS = """slider => JSON.stringify(hess.clouds(hess.source("omega"), Number(slider.value))
+  .map(({ w1, w2, g1, g2, g3 }) => [w1, w2, g1, g2, g3].map((one) => Array.from(one))))"""
 DENSITY = "() => { const { x, y } = hess.source('density-now').data; return [Array.from(x), Array.from(y)] }"
 FILLED = """canvas => innerWidth === document.documentElement.clientWidth
   && Math.abs(canvas.width - canvas.getBoundingClientRect().width * devicePixelRatio) <= 2"""
@@ -45,7 +46,7 @@ def cloud(tab):
 
 def clouds(cloud):
     """(5, n) of each cloud on the page."""
-    return [np.array(one) for one in cloud.page.locator("input.param-t").evaluate(CLOUDS)]
+    return [np.array(one, float) for one in json.loads(cloud.page.locator("input.param-t").evaluate(CLOUDS))]
 
 
 def share_of(cloud, picture, colour):
