@@ -168,6 +168,6 @@ def test_what_is_no_motion_is_refused_in_words():
 
 def test_the_motion_for_speed_and_accuracy_is_the_one_on_show():
     for scene in (ARC, POINT):
-        view, motion = View(scene, {}), scene.motion(scene.defaults())
+        view, motion = View(scene, {}), scene.of(scene.defaults()).motion()
         assert motion.state == pytest.approx(view.result.start)
         assert (motion.parameters, motion.span) == (view.result.body.parameters, view.values["span"])
