@@ -13,8 +13,8 @@ import pytest
 from hess_explorer.compute import background
 from hess_explorer.compute.background import Background
 from hess_explorer.compute.cache import ResultCache, Task
-from hess_explorer.page import session
 from hess_explorer.protocol.parameters import MAX_QUERY, Places, decode, encode, places, written
+from hess_explorer.scenes import euler_poisson
 from hess_explorer.scenes.framework.work import Work
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.parallel import THREADS
@@ -58,7 +58,7 @@ class Gate(ResultCache):
 def gate(monkeypatch):
     """The gate, closed, in place of the process's cache."""
     closed, begun = Gate(), []
-    for module in (background, session, *modules_of_scenes()):
+    for module in (background, *modules_of_scenes()):
         monkeypatch.setattr(module, "CACHE", closed)
     init = Background.__init__
 
@@ -198,11 +198,11 @@ def test_nothing_to_do_is_done_at_once():
 
 
 def test_what_is_not_known_yet_is_left_to_do(gate):
-    work = Work(SMALL, dragging=False)
+    work = Work(dragging=False)
     assert work.later(square, 3) is None
     assert work.todo == tasks(1, first=3)
     gate.get(square, 3)
-    again = Work(SMALL, dragging=False)
+    again = Work(dragging=False)
     assert again.later(square, 3) == 9
     assert again.todo == []
     assert work.pieces == again.pieces == 1
@@ -391,7 +391,7 @@ def test_a_newer_state_ends_the_work_for_the_older_one(gate):
     assert state["progress"] == [0, PIECES]
     gate.let(1000)
     completed(browser)
-    energies = Counter(arguments[1] for _, arguments in gate.calls if len(arguments) > 3)
+    energies = Counter(arguments[0].h for function, arguments in gate.calls if function is euler_poisson._piece)
     assert energies[50.0] <= THREADS
     assert energies[45.0] == PIECES - 1
 
@@ -432,8 +432,6 @@ def test_the_last_piece_may_come_while_its_picture_is_drawn(gate):
 
 
 def test_a_refusal_in_the_background_is_said(free_gate, monkeypatch):
-    from hess_explorer.scenes import euler_poisson
-
     monkeypatch.setattr(euler_poisson, "_MOST_STEPS", 30)
     browser = Browser(EP, SMALL)
     completed(browser)
