@@ -8,8 +8,8 @@ import re
 import numpy as np
 import pytest
 
-from hess_explorer.scenes.framework.work import ACCURACY
 from hess_mechanics.errors import ModelError
+from hess_mechanics.numerics.accuracy import LEVELS
 from support.loxodrome import HESS, LOXODROME, clock, slope, swing_at
 from support.view import NUMBER, View
 
@@ -132,7 +132,7 @@ def test_the_slider_of_the_middle_moment_lies_between_the_others():
     assert LOXODROME.limits({**LOXODROME.defaults(), "I1": 2.0, "I3": 2.0}) == {}
 
 
-@pytest.mark.parametrize("accuracy", ACCURACY.options)
+@pytest.mark.parametrize("accuracy", LEVELS)
 def test_the_status_line_says_error_drift_and_how_orthonormal_it_was(accuracy):
     status = View(LOXODROME, {"accuracy": accuracy}).report.status
     assert status.startswith(f"{accuracy}: orbit ")

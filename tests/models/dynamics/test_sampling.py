@@ -11,7 +11,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from hess_explorer.scenes.suslov_hess import half_width
+from hess_explorer.scenes.suslov_hess import SuslovHess
 from hess_mechanics import HessBody, circle_map, f_max, level, systems
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA, sample_times
@@ -24,6 +24,11 @@ MOST = 6000
 # |ẍ|Δt²/8 is the sagitta of a parabola: between two samples |ẍ| itself changes a little.  Of 6000 random tori none
 # was beyond 1.11.
 ALMOST = 1.15
+
+
+def half_width(body, h):
+    """Of the frame of the scene's (ω1, ω2)-plane."""
+    return SuslovHess(I22=body.I22, I23=body.I23, b3=body.b3, h=h).half_width
 
 
 def farthest(times, states, solution, at, weights):

@@ -247,7 +247,10 @@ class Scene(Generic[S]):
 
     def compute(self, values: Values, seen: Collection[str], dragging: bool) -> S:
         """The state of admitted values, with all that the pictures `seen` ask for.  Raises `ModelError`."""
-        state = self.of(values, seen, dragging)
+        return self.draw(self.of(values, seen, dragging))
+
+    def draw(self, state: S) -> S:
+        """The state with the columns of all that is in sight.  Raises `ModelError`."""
         views = [view for view in self.views if view.name in state.seen]
         needed = state.seen.union(*(view.needs for view in views))
         for view in self.views:
