@@ -94,10 +94,11 @@ def test_in_a_shared_folder_its_name_cannot_be_guessed_and_it_is_found_again(now
     assert jit._cache_folder().name != folder.name
 
 
-def test_a_folder_that_others_may_write_to_is_not_used(nowhere):
+@pytest.mark.parametrize("mode", [0o777, 0o770, 0o702])
+def test_a_folder_that_others_may_write_to_is_not_used(nowhere, mode):
     theirs = nowhere / "hess-explorer-0"
     theirs.mkdir()
-    theirs.chmod(0o777)
+    theirs.chmod(mode)
     assert jit._cache_folder() != theirs
 
 
