@@ -15,7 +15,7 @@ from hess_explorer.scenes.framework.parameters import accuracy_level, choice, nu
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
 from hess_explorer.views import theme
 from hess_explorer.views.cloud import CloudPlane, density_axes, density_layers
-from hess_explorer.views.layers import Axes, Columns, Layer, Range, curves, f32, levels
+from hess_explorer.views.layers import Axes, Columns, Layer, Range, curves, f32, levels, line
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Direction, Sphere
 from hess_explorer.views.text import digits
@@ -186,8 +186,8 @@ class SingularMeasures(State):
             yield f"beside ≤ {other.errors.max():.1e}"
 
 
-def _series(name: str, i: int, color: str, dash: str = "solid") -> Layer[SingularMeasures]:
-    return curves(name, lambda s: [np.column_stack([s.times, s.on_show[i]])], color=color, dash=dash)
+def _extreme(name: str, i: int) -> Layer[SingularMeasures]:
+    return curves(name, lambda s: [np.column_stack([s.times, s.on_show[i]])], color=theme.MUTED, dash="dashed")
 
 
 SCENE = Scene(
@@ -213,9 +213,9 @@ SCENE = Scene(
             x=lambda s: (0.0, float(s.times[-1])), y=lambda s: s.heights, dot=("t", "mean"),
             layers=(
                 levels("levels", lambda s: [0.0]),
-                _series("least", 1, theme.MUTED, "dashed"), _series("largest", 2, theme.MUTED, "dashed"),
+                _extreme("least", 1), _extreme("largest", 2),
                 curves("beside", SingularMeasures.beside_it, color=theme.MAP, dash="dotdash",
                        label="cloud on a principal axis"),
-                _series("mean", 0, theme.ORBIT))),
+                line("mean", track="orbit", columns=("t", "mean"), color=theme.ORBIT))),
     ),
 )
