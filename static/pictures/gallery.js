@@ -74,6 +74,8 @@ async function build(description) {
     if (!scene.sources.has(name)) scene.sources.set(name, new Source())
     return scene.sources.get(name)
   }
+  // The player follows the orbit's, whether or not a picture draws it.
+  for (const name of description.tracks) source(name)
   // In place, for its size, but not to be seen before it is filled.
   grid.classList.add("away")
   shelf.append(grid)

@@ -38,6 +38,7 @@ def _describe(name: str) -> str:
         "presets": [preset.name for preset in scene.presets],
         "legend": scene.legend,
         "words": MarkdownIt().enable("table").render(with_formulas(scene.words)),
+        "tracks": [f"data-{name}" for name in scene.tracks],
         "dots": {source: list(columns) for source, columns in scene.dots.items()},
         "angles": list(scene.angles),
     })
