@@ -52,7 +52,8 @@ def page(tab):
 
 
 def shown_points(explorer):
-    return sum(len(explorer.data(f"section-{layer}")["x"]) for layer in ("first", "second"))
+    # What has never held anything is not sent.
+    return sum(len(explorer.data(f"section-{layer}").get("x", ())) for layer in ("first", "second"))
 
 
 def drawn(explorer, name):
