@@ -66,7 +66,7 @@ def empty_sources(name):
 
 def tracks_of(name):
     """The sources that several pictures of a scene share."""
-    return {f"data-{track}" for track in SCENES[name].tracks}
+    return set(description(name)["tracks"])
 
 
 class Screen:
