@@ -240,8 +240,6 @@ def test_a_scene_asked_twice_computes_nothing_and_shares_its_arrays():
     assert second.map is first.map
     assert second.cycles is first.cycles
     assert second.rotation.cells is first.rotation.cells
-    assert second.lock_boundary is first.lock_boundary
-    assert second.bifurcation_curve is first.bifurcation_curve
 
 
 @pytest.mark.parametrize("name", scenes())

@@ -5,6 +5,7 @@ level.  Nor may it cry wolf: where the true error is more than round-off, half o
 """
 
 import math
+from decimal import Decimal
 
 import numpy as np
 import pytest
@@ -42,7 +43,14 @@ def test_what_is_kept_is_what_the_oracle_finds(name):
     questions = quickest(name)
     assert questions
     for question in questions:
-        assert oracle.found_anew(question) == oracle.KEPT[question][1]
+        assert agree(oracle.found_anew(question), oracle.KEPT[question][1])
+
+
+def agree(found, kept):
+    """Whether answers are the same; of 34 or 40 decimals the last ones follow the order of the sums in the field."""
+    if isinstance(found, list):
+        return len(found) == len(kept) and all(map(agree, found, kept))
+    return abs(Decimal(found) - Decimal(kept)) <= Decimal("1e-31") if isinstance(found, str) else found == kept
 
 
 @in_long_double

@@ -542,7 +542,7 @@ ROWS = [
              floor=1e-6, because=CLOSE),
     an_orbit("separatrix grazed, h = 1 − 2e-9", HESS, (2 - 1e-9, 0.0, 0.0, 0.0, 1.0), (0.5, 1.0), [1.0, 12.0, 24.0],
              floor=1e-6, because=CLOSE),
-    an_orbit("separatrix grazed, h = 1, f = 1e-6", HESS, GRAZING, (0.5, 1.0), [1.0, 8.0, 16.0], floor=1e-10,
+    an_orbit("separatrix grazed, h = 1, f = 1e-6", HESS, GRAZING, (0.5, 1.0), [1.0, 8.0, 16.0], floor=1e-9,
              because=SADDLE),
     a_pendulum("h = −1 + 1e-12", 0.5, BOTTOM, 0.4, [1.0, 10.0, 100.0], speed=1.0),  # the unit of ω is √b, not 1e-6
     a_pendulum("h = 1e8", 0.5, 1e8, 0.4, [1e-5, 1e-4, 1e-2]),

@@ -253,5 +253,5 @@ class Session:
 
     def _refuse(self, sentence: str) -> Report:
         """Show why there is nothing to see."""
-        self.stage.fail(sentence)
+        self.stage.fail(sentence, hold_axes=self._held)
         return Report((), sentence, (), (), 0)

@@ -93,6 +93,16 @@ class SuslovHess(SuslovBody):
         return self.work.get(circle_map, self.body.a, self.h, self.f, self.level)
 
     @cached_property
+    def locked(self) -> Array:
+        """The boundary of the lock zone, |t| = 2, (n, 2)."""
+        return self.work.get(lock_boundary, self.body.a, STANDARD)
+
+    @cached_property
+    def edge(self) -> Array:
+        """The bifurcation curve as far as the diagram reaches, (n, 2)."""
+        return self.work.get(curve, diagram.window(self.h).x[1])
+
+    @cached_property
     def half_width(self) -> float:
         """Of the frame of the (ω1, ω2)-plane: room for every h of the slider, so that it can stay."""
         largest = math.sqrt(2.0 * (diagram.window(self.h).x[1] + 1.0))
@@ -276,9 +286,8 @@ SCENE = Scene(
              x=lambda s: diagram.window(s.h).x, y=lambda s: diagram.window(s.h).y, dot=("h", "reach"),
              on_click=lambda s, x, y: {"h": x, "f": y}, on_drag=True, on_hover=SuslovHess.about_torus,
              layers=diagram.layers(
-                 rotation=lambda s: s.rotation, boundary=lambda s: s.work.get(lock_boundary, s.body.a, STANDARD),
-                 curve=lambda s: s.work.get(curve, diagram.window(s.h).x[1]), here=lambda s: [(s.h, s.f)],
-                 axes=lambda s: diagram.window(s.h))),
+                 rotation=lambda s: s.rotation, boundary=lambda s: s.locked, curve=lambda s: s.edge,
+                 here=lambda s: [(s.h, s.f)], axes=lambda s: diagram.window(s.h))),
         Plot(name="circle", title="Circle map", caption=SuslovHess.about_map, axes=("φ", "Θ(φ)"),
              x=circle.SIDE, y=circle.SIDE, ticks=circle.TICKS, dot=("phi_start", "phi"),
              message=lambda s: "" if s.map is not None else "Separatrix: no return",

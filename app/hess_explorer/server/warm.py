@@ -13,8 +13,10 @@ from typing import Any
 
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.page.description import describe
+from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
+from hess_explorer.scenes.framework.stage import Stage
 from hess_explorer.server.compiled import KEEPS_KERNELS, all_compiled, mark_all_compiled
 from hess_mechanics.errors import ModelError
 
@@ -32,7 +34,8 @@ def compute(scene: Scene[Any], folded: bool = True) -> None:
     """
     try:
         state = scene.compute(scene.defaults(), scene.pictures if folded else scene.open_pictures, False)
-        for task in {task.function: task for task in state.work.todo}.values():
+        todo = Stage(scene, Wire()).show(state, hold_axes=False).todo
+        for task in {task.function: task for task in todo}.values():
             CACHE.get(task.function, *task.arguments)
     except ModelError as error:
         # A scene that fails must not stop the others.

@@ -425,9 +425,10 @@ def test_fewer_points_until_all_of_them_are_known(beside):
 
 
 def test_a_click_in_the_plane_chooses_a_patch_there():
-    picked = Stage(SCENE, Wire()).pick("omega", -1.0, 1.0)
-    assert picked == {"start": "small patch", "angle": pytest.approx(0.75 * math.pi)}
-    assert Stage(SCENE, Wire()).pick("sphere", 1.0, 1.0) == {}
+    stage = Stage(SCENE, Wire())
+    stage.show(SCENE.compute(SCENE.defaults(), SCENE.pictures, True), False)
+    assert stage.pick("omega", -1.0, 1.0) == {"start": "small patch", "angle": pytest.approx(0.75 * math.pi)}
+    assert stage.pick("sphere", 1.0, 1.0) == {}
 
 
 def test_what_another_scene_left_is_put_within_bounds():

@@ -89,11 +89,11 @@ def rows(Row, symmetric, there_and_back, drift):
     barrier = float(hess_curve(GESS1, np.array([l]))[0])
     near = tuple(state_at(GESS1, 50.0, 5.0, l, barrier + small) for small in (1e-9, -1e-12))
     mirror = (-1, -1, -1, 1, 1, 1)
+    grows = "what rounds the start grows twenty-fold in each period of n3"
     return [
         orbit("gess1", GESS1, START, [1.0, 5.0]),
-        orbit("1e-9 above the Hess manifold", GESS1, near[0], [0.5, 2.0], floor=1e-11,
-              because="what rounds the start grows twenty-fold in each period of n3"),
-        orbit("1e-12 below it", GESS1, near[1], [0.5, 2.0]),
+        orbit("1e-9 above the Hess manifold", GESS1, near[0], [0.5, 2.0], floor=1e-11, because=grows),
+        orbit("1e-12 below it", GESS1, near[1], [0.5, 2.0], floor=1e-11, because=grows),
         orbit("h at the bottom + 1e-10", UPRIGHT, (1e-5, -5e-6, 0.0, 0.0, 0.0, 1.0), [1.0, 30.0]),
         orbit("at rest below", UPRIGHT, (0.0, 0.0, 0.0, 0.0, 0.0, 1.0), [1e6],
               truth=lambda: np.array([[0.0, 0.0, 0.0, 0.0, 0.0, 1.0]]), against="equilibrium"),

@@ -46,12 +46,13 @@ class Stage(Generic[S]):
         status = re.sub(r"(?<=\d)e-(?=\d)", "e−", " · ".join([*state.status(), state.work.ended()]))
         return Report(derived, status, notes, tuple(state.work.todo), state.work.pieces)
 
-    def fail(self, sentence: str) -> None:
-        """Clear all pictures, and show the sentence in their captions."""
+    def fail(self, sentence: str, hold_axes: bool = False) -> None:
+        """Clear all pictures, and show the sentence in their captions; the axes are those of an empty page."""
         self._state = None
         for name in self.scene.tracks:
             self._put(f"data-{name}", {})
         for name, view in self._views.items():
+            self._set_axes(view, None if hold_axes else view.first_axes)
             for source, columns in view.nothing(sentence, self._axes[name]).items():
                 self._put(source, columns)
             self.wire.say(name, sentence)
