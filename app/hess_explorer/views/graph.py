@@ -45,6 +45,6 @@ def branches(x: Array, y: Array, period: float) -> list[Array]:
 
 def pieces(curve: Array, kept: Mask, jump: float = math.inf) -> list[Array]:
     """For `curves`: the parts of one (n, 2) along which `kept` (n,) holds, not joined across jumps in height."""
-    cuts = np.flatnonzero(~kept[1:] | ~kept[:-1] | (np.abs(np.diff(curve[:, 1])) > jump)) + 1
+    cuts = np.flatnonzero((kept[1:] != kept[:-1]) | (np.abs(np.diff(curve[:, 1])) > jump)) + 1
     return [part for part, whole in zip(np.split(curve, cuts), np.split(kept, cuts), strict=True)
-            if whole.all() and len(part) > 1]
+            if whole[0] and len(part) > 1]
