@@ -31,6 +31,7 @@ from hess_explorer.views.velocity_plane import centred, nice_above
 from hess_mechanics.euler_poisson.andoyer import coordinates, hess_circle
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge, largest_distance
 from hess_mechanics.euler_poisson.hess_manifold import Difference, difference
+from hess_mechanics.numerics.accuracy import DRAFT
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, f_max, turning_points
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
@@ -118,8 +119,9 @@ class BothSides(HeavyMotion, SuslovBody, _Given):
 
     @cached_property
     def half_width(self) -> float:
-        """Of the frame of the (ω1, ω2)-plane, a little wider than the ring."""
-        return nice_above(1.1 * float(np.max(np.abs(self.ring()[1]))))
+        """Of the frame of the (ω1, ω2)-plane, a little wider than the ring, and than what a draft may be wrong by."""
+        ring = 1.1 * float(np.max(np.abs(self.ring()[1])))
+        return nice_above(max(ring, 2.0 * DRAFT.promise * self.bridge.hess.frequency_unit))
 
     @cached_property
     def track(self) -> Track:

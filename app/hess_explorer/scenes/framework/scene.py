@@ -116,7 +116,7 @@ class State:
         return ()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Scene(Generic[S]):
     """One scene of the explorer.
 

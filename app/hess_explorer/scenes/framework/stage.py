@@ -30,20 +30,23 @@ class Stage(Generic[S]):
         self._state: S | None = None
 
     def show(self, state: S, hold_axes: bool) -> Report:
-        """Draw what `Scene.compute` has found; the axes stay as they are while a slider is held."""
-        self._state = state
-        for name, view in self._views.items():
-            if name in state.seen:
-                self._set_axes(view, None if hold_axes else view.ranges(state))
-                self.wire.say(name, view.said(state))
+        """Draw what `Scene.compute` has found; axes stay while a slider is held.  Raises `ModelError`."""
+        # All that can fail comes first: then nothing of a state that is refused is drawn.
+        views = [view for view in self.scene.views if view.name in state.seen]
+        said = {view.name: view.said(state) for view in views}
+        axes = {view.name: (None if hold_axes else view.ranges(state)) or self._axes[view.name] for view in views}
         drawn = dict(state.drawn)
-        for name in state.seen:
-            for source, columns in self._views[name].framed(state, self._axes[name]).items():
+        for view in views:
+            for source, columns in view.framed(state, axes[view.name]).items():
                 drawn[source] = {**drawn.get(source, {}), **columns}
-        for source, columns in drawn.items():
-            self._put(source, columns)
         derived, notes = [*state.derived()], [*state.notes()]
         status = re.sub(r"(?<=\d)e-(?=\d)", "e−", " · ".join([*state.status(), state.work.ended()]))
+        self._state = state
+        for view in views:
+            self._set_axes(view, axes[view.name])
+            self.wire.say(view.name, said[view.name])
+        for source, columns in drawn.items():
+            self._put(source, columns)
         return Report(derived, status, notes, tuple(state.work.todo), state.work.pieces)
 
     def fail(self, sentence: str, hold_axes: bool = False) -> None:
