@@ -138,7 +138,8 @@ def test_exponent_and_divergence_of_an_example_are_near_those_of_the_linear_equa
     assert mean == pytest.approx(divergence, abs=near)
     # What the words and names say.
     if name == SEA:
-        assert exponent > 0.05 > 50.0 * abs(mean)
+        # Of the mean of a chaotic orbit only the size is known, about 1e-3: another rounding, another orbit.
+        assert exponent > 0.05 > 20.0 * abs(mean)
     if name == REGULAR:
         assert abs(exponent) < 0.01
         assert abs(mean) < 1e-3
