@@ -39,7 +39,8 @@ print(json.dumps({part: source_hash(part) for part in sys.argv[1:]} | {"all": so
     ("numerics/taylor_kernels.py", lambda text: text.replace('"""', '"""Another docstring. ', 1), set()),
     ("euler_poisson/andoyer.py", lambda text: f"{text}\n_NEW = 1\n", {"euler_poisson"}),
     ("chaplygin_ball/equations.py", lambda text: text.replace("s = I13 * w1", "s = 2 * I13 * w1"), {"chaplygin_ball"}),
-    ("suslov/equations.py", lambda text: f"{text}\n_NEW = 1\n", {"suslov", "suslov_hess", "chaplygin_ball", "euler_poisson"}),
+    ("suslov/equations.py", lambda text: f"{text}\n_NEW = 1\n",
+     {"suslov", "suslov_hess", "chaplygin_ball", "euler_poisson"}),
     ("numerics/taylor_kernels.py", lambda text: f"{text}\n_NEW = 1\n", set(PARTS)),
     ("dynamics/system.py", lambda text: f"{text}\n_NEW = 1\n", set(PARTS)),
 ], ids=["comment", "docstring", "another subject", "the field", "what others import", "numerics", "dynamics"])
