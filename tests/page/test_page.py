@@ -206,7 +206,8 @@ def test_the_link_follows_what_the_user_does_and_opens_the_same_page_elsewhere(e
     assert other.text("notes") == ""
     for name in ("data-orbit", "data-stable", "circle-map", "bifurcation-boundary", "bifurcation-point", "omega-point"):
         # An empty column is the same as none.
-        found, expected = ({key: column for key, column in one.data(name).items() if column} for one in (other, explorer))
+        found, expected = ({key: column for key, column in one.data(name).items() if column}
+                           for one in (other, explorer))
         assert found == expected, name
     for name in PICTURES:
         assert other.caption(name) == explorer.caption(name)
