@@ -177,10 +177,6 @@ class SuslovHess(SuslovBody):
         multipliers = ", ".join(digits(point.multiplier) for point in theta.fixed_points)
         return f"{said}, multipliers {multipliers}" if multipliers else f"{said}, no cycle"
 
-    def shape(self) -> Shape | None:
-        """The gyration ellipsoid in the axes of n."""
-        return None if self.tensor is None else Shape.of_tensor(self.tensor, (0.0, 0.0, 1.0))
-
     def lying(self) -> tuple[Attitude, Array] | None:
         """The attitude, and its times in the body's time."""
         return None if self.attitude is None else (self.attitude, self.attitude.times / self.body.frequency_unit)
@@ -295,7 +291,8 @@ SCENE = Scene(
              layers=circle.layers(map=lambda s: s.map,
                                   iterates=lambda s: None if s.iterates is None else s.iterates[: COBWEB + 1])),
         BodyInSpace(name="body", title="The body in space", caption=SuslovHess.about_body, bare=True,
-                    folded="Show the body in space", shape=SuslovHess.shape, motion=SuslovHess.lying,
+                    folded="Show the body in space", motion=SuslovHess.lying,
+                    shape=lambda s: None if s.tensor is None else Shape.of_tensor(s.tensor, (0.0, 0.0, 1.0)),
                     rods=lambda s: [Rod(s.body.turn[:, 2], "muted", "3"), Rod((0.0, 0.0, 1.0), "mass")],
                     curves=lambda s: [Curve(s.attitude.in_space((0.0, 0.0, 1.0)), "orbit")] if s.attitude else []),
     ),
