@@ -29,13 +29,13 @@ def test_rotation_numbers_are_those_of_iteration(answer):
     for i, possible in enumerate(found["possible"]):
         rho, trace = found["rotation_number"][i], found["trace"][i]
         if not possible:
-            assert (rho, trace, found["locked"][i]) == (0.0, 0.0, False)
+            assert (rho, trace, found["locked"][i]) == (None, None, None)
             continue
         exact = iterated(0.5, found["h"][i], found["f"][i])
         assert rho == pytest.approx(exact, abs=1e-4)
         assert found["locked"][i] == (trace > 2.0)
         assert trace == pytest.approx(abs(2.0 * math.cos(math.pi * rho)), abs=1e-9) or found["locked"][i]
-    assert found["locked"] == [False, False, False, False, True, True]
+    assert found["locked"] == [False, None, False, False, True, True]
 
 
 def test_a_range_of_all_three_parameters(answer):
@@ -46,9 +46,18 @@ def test_a_range_of_all_three_parameters(answer):
     assert alone["rotation_number"][0] == pytest.approx(found["rotation_number"][6], abs=1e-12)
 
 
-def test_the_separatrix_and_the_outside_are_not_possible(answer):
-    found = answer("rotation-number", "--a", "0.5", "--h", "-1,1,0", "--f", "0,5")
+def test_the_separatrix_and_the_outside_are_not_possible(answer, capsys):
+    words = ("rotation-number", "--a", "0.5", "--h", "-1,1,0", "--f", "0,5")
+    found = answer(*words)
     assert found["possible"] == [False, False, False, False, True, False]
+    for name in ("rotation_number", "trace", "locked"):
+        assert [value is not None for value in found[name]] == found["possible"]
+    # In a table an impossible torus has empty fields.
+    assert main([*words, "--format", "csv"]) == 0
+    _, header, rows = table(capsys.readouterr().out)
+    first = header.index("rotation_number")
+    assert [row[first:] for row in rows if row[-1] == "False"] == [["", "", "", "False"]] * 5
+    assert all(map(float, rows[4][first:first + 1]))
 
 
 def test_a_trace_beyond_double_range_is_a_number(answer):
@@ -63,8 +72,8 @@ def test_csv_and_json_say_the_same(answer, capsys, words):
     assert main([*words, "--format", "csv"]) == 0
     facts, header, rows = table(capsys.readouterr().out)
     for i, name in enumerate(header):
-        values = [{"True": True, "False": False}.get(row[i], row[i]) for row in rows]
-        assert [value if isinstance(value, bool) else float(value) for value in values] == found[name]
+        values = [{"True": True, "False": False, "": None}.get(row[i], row[i]) for row in rows]
+        assert [float(value) if isinstance(value, str) else value for value in values] == found[name]
     assert {name: found[name] for name in facts} == facts
 
 

@@ -76,8 +76,8 @@ def write(options: argparse.Namespace, series: Mapping[str, Sequence[Any]], colu
           facts: Mapping[str, Any], notes: Sequence[str]) -> None:
     """Write the answer in the chosen format, to the chosen place.
 
-    series : columns of equal length, one row for each sample (in CSV the table, with the heading `columns`);
-    facts : everything else.  Raises `CommandError` if the file cannot be written.
+    series : columns of equal length, one row for each sample (in CSV the table, with the heading `columns`), None where
+    there is no value: null, or an empty field;  facts : everything else.  Raises `CommandError` if the file cannot be written.
     """
     strict = {key: _strict(value) for key, value in facts.items()}
     lost = [f"{key}: null stands for a number beyond the range of double precision."
@@ -103,7 +103,7 @@ def _json(value: Any) -> str:
 
 def _row(cells: Sequence[Any]) -> str:
     flat = [number for cell in cells for number in (cell if isinstance(cell, list) else [cell])]
-    return ",".join(map(repr, flat))
+    return ",".join("" if number is None else repr(number) for number in flat)
 
 
 def show(data: bytes) -> None:

@@ -61,14 +61,20 @@ def _rising_roots(function: Callable[[Array], Array], low: Array, high: Array) -
 
 
 def rotation_number_grid(a: float, h: Sequence[float] | Array, f: Sequence[float] | Array, level: Level) -> Array:
-    """ρ on the grid h × f, shape (f.size, h.size), read-only.
+    """ρ on the grid h × f, shape (f.size, h.size), read-only; NaN where there is no torus, |f| > f_max(h).
 
-    Points outside the region take the value at its edge (same h), so that a picture can be clipped along the
-    bifurcation curve.  ρ is odd in f, so only |f| is computed.  Two threads share the points.
+    So `np.isfinite` of the result is the mask of what is possible.  At the separatrix, (1, 0), which has no return, it
+    is the limit f → 0 at h = 1.  ρ is odd in f, so only |f| is computed.  Two threads share the points.
     Raises `InvalidParameter`, `WorkLimit`.
     """
-    check_a(a)
     hs, fs = np.asarray(h, float), np.asarray(f, float)
+    filled = _filled_grid(a, hs, fs, level)
+    return frozen(np.where(np.abs(fs)[:, None] <= _f_max(hs), filled, np.nan))
+
+
+def _filled_grid(a: float, hs: Array, fs: Array, level: Level) -> Array:
+    """`rotation_number_grid`, with the value at the edge of the region (same h) outside it."""
+    check_a(a)
     if hs.ndim != 1 or fs.ndim != 1 or hs.size * fs.size > 1_000_000:
         raise WorkLimit("A grid has at most a million points on two axes: choose fewer.")
     if not (np.all(np.isfinite(hs)) and np.all(np.isfinite(fs)) and np.all(hs > -1.0) and np.all(hs <= 1e12)):
@@ -93,7 +99,8 @@ def rotation_number_grid(a: float, h: Sequence[float] | Array, f: Sequence[float
                 out[points] = rotation_numbers(matrices(H[points], F[points], a, chosen))
 
     share(part, 2)
-    return frozen(np.where(fs < 0, -1.0, 1.0)[:, None] * out.reshape(magnitudes.size, hs.size)[back])
+    signed: Array = np.where(fs < 0, -1.0, 1.0)[:, None] * out.reshape(magnitudes.size, hs.size)[back]
+    return signed
 
 
 def trace_on_curve(a: float, n: float) -> float:
@@ -181,9 +188,13 @@ _CELLS = (100, 75)
 
 
 def rotation_number_window(a: float, h: tuple[float, float], f: tuple[float, float], level: Level) -> Array:
-    """`rotation_number_grid` at the centres of the cells of a window, fewer where a makes each one expensive."""
+    """ρ at the centres of the cells of a window, (n, m), fewer cells where a makes each one expensive.
+
+    Cells outside the region take the value at its edge (same h), so that a picture can be clipped along the
+    bifurcation curve.  Raises as `rotation_number_grid`.
+    """
     share_ = min(1.0, math.sqrt(10.0 / max(abs(a), 1e-9)))
     m, n = (max(8, round(size * share_)) for size in _CELLS)
     hs = h[0] + (np.arange(m) + 0.5) * (h[1] - h[0]) / m
     fs = f[0] + (np.arange(n) + 0.5) * (f[1] - f[0]) / n
-    return rotation_number_grid(a, np.maximum(hs, -1.0 + 1e-6), fs, level)
+    return frozen(_filled_grid(a, np.maximum(hs, -1.0 + 1e-6), fs, level))

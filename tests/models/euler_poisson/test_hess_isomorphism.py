@@ -48,6 +48,68 @@ def on_torus(bridge, H, F1, phi=0.5):
     return tuple(bridge.from_reduced(reduced)), turning.period / bridge.hess.frequency_unit
 
 
+# ---- two equations of the paper that nothing here uses -----------------------------------------------------------
+
+
+UNIT_BODY = HeavyBody.hess((0.7, 1.0, 1.25), 0.8)
+"""a2 = a1′ = 1, the unit in which the appendix writes its angles; b′ of `m15.9` is the paper's b and a13."""
+
+
+def in_the_axes_of_the_circular_section(body):
+    """U of `m15.14`, and b′ of `m15.9` in these axes."""
+    a1, a2, a3 = body.a
+    c, s = math.sqrt((a3 - a2) / (a3 - a1)), math.sqrt((a2 - a1) / (a3 - a1))
+    U = np.array([[c, 0.0, -s], [0.0, 1.0, 0.0], [s, 0.0, c]])
+    A = U @ np.diag(body.a) @ U.T
+    assert (A[0, 0], A[1, 1], A[0, 1], A[1, 2]) == pytest.approx((a2, a2, 0.0, 0.0), abs=1e-14)
+    assert U @ np.array(body.r) == pytest.approx([0.0, 0.0, math.hypot(*body.r)], abs=1e-14)
+    return U, A[0, 2]
+
+
+def in_those_axes(seed):
+    """M, γ, Ṁ and γ̇ of a state with M3 = 0, from the field in the principal axes; b′, μ, h and f."""
+    body = UNIT_BODY
+    U, b = in_the_axes_of_the_circular_section(body)
+    rng = np.random.default_rng(seed)
+    M, gamma = np.array([*rng.normal(size=2), 0.0]), rng.normal(size=3)
+    gamma /= np.linalg.norm(gamma)
+    rate = np.array(HEAVY.field([*(U.T @ M), *(U.T @ gamma)], body.parameters))
+    h = 0.5 * (M @ M) - body.mu * gamma[2]
+    return M, gamma, U @ rate[:3], U @ rate[3:], b, body.mu, h, M @ gamma
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_the_equation_of_phi_begins_with_the_other_sign(seed):
+    # `eq6-11`, with the angles of `eq6-10`.
+    M, gamma, _, rate, b, mu, h, f = in_those_axes(seed)
+    s = math.hypot(gamma[0], gamma[1])
+    sin, cos = gamma[0] / s, gamma[1] / s
+    turned = (rate[0] * cos - rate[1] * sin) / s
+    speed = math.sqrt(2.0 * (h - (f * f / (2.0 * s * s) - mu * gamma[2])))
+    side = math.copysign(1.0, rate[2])
+    assert rate[2] == pytest.approx(side * s * speed, abs=1e-13)
+    first = f * (gamma[2] - b * s * sin) / (s * s)
+    assert turned == pytest.approx(-first - side * b * cos * speed, abs=1e-13)
+    assert abs(turned - (first - side * b * cos * speed)) == pytest.approx(2.0 * abs(first), abs=1e-12)
+    assert 2.0 * abs(first) > 0.02
+    # Its K² is 2(h + μγ3), in units a1′ = 1.
+    assert M @ M == pytest.approx(2.0 * (h + mu * gamma[2]), abs=1e-13)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_the_riccati_equation_of_z_ends_with_the_square_of_K(seed):
+    # `klas-gess-2`, z = M1 + i M2; the sign of μ follows that in K².
+    M, _, rates, turning, b, mu, _, f = in_those_axes(seed)
+    z, K2 = complex(M[0], M[1]), float(M @ M)
+
+    def residual(last):
+        return complex(rates[0], rates[1]) + 0.5j * b * z * z - mu * (turning[2] + 1j * f) / K2 * z + 0.5j * b * last
+
+    assert abs(residual(K2)) <= 1e-14 * (1.0 + K2)
+    assert abs(residual(math.sqrt(K2))) == pytest.approx(0.5 * abs(b) * abs(K2 - math.sqrt(K2)), rel=1e-9)
+    assert abs(K2 - math.sqrt(K2)) > 0.01
+
+
 # ---- the translation ---------------------------------------------------------------------------------------------
 
 

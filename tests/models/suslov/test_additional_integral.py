@@ -55,6 +55,29 @@ def test_F2_is_conserved_exactly(k, I22, I23):
         assert rate.subs({w1: 1, w2: sympy.Rational(point, 3)}) == sympy.zeros(3, 1)
 
 
+@both_cases
+@pytest.mark.parametrize("k", [1, 3, 5])
+def test_the_field_vanishes_on_the_levels_of_F2_that_the_paper_leaves_out_too(case, k):
+    # Before `biz138` only f ≠ f⁺, f⁻ is asked for.  These are equal, and at (ω^(±), −γ^(±)), where the field vanishes
+    # as well, F2 has the other sign: that level is no torus either.
+    body, h = case(k), 0.7
+    F2 = additional_integral(k, body)
+    I11, I22, I13, I23, *_ = body.parameters
+    omega = math.sqrt(2.0 * h / (I11 * I23**2 + I22 * I13**2)) * np.array([-I23, I13])
+    xi = np.array([I23, -I13, 0.0]) / math.hypot(I13, I23)
+    values = {}
+    for sign in (1, -1):
+        for turned in (1, -1):
+            state = np.array([*(sign * omega), *(turned * sign * xi)])
+            assert SUSLOV.field(state, body.parameters) == pytest.approx(np.zeros(5), abs=1e-13)
+            assert SUSLOV.integrals(state, body.parameters)["E"] == pytest.approx(h, rel=1e-13)
+            values[sign, turned] = float(F2(state[:2], state[2:]))
+    size = abs(values[1, 1])
+    assert size > 0.1
+    assert values[-1, 1] == pytest.approx(values[1, 1], rel=1e-12)
+    assert [values[1, -1], values[-1, -1]] == pytest.approx([-values[1, 1]] * 2, rel=1e-12)
+
+
 @pytest.mark.parametrize("k", [1, 3, 5])
 def test_the_coefficients_span_the_null_space_of_the_linear_system(k):
     # Unknown coefficients for all monomials of degree k, none left out by parity.

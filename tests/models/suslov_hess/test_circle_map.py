@@ -26,7 +26,7 @@ from hess_mechanics import (
 )
 from hess_mechanics.errors import InvalidParameter, ModelError, OutsideRegion, Separatrix, WorkLimit
 from hess_mechanics.numerics.accuracy import LEVELS, Status
-from hess_mechanics.suslov_hess.mode_locking import lock_boundary_end, lock_boundary_h
+from hess_mechanics.suslov_hess.mode_locking import lock_boundary_end, lock_boundary_h, rotation_number_window
 from support.mechanics import PROPERTY, angle_between, lifted_return
 
 HESS = systems()["hess"]
@@ -404,19 +404,37 @@ def test_the_grid_of_rotation_numbers_is_the_circle_maps_point_by_point(a, name)
         grid[0, 0] = 0.0
     for j, fj in enumerate(f):
         for i, hi in enumerate(h):
-            # Outside the region the edge of the same h stands in.
-            within = math.copysign(min(abs(fj), f_max(hi)), fj)
-            expected = circle_map(a, hi, within, level("reference")).rotation_number
+            if abs(fj) > f_max(hi):
+                assert math.isnan(grid[j, i])
+                continue
+            expected = circle_map(a, hi, fj, level("reference")).rotation_number
             assert grid[j, i] == pytest.approx(expected, abs=max(1e-9, 10 * level(name).promise))
 
 
+def test_a_window_is_filled_with_the_values_at_the_edge_of_the_region():
+    window = rotation_number_window(0.5, (-1.0, 1.0), (-3.0, 3.0), STANDARD)
+    n, m = window.shape
+    h = -1.0 + (np.arange(m) + 0.5) * 2.0 / m
+    f = -3.0 + (np.arange(n) + 0.5) * 6.0 / n
+    grid = rotation_number_grid(0.5, h, f, STANDARD)
+    inside = np.isfinite(grid)
+    assert 0.1 < inside.mean() < 0.9
+    assert np.array_equal(window[inside], grid[inside])
+    for j, i in zip(*np.nonzero(~inside), strict=True):
+        if i % 20 == 0 and j % 9 == 0:
+            edge = circle_map(0.5, h[i], math.copysign(f_max(h[i]), f[j]), STANDARD).rotation_number
+            assert window[j, i] == pytest.approx(edge, abs=1e-5)
+
+
 def test_the_grid_is_odd_in_f_and_finite_at_the_separatrix():
-    f = np.linspace(-1.0, 1.0, 21)
+    f = np.linspace(-2.0, 2.0, 41)
     grid = rotation_number_grid(0.4, [0.3, 1.0, 2.0], f, STANDARD)
     off_axis = np.abs(f) > 1e-9
-    assert np.array_equal(grid[off_axis], -grid[::-1][off_axis])
-    assert np.all(np.isfinite(grid))
-    assert np.all(grid[f > 1e-9] <= 0.0)
+    assert np.array_equal(grid[off_axis], -grid[::-1][off_axis], equal_nan=True)
+    possible = np.abs(f)[:, None] <= [f_max(0.3), f_max(1.0), f_max(2.0)]
+    assert np.array_equal(np.isfinite(grid), possible)
+    assert not possible.all()
+    assert np.all(grid[possible & (f[:, None] > 1e-9)] <= 0.0)
     assert rotation_number_grid(0.4, [], [], STANDARD).shape == (0, 0)
 
 

@@ -45,6 +45,20 @@ def test_derived_values_satisfy_the_conditions_of_hess(body):
 
 
 @PROPERTY
+@given(moment, product, st.lists(field_strength, min_size=3, max_size=3))
+def test_the_third_coordinate_of_the_centre_of_mass_has_b2_where_the_paper_prints_b3(I22, I23, b):
+    # After `eq02`, before `bizi2` is used: the potential (b, γ) is (c, n) for every γ, c the new coordinates.
+    body, (b1, b2, b3) = HessBody(I22, I23, 1.0), b
+    c = (b1, (I22 * b2 + I23 * b3) / math.hypot(I22, I23), (I22 * b3 - I23 * b2) / math.hypot(I22, I23))
+    size = 1e-13 * (1.0 + max(map(abs, b)))
+    for gamma in np.eye(3):
+        n = body.to_reduced(np.array([0.0, 0.0, *gamma]))[2:]
+        assert n @ c == pytest.approx(gamma @ np.array(b), abs=size)
+    printed = (I22 * b3 - I23 * b3) / math.hypot(I22, I23)
+    assert abs(printed - c[2]) == pytest.approx(abs(I23 * (b3 - b2)) / math.hypot(I22, I23), abs=size)
+
+
+@PROPERTY
 @given(bodies, states)
 def test_the_map_to_the_reduced_variables_has_an_inverse(body, y):
     size = 1.0 + np.max(np.abs(y))
