@@ -77,7 +77,8 @@ def write(options: argparse.Namespace, series: Mapping[str, Sequence[Any]], colu
     """Write the answer in the chosen format, to the chosen place.
 
     series : columns of equal length, one row for each sample (in CSV the table, with the heading `columns`), None where
-    there is no value: null, or an empty field;  facts : everything else.  Raises `CommandError` if the file cannot be written.
+    there is no value (null, in CSV an empty field);
+    facts : everything else.  Raises `CommandError` if the file cannot be written.
     """
     strict = {key: _strict(value) for key, value in facts.items()}
     lost = [f"{key}: null stands for a number beyond the range of double precision."

@@ -93,7 +93,7 @@ def test_the_equation_of_phi_begins_with_the_other_sign(seed):
     assert abs(turned - (first - side * b * cos * speed)) == pytest.approx(2.0 * abs(first), abs=1e-12)
     assert 2.0 * abs(first) > 0.02
     # Its K² is 2(h + μγ3), in units a1′ = 1.
-    assert M @ M == pytest.approx(2.0 * (h + mu * gamma[2]), abs=1e-13)
+    assert pytest.approx(2.0 * (h + mu * gamma[2]), abs=1e-13) == M @ M
 
 
 @pytest.mark.parametrize("seed", range(8))
