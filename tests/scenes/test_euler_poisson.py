@@ -13,7 +13,7 @@ import pytest
 
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.protocol.parameters import places
-from hess_explorer.scenes.framework import sections
+from hess_explorer.scenes.framework import filled_window
 from hess_mechanics import circle_map, f_max, level, solve
 from hess_mechanics.dynamics.birkhoff import rotation_number
 from hess_mechanics.dynamics.lyapunov import largest_exponent
@@ -207,7 +207,7 @@ def test_a_window_is_filled_with_orbits_of_its_own():
 
 
 def seeds_of(view):
-    return sections._seeds, view.result.section, view.result.frame, int(view.values["orbits"])
+    return filled_window._seeds, view.result.section, view.result.frame, int(view.values["orbits"])
 
 
 def test_a_drag_shows_the_section_at_once_with_fewer_orbits():

@@ -44,7 +44,6 @@ _IN_A_DRAG = 30
 """Periods of the difference while a slider is held."""
 _MOST_GROWTH = 3000.0
 """The strongest leak, as a logarithm, that is held back: it takes longer the larger |a| is."""
-_COBWEB = 60
 _BOTTOM = -1.0 + 1e-9
 
 PRESETS = (
@@ -250,13 +249,10 @@ SCENE = Scene(
         Plot(name="omega", title="Suslov–Hess: the torus, (ω₁, ω₂)", caption=BothSides._about_torus, axes=("ω₁", "ω₂"),
              x=lambda s: centred(s.half_width), y=lambda s: centred(s.half_width), dot=("omega1", "omega2"),
              layers=torus_plane.layers(BothSides.ring, half_width=lambda s: s.half_width)),
-        Plot(name="circle", title="Circle map of both", caption=BothSides._about_map, axes=("φ", "Θ(φ)"),
-             x=circle.SIDE, y=circle.SIDE, ticks=circle.TICKS, dot=("phi_start", "phi"),
-             on_click=lambda s, x, y: {"phi0": x},
-             layers=circle.layers(map=lambda s: s.map, iterates=lambda s: s.iterates[: _COBWEB + 1])),
-        Plot(name="andoyer", title="Euler–Poisson: (l, L/G)", caption=BothSides._about_andoyer, axes=("l", "L/G"),
-             x=andoyer.SIDES[0], y=andoyer.SIDES[1], ticks=andoyer.L_TICKS, y_ticks=andoyer.X_TICKS, dot=("l", "x"),
-             layers=andoyer.layers(relation=lambda s: hess_circle(s.bridge.heavy), orbit=lambda s: s.andoyer)),
+        circle.picture(map=lambda s: s.map, iterates=lambda s: s.iterates, caption=BothSides._about_map,
+                       title="Circle map of both", dot=("phi_start", "phi"), on_click=lambda s, x, y: {"phi0": x}),
+        andoyer.picture("Euler–Poisson: (l, L/G)", BothSides._about_andoyer,
+                        relation=lambda s: hess_circle(s.bridge.heavy), orbit=lambda s: s.andoyer),
         Plot(name="difference", title="Difference along the orbit", caption=BothSides._about_difference,
              axes=("t", "lg |difference|"), x=lambda s: (0.0, float(s.difference.times[-1])),
              y=lambda s: lg_axis(largest_distance(s.map.h)), dot=("t", "apart"),

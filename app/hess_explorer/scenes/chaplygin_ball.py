@@ -6,28 +6,32 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.parameters import accuracy_level, number
-from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
+from hess_explorer.scenes.framework.ball import FreeBall
+from hess_explorer.scenes.framework.one_orbit import OneOrbit, Start
+from hess_explorer.scenes.framework.parameters import accuracy_level, number, time_span
+from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import scattering_map as square
 from hess_explorer.views import theme
 from hess_explorer.views import velocity_plane as plane
-from hess_explorer.views.layers import Columns, arrows, curves, levels, line, region, ring
+from hess_explorer.views.graph import over_time
+from hess_explorer.views.layers import arrows, curves, levels, region, ring
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, ends
 from hess_explorer.views.text import digits as in_digits
+from hess_explorer.views.text import vector
 from hess_mechanics.chaplygin_ball import scattering as model
-from hess_mechanics.chaplygin_ball.energy_surface import Strip, line_of_rest
-from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
+from hess_mechanics.chaplygin_ball.equations import SYSTEM
 from hess_mechanics.chaplygin_ball.strip_orbits import StripOrbit, strip_orbits
-from hess_mechanics.dynamics.sampling import PIXELS, sampled_orbit
+from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import DRAFT, STANDARD, Level
-from hess_mechanics.numerics.results import Array, Orbit
+from hess_mechanics.numerics.results import Array
 
 _ORBITS, _FEW_ORBITS = 18, 8
 _PHASES, _FEW_PHASES = 65, 33
@@ -46,46 +50,19 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class ChaplyginBall(State):
+class ChaplyginBall(FreeBall, OneOrbit):
     """The chosen orbit, many over the strip, and the map of the phases."""
 
-    I11: float = number("I₁₁", 1.0, (0.2, 5.0), 0.01, bounds=(1e-3, 1e3), label="Inertia I₁₁",
-                        doc="Moment of inertia about the first body axis.")
-    I22: float = number("I₂₂", 1.5, (0.2, 5.0), 0.01, bounds=(1e-3, 1e3), label="Inertia I₂₂",
-                        doc="Moment of inertia about the second body axis.")
-    I13: float = number("I₁₃", 0.7, (-2.0, 2.0), 0.01, bounds=(-1e3, 1e3), label="Inertia I₁₃",
-                        doc="Product of inertia; with I₂₃ it sets the line I₁₃ω₁ + I₂₃ω₂ = 0.")
-    I23: float = number("I₂₃", 1.2, (-2.0, 2.0), 0.01, bounds=(-1e3, 1e3), label="Inertia I₂₃",
-                        doc="Product of inertia; not 0 together with I₁₃.")
-    D: float = number("𝒟", 10.0, (0.0, 20.0), 0.05, bounds=(0.0, 300.0), label="Ball inside, 𝒟",
-                      doc="𝒟 = (R/Rₛ)² Iₛ of the ball that rolls inside; 0 is the free Suslov problem.")
-    h: float = number("h", 10.0, (0.1, 20.0), 0.1, bounds=(1e-6, 1e6), label="Energy h",
-                      doc="E = h > 0: every such energy is possible. It sets the size of the strip and the unit of "
-                          "time.")
     theta: float = number("θ⁻", 1.2, (0.0, 3.14), 0.01, bounds=(0.0, math.pi), label="Angle θ⁻ of the circle left",
                           doc="The angle between ξ and γ at the start of the chosen orbit.")
     phi: float = number("φ", 0.5, (-3.14, 3.14), 0.01, bounds=(-math.pi, math.pi), label="Phase φ of the chosen orbit",
                         doc="Where on that circle γ starts, in radians.")
     digits: float = number("−lg δ", 4.0, (2.0, 8.0), 0.05, bounds=(2.0, 10.0), label="Distance δ of the start, digits",
                            doc="The chosen orbit starts δ = 10^−digits of |ω| away from Nᵘ.")
-    span: float = number("t", 60.0, (1.0, 400.0), 1.0, bounds=(0.01, 1e4), label="Time span",
-                         doc="How long the chosen orbit is followed.")
+    span: float = time_span(60.0, 400.0, what="the chosen orbit")
     accuracy: str = accuracy_level()
 
-    @cached_property
-    def body(self) -> BallBody:
-        """Raises `InvalidParameter`, `NotPositiveDefinite`."""
-        return BallBody(self.I11, self.I22, self.I13, self.I23, self.D)
-
-    @cached_property
-    def strip(self) -> Strip:
-        """Where ω may be."""
-        return Strip(self.body, self.h)
-
-    @cached_property
-    def xi(self) -> Array:
-        """ξ (3,).  Raises `InvalidParameter`."""
-        return np.append(line_of_rest(self.body)[0], 0.0)
+    system: ClassVar[System] = SYSTEM
 
     @property
     def distance(self) -> float:
@@ -95,20 +72,17 @@ class ChaplyginBall(State):
     @cached_property
     def half_width(self) -> float:
         """Of the frame of the (ω1, ω2)-plane: room for σ1."""
-        return plane.nice_above(1.1 * math.sqrt(2.0 * self.h / min(self.I11, self.I22)))
-
-    def motion(self) -> Motion:
-        """The chosen orbit."""
-        radius = 0.5 * PIXELS
-        w = radius / self.half_width
-        start = model.start(self.body, self.h, self.theta, self.phi, self.distance)
-        return Motion(SYSTEM, start, self.body.parameters, self.span, (w, w, radius, radius, radius))
+        return plane.nice_above(1.1 * float(self.strip.outer.max()))
 
     @cached_property
-    def orbit(self) -> Orbit:
-        """The chosen orbit."""
-        one = self.motion()
-        return self.work.get(sampled_orbit, SYSTEM, one.state, one.parameters, one.span, one.weights, self.level)
+    def start(self) -> Start:
+        """Of the chosen orbit."""
+        return model.start(self.body, self.h, self.theta, self.phi, self.distance)
+
+    @property
+    def weights(self) -> tuple[float, ...]:
+        """From the variables to the pictures, in pixels for a unit."""
+        return plane.pixels_per_unit(self.half_width)
 
     @cached_property
     def Gamma(self) -> Array:
@@ -126,9 +100,7 @@ class ChaplyginBall(State):
     def map_or_reason(self) -> tuple[model.BallScattering | None, str]:
         """θ⁺ over the phases; None where it would take too long, and why."""
         def phases(count: int, level: Level) -> Task:
-            phis = tuple(np.linspace(-math.pi, math.pi, count).tolist())
-            return Task(model.ball_scattering,
-                        (self.body, self.theta, phis, 1.0, self.distance, level, _MOST_STEPS))
+            return Task(model.all_phases, (self.body, self.theta, count, self.distance, level, _MOST_STEPS))
 
         try:
             level = min(self.level, STANDARD, key=lambda one: one.order)
@@ -143,23 +115,19 @@ class ChaplyginBall(State):
 
     # ---- what the pictures show --------------------------------------------------------------------------------
 
-    def free(self) -> list[Array]:
-        """θ⁺ for 𝒟 = 0 over the phases."""
+    def over_phases(self, free: bool) -> list[Array]:
+        """θ⁺ over the phases, of the ball or for 𝒟 = 0."""
         if self.map is None:
             return []
         phis = self.map.phis
-        return [np.column_stack([phis, self.work.get(
-            model.free_theta_plus, self.body, self.theta, self.distance, tuple(phis.tolist()))])]
+        theta_plus = self.map.theta_plus if not free else self.work.get(
+            model.free_theta_plus, self.body, self.theta, self.distance, tuple(phis.tolist()))
+        return [np.column_stack([phis, theta_plus])]
 
     def chosen(self) -> list[tuple[float, float]]:
         """The chosen orbit on the curve."""
         return [] if self.map is None else [
             (self.phi, float(np.interp(self.phi, self.map.phis, self.map.theta_plus)))]
-
-    def orbit_columns(self) -> Columns:
-        """The chosen orbit."""
-        return plane.velocity_columns(self.orbit.times, self.orbit.states[:, :2], self.orbit.states[:, 2:],
-                                      Gamma=self.Gamma)
 
     def circles(self) -> list[Circle]:
         """The circle that is left and the one that is joined."""
@@ -182,13 +150,12 @@ class ChaplyginBall(State):
 
     def derived(self) -> Iterator[str]:
         """The strip, its line, the start."""
-        outer_ends, inner_ends = (ellipse([0.0, math.pi / 2]) for ellipse in (self.strip.sigma1, self.strip.sigma2))
-        inner, outer = (float(np.hypot(*end)) for end in self.strip.unstable)
-        yield f"σ₁: |ω₁| ≤ {in_digits(outer_ends[0, 0])}, |ω₂| ≤ {in_digits(outer_ends[1, 1])}"
-        yield (f"σ₂: |ω₁| ≥ {in_digits(inner_ends[0, 0])} at ω₂ = 0, |ω₂| ≥ {in_digits(inner_ends[1, 1])} at "
-               "ω₁ = 0")
-        yield f"|ω| on Nˢ and Nᵘ from {in_digits(inner)} to {in_digits(outer)}"
-        yield f"ξ = ({in_digits(self.xi[0])}, {in_digits(self.xi[1])}, 0)"
+        most, least = (tuple(map(in_digits, axes)) for axes in (self.strip.outer, self.strip.inner))
+        slowest, fastest = (in_digits(float(np.hypot(*end))) for end in self.strip.unstable)
+        yield f"σ₁: |ω₁| ≤ {most[0]}, |ω₂| ≤ {most[1]}"
+        yield f"σ₂: |ω₁| ≥ {least[0]} at ω₂ = 0, |ω₂| ≥ {least[1]} at ω₁ = 0"
+        yield f"|ω| on Nˢ and Nᵘ from {slowest} to {fastest}"
+        yield f"ξ = {vector(self.xi)}"
         yield f"δ = {in_digits(self.distance, 3)}"
 
     def status(self) -> Iterator[str]:
@@ -208,40 +175,33 @@ SCENE = Scene(
     ChaplyginBall, __file__, place=9, presets=PRESETS,
     title="Chaplygin ball",
     summary="A ball rolls inside the body: every orbit crosses a strip between two ellipses, from Nᵘ to Nˢ.",
-    tracks={"orbit": ChaplyginBall.orbit_columns},
+    tracks={"orbit": lambda s: plane.orbit_columns(s.orbit, Gamma=s.Gamma)},
     views=(
-        Plot(
-            name="omega", title="Angular velocity (ω₁, ω₂)", axes=("ω₁", "ω₂"), dot=("omega1", "omega2"),
-            caption=lambda s: "Every orbit crosses the strip between σ₂ and σ₁ from Nᵘ to Nˢ.",
-            x=lambda s: plane.centred(s.half_width), y=lambda s: plane.centred(s.half_width),
-            layers=(
+        plane.picture(
+            lambda s: "Every orbit crosses the strip between σ₂ and σ₁ from Nᵘ to Nˢ.", lambda s: s.half_width, layers=(
                 region("forbidden", lambda s: plane.ring_outside(
                     s.strip.sigma2(_ANGLES), s.strip.sigma1(_ANGLES), s.half_width),
                     edge=theme.MUTED, label="impossible", moving=True),
                 plane.arcs(lambda s: [track for track, _ in s.crowd if len(track) > 1]),
                 *plane.halves(lambda s, _: s.strip.stable, lambda s, _: s.strip.unstable,
                               ("Nˢ, circle joined", "Nᵘ, circle left")),
-                line("orbit", track="orbit", columns=("omega1", "omega2"), color=theme.ORBIT, width=2.5,
-                     label="orbits; the chosen one bold"),
+                plane.orbit("orbits; the chosen one bold"),
                 # Not in the middle of each, where all of them are slow, but where the strip is covered evenly.
                 arrows("arrows", lambda s: plane.arrows_at(s.crowd), color=theme.ORBIT, alpha=0.8))),
         Sphere(
             caption=ChaplyginBall._about_sphere, looks={"orbit": "orbit"}, axis=lambda s: Direction(s.xi, "ξ"),
             circles=ChaplyginBall.circles, marks=lambda s: ends(s.xi)),
-        Plot(
-            name="curve", title="θ⁺ against the phase φ", caption=ChaplyginBall._about_curve, axes=("φ", "θ⁺"),
-            x=square.AZIMUTH, y=square.POLAR, ticks=square.AZIMUTH_TICKS, y_ticks=square.POLAR_TICKS,
-            message=lambda s: s.map_or_reason[1], on_click=lambda s, x, y: {"phi": x}, on_drag=True,
-            layers=(
+        square.over_phases(
+            ChaplyginBall._about_curve, message=lambda s: s.map_or_reason[1], layers=(
                 levels("levels", lambda s: [] if s.map is None else [s.theta, math.pi - s.theta]),
-                curves("free", ChaplyginBall.free, color=theme.MAP, dash="dashed", label="θ⁺ for 𝒟 = 0"),
-                curves("ball", lambda s: [] if s.map is None else [np.column_stack([s.map.phis, s.map.theta_plus])],
-                       color=theme.ORBIT),
+                curves("free", lambda s: s.over_phases(free=True), color=theme.MAP, dash="dashed",
+                       label="θ⁺ for 𝒟 = 0"),
+                curves("ball", lambda s: s.over_phases(free=False), color=theme.ORBIT),
                 ring("chosen", ChaplyginBall.chosen, size=18.0))),
         Plot(
             name="Gamma", title="Γ = (ξ, γ) against time", caption=ChaplyginBall._about_Gamma, axes=("t", "Γ"),
             x=lambda s: (0.0, s.span), y=(-1.05, 1.05), dot=("t", "Gamma"),
             layers=(levels("levels", lambda s: [math.cos(s.theta), s.Gamma[-1]]),
-                    curves("first", lambda s: [np.column_stack([s.orbit.times, s.Gamma])], color=theme.ORBIT))),
+                    over_time("first", lambda s: (s.orbit.times, s.Gamma), color=theme.ORBIT))),
     ),
 )

@@ -11,9 +11,10 @@ from typing import ClassVar
 import numpy as np
 
 from hess_explorer.protocol.parameters import Value
+from hess_explorer.scenes.framework.filled_window import TURN, FilledWindow, Piece, filled_window, in_pieces
+from hess_explorer.scenes.framework.one_orbit import Start
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number, places
 from hess_explorer.scenes.framework.scene import Preset, Scene
-from hess_explorer.scenes.framework.sections import TURN, FilledWindow, Piece, Start, filled_window, in_pieces
 from hess_explorer.scenes.framework.windows import Window, inside
 from hess_explorer.views import theme
 from hess_explorer.views.graph import thinned

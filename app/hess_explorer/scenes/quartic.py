@@ -12,9 +12,10 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values
+from hess_explorer.scenes.framework.crossings import Crossings
+from hess_explorer.scenes.framework.one_orbit import Start
 from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, number, slider_within
 from hess_explorer.scenes.framework.scene import Preset, Scene
-from hess_explorer.scenes.framework.sections import Crossings, Start, joined
 from hess_explorer.views import plane_domain, section_plane, theme
 from hess_explorer.views.layers import Axes, Columns, Sign, curves
 from hess_explorer.views.plot import Plot
@@ -133,7 +134,7 @@ class Quartic(Crossings):
 
     def places_of(self, points: Points) -> Array:
         """The q along the section and its p."""
-        return joined(map(self.body.on_section, points.states))
+        return section_plane.joined(map(self.body.on_section, points.states))
 
     @cached_property
     def momentum(self) -> Array:

@@ -14,8 +14,7 @@ import numpy as np
 from hess_explorer.scenes.framework.hess_case import possible_f
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number, places
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
-from hess_explorer.scenes.framework.sections import boxed
-from hess_explorer.scenes.framework.windows import Window, inside, tidy_window, window_of
+from hess_explorer.scenes.framework.windows import Window, boxed, inside, tidy_window, window_of
 from hess_explorer.views import circle_map as circle
 from hess_explorer.views import rotation_line, rotation_plane
 from hess_explorer.views.layers import Grid, Range
@@ -290,10 +289,7 @@ SCENE = Scene(
              x=RotationNumber.ends, y=rotation_line.TRACE, on_click=lambda s, x, y: {s.line: x},
              layers=rotation_line.trace_layers(line=lambda s: s.on_line, values=lambda s: s.along,
                                                place=RotationNumber.place)),
-        Plot(name="circle", title="Circle map", caption=RotationNumber._about_circle, axes=("φ", "Θ(φ)"),
-             x=circle.SIDE, y=circle.SIDE, ticks=circle.TICKS,
-             message=lambda s: "" if s.map is not None else "Separatrix: no return",
-             layers=circle.layers(map=lambda s: s.map,
-                                  iterates=lambda s: None if s.map is None else s.map.iterate(0.5, _ITERATES))),
+        circle.picture(map=lambda s: s.map, caption=RotationNumber._about_circle,
+                       iterates=lambda s: None if s.map is None else s.map.iterate(0.5, _ITERATES)),
     ),
 )

@@ -11,17 +11,17 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values
-from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number
-from hess_explorer.scenes.framework.scene import Preset, Scene, State
+from hess_explorer.scenes.framework.ball import FreeBall
+from hess_explorer.scenes.framework.parameters import accuracy_level, choice, like, number, time_span
+from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.views import theme
 from hess_explorer.views.cloud import CloudPlane, density_axes, density_layers
+from hess_explorer.views.graph import over_time
 from hess_explorer.views.layers import Axes, Columns, Layer, Range, curves, f32, levels, line
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Direction, Sphere
-from hess_explorer.views.text import digits
+from hess_explorer.views.text import digits, vector
 from hess_explorer.views.velocity_plane import nice_above
-from hess_mechanics.chaplygin_ball.energy_surface import Strip, line_of_rest
-from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud_density import Clouds, clouds
 from hess_mechanics.numerics.results import Array
 
@@ -43,28 +43,22 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class SingularMeasures(State):
+class SingularMeasures(FreeBall):
     """One cloud, or two, over the time."""
 
-    I11: float = number("I₁₁", 2.0, (0.2, 5.0), 0.01, bounds=(1e-3, 1e3), label="Inertia I₁₁",
-                        doc="Moment of inertia about the first body axis.")
-    I22: float = number("I₂₂", 1.5, (0.2, 5.0), 0.01, bounds=(1e-3, 1e3), label="Inertia I₂₂",
-                        doc="Moment of inertia about the second body axis.")
-    I13: float = number("I₁₃", 0.5, (-2.0, 2.0), 0.01, bounds=(-1e3, 1e3), label="Inertia I₁₃",
-                        doc="Product of inertia; with I₂₃ it sets the manifold s = I₁₃ω₁ + I₂₃ω₂ = 0.")
-    I23: float = number("I₂₃", 0.7, (-2.0, 2.0), 0.01, bounds=(-1e3, 1e3), label="Inertia I₂₃",
-                        doc="Product of inertia; not 0 together with I₁₃.")
-    D: float = number("𝒟", 0.0, (0.0, 20.0), 0.05, bounds=(0.0, 1e3), label="Ball inside, 𝒟",
-                      doc="0: free Suslov problem; otherwise the Chaplygin ball, whose inner ball has this 𝒟.")
-    h: float = number("h", 2.0, (0.1, 20.0), 0.1, bounds=(1e-6, 1e6), label="Energy h",
-                      doc="Of the middle of the cloud; without a field h > 0.")
+    I11: float = like(FreeBall, "I11", 2.0)
+    I13: float = like(FreeBall, "I13", 0.5,
+                      doc="Product of inertia; with I₂₃ it sets the manifold s = I₁₃ω₁ + I₂₃ω₂ = 0.")
+    I23: float = like(FreeBall, "I23", 0.7)
+    D: float = like(FreeBall, "D", 0.0, bounds=(0.0, 1e3), doc="0: free Suslov problem; otherwise the Chaplygin ball, "
+                    "whose inner ball has this 𝒟.")
+    h: float = like(FreeBall, "h", 2.0, doc="Of the middle of the cloud; without a field h > 0.")
     spread: float = number("δ", 0.1, (0.01, 0.5), 0.01, bounds=(1e-3, 0.9), label="Spread δ",
                            doc="Shell: E = h(1 ± δ). Patch: radius of its disc of ω, in |ω|, and of its cap of γ, in "
                                "radians.")
     angle: float = number("φ", -0.3, (-3.14, 3.14), 0.01, bounds=(-math.pi, math.pi), label="Direction φ of the patch",
                           doc="Angle of the patch in the plane of ω₁ and ω₂, in radians. A click there chooses it.")
-    span: float = number("t", 14.0, (1.0, 40.0), 0.5, bounds=(0.01, 1e4), label="Time span",
-                         doc="How long the cloud is followed.")
+    span: float = time_span(14.0, 40.0, step=0.5, what="the cloud")
     b3: float = number("b₃", 1.0, (-3.0, 3.0), 0.01, bounds=(-1e3, 1e3), label="Field b₃ of the cloud beside",
                        doc="With I₁₃ = I₂₃ = 0 nothing would move without a field; the first cloud has none.")
     start: str = choice("Cloud", ("energy shell", "small patch"), "energy shell",
@@ -78,21 +72,6 @@ class SingularMeasures(State):
                         doc="The divergence div v at the points, or the logarithm of small volumes about them.")
     points: str = choice("Points", ("1000", "10000"), "10000", doc="How many points both clouds have together.")
     accuracy: str = accuracy_level()
-
-    @cached_property
-    def body(self) -> BallBody:
-        """Raises `InvalidParameter`, `NotPositiveDefinite`."""
-        return BallBody(self.I11, self.I22, self.I13, self.I23, self.D)
-
-    @cached_property
-    def strip(self) -> Strip:
-        """Where ω may be at the energy h."""
-        return Strip(self.body, self.h)
-
-    @cached_property
-    def xi(self) -> Array:
-        """ξ (3,).  Raises `InvalidParameter`."""
-        return np.append(line_of_rest(self.body)[0], 0.0)
 
     @cached_property
     def clouds(self) -> Clouds:
@@ -169,7 +148,7 @@ class SingularMeasures(State):
         course = self.clouds.course
         yield f"System: {'Chaplygin ball, b = 0' if self.body.D else 'free Suslov problem'}"
         yield "Invariant density: 1/|I₁₃ω₁ + I₂₃ω₂|"
-        yield f"ξ = ({digits(self.xi[0])}, {digits(self.xi[1])}, 0)"
+        yield f"ξ = {vector(self.xi)}"
         yield f"mean of div v: {digits(course.divergence[0, 0], 3)} → {digits(course.divergence[0, -1], 3)}"
         yield f"mean of ln s(t)/s(0): {digits(course.log_growth[0, -1], 5)}"
         if self.start == "small patch":
@@ -187,7 +166,7 @@ class SingularMeasures(State):
 
 
 def _extreme(name: str, i: int) -> Layer[SingularMeasures]:
-    return curves(name, lambda s: [np.column_stack([s.times, s.on_show[i]])], color=theme.MUTED, dash="dashed")
+    return over_time(name, lambda s: (s.times, s.on_show[i]), color=theme.MUTED, dash="dashed")
 
 
 SCENE = Scene(

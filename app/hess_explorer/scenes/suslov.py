@@ -11,15 +11,17 @@ from typing import ClassVar
 import numpy as np
 
 from hess_explorer.protocol.parameters import Value
+from hess_explorer.scenes.framework.filled_window import TURN, FilledWindow, Piece, filled_window
+from hess_explorer.scenes.framework.one_orbit import Start
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number, places
 from hess_explorer.scenes.framework.scene import Preset, Scene
-from hess_explorer.scenes.framework.sections import TURN, FilledWindow, Piece, Start, filled_window, joined
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views import layered_section, theme
 from hess_explorer.views.graph import settled_range, thinned
 from hess_explorer.views.layers import Axes, Columns, curves, levels
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Sphere, centre_of_mass
+from hess_explorer.views.section_plane import joined
 from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import nice_above, orbit_alone, velocity_columns
 from hess_mechanics.dynamics.sampling import HALF_A_PIXEL, PIXELS

@@ -41,8 +41,6 @@ from hess_mechanics.suslov_hess.torus import (
     track,
 )
 
-COBWEB = 60
-
 PRESETS = (
     Preset("Two limit cycles"),
     Preset("No cycle: every orbit winds", h=0.2, f=0.5),
@@ -284,12 +282,8 @@ SCENE = Scene(
              layers=diagram.layers(
                  rotation=lambda s: s.rotation, boundary=lambda s: s.locked, curve=lambda s: s.edge,
                  here=lambda s: [(s.h, s.f)], axes=lambda s: diagram.window(s.h))),
-        Plot(name="circle", title="Circle map", caption=SuslovHess.about_map, axes=("φ", "Θ(φ)"),
-             x=circle.SIDE, y=circle.SIDE, ticks=circle.TICKS, dot=("phi_start", "phi"),
-             message=lambda s: "" if s.map is not None else "Separatrix: no return",
-             on_click=lambda s, x, y: {"phi0": x},
-             layers=circle.layers(map=lambda s: s.map,
-                                  iterates=lambda s: None if s.iterates is None else s.iterates[: COBWEB + 1])),
+        circle.picture(map=lambda s: s.map, iterates=lambda s: s.iterates, caption=SuslovHess.about_map,
+                       dot=("phi_start", "phi"), on_click=lambda s, x, y: {"phi0": x}),
         BodyInSpace(name="body", title="The body in space", caption=SuslovHess.about_body, bare=True,
                     folded="Show the body in space", motion=SuslovHess.lying,
                     shape=lambda s: None if s.tensor is None else Shape.of_tensor(s.tensor, (0.0, 0.0, 1.0)),

@@ -9,26 +9,27 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
-from hess_explorer.views.layers import Layer, curves, ring
+from hess_explorer.views.layers import curves, ring
+from hess_explorer.views.plot import Plot
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["L_TICKS", "SIDES", "X_TICKS", "layers"]
+__all__ = ["picture"]
 
 S = TypeVar("S")
 
-SIDES = ((-math.pi, math.pi), (-1.0, 1.0))
-"""The axes of l and of L/G."""
-L_TICKS = [(-math.pi, "−π"), (-math.pi / 2, "−π/2"), (0.0, "0"), (math.pi / 2, "π/2"), (math.pi, "π")]
-X_TICKS = [(-1.0, "−1"), (-0.5, "−½"), (0.0, "0"), (0.5, "½"), (1.0, "1")]
+_L_TICKS = [(-math.pi, "−π"), (-math.pi / 2, "−π/2"), (0.0, "0"), (math.pi / 2, "π/2"), (math.pi, "π")]
+_X_TICKS = [(-1.0, "−1"), (-0.5, "−½"), (0.0, "0"), (0.5, "½"), (1.0, "1")]
 
 
-def layers(relation: Callable[[S], Array], orbit: Callable[[S], Array]) -> tuple[Layer[S], ...]:
+def picture(title: str, caption: Callable[[S], str], relation: Callable[[S], Array], orbit: Callable[[S], Array]
+            ) -> Plot[S]:
     """The Hess relation and an orbit, (l, L/G) in rows (n, 2) of each, with a ring where the orbit starts."""
-    return (
-        curves("hess", lambda s: _parts(relation(s)), color=theme.STABLE, label="Hess manifold, r·M = 0"),
-        curves("orbit", lambda s: _parts(orbit(s)), color=theme.ORBIT),
-        ring("chosen", lambda s: [(float(orbit(s)[0, 0]), float(orbit(s)[0, 1]))], size=18, label="start"),
-    )
+    return Plot(
+        name="andoyer", title=title, caption=caption, axes=("l", "L/G"), x=(-math.pi, math.pi), y=(-1.0, 1.0),
+        ticks=_L_TICKS, y_ticks=_X_TICKS, dot=("l", "x"), layers=(
+            curves("hess", lambda s: _parts(relation(s)), color=theme.STABLE, label="Hess manifold, r·M = 0"),
+            curves("orbit", lambda s: _parts(orbit(s)), color=theme.ORBIT),
+            ring("chosen", lambda s: [(float(orbit(s)[0, 0]), float(orbit(s)[0, 1]))], size=18, label="start")))
 
 
 def _parts(points: Array) -> list[Array]:

@@ -10,26 +10,20 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.layers import Layer, curves, line, points
+from hess_explorer.views.picture import Values
+from hess_explorer.views.plot import Plot
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.circle_map import CircleMap
 
-__all__ = ["SIDE", "TICKS", "cobweb", "graph", "layers"]
+__all__ = ["SIDE", "TICKS", "cobweb", "picture"]
 
 S = TypeVar("S")
+Click = Callable[[S, float, float], Values]
 
 SIDE = (-math.pi, math.pi)
 TICKS = [(-math.pi, "−π"), (-math.pi / 2, "−π/2"), (0.0, "0"), (math.pi / 2, "π/2"), (math.pi, "π")]
-_GRID = np.linspace(-math.pi, math.pi, 193)
-
-
-def graph(circle_map: CircleMap) -> tuple[Array, Array]:
-    """φ and Θ, continued without jumps, at points close together on the curve also where it is steep.
-
-    The reversor gives the inverse, Θ⁻¹(ψ) = −Θ(−ψ): values at even φ and at even Θ are joined.
-    """
-    phi = np.unique(np.concatenate([_GRID, -circle_map.theta(-_GRID)]))
-    theta = np.unwrap(circle_map.theta(phi))
-    return phi, theta
+_COBWEB = 60
+"""Returns that are drawn."""
 
 
 def cobweb(iterates: Array) -> tuple[Array, Array]:
@@ -41,7 +35,7 @@ def _copies(circle_map: CircleMap | None) -> list[Array]:
     """The graph and its copies one turn up and down: the frame cuts out the square."""
     if circle_map is None:
         return []
-    phi, theta = graph(circle_map)
+    phi, theta = circle_map.graph
     return [np.column_stack([phi, theta + turn]) for turn in (0.0, -2 * math.pi, 2 * math.pi)]
 
 
@@ -51,13 +45,21 @@ def _fixed(circle_map: CircleMap | None, stable: bool) -> tuple[list[float], lis
     return found, found
 
 
-def layers(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array | None]) -> tuple[Layer[S], ...]:
+def picture(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array | None], caption: Callable[[S], str],
+            title: str = "Circle map", dot: tuple[str, str] | None = None, on_click: Click[S] | None = None) -> Plot[S]:
+    """The map of a torus, None on the separatrix, with its fixed points and the cobweb of the first iterates."""
+    return Plot(name="circle", title=title, caption=caption, axes=("φ", "Θ(φ)"), x=SIDE, y=SIDE, ticks=TICKS, dot=dot,
+                message=lambda s: "" if map(s) is not None else "Separatrix: no return", on_click=on_click,
+                layers=_layers(map, iterates))
+
+
+def _layers(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array | None]) -> tuple[Layer[S], ...]:
     """Θ, the diagonal, stable (filled) and unstable (hollow) fixed points, the cobweb of some iterates."""
     here = ("phi", "theta")
 
     def staircase(state: S) -> tuple[Array, Array] | None:
         found = iterates(state)
-        return None if found is None else cobweb(found)
+        return None if found is None else cobweb(found[: _COBWEB + 1])
 
     return (
         line("diagonal", lambda s: None if map(s) is None else (SIDE, SIDE), columns=here, moving=False,

@@ -3,17 +3,30 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import TypeVar
 
 import numpy as np
 
-from hess_explorer.views.layers import Range
+from hess_explorer.views.layers import Layer, Range, curves
 from hess_mechanics.numerics.results import Array, Mask
 
-__all__ = ["branches", "pieces", "settled_range", "thinned"]
+__all__ = ["branches", "over_time", "pieces", "settled_range", "thinned"]
+
+S = TypeVar("S")
 
 _POINTS = 600
 """Of a curve over a long time, as many as a picture shows."""
+
+
+def over_time(name: str, data: Callable[[S], tuple[Array, Array] | None], *, color: str, dash: str = "solid",
+              label: str = "") -> Layer[S]:
+    """A graph: data(state) = times and values (n,), or None where it is not known."""
+    def graph(state: S) -> list[Array]:
+        found = data(state)
+        return [] if found is None else [np.column_stack(found)]
+
+    return curves(name, graph, color=color, dash=dash, label=label)
 
 
 def settled_range(curves: Sequence[Array]) -> Range:

@@ -10,10 +10,11 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.layers import Grid, Layer, Range, Sign, image, line, target
+from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["AZIMUTH", "AZIMUTH_TICKS", "POLAR", "POLAR_TICKS", "layers", "spread"]
+__all__ = ["AZIMUTH", "AZIMUTH_TICKS", "POLAR", "POLAR_TICKS", "layers", "over_phases", "spread"]
 
 S = TypeVar("S")
 
@@ -31,6 +32,15 @@ def layers(theta_plus: Callable[[S], Array], here: Callable[[S], tuple[float, fl
         line("line", lambda s: (AZIMUTH, (here(s)[1],) * 2), color="white", dash="dashed"),
         *target("here", lambda s: [here(s)], size=19.0),
     )
+
+
+def over_phases(caption: Callable[[S], str], layers: tuple[Layer[S], ...],
+                message: Callable[[S], str] | None = None) -> Plot[S]:
+    """Curves θ⁺(φ); a click or a drag chooses the phase."""
+    return Plot(
+        name="curve", title="θ⁺ against the phase φ", caption=caption, axes=("φ", "θ⁺"), x=AZIMUTH, y=POLAR,
+        ticks=AZIMUTH_TICKS, y_ticks=POLAR_TICKS, message=message, on_click=lambda s, x, y: {"phi": x}, on_drag=True,
+        layers=layers)
 
 
 def spread(theta_plus: Array) -> str:

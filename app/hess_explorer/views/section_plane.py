@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import TypeVar
+
+import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.layers import Axes, Layer, dots, region, ring
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["layers"]
+__all__ = ["band", "joined", "layers"]
 
 S = TypeVar("S")
 Points = Callable[[S], Array | None]
@@ -39,3 +41,15 @@ def _points(name: str, of: Points[S], color: str, size: float, label: str) -> La
         return None if found is None else found.T
 
     return dots(name, columns, color=color, size=size, label=label)
+
+
+def joined(parts: Iterable[Array]) -> Array:
+    """All points of some orbits (n, 2)."""
+    return np.concatenate([np.empty((0, 2)), *parts])
+
+
+def band(middle: float, half: float, period: float, axes: Axes) -> list[list[Array]]:
+    """For `forbidden`: all heights over middle ± half of the horizontal axis, an angle, also where that goes round."""
+    low, high = axes.y
+    part = np.array([[-half, low], [half, low], [half, high], [-half, high]])
+    return [[part + np.array([middle + turn, 0.0])] for turn in (-period, 0.0, period)]

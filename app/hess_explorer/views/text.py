@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterable
 
 from latex2mathml.converter import convert
 
-__all__ = ["digits", "power", "with_formulas"]
+__all__ = ["digits", "power", "vector", "with_formulas"]
 
 
 def digits(value: float, count: int = 4) -> str:
@@ -15,6 +16,11 @@ def digits(value: float, count: int = 4) -> str:
     if math.isinf(value):
         return "∞" if value > 0 else "−∞"
     return f"{value:.{count}g}".replace("-", "−").replace("e+", "e")
+
+
+def vector(components: Iterable[float], count: int = 4) -> str:
+    """Its components in brackets, to as many digits."""
+    return f"({', '.join(digits(one, count) for one in components)})"
 
 
 def with_formulas(text: str) -> str:

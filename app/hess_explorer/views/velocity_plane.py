@@ -9,13 +9,16 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.layers import Axes, Columns, Layer, Range, arrows, curves, f32, line, points
+from hess_explorer.views.picture import Values
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
-from hess_mechanics.numerics.results import Array
+from hess_mechanics.dynamics.sampling import PIXELS
+from hess_mechanics.numerics.results import Array, Orbit
 
 __all__ = [
-    "arcs", "arrows_at", "arrows_on", "centred", "energy_levels", "equilibria", "halves", "nice_above", "orbit_alone",
-    "outside", "ring_outside", "square", "to_the_edge", "velocity_columns",
+    "arcs", "arrows_at", "arrows_on", "centred", "energy_levels", "equilibria", "halves", "nice_above", "orbit",
+    "orbit_alone", "orbit_columns", "outside", "picture", "pixels_per_unit", "ring_outside", "square", "to_the_edge",
+    "velocity_columns",
 ]
 
 S = TypeVar("S")
@@ -28,14 +31,35 @@ def velocity_columns(times: Array | None, omega: Array, gamma: Array, **more: Ar
             **{f"g{i + 1}": f32(gamma[:, i]) for i in range(3)}, **{name: f32(one) for name, one in more.items()}}
 
 
+def orbit_columns(orbit: Orbit, **more: Array) -> Columns:
+    """`velocity_columns` of states (ω1, ω2, γ)."""
+    return velocity_columns(orbit.times, orbit.states[:, :2], orbit.states[:, 2:], **more)
+
+
+def pixels_per_unit(half_width: float) -> tuple[float, ...]:
+    """Pixels per unit of ω1, ω2, γ1, γ2, γ3: this plane shows ω within ± half_width, the sphere γ within 1; (5,)."""
+    radius = 0.5 * PIXELS
+    w = radius / half_width
+    return w, w, radius, radius, radius
+
+
+def picture(caption: Callable[[S], str], half_width: Callable[[S], float], layers: tuple[Layer[S], ...],
+            title: str = "Angular velocity (ω₁, ω₂)", on_click: Callable[[S, float, float], Values] | None = None
+            ) -> Plot[S]:
+    """The plane about 0, in which the moving point follows the orbit."""
+    return Plot(
+        name="omega", title=title, caption=caption, axes=("ω₁", "ω₂"), x=lambda s: centred(half_width(s)),
+        y=lambda s: centred(half_width(s)), dot=("omega1", "omega2"), on_click=on_click, layers=layers)
+
+
+def orbit(label: str) -> Layer[S]:
+    """The track of the orbit, bold."""
+    return line("orbit", track="orbit", columns=("omega1", "omega2"), color=theme.ORBIT, width=2.5, label=label)
+
+
 def orbit_alone(half_width: Callable[[S], float], energy: Callable[[S], float], label: str = "") -> Plot[S]:
     """The plane with nothing but the track of the orbit, which has this energy."""
-    return Plot(
-        name="omega", title="Angular velocity (ω₁, ω₂)", axes=("ω₁", "ω₂"),
-        caption=lambda s: f"The chosen orbit, E = {digits(energy(s))}.",
-        x=lambda s: centred(half_width(s)), y=lambda s: centred(half_width(s)), dot=("omega1", "omega2"),
-        layers=(line("orbit", track="orbit", columns=("omega1", "omega2"), color=theme.ORBIT, width=2.5,
-                     label=label),))
+    return picture(lambda s: f"The chosen orbit, E = {digits(energy(s))}.", half_width, (orbit(label),))
 
 
 def nice_above(value: float) -> float:

@@ -52,18 +52,30 @@ class Strip:
         if not self.h > 0.0:
             raise InvalidParameter(f"h = {self.h:g}: without a field the energy is positive, choose h > 0.")
 
-    def _ellipse(self, angles: Sequence[float] | Array, added: float) -> Array:
-        moments = np.array([self.body.I11, self.body.I22]) + added
+    @property
+    def outer(self) -> Array:
+        """The semi-axes of σ1 along ω1 and ω2, (2,)."""
+        return self._axes(0.0)
+
+    @property
+    def inner(self) -> Array:
+        """Those of σ2."""
+        return self._axes(self.body.D)
+
+    def _axes(self, added: float) -> Array:
+        return np.asarray(np.sqrt(2.0 * self.h / (np.array([self.body.I11, self.body.I22]) + added)))
+
+    def _ellipse(self, angles: Sequence[float] | Array, axes: Array) -> Array:
         angles = np.asarray(angles, float)
-        return np.stack([np.cos(angles), np.sin(angles)], axis=-1) * np.sqrt(2.0 * self.h / moments)
+        return np.stack([np.cos(angles), np.sin(angles)], axis=-1) * axes
 
     def sigma1(self, angles: Sequence[float] | Array) -> Array:
         """Points (n, 2) of the outer ellipse σ1, (√(2h/I11) cos α, √(2h/I22) sin α), for the angles α (n,)."""
-        return self._ellipse(angles, 0.0)
+        return self._ellipse(angles, self.outer)
 
     def sigma2(self, angles: Sequence[float] | Array) -> Array:
         """Points (n, 2) of the inner ellipse σ2: `sigma1` with I + 𝒟."""
-        return self._ellipse(angles, self.body.D)
+        return self._ellipse(angles, self.inner)
 
     def spread(self, count: int) -> Array:
         """States (count, 5) with E = h, their ω spread evenly over the strip."""

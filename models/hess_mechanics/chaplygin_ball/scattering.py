@@ -33,7 +33,7 @@ from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.scattering import scattering
 
-__all__ = ["BallScattering", "ball_scattering", "free_theta_plus", "start", "starts"]
+__all__ = ["BallScattering", "all_phases", "ball_scattering", "free_theta_plus", "start", "starts"]
 
 MOST_STEPS = 20_000_000
 _MOST_SWING = 300.0
@@ -193,3 +193,12 @@ def ball_scattering(body: BallBody, theta_minus: float, phis: Sequence[float] | 
     wall_ms = (time.perf_counter() - start) * 1e3
     return BallScattering(float(theta_minus), frozen(phis), frozen(theta_plus), frozen(errors), level.name,
                           status_of(float(errors.max()), level), Cost(found.cost.steps, wall_ms))
+
+
+def all_phases(body: BallBody, theta_minus: float, count: int, distance: float, level: Level, most_steps: float
+               ) -> BallScattering:
+    """`ball_scattering` at so many even phases from −π to π; θ⁺ does not depend on the energy.
+
+    Raises `InvalidParameter`, `WorkLimit`.
+    """
+    return ball_scattering(body, theta_minus, np.linspace(-math.pi, math.pi, count), 1.0, distance, level, most_steps)

@@ -13,16 +13,21 @@ import numpy as np
 
 from hess_mechanics.chaplygin_ball.energy_surface import omega_of_energy
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
+from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.section import MAX_STEPS, Plane, Points, section_points
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.accuracy import DRAFT, Level
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.rigid_body.inertia import require_finite
 
-__all__ = ["EQUATOR", "ball_section", "coordinates", "forbidden_band", "seeds", "state_at"]
+__all__ = [
+    "EQUATOR", "ball_section", "coordinates", "fastest", "forbidden_band", "outside_band", "seeds", "spread_section",
+    "state_at",
+]
 
 EQUATOR = Plane((0.0, 0.0, 0.0, 0.0, 1.0))
 _EDGE = 1e-3
+_SAMPLES = 129
 _TURNS = 30.0
 """Time allowed per crossing, in units of 1/ν; few orbits take longer."""
 
@@ -58,6 +63,16 @@ def forbidden_band(body: BallBody, h: float) -> tuple[float, float] | None:
     return math.atan2(body.b2, body.b1), math.acos(h / size)
 
 
+def outside_band(band: tuple[float, float], psi: float) -> float:
+    """The possible ψ in [−π, π] next to this one: itself, unless it lies in a `forbidden_band` or at its edge."""
+    middle, half = band
+    away = math.remainder(psi - middle, 2.0 * math.pi)
+    if abs(away) >= half + _EDGE:
+        return psi
+    moved = math.remainder(middle + math.copysign(min(half + 2.0 * _EDGE, math.pi), away), 2.0 * math.pi)
+    return max(-math.pi, min(math.pi, moved))
+
+
 def seeds(body: BallBody, h: float, count: int) -> list[tuple[float, ...]]:
     """States of the section, spread evenly over the possible (ψ, cos δ).  Raises `InvalidParameter`."""
     band = forbidden_band(body, h)
@@ -84,3 +99,14 @@ def ball_section(body: BallBody, h: float, starts: Sequence[Sequence[float]], cr
     except WorkLimit:
         raise WorkLimit(f"{crossings} crossings take an orbit more than {most_steps} steps here: choose fewer of them, "
                         "or smaller I13 and I23.") from None
+
+
+def spread_section(body: BallBody, h: float, orbits: int, crossings: int, level: Level, most_steps: int) -> Points:
+    """The section of so many orbits, spread over what is possible of it: `ball_section` from `seeds`."""
+    return ball_section(body, h, seeds(body, h, orbits), crossings, level, most_steps)
+
+
+def fastest(body: BallBody, start: tuple[float, ...], span: float) -> float:
+    """The largest |ω| along the orbit from a state (5,), as far as a few samples show it.  Raises as `solve`."""
+    coarse = solve(SYSTEM, start, body.parameters, np.linspace(0.0, span, _SAMPLES), DRAFT)
+    return float(np.hypot(*coarse.states[:, :2].T).max())

@@ -44,6 +44,11 @@ class TurningPoints:
         """ρ = |w| at n3 = n1."""
         return math.sqrt(self.w_squared)
 
+    @property
+    def final_rho(self) -> float:
+        """ρ at n3 = n2, where it is largest."""
+        return math.sqrt(2.0 * max(0.0, self.h + self.roots[2]))
+
     def state_at_lower_turn(self, phi: float) -> Array:
         """The reduced state (w1, w2, n1, n2, n3) on the section n3 = n1 with w = ρ(sin φ, cos φ), shape (5,).
 

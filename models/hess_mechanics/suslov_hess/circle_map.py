@@ -21,6 +21,7 @@ import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -73,6 +74,8 @@ def rotation_numbers(rows: Array) -> Array:
     turning = k + np.arctan2(np.sqrt(np.maximum(-discriminant, 0.0)), sign * re) / np.pi
     rho: Array = np.where(discriminant < 0.0, turning, np.round(zeta / np.pi)) + 0.0  # no −0.0
     return rho
+
+_EVEN = np.linspace(-math.pi, math.pi, 193)
 
 
 @dataclass(frozen=True)
@@ -130,6 +133,15 @@ class CircleMap:
         for i in range(count):
             theta_of(*self.matrix, orbit[i : i + 1], orbit[i + 1 : i + 2])
         return frozen(orbit)
+
+    @cached_property
+    def graph(self) -> tuple[Array, Array]:
+        """φ (n,) from −π to π and Θ (n,), continued without jumps, close together on the curve also where it is steep.
+
+        The reversor gives the inverse, Θ⁻¹(ψ) = −Θ(−ψ): values at even φ and at even Θ are joined.
+        """
+        phi = np.unique(np.concatenate([_EVEN, -self.theta(-_EVEN)]))
+        return frozen(phi), frozen(np.unwrap(self.theta(phi)))
 
 
 def _theta(matrix: tuple[float, float, float], phi: Array) -> Array:

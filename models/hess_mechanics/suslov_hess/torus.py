@@ -137,7 +137,7 @@ def annulus(body: HessBody, h: float, turning: TurningPoints | None) -> tuple[Ar
     |w|² = 2(h + n3) between the turning points; on the separatrix (`turning` None) between 0 and 4.
     """
     inner, outer = (
-        (0.0, 2.0) if turning is None else (turning.initial_rho, math.sqrt(2.0 * max(0.0, h + turning.roots[2])))
+        (0.0, 2.0) if turning is None else (turning.initial_rho, turning.final_rho)
     )
     s = np.linspace(0.0, 2.0 * math.pi, 181)
     unit = body.frequency_unit * np.column_stack([np.sin(s), math.hypot(1.0, body.a) * np.cos(s)])

@@ -6,10 +6,13 @@ import math
 from dataclasses import field, fields, replace
 from typing import Any
 
-from hess_explorer.protocol.parameters import Choice, Number, Places, Spec
+from hess_explorer.protocol.parameters import Choice, Number, Places, Spec, Value
 from hess_mechanics.numerics.accuracy import LEVELS
 
-__all__ = ["Slider", "accuracy_level", "choice", "number", "places", "slider_within", "specs_of"]
+__all__ = [
+    "Slider", "accuracy_level", "choice", "crossings_of_each", "like", "number", "places", "slider_within", "specs_of",
+    "time_span",
+]
 
 Slider = tuple[float, float, float]
 """(low, high, step)."""
@@ -37,10 +40,28 @@ def places(label: str, most: int, low: tuple[float, float], high: tuple[float, f
     return _parameter(Places("", label, most, low, high, default))
 
 
-def accuracy_level() -> Any:
+def accuracy_level(doc: str = "Promised error: draft 1e-3, standard 1e-6, precise 1e-9; reference: the floor of double "
+                              "precision.") -> Any:
     """The accuracy level, by its name."""
-    return choice("Accuracy", tuple(LEVELS), "standard", doc="Promised error: draft 1e-3, standard 1e-6, precise 1e-9; "
-                  "reference: the floor of double precision.")
+    return choice("Accuracy", tuple(LEVELS), "standard", doc=doc)
+
+
+def crossings_of_each() -> Any:
+    """How many crossings of a section each orbit leaves, at once."""
+    return number("n", 200.0, (50.0, 600.0), 10.0, bounds=(1.0, 1e3), label="Crossings of each orbit",
+                  doc="Points for each orbit.")
+
+
+def time_span(default: float, longest: float, *, step: float = 1.0, most: float = 1e4, what: str = "the orbit") -> Any:
+    """How long something is followed; the slider goes to `longest`, and what is typed to `most`."""
+    return number("t", default, (1.0, longest), step, bounds=(0.01, most), label="Time span",
+                  doc=f"How long {what} is followed.")
+
+
+def like(state: type[Any], name: str, default: Value | None = None, **changes: Any) -> Any:
+    """The parameter of that name of another state; another default, and other words of `number`, where given."""
+    spec: Any = next(one for one in specs_of(state) if one.name == name)
+    return _parameter(replace(spec, default=spec.default if default is None else default, **changes))
 
 
 def slider_within(largest: float) -> Slider:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from hess_explorer.protocol.parameters import Value, places, written
+from hess_explorer.protocol.parameters import Value, Values, places, written
 
-__all__ = ["Window", "inside", "tidy_window", "window_of"]
+__all__ = ["Window", "boxed", "inside", "tidy_window", "window_of"]
 
 Window = tuple[tuple[float, float], tuple[float, float]]
 """Two opposite corners of what is seen, the lower left one first."""
@@ -31,3 +31,11 @@ def inside(points: Sequence[tuple[float, float]], window: Window) -> list[tuple[
     """Those of the points that lie in the window."""
     (x0, y0), (x1, y1) = window
     return [(x, y) for x, y in points if x0 <= x <= x1 and y0 <= y <= y1]
+
+
+def boxed(corners: tuple[float, float, float, float], bounds: Window, name: str = "window") -> Values:
+    """The window, of that name, of a box, as far as it lies within the bounds; nothing where it has no size."""
+    (x0, y0), (x1, y1) = bounds
+    left, right = max(x0, min(corners[0], corners[2])), min(x1, max(corners[0], corners[2]))
+    low, high = max(y0, min(corners[1], corners[3])), min(y1, max(corners[1], corners[3]))
+    return {name: written([(left, low), (right, high)])} if low < high and left < right else {}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any, ParamSpec, TypeVar, cast
 
 from hess_explorer.compute.cache import CACHE, Task
@@ -12,7 +12,7 @@ from hess_mechanics.numerics.accuracy import Level, cheapest, level
 from hess_mechanics.numerics.results import Orbit
 from hess_mechanics.suslov.free import FreeMotion
 
-__all__ = ["Work", "orbit_status"]
+__all__ = ["Work", "drift_status", "orbit_status"]
 
 
 P = ParamSpec("P")
@@ -75,3 +75,12 @@ def orbit_status(orbit: Orbit | FreeMotion) -> list[str]:
         f"error ≤ {orbit.error_estimate:.1e} ({orbit.status})",
         "drift " + " ".join(f"{name} {drift:.0e}" for name, drift in orbit.drift.items()),
     ]
+
+
+def drift_status(drifts: Iterable[Mapping[str, float]]) -> Iterator[str]:
+    """For the status line: the largest drift of each integral."""
+    largest: dict[str, float] = {}
+    for drift in drifts:
+        largest |= {name: max(largest.get(name, 0.0), value) for name, value in drift.items()}
+    if largest:
+        yield "drift " + " ".join(f"{name} {value:.0e}" for name, value in largest.items())

@@ -1,50 +1,37 @@
-"""What the scenes of sections have in common: the orbit on show, orbits over a window, those of clicks, status line."""
+"""A section whose window is filled with orbits, piece by piece, besides those that clicks start."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from abc import abstractmethod
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, ClassVar, Protocol, Self, TypeVar
 
 import numpy as np
 
-from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values, places, written
-from hess_explorer.scenes.framework.scene import Motion, State
-from hess_explorer.scenes.framework.windows import Window, inside, tidy_window, window_of
-from hess_explorer.scenes.framework.work import orbit_status
+from hess_explorer.scenes.framework.one_orbit import OneOrbit, Start
+from hess_explorer.scenes.framework.windows import Window, boxed, inside, tidy_window, window_of
+from hess_explorer.scenes.framework.work import drift_status
 from hess_explorer.views import layered_section
 from hess_explorer.views.layers import Axes, Layer
 from hess_explorer.views.plot import Plot
+from hess_explorer.views.section_plane import joined
 from hess_mechanics.dynamics.lyapunov import Exponent, largest_exponent
-from hess_mechanics.dynamics.sampling import sampled_orbit
-from hess_mechanics.dynamics.section import Points
-from hess_mechanics.dynamics.system import System
-from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.numerics.accuracy import Level
-from hess_mechanics.numerics.results import Array, Mask, Orbit
+from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.results import Array, Mask
 
-__all__ = [
-    "TURN", "Crossings", "FilledWindow", "Piece", "Start", "boxed", "filled_window", "in_pieces", "joined",
-]
+__all__ = ["TURN", "FilledWindow", "Piece", "filled_window", "in_pieces"]
 
 TURN = 3.14159
 """Half a turn, as a place in a link is written."""
 
 _TOGETHER = 4
 """Orbits that are computed together: few enough for points to arrive soon."""
-_FEW = 30
-"""Crossings of each orbit, while a slider is dragged and until all are known."""
 
 T = TypeVar("T")
 Place = tuple[float, float]
-Start = tuple[float, ...]
-
-
-class _Body(Protocol):
-    @property
-    def parameters(self) -> tuple[float, ...]: ...
 
 
 class _Section(Protocol):
@@ -59,52 +46,6 @@ class _Section(Protocol):
 
     def impossible(self, window: Window) -> Array:
         """Cells (m, n) over the window: 1 where no motion is possible."""
-
-
-class _OneOrbit(State):
-    """A state with one orbit on show, of a body of a `system`, from `start`; `most`: as many samples."""
-
-    system: ClassVar[System]
-    most: ClassVar[int] = 4000
-
-    span: float
-
-    @property
-    def body(self) -> _Body:
-        """The body.  Raises `ModelError`."""
-        raise NotImplementedError
-
-    @property
-    def start(self) -> Start:
-        """Where the orbit starts.  Raises `ModelError`."""
-        raise NotImplementedError
-
-    @property
-    def weights(self) -> tuple[float, ...]:
-        """From the variables to the scene's pictures, in pixels for a unit."""
-        raise NotImplementedError
-
-    @cached_property
-    def orbit(self) -> Orbit:
-        """The orbit on show."""
-        return self.work.get(sampled_orbit, self.system, self.start, self.body.parameters, self.span, self.weights,
-                             self.orbit_level, self.most)
-
-    @property
-    def orbit_level(self) -> Level:
-        """The accuracy of the orbit on show."""
-        return self.level
-
-    def motion(self) -> Motion:
-        """The orbit on show."""
-        return Motion(self.system, self.start, self.body.parameters, self.span, self.weights)
-
-    def _orbit_status(self) -> Iterator[str]:
-        if self.known("orbit"):
-            yield orbit_status(self.orbit)[0]
-
-
-# ---- A window filled with orbits ------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -132,7 +73,7 @@ class _Chosen:
     refused: Place | None = None
 
 
-class FilledWindow(_OneOrbit):
+class FilledWindow(OneOrbit):
     """A section whose window is filled with orbits, besides those started by clicks; all come piece by piece.
 
     The scene declares the parameters that stand here without a value.
@@ -151,18 +92,18 @@ class FilledWindow(_OneOrbit):
     held: ClassVar[tuple[int, int]]
 
     @property
+    @abstractmethod
     def section(self) -> _Section:
         """The section.  Raises `ModelError`."""
-        raise NotImplementedError
 
+    @abstractmethod
     def follow(self, starts: tuple[Start, ...], forward: bool) -> Piece | None:
         """What is known of these orbits, by `work.soon`."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def impossible_here(self) -> str:
         """What is said where nothing is possible in the window."""
-        raise NotImplementedError
 
     @property
     def ways(self) -> tuple[bool, ...]:
@@ -322,102 +263,6 @@ def _impossible(section: _Section, window: Window) -> Array:
     return section.impossible(window)
 
 
-# ---- One orbit among others -----------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class _Crossed:
-    """Crossings of the orbit on show and of the others; None where they are left out, for that reason."""
-
-    own: Points | None
-    others: Points | None
-    reason: str
-
-
-class Crossings(_OneOrbit):
-    """A section with the orbit on show, and others; of the others a few crossings come first.
-
-    The scene declares the parameters that stand here without a value.
-    """
-
-    most: ClassVar[int] = 6000
-
-    count: float
-
-    def crossing(self, crossings: int) -> tuple[Task, Task]:
-        """What finds so many crossings of the orbit on show, and of the others."""
-        raise NotImplementedError
-
-    def places_of(self, points: Points) -> Array:
-        """The places (n, 2) on the section of all these points."""
-        raise NotImplementedError
-
-    @cached_property
-    def _crossed(self) -> _Crossed:
-        count = int(self.count)
-        few, whole = self.crossing(min(count, _FEW)), self.crossing(count)
-        mine = few[0] if self.dragging else whole[0]
-        try:
-            own: Points = self.work.get(mine.function, *mine.arguments)
-            return _Crossed(own, self.work.sooner(whole[1], few[1]), "")
-        except WorkLimit as error:
-            return _Crossed(None, None, f"The section is left out: {error}")
-
-    @property
-    def reason(self) -> str:
-        """Why the section is left out; empty where it is not."""
-        return self._crossed.reason
-
-    @cached_property
-    def own(self) -> Array | None:
-        """Places (n, 2) of the orbit on show; None where the section is left out."""
-        return None if self._crossed.own is None else self.places_of(self._crossed.own)
-
-    @cached_property
-    def others(self) -> Array | None:
-        """Places (n, 2) of the others; None where the section is left out."""
-        return None if self._crossed.others is None else self.places_of(self._crossed.others)
-
-    def status(self) -> Iterator[str]:
-        """Size, cost and drift of the section, the orbit on show."""
-        found: _Crossed | None = self.known("_crossed")
-        if found and found.own and found.others and self.own is not None and self.others is not None:
-            steps = found.own.cost.steps + found.others.cost.steps
-            yield f"section {len(self.own) + len(self.others)} points, {steps} Taylor steps"
-            yield from drift_status((found.own.drift, found.others.drift))
-        yield from self._orbit_status()
-
-    def notes(self) -> Iterator[str]:
-        """A section that is left out."""
-        if self.known("_crossed") and self.reason:
-            yield self.reason
-
-
-# ---- Parts ----------------------------------------------------------------------------------------------------------
-
-
 def in_pieces(items: Sequence[T]) -> Iterator[tuple[T, ...]]:
     """As many at a time as are computed together."""
     return (tuple(items[i : i + _TOGETHER]) for i in range(0, len(items), _TOGETHER))
-
-
-def joined(parts: Iterable[Array]) -> Array:
-    """All points of some orbits (n, 2)."""
-    return np.concatenate([np.empty((0, 2)), *parts])
-
-
-def drift_status(drifts: Iterable[Mapping[str, float]]) -> Iterator[str]:
-    """For the status line: the largest drift of each integral."""
-    largest: dict[str, float] = {}
-    for drift in drifts:
-        largest |= {name: max(largest.get(name, 0.0), value) for name, value in drift.items()}
-    if largest:
-        yield "drift " + " ".join(f"{name} {value:.0e}" for name, value in largest.items())
-
-
-def boxed(corners: tuple[float, float, float, float], bounds: Window, name: str = "window") -> Values:
-    """The window, of that name, of a box, as far as it lies within the bounds; nothing where it has no size."""
-    (x0, y0), (x1, y1) = bounds
-    left, right = max(x0, min(corners[0], corners[2])), min(x1, max(corners[0], corners[2]))
-    low, high = max(y0, min(corners[1], corners[3])), min(y1, max(corners[1], corners[3]))
-    return {name: written([(left, low), (right, high)])} if low < high and left < right else {}

@@ -1,0 +1,67 @@
+"""A state with one orbit of a body on show."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterator
+from functools import cached_property
+from typing import ClassVar, Protocol
+
+from hess_explorer.scenes.framework.scene import Motion, State
+from hess_explorer.scenes.framework.work import orbit_status
+from hess_mechanics.dynamics.sampling import sampled_orbit
+from hess_mechanics.dynamics.system import System
+from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.results import Orbit
+
+__all__ = ["OneOrbit", "Start"]
+
+Start = tuple[float, ...]
+
+
+class _Body(Protocol):
+    @property
+    def parameters(self) -> tuple[float, ...]: ...
+
+
+class OneOrbit(State, ABC):
+    """A state with one orbit on show, of a body of a `system`, from `start`; `most`: as many samples."""
+
+    system: ClassVar[System]
+    most: ClassVar[int] = 4000
+
+    span: float
+
+    @property
+    @abstractmethod
+    def body(self) -> _Body:
+        """The body.  Raises `ModelError`."""
+
+    @property
+    @abstractmethod
+    def start(self) -> Start:
+        """Where the orbit starts.  Raises `ModelError`."""
+
+    @property
+    @abstractmethod
+    def weights(self) -> tuple[float, ...]:
+        """From the variables to the scene's pictures, in pixels for a unit."""
+
+    @cached_property
+    def orbit(self) -> Orbit:
+        """The orbit on show."""
+        return self.work.get(sampled_orbit, self.system, self.start, self.body.parameters, self.span, self.weights,
+                             self.orbit_level, self.most)
+
+    @property
+    def orbit_level(self) -> Level:
+        """The accuracy of the orbit on show."""
+        return self.level
+
+    def motion(self) -> Motion:
+        """The orbit on show."""
+        return Motion(self.system, self.start, self.body.parameters, self.span, self.weights)
+
+    def _orbit_status(self) -> Iterator[str]:
+        if self.known("orbit"):
+            yield orbit_status(self.orbit)[0]
