@@ -12,8 +12,9 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.ball import FreeBall
+from hess_explorer.scenes.framework.circle_left import CircleLeft
 from hess_explorer.scenes.framework.one_orbit import OneOrbit, Start
-from hess_explorer.scenes.framework.parameters import accuracy_level, number, time_span
+from hess_explorer.scenes.framework.parameters import accuracy_level, time_span
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import scattering_map as square
@@ -22,7 +23,7 @@ from hess_explorer.views import velocity_plane as plane
 from hess_explorer.views.graph import over_time
 from hess_explorer.views.layers import arrows, curves, levels, region, ring
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, ends
+from hess_explorer.views.poisson_sphere import Direction, Sphere, ends
 from hess_explorer.views.text import digits as in_digits
 from hess_explorer.views.text import vector
 from hess_mechanics.chaplygin_ball import scattering as model
@@ -50,24 +51,13 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class ChaplyginBall(FreeBall, OneOrbit):
+class ChaplyginBall(CircleLeft, FreeBall, OneOrbit):
     """The chosen orbit, many over the strip, and the map of the phases."""
 
-    theta: float = number("θ⁻", 1.2, (0.0, 3.14), 0.01, bounds=(0.0, math.pi), label="Angle θ⁻ of the circle left",
-                          doc="The angle between ξ and γ at the start of the chosen orbit.")
-    phi: float = number("φ", 0.5, (-3.14, 3.14), 0.01, bounds=(-math.pi, math.pi), label="Phase φ of the chosen orbit",
-                        doc="Where on that circle γ starts, in radians.")
-    digits: float = number("−lg δ", 4.0, (2.0, 8.0), 0.05, bounds=(2.0, 10.0), label="Distance δ of the start, digits",
-                           doc="The chosen orbit starts δ = 10^−digits of |ω| away from Nᵘ.")
     span: float = time_span(60.0, 400.0, what="the chosen orbit")
     accuracy: str = accuracy_level()
 
     system: ClassVar[System] = SYSTEM
-
-    @property
-    def distance(self) -> float:
-        """δ."""
-        return float(10.0**-self.digits)
 
     @cached_property
     def half_width(self) -> float:
@@ -129,11 +119,6 @@ class ChaplyginBall(FreeBall, OneOrbit):
         return [] if self.map is None else [
             (self.phi, float(np.interp(self.phi, self.map.phis, self.map.theta_plus)))]
 
-    def circles(self) -> list[Circle]:
-        """The circle that is left and the one that is joined."""
-        return [Circle(self.xi, math.cos(self.theta), "unstable"),
-                Circle(self.xi, float(np.clip(self.Gamma[-1], -1.0, 1.0)), "stable")]
-
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_sphere(self) -> str:
@@ -190,10 +175,10 @@ SCENE = Scene(
                 arrows("arrows", lambda s: plane.arrows_at(s.crowd), color=theme.ORBIT, alpha=0.8))),
         Sphere(
             caption=ChaplyginBall._about_sphere, looks={"orbit": "orbit"}, axis=lambda s: Direction(s.xi, "ξ"),
-            circles=ChaplyginBall.circles, marks=lambda s: ends(s.xi)),
+            circles=lambda s: s.circles(s.xi, float(np.clip(s.Gamma[-1], -1.0, 1.0))), marks=lambda s: ends(s.xi)),
         square.over_phases(
             ChaplyginBall._about_curve, message=lambda s: s.map_or_reason[1], layers=(
-                levels("levels", lambda s: [] if s.map is None else [s.theta, math.pi - s.theta]),
+                levels("levels", lambda s: [] if s.map is None else s.levels),
                 curves("free", lambda s: s.over_phases(free=True), color=theme.MAP, dash="dashed",
                        label="θ⁺ for 𝒟 = 0"),
                 curves("ball", lambda s: s.over_phases(free=False), color=theme.ORBIT),

@@ -9,15 +9,18 @@ from functools import cached_property
 
 import numpy as np
 
+from hess_explorer.scenes.framework.circle_left import CircleLeft
 from hess_explorer.scenes.framework.free_body import FreeBody
-from hess_explorer.scenes.framework.parameters import accuracy_level, number
+from hess_explorer.scenes.framework.parameters import accuracy_level, like
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
+from hess_explorer.scenes.framework.work import drift_status
 from hess_explorer.views import scattering_map as square
 from hess_explorer.views import theme
-from hess_explorer.views.layers import Columns, Sign, curves, levels, ring
+from hess_explorer.views.layers import Sign, curves, levels, ring
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, ends
+from hess_explorer.views.poisson_sphere import Direction, Sphere, ends
 from hess_explorer.views.text import digits as in_digits
+from hess_explorer.views.text import vector
 from hess_explorer.views.velocity_plane import nice_above, velocity_columns
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.numerics.results import Array
@@ -42,23 +45,17 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class Scattering(FreeBody):
+class Scattering(CircleLeft, FreeBody):
     """One rotation, which gives the curve and the map, and the orbit of the phase chosen."""
 
-    I23: float = number("I₂₃", 0.8, (-1.0, 1.0), 0.01, bounds=(-1e3, 1e3), label="Inertia I₂₃",
-                        doc="Product of inertia; not 0 together with I₁₃.")
-    k: float = number("k", 2.0, (-2.0, 7.0), 0.05, bounds=(-50.0, 50.0), label="k, drives I₁₁",
-                      doc="I₁₁ = I₂₂ + k|k| (I₁₃² + I₂₃²)/I₂₂. With I₁₃ = 0 and k odd all orbits are reversed: "
-                          "θ⁺ = π − θ⁻.")
-    theta: float = number("θ⁻", math.pi / 2, (0.0, 3.14), 0.01, bounds=(0.0, math.pi),
-                          label="Angle θ⁻ of the circle left",
-                          doc="The angle between ξ and γ at the start, in radians.")
-    phi: float = number("φ", 0.5, (-3.14, 3.14), 0.01, bounds=(-math.pi, math.pi), label="Phase φ of the orbit shown",
-                        doc="Where on that circle γ starts, in radians.")
-    digits: float = number("−lg δ", 5.30103, (1.0, 12.0), 0.05, bounds=(0.5, 300.0),
-                           label="Distance δ of the start, digits",
-                           doc="The start is δ = 10^−digits of |ω| away from the unstable point; it only shifts the "
-                               "phase.")
+    I23: float = like(FreeBody, "I23", 0.8)
+    k: float = like(FreeBody, "k", 2.0, doc="I₁₁ = I₂₂ + k|k| (I₁₃² + I₂₃²)/I₂₂. With I₁₃ = 0 and k odd all orbits are "
+                    "reversed: θ⁺ = π − θ⁻.")
+    theta: float = like(CircleLeft, "theta", math.pi / 2, doc="The angle between ξ and γ at the start, in radians.")
+    phi: float = like(CircleLeft, "phi", label="Phase φ of the orbit shown")
+    digits: float = like(CircleLeft, "digits", 5.30103, softbounds=(1.0, 12.0), bounds=(0.5, 300.0),
+                         doc="The start is δ = 10^−digits of |ω| away from the unstable point; it only shifts the "
+                             "phase.")
     accuracy: str = accuracy_level()
 
     def admitted(self, notes: list[str]) -> Scattering:
@@ -77,11 +74,6 @@ class Scattering(FreeBody):
     def points(self) -> Equilibria:
         """The equilibria with that energy."""
         return equilibria(self.body, self.h)
-
-    @property
-    def distance(self) -> float:
-        """δ."""
-        return float(10.0**-self.digits)
 
     @cached_property
     def start(self) -> tuple[tuple[float, float], tuple[float, float, float]]:
@@ -146,15 +138,6 @@ class Scattering(FreeBody):
         reach = nice_above(max(1e-3, 1.0 + float(self.orders[:, 1].max(initial=self.limit.cos_chi))))
         return -1.0 - 0.05 * reach, -1.0 + 1.05 * reach
 
-    def track(self) -> Columns:
-        """The orbit."""
-        return velocity_columns(self.orbit.times, self.orbit.omega, self.orbit.gamma)
-
-    def circles(self) -> list[Circle]:
-        """The circle that is left and the one that is joined."""
-        return [Circle(self.points.xi, math.cos(self.theta), "unstable"),
-                Circle(self.points.xi, math.cos(self.theta_plus), "stable")]
-
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_curve(self) -> str:
@@ -173,13 +156,11 @@ class Scattering(FreeBody):
 
     def derived(self) -> Iterator[str]:
         """I11 and k², the rotation, the start."""
-        xi = self.points.xi
-        yield f"I₁₁ = {in_digits(self.body.I11, 6)}"
-        yield f"k² = {in_digits(self.k * abs(self.k), 6)}"
+        yield from super().derived()
         yield f"cos χ = {in_digits(self.limit.cos_chi, 12)}"
         yield f"φ* = {in_digits(self.map.phi_star, 6)}"
         yield f"δ = {in_digits(self.distance, 3)}"
-        yield f"ξ = ({in_digits(xi[0])}, {in_digits(xi[1])}, 0)"
+        yield f"ξ = {vector(self.points.xi)}"
         yield "Time in units of 1/ω₀; θ⁺ does not depend on the energy"
 
     def status(self) -> Iterator[str]:
@@ -189,7 +170,7 @@ class Scattering(FreeBody):
                f"({found.status})")
         if self.known("orbit"):
             yield f"orbit {self.orbit.times.size} points, error ≤ {self.orbit.error_estimate:.1e}"
-            yield "drift " + " ".join(f"{name} {drift:.0e}" for name, drift in self.orbit.drift.items())
+            yield from drift_status([self.orbit.drift])
 
     def notes(self) -> Iterator[str]:
         """A start that is rounded."""
@@ -202,16 +183,12 @@ SCENE = Scene(
     Scattering, __file__, place=4, presets=PRESETS,
     title="Scattering",
     summary="No field: from the circle γ leaves and its phase to the circle it joins, exact for all phases at once.",
-    tracks={"orbit": Scattering.track},
+    tracks={"orbit": lambda s: velocity_columns(s.orbit.times, s.orbit.omega, s.orbit.gamma)},
     views=(
-        Plot(
-            name="curve", title="θ⁺ against the phase φ", caption=Scattering._about_curve, axes=("φ", "θ⁺"),
-            x=square.AZIMUTH, y=square.POLAR, ticks=square.AZIMUTH_TICKS, y_ticks=square.POLAR_TICKS,
-            on_click=lambda s, x, y: {"phi": x}, on_drag=True,
-            layers=(levels("levels", lambda s: [s.theta, math.pi - s.theta]),
-                    curves("theta", lambda s: [np.column_stack([_PHASES, s.curve])], color=theme.ORBIT,
-                           label="θ⁺(φ); orbit"),
-                    ring("chosen", lambda s: [(s.phi, s.theta_plus)], size=18.0, label="chosen"))),
+        square.over_phases(Scattering._about_curve, layers=(
+            levels("levels", lambda s: s.levels),
+            curves("theta", lambda s: [np.column_stack([_PHASES, s.curve])], color=theme.ORBIT, label="θ⁺(φ); orbit"),
+            ring("chosen", lambda s: [(s.phi, s.theta_plus)], size=18.0, label="chosen"))),
         Plot(
             name="map", title="θ⁺ over (φ, θ⁻)", caption=Scattering._about_map, axes=("φ", "θ⁻"),
             x=square.AZIMUTH, y=square.POLAR, ticks=square.AZIMUTH_TICKS, y_ticks=square.POLAR_TICKS,
@@ -224,7 +201,7 @@ SCENE = Scene(
                     ring("chosen", lambda s: [(s.k, s.limit.cos_chi)], size=18.0))),
         Sphere(
             caption=Scattering._about_sphere, looks={"orbit": "orbit"}, axis=lambda s: Direction(s.points.xi, "ξ"),
-            circles=Scattering.circles, marks=lambda s: ends(s.points.xi),
+            circles=lambda s: s.circles(s.points.xi, math.cos(s.theta_plus)), marks=lambda s: ends(s.points.xi),
             signs=(Sign("circle joined", "line", f"border-top: 3px solid {theme.STABLE}"),
                    Sign("circle left", "line", f"border-top: 3px dashed {theme.UNSTABLE}"),
                    Sign("fixed points Γ = ±1", "dot", f"background: {theme.MUTED}"))),

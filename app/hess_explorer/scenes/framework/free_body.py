@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -48,3 +48,8 @@ class FreeBody(State):
             raise InvalidParameter(f"k = {digits(self.k)} would make I₁₁ = {digits(I11)}; a moment of inertia is "
                                    "positive. Choose a larger k.")
         return SuslovBody(I11, self.I22, self.I13, self.I23)
+
+    def derived(self) -> Iterator[str]:
+        """I11 and k²."""
+        yield f"I₁₁ = {digits(self.body.I11, 6)}"
+        yield f"k² = {digits(self.k * abs(self.k), 6)}"
