@@ -1,0 +1,94 @@
+"""Two cases with I13 = I23 = 0 in which the ball with a field is regular, for every 𝒟; the paper asks for such cases.
+
+Then `eq29` is Îω̇ = (γ × ∂U/∂γ)_(1,2), γ̇ = γ × ω, with Î as in `equations`, even in γ3, and U = (b, γ) here.
+
+1. U = U(γ1, γ2), so b3 = 0: every orbit that crosses the equator γ3 = 0 twice is periodic.
+   Proof.  The torque (−γ3 ∂U/∂γ2, γ3 ∂U/∂γ1), γ̇1 = −γ3ω2 and γ̇2 = γ3ω1 are odd in γ3, and γ̇3 = γ1ω2 − γ2ω1 is even.
+   So with y(t) also R y(−t) is a motion, R the reflection γ3 → −γ3 (a reversor).  Let y cross the equator at t0 and t1.
+   R keeps y(t0) and y(t1), and the motion through a state is unique: y(t) = R y(2t0 − t) = R y(2t1 − t).  Hence
+   y(t + 2(t1 − t0)) = y(t), and the return to the section γ3 = 0 is the identity wherever there is one.  ∎
+   Not all orbits do cross it twice: some touch it or tend to fixed points, as `suslov.kharlamova` shows for 𝒟 = 0.
+
+2. I11 = I22 and U = U(γ3), so b ∥ e3: F2 = ω1γ1 + ω2γ2 is an integral besides E and F1.
+   Proof.  The torque U'(γ3) (γ2, −γ1) is normal to γ' = (γ1, γ2), so Î = (I11 + 𝒟γ²) E − 𝒟γ'γ'ᵀ maps ω̇ ∥ torque to a
+   multiple of it, and (ω̇, γ') = 0; and (ω, γ̇') = −γ3ω1ω2 + γ3ω2ω1 = 0.  ∎
+   With the standard measure, which I13 = I23 = 0 keep, the system is integrable by the Euler–Jacobi theorem.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
+from hess_mechanics.dynamics.section import Plane, section
+from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.accuracy import Level, Status
+from hess_mechanics.numerics.results import Array, Cost
+
+__all__ = ["Period", "area_integral", "has_area_integral", "is_reversible", "period"]
+
+_EITHER_WAY = Plane((0.0, 0.0, 0.0, 0.0, 1.0), sense=0)
+_TOUCHES = 1e-9
+"""Below this |γ̇3|/ν a crossing is round-off: the orbit rests on the equator, or touches it."""
+_TURNS = 300.0
+"""Time in which two crossings are looked for, in units of the slowest turn of a ball with this energy."""
+
+
+def is_reversible(body: BallBody) -> bool:
+    """Whether the reflection γ3 → −γ3 reverses the motions: I13 = I23 = 0 and b3 = 0."""
+    return body.I13 == body.I23 == body.b3 == 0.0
+
+
+def has_area_integral(body: BallBody) -> bool:
+    """Whether F2 = ω1γ1 + ω2γ2 is an integral by symmetry: I13 = I23 = 0, I11 = I22 and b ∥ e3."""
+    return body.I13 == body.I23 == body.b1 == body.b2 == 0.0 and body.I11 == body.I22
+
+
+def area_integral(states: Array) -> Array:
+    """F2 = ω1γ1 + ω2γ2 (...) of states (..., 5)."""
+    return np.asarray(states[..., 0] * states[..., 2] + states[..., 1] * states[..., 3])
+
+
+@dataclass(frozen=True)
+class Period:
+    """The period of one orbit, and how exact it is.
+
+    crossings : the first two times at which it crosses the equator.
+    """
+
+    value: float
+    crossings: tuple[float, float]
+    level: str
+    status: Status
+    error_estimate: float
+    cost: Cost
+
+
+def period(body: BallBody, state: Sequence[float], level: Level) -> Period:
+    """The period of the orbit from `state` (5,): twice the time between its first two crossings of the equator.
+
+    The error is the difference from a second run with a hundredth of the tolerance.
+    Raises `InvalidParameter` unless the body `is_reversible` and the orbit crosses the equator twice, `WorkLimit`.
+    """
+    if not is_reversible(body):
+        raise InvalidParameter("Orbits close only with I13 = I23 = 0 and b3 = 0: set these to 0.")
+    p = np.array(body.parameters)
+    moment = max(body.I11, body.I22) + body.D
+    least = min(body.I11, body.I22)
+    nu = float(SYSTEM.frequency(np.array(state, float), p)) or 1.0
+    end = _TURNS * math.sqrt(moment / least) / nu
+    coarse, fine = (section(SYSTEM, state, body.parameters, _EITHER_WAY, end, each, crossings=2)
+                    for each in (level, level.tightened()))
+    speeds = np.abs(SYSTEM.field(list(coarse.states.T), body.parameters)[4]) if len(coarse.times) else np.zeros(1)
+    if min(len(coarse.times), len(fine.times)) < 2 or np.min(speeds) <= _TOUCHES * nu:
+        raise InvalidParameter(f"Up to t = {end:.6g} this orbit does not cross the equator γ3 = 0 twice: choose another "
+                               "start.")
+    first, second = coarse.times.tolist()
+    value, again = 2.0 * (second - first), 2.0 * (fine.times[1] - fine.times[0])
+    error = 4.0 * abs(value - again) + 8e-16 * abs(second)
+    cost = Cost(coarse.cost.steps + fine.cost.steps, coarse.cost.wall_ms + fine.cost.wall_ms)
+    return Period(value, (first, second), level.name, coarse.status, error, cost)

@@ -1,0 +1,179 @@
+"""The two regular cases of the ball with a field: their proofs, symbolically, and their motions, numerically."""
+
+import math
+
+import numpy as np
+import pytest
+import sympy
+from scipy.integrate import solve_ivp
+
+from hess_mechanics import level, solve
+from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
+from hess_mechanics.chaplygin_ball.integrable_cases import (
+    area_integral,
+    has_area_integral,
+    is_reversible,
+    period,
+)
+from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.accuracy import LEVELS
+from hess_mechanics.suslov.kharlamova import PlaneBody, arc, mirrored
+
+STATE = sympy.symbols("w1 w2 g1 g2 g3", real=True)
+I11, I22, D = sympy.symbols("I11 I22 D", positive=True)
+U = sympy.Function("U")
+PLANE = BallBody(1.0, 2.0, 0.0, 0.0, 1.0, 1.0, 0.5, 0.0)
+
+
+def rates(torque, inertia):
+    """`eq29` for I13 = I23 = 0 as the paper writes it, Î a matrix, with this torque."""
+    w1, w2, g1, g2, g3 = STATE
+    matrix = sympy.diag(inertia[0] + D * (g2**2 + g3**2), inertia[1] + D * (g1**2 + g3**2))
+    matrix[0, 1] = matrix[1, 0] = -D * g1 * g2
+    first, second = matrix.LUsolve(sympy.Matrix(torque))
+    return [first, second, -g3 * w2, g3 * w1, g1 * w2 - g2 * w1]
+
+
+def test_the_matrix_of_the_proofs_is_that_of_the_field():
+    w1, w2, g1, g2, g3 = values = (0.3, -0.7, 0.36, 0.48, 0.8)
+    body = BallBody(1.3, 2.1, 0.0, 0.0, 0.9, 0.4, -0.6, 0.7)
+    b1, b2, b3 = body.parameters[5:]
+    torque = (b3 * g2 - b2 * g3, b1 * g3 - b3 * g1)
+    expected = [rate.subs({I11: 1.3, I22: 2.1, D: 0.9, **dict(zip(STATE, values, strict=True))})
+                for rate in rates(torque, (I11, I22))]
+    assert SYSTEM.field(values, body.parameters) == pytest.approx([float(rate) for rate in expected], abs=1e-14)
+
+
+def test_the_reflection_reverses_every_motion_in_a_potential_of_gamma1_and_gamma2():
+    g1, g2, g3 = STATE[2:]
+    potential = U(g1, g2)
+    torque = (-g3 * potential.diff(g2), g3 * potential.diff(g1))
+    field = sympy.Matrix(rates(torque, (I11, I22)))
+    R = sympy.diag(1, 1, 1, 1, -1)
+    assert sympy.simplify(field.subs(g3, -g3) + R * field) == sympy.zeros(5, 1)
+    # Not with a part along e3, nor with I13.
+    w1, w2 = STATE[:2]
+    for more in ((g2, -g1), (-w2 * w1, w1 * w1)):
+        other = sympy.Matrix(rates((torque[0] + more[0], torque[1] + more[1]), (I11, I22)))
+        assert sympy.simplify(other.subs(g3, -g3) + R * other) != sympy.zeros(5, 1)
+
+
+def test_of_equal_moments_the_area_integral_is_conserved_in_every_potential_of_gamma3():
+    w1, w2, g1, g2, g3 = STATE
+    slope = U(g3).diff(g3)
+    field = rates((slope * g2, -slope * g1), (I11, I11))
+    area = w1 * g1 + w2 * g2
+    assert sympy.simplify(sum(area.diff(x) * rate for x, rate in zip(STATE, field, strict=True))) == 0
+    other = rates((slope * g2, -slope * g1), (I11, I22))
+    assert sympy.simplify(sum(area.diff(x) * rate for x, rate in zip(STATE, other, strict=True))) != 0
+
+
+def random_potential(random):
+    """U and ∇U of a random polynomial of degree 4 in γ1, γ2 with a wave on it."""
+    c = random.normal(size=(5, 5))
+    k, amplitude = random.normal(size=2) * 3.0, 0.3 * random.normal()
+    powers = [(i, j) for i in range(5) for j in range(5 - i)]
+
+    def value(g1, g2):
+        return sum(c[i, j] * g1**i * g2**j for i, j in powers) + amplitude * math.sin(k[0] * g1 + k[1] * g2)
+
+    def gradient(g1, g2):
+        wave = amplitude * math.cos(k[0] * g1 + k[1] * g2)
+        return (sum(i * c[i, j] * g1 ** (i - 1) * g2**j for i, j in powers if i) + wave * k[0],
+                sum(j * c[i, j] * g1**i * g2 ** (j - 1) for i, j in powers if j) + wave * k[1])
+
+    return value, gradient
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_orbits_close_in_random_potentials_of_gamma1_and_gamma2_and_do_not_with_a_part_along_e3(seed):
+    random = np.random.default_rng(seed)
+    value, gradient = random_potential(random)
+    first, second, added = random.uniform(0.5, 3.0, 3)
+
+    def field(b3):
+        def rate(_, y):
+            b1, b2 = gradient(y[2], y[3])
+            return SYSTEM.field(y, (first, second, 0.0, 0.0, added, b1, b2, b3))
+
+        return rate
+
+    def upwards(t, y):
+        return y[4] if t > 1e-6 else 1.0
+
+    upwards.direction, upwards.terminal = 1.0, True
+    psi = random.uniform(-math.pi, math.pi)
+    g1, g2 = math.cos(psi), math.sin(psi)
+    delta = random.uniform(0.8, 2.3)
+    speed = 2.0 * math.sqrt(1.0 + abs(value(g1, g2)))
+    start = np.array([speed * math.cos(psi + delta), speed * math.sin(psi + delta), g1, g2, 0.0])
+
+    def missed(b3):
+        run = solve_ivp(field(b3), (0.0, 200.0), start, method="DOP853", rtol=1e-12, atol=1e-13, events=upwards)
+        assert run.status == 1, "it came back"
+        return float(np.max(np.abs(run.y_events[0][0] - start)))
+
+    assert missed(0.0) <= 1e-8
+    assert missed(0.5) > 1e-3
+
+
+def test_which_bodies_these_are():
+    assert is_reversible(PLANE)
+    assert not any(is_reversible(BallBody(*values)) for values in (
+        (1, 2, 0, 0, 1, 1, 0.5, 0.1), (1, 2, 0.1, 0, 1, 1, 0.5, 0), (1, 2, 0, 0.1, 1, 1, 0.5, 0)))
+    assert has_area_integral(BallBody(2, 2, 0, 0, 1, 0, 0, 1))
+    assert not any(has_area_integral(BallBody(*values)) for values in (
+        (1, 2, 0, 0, 1, 0, 0, 1), (2, 2, 0.1, 0, 1, 0, 0, 1), (2, 2, 0, 0, 1, 0.1, 0, 1)))
+
+
+@pytest.mark.parametrize("D", [0.0, 1.0, 30.0])
+def test_the_area_integral_along_a_motion(D):
+    body = BallBody(1.5, 1.5, 0.0, 0.0, D, 0.0, 0.0, -0.8)
+    times = np.linspace(0.0, 40.0, 200)
+    states = solve(SYSTEM, (0.5, -1.2, 0.6, 0.0, 0.8), body.parameters, times, level("precise")).states
+    assert np.ptp(area_integral(states)) <= 1e-9
+    assert np.ptp(states[:, 0]) > 0.1
+    unequal = BallBody(1.5, 1.7, 0.0, 0.0, D, 0.0, 0.0, -0.8)
+    states = solve(SYSTEM, (0.5, -1.2, 0.6, 0.0, 0.8), unequal.parameters, times, level("precise")).states
+    assert np.ptp(area_integral(states)) > 1e-3
+
+
+# ---- the period -------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", LEVELS)
+@pytest.mark.parametrize("start", [(1.0, -0.5, 0.0, 0.6, 0.8), (0.3, 1.4, 0.8, 0.0, -0.6), (2.0, 0.1, 0.6, 0.8, 0.0)])
+def test_without_an_inner_ball_it_is_kharlamovas_closed_form(name, start):
+    body = BallBody(1.3, 0.8, 0.0, 0.0, 0.0, 0.5, -0.2, 0.0)
+    found = period(body, start, level(name))
+    exact = arc(PlaneBody(1.3, 0.8, 0.5, -0.2), start).period
+    assert found.value == pytest.approx(exact, abs=max(1e-12, 10.0 * level(name).promise))
+    assert abs(found.value - exact) <= 10.0 * found.error_estimate
+
+
+@pytest.mark.parametrize("body", [PLANE, BallBody(0.3, 2.0, 0.0, 0.0, 20.0, -0.4, 0.9, 0.0),
+                                  BallBody(2.0, 2.0, 0.0, 0.0, 3.0, 0.0, 0.0, 0.0)], ids=str)
+def test_after_a_period_a_motion_is_where_it_began_and_at_half_of_it_is_reflected(body):
+    start = np.array([0.9, -0.7, 0.48, 0.6, 0.64])
+    found = period(body, start, level("reference"))
+    first = found.crossings[0]
+    times = [first, found.value, found.value + 2.0 * first]
+    crossing, after, _ = solve(SYSTEM, start, body.parameters, times, level("reference")).states
+    assert abs(crossing[4]) <= 1e-11
+    assert after == pytest.approx(start, abs=1e-9)
+    # About a crossing the motion is its own mirror image.
+    at = np.array([0.3, 0.7])
+    before, later = (solve(SYSTEM, crossing, body.parameters, sign * at, level("reference")).states for sign in (-1, 1))
+    assert before == pytest.approx(mirrored(later), abs=1e-10)
+
+
+@pytest.mark.parametrize(("body", "start", "words"), [
+    (BallBody(1.0, 2.0, 0.0, 0.0, 1.0, 1.0, 0.5, 0.1), (1.0, 0.2, 0.6, 0.0, 0.8), "b3 = 0"),
+    (BallBody(1.0, 2.0, 0.1, 0.0, 1.0, 1.0, 0.5, 0.0), (1.0, 0.2, 0.6, 0.0, 0.8), "I13 = I23 = 0"),
+    (PLANE, (0.6, 0.8, 0.6, 0.8, 0.0), "does not cross"),
+    (BallBody(1.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.6, 0.0, 0.8), "does not cross"),
+])
+def test_what_has_no_period_is_refused(body, start, words):
+    with pytest.raises(InvalidParameter, match=words):
+        period(body, start, level("standard"))
+
