@@ -85,8 +85,8 @@ def period(body: BallBody, state: Sequence[float], level: Level) -> Period:
                     for each in (level, level.tightened()))
     speeds = np.abs(SYSTEM.field(list(coarse.states.T), body.parameters)[4]) if len(coarse.times) else np.zeros(1)
     if min(len(coarse.times), len(fine.times)) < 2 or np.min(speeds) <= _TOUCHES * nu:
-        raise InvalidParameter(f"Up to t = {end:.6g} this orbit does not cross the equator γ3 = 0 twice: choose another "
-                               "start.")
+        raise InvalidParameter(
+            f"Up to t = {end:.6g} this orbit does not cross the equator γ3 = 0 twice: choose another start.")
     first, second = coarse.times.tolist()
     value, again = 2.0 * (second - first), 2.0 * (fine.times[1] - fine.times[0])
     error = 4.0 * abs(value - again) + 8e-16 * abs(second)

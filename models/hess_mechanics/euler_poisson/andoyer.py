@@ -9,6 +9,10 @@ upwards while g grows.  On the plane the energy is, with m = μr,
 
     h = ½ K G² − (f/G) P − √(1 − f²/G²) Q,   K = s² (a1 sin²l + a2 cos²l) + a3 x²,
     P = s (m1 sin l + m2 cos l) + m3 x,   Q = m1 cos l − m2 sin l.
+
+For f ≠ 0 this has up to three roots G ≥ |f|: with cos α = |f|/G, h = ½ K f² (1 + tan²α) − sgn(f) P cos α − Q sin α.
+So the section is covered by up to three sheets, numbered from 0, that of the largest root, in the order of falling G.
+The third needs f P < 0 and Q < 0; where there are only two, a state is on the second exactly where ∂h/∂G < 0.
 """
 
 from __future__ import annotations
@@ -18,6 +22,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hess_mechanics.dynamics.section import MAX_STEPS, Points, section_points
 from hess_mechanics.dynamics.system import Problem, System
@@ -30,9 +35,12 @@ from hess_mechanics.numerics.results import Array, Mask, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 
 __all__ = [
-    "AndoyerPlane", "AndoyerSection", "andoyer_points", "coordinates", "hess_circle", "hess_curve", "possible",
-    "relation", "seeds", "state_at", "states_at",
+    "SHEETS", "AndoyerPlane", "AndoyerSection", "andoyer_points", "coordinates", "hess_circle", "hess_curve",
+    "possible", "relation", "roots", "seeds", "sheet_of", "state_at", "states_at",
 ]
+
+
+Sheets = NDArray[np.int64]
 
 
 @dataclass(frozen=True)
@@ -58,7 +66,7 @@ def _factors(body: HeavyBody, l: Array, x: Array) -> tuple[Array, Array, Array]:
     return (s * s * (a1 * sin**2 + a2 * cos**2) + a3 * x * x, s * (m1 * sin + m2 * cos) + m3 * x, m1 * cos - m2 * sin)
 
 
-_SCAN = 96
+_SCAN = 64
 _ROUGH = 24
 _CELLS = (96, 64)
 
@@ -82,28 +90,78 @@ def _energy(G: Array, f: float, K: Array, P: Array, Q: Array) -> Array:
     return energy
 
 
-def momenta(body: HeavyBody, h: float, f: float, l: Array, x: Array) -> Array:
-    """The largest G ≥ |f| (n,) with the energy h at points l, x (n,) of the plane; NaN where there is none.
+SHEETS = 3
+"""More there cannot be: as a function of α, see the module, the energy turns round twice at most."""
+_ORDINALS = ("largest", "second", "third")
 
-    Raises `InvalidParameter`.
-    """
+
+def _check_places(h: float, f: float, l: Array, x: Array) -> tuple[Array, Array]:
     require_finite(h=h, f=f)
     l, x = np.array(l, float, ndmin=1), np.array(x, float, ndmin=1)
     if not (np.all(np.isfinite(l)) and np.all(np.abs(x) <= 1.0)):
         raise InvalidParameter("On the section l is an angle and x = L/G lies between −1 and 1.")
-    G, excess, (K, P, Q) = _scan(body, h, f, l, x)
+    return l, x
+
+
+def roots(body: HeavyBody, h: float, f: float, l: Array, x: Array) -> Array:
+    """All G ≥ |f| with the energy h at points l, x (n,) of the plane, falling; shape (n, SHEETS), NaN where fewer.
+
+    Raises `InvalidParameter`.
+    """
+    l, x = _check_places(h, f, l, x)
+    out = np.full((l.size, SHEETS), np.nan)
     if f == 0.0:
-        return np.asarray(np.sqrt(np.where(h + Q >= 0.0, 2.0 * (h + Q) / K, np.nan)), float)
-    below = excess <= 0.0
-    found = below.any(axis=1) & (excess[:, 0] >= -1e-12 * (abs(h) + body.strength))
-    first = np.maximum(np.argmax(below, axis=1), 1)
-    rows = np.arange(l.size)
-    high, low = G[rows, first - 1], G[rows, first]
+        K, _, Q = _factors(body, l, x)
+        out[:, 0] = np.sqrt(np.where(h + Q >= 0.0, 2.0 * (h + Q) / K, np.nan))
+        return out
+    G, _, (K, P, Q) = _scan(body, h, f, l, x)
+    # Even steps of α besides: those of G are too long near |f|, where the energy changes as the root of G − |f|.
+    steepest = np.arccos(np.minimum(1.0, abs(f) / G[:, :1]))
+    with np.errstate(divide="ignore"):
+        by_angle = abs(f) / np.cos(steepest * np.linspace(1.0, 0.0, _SCAN // 2))
+    G = -np.sort(-np.hstack([G, np.clip(by_angle, abs(f), G[:, :1])]), axis=1)
+    excess = _energy(G, f, K[:, None], P[:, None], Q[:, None]) - h
+    above = excess > 0.0
+    above[:, 0] = excess[:, 0] >= -1e-12 * (abs(h) + body.strength)
+    rows, columns = np.nonzero(above[:, 1:] != above[:, :-1])
+    places = np.arange(rows.size) - np.searchsorted(rows, rows)
+    falling = above[rows, columns]
+    high, low = G[rows, columns], G[rows, columns + 1]
+    own = (K[rows], P[rows], Q[rows])
     for _ in range(60):
         middle = 0.5 * (high + low)
-        above = _energy(middle, f, K, P, Q) > h
-        high, low = np.where(above, middle, high), np.where(above, low, middle)
-    return np.asarray(np.where(found, 0.5 * (high + low), np.nan), float)
+        beyond = (_energy(middle, f, *own) > h) == falling
+        high, low = np.where(beyond, middle, high), np.where(beyond, low, middle)
+    # Where round-off finds more roots than there are, those of the least G go.
+    kept = places < SHEETS
+    out[rows[kept], places[kept]] = 0.5 * (high + low)[kept]
+    return out
+
+
+def momenta(body: HeavyBody, h: float, f: float, l: Array, x: Array, sheet: int = 0) -> Array:
+    """The G (n,) of that sheet with the energy h at points l, x (n,) of the plane; NaN where there is none.
+
+    Raises `InvalidParameter`.
+    """
+    if sheet not in range(SHEETS):
+        raise InvalidParameter(f"The section has at most {SHEETS} sheets: choose one from 0 to {SHEETS - 1}.")
+    return roots(body, h, f, l, x)[:, sheet]
+
+
+def sheet_of(body: HeavyBody, h: float, f: float, states: Array) -> Sheets:
+    """On which sheet states (n, 6) of the section are, (n,): how many roots G at their (l, L/G) are larger."""
+    l, x = coordinates(states).T
+    G = np.sqrt(np.sum(states[:, :3] ** 2, axis=1))
+    K, P, Q = _factors(body, l, x)
+    ratio = f / np.maximum(G, 1e-300)
+    across = np.sqrt(np.maximum(0.0, 1.0 - ratio * ratio))
+    found = np.where((K * G * G + ratio * P) * across < ratio * ratio * Q, 1, 0)
+    # The third sheet rises as the first does.
+    unsure = np.flatnonzero((found == 0) & (f * P < 0.0) & (Q < 0.0)) if f else np.empty(0, int)
+    if unsure.size:
+        larger = roots(body, h, f, l[unsure], x[unsure]) > G[unsure, None] * (1.0 + 1e-9)
+        found[unsure] = np.where(larger.sum(axis=1) == 2, 2, 0)
+    return found
 
 
 def possible(body: HeavyBody, h: float, f: float, l: Array, x: Array) -> Mask:
@@ -111,12 +169,12 @@ def possible(body: HeavyBody, h: float, f: float, l: Array, x: Array) -> Mask:
     return np.asarray(np.min(_scan(body, h, f, l, x, _ROUGH)[1], axis=1) <= 0.0)
 
 
-def states_at(body: HeavyBody, h: float, f: float, l: Array, x: Array) -> tuple[Array, Array, Mask]:
-    """States (n, 6) of the section at l, x = L/G (n,), G (n,), and whether g grows through π/2 there (n,).
+def states_at(body: HeavyBody, h: float, f: float, l: Array, x: Array, sheet: int = 0) -> tuple[Array, Array, Mask]:
+    """States (n, 6) of a sheet at l, x = L/G (n,), G (n,), and whether g grows through π/2 there (n,).
 
-    G is NaN where no G ≥ |f| has this energy.  Raises `InvalidParameter`.
+    G is NaN where that sheet has no G ≥ |f| of this energy.  Raises `InvalidParameter`.
     """
-    G = momenta(body, h, f, l, x)
+    G = momenta(body, h, f, l, x, sheet)
     safe = np.where(G > 0.0, G, 1.0)
     s, c = np.sqrt(np.maximum(0.0, 1.0 - x * x)), f / safe
     across = np.sqrt(np.maximum(0.0, 1.0 - c * c))
@@ -128,12 +186,16 @@ def states_at(body: HeavyBody, h: float, f: float, l: Array, x: Array) -> tuple[
     return y.T, np.where(G > 0.0, G, np.nan), (G > 0.0) & (growth > 0.0)
 
 
-def state_at(body: HeavyBody, h: float, f: float, l: float, x: float) -> tuple[float, ...]:
-    """The state (6,) of the section at (l, x = L/G).
+def state_at(body: HeavyBody, h: float, f: float, l: float, x: float, sheet: int = 0) -> tuple[float, ...]:
+    """The state (6,) of a sheet of the section at (l, x = L/G).
 
-    Raises `InvalidParameter` where no real G ≥ |f| has this energy, or g does not grow through π/2.
+    Raises `InvalidParameter` where that sheet has no real G ≥ |f| of this energy, or g does not grow through π/2.
     """
-    states, G, growing = states_at(body, h, f, np.array([l], float), np.array([x], float))
+    states, G, growing = states_at(body, h, f, np.array([l], float), np.array([x], float), sheet)
+    if sheet and not math.isfinite(G[0]):
+        raise InvalidParameter(
+            f"At l = {l:.6g}, L/G = {x:.6g} there is no {_ORDINALS[sheet]} root G ≥ |f| with the energy h = {h:.6g}: "
+            "choose the largest one, sheet 0, or another point.")
     if not math.isfinite(G[0]):
         raise InvalidParameter(
             f"At l = {l:.6g}, L/G = {x:.6g} no real G ≥ |f| has the energy h = {h:.6g}: choose a larger h, or another "
@@ -168,14 +230,19 @@ def hess_circle(body: HeavyBody) -> Array:
     return coordinates(np.column_stack([body.r[2] * np.sin(turn), np.cos(turn), -body.r[0] * np.sin(turn)]))
 
 
-def seeds(body: HeavyBody, h: float, f: float, window: Sequence[float], count: int) -> list[tuple[float, ...]]:
-    """At most `count` states of the section, spread evenly over the possible part of `window` (l0, l1, x0, x1)."""
+_TRIED = (4, 200, 200)
+"""Places tried for each seed of a sheet: where the second exists, g hardly ever grows on it."""
+
+
+def seeds(body: HeavyBody, h: float, f: float, window: Sequence[float], count: int, sheet: int = 0
+          ) -> list[tuple[float, ...]]:
+    """At most `count` states of a sheet, spread evenly over the possible part of `window` (l0, l1, x0, x1)."""
     l0, l1, x0, x1 = window
     # A low-discrepancy sequence: each of its beginnings fills the window evenly (Roberts, 2018).
-    n = np.arange(1.0, 4 * count + 1)
+    n = np.arange(1.0, _TRIED[sheet] * count + 1)
     l = l0 + (l1 - l0) * ((0.5 + 0.7548776662466927 * n) % 1.0)
     x = x0 + (x1 - x0) * ((0.5 + 0.5698402909980532 * n) % 1.0)
-    states, _, growing = states_at(body, h, f, l, x)
+    states, _, growing = states_at(body, h, f, l, x, sheet)
     return [tuple(map(float, state)) for state in states[growing][:count]]
 
 
@@ -202,30 +269,36 @@ Window = tuple[tuple[float, float], tuple[float, float]]
 
 @dataclass(frozen=True)
 class AndoyerSection:
-    """The section g = π/2 of a body at H = h, F1 = f.  Its methods raise `InvalidParameter`."""
+    """One sheet of the section g = π/2 of a body at H = h, F1 = f.  Its methods raise `InvalidParameter`."""
 
     body: HeavyBody
     h: float
     f: float
+    sheet: int = 0
 
     def states_at(self, l: Array, x: Array) -> tuple[Array, Mask]:
-        """The states (n, 6) at (l, L/G) (n,), and whether motions cross the section there (n,)."""
-        states, _, growing = states_at(self.body, self.h, self.f, l, x)
+        """The states (n, 6) at (l, L/G) (n,), and whether motions cross this sheet there (n,)."""
+        states, _, growing = states_at(self.body, self.h, self.f, l, x, self.sheet)
         return states, growing
 
     def places_of(self, states: Array) -> Array:
-        """(l, L/G) (n, 2) of states (n, 6)."""
+        """(l, L/G) (n, 2) of states (n, 6), on whichever sheet."""
         return coordinates(states)
 
+    def is_on(self, states: Array) -> Mask:
+        """Whether states (n, 6) of the section are on this sheet, (n,)."""
+        return np.asarray(sheet_of(self.body, self.h, self.f, states) == self.sheet)
+
     def spread(self, window: Window, count: int) -> tuple[tuple[float, ...], ...]:
-        """At most `count` states, spread evenly over what is possible of the window."""
+        """At most `count` states of this sheet, spread evenly over what is possible of the window."""
         (l0, x0), (l1, x1) = window
-        return tuple(seeds(self.body, self.h, self.f, (l0, l1, x0, x1), count)) if count else ()
+        return tuple(seeds(self.body, self.h, self.f, (l0, l1, x0, x1), count, self.sheet)) if count else ()
 
     def impossible(self, window: Window) -> Array:
-        """Cells (m, n) over the window: 1 where no motion has this energy."""
+        """Cells (m, n) over the window: 1 where this sheet has no motion of this energy."""
         (l0, x0), (l1, x1) = window
         m, n = _CELLS
-        l, x = np.meshgrid(l0 + (np.arange(m) + 0.5) * (l1 - l0) / m, x0 + (np.arange(n) + 0.5) * (x1 - x0) / n)
-        inside = possible(self.body, self.h, self.f, l.ravel(), np.clip(x.ravel(), -1.0, 1.0))
+        grid = np.meshgrid(l0 + (np.arange(m) + 0.5) * (l1 - l0) / m, x0 + (np.arange(n) + 0.5) * (x1 - x0) / n)
+        l, x = grid[0].ravel(), np.clip(grid[1].ravel(), -1.0, 1.0)
+        inside = self.states_at(l, x)[1] if self.sheet else possible(self.body, self.h, self.f, l, x)
         return frozen(1.0 - inside.reshape(n, m).astype(float))

@@ -35,7 +35,7 @@ def rates(torque, inertia):
 
 
 def test_the_matrix_of_the_proofs_is_that_of_the_field():
-    w1, w2, g1, g2, g3 = values = (0.3, -0.7, 0.36, 0.48, 0.8)
+    _, _, g1, g2, g3 = values = (0.3, -0.7, 0.36, 0.48, 0.8)
     body = BallBody(1.3, 2.1, 0.0, 0.0, 0.9, 0.4, -0.6, 0.7)
     b1, b2, b3 = body.parameters[5:]
     torque = (b3 * g2 - b2 * g3, b1 * g3 - b3 * g1)

@@ -10,18 +10,23 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from hess_mechanics import level, section, solve, systems
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.euler_poisson.andoyer import (
+    SHEETS,
     AndoyerPlane,
+    AndoyerSection,
     andoyer_points,
     coordinates,
     hess_curve,
     momenta,
     possible,
     relation,
+    roots,
     seeds,
+    sheet_of,
     state_at,
     states_at,
     time_for,
@@ -149,6 +154,121 @@ def test_seeds_are_in_their_window_spread_evenly_and_on_the_section():
     few = seeds(RIS, -0.5, 0.0, WHOLE, 50)
     assert 0 < len(few) <= 50
     assert np.all(possible(RIS, -0.5, 0.0, *coordinates(np.array(few)).T))
+
+
+# ---- Sheets -----------------------------------------------------------------------------------------------------
+
+
+def all_roots(body, h, f, l, x, count=20_000):
+    """Every G ≥ |f| with this energy at one place, falling: a dense search in α, |f|/G = cos α, then Brent's method."""
+    top = math.sqrt(2.0 * (h + body.strength) / min(body.a))
+    if top <= abs(f):
+        return []
+    alpha = np.linspace(math.acos(abs(f) / top), 0.0, count)
+
+    def excess(angle):
+        return energies_at(body, f, l, x, abs(f) / np.cos(np.atleast_1d(angle))) - h
+
+    found = excess(alpha)
+    return [abs(f) / math.cos(brentq(lambda one: excess(one)[0], alpha[i], alpha[i + 1], xtol=1e-15))
+            for i in np.flatnonzero(np.sign(found[1:]) != np.sign(found[:-1]))]
+
+
+SHEETED = [(RIS, 0.0, 1.0), (RIS, 0.5, 1.0), (RIS, 0.5, 0.3), (RIS, 0.5, -0.3), (SLANTING, -0.5, -0.3)]
+
+
+@pytest.mark.parametrize(("body", "h", "f"), SHEETED)
+def test_all_momenta_with_this_energy_are_found(body, h, f):
+    l, x = scattered(150, seed=6)
+    found = roots(body, h, f, l, x)
+    counts = set()
+    for place, some in zip(zip(l.tolist(), x.tolist(), strict=True), found, strict=True):
+        exact = all_roots(body, h, f, *place)
+        counts.add(len(exact))
+        assert some[: len(exact)] == pytest.approx(exact, rel=1e-9)
+        assert np.all(np.isnan(some[len(exact) :]))
+    assert {0, 1, 2} & counts == {0, 1, 2}
+
+
+def test_a_third_momentum_exists_where_both_slopes_are_negative():
+    l, x = (axis.ravel() for axis in np.meshgrid(np.linspace(-math.pi, math.pi, 200), np.linspace(-0.99, 0.99, 100)))
+    found = np.isfinite(roots(RIS, 0.5, 0.3, l, x))
+    third = np.flatnonzero(found[:, 2])
+    assert third.size > 5
+    for i in third[:5]:
+        assert roots(RIS, 0.5, 0.3, l[i : i + 1], x[i : i + 1])[0] == pytest.approx(
+            all_roots(RIS, 0.5, 0.3, l[i], x[i]), rel=1e-9)
+    states, G, _ = states_at(RIS, 0.5, 0.3, l[third], x[third], 2)
+    assert np.all(np.isfinite(G))
+    assert np.array_equal(sheet_of(RIS, 0.5, 0.3, states), np.full(third.size, 2))
+    # m = μr = −(1/√3, 0, 1/√6) here: f P < 0 and Q < 0.
+    s = np.sqrt(1.0 - x[third] ** 2)
+    assert np.all(s * np.sin(l[third]) / math.sqrt(3.0) + x[third] / math.sqrt(6.0) > 0.0)
+    assert np.all(np.cos(l[third]) > 0.0)
+
+
+@pytest.mark.parametrize(("body", "h", "f"), SHEETED)
+def test_a_state_is_on_the_sheet_that_it_was_asked_for_on(body, h, f):
+    l, x = scattered(1500, seed=7)
+    for sheet in range(SHEETS):
+        states, G, _ = states_at(body, h, f, l, x, sheet)
+        there = np.isfinite(G)
+        assert there.any() or sheet
+        assert np.array_equal(sheet_of(body, h, f, states[there]), np.full(there.sum(), sheet))
+        assert np.max(np.abs(energy(body, states[there]) - h), initial=0.0) < 1e-10 * (1.0 + abs(h) + body.strength)
+        assert np.max(np.abs(area(states[there]) - f), initial=0.0) < 1e-10 * (1.0 + abs(f))
+        if there.any():
+            assert np.max(turned_away(angles(states[there])[1], math.pi / 2)) < 1e-6
+
+
+def test_in_gess_ris2_some_points_of_orbits_from_the_first_sheet_are_on_the_second():
+    shares = []
+    for h in (0.0, 0.2, 0.5, 0.8, 1.0, 1.3, 2.0):
+        points = np.concatenate(andoyer_points(RIS, h, 1.0, seeds(RIS, h, 1.0, WHOLE, 60), 100, STANDARD).states)
+        sheets = sheet_of(RIS, h, 1.0, points)
+        shares.append(float(np.mean(sheets > 0)))
+        # By the momenta themselves: those that are larger are counted.
+        G = np.linalg.norm(points[:, :3], axis=1)
+        larger = roots(RIS, h, 1.0, *coordinates(points).T) > G[:, None] * (1.0 + 1e-7)
+        clear = np.min(np.abs(roots(RIS, h, 1.0, *coordinates(points).T) / G[:, None] - 1.0), axis=1, where=~np.isnan(
+            roots(RIS, h, 1.0, *coordinates(points).T)), initial=np.inf) < 1e-7
+        assert np.mean(clear) > 0.99
+        assert np.array_equal(sheets[clear], larger[clear].sum(axis=1))
+    assert all(0.0005 < share < 0.01 for share in shares[:4])
+    assert shares[-2:] == [0.0, 0.0]
+
+
+def test_how_much_of_gess_ris2_is_covered_twice():
+    l, x = (axis.ravel() for axis in np.meshgrid(np.linspace(-math.pi, 3.1, 160), np.linspace(-0.995, 0.995, 81)))
+    shares = []
+    for h in (0.0, 0.2, 0.5, 0.8, 1.0, 1.3, 2.0, 4.0):
+        found = np.isfinite(roots(RIS, h, 1.0, l, x))
+        shares.append(found[:, 1].sum() / found[:, 0].sum())
+    assert all(0.01 < share < 0.14 for share in shares[:5])
+    assert shares[5:] == [0.0, 0.0, 0.0]
+
+
+def test_an_orbit_from_the_second_sheet_returns_as_scipy_says():
+    section_ = AndoyerSection(RIS, 0.5, 1.0, 1)
+    starts = np.array(section_.spread(((-math.pi, -1.0), (math.pi, 1.0)), 40))
+    assert len(starts) >= 5
+    assert np.all(section_.is_on(starts))
+    assert not np.any(AndoyerSection(RIS, 0.5, 1.0).is_on(starts))
+    assert np.max(np.abs(energy(RIS, starts) - 0.5)) < 1e-10
+    times, _ = crossings_by_scipy(RIS, starts[0], 60.0)
+    result = section(SYSTEM, starts[0], RIS.parameters, AndoyerPlane(1.0), 60.0, level("precise"))
+    assert len(times) >= 3
+    assert result.times == pytest.approx(times, abs=1e-6)
+    place = tuple(coordinates(starts[:1])[0])
+    assert state_at(RIS, 0.5, 1.0, *place, sheet=1) == pytest.approx(tuple(starts[0]), abs=1e-9)
+    assert state_at(RIS, 0.5, 1.0, *place) != pytest.approx(tuple(starts[0]), abs=1e-3)
+    # Grey on the second sheet is nearly everything; in the middle of the other cells there is a second momentum.
+    cells = section_.impossible(((-math.pi, -1.0), (math.pi, 1.0)))
+    assert 0.9 < cells.mean() < 1.0
+    n, m = cells.shape
+    for row, column in np.argwhere(cells == 0.0)[::5]:
+        middle = (-math.pi + (column + 0.5) * 2.0 * math.pi / m, -1.0 + (row + 0.5) * 2.0 / n)
+        assert len(all_roots(RIS, 0.5, 1.0, *middle)) >= 2
 
 
 # ---- Crossings --------------------------------------------------------------------------------------------------
@@ -291,6 +411,8 @@ def test_backward_and_forward_again_the_crossings_are_the_same():
 @pytest.mark.parametrize(("request_", "words"), [
     (lambda: state_at(GESS1, -9.9, 5.0, 0.0, 0.2), "no real G ≥ .f. has the energy h = -9.9: choose a larger h"),
     (lambda: state_at(GESS1, 50.0, 12.0, 0.0, 0.2), "choose a larger h, or another point"),
+    (lambda: state_at(GESS1, 50.0, 5.0, 0.0, 0.2, sheet=1), "there is no second root G ≥ .f.*choose the largest one"),
+    (lambda: state_at(GESS1, 50.0, 5.0, 0.0, 0.2, sheet=3), "at most 3 sheets: choose one from 0 to 2"),
     (lambda: state_at(GESS1, 50.0, 5.0, 0.0, 1.5), "lies between −1 and 1"),
     (lambda: state_at(GESS1, 50.0, 5.0, math.nan, 0.5), "l is an angle"),
     (lambda: state_at(GESS1, math.inf, 5.0, 0.0, 0.5), "h is not a finite number"),
