@@ -56,14 +56,20 @@ export function render({ model, view }) {
     if (known != null) show(known)
   }, signal)
 
-  // Put a state into the pictures, texts and controls; the plots that have other axes now.
+  // The plots that a state gives other axes, and those that it gives other data: all of them at first.
+  const changedPlots = ({ ranges, sources }) => {
+    if (!scene.painted) return { reframed: new Set(scene.plots), touched: scene.plots }
+    const reframed = new Set(scene.plots.filter((plot) => plot.model.name in ranges))
+    const filled = Object.keys(sources).map((name) => scene.sources.get(name).plots)
+    return { reframed, touched: scene.plots.filter((plot) => [reframed, ...filled].some((some) => some.has(plot))) }
+  }
+
+  // Put a state into the pictures, texts and controls.
   const fill = ({ tree, answers }, block) => {
-    const reframed = new Set(scene.painted ? [] : scene.plots)
     for (const [name, [x0, x1, y0, y1]] of Object.entries(tree.ranges)) {
-      const plot = scene.plots.find((one) => one.model.name === name)
-      plot.model.x_range.setv({ start: x0, end: x1 })
-      plot.model.y_range.setv({ start: y0, end: y1 })
-      reframed.add(plot)
+      const { x_range: x, y_range: y } = scene.plots.find((one) => one.model.name === name).model
+      x.setv({ start: x0, end: x1 })
+      y.setv({ start: y0, end: y1 })
     }
     scene.painted = true
     for (const [name, columns] of unpack(tree.sources, block)) scene.sources.get(name).put(columns)
@@ -73,7 +79,6 @@ export function render({ model, view }) {
     // A control that has been moved on since is not moved back.
     tell("controls", Object.fromEntries(
       Object.entries(tree.controls).filter(([name]) => !requests.hasMoved(name, answers))))
-    return reframed
   }
 
   const enter = (name) => {
@@ -89,7 +94,7 @@ export function render({ model, view }) {
     const since = performance.now()
     state = next
     if (scene?.name !== state.scene) enter(state.scene)
-    await paint(scene.plots, () => fill(state, block))
+    await paint(changedPlots(state.tree), () => fill(state, block))
     address.write()
     root.dataset.state = String(state.number)
     requests.settled()

@@ -12,24 +12,24 @@ function within(promise, most) {
   })
 }
 
-// fill() puts new data into the sources; `reframed`: the plots that have other axes by then.
+// fill() puts new data into the sources; `touched`: the plots that draw them, `reframed`: those with other axes.
 //
 // Bokeh takes data in promises and paints in the next frame, each plot by itself.  Here the plots pause until all of
 // the data are taken, and are painted in the same task: a frame sooner, and no frame shows half of a state.
-export async function paint(plots, fill) {
-  for (const plot of plots) plot.pause()
+export async function paint({ touched, reframed }, fill) {
+  for (const plot of touched) plot.pause()
   try {
-    const reframed = fill()
-    const ready = Promise.all(plots.flatMap((plot) => plot.computed_renderer_views.map((part) => part.ready)))
+    fill()
+    const ready = Promise.all(touched.flatMap((plot) => plot.computed_renderer_views.map((part) => part.ready)))
     await within(ready, MOST)
-    for (const plot of plots) plot.unpause(true)
-    for (const plot of plots) {
+    for (const plot of touched) plot.unpause(true)
+    for (const plot of touched) {
       // Other axes may need other room for their labels.
       if (reframed.has(plot)) plot.repaint()
       else plot.paint()
     }
   } finally {
-    for (const plot of plots) if (plot.is_paused) plot.unpause()
+    for (const plot of touched) if (plot.is_paused) plot.unpause()
   }
   tell("paint")
 }

@@ -37,7 +37,7 @@ export async function buildPlot(host, picture, source, signal) {
   const [plot] = views.roots
   const { model } = plot
   for (const one of model.document.all_models) {
-    if (one.data !== undefined && one.name !== null) source(one.name).add(one)
+    if (one.data !== undefined && one.name !== null) source(one.name).add(one, plot)
   }
   addCanvases(plot, picture, source, signal)
   plot.repainted.connect(() => clipOverlays(plot))

@@ -2,12 +2,15 @@
 
 export class Source {
   data = {}
+  // The plots of Bokeh that draw these data.
+  plots = new Set()
   #models = []
   #watchers = new Set()
 
   // A source of Bokeh's that gets the same data: one for each plot that draws them.
-  add(model) {
+  add(model, plot) {
     this.#models.push(model)
+    this.plots.add(plot)
     this.data = model.data instanceof Map ? Object.fromEntries(model.data) : model.data
   }
 

@@ -2,7 +2,7 @@
 
 Bokeh sends every array of a source as a message of its own, some fifty per state.  Here the
 arrays become one block of bytes, and their places in it a small tree of numbers, which the
-browser turns back into the sources' columns ("ready.js").  A picture is filled in no other way.
+browser turns back into the sources' columns ("unpack.js").  A picture is filled in no other way.
 """
 
 from __future__ import annotations
