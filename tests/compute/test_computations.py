@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 import gc
 import itertools
@@ -15,7 +16,7 @@ from bokeh.models import ColumnDataSource
 
 from hess_explorer.compute.cache import ResultCache
 from hess_explorer.server import warm
-from hess_mechanics.errors import WorkLimit
+from hess_mechanics.errors import InvalidParameter, WorkLimit
 from support.board import (
     ACCURACY,
     HESS,
@@ -182,6 +183,40 @@ def test_a_request_that_changes_nothing_does_not_even_ask_the_cache(cache):
     browser.ask(4, picked=["sphere", 0.0, 0.0])
     browser.ask(5, hidden=[])
     assert (cache.hits, cache.misses) == before
+
+
+@every_scene
+def test_the_mouse_chooses_nothing_in_a_hidden_picture(scene, cache):
+    browser = Browser(scene)
+    for name in [view.name for view in scene.views if view.on_click or view.on_box or view.on_hover]:
+        for preset in scene.presets[:2]:
+            browser.ask(1, hidden=[name], preset=preset.name)
+        values = dict(browser.session.values)
+        for picked in ([name, 0.3, 0.2], [name, 0.3, 0.2, 0.4, 0.5]):
+            browser.ask(2, hidden=[name], picked=picked)
+            assert browser.session.values == values
+        browser.ask(3, hidden=[name], hover=[name, 0.3, 0.2])
+        assert not browser.texts.get(f"hover-{name}")
+        # Where pieces are still to come each answer asks for them: not so the stage by itself.
+        stage, asked = browser.session.stage, (cache.hits, cache.misses)
+        assert stage.pick(name, 0.3, 0.2) == stage.box(name, (0.3, 0.2, 0.4, 0.5)) == {}
+        assert stage.hover(name, 0.3, 0.2) == ""
+        assert (cache.hits, cache.misses) == asked
+
+
+def test_a_click_that_chooses_what_is_impossible_is_answered_by_a_note():
+    def impossible(state, x, y):
+        raise InvalidParameter("There is no motion through this place. Choose another one.")
+
+    views = [dataclasses.replace(view, on_click=impossible) if view.on_click else view for view in HESS.views]
+    browser = Browser(variant(HESS, views=tuple(views)))
+    values = dict(browser.session.values)
+    name = next(view.name for view in views if view.on_click)
+    browser.ask(1, picked=[name, 0.3, 0.2])
+    assert browser.texts["notes"] == "There is no motion through this place. Choose another one."
+    assert browser.session.values == values
+    browser.ask(2, values={"h": 1.25})
+    assert browser.texts["notes"] == ""
 
 
 @pytest.mark.parametrize("chosen", ["draft", "standard", "precise", "reference"])

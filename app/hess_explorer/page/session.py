@@ -133,6 +133,19 @@ class Session:
             self._history = [*self._history, before][-MOST_UNDONE:]
         self.change(values)
 
+    def _picked(self, picked: Any) -> Values:
+        """The values that a click [picture, x, y] or a box [picture, x0, y0, x1, y1] chooses; else a note why not."""
+        try:
+            match picked:
+                case [str(picture), x, y] if all(map(math.isfinite, place := (_float(x), _float(y)))):
+                    return self.stage.pick(picture, *place)
+                case [str(picture), *ends] if len(ends) == 4 and all(map(math.isfinite, map(_float, ends))):
+                    x0, y0, x1, y1 = map(_float, ends)
+                    return self.stage.box(picture, (x0, y0, x1, y1))
+        except ModelError as error:
+            self._link_notes, self._dirty = [str(error)], True
+        return {}
+
     def _hover(self, picture: Any, x: float, y: float) -> None:
         text = ""
         if picture in self.scene.pictures and math.isfinite(x) and math.isfinite(y):
@@ -171,13 +184,9 @@ class Session:
             self.change(self._history.pop())
         if message.get("clear") is True:
             self._draw_on({name: spec.default for name, spec in self._specs.items() if isinstance(spec, Places)})
-        picked = message.get("picked")
-        if isinstance(picked, list) and isinstance(picked[0] if picked else None, str):
-            numbers = [*map(_float, picked[1:5])]
-            if len(numbers) == 2 and all(map(math.isfinite, numbers)):
-                self._draw_on(self.stage.pick(picked[0], *numbers))
-            elif len(numbers) == 4 and all(map(math.isfinite, numbers)):
-                self._draw_on(self.stage.box(picked[0], (numbers[0], numbers[1], numbers[2], numbers[3])))
+        picked = self._picked(message.get("picked"))
+        if picked:
+            self._draw_on(picked)
         hover = message.get("hover")
         if isinstance(hover, list) and len(hover) == 3:
             self._hover(hover[0], *map(_float, hover[1:]))

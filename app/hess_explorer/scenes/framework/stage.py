@@ -61,25 +61,24 @@ class Stage(Generic[S]):
             self.wire.say(name, sentence)
 
     def pick(self, picture: str, x: float, y: float) -> Values:
-        """The values that a click at (x, y) of a picture chooses."""
-        view = self._views.get(picture)
-        if self._state is None or view is None or view.on_click is None:
-            return {}
-        return view.on_click(self._state, x, y)
+        """The values that a click at (x, y) of a picture chooses.  Raises `ModelError`."""
+        state, view = self._seen(picture)
+        return {} if state is None or view is None or view.on_click is None else view.on_click(state, x, y)
 
     def box(self, picture: str, corners: Corners) -> Values:
-        """The values that a box from (x0, y0) to (x1, y1) of a picture chooses."""
-        view = self._views.get(picture)
-        if self._state is None or view is None or view.on_box is None:
-            return {}
-        return view.on_box(self._state, corners)
+        """The values that a box from (x0, y0) to (x1, y1) of a picture chooses.  Raises `ModelError`."""
+        state, view = self._seen(picture)
+        return {} if state is None or view is None or view.on_box is None else view.on_box(state, corners)
 
     def hover(self, picture: str, x: float, y: float) -> str:
         """One line on the place (x, y) of a picture.  Raises `ModelError`."""
-        view = self._views.get(picture)
-        if self._state is None or view is None or view.on_hover is None:
-            return ""
-        return view.on_hover(self._state, x, y)
+        state, view = self._seen(picture)
+        return "" if state is None or view is None or view.on_hover is None else view.on_hover(state, x, y)
+
+    def _seen(self, picture: str) -> tuple[S, Picture[S]] | tuple[None, None]:
+        """The state on show and the picture of that name, if it is in sight: what is hidden computes nothing."""
+        state = self._state
+        return (None, None) if state is None or picture not in state.seen else (state, self._views[picture])
 
     def _set_axes(self, view: Picture[S], axes: Axes | None) -> None:
         if axes is not None and axes != self._axes[view.name]:
