@@ -48,6 +48,7 @@ from hess_mechanics.suslov.scattering import scattering
 from hess_mechanics.suslov_hess.torus import cycles, track
 from support.extremes import ball as extremes_ball
 from support.extremes import euler_poisson as extremes_euler_poisson
+from support.extremes import special_motions
 from support.extremes import suslov as extremes_suslov
 from support.measured import write_measured
 
@@ -649,6 +650,7 @@ ROWS = [
     *extremes_ball.rows(Row, an_orbit, symmetric, there_and_back, drift),
     *extremes_euler_poisson.rows(Row, symmetric, there_and_back, drift),
     *extremes_suslov.rows(Row),
+    *special_motions.rows(Row),
 ]
 
 REFUSALS = [

@@ -26,7 +26,6 @@ from hess_mechanics.suslov_hess import equations as hess
 from hess_mechanics.suslov_hess.equations import WITH_ATTITUDE, HessBody
 from hess_mechanics.suslov_hess.torus import attitude_of_track, track
 from oracle import uncompiled
-from support.loxodrome import swing_at
 
 WEIGHTS = (0.0, 0.0, *(300.0,) * 6)
 START = np.array([0.3, 0.9, 0.6, 0.0, 0.8])
@@ -188,51 +187,6 @@ def pendulum(I=(1.0, 1.5, 2.0), h=1.5, l=0.4, mu=0.7):
     return LoxodromicPendulum(HeavyBody.hess(I, mu), h, l)
 
 
-def closed_form(one, tau):
-    """Centre of mass and middle axis in space, along (γ, e, γ × e), at the times τ in units b = 1."""
-    a1, a2, a3 = one.body.a
-    a = (1 if a1 > a3 else -1) * math.sqrt((a3 - a2) * (a2 - a1)) / a2
-    alpha = swing_at(one.h, tau)
-    l = 2.0 * np.arctan(math.tan(0.5 * one.l) * np.exp(a * alpha))
-    centre = np.stack([np.cos(alpha), 0.0 * alpha, -np.sin(alpha)], axis=1)
-    return centre, np.stack([np.sin(l) * np.sin(alpha), np.cos(l), np.sin(l) * np.cos(alpha)], axis=1)
-
-
-def error_of(one, span, name):
-    """The largest error of both directions, and the motion."""
-    found = loxodromic_motion(one, span / one.frequency_unit, level(name))
-    centre, middle = closed_form(one, found.attitude.times)
-    return max(np.max(np.abs(found.centre - centre)), np.max(np.abs(found.middle - middle))), found
-
-
-EXTREMES = {
-    "h = −1 + 1e-4": (pendulum(h=-1.0 + 1e-4), 50.0),
-    "h = 0.3": (pendulum(h=0.3), 50.0),
-    "h = 1, to the top ¹": (pendulum(h=1.0), 20.0),
-    "h = 1 − 1e-6 ¹": (pendulum(h=1.0 - 1e-6), 30.0),
-    "h = 1 + 1e-6 ¹": (pendulum(h=1.0 + 1e-6), 30.0),
-    "h = 1e4": (pendulum(h=1e4), 1.0),
-    "t = 500": (pendulum(h=0.3), 500.0),
-    "l = 1e-3": (pendulum(l=1e-3), 30.0),
-    "l = π − 1e-3": (pendulum(l=math.pi - 1e-3), 30.0),
-    "a = 1e-6": (pendulum((1.0, 1.0 + 1e-6, 1.0 + 2e-6)), 30.0),
-    "a = 9 (not a body)": (pendulum((1.0, 10.0, 1000.0)), 30.0),
-    "I1 > I3": (pendulum((1.0, 0.625, 0.375), mu=9.975), 30.0),
-    "μ = 1e-3": (pendulum(mu=1e-3), 30.0),
-}
-
-
-@pytest.mark.parametrize("name", LEVELS)
-@pytest.mark.parametrize("case", EXTREMES)
-def test_an_extreme_pendulum_is_right_or_honest(case, name):
-    one, span = EXTREMES[case]
-    error, found = error_of(one, span, name)
-    # Two directions of a motion whose ω is in units of the fastest one.
-    scale = 4.0 * math.sqrt(2.0 * (one.h + 1.0) + 4.0)
-    assert error < scale * max(level(name).promise, found.attitude.orbit.error_estimate, 2e-13)
-    assert np.max(np.abs(found.attitude.axes @ found.attitude.axes.transpose(0, 2, 1) - np.eye(3))) < 1e-14
-
-
 @pytest.mark.parametrize("I", [(1.0, 1.5, 2.0), (2.0, 1.5, 1.0), (1.0, 0.625, 0.375), (1.0, 1.02, 1.3)], ids=str)
 @pytest.mark.parametrize("h", [-0.9, 0.3, 1.0, 1.5, 12.0])
 def test_the_angle_of_the_track_is_that_of_the_paper(I, h):
@@ -327,9 +281,3 @@ def test_what_is_no_loxodromic_pendulum_is_refused_in_a_sentence(make, error, wo
     with pytest.raises(error, match=words) as refused:
         make()
     assert str(refused.value).endswith(".")
-
-
-if __name__ == "__main__":
-    for case, (one, span) in EXTREMES.items():
-        errors = " | ".join(f"{error_of(one, span, name)[0]:.0e}" for name in LEVELS)
-        print(f"| loxodrome: {case} | Jacobi's functions | {errors} |")
