@@ -11,10 +11,13 @@ from typing import NoReturn
 
 from hess_explorer.commands import (
     CommandError,
+    basins,
     bench,
     circle_map,
+    cloud,
     lyapunov,
     orbit,
+    period,
     rotation_number,
     scattering,
     section,
@@ -44,7 +47,8 @@ def _parser() -> argparse.ArgumentParser:
                      "and their relatives.  Without a command: serve.", allow_abbrev=False)
     parser.add_argument("--version", action="version", version=f"hess-explorer {_version()}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    for command in (serve, circle_map, orbit, section, scattering, rotation_number, lyapunov, shot, bench):
+    for command in (serve, circle_map, orbit, period, section, scattering, rotation_number, lyapunov, basins, cloud,
+                    shot, bench):
         command.add(commands)
     return parser
 

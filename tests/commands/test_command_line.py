@@ -502,7 +502,7 @@ def test_csv_and_json_say_the_same_of_a_section(answer, capsys, words):
     (replaced(SUSLOV_SECTION, "--t", "inf"), "--t: 'inf' is not a finite number"),
     ([*SUSLOV_SECTION, "--sense", "2"], "invalid choice: 2"),
     ([*SUSLOV_SECTION, "--accuracy", "best"], "draft, standard, precise, reference"),
-    (["section", "ball"], "invalid choice: 'ball'"),
+    (["section", "hess"], "invalid choice: 'hess'"),
 ])
 def test_refusals_of_sections(refusal, words, part):
     assert part in refusal(*words)

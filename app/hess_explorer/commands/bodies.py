@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import argparse
+from typing import TYPE_CHECKING
 
 from .arguments import number, vector
 
-__all__ = ["add_heavy_body", "add_start", "add_suslov_body"]
+if TYPE_CHECKING:
+    from hess_mechanics import BallBody
+
+__all__ = ["add_ball", "add_heavy_body", "add_start", "add_suslov_body", "ball_of"]
 
 
 def add_suslov_body(parser: argparse.ArgumentParser) -> None:
@@ -15,6 +19,19 @@ def add_suslov_body(parser: argparse.ArgumentParser) -> None:
                         help="inertia tensor (I12 = 0)")
     parser.add_argument("--b", type=vector("b1,b2,b3"), default=(0.0, 0.0, 0.0), metavar="b1,b2,b3",
                         help="field (default 0,0,0)")
+
+
+def add_ball(parser: argparse.ArgumentParser) -> None:
+    """--I, --b and --D: the body, and the ball inside it."""
+    add_suslov_body(parser)
+    parser.add_argument("--D", type=number, required=True, help="𝒟 = (R/R_s)² I_s of the ball inside, 0 or more")
+
+
+def ball_of(options: argparse.Namespace) -> BallBody:
+    """The ball of `add_ball`.  Raises a `ModelError`."""
+    from hess_mechanics import BallBody
+
+    return BallBody(*(*options.I, options.D, *options.b))
 
 
 def add_heavy_body(parser: argparse.ArgumentParser) -> None:

@@ -1,11 +1,11 @@
-"""`hess-explorer lyapunov suslov|euler-poisson`: the largest Lyapunov exponent of one motion."""
+"""`hess-explorer lyapunov suslov|ball|euler-poisson`: the largest Lyapunov exponent of one motion."""
 
 from __future__ import annotations
 
 import argparse
 
 from .arguments import number
-from .bodies import add_heavy_body, add_start, add_suslov_body
+from .bodies import add_ball, add_heavy_body, add_start, add_suslov_body, ball_of
 from .output import add_options, computing, write
 
 __all__ = ["add"]
@@ -30,6 +30,17 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     _add_rest(suslov)
     suslov.set_defaults(run=_run, prepare=_suslov)
 
+    ball = systems.add_parser(
+        "ball", help="the Chaplygin ball with Suslov's constraint",
+        description="Largest Lyapunov exponent of an orbit of the Chaplygin ball with Suslov's constraint (Îω̇ = (γ × "
+                    "b + Iω × ω)₁₂, γ̇ = γ × ω), and its running averages, per unit of time.",
+        epilog="Example: hess-explorer lyapunov ball --I 1,4,0,0 --D 2 --b 0.3,0,1 --omega 0.5,0.9 --gamma 0.6,0,0.8 "
+               "--t 500")
+    add_ball(ball)
+    add_start(ball)
+    _add_rest(ball)
+    ball.set_defaults(run=_run, prepare=_ball)
+
     heavy = systems.add_parser(
         "euler-poisson", help="a heavy body with a fixed point",
         description="Largest Lyapunov exponent of an orbit of the Euler–Poisson equations, and its running averages.",
@@ -50,6 +61,10 @@ def _suslov(options: argparse.Namespace) -> tuple[str, tuple[float, ...], tuple[
     from hess_mechanics import SuslovBody
 
     return "suslov", options.omega, SuslovBody(*options.I, *options.b).parameters
+
+
+def _ball(options: argparse.Namespace) -> tuple[str, tuple[float, ...], tuple[float, ...]]:
+    return "ball", options.omega, ball_of(options).parameters
 
 
 def _heavy(options: argparse.Namespace) -> tuple[str, tuple[float, ...], tuple[float, ...]]:

@@ -6,7 +6,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from .arguments import number, samples
-from .bodies import add_heavy_body, add_start, add_suslov_body
+from .bodies import add_ball, add_heavy_body, add_start, add_suslov_body, ball_of
 from .output import add_options, computing, quality, whether_body, write
 
 if TYPE_CHECKING:
@@ -33,8 +33,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         description="Orbit of the Chaplygin ball with Suslov's constraint.",
         epilog="Example: hess-explorer orbit ball --I 1,1.5,0.7,1.2 --D 10 --omega=-1.2,0.8 --gamma 0.3,0.5,0.8 "
                "--t 5,20")
-    add_suslov_body(ball)
-    ball.add_argument("--D", type=number, required=True, help="𝒟 = (R/R_s)² I_s of the ball inside, 0 or more")
+    add_ball(ball)
     _add_motion(ball, "w1,w2", "g1,g2,g3")
     ball.set_defaults(run=_run, system="ball", parameters=_ball_parameters)
 
@@ -72,9 +71,8 @@ def _suslov_parameters(options: argparse.Namespace) -> tuple[tuple[float, ...], 
 
 def _ball_parameters(options: argparse.Namespace) -> tuple[tuple[float, ...], BodyCheck]:
     from hess_mechanics import check_body
-    from hess_mechanics.chaplygin_ball.equations import BallBody
 
-    return BallBody(*(*options.I, options.D, *options.b)).parameters, check_body(*options.I)
+    return ball_of(options).parameters, check_body(*options.I)
 
 
 def _hess_parameters(options: argparse.Namespace) -> tuple[tuple[float, ...], BodyCheck]:

@@ -1,4 +1,4 @@
-"""`hess-explorer section euler-poisson|suslov`: the crossings of a surface by one motion."""
+"""`hess-explorer section euler-poisson|suslov|ball`: the crossings of a surface by one motion."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from .arguments import integer, number, vector
-from .bodies import add_heavy_body, add_start, add_suslov_body
+from .bodies import add_ball, add_heavy_body, add_start, add_suslov_body, ball_of
 from .output import add_options, computing, quality, whether_body, write
 
 if TYPE_CHECKING:
@@ -51,14 +51,30 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
                "--gamma 0.6,0,0.8 --plane 0,0,0,1,0 --t 50")
     add_suslov_body(suslov)
     add_start(suslov)
-    suslov.add_argument("--plane", type=vector("n1,n2,n3,n4,n5"), required=True, metavar="n1,n2,n3,n4,n5",
-                        help="the normal of the plane")
-    suslov.add_argument("--offset", type=number, default=0.0, help="offset of the plane along its normal (default 0)")
-    suslov.add_argument("--sense", type=int, choices=(-1, 0, 1), default=1,
+    _add_plane(suslov, None)
+    suslov.set_defaults(run=_run_plane, prepare=_suslov)
+
+    ball = systems.add_parser(
+        "ball", help="the Chaplygin ball with Suslov's constraint, any plane",
+        description="Crossings of the plane n1 ω1 + n2 ω2 + n3 γ1 + n4 γ2 + n5 γ3 = offset, γ3 = 0 unless another one "
+                    "is given, by an orbit of the Chaplygin ball with Suslov's constraint.",
+        epilog="Example: hess-explorer section ball --I 1,3,0,0 --D 5 --b 0.5,0,0.8 --omega 0.6,1.1 --gamma 0.6,0.8,0 "
+               "--t 100")
+    add_ball(ball)
+    add_start(ball)
+    _add_plane(ball, (0.0, 0.0, 0.0, 0.0, 1.0))
+    ball.set_defaults(run=_run_plane, prepare=_ball)
+
+
+def _add_plane(parser: argparse.ArgumentParser, usual: tuple[float, ...] | None) -> None:
+    parser.add_argument("--plane", type=vector("n1,n2,n3,n4,n5"), required=usual is None, default=usual,
+                        metavar="n1,n2,n3,n4,n5",
+                        help="the normal of the plane" + ("" if usual is None else " (default 0,0,0,0,1)"))
+    parser.add_argument("--offset", type=number, default=0.0, help="offset of the plane along its normal (default 0)")
+    parser.add_argument("--sense", type=int, choices=(-1, 0, 1), default=1,
                         help="1 (default): crossed from below as time grows, -1: from above, 0: both")
-    suslov.add_argument("--t", type=number, required=True, help="the last time; negative: backward")
-    _add_count(suslov)
-    suslov.set_defaults(run=_run_suslov)
+    parser.add_argument("--t", type=number, required=True, help="the last time; negative: backward")
+    _add_count(parser)
 
 
 def _add_count(parser: argparse.ArgumentParser) -> None:
@@ -84,16 +100,27 @@ def _run_heavy(options: argparse.Namespace) -> None:
           _fewer(result, options.crossings, end))
 
 
-def _run_suslov(options: argparse.Namespace) -> None:
+def _suslov(options: argparse.Namespace) -> tuple[str, tuple[float, ...]]:
+    from hess_mechanics import SuslovBody
+
+    return "suslov", SuslovBody(*options.I, *options.b).parameters
+
+
+def _ball(options: argparse.Namespace) -> tuple[str, tuple[float, ...]]:
+    return "ball", ball_of(options).parameters
+
+
+def _run_plane(options: argparse.Namespace) -> None:
     with computing():
-        from hess_mechanics import Plane, SuslovBody, check_body, level, section, systems, unit_vector
+        from hess_mechanics import Plane, check_body, level, section, systems, unit_vector
 
         accuracy = level(options.accuracy)
-        system, body = systems()["suslov"], SuslovBody(*options.I, *options.b)
+        name, parameters = options.prepare(options)
+        system = systems()[name]
         gamma, note = unit_vector(options.gamma)
         start = (*options.omega, *gamma)
         plane = Plane(options.plane, options.offset, options.sense)
-        result = section(system, start, body.parameters, plane, options.t, accuracy, options.crossings)
+        result = section(system, start, parameters, plane, options.t, accuracy, options.crossings)
         check = check_body(*options.I)
     write(options, {"t": result.times.tolist(), "y": result.states.tolist()}, ("t", *system.variables),
           {"variables": list(system.variables), **_facts(result, start, check)},

@@ -229,8 +229,8 @@ class SuslovSection:
         psi = np.linspace(window[0][0], window[1][0], _COLUMNS + 1)
         return frozen(1.0 - possible(self.body, self.E, self.k, 0.5 * (psi[1:] + psi[:-1]))[None, :].astype(float))
 
-    def ends(self, window: Window, cells: tuple[int, int], row: int, crossings: int, most_steps: int = MAX_STEPS
-             ) -> Array:
+    def ends(self, window: Window, cells: tuple[int, int], row: int, crossings: int, most_steps: int = MAX_STEPS,
+             level: Level = DRAFT) -> Array:
         """For `basins`: the mean of ω1 over the last third of the crossings of the orbits from the cells of a row.
 
         cells : (m, n) across and up the window; of shape (m,), ∞ where there is no orbit.  Raises `WorkLimit`.
@@ -241,7 +241,7 @@ class SuslovSection:
         states, ok = self.states_at(psi, np.full(m, y0 + (row + 0.5) * (y1 - y0) / n))
         out = np.full(m, np.inf)
         if ok.any():
-            found = suslov_points(self.body, self.k, states[ok].tolist(), crossings, True, DRAFT, threads=1,
+            found = suslov_points(self.body, self.k, states[ok].tolist(), crossings, True, level, threads=1,
                                   most_steps=most_steps)
             out[ok] = [float(orbit[2 * len(orbit) // 3 :, 0].mean()) if len(orbit) > 30 else math.inf
                        for orbit in found.states]

@@ -1,0 +1,258 @@
+"""The commands about the Chaplygin ball: sections, exponents, periods, clouds; and basins of the Suslov problem."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import quad, solve_ivp
+
+from hess_explorer.__main__ import main
+from hess_mechanics import BallBody, SuslovBody, section, systems
+from hess_mechanics.chaplygin_ball.phase_cloud import shell
+from hess_mechanics.numerics.accuracy import REFERENCE
+from hess_mechanics.suslov.section import plane_of, state_at
+from support.command_line import replaced, run, table
+
+SECTION = ["section", "ball", "--I", "1,3,0.2,-0.1", "--D", "5", "--b", "0.5,0.2,0.8", "--omega", "0.6,1.1",
+           "--gamma", "0.6,0.8,0", "--t", "30"]
+LYAPUNOV = ["lyapunov", "ball", "--I", "1,4,0.3,0.2", "--D", "2", "--b", "0,0,1", "--omega", "0,0", "--gamma", "0,0,1",
+            "--t", "40"]
+PERIOD = ["period", "--I", "1.3,0.8", "--b", "0.5,-0.2", "--omega", "1,-0.5", "--gamma", "0,0.6,0.8"]
+CLOUD = ["cloud", "--I", "2,1,0.5,0.7", "--D", "1.5", "--h", "2", "--count", "200", "--t", "3"]
+BASINS = ["basins", "--I", "1.5,1,0.4,0", "--b", "0.3,-0.5,1", "--E", "1.842", "--cells", "6,4", "--crossings", "240"]
+
+
+def rates(body, y):
+    """`eq29`: Îω̇ = (γ × b + Iω × ω)₁₂ as a matrix equation, γ̇ = γ × ω."""
+    omega, gamma = np.array([y[0], y[1], 0.0]), np.asarray(y[2:])
+    b = np.array(body.parameters[5:])
+    inertia = np.array([[body.I11, 0.0, body.I13], [0.0, body.I22, body.I23], [body.I13, body.I23, 0.0]])
+    torque = np.cross(inertia @ omega, omega) + np.cross(gamma, b)
+    added = body.D * ((gamma @ gamma) * np.eye(3) - np.outer(gamma, gamma))
+    acceleration = np.linalg.solve((inertia + added)[:2, :2], torque[:2])
+    return [*acceleration, *np.cross(gamma, omega)]
+
+
+def followed(body, start, end, **options):
+    return solve_ivp(lambda _, y: rates(body, y), (0.0, end), start, method="DOP853", rtol=1e-12, atol=1e-13, **options)
+
+
+# ---- sections and exponents -------------------------------------------------------------------------------------
+
+
+def test_section_of_the_ball(answer):
+    found = answer(*SECTION)
+    body = BallBody(1.0, 3.0, 0.2, -0.1, 5.0, 0.5, 0.2, 0.8)
+
+    def height(_, y):
+        return y[4]
+
+    height.direction = 1.0
+    exact = followed(body, [0.6, 1.1, 0.6, 0.8, 0.0], 30.0, events=height)
+    later = exact.t_events[0] > 1e-9
+    assert len(found["t"]) >= 3
+    assert found["t"] == pytest.approx(exact.t_events[0][later].tolist(), abs=1e-8)
+    assert np.array(found["y"]) == pytest.approx(exact.y_events[0][later], abs=1e-7)
+    assert found["variables"] == ["ω1", "ω2", "γ1", "γ2", "γ3"]
+    assert max(found["drift"].values()) < 1e-9
+    assert found["notes"] == [f"Up to t = 30 there are {len(found['t'])} of 100 crossings."]
+    # Another plane: no longer the equator.
+    other = answer(*replaced(SECTION, "--t", "40"), "--plane", "0,0,0,1,0", "--sense", "0")
+    assert np.array(other["y"])[:, 3] == pytest.approx(0.0, abs=1e-12)
+    assert np.max(np.abs(np.array(other["y"])[:, 4])) > 0.05
+
+
+def test_the_exponent_of_the_upright_ball_is_a_closed_form(answer):
+    # At rest with γ = b/|b| = e3, Î = diag(I11 + 𝒟, I22 + 𝒟): ω1 and γ2 grow as exp(√(b3/(I11 + 𝒟)) t), the fastest.
+    found = answer(*LYAPUNOV)
+    t = np.array(found["t"])
+    late = t > 24.0
+    growth = t * np.array(found["average"])
+    assert late.sum() > 3
+    assert np.polyfit(t[late], growth[late], 1)[0] == pytest.approx(1.0 / math.sqrt(3.0), abs=1e-4)
+
+
+def test_without_an_inner_ball_the_exponent_is_that_of_the_suslov_problem(answer):
+    rest = ["--I", "1.5,3,0.4,0.4", "--b=-0.5,-0.5,0.7", "--omega", "0.4,0.6", "--gamma", "0.6,0,0.8", "--t", "20"]
+    ball, suslov = answer("lyapunov", "ball", "--D", "0", *rest), answer("lyapunov", "suslov", *rest)
+    assert ball["exponent"] == pytest.approx(suslov["exponent"], abs=1e-6)
+
+
+# ---- the period -------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("D", ["0", "4"])
+def test_after_the_period_scipy_is_where_it_began(answer, D):
+    found = answer(*PERIOD, "--D", D)
+    body, start = BallBody(1.3, 0.8, 0.0, 0.0, float(D), 0.5, -0.2, 0.0), [1.0, -0.5, 0.0, 0.6, 0.8]
+    end = followed(body, start, found["period"]).y[:, -1]
+    assert end == pytest.approx(np.array(start), abs=1e-8)
+    assert np.max(np.abs(followed(body, start, 0.5 * found["period"]).y[:, -1] - start)) > 0.1
+    for t in found["crossing"]:
+        assert followed(body, start, t).y[4, -1] == pytest.approx(0.0, abs=1e-9)
+    assert found["period"] == pytest.approx(2.0 * (found["crossing"][1] - found["crossing"][0]), rel=1e-15)
+    assert (found["status"], found["level"], found["start"]) == ("ok", "precise", start)
+    assert found["error_estimate"] < 1e-8
+
+
+def test_for_kharlamovas_case_the_closed_form_is_the_integral_of_the_quartic(answer):
+    found = answer(*PERIOD, "--accuracy", "reference")
+    # u = u0 + v0 τ + aτ²/2, γ3² = P(τ) = 1 − |u|².
+    u0, v0, a = np.array([0.0, 0.6]), np.array([0.5, 1.0]), np.array([-0.5 / 0.8, 0.2 / 1.3])
+    P = np.polynomial.Polynomial([1.0]) - sum(
+        np.polynomial.Polynomial([u0[i], v0[i], a[i] / 2.0]) ** 2 for i in range(2))
+    zeros = np.sort(P.roots()[np.abs(P.roots().imag) < 1e-12].real)
+    low, high = zeros[zeros < 0.0].max(), zeros[zeros > 0.0].min()
+    middle, half = 0.5 * (low + high), 0.5 * (high - low)
+    exact = 2.0 * quad(lambda x: half * math.cos(x) / math.sqrt(P(middle + half * math.sin(x))), -math.pi / 2 + 1e-9,
+                       math.pi / 2 - 1e-9, epsabs=1e-13)[0]
+    assert found["period_closed_form"] == pytest.approx(exact, abs=1e-7)
+    assert found["period"] == pytest.approx(found["period_closed_form"], abs=1e-12)
+    assert answer(*PERIOD, "--D", "4")["period_closed_form"] is None
+
+
+# ---- clouds -----------------------------------------------------------------------------------------------------
+
+
+def test_the_points_of_a_cloud_are_those_that_scipy_carries(answer):
+    found = answer(*CLOUD, "--table", "points")
+    body = BallBody(2.0, 1.0, 0.5, 0.7, 1.5)
+    starts = shell(body, 2.0, 0.1, 200)
+    assert len(found["ω1"]) == found["count"] == 200
+    for i in range(0, 200, 40):
+        end = followed(body, starts[i], 3.0).y[:, -1]
+        columns = [found[name][i] for name in ("ω1", "ω2", "γ1", "γ2", "γ3")]
+        assert columns == pytest.approx(end.tolist(), abs=1e-7)
+        assert found["log_s"][i] == pytest.approx(math.log(abs(0.5 * end[0] + 0.7 * end[1])), abs=1e-7)
+
+
+def test_the_course_of_a_cloud_is_that_of_its_points(answer):
+    course, points = answer(*CLOUD), answer(*CLOUD, "--table", "points")
+    starts = shell(BallBody(2.0, 1.0, 0.5, 0.7, 1.5), 2.0, 0.1, 200)
+    growth = np.array(points["log_s"]) - np.log(np.abs(starts[:, :2] @ [0.5, 0.7]))
+    assert (course["t"][0], course["t"][-1], course["final_time"]) == (0.0, 3.0, 3.0)
+    assert course["volume"][0] == pytest.approx(1.0, abs=1e-15)
+    last = [course[name][-1] for name in ("volume", "growth_mean", "growth_least", "growth_largest")]
+    assert last == pytest.approx([np.exp(growth).mean(), growth.mean(), growth.min(), growth.max()], rel=1e-9)
+    assert (course["status"], course["level"], course["is_body"]) == ("ok", "precise", False)
+
+
+def test_the_density_of_a_cloud_counts_its_points(answer):
+    density, points = answer(*CLOUD, "--table", "density"), answer(*CLOUD, "--table", "points")
+    width = density["log_s"][1] - density["log_s"][0]
+    for name in ("first", "last", "mean"):
+        assert sum(density[name]) * width == pytest.approx(1.0, abs=1e-12)
+    edges = np.array([density["log_s"][0] - width / 2.0 + i * width for i in range(len(density["log_s"]) + 1)])
+    counted, _ = np.histogram(points["log_s"], edges)
+    assert density["last"] == pytest.approx((counted / (200 * width)).tolist(), abs=1e-12)
+    # Backward the cloud goes to the other half of s = 0.
+    assert answer(*replaced(CLOUD, "--t", "-3"))["t"][-1] == -3.0
+    patch = answer(*CLOUD, "--angle", "0.4", "--table", "points")
+    assert np.ptp(patch["γ1"]) < np.ptp(points["γ1"])
+
+
+# ---- basins -----------------------------------------------------------------------------------------------------
+
+
+def test_where_orbits_end_is_where_they_are_at_reference(answer):
+    found = answer(*BASINS)
+    assert found["cells"] == [6, 4]
+    assert found["psi"][:6] == pytest.approx([-math.pi + (i + 0.5) * math.pi / 3.0 for i in range(6)])
+    assert sorted(set(found["delta"])) == pytest.approx([(j + 0.5) * math.pi / 4.0 for j in range(4)])
+    assert found["counts"] == [found["group"].count(0), found["group"].count(1)]
+    assert min(found["counts"]) >= 2
+    assert sum(found["counts"]) == 24
+    body = SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0)
+    suslov = systems()["suslov"]
+    means = {}
+    for i in (0, 5, 9, 14, 20):
+        start = state_at(body, 1.842, 3, found["psi"][i], found["delta"][i])
+        exact = section(suslov, start, body.parameters, plane_of(3), 5000.0, REFERENCE, 600).states
+        means.setdefault(found["group"][i], []).append(float(exact[400:, 0].mean()))
+        # Attractors are met again, however long the orbit.
+        assert found["mean"][i] == pytest.approx(means[found["group"][i]][-1], abs=0.1)
+    low, high = (np.array([mean for mean, group in zip(found["mean"], found["group"], strict=True) if group == one])
+                 for one in (0, 1))
+    assert high.min() - low.max() > 0.1 * (high.max() - low.min())
+
+
+def test_cells_that_the_energy_forbids_are_empty(answer, capsys):
+    words = replaced(replaced(BASINS, "--E", "0.3"), "--crossings", "100")
+    found = answer(*words)
+    psi = np.array(found["psi"])
+    forbidden = 0.3 * np.cos(psi) - 0.5 * np.sin(psi) >= 0.3
+    assert 0 < forbidden.sum() < 24
+    assert [value is None for value in found["mean"]] == [value is None for value in found["group"]]
+    assert all(found["mean"][i] is None for i in np.flatnonzero(forbidden))
+    assert found["notes"] == []
+    assert main([*words, "--format", "csv"]) == 0
+    _, header, rows = table(capsys.readouterr().out)
+    assert header == ["psi", "delta", "mean", "group"]
+    assert [row[2:] == ["", ""] for row in rows] == [value is None for value in found["mean"]]
+
+
+def test_on_a_principal_axis_it_is_said_that_nothing_attracts(answer):
+    words = replaced(replaced(replaced(BASINS, "--I", "1.5,1,0,0"), "--cells", "2,2"), "--crossings", "100")
+    assert answer(*words)["notes"] == ["With I13 = I23 = 0 phase volume is kept: nothing attracts here."]
+
+
+# ---- all of them ------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("words", [SECTION, LYAPUNOV, PERIOD, CLOUD, [*CLOUD, "--table", "points"]],
+                         ids=lambda words: " ".join(words[:2]))
+def test_csv_and_json_say_the_same(answer, capsys, words):
+    found = answer(*words)
+    assert main([*words, "--format", "csv"]) == 0
+    facts, header, rows = table(capsys.readouterr().out)
+    numbers = [[float(cell) for cell in row] for row in rows]
+    if "y" in found:
+        assert header == ["t", *found["variables"]]
+        assert numbers == [[t, *y] for t, y in zip(found["t"], found["y"], strict=True)]
+    else:
+        assert numbers == [list(row) for row in zip(*(found[name] for name in header), strict=True)]
+    assert {name: found[name] for name in facts if name != "wall_ms"} == {
+        name: value for name, value in facts.items() if name != "wall_ms"}
+
+
+@pytest.mark.parametrize(("words", "said"), [
+    (replaced(SECTION, "--D", "-1"), "choose 𝒟 ≥ 0"),
+    (replaced(SECTION, "--I", "1,3"), "write 4 numbers"),
+    ([*SECTION, "--plane", "0,0,0,0,0"], "normal other than 0"),
+    (replaced(LYAPUNOV, "--D", "x"), "is not a number"),
+    (replaced(LYAPUNOV, "--t", "0"), "other than 0"),
+    (replaced(PERIOD, "--gamma", "0,0,0"), "other than 0"),
+    (replaced(PERIOD, "--I", "1.3,-0.8"), "choose I22 > 0"),
+    ([*PERIOD, "--D", "-2"], "choose 𝒟 ≥ 0"),
+    (["period", "--I", "1,2", "--omega", "0.6,0.8", "--gamma", "0.6,0.8,0"], "rests on the equator and has no period"),
+    (["period", "--I", "1,1", "--D", "1", "--omega", "0,0", "--gamma", "0.6,0,0.8"], "choose another start"),
+    (replaced(CLOUD, "--I", "2,1,0,0"), "Choose I13 or I23 other than 0"),
+    (replaced(CLOUD, "--h", "-1"), "choose h > 0"),
+    (replaced(CLOUD, "--count", "0"), "from 1 to 100000"),
+    (replaced(CLOUD, "--t", "0"), "choose --t other than 0"),
+    ([*CLOUD, "--spread", "1"], "choose it between 0 and 1"),
+    ([*CLOUD, "--table", "all"], "invalid choice: 'all'"),
+    (replaced(BASINS, "--E", "-0.6"), "choose E above -0.583095"),
+    (replaced(BASINS, "--cells", "0,4"), "write them like 40,30"),
+    (replaced(BASINS, "--cells", "1000,1000"), "at most 100000 together"),
+    (replaced(BASINS, "--cells", "2.5,4"), "two whole numbers"),
+    ([*BASINS, "--window", "1,0,0,1"], "choose such angles"),
+    (replaced(BASINS, "--crossings", "10"), "from 100 to 10000"),
+    ([*BASINS, "--accuracy", "best"], "draft, standard, precise, reference"),
+])
+def test_what_is_wrong_is_one_sentence(refusal, words, said):
+    assert said in refusal(*words)
+
+
+@pytest.mark.parametrize("words", [["section", "ball"], ["lyapunov", "ball"], ["period"], ["cloud"], ["basins"]])
+def test_help_has_an_example_that_runs(words):
+    done = run(*words, "--help")
+    assert done.returncode == 0
+    text = " ".join(done.stdout.decode().split())
+    example = text.partition("Example: hess-explorer ")[2].split()
+    assert example[: len(words)] == words
+    again = run(*example)
+    assert again.returncode == 0, again.stderr
+    assert again.stdout
