@@ -11,22 +11,21 @@ import numpy as np
 
 from hess_explorer.protocol.parameters import Values
 from hess_explorer.scenes.framework.free_body import FreeBody
-from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number
+from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number, time_span
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import theme
 from hess_explorer.views import velocity_plane as plane
-from hess_explorer.views.graph import branches
+from hess_explorer.views.graph import branches, over_time
 from hess_explorer.views.layers import Columns, Sign, arrows, curves, levels, line, text
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, ends
-from hess_explorer.views.text import digits
+from hess_explorer.views.text import digits, vector
 from hess_mechanics.dynamics.sampling import MOST_SAMPLES, PIXELS
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov import free
 from hess_mechanics.suslov.additional_integral import AdditionalIntegral, of_body
-from hess_mechanics.suslov.equations import SYSTEM
 
 _LEVELS = (0.25, 0.6, 1.6)
 """Energies of the other ellipses drawn, in that of the orbit."""
@@ -74,8 +73,7 @@ class FreeSuslov(FreeBody):
     phi2: float = number("φ′", -0.6, (-3.14, 3.14), 0.01, bounds=(-math.pi, math.pi),
                          label="Phase of the second orbit",
                          doc="A second orbit with the same ω leaves the same circle Γ⁻, turned along it by φ′ − φ.")
-    span: float = number("t", 30.0, (1.0, 100.0), 1.0, bounds=(0.01, 1e5), label="Time span",
-                         doc="How long the orbit is followed.")
+    span: float = time_span(30.0, 100.0, most=1e5)
     across: str = choice("γ₁ against", ("time", "phase"), "time",
                          doc="The horizontal axis of the third picture: t or φ.")
     accuracy: str = accuracy_level()
@@ -142,10 +140,7 @@ class FreeSuslov(FreeBody):
 
     def motion(self) -> Motion:
         """The orbit as one of the general system."""
-        radius = 0.5 * PIXELS
-        w = radius / self.half_width
-        return Motion(SYSTEM, (*self.omega, *self.gamma), self.body.parameters, self.span,
-                      (w, w, radius, radius, radius))
+        return self.general_motion(self.omega, self.gamma, self.span, self.half_width)
 
     # ---- what the pictures show --------------------------------------------------------------------------------
 
@@ -198,12 +193,11 @@ class FreeSuslov(FreeBody):
     def derived(self) -> Iterator[str]:
         """I11 and k², energy, rate and directions, F2."""
         points = self.points
-        yield f"I₁₁ = {digits(self.body.I11, 6)}"
-        yield f"k² = {digits(self.k * abs(self.k), 6)}"
+        yield from super().derived()
         yield f"E = {digits(self.h, 6)}"
         yield f"ω₀ = {digits(points.rate, 6)}"
         yield f"|ω±| = {digits(points.speed, 6)}"
-        yield f"ξ = ({digits(points.xi[0])}, {digits(points.xi[1])}, 0)"
+        yield f"ξ = {vector(points.xi)}"
         if self.F2 is None:
             yield "F₂: none known (I₁₃ = 0 and k odd, or the like)"
         else:
@@ -233,11 +227,8 @@ SCENE = Scene(
             "second": lambda s: plane.velocity_columns(None, s.second.omega, s.second.gamma)},
     angles=("across",),
     views=(
-        Plot(
-            name="omega", title="Angular velocity (ω₁, ω₂)", caption=FreeSuslov._about_velocity, axes=("ω₁", "ω₂"),
-            x=lambda s: plane.centred(s.half_width), y=lambda s: plane.centred(s.half_width), dot=("omega1", "omega2"),
-            on_click=lambda s, x, y: {"w1": x, "w2": y},
-            layers=(
+        plane.picture(
+            FreeSuslov._about_velocity, lambda s: s.half_width, on_click=lambda s, x, y: {"w1": x, "w2": y}, layers=(
                 *plane.energy_levels(FreeSuslov.ellipses, lambda s: s.half_width, "energy levels; level of F₂"),
                 plane.arcs(lambda s: s.arcs),
                 *plane.halves(lambda s, axes: plane.to_the_edge(s.points.stable, s.half_width, axes),
@@ -245,8 +236,7 @@ SCENE = Scene(
                         ("stable half, circle joined", "unstable half, circle left")),
                 line("second", track="second", columns=("omega1", "omega2"), color=theme.MAP, dash="dotdash",
                      label="second orbit"),
-                line("orbit", track="orbit", columns=("omega1", "omega2"), color=theme.ORBIT, width=2.5,
-                     label="orbit"),
+                plane.orbit("orbit"),
                 arrows("arrows", lambda s: plane.arrows_on(s.arcs, s.half_width), color=theme.ORBIT, alpha=0.8),
                 *plane.equilibria(lambda s: s.points.stable, lambda s: s.points.unstable))),
         Sphere(
@@ -264,9 +254,7 @@ SCENE = Scene(
             name="Gamma", title="Γ = (ξ, γ) against time", caption=FreeSuslov._about_Gamma, axes=("t", "Γ"),
             x=lambda s: (0.0, s.span), y=(-1.05, 1.05), dot=("t", "Gamma"),
             layers=(levels("levels", lambda s: [*s.orbit.limits, s.second.limits[1]]),
-                    curves("second", lambda s: [np.column_stack([s.second.times, s.second.Gamma])], color=theme.MAP,
-                           dash="dotdash"),
-                    curves("first", lambda s: [np.column_stack([s.orbit.times, s.orbit.Gamma])],
-                           color=theme.ORBIT))),
+                    over_time("second", lambda s: (s.second.times, s.second.Gamma), color=theme.MAP, dash="dotdash"),
+                    over_time("first", lambda s: (s.orbit.times, s.orbit.Gamma), color=theme.ORBIT))),
     ),
 )

@@ -25,8 +25,7 @@ from hess_explorer.views.velocity_plane import nice_above, velocity_columns
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov import scattering as model
-from hess_mechanics.suslov.equations import SYSTEM
-from hess_mechanics.suslov.free import Equilibria, FreeMotion, energy_of_unit_rate, equilibria, sampled_motion
+from hess_mechanics.suslov.free import Equilibria, FreeMotion, equilibria_of_unit_rate, sampled_motion
 
 _CELLS, _FEW_CELLS = (240, 120), (120, 60)
 """Of the map; few while a slider is dragged."""
@@ -66,19 +65,14 @@ class Scattering(CircleLeft, FreeBody):
         return replace(self, digits=_MOST_DIGITS)
 
     @cached_property
-    def h(self) -> float:
-        """The energy with ω0 = 1: nothing else depends on it."""
-        return energy_of_unit_rate(self.body)
-
-    @cached_property
     def points(self) -> Equilibria:
-        """The equilibria with that energy."""
-        return equilibria(self.body, self.h)
+        """The equilibria with the energy that makes ω0 = 1: nothing else depends on it."""
+        return equilibria_of_unit_rate(self.body)
 
     @cached_property
     def start(self) -> tuple[tuple[float, float], tuple[float, float, float]]:
         """ω(0) and γ(0) of the orbit shown.  Raises `InvalidParameter`, `WorkLimit`."""
-        return model.start(self.body, self.h, self.theta, self.phi, self.distance)
+        return model.start(self.body, self.points.h, self.theta, self.phi, self.distance)
 
     @property
     def span(self) -> float:
@@ -118,14 +112,11 @@ class Scattering(CircleLeft, FreeBody):
     @cached_property
     def orders(self) -> Array:
         """(k, cos χ) in rows."""
-        low, high = self.k_axis
-        over = tuple(np.linspace(low, high, 20 * (high - low) + 1).tolist())
-        return self.work.get(model.cos_chi_over, over, self.I22, self.I13, self.I23)
+        return self.work.get(model.cos_chi_over, *self.k_axis, self.I22, self.I13, self.I23)
 
     def motion(self) -> Motion:
         """The orbit as one of the general system."""
-        omega, gamma = self.start
-        return Motion(SYSTEM, (*omega, *gamma), self.body.parameters, self.span, (1.0, 1.0, *(_RADIUS,) * 3))
+        return self.general_motion(*self.start, self.span, _RADIUS)
 
     # ---- what the pictures show --------------------------------------------------------------------------------
 

@@ -38,8 +38,22 @@ from hess_mechanics.suslov.equations import SYSTEM, SuslovBody, unit_vector
 from hess_mechanics.suslov.free_kernels import integrate
 
 __all__ = [
-    "Equilibria", "FreeMotion", "Passage", "Rotation", "Shape", "arcs", "energy_of_unit_rate", "equilibria",
-    "free_motion", "passage", "propagate", "rotation", "sample_times", "sampled_motion", "shape", "turned_along_circle",
+    "Equilibria",
+    "FreeMotion",
+    "Passage",
+    "Rotation",
+    "Shape",
+    "arcs",
+    "equilibria",
+    "equilibria_of_unit_rate",
+    "free_motion",
+    "passage",
+    "propagate",
+    "rotation",
+    "sample_times",
+    "sampled_motion",
+    "shape",
+    "turned_along_circle",
     "turning",
 ]
 
@@ -127,6 +141,7 @@ class Equilibria:
     xi: Array
     speed: float
     rate: float
+    h: float
 
     def gamma(self, Gamma: float, phi: float) -> tuple[float, float, float]:
         """γ = Γξ + √(1−Γ²)(cos φ η + sin φ e3), η = e3 × ξ."""
@@ -146,7 +161,7 @@ def equilibria(body: SuslovBody, h: float) -> Equilibria:
     of, r = shape(body), _radius(h)
     speed = r / math.sqrt(of.w)
     point = speed * of.xi[:2]
-    return Equilibria(frozen(-point), frozen(point), of.xi, speed, _rate(body, of, r))
+    return Equilibria(frozen(-point), frozen(point), of.xi, speed, _rate(body, of, r), h)
 
 
 def _radius(h: float) -> float:
@@ -157,9 +172,9 @@ def _radius(h: float) -> float:
     return math.sqrt(2.0) * math.sqrt(h)
 
 
-def energy_of_unit_rate(body: SuslovBody) -> float:
-    """The energy h at which ω0 = 1.  Raises `InvalidParameter`, `WorkLimit`."""
-    return 1.0 / equilibria(body, 1.0).rate ** 2
+def equilibria_of_unit_rate(body: SuslovBody) -> Equilibria:
+    """Those with the energy at which ω0 = 1.  Raises `InvalidParameter`, `WorkLimit`."""
+    return equilibria(body, 1.0 / equilibria(body, 1.0).rate ** 2)
 
 
 def arcs(body: SuslovBody, h: float, count: int = 91) -> tuple[Array, Array]:

@@ -152,10 +152,10 @@ def cos_chi(body: SuslovBody) -> float:
     return min(1.0, 2.0 * (A_re**2 + A_im**2) - 1.0)
 
 
-def cos_chi_over(k: tuple[float, ...], I22: float, I13: float, I23: float) -> Array:
-    """(k, cos χ) in closed form, I11 from k by `I11_at`; rows (m, 2), without those k that give no body."""
+def cos_chi_over(low: int, high: int, I22: float, I13: float, I23: float) -> Array:
+    """(k, cos χ) in closed form for even k from low to high, I11 by `I11_at`; (m, 2), without k that give no body."""
     rows = []
-    for one in k:
+    for one in np.linspace(low, high, 20 * (high - low) + 1).tolist():
         try:
             rows.append((one, cos_chi(SuslovBody(I11_at(one, I22, I13, I23), I22, I13, I23))))
         except ModelError:

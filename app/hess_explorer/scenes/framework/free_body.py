@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 from hess_explorer.scenes.framework.parameters import number
-from hess_explorer.scenes.framework.scene import State
+from hess_explorer.scenes.framework.scene import Motion, State
 from hess_explorer.views.text import digits
+from hess_explorer.views.velocity_plane import pixels_per_unit
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.suslov.additional_integral import I11_at
-from hess_mechanics.suslov.equations import SuslovBody
+from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 
 __all__ = ["FreeBody"]
 
@@ -48,6 +49,10 @@ class FreeBody(State):
             raise InvalidParameter(f"k = {digits(self.k)} would make I₁₁ = {digits(I11)}; a moment of inertia is "
                                    "positive. Choose a larger k.")
         return SuslovBody(I11, self.I22, self.I13, self.I23)
+
+    def general_motion(self, omega: Sequence[float], gamma: Sequence[float], span: float, half_width: float) -> Motion:
+        """A motion as one of the general system."""
+        return Motion(SYSTEM, (*omega, *gamma), self.body.parameters, span, pixels_per_unit(half_width))
 
     def derived(self) -> Iterator[str]:
         """I11 and k²."""
