@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import ClassVar
 
 import numpy as np
 
@@ -25,7 +24,7 @@ from hess_explorer.views.poisson_sphere import Sphere
 from hess_explorer.views.text import digits, vector
 from hess_explorer.views.velocity_plane import nice_above, orbit_alone, orbit_columns, pixels_per_unit
 from hess_mechanics.chaplygin_ball.energy_surface import lowest_energy
-from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
+from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.section import (
     ball_section,
     coordinates,
@@ -36,7 +35,6 @@ from hess_mechanics.chaplygin_ball.section import (
     state_at,
 )
 from hess_mechanics.dynamics.section import Points, occupied_cells
-from hess_mechanics.dynamics.system import System
 from hess_mechanics.numerics.accuracy import STANDARD
 from hess_mechanics.numerics.results import Array
 
@@ -84,8 +82,6 @@ class BallSection(CentreOfMass, Ball, Crossings):
     drop: str = choice("Points shown", ("all", "the later half"), "all", doc="The later half shows what attracts.")
     accuracy: str = accuracy_level(
         "Of the orbit. Points of the section are right on their integrals; chaos moves them along.")
-
-    system: ClassVar[System] = SYSTEM
 
     def admitted(self, notes: list[str]) -> BallSection:
         """ψ outside the band that the energy forbids."""

@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
 
 import numpy as np
 
@@ -27,9 +26,7 @@ from hess_explorer.views.poisson_sphere import Direction, Sphere, ends
 from hess_explorer.views.text import digits as in_digits
 from hess_explorer.views.text import vector
 from hess_mechanics.chaplygin_ball import scattering as model
-from hess_mechanics.chaplygin_ball.equations import SYSTEM
 from hess_mechanics.chaplygin_ball.strip_orbits import StripOrbit, strip_orbits
-from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import DRAFT, STANDARD, Level
 from hess_mechanics.numerics.results import Array
@@ -56,8 +53,6 @@ class ChaplyginBall(CircleLeft, FreeBall, OneOrbit):
 
     span: float = time_span(60.0, 400.0, what="the chosen orbit")
     accuracy: str = accuracy_level()
-
-    system: ClassVar[System] = SYSTEM
 
     @cached_property
     def half_width(self) -> float:

@@ -24,9 +24,8 @@ from hess_explorer.views.poisson_sphere import Direction, Sphere
 from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import nice_above
 from hess_mechanics.dynamics.sampling import PIXELS
-from hess_mechanics.dynamics.system import System
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, andoyer_points, hess_curve, relation
-from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
+from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.rotation import RESOLVED, Rotation, on_line, rotation_along
 from hess_mechanics.numerics.accuracy import STANDARD
 from hess_mechanics.numerics.results import Array, frozen
@@ -93,7 +92,6 @@ class EulerPoisson(FilledWindow):
     starts: str = places("The places of the chosen orbits", 12, *_BOUNDS, "0,0.2")
     window: str = places("The window of the section", 2, *_BOUNDS)
 
-    system: ClassVar[System] = SYSTEM
     full: ClassVar[Window] = ((-math.pi, -1.0), (math.pi, 1.0))
     bounds: ClassVar[Window] = _BOUNDS
     held: ClassVar[tuple[int, int]] = (16, 40)

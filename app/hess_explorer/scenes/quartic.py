@@ -6,42 +6,40 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import ClassVar
 
 import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values
 from hess_explorer.scenes.framework.crossings import Crossings
+from hess_explorer.scenes.framework.inertia import CentreOfMass, Tensor
 from hess_explorer.scenes.framework.one_orbit import Start
-from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, number, slider_within
+from hess_explorer.scenes.framework.parameters import (
+    Slider,
+    accuracy_level,
+    crossings_of_each,
+    like,
+    number,
+    slider_within,
+    time_span,
+)
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.views import plane_domain, section_plane, theme
-from hess_explorer.views.layers import Axes, Columns, Sign, curves
+from hess_explorer.views.graph import over_time
+from hess_explorer.views.layers import Axes, Columns, Sign
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere
-from hess_explorer.views.text import digits, power
+from hess_explorer.views.text import digits, power, vector
 from hess_explorer.views.velocity_plane import centred, nice_above
-from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.section import Points, occupied_cells
-from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.accuracy import STANDARD
 from hess_mechanics.numerics.results import Array
-from hess_mechanics.suslov.equations import SYSTEM
-from hess_mechanics.suslov.quartic import (
-    QuarticBody,
-    angular_momentum,
-    quartic_section,
-    seeds,
-    state_at,
-    state_on_section,
-)
+from hess_mechanics.suslov import quartic as model
 
 _ORBITS = 20
 _MOST_STEPS = 40_000
 _CELLS = 32
-_INSIDE = 1e-9
 _HEIGHTS = (-0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75)
 """Values of γ3 on the equipotentials."""
 
@@ -60,12 +58,10 @@ PRESETS = (
 class Quartic(Crossings):
     """The orbit of one point in the potential, among others of its energy."""
 
-    I22: float = number("I₂₂", 1.0, (0.2, 3.0), 0.01, bounds=(1e-2, 1e2), label="Inertia I₂₂",
-                        doc="Moment of inertia about the second body axis.")
+    I22: float = like(Tensor, "I22", 1.0, softbounds=(0.2, 3.0), bounds=(1e-2, 1e2))
     ratio: float = number("I₁₁/I₂₂", 2.0, (0.2, 5.0), 0.01, bounds=(1e-2, 1e2), label="Ratio I₁₁/I₂₂",
                           doc="At 1 the potential is central and the motion integrable.")
-    b3: float = number("b₃", 1.0, (-3.0, 3.0), 0.01, bounds=(-1e2, 1e2), label="Centre of mass b₃",
-                       doc="b = −mg r; not 0 here, b₁ = b₂ = 0.")
+    b3: float = like(CentreOfMass, "b3", 1.0, bounds=(-1e2, 1e2), doc="b = −mg r; not 0 here, b₁ = b₂ = 0.")
     h: float = number("h", 0.8, (-0.9, 4.0), 0.01, bounds=(-1e2, 1e3), label="Energy E = h",
                       doc="Above −|b₃|. Beyond |b₃| the point may not come near the middle.")
     Q1: float = number("q₁", 0.6, (-2.0, 2.0), 0.01, bounds=(-1e30, 1e30), label="Start q₁ = I₂₂ω₂/b₃",
@@ -75,30 +71,16 @@ class Quartic(Crossings):
     beta: float = number("β", 1.0, (-3.14, 3.14), 0.01, bounds=(-math.pi, math.pi), label="Start: direction β",
                          doc="Where the point runs at first: q̇ = −p, |p| = √(1 − γ₃²). A click in the section chooses "
                              "all three.")
-    count: float = number("n", 200.0, (50.0, 600.0), 10.0, bounds=(1.0, 1e3), label="Crossings of each orbit",
-                          doc="Points for each orbit.")
-    span: float = number("t", 40.0, (1.0, 200.0), 1.0, bounds=(0.01, 1e3), label="Time span",
-                         doc="How long the chosen orbit is followed.")
+    count: float = crossings_of_each()
+    span: float = time_span(40.0, 200.0, most=1e3, what="the chosen orbit")
     accuracy: str = accuracy_level()
-
-    system: ClassVar[System] = SYSTEM
 
     def admitted(self, notes: list[str]) -> Quartic:
         """A start that the energy forbids moves to the edge of the region."""
-        first, second = self.body.axes
-        x, y = self.Q1 / first, self.Q2 / second
-        size, inner = math.hypot(x, y), self.body.hole
-        if inner <= size <= 1.0:
-            return self
-        if size < 1e-100:
-            x, y, size = 1.0, 0.0, 1.0
-        # The ring may be thin.
-        room = min(_INSIDE, 0.25 * (1.0 - inner))
-        inside = min(1.0 - room, max(inner + room, size)) / size
-        state = replace(self, Q1=inside * x * first, Q2=inside * y * second)
-        notes.append("With this energy the point cannot be at the start: it is at the edge now, q = "
-                     f"({digits(state.Q1)}, {digits(state.Q2)}).")
-        return state
+        q = self.body.inside((self.Q1, self.Q2))
+        if q != (self.Q1, self.Q2):
+            notes.append(f"With this energy the point cannot be at the start: it is at the edge now, q = {vector(q)}.")
+        return replace(self, Q1=q[0], Q2=q[1])
 
     def limits(self) -> Mapping[str, Slider]:
         """The slider of h begins above −|b3|, those of q span the region."""
@@ -107,14 +89,14 @@ class Quartic(Crossings):
         return {"h": (0.9 * low, 4.0 * top, step), "Q1": first, "Q2": second}
 
     @cached_property
-    def body(self) -> QuarticBody:
+    def body(self) -> model.QuarticBody:
         """The body at its energy.  Raises `NoField`, `OutsideRegion`, `InvalidParameter`, `NotPositiveDefinite`."""
-        return QuarticBody(self.ratio * self.I22, self.I22, self.b3, self.h)
+        return model.QuarticBody(self.ratio * self.I22, self.I22, self.b3, self.h)
 
     @cached_property
     def start(self) -> Start:
         """The state at q with the direction β."""
-        return state_at(self.body, (self.Q1, self.Q2), self.beta)
+        return model.state_at(self.body, (self.Q1, self.Q2), self.beta)
 
     @property
     def half_width(self) -> float:
@@ -124,13 +106,13 @@ class Quartic(Crossings):
     @property
     def weights(self) -> tuple[float, ...]:
         """From the variables to the pictures, in pixels for a unit."""
-        radius = 0.5 * PIXELS
-        scale = radius / (self.half_width * abs(self.body.b3))
-        return (scale * self.body.I11, scale * self.body.I22, radius, radius, radius)
+        return self.body.pixels_per_unit(self.half_width)
 
     def crossing(self, crossings: int) -> tuple[Task, Task]:
         """What finds so many crossings of the orbit on show, and of the others."""
-        return Task(_own, (self.body, self.start, crossings)), Task(_others, (self.body, crossings))
+        common = (crossings, STANDARD, _MOST_STEPS)
+        return (Task(model.quartic_section, (self.body, (self.start,), *common)),
+                Task(model.spread_section, (self.body, _ORBITS, *common)))
 
     def places_of(self, points: Points) -> Array:
         """The q along the section and its p."""
@@ -139,18 +121,12 @@ class Quartic(Crossings):
     @cached_property
     def momentum(self) -> Array:
         """q1p2 − q2p1 along the orbit (n,)."""
-        return angular_momentum(self.body, self.orbit.states)
-
-    @property
-    def integrable(self) -> bool:
-        """Whether it is an integral."""
-        return self.body.I11 == self.body.I22
+        return model.angular_momentum(self.body, self.orbit.states)
 
     def track(self) -> Columns:
         """The orbit on show."""
-        states = self.orbit.states
-        q, _ = self.body.to_plane(states)
-        return plane_domain.plane_columns(self.orbit.times, q, states[:, 2:], momentum=self.momentum)
+        q, _ = self.body.to_plane(self.orbit.states)
+        return plane_domain.plane_columns(self.orbit.times, q, self.orbit.states[:, 2:], momentum=self.momentum)
 
     def impossible(self, axes: Axes) -> list[list[Array]]:
         """All of the section but the inside of its boundary."""
@@ -160,13 +136,17 @@ class Quartic(Crossings):
         frame = np.array([[-r, -4.0], [r, -4.0], [r, 4.0], [-r, 4.0]])
         return [[frame, *self.body.section_boundaries()]]
 
+    def bounds(self) -> list[Circle]:
+        """Where γ3 cannot pass."""
+        height = self.body.h / self.body.b3
+        return [Circle((0.0, 0.0, 1.0), height, "limit")] if abs(height) < 1.0 else []
+
     def start_on_section(self, x: float, y: float) -> Values:
         """A click in the section: the start and its direction; nothing where that is impossible."""
         try:
-            (q,), (p,) = self.body.to_plane(np.array([state_on_section(self.body, x, y)]))
+            return dict(zip(("Q1", "Q2", "beta"), model.start_on_section(self.body, x, y), strict=True))
         except ModelError:
             return {}
-        return {"Q1": float(q[0]), "Q2": float(q[1]), "beta": math.atan2(-p[1], -p[0])}
 
     def momentum_range(self) -> tuple[float, float]:
         """The axis of q1p2 − q2p1."""
@@ -195,7 +175,7 @@ class Quartic(Crossings):
 
     def _about_momentum(self) -> str:
         low, high = float(self.momentum.min()), float(self.momentum.max())
-        if self.integrable:
+        if self.body.integrable:
             return f"I₁₁ = I₂₂: an integral, {digits(float(self.momentum[0]))}, kept to {power(high - low)}."
         return f"I₁₁ ≠ I₂₂: no integral, from {digits(low)} to {digits(high)}."
 
@@ -205,26 +185,11 @@ class Quartic(Crossings):
         yield f"I₁₁ = {digits(body.I11, 6)}"
         yield f"h/|b₃| = {digits(body.h / abs(body.b3), 6)}"
         yield f"Start: γ₃ = {digits(self.start[4], 6)}"
-        yield f"ω(0) = ({digits(self.start[0])}, {digits(self.start[1])})"
+        yield f"ω(0) = {vector(self.start[:2])}"
         if self.known("orbit"):
-            q, p = body.to_plane(self.orbit.states)
-            level = 0.5 * (np.sum(p * p, axis=1) + body.height(q) ** 2)
-            yield f"H = ½ to {power(float(np.abs(level - 0.5).max()))}"
-        yield "Integrable" if self.integrable else "Not integrable"
+            yield f"H = ½ to {power(model.level_error(body, self.orbit.states))}"
+        yield "Integrable" if body.integrable else "Not integrable"
         yield "div v = 0: the standard measure"
-
-
-def _others(body: QuarticBody, crossings: int) -> Points:
-    return quartic_section(body, seeds(body, _ORBITS), crossings, STANDARD, _MOST_STEPS)
-
-
-def _own(body: QuarticBody, start: Start, crossings: int) -> Points:
-    return quartic_section(body, [start], crossings, STANDARD, _MOST_STEPS)
-
-
-def _bounds(state: Quartic) -> list[Circle]:
-    bound = state.body.h / state.body.b3
-    return [Circle((0.0, 0.0, 1.0), bound, "limit")] if abs(bound) < 1.0 else []
 
 
 SCENE = Scene(
@@ -244,11 +209,11 @@ SCENE = Scene(
              x=lambda s: centred(nice_above(1.05 * s.body.longest)), y=(-1.05, 1.05), message=lambda s: s.reason,
              on_click=Quartic.start_on_section,
              layers=section_plane.layers(lambda s: s.own, others=lambda s: s.others, forbidden=Quartic.impossible)),
-        Sphere(caption=Quartic._about_sphere, looks={"orbit": "orbit"}, circles=_bounds,
+        Sphere(caption=Quartic._about_sphere, looks={"orbit": "orbit"}, circles=Quartic.bounds,
                axis=lambda s: Direction((0.0, 0.0, -math.copysign(1.0, s.body.b3)), "r")),
         Plot(name="momentum", title="q₁p₂ − q₂p₁ against time", caption=Quartic._about_momentum,
              axes=("t", "q₁p₂ − q₂p₁"), x=lambda s: (0.0, float(s.orbit.times[-1])), y=Quartic.momentum_range,
              dot=("t", "momentum"),
-             layers=(curves("G", lambda s: [np.column_stack([s.orbit.times, s.momentum])], color=theme.ORBIT),)),
+             layers=(over_time("G", lambda s: (s.orbit.times, s.momentum), color=theme.ORBIT),)),
     ),
 )

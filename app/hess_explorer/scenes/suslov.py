@@ -26,7 +26,6 @@ from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import nice_above, orbit_alone, velocity_columns
 from hess_mechanics.dynamics.sampling import HALF_A_PIXEL, PIXELS
 from hess_mechanics.dynamics.section import occupied_cells
-from hess_mechanics.dynamics.system import System
 from hess_mechanics.numerics.accuracy import STANDARD, Level, cheapest
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.rigid_body.inertia import check_body
@@ -105,7 +104,6 @@ class Suslov(FilledWindow):
     starts: str = places("The places of the chosen orbits", 12, *_BOUNDS, "1,1")
     window: str = places("The window of the section", 2, *_BOUNDS)
 
-    system: ClassVar[System] = SYSTEM
     full: ClassVar[Window] = ((-math.pi, 0.0), (math.pi, math.pi))
     bounds: ClassVar[Window] = _BOUNDS
     held: ClassVar[tuple[int, int]] = (12, 40)

@@ -50,6 +50,11 @@ class BallBody:
         _require_not_negative(self.D)
 
     @property
+    def system(self) -> System:
+        """Its equations of motion."""
+        return SYSTEM
+
+    @property
     def parameters(self) -> tuple[float, ...]:
         """p = (I11, I22, I13, I23, 𝒟, b1, b2, b3)."""
         return (self.I11, self.I22, self.I13, self.I23, self.D, self.b1, self.b2, self.b3)

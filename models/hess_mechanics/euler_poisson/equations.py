@@ -68,6 +68,11 @@ class HeavyBody:
         return cls((a1, a2, a3), (math.cos(angle), 0.0, math.sin(angle)), strength)
 
     @property
+    def system(self) -> System:
+        """Its equations of motion."""
+        return SYSTEM
+
+    @property
     def parameters(self) -> tuple[float, ...]:
         """p = (a1, a2, a3, r1, r2, r3, μ)."""
         return (*self.a, *self.r, self.mu)

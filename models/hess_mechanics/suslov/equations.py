@@ -38,6 +38,11 @@ class SuslovBody:
         require_positive_definite(self.I11, self.I22)
 
     @property
+    def system(self) -> System:
+        """Its equations of motion."""
+        return SYSTEM
+
+    @property
     def parameters(self) -> tuple[float, ...]:
         """p = (I11, I22, I13, I23, b1, b2, b3)."""
         return (self.I11, self.I22, self.I13, self.I23, self.b1, self.b2, self.b3)

@@ -24,6 +24,7 @@ import numpy as np
 
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA, sample_times
+from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array, Orbit, frozen
@@ -54,6 +55,11 @@ class PlaneBody:
     def __post_init__(self) -> None:
         require_finite(**vars(self))
         require_positive_definite(self.I11, self.I22)
+
+    @property
+    def system(self) -> System:
+        """Its equations of motion."""
+        return SYSTEM
 
     @property
     def parameters(self) -> tuple[float, ...]:

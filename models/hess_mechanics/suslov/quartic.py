@@ -17,18 +17,26 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.section import Plane, Points, section_points
+from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, NoField, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.rigid_body.inertia import require_finite, require_positive_definite
 from hess_mechanics.suslov.equations import SYSTEM
 
-__all__ = ["QuarticBody", "angular_momentum", "quartic_section", "seeds", "state_at", "state_on_section"]
+__all__ = [
+    "QuarticBody", "angular_momentum", "level_error", "quartic_section", "seeds", "spread_section", "start_on_section",
+    "state_at", "state_on_section",
+]
 
 _TURNS = 120.0
 """Time allowed per crossing, in units in which ω is at most 1; few orbits take longer."""
 _EDGE = 1e-9
+_INSIDE = 1e-9
+_MIDDLE = 1e-100
+"""Sizes below it, in units of the region, have no direction."""
 _MOST_SIZE = 1e30
 """Largest q: numbers in pictures are single precision."""
 
@@ -60,6 +68,11 @@ class QuarticBody:
                 "picture can show: choose h, b3 and the moments of inertia less different in size.")
 
     @property
+    def system(self) -> System:
+        """Its equations of motion."""
+        return SYSTEM
+
+    @property
     def parameters(self) -> tuple[float, ...]:
         """p of the system "suslov"."""
         return (self.I11, self.I22, 0.0, 0.0, 0.0, 0.0, self.b3)
@@ -75,6 +88,31 @@ class QuarticBody:
         """Size of the forbidden inner ellipse, in units of `axes`; 0 for h ≤ |b3|."""
         size = abs(self.b3)
         return math.sqrt(max(0.0, self.h - size) / (self.h + size))
+
+    @property
+    def integrable(self) -> bool:
+        """Whether q1p2 − q2p1 is an integral."""
+        return self.I11 == self.I22
+
+    def pixels_per_unit(self, half_width: float) -> tuple[float, ...]:
+        """For each variable, in pictures that show q within ± half_width, and γ within the unit circle; (5,)."""
+        radius = 0.5 * PIXELS
+        scale = radius / (half_width * abs(self.b3))
+        return (scale * self.I11, scale * self.I22, radius, radius, radius)
+
+    def inside(self, q: tuple[float, float]) -> tuple[float, float]:
+        """The place where the point may be next to q: q itself, unless the energy forbids it."""
+        first, second = self.axes
+        x, y = q[0] / first, q[1] / second
+        size, inner = math.hypot(x, y), self.hole
+        if inner <= size <= 1.0:
+            return q
+        if size < _MIDDLE:
+            x, y, size = 1.0, 0.0, 1.0
+        # The ring may be thin.
+        room = min(_INSIDE, 0.25 * (1.0 - inner))
+        share = min(1.0 - room, max(inner + room, size)) / size
+        return share * x * first, share * y * second
 
     @property
     def across(self) -> int:
@@ -146,6 +184,13 @@ class QuarticBody:
         return [right, right * np.array([-1.0, 1.0])] if self.hole > 0.0 else [right]
 
 
+def level_error(body: QuarticBody, states: Array) -> float:
+    """The largest |H − ½| of states (m, 5), H = (p² + γ3²)/2 on the level of all motions."""
+    q, p = body.to_plane(states)
+    H = 0.5 * (np.sum(p * p, axis=1) + body.height(q) ** 2)
+    return float(np.abs(H - 0.5).max())
+
+
 def state_at(body: QuarticBody, q: Sequence[float], direction: float) -> tuple[float, ...]:
     """The state (5,) at q (2,) with the velocity q̇ = −p in `direction`, an angle in radians.
 
@@ -174,6 +219,12 @@ def state_on_section(body: QuarticBody, x: float, y: float) -> tuple[float, ...]
     other = -math.sqrt(max(0.0, left))
     velocity = (-y, -other) if body.across else (-other, -y)
     return state_at(body, q, math.atan2(velocity[1], velocity[0]))
+
+
+def start_on_section(body: QuarticBody, x: float, y: float) -> tuple[float, float, float]:
+    """q1, q2 and the direction of q̇ for `state_at` at (x, y) of the section.  Raises `OutsideRegion`."""
+    (q,), (p,) = body.to_plane(np.array([state_on_section(body, x, y)]))
+    return float(q[0]), float(q[1]), math.atan2(-p[1], -p[0])
 
 
 def angular_momentum(body: QuarticBody, states: Array) -> Array:
@@ -213,3 +264,8 @@ def quartic_section(body: QuarticBody, starts: Sequence[Sequence[float]], crossi
     except WorkLimit:
         raise WorkLimit(f"{crossings} crossings take an orbit more than {most_steps} steps here: choose fewer of them, "
                         "a smaller h, or I11 and I22 less different.") from None
+
+
+def spread_section(body: QuarticBody, orbits: int, crossings: int, level: Level, most_steps: int) -> Points:
+    """The section of so many orbits, spread over what is possible of it: `quartic_section` from `seeds`."""
+    return quartic_section(body, seeds(body, orbits), crossings, level, most_steps)

@@ -203,7 +203,7 @@ class FilledWindow(OneOrbit):
         """The largest Lyapunov exponent of the orbit on show, when it is known; not while a slider is held."""
         if self.dragging:
             return None
-        return self.work.later(largest_exponent, self.system, self.start, self.body.parameters, self.long)
+        return self.work.later(largest_exponent, self.body.system, self.start, self.body.parameters, self.long)
 
     # ---- what is shown ------------------------------------------------------------------------------------------
 

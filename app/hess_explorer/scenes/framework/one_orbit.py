@@ -21,13 +21,15 @@ Start = tuple[float, ...]
 
 class _Body(Protocol):
     @property
+    def system(self) -> System: ...
+
+    @property
     def parameters(self) -> tuple[float, ...]: ...
 
 
 class OneOrbit(State, ABC):
-    """A state with one orbit on show, of a body of a `system`, from `start`; `most`: as many samples."""
+    """A state with one orbit on show, of a body, from `start`; `most`: as many samples."""
 
-    system: ClassVar[System]
     most: ClassVar[int] = 4000
 
     span: float
@@ -50,7 +52,7 @@ class OneOrbit(State, ABC):
     @cached_property
     def orbit(self) -> Orbit:
         """The orbit on show."""
-        return self.work.get(sampled_orbit, self.system, self.start, self.body.parameters, self.span, self.weights,
+        return self.work.get(sampled_orbit, self.body.system, self.start, self.body.parameters, self.span, self.weights,
                              self.orbit_level, self.most)
 
     @property
@@ -60,7 +62,7 @@ class OneOrbit(State, ABC):
 
     def motion(self) -> Motion:
         """The orbit on show."""
-        return Motion(self.system, self.start, self.body.parameters, self.span, self.weights)
+        return Motion(self.body.system, self.start, self.body.parameters, self.span, self.weights)
 
     def _orbit_status(self) -> Iterator[str]:
         if self.known("orbit"):
