@@ -539,7 +539,7 @@ def refusing(function, span):
     return refuse
 
 
-speed_accuracy.growth = refusing(speed_accuracy.growth, 3)
+speed_accuracy.mechanics.growth = refusing(speed_accuracy.mechanics.growth, 3)
 suslov_hess.track = refusing(suslov_hess.track, 4)
 """
 SENTENCE = "That would take too many steps: choose a shorter time span."

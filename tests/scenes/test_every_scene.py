@@ -446,7 +446,7 @@ def test_a_body_that_is_none_is_shown_and_said():
 def browser():
     with pytest.MonkeyPatch.context() as patch:
         # Many states of "Speed and accuracy" are met here: without SciPy's methods.
-        patch.setattr(speed_accuracy, "others_take_long", lambda *_: True)
+        patch.setattr(speed_accuracy.mechanics, "others_take_long", lambda *_: True)
         yield Browser(HESS)
 
 
@@ -658,7 +658,7 @@ def test_two_sessions_share_nothing_but_results():
 @pytest.fixture
 def quick(monkeypatch):
     """Without the methods of SciPy."""
-    monkeypatch.setattr(speed_accuracy, "others_take_long", lambda *_: True)
+    monkeypatch.setattr(speed_accuracy.mechanics, "others_take_long", lambda *_: True)
 
 
 def unfolded(scene, sources):

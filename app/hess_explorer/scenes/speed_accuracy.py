@@ -10,21 +10,14 @@ from typing import Any
 
 import numpy as np
 
-from hess_explorer.scenes.framework.scene import Motion, Scene, State
+from hess_explorer.scenes.framework.looking_into import Insight, LookingInto
+from hess_explorer.scenes.framework.scene import Motion, Scene
 from hess_explorer.views import theme
 from hess_explorer.views.chart import POWERS, clipped, limit
 from hess_explorer.views.layers import Columns, Layer, f32, line, points, ring
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
-from hess_mechanics.dynamics.work_precision import (
-    Growth,
-    WorkPoint,
-    growth,
-    longest_span,
-    measure_levels,
-    measure_others,
-    others_take_long,
-)
+from hess_mechanics.dynamics import work_precision as mechanics
 from hess_mechanics.numerics.accuracy import LEVELS, level
 from hess_mechanics.numerics.results import Array
 
@@ -38,45 +31,35 @@ _OTHERS = {"DOP853": "#808080", "LSODA": "#56B4E9"}
 
 
 @dataclass(frozen=True)
-class Study(State):
-    """What is measured of a motion, at every level of accuracy; mixed into the state whose motion it is."""
+class Study(Insight):
+    """What is measured of a motion, at every level of accuracy."""
 
     @cached_property
     def followed(self) -> Motion:
         """The motion, as far as it is measured.  Raises `ModelError`."""
-        motion = self.motion()
-        assert motion is not None
-        return replace(motion, span=min(motion.span, longest_span(motion.system.name, motion.state, motion.parameters)))
-
-    @property
-    def _key(self) -> tuple[str, tuple[float, ...], tuple[float, ...], float]:
-        motion = self.followed
-        return motion.system.name, motion.state, motion.parameters, motion.span
+        motion = self.shown_motion
+        return replace(motion, span=min(motion.span, mechanics.longest_span(*motion.named[:3])))
 
     @cached_property
-    def measured(self) -> tuple[WorkPoint, ...]:
+    def measured(self) -> tuple[mechanics.WorkPoint, ...]:
         """Error and cost of every level, and of SciPy's methods where they do not take long."""
-        own = self.work.get(measure_levels, *self._key, SAMPLES)
-        if self.dragging or others_take_long(*self._key):
+        own = self.work.get(mechanics.measure_levels, *self.followed.named, SAMPLES)
+        if self.dragging or mechanics.others_take_long(*self.followed.named):
             return own
-        return own + self.work.get(measure_others, *self._key, SAMPLES)
+        return own + self.work.get(mechanics.measure_others, *self.followed.named, SAMPLES)
 
     @cached_property
-    def growing(self) -> Growth:
+    def growing(self) -> mechanics.Growth:
         """Errors and drifts over time."""
-        return self.work.get(growth, *self._key, self.followed.weights, SAMPLES)
+        return self.work.get(mechanics.growth, *self.followed.named, self.followed.weights, SAMPLES)
 
-    @property
-    def chosen(self) -> str:
-        """The name of the level on show, whether or not a slider is held."""
-        return str(getattr(self, "accuracy"))  # noqa: B009  # a field of the state that this is mixed into
-
-    @property
-    def _times(self) -> Array:
+    @cached_property
+    def times(self) -> Array:
+        """At which errors are measured, (n,), in the units of the scene."""
         return self.growing.times * self.followed.unit
 
     @property
-    def _here(self) -> WorkPoint:
+    def _here(self) -> mechanics.WorkPoint:
         return next(point for point in self.measured if point.setting == self.chosen)
 
     @property
@@ -88,24 +71,20 @@ class Study(State):
         own = [point for point in self.measured if point.method == method]
         return clipped(np.array([point.error for point in own]), _FLOOR), np.array([point.ms for point in own])
 
-    def error_of(self, name: str) -> tuple[Array, Array]:
-        """The error of a level over time."""
-        return self._times, clipped(self.growing.errors[name], _FLOOR)
-
-    def pixels_of(self, name: str) -> tuple[Array, Array]:
-        """The same in pixels of the scene's pictures."""
-        return self._times, clipped(self.growing.pixels[name], _PIXEL_FLOOR)
+    def over_time(self, values: Array, floor: float = _FLOOR) -> tuple[Array, Array]:
+        """Values (n,) as a curve of a logarithmic picture."""
+        return self.times, clipped(values, floor)
 
     def drift_of(self, i: int) -> tuple[Array, Array] | None:
         """The drift of the i-th integral over time."""
         drifts = [*self._drifts.values()]
-        return (self._times, clipped(drifts[i], _FLOOR)) if i < len(drifts) else None
+        return self.over_time(drifts[i]) if i < len(drifts) else None
 
     def worst(self) -> Columns:
         """What the moving points follow."""
-        return {"t": f32(self._times), "growth": f32(self.error_of(self.chosen)[1]),
+        return {"t": f32(self.times), "growth": f32(clipped(self.growing.errors[self.chosen], _FLOOR)),
                 "drift": f32(clipped(np.max([*self._drifts.values()], axis=0), _FLOOR)),
-                "pixels": f32(self.pixels_of(self.chosen)[1])}
+                "pixels": f32(clipped(self.growing.pixels[self.chosen], _PIXEL_FLOOR))}
 
     def choose(self, x: float, y: float) -> Mapping[str, str]:
         """The level whose point lies nearest to the error x."""
@@ -117,9 +96,8 @@ class Study(State):
     def _about_precision(self) -> str:
         here = self._here
         said = f"{self.chosen}: {digits(here.ms, 2)} ms, error {digits(here.error, 2)}"
-        equal = [point for point in self.measured if point.method != "Taylor" and point.error <= here.error * 10.0]
-        if equal:
-            other = min(equal, key=lambda point: point.ms)
+        other = mechanics.quickest_other(self.measured, 10.0 * here.error)
+        if other is not None:
             said += f"; {other.method}: {digits(other.ms / here.ms, 2)} × as long, {digits(other.error, 2)}"
         return f"{said}."
 
@@ -134,7 +112,7 @@ class Study(State):
         return f"{self.chosen}: at most {largest}."
 
     def _about_pixels(self) -> str:
-        t, pixels = self._times, self.growing.pixels[self.chosen]
+        t, pixels = self.times, self.growing.pixels[self.chosen]
         wrong = np.flatnonzero(pixels > 1.0)
         if wrong.size:
             return f"{self.chosen}: wrong by less than a pixel until t = {digits(float(t[wrong[0]]))}."
@@ -146,10 +124,9 @@ class Study(State):
         motion, system = self.followed, self.followed.system
         yield f"System: {system.title}"
         yield f"Equations: {system.source} ({', '.join(system.labels)} in the LaTeX source)"
-        for name, value in zip(system.parameters, motion.parameters, strict=True):
-            yield f"{name} = {digits(value, 6)}"
-        for name, value in zip(system.variables, motion.state, strict=True):
-            yield f"{name}(0) = {digits(value, 6)}"
+        named = ((system.parameters, motion.parameters, ""), (system.variables, motion.state, "(0)"))
+        for names, values, when in named:
+            yield from (f"{name}{when} = {digits(value, 6)}" for name, value in zip(names, values, strict=True))
 
     def status(self) -> Iterator[str]:
         """Cost and error of every level."""
@@ -160,16 +137,20 @@ class Study(State):
 
     def notes(self) -> Iterator[str]:
         """What was left out, and why."""
-        motion = self.motion()
-        assert motion is not None
-        if self.followed.span < motion.span:
-            yield f"Measured up to t = {digits(self.followed.span * motion.unit)}: a longer span takes seconds."
-        if "precision" in self.seen and others_take_long(*self._key):
+        motion = self.followed
+        if motion.span < self.shown_motion.span:
+            yield f"Measured up to t = {digits(motion.span * motion.unit)}: a longer span takes seconds."
+        if "precision" in self.seen and mechanics.others_take_long(*motion.named):
             yield "SciPy's methods are left out: over so long a span they take long. Choose a shorter one."
 
 
-def _level(name: str, curve: Callable[[Study, str], tuple[Array, Array]]) -> Layer[Study]:
-    return line(name, lambda s: curve(s, name), color=theme.LEVELS[name], dash=theme.DASHES[name], label=name)
+def _level(name: str, values: Callable[[Study], Mapping[str, Array]], floor: float) -> Layer[Study]:
+    return line(name, lambda s: s.over_time(values(s)[name], floor), color=theme.LEVELS[name],
+                dash=theme.DASHES[name], label=name)
+
+
+def _integral(i: int, color: str, dash: str) -> Layer[Study]:
+    return line(f"integral-{i}", lambda s: s.drift_of(i), color=color, dash=dash, label=f"integral {i + 1}")
 
 
 def _other(name: str, color: str) -> tuple[Layer[Study], Layer[Study]]:
@@ -178,12 +159,8 @@ def _other(name: str, color: str) -> tuple[Layer[Study], Layer[Study]]:
                    label=f"{name} (SciPy)"))
 
 
-def _integral(i: int, color: str, dash: str) -> Layer[Study]:
-    return line(f"integral-{i}", lambda s: s.drift_of(i), color=color, dash=dash, label=f"integral {i + 1}")
-
-
 def _end(s: Study) -> tuple[float, float]:
-    return 0.0, float(s._times[-1])
+    return 0.0, float(s.times[-1])
 
 
 _ERRORS = (_FLOOR, 10.0)
@@ -201,7 +178,8 @@ VIEWS = (
     Plot[Study](
         name="growth", title="Error over time", caption=Study._about_growth, log="y", axes=("t", "error"), x=_end,
         y=_ERRORS, y_tick_count=5, dot=("t", "growth"),
-        layers=(limit(lambda s: level(s.chosen).promise), *(_level(name, Study.error_of) for name in LEVELS))),
+        layers=(limit(lambda s: level(s.chosen).promise),
+                *(_level(name, lambda s: s.growing.errors, _FLOOR) for name in LEVELS))),
     Plot[Study](
         name="drift", title="Drift of the integrals", caption=Study._about_drift, log="y", x=_end, y=_ERRORS,
         axes=("t", "relative drift"), y_tick_count=5, dot=("t", "drift"),
@@ -209,14 +187,13 @@ VIEWS = (
     Plot[Study](
         name="pixels", title="What it means for the pictures", caption=Study._about_pixels, log="y", x=_end,
         axes=("t", "error in pixels"), y=(_PIXEL_FLOOR, 1e4), y_tick_count=5, dot=("t", "pixels"),
-        layers=(limit(lambda s: 1.0), *(_level(name, Study.pixels_of) for name in LEVELS))),
+        layers=(limit(lambda s: 1.0), *(_level(name, lambda s: s.growing.pixels, _PIXEL_FLOOR) for name in LEVELS))),
 )
 
 
-def looking_into(origin: Scene[Any]) -> Scene[Any]:
+def looking_into(other: Scene[Any]) -> Scene[Study]:
     """The scene "Speed and accuracy" for the motions of another one, with its parameters."""
-    return Scene(
-        dataclass(frozen=True)(type(f"{origin.state.__name__}Study", (Study, origin.state), {})), __file__,
-        title="Speed and accuracy", presets=origin.presets, place=origin.place, origin=origin.name,
+    return LookingInto(
+        Study, __file__, other=other, title="Speed and accuracy", presets=other.presets, place=other.place,
         summary="Error, drift and cost of the motion on show, at every level of accuracy, measured here and now.",
         tracks={"orbit": Study.worst}, views=VIEWS)

@@ -15,7 +15,7 @@ from hess_mechanics.numerics.results import Array, frozen
 
 __all__ = [
     "SLOW_METHODS", "Growth", "WorkPoint", "growth", "longest_span", "measure_levels", "measure_others",
-    "others_take_long",
+    "others_take_long", "quickest_other",
 ]
 
 SLOW_METHODS = ("DOP853", "LSODA")
@@ -138,3 +138,9 @@ def measure_others(name: str, state: tuple[float, ...], parameters: tuple[float,
                                   method=method, rtol=tolerance, atol=tolerance).y.T, 1)  # noqa: B023 (called at once)
             points.append(WorkPoint(method, f"{tolerance:.0e}", ms, float(np.max(np.abs(states - truth) / scale))))
     return tuple(points)
+
+
+def quickest_other(points: Sequence[WorkPoint], error: float) -> WorkPoint | None:
+    """The quickest of SciPy's methods with at most this error; None where there is none."""
+    good = [point for point in points if point.method in SLOW_METHODS and point.error <= error]
+    return min(good, key=lambda point: point.ms, default=None)

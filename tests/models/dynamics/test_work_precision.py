@@ -313,7 +313,7 @@ def test_the_caption_of_the_cost_compares_with_what_is_as_exact(accuracy, said):
 
 def test_without_scipy_the_caption_compares_with_nobody_and_the_reason_is_a_note(monkeypatch):
     assert list(shown()[2].notes) == []
-    monkeypatch.setattr(speed_accuracy, "others_take_long", lambda *_: True)
+    monkeypatch.setattr(speed_accuracy.mechanics, "others_take_long", lambda *_: True)
     _, captions, report = shown(points=WORK[:4])
     assert captions["precision"] == "Cost against error\nstandard: 2 ms, error 3e−07."
     assert [note.split(":")[0] for note in report.notes] == ["SciPy's methods are left out"]

@@ -49,6 +49,11 @@ class Motion:
     weights: tuple[float, ...]
     unit: float = 1.0
 
+    @property
+    def named(self) -> tuple[str, tuple[float, ...], tuple[float, ...], float]:
+        """System by name, state, parameters and span, as `work_precision` asks for them."""
+        return self.system.name, self.state, self.parameters, self.span
+
 
 @dataclass(frozen=True)
 class Report:
@@ -130,7 +135,6 @@ class Scene(Generic[S]):
     tracks : columns that several pictures and the player share; the player follows "orbit", by its column t.
     angles : those of its columns that are angles.
     place : its place in the menu; the first one opens the page.
-    origin : the name of the scene whose motion this one looks into.
     """
 
     state: type[S]
@@ -142,13 +146,16 @@ class Scene(Generic[S]):
     tracks: Mapping[str, Callable[[S], Columns | None]] = field(default_factory=dict)
     angles: tuple[str, ...] = ()
     place: int = 0
-    origin: str | None = None
 
     @property
     def name(self) -> str:
         """As in a link."""
-        name = Path(self.module).stem.replace("_", "-")
-        return name if self.origin is None else f"{self.origin}-accuracy"
+        return Path(self.module).stem.replace("_", "-")
+
+    @property
+    def origin(self) -> str | None:
+        """The name of the scene whose motion this one looks into."""
+        return None
 
     @cached_property
     def words(self) -> str:
@@ -203,7 +210,7 @@ class Scene(Generic[S]):
     @property
     def has_motion(self) -> bool:
         """Whether "Speed and accuracy" has something to look into."""
-        return self.origin is None and self.state.motion is not State.motion
+        return self.state.motion is not State.motion
 
     def defaults(self) -> dict[str, Value]:
         """The state a newcomer sees."""

@@ -20,12 +20,16 @@ T = TypeVar("T")
 
 
 class Work:
-    """The computation of one state: at which level, and what came from the cache."""
+    """The computation of one state: at which level, and what came from the cache.
+
+    chosen : the name of the level chosen, whether or not a slider is held.
+    """
 
     def __init__(self, accuracy: str = "standard", dragging: bool = False) -> None:
         self._start = time.perf_counter()
         self._misses = 0
         self.dragging = dragging
+        self.chosen = accuracy
         self.todo: list[Task] = []
         self.pieces = 0
         chosen = level(accuracy)
