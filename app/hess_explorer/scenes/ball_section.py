@@ -118,9 +118,8 @@ class BallSection(CentreOfMass, Ball, Crossings):
 
     def crossing(self, crossings: int) -> tuple[Task, Task]:
         """What finds so many crossings of the orbit on show, and of the others."""
-        common = (crossings, STANDARD, _MOST_STEPS)
-        return (Task(ball_section, (self.body, self.E, (self.start,), *common)),
-                Task(spread_section, (self.body, self.E, _ORBITS, *common)))
+        return (Task(ball_section, (self.body, self.E, (self.start,), crossings, STANDARD, _MOST_STEPS)),
+                Task(spread_section, (self.body, self.E, _ORBITS, crossings, STANDARD, _MOST_STEPS)))
 
     def places_of(self, points: Points) -> Array:
         """(ψ, δ) of all these points, or of the later half of them."""

@@ -34,7 +34,6 @@ from hess_mechanics.euler_poisson.hess_manifold import Difference, difference
 from hess_mechanics.numerics.accuracy import DRAFT
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, f_max, turning_points
-from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
 from hess_mechanics.suslov_hess.torus import MAX_RETURNS, Track, annulus, cycles, track
 
 SUSLOV, HEAVY = "Suslov–Hess", "Euler–Poisson"
@@ -101,16 +100,6 @@ class BothSides(HeavyMotion, SuslovBody, _Given):
     def turning(self) -> TurningPoints:
         """(h, f) in units b = 1, and where n3 turns.  Raises `ModelError`."""
         return super().turning if self.given == HEAVY else turning_points(self.h, self.f)
-
-    @cached_property
-    def map(self) -> CircleMap:
-        """The circle map of both sides."""
-        return self.work.get(circle_map, self.bridge.hess.a, self.turning.h, self.turning.f, self.level)
-
-    @property
-    def period(self) -> float:
-        """One period of n3, in the time of the bodies."""
-        return self.map.period / self.bridge.hess.frequency_unit
 
     def ring(self) -> tuple[Array, Array]:
         """The ellipses between which ω lies."""

@@ -14,20 +14,14 @@ from hess_explorer.scenes.framework.parameters import accuracy_level, number
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
 from hess_explorer.views import andoyer, theme
 from hess_explorer.views.chart import LG_OF_0, lg, lg_axis
+from hess_explorer.views.graph import over_time
 from hess_explorer.views.layers import Columns, Layer, Range, curves, f32
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere
+from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, gamma_columns, parallels
 from hess_explorer.views.text import digits
-from hess_mechanics.euler_poisson.andoyer import coordinates, hess_circle
+from hess_mechanics.euler_poisson import hess_manifold as mechanics
+from hess_mechanics.euler_poisson.andoyer import hess_circle
 from hess_mechanics.euler_poisson.hess_isomorphism import largest_distance
-from hess_mechanics.euler_poisson.hess_manifold import (
-    FreeRun,
-    Growth,
-    exact_growth,
-    exact_motion,
-    growth_of,
-    run_free,
-)
 from hess_mechanics.numerics.accuracy import REFERENCE, level
 from hess_mechanics.numerics.results import Array, Orbit
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
@@ -62,22 +56,14 @@ class HessLeak(HeavyMotion):
         return self.work.get(circle_map, self.bridge.hess.a, self.turning.h, self.turning.f, REFERENCE)
 
     @property
-    def period(self) -> float:
-        """One period of n3, in the body's time."""
-        return self.map.period / self.bridge.hess.frequency_unit
-
-    @property
     def _periods(self) -> int:
         return round(self.returns)
-
-    @property
-    def _count(self) -> int:
-        return self._periods * _IN_A_PERIOD + 1
 
     @cached_property
     def exact(self) -> Orbit:
         """The motion of the reduced system, in units b = 1."""
-        return self.work.get(exact_motion, self.bridge.hess.a, self.start, self._periods * self.map.period, self._count)
+        return self.work.get(mechanics.exact_motion, self.bridge.hess.a, self.start, self._periods * self.map.period,
+                             self._periods * _IN_A_PERIOD + 1)
 
     @cached_property
     def states(self) -> Array:
@@ -85,32 +71,18 @@ class HessLeak(HeavyMotion):
         return self.bridge.from_reduced(self.bridge.hess.from_units_of_b(self.exact.states))
 
     @cached_property
-    def runs(self) -> dict[str, FreeRun]:
+    def leaks(self) -> dict[str, mechanics.Leak]:
         """The orbit left to itself: "own" at the accuracy chosen, and "reference"."""
-        start = tuple(self.states[0].tolist())
-        end = self._periods * self.map.period / self.bridge.hess.frequency_unit
-        return {name: self.work.get(run_free, self.bridge.heavy, start, end, self._count, rung)
-                for name, rung in (("reference", REFERENCE), ("own", level(self.accuracy)))}
+        end = float(self.exact.times[-1]) / self.bridge.hess.frequency_unit
+        asked = (self.bridge.heavy, tuple(self.states[0].tolist()), end, self.exact.times.size)
+        runs = {name: self.work.get(mechanics.run_free, *asked, rung)
+                for name, rung in (("own", level(self.accuracy)), ("reference", REFERENCE))}
+        return {name: mechanics.Leak(self.bridge, run, self.exact, _IN_A_PERIOD) for name, run in runs.items()}
 
     @property
-    def chosen(self) -> FreeRun:
+    def run(self) -> mechanics.FreeRun:
         """The orbit at the accuracy chosen."""
-        return self.runs["own"]
-
-    @cached_property
-    def growth(self) -> dict[str, Growth | None]:
-        """Of each run, where it is seen."""
-        return {name: growth_of(run, _IN_A_PERIOD) for name, run in self.runs.items()}
-
-    @cached_property
-    def apart(self) -> dict[str, Array]:
-        """How far each run is from the exact motion, in units b = 1."""
-        return {name: self.bridge.distance(run.states, self.exact.states) for name, run in self.runs.items()}
-
-    @cached_property
-    def andoyer(self) -> Array:
-        """(l, L/G) along the chosen orbit."""
-        return coordinates(self.chosen.states)
+        return self.leaks["own"].run
 
     def motion(self) -> Motion:
         """The exact motion, of the reduced system."""
@@ -120,39 +92,30 @@ class HessLeak(HeavyMotion):
 
     def times(self) -> Range:
         """The axis of time."""
-        return 0.0, float(self.chosen.times[-1])
+        return 0.0, float(self.run.times[-1])
 
     def leaking(self) -> Columns:
         """The chosen orbit."""
-        return {"t": f32(self.chosen.times), "apart": f32(lg(self.apart["own"])), **_gamma(self.chosen.states)}
+        apart = lg(self.leaks["own"].apart)
+        return {"t": f32(self.run.times), "apart": f32(apart), **gamma_columns(self.run.states[:, 3:])}
 
     def exact_columns(self) -> Columns:
         """The exact motion, and what the moving points of the graphs follow."""
-        l, x = self.andoyer.T
-        return {**self.leaking(), "lg": f32(lg(np.abs(self.chosen.off))), "l": f32(l), "x": f32(x),
-                **_gamma(self.states)}
-
-    def slope(self) -> list[Array]:
-        """The exact growth as a straight line through where the leak is straight."""
-        growth = self.growth["own"]
-        if growth is None or self.map.kind != "hyperbolic":
-            return []
-        straight = slice(growth.first * _IN_A_PERIOD, (growth.first + growth.periods) * _IN_A_PERIOD)
-        t, height = (float(np.mean(one[straight])) for one in (self.chosen.times, np.log10(np.abs(self.chosen.off))))
-        rate, ends = exact_growth(self.map) / (self.period * math.log(10.0)), np.array(_RANGE)
-        return [np.column_stack([t + (ends - height) / rate, ends])]
+        l, x = self.run.andoyer.T
+        return {**self.leaking(), "lg": f32(lg(np.abs(self.run.off))), "l": f32(l), "x": f32(x),
+                **gamma_columns(self.states[:, 3:])}
 
     def heights(self) -> list[Circle]:
         """The circles between which n3 swings."""
         r, sign = self.bridge.heavy.r, math.copysign(1.0, self.bridge.hess.b)
-        return [Circle(r, sign * n3, "limit") for n3 in self.turning.roots[1:] if abs(n3) < 1.0 - 1e-9]
+        return parallels(r, [sign * n3 for n3 in self.turning.roots[1:]])
 
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_leak(self) -> str:
-        exact, growth = digits(exact_growth(self.map), 6), self.growth["own"]
+        exact, growth = digits(mechanics.exact_growth(self.map), 6), self.leaks["own"].growth
         if self.map.kind != "hyperbolic":
-            largest = digits(float(np.max(np.abs(self.chosen.off))), 2)
+            largest = digits(float(np.max(np.abs(self.run.off))), 2)
             return f"Stable: no cycles, no growth; after {self._periods} periods |r·M| ≤ {largest}."
         if growth is None:
             return f"Exact growth {exact} a period; too little of it is straight to measure."
@@ -160,16 +123,15 @@ class HessLeak(HeavyMotion):
         return f"ln |r·M| grows by {measured} a period over {growth.periods} of them; exact {exact}."
 
     def _about_difference(self) -> str:
-        largest = digits(float(self.apart["own"].max()), 2)
-        return f"{self.chosen.level}: up to {largest} (units b = 1) from that of the reduced system."
+        largest = digits(float(self.leaks["own"].apart.max()), 2)
+        return f"{self.run.level}: up to {largest} (units b = 1) from that of the reduced system."
 
     def _about_side(self) -> str:
-        off = self.chosen.off[np.abs(self.chosen.off) > 1e-3]
-        if not off.size:
+        sign, stays = self.leaks["own"].side
+        if sign == 0:
             return "The orbit keeps to the Hess relation, to round-off."
-        sign = "> 0" if off[0] > 0.0 else "< 0"
-        later = " and stays in it" if np.all(off * off[0] > 0.0) else ", and changes it later"
-        return f"The orbit falls into the layer r·M {sign}{later}."
+        return (f"The orbit falls into the layer r·M {'>' if sign > 0 else '<'} 0"
+                f"{' and stays in it' if stays else ', and changes it later'}.")
 
     def _about_sphere(self) -> str:
         low, high = map(digits, self.turning.roots[1:])
@@ -177,7 +139,7 @@ class HessLeak(HeavyMotion):
 
     def derived(self) -> Iterator[str]:
         """The reduced body and torus, the exact growth, and what was measured of it."""
-        growth = exact_growth(self.map)
+        growth = mechanics.exact_growth(self.map)
         yield f"a = b′/a₁′ = {digits(self.bridge.hess.a, 6)}"
         yield f"b = a₁′μ|r| = {digits(self.bridge.hess.b, 6)}"
         yield f"In units b = 1: h = {digits(self.map.h, 6)}, f = {digits(self.map.f, 6)}"
@@ -186,16 +148,15 @@ class HessLeak(HeavyMotion):
         if self.map.fixed_points:
             yield f"ln(multiplier) = ±{digits(growth, 6)}"
             yield f"Rate = {digits(growth / self.period, 6)} in a unit of time"
-        if self.known("growth") and self.map.kind == "hyperbolic":
-            for name, measured in ((self.chosen.level, self.growth["own"]), ("reference", self.growth["reference"])):
-                if measured is not None:
-                    yield f"Measured, {name}: {digits(measured.per_period, 7)} a period"
+        if "leak" in self.seen and self.map.kind == "hyperbolic":
+            yield from (f"Measured, {leak.run.level}: {digits(leak.growth.per_period, 7)} a period"
+                        for leak in self.leaks.values() if leak.growth is not None)
         yield f"A rigid body? {'yes' if self.bridge.heavy.check.is_body else 'no'}"
 
     def status(self) -> Iterator[str]:
         """The chosen orbit and the exact one."""
-        if self.known("runs"):
-            chosen, exact = self.chosen, self.exact
+        if self.known("leaks"):
+            chosen, exact = self.run, self.exact
             yield f"{chosen.level}: orbit {chosen.times.size} points, {chosen.steps} Taylor steps, computed once"
             yield "drift " + " ".join(f"{name} {digits(drift, 1)}" for name, drift in chosen.drift.items())
             yield f"exact motion error ≤ {digits(exact.error_estimate, 2)} ({exact.status})"
@@ -208,20 +169,12 @@ class HessLeak(HeavyMotion):
             yield BY_THE_UNSTABLE_CYCLE
 
 
-def _gamma(states: Array) -> Columns:
-    return {f"g{i + 1}": f32(states[:, 3 + i]) for i in range(3)}
-
-
-def _both(distances: Callable[[HessLeak, str], Array]) -> tuple[Layer[HessLeak], Layer[HessLeak]]:
+def _both(distances: Callable[[mechanics.Leak], Array]) -> tuple[Layer[HessLeak], Layer[HessLeak]]:
     """lg of a distance over time, of both runs."""
-
-    def curve(state: HessLeak, name: str) -> list[Array]:
-        return [np.column_stack([state.chosen.times, lg(distances(state, name))])]
-
-    return (curves("reference", lambda s: curve(s, "reference"), color=theme.MAP, dash="dotdash",
-                   label="at reference; on the sphere the one that leaks"),
-            curves("own", lambda s: curve(s, "own"), color=theme.ORBIT,
-                   label="orbit at the chosen accuracy; on the sphere the exact one"))
+    return (over_time("reference", lambda s: (s.run.times, lg(distances(s.leaks["reference"]))), color=theme.MAP,
+                      dash="dotdash", label="at reference; on the sphere the one that leaks"),
+            over_time("own", lambda s: (s.run.times, lg(distances(s.leaks["own"]))), color=theme.ORBIT,
+                      label="orbit at the chosen accuracy; on the sphere the exact one"))
 
 
 SCENE = Scene(
@@ -232,14 +185,14 @@ SCENE = Scene(
     views=(
         Plot(name="leak", title="r·M against time", caption=HessLeak._about_leak, axes=("t", "lg |r·M|"),
              x=HessLeak.times, y=_RANGE, dot=("t", "lg"),
-             layers=(*_both(lambda s, name: np.abs(s.runs[name].off)),
-                     curves("slope", HessLeak.slope, color=theme.MUTED, dash="dashed",
-                            label="slope ln(multiplier) per period"))),
+             layers=(*_both(lambda leak: np.abs(leak.run.off)),
+                     curves("slope", lambda s: s.leaks["own"].straight_line(mechanics.exact_growth(s.map), _RANGE),
+                            color=theme.MUTED, dash="dashed", label="slope ln(multiplier) per period"))),
         Plot(name="difference", title="Distance from the exact motion", caption=HessLeak._about_difference,
              axes=("t", "lg |difference|"), x=HessLeak.times, y=lambda s: lg_axis(largest_distance(s.map.h)),
-             dot=("t", "apart"), layers=_both(lambda s, name: s.apart[name])),
+             dot=("t", "apart"), layers=_both(lambda leak: leak.apart)),
         andoyer.picture("Andoyer variables (l, L/G)", HessLeak._about_side,
-                        relation=lambda s: hess_circle(s.bridge.heavy), orbit=lambda s: s.andoyer),
+                        relation=lambda s: hess_circle(s.bridge.heavy), orbit=lambda s: s.run.andoyer),
         Sphere(caption=HessLeak._about_sphere, looks={"orbit": "orbit", "second": "second"},
                axis=lambda s: Direction(s.bridge.heavy.r, "r"), circles=HessLeak.heights),
     ),

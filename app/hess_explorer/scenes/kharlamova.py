@@ -9,7 +9,8 @@ from functools import cached_property
 
 import numpy as np
 
-from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, number, slider_within
+from hess_explorer.scenes.framework.inertia import CentreOfMass, Tensor
+from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, like, number, slider_within, time_span
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import period_graph, plane_domain, theme
@@ -18,9 +19,9 @@ from hess_explorer.views.layers import Columns, Layer, curves, points, ring
 from hess_explorer.views.period_graph import has_periods, period_axis
 from hess_explorer.views.plane_domain import plane_columns
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.poisson_sphere import Circle, Direction, Mark, Sphere
-from hess_explorer.views.text import digits, power
-from hess_explorer.views.velocity_plane import centred, nice_above
+from hess_explorer.views.poisson_sphere import Circle, Direction, Mark, Sphere, centre_of_mass
+from hess_explorer.views.text import digits, power, vector
+from hess_explorer.views.velocity_plane import nice_above
 from hess_mechanics.numerics.results import Array, Orbit
 from hess_mechanics.suslov import kharlamova as mechanics
 from hess_mechanics.suslov.equations import SYSTEM
@@ -49,14 +50,12 @@ PRESETS = (
 class Kharlamova(State):
     """One orbit on its arc of a parabola, and the periods in all directions from its start."""
 
-    I11: float = number("I₁₁", 1.5, (0.2, 5.0), 0.01, bounds=(1e-2, 1e2), label="Inertia I₁₁",
-                        doc="Moment of inertia about the first body axis.")
-    I22: float = number("I₂₂", 1.0, (0.2, 5.0), 0.01, bounds=(1e-2, 1e2), label="Inertia I₂₂",
-                        doc="Moment of inertia about the second body axis.")
-    b1: float = number("b₁", 0.4, (-2.0, 2.0), 0.01, bounds=(-1e2, 1e2), label="Centre of mass b₁",
-                       doc="b = −mg r, r the mass centre; b₃ = 0.")
-    b2: float = number("b₂", 0.7, (-2.0, 2.0), 0.01, bounds=(-1e2, 1e2), label="Centre of mass b₂",
-                       doc="b = −mg r; b₁ = b₂ = 0: straight lines.")
+    I11: float = like(Tensor, "I11", bounds=(1e-2, 1e2))
+    I22: float = like(Tensor, "I22", 1.0, bounds=(1e-2, 1e2))
+    b1: float = like(CentreOfMass, "b1", 0.4, softbounds=(-2.0, 2.0), bounds=(-1e2, 1e2),
+                     doc="b = −mg r, r the mass centre; b₃ = 0.")
+    b2: float = like(CentreOfMass, "b2", 0.7, softbounds=(-2.0, 2.0), bounds=(-1e2, 1e2),
+                     doc="b = −mg r; b₁ = b₂ = 0: straight lines.")
     q1: float = number("q₁", 0.3, (-1.22, 1.22), 0.01, bounds=(-10.0, 10.0), label="Start q₁ = √I₁₁ γ₂",
                        doc="A click in the plane chooses the start, on the half γ₃ ≥ 0 of the sphere.")
     q2: float = number("q₂", -0.2, (-1.0, 1.0), 0.01, bounds=(-10.0, 10.0), label="Start q₂ = −√I₂₂ γ₁",
@@ -66,8 +65,7 @@ class Kharlamova(State):
     alpha: float = number("α", 0.5, (-3.14, 3.14), 0.01, bounds=(-math.pi, math.pi), label="Start: direction α",
                           doc="p = |p| (cos α, sin α): where the point runs at first. A click in the graph of T "
                               "chooses it.")
-    span: float = number("t", 20.0, (1.0, 100.0), 1.0, bounds=(0.01, 1e4), label="Time span",
-                         doc="How long the orbit is followed.")
+    span: float = time_span(20.0, 100.0)
     accuracy: str = accuracy_level()
 
     def admitted(self, notes: list[str]) -> Kharlamova:
@@ -137,7 +135,7 @@ class Kharlamova(State):
         orbit, mirror = self.sampled
         q, mirror_q = (mechanics.to_plane(self.body, states)[0] for states in (orbit.states, mirror))
         tau, mirror_tau = (mechanics.rescaled_time(self.arc, states) for states in (orbit.states, mirror))
-        return plane_columns(orbit.times, q, orbit.states[:, 2:], mirror_q1=mirror_q[:, 0], mirror_q2=mirror_q[:, 1],
+        return plane_columns(orbit, q, mirror_q1=mirror_q[:, 0], mirror_q2=mirror_q[:, 1],
                              tau=tau, mirror_tau=mirror_tau, mirror_g3=mirror[:, 4])
 
     def half_width(self) -> float:
@@ -158,8 +156,7 @@ class Kharlamova(State):
 
     def force(self) -> Direction | None:
         """The direction of the centre of mass; None without a field."""
-        length = math.hypot(self.b1, self.b2)
-        return Direction((-self.b1 / length, -self.b2 / length, 0.0), "r") if length > 0.0 else None
+        return centre_of_mass((self.b1, self.b2, 0.0))
 
     def on_the_equator(self) -> list[Mark]:
         """Where the orbit crosses the equator, touches it, or stays on it."""
@@ -211,7 +208,7 @@ class Kharlamova(State):
         """Energy, start, force, period, divergence."""
         yield f"E = {digits(self.h, 6)}"
         yield f"Start: γ₃ = {digits(self.start[4], 6)}"
-        yield f"Force = ({digits(-self.b2 / self.body.axes[0])}, {digits(self.b1 / self.body.axes[1])})"
+        yield f"Force = {vector((-self.b2 / self.body.axes[0], self.b1 / self.body.axes[1]))}"
         if self.arc.kind == "periodic":
             yield f"T = {digits(self.arc.period, 8)}"
             yield f"Back after T: {power(self.missed)}"
@@ -243,11 +240,9 @@ SCENE = Scene(
     summary="Parabolas in an ellipse, run to and fro: every orbit closes but those that touch the equator from inside.",
     tracks={"orbit": Kharlamova.orbit_columns},
     views=(
-        Plot(name="domain", title="Domain of (q₁, q₂)", caption=Kharlamova._about_domain, axes=("q₁", "q₂"),
-             x=lambda s: centred(s.half_width()), y=lambda s: centred(s.half_width()),
-             dot=("q1", "q2"), dots={"mirror": ("mirror_q1", "mirror_q2")},
-             on_click=lambda s, x, y: {"q1": x, "q2": y},
-             layers=(
+        plane_domain.picture(
+             "Domain of (q₁, q₂)", Kharlamova._about_domain, Kharlamova.half_width, names=("q1", "q2"),
+             dots={"mirror": ("mirror_q1", "mirror_q2")}, layers=(
                  *plane_domain.ground(edge=lambda s: s.work.get(mechanics.fixed_point_kinds, s.body, s.h)[0],
                                       forbidden=lambda s: mechanics.forbidden(s.body, s.h),
                                       levels=lambda s: mechanics.equipotentials(s.body, _LEVELS)),

@@ -26,12 +26,12 @@ from hess_explorer.scenes.framework.parameters import (
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.views import plane_domain, section_plane, theme
 from hess_explorer.views.graph import over_time
-from hess_explorer.views.layers import Axes, Columns, Sign
+from hess_explorer.views.layers import Axes, Sign
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere
+from hess_explorer.views.poisson_sphere import Sphere, centre_of_mass, parallels
 from hess_explorer.views.text import digits, power, vector
 from hess_explorer.views.velocity_plane import centred, nice_above
-from hess_mechanics.dynamics.section import Points, occupied_cells
+from hess_mechanics.dynamics.section import Points
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.accuracy import STANDARD
 from hess_mechanics.numerics.results import Array
@@ -85,8 +85,8 @@ class Quartic(Crossings):
     def limits(self) -> Mapping[str, Slider]:
         """The slider of h begins above −|b3|, those of q span the region."""
         low, top, step = slider_within(abs(self.body.b3))
-        first, second = map(slider_within, self.body.axes)
-        return {"h": (0.9 * low, 4.0 * top, step), "Q1": first, "Q2": second}
+        return {"h": (0.9 * low, 4.0 * top, step),
+                **dict(zip(("Q1", "Q2"), map(slider_within, self.body.axes), strict=True))}
 
     @cached_property
     def body(self) -> model.QuarticBody:
@@ -110,9 +110,8 @@ class Quartic(Crossings):
 
     def crossing(self, crossings: int) -> tuple[Task, Task]:
         """What finds so many crossings of the orbit on show, and of the others."""
-        common = (crossings, STANDARD, _MOST_STEPS)
-        return (Task(model.quartic_section, (self.body, (self.start,), *common)),
-                Task(model.spread_section, (self.body, _ORBITS, *common)))
+        return (Task(model.quartic_section, (self.body, (self.start,), crossings, STANDARD, _MOST_STEPS)),
+                Task(model.spread_section, (self.body, _ORBITS, crossings, STANDARD, _MOST_STEPS)))
 
     def places_of(self, points: Points) -> Array:
         """The q along the section and its p."""
@@ -123,23 +122,10 @@ class Quartic(Crossings):
         """q1p2 − q2p1 along the orbit (n,)."""
         return model.angular_momentum(self.body, self.orbit.states)
 
-    def track(self) -> Columns:
-        """The orbit on show."""
-        q, _ = self.body.to_plane(self.orbit.states)
-        return plane_domain.plane_columns(self.orbit.times, q, self.orbit.states[:, 2:], momentum=self.momentum)
-
     def impossible(self, axes: Axes) -> list[list[Array]]:
         """All of the section but the inside of its boundary."""
-        if self.own is None:
-            return []
-        r = 4.0 * max(axes.x[1], self.body.longest)
-        frame = np.array([[-r, -4.0], [r, -4.0], [r, 4.0], [-r, 4.0]])
-        return [[frame, *self.body.section_boundaries()]]
-
-    def bounds(self) -> list[Circle]:
-        """Where γ3 cannot pass."""
-        height = self.body.h / self.body.b3
-        return [Circle((0.0, 0.0, 1.0), height, "limit")] if abs(height) < 1.0 else []
+        reach = 4.0 * max(axes.x[1], self.body.longest)
+        return [] if self.own is None else section_plane.outside(self.body.section_boundaries(), reach, 4.0)
 
     def start_on_section(self, x: float, y: float) -> Values:
         """A click in the section: the start and its direction; nothing where that is impossible."""
@@ -159,15 +145,11 @@ class Quartic(Crossings):
         ring = f"a ring, inside {digits(self.body.hole)} of it grey" if self.body.hole > 0.0 else "no hole"
         return f"Level ½, half axes {first} and {second}, {ring}."
 
-    def _section_title(self) -> str:
-        held = "q₁" if self.body.across == 0 else "q₂"
-        return f"Section {held} = 0, {held} growing"
-
     def _about_section(self) -> str:
         if self.own is None:
             return self.reason
-        square = np.column_stack([math.pi / self.body.longest * self.own[:, 0], 0.5 * math.pi * (1.0 + self.own[:, 1])])
-        return f"The orbit: {len(self.own)} points in {occupied_cells(square, _CELLS)} of {_CELLS * _CELLS} cells."
+        visited = model.visited(self.body, self.own, _CELLS)
+        return f"The orbit: {len(self.own)} points in {visited} of {_CELLS * _CELLS} cells."
 
     def _about_sphere(self) -> str:
         g3 = self.orbit.states[:, 4]
@@ -181,14 +163,13 @@ class Quartic(Crossings):
 
     def derived(self) -> Iterator[str]:
         """Moment of inertia, energy, start; how well the point stays on its level."""
-        body = self.body
-        yield f"I₁₁ = {digits(body.I11, 6)}"
-        yield f"h/|b₃| = {digits(body.h / abs(body.b3), 6)}"
+        yield f"I₁₁ = {digits(self.body.I11, 6)}"
+        yield f"h/|b₃| = {digits(self.h / abs(self.b3), 6)}"
         yield f"Start: γ₃ = {digits(self.start[4], 6)}"
         yield f"ω(0) = {vector(self.start[:2])}"
         if self.known("orbit"):
-            yield f"H = ½ to {power(model.level_error(body, self.orbit.states))}"
-        yield "Integrable" if body.integrable else "Not integrable"
+            yield f"H = ½ to {power(model.level_error(self.body, self.orbit.states))}"
+        yield "Integrable" if self.body.integrable else "Not integrable"
         yield "div v = 0: the standard measure"
 
 
@@ -196,21 +177,21 @@ SCENE = Scene(
     Quartic, __file__, place=7, presets=PRESETS,
     title="Principal axis, b₁ = b₂ = 0",
     summary="The body as a point in a quartic potential: integrable for I₁₁ = I₂₂, else curves and seas in a section.",
-    tracks={"orbit": Quartic.track},
+    tracks={"orbit": lambda s: plane_domain.plane_columns(
+        s.orbit, s.body.to_plane(s.orbit.states)[0], momentum=s.momentum)},
     views=(
-        Plot(name="domain", title="Point in the potential γ₃²/2", caption=Quartic._about_domain, axes=("q₁", "q₂"),
-             x=lambda s: centred(s.half_width), y=lambda s: centred(s.half_width), dot=("q1", "q2"),
-             on_click=lambda s, x, y: {"Q1": x, "Q2": y},
-             signs=(Sign("where it starts", "dot", f"background: none; border: 3px solid {theme.UNSTABLE}"),),
-             layers=(*plane_domain.ground(lambda s: s.body.ellipse(), lambda s: s.body.holes(),
-                                            lambda s: s.body.equipotentials(_HEIGHTS)),
-                     *plane_domain.orbit(lambda s: (s.Q1, s.Q2)))),
-        Plot(name="section", title=Quartic._section_title, caption=Quartic._about_section, axes=("q", "p"),
+        plane_domain.picture(
+            "Point in the potential γ₃²/2", Quartic._about_domain, lambda s: s.half_width, names=("Q1", "Q2"),
+            signs=(Sign("where it starts", "dot", f"background: none; border: 3px solid {theme.UNSTABLE}"),),
+            layers=(*plane_domain.ground(lambda s: s.body.ellipse(), lambda s: s.body.holes(),
+                                         lambda s: s.body.equipotentials(_HEIGHTS)),
+                    *plane_domain.orbit(lambda s: (s.Q1, s.Q2)))),
+        Plot(name="section", caption=Quartic._about_section, axes=("q", "p"), on_click=Quartic.start_on_section,
+             title=lambda s: "Section {0} = 0, {0} growing".format("q₂" if s.body.across else "q₁"),
              x=lambda s: centred(nice_above(1.05 * s.body.longest)), y=(-1.05, 1.05), message=lambda s: s.reason,
-             on_click=Quartic.start_on_section,
              layers=section_plane.layers(lambda s: s.own, others=lambda s: s.others, forbidden=Quartic.impossible)),
-        Sphere(caption=Quartic._about_sphere, looks={"orbit": "orbit"}, circles=Quartic.bounds,
-               axis=lambda s: Direction((0.0, 0.0, -math.copysign(1.0, s.body.b3)), "r")),
+        Sphere(caption=Quartic._about_sphere, looks={"orbit": "orbit"}, axis=lambda s: centre_of_mass((0.0, 0.0, s.b3)),
+               circles=lambda s: parallels((0.0, 0.0, 1.0), [s.body.h / s.body.b3])),
         Plot(name="momentum", title="q₁p₂ − q₂p₁ against time", caption=Quartic._about_momentum,
              axes=("t", "q₁p₂ − q₂p₁"), x=lambda s: (0.0, float(s.orbit.times[-1])), y=Quartic.momentum_range,
              dot=("t", "momentum"),

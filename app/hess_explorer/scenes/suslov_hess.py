@@ -19,7 +19,7 @@ from hess_explorer.views import torus_plane
 from hess_explorer.views.body import BodyInSpace, Curve, Rod, Shape
 from hess_explorer.views.layers import Columns, Grid
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere
+from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, parallels
 from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import centred, nice_above
 from hess_mechanics.errors import Separatrix
@@ -158,7 +158,7 @@ class SuslovHess(SuslovBody):
     def heights(self) -> list[Circle]:
         """The circles between which n3 swings."""
         ends = (-1.0, 1.0) if self.turning is None else self.turning.roots[1:]
-        return [Circle(self.body.n3, end, "limit") for end in ends if abs(end) < 1 - 1e-9]
+        return parallels(self.body.n3, ends)
 
     @cached_property
     def rotation(self) -> Grid:

@@ -2,23 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TypeVar
 
 from hess_explorer.views import theme
-from hess_explorer.views.layers import Axes, Columns, Layer, curves, f32, line, region, ring
-from hess_explorer.views.velocity_plane import square
-from hess_mechanics.numerics.results import Array
+from hess_explorer.views.layers import Axes, Columns, Layer, Sign, curves, f32, line, region, ring
+from hess_explorer.views.plot import Plot
+from hess_explorer.views.poisson_sphere import gamma_columns
+from hess_explorer.views.velocity_plane import centred, square
+from hess_mechanics.numerics.results import Array, Orbit
 
-__all__ = ["ground", "orbit", "plane_columns"]
+__all__ = ["ground", "orbit", "picture", "plane_columns"]
 
 S = TypeVar("S")
 
 
-def plane_columns(times: Array, q: Array, gamma: Array, **more: Array) -> Columns:
-    """The columns of a motion for this plane and the sphere: q (m, 2), γ (m, 3), and further ones for the player."""
-    return {"t": f32(times), "q1": f32(q[:, 0]), "q2": f32(q[:, 1]),
-            **{f"g{i + 1}": f32(gamma[:, i]) for i in range(3)}, **{name: f32(one) for name, one in more.items()}}
+def plane_columns(orbit: Orbit, q: Array, **more: Array) -> Columns:
+    """The columns of an orbit, states (ω, γ), for this plane and the sphere: q (m, 2), and more for the player."""
+    return {"t": f32(orbit.times), "q1": f32(q[:, 0]), "q2": f32(q[:, 1]), **gamma_columns(orbit.states[:, 2:]),
+            **{name: f32(one) for name, one in more.items()}}
+
+
+def picture(title: str, caption: Callable[[S], str], half_width: Callable[[S], float], names: tuple[str, str],
+            layers: tuple[Layer[S], ...], dots: Mapping[str, tuple[str, str]] | None = None,
+            signs: tuple[Sign, ...] = ()) -> Plot[S]:
+    """The plane about 0, in which a moving point follows the orbit; a click chooses the parameters of these names."""
+    return Plot(
+        name="domain", title=title, caption=caption, axes=("q₁", "q₂"), x=lambda s: centred(half_width(s)),
+        y=lambda s: centred(half_width(s)), dot=("q1", "q2"), dots=dots, signs=signs, layers=layers,
+        on_click=lambda s, x, y: dict(zip(names, (x, y), strict=True)))
 
 
 def ground(edge: Callable[[S], Array], forbidden: Callable[[S], Sequence[Array]],

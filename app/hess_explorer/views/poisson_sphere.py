@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 
-from hess_explorer.views.layers import MOVING_POINT, Axes, Columns, Sign
+from hess_explorer.views.layers import MOVING_POINT, Axes, Columns, Sign, f32
 from hess_explorer.views.picture import Picture
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Circle", "Direction", "Mark", "Sphere", "centre_of_mass", "ends"]
+__all__ = ["Circle", "Direction", "Mark", "Sphere", "centre_of_mass", "ends", "gamma_columns", "parallels"]
 
 S = TypeVar("S")
 
@@ -52,6 +52,16 @@ def centre_of_mass(b: Sequence[float]) -> Direction | None:
     """The direction r of the centre of mass, b = −mg r; None without a field."""
     length = float(np.linalg.norm(b))
     return Direction(-np.array(b) / length, "r") if length > 0.0 else None
+
+
+def parallels(axis: Sequence[float] | Array, heights: Iterable[float]) -> list[Circle]:
+    """Circles about an axis at which something ends; a height of ±1 is no circle."""
+    return [Circle(axis, height, "limit") for height in heights if abs(height) < 1.0 - 1e-9]
+
+
+def gamma_columns(gamma: Array) -> Columns:
+    """The columns of a track, γ (n, 3) along a motion."""
+    return {f"g{i + 1}": f32(gamma[:, i]) for i in range(3)}
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -11,7 +11,7 @@ from hess_explorer.views import theme
 from hess_explorer.views.layers import Axes, Layer, dots, region, ring
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["band", "joined", "layers"]
+__all__ = ["band", "joined", "layers", "outside"]
 
 S = TypeVar("S")
 Points = Callable[[S], Array | None]
@@ -53,3 +53,8 @@ def band(middle: float, half: float, period: float, axes: Axes) -> list[list[Arr
     low, high = axes.y
     part = np.array([[-half, low], [half, low], [half, high], [-half, high]])
     return [[part + np.array([middle + turn, 0.0])] for turn in (-period, 0.0, period)]
+
+
+def outside(curves: Sequence[Array], x: float, y: float) -> list[list[Array]]:
+    """For `forbidden`: all of the rectangle ± x, ± y but the inside of closed curves (n, 2)."""
+    return [[np.array([[-x, -y], [x, -y], [x, y], [-x, y]]), *curves]]

@@ -11,6 +11,7 @@ from hess_explorer.views import theme
 from hess_explorer.views.layers import Axes, Columns, Layer, Range, arrows, curves, f32, line, points
 from hess_explorer.views.picture import Values
 from hess_explorer.views.plot import Plot
+from hess_explorer.views.poisson_sphere import gamma_columns
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.numerics.results import Array, Orbit
@@ -28,7 +29,7 @@ def velocity_columns(times: Array | None, omega: Array, gamma: Array, **more: Ar
     """The columns of a motion for this plane and the sphere: ω (m, 2), γ (m, 3), and further ones for the player."""
     moving = {} if times is None else {"t": f32(times)}
     return {**moving, "omega1": f32(omega[:, 0]), "omega2": f32(omega[:, 1]),
-            **{f"g{i + 1}": f32(gamma[:, i]) for i in range(3)}, **{name: f32(one) for name, one in more.items()}}
+            **gamma_columns(gamma), **{name: f32(one) for name, one in more.items()}}
 
 
 def orbit_columns(orbit: Orbit, **more: Array) -> Columns:

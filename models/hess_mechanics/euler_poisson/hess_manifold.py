@@ -10,12 +10,14 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from hess_mechanics.dynamics.orbit import MAX_STEPS, drift_of, require_finite_states, solve
 from hess_mechanics.dynamics.system import Problem
 from hess_mechanics.errors import WorkLimit
+from hess_mechanics.euler_poisson.andoyer import coordinates
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
 from hess_mechanics.numerics.accuracy import REFERENCE, Level
@@ -25,7 +27,7 @@ from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.equations import SYSTEM as REDUCED
 
 __all__ = [
-    "Difference", "FreeRun", "Growth", "difference", "exact_growth", "exact_motion", "growth_of", "on_manifold",
+    "Difference", "FreeRun", "Growth", "Leak", "difference", "exact_growth", "exact_motion", "growth_of", "on_manifold",
     "run_free",
 ]
 
@@ -54,6 +56,11 @@ class FreeRun:
     off: Array
     steps: int
     drift: Mapping[str, float]
+
+    @cached_property
+    def andoyer(self) -> Array:
+        """(l, L/G) along it, (n, 2)."""
+        return frozen(coordinates(self.states))
 
 
 def _run(problem: Problem, start: Array, times: Array, level: Level, out: Array) -> int:
@@ -164,6 +171,49 @@ class Growth:
     per_period: float
     first: int
     periods: int
+
+
+@dataclass(frozen=True)
+class Leak:
+    """A run left to itself, beside the exact motion from the same state.
+
+    run : in the time of the bodies; exact : of the reduced system at the same times, units b = 1;
+    samples : per period of n3.
+    """
+
+    bridge: Bridge
+    run: FreeRun
+    exact: Orbit
+    samples: int
+
+    @cached_property
+    def apart(self) -> Array:
+        """The distance (n,) from the exact motion, units b = 1."""
+        return self.bridge.distance(self.run.states, self.exact.states)
+
+    @cached_property
+    def growth(self) -> Growth | None:
+        """Of (r, M), where it is seen."""
+        return growth_of(self.run, self.samples)
+
+    @property
+    def side(self) -> tuple[int, bool]:
+        """The sign of (r, M) where it is first seen, 0 where it never is, and whether it is the same ever after."""
+        off = self.run.off[np.abs(self.run.off) > _STRAIGHT[1]]
+        return (int(np.sign(off[0])), bool(np.all(off * off[0] > 0.0))) if off.size else (0, True)
+
+    def straight_line(self, per_period: float, ends: tuple[float, float]) -> list[Array]:
+        """(t, lg |(r, M)|), (2, 2), of a given growth, through the middle of where it is seen; empty if nowhere.
+
+        per_period : of ln |(r, M)|; ends : the values of lg at both ends.
+        """
+        if self.growth is None or per_period == 0.0:
+            return []
+        seen = slice(self.growth.first * self.samples, (self.growth.first + self.growth.periods) * self.samples)
+        t, height = (float(np.mean(one[seen])) for one in (self.run.times, np.log10(np.abs(self.run.off))))
+        period = self.run.times[-1] * self.samples / (self.run.times.size - 1)
+        rate, lg = per_period / (period * math.log(10.0)), np.array(ends)
+        return [np.column_stack([t + (lg - height) / rate, lg])]
 
 
 def exact_growth(theta: CircleMap) -> float:

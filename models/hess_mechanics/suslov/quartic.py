@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hess_mechanics.dynamics.sampling import PIXELS
-from hess_mechanics.dynamics.section import Plane, Points, section_points
+from hess_mechanics.dynamics.section import Plane, Points, occupied_cells, section_points
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, NoField, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import Level
@@ -28,7 +28,7 @@ from hess_mechanics.suslov.equations import SYSTEM
 
 __all__ = [
     "QuarticBody", "angular_momentum", "level_error", "quartic_section", "seeds", "spread_section", "start_on_section",
-    "state_at", "state_on_section",
+    "state_at", "state_on_section", "visited",
 ]
 
 _TURNS = 120.0
@@ -182,6 +182,12 @@ class QuarticBody:
         """The closed curves (n, 2) that bound the section: two with a hole."""
         right = self.section_boundary()
         return [right, right * np.array([-1.0, 1.0])] if self.hole > 0.0 else [right]
+
+
+def visited(body: QuarticBody, points: Array, cells: int) -> int:
+    """In how many of cells² of the section's rectangle points (n, 2) of it lie."""
+    x, y = points.T
+    return occupied_cells(np.column_stack([math.pi / body.longest * x, 0.5 * math.pi * (1.0 + y)]), cells)
 
 
 def level_error(body: QuarticBody, states: Array) -> float:

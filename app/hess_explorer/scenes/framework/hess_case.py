@@ -16,6 +16,7 @@ from hess_mechanics.errors import NoField, Separatrix
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge, largest_area_integral
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, f_max, turning_points
+from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
 from hess_mechanics.suslov_hess.equations import SYSTEM, HessBody
 
 __all__ = ["BY_THE_UNSTABLE_CYCLE", "RIS", "UNSURE", "HeavyMotion", "SuslovBody", "possible_f", "reduced_motion"]
@@ -142,6 +143,16 @@ class HeavyMotion(State):
         except Separatrix:
             raise Separatrix("h = μ|r|, f = 0 is the separatrix: n₃ has no period. Choose another h, or f other than "
                              "0.") from None
+
+    @cached_property
+    def map(self) -> CircleMap:
+        """The circle map of the torus."""
+        return self.work.get(circle_map, self.bridge.hess.a, self.turning.h, self.turning.f, self.level)
+
+    @property
+    def period(self) -> float:
+        """One period of n3, in the time of the body."""
+        return self.map.period / self.bridge.hess.frequency_unit
 
     @cached_property
     def start(self) -> tuple[float, ...]:
