@@ -481,8 +481,9 @@ def test_a_box_beyond_the_section_is_cut_and_one_that_is_none_is_not_taken(free_
 @pytest.mark.parametrize("message", [
     {"undo": True}, {"undo": 1, "clear": "yes", "stop": None}, {"stop": True}, {"picked": []}, {"picked": [None]},
     {"picked": ["section"]}, {"picked": ["section", 1.0]}, {"picked": ["section", 1.0, 0.1, 2.0]},
-    {"picked": ["section", 0.1, 0.2, 0.6, 0.7, 0.8, 0.9]}, {"values": {"starts": None}}, {"values": {"starts": ["0,0"]}},
-    {"values": {"window": {}}}, {"values": {"starts": "0" * 5000}}, {"values": {"window": "1,2,3;4"}}])
+    {"picked": ["section", 0.1, 0.2, 0.6, 0.7, 0.8, 0.9]}, {"values": {"starts": None}},
+    {"values": {"starts": ["0,0"]}}, {"values": {"window": {}}}, {"values": {"starts": "0" * 5000}},
+    {"values": {"window": "1,2,3;4"}}])
 def test_a_message_that_means_nothing_changes_nothing(free_gate, message):
     browser = Browser(EP, SMALL)
     before = dict(browser.session.values)
