@@ -492,7 +492,7 @@ def test_levels_of_accuracy_do_not_follow_a_drag_here(cache):
     study = compute(ACCURACY, {**SHORT, "accuracy": "reference"}, dragging=True)
     assert [point.setting for point in study.measured] == ["draft", "standard", "precise", "reference"]
     assert set(study.growing.errors) == {"draft", "standard", "precise", "reference"}
-    assert study.accuracy == "reference"
+    assert study.chosen == "reference"
 
 
 # --- Through a session -------------------------------------------------------------------------------------

@@ -18,16 +18,17 @@ from hess_explorer.scenes.framework.hess_case import (
     possible_f,
     reduced_motion,
 )
-from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, choice, number, slider_within
+from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, choice, like, number, slider_within
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import andoyer, theme, torus_plane
 from hess_explorer.views import circle_map as circle
 from hess_explorer.views.chart import LG_OF_0, lg, lg_axis
-from hess_explorer.views.layers import Columns, curves
+from hess_explorer.views.graph import over_time
+from hess_explorer.views.layers import Columns
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
-from hess_explorer.views.velocity_plane import centred, nice_above
+from hess_explorer.views.velocity_plane import nice_above, picture
 from hess_mechanics.euler_poisson.andoyer import coordinates, hess_circle
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge, largest_distance
 from hess_mechanics.euler_poisson.hess_manifold import Difference, difference
@@ -65,12 +66,11 @@ class _Given(State):
 class BothSides(HeavyMotion, SuslovBody, _Given):
     """One motion on both sides.  The parameters of the bases come first, those of the last one before the others."""
 
-    h: float = number("h", 50.0, (-9.0, 100.0), 0.05, bounds=(-1e3, 1e5), label="Energy h",
-                      doc="Of the side that is given: in units b = 1 for Suslov–Hess, H itself for Euler–Poisson.")
-    f: float = number("f", 5.0, (-8.0, 8.0), 0.05, bounds=(-1e3, 1e3), label="Area integral f",
-                      doc="Of the side that is given: in units b = 1 for Suslov–Hess, (M, γ) for Euler–Poisson.")
-    phi0: float = number("φ₀", 0.5, (-3.14, 3.14), 0.01, bounds=(-math.pi, math.pi), label="Phase φ₀",
-                         doc="Phase of the orbit on the section n₃ = n₃⁽¹⁾, in radians.")
+    h: float = like(HeavyMotion, "h", doc="Of the side that is given: in units b = 1 for Suslov–Hess, H itself for "
+                    "Euler–Poisson.")
+    f: float = like(HeavyMotion, "f", doc="Of the side that is given: in units b = 1 for Suslov–Hess, (M, γ) for "
+                    "Euler–Poisson.")
+    phi0: float = like(HeavyMotion, "phi0", doc="Phase of the orbit on the section n₃ = n₃⁽¹⁾, in radians.")
     span: float = number("t", 50.0, (1.0, 200.0), 1.0, bounds=(0.01, 1e5), label="Time span",
                          doc="How long the motion is followed, in the time that both sides share.")
     accuracy: str = accuracy_level()
@@ -160,16 +160,15 @@ class BothSides(HeavyMotion, SuslovBody, _Given):
         l, x = self.andoyer.T
         return torus_plane.track_columns(found, phi_start=start, l=l, x=x, apart=apart)
 
-    def apart(self, distance: Array) -> list[Array]:
+    def apart(self, distance: Array) -> tuple[Array, Array]:
         """lg of a distance over time."""
-        return [np.column_stack([self.difference.times, lg(distance)])]
+        return self.difference.times, lg(distance)
 
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_torus(self) -> str:
-        high = math.sqrt(2.0 * max(0.0, self.map.h + self.turning.roots[2]))
         return (f"h = {digits(self.map.h, 6)}, f = {digits(self.map.f, 6)} in units b = 1; |w| from "
-                f"{digits(self.turning.initial_rho)} to {digits(high)}.")
+                f"{digits(self.turning.initial_rho)} to {digits(self.turning.final_rho)}.")
 
     def _about_map(self) -> str:
         zone = f"No cycle, ρ = {digits(self.map.rotation_number)}"
@@ -235,9 +234,8 @@ SCENE = Scene(
             "unstable": lambda s: torus_plane.cycle_columns(s.cycles, 1)},
     angles=("phi", "phi_start", "l"),
     views=(
-        Plot(name="omega", title="Suslov–Hess: the torus, (ω₁, ω₂)", caption=BothSides._about_torus, axes=("ω₁", "ω₂"),
-             x=lambda s: centred(s.half_width), y=lambda s: centred(s.half_width), dot=("omega1", "omega2"),
-             layers=torus_plane.layers(BothSides.ring, half_width=lambda s: s.half_width)),
+        picture(BothSides._about_torus, lambda s: s.half_width, title="Suslov–Hess: the torus, (ω₁, ω₂)",
+                layers=torus_plane.layers(BothSides.ring, half_width=lambda s: s.half_width)),
         circle.picture(map=lambda s: s.map, iterates=lambda s: s.iterates, caption=BothSides._about_map,
                        title="Circle map of both", dot=("phi_start", "phi"), on_click=lambda s, x, y: {"phi0": x}),
         andoyer.picture("Euler–Poisson: (l, L/G)", BothSides._about_andoyer,
@@ -245,9 +243,9 @@ SCENE = Scene(
         Plot(name="difference", title="Difference along the orbit", caption=BothSides._about_difference,
              axes=("t", "lg |difference|"), x=lambda s: (0.0, float(s.difference.times[-1])),
              y=lambda s: lg_axis(largest_distance(s.map.h)), dot=("t", "apart"),
-             layers=(curves("free", lambda s: s.apart(s.difference.free), color=theme.MAP, dash="dotdash",
-                            label="difference, left to itself"),
-                     curves("held", lambda s: s.apart(s.difference.held), color=theme.ORBIT,
-                            label="difference, held on r·M = 0"))),
+             layers=(over_time("free", lambda s: s.apart(s.difference.free), color=theme.MAP, dash="dotdash",
+                               label="difference, left to itself"),
+                     over_time("held", lambda s: s.apart(s.difference.held), color=theme.ORBIT,
+                               label="difference, held on r·M = 0"))),
     ),
 )

@@ -12,16 +12,18 @@ import numpy as np
 
 from hess_explorer.protocol.parameters import Value
 from hess_explorer.scenes.framework.filled_window import TURN, FilledWindow, Piece, filled_window, in_pieces
+from hess_explorer.scenes.framework.hess_case import HeavyMotion
+from hess_explorer.scenes.framework.inertia import Moments
 from hess_explorer.scenes.framework.one_orbit import Start
-from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number, places
+from hess_explorer.scenes.framework.parameters import accuracy_level, choice, like, number, places, time_span
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.windows import Window, inside
 from hess_explorer.views import theme
-from hess_explorer.views.graph import thinned
+from hess_explorer.views.graph import over_time, thinned
 from hess_explorer.views.layers import Axes, Columns, Range, curves, dots, f32, line, points, text
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.poisson_sphere import Direction, Sphere
-from hess_explorer.views.text import digits
+from hess_explorer.views.poisson_sphere import Direction, Sphere, gamma_columns
+from hess_explorer.views.text import digits, vector
 from hess_explorer.views.velocity_plane import nice_above
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, andoyer_points, hess_curve, relation
@@ -60,29 +62,20 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class EulerPoisson(FilledWindow):
+class EulerPoisson(Moments, FilledWindow):
     """A section of one body at one energy and area integral, filled with orbits on both sides of the barrier."""
 
-    I1: float = number("I₁", 1.0, (0.1, 3.0), 0.005, bounds=(1e-3, 1e3), label="Moment I₁",
-                       doc="First principal moment of inertia.")
-    I2: float = number("I₂", 0.625, (0.1, 3.0), 0.005, bounds=(1e-3, 1e3), label="Moment I₂",
-                       doc="Middle principal moment: it lies between I₁ and I₃, else there is no Hess condition.")
-    I3: float = number("I₃", 0.375, (0.1, 3.0), 0.005, bounds=(1e-3, 1e3), label="Moment I₃",
-                       doc="Third principal moment of inertia.")
     away: float = number("ε", 0.0, (-0.5, 0.5), 0.005, bounds=(-math.pi, math.pi), label="Distance from Hess, ε",
                          doc="The angle, in radians, by which the centre of mass r is turned away from the direction "
                              "that the Hess condition asks for. At 0 the barrier r·M = 0 cannot be crossed.")
-    m: float = number("μ|r|", 9.975, (-20.0, 20.0), 0.005, bounds=(-1e3, 1e3), label="Weight times distance, μ|r|",
-                      doc="The potential is −μ(r, γ). Its sign is that of r.")
-    h: float = number("h", 50.0, (-1.0, 60.0), 0.05, bounds=(-1e3, 1e5), label="Energy h", doc="H = h.")
-    f: float = number("f", 5.0, (-8.0, 8.0), 0.05, bounds=(-1e3, 1e3), label="Area integral f",
-                      doc="(M, γ) = f; the section needs G ≥ |f|.")
+    m: float = like(HeavyMotion, "m")
+    h: float = like(HeavyMotion, "h", softbounds=(-1.0, 60.0), doc="H = h.")
+    f: float = like(HeavyMotion, "f", doc="(M, γ) = f; the section needs G ≥ |f|.")
     orbits: float = number("n", 60.0, (0.0, 200.0), 1.0, bounds=(0.0, 400.0), label="Orbits",
                            doc="How many orbits are spread over the window.")
     count: float = number("N", 300.0, (20.0, 1000.0), 10.0, bounds=(2.0, 4000.0), label="Crossings",
                           doc="How many points each orbit leaves.")
-    span: float = number("t", 20.0, (1.0, 200.0), 1.0, bounds=(0.01, 1e4), label="Time span",
-                         doc="How long the chosen orbit is followed.")
+    span: float = time_span(20.0, 200.0, what="the chosen orbit")
     long: float = number("T", 200.0, (10.0, 1000.0), 10.0, bounds=(1.0, 1e4), label="Time of the exponent",
                          doc="How long the Lyapunov exponent is averaged.")
     turns: str = choice("Rotation number", (_ALONG, _ABOUT), _ALONG,
@@ -105,7 +98,7 @@ class EulerPoisson(FilledWindow):
     @cached_property
     def body(self) -> HeavyBody:
         """The body.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
-        return HeavyBody.hess((self.I1, self.I2, self.I3), self.m, self.away)
+        return HeavyBody.hess(self.moments, self.m, self.away)
 
     @cached_property
     def section(self) -> AndoyerSection:
@@ -178,8 +171,7 @@ class EulerPoisson(FilledWindow):
     def track(self) -> Columns:
         """The orbit on show."""
         l, x = self.section.places_of(self.orbit.states).T
-        gamma = {f"g{i + 1}": f32(self.orbit.states[:, 3 + i]) for i in range(3)}
-        return {"t": f32(self.orbit.times), "l": f32(l), "x": f32(x), **gamma}
+        return {"t": f32(self.orbit.times), "l": f32(l), "x": f32(x), **gamma_columns(self.orbit.states[:, 3:])}
 
     def hess_curve(self) -> tuple[Array, Array]:
         """The Hess manifold across the window."""
@@ -216,16 +208,14 @@ class EulerPoisson(FilledWindow):
         if exponent is None:
             return "It is found when a slider is let go."
         end = float(exponent.times[-1])
-        # A regular motion's neighbour goes away no faster than t: the mean then falls as ln(t)/t.
-        regular = exponent.value < 2.0 * math.log(max(math.e, exponent.times.size)) / end
-        kind = "falling as ln(t)/t: regular so far" if regular else "chaotic"
+        kind = "falling as ln(t)/t: regular so far" if exponent.is_regular else "chaotic"
         return (f"λ = {digits(exponent.value, 3)} after t = {digits(end)}, ± {digits(exponent.spread, 2)} lately: "
                 f"{kind}.")
 
     def derived(self) -> Iterator[str]:
         """a and r, the start of the orbit on show, whether this is a rigid body."""
         l, x = self.picked.places[-1]
-        yield f"a = {digits(self.body.hess_a)}, r = ({', '.join(map(digits, self.body.r))})"
+        yield f"a = {digits(self.body.hess_a)}, r = {vector(self.body.r)}"
         yield f"chosen: l = {digits(l)}, L/G = {digits(x)}"
         yield self.body.check.sentence
 
@@ -280,8 +270,8 @@ SCENE = Scene(
         Plot(name="exponent", title="Largest Lyapunov exponent", caption=EulerPoisson._about_exponent,
              axes=("t", "λ"), first=Axes((0.0, 200.0), (0.0, 1.0)), x=lambda s: (0.0, s.long),
              y=EulerPoisson._exponent_axis,
-             layers=(curves("lambda", lambda s: [] if s.exponent is None else [
-                 np.column_stack(thinned(s.exponent.times, s.exponent.rates))], color=theme.ORBIT),)),
+             layers=(over_time("lambda", lambda s: None if s.exponent is None else thinned(
+                 s.exponent.times, s.exponent.rates), color=theme.ORBIT),)),
         Sphere(caption=lambda s: "The vertical γ along the chosen orbit; r: the centre of mass.",
                looks={"orbit": "orbit"},
                axis=lambda s: Direction(math.copysign(1.0, s.m) * np.array(s.body.r), "r")),

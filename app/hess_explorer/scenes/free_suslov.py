@@ -43,14 +43,14 @@ def _portrait(I13: float, I23: float) -> Values:
 
 
 PRESETS = (
-    Preset("γ₁(t): I₁₁ = 2.44, I₂₃ = 0.5 (figure 3)", across="time"),
-    Preset("γ₁(φ): the same orbit (figure 3)", across="phase"),
+    Preset("γ₁(t): I₁₁ = 2.44, I₂₃ = 0.5 (figure 2)", across="time"),
+    Preset("γ₁(φ): the same orbit (figure 2)", across="phase"),
     Preset("Γ(t), k = 1: F₂ exists, Γ⁺ = −Γ⁻", **_ON_CIRCLE, k=1.0),
     Preset("Γ(t), k = 3: F₂ exists, Γ⁺ = −Γ⁻", **_ON_CIRCLE, k=3.0),
     Preset("Γ(t), k = 1.5: two phases, two circles", **_ON_CIRCLE, k=1.5),
     Preset("Γ(t), I₁₃ ≠ 0: two phases, two circles", I13=0.4, I23=0.6, k=1.2, w1=3.0, w2=-2.001, Gamma=-0.4647,
            phi=math.pi, phi2=1.634),
-    Preset("Portrait, I₁₃ > 0, I₂₃ < 0 (figure 2)", **_portrait(0.4, -0.5)),
+    Preset("Portrait, I₁₃ > 0, I₂₃ < 0 (figure 1)", **_portrait(0.4, -0.5)),
     Preset("Portrait, I₁₃ > 0, I₂₃ > 0", **_portrait(0.4, 0.5)),
     Preset("Portrait, I₁₃ < 0, I₂₃ < 0", **_portrait(-0.4, -0.5)),
     Preset("Portrait, I₁₃ < 0, I₂₃ > 0", **_portrait(-0.4, 0.5)),

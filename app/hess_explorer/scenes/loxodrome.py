@@ -9,16 +9,17 @@ from functools import cached_property
 
 import numpy as np
 
-from hess_explorer.scenes.framework.parameters import accuracy_level, number
-from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
+from hess_explorer.scenes.framework.inertia import Moments
+from hess_explorer.scenes.framework.parameters import accuracy_level, like, number, time_span
+from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import theme
 from hess_explorer.views.body import BodyInSpace, Curve, Rod, Shape
 from hess_explorer.views.layers import Columns, Sign, f32, line
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Mark
-from hess_explorer.views.text import digits, power
-from hess_mechanics.dynamics.sampling import PIXELS
+from hess_explorer.views.text import digits, power, vector
+from hess_explorer.views.velocity_plane import pixels_per_unit
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.loxodromic_pendulum import LoxodromicMotion, LoxodromicPendulum, loxodromic_motion
 from hess_mechanics.numerics.results import Array
@@ -40,15 +41,11 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class Loxodrome(State):
+class Loxodrome(Moments):
     """One motion of one pendulum."""
 
-    I1: float = number("I₁", 1.0, (0.1, 3.0), 0.005, bounds=(1e-3, 1e3), label="Moment I₁",
-                       doc="First principal moment of inertia.")
-    I2: float = number("I₂", 1.5, (0.1, 3.0), 0.005, bounds=(1e-3, 1e3), label="Moment I₂",
-                       doc="Middle principal moment: it must lie between I₁ and I₃.")
-    I3: float = number("I₃", 2.0, (0.1, 3.0), 0.005, bounds=(1e-3, 1e3), label="Moment I₃",
-                       doc="Third principal moment of inertia.")
+    I2: float = like(Moments, "I2", 1.5, doc="Middle principal moment: it must lie between I₁ and I₃.")
+    I3: float = like(Moments, "I3", 2.0)
     m: float = number("μ|r|", 0.7071, (0.05, 20.0), 0.05, bounds=(1e-3, 1e3), label="Weight times distance, μ|r|",
                       doc="It sets the unit of energy and of time; the direction of r follows from the moments.")
     energy: float = number("h", 1.5, (-0.95, 4.0), 0.01, bounds=(-1.0 + 1e-4, 1e4), label="Energy h",
@@ -57,8 +54,7 @@ class Loxodrome(State):
     l: float = number("l", 0.15, (0.02, 3.12), 0.01, bounds=(1e-3, math.pi - 1e-3), label="Middle axis l(0)",
                       doc="Angle of the middle axis from M, which is horizontal, when the centre of mass passes its "
                           "lowest place.")
-    span: float = number("t", 30.0, (1.0, 200.0), 1.0, bounds=(0.01, 1e4), label="Time span",
-                         doc="How long the motion is followed.")
+    span: float = time_span(30.0, 200.0, what="the motion")
     accuracy: str = accuracy_level()
 
     def limits(self) -> Mapping[str, tuple[float, float, float]]:
@@ -69,7 +65,7 @@ class Loxodrome(State):
     @cached_property
     def pendulum(self) -> LoxodromicPendulum:
         """Raises `InvalidParameter`, `NotPositiveDefinite`, `OutsideRegion`."""
-        return LoxodromicPendulum(HeavyBody.hess((self.I1, self.I2, self.I3), self.m), self.energy, self.l)
+        return LoxodromicPendulum(HeavyBody.hess(self.moments, self.m), self.energy, self.l)
 
     @cached_property
     def found(self) -> LoxodromicMotion:
@@ -78,10 +74,9 @@ class Loxodrome(State):
 
     def motion(self) -> Motion:
         """The reduced motion, in units b = 1."""
-        p, radius = self.pendulum, 0.5 * PIXELS
-        w = radius / math.sqrt(2.0 * (p.h + 1.0))
-        return Motion(SYSTEM, tuple(p.start[:5]), (p.a, 1.0), p.length(self.span), (w, w, radius, radius, radius),
-                      1.0 / p.frequency_unit)
+        p = self.pendulum
+        return Motion(SYSTEM, tuple(p.start[:5]), (p.a, 1.0), p.length(self.span),
+                      pixels_per_unit(math.sqrt(2.0 * (p.h + 1.0))), 1.0 / p.frequency_unit)
 
     def shape(self) -> Shape | None:
         """The gyration ellipsoid; None where this is no rigid body."""
@@ -94,11 +89,7 @@ class Loxodrome(State):
 
     def loxodrome(self) -> Array:
         """All of the loxodrome but its last windings about the poles, (n, 3)."""
-        p, most = self.pendulum, 2.0 * math.pi * _MOST_TURNS
-        reach, middle = -math.log(math.tan(0.5 * _TO_THE_POLE)), math.log(math.tan(0.5 * p.l))
-        start, end = ((side * reach - middle) / p.a if abs(p.a) * most > reach + abs(middle) else side * most
-                      for side in (-1.0, 1.0))
-        return p.middle_axis_at(np.linspace(start, end, _DRAWN))
+        return self.pendulum.middle_axis_at(np.linspace(*self.pendulum.windings(_TO_THE_POLE, _MOST_TURNS), _DRAWN))
 
     def track(self) -> Columns:
         """Height of the centre of mass and l, over time."""
@@ -138,7 +129,7 @@ class Loxodrome(State):
         p, heavy = self.pendulum, self.pendulum.body
         yield f"a = ±√((a₃−a₂)(a₂−a₁))/a₂ = {digits(p.a, 6)}"
         yield f"θ = {digits(p.angle, 6)} = {digits(math.degrees(p.angle), 6)}°"
-        yield f"r = ({digits(heavy.r[0])}, 0, {digits(heavy.r[2])})"
+        yield f"r = {vector(heavy.r)}"
         yield f"H = h μ|r| = {digits(p.h * heavy.mu, 6)}"
         yield f"Unit of time = {digits(1.0 / p.frequency_unit, 6)}"
         yield f"l(0) = {digits(p.l, 6)}"

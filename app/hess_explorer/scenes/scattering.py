@@ -34,7 +34,7 @@ _MOST_DIGITS = 12.0
 _RADIUS = 0.5 * PIXELS
 
 PRESETS = (
-    Preset("I₁₁ = 3.56, θ⁻ = π/2 (figure 5)"),
+    Preset("I₁₁ = 3.56, θ⁻ = π/2 (figure 4)"),
     Preset("k = 1: complete reversal, the curve is flat", k=1.0, theta=1.0),
     Preset("k = 3: complete reversal again", k=3.0, I23=0.4, theta=1.0),
     Preset("k = 2, small θ⁻", theta=0.3),

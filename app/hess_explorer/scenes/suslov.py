@@ -12,19 +12,20 @@ import numpy as np
 
 from hess_explorer.protocol.parameters import Value
 from hess_explorer.scenes.framework.filled_window import TURN, FilledWindow, Piece, filled_window
+from hess_explorer.scenes.framework.inertia import CentreOfMass, Tensor
 from hess_explorer.scenes.framework.one_orbit import Start
-from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number, places
+from hess_explorer.scenes.framework.parameters import accuracy_level, choice, like, number, places, time_span
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views import layered_section, theme
-from hess_explorer.views.graph import settled_range, thinned
-from hess_explorer.views.layers import Axes, Columns, curves, levels
+from hess_explorer.views.graph import over_time, settled_range, thinned
+from hess_explorer.views.layers import Axes, levels
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.poisson_sphere import Sphere, centre_of_mass
+from hess_explorer.views.poisson_sphere import Sphere
 from hess_explorer.views.section_plane import joined
 from hess_explorer.views.text import digits
-from hess_explorer.views.velocity_plane import nice_above, orbit_alone, velocity_columns
-from hess_mechanics.dynamics.sampling import HALF_A_PIXEL, PIXELS
+from hess_explorer.views.velocity_plane import nice_above, orbit_alone, orbit_columns, pixels_per_unit
+from hess_mechanics.dynamics.sampling import HALF_A_PIXEL
 from hess_mechanics.dynamics.section import occupied_cells
 from hess_mechanics.numerics.accuracy import STANDARD, Level, cheapest
 from hess_mechanics.numerics.results import Array, frozen
@@ -68,23 +69,10 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class Suslov(FilledWindow):
+class Suslov(CentreOfMass, Tensor, FilledWindow):
     """A section of one body at one energy, filled with orbits forward and backward in time."""
 
-    I11: float = number("I₁₁", 1.5, (0.2, 5.0), 0.01, bounds=(1e-3, 1e3), label="Inertia I₁₁",
-                        doc="Moment of inertia about the first body axis.")
-    I22: float = number("I₂₂", 3.0, (0.2, 5.0), 0.01, bounds=(1e-3, 1e3), label="Inertia I₂₂",
-                        doc="Moment of inertia about the second body axis.")
-    I13: float = number("I₁₃", 0.4, (-2.0, 2.0), 0.01, bounds=(-1e3, 1e3), label="Inertia I₁₃",
-                        doc="Product of inertia. With I₂₃ it decides where volume shrinks and where it grows.")
-    I23: float = number("I₂₃", 0.4, (-2.0, 2.0), 0.01, bounds=(-1e3, 1e3), label="Inertia I₂₃",
-                        doc="Product of inertia.")
-    b1: float = number("b₁", -0.5, (-3.0, 3.0), 0.01, bounds=(-1e3, 1e3), label="Centre of mass b₁",
-                       doc="First component of b = −mg r.")
-    b2: float = number("b₂", -0.5, (-3.0, 3.0), 0.01, bounds=(-1e3, 1e3), label="Centre of mass b₂",
-                       doc="Second component of b.")
-    b3: float = number("b₃", 0.7, (-3.0, 3.0), 0.01, bounds=(-1e3, 1e3), label="Centre of mass b₃",
-                       doc="Third component of b.")
+    I22: float = like(Tensor, "I22", 3.0)
     h: float = number("h", 1.0, (0.01, 6.0), 0.01, bounds=(1e-6, 1e6), label="Energy above the bottom, h",
                       doc="E + |b|, the energy above its smallest possible value.")
     plane: str = choice("Section", tuple(_PLANES), "γ₃ = 0",
@@ -96,8 +84,7 @@ class Suslov(FilledWindow):
                            doc="How many orbits are spread over the window.")
     count: float = number("N", 200.0, (20.0, 1000.0), 10.0, bounds=(2.0, 4000.0), label="Crossings",
                           doc="How many points each orbit leaves.")
-    span: float = number("t", 60.0, (1.0, 400.0), 1.0, bounds=(0.01, 1e4), label="Time span",
-                         doc="How long the chosen orbit is followed.")
+    span: float = time_span(60.0, 400.0, what="the chosen orbit")
     long: float = number("T", 1000.0, (10.0, 5000.0), 10.0, bounds=(1.0, 2e4), label="Time of the exponent",
                          doc="How long the Lyapunov exponent and the divergence are averaged.")
     accuracy: str = accuracy_level()
@@ -141,9 +128,7 @@ class Suslov(FilledWindow):
     @property
     def weights(self) -> tuple[float, ...]:
         """From the variables to the pictures, in pixels for a unit."""
-        radius = 0.5 * PIXELS
-        w = radius / self.half_width
-        return (w, w, radius, radius, radius)
+        return pixels_per_unit(self.half_width)
 
     @property
     def orbit_level(self) -> Level:
@@ -204,13 +189,9 @@ class Suslov(FilledWindow):
         return () if exponent is None or course is None else (
             (exponent.times, exponent.rates), (course.times, course.mean))
 
-    def rate(self, i: int) -> list[Array]:
+    def rate(self, i: int) -> tuple[Array, Array] | None:
         """The curve of the exponent (0), or of the mean divergence (1)."""
-        return [np.column_stack(thinned(*self.rates[i]))] if self.rates else []
-
-    def track(self) -> Columns:
-        """The orbit on show."""
-        return velocity_columns(self.orbit.times, self.orbit.states[:, :2], self.orbit.states[:, 2:])
+        return thinned(*self.rates[i]) if self.rates else None
 
     # ---- words --------------------------------------------------------------------------------------------------
 
@@ -270,7 +251,7 @@ SCENE = Scene(
     Suslov, __file__, place=5, presets=PRESETS,
     title="Suslov problem with gravity",
     summary="Regular orbits, seas, strange attractors: sections forward and backward in time.",
-    tracks={"orbit": Suslov.track},
+    tracks={"orbit": lambda s: orbit_columns(s.orbit)},
     views=(
         filled_window(title=Suslov._section_title, caption=Suslov._about_section, axes=("ψ", "δ"),
                       full=Suslov.full, labels=("forward in time", "backward"),
@@ -279,11 +260,11 @@ SCENE = Scene(
              axes=("t", "λ"), first=Axes((0.0, 1000.0), (-0.2, 0.2)), x=lambda s: (0.0, s.long),
              y=lambda s: settled_range([y for _, y in s.rates]) if s.rates else None,
              layers=(levels("levels", lambda s: [0.0] if s.rates else []),
-                     curves("divergence", lambda s: s.rate(1), color=theme.MAP, dash="dashed",
-                            label="mean divergence"),
-                     curves("lambda", lambda s: s.rate(0), color=theme.ORBIT, label="exponent λ"))),
+                     over_time("divergence", lambda s: s.rate(1), color=theme.MAP, dash="dashed",
+                               label="mean divergence"),
+                     over_time("lambda", lambda s: s.rate(0), color=theme.ORBIT, label="exponent λ"))),
         orbit_alone(lambda s: s.half_width, energy=lambda s: s.E),
         Sphere(caption=lambda s: "The vertical γ along the chosen orbit; r: the centre of mass.",
-               looks={"orbit": "orbit"}, axis=lambda s: centre_of_mass((s.b1, s.b2, s.b3))),
+               looks={"orbit": "orbit"}, axis=lambda s: s.r),
     ),
 )

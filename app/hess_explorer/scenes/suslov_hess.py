@@ -21,7 +21,7 @@ from hess_explorer.views.layers import Columns, Grid
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, parallels
 from hess_explorer.views.text import digits
-from hess_explorer.views.velocity_plane import centred, nice_above
+from hess_explorer.views.velocity_plane import nice_above, picture
 from hess_mechanics.errors import Separatrix
 from hess_mechanics.numerics.accuracy import DRAFT, STANDARD
 from hess_mechanics.numerics.results import Array
@@ -191,8 +191,7 @@ class SuslovHess(SuslovBody):
                      self.map.kind, "The orbit winds round the torus, no limit cycle")
         if n2 - n1 < 1e-6:
             orbit = "On the bifurcation curve the torus is a circle"
-        high = math.sqrt(2 * max(0.0, self.h + n2))
-        return f"{orbit}; |w| from {digits(self.turning.initial_rho)} to {digits(high)}."
+        return f"{orbit}; |w| from {digits(self.turning.initial_rho)} to {digits(self.turning.final_rho)}."
 
     def about_sphere(self) -> str:
         """The caption of the Poisson sphere."""
@@ -271,9 +270,8 @@ SCENE = Scene(
             "unstable": lambda s: torus_plane.cycle_columns(s.cycles, 1)},
     angles=("phi", "phi_start"),
     views=(
-        Plot(name="omega", title="Angular velocity (ω₁, ω₂)", caption=SuslovHess.about_velocity, axes=("ω₁", "ω₂"),
-             x=lambda s: centred(s.half_width), y=lambda s: centred(s.half_width), dot=("omega1", "omega2"),
-             layers=torus_plane.layers(lambda s: annulus(s.body, s.h, s.turning), half_width=lambda s: s.half_width)),
+        picture(SuslovHess.about_velocity, lambda s: s.half_width, torus_plane.layers(
+            lambda s: annulus(s.body, s.h, s.turning), half_width=lambda s: s.half_width)),
         Sphere(caption=SuslovHess.about_sphere, axis=lambda s: Direction(s.body.n3, "n₃"), circles=SuslovHess.heights,
                looks={"orbit": "orbit", "stable": "stable", "unstable": "unstable"}),
         Plot(name="bifurcation", title="Bifurcation diagram", caption=SuslovHess.about_zone, axes=("h", "f"),

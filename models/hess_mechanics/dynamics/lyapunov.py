@@ -44,6 +44,11 @@ class Exponent:
         """The estimate, per unit of time."""
         return float(self.rates[-1])
 
+    @property
+    def is_regular(self) -> bool:
+        """Whether the mean is as small as a regular motion's, whose neighbour goes away no faster than t: ln(t)/t."""
+        return self.value < 2.0 * math.log(max(math.e, self.times.size)) / float(self.times[-1])
+
 
 def largest_exponent(system: System, state: Sequence[float], parameters: Sequence[float], span: float) -> Exponent:
     """The exponent of the orbit from `state` (d,) over the time `span` (negative: backwards), per unit of time.

@@ -113,6 +113,14 @@ class LoxodromicPendulum:
         l, alpha = self.l_at(swing), np.asarray(swing)
         return np.stack([np.sin(l) * np.sin(alpha), np.cos(l), np.sin(l) * np.cos(alpha)], axis=1)
 
+    def windings(self, to_the_pole: float, turns: float) -> tuple[float, float]:
+        """The α between which the loxodrome comes as near to its poles as this, or winds so often to either side."""
+        most = 2.0 * math.pi * turns
+        reach, middle = -math.log(math.tan(0.5 * to_the_pole)), math.log(math.tan(0.5 * self.l))
+        if abs(self.a) * most <= reach + abs(middle):
+            return -most, most
+        return (-reach - middle) / self.a, (reach - middle) / self.a
+
     def length(self, span: float) -> float:
         """`span` in units b = 1, at most `SETTLED` on the separatrix."""
         length = span * self.frequency_unit

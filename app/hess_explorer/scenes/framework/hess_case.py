@@ -8,10 +8,11 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Self
 
+from hess_explorer.scenes.framework.inertia import Moments
 from hess_explorer.scenes.framework.parameters import Slider, number, slider_within
 from hess_explorer.scenes.framework.scene import Motion, State
 from hess_explorer.views.text import digits
-from hess_mechanics.dynamics.sampling import PIXELS
+from hess_explorer.views.velocity_plane import pixels_per_unit
 from hess_mechanics.errors import NoField, Separatrix
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge, largest_area_integral
@@ -35,10 +36,9 @@ RIS = {"I1": 1.0, "I2": 1.5, "I3": 2.0, "m": math.sqrt(0.5)}
 
 def reduced_motion(hess: HessBody, turning: TurningPoints, phi0: float, length: float) -> Motion:
     """The motion of a torus with phase φ0, over a length of time in units b = 1, for "Speed and accuracy"."""
-    radius = 0.5 * PIXELS
-    w = radius / math.sqrt(2.0 * (turning.h + 1.0))
     start = tuple(turning.state_at_lower_turn(phi0).tolist())
-    return Motion(SYSTEM, start, (hess.a, 1.0), length, (w, w, radius, radius, radius), 1.0 / hess.frequency_unit)
+    weights = pixels_per_unit(math.sqrt(2.0 * (turning.h + 1.0)))
+    return Motion(SYSTEM, start, (hess.a, 1.0), length, weights, 1.0 / hess.frequency_unit)
 
 
 def possible_f(h: float, f: float, notes: list[str]) -> float:
@@ -77,15 +77,9 @@ class SuslovBody(State):
 
 
 @dataclass(frozen=True)
-class HeavyMotion(State):
+class HeavyMotion(Moments):
     """A motion of Euler–Poisson on the Hess manifold: body, integrals, phase; mixed into the state of a scene."""
 
-    I1: float = number("I₁", 1.0, (0.1, 3.0), 0.005, bounds=(1e-3, 1e3), label="Moment I₁",
-                       doc="First principal moment of inertia.")
-    I2: float = number("I₂", 0.625, (0.1, 3.0), 0.005, bounds=(1e-3, 1e3), label="Moment I₂",
-                       doc="Middle principal moment: it lies between I₁ and I₃, else there is no Hess condition.")
-    I3: float = number("I₃", 0.375, (0.1, 3.0), 0.005, bounds=(1e-3, 1e3), label="Moment I₃",
-                       doc="Third principal moment of inertia.")
     m: float = number("μ|r|", 9.975, (-20.0, 20.0), 0.005, bounds=(-1e3, 1e3), label="Weight times distance, μ|r|",
                       doc="The potential is −μ(r, γ). Its sign is that of r.")
     h: float = number("h", 50.0, (-9.0, 100.0), 0.05, bounds=(-1e3, 1e5), label="Energy h", doc="H = h; above −μ|r|.")
@@ -133,7 +127,7 @@ class HeavyMotion(State):
         if abs(self.m) < self._least_weight:
             raise NoField(f"μ|r| = {digits(self.m)}: without weight there is no Hess case. Choose μ|r| of at least "
                           f"{digits(self._least_weight)}.")
-        return Bridge.of_heavy(HeavyBody.hess((self.I1, self.I2, self.I3), self.m))
+        return Bridge.of_heavy(HeavyBody.hess(self.moments, self.m))
 
     @cached_property
     def turning(self) -> TurningPoints:
