@@ -1,0 +1,135 @@
+"""The smooth invariant measure of a Suslov–Hess torus without limit cycles, |t| < 2, and the linear flow on it.
+
+Not in the paper.  An elliptic Θ is a Möbius map of the unit disk with one fixed point ζ inside it.  The map
+z → (z − ζ)/(1 − ζ̄z) takes ζ to 0 and so makes a rotation of Θ:
+
+    ψ(Θ(φ)) = ψ(φ) + 2πρ,   ψ = arg((e^{iφ} − ζ)/(1 − ζ̄e^{iφ})),
+
+and ψ'(φ)/2π is Poisson's kernel of ζ, an invariant density on the circle (`circle_map`: ζ is real there),
+
+    p(φ; ζ) = (1 − |ζ|²)/(2π |e^{iφ} − ζ|²),   p(Θ(φ)) Θ'(φ) = p(φ).
+
+All orbits return to n3 = n3^(1) after the same time T, so p dφ ds/T, s the time since the last return, is an invariant
+measure of the flow.  From the return to the time s the motion of φ is a Möbius map too (`eq0003` is a Riccati
+equation), which takes ζ to some ζ_s with ζ_T = ζ: at that s the density is p(φ; ζ_s), and along every motion
+
+    ψ(φ; ζ_s) = ψ(φ0; ζ) + δ(s),   δ(T) = 2πρ mod 2π.
+
+So s and ψ − δ(s) + 2πρs/T are angles of the torus in which the flow is linear: quasi-periodic for irrational ρ,
+periodic on every orbit for rational ρ.  Where |t| > 2 every motion tends to a limit cycle, and no invariant measure has
+a density; at |t| = 2 likewise.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from hess_mechanics.dynamics.ensemble import ensemble
+from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.results import Array, Complex, frozen
+from hess_mechanics.suslov_hess.bifurcation import turning_points
+from hess_mechanics.suslov_hess.circle_map import CircleMap
+from hess_mechanics.suslov_hess.equations import SYSTEM
+
+__all__ = ["InvariantMeasure", "TorusMeasure", "invariant_measure", "on_torus", "poisson_kernel", "seen_from"]
+
+
+def poisson_kernel(phi: Array | Sequence[float], zeta: complex | Complex) -> Array:
+    """p(φ; ζ), per radian, for φ (...) and |ζ| < 1 that broadcast; its integral over the circle is 1."""
+    z = np.exp(1j * np.asarray(phi, float))
+    density: Array = (1.0 - np.abs(zeta) ** 2) / (2.0 * math.pi * np.abs(z - zeta) ** 2)
+    return density
+
+
+def seen_from(phi: Array | Sequence[float], zeta: complex | Complex) -> Array:
+    """ψ(φ; ζ) in (−π, π]: the direction in which φ is seen from ζ, for φ (...) and |ζ| < 1 that broadcast."""
+    z = np.exp(1j * np.asarray(phi, float))
+    angle: Array = np.angle((z - zeta) / (1.0 - np.conj(zeta) * z))
+    return angle
+
+
+@dataclass(frozen=True)
+class InvariantMeasure:
+    """The measure on the section of one torus: ζ, which is real, the rotation number, and T in units b = 1."""
+
+    a: float
+    h: float
+    f: float
+    zeta: float
+    rotation_number: float
+    period: float
+
+    def density(self, phi: Array | Sequence[float]) -> Array:
+        """p(φ), per radian; same shape as φ."""
+        return poisson_kernel(phi, self.zeta)
+
+    def angle(self, phi: Array | Sequence[float]) -> Array:
+        """ψ(φ) in (−π, π], which grows by 2πρ with each return; same shape as φ."""
+        return seen_from(phi, self.zeta)
+
+
+def invariant_measure(theta: CircleMap) -> InvariantMeasure:
+    """The measure of an elliptic circle map.  Raises `InvalidParameter` where the map has limit cycles."""
+    if theta.kind != "elliptic":
+        raise InvalidParameter(
+            f"At a = {theta.a:g}, h = {theta.h:g}, f = {theta.f:g} the circle map has limit cycles, and no invariant "
+            "measure with a density: choose a torus with |trace| < 2.")
+    _, im, im_beta = theta.matrix
+    # β̄z² + (ᾱ − α)z − β = 0 with an imaginary β; of its roots, ζ and 1/ζ, that inside.
+    root = math.sqrt((im - im_beta) * (im + im_beta))
+    zeta = -im_beta / (im + math.copysign(root, im))
+    return InvariantMeasure(theta.a, theta.h, theta.f, zeta, theta.rotation_number, theta.period)
+
+
+@dataclass(frozen=True)
+class TorusMeasure:
+    """The measure on the whole torus.
+
+    times : s (m,) since a return, units b = 1; zeta : ζ_s (m,); turned : δ(s) (m,), up to whole turns, without jumps;
+    period : T.
+    error_estimate : of the motions from which they are found.
+    """
+
+    times: Array
+    zeta: Complex
+    turned: Array
+    period: float
+    error_estimate: float
+
+    def density(self, phi: Array | Sequence[float]) -> Array:
+        """The density (m, n), per radian and unit of time, at these times and angles φ (n,); its integral is 1."""
+        return poisson_kernel(np.asarray(phi, float)[None, :], self.zeta[:, None]) / self.period
+
+    def angle(self, phi: Array) -> Array:
+        """ψ(φ; ζ_s) − δ(s) (m,) in (−π, π] of angles φ (m,) at these times: constant along a motion."""
+        turned: Array = np.angle(np.exp(1j * (seen_from(phi, self.zeta) - self.turned)))
+        return turned
+
+
+_CUBE_ROOTS = np.exp(2j * math.pi * np.arange(3) / 3.0)
+
+
+def on_torus(measure: InvariantMeasure, times: Sequence[float] | Array, level: Level) -> TorusMeasure:
+    """ζ_s and δ(s) at the times s ≥ 0 (m,), units b = 1.
+
+    Found from three motions that from ζ are seen at angles of 120°, as they are from ζ_s: cross-ratios are kept.
+    Raises `InvalidParameter` (f = 0, where w vanishes at the return), `WorkLimit`.
+    """
+    if measure.f == 0.0:
+        raise InvalidParameter("f = 0: there w vanishes at the lower turning point, and φ jumps. Choose another f.")
+    turning = turning_points(measure.h, measure.f)
+    starts = np.angle((_CUBE_ROOTS + measure.zeta) / (1.0 + measure.zeta * _CUBE_ROOTS))
+    states = np.stack([turning.state_at_lower_turn(phi) for phi in starts.tolist()])
+    found = ensemble(SYSTEM, states, (measure.a, 1.0), times, level)
+    w1, w2 = found.states[..., 0], found.states[..., 1]
+    z1, z2, z3 = (w2 + 1j * w1) / np.hypot(w1, w2)
+    one, two, three = _CUBE_ROOTS
+    ratio = one * (two - three) / (three * (two - one)) * (z2 - z1) / (z2 - z3)
+    zeta = (z1 - ratio * z3) / (1.0 - ratio)
+    turned = np.unwrap(np.angle((z1 - zeta) / (1.0 - np.conj(zeta) * z1)))
+    return TorusMeasure(found.times, frozen(zeta), frozen(turned), measure.period, float(found.errors.max()))
