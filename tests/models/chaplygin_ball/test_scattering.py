@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 from hess_mechanics import level
 from hess_mechanics.chaplygin_ball.energy_surface import Strip
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
-from hess_mechanics.chaplygin_ball.scattering import ball_scattering, starts
+from hess_mechanics.chaplygin_ball.scattering import all_phases, ball_scattering, starts
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import LEVELS, Status
 
@@ -162,3 +162,16 @@ def test_what_cannot_be_is_refused_in_a_sentence(change, match):
     given = {"body": CAPTION, "theta": 1.0, "phis": [0.0], "h": 10.0, "distance": 1e-6} | change
     with pytest.raises(InvalidParameter, match=match):
         ball_scattering(*given.values(), level("draft"))
+
+
+def test_all_phases_go_round_once_and_know_no_energy():
+    found = all_phases(CAPTION, 1.2, 9, 1e-4, level("draft"), 1e7)
+    assert found.phis == pytest.approx(np.linspace(-math.pi, math.pi, 9))
+    other = ball_scattering(CAPTION, 1.2, found.phis, 7.0, 1e-4, level("standard"))
+    assert found.theta_plus == pytest.approx(other.theta_plus, abs=float((found.errors + other.errors).max()))
+
+
+def test_the_semi_axes_of_the_strip_are_where_the_energy_is_kinetic_alone():
+    strip = Strip(CAPTION, 10.0)
+    for axes, added in ((strip.outer, 0.0), (strip.inner, 10.0)):
+        assert 0.5 * np.array([1.0 + added, 1.5 + added]) * axes**2 == pytest.approx([10.0, 10.0], rel=1e-14)

@@ -13,8 +13,11 @@ from hess_mechanics.chaplygin_ball.section import (
     EQUATOR,
     ball_section,
     coordinates,
+    fastest,
     forbidden_band,
+    outside_band,
     seeds,
+    spread_section,
     state_at,
 )
 from hess_mechanics.dynamics.ensemble import ensemble
@@ -277,3 +280,35 @@ def test_where_the_examples_keep_volume_the_divergence_vanishes(name):
     body, _ = example(name)
     random = np.random.default_rng(3)
     assert np.max(np.abs(divergence(body, random.normal(size=(5, 40))))) <= 1e-8
+
+
+@pytest.mark.parametrize("h", [-0.9, -0.2, 0.7])
+def test_a_direction_in_the_forbidden_band_moves_to_its_nearer_edge_and_others_stay(h):
+    b = (0.3, -1.0)
+    band = forbidden_band(BallBody(1.0, 2.0, 0.1, 0.2, 1.0, *b, 0.4), h)
+    for psi in np.linspace(-math.pi, math.pi, 181):
+        moved = outside_band(band, psi)
+        assert -math.pi <= moved <= math.pi
+        directions = np.linspace(-math.pi, math.pi, 20001)
+        possible = directions[b[0] * np.cos(directions) + b[1] * np.sin(directions) < h]
+        apart = np.abs(np.remainder(possible - psi + math.pi, 2.0 * math.pi) - math.pi).min()
+        assert b[0] * math.cos(moved) + b[1] * math.sin(moved) < h
+        # No further than the next possible direction and the room that is left at the edge.
+        assert abs(math.remainder(moved - psi, 2.0 * math.pi)) <= apart + 3e-3
+        assert moved == psi or apart < 1.1e-3 or b[0] * math.cos(psi) + b[1] * math.sin(psi) >= h
+
+
+def test_many_orbits_spread_over_the_section_are_those_of_its_seeds():
+    spread = spread_section(GENERAL, 1.0, 7, 5, level("draft"), 15_000)
+    alone = ball_section(GENERAL, 1.0, seeds(GENERAL, 1.0, 7), 5, level("draft"), 15_000)
+    assert len(spread.states) == 7
+    for found, expected in zip(spread.states, alone.states, strict=True):
+        assert found == pytest.approx(expected, abs=1e-12)
+
+
+def test_the_fastest_moment_of_an_orbit_is_that_of_another_integrator():
+    start = state_at(GENERAL, 1.0, 0.4, 1.1)
+    found = solve_ivp(lambda _, y: SYSTEM.field(y, GENERAL.parameters), (0.0, 12.0), start, rtol=1e-9, atol=1e-9,
+                      t_eval=np.linspace(0.0, 12.0, 5001)).y
+    # A few samples miss the peak itself by little.
+    assert fastest(GENERAL, start, 12.0) == pytest.approx(np.hypot(found[0], found[1]).max(), rel=0.01)

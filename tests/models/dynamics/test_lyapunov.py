@@ -9,7 +9,7 @@ import pytest
 
 from hess_mechanics import systems
 from hess_mechanics.dynamics.birkhoff import rotation_number
-from hess_mechanics.dynamics.lyapunov import MAX_RETURNS, largest_exponent
+from hess_mechanics.dynamics.lyapunov import MAX_RETURNS, Exponent, largest_exponent
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.euler_poisson.andoyer import andoyer_points, coordinates, state_at
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
@@ -170,3 +170,12 @@ def test_with_500_points_it_is_that_of_10000(body, h, f, place, centre):
 def test_too_few_points_are_refused_in_a_sentence(count):
     with pytest.raises(InvalidParameter, match=f"there are {count}: follow it for longer"):
         rotation_number(circle(0.3, count)[0])
+
+
+def test_a_regular_motion_is_told_from_a_chaotic_one_by_how_its_mean_falls():
+    times = np.arange(1.0, 2001.0)
+    falling, steady = np.log(1.0 + times) / times, np.full(times.size, 0.02)
+    assert Exponent(times, falling, 0.0).is_regular
+    assert not Exponent(times, steady, 0.0).is_regular
+    # After so short a time nothing tells them apart yet.
+    assert Exponent(times[:300], steady[:300], 0.0).is_regular

@@ -24,6 +24,7 @@ from hess_mechanics.dynamics.work_precision import (
     measure_levels,
     measure_others,
     others_take_long,
+    quickest_other,
 )
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, REFERENCE
@@ -461,3 +462,12 @@ def test_a_click_on_the_point_of_a_level_chooses_that_level():
 def test_the_chart_of_costs_listens_to_clicks():
     (precision,) = (view for view in ACCURACY.views if view.name == "precision")
     assert {"tap", "doubletap"} <= set(precision.describe()["picks"])
+
+
+def test_the_quickest_other_method_is_one_that_is_accurate_enough():
+    points = (WorkPoint("Taylor", "draft", 0.1, 1e-9), WorkPoint("DOP853", "1e-04", 2.0, 1e-3),
+              WorkPoint("DOP853", "1e-07", 5.0, 1e-6), WorkPoint("LSODA", "1e-07", 4.0, 2e-6))
+    assert quickest_other(points, 1e-5) is points[3]
+    assert quickest_other(points, 1e-6) is points[2]
+    assert quickest_other(points, 1.0) is points[1]
+    assert quickest_other(points, 1e-7) is None

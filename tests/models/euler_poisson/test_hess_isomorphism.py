@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from hess_mechanics import circle_map, level, solve, systems, turning_points
 from hess_mechanics.errors import InvalidParameter, NoField, WorkLimit
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge, heavy_body, hess_body
-from hess_mechanics.euler_poisson.hess_manifold import FreeRun, growth_of, on_manifold, run_free
+from hess_mechanics.euler_poisson.hess_manifold import FreeRun, Leak, exact_motion, growth_of, on_manifold, run_free
 from hess_mechanics.numerics.accuracy import LEVELS
 from hess_mechanics.suslov_hess.equations import HessBody
 
@@ -306,3 +307,47 @@ def test_too_long_a_run_is_refused(run):
     start, _ = on_torus(GESS1, 50.0, 5.0)
     with pytest.raises(WorkLimit, match="choose a shorter one"):
         run(GESS1.heavy, start, 1e9, 3, level("draft"))
+
+
+def leak_of(off, samples=8):
+    """A leak that is this, a period of n3 in a unit of time, beside a motion that stands still."""
+    times = np.arange(off.size) / samples
+    run = FreeRun("draft", times, np.zeros((off.size, 6)), off, 0, {})
+    return Leak(GESS1, run, None, samples)
+
+
+def test_the_side_of_a_leak_is_the_sign_that_is_seen_first():
+    t = np.arange(0, 161) / 8.0
+    growing = np.exp(math.log(1e-15) + 1.7 * t)
+    assert leak_of(growing).side == (1, True)
+    assert leak_of(-growing).side == (-1, True)
+    assert leak_of(np.where(t < 19.9, -growing, growing)).side == (-1, False)
+    assert leak_of(1e-4 * np.tanh(growing)).side == (0, True)
+
+
+def test_a_straight_line_of_the_growth_measured_lies_on_the_leak():
+    t = np.arange(0, 161) / 8.0
+    leak = leak_of(np.exp(math.log(1e-15) + 1.7 * t))
+    (line,) = leak.straight_line(leak.growth.per_period, (-12.0, -4.0))
+    assert line[:, 1] == pytest.approx([-12.0, -4.0])
+    assert (math.log(1e-15) + 1.7 * line[:, 0]) / math.log(10.0) == pytest.approx([-12.0, -4.0], abs=1e-9)
+    # A steeper one goes through the middle of what is straight.
+    (steep,) = leak.straight_line(3.4, (-12.0, -4.0))
+    assert np.diff(steep[:, 0]) == pytest.approx(0.5 * np.diff(line[:, 0]))
+    assert not leak.straight_line(0.0, (-12.0, -4.0))
+    assert not leak_of(np.full(161, 1e-16)).straight_line(1.7, (-12.0, -4.0))
+
+
+def test_a_leak_is_as_far_from_the_exact_motion_as_the_bridge_says():
+    start, period = on_torus(GESS1, 50.0, 5.0)
+    run = run_free(GESS1.heavy, start, period, 97, FLOOR)
+    reduced = GESS1.hess.in_units_of_b(GESS1.to_reduced(np.array(start)))
+    exact = exact_motion(GESS1.hess.a, tuple(reduced.tolist()), period * GESS1.hess.frequency_unit, 97)
+    leak = Leak(GESS1, run, exact, 96)
+    assert leak.apart.max() < 1e-11
+    shifted = replace(leak, exact=replace(exact, states=exact.states + np.array([0.0, 0.0, 0.01, 0.0, 0.0])))
+    assert shifted.apart == pytest.approx(0.01, rel=1e-6)
+    l, x = run.andoyer.T
+    G = np.linalg.norm(run.states[:, :3], axis=1)
+    assert x == pytest.approx(run.states[:, 2] / G, abs=1e-12)
+    assert np.sin(l) * np.sqrt(1.0 - x * x) == pytest.approx(run.states[:, 0] / G, abs=1e-9)

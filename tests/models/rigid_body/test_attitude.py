@@ -281,3 +281,16 @@ def test_what_is_no_loxodromic_pendulum_is_refused_in_a_sentence(make, error, wo
     with pytest.raises(error, match=words) as refused:
         make()
     assert str(refused.value).endswith(".")
+
+
+@pytest.mark.parametrize("l", [0.2, 1.4, 2.9])
+@pytest.mark.parametrize("turns", [0.4, 30.0])
+def test_a_loxodrome_is_drawn_to_its_poles_or_as_often_as_it_may_wind(l, turns):
+    one = pendulum(h=1.5, l=l)
+    ends = np.array(one.windings(0.02, turns))
+    poles = one.l_at(ends)
+    if turns == 0.4:
+        assert ends == pytest.approx([-0.8 * math.pi, 0.8 * math.pi])
+    else:
+        assert np.sort(poles) == pytest.approx([0.02, math.pi - 0.02], rel=1e-9)
+    assert ends[0] < ends[1]

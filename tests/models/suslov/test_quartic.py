@@ -14,10 +14,14 @@ from hess_mechanics.numerics.accuracy import STANDARD
 from hess_mechanics.suslov.quartic import (
     QuarticBody,
     angular_momentum,
+    level_error,
     quartic_section,
     seeds,
+    spread_section,
+    start_on_section,
     state_at,
     state_on_section,
+    visited,
 )
 from support.mechanics import REFERENCE, numbers
 
@@ -214,3 +218,65 @@ def test_what_is_no_motion_is_refused_in_words():
         state_on_section(body, 2.2, 0.99)
     with pytest.raises(WorkLimit, match="choose fewer of them"):
         quartic_section(body, seeds(body, 1), 50, STANDARD, 20)
+
+
+@every_body
+def test_a_start_that_the_energy_forbids_moves_along_its_ray_to_the_edge(body):
+    rng = np.random.default_rng(3)
+    for _ in range(200):
+        q = tuple(1.5 * np.array(body.axes) * rng.uniform(-1.0, 1.0, 2))
+        moved = body.inside(q)
+        g3 = float(body.height(np.array(q)))
+        if abs(g3) <= 1.0:
+            assert moved == q
+            continue
+        assert abs(float(body.height(np.array(moved)))) == pytest.approx(1.0, abs=1e-6)
+        assert abs(float(body.height(np.array(moved)))) <= 1.0
+        assert math.atan2(moved[1], moved[0]) == pytest.approx(math.atan2(q[1], q[0]), abs=1e-12)
+    if body.hole:
+        x, y = body.inside((0.0, 0.0))
+        assert y == 0.0 < x
+        assert abs(float(body.height(np.array([x, y])))) <= 1.0
+
+
+@every_body
+def test_motions_keep_to_the_level_one_half_and_others_do_not(body):
+    state = starts(body, 1)[0]
+    states = solve(SUSLOV, state, body.parameters, np.linspace(0.0, 10.0, 50), STANDARD).states
+    assert level_error(body, states) < 1e-5
+    # Another p at the same q: ½(p² + γ3²) grows by 0.1 |p1| + 0.005 for one of its signs.
+    assert max(level_error(body, states + np.array([0.0, 0.0, change, 0.0, 0.0])) for change in (-0.1, 0.1)) >= 0.005
+
+
+@every_body
+def test_the_start_of_a_place_of_the_section_leads_back_to_it(body):
+    for seed in seeds(body, 6):
+        x, y = body.on_section(np.array([seed]))[0]
+        q1, q2, direction = start_on_section(body, x, y)
+        assert state_at(body, (q1, q2), direction) == pytest.approx(seed, abs=1e-9)
+
+
+def test_the_section_of_many_orbits_is_that_of_its_seeds():
+    body = BODIES[0]
+    spread = spread_section(body, 5, 4, STANDARD, 40_000)
+    alone = quartic_section(body, seeds(body, 5), 4, STANDARD, 40_000)
+    for found, expected in zip(spread.states, alone.states, strict=True):
+        assert found == pytest.approx(expected, abs=1e-12)
+
+
+@every_body
+def test_the_cells_of_the_section_fill_its_rectangle(body):
+    corners = np.array([[x, y] for x in (-0.99, 0.99) for y in (-0.99, 0.99)]) * (body.longest, 1.0)
+    assert visited(body, corners, 4) == 4
+    assert visited(body, 0.01 * corners + (0.1 * body.longest, 0.1), 4) == 1
+
+
+@every_body
+def test_pixels_are_those_of_q_and_of_gamma(body):
+    state, change = np.array(starts(body, 1)[0]), np.array([0.03, -0.02, 0.0, 0.0, 0.0])
+    (first,), _ = body.to_plane(state[None])
+    (second,), _ = body.to_plane((state + change)[None])
+    weights = np.array(body.pixels_per_unit(2.5))
+    # A picture of 600 pixels that shows q from −2.5 to 2.5.
+    assert np.hypot(*(weights * change)[:2]) == pytest.approx(600.0 / 5.0 * np.hypot(*(second - first)), rel=1e-9)
+    assert weights[2:] == pytest.approx([300.0] * 3)

@@ -14,8 +14,8 @@ from hess_mechanics import SuslovBody, level, solve, systems
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import LEVELS, Status
 from hess_mechanics.suslov.additional_integral import I11_of
-from hess_mechanics.suslov.free import equilibria, free_motion, passage
-from hess_mechanics.suslov.scattering import cos_chi, scattering, start
+from hess_mechanics.suslov.free import equilibria, equilibria_of_unit_rate, free_motion, passage
+from hess_mechanics.suslov.scattering import cos_chi, cos_chi_over, scattering, start
 from support.mechanics import angle_between
 
 FIGURE = SuslovBody(3.56, 1.0, 0.0, 0.8)
@@ -307,3 +307,20 @@ def test_the_command_without_phases_and_as_a_table(capsys):
 def test_the_command_refuses_in_one_sentence(tensor, extra, words):
     with pytest.raises(CommandError, match=words):
         run("scattering", f"--I={tensor}", "--theta", "1", *extra)
+
+
+@pytest.mark.parametrize("tensor", [(3.56, 1.0, 0.0, 0.8), (2.0, 1.0, 0.3, 0.5)])
+def test_at_the_energy_of_unit_rate_omega_leaves_the_line_at_that_rate(tensor):
+    body = SuslovBody(*tensor)
+    found = equilibria_of_unit_rate(body)
+    assert found.rate == pytest.approx(1.0, rel=1e-14)
+    omega = found.unstable
+    assert 0.5 * (body.I11 * omega[0] ** 2 + body.I22 * omega[1] ** 2) == pytest.approx(found.h, rel=1e-14)
+
+
+def test_cos_chi_over_k_has_a_row_for_each_k_that_gives_a_body():
+    rows = cos_chi_over(-2, 3, 1.0, 0.3, 0.5)
+    # I11 = 1 + k|k| 0.34 is positive for k > −1.715.
+    assert rows[:, 0] == pytest.approx(np.arange(-1.7, 3.01, 0.05))
+    for k, cosine in rows[::10]:
+        assert cosine == pytest.approx(cos_chi(SuslovBody(1.0 + k * abs(k) * 0.34, 1.0, 0.3, 0.5)), rel=1e-12)

@@ -259,3 +259,11 @@ def test_no_edge_is_drawn_below_the_bottom(use, h, error):
 def test_points_beside_the_curve_raise_a_sentence(n):
     with pytest.raises(InvalidParameter, match="choose 0 < n3 ≤ 1"):
         curve_point(n)
+
+
+@pytest.mark.parametrize(("h", "f"), [(1.5, 0.6), (-0.5, 0.1), (30.0, -4.0)])
+def test_w_is_smallest_and_largest_where_n3_turns(h, f):
+    turning = turning_points(h, f)
+    for rho, n3 in ((turning.initial_rho, turning.roots[1]), (turning.final_rho, turning.roots[2])):
+        assert 0.5 * rho * rho - n3 == pytest.approx(h, rel=1e-12)
+    assert turning.initial_rho < turning.final_rho

@@ -600,3 +600,21 @@ def test_a_search_without_an_answer_raises_a_sentence(use, error, words):
 
 def test_a_trace_on_the_curve_beyond_double_range_is_infinite():
     assert trace_on_curve(1e3, 0.1) == math.inf
+
+
+@pytest.mark.parametrize(("a", "h", "f"), [(0.5, 1.5, 0.6), (0.3, 0.2, 0.5), (3.0, 1.5, 0.6)])
+def test_the_graph_is_theta_without_jumps_and_close_together_also_where_it_is_steep(a, h, f):
+    theta = circle_map(a=a, h=h, f=f, level=level("reference"))
+    phi, image = theta.graph
+    assert (phi[0], phi[-1]) == pytest.approx((-math.pi, math.pi))
+    assert np.all(np.diff(phi) > 0.0)
+    assert angle_between(image, theta.theta(phi)) == pytest.approx(0.0, abs=1e-9)
+    assert np.abs(np.diff(image)).max() < 0.07 > np.diff(phi).max()
+    assert image[-1] - image[0] == pytest.approx(2.0 * math.pi, abs=1e-9)
+
+
+def test_the_graph_is_evaluated_once_and_cannot_be_changed():
+    theta = circle_map(a=0.5, h=1.5, f=0.6, level=level("draft"))
+    assert theta.graph is theta.graph
+    with pytest.raises(ValueError, match="read-only"):
+        theta.graph[1][0] = 0.0

@@ -1,0 +1,94 @@
+"""What a scene is made of: shared parameters, members that a scene must have, a scene that looks into another one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import pytest
+
+from hess_explorer.scenes.framework.crossings import Crossings
+from hess_explorer.scenes.framework.filled_window import FilledWindow
+from hess_explorer.scenes.framework.looking_into import Insight, LookingInto
+from hess_explorer.scenes.framework.parameters import accuracy_level, like, number, specs_of
+from hess_explorer.scenes.framework.scene import Motion, Scene, State
+from hess_mechanics import systems
+
+
+@dataclass(frozen=True)
+class Base(State):
+    """Two parameters to mix in."""
+
+    first: float = number("x", 1.0, (0.0, 2.0), 0.1, bounds=(0.0, 10.0), label="First", doc="The first.")
+    second: float = number("y", 2.0, (0.0, 3.0), 0.1, bounds=(0.0, 10.0), label="Second", doc="The second.")
+
+
+@dataclass(frozen=True)
+class Mixed(Base):
+    """Another default and another doc."""
+
+    third: float = number("z", 3.0, (0.0, 4.0), 0.1, bounds=(0.0, 10.0), label="Third", doc="The third.")
+    second: float = like(Base, "second", 2.5, doc="Another.")
+    accuracy: str = accuracy_level()
+
+
+def test_a_parameter_that_is_declared_again_keeps_its_place_and_what_is_not_changed():
+    first, second, third, accuracy = specs_of(Mixed)
+    assert (first.name, second.name, third.name, accuracy.name) == ("first", "second", "third", "accuracy")
+    assert (second.symbol, second.default, second.softbounds, second.label, second.doc) == (
+        "y", 2.5, (0.0, 3.0), "Second", "Another.")
+    assert Mixed().second == 2.5
+    assert Base().second == specs_of(Base)[1].default == 2.0
+
+
+@pytest.mark.parametrize(("base", "missing"), [
+    (Crossings, ["body", "crossing", "places_of", "start", "weights"]),
+    (FilledWindow, ["body", "follow", "impossible_here", "section", "weights"])])
+def test_a_section_that_lacks_a_member_cannot_be_made(base, missing):
+    incomplete = dataclass(frozen=True)(type("Incomplete", (base,), {}))
+    with pytest.raises(TypeError) as refused:
+        incomplete()
+    assert all(name in str(refused.value) for name in missing)
+
+
+@dataclass(frozen=True)
+class Shown(Mixed):
+    """A state with names that those who look into it use too."""
+
+    @cached_property
+    def chosen(self) -> str:
+        """Of its own."""
+        return "mine"
+
+    def derived(self) -> list[str]:
+        """Of its own."""
+        return ["mine"]
+
+    def motion(self) -> Motion:
+        """Some motion."""
+        return Motion(systems()["suslov"], (1.0, 0.0, 0.0, 0.0, 1.0), (1.0, 2.0, 0.0, 0.1, 0.0, 0.0, 0.0), self.first,
+                      (1.0,) * 5)
+
+
+@dataclass(frozen=True)
+class Looking(Insight):
+    """A state that looks into it."""
+
+    def derived(self) -> list[str]:
+        """Of the one that looks."""
+        return [f"{self.chosen} {self.shown_motion.span:g}"]
+
+
+def test_no_name_of_a_scene_hides_one_of_the_scene_that_looks_into_it():
+    shown = Scene(Shown, "/shown.py", "", "", (), ())
+    looking = LookingInto(Looking, "/looking.py", "", "", (), (), other=shown)
+    assert (looking.name, looking.origin, looking.specs) == ("shown-accuracy", "shown", shown.specs)
+    assert shown.has_motion
+    assert not looking.has_motion
+    values = {**looking.defaults(), "first": 1.5, "accuracy": "precise"}
+    state = looking.of(values, seen=["a"], dragging=True)
+    assert state.derived() == ["precise 1.5"]
+    assert (state.shown.chosen, state.shown.derived()) == ("mine", ["mine"])
+    assert state.work is state.shown.work
+    assert (state.dragging, state.seen) == (True, frozenset({"a"}))
+    assert looking.admit({**values, "first": 20.0}) == shown.admit({**values, "first": 20.0})

@@ -1,0 +1,76 @@
+"""Layers and words that several scenes share."""
+
+import math
+
+import numpy as np
+import pytest
+
+from hess_explorer.views import circle_map, section_plane
+from hess_explorer.views.graph import over_time
+from hess_explorer.views.layers import Axes
+from hess_explorer.views.poisson_sphere import parallels
+from hess_explorer.views.text import vector
+from hess_explorer.views.velocity_plane import pixels_per_unit
+from hess_mechanics import level
+from hess_mechanics.suslov_hess.circle_map import CircleMap
+from hess_mechanics.suslov_hess.circle_map import circle_map as computed
+
+
+def test_a_vector_has_its_components_in_brackets():
+    assert vector((0.123456, -2.0, 0.0)) == "(0.1235, −2, 0)"
+    assert vector([1.23456789], 6) == "(1.23457)"
+
+
+def test_pixels_are_those_of_a_picture_600_wide():
+    assert pixels_per_unit(1.5) == (200.0, 200.0, 300.0, 300.0, 300.0)
+
+
+def test_a_graph_over_time_is_one_curve_or_none():
+    layer = over_time("x", lambda state: state, color="black")
+    times, values = np.array([0.0, 1.0, 2.0]), np.array([3.0, 1.0, 2.0])
+    found = layer.data((times, values))
+    assert [list(one) for one in (*found["xs"], *found["ys"])] == [[0.0, 1.0, 2.0], [3.0, 1.0, 2.0]]
+    assert not layer.data(None)
+
+
+def test_parallels_end_at_the_poles():
+    axis = (0.0, 0.0, 1.0)
+    assert [one.height for one in parallels(axis, [-1.0, -0.3, 0.9, 1.0, 1.5])] == [-0.3, 0.9]
+
+
+def inside(point, curve):
+    """Whether a point lies in a convex closed curve (n, 2)."""
+    steps, to_it = np.roll(curve, -1, axis=0) - curve, np.asarray(point) - curve
+    turns = steps[:, 0] * to_it[:, 1] - steps[:, 1] * to_it[:, 0]
+    return bool(np.all(turns > 0.0) or np.all(turns < 0.0))
+
+
+@pytest.mark.parametrize("middle", [-3.0, 0.2, 3.0])
+def test_a_band_of_angles_is_grey_also_where_it_goes_round(middle):
+    axes = Axes((-math.pi, math.pi), (0.0, 1.0))
+    parts = [curve for (curve,) in section_plane.band(middle, 0.5, 2.0 * math.pi, axes)]
+    for angle in np.linspace(-math.pi, math.pi, 101):
+        expected = abs(math.remainder(angle - middle, 2.0 * math.pi)) < 0.5
+        assert any(inside((angle, 0.5), part) for part in parts) == expected
+
+
+def test_outside_is_a_frame_with_holes():
+    hole = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+    ((frame, found),) = section_plane.outside([hole], 3.0, 2.0)
+    assert found is hole
+    assert (frame.min(axis=0).tolist(), frame.max(axis=0).tolist()) == ([-3.0, -2.0], [3.0, 2.0])
+
+
+def test_the_circle_map_is_evaluated_once_for_all_states_that_show_it(monkeypatch):
+    calls = []
+    theta = CircleMap.theta
+    monkeypatch.setattr(CircleMap, "theta", lambda self, phi: calls.append(len(phi)) or theta(self, phi))
+    found = computed(0.5, 1.5, 0.6, level("draft"))
+    plot = circle_map.picture(map=lambda state: found, iterates=lambda state: found.iterate(state, 90),
+                              caption=lambda state: "")
+    first, second = plot.data(0.5), plot.data(0.7)
+    assert len(calls) == 2  # at even φ, and at these with those of even Θ
+    assert np.array_equal(first["circle-map"]["ys"][0], second["circle-map"]["ys"][0])
+    assert not np.array_equal(first["circle-cobweb"]["phi"], second["circle-cobweb"]["phi"])
+    # No more than 60 returns are drawn.
+    assert len(first["circle-cobweb"]["phi"]) == 2 * 61 - 1
