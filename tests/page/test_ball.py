@@ -9,11 +9,10 @@ import numpy as np
 import pytest
 
 from support.ball import BALL, SECTION, angles, circle_of, energy_of, first_returns, integrate, occupied, shown, xi_of
-from support.page import brought, chosen, flat, one_tab, said, wait_frames
+from support.page import brought, chosen, flat, said, wait_frames
 from support.painted import SOURCES, assert_painted, track, yellow
 from support.pointer import at, click_on, frame
 
-tab = pytest.fixture(scope="module")(one_tab)
 PLANAR = {"chaplygin-ball": ("omega", "curve", "Gamma"), "ball-section": ("section", "returns", "omega")}
 
 

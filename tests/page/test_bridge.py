@@ -8,11 +8,9 @@ import numpy as np
 import pytest
 
 from support.bridge import BRIDGE, HELD, LEAK, STABLE, exact_growth, growth_at, torus
-from support.page import brought, chosen, one_tab, said
+from support.page import brought, chosen, said
 from support.painted import assert_painted
 from support.pointer import click_on
-
-tab = pytest.fixture(scope="module")(one_tab)
 
 
 @pytest.fixture

@@ -12,12 +12,9 @@ import pytest
 from hess_explorer.headless.browser import wait_ready
 from hess_mechanics import f_max
 from hess_mechanics.numerics.accuracy import LEVELS
-from support.page import DEFAULTS, MOMENT, POINTS, SLIDERS, default_state, one_tab, wait_frames, wait_time
+from support.page import DEFAULTS, MOMENT, POINTS, SLIDERS, wait_frames, wait_time
 from support.painted import yellow
 from support.suslov_hess import assert_orbit, exact_states, rounding
-
-tab = pytest.fixture(scope="module")(one_tab)
-explorer = pytest.fixture(default_state)
 
 # Where each slider ends at the default state; f at the last hundredth inside the region.
 ENDS = {

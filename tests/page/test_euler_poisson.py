@@ -17,7 +17,6 @@ from support.page import ENTER, Explorer, flat, one_tab, said
 from support.painted import assert_captions_fit
 from support.pointer import at
 
-tab = pytest.fixture(scope="module")(one_tab)
 SMALL = {"orbits": 8.0, "count": 40.0, "long": 20.0, "span": 5.0}
 
 

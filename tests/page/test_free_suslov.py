@@ -24,11 +24,10 @@ from support.free_suslov import (
     start_of,
     tensor_of,
 )
-from support.page import brought, chosen, flat, one_tab, said, values_of, wait_frames
+from support.page import brought, chosen, flat, said, values_of, wait_frames
 from support.painted import SOURCES, assert_painted, track, yellow
 from support.pointer import at, click_on
 
-tab = pytest.fixture(scope="module")(one_tab)
 PLANAR = {"free-suslov": ("omega", "gamma1", "Gamma"), "scattering": ("curve", "map", "chi")}
 
 

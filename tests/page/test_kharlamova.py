@@ -9,11 +9,9 @@ import pytest
 
 from hess_mechanics.suslov.kharlamova import PlaneBody, arc, state_at
 from support.kharlamova import ARC, POINT
-from support.page import brought, chosen, flat, one_tab, said
+from support.page import brought, chosen, flat, said
 from support.painted import SOURCES, assert_painted
 from support.pointer import click_on
-
-tab = pytest.fixture(scope="module")(one_tab)
 
 
 @pytest.fixture

@@ -24,8 +24,6 @@ LOOKS = [
     *((scene, "wide", "dark") for scene in SCENES),
     *((HESS, size, "dark") for size in SIZES if size != "wide"),
 ]
-# One list for all tests, and the scope of a module: so all that looks at one scene is done before the next is entered.
-every_look = pytest.mark.parametrize("look", LOOKS, indirect=True, scope="module", ids="-".join)
 
 
 @pytest.fixture(scope="module")
@@ -38,8 +36,8 @@ def look_at(browser, server):
             width, height = SIZES[size]
             context = browser.new_context(viewport={"width": width, "height": height})
             tabs[size, theme] = Explorer(context.new_page(), server).open(f"scene={scene}&theme={theme}")
+            tabs[size, theme].page.locator(".MuiBackdrop-root").first.wait_for(state="hidden")
         tab = tabs[size, theme]
-        tab.page.locator(".MuiBackdrop-root").first.wait_for(state="hidden")
         if tab.page.evaluate("document.documentElement.dataset.scene") != scene:
             tab.change(tell, tab.page, "scene", scene)
         return tab.page
@@ -48,12 +46,6 @@ def look_at(browser, server):
     for tab in tabs.values():
         tab.assert_quiet()
         tab.page.context.close()
-
-
-@pytest.fixture(scope="module")
-def look(look_at, request):
-    """(page, scene, size, theme)."""
-    return look_at(*request.param), *request.param
 
 
 def tell(page, name, detail=None):
@@ -66,10 +58,13 @@ def planar(scene):
     return [picture.name for picture in scenes()[scene].views if picture.kind == "plot"]
 
 
+# Whichever of these a picture is, without its caption.
+INSIDE = ":is(canvas.sphere, canvas.solid, .bk-Figure)"
+
+
 def drawing(page, name):
     """A picture without its caption."""
-    inside = ":is(canvas.sphere, canvas.solid, .bk-Figure)"
-    return page.locator(f".gallery:not(.away) .picture-{name} {inside}").first
+    return page.locator(f".gallery:not(.away) .picture-{name} {INSIDE}").first
 
 
 def corner(page, name, bottom):
@@ -86,35 +81,44 @@ def seen(page):
     return Image.open(io.BytesIO(page.screenshot()))
 
 
-@every_look
-def test_of_every_size_and_theme_a_screenshot_is_kept_and_dark_is_dark(look, artefacts):
-    # The first of all tests of a look: nothing has been scrolled yet.
-    page, scene, size, theme = look
-    shot = Image.open(io.BytesIO(page.screenshot(path=artefacts / f"{scene}-{size}-{theme}.png")))
-    assert len(shot.convert("RGB").getcolors(1 << 24)) > 500
-    assert (brightness(shot) > 200) if theme == "light" else (brightness(shot) < 60)
+# Where the drawings without their captions are; where the axes of planar pictures begin and end, and how high they are;
+# how much higher than its place each caption is.
+PLACES = """(gallery, [names, inside]) => {
+  const cells = names.map((name) => gallery.querySelector(`.picture-${name}`))
+  const find = (root) => {
+    for (const item of root.querySelectorAll("*")) {
+      const found = item.matches(inside) ? item : item.shadowRoot && find(item.shadowRoot)
+      if (found) return found
+    }
+    return null
+  }
+  return {
+    boxes: cells.map((cell) => {
+      const { x, y, width, height } = find(cell).getBoundingClientRect()
+      return { x, y, width, height }
+    }),
+    frames: hess.plots.filter(({ model }) => names.includes(model.name)).map(({ el, frame: { bbox } }) => {
+      const { x } = el.getBoundingClientRect()
+      return [x + bbox.x0, x + bbox.x1, bbox.y1 - bbox.y0]
+    }),
+    captions: [...gallery.querySelectorAll(".picture h2")]
+      .map((item) => [item.textContent, item.scrollHeight - item.clientHeight]),
+  }
+}"""
 
 
-# Where the axes of planar pictures begin and end, and how high they are.
-FRAMES = """names => hess.plots.filter(({ model }) => names.includes(model.name)).map(({ el, frame: { bbox } }) => {
-  const { x } = el.getBoundingClientRect()
-  return [x + bbox.x0, x + bbox.x1, bbox.y1 - bbox.y0]
-})"""
-
-
-@every_look
-def test_pictures_stand_in_as_many_columns_as_fit_and_are_square(look):
-    page, scene, size, _ = look
-    boxes = [drawing(page, name).bounding_box() for name in scenes()[scene].open_pictures]
+def assert_squares_in_columns(places, size):
+    """Pictures stand in as many columns as fit, and are square."""
+    width = SIZES[size][0]
+    boxes = places["boxes"]
     for box in boxes:
         assert box["width"] == pytest.approx(box["height"], abs=4)
         assert box["width"] >= 290
         assert box["x"] >= 0
-        assert box["x"] + box["width"] <= SIZES[size][0]
-    frames = page.evaluate(FRAMES, [name for name in planar(scene) if name in scenes()[scene].open_pictures])
-    assert frames
-    for left, right, height in frames:
-        assert 0 <= left < right <= SIZES[size][0]
+        assert box["x"] + box["width"] <= width
+    assert places["frames"]
+    for left, right, height in places["frames"]:
+        assert 0 <= left < right <= width
         assert min(right - left, height) > 200
     columns = COLUMNS[size]
     for i, box in enumerate(boxes):
@@ -125,13 +129,6 @@ def test_pictures_stand_in_as_many_columns_as_fit_and_are_square(look):
         elif i:
             assert box["y"] >= boxes[i - 1]["y"] + boxes[i - 1]["height"] - 1
             assert box["x"] == pytest.approx(boxes[0]["x"], abs=2)
-
-
-@every_look
-def test_nothing_is_wider_than_the_window(look):
-    page, _, size, _ = look
-    assert page.evaluate("document.documentElement.scrollWidth") <= SIZES[size][0]
-    assert page.locator(".main-content").evaluate("item => item.scrollWidth - item.clientWidth") <= 0
 
 
 # What must keep clear of each other: in the main part and beside it.
@@ -149,9 +146,8 @@ CUT_OFF = """items => items.filter((item) => item.checkVisibility({ visibilityPr
   .map((item) => item.textContent)"""
 
 
-@every_look
-def test_nothing_covers_anything_else_and_no_text_is_cut_off(look):
-    page, _, size, _ = look
+def assert_apart_and_whole(page, size):
+    """Nothing covers anything else, and no text is cut off."""
     for selector in PARTS:
         parts = page.locator(selector).evaluate_all(BOXES)
         # On a phone the controls are not there.
@@ -164,13 +160,69 @@ def test_nothing_covers_anything_else_and_no_text_is_cut_off(look):
     assert page.locator(".text, .scene, .legend li").evaluate_all(CUT_OFF) == []
 
 
-# Those of the examples are looked at where examples are chosen, in the tests of each scene.
-@every_look
-def test_every_caption_fits_into_its_place(look):
-    page, scene, _, _ = look
-    for name in scenes()[scene].pictures:
-        caption = page.locator(f".gallery:not(.away) .picture-{name} h2")
-        assert caption.evaluate("item => item.scrollHeight - item.clientHeight") <= 1, caption.inner_text()
+def luminance(colour):
+    """Relative luminance of an (r, g, b), 0 to 1, as WCAG defines it."""
+    parts = [c / 255 / 12.92 if c / 255 <= 0.04045 else ((c / 255 + 0.055) / 1.055) ** 2.4 for c in colour[:3]]
+    return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2]
+
+
+def contrast(one, other):
+    light, dark = sorted((luminance(one), luminance(other)), reverse=True)
+    return (light + 0.05) / (dark + 0.05)
+
+
+TEXTS = """names => {
+  const canvas = document.createElement("canvas").getContext("2d")
+  const rgb = (colour) => {
+    canvas.fillStyle = colour
+    canvas.fillRect(0, 0, 1, 1)
+    return [...canvas.getImageData(0, 0, 1, 1).data].slice(0, 3)
+  }
+  return names.flatMap((name) => {
+    const { below, left } = hess.plots.find(({ model }) => model.name === name).model
+    return [below[0], left[0]].flatMap((axis) => [axis.major_label_text_color, axis.axis_label_text_color].map(rgb))
+  })
+}"""
+
+
+def assert_readable(page, scene):
+    """Every text of the pictures stands out from what is behind it."""
+    names = planar(scene)
+    behind = corner(page, names[-1], bottom=True)
+    texts = page.evaluate(TEXTS, names)
+    assert len(texts) == 4 * len(names)
+    for colour in texts:
+        assert contrast(colour, behind) >= 4.5, (colour, behind)
+    if "sphere" not in scenes()[scene].pictures:
+        return
+    # The sphere writes in the colour of the page's text.
+    colour = drawing(page, "sphere").evaluate("item => getComputedStyle(item).color")
+    behind = corner(page, "sphere", bottom=False)
+    assert contrast([int(part) for part in re.findall(r"\d+", colour)[:3]], behind) >= 4.5
+
+
+# One visit for all that is to be seen of a look: to enter a scene takes longer than to look at it.
+@pytest.mark.parametrize(("scene", "size", "theme"), LOOKS, ids=map("-".join, LOOKS))
+def test_a_scene_has_its_columns_and_colours_and_nothing_is_covered_cut_off_or_hard_to_read(
+        look_at, artefacts, scene, size, theme):
+    page = look_at(scene, size, theme)
+    shot = Image.open(io.BytesIO(page.screenshot(path=artefacts / f"{scene}-{size}-{theme}.png")))
+    assert len(shot.convert("RGB").getcolors(1 << 24)) > 500
+    assert (brightness(shot) > 200) if theme == "light" else (brightness(shot) < 60)
+    places = page.locator(".gallery:not(.away)").evaluate(PLACES, [list(scenes()[scene].open_pictures), INSIDE])
+    assert_squares_in_columns(places, size)
+    # Nothing is wider than the window.
+    main = page.locator(".main-content")
+    assert page.evaluate("document.documentElement.scrollWidth") <= SIZES[size][0]
+    assert main.evaluate("item => item.scrollWidth - item.clientWidth") <= 0
+    # Those of the examples are looked at where examples are chosen, in the tests of each scene.
+    assert len(places["captions"]) == len(scenes()[scene].pictures)
+    for text, over in places["captions"]:
+        assert over <= 1, text
+    assert_apart_and_whole(page, size)
+    # Last, for it scrolls.
+    assert_readable(page, scene)
+    main.evaluate("item => item.scrollTo(0, 0)")
 
 
 def test_every_caption_of_the_accuracy_scene_fits_into_its_place(look_at):
@@ -219,54 +271,16 @@ def test_a_scene_that_is_entered_is_as_dark_as_one_that_a_link_opens(open_page, 
     assert brightness(seen(entered)) == pytest.approx(brightness(seen(linked)), abs=1)
 
 
-def luminance(colour):
-    """Relative luminance of an (r, g, b), 0 to 1, as WCAG defines it."""
-    parts = [c / 255 / 12.92 if c / 255 <= 0.04045 else ((c / 255 + 0.055) / 1.055) ** 2.4 for c in colour[:3]]
-    return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2]
-
-
-def contrast(one, other):
-    light, dark = sorted((luminance(one), luminance(other)), reverse=True)
-    return (light + 0.05) / (dark + 0.05)
-
-
-TEXTS = """names => {
-  const canvas = document.createElement("canvas").getContext("2d")
-  const rgb = (colour) => {
-    canvas.fillStyle = colour
-    canvas.fillRect(0, 0, 1, 1)
-    return [...canvas.getImageData(0, 0, 1, 1).data].slice(0, 3)
-  }
-  return names.flatMap((name) => {
-    const { below, left } = hess.plots.find(({ model }) => model.name === name).model
-    return [below[0], left[0]].flatMap((axis) => [axis.major_label_text_color, axis.axis_label_text_color].map(rgb))
-  })
-}"""
-
-
-@every_look
-def test_every_text_of_the_pictures_stands_out_from_what_is_behind_it(look):
-    page, scene, _, _ = look
-    names = planar(scene)
-    behind = corner(page, names[-1], bottom=True)
-    texts = page.evaluate(TEXTS, names)
-    assert len(texts) == 4 * len(names)
-    for colour in texts:
-        assert contrast(colour, behind) >= 4.5, (colour, behind)
-    if "sphere" not in scenes()[scene].pictures:
-        return
-    # The sphere writes in the colour of the page's text.
-    colour = drawing(page, "sphere").evaluate("item => getComputedStyle(item).color")
-    behind = corner(page, "sphere", bottom=False)
-    assert contrast([int(part) for part in re.findall(r"\d+", colour)[:3]], behind) >= 4.5
-
-
-def test_the_button_turns_the_page_dark_and_the_link_says_so(open_page, look_at):
-    page = open_page()
-    page.get_by_role("button", name="theme").click()
+def test_the_button_turns_the_page_dark_and_the_link_says_so(explorer, look_at):
+    page = explorer.page
+    button = page.get_by_role("button", name="theme")
+    button.click()
     page.wait_for_function("location.search.includes('theme=dark')")
     assert brightness(seen(page)) < 60
     assert axis_colour(page) == axis_colour(look_at(HESS, theme="dark"))
+    button.click()
+    page.wait_for_function("!location.search.includes('theme=dark')")
+    assert brightness(seen(page)) > 200
 
 
 def assert_accessible(page):
@@ -339,12 +353,13 @@ def test_labels_of_ticks_are_short_and_have_room(look_at, ticks, labels):
     assert look_at(HESS).evaluate("ticks => hess.ticks.tickLabels(ticks, 26)", ticks) == labels
 
 
-@pytest.mark.parametrize("query", [
-    "scene=free-suslov&w1=1e-4&w2=2e-4", "scene=euler-poisson&window=0.5,0.2;0.50004,0.20004&orbits=4&count=20"])
-def test_on_tiny_axes_no_label_touches_the_next(browser, server, query):
-    context = browser.new_context(viewport={"width": 1280, "height": 720})
-    page = Explorer(context.new_page(), server).open(query)
-    gaps = page.page.evaluate("""() => hess.plots.flatMap((plot) => plot.computed_renderer_views
+@pytest.mark.parametrize(("scene", "values"), [
+    ("free-suslov", {"w1": 1e-4, "w2": 2e-4}),
+    ("euler-poisson", {"window": "0.5,0.2;0.50004,0.20004", "orbits": 4, "count": 20})])
+def test_on_tiny_axes_no_label_touches_the_next(look_at, scene, values):
+    tab = Explorer(look_at(scene, "laptop"), "")
+    tab.change(tell, tab.page, "change", values)
+    gaps = tab.page.evaluate("""() => hess.plots.flatMap((plot) => plot.computed_renderer_views
       .filter(({ model }) => model.type === "LinearAxis" && plot.model.below.includes(model)).map((axis) => {
         const ticks = axis.tick_coords.major[0].map(Number)
         const at = axis.coordinates.x_scale.v_compute(ticks)
@@ -354,7 +369,6 @@ def test_on_tiny_axes_no_label_touches_the_next(browser, server, query):
         const seen = boxes.filter(([, text]) => text !== "").map(([x, text]) => [x, ctx.measureText(text).width / 2])
         return Math.min(...seen.slice(1).map(([x, half], i) => x - half - (seen[i][0] + seen[i][1])))
       }))""")
+    tab.change(tell, tab.page, "reset")
     assert len(gaps) >= 3
     assert min(gaps) > 2.0
-    page.assert_quiet()
-    context.close()

@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 from support.loxodrome import HESS, LOXODROME, clock, slope, swing_at
-from support.page import Explorer, brought, chosen, one_tab, said, wait_frames
+from support.page import Explorer, brought, chosen, said, wait_frames
 from support.painted import assert_painted
 
-tab = pytest.fixture(scope="module")(one_tab)
 YELLOW = (240, 228, 66)
 
 

@@ -22,16 +22,10 @@ from support.page import (
     SLIDE,
     SLIDERS,
     Explorer,
-    default_state,
-    one_tab,
-    page_on_a_line,
 )
 from support.suslov_hess import assert_defaults, assert_orbit
 
 # Each module of browser tests makes its own fixtures of these.
-tab = pytest.fixture(scope="module")(one_tab)
-on_a_line = pytest.fixture(page_on_a_line)
-explorer = pytest.fixture(default_state)
 
 
 # --- The ready flag ----------------------------------------------------------------------------------

@@ -12,7 +12,7 @@ from PIL import Image
 from hess_mechanics import ensemble, level, systems
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud import carried, frame_times, patch, shell
-from support.page import Explorer, brought, one_tab
+from support.page import Explorer, brought
 from support.painted import assert_captions_fit
 from support.phase_cloud import SCENE, captions
 
@@ -34,7 +34,6 @@ FILLED = """canvas => innerWidth === document.documentElement.clientWidth
   && Math.abs(canvas.width - canvas.getBoundingClientRect().width * devicePixelRatio) <= 2"""
 
 
-tab = pytest.fixture(scope="module")(one_tab)
 
 
 @pytest.fixture

@@ -15,13 +15,10 @@ from hess_explorer.scenes import scenes
 from hess_explorer.views import theme
 from hess_mechanics import circle_map, f_max, level, solve, systems, trace_on_curve, turning_points
 from support.mechanics import angle_between, lifted_return
-from support.page import DEFAULTS, PICTURES, Explorer, default_state, one_tab
+from support.page import DEFAULTS, PICTURES, Explorer
 from support.painted import assert_captions_fit
 from support.pointer import HOME, STEP, assert_turned, at, click
 from support.suslov_hess import assert_orbit, body_of, exact_states
-
-tab = pytest.fixture(scope="module")(one_tab)
-explorer = pytest.fixture(default_state)
 
 REFERENCE = level("reference")
 PRESETS = {preset.name: {**DEFAULTS, **preset.values} for preset in scenes()["suslov-hess"].presets}

@@ -24,21 +24,15 @@ from support.page import (
     HESS,
     STUDY,
     Explorer,
-    default_state,
+    brought,
     flat,
     one_tab,
-    page_on_a_line,
     wait_frames,
     wait_time,
 )
 from support.painted import SOURCES
 from support.pointer import HOME, STEP, assert_turned, at, frame
 from support.suslov_hess import assert_defaults, assert_orbit, body_of, exact_states
-
-tab = pytest.fixture(scope="module")(one_tab)
-study_tab = pytest.fixture(scope="module")(one_tab)
-explorer = pytest.fixture(default_state)
-on_a_line = pytest.fixture(page_on_a_line)
 
 SCENES = scenes()
 # Of what looks into another scene only that of the scene on show is offered.
@@ -49,12 +43,10 @@ PIXELS = 600
 
 
 @pytest.fixture
-def study(study_tab):
+def study(tab):
     """The page in the default state of "Speed and accuracy"."""
-    study_tab.fresh(STUDY)
-    study_tab.assert_quiet()
-    yield study_tab
-    study_tab.assert_quiet()
+    yield brought(tab, SCENES[STUDY])
+    tab.assert_quiet()
 
 
 def drawn(scene, values):
@@ -398,8 +390,9 @@ def test_values_that_change_on_the_way_to_another_scene_arrive_there(explorer):
     assert explorer.shown("h") == (0.9, 0.9)
 
 
-def test_a_state_that_was_seen_before_is_not_computed_again(explorer, study):
-    for page in (explorer, study):
+def test_a_state_that_was_seen_before_is_not_computed_again(tab):
+    for scene in (HESS, STUDY):
+        page = brought(tab, SCENES[scene])
         page.change(lambda page=page: page.slide(phi0=2.34))
         _, misses = kept(page)
         page.change(lambda page=page: page.slide(phi0=2.36))

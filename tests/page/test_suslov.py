@@ -14,13 +14,12 @@ from hess_explorer.scenes import scenes
 from hess_mechanics import circle_map
 from hess_mechanics.numerics.accuracy import REFERENCE
 from support.free_suslov import shown
-from support.page import brought, chosen, flat, one_tab, said, values_of
+from support.page import brought, chosen, flat, said, values_of
 from support.painted import SOURCES, assert_painted
 from support.pointer import at, click
 from support.view import View
 
 SUSLOV, ROTATION = scenes()["suslov"], scenes()["rotation-number"]
-tab = pytest.fixture(scope="module")(one_tab)
 FEW = {"orbits": 8, "count": 40, "long": 50}
 
 

@@ -17,6 +17,8 @@ FIRST = next(iter(scenes()))
 DEFAULTS = scenes()[HESS].defaults()
 POINTS = ("omega-point", "bifurcation-point", "circle-point")
 PICTURES = ("omega", "sphere", "bifurcation", "circle")
+WIDE = (1600, 950)
+"""The size of the window that most tests share."""
 SLIDERS = {"I22": 0.01, "I23": 0.01, "b3": 0.01, "h": 0.01, "f": 0.01, "phi0": 0.01, "span": 1.0}
 """The numbers, with the step of each slider at the default state."""
 
@@ -70,35 +72,40 @@ class Explorer:
         return self
 
     def fresh(self, scene=HESS):
-        """The default state, at t = 0, at rest, the sphere turned back: as if opened anew, but sooner."""
-        url = self.page.url
+        """The first state of a scene, at t = 0, at rest, the sphere turned back: as if opened anew, but sooner."""
+        page = self.page
         # Whatever a test that failed still held.
-        self.page.mouse.up()
-        if not url.startswith(self.base) or "theme=dark" in url or not self.ready or self.scene != scene:
+        page.mouse.up()
+        self.sent.clear()
+        self.received.clear()
+        if not page.url.startswith(self.base) or not self.ready or page.evaluate(IS_ODD):
+            page.set_viewport_size({"width": WIDE[0], "height": WIDE[1]})
             return self.open(f"scene={scene}")
         if self.playing:
-            self.page.locator(".param-play").click()
-        self.page.locator(".param-speed").select_option("1")
+            page.locator(".param-play").click()
+        if page.evaluate("document.documentElement.dataset.scene") != scene:
+            # Without the menu, which offers of the scenes that look into another one only that of the scene on show.
+            self.change(lambda: page.evaluate("scene => hess.tell('scene', scene)", scene))
+        if page.locator(".param-speed").is_visible():
+            page.locator(".param-speed").select_option("1")
+        for unfolded in page.locator(".gallery:not(.away) .unfold[aria-expanded=true]").all():
+            unfolded.click()
+        self.change(page.locator(".param-reset").click)
         self.set_time(0.0)
-        if scene == HESS:
-            self.sphere.press("Home")
-        if self.accuracy != DEFAULTS["accuracy"]:
-            self.change(self.choose, "accuracy", DEFAULTS["accuracy"])
-        first = [(name, DEFAULTS[name]) for name in SLIDERS]
-        if self.text("notes") or not self.page.evaluate(SHOWN, first):
-            before = self.state
-            ready = self.page.evaluate(ENTER, first)
-            wait_ready(self.page, after=before - (ready == "true"))
-        if self.text("notes"):
-            return self.open(f"scene={scene}")
-        self.page.evaluate("document.activeElement?.blur()")
-        self.page.mouse.move(5, 5)
+        if self.sphere.count():
+            self.sphere.first.press("Home")
+        page.evaluate("document.activeElement?.blur()")
+        page.locator(".main-content").evaluate("item => item.scrollTo(0, 0)")
+        page.mouse.move(5, 5)
         return self
 
     def assert_quiet(self):
-        """No error was reported and no other host was asked for anything."""
-        assert not self.errors, self.errors
-        assert not self.outside, self.outside
+        """No error was reported and no other host was asked for anything; each is reported once."""
+        errors, outside = self.errors.copy(), self.outside.copy()
+        self.errors.clear()
+        self.outside.clear()
+        assert not errors, errors
+        assert not outside, outside
 
     # What the page says.
 
@@ -178,6 +185,11 @@ class Explorer:
     def turn(self):
         """(azimuth, elevation) of the sphere as it is painted."""
         return tuple(map(float, self.sphere.get_attribute("data-turn").split()))
+
+    def link(self):
+        """The address of what is on the screen, as "Copy link" writes it: at once, not after the pause."""
+        self.page.locator(".param-link").dispatch_event("click")
+        return self.page.url
 
     def wait_url(self, **values):
         """Wait until the address bar has these values, and return all that it has."""
@@ -270,11 +282,8 @@ SLIDE = f"""pairs => {{
   }}
   return document.documentElement.dataset.ready
 }}"""
-# Whether these are in the boxes, and no other text is.
-SHOWN = f"""pairs => pairs.every(([name, value]) => {{
-  const box = ({FIND})(name, "text")
-  return box.value === String(value) && box.getAttribute("aria-invalid") !== "true"
-}})"""
+# Dark, or not of the size that tests share: a link made it so.
+IS_ODD = "location.search.includes('theme=dark') || innerWidth !== 1600"
 ENTER = f"""pairs => {{
   for (const [name, value] of pairs) {{
     const box = ({FIND})(name, "text")
@@ -286,8 +295,9 @@ ENTER = f"""pairs => {{
 
 
 def one_tab(browser, server):
-    """One tab for the tests of a module: loading a page is what takes longest."""
-    context = browser.new_context(viewport={"width": 1600, "height": 950})
+    """A tab for many tests: loading a page is what takes longest."""
+    context = browser.new_context(
+        viewport={"width": WIDE[0], "height": WIDE[1]}, permissions=["clipboard-read", "clipboard-write"])
     yield Explorer(context.new_page(), server)
     context.close()
 
@@ -377,15 +387,7 @@ def wait_time(explorer, condition):
 
 def brought(tab, scene):
     """The tab with the defaults of a scene, at t = 0."""
-    tab.page.mouse.up()
-    if not tab.page.url.startswith(tab.base) or not tab.ready:
-        tab.open(f"scene={scene.name}")
-    elif tab.scene != scene.name:
-        tab.enter(scene.name)
-    if tab.playing:
-        tab.page.locator(".param-play").click()
-    tab.change(tab.page.locator(".param-reset").click)
-    tab.set_time(0.0)
+    tab.fresh(scene.name)
     tab.assert_quiet()
     return tab
 

@@ -1,0 +1,9 @@
+"""The page that the browser tests of a process share."""
+
+import pytest
+
+from support.page import default_state, one_tab, page_on_a_line
+
+tab = pytest.fixture(scope="session")(one_tab)
+explorer = pytest.fixture(default_state)
+on_a_line = pytest.fixture(page_on_a_line)
