@@ -18,7 +18,7 @@ WORKDIR /home/explorer
 # The kernels are compiled here, by the user who runs them: the cache must be writable for Numba to use it.
 # It holds for the CPU it was made on; on another kind the container compiles once more as it starts.
 ENV NUMBA_CACHE_DIR=/home/explorer/.cache
-RUN python -c "from hess_explorer.server.warm import warm; warm()"
+RUN python -c "from hess_explorer.server.warm import compile_all; compile_all()"
 
 EXPOSE 5006
 HEALTHCHECK --start-period=30s --timeout=5s \

@@ -198,11 +198,18 @@ def test_a_preset_is_possible_as_it_stands_and_is_drawn(scene, preset):
 @every_preset
 def test_a_state_looks_the_same_whatever_was_shown_before(scene, preset):
     values = {**scene.defaults(), **preset.values}
-    first, report = shown(scene, values)
-    board, _ = shown(scene, {**elsewhere(scene), **OTHERS.get(scene.origin or scene.name, {})})
-    _, again = shown(scene, values, board)
+    found = scene.compute(values, scene.pictures, False)
+    # Axes that belong to what is computed later stay until then, so that they do not jump.
+    known = {view.name for view in scene.views if view.ranges(found) is not None}
+    first, board = Board(scene), Board(scene)
+    report = first.show(found)
+    shown(scene, {**elsewhere(scene), **OTHERS.get(scene.origin or scene.name, {})}, board)
+    before = dict(board.ranges)
+    again = board.show(found)
     assert contents(board.sources) == contents(first.sources)
-    assert board.ranges == first.ranges
+    for name in first.ranges:
+        assert board.ranges[name] == (first.ranges if name in known else before)[name], name
+    assert len(known) > 1
     if scene.origin is None:
         assert board.captions == first.captions
     assert again.derived == report.derived
