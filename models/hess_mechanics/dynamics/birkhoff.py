@@ -9,6 +9,9 @@ from hess_mechanics.numerics.results import Array
 
 __all__ = ["rotation_number"]
 
+_ALL_ROUND = 0.85
+"""Turns from one point to the next that scatter by more have no direction about which to count them."""
+
 
 def weighted_mean(values: Array) -> float:
     """Mean with the weight exp(−1/(t(1 − t))), which converges super-polynomially for quasi-periodic sequences."""
@@ -18,10 +21,11 @@ def weighted_mean(values: Array) -> float:
 
 
 def rotation_number(points: Array, centre: tuple[float, float] | None = None) -> tuple[float, float]:
-    """Rotation number of an orbit (n, 2) in turns per point, in (−½, ½], and the difference between its halves.
+    """Rotation number of an orbit (n, 2) in turns per point, in (−½, ½], and its estimated error.
 
-    centre : of the turns; without one, the first coordinate is the angle.  Halves that differ mean that the orbit is
-    no invariant curve.  Raises `InvalidParameter` for fewer than five points.
+    centre : of the turns; without one, the first coordinate is the angle.  The error is by how
+    much the orbit and its halves differ, large where it is no invariant curve, and ½ where the turns cannot be counted.
+    Raises `InvalidParameter` for fewer than five points.
     """
     if len(points) < 5:
         raise InvalidParameter(f"A rotation number needs five points of an orbit, and there are {len(points)}: follow "
@@ -35,8 +39,10 @@ def rotation_number(points: Array, centre: tuple[float, float] | None = None) ->
     middle = float(np.angle(np.mean(np.exp(2j * np.pi * turns)))) / (2.0 * np.pi)
     turns = middle + np.asarray(_within_half(turns - middle))
     half = turns.size // 2
-    return (float(_within_half(weighted_mean(turns))),
-            abs(weighted_mean(turns[:half]) - weighted_mean(turns[half:])))
+    means = [weighted_mean(some) for some in (turns, turns[:half], turns[half:])]
+    # Turns all round the circle may each be one more or one less: nothing is known then.
+    error = 0.5 if np.ptp(turns) > _ALL_ROUND else float(np.ptp(means))
+    return float(_within_half(means[0])), error
 
 
 def _within_half(turns: Array | float) -> Array | float:

@@ -14,7 +14,7 @@ import numpy as np
 from hess_mechanics.dynamics.orbit import MAX_STEPS
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.numerics.accuracy import REFERENCE
+from hess_mechanics.numerics.accuracy import PLANS, STANDARD, Kind, Level
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
@@ -23,7 +23,7 @@ __all__ = ["Exponent", "largest_exponent"]
 MAX_RETURNS = 200_000
 _DISTANCE = 1e-7
 """Distance of the neighbour, where the state is O(1): small enough to be linear, large compared with round-off."""
-_TOLERANCE = 1e-14
+_STANDARD = PLANS[Kind.EXPONENT][STANDARD.name].level
 _INTERVAL = 2.0
 """Time between renormalisations, in units of 1/ν."""
 
@@ -50,9 +50,11 @@ class Exponent:
         return self.value < 2.0 * math.log(max(math.e, self.times.size)) / float(self.times[-1])
 
 
-def largest_exponent(system: System, state: Sequence[float], parameters: Sequence[float], span: float) -> Exponent:
+def largest_exponent(system: System, state: Sequence[float], parameters: Sequence[float], span: float,
+                     level: Level = _STANDARD) -> Exponent:
     """The exponent of the orbit from `state` (d,) over the time `span` (negative: backwards), per unit of time.
 
+    level : of a `Plan` for exponents; those of orbits are too coarse for a neighbour at 1e-7.
     Raises `InvalidParameter`, `WorkLimit`.
     """
     if not (math.isfinite(span) and span != 0.0):
@@ -73,7 +75,7 @@ def largest_exponent(system: System, state: Sequence[float], parameters: Sequenc
     for i in range(count):
         for start, end in zip((y, neighbour), ends, strict=True):
             taken = system.orbit(
-                start, problem.parameters, interval, REFERENCE.order, _TOLERANCE, MAX_STEPS - steps, end)
+                start, problem.parameters, interval, level.order, level.tolerance, MAX_STEPS - steps, end)
             if taken == STEP_LIMIT_REACHED:
                 raise WorkLimit(f"This exponent needs more than {MAX_STEPS} steps: choose a shorter time span.")
             steps += taken

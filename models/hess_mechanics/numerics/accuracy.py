@@ -1,13 +1,21 @@
-"""Accuracy levels: four names, and the error that each of them promises."""
+"""Accuracy levels: four names, and what each of them means for each kind of computation.
+
+A Taylor series pays for digits by its order, so a smaller tolerance costs a factor of 2 or 3 from `draft` to
+`reference`.  What makes `draft` worth choosing is that it also follows orbits for a shorter time, or on a coarser grid.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from hess_mechanics.errors import InvalidParameter
 
-__all__ = ["DRAFT", "LEVELS", "PRECISE", "REFERENCE", "STANDARD", "Level", "Status", "cheapest", "level"]
+__all__ = [
+    "DRAFT", "LEVELS", "PLANS", "PRECISE", "REFERENCE", "STANDARD", "Kind", "Level", "Plan", "Status", "cheapest",
+    "level", "plan",
+]
 
 
 class Status(StrEnum):
@@ -75,3 +83,103 @@ def level(name: str) -> Level:
 def cheapest(error: float) -> Level:
     """The first level that promises this error or less; the last one if none does."""
     return next((each for each in LEVELS.values() if each.promise <= error), REFERENCE)
+
+
+# ---- kinds of computation ---------------------------------------------------------------------------------------
+
+
+class Kind(StrEnum):
+    """What is computed, each with its own meaning of the levels."""
+
+    ORBIT = "orbit"
+    SECTION = "section"
+    ROTATION = "rotation number"
+    GRID = "grid"
+    MAP = "map"
+    CURVE = "curve"
+    BASINS = "basins"
+    EXPONENT = "exponent"
+    CLOUD = "cloud"
+
+    @property
+    def unit(self) -> str:
+        """What the promise of a `Plan` of this kind counts."""
+        return _UNITS[self]
+
+
+_UNITS = {
+    Kind.ORBIT: "error where the state is O(1)",
+    Kind.SECTION: "crossings right to half a pixel where neighbours part e-fold from one to the next",
+    Kind.ROTATION: "error of the rotation number of a closed curve, in turns",
+    Kind.GRID: "error of ρ where |trace| is not within 1e-2 of 2, in turns",
+    Kind.MAP: "error of θ⁺, in radians",
+    Kind.CURVE: "distance from the curve, in pixels, for |a| ≤ 1",
+    Kind.BASINS: "share of the cells that twice as many along each side change, where the boundary is a curve",
+    Kind.EXPONENT: "error of λ beside the fastest angular velocity ν, for a time of 2000/ν",
+    Kind.CLOUD: "error of ln|s|, of γ, and of ω beside its largest size",
+}
+
+
+_CROSSED = Level("draft", 1e-3, 1e-6, 12)
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What a level means for a kind of computation.
+
+    Parameters
+    ----------
+    level : order and tolerance of the Taylor steps, under the name of the level.
+    share : of the crossings, of the time, of the points asked for, the part that is computed.
+    cells : cells along each side of a grid, as a multiple of those at `standard`; phases of a map, orbits on a line.
+    promise : in the `unit` of the kind.
+    """
+
+    level: Level
+    share: float
+    cells: float
+    promise: float
+
+    def part(self, count: float, least: int = 1) -> int:
+        """How many of `count` crossings or points are computed: at least `least`, if so many are asked for."""
+        return max(min(int(count), least), round(self.share * count))
+
+    def grid(self, *sides: int) -> tuple[int, ...]:
+        """The cells along the sides of a grid that has `sides` at `standard`."""
+        return tuple(max(1, round(self.cells * side)) for side in sides)
+
+
+def _plans(*rows: tuple[Level, float, float, float]) -> dict[str, Plan]:
+    """One `Plan` for each level, by its name, from (level, share, cells, promise)."""
+    return {row[0].name: Plan(*row) for row in rows}
+
+
+PLANS: Mapping[Kind, Mapping[str, Plan]] = {
+    Kind.ORBIT: _plans(*((each, 1.0, 1.0, each.promise) for each in LEVELS.values())),
+    # A tolerance above 1e-6 loses crossings.
+    Kind.SECTION: _plans((_CROSSED, 0.25, 1.0, 5), (STANDARD, 1.0, 1.0, 9), (PRECISE, 1.0, 1.0, 13),
+                         (REFERENCE, 1.0, 1.0, 22)),
+    Kind.ROTATION: _plans((_CROSSED, 0.3, 0.5, 1e-3), (STANDARD, 1.0, 1.0, 1e-4), (PRECISE, 1.0, 1.0, 1e-4),
+                          (REFERENCE, 1.0, 1.0, 1e-4)),
+    Kind.GRID: _plans((DRAFT, 1.0, 0.5, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9),
+                      (REFERENCE, 1.0, 1.0, 1e-11)),
+    Kind.MAP: _plans((DRAFT, 1.0, 0.5, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9),
+                     (REFERENCE, 1.0, 1.0, 1e-11)),
+    Kind.CURVE: _plans((DRAFT, 1.0, 0.5, 0.75), (STANDARD, 1.0, 1.0, 0.25), (PRECISE, 1.0, 1.0, 0.25),
+                       (REFERENCE, 1.0, 2.0, 0.1)),
+    # To which attractor an orbit comes needs no digits: more cells tell more.
+    Kind.BASINS: _plans((_CROSSED, 1.0, 0.5, 0.05), (replace(_CROSSED, name="standard"), 1.0, 1.0, 0.03),
+                        (replace(STANDARD, name="precise"), 1.0, 1.0, 0.03),
+                        (replace(PRECISE, name="reference"), 1.0, 1.5, 0.02)),
+    # The neighbour is 1e-7 away, and steps must be exact beside that; the time decides how well λ is known.
+    Kind.EXPONENT: _plans((replace(DRAFT, tolerance=1e-10, order=16), 0.2, 1.0, 0.04),
+                          (replace(STANDARD, tolerance=1e-14, order=24), 1.0, 1.0, 0.01),
+                          (replace(PRECISE, tolerance=1e-15, order=24), 1.0, 1.0, 0.01), (REFERENCE, 1.0, 1.0, 0.01)),
+    Kind.CLOUD: _plans((DRAFT, 0.2, 1.0, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9),
+                       (REFERENCE, 1.0, 1.0, 1e-12)),
+}
+
+
+def plan(kind: Kind, name: str) -> Plan:
+    """What the level of this name means for a kind of computation.  Raises `InvalidParameter`."""
+    return PLANS[kind][level(name).name]

@@ -28,7 +28,8 @@ from hess_mechanics.suslov_hess.mode_locking import critical_a, lock_boundary
 
 __all__ = [
     "PLANES", "Line", "PeriodicTorus", "Torus", "TorusValues", "along", "closed_after", "lock_curve",
-    "periodic_torus", "perturbed_along", "perturbed_rotation", "place_of", "plateaus", "rows", "together", "values_at",
+    "periodic_torus", "perturbed_along", "perturbed_rotation", "place_of", "plateaus", "rotation_errors", "rows",
+    "together", "values_at",
 ]
 
 PLANES = ("h, f", "h, a", "f, a")
@@ -115,6 +116,15 @@ def values_at(a: Array | float, h: Array | float, f: Array | float, level: Level
     with np.errstate(over="ignore"):
         trace = np.where(possible, 2.0 * np.abs(rows[:, 0]) * np.exp(np.minimum(rows[:, 3], 710.0)), 0.0)
     return TorusValues(frozen(rho), frozen(trace), frozen(possible & (discriminant > 0.0)), frozen(possible))
+
+
+def rotation_errors(a: Array | float, h: Array | float, f: Array | float, level: Level) -> Array:
+    """Estimated errors (n,) of ρ as `values_at` finds it, each from a second run with a hundredth of the tolerance.
+
+    Raises as `values_at`.
+    """
+    coarse, fine = (values_at(a, h, f, one).rho for one in (level, level.tightened()))
+    return frozen((4.0 if level.is_floor else 1.25) * np.abs(coarse - fine) + 4e-16)
 
 
 def lock_curve(plane: str, torus: Torus, window: Sequence[float], level: Level, points: int = 40) -> Array:

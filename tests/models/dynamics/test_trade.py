@@ -1,0 +1,74 @@
+"""Time and error of a computation at each level."""
+
+import time
+
+import numpy as np
+import pytest
+
+from hess_mechanics.dynamics.trade import Sample, beyond, enough, measure, measure_until
+from hess_mechanics.numerics.accuracy import LEVELS, PLANS, Kind
+
+
+def rounded(plan):
+    """1/3 with as many digits as the tolerance has."""
+    step = plan.level.tolerance
+    return round(1.0 / 3.0 / step) * step
+
+
+def difference(result, truth):
+    return abs(result - truth)
+
+
+def test_the_error_of_each_level_is_that_against_the_truth():
+    samples = measure(Kind.ORBIT, rounded, difference)
+    assert [one.level for one in samples] == list(LEVELS)
+    for one in samples:
+        step = LEVELS[one.level].tolerance
+        assert one.error == pytest.approx(abs(rounded(PLANS[Kind.ORBIT][one.level]) - 1.0 / 3.0), abs=1e-16)
+        assert one.error <= 0.5 * step + 1e-16
+
+
+def test_the_time_is_that_of_the_fastest_run():
+    pauses = iter([0.0] + [0.03, 0.01, 0.02] * 4)
+
+    def run(plan):
+        time.sleep(next(pauses))
+
+    for one in measure(Kind.ORBIT, run, lambda *_: 0.0, repeats=3):
+        assert 10.0 <= one.ms < 20.0
+
+
+def test_what_leaves_something_out_is_not_complete():
+    complete = {one.level: one.complete for one in measure(Kind.SECTION, lambda plan: None, lambda *_: 0.0)}
+    assert complete == {"draft": False, "standard": True, "precise": True, "reference": True}
+
+
+def test_enough_is_the_cheapest_that_shows_all_without_an_error_that_is_seen():
+    def of(*errors, complete=True):
+        return [Sample(name, 1.0, error, complete or name != "draft")
+                for name, error in zip(LEVELS, errors, strict=True)]
+
+    assert enough(of(0.4, 0.1, 0.0, 0.0), 0.5) == "draft"
+    assert enough(of(0.4, 0.1, 0.0, 0.0, complete=False), 0.5) == "standard"
+    assert enough(of(4.0, 1.0, 0.5, 0.0), 0.5) == "precise"
+    assert enough(of(np.nan, 9.0, 9.0, 9.0), 0.5) == "reference"
+
+
+def test_measuring_until_one_is_enough_runs_no_finer_level():
+    seen = []
+
+    def run(plan):
+        seen.append((plan.level.name, plan.level.order))
+        return rounded(plan)
+
+    assert measure_until(Kind.ORBIT, run, difference, 1e-7) == "standard"
+    assert seen == [("reference", 21), ("draft", 12), ("standard", 16)]
+    assert enough(measure(Kind.ORBIT, run, difference), 1e-7) == "standard"
+
+
+@pytest.mark.parametrize("kind", Kind)
+def test_the_truth_is_more_exact_than_every_level_and_as_fine_as_the_finest(kind):
+    truth = beyond(kind)
+    assert truth.level.tolerance < min(plan.level.tolerance for plan in PLANS[kind].values())
+    assert truth.share == 1.0
+    assert truth.cells == max(plan.cells for plan in PLANS[kind].values())

@@ -1,0 +1,60 @@
+"""What the levels mean for each kind of computation."""
+
+import dataclasses
+from itertools import pairwise
+
+import pytest
+
+from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.accuracy import LEVELS, PLANS, Kind, plan
+
+every_kind = pytest.mark.parametrize("kind", Kind)
+
+
+@every_kind
+def test_every_kind_has_a_plan_for_every_level_under_its_name(kind):
+    assert list(PLANS[kind]) == list(LEVELS)
+    for name, found in PLANS[kind].items():
+        assert found.level.name == name
+        assert plan(kind, name) is found
+
+
+@every_kind
+def test_a_finer_level_is_never_less_exact_shorter_or_coarser(kind):
+    for coarse, fine in pairwise(PLANS[kind].values()):
+        assert fine.level.order >= coarse.level.order
+        assert fine.level.tolerance <= coarse.level.tolerance
+        assert fine.share >= coarse.share
+        assert fine.cells >= coarse.cells
+        assert dataclasses.astuple(fine) != dataclasses.astuple(coarse)
+
+
+@every_kind
+def test_standard_computes_all_that_is_asked_for(kind):
+    """Who chooses 200 crossings gets 200: only the draft leaves some out."""
+    for name in ("standard", "precise", "reference"):
+        assert PLANS[kind][name].share == 1.0
+
+
+def test_no_tolerance_of_a_section_loses_crossings():
+    assert all(PLANS[kind][name].level.tolerance <= 1e-6 for kind in (Kind.SECTION, Kind.ROTATION, Kind.BASINS)
+               for name in LEVELS)
+
+
+def test_a_part_is_rounded_and_has_a_least_size():
+    draft = PLANS[Kind.SECTION]["draft"]
+    assert draft.part(200) == 50
+    assert draft.part(30, least=20) == 20
+    assert draft.part(12, least=20) == 12
+    assert PLANS[Kind.SECTION]["standard"].part(200, least=20) == 200
+
+
+def test_a_grid_keeps_at_least_one_cell():
+    draft = PLANS[Kind.GRID]["draft"]
+    assert draft.grid(300, 200) == (150, 100)
+    assert draft.grid(1) == (1,)
+
+
+def test_a_level_that_is_none_is_refused():
+    with pytest.raises(InvalidParameter, match="draft"):
+        plan(Kind.CLOUD, "finest")
