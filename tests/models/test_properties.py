@@ -33,6 +33,7 @@ PARAMETERS = {
                       *[spread(-3, 2)] * 3),
     "euler-poisson": st.tuples(*[spread(-3, 3).map(abs)] * 3, *[st.floats(-1.0, 1.0)] * 3, spread(-3, 2)),
     "hess": st.tuples(spread(-4, 2), spread(-3, 2)),
+    "plane-potential": st.tuples(*[spread(-3, 3).map(abs)] * 2, *[spread(-3, 2)] * 4),
 }
 
 
@@ -46,6 +47,7 @@ MILD = {
                       *[st.floats(-1.0, 1.0)] * 3),
     "euler-poisson": st.tuples(*[st.floats(0.3, 3.0)] * 3, *[st.floats(-1.0, 1.0)] * 3, st.floats(-1.0, 1.0)),
     "hess": st.tuples(st.floats(-0.5, 0.5), st.floats(0.3, 1.0)),
+    "plane-potential": st.tuples(*[st.floats(0.3, 3.0)] * 2, *[st.floats(-1.0, 1.0)] * 4),
 }
 
 

@@ -29,6 +29,8 @@ every_level = pytest.mark.parametrize("name", LEVELS)
 SYMMETRIES = [
     ("suslov", (-1, -1, 1, 1, 1), -1),
     ("ball", (-1, -1, 1, 1, 1), -1),
+    ("plane-potential", (-1, -1, 1, 1, 1), -1),
+    ("plane-potential", (1, 1, 1, 1, -1), -1),
     ("euler-poisson", (-1, -1, -1, 1, 1, 1), -1),
     ("hess", (-1, -1, 1, 1, 1), -1),
     ("hess", (-1, 1, -1, 1, 1), -1),

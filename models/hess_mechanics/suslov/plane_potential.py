@@ -1,0 +1,195 @@
+"""The Suslov problem with e on a principal axis in a potential U(γ1, γ2) (`eqs03`): Kharlamova's case generalised.
+
+    U = ½(c1γ1² + c2γ2²) + λ(γ1²γ2 − γ2³/3) + μγ1²γ2².
+
+With q = (√I11 γ2, −√I22 γ1), p = (√I11 ω1, √I22 ω2) and the time τ, dτ = γ3 dt, it is a natural Hamiltonian system
+in the plane, H = ½p² + V(q), V(q) = U, inside the ellipse γ3² = 1 − γ1² − γ2² ≥ 0; at its edge the orbit goes back
+with the other sign of γ3 and dτ < 0.  Three choices, see `POTENTIALS`:
+
+- quadratic, λ = μ = 0: the variables separate, and F2 = ½(I11ω1² + c2γ2²) is an integral besides E and F1, for all I11,
+  I22, c1, c2.  The paper quotes this case from V. V. Kozlov.
+- Hénon–Heiles, c1 = c2, μ = 0, and quartic, c1 = c2, λ = 0: for I11 = I22 the systems of these names, not integrable.
+
+Whatever the potential, an orbit that crosses the equator twice is periodic (`chaplygin_ball.integrable_cases`, 𝒟 = 0).
+So chaos is seen only below the energy at which motions reach the equator, the least U on γ1² + γ2² = 1.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from hess_mechanics.dynamics.section import MAX_STEPS, Plane, Points, section_points
+from hess_mechanics.dynamics.system import System
+from hess_mechanics.errors import InvalidParameter, OutsideRegion
+from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.results import Array
+from hess_mechanics.rigid_body.inertia import require_finite, require_positive_definite
+
+__all__ = ["POTENTIALS", "PotentialBody", "equator_energy", "plane_section", "separable_integral", "state_at"]
+
+_TURNS = 200.0
+"""Time allowed per crossing of γ1 = 0, in units of 1/ν."""
+_ROUND = 721
+
+
+@dataclass(frozen=True)
+class PotentialBody:
+    """A body with I13 = I23 = 0 and the coefficients of U.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
+
+    I11: float
+    I22: float
+    c1: float
+    c2: float
+    cubic: float = 0.0
+    quartic: float = 0.0
+
+    def __post_init__(self) -> None:
+        require_finite(**vars(self))
+        require_positive_definite(self.I11, self.I22)
+
+    @property
+    def parameters(self) -> tuple[float, ...]:
+        """p = (I11, I22, c1, c2, λ, μ)."""
+        return (self.I11, self.I22, self.c1, self.c2, self.cubic, self.quartic)
+
+    @property
+    def separates(self) -> bool:
+        """Whether F2 of the quadratic potential is an integral."""
+        return self.cubic == self.quartic == 0.0
+
+    def potential(self, u: Array) -> Array:
+        """U at u = (γ1, γ2), (..., 2)."""
+        return np.asarray(potential(u[..., 0], u[..., 1], self.parameters))
+
+    def gradient(self, u: Array) -> Array:
+        """∂U/∂u at u = (γ1, γ2), (..., 2); same shape."""
+        return np.stack(np.broadcast_arrays(*gradient(u[..., 0], u[..., 1], self.parameters)), axis=-1)
+
+
+POTENTIALS: Mapping[str, tuple[float, float, float, float]] = {
+    "quadratic": (1.0, 0.6, 0.0, 0.0),
+    "Hénon–Heiles": (1.0, 1.0, 1.0, 0.0),
+    "quartic": (0.2, 0.2, 0.0, 6.0),
+}
+"""c1, c2, λ, μ: one potential that is integrable, and two that are not."""
+
+
+def potential(g1: Any, g2: Any, p: Sequence[Any]) -> Any:
+    """U(γ1, γ2)."""
+    _, _, c1, c2, cubic, quartic = p
+    return (c1 * g1**2 + c2 * g2**2) / 2 + cubic * (g1**2 * g2 - g2**3 / 3) + quartic * (g1**2 * g2**2)
+
+
+def gradient(g1: Any, g2: Any, p: Sequence[Any]) -> tuple[Any, Any]:
+    """∂U/∂γ1, ∂U/∂γ2."""
+    _, _, c1, c2, cubic, quartic = p
+    both = g1 * g2
+    return (c1 * g1 + 2 * cubic * both + 2 * quartic * (both * g2),
+            c2 * g2 + cubic * (g1**2 - g2**2) + 2 * quartic * (both * g1))
+
+
+def field(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
+    """`Biz01` with this potential: Iω̇ = γ × ∂U/∂γ without its third component, γ̇ = γ × ω."""
+    w1, w2, g1, g2, g3 = y
+    U1, U2 = gradient(g1, g2, p)
+    return -g3 * U2 / p[0], g3 * U1 / p[1], -g3 * w2, g3 * w1, g1 * w2 - g2 * w1
+
+
+def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
+    """Energy E and F1 = γ²."""
+    w1, w2, g1, g2, g3 = y
+    return {"E": (p[0] * w1**2 + p[1] * w2**2) / 2 + potential(g1, g2, p), "F1": g1**2 + g2**2 + g3**2}
+
+
+_MAX_RATIO = 1e20
+"""Beyond this ratio the slow motion is lost in round-off, in units of the fast one."""
+
+
+def frequency(y: Array, p: Array) -> Array | float:
+    """ν = √(2(T + 2 max|U|)/min(I11, I22)) of a state (5,) or many (5, n): no |ω| of the motion exceeds it.
+
+    Raises `NotPositiveDefinite`, `InvalidParameter`.
+    """
+    I11, I22 = p[0], p[1]
+    require_positive_definite(I11, I22)
+    if not 1.0 / _MAX_RATIO <= I11 / I22 <= _MAX_RATIO:
+        raise InvalidParameter(f"The moments I11 and I22 are too different: choose a ratio below {_MAX_RATIO:g}.")
+    square = y[2] ** 2 + y[3] ** 2 + y[4] ** 2
+    # |γ1²γ2 − γ2³/3| ≤ |γ|³/3, γ1²γ2² ≤ |γ|⁴/4.
+    largest = (0.5 * max(abs(p[2]), abs(p[3])) * square + abs(p[4]) / 3 * square * np.sqrt(square)
+               + abs(p[5]) / 4 * square**2)
+    nu: Array | float = np.sqrt((I11 * y[0] ** 2 + I22 * y[1] ** 2 + 4 * largest) / min(I11, I22))
+    return nu
+
+
+def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:
+    """Time in units of 1/ν: ω → ω/ν, U → U/ν²."""
+    y, p = y.copy(), p.copy()
+    y[:2] /= nu
+    p[2:] /= nu * nu
+    return y, p
+
+
+SYSTEM = System(
+    name="plane-potential",
+    title="Suslov problem on a principal axis, potential U(γ1, γ2)",
+    source="section 2, equations (2.2), (2.13)",
+    labels=("Biz01", "eqs03"),
+    variables=("ω1", "ω2", "γ1", "γ2", "γ3"),
+    parameters=("I11", "I22", "c1", "c2", "cubic", "quartic"),
+    field=field,
+    integrals=integrals,
+    frequency=frequency,
+    rescale=rescale,
+    example=((0.35, 0.45, 0.1, -0.2, 0.9746794344808963), (1.2, 1.0, 1.0, 0.8, 1.0, 0.5)),
+)
+
+
+def separable_integral(body: PotentialBody, states: Array) -> Array:
+    """F2 = ½(I11ω1² + c2γ2²) (...) of states (..., 5); an integral where the body `separates`."""
+    return np.asarray(0.5 * (body.I11 * states[..., 0] ** 2 + body.c2 * states[..., 3] ** 2))
+
+
+def equator_energy(body: PotentialBody) -> float:
+    """The least U on the equator: motions with less energy stay on one side of it."""
+    angle = np.linspace(-math.pi, math.pi, _ROUND)
+    values = body.potential(np.stack([np.cos(angle), np.sin(angle)], axis=-1))
+    i = int(np.argmin(values[:-1]))
+    # A parabola through the least value and its neighbours.
+    before, least, after = values[i - 1 if i else -2], values[i], values[i + 1]
+    curvature = before - 2.0 * least + after
+    return float(least - (before - after) ** 2 / (8.0 * curvature) if curvature > 0.0 else least)
+
+
+def state_at(body: PotentialBody, E: float, g2: float, w1: float) -> tuple[float, ...]:
+    """The state (5,) with γ1 = 0 and this γ2 and ω1 at the energy E, γ3 > 0, where γ1 grows: ω2 < 0.
+
+    Raises `InvalidParameter`, `OutsideRegion` where the energy does not allow it.
+    """
+    require_finite(E=E, g2=g2, w1=w1)
+    if not abs(g2) < 1.0:
+        raise InvalidParameter(f"γ2 = {g2:g}, but γ is a unit vector: choose |γ2| < 1.")
+    left = 2.0 * (E - float(body.potential(np.array([0.0, g2])))) - body.I11 * w1 * w1
+    if not left > 0.0:
+        raise OutsideRegion(
+            f"At γ2 = {g2:.6g}, ω1 = {w1:.6g} no motion with the energy E = {E:.6g} crosses γ1 = 0: choose a larger E.")
+    return (w1, -math.sqrt(left / body.I22), 0.0, g2, math.sqrt(1.0 - g2 * g2))
+
+
+def plane_section(body: PotentialBody, starts: Sequence[Sequence[float]], crossings: int, level: Level,
+                  most_steps: int = MAX_STEPS) -> Points:
+    """The first crossings of γ1 = 0, γ1 growing, of each orbit; (γ2, ω1) are coordinates of the section for γ3 > 0.
+
+    Raises `InvalidParameter`, `WorkLimit`.
+    """
+    p = np.array(body.parameters)
+    nu = float(np.max(SYSTEM.frequency(np.array(starts, float).T, p)))
+    ratio = math.sqrt(max(body.I11, body.I22) / min(body.I11, body.I22))
+    return section_points(SYSTEM, starts, body.parameters, Plane((0.0, 0.0, 1.0, 0.0, 0.0)),
+                          crossings * _TURNS * ratio / max(nu, 1e-300), level, crossings, most_steps=most_steps)
+

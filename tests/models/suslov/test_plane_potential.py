@@ -1,0 +1,179 @@
+"""Potentials U(γ1, γ2) on a principal axis: the motion in the plane, integrability, chaos, and orbits that close."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+import sympy
+from scipy.integrate import solve_ivp
+
+from hess_mechanics import level, section, solve, systems
+from hess_mechanics.chaplygin_ball.section import EQUATOR
+from hess_mechanics.dynamics.lyapunov import largest_exponent
+from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, OutsideRegion
+from hess_mechanics.suslov.kharlamova import mirrored
+from hess_mechanics.suslov.plane_potential import (
+    POTENTIALS,
+    SYSTEM,
+    PotentialBody,
+    equator_energy,
+    plane_section,
+    separable_integral,
+    state_at,
+)
+
+SUSLOV = systems()["suslov"]
+every_potential = pytest.mark.parametrize("name", POTENTIALS)
+
+
+def body_of(name, I11=1.0, I22=1.0):
+    return PotentialBody(I11, I22, *POTENTIALS[name])
+
+
+def by_hand(body, g1, g2):
+    """U as written in the module's first line, and its gradient by sympy."""
+    x, y = sympy.symbols("x y")
+    U = (body.c1 * x**2 + body.c2 * y**2) / 2 + body.cubic * (x**2 * y - y**3 / 3) + body.quartic * x**2 * y**2
+    at = {x: g1, y: g2}
+    return float(U.subs(at)), (float(U.diff(x).subs(at)), float(U.diff(y).subs(at)))
+
+
+@every_potential
+def test_the_field_is_that_of_the_suslov_problem_with_the_gradient_for_b(name):
+    body = PotentialBody(1.3, 0.7, *POTENTIALS[name])
+    random = np.random.default_rng(1)
+    for _ in range(20):
+        y = random.normal(size=5)
+        value, slope = by_hand(body, y[2], y[3])
+        assert float(body.potential(y[2:4])) == pytest.approx(value, abs=1e-13)
+        assert body.gradient(y[2:4]) == pytest.approx(np.array(slope), abs=1e-12)
+        expected = SUSLOV.field(y, (1.3, 0.7, 0.0, 0.0, *slope, 0.0))
+        assert SYSTEM.field(y, body.parameters) == pytest.approx(expected, abs=1e-12)
+
+
+@pytest.mark.parametrize(("name", "E", "end"), [("quadratic", 0.2, 20.0), ("Hénon–Heiles", 0.1, 20.0),
+                                                ("quartic", 0.05, 10.0)])
+def test_in_the_time_tau_it_is_the_natural_system_in_the_plane(name, E, end):
+    body = body_of(name, 1.3, 0.7)
+    start = state_at(body, E, 0.2, 0.1)
+    r1, r2 = math.sqrt(1.3), math.sqrt(0.7)
+
+    def rate(_, z):
+        # q' = p, p' = −∂V/∂q, V(q) = U(−q2/√I22, q1/√I11); and t' = 1/γ3.
+        g1, g2 = -z[1] / r2, z[0] / r1
+        U1, U2 = by_hand_gradient(body, g1, g2)
+        return [z[2], z[3], -U2 / r1, U1 / r2, 1.0 / math.sqrt(1.0 - g1 * g1 - g2 * g2)]
+
+    w1, w2, g1, g2, _ = start
+    run = solve_ivp(rate, (0.0, end), [r1 * g2, -r2 * g1, r1 * w1, r2 * w2, 0.0], method="DOP853", rtol=1e-12,
+                    atol=1e-13, t_eval=np.linspace(0.1, end, 7))
+    states = solve(SYSTEM, start, body.parameters, run.y[4], level("reference")).states
+    plane = np.column_stack([r1 * states[:, 3], -r2 * states[:, 2], r1 * states[:, 0], r2 * states[:, 1]])
+    assert plane == pytest.approx(run.y[:4].T, abs=1e-7)
+    assert np.all(states[:, 4] > 0.0)
+
+
+def by_hand_gradient(body, g1, g2):
+    return (body.c1 * g1 + 2 * body.cubic * g1 * g2 + 2 * body.quartic * g1 * g2**2,
+            body.c2 * g2 + body.cubic * (g1**2 - g2**2) + 2 * body.quartic * g1**2 * g2)
+
+
+@pytest.mark.parametrize(("I11", "I22", "c1", "c2"),
+                         [(1.0, 1.0, 1.0, 0.6), (2.0, 0.5, 0.4, -0.3), (0.3, 1.1, -1.0, 2.0)])
+def test_the_quadratic_potential_has_another_integral_on_both_sides_of_the_equator(I11, I22, c1, c2):
+    body = PotentialBody(I11, I22, c1, c2)
+    assert body.separates
+    states = solve(SYSTEM, (0.8, -0.5, 0.6, 0.0, 0.8), body.parameters, np.linspace(0.0, 60.0, 300),
+                   level("precise")).states
+    assert np.ptp(separable_integral(body, states)) <= 1e-8
+    assert np.ptp(states[:, 0]) > 0.05
+    assert states[:, 4].min() < 0.0 < states[:, 4].max()
+    # Symbolically: Ḟ2 = 0 for the quadratic potential alone.
+    y, p = sympy.symbols("w1 w2 g1 g2 g3"), sympy.symbols("I11 I22 c1 c2 cubic quartic")
+    F2 = (p[0] * y[0] ** 2 + p[3] * y[3] ** 2) / 2
+    rate = sum(F2.diff(x) * v for x, v in zip(y, SYSTEM.field(y, p), strict=True))
+    assert sympy.simplify(rate.subs({p[4]: 0, p[5]: 0})) == 0
+    assert sympy.simplify(rate.subs(p[4], 0)) != 0
+    assert sympy.simplify(rate.subs(p[5], 0)) != 0
+
+
+@pytest.mark.parametrize("name", ["Hénon–Heiles", "quartic"])
+def test_the_others_have_not(name):
+    body = body_of(name)
+    assert not body.separates
+    states = solve(SYSTEM, (0.1, -0.2, 0.2, 0.3, math.sqrt(0.87)), body.parameters, np.linspace(0.0, 60.0, 300),
+                   level("precise")).states
+    assert np.ptp(separable_integral(body, states)) > 1e-3
+
+
+@every_potential
+def test_below_the_least_potential_on_the_equator_motions_stay_on_one_side(name):
+    body = body_of(name, 1.3, 0.8)
+    edge = equator_energy(body)
+    angle = np.linspace(-math.pi, math.pi, 200_001)
+    assert edge == pytest.approx(min(body.potential(np.column_stack([np.cos(angle), np.sin(angle)]))), abs=1e-8)
+    times = np.linspace(0.0, 300.0, 3000)
+    for share in (0.5, 0.99):
+        start = state_at(body, share * edge, 0.1, 0.02)
+        states = solve(SYSTEM, start, body.parameters, times, level("standard")).states
+        assert states[:, 4].min() > 0.0
+
+
+@pytest.mark.parametrize(("name", "E", "chaotic"), [("quadratic", 0.29, False), ("Hénon–Heiles", 0.163, True),
+                                                    ("quartic", 0.098, True)])
+def test_the_integrable_one_is_regular_and_the_others_have_chaos(name, E, chaotic):
+    body = body_of(name)
+    assert equator_energy(body) > E
+    exponents = [largest_exponent(SYSTEM, state_at(body, E, g2, 0.1), body.parameters, 1500.0).value
+                 for g2 in (-0.2, 0.1, 0.25)]
+    # Of a regular motion it falls as ln(t)/t, 0.005 by now.
+    assert (max(exponents) > 0.05) is chaotic
+    assert chaotic or max(exponents) < 0.008
+
+
+@every_potential
+@pytest.mark.parametrize("start", [(0.9, -0.7, 0.48, 0.6, 0.64), (1.5, 0.4, 0.0, 0.6, -0.8)])
+def test_an_orbit_that_crosses_the_equator_twice_closes_whatever_the_potential(name, start):
+    body = body_of(name, 1.3, 0.8)
+    both = section(SYSTEM, start, body.parameters, EQUATOR, 400.0, level("reference"), crossings=2)
+    assert both.states[1] == pytest.approx(both.states[0], abs=1e-9)
+    period = float(both.times[1] - both.times[0])
+    back = solve(SYSTEM, start, body.parameters, [period], level("reference")).states[0]
+    assert back == pytest.approx(np.array(start), abs=1e-9)
+    # Before and after the crossing it is its mirror image.
+    before, after = (solve(SYSTEM, both.states[0], body.parameters, [sign * 0.4], level("reference")).states[0]
+                     for sign in (-1.0, 1.0))
+    assert before == pytest.approx(mirrored(after), abs=1e-10)
+
+
+@every_potential
+def test_points_of_the_section_are_those_of_scipy(name):
+    body = body_of(name, 1.3, 0.8)
+    start = state_at(body, 0.8 * equator_energy(body), 0.15, 0.05)
+    assert SYSTEM.integrals(start, body.parameters) == pytest.approx(
+        {"E": 0.8 * equator_energy(body), "F1": 1.0}, abs=1e-14)
+    assert SYSTEM.field(start, body.parameters)[2] > 0.0
+
+    def event(_, y):
+        return y[2]
+
+    event.direction = 1.0
+    run = solve_ivp(lambda _, y: SYSTEM.field(y, body.parameters), (0.0, 120.0), start, method="DOP853", rtol=1e-12,
+                    atol=1e-13, events=event)
+    exact = run.y_events[0][run.t_events[0] > 1e-6][:5]
+    assert len(exact) == 5
+    assert plane_section(body, [start], 5, level("precise")).states[0] == pytest.approx(exact, abs=1e-6)
+
+
+@pytest.mark.parametrize(("call", "error", "words"), [
+    (lambda: state_at(body_of("quadratic"), 0.1, 0.9, 0.0), OutsideRegion, "choose a larger E"),
+    (lambda: state_at(body_of("quadratic"), 0.1, 1.2, 0.0), InvalidParameter, "choose .γ2. < 1"),
+    (lambda: state_at(body_of("quadratic"), math.nan, 0.2, 0.0), InvalidParameter, "E is not a finite"),
+    (lambda: PotentialBody(1.0, 0.0, 1.0, 1.0), NotPositiveDefinite, "choose I22 > 0"),
+    (lambda: PotentialBody(1.0, 1.0, 1.0, math.inf), InvalidParameter, "c2"),
+])
+def test_what_is_wrong_is_said(call, error, words):
+    with pytest.raises(error, match=words):
+        call()
