@@ -13,7 +13,7 @@ from hess_explorer.headless.browser import wait_ready
 from hess_explorer.headless.screenshot import running_server
 from hess_explorer.protocol.parameters import places
 from support.euler_poisson import EP, EulerPoisson
-from support.page import ENTER, Explorer, flat, one_tab, said
+from support.page import ENTER, brought, flat, one_tab, said
 from support.painted import assert_captions_fit
 from support.pointer import at
 
@@ -21,9 +21,7 @@ SMALL = {"orbits": 8.0, "count": 40.0, "long": 20.0, "span": 5.0}
 
 
 def values_of(explorer):
-    # The address bar follows after a pause of 0.4 s.
-    explorer.page.evaluate("new Promise((done) => setTimeout(done, 450))")
-    query = dict(parse_qsl(urlsplit(explorer.page.url).query, keep_blank_values=True))
+    query = dict(parse_qsl(urlsplit(explorer.link()).query, keep_blank_values=True))
     return {spec.name: type(spec.default)(query[spec.name]) for spec in EP.specs}
 
 
@@ -33,14 +31,9 @@ def completed(explorer):
     return explorer
 
 
-def opened(tab, **values):
-    """The page with a small section; without opening it anew where the boxes can say all of it."""
-    tab.page.mouse.up()
-    if values or not tab.page.url.startswith(tab.base) or not tab.ready or tab.scene != EP.name:
-        tab.open(urlencode({"scene": EP.name, **SMALL, **values}))
-    else:
-        tab.change(tab.page.locator(".param-reset").click)
-        tab.change(lambda: tab.page.evaluate(ENTER, [*SMALL.items()]))
+def opened(tab):
+    """The page with a small section."""
+    brought(tab, EP).give(**SMALL)
     return completed(tab)
 
 
@@ -75,8 +68,8 @@ SHOWN = [EP.presets[i] for i in (0, 1, 2, 6, 9, 12, 16)]
 
 @pytest.mark.parametrize("preset", SHOWN, ids=lambda preset: preset.name)
 def test_an_example_is_drawn_with_the_numbers_of_its_captions(page, preset):
-    if not page.page.url.startswith(page.base) or page.scene != EP.name:
-        opened(page)
+    if page.page.url == "about:blank" or page.scene != EP.name:
+        brought(page, EP)
     if page.chosen("preset") != preset.name:
         page.change(page.choose, "preset", preset.name)
     completed(page)
@@ -279,7 +272,9 @@ def test_a_newer_choice_ends_the_older_work(long_section, gate):
 
 
 def test_a_link_brings_back_window_and_starts(page):
-    opened(page, window="0.5,-0.2;1.9,0.6", starts="0.9,0.1;1.2,0.3", h=40.0)
+    linked = {"window": "0.5,-0.2;1.9,0.6", "starts": "0.9,0.1;1.2,0.3", "h": 40.0}
+    page.open(urlencode({"scene": EP.name, **SMALL, **linked}))
+    completed(page)
     assert page.axes("section") == pytest.approx([0.5, 1.9, -0.2, 0.6], abs=1e-5)
     rings = page.data("section-chosen")
     assert rings["x"] == pytest.approx([0.9, 1.2])
@@ -302,7 +297,8 @@ def test_bad_places_in_a_link_are_replaced_and_said(page, name, text):
     ({"I2": 2.0}, "must lie between I1 = 1 and I3 = 0.375"),
     ({"h": -50.0}, "Nothing is possible here with h = -50 and f = 5: choose a larger h")])
 def test_a_refusal_is_a_sentence_and_the_way_back_is_open(page, values, words):
-    page.open(urlencode({"scene": EP.name, **SMALL, **values}))
+    opened(page)
+    page.change(lambda: page.page.evaluate(ENTER, [*values.items()]))
     assert words in page.text("status")
     assert words in page.caption("section")
     assert shown_points(page) == 0
@@ -317,4 +313,3 @@ def test_a_window_where_nothing_is_possible_is_cleared(page):
     assert "press Clear" in page.text("status")
     page.change(page.page.locator(".param-clear").click)
     assert "press Clear" not in page.text("status")
-    assert isinstance(page, Explorer)

@@ -17,7 +17,7 @@ from hess_mechanics import circle_map, f_max, level, solve, systems, trace_on_cu
 from support.mechanics import angle_between, lifted_return
 from support.page import DEFAULTS, PICTURES, Explorer
 from support.painted import assert_captions_fit
-from support.pointer import HOME, STEP, assert_turned, at, click
+from support.pointer import HOME, STEP, assert_turned, at
 from support.suslov_hess import assert_orbit, body_of, exact_states
 
 REFERENCE = level("reference")
@@ -55,7 +55,7 @@ def like(pixels, colour, tolerance=24):
 def test_a_click_in_the_bifurcation_diagram_chooses_the_torus_under_it(explorer, h, f):
     (x, y), (wide, high) = at(explorer, "bifurcation", h, f)
     x, y = round(x), round(y)
-    click(explorer, x, y)
+    explorer.change(explorer.page.mouse.click, x, y)
     found = explorer.here()
     assert found[0] == pytest.approx(h, abs=wide)
     assert found[1] == pytest.approx(f, abs=high)
@@ -72,7 +72,7 @@ def test_a_click_in_the_bifurcation_diagram_chooses_the_torus_under_it(explorer,
 
 def test_a_click_where_no_motion_is_chooses_the_edge_and_says_so(explorer):
     (x, y), (wide, _) = at(explorer, "bifurcation", -0.5, 2.0)
-    click(explorer, x, y)
+    explorer.change(explorer.page.mouse.click, x, y)
     h, f = explorer.here()
     assert h == pytest.approx(-0.5, abs=wide)
     n = (math.sqrt(h * h + 3) - h) / 3
@@ -104,7 +104,7 @@ def test_a_drag_in_the_bifurcation_diagram_is_followed(explorer):
 @pytest.mark.parametrize("phi", [-2.5, 0.25, 3.0])
 def test_a_click_in_the_circle_map_chooses_the_phase_under_it(explorer, phi):
     (x, y), (wide, _) = at(explorer, "circle", phi, 1.0)
-    click(explorer, x, y)
+    explorer.change(explorer.page.mouse.click, x, y)
     chosen = explorer.shown("phi0")[0]
     assert chosen == pytest.approx(phi, abs=wide)
     assert_orbit(explorer, {**DEFAULTS, "phi0": chosen})
@@ -130,7 +130,7 @@ def test_a_hand_that_takes_its_time_still_clicks_and_drags(explorer):
 
 def test_two_clicks_in_quick_succession_both_count(explorer):
     (first, _), (second, (wide, _)) = at(explorer, "bifurcation", 1.8, 0.3), at(explorer, "bifurcation", 2.6, -0.4)
-    click(explorer, *first)
+    explorer.change(explorer.page.mouse.click, *first)
     explorer.change(explorer.page.mouse.click, *second)
     assert explorer.here()[0] == pytest.approx(2.6, abs=wide)
 

@@ -16,7 +16,7 @@ from hess_mechanics.numerics.accuracy import REFERENCE
 from support.free_suslov import shown
 from support.page import brought, chosen, flat, said, values_of
 from support.painted import SOURCES, assert_painted
-from support.pointer import at, click
+from support.pointer import at
 from support.view import View
 
 SUSLOV, ROTATION = scenes()["suslov"], scenes()["rotation-number"]
@@ -25,7 +25,8 @@ FEW = {"orbits": 8, "count": 40, "long": 50}
 
 @pytest.fixture
 def suslov(tab):
-    yield opened(tab, SUSLOV, **FEW)
+    brought(tab, SUSLOV).give(**FEW)
+    yield tab
     tab.assert_quiet()
 
 
@@ -36,8 +37,7 @@ def rotation(tab):
 
 
 def opened(tab, scene, **values):
-    """The page of these values."""
-    tab.page.mouse.up()
+    """The page of a link with these values."""
     return tab.open(urlencode({"v": 1, "scene": scene.name, **values}))
 
 
@@ -113,7 +113,7 @@ def test_every_plane_and_all_that_can_be_shown(suslov):
 
 def test_a_click_starts_an_orbit_and_undo_and_clear_take_it_back(suslov):
     pixel, unit = at(suslov, "section", 0.5, 2.0)
-    click(suslov, *pixel)
+    suslov.change(suslov.page.mouse.click, *pixel)
     first, last = points(suslov, "chosen")
     assert first == pytest.approx([1.0, 1.0], abs=1e-6)
     assert last == pytest.approx([0.5, 2.0], abs=2.0 * max(unit))
@@ -123,7 +123,7 @@ def test_a_click_starts_an_orbit_and_undo_and_clear_take_it_back(suslov):
     assert [float(x) for x in written.split(",")] == pytest.approx(last, abs=1e-5)
     suslov.change(suslov.page.locator(".param-undo").click)
     assert len(points(suslov, "chosen")) == 1
-    click(suslov, *pixel)
+    suslov.change(suslov.page.mouse.click, *pixel)
     suslov.change(suslov.page.locator(".param-clear").click)
     assert points(suslov, "chosen") == pytest.approx(np.array([[1.0, 1.0]]))
 
@@ -176,7 +176,8 @@ def test_an_energy_below_the_plane_is_raised_and_said(suslov):
 
 
 def test_an_exponent_over_too_long_a_time_is_said(tab):
-    explorer = opened(tab, SUSLOV, orbits=1, count=2, I11=1e-3, I22=1e-3, h=1e6, span=0.01, long=2e4)
+    explorer = brought(tab, SUSLOV)
+    explorer.give(orbits=1, count=2, I11=1e-3, I22=1e-3, h=1e6, span=0.01, long=2e4)
     assert "choose a shorter time span" in explorer.text("notes")
     explorer.assert_quiet()
 
@@ -220,13 +221,13 @@ def test_a_slider_of_the_rotation_number_changes_all_pictures(rotation):
 
 def test_a_click_in_the_map_and_one_on_the_line_choose_the_torus(rotation):
     pixel, unit = at(rotation, "map", 2.0, -0.5)
-    click(rotation, *pixel)
+    rotation.change(rotation.page.mouse.click, *pixel)
     h, f = rotation.shown("h")[0], rotation.shown("f")[0]
     assert (h, f) == (pytest.approx(2.0, abs=2.0 * unit[0]), pytest.approx(-0.5, abs=2.0 * unit[1]))
     exact = circle_map(0.5, h, f, REFERENCE)
     assert said(rotation, "circle", "ρ = #.") == [pytest.approx(exact.rotation_number, abs=1e-4)]
     pixel, unit = at(rotation, "line", 1.0, 0.2)
-    click(rotation, *pixel)
+    rotation.change(rotation.page.mouse.click, *pixel)
     assert rotation.shown("f")[0] == pytest.approx(1.0, abs=2.0 * unit[0])
     assert rotation.shown("h")[0] == h
 

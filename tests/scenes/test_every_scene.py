@@ -379,7 +379,8 @@ def test_the_errors_of_every_admissible_state_are_computed_and_drawn_too(data):
 
 @pytest.mark.parametrize("scene", [
     pytest.param(scene, id=name) for name, scene in SCENES.items() if scene.origin not in (None, HESS.name)])
-@settings(PROPERTY, max_examples=20)
+# All of one class: what is wrong with it shows in the first states of one of the scenes (tried: no floor of the axes).
+@settings(PROPERTY, max_examples=8)
 @given(data=st.data())
 def test_the_errors_of_the_other_scenes_are_drawn_too_or_refused_with_a_sentence(scene, data):
     assert_errors_drawn(scene, data)

@@ -26,12 +26,6 @@ def at(explorer, name, x, y):
     return pixel, ((x1 - x0) / (right - left), (y1 - y0) / (bottom - top))
 
 
-def click(explorer, x, y):
-    """Click there and wait for the state.  Two clicks in quick succession are to Bokeh one double click."""
-    explorer.page.evaluate("new Promise((done) => setTimeout(done, 400))")
-    explorer.change(explorer.page.mouse.click, x, y)
-
-
 HOME = (0.6, 0.35)
 STEP = math.pi / 36
 
