@@ -2,8 +2,9 @@
 
 import pytest
 
-from support.page import default_state, one_tab, page_on_a_line
+from support.page import default_state, one_tab, page_on_a_line, tab_on_a_line
 
 tab = pytest.fixture(scope="session")(one_tab)
 explorer = pytest.fixture(default_state)
+line_tab = pytest.fixture(scope="session")(tab_on_a_line)
 on_a_line = pytest.fixture(page_on_a_line)

@@ -340,15 +340,22 @@ class Line:
             self._socket.send(self._held.pop(0))
 
 
-def page_on_a_line(browser, server):
-    """(explorer, line): the page in its default state, and what is between it and the server."""
-    context = browser.new_context(viewport={"width": 1600, "height": 950})
+def tab_on_a_line(browser, server):
+    """(explorer, line): a tab for many tests, and what is between it and the server."""
+    context = browser.new_context(viewport={"width": WIDE[0], "height": WIDE[1]})
     page = context.new_page()
-    line = Line(page)
-    explorer = Explorer(page, server).open()
-    yield explorer, line
-    explorer.assert_quiet()
+    yield Explorer(page, server), Line(page)
     context.close()
+
+
+def page_on_a_line(line_tab):
+    """(explorer, line): the page in its default state, and what is between it and the server."""
+    explorer, line = line_tab
+    explorer.fresh()
+    explorer.assert_quiet()
+    yield explorer, line
+    line.release()
+    explorer.assert_quiet()
 
 
 def flat(data):
