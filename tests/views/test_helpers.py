@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from hess_explorer.views import circle_map, section_plane
+from hess_explorer.views import circle_map, rotation_plane, section_plane
 from hess_explorer.views.graph import over_time
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.poisson_sphere import parallels
@@ -74,3 +74,12 @@ def test_the_circle_map_is_evaluated_once_for_all_states_that_show_it(monkeypatc
     assert not np.array_equal(first["circle-cobweb"]["phi"], second["circle-cobweb"]["phi"])
     # No more than 60 returns are drawn.
     assert len(first["circle-cobweb"]["phi"]) == 2 * 61 - 1
+
+
+def test_a_line_across_a_window_is_drawn_where_it_is_in_sight():
+    x, y = (0.0, 2.0), (-1.0, 1.0)
+    assert [one.tolist() for one in rotation_plane.across(x, y, x=1.5, y=None)] == [[[1.5, -1.0], [1.5, 1.0]]]
+    assert [one.tolist() for one in rotation_plane.across(x, y, x=None, y=0.5)] == [[[0.0, 0.5], [2.0, 0.5]]]
+    assert not rotation_plane.across(x, y, x=2.5, y=None)
+    assert not rotation_plane.across(x, y, x=None, y=1.5)
+    assert not rotation_plane.across(x, y, x=None, y=None)

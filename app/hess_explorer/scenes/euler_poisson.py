@@ -85,6 +85,8 @@ class EulerPoisson(Moments, FilledWindow):
     starts: str = places("The places of the chosen orbits", 12, *_BOUNDS, "0,0.2")
     window: str = places("The window of the section", 2, *_BOUNDS)
 
+    names: ClassVar[tuple[str, str]] = ("l", "L/G")
+    excuse: ClassVar[str] = "no motion with this h and f crosses the section"
     full: ClassVar[Window] = ((-math.pi, -1.0), (math.pi, 1.0))
     bounds: ClassVar[Window] = _BOUNDS
     held: ClassVar[tuple[int, int]] = (16, 40)
@@ -214,17 +216,9 @@ class EulerPoisson(Moments, FilledWindow):
 
     def derived(self) -> Iterator[str]:
         """a and r, the start of the orbit on show, whether this is a rigid body."""
-        l, x = self.picked.places[-1]
         yield f"a = {digits(self.body.hess_a)}, r = {vector(self.body.r)}"
-        yield f"chosen: l = {digits(l)}, L/G = {digits(x)}"
+        yield f"chosen: {self.at(self.picked.places[-1])}"
         yield self.body.check.sentence
-
-    def notes(self) -> Iterator[str]:
-        """A start that is not possible."""
-        if self.picked.refused is not None:
-            (l, x), (own_l, own_x) = self.picked.refused, self.picked.places[0]
-            yield (f"At l = {digits(l)}, L/G = {digits(x)} no motion with this h and f crosses the section: the chosen "
-                   f"orbit starts at l = {digits(own_l)}, L/G = {digits(own_x)}.")
 
 
 def _piece(section: AndoyerSection, starts: tuple[Start, ...], crossings: int) -> Piece:
@@ -250,8 +244,8 @@ SCENE = Scene(
     angles=("l",),
     views=(
         filled_window(
-            title="Section g = π/2 (Andoyer–Deprit)", caption=EulerPoisson._about_section, axes=("l", "L/G"),
-            full=EulerPoisson.full, labels=("r·M > 0", "r·M < 0"), dot=("l", "x"),
+            title="Section g = π/2 (Andoyer–Deprit)", caption=EulerPoisson._about_section, scene=EulerPoisson,
+            labels=("r·M > 0", "r·M < 0"), dot=("l", "x"),
             between=(line("curve", EulerPoisson.hess_curve, color=theme.STABLE, label="Hess manifold, r·M = 0"),
                      dots("path", track="orbit", columns=("l", "x"), size=3, color=theme.MAP, alpha=0.4),
                      line("line", lambda s: tuple(zip(*inside(s.ends, s.frame), strict=True)) or None,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -208,10 +207,8 @@ class RotationNumber(State):
     def line_in_map(self) -> list[Array]:
         """The line through the torus, as far as the map shows it."""
         x, y = vars(self.torus)[self.across], vars(self.torus)[self.up]
-        (x0, x1), (y0, y1) = self.window
-        if self.line == self.across and y0 <= y <= y1:
-            return [np.array([[x0, y], [x1, y]])]
-        return [np.array([[x, y0], [x, y1]])] if self.line == self.up and x0 <= x <= x1 else []
+        return rotation_plane.across(*self.window, y=y if self.line == self.across else None,
+                                     x=x if self.line == self.up else None)
 
     def choose(self, x: float, y: float) -> Values:
         """A click in the map chooses the torus."""
@@ -241,9 +238,9 @@ class RotationNumber(State):
     def derived(self) -> Iterator[str]:
         """The circle map, and the ladder of the other family."""
         if self.map is not None:
-            re, im, beta = (value * math.exp(min(self.map.log_scale, 700.0)) for value in self.map.matrix)
-            yield (f"Riccati matrix α = {digits(re)} {'−' if im < 0.0 else '+'} {digits(abs(im))} i, "
-                   f"β = {digits(beta)} i")
+            alpha, beta = self.map.alpha_beta
+            yield (f"Riccati matrix α = {digits(alpha.real)} {'−' if alpha.imag < 0.0 else '+'} "
+                   f"{digits(abs(alpha.imag))} i, β = {digits(beta.imag)} i")
             yield f"|trace| = {digits(self.map.trace, 6)}, ρ = {digits(self.map.rotation_number, 8)}"
             if self.map.fixed_points:
                 yield "multipliers " + ", ".join(digits(point.multiplier) for point in self.map.fixed_points)

@@ -91,6 +91,8 @@ class Suslov(CentreOfMass, Tensor, FilledWindow):
     starts: str = places("The places of the chosen orbits", 12, *_BOUNDS, "1,1")
     window: str = places("The window of the section", 2, *_BOUNDS)
 
+    names: ClassVar[tuple[str, str]] = ("ψ", "δ")
+    excuse: ClassVar[str] = "no motion has this energy"
     full: ClassVar[Window] = ((-math.pi, 0.0), (math.pi, math.pi))
     bounds: ClassVar[Window] = _BOUNDS
     held: ClassVar[tuple[int, int]] = (12, 40)
@@ -219,17 +221,9 @@ class Suslov(CentreOfMass, Tensor, FilledWindow):
 
     def derived(self) -> Iterator[str]:
         """The energy, the start of the orbit on show, whether this is a rigid body."""
-        psi, delta = self.picked.places[-1]
         yield f"E = {digits(self.E, 6)}"
-        yield f"chosen: ψ = {digits(psi)}, δ = {digits(delta)}"
+        yield f"chosen: {self.at(self.picked.places[-1])}"
         yield check_body(self.I11, self.I22, self.I13, self.I23).sentence
-
-    def notes(self) -> Iterator[str]:
-        """A start that is not possible."""
-        if self.picked.refused is not None:
-            (x, y), (psi, delta) = self.picked.refused, self.picked.places[0]
-            yield (f"At ψ = {digits(x)}, δ = {digits(y)} no motion has this energy: the chosen orbit starts at "
-                   f"ψ = {digits(psi)}, δ = {digits(delta)}.")
 
 
 def _later(orbit: Array) -> Array:
@@ -253,8 +247,8 @@ SCENE = Scene(
     summary="Regular orbits, seas, strange attractors: sections forward and backward in time.",
     tracks={"orbit": lambda s: orbit_columns(s.orbit)},
     views=(
-        filled_window(title=Suslov._section_title, caption=Suslov._about_section, axes=("ψ", "δ"),
-                      full=Suslov.full, labels=("forward in time", "backward"),
+        filled_window(title=Suslov._section_title, caption=Suslov._about_section, scene=Suslov,
+                      labels=("forward in time", "backward"),
                       under=(layered_section.basins(lambda s: s.basin, lambda s: s.frame),)),
         Plot(name="exponent", title="Lyapunov exponent and divergence", caption=Suslov._about_rates,
              axes=("t", "λ"), first=Axes((0.0, 1000.0), (-0.2, 0.2)), x=lambda s: (0.0, s.long),

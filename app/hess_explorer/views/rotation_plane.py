@@ -12,7 +12,7 @@ from hess_explorer.views.layers import Grid, Layer, Range, Sign, curves, image, 
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.rotation_number import TorusValues
 
-__all__ = ["grids", "layers"]
+__all__ = ["across", "grids", "layers"]
 
 S = TypeVar("S")
 
@@ -44,3 +44,12 @@ def layers(grids: Callable[[S], tuple[Grid, Grid]], boundary: Callable[[S], Sequ
         *target("here", here),
         text("names", names),
     )
+
+
+def across(x_axis: Range, y_axis: Range, x: float | None, y: float | None) -> list[Array]:
+    """The line of this x, or else of this y, through the window, if it is in sight."""
+    if x is not None and x_axis[0] <= x <= x_axis[1]:
+        return [np.array([[x, y_axis[0]], [x, y_axis[1]]])]
+    if y is not None and y_axis[0] <= y <= y_axis[1]:
+        return [np.array([[x_axis[0], y], [x_axis[1], y]])]
+    return []

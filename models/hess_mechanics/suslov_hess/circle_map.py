@@ -134,6 +134,12 @@ class CircleMap:
             theta_of(*self.matrix, orbit[i : i + 1], orbit[i + 1 : i + 2])
         return frozen(orbit)
 
+    @property
+    def alpha_beta(self) -> tuple[complex, complex]:
+        """α and β of the map; at most e^700 times `matrix`, where they are beyond double range."""
+        re, im, beta = (value * math.exp(min(self.log_scale, 700.0)) for value in self.matrix)
+        return complex(re, im), complex(0.0, beta)
+
     @cached_property
     def graph(self) -> tuple[Array, Array]:
         """φ (n,) from −π to π and Θ (n,), continued without jumps, close together on the curve also where it is steep.

@@ -618,3 +618,14 @@ def test_the_graph_is_evaluated_once_and_cannot_be_changed():
     assert theta.graph is theta.graph
     with pytest.raises(ValueError, match="read-only"):
         theta.graph[1][0] = 0.0
+
+
+def test_alpha_and_beta_are_the_coefficients_of_the_moebius_map():
+    theta = circle_map(a=0.5, h=1.5, f=0.6, level=level("reference"))
+    alpha, beta = theta.alpha_beta
+    z = np.exp(1j * PHASES)
+    image = (alpha * z + beta) / (np.conj(beta) * z + np.conj(alpha))
+    assert angle_between(np.angle(image), theta.theta(PHASES)) == pytest.approx(0.0, abs=1e-12)
+    assert abs(alpha) ** 2 - abs(beta) ** 2 == pytest.approx(1.0, rel=1e-9)
+    far = circle_map(a=400.0, h=4.0, f=0.1, level=level("draft"))
+    assert all(math.isfinite(abs(one)) for one in far.alpha_beta) == (far.log_scale < 709.0)

@@ -18,6 +18,7 @@ from hess_explorer.views import layered_section
 from hess_explorer.views.layers import Axes, Layer
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.section_plane import joined
+from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.lyapunov import Exponent, largest_exponent
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.results import Array, Mask
@@ -77,6 +78,7 @@ class FilledWindow(OneOrbit):
     """A section whose window is filled with orbits, besides those started by clicks; all come piece by piece.
 
     The scene declares the parameters that stand here without a value.
+    names : of its axes; excuse : why at some places no orbit starts.
     full : the whole section; bounds : the same, as places in a link are written; held : how many orbits and crossings
     there are at most while a slider is held.
     """
@@ -87,6 +89,8 @@ class FilledWindow(OneOrbit):
     starts: str
     window: str
 
+    names: ClassVar[tuple[str, str]]
+    excuse: ClassVar[str]
     full: ClassVar[Window]
     bounds: ClassVar[Window]
     held: ClassVar[tuple[int, int]]
@@ -229,6 +233,16 @@ class FilledWindow(OneOrbit):
         """A box: the new window."""
         return boxed(corners, self.bounds)
 
+    def at(self, place: Place) -> str:
+        """A place in words."""
+        return ", ".join(f"{name} = {digits(value)}" for name, value in zip(self.names, place, strict=True))
+
+    def notes(self) -> Iterator[str]:
+        """A start that is not possible."""
+        if self.picked.refused is not None:
+            yield (f"At {self.at(self.picked.refused)} {self.excuse}: the chosen orbit starts at "
+                   f"{self.at(self.picked.places[0])}.")
+
     def status(self) -> Iterator[str]:
         """Size and drift of the section, the orbit on show."""
         if self.known("_known"):
@@ -240,13 +254,13 @@ class FilledWindow(OneOrbit):
 W = TypeVar("W", bound=FilledWindow)
 
 
-def filled_window(title: str | Callable[[W], str], caption: Callable[[W], str], axes: tuple[str, str],
-                  full: Window, labels: tuple[str, str], dot: tuple[str, str] | None = None,
+def filled_window(title: str | Callable[[W], str], caption: Callable[[W], str], scene: type[W],
+                  labels: tuple[str, str], dot: tuple[str, str] | None = None,
                   under: tuple[Layer[W], ...] = (), between: tuple[Layer[W], ...] = ()) -> Plot[W]:
     """The picture of such a section; labels : of the two kinds of orbits; between : as of `layered_section.layers`."""
-    (x0, y0), (x1, y1) = full
+    (x0, y0), (x1, y1) = scene.full
     return Plot(
-        name="section", title=title, caption=caption, axes=axes, dot=dot, message=lambda s: s.nothing_seen(),
+        name="section", title=title, caption=caption, axes=scene.names, dot=dot, message=lambda s: s.nothing_seen(),
         x=lambda s: (s.frame[0][0], s.frame[1][0]), y=lambda s: (s.frame[0][1], s.frame[1][1]),
         first=Axes((x0, x1), (y0, y1)),
         on_click=lambda s, x, y: s.start_here(x, y), on_box=lambda s, corners: s.look_closer(corners),
