@@ -295,7 +295,8 @@ def test_the_spheres_of_all_scenes_are_seen_from_the_same_side_as_the_link_says(
         wait_frames(explorer, 3)
         last = (last[0] + STEP, last[1] - STEP)
         assert turn() == pytest.approx(last, abs=3e-4), name
-        explorer.wait_url(az=f"{turn()[0]:.4f}", el=f"{turn()[1]:.4f}")
+        linked = parse_qs(urlsplit(explorer.link()).query)
+        assert (linked["az"], linked["el"]) == ([f"{turn()[0]:.4f}"], [f"{turn()[1]:.4f}"])
         last = turn()
 
 
