@@ -2,15 +2,30 @@
 
 The field is γ3 P ∇E with a Poisson structure P: Hamiltonian in the time τ, dτ = γ3 dt.  It
 keeps the standard measure (its divergence is 0), in τ the measure γ3 dω dγ.  The case b3 = 0 is `kharlamova`, the
-case b1 = b2 = 0 is `quartic`.
+case b1 = b2 = 0 is `quartic`; for general b the motion is chaotic, see `section.invariant_density`.
+
+On the equator γ3 = 0 two of the brackets are infinite and τ turns round, while the motion itself passes.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
-__all__ = ["divergence", "energy_gradient", "poisson_matrix"]
+import numpy as np
+
+from hess_mechanics.dynamics.orbit import solve
+from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.results import Array, Orbit, frozen
+from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
+
+__all__ = ["BRACKETS", "Conformal", "conformal", "divergence", "energy_gradient", "poisson_matrix"]
+
+BRACKETS = ("{ω1, γ2}", "{ω2, γ1}", "{ω1, γ3}", "{ω2, γ3}")
+"""Those that are not 0 (`Biz133`): constants, and two that are infinite on the equator."""
 
 
 def poisson_matrix(y: Sequence[Any], p: Sequence[Any]) -> tuple[tuple[Any, ...], ...]:
@@ -31,3 +46,53 @@ def divergence(y: Sequence[Any], p: Sequence[Any]) -> Any:
     """Σ ∂ẏ_i/∂y_i of the general field (`Biz131`): 0 everywhere only for I13 = I23 = 0."""
     I11, I22, I13, I23 = p[:4]
     return I23 * y[0] / I22 - I13 * y[1] / I11
+
+
+@dataclass(frozen=True)
+class Conformal:
+    """A motion in its two times.
+
+    orbit : at even times t; tau : τ (n,), 0 at t = 0; brackets : (n, 4), see `BRACKETS`, ±∞ on the equator;
+    tau_error : the largest estimated error of τ from its quadrature, besides that of the orbit.
+    """
+
+    orbit: Orbit
+    tau: Array
+    brackets: Array
+    tau_error: float
+
+
+_SPACING = 0.04
+"""Between two samples, in units of 1/ν: the quadrature of γ3 is then exact to some 1e-11 of the span."""
+_MOST = 100_000
+
+
+def conformal(body: SuslovBody, start: Sequence[float], span: float, level: Level) -> Conformal:
+    """The motion from `start` (5,) over the time `span` ≠ 0 (negative: backwards), with τ and the brackets along it.
+
+    Raises `InvalidParameter` unless I13 = I23 = 0, `WorkLimit`.
+    """
+    if body.I13 != 0.0 or body.I23 != 0.0:
+        raise InvalidParameter("The conformally Hamiltonian form is that of I13 = I23 = 0: set these to 0.")
+    if not (math.isfinite(span) and span != 0.0):
+        raise InvalidParameter("The time span must be a finite number other than 0.")
+    p = body.parameters
+    nu = float(SYSTEM.frequency(np.array(start, float), np.array(p)))
+    pairs = max(8.0, abs(span) * nu / (2.0 * _SPACING))
+    if not pairs <= _MOST / 2:
+        raise WorkLimit(f"This takes more than {_MOST} samples: choose a shorter time span.")
+    count = 2 * math.ceil(pairs) + 1
+    orbit = solve(SYSTEM, start, p, np.linspace(0.0, span, count), level)
+    y = orbit.states.T
+    tau, coarse = (_integral(span, y[4, ::step], np.asarray(SYSTEM.field(list(y[:, ::step]), p)[4])) for step in (1, 2))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        P = poisson_matrix(list(y), p)
+        values = [np.broadcast_to(np.asarray(value, float), count) for value in (P[0][3], P[1][2], P[0][4], P[1][4])]
+    return Conformal(orbit, frozen(tau), frozen(np.stack(values, axis=-1)), float(np.abs(tau[::2] - coarse).max()))
+
+
+def _integral(span: float, values: Array, rates: Array) -> Array:
+    """∫ from 0 to each of even times over `span`, by cubic Hermite interpolation of values and their rates (n,)."""
+    h = span / (values.size - 1)
+    pieces = 0.5 * h * (values[1:] + values[:-1]) + h * h / 12.0 * (rates[:-1] - rates[1:])
+    return np.concatenate([[0.0], np.cumsum(pieces)])

@@ -29,8 +29,8 @@ from hess_mechanics.suslov import principal_axis
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 
 __all__ = [
-    "Course", "SuslovSection", "basins", "coordinates", "divergence", "lowest_energy", "mean_divergence", "plane_of",
-    "possible", "seeds", "state_at", "states_at", "suslov_points",
+    "Course", "SuslovSection", "basins", "coordinates", "divergence", "invariant_density", "lowest_energy",
+    "mean_divergence", "plane_of", "possible", "seeds", "state_at", "states_at", "suslov_points",
 ]
 
 _TURNS = 40.0
@@ -92,6 +92,24 @@ def state_at(body: SuslovBody, E: float, k: int, psi: float, delta: float) -> tu
         raise InvalidParameter(f"At ψ = {psi:.6g}, δ = {delta:.6g} no motion has the energy E = {E:.6g}: choose a "
                                "larger energy, or another point with 0 < δ < π.")
     return tuple(map(float, states[0]))
+
+
+def invariant_density(body: SuslovBody, E: float, k: int, psi: Array, delta: Array) -> Array:
+    """σ(ψ, δ) (n,): the return map of γ_k = 0 keeps σ dψ dδ where I13 = I23 = 0; 0 where the energy E is impossible.
+
+    The flow keeps dω dγ.  With ω = |ω|u and K = I11u1² + I22u2² it is dE/K times the angle of u times dγ_k dψ, and the
+    flux through γ_k = 0 has the factor γ̇_k = |ω| c sin δ: σ = √(2(E − (b, γ))) c sin δ/K^(3/2), where c = 1 for k = 3
+    and |sin ψ| for the others.
+    Raises `InvalidParameter`.
+    """
+    if body.I13 != 0.0 or body.I23 != 0.0:
+        raise InvalidParameter("The return map keeps an area by itself only with I13 = I23 = 0: set these to 0.")
+    states, ok = states_at(body, E, k, psi, delta)
+    w1, w2 = states[:, 0], states[:, 1]
+    speed = np.hypot(w1, w2)
+    growth = SYSTEM.field(list(states.T), body.parameters)[k + 1]
+    twice = np.where(ok, body.I11 * w1 * w1 + body.I22 * w2 * w2, 1.0)  # K|ω|² = 2(E − (b, γ))
+    return np.where(ok, speed**2 * growth / twice, 0.0)
 
 
 def coordinates(states: Array, k: int) -> Array:

@@ -1,11 +1,23 @@
-"""The Suslov problem on a principal axis: Poisson brackets, the Jacobi identity, invariant measure."""
+"""The Suslov problem on a principal axis: Poisson brackets, the Jacobi identity, invariant measure, both times."""
+
+import math
 
 import numpy as np
 import pytest
 import sympy
+from scipy.integrate import solve_ivp
 
-from hess_mechanics import level, solve, systems
-from hess_mechanics.suslov.principal_axis import divergence, energy_gradient, poisson_matrix
+from hess_mechanics import SuslovBody, level, section, solve, systems
+from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.suslov.kharlamova import PlaneBody, arc, rescaled_time
+from hess_mechanics.suslov.principal_axis import (
+    BRACKETS,
+    conformal,
+    divergence,
+    energy_gradient,
+    poisson_matrix,
+)
+from hess_mechanics.suslov.section import coordinates, invariant_density, plane_of, state_at
 
 SUSLOV = systems()["suslov"]
 FLOOR = level("reference")
@@ -72,3 +84,98 @@ def test_the_flow_keeps_volume_on_a_principal_axis_only(I23, kept):
 
     columns = [(end(y + d * e) - end(y - d * e)) / (2.0 * d) for e in np.eye(5)]
     assert bool(abs(np.linalg.det(np.array(columns)) - 1.0) < 1e-7) is kept
+
+
+# ---- both times along a motion ----------------------------------------------------------------------------------
+
+GENERAL = SuslovBody(1.5, 1.0, 0.0, 0.0, 0.4, -0.3, 0.8)
+START = (0.7, -0.2, 0.48, 0.6, 0.64)
+
+
+@pytest.mark.parametrize("span", [30.0, -7.0])
+def test_tau_is_the_integral_of_gamma3(span):
+    found = conformal(GENERAL, START, span, level("reference"))
+    run = solve_ivp(lambda _, y: [*SUSLOV.field(y[:5], GENERAL.parameters), y[4]], (0.0, span), [*START, 0.0],
+                    method="DOP853", rtol=1e-12, atol=1e-13, t_eval=found.orbit.times[[0, 10, 50, -1]])
+    assert found.tau[[0, 10, 50, -1]] == pytest.approx(run.y[5], abs=1e-9)
+    assert found.tau_error < 1e-7
+    assert np.max(np.abs(found.tau[[10, 50, -1]] - run.y[5][1:])) <= found.tau_error + 1e-10
+    # It goes back where γ3 < 0.
+    assert found.orbit.states[:, 4].min() < 0.0 < found.orbit.states[:, 4].max()
+    assert np.array_equal(np.sign(np.diff(found.tau))[np.abs(found.orbit.states[1:, 4]) > 0.1] * np.sign(span),
+                          np.sign(found.orbit.states[1:, 4])[np.abs(found.orbit.states[1:, 4]) > 0.1])
+
+
+def test_for_b3_0_it_is_the_time_on_the_parabola():
+    body, start = PlaneBody(1.5, 1.0, 0.4, -0.3), (0.9, -0.2, 0.48, 0.6, 0.64)
+    found = conformal(SuslovBody(1.5, 1.0, 0.0, 0.0, 0.4, -0.3, 0.0), start, 12.0, level("reference"))
+    assert found.tau == pytest.approx(rescaled_time(arc(body, start), found.orbit.states), abs=1e-9)
+
+
+def test_the_brackets_with_the_energy_are_the_rates_of_the_motion():
+    found = conformal(GENERAL, START, 12.0, level("precise"))
+    assert found.brackets.shape == (found.orbit.times.size, len(BRACKETS))
+    w1, w2, _, _, g3 = found.orbit.states.T
+    off = np.abs(g3) > 1e-3
+    a, b, c, d = found.brackets.T
+    # ẋ = γ3 {x, E}, E of `Biz11`, bracket by bracket.
+    b1, b2, b3 = 0.4, -0.3, 0.8
+    rates = np.array(SUSLOV.field(found.orbit.states.T, GENERAL.parameters))
+    assert (g3 * (a * b2 + c * b3))[off] == pytest.approx(rates[0][off], abs=1e-12)
+    assert (g3 * (b * b1 + d * b3))[off] == pytest.approx(rates[1][off], abs=1e-12)
+    assert (g3 * -b * 1.0 * w2)[off] == pytest.approx(rates[2][off], abs=1e-12)
+    assert (g3 * -a * 1.5 * w1)[off] == pytest.approx(rates[3][off], abs=1e-12)
+    assert (g3 * (-c * 1.5 * w1 - d * w2))[off] == pytest.approx(rates[4][off], abs=1e-12)
+    # Two of them are constant; near the equator the others grow without bound.
+    assert np.ptp(a) == np.ptp(b) == 0.0
+    assert np.max(np.abs(c)) > 20.0
+
+
+@pytest.mark.parametrize("k", [1, 2, 3])
+def test_the_return_map_keeps_its_density(k):
+    E, p = 1.5, GENERAL.parameters
+    step = 1e-5
+    plane = plane_of(k)
+
+    def image(psi, delta):
+        start = state_at(GENERAL, E, k, psi, delta)
+        return coordinates(section(SUSLOV, start, p, plane, 100.0, FLOOR, 1).states, k)[0]
+
+    def slope(psi, delta, x, y):
+        return (image(psi + x, delta + y) - image(psi - x, delta - y)) / (2.0 * (x + y))
+
+    for psi, delta in ((0.3, 1.2), (-1.7, 0.8), (2.4, 2.0)):
+        columns = [(4.0 * slope(psi, delta, x, y) - slope(psi, delta, 2.0 * x, 2.0 * y)) / 3.0
+                   for x, y in ((step, 0.0), (0.0, step))]
+        there = image(psi, delta)
+        before, after = (float(invariant_density(GENERAL, E, k, np.array([x]), np.array([y]))[0])
+                         for x, y in ((psi, delta), there))
+        assert after * abs(np.linalg.det(np.array(columns))) == pytest.approx(before, rel=1e-5)
+        # The area dψ dδ alone is not kept.
+        assert abs(abs(np.linalg.det(np.array(columns))) - 1.0) > 1e-3
+
+
+def test_the_density_is_the_closed_form_and_0_where_nothing_is_possible():
+    psi = np.array([0.3, 3.0, -2.0])
+    for k, gamma in ((3, lambda s: (math.cos(s), math.sin(s), 0.0)), (1, lambda s: (0.0, math.cos(s), math.sin(s)))):
+        found = invariant_density(GENERAL, 0.3, k, psi, np.array([1.0, 1.5, 2.0]))
+        for value, at, delta in zip(found, psi, (1.0, 1.5, 2.0), strict=True):
+            twice = 2.0 * (0.3 - np.dot((0.4, -0.3, 0.8), gamma(at)))
+            u = (math.cos(at + delta), math.sin(at + delta)) if k == 3 else (math.cos(delta), math.sin(delta))
+            K = 1.5 * u[0] ** 2 + 1.0 * u[1] ** 2
+            c = 1.0 if k == 3 else abs(math.sin(at))
+            assert value == pytest.approx(math.sqrt(max(0.0, twice)) * c * math.sin(delta) / K**1.5, abs=1e-12)
+    assert invariant_density(GENERAL, 0.3, 1, np.array([1.5]), np.array([1.0]))[0] == 0.0
+
+
+@pytest.mark.parametrize(("call", "error", "words"), [
+    (lambda: conformal(SuslovBody(1.5, 1.0, 0.1, 0.0), START, 1.0, FLOOR), InvalidParameter, "I13 = I23 = 0"),
+    (lambda: conformal(GENERAL, START, 0.0, FLOOR), InvalidParameter, "other than 0"),
+    (lambda: conformal(GENERAL, START, math.nan, FLOOR), InvalidParameter, "finite"),
+    (lambda: conformal(GENERAL, START, 1e6, FLOOR), WorkLimit, "choose a shorter time span"),
+    (lambda: invariant_density(SuslovBody(1.5, 1.0, 0.1, 0.0), 1.0, 3, np.zeros(1), np.ones(1)), InvalidParameter,
+     "I13 = I23 = 0"),
+])
+def test_other_bodies_and_spans_are_refused(call, error, words):
+    with pytest.raises(error, match=words):
+        call()
