@@ -217,6 +217,30 @@ def test_the_basins_of_the_example_are_those_that_scipy_finds():
     assert max(means[0.0]) < min(means[1.0]) - 0.1
 
 
+def test_where_volume_is_kept_no_attractor_is_claimed():
+    view = View(SCENE, {**FEW, "I13": 0.0, "I23": 0.0, "colours": "basins", "h": 2.0, "long": 300.0})
+    assert view.text["section"].endswith("Nothing attracts here, as far as it is seen: mean div = 0 ± 0.")
+
+
+def test_a_sea_that_is_its_own_mirror_image_is_no_attractor_also_where_part_of_the_window_is_impossible():
+    view = View(SCENE, {**FEW, "colours": "basins", "long": 1000.0})
+    cells = view.result.basin
+    assert 0.1 < np.mean(cells == -1.0) < 0.9
+    assert set(np.unique(cells)) == {-1.0, 0.0}
+    mean, error = view.numbers("section", "Nothing attracts here, as far as it is seen: mean div = # ± #.")
+    assert abs(mean) < 3.0 * error < 0.02
+    # Grey cells are those that the energy forbids.
+    psi = -math.pi + (np.arange(36) + 0.5) * 2.0 * math.pi / 36
+    forbidden = view.values["b1"] * np.cos(psi) + view.values["b2"] * np.sin(psi) >= view.result.E
+    assert np.array_equal(np.all(cells == -1.0, axis=0), forbidden)
+
+
+def test_one_strange_attractor_is_one():
+    view = View(SCENE, {**example(STRANGE).values, **FEW, "colours": "basins", "long": 1000.0})
+    mean, error = view.numbers("section", "All orbits come to one attractor: mean div = # ± #.")
+    assert mean < -3.0 * error
+
+
 # ---- planes, choices, controls -----------------------------------------------------------------------------------
 
 

@@ -16,6 +16,12 @@ def field(body, y):
                      (w1 * s + body.b1 * g3 - body.b3 * g1) / body.I22, -g3 * w2, g3 * w1, g1 * w2 - g2 * w1])
 
 
+def divergence(body, y):
+    """Of that field: its components are quadratic, so differences over 2 are derivatives."""
+    y = np.asarray(y)
+    return sum(field(body, y + e)[i] - field(body, y - e)[i] for i, e in enumerate(np.eye(5))) / 2.0
+
+
 def energy(body, y):
     """`Biz11`."""
     w1, w2, *gamma = y

@@ -37,23 +37,31 @@ class View:
         self.values, self.notes = scene.admit({**scene.defaults(), **values})
         assert noted or self.notes == []
         seen = scene.pictures if seen is None else seen
-        self.refused = []
+        self.refused, self._left_out = [], []
         self.begun = self.result = scene.compute(self.values, seen, dragging)
         self.first = self.report = self.stage.show(self.result, False)
-        if self.first.todo:
-            for task in self.first.todo:
-                try:
-                    CACHE.get(task.function, *task.arguments)
-                except WorkLimit as error:
-                    assert refusing, error
-                    self.refused.append(str(error))
-            self.result = scene.compute(self.values, seen, dragging)
-            self.report = self.stage.show(self.result, False)
-            assert len(self.report.todo) == len(self.refused)
+        # What is found may ask for more, once.
+        for _ in range(2):
+            self._complete(scene, seen, dragging, refusing)
+        assert len(self.report.todo) == len(self.refused)
         tree, block = self.wire.pack()
         self.data = {name: {key: read(column, block) for key, column in columns.items()}
                      for name, columns in tree["sources"].items()}
         self.axes, self.text = tree["ranges"], tree["texts"]
+
+    def _complete(self, scene, seen, dragging, refusing):
+        """Find what is left to be computed, and show it."""
+        left = [task for task in self.report.todo if task not in self._left_out]
+        for task in left:
+            try:
+                CACHE.get(task.function, *task.arguments)
+            except WorkLimit as error:
+                assert refusing, error
+                self.refused.append(str(error))
+                self._left_out.append(task)
+        if left:
+            self.result = scene.compute(self.values, seen, dragging)
+            self.report = self.stage.show(self.result, False)
 
     def numbers(self, picture, pattern):
         """The numbers in a caption that stand where the pattern has #."""

@@ -14,6 +14,8 @@ __all__ = ["add"]
 
 _MOST_CELLS = 100_000
 _FEWEST, _MOST = 100, 10_000
+_LONG = 1000.0
+"""Time over which a mean divergence is taken."""
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -23,8 +25,9 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         description="The section γ_k = 0, γ_k growing, of the Suslov problem with gravity at the energy E, ψ the "
                     "angle of γ in its plane and δ between 0 and π that of ω from the direction that keeps γ_k.  For "
                     "the orbit from the middle of each cell: the mean of ω1 over the last third of its crossings, and "
-                    "the group of that mean, 0 or 1 (all 0 where the means do not part into two groups).  Empty or "
-                    "null where no motion has this energy, or the orbit stops crossing.",
+                    "the group of that mean: 0, 1, … where the means lie far apart, else all 0.  A group is an "
+                    "attractor where the mean divergence on a motion of it is negative by three times its error.  "
+                    "Empty or null where no motion has this energy, or the orbit stops crossing.",
         epilog="Example: hess-explorer basins --I 1.5,1,0.4,0 --b 0.3,-0.5,1 --E 0.68 --k 2 --cells 8,6 --crossings "
                "150 --accuracy draft --format csv")
     add_suslov_body(parser)
@@ -50,7 +53,8 @@ def _run(options: argparse.Namespace) -> None:
 
         from hess_mechanics import SuslovBody, check_body, level
         from hess_mechanics.numerics.parallel import share
-        from hess_mechanics.suslov.section import SuslovSection, basins, lowest_energy
+        from hess_mechanics.suslov.basins import contraction, groups, middles
+        from hess_mechanics.suslov.section import SuslovSection, lowest_energy
 
         accuracy = level(options.accuracy)
         section = SuslovSection(SuslovBody(*options.I, *options.b), options.E, options.k)
@@ -66,20 +70,31 @@ def _run(options: argparse.Namespace) -> None:
 
         share(row, n)
         known = np.isfinite(ends)
-        groups = np.zeros((n, m))
-        groups[known] = basins(ends[known])
+        group = groups(ends[known])
+        on_each = [contraction(section.body, section.cells_of_row(window, (m, n), i)[0][j].tolist(), _LONG)
+                   for i, j in np.argwhere(known)[middles(ends[known], group)].tolist()]
+        cells = np.zeros((n, m), int)
+        cells[known] = group
         check = check_body(*options.I)
     psi, delta = np.meshgrid(psi0 + (np.arange(m) + 0.5) * (psi1 - psi0) / m,
                              delta0 + (np.arange(n) + 0.5) * (delta1 - delta0) / n)
     series = {"psi": psi.ravel().tolist(), "delta": delta.ravel().tolist(),
               **{name: [kind(value) if there else None
                         for value, there in zip(column.ravel().tolist(), known.ravel().tolist(), strict=True)]
-                 for name, kind, column in (("mean", float, ends), ("group", int, groups))}}
-    counts = [int(np.count_nonzero(known & (groups == group))) for group in (0, 1)]
-    kept = options.I[2] == 0.0 == options.I[3]
-    write(options, series, tuple(series), {"cells": [m, n], "counts": counts, "level": accuracy.name,
-                                           **whether_body(check)},
-          ["With I13 = I23 = 0 phase volume is kept: nothing attracts here."] if kept else [])
+                 for name, kind, column in (("mean", float, ends), ("group", int, cells))}}
+    counts = np.bincount(cells[known], minlength=len(on_each)).tolist()
+    attractors = sum(one.attracts for one in on_each)
+    write(options, series, tuple(series), {
+        "cells": [m, n], "counts": counts, "level": accuracy.name,
+        "divergence": [one.mean for one in on_each], "divergence error": [one.error for one in on_each],
+        "attractors": attractors, **whether_body(check)},
+        _notes(options.I[2] == 0.0 == options.I[3], attractors))
+
+
+def _notes(kept: bool, attractors: int) -> list[str]:
+    if kept:
+        return ["With I13 = I23 = 0 phase volume is kept: nothing attracts here."]
+    return [] if attractors else ["On no group is the mean divergence negative beyond its error: no attractor is seen."]
 
 
 def _cells(given: tuple[float, ...]) -> tuple[int, int]:

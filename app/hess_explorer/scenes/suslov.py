@@ -30,15 +30,9 @@ from hess_mechanics.dynamics.section import occupied_cells
 from hess_mechanics.numerics.accuracy import STANDARD, Level, cheapest
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.rigid_body.inertia import check_body
+from hess_mechanics.suslov.basins import Contraction, contraction, groups, middles
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
-from hess_mechanics.suslov.section import (
-    Course,
-    SuslovSection,
-    basins,
-    lowest_energy,
-    mean_divergence,
-    suslov_points,
-)
+from hess_mechanics.suslov.section import Course, SuslovSection, lowest_energy, mean_divergence, suslov_points
 
 _MOST_STEPS = 100_000
 _BASIN_CELLS = (36, 24)
@@ -47,6 +41,7 @@ _CELLS = 32
 _BOUNDS = ((-TURN, 0.0), (TURN, TURN))
 _PLANES = {"γ₃ = 0": 3, "γ₁ = 0": 1, "γ₂ = 0": 2}
 _BOTH = "forward and backward in time"
+_NUMBERS = {2: "Two", 3: "Three", 4: "Four"}
 
 
 def _body(I11: float, I22: float, I13: float, I23: float, b1: float, b2: float, b3: float, E: float
@@ -78,7 +73,7 @@ class Suslov(CentreOfMass, Tensor, FilledWindow):
     plane: str = choice("Section", tuple(_PLANES), "γ₃ = 0",
                         doc="The plane is crossed while that component of γ grows.")
     colours: str = choice("Show", (_BOTH, "forward only", "basins"), _BOTH,
-                          doc="Basins: to which of two attractors each point of the section leads.")
+                          doc="Basins: to which group of motions, or attractor, each point of the section leads.")
     drop: str = choice("Points shown", ("all", "the later half"), "all", doc="The later half shows what attracts.")
     orbits: float = number("n", 40.0, (0.0, 120.0), 1.0, bounds=(0.0, 300.0), label="Orbits",
                            doc="How many orbits are spread over the window.")
@@ -165,17 +160,35 @@ class Suslov(CentreOfMass, Tensor, FilledWindow):
         return joined(map(_later, self.kind(True)))
 
     @cached_property
-    def basin(self) -> Array | None:
-        """Cells (m, n): 0 or 1, by the attractor; −1 where it is not known yet."""
+    def ends(self) -> Array | None:
+        """`SuslovSection.ends` of all cells (m, n), ∞ where nothing moves; None before all are known."""
         if self.colours != "basins" or self.dragging:
             return None
         _ = self.pieces  # come sooner
-        rows = [self.work.later(_basin_row, self.section, self.frame, row) for row in range(_BASIN_CELLS[1])]
-        averages = np.stack([np.full(_BASIN_CELLS[0], np.inf) if row is None else row for row in rows])
-        known = np.isfinite(averages)
-        cells = np.full(averages.shape, -1.0)
-        cells[known] = basins(averages[known])
+        rows = [self.work.later(_ends_of_row, self.section, self.frame, row) for row in range(_BASIN_CELLS[1])]
+        known = [row for row in rows if row is not None]
+        return np.stack(known) if len(known) == len(rows) else None
+
+    @cached_property
+    def basin(self) -> Array | None:
+        """Cells (m, n): the group of each, 0, 1, …; −1 where nothing moves."""
+        if self.ends is None:
+            return None
+        there, cells = np.isfinite(self.ends), np.full(self.ends.shape, -1.0)
+        cells[there] = groups(self.ends[there])
         return cells
+
+    @cached_property
+    def contractions(self) -> list[Contraction] | None:
+        """Of a motion of each group, when all are known."""
+        if self.basin is None or self.ends is None:
+            return None
+        there = self.basin >= 0.0
+        cells = np.argwhere(there)[middles(self.ends[there], self.basin[there])].tolist()
+        found = [self.work.later(_contraction, self.section, self.frame, row, column, self.long)
+                 for row, column in cells]
+        known = [one for one in found if one is not None]
+        return known if len(known) == len(found) else None
 
     @cached_property
     def course(self) -> Course | None:
@@ -197,17 +210,27 @@ class Suslov(CentreOfMass, Tensor, FilledWindow):
 
     # ---- words --------------------------------------------------------------------------------------------------
 
-    def _basins_are_known(self) -> bool:
-        return self.basin is not None and bool(np.all(self.basin > -1.0))
-
     def _section_title(self) -> str:
-        return f"Section {self.plane}: basins" if self._basins_are_known() else f"Section {self.plane}, growing"
+        return f"Section {self.plane}, growing" if self.basin is None else f"Section {self.plane}: basins"
+
+    def _about_basins(self, cells: Array, found: list[Contraction]) -> str:
+        largest = max(found, key=lambda one: one.mean)
+        div = f"mean div = {digits(largest.mean, 2)} ± {digits(largest.error, 1)}"
+        shares = [100.0 * float(np.mean(cells[cells >= 0] == group)) for group in range(len(found))]
+        drawn = [share for share, one in zip(shares, found, strict=True) if one.attracts]
+        if not drawn:
+            return f"Nothing attracts here, as far as it is seen: {div}." if found else "Nothing moves in this window."
+        if len(drawn) < len(found):
+            return f"What attracts has {digits(sum(drawn), 2)} % of the cells; on the rest {div}."
+        if len(drawn) == 1:
+            return f"All orbits come to one attractor: {div}."
+        *parts, last = (f"{digits(share, 2)} %" for share in reversed(drawn))
+        return f"{_NUMBERS.get(len(drawn), len(drawn))} attractors, with {', '.join(parts)} and {last} of the cells."
 
     def _about_section(self) -> str:
-        if self._basins_are_known():
-            share = 100.0 * float(np.mean(self.basin == 1.0))
-            return (f"Two attractors, with {digits(share, 2)} % and {digits(100.0 - share, 2)} % of the cells."
-                    if 0.0 < share < 100.0 else "All orbits come to one attractor.")
+        if self.basin is not None:
+            return ("Basins; whether they are of attractors is being found." if self.contractions is None else
+                    self._about_basins(self.basin, self.contractions))
         backward = f", {len(self.second)} backward" if len(self.second) else ""
         return (f"{len(self.first)} points forward{backward}; the later forward ones lie in "
                 f"{occupied_cells(self.later, _CELLS)} of {_CELLS**2} cells.")
@@ -237,8 +260,13 @@ def _piece(section: SuslovSection, starts: tuple[Start, ...], crossings: int, fo
                  points.drift)
 
 
-def _basin_row(section: SuslovSection, window: Window, row: int) -> Array:
+def _ends_of_row(section: SuslovSection, window: Window, row: int) -> Array:
     return section.ends(window, _BASIN_CELLS, row, _BASIN_CROSSINGS, _MOST_STEPS)
+
+
+def _contraction(section: SuslovSection, window: Window, row: int, column: int, span: float) -> Contraction:
+    states, _ = section.cells_of_row(window, _BASIN_CELLS, row)
+    return contraction(section.body, states[column].tolist(), span)
 
 
 SCENE = Scene(

@@ -44,16 +44,16 @@ def _grid(cells: Callable[[S], Array | None], window: Callable[[S], Window]) -> 
 
 
 def basins(cells: Callable[[S], Array | None], window: Callable[[S], Window]) -> Layer[S]:
-    """Cells (m, n) over the window: 0 or 1, by the attractor; −1 where nothing is known."""
-    one, other = theme.POINT + "90", theme.STABLE + "70"
+    """Cells (m, n) over the window: 0, 1, … by the group of each; −1 where nothing moves."""
+    colors = (theme.POINT + "90", theme.STABLE + "70", theme.MAP + "70", theme.ORBIT + "60", theme.MUTED + "70")
 
     def shifted(state: S) -> Array | None:
         found = cells(state)
-        return None if found is None else found + 1.5
+        return None if found is None else np.minimum(found, len(colors) - 1) + 1.5
 
-    return image("basins", _grid(shifted, window), palette=(_CLEAR, one, other), low=0.0, high=3.0,
-                 legend=(Sign("basin of one,", "box", f"background: {one}"),
-                         Sign("of the other attractor", "box", f"background: {other}")))
+    return image("basins", _grid(shifted, window), palette=(_CLEAR, *colors), low=0.0, high=len(colors) + 1.0,
+                 legend=(Sign("basin of one,", "box", f"background: {colors[0]}"),
+                         Sign("of another group of motions", "box", f"background: {colors[1]}")))
 
 
 def layers(first: Callable[[S], Array], second: Callable[[S], Array], own: Callable[[S], Array],

@@ -29,8 +29,8 @@ from hess_mechanics.suslov import principal_axis
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 
 __all__ = [
-    "Course", "SuslovSection", "basins", "coordinates", "divergence", "invariant_density", "lowest_energy",
-    "mean_divergence", "plane_of", "possible", "seeds", "state_at", "states_at", "suslov_points",
+    "Course", "SuslovSection", "coordinates", "divergence", "invariant_density", "lowest_energy", "mean_divergence",
+    "plane_of", "possible", "seeds", "state_at", "states_at", "suslov_points",
 ]
 
 _TURNS = 40.0
@@ -204,19 +204,6 @@ def mean_divergence(body: SuslovBody, start: Sequence[float], span: float, count
     return Course(frozen(times[1:]), frozen(np.cumsum(steps) / times[1:]))
 
 
-def basins(ends: Array) -> Array:
-    """0 or 1 for each orbit, by the attractor it ends on; `ends` (n,) are averages over the later part of the orbits.
-
-    All 0 where the averages do not form two groups.
-    """
-    order = np.sort(ends)
-    gaps = np.diff(order)
-    if not gaps.size or gaps.max() < 0.1 * (order[-1] - order[0]) or order[-1] - order[0] < 1e-3:
-        return np.zeros(ends.size)
-    i = int(np.argmax(gaps))
-    return np.asarray(ends > 0.5 * (order[i] + order[i + 1]), float)
-
-
 Window = tuple[tuple[float, float], tuple[float, float]]
 """(ψ0, δ0), (ψ1, δ1)."""
 
@@ -247,17 +234,21 @@ class SuslovSection:
         psi = np.linspace(window[0][0], window[1][0], _COLUMNS + 1)
         return frozen(1.0 - possible(self.body, self.E, self.k, 0.5 * (psi[1:] + psi[:-1]))[None, :].astype(float))
 
-    def ends(self, window: Window, cells: tuple[int, int], row: int, crossings: int, most_steps: int = MAX_STEPS,
-             level: Level = DRAFT) -> Array:
-        """For `basins`: the mean of ω1 over the last third of the crossings of the orbits from the cells of a row.
-
-        cells : (m, n) across and up the window; of shape (m,), ∞ where there is no orbit.  Raises `WorkLimit`.
-        """
+    def cells_of_row(self, window: Window, cells: tuple[int, int], row: int) -> tuple[Array, Mask]:
+        """The states (m, 5) in the middles of the cells of a row, and whether motions are possible there (m,)."""
         (x0, y0), (x1, y1) = window
         m, n = cells
         psi = x0 + (np.arange(m) + 0.5) * (x1 - x0) / m
-        states, ok = self.states_at(psi, np.full(m, y0 + (row + 0.5) * (y1 - y0) / n))
-        out = np.full(m, np.inf)
+        return self.states_at(psi, np.full(m, y0 + (row + 0.5) * (y1 - y0) / n))
+
+    def ends(self, window: Window, cells: tuple[int, int], row: int, crossings: int, most_steps: int = MAX_STEPS,
+             level: Level = DRAFT) -> Array:
+        """The mean of ω1 over the last third of the crossings of the orbits from the cells of a row.
+
+        cells : (m, n) across and up the window; of shape (m,), ∞ where there is no orbit.  Raises `WorkLimit`.
+        """
+        states, ok = self.cells_of_row(window, cells, row)
+        out = np.full(cells[0], np.inf)
         if ok.any():
             found = suslov_points(self.body, self.k, states[ok].tolist(), crossings, True, level, threads=1,
                                   most_steps=most_steps)

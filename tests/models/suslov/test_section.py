@@ -16,9 +16,9 @@ from hess_mechanics.dynamics.lyapunov import largest_exponent
 from hess_mechanics.dynamics.section import Plane, section_points
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import PRECISE, REFERENCE, STANDARD
+from hess_mechanics.suslov.basins import groups
 from hess_mechanics.suslov.equations import SYSTEM
 from hess_mechanics.suslov.section import (
-    basins,
     coordinates,
     divergence,
     lowest_energy,
@@ -331,27 +331,13 @@ def test_a_periodic_attractor_has_no_positive_exponent():
 # ---- basins ------------------------------------------------------------------------------------------------------
 
 
-def test_basins_tell_two_groups_apart():
-    rng = np.random.default_rng(5)
-    which = rng.integers(0, 2, 200)
-    assert 20 < which.sum() < 180
-    ends = np.where(which == 1, 0.8, -0.3) + rng.uniform(-0.02, 0.02, 200)
-    assert np.array_equal(basins(ends), which)
-
-
-@pytest.mark.parametrize("ends", [
-    np.empty(0), np.array([0.4]), np.full(30, 0.7), 0.5 + 1e-4 * np.arange(8), np.linspace(-1.0, 1.0, 50)])
-def test_basins_of_one_group_are_one(ends):
-    assert np.array_equal(basins(ends), np.zeros(ends.size))
-
-
 def test_the_basins_of_the_example_are_those_that_scipy_finds():
     body, E = TWO
     starts = np.array(seeds(body, E, 3, WHOLE, 6))
     found = suslov_points(body, 3, starts.tolist(), 240, True, STANDARD).states
     ends = np.array([orbit[160:, 0].mean() for orbit in found])
-    which = basins(ends)
-    assert set(which) == {0.0, 1.0}
+    which = groups(ends)
+    assert set(which) == {0, 1}
     exact = []
     for start in starts:
         run = solve_ivp(lambda t, y: field(body, y), (0.0, 400.0), start, "DOP853", rtol=1e-8, atol=1e-9,

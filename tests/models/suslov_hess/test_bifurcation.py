@@ -248,6 +248,13 @@ def test_values_without_a_torus_raise_a_sentence(h, f, error, words):
         turning_points(h, f)
 
 
+@pytest.mark.parametrize("h", [-0.5, 0.3, 0.7])
+def test_at_f_0_the_state_is_the_limit_from_above(h):
+    above, at = (turning_points(h, f).state_at_lower_turn(0.7) for f in (1e-12, 0.0))
+    assert np.allclose(at, above, atol=1e-9)
+    assert np.hypot(*at[2:4]) > 0.7
+
+
 @pytest.mark.parametrize("use", [f_max, curve])
 @pytest.mark.parametrize(("h", "error"), [(-1.0, OutsideRegion), (-2.0, OutsideRegion), (math.nan, InvalidParameter)])
 def test_no_edge_is_drawn_below_the_bottom(use, h, error):

@@ -1,0 +1,88 @@
+"""To what the orbits of a section come: groups of their averages, and whether volume shrinks on a group's motions.
+
+Phase volume about a motion grows by exp ∫div ẏ dt.  Where the mean divergence is negative, beyond its error, the
+motions of a group are drawn to a set of no volume: an attractor.  Where it is 0 they only fill different parts of phase
+space.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from hess_mechanics.numerics.results import Array
+from hess_mechanics.suslov.equations import SuslovBody
+from hess_mechanics.suslov.section import mean_divergence
+
+__all__ = ["Contraction", "contraction", "groups", "middles"]
+
+_NARROWEST = 1e-3
+"""Averages closer than this are the same."""
+_GAP = 0.1
+"""Of the range of all averages: the least gap between two groups."""
+_FEWEST = 0.02
+"""Of all orbits: the smallest group; fewer belong to the nearest one."""
+_BATCHES = 12
+_ERRORS = 3.0
+
+
+@dataclass(frozen=True)
+class Contraction:
+    """The mean divergence along a motion after its transient, and the standard error of that mean."""
+
+    mean: float
+    error: float
+
+    @property
+    def attracts(self) -> bool:
+        """Whether the mean is negative beyond its error."""
+        return self.mean < -_ERRORS * self.error - 1e-12
+
+
+def contraction(body: SuslovBody, start: Sequence[float], span: float) -> Contraction:
+    """Of the motion from `start` (5,), over the later two thirds of the time `span`.  Raises as `solve`.
+
+    The error is that of the means over 12 stretches of time, as if these were independent.
+    """
+    course = mean_divergence(body, start, span)
+    sums = np.concatenate([[0.0], course.mean * course.times])
+    at = np.linspace(span / 3.0, span, _BATCHES + 1)
+    stretches = np.diff(np.interp(at, np.concatenate([[0.0], course.times]), sums)) / np.diff(at)
+    return Contraction(float(stretches.mean()), float(stretches.std(ddof=1) / math.sqrt(_BATCHES)))
+
+
+def groups(averages: Array) -> Array:
+    """The group (n,) of each orbit, 0, 1, … by rising averages (n,), where these lie in groups far apart; else all 0.
+
+    A gap between two groups is a tenth of the whole range or more, and wider than either group but for the outermost
+    tenth of it on each side; a group has a fiftieth of the orbits or more.
+    """
+    if averages.size == 0 or np.ptp(averages) < _NARROWEST:
+        return np.zeros(averages.size)
+    order = np.sort(averages)
+    cuts = np.flatnonzero(np.diff(order) >= _GAP * np.ptp(order)) + 1
+    least = max(2.0, _FEWEST * order.size)
+    parts = [part for part in np.split(order, cuts) if part.size >= least] or [order]
+    kept = [parts[0]]
+    for part in parts[1:]:
+        if part[0] - kept[-1][-1] > max(_width(kept[-1]), _width(part)):
+            kept.append(part)
+        else:
+            kept[-1] = np.concatenate([kept[-1], part])
+    edges = [0.5 * (left[-1] + right[0]) for left, right in pairwise(kept)]
+    return np.asarray(np.searchsorted(edges, averages), float)
+
+
+def middles(averages: Array, group: Array) -> list[int]:
+    """Of each group the orbit (index) whose average is the middle one."""
+    members = [np.flatnonzero(group == one) for one in range(int(group.max(initial=-1)) + 1)]
+    return [int(own[np.argsort(averages[own])[own.size // 2]]) for own in members]
+
+
+def _width(part: Array) -> float:
+    low, high = np.quantile(part, [0.1, 0.9])
+    return float(high - low)

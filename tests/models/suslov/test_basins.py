@@ -1,0 +1,77 @@
+"""Groups of averages, and where volume shrinks: by hand, and by SciPy from the equations written out."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from hess_mechanics import SuslovBody
+from hess_mechanics.suslov.basins import Contraction, contraction, groups, middles
+from hess_mechanics.suslov.section import SuslovSection
+from support.suslov import divergence, field
+
+STRANGE = SuslovBody(1.0, 2.5, 0.6, 0.6, -1.0, -0.5, 0.7), 0.681
+TWO = SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), 1.842
+# A chaotic sea whose motions are their own mirror images backward in time; and a body that keeps volume.
+SEA = SuslovBody(1.5, 3.0, 0.4, 0.4, -0.5, -0.5, 0.7), 0.005
+KEPT = SuslovBody(1.5, 3.0, 0.0, 0.0, -0.5, 0.6, 0.7), 0.95
+WINDOW = (-math.pi, 0.0), (math.pi, math.pi)
+
+
+@pytest.mark.parametrize("centres", [(-0.3, 0.8), (-0.3, 0.1, 0.8), (-1.0, -0.4, 0.1, 0.9)], ids=len)
+def test_averages_far_apart_are_told_apart(centres):
+    rng = np.random.default_rng(5)
+    which = rng.integers(0, len(centres), 300)
+    averages = np.array(centres)[which] + rng.uniform(-0.02, 0.02, 300)
+    assert np.array_equal(groups(averages), which)
+    middle = middles(averages, which)
+    assert [which[i] for i in middle] == list(range(len(centres)))
+    for i, centre in zip(middle, centres, strict=True):
+        assert abs(averages[i] - centre) < 0.01
+
+
+@pytest.mark.parametrize("averages", [
+    np.empty(0), np.array([0.4]), np.full(30, 0.7), 0.5 + 1e-4 * np.arange(8), np.linspace(-1.0, 1.0, 50)])
+def test_averages_of_one_group_are_one(averages):
+    assert np.array_equal(groups(averages), np.zeros(averages.size))
+
+
+def test_one_orbit_aside_does_not_split_a_sea():
+    sea = np.random.default_rng(2).normal(0.0, 0.1, 400)
+    assert groups(np.append(sea, [1.5, 1.52])).tolist() == [0] * 402
+    # As many as a group needs are one.
+    assert groups(np.append(sea, np.full(20, 1.5))).tolist() == [0] * 400 + [1] * 20
+
+
+def test_wide_groups_with_a_narrow_gap_are_one():
+    averages = np.concatenate([np.linspace(0.0, 1.0, 200), np.linspace(1.3, 2.3, 200)])
+    assert set(groups(averages)) == {0}
+
+
+def starts(body, E, count=3):
+    states, ok = SuslovSection(body, E, 3).cells_of_row(WINDOW, (12, 9), 4)
+    return states[ok][:: max(1, ok.sum() // count)][:count]
+
+
+def test_the_mean_divergence_is_that_of_scipy():
+    body, E = TWO
+    for start in starts(body, E):
+        found = contraction(body, start.tolist(), 600.0)
+        run = solve_ivp(lambda t, y: [*field(body, y[:5]), divergence(body, y[:5])], (0.0, 600.0), [*start, 0.0],
+                        "DOP853", [200.0, 600.0], rtol=1e-9, atol=1e-10)
+        assert found.mean == pytest.approx((run.y[5, 1] - run.y[5, 0]) / 400.0, abs=4.0 * found.error + 1e-4)
+
+
+@pytest.mark.parametrize(("body", "E", "attracts"), [(*STRANGE, True), (*TWO, True), (*SEA, False), (*KEPT, False)],
+                         ids=["strange", "two", "sea", "volume kept"])
+def test_an_attractor_is_claimed_where_volume_shrinks_and_only_there(body, E, attracts):
+    for start in starts(body, E):
+        assert contraction(body, start.tolist(), 1000.0).attracts is attracts
+
+
+def test_where_volume_is_kept_the_mean_is_0():
+    body, E = KEPT
+    assert contraction(body, starts(body, E)[0].tolist(), 200.0) == Contraction(0.0, 0.0)
