@@ -178,6 +178,23 @@ SHEETED = [(RIS, 0.0, 1.0), (RIS, 0.5, 1.0), (RIS, 0.5, 0.3), (RIS, 0.5, -0.3), 
 
 
 @pytest.mark.parametrize(("body", "h", "f"), SHEETED)
+def test_a_state_is_a_start_where_g_grows_and_nowhere_else(body, h, f):
+    l, x = scattered(300, seed=8)
+    seen = set()
+    for sheet in range(SHEETS):
+        states, G, ok = states_at(body, h, f, l, x, sheet)
+        for i in np.flatnonzero(np.isfinite(G)):
+            step = 1e-6 / float(SYSTEM.frequency(states[i], np.array(body.parameters)))
+            before, after = (angles(solve(SYSTEM, states[i], body.parameters, [t], PRECISE).states)[1][0]
+                             for t in (-step, step))
+            grows = math.remainder(after - before, 2.0 * math.pi)
+            if abs(grows) > 1e-9:
+                assert ok[i] == (grows > 0.0)
+                seen.add(bool(ok[i]))
+    assert seen == {True, False}
+
+
+@pytest.mark.parametrize(("body", "h", "f"), SHEETED)
 def test_all_momenta_with_this_energy_are_found(body, h, f):
     l, x = scattered(150, seed=6)
     found = roots(body, h, f, l, x)

@@ -6,7 +6,7 @@ from itertools import pairwise
 import pytest
 
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.numerics.accuracy import LEVELS, PLANS, Kind, plan
+from hess_mechanics.numerics.accuracy import LEVELS, PLANS, Kind, cheapest, plan
 
 every_kind = pytest.mark.parametrize("kind", Kind)
 
@@ -58,3 +58,11 @@ def test_a_grid_keeps_at_least_one_cell():
 def test_a_level_that_is_none_is_refused():
     with pytest.raises(InvalidParameter, match="draft"):
         plan(Kind.CLOUD, "finest")
+
+
+# The promises of the levels as the README states them.
+@pytest.mark.parametrize(("error", "name"), [
+    (1.0, "draft"), (1e-3, "draft"), (0.9e-3, "standard"), (1e-6, "standard"), (0.9e-6, "precise"), (1e-9, "precise"),
+    (0.9e-9, "reference"), (1e-15, "reference")])
+def test_the_cheapest_level_is_the_first_that_promises_an_error(error, name):
+    assert cheapest(error).name == name
