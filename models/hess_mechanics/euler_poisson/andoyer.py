@@ -156,8 +156,10 @@ def sheet_of(body: HeavyBody, h: float, f: float, states: Array) -> Sheets:
     ratio = f / np.maximum(G, 1e-300)
     across = np.sqrt(np.maximum(0.0, 1.0 - ratio * ratio))
     found = np.where((K * G * G + ratio * P) * across < ratio * ratio * Q, 1, 0)
-    # The third sheet rises as the first does.
-    unsure = np.flatnonzero((found == 0) & (f * P < 0.0) & (Q < 0.0)) if f else np.empty(0, int)
+    # The third sheet rises as the first does, and falls for some larger α = arccos |f|/G: only where
+    # K f² tan α/cos²α < √(P² + Q²).
+    steep = K * G**3 * across < abs(f) * np.hypot(P, Q)
+    unsure = np.flatnonzero((found == 0) & (f * P < 0.0) & (Q < 0.0) & steep) if f else np.empty(0, int)
     if unsure.size:
         larger = roots(body, h, f, l[unsure], x[unsure]) > G[unsure, None] * (1.0 + 1e-9)
         found[unsure] = np.where(larger.sum(axis=1) == 2, 2, 0)
