@@ -143,7 +143,7 @@ def grid_milliseconds() -> float:
 
 
 def section_milliseconds() -> float:
-    """Median of 5: 117 orbits × 400 crossings of the Andoyer–Deprit section of figure gess1, at `standard`."""
+    """Median of 5: 117 orbits × 400 crossings of the Andoyer–Deprit section of figure 11, at `standard`."""
     body = HeavyBody.hess((1.0, 0.625, 0.375), 9.975)
     starts = seeds(body, 50.0, 5.0, (-math.pi, math.pi, -1.0, 1.0), 117)
     times = []
@@ -328,7 +328,7 @@ async def measure() -> None:
                  f"{new:.2f} ms, {moved:.2f} ms, {cached:.2f} ms", ""))
     rows.append(("rotation number on 100 × 75 (h, f)", f"{grid_milliseconds():.1f} ms", "≤ 100 ms"))
     rows.append(("rotation number on 300 × 200 (h, f), one core", f"{map_milliseconds():.0f} ms", "≤ 1 s"))
-    rows.append(("section of figure gess1, 117 orbits × 400 crossings", f"{section_milliseconds():.0f} ms", ""))
+    rows.append(("section of figure 11, 117 orbits × 400 crossings", f"{section_milliseconds():.0f} ms", ""))
     versions = ", ".join(f"{name} {version(name)}" for name in ("panel", "bokeh", "holoviews", "numba", "numpy"))
     heading = (f"{date.today()}, {processor()}, {os.cpu_count()} cores, Python {platform.python_version()}, "
                f"{versions}.")

@@ -100,3 +100,24 @@ def test_the_change_log_begins_with_the_version():
     version = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["version"]
     newest = re.search(r"^## (\S+)", (ROOT / ".github/CHANGELOG.md").read_text(), re.MULTILINE)
     assert newest[1] == version
+
+
+SECTIONS = {"1", "1.1", "2", "2.1", "3"}
+"""Of the paper; its appendix has no number."""
+FIGURES = range(1, 15)
+
+
+def test_words_cite_sections_and_figures_that_the_paper_has():
+    files = [*(path for path in (ROOT / "app/hess_explorer/scenes").rglob("*") if path.suffix in (".py", ".md")),
+             *(ROOT / "models").rglob("*.py"), ROOT / "models/README.md"]
+    sections = figures = 0
+    for path in files:
+        text = path.read_text(encoding="utf-8")
+        for cited in re.findall(r"[Ss]ection (\d+(?:\.\d+)?)", text):
+            sections += 1
+            assert cited in SECTIONS, (path, cited)
+        for cited in re.findall(r"[Ff]igures? (\d+)(?:(?:[–,]| and)[ ]?(\d+))*", text):
+            figures += 1
+            assert all(int(number) in FIGURES for number in cited if number), (path, cited)
+    assert sections > 10
+    assert figures > 15

@@ -286,6 +286,19 @@ def test_the_numbers_in_the_caption_of_the_section_are_those_of_its_points(name)
     kept = view.values["I13"] == view.values["I23"] == 0.0
     assert ("the flow keeps volume" in view.text["section"]) == kept
     assert len(view.data["section-others"]["x"]) == 20 * expected
+    # What is proved of the motion is said of these bodies, and of no other.
+    plain = kept and view.values["b3"] == 0.0
+    symmetric = kept and view.values["I11"] == view.values["I22"] and view.values["b1"] == view.values["b2"] == 0.0
+    assert ("closed, by γ₃ → −γ₃, t → −t" in view.text["section"]) == plain
+    assert ("ω₁γ₁ + ω₂γ₂ is kept" in view.text["section"]) == symmetric
+    assert len(view.text["section"].split("\n")[1]) <= 110
+    if plain:
+        assert np.ptp(own, axis=0) == pytest.approx([0.0, 0.0], abs=1e-4)
+    if symmetric:
+        states = view.result.orbit.states
+        area = states[:, 0] * states[:, 2] + states[:, 1] * states[:, 3]
+        assert np.ptp(area) <= 1e-5
+        assert view.derived("ω₁γ₁ + ω₂γ₂ = #, an integral") == pytest.approx([area[0]], abs=1e-5)
 
 
 def test_closed_regular_and_chaotic_examples_look_it():

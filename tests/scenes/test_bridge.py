@@ -58,7 +58,7 @@ def test_the_leak_grows_at_the_rate_in_the_caption_which_is_the_exact_one(name):
 
 
 def test_figure_gess1_has_the_numbers_of_the_paper():
-    view = leak("Figure gess1: h = 50, f = 5")
+    view = leak("Figure 11: h = 50, f = 5")
     assert view.numbers("leak", "grows by # a period over # of them; exact #.")[::2] == pytest.approx([3.09107] * 2)
     assert view.derived("In units b = 1: h = #, f = #") == [5.01253, -2.0025]
     assert view.derived("a = b′/a₁′ = #") == [-0.5]
@@ -85,7 +85,7 @@ def test_without_cycles_nothing_grows_and_the_caption_says_so(name):
 
 
 def test_every_accuracy_leaks_alike_but_starts_at_its_own_distance():
-    name = "Figure gess1: h = 50, f = 5"
+    name = "Figure 11: h = 50, f = 5"
     views = {accuracy: leak(name, accuracy) for accuracy in LEVELS}
     apart = {}
     for accuracy, view in views.items():
@@ -101,7 +101,7 @@ def test_every_accuracy_leaks_alike_but_starts_at_its_own_distance():
 
 
 def test_the_leaking_orbit_stays_in_one_layer_of_the_andoyer_picture():
-    view = leak("Figure gess1: h = 50, f = 5")
+    view = leak("Figure 11: h = 50, f = 5")
     r1, r3 = 0.6, 0.8
     l, x = view.curve("andoyer-orbit")
     relation = r1 * np.sqrt(1.0 - x * x) * np.sin(l) + r3 * x
@@ -114,7 +114,7 @@ def test_the_leaking_orbit_stays_in_one_layer_of_the_andoyer_picture():
 
 
 def test_the_exact_motion_beside_is_that_of_the_reduced_system():
-    view = leak("Figure gess1: h = 50, f = 5")
+    view = leak("Figure 11: h = 50, f = 5")
     a, h, f, nu = torus(view.values)
     _, lowest = period_of(h, f)
     rho = math.sqrt(2.0 * (h + lowest))
@@ -178,7 +178,7 @@ def test_both_sides_of_an_example_agree_to_1e_11_over_t_50(preset):
 
 
 def test_figure_gess1_in_both_systems_of_units():
-    view = bridge("Figure gess1, given in Euler–Poisson")
+    view = bridge("Figure 11, given in Euler–Poisson")
     assert view.numbers("omega", "h = #, f = # in units b = 1") == [5.01253, -2.0025]
     assert view.numbers("andoyer", "H = #, F₁ = #:") == [50.0, 5.0]
     assert view.derived("E = H = #") == [50.0]
@@ -194,7 +194,7 @@ def test_figure_gess1_in_both_systems_of_units():
 
 
 def test_the_same_state_may_be_given_on_either_side():
-    heavy = bridge("Figure gess1, given in Euler–Poisson")
+    heavy = bridge("Figure 11, given in Euler–Poisson")
     given = {"given": "Suslov–Hess", "I22": 0.5, "I23": -0.25, "b3": -15.96 * 0.5 * math.sqrt(1.25),
              "h": 50.0 / 9.975, "f": -5.0 * math.sqrt(1.6 / 9.975)}
     suslov = View(BRIDGE, given)

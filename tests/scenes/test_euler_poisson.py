@@ -181,6 +181,59 @@ def test_the_green_curve_is_the_hess_manifold():
     assert np.max(np.abs(M @ [r1, r3])) < 1e-6
 
 
+def other_momenta(view, places):
+    """How many momenta with this energy there are at places (n, 2), by a dense search."""
+    top = math.sqrt(2.0 * (view.h + view.body.strength) / min(view.body.a))
+    return [np.count_nonzero(np.diff(np.sign(dense(view.body, view.f, float(l), float(x), top)[1] - view.h)))
+            for l, x in places]
+
+
+def test_points_on_another_sheet_are_drawn_apart():
+    preset = next(one for one in EP.presets if one.name.startswith("Figure 14 c"))
+    view = EulerPoisson({**preset.values, "orbits": 60.0, "count": 100.0}, seen={"section"})
+    apart = view.points("elsewhere")
+    everything = np.vstack([view.points("first"), view.points("second"), view.points("own")])
+    assert 3 < len(apart) < 0.02 * len(everything)
+    assert all(np.min(np.abs(everything - point).max(axis=1)) < 1e-6 for point in apart)
+    # There another momentum has this energy as well; at most of the other points there is none.
+    assert np.mean(np.array(other_momenta(view, apart[:20])) >= 2) > 0.9
+    assert np.mean(np.array(other_momenta(view, everything[::200])) >= 2) < 0.2
+    assert view.derived("on another sheet: # points") == [len(apart)]
+
+
+def test_on_the_second_sheet_orbits_start_with_the_smaller_momentum():
+    values = {**EP.presets[0].values, "I1": 1.0, "I2": 1.5, "I3": 2.0, "m": -math.sqrt(0.5), "h": 0.5, "f": 0.3,
+              "orbits": 8.0, "count": 30.0}
+    largest, second = (EulerPoisson({**values, "sheet": sheet}, seen={"section"})
+                       for sheet in ("largest G", "second G"))
+    start = np.array(second.result.start)
+    l, x = coordinates(start[None])[0]
+    G = float(np.linalg.norm(start[:3]))
+    assert second.h == pytest.approx(float(energies_at(second.body, 0.3, l, x, G)[0]), abs=1e-9)
+    larger = state_at(second.body, 0.5, 0.3, float(l), float(x))
+    assert np.linalg.norm(larger[:3]) > 1.01 * G
+    # Nearly all of the section is grey then, as hardly any motion crosses that sheet.
+    grey = [np.mean(np.asarray(view.data["section-impossible"]["image"][0])) for view in (largest, second)]
+    assert grey[0] < 0.3
+    assert grey[1] > 0.9
+
+
+def test_where_there_is_no_second_sheet_that_is_said():
+    with pytest.raises(ModelError, match=r"No motion crosses a second sheet here.*choose the largest G"):
+        _ = EP.of({**EP.defaults(), "sheet": "second G"}).picked
+
+
+def test_curves_that_do_not_go_round_have_no_rotation_number():
+    preset = next(one for one in EP.presets if one.name.startswith("Figure 13 b"))
+    view = EulerPoisson({**preset.values, "orbits": 0.0}, seen={"rotation"})
+    assert "No closed curve of the line goes round." in view.text["rotation"]
+    assert len(view.data["rotation-orbits"]["x"]) == 0
+    # l of an orbit from the middle of the line stays in a part of the circle.
+    start = [state_at(view.body, view.h, view.f, 2.8, 0.1)]
+    l = np.sort(coordinates(andoyer_points(view.body, view.h, view.f, start, 2000, STANDARD).states[0])[:, 0])
+    assert max(np.max(np.diff(l)), 2.0 * math.pi - np.ptp(l)) > 0.5
+
+
 # ---- What changes -----------------------------------------------------------------------------------------------
 
 
@@ -290,7 +343,7 @@ def test_at_the_ends_of_what_may_be_typed_there_is_a_picture_or_a_sentence(value
     assert not re.search(r"nan|inf\b", " ".join([*view.text.values(), view.report.status]), re.IGNORECASE)
 
 
-SECOND_SERIES = [one for one in EP.presets if one.name.startswith("gess-ris2")]
+SECOND_SERIES = [one for one in EP.presets if one.name.startswith("Figure 14")]
 
 
 @pytest.mark.parametrize("preset", SECOND_SERIES, ids=lambda one: one.name)

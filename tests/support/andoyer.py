@@ -12,9 +12,9 @@ from scipy.optimize import brentq
 from hess_mechanics.euler_poisson.equations import HeavyBody
 
 GESS1 = HeavyBody.hess((1.0, 0.625, 0.375), 9.975)
-"""Figure gess1, with h = 50 and f = 5: r = (3, 0, 4), μ = 1.995, so μ|r| = 9.975."""
+"""Figure 11, with h = 50 and f = 5: r = (3, 0, 4), μ = 1.995, so μ|r| = 9.975."""
 RIS = HeavyBody.hess((1.0, 1.5, 2.0), -math.sqrt(0.5))
-"""Figures gess-ris1 and gess-ris2: H = ½(M1² + ⅔M2² + ½M3²) + γ1/√3 + γ3/√6."""
+"""Figures 13 and 14: H = ½(M1² + ⅔M2² + ½M3²) + γ1/√3 + γ3/√6."""
 
 
 def rates(body, y):

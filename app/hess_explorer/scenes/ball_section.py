@@ -25,6 +25,7 @@ from hess_explorer.views.text import digits, vector
 from hess_explorer.views.velocity_plane import nice_above, orbit_alone, orbit_columns, pixels_per_unit
 from hess_mechanics.chaplygin_ball.energy_surface import lowest_energy
 from hess_mechanics.chaplygin_ball.equations import BallBody
+from hess_mechanics.chaplygin_ball.integrable_cases import area_integral, has_area_integral, is_reversible
 from hess_mechanics.chaplygin_ball.section import (
     ball_section,
     coordinates,
@@ -70,7 +71,7 @@ class BallSection(CentreOfMass, Ball, Crossings):
                      doc="b = −mg r, r the centre of mass.")
     b2: float = like(CentreOfMass, "b2", 0.0, softbounds=(-1.0, 1.0), bounds=(-1e2, 1e2), doc="b = −mg r.")
     b3: float = like(CentreOfMass, "b3", 0.8, softbounds=(-1.0, 1.0), bounds=(-1e2, 1e2),
-                     doc="b = −mg r; b₃ = 0: every orbit closes.")
+                     doc="b = −mg r; with I₁₃ = I₂₃ = 0 and b₃ = 0 every orbit closes.")
     h: float = number("h", 2.0, (0.05, 5.0), 0.01, bounds=(1e-3, 1e3), label="Energy above the plane's lowest",
                       doc="E = h − √(b₁²+b₂²): every h > 0 has motions through γ₃ = 0.")
     psi: float = number("ψ", 1.0, (-3.14, 3.14), 0.01, bounds=(-math.pi, math.pi), label="Start: ψ, direction of γ",
@@ -146,7 +147,13 @@ class BallSection(CentreOfMass, Ball, Crossings):
             return "Left out: it would take too many steps."
         volume = "the flow keeps volume" if self.I13 == self.I23 == 0.0 else "volume is not kept"
         visited = occupied_cells(self.own, _CELLS)
-        return f"The chosen orbit: {len(self.own)} points in {visited} of {_CELLS**2} cells; {volume}."
+        return f"The chosen orbit: {len(self.own)} points in {visited} of {_CELLS**2} cells; {volume}{self._law()}."
+
+    def _law(self) -> str:
+        """Why the motion is regular, where that is proved."""
+        if is_reversible(self.body):
+            return "; closed, by γ₃ → −γ₃, t → −t"
+        return "; ω₁γ₁ + ω₂γ₂ is kept" if has_area_integral(self.body) else ""
 
     def _about_returns(self) -> str:
         return ("Left out: it would take too many steps." if self.own is None else
@@ -162,6 +169,8 @@ class BallSection(CentreOfMass, Ball, Crossings):
         yield f"lowest energy −|b| = {digits(lowest_energy(self.body), 6)}"
         yield f"ω(0) = {vector(self.start[:2])}"
         yield f"γ(0) = {vector(self.start[2:])}"
+        if has_area_integral(self.body):
+            yield f"ω₁γ₁ + ω₂γ₂ = {digits(float(area_integral(np.array(self.start))), 6)}, an integral"
 
 
 def _room(speed: float) -> float:

@@ -47,12 +47,12 @@ _MOST_GROWTH = 3000.0
 _BOTTOM = -1.0 + 1e-9
 
 PRESETS = (
-    Preset("Figure gess1, given in Euler–Poisson", given=HEAVY),
+    Preset("Figure 11, given in Euler–Poisson", given=HEAVY),
     Preset("Two limit cycles, given in Suslov–Hess", given=SUSLOV, h=1.5, f=0.6),
     Preset("No cycles, given in Suslov–Hess", given=SUSLOV, h=0.2, f=0.5),
     Preset("f = 0: loxodromic pendulum", given=HEAVY, h=20.0, f=0.0),
     Preset("f = 0: it swings", given=HEAVY, h=5.0, f=0.0),
-    Preset("Body of gess-ris2, f = 1", given=HEAVY, **RIS, h=2.0, f=1.0),
+    Preset("Body of figure 14, f = 1", given=HEAVY, **RIS, h=2.0, f=1.0),
 )
 
 

@@ -23,6 +23,7 @@ from hess_explorer.views.graph import over_time, thinned
 from hess_explorer.views.layers import Axes, Columns, Range, curves, dots, f32, line, points, text
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Direction, Sphere, gamma_columns
+from hess_explorer.views.section_plane import joined
 from hess_explorer.views.text import digits, vector
 from hess_explorer.views.velocity_plane import nice_above
 from hess_mechanics.dynamics.sampling import PIXELS
@@ -39,22 +40,24 @@ _ON_LINE = 3000
 _MOST_STEPS = 200_000
 _BOUNDS = ((-TURN, -1.0), (TURN, 1.0))
 _ALONG, _ABOUT = "along l", "about the middle"
+_LARGEST, _SECOND = "largest G", "second G"
 
 # An example says also along what the rotation number is looked at: else choices stay as they were.
-_RIS: dict[str, Value] = {"turns": _ALONG, "I1": 1.0, "I2": 1.5, "I3": 2.0, "m": -math.sqrt(0.5), "span": 60.0}
+_RIS: dict[str, Value] = {"turns": _ALONG, "sheet": _LARGEST, "I1": 1.0, "I2": 1.5, "I3": 2.0, "m": -math.sqrt(0.5),
+                          "span": 60.0}
 _THERE, _LOW = "2.8,0.3", "-1.54,-0.86"
 """At the lowest energies the first of these starts is not possible."""
 _BELOW, _AT, _ABOVE = "a curve in a regular leaf", "the separatrix", "two layers part"
 _NONE, _STABLE, _UNSTABLE = "no Hess motion yet", "the Hess motion is stable", "it is unstable, two layers part"
 PRESETS = (
-    Preset("Two layers that never mix (figure gess1)", turns=_ALONG),
-    Preset("Meandering torus (figure gess2)", window="-2.25,-0.27;-1.45,0.33", turns=_ABOUT, starts="-1.558,0.03",
-           orbits=40.0, count=600.0),
-    Preset("The barrier breaks: 0.02 away from Hess", turns=_ALONG, away=0.02, count=600.0),
-    *(Preset(f"gess-ris1 {letter}: f = 0, h = {h:.4g}, {what}", **_RIS, h=h, f=0.0, starts=_THERE)
+    Preset("Two layers that never mix (figure 11)", turns=_ALONG, sheet=_LARGEST),
+    Preset("Meandering torus (figure 12)", sheet=_LARGEST, window="-2.25,-0.27;-1.45,0.33", turns=_ABOUT,
+           starts="-1.558,0.03", orbits=40.0, count=600.0),
+    Preset("The barrier breaks: 0.02 away from Hess", turns=_ALONG, sheet=_LARGEST, away=0.02, count=600.0),
+    *(Preset(f"Figure 13 {letter}: f = 0, h = {h:.4g}, {what}", **_RIS, h=h, f=0.0, starts=_THERE)
       for letter, h, what in (("a", -0.4, _BELOW), ("b", 0.0, _BELOW), ("c", 0.5, _BELOW), ("d", math.sqrt(0.5), _AT),
                               ("e", 1.0, _ABOVE), ("f", 2.0, _ABOVE))),
-    *(Preset(f"gess-ris2 {letter}: f = 1, h = {h:.4g}, {what}", **_RIS, h=h, f=1.0, starts=_THERE if h > 0.4 else _LOW)
+    *(Preset(f"Figure 14 {letter}: f = 1, h = {h:.4g}, {what}", **_RIS, h=h, f=1.0, starts=_THERE if h > 0.4 else _LOW)
       for letter, h, what in (("a", 0.0, _NONE), ("b", 0.2, _STABLE), ("c", 0.5, _STABLE), ("d", 0.8, _UNSTABLE),
                               ("e", 1.0, _UNSTABLE), ("f", 1.3, _UNSTABLE), ("g", 2.0, _UNSTABLE),
                               ("h", 4.0, _UNSTABLE))),
@@ -81,6 +84,9 @@ class EulerPoisson(Moments, FilledWindow):
     turns: str = choice("Rotation number", (_ALONG, _ABOUT), _ALONG,
                         doc="Turns counted by the angle l, on a vertical line through the chosen start; or about the "
                             "middle of the window, on a line from there to the right.")
+    sheet: str = choice("Sheet", (_LARGEST, _SECOND), _LARGEST,
+                        doc="Of the momenta G with this energy at one point of the section, where there are two: on "
+                            "which orbits start.")
     accuracy: str = accuracy_level()
     starts: str = places("The places of the chosen orbits", 12, *_BOUNDS, "0,0.2")
     window: str = places("The window of the section", 2, *_BOUNDS)
@@ -105,7 +111,7 @@ class EulerPoisson(Moments, FilledWindow):
     @cached_property
     def section(self) -> AndoyerSection:
         """The section."""
-        return AndoyerSection(self.body, self.h, self.f)
+        return AndoyerSection(self.body, self.h, self.f, (_LARGEST, _SECOND).index(self.sheet))
 
     def follow(self, starts: tuple[Start, ...], forward: bool) -> Piece | None:
         """What is known of these orbits."""
@@ -114,6 +120,9 @@ class EulerPoisson(Moments, FilledWindow):
     @property
     def impossible_here(self) -> str:
         """What is said where nothing is possible in the window."""
+        if self.sheet == _SECOND:
+            return (f"No motion crosses a second sheet here with h = {self.h:.6g} and f = {self.f:.6g}: choose the "
+                    "largest G, or press Clear for the whole section.")
         return (f"Nothing is possible here with h = {self.h:.6g} and f = {self.f:.6g}: choose a larger h, a smaller "
                 "|f|, or press Clear for the whole section.")
 
@@ -158,7 +167,8 @@ class EulerPoisson(Moments, FilledWindow):
     def _rotation_message(self) -> str:
         if self.rotation is None or self.rotation.numbers.size or not self._orbits_on_line[1]:
             return ""
-        return "No orbit of the line is a closed curve"
+        return ("No closed curve of the line goes round" if self.rotation.standing else
+                "No orbit of the line is a closed curve")
 
     def _rotation_axis(self) -> Range | None:
         if self.rotation is None:
@@ -201,8 +211,9 @@ class EulerPoisson(Moments, FilledWindow):
         rho = self.rotation.numbers
         # A line through all of the section meets orbits of many kinds, whose numbers are no one function of the place.
         turning = self.rotation.extremum if self.turns == _ABOUT else None
+        standing = f"; {self.rotation.standing} curves do not go round." if self.rotation.standing else "."
         return f"From {_turns(rho.min())} to {_turns(rho.max())}" + (
-            "." if turning is None else
+            standing if turning is None else
             f"; it turns round at {digits(turning[0])} with ρ = {_turns(turning[1])}: no twist there.")
 
     def _about_exponent(self) -> str:
@@ -218,6 +229,8 @@ class EulerPoisson(Moments, FilledWindow):
         """a and r, the start of the orbit on show, whether this is a rigid body."""
         yield f"a = {digits(self.body.hess_a)}, r = {vector(self.body.r)}"
         yield f"chosen: {self.at(self.picked.places[-1])}"
+        if self.known("_known") and len(self.elsewhere):
+            yield f"on another sheet: {len(self.elsewhere)} points"
         yield self.body.check.sentence
 
 
@@ -227,8 +240,9 @@ def _piece(section: AndoyerSection, starts: tuple[Start, ...], crossings: int) -
     signs = np.sign(relation(section.body, np.array(starts)))
     kept = (bool(np.all(sign * relation(section.body, states) >= 0.0))
             for states, sign in zip(found.states, signs, strict=True))
+    other = [section.places_of(states)[~section.is_on(states)] for states in found.states]
     return Piece(tuple(frozen(section.places_of(states)) for states in found.states),
-                 tuple(bool(sign > 0.0) for sign in signs), found.drift, tuple(kept))
+                 tuple(bool(sign > 0.0) for sign in signs), found.drift, tuple(kept), frozen(joined(other)))
 
 
 def _turns(rho: float) -> str:
@@ -246,7 +260,9 @@ SCENE = Scene(
         filled_window(
             title="Section g = π/2 (Andoyer–Deprit)", caption=EulerPoisson._about_section, scene=EulerPoisson,
             labels=("r·M > 0", "r·M < 0"), dot=("l", "x"),
-            between=(line("curve", EulerPoisson.hess_curve, color=theme.STABLE, label="Hess manifold, r·M = 0"),
+            between=(dots("elsewhere", lambda s: s.elsewhere.T, color=theme.MUTED, size=6,
+                          label="on another sheet: another G"),
+                     line("curve", EulerPoisson.hess_curve, color=theme.STABLE, label="Hess manifold, r·M = 0"),
                      dots("path", track="orbit", columns=("l", "x"), size=3, color=theme.MAP, alpha=0.4),
                      line("line", lambda s: tuple(zip(*inside(s.ends, s.frame), strict=True)) or None,
                           color=theme.MUTED, dash="dashed", width=1.5, label="line of the rotation number"))),

@@ -54,7 +54,7 @@ PRESETS = (
     Preset("Along a, to the boundary of the plateau", over="h, a", line="a", h=0.5, f=0.6),
     Preset("A closer look at ρ = −1/3", over="h, f", line="f", part_hf="0.1,0.4;0.3,0.6", rational="−1/3", h=0.25,
            f=0.45),
-    Preset("Euler–Poisson, figure gess1", over="h, f", line="h", h=5.01253, f=2.0025, part_hf="-1,-4;8,4"),
+    Preset("Euler–Poisson, figure 11", over="h, f", line="h", h=5.01253, f=2.0025, part_hf="-1,-4;8,4"),
 )
 
 

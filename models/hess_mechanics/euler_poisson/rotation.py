@@ -1,4 +1,9 @@
-"""Rotation numbers of the orbits that start on a line across the section g = π/2, where they are closed curves."""
+"""Rotation numbers of the orbits that start on a line across the section g = π/2, where they are closed curves.
+
+A closed curve that does not go round, in l or about the centre of the turns, has no rotation number: its points come
+back in that angle, and their mean turn is 0.  The same is found of an orbit that goes round so slowly that this cannot
+be told from 0.
+"""
 
 from __future__ import annotations
 
@@ -22,10 +27,14 @@ Ends = tuple[tuple[float, float], tuple[float, float]]
 
 @dataclass(frozen=True)
 class Rotation:
-    """Rotation numbers `rho` (n,) of orbits that start at `along` (n,) on a line, each in parts without a gap."""
+    """Rotation numbers `rho` (n,) of orbits that start at `along` (n,) on a line, each in parts without a gap.
+
+    standing : how many closed curves do not go round, and so have none.
+    """
 
     along: tuple[Array, ...]
     rho: tuple[Array, ...]
+    standing: int
 
     @property
     def places(self) -> Array:
@@ -68,12 +77,15 @@ def rotation_along(ends: Ends, shares: Sequence[float], orbits: Sequence[Array],
     centre, axis = (ends[0], 0) if about_first else (None, 1)
     along: list[list[float]] = [[]]
     rho: list[list[float]] = [[]]
-    last = -1.0
+    last, standing = -1.0, 0
     for share, points in zip(shares, orbits, strict=True):
         if len(points) < _FEWEST:
             continue
         turns, spread = rotation_number(points, centre)
         if spread > RESOLVED:
+            continue
+        if abs(turns) <= RESOLVED:
+            standing += 1
             continue
         # A gap, or the jump from ½ to −½, divides the curve.
         if rho[-1] and (share - last > 1.5 / count or abs(turns - rho[-1][-1]) > 0.5):
@@ -82,4 +94,4 @@ def rotation_along(ends: Ends, shares: Sequence[float], orbits: Sequence[Array],
         along[-1].append((1.0 - share) * ends[0][axis] + share * ends[1][axis])
         rho[-1].append(turns)
         last = share
-    return Rotation(tuple(map(np.array, along)), tuple(map(np.array, rho)))
+    return Rotation(tuple(map(np.array, along)), tuple(map(np.array, rho)), standing)

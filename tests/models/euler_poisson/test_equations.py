@@ -13,7 +13,7 @@ from hess_mechanics.errors import InvalidParameter, ModelError, NotPositiveDefin
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
 from support.andoyer import GESS1, RIS, rates
 
-# Figure gess1 (row "euler-poisson, hess figure" of the reference): 20 digits, computed elsewhere.
+# Figure 11 (row "euler-poisson, hess figure" of the reference): 20 digits, computed elsewhere.
 FIGURE = HeavyBody((1.0, 1.6, 8.0 / 3.0), (3.0, 0.0, 4.0), 1.995)
 START = (1.3, -2.0, 0.7, 0.3000066002178079863075, 0.40000880029041064841, 0.8660190526287390538076)
 STATES = {

@@ -54,7 +54,7 @@ def test_in_gess_ris1_a_and_b_the_curves_through_the_line_do_not_go_round(h, f):
     assert np.all(np.abs(found.numbers) > RESOLVED)
     # Of those without a number the points stay in a part of the circle of l.
     gaps = []
-    for (share, state), points in zip(starts, places, strict=True):
+    for (share, _), points in zip(starts, places, strict=True):
         l = np.sort(points[:, 0])
         gap = max(np.max(np.diff(l)), 2.0 * math.pi - (l[-1] - l[0]))
         if not np.any(np.isclose(found.places, -1.0 + 2.0 * share)):

@@ -53,13 +53,15 @@ class _Section(Protocol):
 class Piece:
     """Some orbits: points (n, 2) of each, as they are passed, and of which of two kinds it is; the largest drifts.
 
-    kept : whether all its points lie on its side of the curve that divides the kinds, where there is one.
+    kept : whether all its points lie on its side of the curve that divides the kinds, where there is one;
+    elsewhere : those of the points (m, 2) that are drawn apart from the others.
     """
 
     orbits: tuple[Array, ...]
     firsts: tuple[bool, ...]
     drift: Mapping[str, float]
     kept: tuple[bool, ...] = ()
+    elsewhere: Array | None = None
 
 
 @dataclass(frozen=True)
@@ -196,6 +198,12 @@ class FilledWindow(OneOrbit):
     def second(self) -> Array:
         """Points (n, 2) of orbits of the second kind."""
         return joined(map(self.shown, self.kind(False)))
+
+    @cached_property
+    def elsewhere(self) -> Array:
+        """Points (n, 2) of all these orbits and of the chosen ones that are drawn apart from the others."""
+        own, others = self._known
+        return joined(piece.elsewhere for piece in (*own, *others) if piece.elsewhere is not None)
 
     @cached_property
     def own(self) -> Array:

@@ -31,7 +31,7 @@ UNSURE = 1e-9
 BY_THE_UNSTABLE_CYCLE = "This motion starts next to the unstable cycle: on the torus too any round-off grows there."
 
 RIS = {"I1": 1.0, "I2": 1.5, "I3": 2.0, "m": math.sqrt(0.5)}
-"""The body of figures gess-ris1 and gess-ris2, after half a turn about its middle axis."""
+"""The body of figures 13 and 14, after half a turn about its middle axis."""
 
 
 def reduced_motion(hess: HessBody, turning: TurningPoints, phi0: float, length: float) -> Motion:
