@@ -255,3 +255,16 @@ def test_what_a_link_says_wrongly_is_put_right_and_said():
     said = " ".join(notes)
     for word in ("h was not a number", "a lies between", "ε lies between", "Map over was not", "The window of the map"):
         assert word in said
+
+
+@pytest.mark.parametrize(("line", "over"), [("h", "h, f"), ("f", "f, a"), ("a", "h, a")])
+def test_where_nothing_is_possible_nothing_is_drawn_but_grey(line, over):
+    # At the edge of what is possible: beside the torus on show there is none.
+    view = View(SCENE, {"h": -0.5, "f": 0.999999 * f_max(-0.5), "line": line, "over": over})
+    view.assert_finite()
+    place = view.values[line]
+    for picture in ("line", "trace"):
+        ring = view.data[f"{picture}-chosen"]
+        assert ring["x"] == pytest.approx([place], abs=1e-6)
+    exact = circle_map(view.values["a"], -0.5, view.values["f"], REFERENCE)
+    assert view.data["line-chosen"]["y"] == pytest.approx([exact.rotation_number], abs=0.02)

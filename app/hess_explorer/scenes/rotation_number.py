@@ -162,7 +162,7 @@ class RotationNumber(State):
 
     @cached_property
     def perturbed(self) -> Array | None:
-        """ρ of the other family there, as soon as it is known; 0 where there is no torus."""
+        """ρ of the other family there, as soon as it is known; NaN where there is no torus."""
         return None if self.dragging else self.work.later(
             mechanics.perturbed_along, self.on_line, self.x.size, self.epsilon, STANDARD)
 

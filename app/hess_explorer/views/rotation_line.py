@@ -37,7 +37,10 @@ def _here(line: LineOf[S], place: Callable[[S], float], curve: Callable[[S], Arr
 
     def chosen(state: S, axes: Axes) -> list[tuple[float, float]]:
         x, heights = place(state), curve(state)
-        y = float(np.interp(x, line(state).places(len(heights)), heights))
+        there = np.isfinite(heights)
+        if not there.any():
+            return []
+        y = float(np.interp(x, line(state).places(len(heights))[there], heights[there]))
         return [(x, y)] if axes.x[0] <= x <= axes.x[1] and axes.y[0] <= y <= axes.y[1] else []
 
     return text("across", lambda s: line(s).name), ring("chosen", within=chosen, size=18)

@@ -23,7 +23,9 @@ def grids(values: TorusValues, cells: tuple[int, int], x: Range, y: Range) -> tu
     """ρ, and the zone (free, impossible, locked), at the centres of cells (m, n) that fill a window."""
     m, n = cells
     zones = np.where(values.possible, np.where(values.locked, 2.5, 0.5), 1.5)
-    return Grid(values.rho.reshape(n, m), x, y), Grid(zones.reshape(n, m), x, y)
+    # Cells without a torus lie under their zone, whatever their colour.
+    rho = np.where(values.possible, values.rho, 0.0)
+    return Grid(rho.reshape(n, m), x, y), Grid(zones.reshape(n, m), x, y)
 
 
 def layers(grids: Callable[[S], tuple[Grid, Grid]], boundary: Callable[[S], Sequence[Array]],

@@ -70,9 +70,9 @@ class Line:
 
 @dataclass(frozen=True)
 class TorusValues:
-    """Values at tori (n,), 0 where no motion is possible.
+    """Values at tori (n,), NaN (of `locked` False) where no motion is possible.
 
-    rho : rotation number; trace : |t|, ∞ beyond double range; locked : whether the map locks.
+    rho : rotation number; trace : |t|, ∞ beyond double range; locked : whether the map locks; possible : the mask.
     """
 
     rho: Array
@@ -112,16 +112,16 @@ def values_at(a: Array | float, h: Array | float, f: Array | float, level: Level
     rows = np.zeros((a.size, 6))
     rows[possible] = _matrices(a[possible], h[possible], f[possible], level)
     discriminant = discriminants(rows)
-    rho = np.where(possible, np.where(f < 0.0, -1.0, 1.0) * rotation_numbers(rows), 0.0)
+    rho = np.where(possible, np.where(f < 0.0, -1.0, 1.0) * rotation_numbers(rows), np.nan)
     with np.errstate(over="ignore"):
-        trace = np.where(possible, 2.0 * np.abs(rows[:, 0]) * np.exp(np.minimum(rows[:, 3], 710.0)), 0.0)
+        trace = np.where(possible, 2.0 * np.abs(rows[:, 0]) * np.exp(np.minimum(rows[:, 3], 710.0)), np.nan)
     return TorusValues(frozen(rho), frozen(trace), frozen(possible & (discriminant > 0.0)), frozen(possible))
 
 
 def rotation_errors(a: Array | float, h: Array | float, f: Array | float, level: Level) -> Array:
     """Estimated errors (n,) of ρ as `values_at` finds it, each from a second run with a hundredth of the tolerance.
 
-    Raises as `values_at`.
+    NaN where there is no torus.  Raises as `values_at`.
     """
     coarse, fine = (values_at(a, h, f, one).rho for one in (level, level.tightened()))
     return frozen((4.0 if level.is_floor else 1.25) * np.abs(coarse - fine) + 4e-16)
@@ -237,9 +237,9 @@ def along(line: Line, count: int, level: Level) -> TorusValues:
 
 
 def perturbed_along(line: Line, count: int, epsilon: float, level: Level) -> Array:
-    """`perturbed_rotation` at even places of a line, (count,); 0 where there is no torus."""
+    """`perturbed_rotation` at even places of a line, (count,); NaN where there is no torus."""
     x, possible = line.places(count), along(line, count, level).possible
-    out = np.zeros(count)
+    out = np.full(count, np.nan)
     if possible.any():
         tori = {**vars(line.torus), line.name: x[possible]}
         out[possible] = perturbed_rotation(**tori, epsilon=epsilon, level=level)

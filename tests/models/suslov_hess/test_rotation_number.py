@@ -107,14 +107,16 @@ def test_values_agree_whatever_their_shape_and_order():
     for i in range(40):
         assert together.possible[i] == (abs(f[i]) <= f_max(float(h[i])))
         alone = values_at(float(a[i]), float(h[i]), float(f[i]), STANDARD)
-        assert (alone.rho[0], alone.trace[0]) == pytest.approx((together.rho[i], together.trace[i]), rel=1e-9)
+        assert (alone.rho[0], alone.trace[0]) == pytest.approx(
+            (together.rho[i], together.trace[i]), rel=1e-9, nan_ok=True)
         if together.possible[i]:
             exact = circle_map(float(a[i]), float(h[i]), float(f[i]), REFERENCE)
             assert together.trace[i] == pytest.approx(exact.trace, rel=1e-6)
             assert together.locked[i] == (exact.kind == "hyperbolic")
             assert together.rho[i] == pytest.approx(exact.rotation_number, abs=1e-6)
         else:
-            assert (together.rho[i], together.trace[i], together.locked[i]) == (0.0, 0.0, False)
+            assert np.isnan([together.rho[i], together.trace[i]]).all()
+            assert not together.locked[i]
 
 
 def test_the_rotation_number_is_odd_in_f_and_even_in_a():
