@@ -17,7 +17,7 @@ from hess_mechanics.chaplygin_ball.phase_cloud import carried, shell
 from hess_mechanics.dynamics.basin_boundary import unsure
 from hess_mechanics.dynamics.birkhoff import rotation_number
 from hess_mechanics.dynamics.lyapunov import largest_exponent
-from hess_mechanics.dynamics.shadowing import errors_in_pixels, right_crossings, typical
+from hess_mechanics.dynamics.shadowing import away_from, errors_in_pixels, right_crossings, typical
 from hess_mechanics.numerics.accuracy import PLANS, REFERENCE, STANDARD, Kind
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 from hess_mechanics.suslov.section import coordinates, seeds, suslov_points
@@ -193,7 +193,7 @@ def test_the_boundary_tells_how_many_cells_a_finer_run_changes(name):
     random = np.random.default_rng(11)
     changed, estimates = [], []
     for _ in range(300):
-        coarse, fine = basins_of_discs(random, PLANS[Kind.BASINS][name].grid(36, 24))
+        coarse, fine = basins_of_discs(random, PLANS[Kind.BASINS][name].grid((36, 24)))
         changed.append(np.mean(np.kron(coarse, np.ones((2, 2))) != fine))
         estimates.append(unsure(coarse))
     assert within_a_factor_of_ten(changed, estimates)
@@ -248,17 +248,17 @@ def test_a_rotation_number_along_an_orbit_is_as_exact_as_its_halves_agree(tori):
 def test_the_boundary_of_the_lock_zone_lies_within_the_promised_pixels(a, name):
     plan = PLANS[Kind.CURVE][name]
     exact = lock_boundary(a, REFERENCE, 1500)
-    (points,) = plan.grid(48)
+    points = plan.side(48)
     scale = 600.0 / np.array([max(4.0, exact[:, 0].max()) + 1.0, 2.0 * max(3.0, exact[:, 1].max())])
     line, curve = lock_boundary(a, plan.level, points) * scale, exact * scale
-    assert max(distance_from(line, point) for point in curve) <= plan.promise
+    assert away_from(curve, line).max() <= plan.promise
 
 
-def distance_from(line, point):
-    """Of a point from a broken line (n, 2)."""
-    start, along = line[:-1], np.diff(line, axis=0)
-    share = np.clip(((point - start) * along).sum(axis=1) / (along**2).sum(axis=1), 0.0, 1.0)
-    return float(np.min(np.linalg.norm(start + share[:, None] * along - point, axis=1)))
+def test_distances_from_a_broken_line_are_those_from_its_nearest_part():
+    corner = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 2.0]])
+    places = np.array([[1.0, 0.5], [-3.0, 4.0], [2.5, 1.0], [3.0, 3.0], [2.0, 0.0]])
+    assert away_from(places, corner) == pytest.approx([0.5, 5.0, 0.5, math.sqrt(2.0), 0.0])
+    assert away_from(places[:1], corner[:1]) == pytest.approx([math.hypot(1.0, 0.5)])
 
 
 # ---- clouds -----------------------------------------------------------------------------------------------------

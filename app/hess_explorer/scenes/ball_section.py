@@ -11,7 +11,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.ball import Ball
-from hess_explorer.scenes.framework.crossings import Crossings
+from hess_explorer.scenes.framework.crossings import SECTION, Crossings
 from hess_explorer.scenes.framework.inertia import CentreOfMass, Tensor
 from hess_explorer.scenes.framework.one_orbit import Start
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, crossings_of_each, like, number, time_span
@@ -35,8 +35,9 @@ from hess_mechanics.chaplygin_ball.section import (
     spread_section,
     state_at,
 )
+from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.section import Points, occupied_cells
-from hess_mechanics.numerics.accuracy import STANDARD
+from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array
 
 _ORBITS = 20
@@ -117,16 +118,25 @@ class BallSection(CentreOfMass, Ball, Crossings):
         """From the variables to the pictures, as large as the orbit will be drawn."""
         return pixels_per_unit(_room(self.work.get(fastest, self.body, self.start, self.span)))
 
-    def crossing(self, crossings: int) -> tuple[Task, Task]:
+    def crossing(self, crossings: int, level: Level) -> tuple[Task, Task]:
         """What finds so many crossings of the orbit on show, and of the others."""
-        return (Task(ball_section, (self.body, self.E, (self.start,), crossings, STANDARD, _MOST_STEPS)),
-                Task(spread_section, (self.body, self.E, _ORBITS, crossings, STANDARD, _MOST_STEPS)))
+        return (Task(ball_section, (self.body, self.E, (self.start,), crossings, level, _MOST_STEPS)),
+                Task(spread_section, (self.body, self.E, _ORBITS, crossings, level, _MOST_STEPS)))
 
     def places_of(self, points: Points) -> Array:
         """(ψ, δ) of all these points, or of the later half of them."""
         longest = max(map(len, points.states), default=0)
         first = longest // 2 if self.drop != "all" else 0
         return section_plane.joined(coordinates(states[first:]) for states in points.states)
+
+    def places_of_one(self, states: Array) -> Array:
+        """(ψ, δ) of all points of an orbit."""
+        return coordinates(states)
+
+    @property
+    def pixels(self) -> tuple[float, float]:
+        """Pixels of the section for a unit of ψ and of δ."""
+        return PIXELS / (2.0 * math.pi), PIXELS / math.pi
 
     def half_width(self) -> float:
         """Of the (ω1, ω2)-plane."""
@@ -179,7 +189,7 @@ def _room(speed: float) -> float:
 
 
 SCENE = Scene(
-    BallSection, __file__, place=10, presets=PRESETS,
+    BallSection, __file__, place=10, presets=PRESETS, measures=(SECTION,),
     title="Ball with a field",
     summary="The ball in a field: a section at one energy shows curves, seas and, with I₁₃ or I₂₃, attractors.",
     tracks={"orbit": lambda s: orbit_columns(s.orbit)},

@@ -15,6 +15,7 @@ from hess_explorer.scenes.framework.circle_left import CircleLeft
 from hess_explorer.scenes.framework.one_orbit import OneOrbit, Start
 from hess_explorer.scenes.framework.parameters import accuracy_level, time_span
 from hess_explorer.scenes.framework.scene import Preset, Scene
+from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import scattering_map as square
 from hess_explorer.views import theme
@@ -27,8 +28,10 @@ from hess_explorer.views.text import digits as in_digits
 from hess_explorer.views.text import vector
 from hess_mechanics.chaplygin_ball import scattering as model
 from hess_mechanics.chaplygin_ball.strip_orbits import StripOrbit, strip_orbits
+from hess_mechanics.dynamics.sampling import PIXELS
+from hess_mechanics.dynamics.shadowing import away_from
 from hess_mechanics.errors import WorkLimit
-from hess_mechanics.numerics.accuracy import DRAFT, STANDARD, Level
+from hess_mechanics.numerics.accuracy import DRAFT, REFERENCE, Kind, Level, Plan
 from hess_mechanics.numerics.results import Array
 
 _ORBITS, _FEW_ORBITS = 18, 8
@@ -77,8 +80,10 @@ class ChaplyginBall(CircleLeft, FreeBall, OneOrbit):
     @cached_property
     def crowd(self) -> tuple[StripOrbit, ...]:
         """Orbits over the strip."""
+        plan = self.plan(Kind.CURVE)
         found: tuple[StripOrbit, ...] = self.work.sooner(
-            Task(strip_orbits, (self.body, _ORBITS)), Task(strip_orbits, (self.body, _FEW_ORBITS)))
+            Task(strip_orbits, (self.body, plan.side(_ORBITS), plan.level)),
+            Task(strip_orbits, (self.body, _FEW_ORBITS, plan.level)))
         return tuple((math.sqrt(self.h) * track, place) for track, place in found)
 
     @cached_property
@@ -87,9 +92,9 @@ class ChaplyginBall(CircleLeft, FreeBall, OneOrbit):
         def phases(count: int, level: Level) -> Task:
             return Task(model.all_phases, (self.body, self.theta, count, self.distance, level, _MOST_STEPS))
 
+        plan = self.plan(Kind.MAP)
         try:
-            level = min(self.level, STANDARD, key=lambda one: one.order)
-            return self.work.sooner(phases(_PHASES, level), phases(_FEW_PHASES, DRAFT)), ""
+            return self.work.sooner(phases(plan.side(_PHASES), plan.level), phases(_FEW_PHASES, DRAFT)), ""
         except WorkLimit as error:
             return None, f"The map of the phases is left out: {error}"
 
@@ -151,8 +156,32 @@ class ChaplyginBall(CircleLeft, FreeBall, OneOrbit):
             yield self.map_or_reason[1]
 
 
+def _map(s: ChaplyginBall, plan: Plan) -> model.BallScattering:
+    return model.all_phases(s.body, s.theta, plan.side(_PHASES), s.distance, plan.level, _MOST_STEPS)
+
+
+def _map_error(s: ChaplyginBall, found: model.BallScattering, truth: object) -> float:
+    """At the phases found, which are not those of the truth."""
+    exact = model.all_phases(s.body, s.theta, found.phis.size, s.distance, REFERENCE, _MOST_STEPS)
+    return PIXELS / math.pi * float(np.abs(found.theta_plus - exact.theta_plus).max())
+
+
+def _strip(s: ChaplyginBall, plan: Plan) -> tuple[StripOrbit, ...]:
+    return strip_orbits(s.body, plan.side(_ORBITS), plan.level)
+
+
+def _strip_error(s: ChaplyginBall, found: tuple[StripOrbit, ...], truth: object) -> float:
+    """Of the curves found, which are not those of the truth."""
+    exact = strip_orbits(s.body, len(found), REFERENCE)
+    worst = max(away_from(track, curve).max() for (track, _), (curve, _) in zip(found, exact, strict=True))
+    return float(worst) * math.sqrt(s.h) * 0.5 * PIXELS / s.half_width
+
+
+_MEASURES: tuple[Trial[ChaplyginBall], ...] = (
+    Trial(Kind.MAP, ("curve",), _map, _map_error), Trial(Kind.CURVE, ("omega",), _strip, _strip_error))
+
 SCENE = Scene(
-    ChaplyginBall, __file__, place=9, presets=PRESETS,
+    ChaplyginBall, __file__, place=9, presets=PRESETS, measures=_MEASURES,
     title="Chaplygin ball",
     summary="A ball rolls inside the body: every orbit crosses a strip between two ellipses, from Nᵘ to Nˢ.",
     tracks={"orbit": lambda s: plane.orbit_columns(s.orbit, Gamma=s.Gamma)},

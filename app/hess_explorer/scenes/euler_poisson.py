@@ -10,13 +10,23 @@ from typing import ClassVar
 
 import numpy as np
 
+from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Value
-from hess_explorer.scenes.framework.filled_window import TURN, FilledWindow, Piece, filled_window, in_pieces
+from hess_explorer.scenes.framework.filled_window import (
+    EXPONENT,
+    SECTION,
+    TURN,
+    FilledWindow,
+    Piece,
+    filled_window,
+    in_pieces,
+)
 from hess_explorer.scenes.framework.hess_case import HeavyMotion
 from hess_explorer.scenes.framework.inertia import Moments
 from hess_explorer.scenes.framework.one_orbit import Start
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, like, number, places, time_span
 from hess_explorer.scenes.framework.scene import Preset, Scene
+from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.windows import Window, inside
 from hess_explorer.views import theme
 from hess_explorer.views.graph import over_time, thinned
@@ -30,7 +40,7 @@ from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, andoyer_points, hess_curve, relation
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.rotation import RESOLVED, Rotation, on_line, rotation_along
-from hess_mechanics.numerics.accuracy import STANDARD
+from hess_mechanics.numerics.accuracy import Kind, Level, Plan
 from hess_mechanics.numerics.results import Array, frozen
 
 _ACROSS = 48
@@ -113,9 +123,9 @@ class EulerPoisson(Moments, FilledWindow):
         """The section."""
         return AndoyerSection(self.body, self.h, self.f, (_LARGEST, _SECOND).index(self.sheet))
 
-    def follow(self, starts: tuple[Start, ...], forward: bool) -> Piece | None:
-        """What is known of these orbits."""
-        return self.work.soon(_piece, self.section, starts, self.wanted[1])
+    def piece(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task:
+        """What follows these orbits."""
+        return Task(_piece, (self.section, starts, crossings, level))
 
     @property
     def impossible_here(self) -> str:
@@ -146,23 +156,37 @@ class EulerPoisson(Moments, FilledWindow):
     @cached_property
     def _orbits_on_line(self) -> tuple[list[tuple[float, Array]], bool]:
         """Shares of the way along the line, with the orbits from there that are known; whether these are all."""
-        starts = self.work.get(on_line, self.section, self.ends, _ACROSS)
+        plan = self.plan(Kind.ROTATION)
+        starts = self.work.get(on_line, self.section, self.ends, plan.side(_ACROSS))
         found: list[tuple[float, Array]] = []
         for some in in_pieces(starts):
             piece = self.work.soon(_piece, self.section, tuple(state for _, state in some),
-                                   max(self.wanted[1], _ON_LINE))
+                                   self._crossings_on_line(plan), plan.level)
             if piece is not None:
                 found += zip((share for share, _ in some), piece.orbits, strict=True)
         return found, len(found) == len(starts)
+
+    def _crossings_on_line(self, plan: Plan) -> int:
+        return max(self.plan(Kind.SECTION).part(self.count), plan.part(_ON_LINE))
 
     @cached_property
     def rotation(self) -> Rotation | None:
         """Rotation numbers along the line, as far as they are known; not while a slider is held."""
         if self.dragging:
             return None
-        found, _ = self._orbits_on_line
+        return self._rotation_of(self._orbits_on_line[0], self.plan(Kind.ROTATION).side(_ACROSS))
+
+    def _rotation_of(self, found: list[tuple[float, Array]], count: int) -> Rotation:
         return rotation_along(self.ends, [share for share, _ in found], [orbit for _, orbit in found],
-                              self.turns == _ABOUT, _ACROSS)
+                              self.turns == _ABOUT, count)
+
+    def rotation_at(self, plan: Plan) -> Rotation:
+        """Rotation numbers along the line, computed here and now."""
+        count = plan.side(_ACROSS)
+        starts = on_line(self.section, self.ends, count)
+        orbits = [orbit for some in in_pieces(starts) for orbit in _piece(
+            self.section, tuple(state for _, state in some), self._crossings_on_line(plan), plan.level).orbits]
+        return self._rotation_of([(share, orbit) for (share, _), orbit in zip(starts, orbits, strict=True)], count)
 
     def _rotation_message(self) -> str:
         if self.rotation is None or self.rotation.numbers.size or not self._orbits_on_line[1]:
@@ -234,8 +258,8 @@ class EulerPoisson(Moments, FilledWindow):
         yield self.body.check.sentence
 
 
-def _piece(section: AndoyerSection, starts: tuple[Start, ...], crossings: int) -> Piece:
-    found = andoyer_points(section.body, section.h, section.f, starts, crossings, STANDARD, threads=1,
+def _piece(section: AndoyerSection, starts: tuple[Start, ...], crossings: int, level: Level) -> Piece:
+    found = andoyer_points(section.body, section.h, section.f, starts, crossings, level, threads=1,
                            most_steps=_MOST_STEPS)
     signs = np.sign(relation(section.body, np.array(starts)))
     kept = (bool(np.all(sign * relation(section.body, states) >= 0.0))
@@ -245,13 +269,24 @@ def _piece(section: AndoyerSection, starts: tuple[Start, ...], crossings: int) -
                  tuple(bool(sign > 0.0) for sign in signs), found.drift, tuple(kept), frozen(joined(other)))
 
 
+def _rotation_error(s: EulerPoisson, found: Rotation, truth: Rotation) -> float:
+    """The median over the places where both know ρ; elsewhere the line crosses seas."""
+    if not (found.numbers.size and truth.numbers.size):
+        return 0.0
+    return float(np.median(np.abs(found.numbers - np.interp(found.places, truth.places, truth.numbers))))
+
+
+_ROTATION: Trial[EulerPoisson] = Trial(
+    Kind.ROTATION, ("rotation",), EulerPoisson.rotation_at, _rotation_error, unit="turns, the median", seen=RESOLVED)
+
+
 def _turns(rho: float) -> str:
     """A rotation number, to what is known of it."""
     return digits(round(float(rho) / RESOLVED) * RESOLVED)
 
 
 SCENE = Scene(
-    EulerPoisson, __file__, place=11, presets=PRESETS,
+    EulerPoisson, __file__, place=11, presets=PRESETS, measures=(SECTION, EXPONENT, _ROTATION),
     title="Euler–Poisson: sections",
     summary="A heavy body near the Hess case: two stochastic layers with a barrier between them, a meandering torus.",
     tracks={"orbit": EulerPoisson.track},

@@ -76,7 +76,7 @@ class HessLeak(HeavyMotion):
         end = float(self.exact.times[-1]) / self.bridge.hess.frequency_unit
         asked = (self.bridge.heavy, tuple(self.states[0].tolist()), end, self.exact.times.size)
         runs = {name: self.work.get(mechanics.run_free, *asked, rung)
-                for name, rung in (("own", level(self.accuracy)), ("reference", REFERENCE))}
+                for name, rung in (("own", level(self.work.chosen)), ("reference", REFERENCE))}
         return {name: mechanics.Leak(self.bridge, run, self.exact, _IN_A_PERIOD) for name, run in runs.items()}
 
     @property

@@ -11,7 +11,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values
-from hess_explorer.scenes.framework.crossings import Crossings
+from hess_explorer.scenes.framework.crossings import SECTION, Crossings
 from hess_explorer.scenes.framework.inertia import CentreOfMass, Tensor
 from hess_explorer.scenes.framework.one_orbit import Start
 from hess_explorer.scenes.framework.parameters import (
@@ -31,9 +31,10 @@ from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Sphere, centre_of_mass, parallels
 from hess_explorer.views.text import digits, power, vector
 from hess_explorer.views.velocity_plane import centred, nice_above
+from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.section import Points
 from hess_mechanics.errors import ModelError
-from hess_mechanics.numerics.accuracy import STANDARD
+from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov import quartic as model
 
@@ -108,14 +109,23 @@ class Quartic(Crossings):
         """From the variables to the pictures, in pixels for a unit."""
         return self.body.pixels_per_unit(self.half_width)
 
-    def crossing(self, crossings: int) -> tuple[Task, Task]:
+    def crossing(self, crossings: int, level: Level) -> tuple[Task, Task]:
         """What finds so many crossings of the orbit on show, and of the others."""
-        return (Task(model.quartic_section, (self.body, (self.start,), crossings, STANDARD, _MOST_STEPS)),
-                Task(model.spread_section, (self.body, _ORBITS, crossings, STANDARD, _MOST_STEPS)))
+        return (Task(model.quartic_section, (self.body, (self.start,), crossings, level, _MOST_STEPS)),
+                Task(model.spread_section, (self.body, _ORBITS, crossings, level, _MOST_STEPS)))
 
     def places_of(self, points: Points) -> Array:
         """The q along the section and its p."""
-        return section_plane.joined(map(self.body.on_section, points.states))
+        return section_plane.joined(map(self.places_of_one, points.states))
+
+    def places_of_one(self, states: Array) -> Array:
+        """The q along the section and its p."""
+        return self.body.on_section(states)
+
+    @property
+    def pixels(self) -> tuple[float, float]:
+        """Pixels of the section for a unit of q and of p."""
+        return PIXELS / (2.0 * nice_above(1.05 * self.body.longest)), PIXELS / 2.1
 
     @cached_property
     def momentum(self) -> Array:
@@ -174,7 +184,7 @@ class Quartic(Crossings):
 
 
 SCENE = Scene(
-    Quartic, __file__, place=7, presets=PRESETS,
+    Quartic, __file__, place=7, presets=PRESETS, measures=(SECTION,),
     title="Principal axis, b₁ = b₂ = 0",
     summary="The body as a point in a quartic potential: integrable for I₁₁ = I₂₂, else curves and seas in a section.",
     tracks={"orbit": lambda s: plane_domain.plane_columns(

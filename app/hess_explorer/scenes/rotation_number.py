@@ -13,6 +13,7 @@ import numpy as np
 from hess_explorer.scenes.framework.hess_case import possible_f
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number, places
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
+from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.windows import Window, boxed, inside, tidy_window, window_of
 from hess_explorer.views import circle_map as circle
 from hess_explorer.views import rotation_line, rotation_plane
@@ -21,7 +22,7 @@ from hess_explorer.views.picture import Corners, Values
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.errors import Separatrix
-from hess_mechanics.numerics.accuracy import REFERENCE, STANDARD
+from hess_mechanics.numerics.accuracy import REFERENCE, Kind, Plan
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess import rotation_number as mechanics
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
@@ -31,6 +32,10 @@ _COARSE, _FINE = (75, 50), (300, 200)
 _ROWS = 25
 """Rows of the fine map that are computed together."""
 _ON_LINE = 400
+_COLOURS = 256.0
+"""Over one turn."""
+_ON_CURVE = 40
+"""Points of the boundary of the lock zone."""
 _RATIONALS = ("−1/2", "−1/3", "−1/4", "−2/5", "−1/5", "−3/7", "−1/6")
 _FULL = {"h": (-1.0, 4.0), "f": (-3.0, 3.0), "a": (0.0, 2.0)}
 _AT_MOST = {"h": (-1.0, 1e6), "f": (-1e4, 1e4), "a": (-100.0, 100.0)}
@@ -112,19 +117,24 @@ class RotationNumber(State):
         (x0, y0), (x1, y1) = window_of(getattr(self, self._part), _corners(self.over, _FULL))
         return (x0, x1), (y0, y1)
 
+    @property
+    def beside(self) -> Torus:
+        """Only what the map depends on: it stays while the torus moves in its plane."""
+        return self.torus.at(**{self.across: 0.0, self.up: 0.0})
+
     @cached_property
     def grid(self) -> tuple[TorusValues, tuple[int, int]]:
         """The map and its cells (m, n), coarse first."""
-        # Only what the map depends on: it stays while the torus moves in its plane.
-        beside = self.torus.at(**{self.across: 0.0, self.up: 0.0})
-        common = (self.over, beside, self.window)
+        common = (self.over, self.beside, self.window)
+        plan = self.plan(Kind.GRID)
+        fine = plan.grid(_FINE)
         parts = [] if self.dragging else [
-            self.work.later(mechanics.rows, *common, _FINE, first, first + _ROWS, STANDARD)
-            for first in range(0, _FINE[1], _ROWS)]
+            self.work.later(mechanics.rows, *common, fine, first, min(first + _ROWS, fine[1]), plan.level)
+            for first in range(0, fine[1], _ROWS)]
         known = [part for part in parts if part is not None]
         if parts and len(known) == len(parts):
-            return mechanics.together(known), _FINE
-        return self.work.get(mechanics.rows, *common, _COARSE, 0, _COARSE[1], STANDARD), _COARSE
+            return mechanics.together(known), fine
+        return self.work.get(mechanics.rows, *common, _COARSE, 0, _COARSE[1], plan.level), _COARSE
 
     @cached_property
     def grids(self) -> tuple[Grid, Grid]:
@@ -136,8 +146,9 @@ class RotationNumber(State):
         """|t| = 2 in the map, as soon as it is known."""
         if self.dragging:
             return []
-        beside = self.torus.at(**{self.across: 0.0, self.up: 0.0})
-        found = self.work.later(mechanics.lock_curve, self.over, beside, (*self.window[0], *self.window[1]), STANDARD)
+        plan = self.plan(Kind.CURVE)
+        found = self.work.later(mechanics.lock_curve, self.over, self.beside, (*self.window[0], *self.window[1]),
+                                plan.level, plan.side(_ON_CURVE))
         if found is None or not len(found):
             return []
         return [found, found * np.array([1.0, -1.0])] if self.up == "f" else [found]
@@ -158,13 +169,13 @@ class RotationNumber(State):
     @cached_property
     def along(self) -> TorusValues:
         """ρ and trace at these places."""
-        return self.work.get(mechanics.along, self.on_line, self.x.size, STANDARD)
+        return self.work.get(mechanics.along, self.on_line, self.x.size, self.plan(Kind.GRID).level)
 
     @cached_property
     def perturbed(self) -> Array | None:
         """ρ of the other family there, as soon as it is known; NaN where there is no torus."""
         return None if self.dragging else self.work.later(
-            mechanics.perturbed_along, self.on_line, self.x.size, self.epsilon, STANDARD)
+            mechanics.perturbed_along, self.on_line, self.x.size, self.epsilon, self.plan(Kind.GRID).level)
 
     @property
     def sought(self) -> Fraction:
@@ -258,13 +269,30 @@ class RotationNumber(State):
             yield f"{self.map.level}: circle map error ≤ {self.map.error_estimate:.1e} ({self.map.status})"
 
 
+def _grid(s: RotationNumber, plan: Plan) -> tuple[TorusValues, tuple[int, int]]:
+    cells = plan.grid(_FINE)
+    return mechanics.rows(s.over, s.beside, s.window, cells, 0, cells[1], plan.level), cells
+
+
+def _grid_error(s: RotationNumber, found: tuple[TorusValues, tuple[int, int]], truth: object) -> float:
+    """At the centres of the cells found, which are not those of the truth."""
+    values, cells = found
+    exact = mechanics.rows(s.over, s.beside, s.window, cells, 0, cells[1], REFERENCE.tightened())
+    away = np.abs(values.rho - exact.rho)[values.possible]
+    return float(np.percentile(away, 99.0)) * _COLOURS if away.size else 0.0
+
+
+_GRID: Trial[RotationNumber] = Trial(
+    Kind.GRID, ("map",), _grid, _grid_error, unit="steps of the colour, 99 of 100 cells")
+
+
 def _periodic(rho: Fraction, line: Line) -> tuple[PeriodicTorus | None]:
     """In a tuple: None by itself would mean that it is not known yet."""
     return (mechanics.periodic_torus(rho, line, REFERENCE),)
 
 
 SCENE = Scene(
-    RotationNumber, __file__, place=8, presets=PRESETS,
+    RotationNumber, __file__, place=8, presets=PRESETS, measures=(_GRID,),
     title="Rotation number",
     summary="Is ρ of the Suslov–Hess torus a ladder, as the paper asks? One plateau, and a family that has many.",
     views=(

@@ -13,6 +13,7 @@ from hess_explorer.scenes.framework.circle_left import CircleLeft
 from hess_explorer.scenes.framework.free_body import FreeBody
 from hess_explorer.scenes.framework.parameters import accuracy_level, like
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
+from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.work import drift_status
 from hess_explorer.views import scattering_map as square
 from hess_explorer.views import theme
@@ -23,6 +24,7 @@ from hess_explorer.views.text import digits as in_digits
 from hess_explorer.views.text import vector
 from hess_explorer.views.velocity_plane import nice_above, velocity_columns
 from hess_mechanics.dynamics.sampling import PIXELS
+from hess_mechanics.numerics.accuracy import Kind, Plan
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov import scattering as model
 from hess_mechanics.suslov.free import Equilibria, FreeMotion, equilibria_of_unit_rate, sampled_motion
@@ -122,7 +124,8 @@ class Scattering(CircleLeft, FreeBody):
 
     def grid(self) -> Array:
         """θ⁺ over all circles and phases."""
-        return self.work.get(model.theta_plus_grid, self.map, *(_FEW_CELLS if self.dragging else _CELLS))
+        cells = _FEW_CELLS if self.dragging else self.plan(Kind.MAP).grid(_CELLS)
+        return self.work.get(model.theta_plus_grid, self.map, *cells)
 
     def cosine_axis(self) -> tuple[float, float]:
         """From −1, the least cos χ, to the largest one."""
@@ -170,8 +173,20 @@ class Scattering(CircleLeft, FreeBody):
                    f"and its Γ⁺ is off by up to 1e−{16.0 - self.digits:.0f}.")
 
 
+def _map(s: Scattering, plan: Plan) -> Array:
+    found = model.scattering(s.body, plan.level, 1, s.distance)
+    model.theta_plus_grid(found, *plan.grid(_CELLS))
+    return found.theta_plus(s.theta, _PHASES)
+
+
+def _map_error(s: Scattering, found: Array, truth: Array) -> float:
+    return PIXELS / math.pi * float(np.abs(found - truth).max())
+
+
+_MAP: Trial[Scattering] = Trial(Kind.MAP, ("curve", "map"), _map, _map_error)
+
 SCENE = Scene(
-    Scattering, __file__, place=4, presets=PRESETS,
+    Scattering, __file__, place=4, presets=PRESETS, measures=(_MAP,),
     title="Scattering",
     summary="No field: from the circle γ leaves and its phase to the circle it joins, exact for all phases at once.",
     tracks={"orbit": lambda s: velocity_columns(s.orbit.times, s.orbit.omega, s.orbit.gamma)},

@@ -14,6 +14,7 @@ from hess_explorer.protocol.parameters import Values
 from hess_explorer.scenes.framework.ball import FreeBall
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, like, number, time_span
 from hess_explorer.scenes.framework.scene import Preset, Scene
+from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.views import theme
 from hess_explorer.views.cloud import CloudPlane, density_axes, density_layers
 from hess_explorer.views.graph import over_time
@@ -23,6 +24,8 @@ from hess_explorer.views.poisson_sphere import Direction, Sphere
 from hess_explorer.views.text import digits, vector
 from hess_explorer.views.velocity_plane import nice_above
 from hess_mechanics.chaplygin_ball.phase_cloud_density import Clouds, clouds
+from hess_mechanics.dynamics.sampling import PIXELS
+from hess_mechanics.numerics.accuracy import Kind, Level, Plan
 from hess_mechanics.numerics.results import Array
 
 _FEW = 1000
@@ -73,17 +76,19 @@ class SingularMeasures(FreeBall):
     points: str = choice("Points", ("1000", "10000"), "10000", doc="How many points both clouds have together.")
     accuracy: str = accuracy_level()
 
-    @cached_property
-    def clouds(self) -> Clouds:
-        """What moves."""
+    def task(self, count: int, level: Level) -> Task:
+        """What moves so many points."""
         angle = self.angle if self.start == "small patch" else None
         span = -self.span if self.direction == "backward" else self.span
         field = self.b3 if self.beside == "principal axis" else None
+        return Task(clouds, (self.body, self.h, angle, self.spread, count, span, field, level))
 
-        def of(count: int) -> Task:
-            return Task(clouds, (self.body, self.h, angle, self.spread, count, span, field, self.level))
-
-        found: Clouds = self.work.sooner(of(int(self.points)), of(min(int(self.points), _FEW)))
+    @cached_property
+    def clouds(self) -> Clouds:
+        """What moves."""
+        plan = self.plan(Kind.CLOUD)
+        count = plan.part(int(self.points), _FEW)
+        found: Clouds = self.work.sooner(self.task(count, plan.level), self.task(min(count, _FEW), plan.level))
         return found
 
     @cached_property
@@ -169,8 +174,22 @@ def _extreme(name: str, i: int) -> Layer[SingularMeasures]:
     return over_time(name, lambda s: (s.times, s.on_show[i]), color=theme.MUTED, dash="dashed")
 
 
+def _cloud(s: SingularMeasures, plan: Plan) -> Clouds:
+    task = s.task(plan.part(int(s.points), _FEW), plan.level)
+    found: Clouds = task.function(*task.arguments)
+    return found
+
+
+def _cloud_error(s: SingularMeasures, found: Clouds, truth: object) -> float:
+    """By the estimate: other points are other motions, which no truth has beside it."""
+    return 0.5 * PIXELS * found.cloud.error_estimate
+
+
+_CLOUD: Trial[SingularMeasures] = Trial(
+    Kind.CLOUD, (), _cloud, _cloud_error, unit="pixels, estimated")
+
 SCENE = Scene(
-    SingularMeasures, __file__, place=16, presets=PRESETS,
+    SingularMeasures, __file__, place=16, presets=PRESETS, measures=(_CLOUD,),
     title="Singular measures",
     summary="10 000 phase points are drawn onto an invariant manifold, where an invariant density is infinite.",
     tracks={"orbit": SingularMeasures.track},

@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
 
+from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Value
-from hess_explorer.scenes.framework.filled_window import TURN, FilledWindow, Piece, filled_window
+from hess_explorer.scenes.framework.filled_window import EXPONENT, SECTION, TURN, FilledWindow, Piece, filled_window
 from hess_explorer.scenes.framework.inertia import CentreOfMass, Tensor
 from hess_explorer.scenes.framework.one_orbit import Start
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, like, number, places, time_span
 from hess_explorer.scenes.framework.scene import Preset, Scene
+from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views import layered_section, theme
 from hess_explorer.views.graph import over_time, settled_range, thinned
@@ -27,7 +29,7 @@ from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import nice_above, orbit_alone, orbit_columns, pixels_per_unit
 from hess_mechanics.dynamics.sampling import HALF_A_PIXEL
 from hess_mechanics.dynamics.section import occupied_cells
-from hess_mechanics.numerics.accuracy import STANDARD, Level, cheapest
+from hess_mechanics.numerics.accuracy import Kind, Level, Plan, cheapest
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.rigid_body.inertia import check_body
 from hess_mechanics.suslov.basins import Contraction, contraction, groups, middles
@@ -135,9 +137,9 @@ class Suslov(CentreOfMass, Tensor, FilledWindow):
 
     # ---- the section --------------------------------------------------------------------------------------------
 
-    def follow(self, starts: tuple[Start, ...], forward: bool) -> Piece | None:
-        """What is known of these orbits."""
-        return self.work.soon(_piece, self.section, starts, self.wanted[1], forward)
+    def piece(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task:
+        """What follows these orbits."""
+        return Task(_piece, (self.section, starts, crossings, forward, level))
 
     @property
     def impossible_here(self) -> str:
@@ -165,7 +167,10 @@ class Suslov(CentreOfMass, Tensor, FilledWindow):
         if self.colours != "basins" or self.dragging:
             return None
         _ = self.pieces  # come sooner
-        rows = [self.work.later(_ends_of_row, self.section, self.frame, row) for row in range(_BASIN_CELLS[1])]
+        plan = self.plan(Kind.BASINS)
+        cells = plan.grid(_BASIN_CELLS)
+        rows = [self.work.later(_ends_of_row, self.section, self.frame, cells, row, plan.level)
+                for row in range(cells[1])]
         known = [row for row in rows if row is not None]
         return np.stack(known) if len(known) == len(rows) else None
 
@@ -174,9 +179,7 @@ class Suslov(CentreOfMass, Tensor, FilledWindow):
         """Cells (m, n): the group of each, 0, 1, …; −1 where nothing moves."""
         if self.ends is None:
             return None
-        there, cells = np.isfinite(self.ends), np.full(self.ends.shape, -1.0)
-        cells[there] = groups(self.ends[there])
-        return cells
+        return _groups(self.ends)
 
     @cached_property
     def contractions(self) -> list[Contraction] | None:
@@ -185,7 +188,8 @@ class Suslov(CentreOfMass, Tensor, FilledWindow):
             return None
         there = self.basin >= 0.0
         cells = np.argwhere(there)[middles(self.ends[there], self.basin[there])].tolist()
-        found = [self.work.later(_contraction, self.section, self.frame, row, column, self.long)
+        grid, long = self.plan(Kind.BASINS).grid(_BASIN_CELLS), self.plan(Kind.EXPONENT).share * self.long
+        found = [self.work.later(_contraction, self.section, self.frame, grid, row, column, long)
                  for row, column in cells]
         known = [one for one in found if one is not None]
         return known if len(known) == len(found) else None
@@ -193,7 +197,8 @@ class Suslov(CentreOfMass, Tensor, FilledWindow):
     @cached_property
     def course(self) -> Course | None:
         """The mean divergence along the orbit on show, when it is known; not while a slider is held."""
-        return None if self.dragging else self.work.later(mean_divergence, self.body, self.start, self.long)
+        return None if self.dragging else self.work.later(
+            mean_divergence, self.body, self.start, self.plan(Kind.EXPONENT).share * self.long)
 
     # ---- the other pictures -------------------------------------------------------------------------------------
 
@@ -240,7 +245,7 @@ class Suslov(CentreOfMass, Tensor, FilledWindow):
         if exponent is None or course is None:
             return "They are found when a slider is let go."
         return (f"λ = {digits(exponent.value, 3)} ± {digits(exponent.spread, 2)}, "
-                f"div = {digits(float(course.mean[-1]), 3)} after t = {digits(self.long)}.")
+                f"div = {digits(float(course.mean[-1]), 3)} after t = {digits(float(course.times[-1]))}.")
 
     def derived(self) -> Iterator[str]:
         """The energy, the start of the orbit on show, whether this is a rigid body."""
@@ -253,24 +258,46 @@ def _later(orbit: Array) -> Array:
     return orbit[len(orbit) // 2 :]
 
 
-def _piece(section: SuslovSection, starts: tuple[Start, ...], crossings: int, forward: bool) -> Piece:
-    points = suslov_points(section.body, section.k, starts, crossings, forward, STANDARD, threads=1,
+def _piece(section: SuslovSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Piece:
+    points = suslov_points(section.body, section.k, starts, crossings, forward, level, threads=1,
                            most_steps=_MOST_STEPS)
     return Piece(tuple(frozen(section.places_of(states)) for states in points.states), (forward,) * len(starts),
                  points.drift)
 
 
-def _ends_of_row(section: SuslovSection, window: Window, row: int) -> Array:
-    return section.ends(window, _BASIN_CELLS, row, _BASIN_CROSSINGS, _MOST_STEPS)
+def _ends_of_row(section: SuslovSection, window: Window, cells: tuple[int, int], row: int, level: Level) -> Array:
+    return section.ends(window, cells, row, _BASIN_CROSSINGS, _MOST_STEPS, level)
 
 
-def _contraction(section: SuslovSection, window: Window, row: int, column: int, span: float) -> Contraction:
-    states, _ = section.cells_of_row(window, _BASIN_CELLS, row)
+def _groups(ends: Array) -> Array:
+    there, cells = np.isfinite(ends), np.full(ends.shape, -1.0)
+    cells[there] = groups(ends[there])
+    return cells
+
+
+def _all_basins(s: Suslov, plan: Plan) -> Array:
+    cells = plan.grid(_BASIN_CELLS)
+    return _groups(np.stack([_ends_of_row(s.section, s.frame, cells, row, plan.level) for row in range(cells[1])]))
+
+
+def _changed(s: Suslov, cells: Array, truth: Array) -> float:
+    rows, columns = (np.arange(fine) * coarse // fine for coarse, fine in zip(cells.shape, truth.shape, strict=True))
+    return 100.0 * float(np.mean(cells[np.ix_(rows, columns)] != truth))
+
+
+_BASINS: Trial[Suslov] = Trial(
+    Kind.BASINS, ("section",), _all_basins, _changed, unit="% of the cells that change", seen=3.0,
+    shown=lambda s: s.colours == "basins")
+
+
+def _contraction(section: SuslovSection, window: Window, cells: tuple[int, int], row: int, column: int, span: float
+                 ) -> Contraction:
+    states, _ = section.cells_of_row(window, cells, row)
     return contraction(section.body, states[column].tolist(), span)
 
 
 SCENE = Scene(
-    Suslov, __file__, place=5, presets=PRESETS,
+    Suslov, __file__, place=5, presets=PRESETS, measures=(SECTION, EXPONENT, _BASINS),
     title="Suslov problem with gravity",
     summary="Regular orbits, seas, strange attractors: sections forward and backward in time.",
     tracks={"orbit": lambda s: orbit_columns(s.orbit)},

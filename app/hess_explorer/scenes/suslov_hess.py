@@ -12,6 +12,7 @@ import numpy as np
 from hess_explorer.scenes.framework.hess_case import SuslovBody, possible_f
 from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, number, slider_within
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
+from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import bifurcation_diagram as diagram
 from hess_explorer.views import circle_map as circle
@@ -22,14 +23,15 @@ from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, parallels
 from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import nice_above, picture
+from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.errors import Separatrix
-from hess_mechanics.numerics.accuracy import DRAFT, STANDARD
+from hess_mechanics.numerics.accuracy import DRAFT, REFERENCE, Kind, Plan
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.rigid_body.attitude import Attitude
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, curve, curve_point, f_max, reach, turning_points
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
 from hess_mechanics.suslov_hess.equations import SYSTEM
-from hess_mechanics.suslov_hess.mode_locking import lock_boundary, rotation_number_window
+from hess_mechanics.suslov_hess.mode_locking import CELLS, lock_boundary, rotation_number_window
 from hess_mechanics.suslov_hess.torus import (
     MAX_RETURNS,
     Track,
@@ -40,6 +42,10 @@ from hess_mechanics.suslov_hess.torus import (
     start_of_track,
     track,
 )
+
+_ON_BOUNDARY = 48
+"""Points of the boundary of the lock zone."""
+_PHASES = np.linspace(-math.pi, math.pi, 181)
 
 PRESETS = (
     Preset("Two limit cycles"),
@@ -93,7 +99,8 @@ class SuslovHess(SuslovBody):
     @cached_property
     def locked(self) -> Array:
         """The boundary of the lock zone, |t| = 2, (n, 2)."""
-        return self.work.get(lock_boundary, self.body.a, STANDARD)
+        plan = self.plan(Kind.CURVE)
+        return self.work.get(lock_boundary, self.body.a, plan.level, plan.side(_ON_BOUNDARY))
 
     @cached_property
     def edge(self) -> Array:
@@ -163,8 +170,9 @@ class SuslovHess(SuslovBody):
     @cached_property
     def rotation(self) -> Grid:
         """The rotation number over the diagram."""
-        axes = diagram.window(self.h)
-        return Grid(self.work.get(rotation_number_window, self.body.a, axes.x, axes.y, DRAFT), axes.x, axes.y)
+        axes, plan = diagram.window(self.h), self.plan(Kind.COLOURS)
+        return Grid(self.work.get(rotation_number_window, self.body.a, axes.x, axes.y, plan.level, plan.grid(CELLS)),
+                    axes.x, axes.y)
 
     def about_torus(self, h: float, f: float) -> str:
         """What the torus (h, f) under the mouse does."""
@@ -262,8 +270,31 @@ class SuslovHess(SuslovBody):
             yield "At f = 0, h < 1 the angle φ jumps where w = 0: the circle map is its limit f → 0."
 
 
+def _colours(s: SuslovHess, plan: Plan) -> Array:
+    axes = diagram.window(s.h)
+    return rotation_number_window(s.body.a, axes.x, axes.y, plan.level, plan.grid(CELLS))
+
+
+def _colour_error(s: SuslovHess, found: Array, truth: object) -> float:
+    """At the centres of the cells found, which are not those of the truth."""
+    axes = diagram.window(s.h)
+    exact = rotation_number_window(s.body.a, axes.x, axes.y, REFERENCE, (found.shape[1], found.shape[0]))
+    return 256.0 * float(np.percentile(np.abs(found - exact), 99.0))
+
+
+def _turned(angles: Array) -> float:
+    return float(np.abs(np.angle(np.exp(1j * angles))).max())
+
+
+_MEASURES: tuple[Trial[SuslovHess], ...] = (
+    Trial(Kind.MAP, ("map",), lambda s, plan: circle_map(s.body.a, s.h, s.f, plan.level).theta(_PHASES),
+          lambda s, theta, truth: PIXELS / (2.0 * math.pi) * _turned(theta - truth)),
+    Trial(Kind.COLOURS, ("bifurcation",), _colours, _colour_error, unit="steps of the colour, 99 of 100 cells"),
+)
+
+
 SCENE = Scene(
-    SuslovHess, __file__, place=1, presets=PRESETS,
+    SuslovHess, __file__, place=1, presets=PRESETS, measures=_MEASURES,
     title="The Suslov–Hess case",
     summary="A heavy rigid body with ω₃ = 0 whose motions live on tori: rotation, locking, limit cycles.",
     tracks={"orbit": SuslovHess.orbit_columns, "stable": lambda s: torus_plane.cycle_columns(s.cycles, 0),

@@ -10,7 +10,7 @@ from hess_mechanics.chaplygin_ball.energy_surface import Strip, line_of_rest
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.dynamics.ensemble import ensemble
 from hess_mechanics.dynamics.sampling import PIXELS
-from hess_mechanics.numerics.accuracy import DRAFT
+from hess_mechanics.numerics.accuracy import DRAFT, Level
 from hess_mechanics.numerics.results import Array, frozen
 
 __all__ = ["StripOrbit", "strip_orbits"]
@@ -19,7 +19,7 @@ StripOrbit = tuple[Array, int]
 """ω (m, 2), a point for each pixel of a picture of the strip, and the index of the state followed both ways."""
 
 
-def strip_orbits(body: BallBody, count: int) -> tuple[StripOrbit, ...]:
+def strip_orbits(body: BallBody, count: int, level: Level = DRAFT) -> tuple[StripOrbit, ...]:
     """Orbits of E = 1 through states spread evenly over the strip, until they have all but arrived; b = 0.
 
     Without a field the energy only sets the unit of time: those of E = h are √h times as large.
@@ -30,8 +30,8 @@ def strip_orbits(body: BallBody, count: int) -> tuple[StripOrbit, ...]:
     speed = math.sqrt(2.0 / min(body.I11, body.I22))
     tick = 2.0 * 1.1 * speed / PIXELS
     times = _times(body, speed)
-    there = ensemble(SYSTEM, states, body.parameters, times, DRAFT).states[:, :, :2]
-    back = ensemble(SYSTEM, states, body.parameters, -times, DRAFT).states[:, :, :2]
+    there = ensemble(SYSTEM, states, body.parameters, times, level).states[:, :, :2]
+    back = ensemble(SYSTEM, states, body.parameters, -times, level).states[:, :, :2]
     orbits = []
     for i in range(count):
         before, after = (_as_far_as_the_line(states[i, :2], half[i], eta, tick) for half in (back, there))

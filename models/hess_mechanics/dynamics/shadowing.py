@@ -14,7 +14,7 @@ import numpy as np
 
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["HALF_A_PIXEL", "errors_in_pixels", "right_crossings", "typical"]
+__all__ = ["HALF_A_PIXEL", "away_from", "errors_in_pixels", "right_crossings", "typical"]
 
 HALF_A_PIXEL = 0.5
 
@@ -31,6 +31,16 @@ def errors_in_pixels(orbit: Array, exact: Array, pixels: Sequence[float], period
         if math.isfinite(period):
             away[:, i] -= period * np.round(away[:, i] / period)
     return np.asarray(np.linalg.norm(away * np.asarray(pixels), axis=1), float)
+
+
+def away_from(points: Array, curve: Array) -> Array:
+    """Distances (m,) of points (m, 2) from a broken line (n, 2), or from a single point (1, 2)."""
+    if len(curve) == 1:
+        return np.asarray(np.linalg.norm(points - curve, axis=1), float)
+    start, along = curve[:-1], np.diff(curve, axis=0)
+    length = np.maximum((along**2).sum(axis=1), 1e-300)
+    shares = np.clip(((points[:, None] - start) * along).sum(axis=2) / length, 0.0, 1.0)
+    return np.asarray(np.linalg.norm(points[:, None] - start - shares[..., None] * along, axis=2).min(axis=1), float)
 
 
 def right_crossings(orbits: Sequence[Array], exact: Sequence[Array], pixels: Sequence[float],

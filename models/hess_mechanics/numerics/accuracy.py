@@ -95,6 +95,7 @@ class Kind(StrEnum):
     SECTION = "section"
     ROTATION = "rotation number"
     GRID = "grid"
+    COLOURS = "colours"
     MAP = "map"
     CURVE = "curve"
     BASINS = "basins"
@@ -112,6 +113,7 @@ _UNITS = {
     Kind.SECTION: "crossings right to half a pixel where neighbours part e-fold from one to the next",
     Kind.ROTATION: "error of the rotation number of a closed curve, in turns",
     Kind.GRID: "error of ρ where |trace| is not within 1e-2 of 2, in turns",
+    Kind.COLOURS: "error of ρ where |trace| is not within 1e-2 of 2, in turns; 256 colours tell 4e-3 apart",
     Kind.MAP: "error of θ⁺, in radians",
     Kind.CURVE: "distance from the curve, in pixels, for |a| ≤ 1",
     Kind.BASINS: "share of the cells that twice as many along each side change, where the boundary is a curve",
@@ -144,9 +146,13 @@ class Plan:
         """How many of `count` crossings or points are computed: at least `least`, if so many are asked for."""
         return max(min(int(count), least), round(self.share * count))
 
-    def grid(self, *sides: int) -> tuple[int, ...]:
-        """The cells along the sides of a grid that has `sides` at `standard`."""
-        return tuple(max(1, round(self.cells * side)) for side in sides)
+    def side(self, count: int) -> int:
+        """The cells along a side that has `count` where `cells` is 1."""
+        return max(1, round(self.cells * count))
+
+    def grid(self, sides: tuple[int, int]) -> tuple[int, int]:
+        """The cells (m, n) of a grid that has `sides` where `cells` is 1."""
+        return self.side(sides[0]), self.side(sides[1])
 
 
 def _plans(*rows: tuple[Level, float, float, float]) -> dict[str, Plan]:
@@ -163,6 +169,9 @@ PLANS: Mapping[Kind, Mapping[str, Plan]] = {
                           (REFERENCE, 1.0, 1.0, 1e-4)),
     Kind.GRID: _plans((DRAFT, 1.0, 0.5, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9),
                       (REFERENCE, 1.0, 1.0, 1e-11)),
+    Kind.COLOURS: _plans((DRAFT, 1.0, 0.5, 1e-3), (replace(DRAFT, name="standard"), 1.0, 1.0, 1e-3),
+                         (replace(STANDARD, name="precise"), 1.0, 1.0, 1e-6),
+                         (replace(PRECISE, name="reference"), 1.0, 1.5, 1e-9)),
     Kind.MAP: _plans((DRAFT, 1.0, 0.5, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9),
                      (REFERENCE, 1.0, 1.0, 1e-11)),
     Kind.CURVE: _plans((DRAFT, 1.0, 0.5, 0.75), (STANDARD, 1.0, 1.0, 0.25), (PRECISE, 1.0, 1.0, 0.25),
@@ -175,7 +184,7 @@ PLANS: Mapping[Kind, Mapping[str, Plan]] = {
     Kind.EXPONENT: _plans((replace(DRAFT, tolerance=1e-10, order=16), 0.2, 1.0, 0.04),
                           (replace(STANDARD, tolerance=1e-14, order=24), 1.0, 1.0, 0.01),
                           (replace(PRECISE, tolerance=1e-15, order=24), 1.0, 1.0, 0.01), (REFERENCE, 1.0, 1.0, 0.01)),
-    Kind.CLOUD: _plans((DRAFT, 0.2, 1.0, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9),
+    Kind.CLOUD: _plans((DRAFT, 0.15, 1.0, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9),
                        (REFERENCE, 1.0, 1.0, 1e-12)),
 }
 

@@ -51,8 +51,8 @@ def test_a_part_is_rounded_and_has_a_least_size():
 
 def test_a_grid_keeps_at_least_one_cell():
     draft = PLANS[Kind.GRID]["draft"]
-    assert draft.grid(300, 200) == (150, 100)
-    assert draft.grid(1) == (1,)
+    assert draft.grid((300, 200)) == (150, 100)
+    assert draft.side(1) == 1
 
 
 def test_a_level_that_is_none_is_refused():

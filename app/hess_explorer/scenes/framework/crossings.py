@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+import math
 from abc import abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.one_orbit import OneOrbit
-from hess_explorer.scenes.framework.work import drift_status
+from hess_explorer.scenes.framework.trial import Trial, section_error
+from hess_explorer.scenes.framework.work import drift_status, kept_status
 from hess_mechanics.dynamics.section import Points
+from hess_mechanics.dynamics.shadowing import right_crossings, typical
 from hess_mechanics.errors import WorkLimit
+from hess_mechanics.numerics.accuracy import Kind, Level, Plan
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Crossings"]
+__all__ = ["SECTION", "Crossings"]
 
 _FEW = 30
 """Crossings of each orbit, while a slider is dragged and until all are known."""
@@ -37,21 +41,36 @@ class Crossings(OneOrbit):
     """
 
     most: ClassVar[int] = 6000
+    periods: ClassVar[tuple[float, float]] = (math.inf, math.inf)
 
     count: float
 
     @abstractmethod
-    def crossing(self, crossings: int) -> tuple[Task, Task]:
+    def crossing(self, crossings: int, level: Level) -> tuple[Task, Task]:
         """What finds so many crossings of the orbit on show, and of the others."""
+
+    @abstractmethod
+    def places_of_one(self, states: Array) -> Array:
+        """The places (n, 2) on the section of states (n, d) of one orbit."""
 
     @abstractmethod
     def places_of(self, points: Points) -> Array:
         """The places (n, 2) on the section of all these points."""
 
+    @property
+    @abstractmethod
+    def pixels(self) -> tuple[float, float]:
+        """Pixels of the picture for a unit of each coordinate."""
+
+    @property
+    def wanted(self) -> int:
+        """How many crossings of each orbit."""
+        return self.plan(Kind.SECTION).part(self.count, _FEW)
+
     @cached_property
     def _crossed(self) -> _Crossed:
-        count = int(self.count)
-        few, whole = self.crossing(min(count, _FEW)), self.crossing(count)
+        few, whole = (self.crossing(count, self.plan(Kind.SECTION).level) for count in (
+            min(self.wanted, _FEW), self.wanted))
         mine = few[0] if self.dragging else whole[0]
         try:
             own: Points = self.work.get(mine.function, *mine.arguments)
@@ -74,6 +93,30 @@ class Crossings(OneOrbit):
         """Places (n, 2) of the others; None where the section is left out."""
         return None if self._crossed.others is None else self.places_of(self._crossed.others)
 
+    def orbits_at(self, plan: Plan) -> list[Array]:
+        """All orbits of the section (n, 2), that on show first, computed here and now."""
+        tasks = self.crossing(plan.part(self.count, _FEW), plan.level)
+        return [self.places_of_one(states) for task in tasks for states in task.function(*task.arguments).states]
+
+    @cached_property
+    def kept(self) -> tuple[int, int | None] | None:
+        """Up to which crossing the orbit on show is right to half a pixel, and the median of the others.
+
+        From a second run, with a hundredth of the tolerance; None until it is known, and while a slider is held.
+        """
+        crossed = self._crossed
+        if self.dragging or crossed.own is None or crossed.others is None:
+            return None
+        tight: list[Any] = [self.work.later(task.function, *task.arguments) for task in self.crossing(
+            self.wanted, self.plan(Kind.SECTION).level.tightened())]
+        if None in tight:
+            return None
+        own, others = (
+            right_crossings([*map(self.places_of_one, coarse.states)], [*map(self.places_of_one, fine.states)],
+                            self.pixels, self.periods)
+            for coarse, fine in zip((crossed.own, crossed.others), tight, strict=True))
+        return own[0], typical(others)
+
     def status(self) -> Iterator[str]:
         """Size, cost and drift of the section, the orbit on show."""
         found: _Crossed | None = self.known("_crossed")
@@ -81,9 +124,15 @@ class Crossings(OneOrbit):
             steps = found.own.cost.steps + found.others.cost.steps
             yield f"section {len(self.own) + len(self.others)} points, {steps} Taylor steps"
             yield from drift_status((found.own.drift, found.others.drift))
+            yield from kept_status(self.kept, self.wanted)
         yield from self._orbit_status()
 
     def notes(self) -> Iterator[str]:
         """A section that is left out."""
         if self.known("_crossed") and self.reason:
             yield self.reason
+
+
+SECTION: Trial[Any] = Trial(
+    Kind.SECTION, ("section",), lambda s, plan: s.orbits_at(plan),
+    lambda s, orbits, truth: section_error(orbits, truth, s.pixels, s.periods))

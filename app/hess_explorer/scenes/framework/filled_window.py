@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from abc import abstractmethod
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -10,24 +11,33 @@ from typing import Any, ClassVar, Protocol, Self, TypeVar
 
 import numpy as np
 
+from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values, places, written
 from hess_explorer.scenes.framework.one_orbit import OneOrbit, Start
+from hess_explorer.scenes.framework.trial import Trial, section_error
 from hess_explorer.scenes.framework.windows import Window, boxed, inside, tidy_window, window_of
-from hess_explorer.scenes.framework.work import drift_status
+from hess_explorer.scenes.framework.work import drift_status, kept_status
 from hess_explorer.views import layered_section
 from hess_explorer.views.layers import Axes, Layer
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.section_plane import joined
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.lyapunov import Exponent, largest_exponent
+from hess_mechanics.dynamics.sampling import PIXELS
+from hess_mechanics.dynamics.shadowing import right_crossings, typical
 from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.accuracy import Kind, Level, Plan
 from hess_mechanics.numerics.results import Array, Mask
 
-__all__ = ["TURN", "FilledWindow", "Piece", "filled_window", "in_pieces"]
+__all__ = ["EXPONENT", "SECTION", "TURN", "FilledWindow", "Piece", "filled_window", "in_pieces"]
 
 TURN = 3.14159
 """Half a turn, as a place in a link is written."""
 
+_FEWEST = 20
+"""Crossings of each orbit, whatever the level."""
+_COMPARED = 12
+"""Orbits besides the one on show that are computed twice."""
 _TOGETHER = 4
 """Orbits that are computed together: few enough for points to arrive soon."""
 
@@ -103,8 +113,8 @@ class FilledWindow(OneOrbit):
         """The section.  Raises `ModelError`."""
 
     @abstractmethod
-    def follow(self, starts: tuple[Start, ...], forward: bool) -> Piece | None:
-        """What is known of these orbits, by `work.soon`."""
+    def piece(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task:
+        """What follows these orbits to so many crossings, as a `Piece`."""
 
     @property
     @abstractmethod
@@ -139,7 +149,15 @@ class FilledWindow(OneOrbit):
     def wanted(self) -> tuple[int, int]:
         """How many orbits, and crossings of each."""
         orbits, crossings = int(self.orbits), int(self.count)
-        return (min(orbits, self.held[0]), min(crossings, self.held[1])) if self.dragging else (orbits, crossings)
+        if self.dragging:
+            return min(orbits, self.held[0]), min(crossings, self.held[1])
+        return orbits, self.plan(Kind.SECTION).part(crossings, _FEWEST)
+
+    def follow(self, starts: tuple[Start, ...], forward: bool) -> Piece | None:
+        """What is known of these orbits."""
+        task = self.piece(starts, self.wanted[1], forward, self.plan(Kind.SECTION).level)
+        found: Piece | None = self.work.soon(task.function, *task.arguments)
+        return found
 
     @cached_property
     def picked(self) -> _Chosen:
@@ -215,7 +233,46 @@ class FilledWindow(OneOrbit):
         """The largest Lyapunov exponent of the orbit on show, when it is known; not while a slider is held."""
         if self.dragging:
             return None
-        return self.work.later(largest_exponent, self.body.system, self.start, self.body.parameters, self.long)
+        plan = self.plan(Kind.EXPONENT)
+        return self.work.later(largest_exponent, self.body.system, self.start, self.body.parameters,
+                               plan.share * self.long, plan.level)
+
+    # ---- how exact it is ----------------------------------------------------------------------------------------
+
+    @property
+    def pixels(self) -> tuple[float, ...]:
+        """Pixels of the picture for a unit of each coordinate."""
+        return tuple(PIXELS / (high - low) for low, high in zip(*self.frame, strict=True))
+
+    def orbits_at(self, plan: Plan) -> list[Array]:
+        """All orbits of the section (n, 2), the chosen ones first, computed here and now."""
+        crossings = plan.part(self.count, _FEWEST)
+        seeds = self._spread(int(self.orbits))
+        tasks = [self.piece((start,), crossings, True, plan.level) for start in self.picked.states]
+        tasks += [self.piece(some, crossings, forward, plan.level)
+                  for some in in_pieces(seeds) for forward in self.ways]
+        return [orbit for task in tasks for orbit in task.function(*task.arguments).orbits]
+
+    @cached_property
+    def kept(self) -> tuple[int, int | None] | None:
+        """Up to which crossing the orbit on show is right to half a pixel, and the median of some others, if any.
+
+        From a second run, with a hundredth of the tolerance; None until it is known, and while a slider is held.
+        """
+        if self.dragging:
+            return None
+        plan, own = self.plan(Kind.SECTION), self.picked.states[-1]
+        seeds = self._spread(self.wanted[0])[:_COMPARED]
+        counts = []
+        for starts in ((own,), *in_pieces(seeds)):
+            runs: list[Any] = [self.work.later(task.function, *task.arguments) for task in (
+                self.piece(starts, self.wanted[1], True, level) for level in (plan.level, plan.level.tightened()))]
+            if None in runs:
+                return None
+            coarse, fine = runs
+            counts.append(right_crossings(coarse.orbits, fine.orbits, self.pixels, PERIODS))
+        others = [count for some in counts[1:] for count in some]
+        return counts[0][0], typical(others) if others else None
 
     # ---- what is shown ------------------------------------------------------------------------------------------
 
@@ -256,10 +313,28 @@ class FilledWindow(OneOrbit):
         if self.known("_known"):
             yield f"section {len(self.first) + len(self.second) + len(self.own)} points"
             yield from drift_status(piece.drift for piece in self.pieces)
+            yield from kept_status(self.kept, self.wanted[1])
         yield from self._orbit_status()
 
 
 W = TypeVar("W", bound=FilledWindow)
+
+PERIODS = (2.0 * math.pi, math.inf)
+"""The first coordinate of these sections is an angle."""
+
+SECTION: Trial[Any] = Trial(
+    Kind.SECTION, ("section",), lambda s, plan: s.orbits_at(plan),
+    lambda s, orbits, truth: section_error(orbits, truth, s.pixels, PERIODS))
+
+
+def _exponent(s: FilledWindow, plan: Plan) -> Exponent:
+    return largest_exponent(s.body.system, s.start, s.body.parameters, plan.share * s.long, plan.level)
+
+
+EXPONENT: Trial[Any] = Trial(
+    Kind.EXPONENT, ("exponent",), _exponent,
+    lambda s, found, truth: abs(found.value - truth.value) / max(truth.spread, 1e-12),
+    unit="of what it changes by in the second half of its time", seen=10.0)
 
 
 def filled_window(title: str | Callable[[W], str], caption: Callable[[W], str], scene: type[W],

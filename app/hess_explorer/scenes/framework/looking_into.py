@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, TypeVar
@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 from hess_explorer.protocol.parameters import Spec, Value, Values
 from hess_explorer.scenes.framework.parameters import Slider
 from hess_explorer.scenes.framework.scene import Motion, Scene, State
+from hess_explorer.scenes.framework.trial import Trial, bare
 
 __all__ = ["Insight", "LookingInto"]
 
@@ -58,6 +59,11 @@ class LookingInto(Scene[I]):
     def specs(self) -> tuple[Spec, ...]:
         """The parameters of the other scene."""
         return self.other.specs
+
+    def in_sight(self, state: I) -> Iterator[tuple[Trial[Any], State]]:
+        """All that the other scene computes."""
+        plain = bare(state.shown)
+        return ((trial, plain) for trial in self.other.trials if trial.shown(plain))
 
     def of(self, values: Values, seen: Collection[str] = (), dragging: bool = False) -> I:
         """The state of these values; nothing is computed yet."""

@@ -7,6 +7,7 @@ from dataclasses import field, fields, replace
 from typing import Any
 
 from hess_explorer.protocol.parameters import Choice, Number, Places, Spec, Value
+from hess_explorer.scenes.framework.work import AUTO
 from hess_mechanics.numerics.accuracy import LEVELS
 
 __all__ = [
@@ -40,10 +41,12 @@ def places(label: str, most: int, low: tuple[float, float], high: tuple[float, f
     return _parameter(Places("", label, most, low, high, default))
 
 
-def accuracy_level(doc: str = "Promised error: draft 1e-3, standard 1e-6, precise 1e-9; reference: the floor of double "
-                              "precision.") -> Any:
+def accuracy_level(doc: str = "Promised error of an orbit: draft 1e-3, standard 1e-6, precise 1e-9; reference: the "
+                              "floor of double precision. Draft also follows orbits for a shorter time, on coarser "
+                              "grids. Auto: the cheapest that is right to half a pixel in every picture in sight."
+                   ) -> Any:
     """The accuracy level, by its name."""
-    return choice("Accuracy", tuple(LEVELS), "standard", doc=doc)
+    return choice("Accuracy", (*LEVELS, AUTO), "standard", doc=doc)
 
 
 def crossings_of_each() -> Any:

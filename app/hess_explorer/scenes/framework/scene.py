@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from html import escape
@@ -13,12 +13,13 @@ from typing import Any, Generic, Self, TypeVar, cast
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Choice, Number, Spec, Value, Values
 from hess_explorer.scenes.framework.parameters import Slider, specs_of
+from hess_explorer.scenes.framework.trial import Trial, bare, needed, orbit_trial
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.layers import Columns
 from hess_explorer.views.picture import Picture
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import ModelError
-from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.accuracy import LEVELS, Kind, Level, Plan
 
 __all__ = ["Motion", "Preset", "Report", "Scene", "State"]
 
@@ -92,6 +93,10 @@ class State:
         """Whether a slider is held."""
         return self.work.dragging
 
+    def plan(self, kind: Kind) -> Plan:
+        """What the level means for a kind of computation."""
+        return self.work.plan(kind)
+
     def known(self, name: str) -> Any | None:
         """A cached property, if a picture in sight has asked for it."""
         return vars(self).get(name)
@@ -134,6 +139,7 @@ class Scene(Generic[S]):
     views : its pictures.  What no picture in sight asks for is not computed.
     tracks : columns that several pictures and the player share; the player follows "orbit", by its column t.
     angles : those of its columns that are angles.
+    measures : what it computes besides the motion, to be measured at each level.
     place : its place in the menu; the first one opens the page.
     """
 
@@ -145,6 +151,7 @@ class Scene(Generic[S]):
     views: tuple[Picture[S], ...]
     tracks: Mapping[str, Callable[[S], Columns | None]] = field(default_factory=dict)
     angles: tuple[str, ...] = ()
+    measures: tuple[Trial[S], ...] = ()
     place: int = 0
 
     @property
@@ -212,6 +219,11 @@ class Scene(Generic[S]):
         """Whether "Speed and accuracy" has something to look into."""
         return self.state.motion is not State.motion
 
+    @property
+    def trials(self) -> tuple[Trial[S], ...]:
+        """All that it computes, the motion first."""
+        return (orbit_trial(), *self.measures) if self.has_motion else self.measures
+
     def defaults(self) -> dict[str, Value]:
         """The state a newcomer sees."""
         return {spec.name: spec.default for spec in self.specs}
@@ -258,11 +270,27 @@ class Scene(Generic[S]):
 
     def draw(self, state: S) -> S:
         """The state with the columns of all that is in sight.  Raises `ModelError`."""
+        self._settle(state)
         views = [view for view in self.views if view.name in state.seen]
-        needed = state.seen.union(*(view.needs for view in views))
+        shown = state.seen.union(*(view.needs for view in views))
         for view in self.views:
-            if view.name in needed:
+            if view.name in shown:
                 state.drawn.update(view.data(state))
         for name in frozenset[str]().union(*(view.tracks for view in views)):
             state.drawn[f"data-{name}"] = self.tracks[name](state) or {}
         return state
+
+    def in_sight(self, state: S) -> Iterator[tuple[Trial[Any], State]]:
+        """What is computed for the pictures in sight, and of which state."""
+        plain = bare(state)
+        return ((trial, plain) for trial in self.trials
+                if trial.shown(state) and (not trial.pictures or state.seen.intersection(trial.pictures)))
+
+    def _settle(self, state: S) -> None:
+        """Find the level that "auto" stands for: the cheapest whose error is not seen in any picture in sight."""
+        if not state.work.auto or state.dragging:
+            return
+        found = [state.work.later(needed, trial, plain) for trial, plain in self.in_sight(state)]
+        known = [name for name in found if name is not None]
+        if known and len(known) == len(found):
+            state.work.settle(max(known, key=[*LEVELS].index))

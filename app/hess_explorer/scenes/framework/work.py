@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import replace
 from typing import Any, ParamSpec, TypeVar, cast
 
 from hess_explorer.compute.cache import CACHE, Task
 from hess_mechanics.dynamics.sampling import HALF_A_PIXEL
-from hess_mechanics.numerics.accuracy import Level, cheapest, level
+from hess_mechanics.numerics.accuracy import STANDARD, Kind, Level, Plan, cheapest, level, plan
 from hess_mechanics.numerics.results import Orbit
 from hess_mechanics.suslov.free import FreeMotion
 
-__all__ = ["Work", "drift_status", "orbit_status"]
+__all__ = ["AUTO", "Work", "drift_status", "kept_status", "orbit_status"]
 
+
+AUTO = "auto"
+"""The accuracy that is chosen by measurement."""
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -23,18 +27,29 @@ class Work:
     """The computation of one state: at which level, and what came from the cache.
 
     chosen : the name of the level chosen, whether or not a slider is held.
+    auto : whether it is chosen by measurement, see `settle`.
     """
 
     def __init__(self, accuracy: str = "standard", dragging: bool = False) -> None:
         self._start = time.perf_counter()
         self._misses = 0
         self.dragging = dragging
-        self.chosen = accuracy
+        self.auto, self._settled = accuracy == AUTO, False
+        self.chosen = STANDARD.name if self.auto else accuracy
         self.todo: list[Task] = []
         self.pieces = 0
-        chosen = level(accuracy)
+        chosen = level(self.chosen)
         # While a slider is dragged, the cheapest that is right to half a pixel.
         self.level: Level = min(chosen, cheapest(HALF_A_PIXEL), key=lambda rung: rung.order) if dragging else chosen
+
+    def settle(self, name: str) -> None:
+        """The level that "auto" stands for, once it is measured; before that it is `standard`."""
+        self._settled, self.chosen, self.level = True, name, level(name)
+
+    def plan(self, kind: Kind) -> Plan:
+        """What the level means for a kind of computation; a scene itself says how few it asks for during a drag."""
+        found = plan(kind, self.level.name)
+        return replace(found, share=1.0, cells=1.0) if self.dragging else found
 
     def get(self, function: Callable[P, T], *arguments: P.args, **none: P.kwargs) -> T:
         """The cached result of function(*arguments)."""
@@ -69,7 +84,10 @@ class Work:
     def ended(self) -> str:
         """For the status line: how long it took until now, and whether anything was computed."""
         ms = (time.perf_counter() - self._start) * 1e3
-        return f"{ms:.1f} ms, {'computed' if self._misses else 'cached'}"
+        said = f"{ms:.1f} ms, {'computed' if self._misses else 'cached'}"
+        if not self.auto:
+            return said
+        return f"{AUTO}: {self.chosen}{'' if self._settled else ' until it is measured'} · {said}"
 
 
 def orbit_status(orbit: Orbit | FreeMotion) -> list[str]:
@@ -79,6 +97,15 @@ def orbit_status(orbit: Orbit | FreeMotion) -> list[str]:
         f"error ≤ {orbit.error_estimate:.1e} ({orbit.status})",
         "drift " + " ".join(f"{name} {drift:.0e}" for name, drift in orbit.drift.items()),
     ]
+
+
+def kept_status(kept: tuple[int, int | None] | None, crossings: int) -> Iterator[str]:
+    """For the status line: up to which of so many crossings the orbits of a section are right to half a pixel."""
+    if kept is not None:
+        own, others = ("to the end" if count is not None and count >= crossings else f"up to crossing {count}"
+                       for count in kept)
+        median = "" if kept[1] is None else f", others {others} (median)"
+        yield f"right to ½ pixel: the chosen orbit {own}{median}"
 
 
 def drift_status(drifts: Iterable[Mapping[str, float]]) -> Iterator[str]:
