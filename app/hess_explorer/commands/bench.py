@@ -1,4 +1,4 @@
-"""`hess-explorer bench`: the speed of this project beside other integrators, at the same measured error."""
+"""`hess-explorer bench`: speed beside other integrators, at the same measured error; and of the accuracy levels."""
 
 from __future__ import annotations
 
@@ -33,6 +33,11 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
                         help="largest errors (default 1e-3,1e-6,1e-9,1e-12)")
     parser.add_argument("--quick", action="store_true", help="few repeats: a trial, not a measurement")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write everything measured to this file")
+    parser.add_argument("--trade", action="store_true",
+                        help="instead: cost and error of each accuracy level, for what each scene computes")
+    parser.add_argument("--scenes", type=_scenes, metavar="LIST", help="with --trade: of these scenes (default: all)")
+    parser.add_argument("--format", choices=("text", "json"), default="text",
+                        help="with --trade: a table (default), or scene, kind, level, ms, error as JSON")
     parser.add_argument("--picture", type=_picture, metavar="FILE", help="draw time over error (.svg or .png)")
     parser.set_defaults(run=_run)
 
@@ -43,6 +48,16 @@ def _works(text: str) -> tuple[str, ...]:
         if name not in _WORKS:
             raise argparse.ArgumentTypeError(f"{shown(name)} is not a work; choose from {','.join(_WORKS)}")
     return tuple(name for name in _WORKS if name in names)
+
+
+def _scenes(text: str) -> tuple[str, ...]:
+    from hess_explorer.benchmark.trade import names
+
+    found, known = tuple(text.split(",")), names()
+    for name in found:
+        if name not in known:
+            raise argparse.ArgumentTypeError(f"{shown(name)} is not a scene; choose from {','.join(known)}")
+    return found
 
 
 def _targets(text: str) -> tuple[float, ...]:
@@ -63,7 +78,21 @@ def _progress(text: str) -> None:
     print(f"{text} …", file=sys.stderr, flush=True)
 
 
+def _run_trade(options: argparse.Namespace) -> None:
+    from hess_explorer.benchmark.trade import as_json, as_text, names, trade
+
+    rows = [*trade(options.scenes or names(), 1 if options.quick else 3, _progress)]
+    show((as_text(rows) if options.format == "text" else _json(as_json(rows))).encode())
+
+
+def _json(value: object) -> str:
+    return json.dumps(value, ensure_ascii=False, allow_nan=False, indent=1) + "\n"
+
+
 def _run(options: argparse.Namespace) -> None:
+    if options.trade:
+        _run_trade(options)
+        return
     from hess_explorer.benchmark.threads import one_each
 
     one_each()
@@ -76,8 +105,7 @@ def _run(options: argparse.Namespace) -> None:
     report = run(options.works, options.targets, options.quick, _progress)
     show(as_text(report).encode())
     if options.json is not None:
-        text = json.dumps(as_json(report), ensure_ascii=False, allow_nan=False, indent=1)
-        write_file(options.json, f"{text}\n".encode())
+        write_file(options.json, _json(as_json(report)).encode())
     if options.picture is not None:
         from hess_explorer.benchmark.picture import draw
 
