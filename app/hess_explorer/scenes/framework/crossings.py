@@ -109,7 +109,8 @@ class Crossings(OneOrbit):
             return None
         tight: list[Any] = [self.work.later(task.function, *task.arguments) for task in self.crossing(
             self.wanted, self.plan(Kind.SECTION).level.tightened())]
-        if None in tight:
+        if None in tight or self.work.todo:
+            # Of the others a few crossings are shown so far.
             return None
         own, others = (
             right_crossings([*map(self.places_of_one, coarse.states)], [*map(self.places_of_one, fine.states)],

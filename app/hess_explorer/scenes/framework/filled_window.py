@@ -36,8 +36,8 @@ TURN = 3.14159
 
 _FEWEST = 20
 """Crossings of each orbit, whatever the level."""
-_COMPARED = 12
-"""Orbits besides the one on show that are computed twice."""
+_COMPARED = 3
+"""Pieces besides the orbit on show that are computed twice."""
 _TOGETHER = 4
 """Orbits that are computed together: few enough for points to arrive soon."""
 
@@ -190,12 +190,17 @@ class FilledWindow(OneOrbit):
         return self.work.get(_impossible, self.section, self.frame)
 
     @cached_property
-    def _known(self) -> tuple[list[Piece], list[Piece]]:
-        """Pieces of the chosen orbits, which come first, and of those all over the window."""
-        own = [self.follow((state,), True) for state in self.picked.states]
+    def _followed(self) -> tuple[list[Piece | None], list[Piece | None]]:
+        """Pieces of the chosen orbits, which come first, and of those all over the window; None where not known yet."""
         seeds = self._spread(self.wanted[0])
-        others = [self.follow(starts, forward) for starts in in_pieces(seeds) for forward in self.ways]
-        return [piece for piece in own if piece is not None], [piece for piece in others if piece is not None]
+        return ([self.follow((state,), True) for state in self.picked.states],
+                [self.follow(starts, forward) for starts in in_pieces(seeds) for forward in self.ways])
+
+    @cached_property
+    def _known(self) -> tuple[list[Piece], list[Piece]]:
+        """Those that are known."""
+        own, others = ([piece for piece in some if piece is not None] for some in self._followed)
+        return own, others
 
     @property
     def pieces(self) -> list[Piece]:
@@ -261,17 +266,17 @@ class FilledWindow(OneOrbit):
         """
         if self.dragging:
             return None
-        plan, own = self.plan(Kind.SECTION), self.picked.states[-1]
-        seeds = self._spread(self.wanted[0])[:_COMPARED]
-        counts = []
-        for starts in ((own,), *in_pieces(seeds)):
-            runs: list[Any] = [self.work.later(task.function, *task.arguments) for task in (
-                self.piece(starts, self.wanted[1], True, level) for level in (plan.level, plan.level.tightened()))]
-            if None in runs:
-                return None
-            coarse, fine = runs
-            counts.append(right_crossings(coarse.orbits, fine.orbits, self.pixels, PERIODS))
-        others = [count for some in counts[1:] for count in some]
+        own, around = self._followed
+        level = self.plan(Kind.SECTION).level.tightened()
+        some = [*in_pieces(self._spread(self.wanted[0]))][:_COMPARED]
+        tasks = [self.piece(starts, self.wanted[1], True, level) for starts in ((self.picked.states[-1],), *some)]
+        fine: list[Piece | None] = [self.work.later(task.function, *task.arguments) for task in tasks]
+        coarse = [own[-1], *around[:: len(self.ways)]]
+        counts = [right_crossings(one.orbits, other.orbits, self.pixels, PERIODS)
+                  for one, other in zip(coarse, fine, strict=False) if one is not None and other is not None]
+        if len(counts) < len(fine):
+            return None
+        others = [count for each in counts[1:] for count in each]
         return counts[0][0], typical(others) if others else None
 
     # ---- what is shown ------------------------------------------------------------------------------------------
