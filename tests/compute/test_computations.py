@@ -122,8 +122,8 @@ CHANGES = [
     ({"f": 0.61}, MOTION),
     ({"phi0": 0.51}, {TRACK}),
     ({"span": 41.0}, {TRACK}),
-    ({"accuracy": "draft"}, MOTION),
-    ({"accuracy": "precise"}, MOTION),
+    ({"accuracy": "draft"}, MOTION | {BOUNDARY, GRID}),
+    ({"accuracy": "precise"}, MOTION | {BOUNDARY, GRID}),
     # Grid and boundary depend on a alone, and the circle map does not know b.
     ({"b3": -1.01}, {CYCLES, TRACK}),
     ({"I22": 0.97}, MOTION | {BOUNDARY, GRID}),
@@ -225,7 +225,10 @@ def test_a_drag_is_computed_as_a_draft_and_again_as_chosen_when_it_ends(cache, c
     cache.take()
     for requested, h in enumerate((1.4, 1.3, 1.2), 1):
         browser.ask(requested, values={"h": h}, held=True)
-        assert cache.levels() == dict.fromkeys(MOTION, "draft")
+        # What depends on a alone stays, but for the finest levels, in which a drag of a would be slow.
+        finest = requested == 1 and chosen in ("precise", "reference")
+        zones = dict.fromkeys((BOUNDARY, GRID), "standard") if finest else {}
+        assert cache.levels() == {**dict.fromkeys(MOTION, "draft"), **zones}
         assert browser.texts["status"].startswith("draft: orbit")
     # The slider is still held, but does not move.
     browser.ask(4, held=True)
@@ -241,13 +244,17 @@ def test_a_drag_is_computed_as_a_draft_and_again_as_chosen_when_it_ends(cache, c
 def test_every_part_of_a_drag_is_at_the_cheapest_level(cache, chosen):
     values = {**HESS.defaults(), "accuracy": chosen}
     dragged = compute(HESS, values, dragging=True)
-    assert cache.levels() == {**dict.fromkeys(MOTION | {BODY}, "draft"), BOUNDARY: "standard", GRID: "draft"}
+    # The zones, which most drags leave as they are, are as chosen but no finer than `standard`.
+    kept = "draft" if chosen == "draft" else "standard"
+    assert cache.levels() == {
+        **dict.fromkeys(MOTION | {BODY}, "draft"), **dict.fromkeys((BOUNDARY, GRID), kept)}
     assert {dragged.track.orbit.level, dragged.map.level, dragged.cycles[0].orbit.level} == {"draft"}
     let_go = compute(HESS, values)
-    # The zones are there; a draft that was chosen is as well.
-    assert cache.levels() == ({} if chosen == "draft" else dict.fromkeys(MOTION | {BODY}, chosen))
+    # Zones that are as chosen are there; a draft that was chosen is as well.
+    zones = set() if chosen == kept else {BOUNDARY, GRID}
+    assert cache.levels() == ({} if chosen == "draft" else dict.fromkeys(MOTION | {BODY} | zones, chosen))
     assert {let_go.track.orbit.level, let_go.map.level, let_go.cycles[0].orbit.level} == {chosen}
-    assert let_go.rotation.cells is dragged.rotation.cells
+    assert (let_go.rotation.cells is dragged.rotation.cells) == (chosen == kept)
 
 
 def test_a_drag_is_right_to_half_a_pixel(cache):

@@ -99,7 +99,7 @@ class SuslovHess(SuslovBody):
     @cached_property
     def locked(self) -> Array:
         """The boundary of the lock zone, |t| = 2, (n, 2)."""
-        plan = self.plan(Kind.CURVE)
+        plan = self.plan(Kind.CURVE, steady=True)
         return self.work.get(lock_boundary, self.body.a, plan.level, plan.side(_ON_BOUNDARY))
 
     @cached_property
@@ -170,7 +170,7 @@ class SuslovHess(SuslovBody):
     @cached_property
     def rotation(self) -> Grid:
         """The rotation number over the diagram."""
-        axes, plan = diagram.window(self.h), self.plan(Kind.COLOURS)
+        axes, plan = diagram.window(self.h), self.plan(Kind.COLOURS, steady=True)
         return Grid(self.work.get(rotation_number_window, self.body.a, axes.x, axes.y, plan.level, plan.grid(CELLS)),
                     axes.x, axes.y)
 

@@ -93,9 +93,9 @@ class State:
         """Whether a slider is held."""
         return self.work.dragging
 
-    def plan(self, kind: Kind) -> Plan:
-        """What the level means for a kind of computation."""
-        return self.work.plan(kind)
+    def plan(self, kind: Kind, steady: bool = False) -> Plan:
+        """What the level means for a kind of computation; steady : for what hardly any slider changes."""
+        return self.work.plan(kind, steady)
 
     def known(self, name: str) -> Any | None:
         """A cached property, if a picture in sight has asked for it."""

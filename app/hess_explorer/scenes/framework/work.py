@@ -46,8 +46,14 @@ class Work:
         """The level that "auto" stands for, once it is measured; before that it is `standard`."""
         self._settled, self.chosen, self.level = True, name, level(name)
 
-    def plan(self, kind: Kind) -> Plan:
-        """What the level means for a kind of computation; a scene itself says how few it asks for during a drag."""
+    def plan(self, kind: Kind, steady: bool = False) -> Plan:
+        """What the level means for a kind of computation; a scene itself says how few it asks for during a drag.
+
+        steady : for what hardly any slider changes: during a drag it stays as it is, but is no finer than `standard`.
+        """
+        if steady:
+            return plan(kind, STANDARD.name if self.dragging and level(self.chosen).order > STANDARD.order
+                        else self.chosen)
         found = plan(kind, self.level.name)
         return replace(found, share=1.0, cells=1.0) if self.dragging else found
 
