@@ -309,6 +309,17 @@ def completed(browser, requested=1):
     return browser.ask(requested)
 
 
+def test_what_is_found_may_ask_for_more(free_gate):
+    """Which motions shrink volume is asked only when it is known where the orbits end."""
+    scene = SCENES["suslov"]
+    browser = Browser(scene, {**scene.defaults(), "colours": "basins", "orbits": 2.0, "count": 20.0, "long": 50.0})
+    browser.ask(1)
+    wait_until(lambda: completed(browser, 2)["progress"] is None)
+    assert "is being found" not in browser.texts["section"]
+    assert "mean div = " in browser.texts["section"]
+    assert browser.session.background.left == 0
+
+
 def test_a_section_fills_while_one_asks_for_more(gate):
     browser = Browser(EP, SMALL)
     assert browser.state["progress"] == [0, PIECES]

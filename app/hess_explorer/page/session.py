@@ -14,6 +14,7 @@ from typing import Any
 from panel.io.document import unlocked
 
 from hess_explorer.compute.background import Background
+from hess_explorer.compute.cache import Task
 from hess_explorer.page.components import Ready
 from hess_explorer.page.controls import show_controls
 from hess_explorer.page.description import describe
@@ -65,6 +66,7 @@ class Session:
         self._held = False
         self._number = 0
         self._progress: tuple[int, int] | None = None
+        self._followed: set[Task] = set()
         self._enter(scene, values, notes)
         self._draw()
         self._send(0)
@@ -159,8 +161,16 @@ class Session:
         """Compute in the background what the report lacks; a note where that had ended before its end."""
         left = len(report.todo)
         if not more:
-            # Once stopped, a picture that comes into sight begins nothing again.
-            self.background.follow(() if self._stopped else report.todo)
+            self._followed = set()
+        # What was found may ask for more.
+        fresh = [task for task in report.todo if task not in self._followed]
+        # Once stopped, a picture that comes into sight begins nothing again.
+        if not self._stopped and (not more or (ended and fresh and not self.background.error)):
+            self._followed.update(fresh)
+            self.background.follow(fresh)
+            ended = False
+        elif not more:
+            self.background.follow(())
         self._progress = (report.total - left, report.total) if left and not ended else None
         if not (left and ended):
             return []

@@ -18,7 +18,7 @@ from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.views import theme
 from hess_explorer.views.cloud import CloudPlane, density_axes, density_layers
 from hess_explorer.views.graph import over_time
-from hess_explorer.views.layers import Axes, Columns, Layer, Range, curves, f32, levels, line
+from hess_explorer.views.layers import Axes, Columns, Layer, Range, f32, levels, line
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Direction, Sphere
 from hess_explorer.views.text import digits, vector
@@ -40,6 +40,7 @@ PRESETS = (
     Preset("Backward: onto the unstable half", **{**_CHOICES, "direction": "backward"}),
     Preset("A small patch and its volume", **_PATCH, beside="nothing"),
     Preset("Beside: on a principal axis volume is kept", **_PATCH, beside="principal axis"),
+    Preset("A density that vanishes: |F₂|/|s| on F₂ = 0", **_CHOICES, I11=1.64, I22=1.0, I13=0.0, I23=0.8),
     Preset("Chaplygin ball, 𝒟 = 3: γ gathers too", **_CHOICES, I11=1.0, I22=1.5, I13=0.7, I23=1.2, D=3.0, h=3.0,
            span=11.0),
 )
@@ -118,10 +119,6 @@ class SingularMeasures(FreeBall):
         """The time of the moving clouds, and the mean at it."""
         return {"t": f32(self.times), "mean": f32(self.on_show[0])}
 
-    def beside_it(self) -> list[Array]:
-        """Where volume is kept, 0 over the time."""
-        return [] if self.clouds.other is None else [np.array([[0.0, 0.0], [self.times[-1], 0.0]])]
-
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_velocity(self) -> str:
@@ -158,6 +155,8 @@ class SingularMeasures(FreeBall):
         yield f"mean of ln s(t)/s(0): {digits(course.log_growth[0, -1], 5)}"
         if self.start == "small patch":
             yield f"V(t)/V(0) = {digits(course.volume[-1], 4)}"
+        if self.clouds.sides is not None:
+            yield "F₂ > 0 at {} points, F₂ < 0 at {}; its sign changes at {}".format(*self.clouds.sides)
         if self.clouds.other is not None:
             yield f"Beside: I₁₃ = I₂₃ = 0, b₃ = {digits(self.b3)}, div v = 0"
 
@@ -212,8 +211,8 @@ SCENE = Scene(
             layers=(
                 levels("levels", lambda s: [0.0]),
                 _extreme("least", 1), _extreme("largest", 2),
-                curves("beside", SingularMeasures.beside_it, color=theme.MAP, dash="dotdash",
-                       label="cloud on a principal axis"),
+                line("beside", lambda s: None if s.clouds.other is None else ((0.0, s.times[-1]), (0.0, 0.0)),
+                     color=theme.MAP, dash="dotdash", label="cloud on a principal axis"),
                 line("mean", track="orbit", columns=("t", "mean"), color=theme.ORBIT))),
     ),
 )

@@ -5,8 +5,8 @@ With s = I13ω1 + I23ω2 and h = Î⁻¹(−ω2, ω1) the motion without a field
 
     div v = I13h1 + I23h2 = ṡ/s.
 
-So 1/|s| is the density of an invariant measure (propositions 1 and 2), and solves Liouville's equation along every
-motion: a volume of the phase space (ω1, ω2, γ) grows by s(t)/s(0), a density by s(0)/s(t).  With
+So 1/|s| is the density of an invariant measure, infinite on s = 0 (proposition 2), and solves Liouville's equation
+along every motion: a volume of the phase space (ω1, ω2, γ) grows by s(t)/s(0), a density by s(0)/s(t).  With
 I13 = I23 = 0, field or not, div v = 0.
 
 With ξ = (I23, −I13)/J, η = (I13, I23)/J, J² = I13² + I23², the motion is integrated in x = (ω, ξ) and y = (ω, η) = s/J,

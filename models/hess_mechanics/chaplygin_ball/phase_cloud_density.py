@@ -1,6 +1,9 @@
 """What becomes of a cloud of phase points: its density over |s|, and what small volumes about its points grow by.
 
 With I13 = I23 = 0 and a field volume is kept: a second cloud from the same points shows the difference.
+
+Where a density vanishes (proposition 1): an invariant density times an integral of motion is one too.  With 𝒟 = 0 and
+F2 that is |F2|/|s|, 0 on F2 = 0, which therefore no motion crosses.
 """
 
 from __future__ import annotations
@@ -15,8 +18,10 @@ from hess_mechanics.chaplygin_ball.phase_cloud import Cloud, carried, frame_time
 from hess_mechanics.dynamics.ensemble import ensemble
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array, Ensemble, frozen
+from hess_mechanics.suslov.additional_integral import of_body
+from hess_mechanics.suslov.equations import SuslovBody
 
-__all__ = ["BIN", "SMALLEST", "Clouds", "Course", "Density", "clouds", "course", "density"]
+__all__ = ["BIN", "SMALLEST", "Clouds", "Course", "Density", "clouds", "course", "density", "sides"]
 
 BIN = 0.25
 """Of ln|s|."""
@@ -53,13 +58,30 @@ class Density:
         return math.exp(float(self.log_s[i])), float(self.mean[i])
 
 
+def sides(cloud: Cloud) -> tuple[int, int, int] | None:
+    """How many points have F2 > 0 and F2 < 0 at the first time, and how many of them another sign at a later one.
+
+    Points whose F2 is 0 to round-off are on neither side.  None where no F2 is known: 𝒟 ≠ 0, or no odd k.
+    """
+    body = cloud.body
+    integral = of_body(SuslovBody(body.I11, body.I22, body.I13, body.I23)) if body.D == 0.0 else None
+    if integral is None:
+        return None
+    values = integral(cloud.omega, cloud.gamma)
+    first = values[:, 0]
+    off = np.abs(first) > max(1e-12, 10.0 * cloud.error_estimate) * np.abs(values).max()
+    changed = off & np.any(values * np.sign(first)[:, None] < 0.0, axis=1)
+    return int(np.sum(off & (first > 0.0))), int(np.sum(off & (first < 0.0))), int(changed.sum())
+
+
 @dataclass(frozen=True)
 class Clouds:
-    """A cloud and what becomes of it; `other`: the one on a principal axis."""
+    """A cloud and what becomes of it, see `sides`; `other`: the one on a principal axis."""
 
     cloud: Cloud
     course: Course
     density: Density
+    sides: tuple[int, int, int] | None
     other: Ensemble | None
 
     @property
@@ -105,4 +127,4 @@ def clouds(body: BallBody, h: float, angle: float | None, spread: float, count: 
     if field is not None:
         principal = BallBody(body.I11, body.I22, 0.0, 0.0, body.D, 0.0, 0.0, field)
         other = ensemble(SYSTEM, states, principal.parameters, times, level)
-    return Clouds(cloud, course(cloud), density(cloud), other)
+    return Clouds(cloud, course(cloud), density(cloud), sides(cloud), other)

@@ -1,5 +1,6 @@
 """Clouds: Liouville's equation in exact fractions, orbits in decimals, volumes by finite differences, captions."""
 
+import dataclasses
 import math
 import re
 from fractions import Fraction
@@ -23,6 +24,7 @@ from hess_mechanics.chaplygin_ball.phase_cloud import (
     patch,
     shell,
 )
+from hess_mechanics.chaplygin_ball.phase_cloud_density import sides
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, WorkLimit
 from hess_mechanics.numerics.accuracy import LEVELS, Status
 from support.mechanics import PROPERTY
@@ -302,6 +304,68 @@ def test_on_the_average_over_time_the_density_is_the_invariant_one():
     passed = (edges[:-1] > -18.0) & (edges[1:] < -4.0)
     assert share[passed] == pytest.approx(np.full(passed.sum(), np.mean(1.0 / rate) / 40.0), rel=5e-3)
     assert share.sum() * 1.0 == pytest.approx(1.0, abs=1e-3)
+
+
+ODD = BallBody(1.64, 1.0, 0.0, 0.8, 0.0)
+"""I11 I22 = I22² + k² I23² with k = 1, I13 = 0: F2 of the paper's (2.13) is an integral."""
+
+
+def F2_by_hand(omega, gamma):
+    return 1.64 * gamma[..., 0] * omega[..., 0] + (gamma[..., 1] + 0.8 * gamma[..., 2]) * omega[..., 1]
+
+
+def test_a_density_that_vanishes_where_F2_does_is_invariant_and_nothing_crosses_that():
+    # div(|F2| v/|s|) = 0 off F2 s = 0, by central differences.
+    def flow(y):
+        w, g = y[:2], y[2:]
+        s = 0.8 * w[1]
+        rates = np.array([-w[1] * s / 1.64, w[0] * s, -g[2] * w[1], g[2] * w[0], g[0] * w[1] - g[1] * w[0]])
+        return rates * abs(float(F2_by_hand(w, g))) / abs(s)
+
+    rng = np.random.default_rng(4)
+    for _ in range(20):
+        y = rng.normal(size=5)
+        terms = [(flow(y + e)[i] - flow(y - e)[i]) / 2e-5 for i, e in enumerate(1e-5 * np.eye(5))]
+        assert abs(sum(terms)) < 1e-7 * max(map(abs, terms))
+    found = carried(ODD, shell(ODD, 2.0, 0.1, 2000), np.linspace(0.0, 14.0, 29), level("standard"))
+    values = F2_by_hand(found.omega, found.gamma)
+    positive, negative, changed = sides(found)
+    assert changed == 0
+    assert positive == np.sum(values[:, 0] > 1e-5)
+    assert negative == np.sum(values[:, 0] < -1e-5)
+    assert min(positive, negative) > 900
+    assert np.all(np.sign(values[np.abs(values[:, 0]) > 1e-4, -1]) == np.sign(values[np.abs(values[:, 0]) > 1e-4, 0]))
+
+
+def test_points_that_do_cross_would_be_counted():
+    found = carried(ODD, shell(ODD, 2.0, 0.1, 500), np.linspace(0.0, 14.0, 29), level("standard"))
+    # γ turned by half a turn about the third axis, for half of the points, at the last time.
+    wrong = found.gamma.copy()
+    wrong[:250, -1] *= -1.0
+    assert sides(dataclasses.replace(found, gamma=wrong))[2] == np.sum(
+        np.abs(F2_by_hand(found.omega, found.gamma)[:250, 0]) > 1e-5)
+
+
+@pytest.mark.parametrize("body", [HEAVY, FREE, BallBody(1.64, 1.0, 0.0, 0.8, 1.0)], ids=str)
+def test_without_F2_there_are_no_sides(body):
+    found = carried(body, shell(body, 2.0, 0.1, 20), np.linspace(0.0, 1.0, 3), level("draft"))
+    assert sides(found) is None
+
+
+@pytest.mark.parametrize("direction", ["forward", "backward"])
+def test_the_entropy_gains_the_mean_of_the_logarithm(direction):
+    """−∫ρ ln ρ by its definition, of a density carried along: each point's is s(0)/s(t) times its first one."""
+    end = 6.0 if direction == "forward" else -6.0
+    found = carried(FREE, shell(FREE, 2.0, 0.1, 2000), np.linspace(0.0, end, 13), level("standard"))
+    first = 0.3
+    density = first * np.exp(found.log_s[:, :1] - found.log_s)
+    entropy = -np.log(density).mean(axis=0)
+    assert entropy - entropy[0] == pytest.approx(found.log_growth.mean(axis=0), abs=1e-12)
+    # What Liouville's equation says of its rate: the mean divergence.
+    rates = np.gradient(entropy, found.times)
+    assert rates[2:-2] == pytest.approx(found.divergence.mean(axis=0)[2:-2], rel=0.1, abs=0.02)
+    # The cloud gathers either way.
+    assert entropy[-1] < entropy[0] - 1.0
 
 
 @pytest.mark.parametrize("frame", [0, -1])
