@@ -31,6 +31,7 @@ from hess_mechanics.rigid_body.attitude import Attitude
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, curve, curve_point, f_max, reach, turning_points
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
 from hess_mechanics.suslov_hess.equations import SYSTEM
+from hess_mechanics.suslov_hess.invariant_measure import invariant_measure
 from hess_mechanics.suslov_hess.mode_locking import CELLS, lock_boundary, rotation_number_window
 from hess_mechanics.suslov_hess.torus import (
     MAX_RETURNS,
@@ -245,6 +246,8 @@ class SuslovHess(SuslovBody):
             yield f"I₃₃ from {digits(body.check.I33[0])} to {digits(body.check.I33[1])}"
         if self.map is not None:
             yield f"Period of n₃ = {digits(self.map.period / body.frequency_unit, 6)}"
+            if self.map.kind == "elliptic":
+                yield f"ζ of the invariant density = {digits(invariant_measure(self.map).zeta, 6)}"
 
     def status(self) -> Iterator[str]:
         """The orbit, the circle map, the attitude."""

@@ -1,4 +1,4 @@
-"""The circle map Θ(φ) on the square (−π, π]², its fixed points and a cobweb."""
+"""The circle map Θ(φ) on the square (−π, π]², its fixed points or its invariant density, and a cobweb."""
 
 from __future__ import annotations
 
@@ -14,8 +14,9 @@ from hess_explorer.views.picture import Values
 from hess_explorer.views.plot import Plot
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.circle_map import CircleMap
+from hess_mechanics.suslov_hess.invariant_measure import invariant_measure
 
-__all__ = ["SIDE", "TICKS", "cobweb", "picture"]
+__all__ = ["EVENLY", "SIDE", "TICKS", "cobweb", "picture"]
 
 S = TypeVar("S")
 Click = Callable[[S, float, float], Values]
@@ -24,6 +25,11 @@ SIDE = (-math.pi, math.pi)
 TICKS = [(-math.pi, "−π"), (-math.pi / 2, "−π/2"), (0.0, "0"), (math.pi / 2, "π/2"), (math.pi, "π")]
 _COBWEB = 60
 """Returns that are drawn."""
+EVENLY = 0.25
+"""Where an even density is drawn, as a share of the height of the frame; 0 is at its bottom."""
+_DENSITY = np.linspace(*SIDE, 241)
+_BEYOND = 100.0
+"""A density, relative to an even one, that is beyond the frame."""
 
 
 def cobweb(iterates: Array) -> tuple[Array, Array]:
@@ -45,16 +51,24 @@ def _fixed(circle_map: CircleMap | None, stable: bool) -> tuple[list[float], lis
     return found, found
 
 
+def _density(circle_map: CircleMap | None) -> list[Array]:
+    """The invariant density over the bottom of the frame, if there is a smooth one."""
+    if circle_map is None or circle_map.kind != "elliptic":
+        return []
+    relative = np.minimum(_BEYOND, 2.0 * math.pi * invariant_measure(circle_map).density(_DENSITY))
+    return [np.column_stack([_DENSITY, -math.pi + EVENLY * 2.0 * math.pi * relative])]
+
+
 def picture(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array | None], caption: Callable[[S], str],
             title: str = "Circle map", dot: tuple[str, str] | None = None, on_click: Click[S] | None = None) -> Plot[S]:
-    """The map of a torus, None on the separatrix, with its fixed points and the cobweb of the first iterates."""
+    """The map of a torus, None on the separatrix, with fixed points or density and the cobweb of the first iterates."""
     return Plot(name="circle", title=title, caption=caption, axes=("φ", "Θ(φ)"), x=SIDE, y=SIDE, ticks=TICKS, dot=dot,
                 message=lambda s: "" if map(s) is not None else "Separatrix: no return", on_click=on_click,
                 layers=_layers(map, iterates))
 
 
 def _layers(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array | None]) -> tuple[Layer[S], ...]:
-    """Θ, the diagonal, stable (filled) and unstable (hollow) fixed points, the cobweb of some iterates."""
+    """Θ, the diagonal, fixed points, stable ones filled and unstable ones hollow, or the density; the cobweb."""
     here = ("phi", "theta")
 
     def staircase(state: S) -> tuple[Array, Array] | None:
@@ -64,6 +78,7 @@ def _layers(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array 
     return (
         line("diagonal", lambda s: None if map(s) is None else (SIDE, SIDE), columns=here, moving=False,
              color=theme.MUTED, dash="dotted", width=1.5),
+        curves("density", lambda s: _density(map(s)), color=theme.STABLE, width=1.5, label="invariant density"),
         line("cobweb", staircase, columns=here, color=theme.ORBIT, width=1),
         curves("map", lambda s: _copies(map(s)), color=theme.MAP, width=2.5, label="circle map Θ"),
         points("stable", lambda s: _fixed(map(s), True), columns=here, size=12, edge_width=3, color=theme.STABLE),

@@ -33,7 +33,7 @@ from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array, Complex, frozen
 from hess_mechanics.suslov_hess.bifurcation import turning_points
-from hess_mechanics.suslov_hess.circle_map import CircleMap
+from hess_mechanics.suslov_hess.circle_map import CircleMap, discriminants
 from hess_mechanics.suslov_hess.equations import SYSTEM
 
 __all__ = ["InvariantMeasure", "TorusMeasure", "invariant_measure", "on_torus", "poisson_kernel", "seen_from"]
@@ -53,24 +53,41 @@ def seen_from(phi: Array | Sequence[float], zeta: complex | Complex) -> Array:
     return angle
 
 
+_LEAST_GAP = 1e-150
+"""1 − |ζ|: on the lock boundary it is 0."""
+
+
 @dataclass(frozen=True)
 class InvariantMeasure:
-    """The measure on the section of one torus: ζ, which is real, the rotation number, and T in units b = 1."""
+    """The measure on the section of one torus: ζ, which is real, the rotation number, and T in units b = 1.
+
+    gap : 1 − |ζ|, which keeps its digits where ζ rounds to ±1.
+    """
 
     a: float
     h: float
     f: float
     zeta: float
+    gap: float
     rotation_number: float
     period: float
 
+    def _half(self, phi: Array | Sequence[float]) -> Array:
+        """Half the angles from ζ to φ."""
+        half: Array = 0.5 * (np.asarray(phi, float) - (math.pi if self.zeta < 0.0 else 0.0))
+        return half
+
     def density(self, phi: Array | Sequence[float]) -> Array:
         """p(φ), per radian; same shape as φ."""
-        return poisson_kernel(phi, self.zeta)
+        square = self.gap * self.gap + 4.0 * (1.0 - self.gap) * np.sin(self._half(phi)) ** 2
+        return np.asarray(self.gap * (2.0 - self.gap) / (2.0 * math.pi * square))
 
     def angle(self, phi: Array | Sequence[float]) -> Array:
         """ψ(φ) in (−π, π], which grows by 2πρ with each return; same shape as φ."""
-        return seen_from(phi, self.zeta)
+        half = self._half(phi)
+        turned = 2.0 * np.arctan2((2.0 - self.gap) * np.sin(half), self.gap * np.cos(half))
+        turned += math.pi if self.zeta < 0.0 else 0.0
+        return np.asarray(turned - 2.0 * math.pi * np.ceil(turned / (2.0 * math.pi) - 0.5))
 
 
 def invariant_measure(theta: CircleMap) -> InvariantMeasure:
@@ -81,9 +98,11 @@ def invariant_measure(theta: CircleMap) -> InvariantMeasure:
             "measure with a density: choose a torus with |trace| < 2.")
     _, im, im_beta = theta.matrix
     # β̄z² + (ᾱ − α)z − β = 0 with an imaginary β; of its roots, ζ and 1/ζ, that inside.
-    root = math.sqrt((im - im_beta) * (im + im_beta))
+    root = math.sqrt(max(0.0, -float(discriminants(np.array([*theta.matrix, theta.log_scale])))))
     zeta = -im_beta / (im + math.copysign(root, im))
-    return InvariantMeasure(theta.a, theta.h, theta.f, zeta, theta.rotation_number, theta.period)
+    # 1 − ζ² = 2 root/(|im| + root).
+    gap = max(_LEAST_GAP, 2.0 * root / (abs(im) + root) / (1.0 + abs(zeta)))
+    return InvariantMeasure(theta.a, theta.h, theta.f, zeta, gap, theta.rotation_number, theta.period)
 
 
 @dataclass(frozen=True)

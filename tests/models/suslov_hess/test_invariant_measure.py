@@ -11,7 +11,7 @@ from scipy.integrate import quad, solve_ivp
 
 from hess_mechanics import circle_map, level, solve, systems, turning_points
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.suslov_hess.invariant_measure import invariant_measure, on_torus, poisson_kernel
+from hess_mechanics.suslov_hess.invariant_measure import invariant_measure, on_torus, poisson_kernel, seen_from
 
 HESS = systems()["hess"]
 REFERENCE = level("reference")
@@ -65,6 +65,36 @@ def test_a_long_orbit_of_the_map_is_spread_as_the_density_says(a, h, f):
     # A quasi-periodic orbit is spread better than a random one.
     assert shares == pytest.approx(expected, abs=2e-3)
     assert np.ptp(expected) > 0.01
+
+
+@every_torus
+def test_the_density_and_its_angle_are_those_of_the_kernel_of_zeta(a, h, f):
+    measure = invariant_measure(circle_map(a, h, f, REFERENCE))
+    assert measure.density(PHASES) == pytest.approx(poisson_kernel(PHASES, measure.zeta), rel=1e-10)
+    assert apart(measure.angle(PHASES), seen_from(PHASES, measure.zeta)) <= 1e-12
+    assert np.all(np.abs(measure.angle(PHASES)) <= math.pi)
+
+
+@pytest.mark.parametrize("a", [2.0, 4.0])
+def test_where_zeta_is_close_to_the_circle_the_density_is_still_a_peak_of_area_1(a):
+    # At f = 0, h < 1 the gap falls exponentially with a.
+    measure = invariant_measure(circle_map(a, 0.9, 0.0, REFERENCE))
+    assert 1e-9 < measure.gap < 1e-2
+    centre = math.pi if measure.zeta < 0.0 else 0.0
+    away = measure.gap * np.tan(np.linspace(-0.4999, 0.4999, 100_001) * math.pi)
+    away = away[np.abs(away) < math.pi]
+    values = measure.density(centre + away)
+    assert np.sum(0.5 * (values[1:] + values[:-1]) * np.diff(away)) == pytest.approx(1.0, abs=2e-3)
+
+
+@pytest.mark.parametrize("a", [9.0, 40.0, 400.0])
+def test_where_zeta_rounds_to_the_circle_all_is_finite(a):
+    measure = invariant_measure(circle_map(a, 0.9, 0.0, REFERENCE))
+    assert abs(measure.zeta) > 1.0 - 1e-9
+    for phi in (PHASES, np.array([0.0, math.pi, -math.pi])):
+        assert np.all(np.isfinite(measure.density(phi)))
+        assert np.all(np.isfinite(measure.angle(phi)))
+    assert np.all(measure.density(PHASES[::7]) > 0.0)
 
 
 @pytest.mark.parametrize(("a", "h", "f"), [(0.5, 1.5, 0.6), (2.0, 0.4, 0.2)])
