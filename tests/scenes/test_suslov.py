@@ -24,7 +24,7 @@ from support.view import View
 
 SCENE = scenes()["suslov"]
 NAMES = [preset.name for preset in SCENE.presets]
-SEA, REGULAR, STRANGE, TWO, REVERSAL = NAMES
+SEA, REGULAR, STRANGE, TWO, REVERSAL, PRINCIPAL = NAMES
 FEW = {"orbits": 4.0, "count": 20.0, "long": 20.0}
 """For what does not depend on how much is shown."""
 
@@ -127,7 +127,8 @@ def test_the_chosen_orbit_of_an_example_is_drawn_with_the_energy_of_its_caption(
 
 
 @pytest.mark.parametrize(("name", "span", "near"), [
-    (SEA, 400.0, 0.03), (REGULAR, 400.0, 0.02), (STRANGE, 400.0, 0.05), (TWO, 300.0, 0.04), (REVERSAL, 300.0, 0.02)])
+    (SEA, 400.0, 0.03), (REGULAR, 400.0, 0.02), (STRANGE, 400.0, 0.05), (TWO, 300.0, 0.04), (REVERSAL, 300.0, 0.02),
+    (PRINCIPAL, 300.0, 0.05)])
 def test_exponent_and_divergence_of_an_example_are_near_those_of_the_linear_equations(name, span, near):
     view = example(name)
     exponent, spread, mean, end = view.numbers("exponent", "λ = # ± #, div = # after t = #.")
@@ -146,6 +147,9 @@ def test_exponent_and_divergence_of_an_example_are_near_those_of_the_linear_equa
     if name == STRANGE:
         assert exponent > 0.05
         assert mean < -0.1
+    if name == PRINCIPAL:
+        assert exponent > 0.05
+        assert mean == 0.0
     if name in (TWO, REVERSAL):
         assert exponent < 0.02
         assert mean < -0.1

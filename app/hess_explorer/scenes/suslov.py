@@ -62,6 +62,8 @@ PRESETS = (
            count=400.0, drop="the later half"),
     Preset("Reversal: what attracts, and what repels", **_body(1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3, 1.743),
            colours=_BOTH, count=100.0, drop="all"),
+    Preset("On a principal axis, I₁₃ = I₂₃ = 0: volume is kept", **_body(1.5, 1.0, 0.0, 0.0, 0.4, -0.3, 0.8, 0.7),
+           colours="forward only", drop="all", starts="0,1.5"),
 )
 
 
