@@ -56,12 +56,11 @@ export function render({ model, view }) {
     if (known != null) show(known)
   }, signal)
 
-  // The plots that a state gives other axes, and those that it gives other data: all of them at first.
-  const changedPlots = ({ ranges, sources }) => {
-    if (!scene.painted) return { reframed: new Set(scene.plots), touched: scene.plots }
-    const reframed = new Set(scene.plots.filter((plot) => plot.model.name in ranges))
+  // The plots that a state gives other axes or other data; all of them at first.
+  const touchedPlots = ({ ranges, sources }) => {
+    if (!scene.painted) return scene.plots
     const filled = Object.keys(sources).map((name) => scene.sources.get(name).plots)
-    return { reframed, touched: scene.plots.filter((plot) => [reframed, ...filled].some((some) => some.has(plot))) }
+    return scene.plots.filter((plot) => plot.model.name in ranges || filled.some((some) => some.has(plot)))
   }
 
   // Put a state into the pictures, texts and controls.
@@ -94,7 +93,7 @@ export function render({ model, view }) {
     const since = performance.now()
     state = next
     if (scene?.name !== state.scene) enter(state.scene)
-    await paint(changedPlots(state.tree), () => fill(state, block))
+    await paint(touchedPlots(state.tree), () => fill(state, block))
     address.write()
     root.dataset.state = String(state.number)
     requests.settled()

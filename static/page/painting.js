@@ -12,22 +12,18 @@ function within(promise, most) {
   })
 }
 
-// fill() puts new data into the sources; `touched`: the plots that draw them, `reframed`: those with other axes.
+// fill() puts new data into the sources, and axes into the plots; `touched`: the plots that change.
 //
 // Bokeh takes data in promises and paints in the next frame, each plot by itself.  Here the plots pause until all of
 // the data are taken, and are painted in the same task: a frame sooner, and no frame shows half of a state.
-export async function paint({ touched, reframed }, fill) {
+export async function paint(touched, fill) {
   for (const plot of touched) plot.pause()
   try {
     fill()
     const ready = Promise.all(touched.flatMap((plot) => plot.computed_renderer_views.map((part) => part.ready)))
     await within(ready, MOST)
     for (const plot of touched) plot.unpause(true)
-    for (const plot of touched) {
-      // Other axes may need other room for their labels.
-      if (reframed.has(plot)) plot.repaint()
-      else plot.paint()
-    }
+    for (const plot of touched) plot.paint()
   } finally {
     for (const plot of touched) if (plot.is_paused) plot.unpause()
   }
