@@ -157,17 +157,16 @@ class BallSection(CentreOfMass, Ball, Crossings):
             return "Left out: it would take too many steps."
         volume = "the flow keeps volume" if self.I13 == self.I23 == 0.0 else "volume is not kept"
         visited = occupied_cells(self.own, _CELLS)
-        return f"The chosen orbit: {len(self.own)} points in {visited} of {_CELLS**2} cells; {volume}{self._law()}."
-
-    def _law(self) -> str:
-        """Why the motion is regular, where that is proved."""
-        if is_reversible(self.body):
-            return "; closed, by γ₃ → −γ₃, t → −t"
-        return "; ω₁γ₁ + ω₂γ₂ is kept" if has_area_integral(self.body) else ""
+        return f"The chosen orbit: {len(self.own)} points in {visited} of {_CELLS**2} cells; {volume}."
 
     def _about_returns(self) -> str:
-        return ("Left out: it would take too many steps." if self.own is None else
-                "ψ and the next ψ: a point if closed, a curve if regular, a cloud in chaos.")
+        if self.own is None:
+            return "Left out: it would take too many steps."
+        if is_reversible(self.body):
+            return "ψ and the next ψ: one point, proved by γ₃ → −γ₃, t → −t."
+        if has_area_integral(self.body):
+            return "ψ and the next ψ: a curve, as ω₁γ₁ + ω₂γ₂ is an integral."
+        return "ψ and the next ψ: a point if closed, a curve if regular, a cloud in chaos."
 
     def _about_sphere(self) -> str:
         field = "; r: the centre of mass." if any(self.body.parameters[5:]) else "; no field, b = 0."
