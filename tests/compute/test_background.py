@@ -24,7 +24,7 @@ EP = SCENES["euler-poisson"]
 STARTS = next(spec for spec in EP.specs if spec.name == "starts")
 SMALL = {**EP.defaults(), "orbits": 12.0, "count": 20.0, "long": 5.0, "span": 1.0}
 """1 piece for the start, 3 for the orbits, 12 for the line, 1 for the exponent."""
-PIECES = 17
+PIECES = 21
 
 
 def wait_until(condition, seconds=60.0):

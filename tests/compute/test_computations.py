@@ -100,7 +100,7 @@ def needed(seen):
 
 
 def needed_for_study(seen):
-    return ({LEVELS, OTHERS} if "precision" in seen else set()) | ({GROWTH} if seen - {"precision"} else set())
+    return ({LEVELS, OTHERS} if "precision" in seen else set()) | ({GROWTH} if seen - {"precision", "trade"} else set())
 
 
 def compute(scene, values, seen=None, dragging=False):

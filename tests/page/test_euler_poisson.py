@@ -165,11 +165,11 @@ from hess_explorer.scenes import euler_poisson
 gate, piece, begun = Path(sys.argv.pop(1)), euler_poisson._piece, Counter()
 
 @functools.wraps(piece)
-def held(section, starts, crossings):
+def held(section, starts, crossings, level):
     begun[section.h] += crossings == 4000
     while 20 < section.h < 21 and begun[section.h] > 6 and gate.exists():
         time.sleep(0.02)
-    return piece(section, starts, crossings)
+    return piece(section, starts, crossings, level)
 
 euler_poisson._piece = held
 main()

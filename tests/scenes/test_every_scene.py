@@ -687,7 +687,7 @@ def test_another_scene_keeps_the_values_and_brings_its_own_pictures():
     # Its data are in the answer that enters it, and nothing of the old pictures is sent any more.
     assert len(browser.screen.fresh["data-orbit"]["t"]) > 100
     assert {name.split("-")[0] for name in browser.screen.fresh} <= {*ACCURACY.pictures, "data"}
-    assert set(state["tree"]["texts"]) == {*ACCURACY.pictures, "status", "notes", "derived"}
+    assert set(state["tree"]["texts"]) == {*ACCURACY.open_pictures, "status", "notes", "derived"}
     assert set(browser.controls) == {*(spec.name for spec in ACCURACY.specs), "preset"}
     state = browser.ask(3, values={"phi0": 2.0})
     assert {name.split("-")[0] for name in state["tree"]["sources"]} <= {*ACCURACY.pictures, "data"}

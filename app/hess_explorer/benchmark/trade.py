@@ -39,7 +39,8 @@ def names() -> tuple[str, ...]:
 
 def _example(scene: Scene[Any], trial: Trial[Any]) -> Any:
     """The first state that shows it: what a newcomer sees, or a preset."""
-    states = (bare(scene.of(values)) for values in (scene.defaults(), *map(scene.example, scene.presets)))
+    defaults = scene.defaults()
+    states = (bare(scene.of({**defaults, **values})) for values in ({}, *map(scene.example, scene.presets)))
     return next(state for state in states if trial.shown(state))
 
 
@@ -63,8 +64,8 @@ def costliest(rows: Sequence[Row], count: int) -> list[Row]:
     return sorted(rows, key=lambda row: -row.samples[-1].ms)[:count]
 
 
-def _error(value: float) -> str:
-    return digits(value, 2)
+def _round(value: float) -> str:
+    return f"{value:.0f}" if value >= 10.0 else digits(value, 2)
 
 
 def as_text(rows: Sequence[Row]) -> str:
@@ -72,8 +73,8 @@ def as_text(rows: Sequence[Row]) -> str:
     head = ["scene", "computation", *LEVELS, "ratio", "enough", "error in"]
     lines = [head, ["---"] * len(head)]
     for row in rows:
-        cells = (f"{digits(one.ms, 2)} ms, {_error(one.error)}" for one in row.samples)
-        lines.append([row.scene, row.kind, *cells, f"{digits(row.ratio, 2)} ×", row.enough, row.unit])
+        cells = (f"{_round(one.ms)} ms, {_round(one.error)}" for one in row.samples)
+        lines.append([row.scene, row.kind, *cells, f"{_round(row.ratio)} ×", row.enough, row.unit])
     return "\n".join(f"| {' | '.join(line)} |" for line in lines) + "\n"
 
 

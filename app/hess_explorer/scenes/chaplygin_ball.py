@@ -94,7 +94,8 @@ class ChaplyginBall(CircleLeft, FreeBall, OneOrbit):
 
         plan = self.plan(Kind.MAP)
         try:
-            return self.work.sooner(phases(plan.side(_PHASES), plan.level), phases(_FEW_PHASES, DRAFT)), ""
+            whole = plan.side(_PHASES)
+            return self.work.sooner(phases(whole, plan.level), phases(min(whole, _FEW_PHASES), DRAFT)), ""
         except WorkLimit as error:
             return None, f"The map of the phases is left out: {error}"
 

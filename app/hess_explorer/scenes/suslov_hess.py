@@ -290,7 +290,7 @@ def _turned(angles: Array) -> float:
 
 
 _MEASURES: tuple[Trial[SuslovHess], ...] = (
-    Trial(Kind.MAP, ("map",), lambda s, plan: circle_map(s.body.a, s.h, s.f, plan.level).theta(_PHASES),
+    Trial(Kind.MAP, ("circle",), lambda s, plan: circle_map(s.body.a, s.h, s.f, plan.level).theta(_PHASES),
           lambda s, theta, truth: PIXELS / (2.0 * math.pi) * _turned(theta - truth)),
     Trial(Kind.COLOURS, ("bifurcation",), _colours, _colour_error, unit="steps of the colour, 99 of 100 cells"),
 )

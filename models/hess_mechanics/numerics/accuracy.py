@@ -172,7 +172,7 @@ PLANS: Mapping[Kind, Mapping[str, Plan]] = {
     Kind.COLOURS: _plans((DRAFT, 1.0, 0.5, 1e-3), (replace(DRAFT, name="standard"), 1.0, 1.0, 1e-3),
                          (replace(STANDARD, name="precise"), 1.0, 1.0, 1e-6),
                          (replace(PRECISE, name="reference"), 1.0, 1.5, 1e-9)),
-    Kind.MAP: _plans((DRAFT, 1.0, 0.5, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9),
+    Kind.MAP: _plans((DRAFT, 1.0, 0.4, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9),
                      (REFERENCE, 1.0, 1.0, 1e-11)),
     Kind.CURVE: _plans((DRAFT, 1.0, 0.5, 0.75), (STANDARD, 1.0, 1.0, 0.25), (PRECISE, 1.0, 1.0, 0.25),
                        (REFERENCE, 1.0, 2.0, 0.1)),

@@ -10,7 +10,9 @@ from typing import Any, TypeVar
 from hess_explorer.protocol.parameters import Spec, Value, Values
 from hess_explorer.scenes.framework.parameters import Slider
 from hess_explorer.scenes.framework.scene import Motion, Scene, State
-from hess_explorer.scenes.framework.trial import Trial, bare
+from hess_explorer.scenes.framework.trial import Trial, bare, measured
+from hess_mechanics.dynamics.trade import Sample
+from hess_mechanics.numerics.accuracy import Kind
 
 __all__ = ["Insight", "LookingInto"]
 
@@ -21,10 +23,18 @@ I = TypeVar("I", bound="Insight")
 class Insight(State):
     """A state of such a scene; that of the other one is a part of it, so no name of one can hide a name of the other.
 
-    shown : the state of the other scene.
+    shown : the state of the other scene; trials : what is computed there.
     """
 
     shown: State
+    trials: tuple[Trial[Any], ...]
+
+    @cached_property
+    def costs(self) -> dict[Kind, tuple[Sample, ...] | None]:
+        """Time and error of every level, for each kind of computation; None until it is known."""
+        plain = bare(self.shown)
+        return {trial.kind: None if self.dragging else self.work.later(measured, trial, plain)
+                for trial in self.trials if trial.shown(plain)}
 
     @property
     def chosen(self) -> str:
@@ -68,7 +78,7 @@ class LookingInto(Scene[I]):
     def of(self, values: Values, seen: Collection[str] = (), dragging: bool = False) -> I:
         """The state of these values; nothing is computed yet."""
         shown = self.other.of(values, seen, dragging)
-        return self.state(shown, work=shown.work, seen=shown.seen)
+        return self.state(shown, self.other.trials, work=shown.work, seen=shown.seen)
 
     def admit(self, values: Values) -> tuple[dict[str, Value], list[str]]:
         """As the other scene does."""

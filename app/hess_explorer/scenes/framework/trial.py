@@ -25,9 +25,9 @@ __all__ = ["Trial", "bare", "measured", "needed", "orbit_trial", "section_error"
 S = TypeVar("S", bound="State")
 
 _SAMPLES = 400
-_CHAOTIC, _NOTHING = 30.0, 1e-6
-"""By what the errors of the second half of an orbit exceed those of the first, where neighbours part exponentially;
-and pixels that are round-off."""
+_LOST, _CHAOTIC, _NOTHING = 30.0, 30.0, 1e-6
+"""Pixels by which an orbit is another one; by what the errors of the second half of an orbit exceed those of the first,
+where neighbours part exponentially; and pixels that are round-off."""
 
 
 def _always(state: State) -> bool:
@@ -100,6 +100,6 @@ def section_error(orbits: Sequence[Array], truth: Sequence[Array], pixels: Seque
     for one, other in zip(orbits, truth, strict=True):
         away = errors_in_pixels(one, other, pixels, periods)
         early, late = (part.max(initial=0.0) for part in np.array_split(away, 2))
-        if late <= max(_CHAOTIC * early, _NOTHING):
+        if max(early, late) < _LOST and late <= max(_CHAOTIC * early, _NOTHING):
             worst = max(worst, float(early), float(late))
     return worst
