@@ -1,4 +1,4 @@
-"""`python tests/benchmarks/benchmark_trade.py`: the cost of each level in all scenes; the costliest ten: app/README.md."""
+"""`python tests/benchmarks/benchmark_trade.py`: what each level costs in all scenes; ten lines of it: app/README.md."""
 
 import sys
 from pathlib import Path

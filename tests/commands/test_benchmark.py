@@ -13,6 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from benchmarks import make_benchmark_references as maker
 from hess_explorer.__main__ import main
@@ -38,7 +39,8 @@ from hess_explorer.benchmark.scaling import Scaling, scaling
 from hess_explorer.benchmark.threads import shared
 from hess_explorer.benchmark.works import REFERENCES, works
 from hess_explorer.commands import CommandError
-from hess_mechanics import circle_map, level, solve, systems
+from hess_explorer.scenes import scenes
+from hess_mechanics import LEVELS, circle_map, level, solve, systems
 from support.mechanics import ROOT
 from support.processes import interruptible
 
@@ -425,6 +427,7 @@ def test_the_command_from_end_to_end(tmp_path):
     (["--works", ""], "'' is not a work"),
     (["--targets", "1e-3,0"], "'1e-3,0' has an error that is not positive"),
     (["--targets", "small"], "'small' is not a number"),
+    (["--trade", "--scenes", "kharlamova,nowhere"], "'nowhere' is not a scene; choose from suslov-hess,"),
     (["--picture", "bench.pdf"], "'bench.pdf' is not a picture; end the name in .svg or .png"),
 ])
 def test_a_bad_option_gives_one_sentence(words, sentence, capsys):
@@ -440,6 +443,34 @@ def test_a_picture_without_matplotlib_is_refused_before_measuring(monkeypatch):
     monkeypatch.setattr(command, "find_spec", lambda name: None)
     with pytest.raises(CommandError, match=r"--picture needs Matplotlib"):
         command._require_matplotlib()
+
+
+def test_the_trade_of_a_scene_is_measured_and_printed(capsys):
+    """The errors are those of SciPy's orbit; times are only what they are."""
+    assert main(["bench", "--trade", "--quick", "--scenes", "kharlamova", "--format", "json"]) == 0
+    said = capsys.readouterr()
+    assert said.err.splitlines() == ["kharlamova: orbit …"]
+    data = json.loads(said.out)
+    assert [(one["scene"], one["kind"], one["level"]) for one in data] == [
+        ("kharlamova", "orbit", name) for name in LEVELS]
+    scene = scenes()["kharlamova"]
+    motion = scene.of(scene.defaults()).motion()
+    times = np.linspace(0.0, motion.span, 400)
+    exact = solve_ivp(lambda _, y: motion.system.field(list(y), motion.parameters), (0.0, motion.span), motion.state,
+                      method="DOP853", rtol=1e-12, atol=1e-12, t_eval=times).y.T
+    found = solve(motion.system, motion.state, motion.parameters, times, level("draft")).states
+    away = np.abs(found - exact) * motion.weights
+    pixels = max(np.linalg.norm(away[:, :2], axis=1).max(), np.linalg.norm(away[:, 2:], axis=1).max())
+    assert data[0]["error"] == pytest.approx(pixels, rel=1e-3)
+    assert data[0]["error"] > data[1]["error"] > data[2]["error"] > data[3]["error"]
+    assert all(one["ms"] > 0.0 and one["enough"] == "draft" for one in data)
+
+
+def test_the_trade_is_a_table_for_people(capsys):
+    assert main(["bench", "--trade", "--quick", "--scenes", "kharlamova"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].startswith("| scene | computation | draft | standard | precise | reference | ratio |")
+    assert re.match(r"\| kharlamova \| orbit \| [\d.]+ ms, 0\.\d+ \|", lines[2])
 
 
 def test_ctrl_c_ends_it_cleanly():

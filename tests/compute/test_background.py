@@ -23,7 +23,7 @@ from support.board import SCENES, Browser, modules_of_scenes
 EP = SCENES["euler-poisson"]
 STARTS = next(spec for spec in EP.specs if spec.name == "starts")
 SMALL = {**EP.defaults(), "orbits": 12.0, "count": 20.0, "long": 5.0, "span": 1.0}
-"""1 piece for the start, 3 for the orbits, 12 for the line, 1 for the exponent."""
+"""1 piece for the start, 3 for the orbits, 12 for the line, 1 for the exponent; 4 that are computed twice."""
 PIECES = 21
 
 

@@ -18,6 +18,7 @@ DOCUMENTS = [ROOT / name for name in (
 MEASURED = {
     "tests/models/README.md": "tests/models/test_extremes.py",
     "tests/benchmarks/README.md": "tests/benchmarks/benchmark_page.py",
+    "app/README.md": "tests/benchmarks/benchmark_trade.py",
     "app/hess_explorer/benchmark/README.md": "tests/benchmarks/benchmark_peers.py",
 }
 

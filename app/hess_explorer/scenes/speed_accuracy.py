@@ -247,7 +247,7 @@ def _trade(trials: Sequence[Trial[Any]]) -> Plot[Study]:
         name="trade", title="Cost of all that is computed", caption=Study._about_trade, log="xy",
         axes=("error / what is not seen", "milliseconds"), x=_TRADE_ERRORS, y=_TRADE_MS, x_ticks=_TRADE_TICKS,
         y_tick_count=5, folded="Measure all that is computed",
-        layers=(line("visible", lambda s: ((1.0, 1.0), (1e-30, 1e30)), color=theme.MUTED, dash="dotted"),
+        layers=(line("visible", lambda s: ((1.0, 1.0), _TRADE_MS), color=theme.MUTED, dash="dotted"),
                 *(layer for trial, look in zip(trials, _LOOKS, strict=False) for layer in layers(trial.kind, *look)),
                 ring("enough", Study.enough, size=20, label="more accuracy is not seen")))
 
