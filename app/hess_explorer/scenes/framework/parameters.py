@@ -42,9 +42,8 @@ def places(label: str, most: int, low: tuple[float, float], high: tuple[float, f
 
 
 def accuracy_level(doc: str = "Promised error of an orbit: draft 1e-3, standard 1e-6, precise 1e-9; reference: the "
-                              "floor of double precision. Draft also follows orbits for a shorter time, on coarser "
-                              "grids. Auto: the cheapest that is right to half a pixel in every picture in sight."
-                   ) -> Any:
+                              "floor of double precision. Draft also computes less. Auto: the cheapest that shows all "
+                              "of it right to half a pixel.") -> Any:
     """The accuracy level, by its name."""
     return choice("Accuracy", (*LEVELS, AUTO), "standard", doc=doc)
 

@@ -1,0 +1,23 @@
+"""The cost of all that a scene computes, in "Speed and accuracy"; the accuracy "auto"."""
+
+from playwright.sync_api import expect
+
+from support.page import Explorer
+
+
+def test_the_cost_of_all_is_measured_when_its_button_is_pressed(open_page, server):
+    explorer = Explorer(open_page("scene=scattering-accuracy"), server)
+    assert not explorer.data("trade-map").get("x")
+    explorer.picture("trade").locator(".unfold").click()
+    expect(explorer.picture("trade")).to_contain_text("Enough to the eye: orbit draft, map standard.")
+    assert len(explorer.data("trade-map")["x"]) == 4
+    assert len(explorer.data("trade-enough")["x"]) == 2
+    explorer.assert_quiet()
+
+
+def test_a_link_with_the_accuracy_auto_says_what_it_stands_for(open_page, server):
+    explorer = Explorer(open_page("scene=kharlamova&accuracy=auto"), server)
+    expect(explorer.page.locator(".text.status")).to_contain_text("auto: draft · ")
+    assert explorer.text("status").startswith("draft: orbit")
+    assert explorer.chosen("accuracy") == "auto"
+    explorer.assert_quiet()
