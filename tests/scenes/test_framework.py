@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
+import numpy as np
 import pytest
 
 from hess_explorer.scenes.framework.crossings import Crossings
@@ -13,6 +15,9 @@ from hess_explorer.scenes.framework.looking_into import Insight, LookingInto
 from hess_explorer.scenes.framework.parameters import accuracy_level, like, number, specs_of
 from hess_explorer.scenes.framework.scene import Motion, Scene, State
 from hess_mechanics import systems
+from hess_mechanics.euler_poisson.equations import HeavyBody
+from hess_mechanics.suslov_hess.torus import annulus
+from support.board import SCENES
 
 
 @dataclass(frozen=True)
@@ -92,3 +97,27 @@ def test_no_name_of_a_scene_hides_one_of_the_scene_that_looks_into_it():
     assert state.work is state.shown.work
     assert (state.dragging, state.seen) == (True, frozenset({"a"}))
     assert looking.admit({**values, "first": 20.0}) == shown.admit({**values, "first": 20.0})
+
+
+@pytest.mark.parametrize("name", ["loxodrome", "hess-leak", "bridge", "euler-poisson"])
+def test_no_slider_of_a_moment_leads_to_a_refusal(name):
+    scene = SCENES[name]
+    random = np.random.default_rng(3)
+    values = {**scene.defaults(), **({"given": "Euler–Poisson"} if name == "bridge" else {})}
+    for _ in range(40):
+        moment = str(random.choice(["I1", "I2", "I3"]))
+        low, high, step = scene.limits(values)[moment]
+        values[moment] = float(np.clip(low + step * random.integers(0, 1 + int((high - low) / step)), low, high))
+        body = HeavyBody.hess((values["I1"], values["I2"], values["I3"]), 1.0)
+        assert sorted((values["I1"], values["I3"]))[0] <= values["I2"] <= sorted((values["I1"], values["I3"]))[1]
+        assert math.isfinite(body.hess_a)
+
+
+@pytest.mark.parametrize("I22", [0.2, 0.96, 3.0])
+@pytest.mark.parametrize("I23", [0.28, 2.0])
+@pytest.mark.parametrize("h", [-0.99, -0.5, 0.5, 1.5, 3.9, 40.0])
+def test_the_ring_of_the_suslov_hess_case_fills_its_frame(I22, I23, h):
+    scene = SCENES["suslov-hess"]
+    state = scene.of(scene.admit({**scene.defaults(), "I22": I22, "I23": I23, "h": h, "f": 0.1})[0])
+    # |w| = √2(h + n3), n3 < 1, and ω2 = w2 √(1 + a²); to a tenth below the least frame, and less than half beyond.
+    assert 0.15 < np.max(np.abs(annulus(state.body, state.h, state.turning)[1])) / state.half_width <= 1.0

@@ -128,7 +128,8 @@ def test_what_is_no_loxodromic_pendulum_is_refused(values, words):
 
 
 def test_the_slider_of_the_middle_moment_lies_between_the_others():
-    assert LOXODROME.limits({**LOXODROME.defaults(), "I1": 3.0, "I3": 0.5}) == {"I2": (0.5, 3.0, 0.005)}
+    assert LOXODROME.limits({**LOXODROME.defaults(), "I1": 3.0, "I3": 0.5}) == {
+        "I3": (0.1, 1.5, 0.005), "I2": (0.5, 3.0, 0.005), "I1": (1.5, 3.0, 0.005)}
     assert LOXODROME.limits({**LOXODROME.defaults(), "I1": 2.0, "I3": 2.0}) == {}
 
 

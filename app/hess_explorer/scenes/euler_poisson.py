@@ -109,9 +109,9 @@ class EulerPoisson(Moments, FilledWindow):
     weights: ClassVar[tuple[float, ...]] = (0.0, 0.0, 0.0, *(0.5 * PIXELS,) * 3)
 
     def limits(self) -> Mapping[str, tuple[float, float, float]]:
-        """The energy from where the bottom of the potential is."""
+        """The energy from where the bottom of the potential is, and the moments in their order."""
         bottom = -math.floor(100.0 * abs(self.m)) / 100.0
-        return {"h": (bottom, max(60.0 if abs(self.m) > 2.0 else 6.0, bottom + 1.0), 0.01)}
+        return {**super().limits(), "h": (bottom, max(60.0 if abs(self.m) > 2.0 else 6.0, bottom + 1.0), 0.01)}
 
     @cached_property
     def body(self) -> HeavyBody:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -56,11 +56,6 @@ class Loxodrome(Moments):
                           "lowest place.")
     span: float = time_span(30.0, 200.0, what="the motion")
     accuracy: str = accuracy_level()
-
-    def limits(self) -> Mapping[str, tuple[float, float, float]]:
-        """The slider of I2 between the two others."""
-        low, high = sorted((self.I1, self.I3))
-        return {"I2": (low, high, 0.005)} if high - low > 0.01 else {}
 
     @cached_property
     def pendulum(self) -> LoxodromicPendulum:

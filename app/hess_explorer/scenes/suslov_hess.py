@@ -110,9 +110,10 @@ class SuslovHess(SuslovBody):
 
     @cached_property
     def half_width(self) -> float:
-        """Of the frame of the (ω1, ω2)-plane: room for every h of the slider, so that it can stay."""
+        """Of the frame of the (ω1, ω2)-plane: it follows the largest ring of this h in steps of 2."""
         largest = math.sqrt(2.0 * (diagram.window(self.h).x[1] + 1.0))
-        return nice_above(1.02 * self.body.frequency_unit * math.hypot(1.0, self.body.a) * largest)
+        halvings = math.floor(math.log2(largest / math.sqrt(2.0 * (self.h + 1.0))))
+        return nice_above(1.02 * self.body.frequency_unit * math.hypot(1.0, self.body.a) * largest * 0.5**halvings)
 
     @cached_property
     def track(self) -> Track:

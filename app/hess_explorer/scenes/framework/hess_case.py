@@ -113,13 +113,13 @@ class HeavyMotion(Moments):
         return state
 
     def limits(self) -> Mapping[str, Slider]:
-        """The sliders of h and f span what is possible, in round steps."""
-        m = abs(self.m)
+        """The sliders of h and f span what is possible, in round steps; the moments keep their order."""
+        m, moments = abs(self.m), super().limits()
         if m < self._least_weight or self.h <= -m:
-            return {}
+            return moments
         step = 10.0 ** (math.floor(math.log10(m)) - 2)
         low = -math.floor(m / step * 0.995) * step
-        return {"h": (low, max(10.0 * m, self.h), step), "f": slider_within(self._largest_f)}
+        return {**moments, "h": (low, max(10.0 * m, self.h), step), "f": slider_within(self._largest_f)}
 
     @cached_property
     def bridge(self) -> Bridge:

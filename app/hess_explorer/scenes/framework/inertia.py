@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from hess_explorer.scenes.framework.parameters import number
+from hess_explorer.scenes.framework.parameters import Slider, number
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.views.poisson_sphere import Direction, centre_of_mass
 
@@ -43,16 +44,28 @@ class CentreOfMass(State):
         return centre_of_mass((self.b1, self.b2, self.b3))
 
 
+_ENDS, _STEP = (0.1, 3.0), 0.005
+
+
 @dataclass(frozen=True)
 class Moments(State):
     """The principal moments of inertia of a heavy body."""
 
-    I1: float = number("I₁", 1.0, (0.1, 3.0), 0.005, bounds=(1e-3, 1e3), label="Moment I₁",
+    I1: float = number("I₁", 1.0, _ENDS, _STEP, bounds=(1e-3, 1e3), label="Moment I₁",
                        doc="First principal moment of inertia.")
-    I2: float = number("I₂", 0.625, (0.1, 3.0), 0.005, bounds=(1e-3, 1e3), label="Moment I₂",
+    I2: float = number("I₂", 0.625, _ENDS, _STEP, bounds=(1e-3, 1e3), label="Moment I₂",
                        doc="Middle principal moment: it lies between I₁ and I₃, else there is no Hess condition.")
-    I3: float = number("I₃", 0.375, (0.1, 3.0), 0.005, bounds=(1e-3, 1e3), label="Moment I₃",
+    I3: float = number("I₃", 0.375, _ENDS, _STEP, bounds=(1e-3, 1e3), label="Moment I₃",
                        doc="Third principal moment of inertia.")
+
+    def limits(self) -> Mapping[str, Slider]:
+        """Each slider ends where I₂ would no longer lie between the others; a typed value may change their order."""
+        low, high = sorted((self.I1, self.I3))
+        if not (low <= self.I2 <= high and high - low > 2.0 * _STEP):
+            return {}
+        smallest, largest = ("I1", "I3") if self.I1 < self.I3 else ("I3", "I1")
+        return {smallest: (min(_ENDS[0], low), self.I2, _STEP), "I2": (low, high, _STEP),
+                largest: (self.I2, max(_ENDS[1], high), _STEP)}
 
     @property
     def moments(self) -> tuple[float, float, float]:
