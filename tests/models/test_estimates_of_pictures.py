@@ -22,7 +22,7 @@ from hess_mechanics.numerics.accuracy import PLANS, REFERENCE, STANDARD, Kind
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 from hess_mechanics.suslov.section import coordinates, seeds, suslov_points
 from hess_mechanics.suslov_hess.mode_locking import lock_boundary
-from hess_mechanics.suslov_hess.rotation_number import rotation_errors, values_at
+from hess_mechanics.suslov_hess.rotation_number import Torus, rotation_errors, rows, rows_error, values_at
 
 BELOW_THE_FLOOR = ("draft", "standard", "precise")
 every_level_below_the_floor = pytest.mark.parametrize("name", BELOW_THE_FLOOR)
@@ -227,6 +227,19 @@ def test_a_rotation_number_of_a_grid_is_as_exact_as_it_says(tori, name):
     errors = np.abs(values_at(*where, plan.level).rho - exact)
     assert within_a_factor_of_ten(errors, rotation_errors(*where, plan.level))
     assert np.mean(errors <= plan.promise) >= 0.99
+
+
+def test_the_error_of_a_map_of_rotation_numbers_is_that_of_nearly_all_its_cells():
+    window, torus = ((-1.0, 4.0), (-3.0, 3.0)), Torus(0.5, 0.0, 0.0)
+    for name in BELOW_THE_FLOOR:
+        level = PLANS[Kind.GRID][name].level
+        found, exact = (rows("h, f", torus, window, (60, 40), 0, 40, one).rho for one in (level, REFERENCE))
+        away = np.abs(found - exact)[np.isfinite(exact)]
+        estimate = rows_error("h, f", torus, window, level)
+        assert np.mean(away <= 10.0 * estimate) >= 0.99
+        assert np.quantile(away, 0.99) > 1e-3 * estimate
+    # Nothing moves below h = −1.
+    assert rows_error("h, f", torus, ((-3.0, -2.0), (0.0, 1.0)), level) == 0.0
 
 
 def test_a_rotation_number_along_an_orbit_is_as_exact_as_its_halves_agree(tori):

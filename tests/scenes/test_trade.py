@@ -119,6 +119,27 @@ def test_orbits_that_chaos_takes_away_are_left_aside():
     assert section_error([regular + 40.0], [regular], (1.0, 1.0)) == 0.0
 
 
+def test_the_status_line_says_how_much_of_the_basins_hangs_on_their_cells():
+    preset = next(one for one in SUSLOV.presets if one.values.get("colours") == "basins")
+    values = {**SUSLOV.example(preset), **SMALL, "accuracy": "draft"}
+    state, report = completed(SUSLOV, values, ("section",))
+    said = re.search(r"basins 18 × 12, twice as many cells would change ([\d.]+) % of it", report.status)
+    finer, _ = completed(SUSLOV, {**values, "accuracy": "standard"}, ("section",))
+    changed = 100.0 * np.mean(np.kron(state.basin, np.ones((2, 2))) != finer.basin)
+    assert changed / 3.0 < float(said[1]) < 3.0 * changed
+
+
+def test_the_status_line_says_how_exact_a_map_of_rotation_numbers_is():
+    scene = SCENES["rotation-number"]
+    errors = {}
+    for name in ("draft", "standard", "precise"):
+        _, report = completed(scene, {"accuracy": name}, ("map",))
+        said = re.search(r"map \d+ × \d+, ρ to (\d\S+) \(99 of 100 cells\)", report.status)
+        errors[name] = float(said[1].replace("−", "-"))
+        assert errors[name] <= PLANS[Kind.GRID][name].promise
+    assert errors["draft"] > errors["standard"] > errors["precise"] > 0.0
+
+
 # ---- auto -------------------------------------------------------------------------------------------------------
 
 

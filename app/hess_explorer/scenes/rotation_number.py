@@ -264,7 +264,12 @@ class RotationNumber(State):
         """The map and the circle map."""
         if self.known("grid"):
             m, n = self.grid[1]
-            yield f"map {m} × {n}"
+            said = f"map {m} × {n}"
+            if not self.dragging:
+                error = self.work.get(
+                    mechanics.rows_error, self.over, self.beside, self.window, self.plan(Kind.GRID).level)
+                said += f", ρ to {error:.1e} (99 of 100 cells)"
+            yield said
         if self.map is not None:
             yield f"{self.map.level}: circle map error ≤ {self.map.error_estimate:.1e} ({self.map.status})"
 
