@@ -12,12 +12,12 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Value
-from hess_explorer.scenes.framework.filled_window import EXPONENT, SECTION, TURN, FilledWindow, Piece, filled_window
+from hess_explorer.scenes.framework.basins import BASINS, Basins
+from hess_explorer.scenes.framework.filled_window import EXPONENT, SECTION, TURN, Piece, filled_window
 from hess_explorer.scenes.framework.inertia import CentreOfMass, Tensor
 from hess_explorer.scenes.framework.one_orbit import Start
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, like, number, places, time_span
 from hess_explorer.scenes.framework.scene import Preset, Scene
-from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views import layered_section, theme
 from hess_explorer.views.graph import over_time, settled_range, thinned
@@ -30,21 +30,17 @@ from hess_explorer.views.velocity_plane import nice_above, orbit_alone, orbit_co
 from hess_mechanics.dynamics.basin_boundary import unsure
 from hess_mechanics.dynamics.sampling import HALF_A_PIXEL
 from hess_mechanics.dynamics.section import occupied_cells
-from hess_mechanics.numerics.accuracy import Kind, Level, Plan, cheapest
+from hess_mechanics.numerics.accuracy import Kind, Level, cheapest
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.rigid_body.inertia import check_body
-from hess_mechanics.suslov.basins import Contraction, contraction, groups, middles
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 from hess_mechanics.suslov.section import Course, SuslovSection, lowest_energy, mean_divergence, suslov_points
 
 _MOST_STEPS = 100_000
-_BASIN_CELLS = (36, 24)
-_BASIN_CROSSINGS = 240
 _CELLS = 32
 _BOUNDS = ((-TURN, 0.0), (TURN, TURN))
 _PLANES = {"γ₃ = 0": 3, "γ₁ = 0": 1, "γ₂ = 0": 2}
 _BOTH = "forward and backward in time"
-_NUMBERS = {2: "Two", 3: "Three", 4: "Four"}
 
 
 def _body(I11: float, I22: float, I13: float, I23: float, b1: float, b2: float, b3: float, E: float
@@ -69,7 +65,7 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class Suslov(CentreOfMass, Tensor, FilledWindow):
+class Suslov(CentreOfMass, Tensor, Basins):
     """A section of one body at one energy, filled with orbits forward and backward in time."""
 
     I22: float = like(Tensor, "I22", 3.0)
@@ -116,6 +112,11 @@ class Suslov(CentreOfMass, Tensor, FilledWindow):
     def E(self) -> float:
         """The energy."""
         return self.h - math.hypot(self.b1, self.b2, self.b3)
+
+    @property
+    def asked(self) -> bool:
+        """Whether basins are to be shown."""
+        return self.colours == "basins"
 
     @cached_property
     def section(self) -> SuslovSection:
@@ -165,39 +166,6 @@ class Suslov(CentreOfMass, Tensor, FilledWindow):
         return joined(map(_later, self.kind(True)))
 
     @cached_property
-    def ends(self) -> Array | None:
-        """`SuslovSection.ends` of all cells (m, n), ∞ where nothing moves; None before all are known."""
-        if self.colours != "basins" or self.dragging:
-            return None
-        _ = self.pieces  # come sooner
-        plan = self.plan(Kind.BASINS)
-        cells = plan.grid(_BASIN_CELLS)
-        rows = [self.work.later(_ends_of_row, self.section, self.frame, cells, row, plan.level)
-                for row in range(cells[1])]
-        known = [row for row in rows if row is not None]
-        return np.stack(known) if len(known) == len(rows) else None
-
-    @cached_property
-    def basin(self) -> Array | None:
-        """Cells (m, n): the group of each, 0, 1, …; −1 where nothing moves."""
-        if self.ends is None:
-            return None
-        return _groups(self.ends)
-
-    @cached_property
-    def contractions(self) -> list[Contraction] | None:
-        """Of a motion of each group, when all are known."""
-        if self.basin is None or self.ends is None:
-            return None
-        there = self.basin >= 0.0
-        cells = np.argwhere(there)[middles(self.ends[there], self.basin[there])].tolist()
-        grid, long = self.plan(Kind.BASINS).grid(_BASIN_CELLS), self.plan(Kind.EXPONENT).share * self.long
-        found = [self.work.later(_contraction, self.section, self.frame, grid, row, column, long)
-                 for row, column in cells]
-        known = [one for one in found if one is not None]
-        return known if len(known) == len(found) else None
-
-    @cached_property
     def course(self) -> Course | None:
         """The mean divergence along the orbit on show, when it is known; not while a slider is held."""
         return None if self.dragging else self.work.later(
@@ -221,24 +189,9 @@ class Suslov(CentreOfMass, Tensor, FilledWindow):
     def _section_title(self) -> str:
         return f"Section {self.plane}, growing" if self.basin is None else f"Section {self.plane}: basins"
 
-    def _about_basins(self, cells: Array, found: list[Contraction]) -> str:
-        largest = max(found, key=lambda one: one.mean)
-        div = f"mean div = {digits(largest.mean, 2)} ± {digits(largest.error, 1)}"
-        shares = [100.0 * float(np.mean(cells[cells >= 0] == group)) for group in range(len(found))]
-        drawn = [share for share, one in zip(shares, found, strict=True) if one.attracts]
-        if not drawn:
-            return f"Nothing attracts here, as far as it is seen: {div}." if found else "Nothing moves in this window."
-        if len(drawn) < len(found):
-            return f"What attracts has {digits(sum(drawn), 2)} % of the cells; on the rest {div}."
-        if len(drawn) == 1:
-            return f"All orbits come to one attractor: {div}."
-        *parts, last = (f"{digits(share, 2)} %" for share in reversed(drawn))
-        return f"{_NUMBERS.get(len(drawn), len(drawn))} attractors, with {', '.join(parts)} and {last} of the cells."
-
     def _about_section(self) -> str:
         if self.basin is not None:
-            return ("Basins; whether they are of attractors is being found." if self.contractions is None else
-                    self._about_basins(self.basin, self.contractions))
+            return self.about_basins(self.basin)
         backward = f", {len(self.second)} backward" if len(self.second) else ""
         return (f"{len(self.first)} points forward{backward}; the later forward ones lie in "
                 f"{occupied_cells(self.later, _CELLS)} of {_CELLS**2} cells.")
@@ -276,39 +229,8 @@ def _piece(section: SuslovSection, starts: tuple[Start, ...], crossings: int, fo
                  points.drift)
 
 
-def _ends_of_row(section: SuslovSection, window: Window, cells: tuple[int, int], row: int, level: Level) -> Array:
-    return section.ends(window, cells, row, _BASIN_CROSSINGS, _MOST_STEPS, level)
-
-
-def _groups(ends: Array) -> Array:
-    there, cells = np.isfinite(ends), np.full(ends.shape, -1.0)
-    cells[there] = groups(ends[there])
-    return cells
-
-
-def _all_basins(s: Suslov, plan: Plan) -> Array:
-    cells = plan.grid(_BASIN_CELLS)
-    return _groups(np.stack([_ends_of_row(s.section, s.frame, cells, row, plan.level) for row in range(cells[1])]))
-
-
-def _changed(s: Suslov, cells: Array, truth: Array) -> float:
-    rows, columns = (np.arange(fine) * coarse // fine for coarse, fine in zip(cells.shape, truth.shape, strict=True))
-    return 100.0 * float(np.mean(cells[np.ix_(rows, columns)] != truth))
-
-
-_BASINS: Trial[Suslov] = Trial(
-    Kind.BASINS, ("section",), _all_basins, _changed, unit="% of the cells that change", seen=3.0,
-    shown=lambda s: s.colours == "basins")
-
-
-def _contraction(section: SuslovSection, window: Window, cells: tuple[int, int], row: int, column: int, span: float
-                 ) -> Contraction:
-    states, _ = section.cells_of_row(window, cells, row)
-    return contraction(section.body, states[column].tolist(), span)
-
-
 SCENE = Scene(
-    Suslov, __file__, place=5, presets=PRESETS, measures=(SECTION, EXPONENT, _BASINS),
+    Suslov, __file__, place=5, presets=PRESETS, measures=(SECTION, EXPONENT, BASINS),
     title="Suslov problem with gravity",
     summary="Regular orbits, seas, strange attractors: sections forward and backward in time.",
     tracks={"orbit": lambda s: orbit_columns(s.orbit)},

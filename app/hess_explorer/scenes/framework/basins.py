@@ -1,0 +1,122 @@
+"""The basins of a section of the Suslov problem: to what the orbits from its cells come, and whether that attracts."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from functools import cached_property
+
+import numpy as np
+
+from hess_explorer.scenes.framework.filled_window import FilledWindow
+from hess_explorer.scenes.framework.trial import Trial
+from hess_explorer.scenes.framework.windows import Window
+from hess_explorer.views.text import digits
+from hess_mechanics.numerics.accuracy import Kind, Level, Plan
+from hess_mechanics.numerics.results import Array
+from hess_mechanics.suslov.basins import Contraction, contraction, groups, middles
+from hess_mechanics.suslov.section import SuslovSection
+
+__all__ = ["BASINS", "Basins"]
+
+_CELLS = (36, 24)
+_CROSSINGS = 240
+_MOST_STEPS = 100_000
+_NUMBERS = {2: "Two", 3: "Three", 4: "Four"}
+
+
+class Basins(FilledWindow):
+    """A filled window of the Suslov problem whose cells may be coloured by the group of motions that they lead to."""
+
+    @property
+    @abstractmethod
+    def section(self) -> SuslovSection:
+        """The section.  Raises `ModelError`."""
+
+    @property
+    @abstractmethod
+    def asked(self) -> bool:
+        """Whether basins are to be shown."""
+
+    @cached_property
+    def ends(self) -> Array | None:
+        """`SuslovSection.ends` of all cells (m, n), ∞ where nothing moves; None before all are known."""
+        if not self.asked or self.dragging:
+            return None
+        _ = self.pieces  # come sooner
+        plan = self.plan(Kind.BASINS)
+        cells = plan.grid(_CELLS)
+        rows = [self.work.later(_ends, self.section, self.frame, cells, row, plan.level)
+                for row in range(cells[1])]
+        known = [row for row in rows if row is not None]
+        return np.stack(known) if len(known) == len(rows) else None
+
+    @cached_property
+    def basin(self) -> Array | None:
+        """Cells (m, n): the group of each, 0, 1, …; −1 where nothing moves."""
+        if self.ends is None:
+            return None
+        return _groups(self.ends)
+
+    @cached_property
+    def contractions(self) -> list[Contraction] | None:
+        """Of a motion of each group, when all are known."""
+        if self.basin is None or self.ends is None:
+            return None
+        there = self.basin >= 0.0
+        cells = np.argwhere(there)[middles(self.ends[there], self.basin[there])].tolist()
+        grid, long = self.plan(Kind.BASINS).grid(_CELLS), self.plan(Kind.EXPONENT).share * self.long
+        found = [self.work.later(_contraction, self.section, self.frame, grid, row, column, long)
+                 for row, column in cells]
+        known = [one for one in found if one is not None]
+        return known if len(known) == len(found) else None
+
+    def about_basins(self, cells: Array) -> str:
+        """The caption of the basins."""
+        found = self.contractions
+        if found is None:
+            return "Basins; whether they are of attractors is being found."
+        if not found:
+            return "Nothing moves in this window."
+        largest = max(found, key=lambda one: one.mean)
+        div = f"mean div = {digits(largest.mean, 2)} ± {digits(largest.error, 1)}"
+        shares = [100.0 * float(np.mean(cells[cells >= 0] == group)) for group in range(len(found))]
+        drawn = [share for share, one in zip(shares, found, strict=True) if one.attracts]
+        if not drawn:
+            return f"Nothing attracts here, as far as it is seen: {div}."
+        if len(drawn) < len(found):
+            return f"What attracts has {digits(sum(drawn), 2)} % of the cells; on the rest {div}."
+        if len(drawn) == 1:
+            return f"All orbits come to one attractor: {div}."
+        *parts, last = (f"{digits(share, 2)} %" for share in reversed(drawn))
+        return f"{_NUMBERS.get(len(drawn), len(drawn))} attractors, with {', '.join(parts)} and {last} of the cells."
+
+
+def _ends(section: SuslovSection, window: Window, cells: tuple[int, int], row: int, level: Level) -> Array:
+    return section.ends(window, cells, row, _CROSSINGS, _MOST_STEPS, level)
+
+
+def _groups(ends: Array) -> Array:
+    there, cells = np.isfinite(ends), np.full(ends.shape, -1.0)
+    cells[there] = groups(ends[there])
+    return cells
+
+
+def _all_basins(s: Basins, plan: Plan) -> Array:
+    cells = plan.grid(_CELLS)
+    return _groups(np.stack([_ends(s.section, s.frame, cells, row, plan.level) for row in range(cells[1])]))
+
+
+def _changed(s: Basins, cells: Array, truth: Array) -> float:
+    rows, columns = (np.arange(fine) * coarse // fine for coarse, fine in zip(cells.shape, truth.shape, strict=True))
+    return 100.0 * float(np.mean(cells[np.ix_(rows, columns)] != truth))
+
+
+BASINS: Trial[Basins] = Trial(
+    Kind.BASINS, ("section",), _all_basins, _changed, unit="% of the cells that change", seen=3.0,
+    shown=lambda s: s.asked)
+
+
+def _contraction(section: SuslovSection, window: Window, cells: tuple[int, int], row: int, column: int, span: float
+                 ) -> Contraction:
+    states, _ = section.cells_of_row(window, cells, row)
+    return contraction(section.body, states[column].tolist(), span)
