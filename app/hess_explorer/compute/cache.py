@@ -40,6 +40,10 @@ class Task:
     function: Callable[..., Any]
     arguments: tuple[Hashable, ...]
 
+    def now(self) -> Any:
+        """The result, computed here and now, whatever the cache has."""
+        return self.function(*self.arguments)
+
 
 class ResultCache:
     """Results by function and arguments; the least recently used are dropped first.

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 
@@ -22,7 +23,7 @@ from hess_explorer.views.layers import Axes
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Sphere
 from hess_explorer.views.text import digits, vector
-from hess_explorer.views.velocity_plane import nice_above, orbit_alone, orbit_columns, pixels_per_unit
+from hess_explorer.views.velocity_plane import orbit_alone, orbit_columns, pixels_per_unit, room_for
 from hess_mechanics.chaplygin_ball.energy_surface import lowest_energy
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.integrable_cases import area_integral, has_area_integral, is_reversible
@@ -35,8 +36,7 @@ from hess_mechanics.chaplygin_ball.section import (
     spread_section,
     state_at,
 )
-from hess_mechanics.dynamics.sampling import PIXELS
-from hess_mechanics.dynamics.section import Points, occupied_cells
+from hess_mechanics.dynamics.section import occupied_cells
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array
 
@@ -85,6 +85,8 @@ class BallSection(CentreOfMass, Ball, Crossings):
     accuracy: str = accuracy_level(
         "Of the orbit. Points of the section are right on their integrals; chaos moves them along.")
 
+    section_axes: ClassVar[Axes] = Axes(square.AZIMUTH, square.POLAR)
+
     def admitted(self, notes: list[str]) -> BallSection:
         """ψ outside the band that the energy forbids."""
         psi = self.psi if self.band is None else outside_band(self.band, self.psi)
@@ -116,31 +118,24 @@ class BallSection(CentreOfMass, Ball, Crossings):
     @cached_property
     def weights(self) -> tuple[float, ...]:
         """From the variables to the pictures, as large as the orbit will be drawn."""
-        return pixels_per_unit(_room(self.work.get(fastest, self.body, self.start, self.span)))
+        return pixels_per_unit(room_for(self.work.get(fastest, self.body, self.start, self.span)))
 
     def crossing(self, crossings: int, level: Level) -> tuple[Task, Task]:
         """What finds so many crossings of the orbit on show, and of the others."""
         return (Task(ball_section, (self.body, self.E, (self.start,), crossings, level, _MOST_STEPS)),
                 Task(spread_section, (self.body, self.E, _ORBITS, crossings, level, _MOST_STEPS)))
 
-    def places_of(self, points: Points) -> Array:
-        """(ψ, δ) of all these points, or of the later half of them."""
-        longest = max(map(len, points.states), default=0)
-        first = longest // 2 if self.drop != "all" else 0
-        return section_plane.joined(coordinates(states[first:]) for states in points.states)
-
-    def places_of_one(self, states: Array) -> Array:
-        """(ψ, δ) of all points of an orbit."""
+    def places_of(self, states: Array) -> Array:
+        """(ψ, δ)."""
         return coordinates(states)
 
-    @property
-    def pixels(self) -> tuple[float, float]:
-        """Pixels of the section for a unit of ψ and of δ."""
-        return PIXELS / (2.0 * math.pi), PIXELS / math.pi
+    def first_shown(self, crossings: int) -> int:
+        """The first one, or the middle one."""
+        return 0 if self.drop == "all" else crossings // 2
 
     def half_width(self) -> float:
         """Of the (ω1, ω2)-plane."""
-        return _room(float(np.hypot(*self.orbit.states[:, :2].T).max()))
+        return room_for(float(np.hypot(*self.orbit.states[:, :2].T).max()))
 
     def forbidden(self, axes: Axes) -> list[list[Array]]:
         """The band of ψ that the energy forbids."""
@@ -180,11 +175,6 @@ class BallSection(CentreOfMass, Ball, Crossings):
         yield f"γ(0) = {vector(self.start[2:])}"
         if has_area_integral(self.body):
             yield f"ω₁γ₁ + ω₂γ₂ = {digits(float(area_integral(np.array(self.start))), 6)}, an integral"
-
-
-def _room(speed: float) -> float:
-    """An axis with room for so large an |ω|."""
-    return nice_above(1.05 * max(1e-9, speed))
 
 
 SCENE = Scene(

@@ -11,11 +11,11 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.ball import FreeBall
-from hess_explorer.scenes.framework.circle_left import CircleLeft
+from hess_explorer.scenes.framework.circle_left import CircleLeft, sphere
 from hess_explorer.scenes.framework.one_orbit import OneOrbit, Start
 from hess_explorer.scenes.framework.parameters import accuracy_level, time_span
 from hess_explorer.scenes.framework.scene import Preset, Scene
-from hess_explorer.scenes.framework.trial import Trial
+from hess_explorer.scenes.framework.trial import Trial, curve_error
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import scattering_map as square
 from hess_explorer.views import theme
@@ -23,15 +23,13 @@ from hess_explorer.views import velocity_plane as plane
 from hess_explorer.views.graph import over_time
 from hess_explorer.views.layers import arrows, curves, levels, region, ring
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.poisson_sphere import Direction, Sphere, ends
 from hess_explorer.views.text import digits as in_digits
 from hess_explorer.views.text import vector
 from hess_mechanics.chaplygin_ball import scattering as model
-from hess_mechanics.chaplygin_ball.strip_orbits import StripOrbit, strip_orbits
+from hess_mechanics.chaplygin_ball.strip_orbits import StripOrbit, largest_distance, strip_orbits
 from hess_mechanics.dynamics.sampling import PIXELS
-from hess_mechanics.dynamics.shadowing import away_from
 from hess_mechanics.errors import WorkLimit
-from hess_mechanics.numerics.accuracy import DRAFT, REFERENCE, Kind, Level, Plan
+from hess_mechanics.numerics.accuracy import DRAFT, REFERENCE, Kind, Level
 from hess_mechanics.numerics.results import Array
 
 _ORBITS, _FEW_ORBITS = 18, 8
@@ -77,25 +75,29 @@ class ChaplyginBall(CircleLeft, FreeBall, OneOrbit):
         """(ξ, γ) along it."""
         return self.orbit.states[:, 2:] @ self.xi
 
+    def strip_orbits(self, count: int, level: Level) -> Task:
+        """What follows so many orbits over the strip, with E = 1."""
+        return Task(strip_orbits, (self.body, count, level))
+
+    def phases(self, count: int, level: Level) -> Task:
+        """What finds θ⁺ of so many phases.  Raises `WorkLimit`."""
+        return Task(model.all_phases, (self.body, self.theta, count, self.distance, level, _MOST_STEPS))
+
     @cached_property
     def crowd(self) -> tuple[StripOrbit, ...]:
         """Orbits over the strip."""
         plan = self.plan(Kind.CURVE)
         found: tuple[StripOrbit, ...] = self.work.sooner(
-            Task(strip_orbits, (self.body, plan.side(_ORBITS), plan.level)),
-            Task(strip_orbits, (self.body, _FEW_ORBITS, plan.level)))
+            self.strip_orbits(plan.side(_ORBITS), plan.level), self.strip_orbits(_FEW_ORBITS, plan.level))
         return tuple((math.sqrt(self.h) * track, place) for track, place in found)
 
     @cached_property
     def map_or_reason(self) -> tuple[model.BallScattering | None, str]:
         """θ⁺ over the phases; None where it would take too long, and why."""
-        def phases(count: int, level: Level) -> Task:
-            return Task(model.all_phases, (self.body, self.theta, count, self.distance, level, _MOST_STEPS))
-
         plan = self.plan(Kind.MAP)
+        whole = plan.side(_PHASES)
         try:
-            whole = plan.side(_PHASES)
-            return self.work.sooner(phases(whole, plan.level), phases(min(whole, _FEW_PHASES), DRAFT)), ""
+            return self.work.sooner(self.phases(whole, plan.level), self.phases(min(whole, _FEW_PHASES), DRAFT)), ""
         except WorkLimit as error:
             return None, f"The map of the phases is left out: {error}"
 
@@ -104,21 +106,13 @@ class ChaplyginBall(CircleLeft, FreeBall, OneOrbit):
         """θ⁺ over the phases."""
         return self.map_or_reason[0]
 
-    # ---- what the pictures show --------------------------------------------------------------------------------
-
-    def over_phases(self, free: bool) -> list[Array]:
-        """θ⁺ over the phases, of the ball or for 𝒟 = 0."""
+    def free(self) -> list[Array]:
+        """θ⁺ over the same phases for 𝒟 = 0."""
         if self.map is None:
             return []
         phis = self.map.phis
-        theta_plus = self.map.theta_plus if not free else self.work.get(
-            model.free_theta_plus, self.body, self.theta, self.distance, tuple(phis.tolist()))
-        return [np.column_stack([phis, theta_plus])]
-
-    def chosen(self) -> list[tuple[float, float]]:
-        """The chosen orbit on the curve."""
-        return [] if self.map is None else [
-            (self.phi, float(np.interp(self.phi, self.map.phis, self.map.theta_plus)))]
+        return [np.column_stack([phis, self.work.get(
+            model.free_theta_plus, self.body, self.theta, self.distance, tuple(phis.tolist()))])]
 
     # ---- words --------------------------------------------------------------------------------------------------
 
@@ -157,29 +151,14 @@ class ChaplyginBall(CircleLeft, FreeBall, OneOrbit):
             yield self.map_or_reason[1]
 
 
-def _map(s: ChaplyginBall, plan: Plan) -> model.BallScattering:
-    return model.all_phases(s.body, s.theta, plan.side(_PHASES), s.distance, plan.level, _MOST_STEPS)
-
-
-def _map_error(s: ChaplyginBall, found: model.BallScattering, truth: object) -> float:
-    """At the phases found, which are not those of the truth."""
-    exact = model.all_phases(s.body, s.theta, found.phis.size, s.distance, REFERENCE, _MOST_STEPS)
-    return PIXELS / math.pi * float(np.abs(found.theta_plus - exact.theta_plus).max())
-
-
-def _strip(s: ChaplyginBall, plan: Plan) -> tuple[StripOrbit, ...]:
-    return strip_orbits(s.body, plan.side(_ORBITS), plan.level)
-
-
-def _strip_error(s: ChaplyginBall, found: tuple[StripOrbit, ...], truth: object) -> float:
-    """Of the curves found, which are not those of the truth."""
-    exact = strip_orbits(s.body, len(found), REFERENCE)
-    worst = max(away_from(track, curve).max() for (track, _), (curve, _) in zip(found, exact, strict=True))
-    return float(worst) * math.sqrt(s.h) * 0.5 * PIXELS / s.half_width
-
-
+# The phases and orbits found are not those of the truth: the exact ones are computed again.
 _MEASURES: tuple[Trial[ChaplyginBall], ...] = (
-    Trial(Kind.MAP, ("curve",), _map, _map_error), Trial(Kind.CURVE, ("omega",), _strip, _strip_error))
+    Trial(Kind.MAP, ("curve",), lambda s, plan: s.phases(plan.side(_PHASES), plan.level).now(),
+          lambda s, found, truth: curve_error(
+              found.theta_plus, s.phases(found.phis.size, REFERENCE).now().theta_plus, math.pi)),
+    Trial(Kind.CURVE, ("omega",), lambda s, plan: s.strip_orbits(plan.side(_ORBITS), plan.level).now(),
+          lambda s, found, truth: math.sqrt(s.h) * 0.5 * PIXELS / s.half_width * largest_distance(
+              found, s.strip_orbits(len(found), REFERENCE).now())))
 
 SCENE = Scene(
     ChaplyginBall, __file__, place=9, presets=PRESETS, measures=_MEASURES,
@@ -198,16 +177,14 @@ SCENE = Scene(
                 plane.orbit("orbits; the chosen one bold"),
                 # Not in the middle of each, where all of them are slow, but where the strip is covered evenly.
                 arrows("arrows", lambda s: plane.arrows_at(s.crowd), color=theme.ORBIT, alpha=0.8))),
-        Sphere(
-            caption=ChaplyginBall._about_sphere, looks={"orbit": "orbit"}, axis=lambda s: Direction(s.xi, "ξ"),
-            circles=lambda s: s.circles(s.xi, float(np.clip(s.Gamma[-1], -1.0, 1.0))), marks=lambda s: ends(s.xi)),
+        sphere(ChaplyginBall._about_sphere, xi=lambda s: s.xi, Gamma=lambda s: float(np.clip(s.Gamma[-1], -1.0, 1.0))),
         square.over_phases(
             ChaplyginBall._about_curve, message=lambda s: s.map_or_reason[1], layers=(
                 levels("levels", lambda s: [] if s.map is None else s.levels),
-                curves("free", lambda s: s.over_phases(free=True), color=theme.MAP, dash="dashed",
+                curves("free", lambda s: s.free(), color=theme.MAP, dash="dashed",
                        label="θ⁺ for 𝒟 = 0"),
-                curves("ball", lambda s: s.over_phases(free=False), color=theme.ORBIT),
-                ring("chosen", ChaplyginBall.chosen, size=18.0))),
+                curves("ball", lambda s: [] if s.map is None else [s.map.curve], color=theme.ORBIT),
+                ring("chosen", lambda s: [] if s.map is None else [(s.phi, s.map.at(s.phi))], size=18.0))),
         Plot(
             name="Gamma", title="Γ = (ξ, γ) against time", caption=ChaplyginBall._about_Gamma, axes=("t", "Γ"),
             x=lambda s: (0.0, s.span), y=(-1.05, 1.05), dot=("t", "Gamma"),

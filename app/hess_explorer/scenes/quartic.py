@@ -7,8 +7,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-import numpy as np
-
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values
 from hess_explorer.scenes.framework.crossings import SECTION, Crossings
@@ -25,14 +23,12 @@ from hess_explorer.scenes.framework.parameters import (
 )
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.views import plane_domain, section_plane, theme
-from hess_explorer.views.graph import over_time
-from hess_explorer.views.layers import Axes, Sign
+from hess_explorer.views.graph import about_0, over_time
+from hess_explorer.views.layers import Axes
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Sphere, centre_of_mass, parallels
 from hess_explorer.views.text import digits, power, vector
 from hess_explorer.views.velocity_plane import centred, nice_above
-from hess_mechanics.dynamics.sampling import PIXELS
-from hess_mechanics.dynamics.section import Points
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array
@@ -41,6 +37,7 @@ from hess_mechanics.suslov import quartic as model
 _ORBITS = 20
 _MOST_STEPS = 40_000
 _CELLS = 32
+_P_AXIS = centred(1.05)
 _HEIGHTS = (-0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75)
 """Values of γ3 on the equipotentials."""
 
@@ -114,18 +111,14 @@ class Quartic(Crossings):
         return (Task(model.quartic_section, (self.body, (self.start,), crossings, level, _MOST_STEPS)),
                 Task(model.spread_section, (self.body, _ORBITS, crossings, level, _MOST_STEPS)))
 
-    def places_of(self, points: Points) -> Array:
-        """The q along the section and its p."""
-        return section_plane.joined(map(self.places_of_one, points.states))
-
-    def places_of_one(self, states: Array) -> Array:
+    def places_of(self, states: Array) -> Array:
         """The q along the section and its p."""
         return self.body.on_section(states)
 
     @property
-    def pixels(self) -> tuple[float, float]:
-        """Pixels of the section for a unit of q and of p."""
-        return PIXELS / (2.0 * nice_above(1.05 * self.body.longest)), PIXELS / 2.1
+    def section_axes(self) -> Axes:
+        """Room for all q and p."""
+        return Axes(centred(nice_above(1.05 * self.body.longest)), _P_AXIS)
 
     @cached_property
     def momentum(self) -> Array:
@@ -143,10 +136,6 @@ class Quartic(Crossings):
             return dict(zip(("Q1", "Q2", "beta"), model.start_on_section(self.body, x, y), strict=True))
         except ModelError:
             return {}
-
-    def momentum_range(self) -> tuple[float, float]:
-        """The axis of q1p2 − q2p1."""
-        return centred(nice_above(1.2 * max(float(np.abs(self.momentum).max()), 1e-3 * max(self.body.axes))))
 
     # ---- words --------------------------------------------------------------------------------------------------
 
@@ -192,19 +181,18 @@ SCENE = Scene(
     views=(
         plane_domain.picture(
             "Point in the potential γ₃²/2", Quartic._about_domain, lambda s: s.half_width, names=("Q1", "Q2"),
-            signs=(Sign("where it starts", "dot", f"background: none; border: 3px solid {theme.UNSTABLE}"),),
             layers=(*plane_domain.ground(lambda s: s.body.ellipse(), lambda s: s.body.holes(),
                                          lambda s: s.body.equipotentials(_HEIGHTS)),
-                    *plane_domain.orbit(lambda s: (s.Q1, s.Q2)))),
+                    *plane_domain.orbit(lambda s: (s.Q1, s.Q2), label="where it starts"))),
         Plot(name="section", caption=Quartic._about_section, axes=("q", "p"), on_click=Quartic.start_on_section,
              title=lambda s: "Section {0} = 0, {0} growing".format("q₂" if s.body.across else "q₁"),
-             x=lambda s: centred(nice_above(1.05 * s.body.longest)), y=(-1.05, 1.05), message=lambda s: s.reason,
+             x=lambda s: s.section_axes.x, y=_P_AXIS, message=lambda s: s.reason,
              layers=section_plane.layers(lambda s: s.own, others=lambda s: s.others, forbidden=Quartic.impossible)),
         Sphere(caption=Quartic._about_sphere, looks={"orbit": "orbit"}, axis=lambda s: centre_of_mass((0.0, 0.0, s.b3)),
                circles=lambda s: parallels((0.0, 0.0, 1.0), [s.body.h / s.body.b3])),
         Plot(name="momentum", title="q₁p₂ − q₂p₁ against time", caption=Quartic._about_momentum,
-             axes=("t", "q₁p₂ − q₂p₁"), x=lambda s: (0.0, float(s.orbit.times[-1])), y=Quartic.momentum_range,
-             dot=("t", "momentum"),
+             axes=("t", "q₁p₂ − q₂p₁"), x=lambda s: (0.0, float(s.orbit.times[-1])), dot=("t", "momentum"),
+             y=lambda s: about_0(s.momentum, 1e-3 * max(s.body.axes)),
              layers=(over_time("G", lambda s: (s.orbit.times, s.momentum), color=theme.ORBIT),)),
     ),
 )

@@ -9,20 +9,19 @@ from functools import cached_property
 
 import numpy as np
 
-from hess_explorer.scenes.framework.circle_left import CircleLeft
+from hess_explorer.scenes.framework.circle_left import CIRCLES, CircleLeft, sphere
 from hess_explorer.scenes.framework.free_body import FreeBody
 from hess_explorer.scenes.framework.parameters import accuracy_level, like
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
-from hess_explorer.scenes.framework.trial import Trial
+from hess_explorer.scenes.framework.trial import Trial, curve_error
 from hess_explorer.scenes.framework.work import drift_status
 from hess_explorer.views import scattering_map as square
 from hess_explorer.views import theme
-from hess_explorer.views.layers import Sign, curves, levels, ring
+from hess_explorer.views.layers import curves, levels, ring
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.poisson_sphere import Direction, Sphere, ends
 from hess_explorer.views.text import digits as in_digits
 from hess_explorer.views.text import vector
-from hess_explorer.views.velocity_plane import nice_above, velocity_columns
+from hess_explorer.views.velocity_plane import velocity_columns
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.numerics.accuracy import Kind, Plan
 from hess_mechanics.numerics.results import Array
@@ -127,11 +126,6 @@ class Scattering(CircleLeft, FreeBody):
         cells = _FEW_CELLS if self.dragging else self.plan(Kind.MAP).grid(_CELLS)
         return self.work.get(model.theta_plus_grid, self.map, *cells)
 
-    def cosine_axis(self) -> tuple[float, float]:
-        """From −1, the least cos χ, to the largest one."""
-        reach = nice_above(max(1e-3, 1.0 + float(self.orders[:, 1].max(initial=self.limit.cos_chi))))
-        return -1.0 - 0.05 * reach, -1.0 + 1.05 * reach
-
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_curve(self) -> str:
@@ -179,11 +173,8 @@ def _map(s: Scattering, plan: Plan) -> Array:
     return found.theta_plus(s.theta, _PHASES)
 
 
-def _map_error(s: Scattering, found: Array, truth: Array) -> float:
-    return PIXELS / math.pi * float(np.abs(found - truth).max())
-
-
-_MAP: Trial[Scattering] = Trial(Kind.MAP, ("curve", "map"), _map, _map_error)
+_MAP: Trial[Scattering] = Trial(
+    Kind.MAP, ("curve", "map"), _map, lambda s, found, truth: curve_error(found, truth, math.pi))
 
 SCENE = Scene(
     Scattering, __file__, place=4, presets=PRESETS, measures=(_MAP,),
@@ -195,21 +186,14 @@ SCENE = Scene(
             levels("levels", lambda s: s.levels),
             curves("theta", lambda s: [np.column_stack([_PHASES, s.curve])], color=theme.ORBIT, label="θ⁺(φ); orbit"),
             ring("chosen", lambda s: [(s.phi, s.theta_plus)], size=18.0, label="chosen"))),
-        Plot(
-            name="map", title="θ⁺ over (φ, θ⁻)", caption=Scattering._about_map, axes=("φ", "θ⁻"),
-            x=square.AZIMUTH, y=square.POLAR, ticks=square.AZIMUTH_TICKS, y_ticks=square.POLAR_TICKS,
-            on_click=lambda s, x, y: {"phi": x, "theta": y}, on_drag=True,
-            layers=square.layers(Scattering.grid, lambda s: (s.phi, s.theta))),
+        square.over_square(Scattering._about_map, Scattering.grid, lambda s: (s.phi, s.theta)),
         Plot(
             name="chi", title="cos χ against k", caption=Scattering._about_chi, axes=("k", "cos χ"),
-            x=lambda s: s.k_axis, y=Scattering.cosine_axis, on_click=lambda s, x, y: {"k": x}, on_drag=True,
+            x=lambda s: s.k_axis, y=lambda s: square.cosine_axis(s.orders[:, 1].max(initial=s.limit.cos_chi)),
+            on_click=lambda s, x, y: {"k": x}, on_drag=True,
             layers=(curves("closed", lambda s: [s.orders], color=theme.MAP, dash="dashed", label="closed form"),
                     ring("chosen", lambda s: [(s.k, s.limit.cos_chi)], size=18.0))),
-        Sphere(
-            caption=Scattering._about_sphere, looks={"orbit": "orbit"}, axis=lambda s: Direction(s.points.xi, "ξ"),
-            circles=lambda s: s.circles(s.points.xi, math.cos(s.theta_plus)), marks=lambda s: ends(s.points.xi),
-            signs=(Sign("circle joined", "line", f"border-top: 3px solid {theme.STABLE}"),
-                   Sign("circle left", "line", f"border-top: 3px dashed {theme.UNSTABLE}"),
-                   Sign("fixed points Γ = ±1", "dot", f"background: {theme.MUTED}"))),
+        sphere(Scattering._about_sphere, xi=lambda s: s.points.xi, Gamma=lambda s: math.cos(s.theta_plus),
+               signs=CIRCLES),
     ),
 )

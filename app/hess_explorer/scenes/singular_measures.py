@@ -15,17 +15,16 @@ from hess_explorer.scenes.framework.ball import FreeBall
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, like, number, time_span
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.trial import Trial
-from hess_explorer.views import theme
-from hess_explorer.views.cloud import CloudPlane, density_axes, density_layers
-from hess_explorer.views.graph import over_time
-from hess_explorer.views.layers import Axes, Columns, Layer, Range, f32, levels, line
+from hess_explorer.views.cloud import CloudPlane, course_layers, density_axes, density_layers
+from hess_explorer.views.graph import with_room
+from hess_explorer.views.layers import Axes, Columns, Range, f32
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Direction, Sphere
 from hess_explorer.views.text import digits, vector
 from hess_explorer.views.velocity_plane import nice_above
 from hess_mechanics.chaplygin_ball.phase_cloud_density import Clouds, clouds
 from hess_mechanics.dynamics.sampling import PIXELS
-from hess_mechanics.numerics.accuracy import Kind, Level, Plan
+from hess_mechanics.numerics.accuracy import Kind, Level
 from hess_mechanics.numerics.results import Array
 
 _FEW = 1000
@@ -111,9 +110,7 @@ class SingularMeasures(FreeBall):
     @property
     def heights(self) -> Range:
         """The vertical axis of the fourth picture."""
-        low, high = min(0.0, float(self.on_show.min())), max(0.0, float(self.on_show.max()))
-        room = 0.08 * (high - low)
-        return low - room, high + room
+        return with_room(np.append(self.on_show, 0.0), 0.08)
 
     def track(self) -> Columns:
         """The time of the moving clouds, and the mean at it."""
@@ -169,23 +166,10 @@ class SingularMeasures(FreeBall):
             yield f"beside ≤ {other.errors.max():.1e}"
 
 
-def _extreme(name: str, i: int) -> Layer[SingularMeasures]:
-    return over_time(name, lambda s: (s.times, s.on_show[i]), color=theme.MUTED, dash="dashed")
-
-
-def _cloud(s: SingularMeasures, plan: Plan) -> Clouds:
-    task = s.task(plan.part(int(s.points), _FEW), plan.level)
-    found: Clouds = task.function(*task.arguments)
-    return found
-
-
-def _cloud_error(s: SingularMeasures, found: Clouds, truth: object) -> float:
-    """By the estimate: other points are other motions, which no truth has beside it."""
-    return 0.5 * PIXELS * found.cloud.error_estimate
-
-
+# By the estimate: other points are other motions, which no truth has beside it.
 _CLOUD: Trial[SingularMeasures] = Trial(
-    Kind.CLOUD, (), _cloud, _cloud_error, unit="pixels, estimated")
+    Kind.CLOUD, (), lambda s, plan: s.task(plan.part(int(s.points), _FEW), plan.level).now(),
+    lambda s, found, truth: 0.5 * PIXELS * found.cloud.error_estimate, unit="pixels, estimated")
 
 SCENE = Scene(
     SingularMeasures, __file__, place=16, presets=PRESETS, measures=(_CLOUD,),
@@ -208,11 +192,6 @@ SCENE = Scene(
             name="divergence", caption=SingularMeasures._about_course, axes=("t", "div v, or ln s(t)/s(0)"),
             title=lambda s: f"{'Divergence' if s.along == 'divergence' else 'Small volumes'} along the way",
             x=lambda s: (0.0, float(s.times[-1])), y=lambda s: s.heights, dot=("t", "mean"),
-            layers=(
-                levels("levels", lambda s: [0.0]),
-                _extreme("least", 1), _extreme("largest", 2),
-                line("beside", lambda s: None if s.clouds.other is None else ((0.0, s.times[-1]), (0.0, 0.0)),
-                     color=theme.MAP, dash="dotdash", label="cloud on a principal axis"),
-                line("mean", track="orbit", columns=("t", "mean"), color=theme.ORBIT))),
+            layers=course_layers(lambda s: s.times, lambda s: s.on_show, beside=lambda s: s.clouds.other is not None)),
     ),
 )

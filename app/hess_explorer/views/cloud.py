@@ -10,14 +10,15 @@ from typing import Any, ClassVar, TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
-from hess_explorer.views.layers import Axes, Columns, Layer, Sign, f32, line, points
+from hess_explorer.views.graph import over_time
+from hess_explorer.views.layers import Axes, Columns, Layer, Sign, f32, levels, line, points
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.velocity_plane import centred
 from hess_mechanics.chaplygin_ball.energy_surface import Strip, line_of_rest
 from hess_mechanics.chaplygin_ball.phase_cloud_density import BIN, SMALLEST, Clouds, Density
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["CloudPlane", "density_axes", "density_layers"]
+__all__ = ["CloudPlane", "course_layers", "density_axes", "density_layers"]
 
 S = TypeVar("S")
 
@@ -139,3 +140,19 @@ def density_layers(density: Callable[[S], Density]) -> tuple[Layer[S], ...]:
         line("last", within=of(lambda one: one.last), color=theme.MUTED, width=1, label="at the end; energy h"),
         line("mean", within=of(lambda one: one.mean), color=theme.ORBIT, label="cloud; its mean"),
         now)
+
+
+def course_layers(times: Callable[[S], Array], course: Callable[[S], Array], beside: Callable[[S], bool]
+                  ) -> tuple[Layer[S], ...]:
+    """Mean, least and largest (3, m) of something over the cloud at times (m,); the mean is that of the track "orbit".
+
+    beside : whether there is a cloud on a principal axis, where it is 0.
+    """
+    def extreme(name: str, i: int) -> Layer[S]:
+        return over_time(name, lambda s: (times(s), course(s)[i]), color=theme.MUTED, dash="dashed")
+
+    return (
+        levels("levels", lambda s: [0.0]), extreme("least", 1), extreme("largest", 2),
+        line("beside", lambda s: ((0.0, times(s)[-1]), (0.0, 0.0)) if beside(s) else None, color=theme.MAP,
+             dash="dotdash", label="cloud on a principal axis"),
+        line("mean", track="orbit", columns=("t", "mean"), color=theme.ORBIT))

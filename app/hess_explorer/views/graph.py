@@ -9,9 +9,10 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views.layers import Layer, Range, curves
+from hess_explorer.views.velocity_plane import centred, nice_above
 from hess_mechanics.numerics.results import Array, Mask
 
-__all__ = ["branches", "over_time", "pieces", "settled_range", "thinned"]
+__all__ = ["about_0", "branches", "over_time", "pieces", "settled_range", "thinned", "with_room"]
 
 S = TypeVar("S")
 
@@ -35,6 +36,18 @@ def settled_range(curves: Sequence[Array]) -> Range:
     low, high = float(settled.min()), float(settled.max())
     room = 0.08 * max(1e-6, high - low)
     return min(0.0, low) - room, max(0.0, high) + room
+
+
+def about_0(values: Array, least: float) -> Range:
+    """A round axis about 0 for values, the largest of which is taken for no less than that."""
+    return centred(nice_above(1.2 * max(float(np.abs(values).max()), least)))
+
+
+def with_room(values: Array, share: float, least: float = 0.0) -> Range:
+    """An axis for values, with that share of their range, but at least so much, as room on both sides."""
+    low, high = float(values.min()), float(values.max())
+    room = max(least, share * (high - low))
+    return low - room, high + room
 
 
 def thinned(x: Array, y: Array) -> tuple[Array, Array]:

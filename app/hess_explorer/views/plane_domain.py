@@ -47,7 +47,7 @@ def ground(edge: Callable[[S], Array], forbidden: Callable[[S], Sequence[Array]]
             curves("levels", levels, color=theme.MUTED, width=1, label="equipotentials"))
 
 
-def orbit(start: Callable[[S], tuple[float, float]]) -> tuple[Layer[S], Layer[S]]:
+def orbit(start: Callable[[S], tuple[float, float]], label: str = "") -> tuple[Layer[S], Layer[S]]:
     """The track of the orbit, and a ring where it starts."""
     return (line("orbit", track="orbit", columns=("q1", "q2"), color=theme.ORBIT, label="orbit"),
-            ring("start", lambda s: [start(s)]))
+            ring("start", lambda s: [start(s)], label=label))

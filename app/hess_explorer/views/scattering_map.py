@@ -12,9 +12,10 @@ from hess_explorer.views import theme
 from hess_explorer.views.layers import Grid, Layer, Range, Sign, image, line, target
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
+from hess_explorer.views.velocity_plane import nice_above
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["AZIMUTH", "AZIMUTH_TICKS", "POLAR", "POLAR_TICKS", "layers", "over_phases", "spread"]
+__all__ = ["AZIMUTH", "AZIMUTH_TICKS", "POLAR", "POLAR_TICKS", "cosine_axis", "over_phases", "over_square", "spread"]
 
 S = TypeVar("S")
 
@@ -24,7 +25,16 @@ AZIMUTH_TICKS = ((-math.pi, "−π"), (-math.pi / 2, "−π/2"), (0.0, "0"), (ma
 POLAR_TICKS = ((0.0, "0"), (math.pi / 4, "π/4"), (math.pi / 2, "π/2"), (3 * math.pi / 4, "3π/4"), (math.pi, "π"))
 
 
-def layers(theta_plus: Callable[[S], Array], here: Callable[[S], tuple[float, float]]) -> tuple[Layer[S], ...]:
+def over_square(caption: Callable[[S], str], theta_plus: Callable[[S], Array],
+                here: Callable[[S], tuple[float, float]]) -> Plot[S]:
+    """θ⁺ over (φ, θ⁻); a click or a drag chooses both."""
+    return Plot(
+        name="map", title="θ⁺ over (φ, θ⁻)", caption=caption, axes=("φ", "θ⁻"), x=AZIMUTH, y=POLAR,
+        ticks=AZIMUTH_TICKS, y_ticks=POLAR_TICKS, on_click=lambda s, x, y: {"phi": x, "theta": y}, on_drag=True,
+        layers=_layers(theta_plus, here))
+
+
+def _layers(theta_plus: Callable[[S], Array], here: Callable[[S], tuple[float, float]]) -> tuple[Layer[S], ...]:
     """Colours: θ⁺ from 0 to π, at the centres of cells, rows of equal θ⁻.  A ring: (φ, θ⁻); a line: the curve there."""
     return (
         image("theta", lambda s: Grid(theta_plus(s), AZIMUTH, POLAR), palette=theme.NUMBER_MAP, low=0.0, high=math.pi,
@@ -47,3 +57,9 @@ def spread(theta_plus: Array) -> str:
     """Between which values a curve θ⁺(φ) lies."""
     low, high = float(np.min(theta_plus)), float(np.max(theta_plus))
     return f"θ⁺ = {digits(low)} for every φ" if high - low < 1e-4 else f"θ⁺ from {digits(low)} to {digits(high)}"
+
+
+def cosine_axis(largest: float) -> Range:
+    """An axis from −1, the least cosine, to the largest one."""
+    reach = nice_above(max(1e-3, 1.0 + float(largest)))
+    return -1.0 - 0.05 * reach, -1.0 + 1.05 * reach

@@ -18,8 +18,8 @@ from hess_mechanics.numerics.results import Array, Orbit
 
 __all__ = [
     "arcs", "arrows_at", "arrows_on", "centred", "energy_levels", "equilibria", "halves", "nice_above", "orbit",
-    "orbit_alone", "orbit_columns", "outside", "picture", "pixels_per_unit", "ring_outside", "square", "to_the_edge",
-    "velocity_columns",
+    "orbit_alone", "orbit_columns", "outside", "picture", "pixels_per_unit", "ring_outside", "room_for", "square",
+    "to_the_edge", "velocity_columns",
 ]
 
 S = TypeVar("S")
@@ -67,6 +67,11 @@ def nice_above(value: float) -> float:
     """The next of 1, 1.5, 2, 3, 4, 5, 6, 8 times a power of ten."""
     power = 10.0 ** np.floor(np.log10(value))
     return float(power * next(step for step in (1, 1.5, 2, 3, 4, 5, 6, 8, 10) if step * power >= value * (1 - 1e-12)))
+
+
+def room_for(speed: float) -> float:
+    """Half the width of a plane with room for so large an |ω|."""
+    return nice_above(1.05 * max(1e-9, speed))
 
 
 def centred(half_width: float) -> Range:

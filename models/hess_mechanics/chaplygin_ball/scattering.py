@@ -60,6 +60,15 @@ class BallScattering:
     status: Status
     cost: Cost
 
+    @property
+    def curve(self) -> Array:
+        """(φ, θ⁺) in rows (n, 2)."""
+        return np.column_stack([self.phis, self.theta_plus])
+
+    def at(self, phi: float) -> float:
+        """θ⁺ at a phase, between those that are known."""
+        return float(np.interp(phi, self.phis, self.theta_plus))
+
 
 def _phases(body: BallBody) -> Array:
     """Even phases, enough to resolve the peak of λ at γ3 = 0, which is √(I/(I+𝒟)) wide."""

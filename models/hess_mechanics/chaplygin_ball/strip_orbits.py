@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -10,10 +11,11 @@ from hess_mechanics.chaplygin_ball.energy_surface import Strip, line_of_rest
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.dynamics.ensemble import ensemble
 from hess_mechanics.dynamics.sampling import PIXELS
+from hess_mechanics.dynamics.shadowing import away_from
 from hess_mechanics.numerics.accuracy import DRAFT, Level
 from hess_mechanics.numerics.results import Array, frozen
 
-__all__ = ["StripOrbit", "strip_orbits"]
+__all__ = ["StripOrbit", "largest_distance", "strip_orbits"]
 
 StripOrbit = tuple[Array, int]
 """ω (m, 2), a point for each pixel of a picture of the strip, and the index of the state followed both ways."""
@@ -40,6 +42,11 @@ def strip_orbits(body: BallBody, count: int, level: Level = DRAFT) -> tuple[Stri
         kept = np.unique(np.floor(length / tick), return_index=True)[1]
         orbits.append((frozen(track[kept]), int(np.searchsorted(kept, len(before) - 1))))
     return tuple(orbits)
+
+
+def largest_distance(orbits: Sequence[StripOrbit], exact: Sequence[StripOrbit]) -> float:
+    """How far points of orbits are at most from the curves of as many more exact ones."""
+    return float(max(away_from(one, other).max() for (one, _), (other, _) in zip(orbits, exact, strict=True)))
 
 
 def _times(body: BallBody, speed: float) -> Array:

@@ -3,15 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 from hess_explorer.scenes.framework.parameters import number
 from hess_explorer.scenes.framework.scene import State
-from hess_explorer.views.poisson_sphere import Circle
+from hess_explorer.views import theme
+from hess_explorer.views.layers import Sign
+from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, ends
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["CircleLeft"]
+__all__ = ["CIRCLES", "CircleLeft", "sphere"]
+
+CIRCLES = (Sign("circle joined", "line", f"border-top: 3px solid {theme.STABLE}"),
+           Sign("circle left", "line", f"border-top: 3px dashed {theme.UNSTABLE}"),
+           Sign("fixed points Γ = ±1", "dot", f"background: {theme.MUTED}"))
+"""Of the legend."""
 
 
 @dataclass(frozen=True)
@@ -38,3 +46,13 @@ class CircleLeft(State):
     def circles(self, xi: Array, Gamma: float) -> list[Circle]:
         """The circle that is left, and the one (ξ, γ) = Γ that is joined."""
         return [Circle(xi, math.cos(self.theta), "unstable"), Circle(xi, Gamma, "stable")]
+
+
+C = TypeVar("C", bound=CircleLeft)
+
+
+def sphere(caption: Callable[[C], str], xi: Callable[[C], Array], Gamma: Callable[[C], float],
+           signs: tuple[Sign, ...] = ()) -> Sphere[C]:
+    """The sphere with the orbit on show, the circle that it leaves and the one that it joins, and the axis ξ."""
+    return Sphere(caption=caption, looks={"orbit": "orbit"}, axis=lambda s: Direction(xi(s), "ξ"), signs=signs,
+                  circles=lambda s: s.circles(xi(s), Gamma(s)), marks=lambda s: ends(xi(s)))

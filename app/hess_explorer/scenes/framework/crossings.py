@@ -13,6 +13,9 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.one_orbit import OneOrbit
 from hess_explorer.scenes.framework.trial import Trial, section_error
 from hess_explorer.scenes.framework.work import drift_status, kept_status
+from hess_explorer.views.layers import Axes
+from hess_explorer.views.section_plane import joined
+from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.section import Points
 from hess_mechanics.dynamics.shadowing import right_crossings, typical
 from hess_mechanics.errors import WorkLimit
@@ -50,17 +53,22 @@ class Crossings(OneOrbit):
         """What finds so many crossings of the orbit on show, and of the others."""
 
     @abstractmethod
-    def places_of_one(self, states: Array) -> Array:
+    def places_of(self, states: Array) -> Array:
         """The places (n, 2) on the section of states (n, d) of one orbit."""
-
-    @abstractmethod
-    def places_of(self, points: Points) -> Array:
-        """The places (n, 2) on the section of all these points."""
 
     @property
     @abstractmethod
-    def pixels(self) -> tuple[float, float]:
+    def section_axes(self) -> Axes:
+        """The axes of the picture of the section."""
+
+    def first_shown(self, crossings: int) -> int:
+        """Which crossing of an orbit is the first one that is drawn, where the longest orbit has so many."""
+        return 0
+
+    @property
+    def pixels(self) -> tuple[float, ...]:
         """Pixels of the picture for a unit of each coordinate."""
+        return tuple(PIXELS / (high - low) for low, high in (self.section_axes.x, self.section_axes.y))
 
     @property
     def wanted(self) -> int:
@@ -86,17 +94,23 @@ class Crossings(OneOrbit):
     @cached_property
     def own(self) -> Array | None:
         """Places (n, 2) of the orbit on show; None where the section is left out."""
-        return None if self._crossed.own is None else self.places_of(self._crossed.own)
+        return self._places(self._crossed.own)
 
     @cached_property
     def others(self) -> Array | None:
         """Places (n, 2) of the others; None where the section is left out."""
-        return None if self._crossed.others is None else self.places_of(self._crossed.others)
+        return self._places(self._crossed.others)
+
+    def _places(self, points: Points | None) -> Array | None:
+        if points is None:
+            return None
+        first = self.first_shown(max(map(len, points.states), default=0))
+        return joined(self.places_of(states[first:]) for states in points.states)
 
     def orbits_at(self, plan: Plan) -> list[Array]:
         """All orbits of the section (n, 2), that on show first, computed here and now."""
         tasks = self.crossing(plan.part(self.count, _FEW), plan.level)
-        return [self.places_of_one(states) for task in tasks for states in task.function(*task.arguments).states]
+        return [self.places_of(states) for task in tasks for states in task.now().states]
 
     @cached_property
     def kept(self) -> tuple[int, int | None] | None:
@@ -113,7 +127,7 @@ class Crossings(OneOrbit):
             # Of the others a few crossings are shown so far.
             return None
         own, others = (
-            right_crossings([*map(self.places_of_one, coarse.states)], [*map(self.places_of_one, fine.states)],
+            right_crossings([*map(self.places_of, coarse.states)], [*map(self.places_of, fine.states)],
                             self.pixels, self.periods)
             for coarse, fine in zip((crossed.own, crossed.others), tight, strict=True))
         return own[0], typical(others)

@@ -256,7 +256,7 @@ class FilledWindow(OneOrbit):
         tasks = [self.piece((start,), crossings, True, plan.level) for start in self.picked.states]
         tasks += [self.piece(some, crossings, forward, plan.level)
                   for some in in_pieces(seeds) for forward in self.ways]
-        return [orbit for task in tasks for orbit in task.function(*task.arguments).orbits]
+        return [orbit for task in tasks for orbit in task.now().orbits]
 
     @cached_property
     def kept(self) -> tuple[int, int | None] | None:

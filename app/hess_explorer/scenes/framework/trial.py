@@ -11,6 +11,7 @@ import numpy as np
 
 from hess_explorer.scenes.framework.work import Work
 from hess_mechanics.dynamics.orbit import solve
+from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.shadowing import HALF_A_PIXEL, errors_in_pixels
 from hess_mechanics.dynamics.trade import Sample, measure, measure_until
 from hess_mechanics.errors import ModelError
@@ -20,11 +21,13 @@ from hess_mechanics.numerics.results import Array
 if TYPE_CHECKING:
     from hess_explorer.scenes.framework.scene import State
 
-__all__ = ["Trial", "bare", "measured", "needed", "orbit_trial", "section_error"]
+__all__ = ["Trial", "bare", "colour_error", "curve_error", "measured", "needed", "orbit_trial", "section_error"]
 
 S = TypeVar("S", bound="State")
 
 _SAMPLES = 400
+_COLOURS = 256.0
+"""Steps of a colour map."""
 _LOST, _CHAOTIC, _NOTHING = 30.0, 30.0, 1e-6
 """Pixels by which an orbit is another one; by what the errors of the second half of an orbit exceed those of the first,
 where neighbours part exponentially; and pixels that are round-off."""
@@ -91,6 +94,19 @@ def _orbit_error(state: State, states: Array, truth: Array) -> float:
 def orbit_trial() -> Trial[Any]:
     """The motion on show."""
     return Trial(Kind.ORBIT, (), _orbit, _orbit_error)
+
+
+def curve_error(values: Array, exact: Array, height: float, period: float = math.inf) -> float:
+    """The largest error of a curve (n,) in pixels of an axis of that length; period : of an angle, ∞ for none."""
+    away = values - exact
+    if math.isfinite(period):
+        away = away - period * np.round(away / period)
+    return PIXELS / height * float(np.abs(away).max())
+
+
+def colour_error(values: Array, exact: Array) -> float:
+    """The error that 99 of 100 values are below, in steps of a colour map that covers one turn; 0.0 without values."""
+    return _COLOURS * float(np.percentile(np.abs(values - exact), 99.0)) if values.size else 0.0
 
 
 def section_error(orbits: Sequence[Array], truth: Sequence[Array], pixels: Sequence[float],
