@@ -54,8 +54,8 @@ def tell(page, name, detail=None):
 
 
 def planar(scene):
-    """The names of the pictures that Bokeh draws."""
-    return [picture.name for picture in scenes()[scene].views if picture.kind == "plot"]
+    """The names of the pictures that Bokeh draws and that are seen at first."""
+    return [picture.name for picture in scenes()[scene].views if picture.kind == "plot" and not picture.folded]
 
 
 # Whichever of these a picture is, without its caption.
@@ -253,6 +253,9 @@ def test_on_a_phone_the_pictures_are_seen_and_the_controls_are_behind_the_menu_b
     slider.wait_for(state="visible")
     page.wait_for_function("item => item.getBoundingClientRect().left >= 0", arg=slider.element_handle())
     page.locator(".MuiBackdrop-root").wait_for(state="visible")
+    # The tip of the button fades in, and would be looked at half-way.
+    page.mouse.move(380, 700)
+    page.locator(".MuiTooltip-tooltip").wait_for(state="detached")
     page.wait_for_function("() => document.getAnimations().every((one) => one.playState !== 'running')")
     assert_accessible(page)
 
