@@ -16,17 +16,15 @@ from hess_explorer.scenes.framework.filled_window import (
     EXPONENT,
     SECTION,
     TURN,
-    FilledWindow,
     Piece,
     filled_window,
-    in_pieces,
 )
 from hess_explorer.scenes.framework.hess_case import HeavyMotion
 from hess_explorer.scenes.framework.inertia import Moments
 from hess_explorer.scenes.framework.one_orbit import Start
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, like, number, places, time_span
+from hess_explorer.scenes.framework.rotation_across import ROTATION, RotationAcross
 from hess_explorer.scenes.framework.scene import Preset, Scene
-from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.windows import Window, inside
 from hess_explorer.views import theme
 from hess_explorer.views.graph import over_time, thinned
@@ -39,14 +37,9 @@ from hess_explorer.views.velocity_plane import nice_above
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, andoyer_points, hess_curve, relation
 from hess_mechanics.euler_poisson.equations import HeavyBody
-from hess_mechanics.euler_poisson.rotation import RESOLVED, Rotation, on_line, rotation_along
-from hess_mechanics.numerics.accuracy import Kind, Level, Plan
+from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array, frozen
 
-_ACROSS = 48
-"""Orbits on the line along which the rotation number is looked at."""
-_ON_LINE = 3000
-"""Crossings of each: with fewer the rotation number in a chain of islands is not known to `RESOLVED`."""
 _MOST_STEPS = 200_000
 _BOUNDS = ((-TURN, -1.0), (TURN, 1.0))
 _ALONG, _ABOUT = "along l", "about the middle"
@@ -75,7 +68,7 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class EulerPoisson(Moments, FilledWindow):
+class EulerPoisson(Moments, RotationAcross):
     """A section of one body at one energy and area integral, filled with orbits on both sides of the barrier."""
 
     away: float = number("ε", 0.0, (-0.5, 0.5), 0.005, bounds=(-math.pi, math.pi), label="Distance from Hess, ε",
@@ -136,71 +129,10 @@ class EulerPoisson(Moments, FilledWindow):
         return (f"Nothing is possible here with h = {self.h:.6g} and f = {self.f:.6g}: choose a larger h, a smaller "
                 "|f|, or press Clear for the whole section.")
 
-    # ---- the rotation number ------------------------------------------------------------------------------------
-
     @property
-    def axis(self) -> int:
-        """The coordinate along the line: l (0) or L/G (1)."""
-        return 1 if self.turns == _ALONG else 0
-
-    @cached_property
-    def ends(self) -> Window:
-        """Of the line along which the rotation number is looked at."""
-        (l0, x0), (l1, x1) = self.frame
-        if self.turns == _ALONG:
-            l = self.picked.places[-1][0]
-            return (l, x0), (l, x1)
-        middle = 0.5 * (x0 + x1)
-        return (0.5 * (l0 + l1), middle), (l1, middle)
-
-    @cached_property
-    def _orbits_on_line(self) -> tuple[list[tuple[float, Array]], bool]:
-        """Shares of the way along the line, with the orbits from there that are known; whether these are all."""
-        plan = self.plan(Kind.ROTATION)
-        starts = self.work.get(on_line, self.section, self.ends, plan.side(_ACROSS))
-        found: list[tuple[float, Array]] = []
-        for some in in_pieces(starts):
-            piece = self.work.soon(_piece, self.section, tuple(state for _, state in some),
-                                   self._crossings_on_line(plan), plan.level)
-            if piece is not None:
-                found += zip((share for share, _ in some), piece.orbits, strict=True)
-        return found, len(found) == len(starts)
-
-    def _crossings_on_line(self, plan: Plan) -> int:
-        return max(self.plan(Kind.SECTION).part(self.count), plan.part(_ON_LINE))
-
-    @cached_property
-    def rotation(self) -> Rotation | None:
-        """Rotation numbers along the line, as far as they are known; not while a slider is held."""
-        if self.dragging:
-            return None
-        return self._rotation_of(self._orbits_on_line[0], self.plan(Kind.ROTATION).side(_ACROSS))
-
-    def _rotation_of(self, found: list[tuple[float, Array]], count: int) -> Rotation:
-        return rotation_along(self.ends, [share for share, _ in found], [orbit for _, orbit in found],
-                              self.turns == _ABOUT, count)
-
-    def rotation_at(self, plan: Plan) -> Rotation:
-        """Rotation numbers along the line, computed here and now."""
-        count = plan.side(_ACROSS)
-        starts = on_line(self.section, self.ends, count)
-        orbits = [orbit for some in in_pieces(starts) for orbit in _piece(
-            self.section, tuple(state for _, state in some), self._crossings_on_line(plan), plan.level).orbits]
-        return self._rotation_of([(share, orbit) for (share, _), orbit in zip(starts, orbits, strict=True)], count)
-
-    def _rotation_message(self) -> str:
-        if self.rotation is None or self.rotation.numbers.size or not self._orbits_on_line[1]:
-            return ""
-        return ("No closed curve of the line goes round" if self.rotation.standing else
-                "No orbit of the line is a closed curve")
-
-    def _rotation_axis(self) -> Range | None:
-        if self.rotation is None:
-            return None
-        rho = self.rotation.numbers
-        low, high = (float(rho.min()), float(rho.max())) if rho.size else (-0.5, 0.5)
-        room = max(1e-4, 0.06 * (high - low))
-        return low - room, high + room
+    def about_middle(self) -> bool:
+        """Whether turns are counted about the middle of the window."""
+        return self.turns == _ABOUT
 
     # ---- what the pictures show ---------------------------------------------------------------------------------
 
@@ -226,19 +158,6 @@ class EulerPoisson(Moments, FilledWindow):
         kept = [one for piece in self.pieces for one in piece.kept]
         mixed = ": the layers never mix." if self.away == 0.0 else "."
         return f"r·M keeps its sign along {sum(kept)} of {len(kept)} orbits{mixed}"
-
-    def _about_rotation(self) -> str:
-        if self.rotation is None:
-            return "It is found when a slider is let go."
-        if not self.rotation.numbers.size:
-            return self._rotation_message() + "." if self._orbits_on_line[1] else "It is being computed."
-        rho = self.rotation.numbers
-        # A line through all of the section meets orbits of many kinds, whose numbers are no one function of the place.
-        turning = self.rotation.extremum if self.turns == _ABOUT else None
-        standing = f"; {self.rotation.standing} curves do not go round." if self.rotation.standing else "."
-        return f"From {_turns(rho.min())} to {_turns(rho.max())}" + (
-            standing if turning is None else
-            f"; it turns round at {digits(turning[0])} with ρ = {_turns(turning[1])}: no twist there.")
 
     def _about_exponent(self) -> str:
         exponent = self.exponent
@@ -269,24 +188,8 @@ def _piece(section: AndoyerSection, starts: tuple[Start, ...], crossings: int, l
                  tuple(bool(sign > 0.0) for sign in signs), found.drift, tuple(kept), frozen(joined(other)))
 
 
-def _rotation_error(s: EulerPoisson, found: Rotation, truth: Rotation) -> float:
-    """The median over the places where both know ρ; elsewhere the line crosses seas."""
-    if not (found.numbers.size and truth.numbers.size):
-        return 0.0
-    return float(np.median(np.abs(found.numbers - np.interp(found.places, truth.places, truth.numbers))))
-
-
-_ROTATION: Trial[EulerPoisson] = Trial(
-    Kind.ROTATION, ("rotation",), EulerPoisson.rotation_at, _rotation_error, unit="turns, the median", seen=RESOLVED)
-
-
-def _turns(rho: float) -> str:
-    """A rotation number, to what is known of it."""
-    return digits(round(float(rho) / RESOLVED) * RESOLVED)
-
-
 SCENE = Scene(
-    EulerPoisson, __file__, place=11, presets=PRESETS, measures=(SECTION, EXPONENT, _ROTATION),
+    EulerPoisson, __file__, place=11, presets=PRESETS, measures=(SECTION, EXPONENT, ROTATION),
     title="Euler–Poisson: sections",
     summary="A heavy body near the Hess case: two stochastic layers with a barrier between them, a meandering torus.",
     tracks={"orbit": EulerPoisson.track},
@@ -301,9 +204,9 @@ SCENE = Scene(
                      dots("path", track="orbit", columns=("l", "x"), size=3, color=theme.MAP, alpha=0.4),
                      line("line", lambda s: tuple(zip(*inside(s.ends, s.frame), strict=True)) or None,
                           color=theme.MUTED, dash="dashed", width=1.5, label="line of the rotation number"))),
-        Plot(name="rotation", title="Rotation number across the section", caption=EulerPoisson._about_rotation,
-             axes=(" ", "ρ"), first=Axes((-1.0, 1.0), (-0.5, 0.5)), message=EulerPoisson._rotation_message,
-             x=lambda s: (s.ends[0][s.axis], s.ends[1][s.axis]), y=EulerPoisson._rotation_axis,
+        Plot(name="rotation", title="Rotation number across the section", caption=EulerPoisson.about_rotation,
+             axes=(" ", "ρ"), first=Axes((-1.0, 1.0), (-0.5, 0.5)), message=EulerPoisson.rotation_message,
+             x=lambda s: (s.ends[0][s.axis], s.ends[1][s.axis]), y=EulerPoisson.rotation_axis,
              layers=(
                  curves("rho", lambda s: [] if s.rotation is None else [
                      np.column_stack(part) for part in zip(s.rotation.along, s.rotation.rho, strict=True)],

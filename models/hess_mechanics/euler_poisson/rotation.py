@@ -55,6 +55,12 @@ class Rotation:
                 return float(along[i]), float(rho[i])
         return None
 
+    def distance(self, exact: Rotation) -> float:
+        """The median of the differences over the places where both know ρ; elsewhere the line crosses seas."""
+        if not (self.numbers.size and exact.numbers.size):
+            return 0.0
+        return float(np.median(np.abs(self.numbers - np.interp(self.places, exact.places, exact.numbers))))
+
 
 def on_line(section: AndoyerSection, ends: Ends, count: int) -> tuple[tuple[float, tuple[float, ...]], ...]:
     """Shares of the way along the line between the ends (l, L/G), at most `count`, and the states there.

@@ -1,0 +1,129 @@
+"""Rotation numbers of the orbits that start on a line across a section g = π/2, as they become known."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from functools import cached_property
+
+from hess_explorer.scenes.framework.filled_window import FilledWindow, in_pieces
+from hess_explorer.scenes.framework.trial import Trial
+from hess_explorer.scenes.framework.windows import Window
+from hess_explorer.views.graph import with_room
+from hess_explorer.views.layers import Range
+from hess_explorer.views.text import digits
+from hess_mechanics.euler_poisson.andoyer import AndoyerSection
+from hess_mechanics.euler_poisson.rotation import RESOLVED, Rotation, on_line, rotation_along
+from hess_mechanics.numerics.accuracy import Kind, Plan
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["ROTATION", "RotationAcross"]
+
+_ACROSS = 48
+"""Orbits on the line along which the rotation number is looked at."""
+_ON_LINE = 3000
+"""Crossings of each: with fewer the rotation number in a chain of islands is not known to `RESOLVED`."""
+
+
+class RotationAcross(FilledWindow):
+    """A filled window of the Andoyer–Deprit section, with rotation numbers along a line across it."""
+
+    @property
+    @abstractmethod
+    def section(self) -> AndoyerSection:
+        """The section.  Raises `ModelError`."""
+
+    @property
+    @abstractmethod
+    def about_middle(self) -> bool:
+        """Whether turns are counted about the middle of the window, on a line from there to the right.
+
+        Else by the angle l, on a vertical line through the chosen start.
+        """
+
+    @property
+    def axis(self) -> int:
+        """The coordinate along the line: l (0) or L/G (1)."""
+        return 0 if self.about_middle else 1
+
+    @cached_property
+    def ends(self) -> Window:
+        """Of the line along which the rotation number is looked at."""
+        (l0, x0), (l1, x1) = self.frame
+        if not self.about_middle:
+            l = self.picked.places[-1][0]
+            return (l, x0), (l, x1)
+        middle = 0.5 * (x0 + x1)
+        return (0.5 * (l0 + l1), middle), (l1, middle)
+
+    @cached_property
+    def _orbits_on_line(self) -> tuple[list[tuple[float, Array]], bool]:
+        """Shares of the way along the line, with the orbits from there that are known; whether these are all."""
+        plan = self.plan(Kind.ROTATION)
+        starts = self.work.get(on_line, self.section, self.ends, plan.side(_ACROSS))
+        found: list[tuple[float, Array]] = []
+        for some in in_pieces(starts):
+            task = self.piece(tuple(state for _, state in some), self._crossings_on_line(plan), True, plan.level)
+            piece = self.work.soon(task.function, *task.arguments)
+            if piece is not None:
+                found += zip((share for share, _ in some), piece.orbits, strict=True)
+        return found, len(found) == len(starts)
+
+    def _crossings_on_line(self, plan: Plan) -> int:
+        return max(self.plan(Kind.SECTION).part(self.count), plan.part(_ON_LINE))
+
+    @cached_property
+    def rotation(self) -> Rotation | None:
+        """Rotation numbers along the line, as far as they are known; not while a slider is held."""
+        if self.dragging:
+            return None
+        return self._rotation_of(self._orbits_on_line[0], self.plan(Kind.ROTATION).side(_ACROSS))
+
+    def _rotation_of(self, found: list[tuple[float, Array]], count: int) -> Rotation:
+        return rotation_along(self.ends, [share for share, _ in found], [orbit for _, orbit in found],
+                              self.about_middle, count)
+
+    def rotation_at(self, plan: Plan) -> Rotation:
+        """Rotation numbers along the line, computed here and now."""
+        count = plan.side(_ACROSS)
+        starts = on_line(self.section, self.ends, count)
+        orbits = [orbit for some in in_pieces(starts) for orbit in self.piece(
+            tuple(state for _, state in some), self._crossings_on_line(plan), True, plan.level).now().orbits]
+        return self._rotation_of([(share, orbit) for (share, _), orbit in zip(starts, orbits, strict=True)], count)
+
+    def rotation_message(self) -> str:
+        """Why there is nothing to see, when all is known."""
+        if self.rotation is None or self.rotation.numbers.size or not self._orbits_on_line[1]:
+            return ""
+        return ("No closed curve of the line goes round" if self.rotation.standing else
+                "No orbit of the line is a closed curve")
+
+    def rotation_axis(self) -> Range | None:
+        """The axis of ρ."""
+        if self.rotation is None:
+            return None
+        rho = self.rotation.numbers
+        return with_room(rho, 0.06, 1e-4) if rho.size else (-0.56, 0.56)
+
+    def about_rotation(self) -> str:
+        """The caption."""
+        if self.rotation is None:
+            return "It is found when a slider is let go."
+        if not self.rotation.numbers.size:
+            return self.rotation_message() + "." if self._orbits_on_line[1] else "It is being computed."
+        rho = self.rotation.numbers
+        # A line through all of the section meets orbits of many kinds, whose numbers are no one function of the place.
+        turning = self.rotation.extremum if self.about_middle else None
+        standing = f"; {self.rotation.standing} curves do not go round." if self.rotation.standing else "."
+        return f"From {_turns(rho.min())} to {_turns(rho.max())}" + (
+            standing if turning is None else
+            f"; it turns round at {digits(turning[0])} with ρ = {_turns(turning[1])}: no twist there.")
+
+
+def _turns(rho: float) -> str:
+    """A rotation number, to what is known of it."""
+    return digits(round(float(rho) / RESOLVED) * RESOLVED)
+
+
+ROTATION: Trial[RotationAcross] = Trial(
+    Kind.ROTATION, ("rotation",), RotationAcross.rotation_at, lambda s, found, truth: found.distance(truth),
+    unit="turns, the median", seen=RESOLVED)
