@@ -10,30 +10,26 @@ from typing import Any
 
 import numpy as np
 
-from hess_explorer.scenes.framework.hess_case import possible_f
+from hess_explorer.scenes.framework.hess_case import map_or_none, possible_f
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number, places
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
-from hess_explorer.scenes.framework.trial import Trial
+from hess_explorer.scenes.framework.trial import Trial, colour_error
 from hess_explorer.scenes.framework.windows import Window, boxed, inside, tidy_window, window_of
 from hess_explorer.views import circle_map as circle
 from hess_explorer.views import rotation_line, rotation_plane
-from hess_explorer.views.layers import Grid, Range
-from hess_explorer.views.picture import Corners, Values
+from hess_explorer.views.layers import Grid
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
-from hess_mechanics.errors import Separatrix
 from hess_mechanics.numerics.accuracy import REFERENCE, Kind, Plan
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess import rotation_number as mechanics
-from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
+from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.rotation_number import PLANES, Line, PeriodicTorus, Torus, TorusValues
 
 _COARSE, _FINE = (75, 50), (300, 200)
 _ROWS = 25
 """Rows of the fine map that are computed together."""
 _ON_LINE = 400
-_COLOURS = 256.0
-"""Over one turn."""
 _ON_CURVE = 40
 """Points of the boundary of the lock zone."""
 _RATIONALS = ("−1/2", "−1/3", "−1/4", "−2/5", "−1/5", "−3/7", "−1/6")
@@ -108,13 +104,14 @@ class RotationNumber(State):
         return self.over.split(", ")[1]
 
     @property
-    def _part(self) -> str:
+    def part(self) -> str:
+        """The parameter that holds the window of this map."""
         return f"part_{self.across}{self.up}"
 
     @cached_property
     def window(self) -> Window:
         """The ranges of the map's axes, of the horizontal one and of the vertical one."""
-        (x0, y0), (x1, y1) = window_of(getattr(self, self._part), _corners(self.over, _FULL))
+        (x0, y0), (x1, y1) = window_of(getattr(self, self.part), _corners(self.over, _FULL))
         return (x0, x1), (y0, y1)
 
     @property
@@ -194,20 +191,9 @@ class RotationNumber(State):
     @cached_property
     def map(self) -> CircleMap | None:
         """The circle map of the torus on show; None on the separatrix."""
-        try:
-            return self.work.get(circle_map, self.a, self.h, self.f, self.level)
-        except Separatrix:
-            return None
+        return map_or_none(self.work, self.a, self.h, self.f, self.level)
 
     # ---- what the pictures show --------------------------------------------------------------------------------
-
-    def ends(self) -> Range:
-        """The horizontal axis of the graphs over the line."""
-        return self.on_line.low, self.on_line.high
-
-    def place(self) -> float:
-        """The torus on show, on the line."""
-        return float(vars(self.torus)[self.line])
 
     def here(self) -> list[tuple[float, float]]:
         """The torus on show, in the map if that shows it."""
@@ -221,20 +207,12 @@ class RotationNumber(State):
         return rotation_plane.across(*self.window, y=y if self.line == self.across else None,
                                      x=x if self.line == self.up else None)
 
-    def choose(self, x: float, y: float) -> Values:
-        """A click in the map chooses the torus."""
-        return {self.across: x, self.up: y}
-
-    def look_closer(self, corners: Corners) -> Values:
-        """A box in the map is the new window."""
-        return boxed(corners, _corners(self.over, _AT_MOST), self._part)
-
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_line(self) -> str:
         rho = str(self.sought).replace("-", "−")
         if self.periodic is not None:
-            place = digits(vars(self.periodic.torus)[self.line], 6)
+            place = digits(self.on_line.place(self.periodic.torus), 6)
             return (f"ρ = {rho} at {self.line} = {place}: |Θ^{self.sought.denominator} − id| ≤ "
                     f"{digits(self.periodic.defect, 1)}, every orbit is periodic.")
         return "No plateau but ρ = 0." if self.perturbed is None else f"No torus of the line has ρ = {rho}."
@@ -249,9 +227,7 @@ class RotationNumber(State):
     def derived(self) -> Iterator[str]:
         """The circle map, and the ladder of the other family."""
         if self.map is not None:
-            alpha, beta = self.map.alpha_beta
-            yield (f"Riccati matrix α = {digits(alpha.real)} {'−' if alpha.imag < 0.0 else '+'} "
-                   f"{digits(abs(alpha.imag))} i, β = {digits(beta.imag)} i")
+            yield circle.riccati_matrix(self.map)
             yield f"|trace| = {digits(self.map.trace, 6)}, ρ = {digits(self.map.rotation_number, 8)}"
             if self.map.fixed_points:
                 yield "multipliers " + ", ".join(digits(point.multiplier) for point in self.map.fixed_points)
@@ -283,8 +259,7 @@ def _grid_error(s: RotationNumber, found: tuple[TorusValues, tuple[int, int]], t
     """At the centres of the cells found, which are not those of the truth."""
     values, cells = found
     exact = mechanics.rows(s.over, s.beside, s.window, cells, 0, cells[1], REFERENCE.tightened())
-    away = np.abs(values.rho - exact.rho)[values.possible]
-    return float(np.percentile(away, 99.0)) * _COLOURS if away.size else 0.0
+    return colour_error(values.rho[values.possible], exact.rho[values.possible])
 
 
 _GRID: Trial[RotationNumber] = Trial(
@@ -303,22 +278,22 @@ SCENE = Scene(
     views=(
         Plot(name="map", title=lambda s: f"Rotation number ρ over ({s.over})", axes=(" ", " "),
              caption=lambda s: "One plateau, ρ = 0, where it locks; else ρ changes everywhere.",
-             x=lambda s: s.window[0], y=lambda s: s.window[1], on_click=RotationNumber.choose,
-             on_box=RotationNumber.look_closer,
+             x=lambda s: s.window[0], y=lambda s: s.window[1], on_click=lambda s, x, y: {s.across: x, s.up: y},
+             on_box=lambda s, corners: boxed(corners, _corners(s.over, _AT_MOST), s.part),
              layers=rotation_plane.layers(
                  grids=lambda s: s.grids, boundary=lambda s: s.boundary, across=RotationNumber.line_in_map,
-                 here=RotationNumber.here,
-                 names=lambda s: f"{s.across} across, {s.up} up")),
+                 here=RotationNumber.here, names=lambda s: f"{s.across} across, {s.up} up")),
         Plot(name="line", title=lambda s: f"ρ along {s.line}", caption=RotationNumber._about_line, axes=(" ", "ρ"),
-             x=RotationNumber.ends, y=rotation_line.RHO, on_click=lambda s, x, y: {s.line: x},
+             x=lambda s: s.on_line.ends, y=rotation_line.RHO, on_click=lambda s, x, y: {s.line: x},
              layers=rotation_line.rho_layers(
                  line=lambda s: s.on_line, values=lambda s: s.along, perturbed=lambda s: s.perturbed,
-                 rational=lambda s: None if s.periodic is None else float(s.sought), place=RotationNumber.place)),
+                 rational=lambda s: None if s.periodic is None else float(s.sought),
+                 place=lambda s: s.on_line.place(s.torus))),
         Plot(name="trace", title=lambda s: f"|trace| along {s.line}", axes=(" ", "|trace|"),
              caption=lambda s: "Elliptic below 2: no cycle; hyperbolic above: two limit cycles.",
-             x=RotationNumber.ends, y=rotation_line.TRACE, on_click=lambda s, x, y: {s.line: x},
+             x=lambda s: s.on_line.ends, y=rotation_line.TRACE, on_click=lambda s, x, y: {s.line: x},
              layers=rotation_line.trace_layers(line=lambda s: s.on_line, values=lambda s: s.along,
-                                               place=RotationNumber.place)),
+                                               place=lambda s: s.on_line.place(s.torus))),
         circle.picture(map=lambda s: s.map, caption=RotationNumber._about_circle,
                        iterates=lambda s: None if s.map is None else s.map.iterate(0.5, _ITERATES)),
     ),

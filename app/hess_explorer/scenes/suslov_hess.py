@@ -9,10 +9,11 @@ from functools import cached_property
 
 import numpy as np
 
-from hess_explorer.scenes.framework.hess_case import SuslovBody, possible_f
+from hess_explorer.compute.cache import Task
+from hess_explorer.scenes.framework.hess_case import SuslovBody, map_or_none, possible_f
 from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, number, slider_within
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
-from hess_explorer.scenes.framework.trial import Trial
+from hess_explorer.scenes.framework.trial import Trial, colour_error, curve_error
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import bifurcation_diagram as diagram
 from hess_explorer.views import circle_map as circle
@@ -23,9 +24,8 @@ from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, parallels
 from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import nice_above, picture
-from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.errors import Separatrix
-from hess_mechanics.numerics.accuracy import DRAFT, REFERENCE, Kind, Plan
+from hess_mechanics.numerics.accuracy import REFERENCE, Kind, Level
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.rigid_body.attitude import Attitude
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, curve, curve_point, f_max, reach, turning_points
@@ -93,9 +93,7 @@ class SuslovHess(SuslovBody):
     @cached_property
     def map(self) -> CircleMap | None:
         """The circle map; None on the separatrix."""
-        if self.turning is None:
-            return None
-        return self.work.get(circle_map, self.body.a, self.h, self.f, self.level)
+        return map_or_none(self.work, self.body.a, self.h, self.f, self.level)
 
     @cached_property
     def locked(self) -> Array:
@@ -169,21 +167,17 @@ class SuslovHess(SuslovBody):
         ends = (-1.0, 1.0) if self.turning is None else self.turning.roots[1:]
         return parallels(self.body.n3, ends)
 
+    def colours(self, cells: tuple[int, int], level: Level) -> Task:
+        """What finds the rotation number over the diagram."""
+        axes = diagram.window(self.h)
+        return Task(rotation_number_window, (self.body.a, axes.x, axes.y, level, cells))
+
     @cached_property
     def rotation(self) -> Grid:
         """The rotation number over the diagram."""
         axes, plan = diagram.window(self.h), self.plan(Kind.COLOURS, steady=True)
-        return Grid(self.work.get(rotation_number_window, self.body.a, axes.x, axes.y, plan.level, plan.grid(CELLS)),
-                    axes.x, axes.y)
-
-    def about_torus(self, h: float, f: float) -> str:
-        """What the torus (h, f) under the mouse does."""
-        if h <= -1.0 or abs(f) > f_max(h):
-            return f"h = {digits(h)}, f = {digits(f)}: impossible"
-        theta = circle_map(self.body.a, h, f, DRAFT)
-        said = f"h = {digits(h)}, f = {digits(f)}: ρ = {digits(theta.rotation_number)}, |trace| = {digits(theta.trace)}"
-        multipliers = ", ".join(digits(point.multiplier) for point in theta.fixed_points)
-        return f"{said}, multipliers {multipliers}" if multipliers else f"{said}, no cycle"
+        task = self.colours(plan.grid(CELLS), plan.level)
+        return Grid(self.work.get(task.function, *task.arguments), axes.x, axes.y)
 
     def lying(self) -> tuple[Attitude, Array] | None:
         """The attitude, and its times in the body's time."""
@@ -209,22 +203,6 @@ class SuslovHess(SuslovBody):
             return "Towards the upper equilibrium, n₃ = −1."
         n1, n2 = self.turning.roots[1:]
         return f"The vertical γ, between heights n₃ = {digits(n1)} and {digits(n2)}."
-
-    def about_zone(self) -> str:
-        """The caption of the bifurcation diagram."""
-        zone = "the separatrix" if self.map is None else {
-            "hyperbolic": "locked, two limit cycles", "parabolic": "on the lock boundary"}.get(
-                self.map.kind, f"not locked, ρ = {digits(self.map.rotation_number)}")
-        return f"h = {digits(self.h)}, f = {digits(self.f)}: {zone}."
-
-    def about_map(self) -> str:
-        """The caption of the circle map."""
-        theta = self.map
-        if theta is None:
-            return "Separatrix: no return."
-        points = {"hyperbolic": f"multipliers {', '.join(digits(point.multiplier) for point in theta.fixed_points)}",
-                  "parabolic": "multiplier 1"}.get(theta.kind, "no fixed point")
-        return f"{theta.kind}, |trace| {digits(theta.trace, 5)}, ρ = {digits(theta.rotation_number)}; {points}."
 
     def about_body(self) -> str:
         """The caption of the body."""
@@ -274,26 +252,13 @@ class SuslovHess(SuslovBody):
             yield "At f = 0, h < 1 the angle φ jumps where w = 0: the circle map is its limit f → 0."
 
 
-def _colours(s: SuslovHess, plan: Plan) -> Array:
-    axes = diagram.window(s.h)
-    return rotation_number_window(s.body.a, axes.x, axes.y, plan.level, plan.grid(CELLS))
-
-
-def _colour_error(s: SuslovHess, found: Array, truth: object) -> float:
-    """At the centres of the cells found, which are not those of the truth."""
-    axes = diagram.window(s.h)
-    exact = rotation_number_window(s.body.a, axes.x, axes.y, REFERENCE, (found.shape[1], found.shape[0]))
-    return 256.0 * float(np.percentile(np.abs(found - exact), 99.0))
-
-
-def _turned(angles: Array) -> float:
-    return float(np.abs(np.angle(np.exp(1j * angles))).max())
-
-
 _MEASURES: tuple[Trial[SuslovHess], ...] = (
     Trial(Kind.MAP, ("circle",), lambda s, plan: circle_map(s.body.a, s.h, s.f, plan.level).theta(_PHASES),
-          lambda s, theta, truth: PIXELS / (2.0 * math.pi) * _turned(theta - truth)),
-    Trial(Kind.COLOURS, ("bifurcation",), _colours, _colour_error, unit="steps of the colour, 99 of 100 cells"),
+          lambda s, theta, truth: curve_error(theta, truth, 2.0 * math.pi, period=2.0 * math.pi)),
+    # At the centres of the cells found, which are not those of the truth.
+    Trial(Kind.COLOURS, ("bifurcation",), lambda s, plan: s.colours(plan.grid(CELLS), plan.level).now(),
+          lambda s, found, truth: colour_error(found, s.colours((found.shape[1], found.shape[0]), REFERENCE).now()),
+          unit="steps of the colour, 99 of 100 cells"),
 )
 
 
@@ -309,13 +274,15 @@ SCENE = Scene(
             lambda s: annulus(s.body, s.h, s.turning), half_width=lambda s: s.half_width)),
         Sphere(caption=SuslovHess.about_sphere, axis=lambda s: Direction(s.body.n3, "n₃"), circles=SuslovHess.heights,
                looks={"orbit": "orbit", "stable": "stable", "unstable": "unstable"}),
-        Plot(name="bifurcation", title="Bifurcation diagram", caption=SuslovHess.about_zone, axes=("h", "f"),
-             x=lambda s: diagram.window(s.h).x, y=lambda s: diagram.window(s.h).y, dot=("h", "reach"),
-             on_click=lambda s, x, y: {"h": x, "f": y}, on_drag=True, on_hover=SuslovHess.about_torus,
+        Plot(name="bifurcation", title="Bifurcation diagram", axes=("h", "f"),
+             caption=lambda s: diagram.about(s.h, s.f, s.map), dot=("h", "reach"),
+             x=lambda s: diagram.window(s.h).x, y=lambda s: diagram.window(s.h).y,
+             on_click=lambda s, x, y: {"h": x, "f": y}, on_drag=True,
+             on_hover=lambda s, h, f: diagram.about_torus(s.body.a, h, f),
              layers=diagram.layers(
                  rotation=lambda s: s.rotation, boundary=lambda s: s.locked, curve=lambda s: s.edge,
                  here=lambda s: [(s.h, s.f)], axes=lambda s: diagram.window(s.h))),
-        circle.picture(map=lambda s: s.map, iterates=lambda s: s.iterates, caption=SuslovHess.about_map,
+        circle.picture(map=lambda s: s.map, iterates=lambda s: s.iterates, caption=lambda s: circle.about(s.map),
                        dot=("phi_start", "phi"), on_click=lambda s, x, y: {"phi0": x}),
         BodyInSpace(name="body", title="The body in space", caption=SuslovHess.about_body, bare=True,
                     folded="Show the body in space", motion=SuslovHess.lying,

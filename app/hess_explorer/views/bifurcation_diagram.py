@@ -9,10 +9,13 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.layers import Axes, Grid, Layer, Sign, curves, image, points, region, target
+from hess_explorer.views.text import digits
+from hess_mechanics.numerics.accuracy import DRAFT
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.bifurcation import f_max
+from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
 
-__all__ = ["layers", "window"]
+__all__ = ["about", "about_torus", "layers", "window"]
 
 S = TypeVar("S")
 
@@ -70,3 +73,21 @@ def layers(rotation: Callable[[S], Grid], boundary: Callable[[S], Array], curve:
                color="white", edge="black", size=11),
         *target("here", here, columns=corners),
     )
+
+
+def about(h: float, f: float, theta: CircleMap | None) -> str:
+    """In which zone a torus lies, from its circle map, None on the separatrix."""
+    zone = "the separatrix" if theta is None else {
+        "hyperbolic": "locked, two limit cycles", "parabolic": "on the lock boundary"}.get(
+            theta.kind, f"not locked, ρ = {digits(theta.rotation_number)}")
+    return f"h = {digits(h)}, f = {digits(f)}: {zone}."
+
+
+def about_torus(a: float, h: float, f: float) -> str:
+    """What the torus (h, f) under the mouse does.  Raises `Separatrix`."""
+    if h <= -1.0 or abs(f) > f_max(h):
+        return f"h = {digits(h)}, f = {digits(f)}: impossible"
+    theta = circle_map(a, h, f, DRAFT)
+    said = f"h = {digits(h)}, f = {digits(f)}: ρ = {digits(theta.rotation_number)}, |trace| = {digits(theta.trace)}"
+    multipliers = ", ".join(digits(point.multiplier) for point in theta.fixed_points)
+    return f"{said}, multipliers {multipliers}" if multipliers else f"{said}, no cycle"

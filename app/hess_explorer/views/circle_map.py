@@ -12,11 +12,12 @@ from hess_explorer.views import theme
 from hess_explorer.views.layers import Layer, curves, line, points
 from hess_explorer.views.picture import Values
 from hess_explorer.views.plot import Plot
+from hess_explorer.views.text import digits
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.invariant_measure import invariant_measure
 
-__all__ = ["EVENLY", "SIDE", "TICKS", "cobweb", "picture"]
+__all__ = ["EVENLY", "SIDE", "TICKS", "about", "cobweb", "picture", "riccati_matrix"]
 
 S = TypeVar("S")
 Click = Callable[[S, float, float], Values]
@@ -85,3 +86,19 @@ def _layers(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array 
         points("unstable", lambda s: _fixed(map(s), False), columns=here, size=12, edge_width=3, hollow=True,
                color=theme.UNSTABLE),
     )
+
+
+def about(theta: CircleMap | None) -> str:
+    """The kind of a map, its trace and rotation number, and what its cycles are, None on the separatrix."""
+    if theta is None:
+        return "Separatrix: no return."
+    points = {"hyperbolic": f"multipliers {', '.join(digits(point.multiplier) for point in theta.fixed_points)}",
+              "parabolic": "multiplier 1"}.get(theta.kind, "no fixed point")
+    return f"{theta.kind}, |trace| {digits(theta.trace, 5)}, ρ = {digits(theta.rotation_number)}; {points}."
+
+
+def riccati_matrix(theta: CircleMap) -> str:
+    """The two numbers of its matrix."""
+    alpha, beta = theta.alpha_beta
+    return (f"Riccati matrix α = {digits(alpha.real)} {'−' if alpha.imag < 0.0 else '+'} {digits(abs(alpha.imag))} i, "
+            f"β = {digits(beta.imag)} i")

@@ -63,6 +63,15 @@ class Line:
     low: float
     high: float
 
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Of the parameter."""
+        return self.low, self.high
+
+    def place(self, torus: Torus) -> float:
+        """The parameter of a torus."""
+        return float(vars(torus)[self.name])
+
     def places(self, count: int) -> Array:
         """Even places (count,), both ends included."""
         return np.linspace(self.low, self.high, count)

@@ -11,16 +11,21 @@ from typing import Self
 from hess_explorer.scenes.framework.inertia import Moments
 from hess_explorer.scenes.framework.parameters import Slider, number, slider_within
 from hess_explorer.scenes.framework.scene import Motion, State
+from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import pixels_per_unit
 from hess_mechanics.errors import NoField, Separatrix
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge, largest_area_integral
+from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, f_max, turning_points
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
 from hess_mechanics.suslov_hess.equations import SYSTEM, HessBody
 
-__all__ = ["BY_THE_UNSTABLE_CYCLE", "RIS", "UNSURE", "HeavyMotion", "SuslovBody", "possible_f", "reduced_motion"]
+__all__ = [
+    "BY_THE_UNSTABLE_CYCLE", "RIS", "UNSURE", "HeavyMotion", "SuslovBody", "map_or_none", "possible_f",
+    "reduced_motion",
+]
 
 _MAX_A = 100.0
 
@@ -48,6 +53,14 @@ def possible_f(h: float, f: float, notes: list[str]) -> float:
         return f
     notes.append(f"At h = {digits(h)} only |f| ≤ {digits(largest)} is possible: f is at that edge now.")
     return math.copysign(largest, f)
+
+
+def map_or_none(work: Work, a: float, h: float, f: float, level: Level) -> CircleMap | None:
+    """The circle map of a torus in units b = 1; None on the separatrix."""
+    try:
+        return work.get(circle_map, a, h, f, level)
+    except Separatrix:
+        return None
 
 
 @dataclass(frozen=True)
