@@ -12,6 +12,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Value
+from hess_explorer.scenes.framework.exponent import exponent_picture
 from hess_explorer.scenes.framework.filled_window import (
     EXPONENT,
     SECTION,
@@ -23,17 +24,14 @@ from hess_explorer.scenes.framework.hess_case import HeavyMotion
 from hess_explorer.scenes.framework.inertia import Moments
 from hess_explorer.scenes.framework.one_orbit import Start
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, like, number, places, time_span
-from hess_explorer.scenes.framework.rotation_across import ROTATION, RotationAcross
+from hess_explorer.scenes.framework.rotation_across import ROTATION, RotationAcross, rotation_picture
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.windows import Window, inside
 from hess_explorer.views import theme
-from hess_explorer.views.graph import over_time, thinned
-from hess_explorer.views.layers import Axes, Columns, Range, curves, dots, f32, line, points, text
-from hess_explorer.views.plot import Plot
+from hess_explorer.views.layers import Columns, dots, f32, line
 from hess_explorer.views.poisson_sphere import Direction, Sphere, gamma_columns
 from hess_explorer.views.section_plane import joined
 from hess_explorer.views.text import digits, vector
-from hess_explorer.views.velocity_plane import nice_above
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, andoyer_points, hess_curve, relation
 from hess_mechanics.euler_poisson.equations import HeavyBody
@@ -146,27 +144,12 @@ class EulerPoisson(Moments, RotationAcross):
         l = np.linspace(self.frame[0][0], self.frame[1][0], 241)
         return l, hess_curve(self.body, l)
 
-    def _exponent_axis(self) -> Range | None:
-        if self.exponent is None:
-            return None
-        later = self.exponent.rates[len(self.exponent.rates) // 10 :]
-        return min(0.0, 1.05 * float(later.min())), nice_above(1.05 * max(1e-6, float(later.max())))
-
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_section(self) -> str:
         kept = [one for piece in self.pieces for one in piece.kept]
         mixed = ": the layers never mix." if self.away == 0.0 else "."
         return f"r·M keeps its sign along {sum(kept)} of {len(kept)} orbits{mixed}"
-
-    def _about_exponent(self) -> str:
-        exponent = self.exponent
-        if exponent is None:
-            return "It is found when a slider is let go."
-        end = float(exponent.times[-1])
-        kind = "falling as ln(t)/t: regular so far" if exponent.is_regular else "chaotic"
-        return (f"λ = {digits(exponent.value, 3)} after t = {digits(end)}, ± {digits(exponent.spread, 2)} lately: "
-                f"{kind}.")
 
     def derived(self) -> Iterator[str]:
         """a and r, the start of the orbit on show, whether this is a rigid body."""
@@ -204,22 +187,8 @@ SCENE = Scene(
                      dots("path", track="orbit", columns=("l", "x"), size=3, color=theme.MAP, alpha=0.4),
                      line("line", lambda s: tuple(zip(*inside(s.ends, s.frame), strict=True)) or None,
                           color=theme.MUTED, dash="dashed", width=1.5, label="line of the rotation number"))),
-        Plot(name="rotation", title="Rotation number across the section", caption=EulerPoisson.about_rotation,
-             axes=(" ", "ρ"), first=Axes((-1.0, 1.0), (-0.5, 0.5)), message=EulerPoisson.rotation_message,
-             x=lambda s: (s.ends[0][s.axis], s.ends[1][s.axis]), y=EulerPoisson.rotation_axis,
-             layers=(
-                 curves("rho", lambda s: [] if s.rotation is None else [
-                     np.column_stack(part) for part in zip(s.rotation.along, s.rotation.rho, strict=True)],
-                     color=theme.ORBIT),
-                 text("across", lambda s: "" if s.rotation is None else "L/G" if s.axis else "l"),
-                 # An orbit between two gaps is a curve of one point.
-                 points("orbits", lambda s: None if s.rotation is None else (s.rotation.places, s.rotation.numbers),
-                        size=4, color=theme.ORBIT))),
-        Plot(name="exponent", title="Largest Lyapunov exponent", caption=EulerPoisson._about_exponent,
-             axes=("t", "λ"), first=Axes((0.0, 200.0), (0.0, 1.0)), x=lambda s: (0.0, s.long),
-             y=EulerPoisson._exponent_axis,
-             layers=(over_time("lambda", lambda s: None if s.exponent is None else thinned(
-                 s.exponent.times, s.exponent.rates), color=theme.ORBIT),)),
+        rotation_picture(),
+        exponent_picture(),
         Sphere(caption=lambda s: "The vertical γ along the chosen orbit; r: the centre of mass.",
                looks={"orbit": "orbit"},
                axis=lambda s: Direction(math.copysign(1.0, s.m) * np.array(s.body.r), "r")),

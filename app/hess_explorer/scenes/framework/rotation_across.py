@@ -4,19 +4,24 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from functools import cached_property
+from typing import Any
+
+import numpy as np
 
 from hess_explorer.scenes.framework.filled_window import FilledWindow, in_pieces
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.windows import Window
+from hess_explorer.views import theme
 from hess_explorer.views.graph import with_room
-from hess_explorer.views.layers import Range
+from hess_explorer.views.layers import Axes, Range, curves, points, text
+from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.rotation import RESOLVED, Rotation, on_line, rotation_along
 from hess_mechanics.numerics.accuracy import Kind, Plan
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["ROTATION", "RotationAcross"]
+__all__ = ["ROTATION", "RotationAcross", "rotation_picture"]
 
 _ACROSS = 48
 """Orbits on the line along which the rotation number is looked at."""
@@ -127,3 +132,19 @@ def _turns(rho: float) -> str:
 ROTATION: Trial[RotationAcross] = Trial(
     Kind.ROTATION, ("rotation",), RotationAcross.rotation_at, lambda s, found, truth: found.distance(truth),
     unit="turns, the median", seen=RESOLVED)
+
+
+def rotation_picture() -> Plot[Any]:
+    """ρ along the line, in branches, and the orbits that it is known from."""
+    return Plot(
+        name="rotation", title="Rotation number across the section", caption=lambda s: s.about_rotation(),
+        axes=(" ", "ρ"), first=Axes((-1.0, 1.0), (-0.5, 0.5)), message=lambda s: s.rotation_message(),
+        x=lambda s: (s.ends[0][s.axis], s.ends[1][s.axis]), y=lambda s: s.rotation_axis(),
+        layers=(
+            curves("rho", lambda s: [] if s.rotation is None else [
+                np.column_stack(part) for part in zip(s.rotation.along, s.rotation.rho, strict=True)],
+                color=theme.ORBIT),
+            text("across", lambda s: "" if s.rotation is None else "L/G" if s.axis else "l"),
+            # An orbit between two gaps is a curve of one point.
+            points("orbits", lambda s: None if s.rotation is None else (s.rotation.places, s.rotation.numbers),
+                   size=4, color=theme.ORBIT)))
