@@ -201,7 +201,7 @@ def test_the_cost_of_all_is_measured_when_its_picture_is_unfolded():
     assert any(row.startswith("map: ") and row.endswith(" pixels") for row in report.derived)
     # A draft of the map has a quarter of the cells: it is right, but not all.
     assert samples[0].error < 0.5
-    assert state._about_trade() == "Enough to the eye: orbit draft, map standard."
+    assert state.about_costs() == "Enough to the eye: orbit draft, map standard."
 
 
 def test_a_scene_that_computes_only_its_motion_has_no_such_picture():

@@ -3,39 +3,35 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from hess_explorer.scenes.framework.looking_into import Insight, LookingInto
+from hess_explorer.scenes.framework.costs import Costs, trade_picture
+from hess_explorer.scenes.framework.looking_into import LookingInto
 from hess_explorer.scenes.framework.scene import Motion, Scene
-from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.views import theme
 from hess_explorer.views.chart import POWERS, clipped, limit
 from hess_explorer.views.layers import Columns, Layer, f32, line, points, ring
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics import work_precision as mechanics
-from hess_mechanics.dynamics.trade import enough
-from hess_mechanics.numerics.accuracy import LEVELS, Kind, level
+from hess_mechanics.numerics.accuracy import LEVELS, level
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["looking_into"]
 
 SAMPLES = 400
-_TRADE_ERRORS, _TRADE_MS = (1e-9, 1e3), (1e-2, 1e5)
-_TRADE_TICKS = [1e-8, 1e-6, 1e-4, 1e-2, 1.0, 100.0]
-_FLOOR = 1e-17
-_PIXEL_FLOOR = 1e-14
+_FLOOR, _PIXEL_FLOOR = 1e-17, 1e-14
 _INTEGRALS = (("#0072B2", "solid"), ("#009E73", "dashed"), ("#D55E00", "dotdash"), ("#CC79A7", "dotted"))
 _OTHERS = {"DOP853": "#808080", "LSODA": "#56B4E9"}
 
 
 @dataclass(frozen=True)
-class Study(Insight):
+class Study(Costs):
     """What is measured of a motion, at every level of accuracy."""
 
     @cached_property
@@ -47,10 +43,9 @@ class Study(Insight):
     @cached_property
     def measured(self) -> tuple[mechanics.WorkPoint, ...]:
         """Error and cost of every level, and of SciPy's methods where they do not take long."""
-        own = self.work.get(mechanics.measure_levels, *self.followed.named, SAMPLES)
-        if self.dragging or mechanics.others_take_long(*self.followed.named):
-            return own
-        return own + self.work.get(mechanics.measure_others, *self.followed.named, SAMPLES)
+        others = () if self.dragging or mechanics.others_take_long(*self.followed.named) else self.work.get(
+            mechanics.measure_others, *self.followed.named, SAMPLES)
+        return self.work.get(mechanics.measure_levels, *self.followed.named, SAMPLES) + others
 
     @cached_property
     def growing(self) -> mechanics.Growth:
@@ -123,46 +118,10 @@ class Study(Insight):
         return (f"{self.chosen}: wrong by less than a pixel to the end, t = {digits(float(t[-1]))} (at most "
                 f"{digits(pixels.max(), 2)}).")
 
-    # ---- of all that is computed --------------------------------------------------------------------------------
-
-    def cost_of(self, kind: Kind) -> tuple[Array, Array] | None:
-        """Errors, as multiples of what can just not be seen, and milliseconds of the levels."""
-        samples = self.costs.get(kind)
-        if samples is None:
-            return None
-        seen = next(trial.seen for trial in self.trials if trial.kind == kind)
-        return (np.clip([one.error / seen for one in samples], *_TRADE_ERRORS),
-                np.array([max(one.ms, _TRADE_MS[0]) for one in samples]))
-
-    def enough(self) -> list[tuple[float, float]]:
-        """The points beyond which more accuracy changes nothing that is seen."""
-        return [(float(xy[0][i]), float(xy[1][i])) for kind, level_name in self._enough.items()
-                if (xy := self.cost_of(kind)) is not None for i in ([*LEVELS].index(level_name),)]
-
-    @cached_property
-    def _enough(self) -> dict[Kind, str]:
-        return {trial.kind: enough(samples, trial.seen) for trial in self.trials
-                if (samples := self.costs.get(trial.kind)) is not None}
-
-    def _about_trade(self) -> str:
-        if self.dragging:
-            return "It is measured when a slider is let go."
-        if len(self._enough) < len(self.costs):
-            return f"Being measured: {len(self._enough)} of {len(self.costs)}."
-        return f"Enough to the eye: {', '.join(f'{kind} {name}' for kind, name in self._enough.items())}."
-
-    def _cost_rows(self) -> Iterator[str]:
-        for trial in self.trials:
-            samples = self.costs.get(trial.kind)
-            if samples is not None:
-                times, errors = (", ".join(digits(value, 2) for value in values) for values in (
-                    [one.ms for one in samples], [one.error for one in samples]))
-                yield f"{trial.kind}: {times} ms; error {errors} {trial.unit}"
-
     def derived(self) -> Iterator[str]:
         """The system, its parameters and the initial state; the cost of all that is computed, if that is in sight."""
         if "trade" in self.seen:
-            yield from self._cost_rows()
+            yield from self.cost_rows()
         motion, system = self.followed, self.followed.system
         yield f"System: {system.title}"
         yield f"Equations: {system.source} ({', '.join(system.labels)} in the LaTeX source)"
@@ -233,28 +192,9 @@ VIEWS = (
 )
 
 
-_LOOKS = ((theme.ORBIT, "solid"), (theme.STABLE, "dashed"), (theme.UNSTABLE, "dotdash"), (theme.MAP, "dotted"))
-
-
-def _trade(trials: Sequence[Trial[Any]]) -> Plot[Study]:
-    """All that is computed, measured when it is asked for."""
-    def layers(kind: Kind, color: str, dash: str) -> tuple[Layer[Study], ...]:
-        name = str(kind).replace(" ", "-")
-        return (line(name, lambda s: s.cost_of(kind), color=color, dash=dash, label=str(kind)),
-                points(f"{name}-marks", lambda s: s.cost_of(kind), color=color, size=8))
-
-    return Plot(
-        name="trade", title="Cost of all that is computed", caption=Study._about_trade, log="xy",
-        axes=("error / what is not seen", "milliseconds"), x=_TRADE_ERRORS, y=_TRADE_MS, x_ticks=_TRADE_TICKS,
-        y_tick_count=5, folded="Measure all that is computed",
-        layers=(line("visible", lambda s: ((1.0, 1.0), _TRADE_MS), color=theme.MUTED, dash="dotted"),
-                *(layer for trial, look in zip(trials, _LOOKS, strict=False) for layer in layers(trial.kind, *look)),
-                ring("enough", Study.enough, size=20, label="more accuracy is not seen")))
-
-
 def looking_into(other: Scene[Any]) -> Scene[Study]:
     """The scene "Speed and accuracy" for the motions of another one, with its parameters."""
     return LookingInto(
         Study, __file__, other=other, title="Speed and accuracy", presets=other.presets, place=other.place,
         summary="Error, drift and cost of the motion on show, at every level of accuracy, measured here and now.",
-        tracks={"orbit": Study.worst}, views=(*VIEWS, _trade(other.trials)) if other.measures else VIEWS)
+        tracks={"orbit": Study.worst}, views=(*VIEWS, trade_picture(other.trials)) if other.measures else VIEWS)
