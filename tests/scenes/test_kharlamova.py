@@ -134,8 +134,9 @@ def test_at_first_a_section_has_the_beginnings_of_all_its_orbits(name):
     values = {"count": 45.0, "h": 0.83}
     view = View(scenes()[name], values)
     first, whole = view.begun, view.result
-    assert (len(view.first.todo), first.others.shape, view.first.total) == (1, (20 * 30, 2), 1)
-    assert (view.report.todo, view.report.total) == ((), 1)
+    # All crossings; and a second run of both, for how many of them are right.
+    assert (len(view.first.todo), first.others.shape, view.first.total) == (3, (20 * 30, 2), 3)
+    assert (view.report.todo, view.report.total) == ((), 3)
     # Later a chaotic orbit shows that its steps were others.
     begun = first.others.reshape(20, 30, 2)[:, :8]
     assert whole.others.reshape(20, 45, 2)[:, :8] == pytest.approx(begun, abs=1e-5)
@@ -143,7 +144,9 @@ def test_at_first_a_section_has_the_beginnings_of_all_its_orbits(name):
     assert len(first.own) == 45
     held = View(scenes()[name], values, dragging=True)
     assert (held.report.todo, len(held.result.own)) == ((), 30)
-    assert held.result.others == pytest.approx(first.others)
+    # At the draft, whose first points are the same to the eye.
+    drawn = held.result.others.reshape(20, 30, 2)[:, :4]
+    assert drawn == pytest.approx(begun[:, :4], abs=3e-3)
 
 
 def test_a_click_chooses_where_the_orbit_starts():
