@@ -25,7 +25,7 @@ from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, parall
 from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import nice_above, picture
 from hess_mechanics.errors import Separatrix
-from hess_mechanics.numerics.accuracy import REFERENCE, Kind, Level
+from hess_mechanics.numerics.accuracy import DRAFT, REFERENCE, Kind, Level
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.rigid_body.attitude import Attitude
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, curve, curve_point, f_max, reach, turning_points
@@ -111,7 +111,8 @@ class SuslovHess(SuslovBody):
         """Of the frame of the (ω1, ω2)-plane: it follows the largest ring of this h in steps of 2."""
         largest = math.sqrt(2.0 * (diagram.window(self.h).x[1] + 1.0))
         halvings = math.floor(math.log2(largest / math.sqrt(2.0 * (self.h + 1.0))))
-        return nice_above(1.02 * self.body.frequency_unit * math.hypot(1.0, self.body.a) * largest * 0.5**halvings)
+        ring = 1.02 * math.hypot(1.0, self.body.a) * largest * 0.5**halvings
+        return nice_above(self.body.frequency_unit * max(ring, 2.0 * DRAFT.promise))
 
     @cached_property
     def track(self) -> Track:
