@@ -93,7 +93,7 @@ class SuslovHess(SuslovBody):
     @cached_property
     def map(self) -> CircleMap | None:
         """The circle map; None on the separatrix."""
-        return map_or_none(self.work, self.body.a, self.h, self.f, self.level)
+        return None if self.turning is None else map_or_none(self.work, self.body.a, self.h, self.f, self.level)
 
     @cached_property
     def locked(self) -> Array:
