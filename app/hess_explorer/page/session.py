@@ -111,6 +111,8 @@ class Session:
     def change(self, values: Values) -> None:
         """The user wants these values."""
         before = dict(self._wanted)
+        # A note on what came before goes, also where the state stays.
+        self._dirty |= bool(self._link_notes)
         self._link_notes = []
         for name, value in values.items():
             spec = self._specs.get(name)
