@@ -201,6 +201,28 @@ def test_points_on_another_sheet_are_drawn_apart():
     assert view.derived("on another sheet: # points") == [len(apart)]
 
 
+def test_the_example_of_the_second_sheet_shows_points_of_the_smaller_momentum():
+    preset = EP.presets[-1]
+    assert "second sheet" in preset.name
+    view = EulerPoisson(preset.values, seen={"section"})
+    apart, (l0, l1, x0, x1) = view.points("elsewhere"), view.axes["section"]
+    seen = apart[(apart[:, 0] >= l0) & (apart[:, 0] <= l1) & (apart[:, 1] >= x0) & (apart[:, 1] <= x1)]
+    assert view.numbers("section", "the layers never mix. # on another sheet.") == [len(seen)]
+    assert len(seen) > 50
+    # A larger momentum there has the same energy.
+    assert np.mean(np.array(other_momenta(view, seen[:20])) >= 2) > 0.9
+    # The first example has none, and says nothing of it.
+    assert "sheet" not in EulerPoisson({**EP.presets[0].values, "count": 30.0}, seen={"section"}).text["section"]
+
+
+def test_on_a_small_sheet_another_start_is_found():
+    """The chosen place is not on it: it is taken from those that fill the window, as few places are."""
+    view = EulerPoisson({**EP.presets[-1].values, "h": 0.2, "window": "", "count": 20.0, "sheet": "second G"},
+                        seen={"section"}, noted=True)
+    assert re.search("no motion with this h and f crosses the section", " ".join(view.report.notes))
+    assert len(view.points("own")) == 20
+
+
 def test_on_the_second_sheet_orbits_start_with_the_smaller_momentum():
     values = {**EP.presets[0].values, "I1": 1.0, "I2": 1.5, "I3": 2.0, "m": -math.sqrt(0.5), "h": 0.5, "f": 0.3,
               "orbits": 8.0, "count": 30.0}

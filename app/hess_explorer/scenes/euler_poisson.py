@@ -62,6 +62,8 @@ PRESETS = (
       for letter, h, what in (("a", 0.0, _NONE), ("b", 0.2, _STABLE), ("c", 0.5, _STABLE), ("d", 0.8, _UNSTABLE),
                               ("e", 1.0, _UNSTABLE), ("f", 1.3, _UNSTABLE), ("g", 2.0, _UNSTABLE),
                               ("h", 4.0, _UNSTABLE))),
+    Preset("The second sheet of figure 14 a: a smaller G", **_RIS, h=0.0, f=1.0, starts="2.5,-0.92",
+           window="2,-0.97;2.6,-0.86", count=600.0),
 )
 
 
@@ -149,7 +151,9 @@ class EulerPoisson(Moments, RotationAcross):
     def _about_section(self) -> str:
         kept = [one for piece in self.pieces for one in piece.kept]
         mixed = ": the layers never mix." if self.away == 0.0 else "."
-        return f"r·M keeps its sign along {sum(kept)} of {len(kept)} orbits{mixed}"
+        other = len(inside(map(tuple, self.elsewhere), self.frame))
+        apart = f" {other} on another sheet." if other else ""
+        return f"r·M keeps its sign along {sum(kept)} of {len(kept)} orbits{mixed}{apart}"
 
     def derived(self) -> Iterator[str]:
         """a and r, the start of the orbit on show, whether this is a rigid body."""
@@ -181,7 +185,7 @@ SCENE = Scene(
         filled_window(
             title="Section g = π/2 (Andoyer–Deprit)", caption=EulerPoisson._about_section, scene=EulerPoisson,
             labels=("r·M > 0", "r·M < 0"), dot=("l", "x"),
-            between=(dots("elsewhere", lambda s: s.elsewhere.T, color=theme.MUTED, size=6,
+            between=(dots("elsewhere", lambda s: s.elsewhere.T, color=theme.SHEET, size=12,
                           label="on another sheet: another G"),
                      line("curve", EulerPoisson.hess_curve, color=theme.STABLE, label="Hess manifold, r·M = 0"),
                      dots("path", track="orbit", columns=("l", "x"), size=3, color=theme.MAP, alpha=0.4),

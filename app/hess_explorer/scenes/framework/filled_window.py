@@ -170,7 +170,7 @@ class FilledWindow(OneOrbit):
         if possible[-1]:
             kept = np.flatnonzero(possible).tolist()
             return _Chosen([wanted[i] for i in kept], [tuple(map(float, states[i])) for i in kept])
-        others = self._spread(1)
+        others = self._spread(max(1, self.wanted[0]))
         if not others:
             raise InvalidParameter(self.impossible_here)
         x, y = self.section.places_of(np.array(others))[0]
