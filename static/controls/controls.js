@@ -1,6 +1,6 @@
 // The controls of the scene on show: a slider and a box for each number, a menu for each choice, one of examples, and
 // Reset, Undo, Clear, Copy link.  What the server says of all values comes by "controls": {name: [value, low, high,
-// step] or option}.
+// step, whether it is disabled] or option}.
 
 import { listen, tell } from "../page/bus.js"
 import { element, lifetime } from "../page/mount.js"

@@ -3,7 +3,9 @@
 import { tell } from "../page/bus.js"
 import { element } from "../page/mount.js"
 
-// [element, show([value, low, high, step])].
+const IDLE = "Disabled: under the choices made it changes nothing."
+
+// [element, show([value, low, high, step, whether it is disabled])].
 export function number({ name, label, symbol, help }) {
   const title = element("span", { className: "label", textContent: label, title: help })
   const box = element("input", {
@@ -40,7 +42,16 @@ export function number({ name, label, symbol, help }) {
     box.setCustomValidity("")
     box.removeAttribute("aria-invalid")
   })
-  const show = ([value, low, high, step]) => {
+  const frame = element("div", { className: `number param-${name}` }, title, box, slider)
+  const rest = (idle) => {
+    if (idle === box.disabled) return
+    box.disabled = slider.disabled = idle
+    const says = idle ? `${IDLE} ${help}` : help
+    title.title = slider.title = says
+    slider.setAttribute("aria-description", says)
+  }
+  const show = ([value, low, high, step, idle = false]) => {
+    rest(idle)
     // States may come while a number is typed, piece by piece of a section: they leave it alone.
     const typing = box.getRootNode().activeElement === box && box.value !== String(shown)
     shown = value
@@ -49,8 +60,9 @@ export function number({ name, label, symbol, help }) {
     slider.step = step
     slider.value = value
     if (typing) return
-    box.value = String(value)
+    // Nobody can look along a disabled box for digits that it has no room for.
+    box.value = String(idle ? Number(value.toPrecision(6)) : value)
     box.removeAttribute("aria-invalid")
   }
-  return [element("div", { className: `number param-${name}` }, title, box, slider), show]
+  return [frame, show]
 }

@@ -99,6 +99,47 @@ def test_a_click_in_the_circle_map_starts_the_motion_at_that_phase(bridge):
     assert orbit["omega1"][0] != before
 
 
+def test_the_sliders_of_the_side_that_is_not_given_are_disabled_and_show_it(bridge):
+    sides = {"Euler–Poisson": ("I1", "I2", "I3", "m"), "Suslov–Hess": ("I22", "I23", "b3", "share")}
+
+    def disabled():
+        names = [name for names in sides.values() for name in names] + ["h", "phi0"]
+        found = {name for name in names if bridge.slider(name).is_disabled()}
+        assert found == {name for name in names if bridge.box(name).is_disabled()}
+        return found
+
+    assert disabled() == set(sides["Suslov–Hess"])
+    # By hand, from (3.7): I22 = I2/(1 + a²), a = −1/2, b3 = −μ|r|/√(1 + a²); six digits, the box has no room for more.
+    assert [bridge.box(name).input_value() for name in sides["Suslov–Hess"]] == ["0.5", "-0.25", "-8.92191", "1"]
+    before = bridge.data("data-orbit")
+    bridge.change(bridge.choose, "given", "Suslov–Hess")
+    assert disabled() == set(sides["Euler–Poisson"])
+    assert bridge.slider("I22").is_enabled()
+    assert [bridge.shown(name)[0] for name in sides["Euler–Poisson"]] == [1.0, 0.625, 0.375, 9.975]
+    assert bridge.shown("h")[0] == pytest.approx(50.0 / 9.975)
+    after = bridge.data("data-orbit")
+    for name in ("omega1", "omega2", "l", "x"):
+        at = np.linspace(0.0, 5.0, 50)
+        curves = [np.interp(at, one["t"], one[name]) for one in (before, after)]
+        assert curves[0] == pytest.approx(curves[1], abs=1e-2)
+    # The Tab key passes them over, and they say why.
+    bridge.box("b3").focus()
+    bridge.page.keyboard.press("Tab")
+    bridge.page.keyboard.press("Tab")
+    assert bridge.page.evaluate("""() => {
+      let item = document.activeElement
+      while (item.shadowRoot?.activeElement) item = item.shadowRoot.activeElement
+      return item.closest(".number").className
+    }""") == "number param-h"
+    assert bridge.slider("I2").get_attribute("aria-description").startswith("Disabled: under the choices made")
+    assert not bridge.slider("I22").get_attribute("aria-description").startswith("Disabled")
+    bridge.change(lambda: bridge.slide(I22=0.7))
+    assert bridge.shown("I2")[0] == pytest.approx(0.7 + 0.25**2 / 0.7, rel=1e-5)
+    bridge.change(bridge.choose, "given", "Euler–Poisson")
+    assert disabled() == set(sides["Suslov–Hess"])
+    assert bridge.shown("I2")[0] == pytest.approx(0.7 + 0.25**2 / 0.7, rel=1e-14)
+
+
 def test_moments_and_energy_stay_from_one_scene_to_the_next(leak):
     leak.change(lambda: leak.slide(h=60.0, I3=0.4))
     leak.enter("bridge")

@@ -16,6 +16,7 @@ from scipy.integrate import solve_ivp
 from hess_mechanics import solve
 from hess_mechanics.errors import InvalidParameter, ModelError, NoField, Separatrix
 from hess_mechanics.numerics.accuracy import LEVELS, REFERENCE
+from support.board import Browser
 from support.bridge import BRIDGE, HELD, LEAK, STABLE, UNSTABLE, exact_growth, period_of, reduced, torus, values_of
 from support.free_suslov import shown
 from support.view import View
@@ -205,6 +206,64 @@ def test_the_same_state_may_be_given_on_either_side():
         orbits = [view.data["data-orbit"] for view in (heavy, suslov)]
         curves = [np.interp(at, orbit["t"], orbit[name]) for orbit in orbits]
         assert curves[0] == pytest.approx(curves[1], abs=2e-3 * np.ptp(curves[0]))
+
+
+@pytest.mark.parametrize("values", [
+    *(preset.values for preset in BRIDGE.presets), {"m": -5.0, "h": 3.0, "f": 0.5},
+], ids=range(len(BRIDGE.presets) + 1))
+def test_a_change_of_sides_keeps_the_motion_and_one_back_the_values(values):
+    browser = Browser(BRIDGE, {**BRIDGE.defaults(), **values})
+    browser.ask()
+    sides = ["Suslov–Hess", "Euler–Poisson"]
+    given = browser.controls["given"]
+    body = {"Suslov–Hess": ("I22", "I23", "b3", "share"), "Euler–Poisson": ("I1", "I2", "I3", "m")}
+    seen = []
+    for side in (given, *(one for one in sides if one != given), given):
+        before = dict(browser.controls)
+        browser.ask(values={"given": side})
+        other = sides[1 - sides.index(side)]
+        # Those of the other side are disabled, and none else.
+        assert {name for name, one in browser.controls.items() if one[4:] == [True]} == set(body[other])
+        # What came alive says what it said before; for b < 0 the vertical is reversed.
+        for name in body[side]:
+            wanted = before[name][0]
+            if values.get("m", 1.0) < 0.0 and seen and name in ("m", "b3"):
+                wanted = math.copysign(wanted, 1.0 if name == "m" else -1.0)
+            assert browser.controls[name][0] == pytest.approx(wanted, rel=1e-12), name
+        seen.append({picture: browser.texts[picture] for picture in ("omega", "circle")})
+        orbit = browser.data["data-orbit"]
+        seen[-1] |= {name: np.asarray(orbit[name], float) for name in ("t", "omega1", "omega2", "l", "x")}
+        assert browser.texts["notes"].startswith("The orbit is drawn") or browser.texts["notes"] == ""
+    for later in seen[1:]:
+        assert (later["omega"], later["circle"]) == (seen[0]["omega"], seen[0]["circle"])
+        at = np.linspace(0.0, 10.0, 60)
+        for name in ("omega1", "omega2", "x"):
+            curves = [np.interp(at, one["t"], one[name]) for one in (seen[0], later)]
+            assert curves[1] == pytest.approx(curves[0], abs=2e-3 * np.ptp(curves[0]))
+    if values.get("m", 1.0) > 0.0:
+        # √½ comes back without its last digit.
+        known = [one.values for one in BRIDGE.presets if one.name == browser.controls["preset"]]
+        assert known == [values] or "m" in values
+        for name in (*body[given], "h", "f", "phi0"):
+            assert browser.session.values[name] == pytest.approx({**BRIDGE.defaults(), **values}[name], rel=1e-14)
+
+
+def test_what_is_said_with_the_side_is_not_translated():
+    browser = Browser(BRIDGE)
+    browser.ask(values={"given": "Suslov–Hess", "h": 6.0, "I22": 0.7})
+    values = browser.session.values
+    assert (values["h"], values["I22"]) == (6.0, 0.7)
+    assert (values["I23"], values["f"]) == (-0.25, pytest.approx(-5.0 * math.sqrt(1.6 / 9.975), rel=1e-14))
+    # An example says all that it is.
+    browser.ask(preset="Two limit cycles, given in Suslov–Hess")
+    assert browser.session.values["I22"] == 0.96
+    browser.ask(preset="Figure 11, given in Euler–Poisson")
+    assert browser.controls["preset"] == "Figure 11, given in Euler–Poisson"
+    # Where there is no motion nothing can be carried over, and nothing is hidden.
+    browser.ask(values={"I2": 2.0})
+    assert {len(one) for one in browser.controls.values() if not isinstance(one, str)} == {4}
+    browser.ask(values={"given": "Suslov–Hess", "I22": 1.0, "h": 1.0, "f": 0.5})
+    assert browser.session.values["I22"] == 1.0
 
 
 def test_the_orbit_of_the_suslov_side_obeys_its_equations():

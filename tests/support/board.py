@@ -212,7 +212,7 @@ class Browser:
 
     @property
     def controls(self):
-        """[value, low, high, step] of the numbers, the options of the menus."""
+        """[value, low, high, step] of the numbers, and True where they are disabled; the options of the menus."""
         return self.screen.controls
 
     def ask(self, requested=1, **message):

@@ -22,16 +22,21 @@ def slider_limits(spec: Number, limits: Mapping[str, tuple[float, float, float]]
 
 def example_of(scene: Scene[Any], values: Values) -> str:
     """The name of the example that these values are, or `CHOOSE`."""
-    return next((one.name for one in scene.presets if scene.example(one).items() <= values.items()), CHOOSE)
+    idle = scene.idle(values)
+
+    def shown(example: Values) -> bool:
+        return all(values[name] == value for name, value in example.items() if name not in idle)
+
+    return next((one.name for one in scene.presets if shown(scene.example(one))), CHOOSE)
 
 
 def show_controls(scene: Scene[Any], values: Values, wire: Wire) -> None:
     """Bring all controls up to date."""
-    limits = scene.limits(values)
+    limits, idle = scene.limits(values), scene.idle(values)
     for spec in scene.specs:
-        value = values[spec.name]
         if isinstance(spec, Number):
-            wire.show_number(spec.name, float(value), slider_limits(spec, limits))
+            value = idle.get(spec.name, values[spec.name])
+            wire.show_number(spec.name, float(value), slider_limits(spec, limits), idle=spec.name in idle)
         else:
-            wire.show_choice(spec.name, str(value))
+            wire.show_choice(spec.name, str(values[spec.name]))
     wire.show_choice("preset", example_of(scene, values))

@@ -117,14 +117,22 @@ class Session:
         for name, value in values.items():
             spec = self._specs.get(name)
             if isinstance(spec, Number):
-                self._wanted[name], note = spec.admit(_float(value))
-                if note:
-                    self._link_notes.append(note)
+                self._want(spec, _float(value))
             elif spec is not None:
                 self._wanted[name], _ = spec.read(str(value))
+        if any(isinstance(spec, Choice) and self._wanted[name] != before[name] for name, spec in self._specs.items()):
+            for name, value in self.scene.carried(before, self._wanted).items():
+                spec = self._specs[name]
+                if name not in values and isinstance(spec, Number):
+                    self._want(spec, value)
         self._stopped &= self._wanted == before
         # Also where the state stays but a control shows something else: it must be put right.
         self._dirty |= self._wanted != before or any(self.values.get(name) != value for name, value in values.items())
+
+    def _want(self, spec: Number, value: float) -> None:
+        self._wanted[spec.name], note = spec.admit(value)
+        if note:
+            self._link_notes.append(note)
 
     def reset(self) -> None:
         """Back to the scene's defaults."""

@@ -36,9 +36,9 @@ class Wire:
         """A new text for the component `Text` of that key."""
         self._texts[key] = text
 
-    def show_number(self, name: str, value: float, limits: Sequence[float]) -> None:
-        """What the control of a number shows: its value and (low, high, step) of its slider."""
-        self._controls[name] = [value, *limits]
+    def show_number(self, name: str, value: float, limits: Sequence[float], idle: bool = False) -> None:
+        """What the control of a number shows: its value, (low, high, step) of its slider, whether it is disabled."""
+        self._controls[name] = [value, *limits, *([True] if idle else [])]
 
     def show_choice(self, name: str, option: str) -> None:
         """What a menu shows."""

@@ -30,7 +30,7 @@ from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import nice_above, picture
 from hess_mechanics.euler_poisson.andoyer import coordinates, hess_circle
-from hess_mechanics.euler_poisson.hess_isomorphism import Bridge, largest_distance
+from hess_mechanics.euler_poisson.hess_isomorphism import Bridge, largest_distance, share_of
 from hess_mechanics.euler_poisson.hess_manifold import Difference, difference
 from hess_mechanics.numerics.accuracy import DRAFT
 from hess_mechanics.numerics.results import Array
@@ -56,10 +56,17 @@ PRESETS = (
 )
 
 
+def _without_round_off(value: float) -> float:
+    """What was 5 is 5 again, and not 5.000000000000001, on the way there and back."""
+    short = float(f"{value:.12g}")
+    return short if math.isclose(short, value, rel_tol=1e-14) else value
+
+
 @dataclass(frozen=True)
 class _Given(State):
     given: str = choice("Given in", (SUSLOV, HEAVY), HEAVY,
-                        doc="Whose parameters and integrals the sliders mean; the other side is translated from them.")
+                        doc="Whose parameters and integrals the sliders mean; those of the other side show its body. A "
+                            "change of sides keeps the motion.")
 
 
 @dataclass(frozen=True)
@@ -71,6 +78,8 @@ class BothSides(HeavyMotion, SuslovBody, _Given):
     f: float = like(HeavyMotion, "f", doc="Of the side that is given: in units b = 1 for Suslov–Hess, (M, γ) for "
                     "Euler–Poisson.")
     phi0: float = like(HeavyMotion, "phi0", doc="Phase of the orbit on the section n₃ = n₃⁽¹⁾, in radians.")
+    share: float = number("x", 0.5, (0.01, 1.0), 0.01, bounds=(1e-6, 1.0), label="Free moment, x",
+                          doc="Suslov–Hess leaves a moment of Euler–Poisson free: x = 1 is a flat body, where |a| < 1.")
     span: float = number("t", 50.0, (1.0, 200.0), 1.0, bounds=(0.01, 1e5), label="Time span",
                          doc="How long the motion is followed, in the time that both sides share.")
     accuracy: str = accuracy_level()
@@ -91,10 +100,30 @@ class BothSides(HeavyMotion, SuslovBody, _Given):
         f = {"f": slider_within(f_max(self.h))} if self.h > -1.0 else {}
         return {"h": (-0.99, max(4.0, self.h), 0.01), **f}
 
+    def idle(self) -> Mapping[str, float]:
+        """The body of the side that is not given, translated.  Raises `ModelError`."""
+        hess, heavy = self.bridge.hess, self.bridge.heavy
+        if self.given == HEAVY:
+            body = {"I22": hess.I22, "I23": hess.I23, "b3": hess.b3, "share": share_of(heavy)}
+        else:
+            body = {"m": heavy.mu, **{name: 1.0 / a for name, a in zip(("I1", "I2", "I3"), heavy.a, strict=True)}}
+        return {name: _without_round_off(value) for name, value in body.items()}
+
+    def carried(self, before: BothSides) -> Mapping[str, float]:
+        """The same motion, given on the other side.  Raises `ModelError`."""
+        if self.given == before.given:
+            return {}
+        bridge = before.bridge
+        translate = bridge.in_units_of_b if before.given == HEAVY else bridge.from_units_of_b
+        h, f = map(_without_round_off, translate(before.h, before.f))
+        shown = before.idle()
+        # In units b = 1 both signs of b are one; here b > 0, so with μ < 0 the vertical is reversed.
+        return {**shown, **({"b3": -abs(shown["b3"])} if "b3" in shown else {}), "h": h, "f": f}
+
     @cached_property
     def bridge(self) -> Bridge:
         """Both bodies.  Raises `ModelError`."""
-        return super().bridge if self.given == HEAVY else Bridge.of_suslov(self.body)
+        return super().bridge if self.given == HEAVY else Bridge.of_suslov(self.body, self.share)
 
     @cached_property
     def turning(self) -> TurningPoints:

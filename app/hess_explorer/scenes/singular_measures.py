@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -75,6 +75,11 @@ class SingularMeasures(FreeBall):
                         doc="The divergence div v at the points, or the logarithm of small volumes about them.")
     points: str = choice("Points", ("1000", "10000"), "10000", doc="How many points both clouds have together.")
     accuracy: str = accuracy_level()
+
+    def idle(self) -> Mapping[str, float]:
+        """Of a patch, and of a cloud beside, that are not there."""
+        return {**({} if self.start == "small patch" else {"angle": self.angle}),
+                **({} if self.beside == "principal axis" else {"b3": self.b3})}
 
     def task(self, count: int, level: Level) -> Task:
         """What moves so many points."""

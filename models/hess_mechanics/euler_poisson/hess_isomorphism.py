@@ -25,7 +25,7 @@ from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov_hess.bifurcation import f_max
 from hess_mechanics.suslov_hess.equations import HessBody
 
-__all__ = ["Bridge", "heavy_body", "hess_body", "largest_area_integral", "largest_distance"]
+__all__ = ["Bridge", "heavy_body", "hess_body", "largest_area_integral", "largest_distance", "share_of"]
 
 
 def _tilt(body: HeavyBody) -> tuple[float, float]:
@@ -69,6 +69,16 @@ def heavy_body(body: HessBody, share: float = 0.5) -> HeavyBody:
     return HeavyBody.hess(moments if body.a <= 0.0 else moments[::-1], body.b * body.I11)
 
 
+def share_of(body: HeavyBody) -> float:
+    """The share with which `heavy_body` gives back the moments of a heavy body in the Hess case.
+
+    Above 1 the body is not rigid, and there is no way back; where r1 r3 < 0 the moments I1 and I3 come back exchanged.
+    Raises `InvalidParameter` outside the Hess case, `NoField` (r = 0).
+    """
+    squared = hess_body(body).a ** 2
+    return (1.0 - min(body.a) / body.a[1]) / (0.5 * (1.0 - squared if squared < 1.0 else 1.0))
+
+
 @dataclass(frozen=True)
 class Bridge:
     """A heavy body in the Hess case and the Suslov body with the same motions.
@@ -85,9 +95,9 @@ class Bridge:
         return cls(heavy, hess_body(heavy))
 
     @classmethod
-    def of_suslov(cls, hess: HessBody) -> Bridge:
-        """From the Suslov problem.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
-        return cls(heavy_body(hess), hess)
+    def of_suslov(cls, hess: HessBody, share: float = 0.5) -> Bridge:
+        """From the Suslov problem; share as for `heavy_body`.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
+        return cls(heavy_body(hess, share), hess)
 
     def to_reduced(self, states: Array) -> Array:
         """(M, γ) → (w, n), dropping the component M3' off the manifold."""

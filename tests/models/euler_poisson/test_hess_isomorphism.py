@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 from hess_mechanics import circle_map, level, solve, systems, turning_points
 from hess_mechanics.errors import InvalidParameter, NoField, WorkLimit
 from hess_mechanics.euler_poisson.equations import HeavyBody
-from hess_mechanics.euler_poisson.hess_isomorphism import Bridge, heavy_body, hess_body
+from hess_mechanics.euler_poisson.hess_isomorphism import Bridge, heavy_body, hess_body, share_of
 from hess_mechanics.euler_poisson.hess_manifold import FreeRun, Leak, exact_motion, growth_of, on_manifold, run_free
 from hess_mechanics.numerics.accuracy import LEVELS
 from hess_mechanics.suslov_hess.equations import HessBody
@@ -185,6 +185,19 @@ def test_a_heavy_body_made_from_a_suslov_body_is_in_the_hess_case_and_rigid_wher
         again = hess_body(body)
         assert (again.I22, again.I23, again.b3) == pytest.approx((hess.I22, hess.I23, hess.b3), rel=1e-12, abs=1e-15)
     assert Bridge.of_suslov(hess).hess is hess
+
+
+@every_suslov
+def test_the_share_of_a_heavy_body_gives_its_moments_back(hess):
+    for share in (0.05, 0.5, 1.0):
+        assert share_of(heavy_body(hess, share)) == pytest.approx(share, rel=1e-12)
+    for moments in ((1.0, 0.625, 0.375), (1.0, 1.5, 2.0)):
+        heavy = HeavyBody.hess(moments, 9.975)
+        again = Bridge.of_suslov(hess_body(heavy), min(share_of(heavy), 1.0)).heavy
+        assert (again.a, again.r, again.mu) == (pytest.approx(heavy.a), pytest.approx(heavy.r), pytest.approx(heavy.mu))
+    # A flat body, I1 = I2 + I3.
+    assert share_of(HeavyBody.hess((1.0, 0.625, 0.375), 9.975)) == pytest.approx(1.0, rel=1e-14)
+    assert share_of(HeavyBody.hess((1.2, 0.625, 0.375), 9.975)) > 1.0
 
 
 def test_more_than_the_whole_share_is_no_body_any_more():

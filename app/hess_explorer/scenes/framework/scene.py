@@ -109,6 +109,20 @@ class State:
         """Ranges of sliders that depend on the state."""
         return {}
 
+    def idle(self) -> Mapping[str, float]:
+        """The numbers that nothing depends on under the choices made, and what their controls show, which are disabled.
+
+        Raises `ModelError` where that cannot be told.
+        """
+        return {}
+
+    def carried(self, before: Self) -> Mapping[str, float]:
+        """What has to follow so that the motion goes on when another choice is made in the state before.
+
+        Raises `ModelError` where that cannot be told.
+        """
+        return {}
+
     def motion(self) -> Motion | None:
         """The motion on show, for "Speed and accuracy"; None where there is none.  Raises `ModelError`."""
         return None
@@ -261,6 +275,20 @@ class Scene(Generic[S]):
         """Slider ranges (low, high, step) that depend on the state of admitted values."""
         try:
             return self.of(values).limits()
+        except ModelError:
+            return {}
+
+    def idle(self, values: Values) -> Mapping[str, float]:
+        """The numbers that nothing depends on in the state of admitted values, and what they show."""
+        try:
+            return self.of(values).idle()
+        except ModelError:
+            return {}
+
+    def carried(self, before: Values, values: Values) -> Mapping[str, float]:
+        """What has to follow so that the motion of the values before goes on with these, of other choices."""
+        try:
+            return self.of(values).carried(self.of(self.admit(before)[0]))
         except ModelError:
             return {}
 
