@@ -50,6 +50,9 @@ export async function buildPlot(host, picture, source, signal) {
   return plot
 }
 
+// Words on what is grey in light and dark keep their colour, which no theme has; "theme.py" gives it to them.
+const ON_GREY = "#101010"
+
 // Colours of the page's theme, on whatever Bokeh draws itself.
 export function colourPlot(plot, text, muted) {
   for (const part of plot.model.references()) {
@@ -60,7 +63,7 @@ export function colourPlot(plot, text, muted) {
         axis_line_color: muted, axis_line_alpha: 0.4, major_tick_line_color: muted, major_tick_line_alpha: 0.4,
         minor_tick_line_alpha: 0,
       })
-    } else if (part.text_color !== undefined && part.text_baseline !== undefined) {
+    } else if (part.text_color !== undefined && part.text_baseline !== undefined && part.text_color.value !== ON_GREY) {
       part.setv({ text_color: text })
     }
   }

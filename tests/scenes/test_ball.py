@@ -101,6 +101,24 @@ def test_theta_plus_over_the_phases_is_that_of_the_orbits_and_its_range_that_of_
     assert (ring["x"][0], ring["y"][0]) == (values["phi"], pytest.approx(circle_of(values, end), abs=4e-3))
 
 
+@pytest.mark.parametrize("values", [{}, {"D": 0.0}, {"D": 100.0}, {"I13": -0.7}, {"I11": 0.4, "h": 50.0}])
+def test_both_ellipses_have_their_names_beside_them_where_no_motion_is(values):
+    view = View(BALL, values, seen={"omega"}, noted=True)
+    names, half_width = view.data["omega-names"], view.axes["omega"][1]
+    assert names["text"] == ["σ₂", "σ₁"]
+    I11, I22, I13, I23, D = (view.values[key] for key in TENSOR)
+    for x, y, added, outside in zip(names["x"], names["y"], (D, 0.0), (-1.0, 1.0), strict=True):
+        assert max(abs(x), abs(y)) < 0.97 * half_width
+        # 2h is (I + 𝒟) w² on the ellipse through w: how far along its ray, and by how much it is missed.
+        w = np.array([x, y])
+        share = math.sqrt(((I11 + added) * x * x + (I22 + added) * y * y) / (2.0 * view.values["h"]))
+        assert outside * (share - 1.0) > 0.0
+        assert np.linalg.norm(w) * abs(1.0 / max(share, 1e-9) - 1.0) <= 0.1 * half_width
+        # Off the line along which Nˢ and Nᵘ are drawn.
+        if added < 50.0:
+            assert abs(I13 * x + I23 * y) / math.hypot(I13, I23) > 0.05 * half_width
+
+
 # cos χ of the free Suslov problem with these tensors, of an independent computation with 40 digits.
 COSINES = {(1.0, 1.5, 0.7, 1.2): -0.47889450360074, (1.64, 1.0, 0.0, 0.8): -1.0}
 

@@ -23,6 +23,7 @@ from hess_explorer.protocol.parameters import Number, Places, decode, written
 from hess_explorer.scenes import speed_accuracy
 from hess_explorer.scenes.framework.parameters import number
 from hess_explorer.scenes.framework.scene import Report, Scene
+from hess_explorer.views import theme
 from hess_explorer.views.text import with_formulas
 from hess_mechanics import circle_map, f_max, level
 from hess_mechanics.errors import InvalidParameter, ModelError
@@ -93,6 +94,24 @@ def test_a_legend_is_a_list_and_a_thumbnail_a_drawing(scene):
         assert re.search(r"\w", "".join(item.itertext()))
     drawing = ElementTree.fromstring(f"<svg>{scene.thumbnail}</svg>")
     assert len(drawing) > 2
+
+
+@every_scene
+def test_drawings_in_the_words_say_what_they_show_and_have_the_colours_of_the_page(scene):
+    named = re.findall(r"!\[[^\]]+\]\((\S+)\)", scene.words)
+    html = description(scene.name)["words"]
+    drawings = re.findall(r"<svg.*?</svg>", html, re.DOTALL)
+    assert len(drawings) == len(named) >= (scene.name == "chaplygin-ball")
+    assert "<img" not in html
+    for drawing in map(ElementTree.fromstring, drawings):
+        texts = {one.get("id"): one.text for one in drawing}
+        title, desc = (texts[name] for name in drawing.get("aria-labelledby").split())
+        assert drawing.get("role") == "img"
+        assert len(title.split()) > 3
+        assert len(desc.split()) > 20
+        # Letters and lines are those of the page, in light and dark.
+        colours = {one.get(kind) for one in drawing.iter() for kind in ("fill", "stroke")} - {None, "none"}
+        assert colours - {theme.ORBIT, theme.STABLE, theme.UNSTABLE, theme.MAP, theme.MUTED} == {"currentColor"}
 
 
 @every_scene

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import json
 import threading
+from collections.abc import Sequence
 from functools import cache
 from typing import Any
 
 from markdown_it import MarkdownIt
+from markdown_it.token import Token
 
 from hess_explorer.protocol.parameters import Choice, Number, Places
 from hess_explorer.scenes import scenes
+from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.views.text import with_formulas
 
 __all__ = ["describe"]
@@ -37,11 +40,23 @@ def _describe(name: str) -> str:
         "drawn": any(isinstance(spec, Places) for spec in scene.specs),
         "presets": [preset.name for preset in scene.presets],
         "legend": scene.legend,
-        "words": MarkdownIt().enable("table").render(with_formulas(scene.words)),
+        "words": _html(scene),
         "tracks": [f"data-{name}" for name in scene.tracks],
         "dots": {source: list(columns) for source, columns in scene.dots.items()},
         "angles": list(scene.angles),
     })
+
+
+def _html(scene: Scene[Any]) -> str:
+    """Its words; a drawing stands in the text, where it takes the colours of the page, and asks for no file."""
+
+    def drawing(_: object, tokens: Sequence[Token], i: int, *rest: object) -> str:
+        return scene.drawing(str(tokens[i].attrs["src"]))
+
+    markdown = MarkdownIt().enable("table")
+    markdown.add_render_rule("image", drawing)
+    html: str = markdown.render(with_formulas(scene.words))
+    return html
 
 
 def _control(spec: Number | Choice) -> dict[str, Any]:

@@ -21,7 +21,7 @@ from hess_explorer.views import scattering_map as square
 from hess_explorer.views import theme
 from hess_explorer.views import velocity_plane as plane
 from hess_explorer.views.graph import over_time
-from hess_explorer.views.layers import arrows, curves, levels, region, ring
+from hess_explorer.views.layers import arrows, curves, levels, names, region, ring
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits as in_digits
 from hess_explorer.views.text import vector
@@ -114,6 +114,12 @@ class ChaplyginBall(CircleLeft, FreeBall, OneOrbit):
         return [np.column_stack([phis, self.work.get(
             model.free_theta_plus, self.body, self.theta, self.distance, tuple(phis.tolist()))])]
 
+    def ellipse_names(self) -> list[tuple[float, float, str]]:
+        """σ2 and σ1 beside their curves, in a quadrant that the line of rest does not cross."""
+        angle = (0.25 if self.I13 * self.I23 >= 0.0 else 0.75) * math.pi
+        places = plane.beside(self.strip.sigma2(angle), self.strip.sigma1(angle), self.half_width)
+        return [(float(x), float(y), name) for (x, y), name in zip(places, ("σ₂", "σ₁"), strict=True)]
+
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_sphere(self) -> str:
@@ -171,6 +177,7 @@ SCENE = Scene(
                 region("forbidden", lambda s: plane.ring_outside(
                     s.strip.sigma2(_ANGLES), s.strip.sigma1(_ANGLES), s.half_width),
                     edge=theme.MUTED, label="impossible", moving=True),
+                names("names", ChaplyginBall.ellipse_names),
                 plane.arcs(lambda s: [track for track, _ in s.crowd if len(track) > 1]),
                 *plane.halves(lambda s, _: s.strip.stable, lambda s, _: s.strip.unstable,
                               ("Nˢ, circle joined", "Nᵘ, circle left")),

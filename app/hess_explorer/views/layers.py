@@ -17,7 +17,7 @@ from hess_mechanics.numerics.results import Array
 
 __all__ = [
     "MESSAGE", "MOVING_POINT", "POINT", "Axes", "Columns", "Grid", "Layer", "Range", "Sign", "arrows", "curves", "dots",
-    "f32", "image", "levels", "line", "points", "region", "ring", "target", "text",
+    "f32", "image", "levels", "line", "names", "points", "region", "ring", "target", "text",
 ]
 
 S = TypeVar("S")
@@ -243,6 +243,15 @@ def levels(name: str, data: Callable[[S], Sequence[float]]) -> Layer[S]:
 
     style = {"color": theme.MUTED, "line_dash": "dotted", "line_width": 1.5}
     return Layer(name, "segment", ("x0", "y0", "x1", "y1"), style, within=across)
+
+
+def names(name: str, data: Callable[[S], Sequence[tuple[float, float, str]]]) -> Layer[S]:
+    """Words about places of the part that is impossible: data(state) = [(x, y, word), …]."""
+    columns = ("x", "y", "text")
+    style = {"text_color": theme.ON_FORBIDDEN, "text_font_size": "16px", "text_align": "center",
+             "text_baseline": "middle"}
+    return Layer(name, "text", columns, style,
+                 data=lambda state: dict(zip(columns, map(list, zip(*data(state), strict=True)), strict=False)))
 
 
 def text(name: str, data: Callable[[S], str]) -> Layer[S]:

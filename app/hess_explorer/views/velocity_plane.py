@@ -17,9 +17,9 @@ from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.numerics.results import Array, Orbit
 
 __all__ = [
-    "arcs", "arrows_at", "arrows_on", "centred", "energy_levels", "equilibria", "halves", "nice_above", "orbit",
-    "orbit_alone", "orbit_columns", "outside", "picture", "pixels_per_unit", "ring_outside", "room_for", "square",
-    "to_the_edge", "velocity_columns",
+    "arcs", "arrows_at", "arrows_on", "beside", "centred", "energy_levels", "equilibria", "halves", "nice_above",
+    "orbit", "orbit_alone", "orbit_columns", "outside", "picture", "pixels_per_unit", "ring_outside", "room_for",
+    "square", "to_the_edge", "velocity_columns",
 ]
 
 S = TypeVar("S")
@@ -92,6 +92,13 @@ def outside(curve: Array, half_width: float) -> list[Array]:
 def ring_outside(inner: Array, outer: Array, half_width: float) -> list[list[Array]]:
     """For a `region`: all but the ring between two closed curves (m, 2); axes that are held may be larger ones."""
     return [outside(outer, 4.0 * half_width), [inner]]
+
+
+def beside(inner: Array, outer: Array, half_width: float) -> Array:
+    """Places (2, 2) for the names of two closed curves: within a point (2,) of one, beyond one of the other."""
+    gap = 0.09 * half_width
+    lengths = np.linalg.norm([inner, outer], axis=1)
+    return np.array([inner * (1.0 - min(1.0, gap / lengths[0])), outer * (1.0 + gap / lengths[1])])
 
 
 def halves(stable: Callable[[S, Axes], Array], unstable: Callable[[S, Axes], Array], labels: tuple[str, str]

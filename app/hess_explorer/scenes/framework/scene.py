@@ -191,6 +191,10 @@ class Scene(Generic[S]):
         assert found is not None, self.module
         return found[1]
 
+    def drawing(self, name: str) -> str:
+        """An SVG beside the words, which name it as Markdown names a picture."""
+        return Path(self.module).with_name(name).read_text(encoding="utf-8")
+
     @cached_property
     def legend(self) -> str:
         """HTML: a list of the signs of all pictures; one sign has one entry."""
