@@ -116,8 +116,8 @@ class ChaplyginBall(CircleLeft, FreeBall, OneOrbit):
 
     def ellipse_names(self) -> list[tuple[float, float, str]]:
         """σ2 and σ1 beside their curves, in a quadrant that the line of rest does not cross."""
-        angle = (0.25 if self.I13 * self.I23 >= 0.0 else 0.75) * math.pi
-        places = plane.beside(self.strip.sigma2(angle), self.strip.sigma1(angle), self.half_width)
+        angle = [(0.25 if self.I13 * self.I23 >= 0.0 else 0.75) * math.pi]
+        places = plane.beside(self.strip.sigma2(angle)[0], self.strip.sigma1(angle)[0], self.half_width)
         return [(float(x), float(y), name) for (x, y), name in zip(places, ("σ₂", "σ₁"), strict=True)]
 
     # ---- words --------------------------------------------------------------------------------------------------
