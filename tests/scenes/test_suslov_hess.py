@@ -9,8 +9,9 @@ import pytest
 
 from hess_explorer.scenes import scenes
 from hess_explorer.views.circle_map import EVENLY
-from hess_mechanics import circle_map
+from hess_mechanics import circle_map, level, solve, systems, turning_points
 from hess_mechanics.numerics.accuracy import REFERENCE
+from hess_mechanics.suslov_hess.bifurcation import curve_point
 from support.view import View
 
 SCENE = scenes()["suslov-hess"]
@@ -34,6 +35,57 @@ def test_the_curve_over_the_bottom_is_where_iterates_are(I23, h, f):
     zeta, = view.derived("ζ of the invariant density = #")
     # Its kernel is largest on the ray to ζ, where it is (1 + |ζ|)/(1 − |ζ|) times the even density.
     assert density.max() * SIDE == pytest.approx((1.0 + abs(zeta)) / (1.0 - abs(zeta)), rel=1e-3)
+
+
+@pytest.mark.parametrize(("I23", "h", "f"), [(0.5, 0.5, 0.5), (0.9, -0.5, 0.3)])
+def test_the_shade_of_the_torus_is_where_a_long_motion_is(I23, h, f):
+    values = {"I22": 1.0, "I23": I23, "h": h, "f": f}
+    view = View(SCENE, values, seen={"torus"})
+    shade, = view.data["torus-density"]["image"]
+    least, most = view.numbers("torus", "The flow keeps it: # to # times an even one")
+    density = np.asarray(shade, float) * most
+    assert (density.min(), density.mean()) == pytest.approx((least, 1.0), rel=6e-3)
+    # The orbit on show, at even times by the general kernel.
+    turning = turning_points(h, f)
+    times = np.linspace(0.0, 700.0 * turning.period, 40_000)
+    states = solve(systems()["hess"], turning.state_at_lower_turn(view.values["phi0"]), (I23, 1.0), times,
+                   level("precise")).states
+    sigma = np.remainder(times / turning.period + 0.5, 1.0) - 0.5
+    shares = np.histogram2d(np.arctan2(states[:, 0], states[:, 1]), SIDE * sigma, [8, 6], [(-math.pi, math.pi)] * 2)[0]
+    expected = density.reshape(8, 15, 6, 20).sum(axis=(1, 3)) / density.size
+    assert shares / times.size == pytest.approx(expected, abs=3e-3 * expected.max() + 1e-3)
+    # And the columns that the moving point follows.
+    orbit = view.data["data-orbit"]
+    again = solve(systems()["hess"], turning.state_at_lower_turn(view.values["phi0"]), (I23, 1.0),
+                  view.result.track.orbit.times, level("precise")).states
+    away = np.exp(1j * orbit["phi"]) - np.exp(1j * np.arctan2(again[:, 0], again[:, 1]))
+    assert np.max(np.abs(away)) < 1e-4
+    turns = view.result.track.orbit.times / turning.period
+    assert np.exp(1j * orbit["sigma"]) == pytest.approx(np.exp(2j * math.pi * turns), abs=1e-5)
+
+
+@pytest.mark.parametrize(("values", "words"), [
+    ({"I23": 0.5, "h": 1.5, "f": 0.6}, "No density: |t| > 2, every motion but one tends to the stable limit cycle."),
+    ({"I23": 0.5, "h": 0.5, "f": 1.01563456028796105}, "No density at |t| = 2"),
+    ({"I23": 0.5, "h": 1.0, "f": 0.0}, "No density: on the separatrix"),
+    ({"I23": 0.5, "h": 0.3, "f": 0.0}, "No density is drawn at f = 0"),
+    ({"I23": 0.5, **dict(zip("hf", curve_point(0.5), strict=True))}, "No density: on the bifurcation curve"),
+    ({"I23": 4.0, "h": 0.9, "f": 1e-9}, "The density is too thin"),
+])
+def test_where_the_torus_has_no_density_the_reason_is_said(values, words):
+    view = View(SCENE, {"I22": 1.0, **values}, seen={"torus"})
+    assert words in view.text["torus"]
+    assert len(view.text["torus"].split("\n")[1]) <= 110
+    assert "image" not in view.data.get("torus-density", {})
+    view.assert_finite()
+
+
+def test_all_but_one_motion_tend_to_the_stable_limit_cycle():
+    theta = circle_map(0.5, 1.5, 0.6, REFERENCE)
+    stable, unstable = theta.fixed_points
+    for phi in np.linspace(-3.1, 3.1, 30):
+        assert math.cos(theta.iterate(phi, 60)[-1] - stable.phi) == pytest.approx(1.0, abs=1e-9)
+    assert not unstable.stable
 
 
 def test_beside_limit_cycles_no_density_is_drawn():

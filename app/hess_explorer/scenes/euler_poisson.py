@@ -151,7 +151,7 @@ class EulerPoisson(Moments, RotationAcross):
     def _about_section(self) -> str:
         kept = [one for piece in self.pieces for one in piece.kept]
         mixed = ": the layers never mix." if self.away == 0.0 else "."
-        other = len(inside(map(tuple, self.elsewhere), self.frame))
+        other = len(inside([(float(l), float(x)) for l, x in self.elsewhere], self.frame))
         apart = f" {other} on another sheet." if other else ""
         return f"r·M keeps its sign along {sum(kept)} of {len(kept)} orbits{mixed}{apart}"
 

@@ -17,21 +17,21 @@ from hess_explorer.scenes.framework.trial import Trial, colour_error, curve_erro
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import bifurcation_diagram as diagram
 from hess_explorer.views import circle_map as circle
-from hess_explorer.views import torus_plane
+from hess_explorer.views import torus_density, torus_plane
 from hess_explorer.views.body import BodyInSpace, Curve, Rod, Shape
 from hess_explorer.views.layers import Columns, Grid
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, parallels
 from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import nice_above, picture
-from hess_mechanics.errors import Separatrix
+from hess_mechanics.errors import InvalidParameter, Separatrix
 from hess_mechanics.numerics.accuracy import DRAFT, REFERENCE, Kind, Level
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.rigid_body.attitude import Attitude
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, curve, curve_point, f_max, reach, turning_points
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
 from hess_mechanics.suslov_hess.equations import SYSTEM
-from hess_mechanics.suslov_hess.invariant_measure import invariant_measure
+from hess_mechanics.suslov_hess.invariant_measure import density_on_torus, invariant_measure
 from hess_mechanics.suslov_hess.mode_locking import CELLS, lock_boundary, rotation_number_window
 from hess_mechanics.suslov_hess.torus import (
     MAX_RETURNS,
@@ -136,6 +136,17 @@ class SuslovHess(SuslovBody):
         return self.map.iterate(self.phi0, max(1, returns))
 
     @cached_property
+    def density(self) -> tuple[Array | None, str]:
+        """The invariant density on the torus, relative to an even one, or why there is none."""
+        reason = torus_density.why_none(self.map, self.turning)
+        if reason or self.map is None:
+            return None, reason
+        try:
+            return self.work.get(density_on_torus, self.map, self.level), ""
+        except InvalidParameter as error:
+            return None, str(error)
+
+    @cached_property
     def attitude(self) -> Attitude | None:
         """How the body lies in space; None where this is no rigid body."""
         if not self.body.check.is_body:
@@ -160,8 +171,9 @@ class SuslovHess(SuslovBody):
         found, start = self.track, self.track.phi
         if self.map is not None and self.iterates is not None:
             start = torus_plane.phases_at_returns(found, self.map, self.iterates)
-        return torus_plane.track_columns(found, phi_start=start, h=np.full(found.n3.size, self.h),
-                                         reach=math.copysign(1.0, self.f) * reach(self.h, found.n3))
+        return torus_plane.track_columns(
+            found, phi_start=start, sigma=torus_density.phases(found, self.map), h=np.full(found.n3.size, self.h),
+            reach=math.copysign(1.0, self.f) * reach(self.h, found.n3))
 
     def heights(self) -> list[Circle]:
         """The circles between which n3 swings."""
@@ -185,25 +197,6 @@ class SuslovHess(SuslovBody):
         return None if self.attitude is None else (self.attitude, self.attitude.times / self.body.frequency_unit)
 
     # ---- words --------------------------------------------------------------------------------------------------
-
-    def about_velocity(self) -> str:
-        """The caption of the (ω1, ω2)-plane."""
-        if self.map is None or self.turning is None:
-            return "The orbit needs infinite time to come to rest."
-        n1, n2 = self.turning.roots[1:]
-        orbit = {"hyperbolic": "The orbit tends to the stable limit cycle",
-                 "parabolic": "The two limit cycles have merged"}.get(
-                     self.map.kind, "The orbit winds round the torus, no limit cycle")
-        if n2 - n1 < 1e-6:
-            orbit = "On the bifurcation curve the torus is a circle"
-        return f"{orbit}; |w| from {digits(self.turning.initial_rho)} to {digits(self.turning.final_rho)}."
-
-    def about_sphere(self) -> str:
-        """The caption of the Poisson sphere."""
-        if self.turning is None:
-            return "Towards the upper equilibrium, n₃ = −1."
-        n1, n2 = self.turning.roots[1:]
-        return f"The vertical γ, between heights n₃ = {digits(n1)} and {digits(n2)}."
 
     def about_body(self) -> str:
         """The caption of the body."""
@@ -269,11 +262,12 @@ SCENE = Scene(
     summary="A heavy rigid body with ω₃ = 0 whose motions live on tori: rotation, locking, limit cycles.",
     tracks={"orbit": SuslovHess.orbit_columns, "stable": lambda s: torus_plane.cycle_columns(s.cycles, 0),
             "unstable": lambda s: torus_plane.cycle_columns(s.cycles, 1)},
-    angles=("phi", "phi_start"),
+    angles=("phi", "phi_start", "sigma"),
     views=(
-        picture(SuslovHess.about_velocity, lambda s: s.half_width, torus_plane.layers(
+        picture(lambda s: torus_plane.about(s.map, s.turning), lambda s: s.half_width, torus_plane.layers(
             lambda s: annulus(s.body, s.h, s.turning), half_width=lambda s: s.half_width)),
-        Sphere(caption=SuslovHess.about_sphere, axis=lambda s: Direction(s.body.n3, "n₃"), circles=SuslovHess.heights,
+        Sphere(caption=lambda s: torus_plane.about_heights(s.turning), circles=SuslovHess.heights,
+               axis=lambda s: Direction(s.body.n3, "n₃"),
                looks={"orbit": "orbit", "stable": "stable", "unstable": "unstable"}),
         Plot(name="bifurcation", title="Bifurcation diagram", axes=("h", "f"),
              caption=lambda s: diagram.about(s.h, s.f, s.map), dot=("h", "reach"),
@@ -285,6 +279,7 @@ SCENE = Scene(
                  here=lambda s: [(s.h, s.f)], axes=lambda s: diagram.window(s.h))),
         circle.picture(map=lambda s: s.map, iterates=lambda s: s.iterates, caption=lambda s: circle.about(s.map),
                        dot=("phi_start", "phi"), on_click=lambda s, x, y: {"phi0": x}),
+        torus_density.picture(lambda s: s.density),
         BodyInSpace(name="body", title="The body in space", caption=SuslovHess.about_body, bare=True,
                     folded="Show the body in space", motion=SuslovHess.lying,
                     shape=lambda s: None if s.tensor is None else Shape.of_tensor(s.tensor, (0.0, 0.0, 1.0)),

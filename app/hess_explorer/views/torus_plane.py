@@ -9,12 +9,14 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.layers import Columns, Layer, line, region
+from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import ring_outside, velocity_columns
 from hess_mechanics.numerics.results import Array
+from hess_mechanics.suslov_hess.bifurcation import TurningPoints
 from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.torus import Track
 
-__all__ = ["cycle_columns", "layers", "phases_at_returns", "track_columns"]
+__all__ = ["about", "about_heights", "cycle_columns", "layers", "phases_at_returns", "track_columns"]
 
 S = TypeVar("S")
 
@@ -47,3 +49,24 @@ def track_columns(track: Track, **more: Array) -> Columns:
 def cycle_columns(cycles: tuple[Track, Track] | None, i: int) -> Columns | None:
     """Those of the stable (0) or the unstable (1) limit cycle."""
     return None if cycles is None else velocity_columns(None, cycles[i].omega, cycles[i].gamma)
+
+
+def about(theta: CircleMap | None, turning: TurningPoints | None) -> str:
+    """What the orbit does on its torus, both None on the separatrix."""
+    if theta is None or turning is None:
+        return "The orbit needs infinite time to come to rest."
+    n1, n2 = turning.roots[1:]
+    orbit = {"hyperbolic": "The orbit tends to the stable limit cycle",
+             "parabolic": "The two limit cycles have merged"}.get(
+                 theta.kind, "The orbit winds round the torus, no limit cycle")
+    if n2 - n1 < 1e-6:
+        orbit = "On the bifurcation curve the torus is a circle"
+    return f"{orbit}; |w| from {digits(turning.initial_rho)} to {digits(turning.final_rho)}."
+
+
+def about_heights(turning: TurningPoints | None) -> str:
+    """Between which heights the vertical is, None on the separatrix."""
+    if turning is None:
+        return "Towards the upper equilibrium, n₃ = −1."
+    n1, n2 = turning.roots[1:]
+    return f"The vertical γ, between heights n₃ = {digits(n1)} and {digits(n2)}."

@@ -28,7 +28,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hess_mechanics.dynamics.ensemble import ensemble
+from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array, Complex, frozen
@@ -36,7 +36,10 @@ from hess_mechanics.suslov_hess.bifurcation import turning_points
 from hess_mechanics.suslov_hess.circle_map import CircleMap, discriminants
 from hess_mechanics.suslov_hess.equations import SYSTEM
 
-__all__ = ["InvariantMeasure", "TorusMeasure", "invariant_measure", "on_torus", "poisson_kernel", "seen_from"]
+__all__ = [
+    "CELLS", "InvariantMeasure", "TorusMeasure", "density_on_torus", "invariant_measure", "on_torus", "poisson_kernel",
+    "seen_from",
+]
 
 
 def poisson_kernel(phi: Array | Sequence[float], zeta: complex | Complex) -> Array:
@@ -143,12 +146,38 @@ def on_torus(measure: InvariantMeasure, times: Sequence[float] | Array, level: L
         raise InvalidParameter("f = 0: there w vanishes at the lower turning point, and φ jumps. Choose another f.")
     turning = turning_points(measure.h, measure.f)
     starts = np.angle((_CUBE_ROOTS + measure.zeta) / (1.0 + measure.zeta * _CUBE_ROOTS))
-    states = np.stack([turning.state_at_lower_turn(phi) for phi in starts.tolist()])
-    found = ensemble(SYSTEM, states, (measure.a, 1.0), times, level)
-    w1, w2 = found.states[..., 0], found.states[..., 1]
+    found = [solve(SYSTEM, turning.state_at_lower_turn(phi), (measure.a, 1.0), times, level)
+             for phi in starts.tolist()]
+    w1, w2 = np.stack([orbit.states[:, :2] for orbit in found]).transpose(2, 0, 1)
     z1, z2, z3 = (w2 + 1j * w1) / np.hypot(w1, w2)
     one, two, three = _CUBE_ROOTS
     ratio = one * (two - three) / (three * (two - one)) * (z2 - z1) / (z2 - z3)
     zeta = (z1 - ratio * z3) / (1.0 - ratio)
     turned = np.unwrap(np.angle((z1 - zeta) / (1.0 - np.conj(zeta) * z1)))
-    return TorusMeasure(found.times, frozen(zeta), frozen(turned), measure.period, float(found.errors.max()))
+    error = max(orbit.error_estimate for orbit in found)
+    return TorusMeasure(found[0].times, frozen(zeta), frozen(turned), measure.period, error)
+
+
+CELLS = (120, 120)
+"""Of the torus."""
+_NARROWEST = 1e-4
+"""Of 1 − |ζ_s| found: below it the density is a line too thin to be drawn, or to be found from motions."""
+
+
+def density_on_torus(theta: CircleMap, level: Level, cells: tuple[int, int] = CELLS) -> Array:
+    """The density at the centres of cells (m, n) of the torus, relative to an even one; shape (n, m).
+
+    Rows of equal φ and columns of equal σ = 2πs/T, both from −π to π; σ = 0 at the return.  Its mean is 1.
+    Raises `InvalidParameter` where there is none (limit cycles), at f = 0 and where it is too narrow; `WorkLimit`.
+    """
+    measure = invariant_measure(theta)
+    m, n = 2 * max(1, cells[0] // 2), cells[1]
+    if measure.gap >= _NARROWEST:
+        found = on_torus(measure, (np.arange(m) + 0.5) / m * measure.period, level)
+        width = float(np.min(1.0 - np.abs(found.zeta)))
+        if width >= max(_NARROWEST, 10.0 * found.error_estimate):
+            phi = (2.0 * np.arange(n) + 1.0 - n) * math.pi / n
+            relative = 2.0 * math.pi * measure.period * found.density(phi)
+            return frozen(np.roll(relative, m // 2, axis=0).T.copy())
+    raise InvalidParameter("The density is too thin to be drawn, all but on one line: choose a smaller |a| or another "
+                           "torus.")

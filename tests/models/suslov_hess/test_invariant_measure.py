@@ -11,7 +11,13 @@ from scipy.integrate import quad, solve_ivp
 
 from hess_mechanics import circle_map, level, solve, systems, turning_points
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.suslov_hess.invariant_measure import invariant_measure, on_torus, poisson_kernel, seen_from
+from hess_mechanics.suslov_hess.invariant_measure import (
+    density_on_torus,
+    invariant_measure,
+    on_torus,
+    poisson_kernel,
+    seen_from,
+)
 
 HESS = systems()["hess"]
 REFERENCE = level("reference")
@@ -163,6 +169,38 @@ def test_a_long_motion_is_spread_over_the_torus_as_the_density_says(a, h, f):
     assert shares == pytest.approx(expected, abs=3e-3 * expected.max() + 1e-3)
     # It does depend on the time since the return.
     assert np.max(np.ptp(expected, axis=0)) > 0.01
+
+
+@every_torus
+def test_the_unrolled_density_is_normalised_and_carried_along_by_the_flow(a, h, f):
+    theta, turning = circle_map(a, h, f, REFERENCE), turning_points(h, f)
+    density = density_on_torus(theta, REFERENCE, (64, 128))
+    assert density.shape == (128, 64)
+    # Of a smooth periodic function the mean over even places is exact.
+    assert density.mean(axis=0) == pytest.approx(1.0, abs=1e-6)
+    # Neighbours at σ = 0 are carried to the middle of a column: density there times how far they have spread.
+    step = 1e-5
+    for column in (3, 40):
+        sigma = -math.pi + (column + 0.5) / 64 * 2.0 * math.pi
+        s = sigma % (2.0 * math.pi) / (2.0 * math.pi) * turning.period
+        for phi in (-2.0, 0.4, 1.7):
+            ends = [solve(HESS, turning.state_at_lower_turn(phi + sign * step), (a, 1.0), [s], REFERENCE).states[0]
+                    for sign in (-1, 1)]
+            low, high = (math.atan2(state[0], state[1]) for state in ends)
+            slope = math.remainder(high - low, 2.0 * math.pi) / (2.0 * step)
+            row = ((low + math.pi) / (2.0 * math.pi) * 128 - 0.5) % 128
+            # Between the centres of cells, by the trigonometric polynomial through them.
+            there = np.fft.rfft(density[:, column]) * np.exp(2j * math.pi * np.arange(65) * row / 128)
+            value = (there[0].real + 2.0 * there[1:-1].real.sum() + there[-1].real) / 128
+            before = 2.0 * math.pi * float(invariant_measure(theta).density([phi])[0])
+            assert value * slope == pytest.approx(before, rel=2e-4)
+
+
+@pytest.mark.parametrize(("a", "h", "f", "words"), [
+    (0.5, 1.5, 0.6, "choose a torus"), (0.5, 0.3, 0.0, "Choose another f"), (4.0, 0.9, 0.0, "choose a smaller .a.")])
+def test_where_nothing_can_be_drawn_it_is_said_why(a, h, f, words):
+    with pytest.raises(InvalidParameter, match=words):
+        density_on_torus(circle_map(a, h, f, REFERENCE), REFERENCE)
 
 
 def test_at_f_0_the_angle_jumps_and_is_refused():

@@ -1,0 +1,69 @@
+"""The unrolled torus of the Hess case: where motions are how often, and the orbit on show."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeVar
+
+import numpy as np
+
+from hess_explorer.views import theme
+from hess_explorer.views.circle_map import SIDE, TICKS
+from hess_explorer.views.layers import Grid, Layer, Sign, dots, image
+from hess_explorer.views.plot import Plot
+from hess_explorer.views.text import digits
+from hess_mechanics.numerics.results import Array
+from hess_mechanics.suslov_hess.bifurcation import TurningPoints
+from hess_mechanics.suslov_hess.circle_map import CircleMap
+from hess_mechanics.suslov_hess.torus import Track
+
+__all__ = ["about", "phases", "picture", "why_none"]
+
+S = TypeVar("S")
+
+_SHADES = tuple(f"{theme.STABLE}{round(220 * i / 255):02x}" for i in range(256))
+
+
+def phases(track: Track, theta: CircleMap | None) -> Array:
+    """σ (n,) in [−π, π) along an orbit, which grows by 2π from one return to the next; 0 on the separatrix."""
+    if theta is None:
+        return np.zeros(track.orbit.times.size)
+    turns = track.orbit.times / theta.period
+    return np.asarray(2.0 * np.pi * (turns - np.floor(turns + 0.5)))
+
+
+def why_none(theta: CircleMap | None, turning: TurningPoints | None) -> str:
+    """Why a torus has no density, None on the separatrix; empty where it has one."""
+    if theta is None or turning is None:
+        return "No density: on the separatrix no motion returns."
+    if turning.roots[2] - turning.roots[1] < 1e-6:
+        return "No density: on the bifurcation curve the torus is a circle."
+    if theta.kind == "hyperbolic":
+        return "No density: |t| > 2, every motion but one tends to the stable limit cycle."
+    if theta.kind == "parabolic":
+        return "No density at |t| = 2, where the two limit cycles merge."
+    return "No density is drawn at f = 0: φ jumps where w = 0. Choose another f." if theta.f == 0.0 else ""
+
+
+def about(density: Array) -> str:
+    """What a density, relative to an even one, says."""
+    return (f"The flow keeps it: {digits(float(density.min()), 3)} to {digits(float(density.max()), 3)} times an even "
+            "one, greener is more.")
+
+
+def picture(density: Callable[[S], tuple[Array | None, str]]) -> Plot[S]:
+    """The density (n, m) relative to an even one, or why there is none; the track "orbit" on the torus."""
+    def caption(state: S) -> str:
+        found, reason = density(state)
+        return reason if found is None else about(found)
+
+    def shares(state: S) -> Grid | None:
+        found, _ = density(state)
+        return None if found is None else Grid(found / found.max(), SIDE, SIDE)
+
+    layers: tuple[Layer[S], ...] = (
+        image("density", shares, palette=_SHADES, low=0.0, high=1.0,
+              legend=(Sign("density on the torus", "box", f"background: {theme.STABLE}"),)),
+        dots("path", track="orbit", columns=("sigma", "phi"), color=theme.ORBIT, size=8))
+    return Plot(name="torus", title="Density on the torus", caption=caption, axes=("σ", "φ"), x=SIDE, y=SIDE,
+                ticks=TICKS, dot=("sigma", "phi"), folded="Show the density on the torus", layers=layers)
