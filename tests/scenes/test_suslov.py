@@ -394,3 +394,33 @@ def test_the_motion_of_the_scene_is_the_chosen_orbit():
 def test_examples_set_all_choices_that_their_captions_depend_on():
     for preset in SCENE.presets:
         assert {"plane", "colours", "drop"} <= set(preset.values)
+
+
+def test_on_a_principal_axis_both_times_and_the_brackets_are_drawn():
+    preset = next(one for one in SCENE.presets if one.name == PRINCIPAL)
+    view = View(SCENE, {**preset.values, **FEW, "span": 20.0}, seen={"conformal"})
+    body, start = body_of(view), start_of(view)
+    t, tau = view.curve("conformal-tau")
+    run = solve_ivp(lambda _, y: [*field(body, y[:5]), y[4]], (0.0, 20.0), [*start, 0.0], method="DOP853",
+                    rtol=1e-10, atol=1e-12, dense_output=True)
+    assert tau == pytest.approx(run.sol(t)[5], abs=1e-5)
+    # γ_k over I γ3, with its poles cut out.
+    for source, sign, k, moment in (("first", 1.0, 3, body.I11), ("second", -1.0, 2, body.I22)):
+        at, value = view.curve(f"conformal-{source}")
+        y = run.sol(at)
+        assert value == pytest.approx(sign * y[k] / (moment * y[4]), rel=1e-3, abs=1e-4)
+        assert len(view.data[f"conformal-{source}"]["xs"]) > 3
+    left, turns = view.numbers("conformal", "ẋ = γ₃{x, E} to #. On the equator τ turns round # times.")
+    assert left < 1e-14
+    # The start lies on the equator.
+    g3 = run.sol(np.linspace(1e-3, 20.0, 4001))[4]
+    assert turns == np.count_nonzero(np.diff(np.sign(g3)))
+
+
+def test_elsewhere_the_conformal_time_is_not_drawn_and_that_is_said():
+    view = View(SCENE, FEW, seen={"conformal"})
+    assert "Only for I₁₃ = I₂₃ = 0" in view.text["conformal"]
+    assert "conformal-tau" not in view.data
+    preset = next(one for one in SCENE.presets if one.name == PRINCIPAL)
+    long = View(SCENE, {**preset.values, **FEW, "span": 9e3}, seen={"conformal"})
+    assert "choose a shorter time span" in long.text["conformal"]

@@ -19,7 +19,7 @@ from hess_explorer.scenes.framework.one_orbit import Start
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, like, number, places, time_span
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.windows import Window
-from hess_explorer.views import layered_section, theme
+from hess_explorer.views import conformal_time, layered_section, theme
 from hess_explorer.views.graph import over_time, settled_range, thinned
 from hess_explorer.views.layers import Axes, levels
 from hess_explorer.views.plot import Plot
@@ -30,10 +30,12 @@ from hess_explorer.views.velocity_plane import nice_above, orbit_alone, orbit_co
 from hess_mechanics.dynamics.basin_boundary import unsure
 from hess_mechanics.dynamics.sampling import HALF_A_PIXEL
 from hess_mechanics.dynamics.section import occupied_cells
+from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import Kind, Level, cheapest
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.rigid_body.inertia import check_body
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
+from hess_mechanics.suslov.principal_axis import Conformal, conformal
 from hess_mechanics.suslov.section import Course, SuslovSection, lowest_energy, mean_divergence, suslov_points
 
 _MOST_STEPS = 100_000
@@ -184,6 +186,16 @@ class Suslov(CentreOfMass, Tensor, Basins):
         """The curve of the exponent (0), or of the mean divergence (1)."""
         return thinned(*self.rates[i]) if self.rates else None
 
+    @cached_property
+    def _conformal(self) -> tuple[Conformal | None, str]:
+        """The orbit on show in its two times, or why there is none."""
+        if self.I13 != 0.0 or self.I23 != 0.0:
+            return None, "Only for I₁₃ = I₂₃ = 0, as in the example “On a principal axis”."
+        try:
+            return self.work.get(conformal, self.body, self.start, self.span, self.orbit_level), ""
+        except WorkLimit as error:
+            return None, str(error)
+
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _section_title(self) -> str:
@@ -248,5 +260,6 @@ SCENE = Scene(
         orbit_alone(lambda s: s.half_width, energy=lambda s: s.E),
         Sphere(caption=lambda s: "The vertical γ along the chosen orbit; r: the centre of mass.",
                looks={"orbit": "orbit"}, axis=lambda s: s.r),
+        conformal_time.picture(lambda s: s._conformal[0], lambda s: s._conformal[1], lambda s: s.span),
     ),
 )

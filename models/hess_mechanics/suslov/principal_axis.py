@@ -53,13 +53,21 @@ class Conformal:
     """A motion in its two times.
 
     orbit : at even times t; tau : τ (n,), 0 at t = 0; brackets : (n, 4), see `BRACKETS`, ±∞ on the equator;
-    tau_error : the largest estimated error of τ from its quadrature, besides that of the orbit.
+    tau_error : the largest estimated error of τ from its quadrature, besides that of the orbit;
+    left_over : the largest |ẋ − γ3{x, E}| off the equator, relative to the largest |ẋ|: round-off.
     """
 
     orbit: Orbit
     tau: Array
     brackets: Array
     tau_error: float
+    left_over: float
+
+    @property
+    def turns(self) -> int:
+        """How often τ turns round: crossings of the equator."""
+        sign = np.sign(self.orbit.states[:, 4])
+        return int(np.count_nonzero(np.diff(sign[sign != 0.0])))
 
 
 _SPACING = 0.04
@@ -88,7 +96,12 @@ def conformal(body: SuslovBody, start: Sequence[float], span: float, level: Leve
     with np.errstate(divide="ignore", invalid="ignore"):
         P = poisson_matrix(list(y), p)
         values = [np.broadcast_to(np.asarray(value, float), count) for value in (P[0][3], P[1][2], P[0][4], P[1][4])]
-    return Conformal(orbit, frozen(tau), frozen(np.stack(values, axis=-1)), float(np.abs(tau[::2] - coarse).max()))
+        gradient = energy_gradient(list(y), p)
+        by_brackets = np.array([y[4] * sum(a * b for a, b in zip(row, gradient, strict=True)) for row in P])
+    rates = np.array(SYSTEM.field(list(y), p))
+    away = np.abs(by_brackets - rates)[:, y[4] != 0.0].max(initial=0.0) / max(float(np.abs(rates).max()), 1e-300)
+    return Conformal(orbit, frozen(tau), frozen(np.stack(values, axis=-1)), float(np.abs(tau[::2] - coarse).max()),
+                     float(away))
 
 
 def _integral(span: float, values: Array, rates: Array) -> Array:

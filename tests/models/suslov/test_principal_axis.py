@@ -126,6 +126,9 @@ def test_the_brackets_with_the_energy_are_the_rates_of_the_motion():
     assert (g3 * -b * 1.0 * w2)[off] == pytest.approx(rates[2][off], abs=1e-12)
     assert (g3 * -a * 1.5 * w1)[off] == pytest.approx(rates[3][off], abs=1e-12)
     assert (g3 * (-c * 1.5 * w1 - d * w2))[off] == pytest.approx(rates[4][off], abs=1e-12)
+    # As is said of the whole motion at once.
+    assert found.left_over < 1e-14
+    assert found.turns == np.count_nonzero(np.diff(np.sign(g3)))
     # Two of them are constant; near the equator the others grow without bound.
     assert np.ptp(a) == np.ptp(b) == 0.0
     assert np.max(np.abs(c)) > 20.0

@@ -1,0 +1,68 @@
+"""The time τ, dτ = γ3 dt, along a motion with e on a principal axis, and the Poisson brackets that depend on γ."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeVar
+
+import numpy as np
+
+from hess_explorer.views import theme
+from hess_explorer.views.graph import about_0, over_time, pieces, thinned
+from hess_explorer.views.layers import Axes, Layer, Range, curves, levels
+from hess_explorer.views.plot import Plot
+from hess_explorer.views.text import power
+from hess_mechanics.numerics.results import Array
+from hess_mechanics.suslov.principal_axis import Conformal
+
+__all__ = ["about", "picture"]
+
+S = TypeVar("S")
+Found = Callable[[S], Conformal | None]
+
+_LEAST = 2.5
+"""So that the brackets, which are some units large where γ3 is not small, are seen too."""
+
+
+def about(found: Conformal) -> str:
+    """What a motion in its two times says."""
+    turned = {0: "never turns round", 1: "turns round once"}.get(found.turns, f"turns round {found.turns} times")
+    return f"Hamiltonian in τ: ẋ = γ₃{{x, E}} to {power(found.left_over)}. On the equator τ {turned}."
+
+
+def _bracket(found: Found[S], i: int) -> Callable[[S, Axes], list[Array]]:
+    """Its graph, cut at the equator, where it is infinite."""
+    def graph(state: S, axes: Axes) -> list[Array]:
+        motion = found(state)
+        if motion is None:
+            return []
+        values, top = motion.brackets[:, i], 1.5 * axes.y[1]
+        kept = np.abs(values) < top
+        return pieces(np.column_stack([motion.orbit.times, np.where(kept, values, 0.0)]), kept, top)
+
+    return graph
+
+
+def picture(found: Found[S], reason: Callable[[S], str], span: Callable[[S], float]) -> Plot[S]:
+    """τ and {ω1, γ3}, {ω2, γ3} against t, or the reason why there is none."""
+    def caption(state: S) -> str:
+        motion = found(state)
+        return reason(state) if motion is None else about(motion)
+
+    def height(state: S) -> Range | None:
+        motion = found(state)
+        return None if motion is None else about_0(motion.tau, _LEAST)
+
+    def tau(state: S) -> tuple[Array, Array] | None:
+        motion = found(state)
+        return None if motion is None else thinned(motion.orbit.times, motion.tau)
+
+    layers: tuple[Layer[S], ...] = (
+        levels("levels", lambda s: [] if found(s) is None else [0.0]),
+        curves("first", within=_bracket(found, 2), color=theme.MAP, width=1.5, label="{ω₁, γ₃} = γ₂/(I₁₁γ₃)"),
+        curves("second", within=_bracket(found, 3), color=theme.MUTED, width=1.5, dash="dashed",
+               label="{ω₂, γ₃} = −γ₁/(I₂₂γ₃)"),
+        over_time("tau", tau, color=theme.ORBIT, label="conformal time τ"))
+    return Plot(name="conformal", title="Conformal time and brackets", caption=caption, axes=("t", "τ"),
+                first=Axes((0.0, 60.0), (-3.0, 3.0)), x=lambda s: (0.0, span(s)), y=height, layers=layers,
+                folded="Show the conformal time")
