@@ -53,7 +53,7 @@ def _run(options: argparse.Namespace) -> None:
 
         from hess_mechanics import SuslovBody, check_body, level
         from hess_mechanics.numerics.parallel import share
-        from hess_mechanics.suslov.basins import contraction, groups, middles
+        from hess_mechanics.suslov.basins import contraction_at, groups_of_cells, middle_cells
         from hess_mechanics.suslov.section import SuslovSection, lowest_energy
 
         accuracy = level(options.accuracy)
@@ -69,12 +69,9 @@ def _run(options: argparse.Namespace) -> None:
             ends[i] = section.ends(window, (m, n), i, options.crossings, level=accuracy)
 
         share(row, n)
-        known = np.isfinite(ends)
-        group = groups(ends[known])
-        on_each = [contraction(section.body, section.cells_of_row(window, (m, n), i)[0][j].tolist(), _LONG)
-                   for i, j in np.argwhere(known)[middles(ends[known], group)].tolist()]
-        cells = np.zeros((n, m), int)
-        cells[known] = group
+        cells = groups_of_cells(ends)
+        known = cells >= 0.0
+        on_each = [contraction_at(section, window, (m, n), *cell, _LONG) for cell in middle_cells(ends, cells)]
         check = check_body(*options.I)
     psi, delta = np.meshgrid(psi0 + (np.arange(m) + 0.5) * (psi1 - psi0) / m,
                              delta0 + (np.arange(n) + 0.5) * (delta1 - delta0) / n)
@@ -82,7 +79,7 @@ def _run(options: argparse.Namespace) -> None:
               **{name: [kind(value) if there else None
                         for value, there in zip(column.ravel().tolist(), known.ravel().tolist(), strict=True)]
                  for name, kind, column in (("mean", float, ends), ("group", int, cells))}}
-    counts = np.bincount(cells[known], minlength=len(on_each)).tolist()
+    counts = np.bincount(cells[known].astype(int), minlength=len(on_each)).tolist()
     attractors = sum(one.attracts for one in on_each)
     write(options, series, tuple(series), {
         "cells": [m, n], "counts": counts, "level": accuracy.name,

@@ -149,11 +149,12 @@ class Session:
         """The values that a click [picture, x, y] or a box [picture, x0, y0, x1, y1] chooses; else a note why not."""
         try:
             match picked:
-                case [str(picture), x, y] if all(map(math.isfinite, place := (_float(x), _float(y)))):
-                    return self.stage.pick(picture, *place)
-                case [str(picture), *ends] if len(ends) == 4 and all(map(math.isfinite, map(_float, ends))):
-                    x0, y0, x1, y1 = map(_float, ends)
-                    return self.stage.box(picture, (x0, y0, x1, y1))
+                case [str(name), *given] if all(map(math.isfinite, place := [_float(one) for one in given])):
+                    match place:
+                        case [x, y]:
+                            return self.stage.pick(name, x, y)
+                        case [x0, y0, x1, y1]:
+                            return self.stage.box(name, (x0, y0, x1, y1))
         except ModelError as error:
             self._link_notes, self._dirty = [str(error)], True
         return {}

@@ -26,11 +26,23 @@ from hess_mechanics.numerics.results import Array
 from hess_mechanics.numerics.taylor_kernels import orbit_integrator
 from hess_mechanics.numerics.tracing import Field, Recursion, trace
 
-__all__ = ["Problem", "System", "systems"]
+__all__ = ["Problem", "System", "in_units_of_time", "systems"]
 
 
 _DERIVING = RLock()
 """Threads that want the same kernel get the same one: it is compiled once."""
+
+
+def in_units_of_time(first: int) -> Callable[[Array, Array, float], tuple[Array, Array]]:
+    """`System.rescale` where y begins with two angular velocities, and the parameters from `first` on are a field."""
+
+    def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:
+        y, p = y.copy(), p.copy()
+        y[:2] /= nu
+        p[first:] /= nu * nu
+        return y, p
+
+    return rescale
 
 
 @dataclass(frozen=True)

@@ -16,20 +16,17 @@ import numpy as np
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite
 from hess_mechanics.numerics.results import Array
-from hess_mechanics.rigid_body.inertia import BodyCheck, require_finite
+from hess_mechanics.rigid_body.inertia import MAX_RATIO, BodyCheck, require_finite
 
 __all__ = ["SYSTEM", "HeavyBody"]
-
-_MAX_RATIO = 1e20
-"""Beyond this ratio the slow motion is lost in round-off, in units of the fast one."""
 
 
 def _require_positive(a: Sequence[float]) -> None:
     for i, value in enumerate(a, 1):
         if not value > 0:
             raise NotPositiveDefinite(f"a{i} = {value:g}, but a moment of inertia is positive: choose a{i} > 0.")
-    if max(a) / min(a) > _MAX_RATIO:
-        raise InvalidParameter(f"The moments of inertia are too different: choose ratios below {_MAX_RATIO:g}.")
+    if max(a) / min(a) > MAX_RATIO:
+        raise InvalidParameter(f"The moments of inertia are too different: choose ratios below {MAX_RATIO:g}.")
 
 
 @dataclass(frozen=True)

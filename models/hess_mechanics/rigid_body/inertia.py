@@ -11,7 +11,13 @@ from dataclasses import dataclass
 
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite
 
-__all__ = ["BodyCheck", "body_check", "check_body", "require_finite", "require_positive_definite"]
+__all__ = [
+    "MAX_RATIO", "BodyCheck", "body_check", "check_body", "require_comparable", "require_finite",
+    "require_positive_definite",
+]
+
+MAX_RATIO = 1e20
+"""Of moments of inertia: beyond it the slow motion is lost in round-off, in units of the fast one."""
 
 
 def require_finite(**values: float) -> None:
@@ -28,6 +34,13 @@ def require_positive_definite(I11: float, I22: float) -> None:
             raise NotPositiveDefinite(
                 f"{name} = {value:g}, but a moment of inertia is positive: choose {name} > 0."
             )
+
+
+def require_comparable(I11: float, I22: float) -> None:
+    """Raise `NotPositiveDefinite` unless I11, I22 > 0, `InvalidParameter` where their ratio is beyond `MAX_RATIO`."""
+    require_positive_definite(I11, I22)
+    if not 1.0 / MAX_RATIO <= I11 / I22 <= MAX_RATIO:
+        raise InvalidParameter(f"The moments I11 and I22 are too different: choose a ratio below {MAX_RATIO:g}.")
 
 
 _SEARCH = {"xtol": 1e-300, "rtol": 1e-15, "maxiter": 1000}

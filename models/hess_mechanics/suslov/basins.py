@@ -16,9 +16,9 @@ import numpy as np
 
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov.equations import SuslovBody
-from hess_mechanics.suslov.section import mean_divergence
+from hess_mechanics.suslov.section import SuslovSection, Window, mean_divergence
 
-__all__ = ["Contraction", "contraction", "groups", "middles"]
+__all__ = ["Contraction", "contraction", "contraction_at", "groups", "groups_of_cells", "middle_cells", "middles"]
 
 _NARROWEST = 1e-3
 """Averages closer than this are the same."""
@@ -81,6 +81,26 @@ def middles(averages: Array, group: Array) -> list[int]:
     """Of each group the orbit (index) whose average is the middle one."""
     members = [np.flatnonzero(group == one) for one in range(int(group.max(initial=-1)) + 1)]
     return [int(own[np.argsort(averages[own])[own.size // 2]]) for own in members]
+
+
+def groups_of_cells(ends: Array) -> Array:
+    """The group of each cell of `SuslovSection.ends`, of the same shape; −1 where no orbit is."""
+    there, cells = np.isfinite(ends), np.full(ends.shape, -1.0)
+    cells[there] = groups(ends[there])
+    return cells
+
+
+def middle_cells(ends: Array, cells: Array) -> list[tuple[int, int]]:
+    """Row and column of the middle one of each group, of what `groups_of_cells` makes of these ends (n, m)."""
+    there = cells >= 0.0
+    return [(row, column) for row, column in np.argwhere(there)[middles(ends[there], cells[there])].tolist()]
+
+
+def contraction_at(section: SuslovSection, window: Window, cells: tuple[int, int], row: int, column: int, span: float
+                   ) -> Contraction:
+    """`contraction` of the motion from the middle of one of the cells (m, n) across and up a window."""
+    states, _ = section.cells_of_row(window, cells, row)
+    return contraction(section.body, states[column].tolist(), span)
 
 
 def _width(part: Array) -> float:

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from hess_mechanics.dynamics.system import System
+from hess_mechanics.dynamics.system import System, in_units_of_time
 from hess_mechanics.errors import InvalidParameter, NoField
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.rigid_body.attitude import with_attitude
@@ -158,14 +158,6 @@ def frequency(y: Array, p: Array) -> Array | float:
     return nu
 
 
-def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:
-    """Time in units of 1/ν: w → w/ν, b → b/ν²."""
-    y, p = y.copy(), p.copy()
-    y[:2] /= nu
-    p[1] /= nu * nu
-    return y, p
-
-
 SYSTEM = System(
     name="hess",
     title="Suslov–Hess case, reduced",
@@ -176,7 +168,7 @@ SYSTEM = System(
     field=field,
     integrals=integrals,
     frequency=frequency,
-    rescale=rescale,
+    rescale=in_units_of_time(1),
     example=((0.3, 0.9, 0.6, 0.0, 0.8), (0.75, 1.0)),
 )
 

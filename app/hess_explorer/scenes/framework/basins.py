@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from hess_explorer.scenes.framework.filled_window import FilledWindow
 from hess_explorer.scenes.framework.trial import Trial
-from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views.text import digits
-from hess_mechanics.numerics.accuracy import Kind, Level, Plan
+from hess_mechanics.numerics.accuracy import Kind, Plan
 from hess_mechanics.numerics.results import Array
-from hess_mechanics.suslov.basins import Contraction, contraction, groups, middles
+from hess_mechanics.suslov.basins import Contraction, contraction_at, groups_of_cells, middle_cells
 from hess_mechanics.suslov.section import SuslovSection
 
 __all__ = ["BASINS", "Basins"]
@@ -43,30 +43,23 @@ class Basins(FilledWindow):
         if not self.asked or self.dragging:
             return None
         _ = self.pieces  # come sooner
-        plan = self.plan(Kind.BASINS)
-        cells = plan.grid(_CELLS)
-        rows = [self.work.later(_ends, self.section, self.frame, cells, row, plan.level)
-                for row in range(cells[1])]
+        rows = [self.work.later(SuslovSection.ends, *row) for row in _rows(self, self.plan(Kind.BASINS))]
         known = [row for row in rows if row is not None]
         return np.stack(known) if len(known) == len(rows) else None
 
     @cached_property
     def basin(self) -> Array | None:
         """Cells (m, n): the group of each, 0, 1, …; −1 where nothing moves."""
-        if self.ends is None:
-            return None
-        return _groups(self.ends)
+        return None if self.ends is None else groups_of_cells(self.ends)
 
     @cached_property
     def contractions(self) -> list[Contraction] | None:
         """Of a motion of each group, when all are known."""
         if self.basin is None or self.ends is None:
             return None
-        there = self.basin >= 0.0
-        cells = np.argwhere(there)[middles(self.ends[there], self.basin[there])].tolist()
         grid, long = self.plan(Kind.BASINS).grid(_CELLS), self.plan(Kind.EXPONENT).share * self.long
-        found = [self.work.later(_contraction, self.section, self.frame, grid, row, column, long)
-                 for row, column in cells]
+        found = [self.work.later(contraction_at, self.section, self.frame, grid, row, column, long)
+                 for row, column in middle_cells(self.ends, self.basin)]
         known = [one for one in found if one is not None]
         return known if len(known) == len(found) else None
 
@@ -91,19 +84,14 @@ class Basins(FilledWindow):
         return f"{_NUMBERS.get(len(drawn), len(drawn))} attractors, with {', '.join(parts)} and {last} of the cells."
 
 
-def _ends(section: SuslovSection, window: Window, cells: tuple[int, int], row: int, level: Level) -> Array:
-    return section.ends(window, cells, row, _CROSSINGS, _MOST_STEPS, level)
-
-
-def _groups(ends: Array) -> Array:
-    there, cells = np.isfinite(ends), np.full(ends.shape, -1.0)
-    cells[there] = groups(ends[there])
-    return cells
+def _rows(s: Basins, plan: Plan) -> list[tuple[Any, ...]]:
+    """What `SuslovSection.ends` is asked for, for each row of cells."""
+    cells = plan.grid(_CELLS)
+    return [(s.section, s.frame, cells, row, _CROSSINGS, _MOST_STEPS, plan.level) for row in range(cells[1])]
 
 
 def _all_basins(s: Basins, plan: Plan) -> Array:
-    cells = plan.grid(_CELLS)
-    return _groups(np.stack([_ends(s.section, s.frame, cells, row, plan.level) for row in range(cells[1])]))
+    return groups_of_cells(np.stack([SuslovSection.ends(*row) for row in _rows(s, plan)]))
 
 
 def _changed(s: Basins, cells: Array, truth: Array) -> float:
@@ -114,9 +102,3 @@ def _changed(s: Basins, cells: Array, truth: Array) -> float:
 BASINS: Trial[Basins] = Trial(
     Kind.BASINS, ("section",), _all_basins, _changed, unit="% of the cells that change", seen=3.0,
     shown=lambda s: s.asked)
-
-
-def _contraction(section: SuslovSection, window: Window, cells: tuple[int, int], row: int, column: int, span: float
-                 ) -> Contraction:
-    states, _ = section.cells_of_row(window, cells, row)
-    return contraction(section.body, states[column].tolist(), span)
