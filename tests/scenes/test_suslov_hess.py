@@ -92,3 +92,21 @@ def test_beside_limit_cycles_no_density_is_drawn():
     view = View(SCENE, {"I22": 1.0, "I23": 0.5, "h": 1.5, "f": 0.6}, seen={"circle"})
     assert not len(view.data.get("circle-density", {"xs": []})["xs"])
     assert not any("ζ" in row for row in view.report.derived)
+
+
+@pytest.mark.parametrize("f", [0.6, -0.6])
+def test_the_moving_point_is_in_the_ring_of_the_diagram_when_n3_turns_and_beyond_it_else(f):
+    I22, I23 = 1.0, 0.5
+    view = View(SCENE, {"I22": I22, "I23": I23, "h": 1.5, "f": f}, seen={"bifurcation", "omega"})
+    orbit = {name: np.asarray(column, float) for name, column in view.data["data-orbit"].items()}
+    n3 = (I22 * orbit["g3"] - I23 * orbit["g2"]) / math.hypot(I22, I23)
+    # b = 1/√(I22² + I23²): the time in units b = 1.
+    times = orbit["t"] / math.hypot(I22, I23) ** 0.5
+    rate = np.gradient(n3, times)
+    inner = slice(2, -2)
+    assert orbit["reach"][inner] == pytest.approx(math.copysign(1.0, f) * np.hypot(f, rate)[inner], rel=0.02)
+    assert np.all(np.abs(orbit["reach"]) >= abs(f) * (1.0 - 1e-6))
+    turns = np.abs(rate) < 0.02
+    assert turns.any()
+    assert orbit["reach"][turns] == pytest.approx(f, rel=2e-3)
+    assert np.max(np.abs(orbit["reach"])) > 1.5 * abs(f)
