@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
+import tempfile
+from contextlib import ExitStack
 from pathlib import Path
 from urllib.parse import urlsplit
 
@@ -17,11 +19,28 @@ from hess_explorer.headless.screenshot import running_server
 pytest.register_assert_rewrite("support", "oracle")
 
 
+SHARED, SHARED_SERVER = pytest.StashKey(), pytest.StashKey()
+
+
 def pytest_configure(config):
-    """Compile everything once, before several processes share it; one process compiles what it needs."""
+    """Where several processes run the tests: compile everything once before they begin, and serve the page to all."""
     if config.getoption("numprocesses", None) and not config.option.collectonly:
         subprocess.run([sys.executable, "-c", "from hess_explorer.server.warm import compile_all; compile_all()"],
                        check=True)
+        shared = config.stash[SHARED] = ExitStack()
+        log = Path(shared.enter_context(tempfile.TemporaryDirectory())) / "server.log"
+        config.stash[SHARED_SERVER] = (shared.enter_context(running_server(log)), str(log))
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_configure_node(node):
+    """Tell a process of the server."""
+    node.workerinput["server"] = node.config.stash[SHARED_SERVER]
+
+
+def pytest_unconfigure(config):
+    if SHARED in config.stash:
+        config.stash[SHARED].close()
 
 
 @pytest.fixture(scope="session")
@@ -32,10 +51,15 @@ def browser():
 
 
 @pytest.fixture(scope="session")
-def server(tmp_path_factory):
-    """Base URL of a server for the whole run; what it logs is checked when it has ended."""
-    log = tmp_path_factory.mktemp("server") / "server.log"
-    with running_server(log) as base:
+def server(pytestconfig, tmp_path_factory):
+    """Base URL of a server for the whole run; what it has logged is checked when a process has ended."""
+    with ExitStack() as own:
+        shared = getattr(pytestconfig, "workerinput", {}).get("server")
+        if shared is None:
+            log = tmp_path_factory.mktemp("server") / "server.log"
+            base = own.enter_context(running_server(log))
+        else:
+            base, log = shared[0], Path(shared[1])
         yield base
     said = log.read_text(errors="replace")
     assert not re.search(r"Traceback|\b(ERROR|CRITICAL)\b", said), said
