@@ -21,7 +21,7 @@ HERE = ".gallery:not(.away) .picture-{} canvas"
 BLUE, PINK = (0, 114, 178), (204, 121, 167)
 WIDTH = 600
 """Pixels of a picture that interpolation is to be right for."""
-EVERY = 4
+EVERY = 20
 """Of so many points one is compared: all go the same way through the code."""
 SOME = 1e-4
 """The share of a small patch: some ten pixels."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 
 import numpy as np
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
@@ -46,7 +46,7 @@ columns = st.one_of(vectors, trees)
 sources = st.dictionaries(st.text(max_size=8), st.dictionaries(st.text(max_size=8), columns, max_size=4), max_size=4)
 
 
-@PROPERTY
+@settings(PROPERTY, max_examples=50)
 @given(sources)
 def test_the_browser_reads_the_columns_that_were_put(put):
     wire = Wire()
@@ -60,7 +60,7 @@ def test_the_browser_reads_the_columns_that_were_put(put):
             assert same(column, found[source][name]), (source, name)
 
 
-@PROPERTY
+@settings(PROPERTY, max_examples=50)
 @given(sources)
 def test_the_block_holds_each_array_once_and_nothing_else(put):
     wire = Wire()

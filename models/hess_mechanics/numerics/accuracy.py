@@ -181,9 +181,9 @@ PLANS: Mapping[Kind, Mapping[str, Plan]] = {
                         (replace(STANDARD, name="precise"), 1.0, 1.0, 0.03),
                         (replace(PRECISE, name="reference"), 1.0, 1.5, 0.02)),
     # The neighbour is 1e-7 away, and steps must be exact beside that; the time decides how well λ is known.
-    Kind.EXPONENT: _plans((replace(DRAFT, tolerance=1e-10, order=16), 0.2, 1.0, 0.04),
-                          (replace(STANDARD, tolerance=1e-14, order=24), 1.0, 1.0, 0.01),
-                          (replace(PRECISE, tolerance=1e-15, order=24), 1.0, 1.0, 0.01), (REFERENCE, 1.0, 1.0, 0.01)),
+    Kind.EXPONENT: _plans((replace(DRAFT, tolerance=1e-10, order=16), 0.2, 1.0, 0.05),
+                          (replace(STANDARD, tolerance=1e-14, order=24), 1.0, 1.0, 0.02),
+                          (replace(PRECISE, tolerance=1e-15, order=24), 1.0, 1.0, 0.02), (REFERENCE, 1.0, 1.0, 0.02)),
     Kind.CLOUD: _plans((DRAFT, 0.15, 1.0, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9),
                        (REFERENCE, 1.0, 1.0, 1e-12)),
 }

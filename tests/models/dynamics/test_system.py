@@ -9,7 +9,7 @@ import sys
 import numpy as np
 import pytest
 import sympy
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
@@ -101,7 +101,7 @@ def test_integrals_are_constant_along_the_field_symbolically(system):
 
 
 @every_system
-@PROPERTY
+@settings(PROPERTY, max_examples=30)
 @given(data=st.data())
 def test_the_kernels_taylor_series_is_that_of_the_plain_field(system, data):
     size = st.floats(-2.0, 2.0)
