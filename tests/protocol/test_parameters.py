@@ -217,7 +217,7 @@ def test_a_note_never_repeats_what_the_link_said(spec, text):
 
 
 # A scene that looks into another one has its parameters.
-@pytest.mark.parametrize("scene", [scene for scene in SCENES.values() if scene.origin is None], ids=lambda one: one.name)
+@pytest.mark.parametrize("scene", [one for one in SCENES.values() if one.origin is None], ids=lambda one: one.name)
 @settings(PROPERTY, max_examples=50)
 @given(data=st.data())
 def test_what_a_scene_admits_it_admits_again_unchanged(scene, data):

@@ -220,8 +220,8 @@ def test_regular_the_product_of_omega_and_gamma_is_an_integral():
 
 def test_mixed_some_orbits_lie_on_curves_and_others_fill_a_sea():
     counts = np.array([len(found) for found in late_cells("Mixed")])
-    # A curve once round passes 32 cells or a few more.  Hardly any lie in between: round-off decides which chaotic orbit
-    # stays beside an island until the end.
+    # A curve once round passes 32 cells or a few more.  Hardly any orbits lie in between: round-off decides which
+    # of the chaotic ones stays beside an island until the end.
     assert np.count_nonzero(counts <= 80) >= 8
     assert np.count_nonzero(counts >= 120) >= 8
     assert np.count_nonzero((counts > 80) & (counts < 120)) <= 2
