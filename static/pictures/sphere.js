@@ -5,6 +5,7 @@
 // holds axis [3], label, circles [[axis, height, look]], marks [[γ, look, label]].  The option `clouds` names a source
 // of clouds of points ("cloud.js").  With the option `attitude`, the name of a source, it is a sphere fixed in space
 // with the body in it ("body.js"): `title` says what, and `bare` leaves of the lines only the equator.
+// The moving point is seen on the far side too, with a dashed ring about it that says so.
 
 import { listen, tell } from "../page/bus.js"
 import { bodyIn } from "./body.js"
@@ -18,7 +19,7 @@ const STEP = Math.PI / 36
 const HOME = [0.6, 0.35]
 
 // What everything on a sphere is drawn with: projection, depth towards the eye, lines and labels.
-function createSheet(ctx, { size, ratio, text }, [azimuth, elevation]) {
+function createSheet(ctx, { size, ratio, text, dark }, [azimuth, elevation]) {
   const [ca, sa, ce, se] = [Math.cos(azimuth), Math.sin(azimuth), Math.cos(elevation), Math.sin(elevation)]
   const half = size / 2
   const scale = half * RADIUS
@@ -26,7 +27,9 @@ function createSheet(ctx, { size, ratio, text }, [azimuth, elevation]) {
   const py = (x, y, z) => half - scale * (ce * z - se * (ca * x + sa * y))
   const depth = (x, y, z) => ce * (ca * x + sa * y) + se * z
   return {
-    ctx, size, ratio, text, half, scale, px, py, depth,
+    ctx, size, ratio, text, dark, half, scale, px, py, depth,
+    // To the right, upwards, towards the eye.
+    view: ([x, y, z]) => [ca * y - sa * x, ce * z - se * (ca * x + sa * y), depth(x, y, z)],
     // A curve, where it is on this side, or where the `sides` [xs, ys, zs] are.
     stroke([X, Y, Z], near, [U, V, W] = [X, Y, Z]) {
       ctx.beginPath()
@@ -103,14 +106,24 @@ export function sphere(el, options, source, signal, isShown) {
     }
   }
 
-  function drawPoint({ ctx, ratio, text, px, py, depth }, near) {
-    if (point === null || depth(...point) >= 0 !== near) return
-    ctx.beginPath()
-    ctx.arc(px(point[0], point[1]), py(...point), 6.5 * ratio, 0, 2 * Math.PI)
+  function drawPoint({ ctx, ratio, text, px, py, depth }) {
+    if (point === null) return
+    const [x, y] = [px(point[0], point[1]), py(...point)]
+    const ring = (radius, dash) => {
+      ctx.setLineDash(dash)
+      ctx.beginPath()
+      ctx.arc(x, y, radius * ratio, 0, 2 * Math.PI)
+    }
     ctx.fillStyle = POINT
-    ctx.fill()
     ctx.lineWidth = 1.5 * ratio
     ctx.strokeStyle = text
+    ring(6.5, [])
+    ctx.fill()
+    ctx.stroke()
+    const behind = depth(...point) < 0
+    canvas.dataset.behind = behind
+    if (!behind) return
+    ring(11, [3.5 * ratio, 3.4 * ratio])
     ctx.stroke()
   }
 
@@ -130,7 +143,7 @@ export function sphere(el, options, source, signal, isShown) {
       drawAxis(on, [0, 1, 0], "γ₂", near)
       drawAxis(on, [0, 0, 1], "γ₃", near)
     }
-    if (own.data.axis?.length === 3) drawAxis(on, own.data.axis, own.data.label, near, inSpace ? 0 : 13)
+    if (!inSpace && own.data.axis?.length === 3) drawAxis(on, own.data.axis, own.data.label, near, 13)
     for (const [a, b, c, height, look] of own.data.circles ?? []) {
       use(LOOKS[look])
       stroke(circle([a, b, c], height), near)
@@ -144,20 +157,23 @@ export function sphere(el, options, source, signal, isShown) {
     }
     guest?.paint(on, near)
     drawMarks(on, near)
-    drawPoint(on, near)
   }
 
-  function paint(ctx, { size, ratio, text }) {
-    const on = createSheet(ctx, { size, ratio, text }, turn)
+  function paint(ctx, look) {
+    const on = createSheet(ctx, look, turn)
+    const { ratio, text } = look
+    guest?.begin?.(on)
     drawHalf(on, false)
     ctx.globalAlpha = 0.5
-    ctx.lineWidth = ratio
+    ctx.lineWidth = 1.5 * ratio
     ctx.strokeStyle = text
     ctx.beginPath()
     ctx.arc(on.half, on.half, on.scale, 0, 2 * Math.PI)
     ctx.stroke()
+    guest?.middle?.(on)
     drawHalf(on, true)
     ctx.globalAlpha = 1
+    drawPoint(on)
     canvas.dataset.turn = turn.map((x) => x.toFixed(4)).join(" ")
   }
 

@@ -3,8 +3,8 @@
 import { listen } from "../page/bus.js"
 import { element } from "../page/mount.js"
 
-// paint(ctx, {size, ratio, text}): the side in device pixels, their number for each of CSS's, the colour of text.
-// `width` is the side in pixels of CSS.
+// paint(ctx, {size, ratio, text, dark}): the side in device pixels, their number for each of CSS's, the colour of text,
+// whether that is the lighter one of text and page.  `width` is the side in pixels of CSS.
 export function squareCanvas(el, properties, paint, signal) {
   const canvas = element("canvas", properties)
   el.append(canvas)
@@ -21,7 +21,9 @@ export function squareCanvas(el, properties, paint, signal) {
     if (canvas.width !== size) canvas.width = canvas.height = size
     ctx.setTransform(1, 0, 0, 1, 0, 0)
     ctx.clearRect(0, 0, size, size)
-    paint(ctx, { size, ratio, text: getComputedStyle(canvas).color })
+    const text = getComputedStyle(canvas).color
+    const [red, green, blue] = text.match(/\d+/g).map(Number)
+    paint(ctx, { size, ratio, text, dark: red + green + blue > 382 })
   }
 
   function request() {

@@ -16,7 +16,7 @@ from support.view import NUMBER, View
 
 def curve_of(view, picture, look):
     """The only curve of that look, (n, 3)."""
-    (found,) = [np.array(curve, float) for name, *curve in view.data[picture]["curves"] if name == look]
+    (found,) = [np.array(curve, float) for name, _, *curve in view.data[picture]["curves"] if name == look]
     return found.T
 
 

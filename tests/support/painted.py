@@ -49,7 +49,7 @@ def assert_painted(explorer, scene):
     assert_captions_fit(explorer, scene)
     for name in explorer.page.evaluate(SOURCES):
         assert all(isinstance(x, str) or math.isfinite(x) for x in flat(explorer.data(name))), name
-    for picture in scene.pictures:
+    for picture in scene.open_pictures:
         assert not re.search(r"nan|inf|none", explorer.caption(picture), re.IGNORECASE)
         drawn = explorer.picture(picture).evaluate(
             """picture => {

@@ -17,6 +17,7 @@ from hess_explorer.scenes.framework.inertia import CentreOfMass, Tensor
 from hess_explorer.scenes.framework.one_orbit import Start
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, crossings_of_each, like, number, time_span
 from hess_explorer.scenes.framework.scene import Preset, Scene
+from hess_explorer.scenes.framework.solid_body import ConstrainedBody, constrained_body
 from hess_explorer.views import scattering_map as square
 from hess_explorer.views import section_plane
 from hess_explorer.views.layers import Axes
@@ -58,7 +59,7 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class BallSection(CentreOfMass, Ball, Crossings):
+class BallSection(CentreOfMass, Ball, Crossings, ConstrainedBody):
     """The orbit from one place of the section, among others of its energy."""
 
     I11: float = like(Tensor, "I11", 1.0, bounds=(1e-2, 1e2))
@@ -183,6 +184,7 @@ SCENE = Scene(
     summary="The ball in a field: a section at one energy shows curves, seas and, with I₁₃ or I₂₃, attractors.",
     tracks={"orbit": lambda s: orbit_columns(s.orbit)},
     views=(
+        constrained_body(ball=True),
         Plot(name="section", title="Section: γ₃ grows through 0", caption=BallSection._about_section,
              axes=("ψ", "δ"), x=square.AZIMUTH, y=square.POLAR, ticks=square.AZIMUTH_TICKS,
              y_ticks=square.POLAR_TICKS, message=lambda s: s.reason,
@@ -190,10 +192,10 @@ SCENE = Scene(
              layers=section_plane.layers(
                  lambda s: s.own, others=lambda s: s.others, forbidden=BallSection.forbidden,
                  start=lambda s: [] if s.own is None else [(s.psi, s.delta)])),
-        Plot(name="returns", title="First return", caption=BallSection._about_returns,
-             axes=("ψ", "ψ at the next crossing"), x=square.AZIMUTH, y=square.AZIMUTH, ticks=square.AZIMUTH_TICKS,
-             message=lambda s: s.reason, layers=section_plane.layers(BallSection.returns)),
         orbit_alone(BallSection.half_width, energy=lambda s: s.E, label="chosen orbit"),
         Sphere(caption=BallSection._about_sphere, looks={"orbit": "orbit"}, axis=lambda s: s.r),
+        Plot(name="returns", title="First return", folded="Show the first return", caption=BallSection._about_returns,
+             axes=("ψ", "ψ at the next crossing"), x=square.AZIMUTH, y=square.AZIMUTH, ticks=square.AZIMUTH_TICKS,
+             message=lambda s: s.reason, layers=section_plane.layers(BallSection.returns)),
     ),
 )

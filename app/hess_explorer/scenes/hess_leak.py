@@ -12,6 +12,7 @@ import numpy as np
 from hess_explorer.scenes.framework.hess_case import BY_THE_UNSTABLE_CYCLE, RIS, UNSURE, HeavyMotion, reduced_motion
 from hess_explorer.scenes.framework.parameters import accuracy_level, number
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
+from hess_explorer.scenes.framework.solid_body import HeavySolid, heavy_solid
 from hess_explorer.views import andoyer, theme
 from hess_explorer.views.chart import LG_OF_0, lg, lg_axis
 from hess_explorer.views.graph import over_time
@@ -21,6 +22,7 @@ from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, gamma_
 from hess_explorer.views.text import digits
 from hess_mechanics.euler_poisson import hess_manifold as mechanics
 from hess_mechanics.euler_poisson.andoyer import hess_circle
+from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import largest_distance
 from hess_mechanics.numerics.accuracy import REFERENCE, level
 from hess_mechanics.numerics.results import Array, Orbit
@@ -40,7 +42,7 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class HessLeak(HeavyMotion):
+class HessLeak(HeavyMotion, HeavySolid):
     """One motion, left to itself at the chosen accuracy and at reference, and the exact one at the same times.
 
     A slider that is held keeps the accuracy, which is what is looked at.
@@ -87,6 +89,16 @@ class HessLeak(HeavyMotion):
     def motion(self) -> Motion:
         """The exact motion, of the reduced system."""
         return reduced_motion(self.bridge.hess, self.turning, self.phi0, self._periods * self.turning.period)
+
+    @property
+    def heavy(self) -> HeavyBody:
+        """The body."""
+        return self.bridge.heavy
+
+    @property
+    def heavy_states(self) -> tuple[Array, Array]:
+        """The exact motion."""
+        return self.run.times, self.states
 
     # ---- what the pictures show --------------------------------------------------------------------------------
 
@@ -183,17 +195,19 @@ SCENE = Scene(
     summary="An orbit on the Hess manifold of Euler–Poisson leaves it by round-off alone, at the rate of the cycle.",
     tracks={"orbit": HessLeak.exact_columns, "second": HessLeak.leaking}, angles=("l",),
     views=(
+        heavy_solid(),
         Plot(name="leak", title="r·M against time", caption=HessLeak._about_leak, axes=("t", "lg |r·M|"),
              x=HessLeak.times, y=_RANGE, dot=("t", "lg"),
              layers=(*_both(lambda leak: np.abs(leak.run.off)),
                      curves("slope", lambda s: s.leaks["own"].straight_line(mechanics.exact_growth(s.map), _RANGE),
                             color=theme.MUTED, dash="dashed", label="slope ln(multiplier) per period"))),
-        Plot(name="difference", title="Distance from the exact motion", caption=HessLeak._about_difference,
-             axes=("t", "lg |difference|"), x=HessLeak.times, y=lambda s: lg_axis(largest_distance(s.map.h)),
-             dot=("t", "apart"), layers=_both(lambda leak: leak.apart)),
         andoyer.picture("Andoyer variables (l, L/G)", HessLeak._about_side,
                         relation=lambda s: hess_circle(s.bridge.heavy), orbit=lambda s: s.run.andoyer),
         Sphere(caption=HessLeak._about_sphere, looks={"orbit": "orbit", "second": "second"},
                axis=lambda s: Direction(s.bridge.heavy.r, "r"), circles=HessLeak.heights),
+        Plot(name="difference", title="Distance from the exact motion", caption=HessLeak._about_difference,
+             folded="Show the distance from the exact motion", axes=("t", "lg |difference|"),
+             x=HessLeak.times, y=lambda s: lg_axis(largest_distance(s.map.h)),
+             dot=("t", "apart"), layers=_both(lambda leak: leak.apart)),
     ),
 )

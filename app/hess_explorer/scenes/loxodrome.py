@@ -14,7 +14,7 @@ from hess_explorer.scenes.framework.parameters import accuracy_level, like, numb
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import theme
-from hess_explorer.views.body import BodyInSpace, Curve, Rod, Shape
+from hess_explorer.views.body import BodyInSpace, Curve, Rod, Shape, Trail
 from hess_explorer.views.layers import Columns, Sign, f32, line
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Mark
@@ -154,14 +154,14 @@ SCENE = Scene(
         BodyInSpace(
             name="body", title="The body in space", caption=Loxodrome._about_body, bare=True, shape=Loxodrome.shape,
             motion=lambda s: (s.found.attitude, s.found.times), rods=Loxodrome.rods,
-            curves=lambda s: [Curve(s.found.centre, "stable")],
+            curves=lambda s: [Curve(s.found.centre, "stable", 2.0)], trail=lambda s: Trail((0.0, 1.0, 0.0), "orbit"),
             signs=(Sign("gyration ellipsoid", "line", "border-top: 2px solid #808080"),
                    Sign("circular section", "line", "border-top: 2px solid #CC79A7"))),
         BodyInSpace(
             name="space", title="Sphere fixed in space", caption=Loxodrome._about_space, attitude="body",
             rods=lambda s: s.rods("2"),
-            curves=lambda s: [Curve(s.loxodrome(), "muted"), Curve(s.found.middle, "orbit"),
-                              Curve(s.found.centre, "stable")],
+            curves=lambda s: [Curve(s.loxodrome(), "muted", 2.0), Curve(s.found.middle, "orbit", 4.0),
+                              Curve(s.found.centre, "stable", 2.0)],
             circles=(Circle((1.0, 0.0, 0.0), 0.0, "limit"),),
             marks=(Mark((1.0, 0.0, 0.0), "muted", "e"), Mark((-1.0, 0.0, 0.0), "muted", "−e")),
             signs=(Sign("loxodrome", "line", "border-top: 2px solid #808080"),

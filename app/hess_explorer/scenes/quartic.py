@@ -22,6 +22,7 @@ from hess_explorer.scenes.framework.parameters import (
     time_span,
 )
 from hess_explorer.scenes.framework.scene import Preset, Scene
+from hess_explorer.scenes.framework.solid_body import ConstrainedBody, constrained_body
 from hess_explorer.views import plane_domain, section_plane, theme
 from hess_explorer.views.graph import about_0, over_time
 from hess_explorer.views.layers import Axes
@@ -53,7 +54,7 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class Quartic(Crossings):
+class Quartic(Crossings, ConstrainedBody):
     """The orbit of one point in the potential, among others of its energy."""
 
     I22: float = like(Tensor, "I22", 1.0, softbounds=(0.2, 3.0), bounds=(1e-2, 1e2))
@@ -179,6 +180,7 @@ SCENE = Scene(
     tracks={"orbit": lambda s: plane_domain.plane_columns(
         s.orbit, s.body.to_plane(s.orbit.states)[0], momentum=s.momentum)},
     views=(
+        constrained_body(),
         plane_domain.picture(
             "Point in the potential γ₃²/2", Quartic._about_domain, lambda s: s.half_width, names=("Q1", "Q2"),
             layers=(*plane_domain.ground(lambda s: s.body.ellipse(), lambda s: s.body.holes(),
@@ -191,7 +193,8 @@ SCENE = Scene(
         Sphere(caption=Quartic._about_sphere, looks={"orbit": "orbit"}, axis=lambda s: centre_of_mass((0.0, 0.0, s.b3)),
                circles=lambda s: parallels((0.0, 0.0, 1.0), [s.body.h / s.body.b3])),
         Plot(name="momentum", title="q₁p₂ − q₂p₁ against time", caption=Quartic._about_momentum,
-             axes=("t", "q₁p₂ − q₂p₁"), x=lambda s: (0.0, float(s.orbit.times[-1])), dot=("t", "momentum"),
+             folded="Show q₁p₂ − q₂p₁ against time", axes=("t", "q₁p₂ − q₂p₁"),
+             x=lambda s: (0.0, float(s.orbit.times[-1])), dot=("t", "momentum"),
              y=lambda s: about_0(s.momentum, 1e-3 * max(s.body.axes)),
              layers=(over_time("G", lambda s: (s.orbit.times, s.momentum), color=theme.ORBIT),)),
     ),

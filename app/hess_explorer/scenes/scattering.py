@@ -13,6 +13,7 @@ from hess_explorer.scenes.framework.circle_left import CIRCLES, CircleLeft, sphe
 from hess_explorer.scenes.framework.free_body import FreeBody
 from hess_explorer.scenes.framework.parameters import accuracy_level, like
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
+from hess_explorer.scenes.framework.solid_body import ConstrainedBody, constrained_body
 from hess_explorer.scenes.framework.trial import Trial, curve_error
 from hess_explorer.scenes.framework.work import drift_status
 from hess_explorer.views import scattering_map as square
@@ -45,7 +46,7 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class Scattering(CircleLeft, FreeBody):
+class Scattering(CircleLeft, FreeBody, ConstrainedBody):
     """One rotation, which gives the curve and the map, and the orbit of the phase chosen."""
 
     I23: float = like(FreeBody, "I23", 0.8)
@@ -182,18 +183,20 @@ SCENE = Scene(
     summary="No field: from the circle γ leaves and its phase to the circle it joins, exact for all phases at once.",
     tracks={"orbit": lambda s: velocity_columns(s.orbit.times, s.orbit.omega, s.orbit.gamma)},
     views=(
+        constrained_body(field=False),
         square.over_phases(Scattering._about_curve, layers=(
             levels("levels", lambda s: s.levels),
             curves("theta", lambda s: [np.column_stack([_PHASES, s.curve])], color=theme.ORBIT, label="θ⁺(φ); orbit"),
             ring("chosen", lambda s: [(s.phi, s.theta_plus)], size=18.0, label="chosen"))),
         square.over_square(Scattering._about_map, Scattering.grid, lambda s: (s.phi, s.theta)),
+        sphere(Scattering._about_sphere, xi=lambda s: s.points.xi, Gamma=lambda s: math.cos(s.theta_plus),
+               signs=CIRCLES),
         Plot(
             name="chi", title="cos χ against k", caption=Scattering._about_chi, axes=("k", "cos χ"),
-            x=lambda s: s.k_axis, y=lambda s: square.cosine_axis(s.orders[:, 1].max(initial=s.limit.cos_chi)),
+            folded="Show cos χ against k", x=lambda s: s.k_axis,
+            y=lambda s: square.cosine_axis(s.orders[:, 1].max(initial=s.limit.cos_chi)),
             on_click=lambda s, x, y: {"k": x}, on_drag=True,
             layers=(curves("closed", lambda s: [s.orders], color=theme.MAP, dash="dashed", label="closed form"),
                     ring("chosen", lambda s: [(s.k, s.limit.cos_chi)], size=18.0))),
-        sphere(Scattering._about_sphere, xi=lambda s: s.points.xi, Gamma=lambda s: math.cos(s.theta_plus),
-               signs=CIRCLES),
     ),
 )

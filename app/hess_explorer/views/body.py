@@ -1,4 +1,4 @@
-"""The body itself as it lies in space, or what of it draws curves on a sphere fixed there; drawn by "body.js"."""
+"""The body itself as it lies in space, solid, and what of it draws curves on a sphere fixed there: "body.js"."""
 
 from __future__ import annotations
 
@@ -9,13 +9,14 @@ from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 
-from hess_explorer.views.layers import Axes, Columns, f32
+from hess_explorer.views import theme
+from hess_explorer.views.layers import Axes, Columns, Sign, f32
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.poisson_sphere import Circle, Mark
 from hess_mechanics.numerics.results import Array
-from hess_mechanics.rigid_body.attitude import Attitude
+from hess_mechanics.rigid_body.attitude import Attitude, Lying
 
-__all__ = ["BodyInSpace", "Curve", "Rod", "Shape", "seen_in_space"]
+__all__ = ["BodyInSpace", "Curve", "Rod", "Shape", "Trail", "Wheels", "seen_in_space"]
 
 S = TypeVar("S")
 
@@ -25,37 +26,64 @@ LARGEST = 0.8
 _COLUMNS = ("g1", "g2", "g3", "e1", "e2", "e3")
 
 
+_THINNEST = 0.12
+"""Of the half axes, of the longest: a thinner body would not be seen from the side."""
+
+
 @dataclass(frozen=True)
 class Shape:
     """A body with a fixed point, in the coordinates in which its attitude is given.
 
-    axes : (3, 3), the principal axes in its rows; moments : (3,); centre : (3,), the direction of the centre of mass,
-    perpendicular to a circular section of the gyration ellipsoid, whose radius belongs to the middle moment; names : of
-    the axes.
+    axes : (3, 3), the principal axes in its rows; moments : (3,); names : of the axes.
+    section : (3,), the normal of a circular section of the gyration ellipsoid, whose radius belongs to the middle
+    moment: then that ellipsoid is drawn, (M, I⁻¹M) = const; None: the ellipsoid of inertia is, (ω, Iω) = const.
     """
 
     axes: Array
     moments: Array
-    centre: Array
+    section: Array | None
     names: tuple[str, str, str] = ("1", "2", "3")
 
     @classmethod
-    def of_tensor(cls, tensor: Array, centre: Sequence[float] | Array) -> Shape:
+    def of_tensor(cls, tensor: Array, section: Sequence[float] | Array | None = None) -> Shape:
         """From the tensor of inertia (3, 3), with axes that have no names."""
         moments, vectors = np.linalg.eigh(tensor)
-        return cls(vectors.T, moments, np.asarray(centre, float), ("", "", ""))
+        return cls(vectors.T, moments, None if section is None else np.asarray(section, float), ("", "", ""))
 
     @property
     def semi_axes(self) -> Array:
-        """Of the gyration ellipsoid (M, I⁻¹M) = const, which are as √I1 : √I2 : √I3, for the picture; shape (3,)."""
-        return LARGEST * np.sqrt(self.moments / np.max(self.moments))
+        """Half the axes of the picture's ellipsoid, as √I1 : √I2 : √I3 or as their inverses; shape (3,)."""
+        lengths = np.sqrt(self.moments) if self.section is not None else 1.0 / np.sqrt(self.moments)
+        return LARGEST * np.maximum(lengths / np.max(lengths), _THINNEST)
+
+
+@dataclass(frozen=True)
+class Wheels:
+    """Vagner's wheels for the constraint (ω, e) = 0: they roll on a fixed shell without slipping sideways.
+
+    Their axles are parallel, `at` and −`at` touch the shell, the plane of both is that of `at` and `e`: the velocity
+    ω × at has no part along the axle at × e exactly if (ω, e) = 0.
+
+    at : a unit vector of the body across e; e : the unit vector of the constraint.
+    """
+
+    at: Sequence[float] | Array
+    e: Sequence[float] | Array
+
+
+@dataclass(frozen=True)
+class Trail:
+    """What the point of the unit sphere along a direction of the body leaves behind; look as of `Rod`."""
+
+    along: Sequence[float] | Array
+    look: str
 
 
 @dataclass(frozen=True)
 class Rod:
     """A rod from the fixed point to the unit sphere, along a direction of the body, with a dot and a label.
 
-    look : "mass", "orbit", "second", "stable", "unstable" or "muted".
+    look : "mass", which ends in a ball, "axis", "orbit", "second", "stable", "unstable" or "muted".
     """
 
     along: Sequence[float] | Array
@@ -65,15 +93,20 @@ class Rod:
 
 @dataclass(frozen=True)
 class Curve:
-    """A curve in space, components (n, 3) along (γ, e, γ × e); look as of `Rod`, or "limit"."""
+    """A curve in space, components (n, 3) along (γ, e, γ × e); look as of `Rod`, or "limit"; its width in pixels."""
 
     points: Array
     look: str
+    weight: float = 0.0
 
 
 def seen_in_space(points: Array) -> Array:
     """Components along (γ, e, γ × e) → along the axes of the picture: e, γ × −e and upwards, −γ."""
     return np.stack([points[..., 1], -points[..., 2], -points[..., 0]], axis=-1)
+
+
+_WHEELS = Sign("wheels of the constraint: (ω, e) = 0, e in their plane", "dot",
+               f"background: {theme.FORBIDDEN}; border: 2.5px solid")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,13 +115,19 @@ class BodyInSpace(Picture[S]):
 
     shape(state) : the body with its ellipsoid, None for none.
     motion(state) : its attitude, and the times (n,) of that in the player's units; None for none.
+    wheels(state), trail(state) : of its constraint, and of one of its points.
+    hollow : a ball of glass, rolling on a ball inside, stands for the ellipsoid; heavy(state) : whether γ is gravity.
     attitude : the picture whose attitude it follows, where it has none of its own.
     rods, curves : drawn with the body, and in space; circles, marks : fixed in the picture's space.
     bare : without the lines of the sphere.
     """
 
     shape: Callable[[S], Shape | None] | None = None
-    motion: Callable[[S], tuple[Attitude, Array] | None] | None = None
+    motion: Callable[[S], tuple[Attitude | Lying, Array] | None] | None = None
+    wheels: Callable[[S], Wheels] | None = None
+    trail: Callable[[S], Trail] | None = None
+    hollow: bool = False
+    heavy: Callable[[S], bool] | None = None
     attitude: str = ""
     rods: Callable[[S], Sequence[Rod]] | None = None
     curves: Callable[[S], Sequence[Curve]] | None = None
@@ -108,6 +147,11 @@ class BodyInSpace(Picture[S]):
         """The player takes the time from the track of the orbit."""
         return frozenset({"orbit"})
 
+    @property
+    def legend(self) -> tuple[Sign, ...]:
+        """What it adds to the legend of its scene."""
+        return (*self.signs, *((_WHEELS,) if self.wheels else ()))
+
     def describe(self) -> dict[str, Any]:
         """What the browser needs to know."""
         title = self.title if isinstance(self.title, str) else "The body in space"
@@ -126,16 +170,23 @@ class BodyInSpace(Picture[S]):
             directions = attitude.axes[:, :2].reshape(len(times), 6)
             columns = {"t": f32(times), **{name: f32(directions[:, i]) for i, name in enumerate(_COLUMNS)}}
         if shape is not None:
+            semi = [LARGEST] * 3 if self.hollow else shape.semi_axes.tolist()
             radius = LARGEST * math.sqrt(float(np.median(shape.moments) / np.max(shape.moments)))
-            columns |= {"axes": shape.axes.tolist(), "semi": shape.semi_axes.tolist(), "names": list(shape.names),
-                        "section": [*map(float, shape.centre), radius]}
+            columns |= {"axes": shape.axes.tolist(), "semi": semi, "names": list(shape.names), "hollow": self.hollow,
+                        "section": [] if shape.section is None else [*map(float, shape.section), radius]}
+        if self.wheels is not None:
+            wheels = self.wheels(state)
+            columns["wheels"] = [*map(float, wheels.at), *map(float, wheels.e)]
+        if self.trail is not None:
+            trail = self.trail(state)
+            columns["trail"] = [*map(float, trail.along), trail.look]
         rods = () if self.rods is None else self.rods(state)
         curves = () if self.curves is None else self.curves(state)
         return {self.name: {
             **columns,
             "rods": [[*map(float, one.along), one.look, one.label] for one in rods],
-            "curves": [[one.look, *f32(seen_in_space(one.points).T)] for one in curves],
-            "axis": [0.0, 0.0, -1.0], "label": "γ",
+            "curves": [[one.look, one.weight, *f32(seen_in_space(one.points).T)] for one in curves],
+            "axis": [0.0, 0.0, -1.0], "label": "γ, gravity" if self.heavy is None or self.heavy(state) else "γ",
             "circles": [[*map(float, one.axis), float(one.height), one.look] for one in self.circles],
             "marks": [[*map(float, one.at), one.look, one.label] for one in self.marks]}}
 

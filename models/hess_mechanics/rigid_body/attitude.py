@@ -18,7 +18,7 @@ from hess_mechanics.dynamics.system import System
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array, Orbit, frozen
 
-__all__ = ["Attitude", "across", "attitude", "with_attitude"]
+__all__ = ["Attitude", "Lying", "across", "attitude", "attitude_along", "with_attitude"]
 
 
 def with_attitude(system: System) -> System:
@@ -75,6 +75,77 @@ class Attitude:
     def in_space(self, vector: Sequence[float] | Array) -> Array:
         """The components along γ, e, γ × e of a direction of the body: (3,), or one for each time (n, 3) → (n, 3)."""
         return np.asarray(np.einsum("nij,nj->ni", self.axes, np.broadcast_to(vector, self.axes.shape[:2])))
+
+
+@dataclass(frozen=True)
+class Lying:
+    """The attitude of a body in space along an orbit, for a picture.
+
+    times : (n,); axes : (n, 3, 3), as of `Attitude`; defect : the largest angle, in radians, between a sample of γ and
+    where the steps of the quadrature take the sample before it.
+    """
+
+    times: Array
+    axes: Array
+    defect: float
+
+
+TURN = 0.1
+"""The rotation, in radians, from one sample of `attitude_along` to the next, where the orbit does not turn faster."""
+MOST_TURNS = 6000
+"""Samples at the most, besides those of the orbit."""
+
+
+def attitude_along(times: Array, omega: Array, gamma: Array) -> Lying:
+    """The attitude along an orbit from its samples: times (n,), ω (n, 3) and |γ| = 1 (n, 3) in axes of the body.
+
+    Between two samples the rotation is that of Magnus to the fourth order, the derivative of ω from its neighbours; of
+    it only the turn about γ is kept, for γ is known.  The result has a sample for every `TURN` of rotation, between
+    those of the orbit too, so that the chord of two neighbours is the rotation.
+    """
+    w, step = omega.T, np.diff(times)
+    slope = np.gradient(w, times, axis=1) if len(times) > 2 else np.zeros_like(w)
+    # ė = e × ω is e → exp(−v×) e over a step.
+    v = 0.5 * step * (w[:, :-1] + w[:, 1:])
+    v += step**2 / 12.0 * (slope[:, :-1] - slope[:, 1:] + _cross(w[:, :-1], w[:, 1:]))
+    length = np.sqrt(np.einsum("kn,kn->n", v, v))
+    g, e, f = _frames(gamma)
+    moved_g, moved_e = _turned(g[:, :-1], v, length), _turned(e[:, :-1], v, length)
+    defect = float(np.max(np.abs(moved_g - g[:, 1:]), initial=0.0))
+    turn = np.arctan2(np.einsum("kn,kn->n", moved_e, f[:, 1:]), np.einsum("kn,kn->n", moved_e, e[:, 1:]))
+    angle = np.concatenate([[0.0], np.cumsum(turn)])
+    e = np.cos(angle) * e + np.sin(angle) * f
+    # Where to sample it: as far as it has turned, in steps of TURN; something for a motion at rest too.
+    turned = np.concatenate([[0.0], np.cumsum(length + 1e-12)])
+    at = np.linspace(0.0, turned[-1], max(2, int(min(MOST_TURNS, np.ceil(turned[-1] / TURN))) + 1))
+    i = np.clip(np.searchsorted(turned, at, side="right") - 1, 0, len(step) - 1)
+    share = (at - turned[i]) / (turned[i + 1] - turned[i])
+    v, length = share * v[:, i], share * length[i]
+    g, e = _turned(g[:, i], v, length), _turned(e[:, i], v, length)
+    axes = np.stack([g.T, e.T, _cross(g, e).T], axis=1)
+    return Lying(frozen(times[i] + share * step[i]), frozen(axes), defect)
+
+
+def _cross(u: Array, v: Array) -> Array:
+    """u × v of columns (3, n): NumPy's own takes several times as long."""
+    return np.stack([u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]])
+
+
+def _frames(gamma: Array) -> tuple[Array, Array, Array]:
+    """For each γ of (n, 3) a right-handed frame with it as the first axis, (3, n) each; the two others are any."""
+    g = (gamma / np.linalg.norm(gamma, axis=1)[:, None]).T
+    e = np.zeros_like(g)
+    smallest, all_of = np.argmin(np.abs(g), axis=0), np.arange(g.shape[1])
+    e[smallest, all_of] = 1.0
+    e -= g * g[smallest, all_of]
+    e /= np.sqrt(np.einsum("kn,kn->n", e, e))
+    return g, e, _cross(g, e)
+
+
+def _turned(u: Array, v: Array, length: Array) -> Array:
+    """exp(−v×) u of columns (3, n), |v| = length (n,)."""
+    first = _cross(u, v)
+    return np.asarray(u + np.sinc(length / np.pi) * first + 0.5 * np.sinc(0.5 * length / np.pi) ** 2 * _cross(first, v))
 
 
 def attitude(system: System, start: Sequence[float] | Array, parameters: Sequence[float], span: float, level: Level,

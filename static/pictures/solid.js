@@ -1,0 +1,135 @@
+// An ellipsoid seen from afar, opaque: each ray of sight meets its surface in closed form, so it hides its own back and
+// is shaded without WebGL.  Where it ends is drawn as the ellipse that it is.
+//
+// Vectors are those of the view: to the right, upwards, towards the eye; lengths are radii of the sphere around it.
+
+// Pixels of the shading on a side, at most, and pixels of the picture for each of them: shades change slowly.
+const MOST = 128
+const COARSE = 2
+// The light comes over the left shoulder of whoever looks, and turns with them.
+const LIGHT = [-0.42, 0.62, 0.66]
+const HALFWAY = [-0.23, 0.34, 0.91]
+// Both tones of the octants, and how bright they are without any light.
+const TONES = {
+  light: { even: [203, 214, 226], odd: [158, 175, 194], ambient: 0.5 },
+  dark: { even: [150, 164, 182], odd: [107, 123, 144], ambient: 0.34 },
+}
+const GLASS = 0.22
+
+export const dot = (u, v) => u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
+const unit = (v) => v.map((x) => x / Math.hypot(...v))
+const [LIGHT_X, LIGHT_Y, LIGHT_Z] = unit(LIGHT)
+const [HALF_X, HALF_Y, HALF_Z] = unit(HALFWAY)
+
+// The ellipse in which an ellipsoid with these axes, unit vectors, and half lengths is seen: both halves, the angle of
+// the first one from the right, and half of the width and the height around it.
+export function outline(axes, semi) {
+  let [xx, xy, yy] = [0, 0, 0]
+  for (let k = 0; k < 3; k++) {
+    const [x, y] = [semi[k] * axes[k][0], semi[k] * axes[k][1]]
+    xx += x * x
+    xy += x * y
+    yy += y * y
+  }
+  const [mean, apart] = [(xx + yy) / 2, Math.hypot((xx - yy) / 2, xy)]
+  return {
+    halves: [Math.sqrt(mean + apart), Math.sqrt(Math.max(0, mean - apart))],
+    angle: Math.atan2(2 * xy, xx - yy) / 2, width: Math.sqrt(xx), height: Math.sqrt(yy),
+  }
+}
+
+// Whether the place (x, y) is hidden by it, or would be if it were larger all round by `margin`.
+export function covers(axes, semi, x, y, margin = 0) {
+  const { halves, angle } = outline(axes, semi)
+  const [c, s] = [Math.cos(angle), Math.sin(angle)]
+  return Math.hypot((c * x + s * y) / (halves[0] + margin), (c * y - s * x) / (halves[1] + margin)) < 1
+}
+
+// Where a ray from its middle along v leaves it: as a multiple of v, and whether that is on the side that is seen.
+export function leaves(axes, semi, v) {
+  let [square, towards] = [0, 0]
+  for (let k = 0; k < 3; k++) {
+    const u = dot(v, axes[k]) / semi[k]
+    square += u * u
+    towards += (u / semi[k]) * axes[k][2]
+  }
+  return { at: 1 / Math.sqrt(square), near: towards >= 0 }
+}
+
+// Paints such ellipsoids; `glass`: one through which what lies behind is seen.
+export function createSolid() {
+  const canvas = document.createElement("canvas")
+  canvas.width = canvas.height = MOST
+  const shade = canvas.getContext("2d")
+  const image = shade.createImageData(MOST, MOST)
+
+  function cast(axes, semi, width, height, columns, rows, { even, odd, ambient }, glass) {
+    const { data } = image
+    // In the coordinates in which it is the unit sphere: a ray is start + depth × along.
+    const [ux, uy, uz] = [0, 1, 2].map((i) => axes.map((axis, k) => axis[i] / semi[k]))
+    const a = dot(uz, uz)
+    // Where the tone changes it does so over a pixel and a half.
+    const sharp = columns / (3 * width)
+    const [s0, s1, s2] = semi.map((length) => length * sharp)
+    const [n0, n1, n2] = axes.map((axis, k) => axis.map((x) => x / semi[k]))
+    for (let row = 0; row < rows; row++) {
+      const y = height * (1 - (2 * row + 1) / rows)
+      for (let column = 0; column < columns; column++) {
+        const x = width * ((2 * column + 1) / columns - 1)
+        let [p, q, r] = [x * ux[0] + y * uy[0], x * ux[1] + y * uy[1], x * ux[2] + y * uy[2]]
+        const b = p * uz[0] + q * uz[1] + r * uz[2]
+        const c = p * p + q * q + r * r - 1
+        // Beside it the edge goes on, so that there is something to smooth it with.
+        const z = (Math.sqrt(Math.max(0, b * b - a * c)) - b) / a
+        p += z * uz[0]
+        q += z * uz[1]
+        r += z * uz[2]
+        const [nx, ny, nz] = [p * n0[0] + q * n1[0] + r * n2[0], p * n0[1] + q * n1[1] + r * n2[1],
+          p * n0[2] + q * n1[2] + r * n2[2]]
+        const long = 1 / Math.sqrt(nx * nx + ny * ny + nz * nz)
+        const lit = Math.max(0, (nx * LIGHT_X + ny * LIGHT_Y + nz * LIGHT_Z) * long)
+        let shine = Math.max(0, (nx * HALF_X + ny * HALF_Y + nz * HALF_Z) * long)
+        shine *= shine
+        shine *= shine
+        shine *= shine
+        shine *= shine
+        const octant = Math.max(-1, Math.min(1, p * s0)) * Math.max(-1, Math.min(1, q * s1)) *
+          Math.max(-1, Math.min(1, r * s2))
+        const share = 0.5 + 0.5 * octant
+        const bright = ambient + (1.08 - ambient) * lit
+        const i = 4 * (row * MOST + column)
+        data[i] = bright * (odd[0] + share * (even[0] - odd[0])) + 70 * shine
+        data[i + 1] = bright * (odd[1] + share * (even[1] - odd[1])) + 70 * shine
+        data[i + 2] = bright * (odd[2] + share * (even[2] - odd[2])) + 70 * shine
+        const rim = 1 - Math.max(0, nz * long)
+        data[i + 3] = glass ? 255 * Math.min(1, GLASS + 0.12 * share + 0.5 * rim * rim + 0.6 * shine) : 255
+      }
+    }
+    shade.putImageData(image, 0, 0, 0, 0, columns, rows)
+  }
+
+  return {
+    // `axes` in the view.
+    paint({ ctx, half, scale, ratio, text, dark }, axes, semi, glass = false) {
+      const { halves, angle, width, height } = outline(axes, semi)
+      const [columns, rows] = [width, height].map((length) =>
+        Math.max(16, Math.min(MOST, Math.ceil((2 * length * scale) / COARSE))))
+      cast(axes, semi, width, height, columns, rows, TONES[dark ? "dark" : "light"], glass)
+      const edge = new Path2D()
+      edge.ellipse(half, half, scale * halves[0], scale * halves[1], -angle, 0, 2 * Math.PI)
+      ctx.save()
+      ctx.globalAlpha = 1
+      ctx.clip(edge)
+      ctx.drawImage(canvas, 0, 0, columns, rows, half - scale * width, half - scale * height, 2 * scale * width,
+        2 * scale * height)
+      ctx.restore()
+      ctx.save()
+      ctx.globalAlpha = 0.55
+      ctx.setLineDash([])
+      ctx.lineWidth = 1.25 * ratio
+      ctx.strokeStyle = text
+      ctx.stroke(edge)
+      ctx.restore()
+    },
+  }
+}

@@ -1,0 +1,81 @@
+"""The attitude from the samples of an orbit, against SciPy's rotation of the same motion."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
+
+from hess_mechanics import level
+from hess_mechanics.chaplygin_ball import equations as ball
+from hess_mechanics.dynamics.sampling import sampled_orbit
+from hess_mechanics.euler_poisson import equations as heavy
+from hess_mechanics.rigid_body.attitude import TURN, attitude_along
+from hess_mechanics.suslov import equations as suslov
+
+A = (1.0, 1.6, 8 / 3)
+GAMMA = np.array([0.3, 0.2, 0.93]) / np.linalg.norm([0.3, 0.2, 0.93])
+MOTIONS = {
+    "suslov": (suslov.SYSTEM, (2.0, 1.0, 0.3, 0.5, 0.3, -0.5, 1.0), (0.8, -0.4, *GAMMA), lambda y: (y[0], y[1], 0.0)),
+    "ball": (ball.SYSTEM, (1.4, 0.8, 0.1, 0.3, 2.0, 0.2, -0.5, 0.7), (0.8, -0.4, *GAMMA), lambda y: (y[0], y[1], 0.0)),
+    "heavy": (heavy.SYSTEM, (*A, 0.6, 0.0, 0.8, 0.5), (0.9, 0.5, -0.7, *GAMMA), lambda y: np.multiply(A, y[:3])),
+}
+
+
+def along(system, parameters, start, omega, span):
+    """The attitude from the samples that the pictures have."""
+    weights = (100.0,) * (len(start) - 3) + (300.0,) * 3
+    orbit = sampled_orbit(system, start, parameters, span, weights, level("standard"))
+    return attitude_along(orbit.times, np.array([omega(y) for y in orbit.states]), orbit.states[:, -3:])
+
+
+@pytest.mark.parametrize("motion", MOTIONS.values(), ids=MOTIONS)
+def test_it_is_right_to_a_quarter_of_a_pixel_for_as_long_as_an_orbit_is_shown(motion):
+    system, parameters, start, omega = motion
+    found = along(*motion, span=40.0)
+    n = len(start)
+
+    def rates(_, y):
+        return [*system.field(y[:n], parameters), *np.cross(y[n:], omega(y))]
+
+    exact = solve_ivp(rates, (0.0, 40.0), [*start, *found.axes[0, 1]], "DOP853", found.times, rtol=1e-11, atol=1e-12)
+    assert found.times[0] == 0.0
+    assert found.times[-1] == pytest.approx(40.0, abs=1e-12)
+    # Half of the largest picture, in radii of the sphere, is some 250 pixels.
+    assert np.max(np.abs(found.axes[:, 0] - exact.y[n - 3 : n].T)) < 1e-3
+    assert np.max(np.abs(found.axes[:, 1] - exact.y[n:].T)) < 1e-3
+    products = np.einsum("nij,nkj->nik", found.axes, found.axes)
+    assert np.max(np.abs(products - np.eye(3))) < 1e-14
+    assert np.linalg.det(found.axes) == pytest.approx(1.0, abs=1e-14)
+    assert found.defect < 1e-3
+    # Neighbours are so close that the chord between them is the rotation.
+    steps = Rotation.from_matrix(found.axes[1:] @ found.axes[:-1].transpose(0, 2, 1)).magnitude()
+    assert steps.max() < 1.05 * TURN
+    assert len(found.times) < 1.1 * np.sum(steps) / TURN + 2.0
+
+
+def test_a_steady_spin_about_the_vertical_is_followed_though_nothing_else_moves():
+    omega = np.tile([0.0, 0.0, 3.0], (5, 1))
+    found = attitude_along(np.linspace(0.0, 8.0, 5), omega, np.tile([0.0, 0.0, 1.0], (5, 1)))
+    turn = np.array([[np.cos(3.0 * found.times), -np.sin(3.0 * found.times)],
+                     [np.sin(3.0 * found.times), np.cos(3.0 * found.times)]])
+    # Seen from the body, what is fixed in space turns backward.
+    assert found.axes[:, 1, :2] == pytest.approx(np.einsum("jin,j->ni", turn, found.axes[0, 1, :2]), abs=1e-12)
+    assert abs(len(found.times) - 241) <= 1
+    assert found.defect < 1e-15
+
+
+def test_a_body_at_rest_stays_as_it_lies():
+    found = attitude_along(np.array([0.0, 5.0, 10.0]), np.zeros((3, 3)), np.tile(GAMMA, (3, 1)))
+    assert found.times[[0, -1]] == pytest.approx([0.0, 10.0])
+    assert found.axes == pytest.approx(np.broadcast_to(found.axes[0], found.axes.shape), abs=1e-15)
+
+
+def test_samples_too_far_apart_are_told_by_their_defect():
+    system, parameters, start, omega = MOTIONS["heavy"]
+    fine = sampled_orbit(system, start, parameters, 40.0, (100.0,) * 3 + (300.0,) * 3, level("standard"))
+    coarse = slice(None, None, 40)
+    found = attitude_along(fine.times[coarse], np.array([omega(y) for y in fine.states])[coarse],
+                           fine.states[coarse, -3:])
+    assert found.defect > 0.05

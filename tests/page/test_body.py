@@ -1,0 +1,146 @@
+"""The solid body: where its edge is, what it hides, and the moving point behind a sphere."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from hess_explorer.scenes import scenes
+from support.page import brought, wait_frames
+
+QUARTIC = scenes()["quartic"]
+RADIUS = 0.84
+"""Of the sphere, in halves of the canvas."""
+
+
+@pytest.fixture
+def quartic(tab):
+    yield brought(tab, QUARTIC)
+    tab.assert_quiet()
+
+
+def canvas(explorer):
+    return explorer.picture("body").locator("canvas.solid")
+
+
+def view_of(turn):
+    """To the right, upwards and towards the eye, in space: the rows of (3, 3)."""
+    azimuth, elevation = turn
+    right = np.array([-math.sin(azimuth), math.cos(azimuth), 0.0])
+    towards = np.array([math.cos(elevation) * math.cos(azimuth), math.cos(elevation) * math.sin(azimuth),
+                        math.sin(elevation)])
+    return np.array([right, np.cross(towards, right), towards])
+
+
+def placed(body, i):
+    """What takes a direction of the body to space, (3, 3), at a sample of its attitude."""
+    g, e = (np.array([body[f"{name}{k}"][i] for k in (1, 2, 3)]) for name in "ge")
+    return np.array([e, -np.cross(g, e), -g])
+
+
+def pixels(explorer):
+    """What is painted, (n, n, 4)."""
+    side, values = canvas(explorer).evaluate(
+        """canvas => [canvas.width, [...canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data]]""")
+    return np.array(values).reshape(side, side, 4)
+
+
+def hit(ellipsoid, ray):
+    """The nearest point of the surface x·Q·x = 1 that a ray of sight through (x, y) meets, None where it meets none."""
+    x, y = ray
+    a = ellipsoid[2, 2]
+    b = ellipsoid[2, 0] * x + ellipsoid[2, 1] * y
+    c = np.array([x, y]) @ ellipsoid[:2, :2] @ np.array([x, y]) - 1.0
+    square = b * b - a * c
+    return None if square < 0.0 else (-b + math.sqrt(square)) / a
+
+
+def seen(explorer, i):
+    """The body in the view: its matrix Q with x·Q·x = 1, and the matrix from its own axes to the view."""
+    body = explorer.data("body")
+    turn = tuple(map(float, canvas(explorer).get_attribute("data-turn").split()))
+    to_view = view_of(turn) @ placed(body, i)
+    principal = np.array(body["axes"])
+    return to_view @ principal.T @ np.diag(1.0 / np.square(body["semi"])) @ principal @ to_view.T, to_view
+
+
+@pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
+def test_the_body_ends_where_the_ellipse_of_its_outline_is(quartic, dark):
+    if dark:
+        quartic.page.get_by_role("button", name="theme").click()
+    times = quartic.data("body")["t"]
+    i = len(times) // 3
+    quartic.set_time(times[i])
+    wait_frames(quartic)
+    ellipsoid, _ = seen(quartic, i)
+    # The outline: where the discriminant of the ray vanishes.
+    Q = ellipsoid[:2, :2] - np.outer(ellipsoid[:2, 2], ellipsoid[2, :2]) / ellipsoid[2, 2]
+    painted = pixels(quartic)
+    half = painted.shape[0] / 2
+    rows, columns = np.indices(painted.shape[:2])
+    x, y = (columns + 0.5 - half) / (RADIUS * half), (half - rows - 0.5) / (RADIUS * half)
+    size = np.sqrt(Q[0, 0] * x * x + 2.0 * Q[0, 1] * x * y + Q[1, 1] * y * y)
+    pixel = 1.0 / (RADIUS * half) / np.sqrt(np.linalg.eigvalsh(Q)[0] ** -1.0)
+    assert np.all(painted[size < 1.0 - 3.0 * pixel, 3] == 255)
+    # Beside it are but lines: the sphere, its equator, rods, the trail.
+    assert np.mean(painted[(size > 1.0 + 3.0 * pixel) & (np.hypot(x, y) < 0.97), 3] == 0) > 0.75
+    # It is lit from above on the left.
+    inside = size < 0.9
+    brightness = painted[..., :3].mean(axis=-1)
+    assert brightness[inside & (y - x > 0.25)].mean() > 1.25 * brightness[inside & (y - x < -0.25)].mean()
+    if dark:
+        assert brightness[inside].mean() < 150
+        quartic.page.get_by_role("button", name="theme").click()
+
+
+def test_what_is_behind_the_body_is_hidden_and_what_is_before_it_is_not(quartic):
+    """The rod of e is black: its points are seen exactly where no ray of sight meets the body before them."""
+    times, hidden, shown = quartic.data("body")["t"], [], []
+    for i in range(0, len(times), len(times) // 16):
+        quartic.set_time(times[i])
+        wait_frames(quartic)
+        ellipsoid, to_view = seen(quartic, i)
+        painted = pixels(quartic)
+        half = painted.shape[0] / 2
+        for place in np.linspace(0.2, 0.95, 12)[:, None] * (to_view @ [0.0, 0.0, 1.0]):
+            x, y, z = place
+            front = hit(ellipsoid, (x, y))
+            wheels = [side * 0.85 * to_view @ [1.0, 0.0, 0.0] for side in (1.0, -1.0)]
+            # Not where the rod comes out of the body, nor where a wheel may be.
+            if (0.8 < place @ ellipsoid @ place < 1.3 or front is not None and abs(z - front) < 0.05
+                    or min(math.hypot(*(place - wheel)[:2]) for wheel in wheels) < 0.25):
+                continue
+            pixel = painted[round(half - RADIUS * half * y - 0.5), round(half + RADIUS * half * x - 0.5)]
+            (hidden if front is not None and z < front else shown).append(pixel[:3].max() < 70 and pixel[3] > 150)
+    assert len(hidden) > 30
+    assert not any(hidden)
+    assert len(shown) > 30
+    # The trail crosses it now and then.
+    assert np.mean(shown) > 0.9
+
+
+def test_the_module_s_outline_and_exits_are_those_of_the_ellipsoid(quartic):
+    rng = np.random.default_rng(3)
+    for _ in range(20):
+        axes = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+        semi = rng.uniform(0.1, 0.8, 3)
+        v = rng.normal(size=3)
+        ellipsoid = axes.T @ np.diag(semi**-2.0) @ axes
+        edge, out, inner, outer = quartic.page.evaluate(
+            """([axes, semi, v]) => {
+              const edge = hess.solid.outline(axes, semi)
+              const [c, s] = [Math.cos(edge.angle), Math.sin(edge.angle)]
+              const at = (r) => hess.solid.covers(axes, semi, r * (c * edge.halves[0] * 0.6 - s * edge.halves[1] * 0.8),
+                                                  r * (s * edge.halves[0] * 0.6 + c * edge.halves[1] * 0.8))
+              return [edge, hess.solid.leaves(axes, semi, v), at(0.999), at(1.001)]
+            }""", [axes.tolist(), semi.tolist(), v.tolist()])
+        shadow = np.linalg.inv(ellipsoid)[:2, :2]
+        assert np.square(edge["halves"])[::-1] == pytest.approx(np.linalg.eigvalsh(shadow), rel=1e-9)
+        assert (edge["width"] ** 2, edge["height"] ** 2) == pytest.approx(np.diag(shadow), rel=1e-12)
+        long = np.array([math.cos(edge["angle"]), math.sin(edge["angle"])])
+        assert shadow @ long == pytest.approx(edge["halves"][0] ** 2 * long, abs=1e-12)
+        assert (inner, outer) == (True, False)
+        assert (out["at"] * v) @ ellipsoid @ (out["at"] * v) == pytest.approx(1.0, rel=1e-12)
+        assert out["near"] == bool((ellipsoid @ v)[2] >= 0.0)
