@@ -88,6 +88,7 @@ def test_an_example_of_scattering_is_drawn_with_the_numbers_of_its_captions(scat
     assert (ring["x"][0], ring["y"][0]) == pytest.approx((phi, exact), abs=1e-5)
     curve = scattering.data("curve-theta")
     assert np.interp(phi, curve["xs"][0], curve["ys"][0]) == pytest.approx(exact, abs=1e-4)
+    scattering.unfold("chi")
     computed, closed, difference = said(scattering, "chi", "Computed #; closed form #, difference #.")
     if values["I13"] == 0.0:
         assert (computed, closed) == (pytest.approx(cos_chi_on_an_axis(values), abs=6e-6),) * 2
@@ -178,6 +179,7 @@ def test_a_click_on_the_map_chooses_phase_and_circle(scattering):
 
 
 def test_a_click_on_the_graph_of_cos_chi_chooses_k(scattering):
+    scattering.unfold("chi")
     _, _, low, high = scattering.axes("chi")
     unit = click_on(scattering, "chi", 4.4, (low + high) / 2)
     k = scattering.shown("k")[0]

@@ -213,6 +213,12 @@ class Explorer:
     def sphere(self):
         return self.page.locator(".gallery:not(.away) canvas.sphere")
 
+    def unfold(self, picture):
+        """Show a picture that is not seen at first."""
+        cell = self.picture(picture)
+        if "folded" in cell.get_attribute("class").split():
+            self.change(cell.locator(".unfold").click)
+
     def change(self, action, *arguments):
         """Do something that asks for a new state, and wait until it is painted."""
         before = self.state
