@@ -217,7 +217,7 @@ class Explorer:
         """Show a picture that is not seen at first."""
         cell = self.picture(picture)
         if "folded" in cell.get_attribute("class").split():
-            self.change(cell.locator(".unfold").click)
+            self.change(cell.locator(".unfold").or_(self.page.locator(f".unfold-{picture}")).click)
 
     def change(self, action, *arguments):
         """Do something that asks for a new state, and wait until it is painted."""
