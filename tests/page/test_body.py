@@ -43,7 +43,10 @@ def placed(body, i):
 def pixels(explorer):
     """What is painted, (n, n, 4)."""
     side, values = canvas(explorer).evaluate(
-        """canvas => [canvas.width, [...canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data]]""")
+        """canvas => {
+          const { width, height } = canvas
+          return [width, [...canvas.getContext("2d").getImageData(0, 0, width, height).data]]
+        }""")
     return np.array(values).reshape(side, side, 4)
 
 
@@ -109,7 +112,7 @@ def test_what_is_behind_the_body_is_hidden_and_what_is_before_it_is_not(quartic)
             front = hit(ellipsoid, (x, y))
             wheels = [side * 0.85 * to_view @ [1.0, 0.0, 0.0] for side in (1.0, -1.0)]
             # Not where the rod comes out of the body, nor where a wheel may be.
-            if (0.8 < place @ ellipsoid @ place < 1.3 or front is not None and abs(z - front) < 0.05
+            if (0.8 < place @ ellipsoid @ place < 1.3 or (front is not None and abs(z - front) < 0.05)
                     or min(math.hypot(*(place - wheel)[:2]) for wheel in wheels) < 0.25):
                 continue
             pixel = painted[round(half - RADIUS * half * y - 0.5), round(half + RADIUS * half * x - 0.5)]
