@@ -287,7 +287,8 @@ def test_what_is_no_motion_says_so_and_nothing_stale_stays(tab, scene, typed, se
     # And all is there again.
     explorer.change(explorer.page.locator(".param-reset").click)
     for name in sources:
-        assert flat(explorer.data(name)) == flat(before[name]), name
+        if name.split("-")[0] not in scene.folded:
+            assert flat(explorer.data(name)) == flat(before[name]), name
     explorer.assert_quiet()
 
 

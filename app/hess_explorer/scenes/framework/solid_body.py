@@ -23,7 +23,7 @@ __all__ = ["ConstrainedBody", "HeavySolid", "SolidBody", "constrained_body", "he
 
 _LOST = 0.02
 """The largest step of γ, in radians, between a sample and the one that follows from it, of a motion that is drawn."""
-_TOO_LONG = "Nothing is drawn: the samples of so long a motion are too far apart to follow how the body turns."
+_TOO_LONG = "Nothing is drawn: so long a motion has samples too far apart to follow its turns."
 _MASS = Sign("centre of mass", "dot", "background: #F0E442; border: 1.5px solid black")
 _SECTION = Sign("circular section of the gyration ellipsoid", "line", "border-top: 2.5px solid #CC79A7")
 
@@ -87,13 +87,13 @@ class ConstrainedBody(SolidBody):
         if self.in_space() is None:
             return _TOO_LONG
         if self.tensor is None:
-            return "Its wheels roll where (ω, e) = 0. No rigid body has this tensor, so no ellipsoid is drawn."
+            return "No rigid body has this tensor: no ellipsoid. Wheels for (ω, e) = 0."
         return f"Ellipsoid of inertia for I₃₃ = {digits(self.tensor[2, 2])}, which is free; wheels for (ω, e) = 0."
 
     def about_ball(self) -> str:
         """The caption, of a ball."""
         return (_TOO_LONG if self.in_space() is None else
-                "It rolls on a ball whose centre stays, inside; its wheels roll where (ω, e) = 0.")
+                "It rolls on a ball inside, whose centre stays; wheels for (ω, e) = 0.")
 
 
 class HeavySolid(SolidBody):
@@ -135,7 +135,7 @@ class HeavySolid(SolidBody):
         if self.in_space() is None:
             return _TOO_LONG
         if not self.heavy.check.is_body:
-            return "No rigid body has these moments, so no ellipsoid is drawn; r: the centre of mass."
+            return "No rigid body has these moments: no ellipsoid. r: the centre of mass."
         across = "across" if self.heavy.is_hess else "not across"
         return f"Gyration ellipsoid; the centre of mass, r, lies {across} its circular section."
 
