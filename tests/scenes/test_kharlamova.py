@@ -11,6 +11,8 @@ from hess_explorer.scenes import scenes
 from hess_mechanics import level, solve, systems
 from hess_mechanics.errors import NoField, OutsideRegion
 from hess_mechanics.suslov.kharlamova import arc, state_at
+from hess_mechanics.suslov.plane_potential import POTENTIALS, PotentialBody
+from hess_mechanics.suslov.plane_potential import SYSTEM as POTENTIAL
 from support.kharlamova import ARC, POINT
 from support.view import View
 
@@ -89,6 +91,48 @@ def test_the_graph_of_the_period_is_the_period_of_each_direction():
         assert T[i] == pytest.approx(arc(body, y).period, rel=1e-4)
     assert (view.data["period-chosen"]["x"][0], view.data["period-chosen"]["y"][0]) == pytest.approx(
         (view.values["alpha"], view.result.arc.period))
+
+
+@pytest.mark.parametrize("name", POTENTIALS)
+def test_in_another_potential_the_caption_says_what_the_motion_does(name):
+    body = PotentialBody(1.5, 1.0, *POTENTIALS[name])
+    fast = View(ARC, {"potential": name, "I11": 1.5, "I22": 1.0}, seen={"potential"})
+    start = fast.result.start
+    period, back = fast.numbers("potential", "It crosses the equator twice and so closes: T = #, back to #.")
+    assert back < 1e-6
+    assert solve(POTENTIAL, start, body.parameters, [period], FLOOR).states[0] == pytest.approx(start, abs=2e-4)
+    assert fast.text["potential"].startswith(f"Potential: {name}\n")
+    # The orbit that is drawn, by the general kernel; all of it is where U ≤ E.
+    x, y = (np.asarray(fast.data["potential-orbit"][axis], float) for axis in "xy")
+    states = solve(POTENTIAL, start, body.parameters, fast.result.other.orbit.times, FLOOR).states
+    assert np.column_stack([x, y]) == pytest.approx(
+        np.column_stack([math.sqrt(1.5) * states[:, 3], -states[:, 2]]), abs=1e-5)
+    E = POTENTIAL.integrals(start, body.parameters)["E"]
+    assert np.all(body.potential(np.column_stack([-y, x / math.sqrt(1.5)])) <= E + 1e-6)
+    slow = View(ARC, {"potential": name, "I11": 1.5, "I22": 1.0, "p": 0.2, "span": 60.0}, seen={"potential"})
+    assert "Too slow for the equator, it stays on one side." in slow.text["potential"]
+    assert ("integrable" in slow.text["potential"]) is (name == "quadratic")
+    states = slow.result.other.orbit.states
+    assert states[:, 4].min() > 0.0
+    if name == "quadratic":
+        kept, = slow.numbers("potential", "F₂ is kept to #: integrable.")
+        assert kept < 1e-6
+    else:
+        changed, = slow.numbers("potential", "F₂ changes by # %.")
+        F2 = 0.5 * (1.5 * states[:, 0] ** 2 + body.c2 * states[:, 3] ** 2)
+        assert changed == pytest.approx(100.0 * np.ptp(F2) / F2.max(), rel=0.06)
+        assert changed > 1.0
+    # b has no part in it, and the other potential none in the pictures of the linear one.
+    other = View(ARC, {"potential": name, "I11": 1.5, "I22": 1.0, "b1": -1.0, "b2": 0.2}, seen={"potential"})
+    assert other.text["potential"] == fast.text["potential"]
+    assert View(ARC, {"potential": name}, seen={"domain"}).text == View(ARC, {}, seen={"domain"}).text
+
+
+def test_where_it_does_not_move_in_another_potential_that_is_said():
+    view = View(ARC, {"p": 0.0, "q1": 0.0, "q2": 0.0}, seen={"potential"})
+    assert "A fixed point: nothing changes." in view.text["potential"]
+    short = View(ARC, {"p": 2.0, "span": 0.2}, seen={"potential"})
+    assert "The equator is not crossed twice up to t = 0.2." in short.text["potential"]
 
 
 def test_a_start_outside_moves_to_the_edge_and_says_so():

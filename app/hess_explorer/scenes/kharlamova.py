@@ -10,10 +10,18 @@ from functools import cached_property
 import numpy as np
 
 from hess_explorer.scenes.framework.inertia import CentreOfMass, Tensor
-from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, like, number, slider_within, time_span
+from hess_explorer.scenes.framework.parameters import (
+    Slider,
+    accuracy_level,
+    choice,
+    like,
+    number,
+    slider_within,
+    time_span,
+)
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.work import orbit_status
-from hess_explorer.views import period_graph, plane_domain, theme
+from hess_explorer.views import period_graph, plane_domain, plane_potential, theme
 from hess_explorer.views.graph import pieces
 from hess_explorer.views.layers import Columns, Layer, curves, points, ring
 from hess_explorer.views.period_graph import has_periods, period_axis
@@ -26,6 +34,7 @@ from hess_mechanics.numerics.results import Array, Orbit
 from hess_mechanics.suslov import kharlamova as mechanics
 from hess_mechanics.suslov.equations import SYSTEM
 from hess_mechanics.suslov.kharlamova import MOST_SAMPLES, Arc, PlaneBody
+from hess_mechanics.suslov.plane_potential import POTENTIALS, PlaneMotion, PotentialBody, motion_from
 from hess_mechanics.suslov.principal_axis import divergence
 
 _LEVELS = (-0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75)
@@ -66,6 +75,9 @@ class Kharlamova(State):
                           doc="p = |p| (cos α, sin α): where the point runs at first. A click in the graph of T "
                               "chooses it.")
     span: float = time_span(20.0, 100.0)
+    potential: str = choice("Another potential", tuple(POTENTIALS), "Hénon–Heiles",
+                            doc="Of the last picture, shown by its button, where b₁ and b₂ mean nothing. Quadratic: "
+                                "integrable.")
     accuracy: str = accuracy_level()
 
     def admitted(self, notes: list[str]) -> Kharlamova:
@@ -123,6 +135,16 @@ class Kharlamova(State):
     def periods(self) -> Array:
         """The directions α in which an orbit may start, and its period T; shape (n, 2)."""
         return self.work.get(mechanics.periods_all_round, self.body, (self.q1, self.q2), self.p)
+
+    @cached_property
+    def other_body(self) -> PotentialBody:
+        """The same body in the other potential."""
+        return PotentialBody(self.I11, self.I22, *POTENTIALS[self.potential])
+
+    @cached_property
+    def other(self) -> PlaneMotion:
+        """The motion from the same start in the other potential."""
+        return self.work.get(motion_from, self.other_body, self.start, self.span, self.level)
 
     def motion(self) -> Motion:
         """The orbit on show."""
@@ -269,5 +291,7 @@ SCENE = Scene(
              layers=period_graph.layers(
                  lambda s: s.periods,
                  here=lambda s: None if s.arc.kind == "fixed" else (s.alpha, s.arc.period))),
+        plane_potential.picture(lambda s: s.potential, lambda s: s.body, lambda s: s.other_body, lambda s: s.other,
+                                Kharlamova.half_width),
     ),
 )

@@ -23,14 +23,19 @@ from typing import Any
 
 import numpy as np
 
+from hess_mechanics.dynamics.orbit import solve
+from hess_mechanics.dynamics.sampling import PIXELS, sampled_orbit
 from hess_mechanics.dynamics.section import MAX_STEPS, Plane, Points, section_points
 from hess_mechanics.dynamics.system import System, in_units_of_time
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.numerics.accuracy import Level
-from hess_mechanics.numerics.results import Array
+from hess_mechanics.numerics.results import Array, Mask, Orbit, frozen
 from hess_mechanics.rigid_body.inertia import require_comparable, require_finite, require_positive_definite
 
-__all__ = ["POTENTIALS", "PotentialBody", "equator_energy", "plane_section", "separable_integral", "state_at"]
+__all__ = [
+    "POTENTIALS", "PlaneMotion", "PotentialBody", "equator_energy", "forbidden", "level_curve", "motion_from",
+    "plane_section", "separable_integral", "state_at",
+]
 
 _TURNS = 200.0
 """Time allowed per crossing of γ1 = 0, in units of 1/ν."""
@@ -179,3 +184,87 @@ def plane_section(body: PotentialBody, starts: Sequence[Sequence[float]], crossi
     return section_points(SYSTEM, starts, body.parameters, Plane((0.0, 0.0, 1.0, 0.0, 0.0)),
                           crossings * _TURNS * ratio / max(nu, 1e-300), level, crossings, most_steps=most_steps)
 
+
+
+# ---- for a picture ----------------------------------------------------------------------------------------------
+
+MOST_SAMPLES = 6000
+_NEWTON = 4
+_BISECTIONS = 32
+
+
+@dataclass(frozen=True)
+class PlaneMotion:
+    """One motion: its energy, and whether it closes.
+
+    crossings : of the equator, in the time shown; period : 2(t2 − t1) of two of them in turn, None where there are
+    fewer; missed : how far from its start the motion is after it; fixed : whether nothing moves.
+    integral : by how much F2 of a quadratic potential changes along it, relative to its largest value.
+    """
+
+    orbit: Orbit
+    energy: float
+    crossings: int
+    period: float | None
+    missed: float
+    fixed: bool
+    integral: float
+
+
+def motion_from(body: PotentialBody, start: tuple[float, ...], span: float, level: Level) -> PlaneMotion:
+    """The motion from a state (5,) over the time `span`, sampled for a picture of the plane.
+
+    Raises `InvalidParameter`, `WorkLimit`.
+    """
+    orbit = sampled_orbit(SYSTEM, start, body.parameters, span, (0.0, 0.0, *(0.5 * PIXELS,) * 3), level, MOST_SAMPLES)
+    energy = float(SYSTEM.integrals(start, body.parameters)["E"])
+    fixed = not np.any(np.array(SYSTEM.field(start, body.parameters)))
+    F2 = separable_integral(body, orbit.states)
+    integral = float(np.ptp(F2)) / max(float(np.abs(F2).max()), 1e-300)
+    g3 = orbit.states[:, 4]
+    after = np.flatnonzero((g3[1:] * g3[:-1] < 0.0) | (g3[:-1] == 0.0))
+    if fixed or after.size < 2:
+        return PlaneMotion(orbit, energy, 0 if fixed else int(after.size), None, math.inf, fixed, integral)
+
+    def crossed(i: int) -> float:
+        t = float(orbit.times[i] + (orbit.times[i + 1] - orbit.times[i]) * g3[i] / (g3[i] - g3[i + 1]))
+        for _ in range(_NEWTON if t else 0):
+            y = solve(SYSTEM, start, body.parameters, [t], level).states[0]
+            t -= float(y[4] / SYSTEM.field(y, body.parameters)[4])
+        return t
+
+    first, second = (crossed(int(i)) for i in after[:2])
+    period = 2.0 * (second - first)
+    back = solve(SYSTEM, start, body.parameters, [period], level).states[0]
+    return PlaneMotion(orbit, energy, int(after.size), period, float(np.abs(back - np.array(start)).max()), False,
+                       integral)
+
+
+def _radius(body: PotentialBody, value: float) -> tuple[Array, Array]:
+    """Unit vectors (n, 2) all round, and how far (n,) U ≤ value along each, at most 1: U grows along them."""
+    angle = np.linspace(0.0, 2.0 * math.pi, 241)
+    along = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    low, high = np.zeros(angle.size), np.ones(angle.size)
+    for _ in range(_BISECTIONS):
+        middle = 0.5 * (low + high)
+        below = body.potential(middle[:, None] * along) <= value
+        low, high = np.where(below, middle, low), np.where(below, high, middle)
+    return along, low
+
+
+def level_curve(body: PotentialBody, value: float) -> list[Array]:
+    """The parts u (m, 2) of the curve U = value inside γ1² + γ2² = 1, for one of the `POTENTIALS`."""
+    along, radius = _radius(body, value)
+    inside: Mask = radius < 1.0 - 1e-9
+    cuts = np.flatnonzero(inside[1:] != inside[:-1]) + 1
+    curve = radius[:, None] * along
+    return [frozen(part) for part, kept in zip(np.split(curve, cuts), np.split(inside, cuts), strict=True)
+            if kept[0] and len(part) > 1]
+
+
+def forbidden(body: PotentialBody, energy: float) -> list[Array]:
+    """The part u (m, 2) of the disk, a closed curve, where U > energy, for one of the `POTENTIALS`; none: empty."""
+    along, radius = _radius(body, energy)
+    if np.all(radius >= 1.0 - 1e-9):
+        return []
+    return [frozen(np.concatenate([along, (radius[:, None] * along)[::-1]]))]

@@ -19,6 +19,9 @@ from hess_mechanics.suslov.plane_potential import (
     SYSTEM,
     PotentialBody,
     equator_energy,
+    forbidden,
+    level_curve,
+    motion_from,
     plane_section,
     separable_integral,
     state_at,
@@ -146,6 +149,51 @@ def test_an_orbit_that_crosses_the_equator_twice_closes_whatever_the_potential(n
     before, after = (solve(SYSTEM, both.states[0], body.parameters, [sign * 0.4], level("reference")).states[0]
                      for sign in (-1.0, 1.0))
     assert before == pytest.approx(mirrored(after), abs=1e-10)
+
+
+@every_potential
+def test_a_motion_for_a_picture_knows_its_period_and_its_integral(name):
+    body = body_of(name, 1.3, 0.8)
+    found = motion_from(body, (0.9, -0.7, 0.48, 0.6, 0.64), 40.0, level("precise"))
+    both = section(SYSTEM, (0.9, -0.7, 0.48, 0.6, 0.64), body.parameters, EQUATOR, 400.0, level("reference"), 2)
+    assert found.period == pytest.approx(float(both.times[1] - both.times[0]), abs=1e-8)
+    assert found.missed < 1e-8
+    assert found.crossings >= 2
+    assert (found.integral < 1e-10) is body.separates
+    # From the equator itself the first crossing is at once; a motion that stays on one side has no period.
+    at_once = motion_from(body, (1.5, 0.4, 0.0, 0.6, 0.8), 40.0, level("precise"))
+    on_it = motion_from(body, (1.5, 0.4, 0.6, 0.8, 0.0), 40.0, level("precise"))
+    assert at_once.period is not None
+    assert on_it.period is not None
+    assert max(at_once.missed, on_it.missed) < 1e-8
+    slow = motion_from(body, state_at(body, 0.7 * equator_energy(body), 0.1, 0.02), 40.0, level("standard"))
+    assert (slow.crossings, slow.period, slow.fixed) == (0, None, False)
+    assert motion_from(body, (0.6, 0.8, 0.6, 0.8, 0.0), 5.0, level("standard")).fixed
+
+
+@every_potential
+def test_equipotentials_and_what_is_forbidden(name):
+    body = body_of(name)
+    angle = np.linspace(0.0, 2.0 * math.pi, 400)
+    rays = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    # U grows along every ray, so that there is one place at most.
+    values = body.potential(np.linspace(0.0, 1.0, 200)[:, None, None] * rays)
+    assert np.all(np.diff(values, axis=0) > -1e-12)
+    edge = equator_energy(body)
+    for share in (0.5, 1.2):
+        parts = level_curve(body, share * edge)
+        assert parts
+        for part in parts:
+            assert body.potential(part) == pytest.approx(share * edge, abs=1e-7)
+    for share, where in ((0.5, 1), (1.2, 1), (100.0, 0)):
+        areas = forbidden(body, share * edge)
+        assert len(areas) == where
+        if where:
+            x, y = areas[0].T
+            area = abs(0.5 * np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))
+            grid = np.stack(np.meshgrid(np.linspace(-1, 1, 401), np.linspace(-1, 1, 401)), axis=-1)
+            above = (body.potential(grid) > share * edge) & (np.sum(grid**2, axis=-1) < 1.0)
+            assert area == pytest.approx(above.sum() * 0.005**2, abs=0.02)
 
 
 @every_potential

@@ -1,0 +1,81 @@
+"""The motion with e on a principal axis in a potential U(γ1, γ2), in the plane of (q1, q2)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeVar
+
+import numpy as np
+
+from hess_explorer.views import theme
+from hess_explorer.views.layers import curves, line, ring
+from hess_explorer.views.plane_domain import ground
+from hess_explorer.views.plot import Plot
+from hess_explorer.views.text import digits, power
+from hess_explorer.views.velocity_plane import centred
+from hess_mechanics.numerics.results import Array
+from hess_mechanics.suslov.kharlamova import PlaneBody
+from hess_mechanics.suslov.plane_potential import (
+    PlaneMotion,
+    PotentialBody,
+    equator_energy,
+    forbidden,
+    level_curve,
+)
+
+__all__ = ["about", "picture"]
+
+S = TypeVar("S")
+
+_LEVELS = (0.1, 0.25, 0.5, 0.75, 0.95)
+"""Equipotentials, in units of the largest U on the edge."""
+
+
+def about(body: PotentialBody, motion: PlaneMotion) -> str:
+    """Whether the motion closes, and why; whether there is another integral."""
+    if motion.fixed:
+        return "A fixed point: nothing changes."
+    if motion.period is not None:
+        return (f"It crosses the equator twice and so closes: T = {digits(motion.period, 6)}, back to "
+                f"{power(motion.missed)}.")
+    where = ("Too slow for the equator, it stays on one side" if motion.energy < equator_energy(body)
+             else f"The equator is not crossed twice up to t = {digits(float(motion.orbit.times[-1]))}")
+    integral = (f"is kept to {power(motion.integral)}: integrable" if body.separates
+                else f"changes by {digits(100.0 * motion.integral, 2)} %")
+    return f"{where}. F₂ {integral}."
+
+
+def _largest(body: PotentialBody) -> float:
+    angle = np.linspace(0.0, 2.0 * np.pi, 121)
+    return float(body.potential(np.stack([np.cos(angle), np.sin(angle)], axis=-1)).max())
+
+
+def picture(name: Callable[[S], str], plane: Callable[[S], PlaneBody], body: Callable[[S], PotentialBody],
+            motion: Callable[[S], PlaneMotion], half_width: Callable[[S], float]) -> Plot[S]:
+    """The domain with equipotentials of U; the motion from the same start as the scene's, and where it starts."""
+    def edge(state: S) -> Array:
+        angle = np.linspace(0.0, 2.0 * np.pi, 241)
+        return plane(state).place(np.stack([np.cos(angle), np.sin(angle)], axis=-1))
+
+    def levels(state: S) -> list[Array]:
+        top = _largest(body(state))
+        return [plane(state).place(part) for share in _LEVELS for part in level_curve(body(state), share * top)]
+
+    def too_high(state: S) -> list[Array]:
+        return [plane(state).place(part) for part in forbidden(body(state), motion(state).energy)]
+
+    def orbit(state: S) -> tuple[Array, Array]:
+        q = plane(state).place(motion(state).orbit.states[:, 2:4])
+        return q[:, 0], q[:, 1]
+
+    def start(state: S) -> list[tuple[float, float]]:
+        x, y = orbit(state)
+        return [(float(x[0]), float(y[0]))]
+
+    return Plot(
+        name="potential", title=lambda s: f"Potential: {name(s)}", caption=lambda s: about(body(s), motion(s)),
+        axes=("q₁", "q₂"), x=lambda s: centred(half_width(s)), y=lambda s: centred(half_width(s)),
+        folded="Show another potential",
+        layers=(*ground(edge, too_high, levels),
+                curves("border", lambda s: [edge(s)], color=theme.MUTED, width=1),
+                line("orbit", orbit, color=theme.ORBIT, width=1.3), ring("start", start)))
