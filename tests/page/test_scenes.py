@@ -471,7 +471,7 @@ def test_the_caption_and_the_status_say_what_is_drawn(study):
         assert study.text("status").startswith(f"{name} chosen")
         assert study.data("growth-limit")["y"][0] == pytest.approx(LEVELS[name].promise, rel=1e-6)
         ring = study.data("precision-chosen")
-        marks = study.data("precision-Taylor-marks")
+        marks = study.data("precision-Taylor")
         place = list(LEVELS).index(name)
         assert (ring["x"][0], ring["y"][0]) == pytest.approx((marks["x"][place], marks["y"][place]), rel=1e-6)
 
@@ -507,7 +507,7 @@ def test_a_click_on_the_cost_of_a_level_chooses_it(study):
     left, top, right, bottom = frame(study, "precision")
     x0, x1, y0, y1 = (math.log10(end) for end in study.axes("precision"))
     for name in ("draft", "precise", "reference", "standard"):
-        marks, place = study.data("precision-Taylor-marks"), list(LEVELS).index(name)
+        marks, place = study.data("precision-Taylor"), list(LEVELS).index(name)
         x = left + (math.log10(marks["x"][place]) - x0) / (x1 - x0) * (right - left)
         y = bottom - (math.log10(marks["y"][place]) - y0) / (y1 - y0) * (bottom - top)
         study.change(study.page.mouse.click, x, y)
@@ -732,7 +732,7 @@ def test_while_a_slider_is_held_the_slow_methods_are_not_measured(study):
     mouse.down()
     study.change(mouse.move, box["x"] + 0.4 * box["width"], middle)
     assert study.data("precision-DOP853-marks")["x"] == []
-    assert len(study.data("precision-Taylor-marks")["x"]) == 4
+    assert len(study.data("precision-Taylor")["x"]) == 4
     study.change(mouse.up)
     assert len(study.data("precision-DOP853-marks")["x"]) == 3
     assert len(study.data("precision-LSODA-marks")["x"]) == 3

@@ -175,11 +175,13 @@ def test_the_player_and_the_sphere_find_their_columns(scene):
 def test_a_scene_that_looks_into_another_one_has_its_parameters(scene):
     if scene.origin is None:
         looking = [one for one in SCENES.values() if one.origin == scene.name]
-        assert len(looking) == scene.has_motion
+        assert len(looking) == 1
         return
     origin = SCENES[scene.origin]
-    assert origin.has_motion
-    assert (scene.specs, scene.presets) == (origin.specs, origin.presets)
+    own = scene.specs[len(origin.specs):]
+    assert (scene.specs[:len(origin.specs)], scene.presets) == (origin.specs, origin.presets)
+    kinds = tuple(trial.kind for trial in origin.trials)
+    assert [spec.options for spec in own] == ([kinds] if len(kinds) > 1 else [])
     assert not scene.has_motion
 
 
@@ -229,7 +231,8 @@ def test_a_state_looks_the_same_whatever_was_shown_before(scene, preset):
     assert contents(board.sources) == contents(first.sources)
     for name in first.ranges:
         assert board.ranges[name] == (first.ranges if name in known else before)[name], name
-    assert len(known) > 1
+    # Those of what is compared come with it.
+    assert len(known) > (scene.origin is None or SCENES[scene.origin].has_motion)
     if scene.origin is None:
         assert board.captions == first.captions
     assert again.derived == report.derived

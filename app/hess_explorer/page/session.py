@@ -99,8 +99,10 @@ class Session:
         here, wanted = self._specs, self._wanted
         self._left[self.scene.name] = values = wanted
         # "Speed and accuracy" of a scene is of the very same state.
-        self._own_instead = scene.specs != self.scene.specs
-        if self._own_instead:
+        self._own_instead = (scene.origin or scene.name) != (self.scene.origin or self.scene.name)
+        if not self._own_instead:
+            values = {**self._left.get(scene.name, {}), **wanted}
+        else:
             values = dict(self._left.get(scene.name, scene.defaults())) | {
                 spec.name: wanted[spec.name] for spec in scene.specs
                 if spec.name in here and wanted[spec.name] != here[spec.name].default and (

@@ -87,6 +87,7 @@ class BallSection(CentreOfMass, Ball, Crossings, ConstrainedBody):
         "Of the orbit. Points of the section are right on their integrals; chaos moves them along.")
 
     section_axes: ClassVar[Axes] = Axes(square.AZIMUTH, square.POLAR)
+    section_names: ClassVar[tuple[str, str]] = ("ψ", "δ")
 
     def admitted(self, notes: list[str]) -> BallSection:
         """ψ outside the band that the energy forbids."""
@@ -186,7 +187,7 @@ SCENE = Scene(
     views=(
         constrained_body(ball=True),
         Plot(name="section", title="Section: γ₃ grows through 0", caption=BallSection._about_section,
-             axes=("ψ", "δ"), x=square.AZIMUTH, y=square.POLAR, ticks=square.AZIMUTH_TICKS,
+             axes=BallSection.section_names, x=square.AZIMUTH, y=square.POLAR, ticks=square.AZIMUTH_TICKS,
              y_ticks=square.POLAR_TICKS, message=lambda s: s.reason,
              on_click=lambda s, x, y: {"psi": x, "delta": y},
              layers=section_plane.layers(

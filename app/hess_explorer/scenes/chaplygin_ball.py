@@ -20,6 +20,7 @@ from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import scattering_map as square
 from hess_explorer.views import theme
 from hess_explorer.views import velocity_plane as plane
+from hess_explorer.views.comparison import Curves
 from hess_explorer.views.graph import over_time
 from hess_explorer.views.layers import arrows, curves, levels, names, region, ring
 from hess_explorer.views.plot import Plot
@@ -161,10 +162,13 @@ class ChaplyginBall(CircleLeft, FreeBall, OneOrbit):
 _MEASURES: tuple[Trial[ChaplyginBall], ...] = (
     Trial(Kind.MAP, ("curve",), lambda s, plan: s.phases(plan.side(_PHASES), plan.level).now(),
           lambda s, found, truth: curve_error(
-              found.theta_plus, s.phases(found.phis.size, REFERENCE).now().theta_plus, math.pi)),
+              found.theta_plus, s.phases(found.phis.size, REFERENCE).now().theta_plus, math.pi),
+          lambda s, found: Curves(square.FRAME, (found.curve,))),
     Trial(Kind.CURVE, ("omega",), lambda s, plan: s.strip_orbits(plan.side(_ORBITS), plan.level).now(),
           lambda s, found, truth: math.sqrt(s.h) * 0.5 * PIXELS / s.half_width * largest_distance(
-              found, s.strip_orbits(len(found), REFERENCE).now())))
+              found, s.strip_orbits(len(found), REFERENCE).now()),
+          lambda s, found: Curves(plane.frame(s.half_width), tuple(
+              math.sqrt(s.h) * track for track, _ in found), in_pairs=True), alike=True))
 
 SCENE = Scene(
     ChaplyginBall, __file__, place=9, presets=PRESETS, measures=_MEASURES,

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import ClassVar
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values
@@ -116,6 +117,8 @@ class Quartic(Crossings, ConstrainedBody):
         """The q along the section and its p."""
         return self.body.on_section(states)
 
+    section_names: ClassVar[tuple[str, str]] = ("q", "p")
+
     @property
     def section_axes(self) -> Axes:
         """Room for all q and p."""
@@ -186,7 +189,8 @@ SCENE = Scene(
             layers=(*plane_domain.ground(lambda s: s.body.ellipse(), lambda s: s.body.holes(),
                                          lambda s: s.body.equipotentials(_HEIGHTS)),
                     *plane_domain.orbit(lambda s: (s.Q1, s.Q2), label="where it starts"))),
-        Plot(name="section", caption=Quartic._about_section, axes=("q", "p"), on_click=Quartic.start_on_section,
+        Plot(name="section", caption=Quartic._about_section, axes=Quartic.section_names,
+             on_click=Quartic.start_on_section,
              title=lambda s: "Section {0} = 0, {0} growing".format("q₂" if s.body.across else "q₁"),
              x=lambda s: s.section_axes.x, y=_P_AXIS, message=lambda s: s.reason,
              layers=section_plane.layers(lambda s: s.own, others=lambda s: s.others, forbidden=Quartic.impossible)),

@@ -10,14 +10,16 @@ from typing import Any
 
 import numpy as np
 
+from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.hess_case import map_or_none, possible_f
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number, places
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
-from hess_explorer.scenes.framework.trial import Trial, colour_error
+from hess_explorer.scenes.framework.torus_trials import boundary, grid, on_line
 from hess_explorer.scenes.framework.windows import Window, boxed, inside, tidy_window, window_of
 from hess_explorer.views import circle_map as circle
 from hess_explorer.views import rotation_line, rotation_plane
-from hess_explorer.views.layers import Grid
+from hess_explorer.views.comparison import Frame
+from hess_explorer.views.layers import Axes, Grid
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.numerics.accuracy import REFERENCE, Kind, Plan
@@ -30,7 +32,7 @@ _COARSE, _FINE = (75, 50), (300, 200)
 _ROWS = 25
 """Rows of the fine map that are computed together."""
 _ON_LINE = 400
-_ON_CURVE = 40
+_ON_CURVE = 48
 """Points of the boundary of the lock zone."""
 _RATIONALS = ("−1/2", "−1/3", "−1/4", "−2/5", "−1/5", "−3/7", "−1/6")
 _FULL = {"h": (-1.0, 4.0), "f": (-3.0, 3.0), "a": (0.0, 2.0)}
@@ -138,14 +140,23 @@ class RotationNumber(State):
         """ρ and the zones over the window."""
         return rotation_plane.grids(*self.grid, *self.window)
 
+    def lock(self, plan: Plan) -> Task:
+        """What finds |t| = 2 in the map, (n, 2)."""
+        return Task(mechanics.lock_curve, (self.over, self.beside, (*self.window[0], *self.window[1]), plan.level,
+                                           plan.side(_ON_CURVE)))
+
+    @property
+    def frame(self) -> Frame:
+        """The map with its axes."""
+        return Frame(Axes(*self.window), (self.across, self.up))
+
     @cached_property
     def boundary(self) -> list[Array]:
         """|t| = 2 in the map, as soon as it is known."""
         if self.dragging:
             return []
-        plan = self.plan(Kind.CURVE)
-        found = self.work.later(mechanics.lock_curve, self.over, self.beside, (*self.window[0], *self.window[1]),
-                                plan.level, plan.side(_ON_CURVE))
+        task = self.lock(self.plan(Kind.CURVE))
+        found: Array | None = self.work.later(task.function, *task.arguments)
         if found is None or not len(found):
             return []
         return [found, found * np.array([1.0, -1.0])] if self.up == "f" else [found]
@@ -161,18 +172,18 @@ class RotationNumber(State):
     @property
     def x(self) -> Array:
         """Places (n,) on the line."""
-        return self.on_line.places(_ON_LINE // 4 if self.dragging else _ON_LINE)
+        return self.on_line.places(_ON_LINE // 4 if self.dragging else self.plan(Kind.LINE).side(_ON_LINE))
 
     @cached_property
     def along(self) -> TorusValues:
         """ρ and trace at these places."""
-        return self.work.get(mechanics.along, self.on_line, self.x.size, self.plan(Kind.GRID).level)
+        return self.work.get(mechanics.along, self.on_line, self.x.size, self.plan(Kind.LINE).level)
 
     @cached_property
     def perturbed(self) -> Array | None:
         """ρ of the other family there, as soon as it is known; NaN where there is no torus."""
         return None if self.dragging else self.work.later(
-            mechanics.perturbed_along, self.on_line, self.x.size, self.epsilon, self.plan(Kind.GRID).level)
+            mechanics.perturbed_along, self.on_line, self.x.size, self.epsilon, self.plan(Kind.LINE).level)
 
     @property
     def sought(self) -> Fraction:
@@ -250,29 +261,16 @@ class RotationNumber(State):
             yield f"{self.map.level}: circle map error ≤ {self.map.error_estimate:.1e} ({self.map.status})"
 
 
-def _grid(s: RotationNumber, plan: Plan) -> tuple[TorusValues, tuple[int, int]]:
-    cells = plan.grid(_FINE)
-    return mechanics.rows(s.over, s.beside, s.window, cells, 0, cells[1], plan.level), cells
-
-
-def _grid_error(s: RotationNumber, found: tuple[TorusValues, tuple[int, int]], truth: object) -> float:
-    """At the centres of the cells found, which are not those of the truth."""
-    values, cells = found
-    exact = mechanics.rows(s.over, s.beside, s.window, cells, 0, cells[1], REFERENCE.tightened())
-    return colour_error(values.rho[values.possible], exact.rho[values.possible])
-
-
-_GRID: Trial[RotationNumber] = Trial(
-    Kind.GRID, ("map",), _grid, _grid_error, unit="steps of the colour, 99 of 100 cells")
-
-
 def _periodic(rho: Fraction, line: Line) -> tuple[PeriodicTorus | None]:
     """In a tuple: None by itself would mean that it is not known yet."""
     return (mechanics.periodic_torus(rho, line, REFERENCE),)
 
 
+_MEASURES = (grid(_FINE, lambda s: s.frame), on_line(_ON_LINE),
+             boundary("map", lambda s, plan: s.lock(plan).now(), lambda s: s.frame))
+
 SCENE = Scene(
-    RotationNumber, __file__, place=8, presets=PRESETS, measures=(_GRID,),
+    RotationNumber, __file__, place=8, presets=PRESETS, measures=_MEASURES,
     title="Rotation number",
     summary="Is ρ of the Suslov–Hess torus a ladder, as the paper asks? One plateau, and a family that has many.",
     views=(

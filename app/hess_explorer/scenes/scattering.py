@@ -18,6 +18,7 @@ from hess_explorer.scenes.framework.trial import Trial, curve_error
 from hess_explorer.scenes.framework.work import drift_status
 from hess_explorer.views import scattering_map as square
 from hess_explorer.views import theme
+from hess_explorer.views.comparison import Curves
 from hess_explorer.views.layers import curves, levels, ring
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits as in_digits
@@ -175,7 +176,8 @@ def _map(s: Scattering, plan: Plan) -> Array:
 
 
 _MAP: Trial[Scattering] = Trial(
-    Kind.MAP, ("curve", "map"), _map, lambda s, found, truth: curve_error(found, truth, math.pi))
+    Kind.MAP, ("curve", "map"), _map, lambda s, found, truth: curve_error(found, truth, math.pi),
+    lambda s, found: Curves(square.FRAME, (np.column_stack([_PHASES, found]),)))
 
 SCENE = Scene(
     Scattering, __file__, place=4, presets=PRESETS, measures=(_MAP,),

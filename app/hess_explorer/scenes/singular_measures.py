@@ -15,16 +15,15 @@ from hess_explorer.scenes.framework.ball import FreeBall
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, like, number, time_span
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.trial import Trial
-from hess_explorer.views.cloud import CloudPlane, course_layers, density_axes, density_layers
+from hess_explorer.views.cloud import CloudPlane, course_layers, density_axes, density_layers, look, room
+from hess_explorer.views.comparison import compared
 from hess_explorer.views.graph import with_room
 from hess_explorer.views.layers import Axes, Columns, Range, f32
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Direction, Sphere
 from hess_explorer.views.text import digits, vector
-from hess_explorer.views.velocity_plane import nice_above
 from hess_mechanics.chaplygin_ball.phase_cloud_density import Clouds, clouds
-from hess_mechanics.dynamics.sampling import PIXELS
-from hess_mechanics.numerics.accuracy import Kind, Level
+from hess_mechanics.numerics.accuracy import REFERENCE, Kind, Level
 from hess_mechanics.numerics.results import Array
 
 _FEW = 1000
@@ -171,10 +170,20 @@ class SingularMeasures(FreeBall):
             yield f"beside ≤ {other.errors.max():.1e}"
 
 
-# By the estimate: other points are other motions, which no truth has beside it.
+def _exact(s: SingularMeasures, found: Clouds) -> Clouds:
+    """The same points: others are other motions."""
+    exact: Clouds = s.task(_count(found), REFERENCE.tightened()).now()
+    return exact
+
+
+def _count(found: Clouds) -> int:
+    return int(found.cloud.signs.size) * (1 if found.other is None else 2)
+
+
 _CLOUD: Trial[SingularMeasures] = Trial(
     Kind.CLOUD, (), lambda s, plan: s.task(plan.part(int(s.points), _FEW), plan.level).now(),
-    lambda s, found, truth: 0.5 * PIXELS * found.cloud.error_estimate, unit="pixels, estimated")
+    lambda s, found, truth: compared(look(found), look(_exact(s, found))).largest, lambda s, found: look(found),
+    alike=True)
 
 SCENE = Scene(
     SingularMeasures, __file__, place=16, presets=PRESETS, measures=(_CLOUD,),
@@ -185,7 +194,7 @@ SCENE = Scene(
         CloudPlane(
             name="omega", title="Angular velocity (ω₁, ω₂)", caption=SingularMeasures._about_velocity,
             clouds=lambda s: s.clouds, strip=lambda s: s.strip, b3=lambda s: s.b3, density="density-now",
-            half_width=lambda s: nice_above(1.1 * s.clouds.fastest),
+            half_width=lambda s: room(s.clouds),
             on_click=lambda s, x, y: {"start": "small patch", "angle": math.atan2(y, x)}),
         Sphere(caption=SingularMeasures._about_sphere, looks={}, clouds="omega", axis=lambda s: Direction(s.xi, "ξ")),
         Plot(

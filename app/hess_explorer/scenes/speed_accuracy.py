@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from hess_explorer.scenes.framework.costs import Costs, trade_picture
+from hess_explorer.scenes.framework.costs import Costs, difference_picture, trade_picture
 from hess_explorer.scenes.framework.looking_into import LookingInto
 from hess_explorer.scenes.framework.scene import Motion, Scene
 from hess_explorer.views import theme
@@ -26,8 +26,8 @@ __all__ = ["looking_into"]
 
 SAMPLES = 400
 _FLOOR, _PIXEL_FLOOR = 1e-17, 1e-14
-_INTEGRALS = (("#0072B2", "solid"), ("#009E73", "dashed"), ("#D55E00", "dotdash"), ("#CC79A7", "dotted"))
-_OTHERS = {"DOP853": "#808080", "LSODA": "#56B4E9"}
+_INTEGRALS = tuple(zip(theme.INTEGRALS, theme.DASHES.values(), strict=True))
+_OTHERS = {"DOP853": "square", "LSODA": "triangle"}
 
 
 @dataclass(frozen=True)
@@ -69,6 +69,12 @@ class Study(Costs):
         """Errors and milliseconds of one method."""
         own = [point for point in self.measured if point.method == method]
         return clipped(np.array([point.error for point in own]), _FLOOR), np.array([point.ms for point in own])
+
+    def at_level(self, name: str) -> tuple[Array, Array]:
+        """Error and milliseconds of one level."""
+        errors, ms = self.of_method("Taylor")
+        i = [*LEVELS].index(name)
+        return errors[i : i + 1], ms[i : i + 1]
 
     def over_time(self, values: Array, floor: float = _FLOOR) -> tuple[Array, Array]:
         """Values (n,) as a curve of a logarithmic picture."""
@@ -120,8 +126,7 @@ class Study(Costs):
 
     def derived(self) -> Iterator[str]:
         """The system, its parameters and the initial state; the cost of all that is computed, if that is in sight."""
-        if "trade" in self.seen:
-            yield from self.cost_rows()
+        yield from self.measured_rows()
         motion, system = self.followed, self.followed.system
         yield f"System: {system.title}"
         yield f"Equations: {system.source} ({', '.join(system.labels)} in the LaTeX source)"
@@ -154,10 +159,14 @@ def _integral(i: int, color: str, dash: str) -> Layer[Study]:
     return line(f"integral-{i}", lambda s: s.drift_of(i), color=color, dash=dash, label=f"integral {i + 1}")
 
 
-def _other(name: str, color: str) -> tuple[Layer[Study], Layer[Study]]:
-    return (line(name, lambda s: s.of_method(name), color=color, dash="dashed"),
-            points(f"{name}-marks", lambda s: s.of_method(name), color=color, marker="square", size=10,
-                   label=f"{name} (SciPy)"))
+def _at(name: str) -> Layer[Study]:
+    return points(f"at-{name}", lambda s: s.at_level(name), color=theme.LEVELS[name], size=12, label=name)
+
+
+def _other(name: str, marker: str) -> tuple[Layer[Study], Layer[Study]]:
+    return (line(name, lambda s: s.of_method(name), color=theme.MUTED, dash="dashed"),
+            points(f"{name}-marks", lambda s: s.of_method(name), color=theme.MUTED, marker=marker, size=10,
+                   label=f"{name} (SciPy), {marker}s"))
 
 
 def _end(s: Study) -> tuple[float, float]:
@@ -171,9 +180,8 @@ VIEWS = (
         axes=("largest error", "milliseconds"), x=_ERRORS, y=(1e-2, 1e4), x_ticks=POWERS, y_tick_count=5,
         on_click=Study.choose,
         layers=(
-            line("Taylor", lambda s: s.of_method("Taylor"), color=theme.ORBIT),
-            points("Taylor-marks", lambda s: s.of_method("Taylor"), color=theme.ORBIT, size=10),
-            *(layer for name, color in _OTHERS.items() for layer in _other(name, color)),
+            line("Taylor", lambda s: s.of_method("Taylor"), color=theme.MUTED), *map(_at, LEVELS),
+            *(layer for name, marker in _OTHERS.items() for layer in _other(name, marker)),
             ring("chosen", lambda s: [(max(s._here.error, _FLOOR), max(s._here.ms, _FLOOR))], size=20,
                  label="chosen level"))),
     Plot[Study](
@@ -192,9 +200,10 @@ VIEWS = (
 )
 
 
-def looking_into(other: Scene[Any]) -> Scene[Study]:
+def looking_into(other: Scene[Any]) -> Scene[Any]:
     """The scene "Speed and accuracy" for the motions of another one, with its parameters."""
+    trade: tuple[Plot[Study], ...] = (trade_picture(other.trials),) if other.measures else ()
     return LookingInto(
         Study, __file__, other=other, title="Speed and accuracy", presets=other.presets, place=other.place,
         summary="Error, drift and cost of the motion on show, at every level of accuracy, measured here and now.",
-        tracks={"orbit": Study.worst}, views=(*VIEWS, trade_picture(other.trials)) if other.measures else VIEWS)
+        tracks={"orbit": Study.worst}, views=(*VIEWS, *trade, difference_picture()))

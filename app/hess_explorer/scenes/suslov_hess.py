@@ -13,7 +13,8 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.hess_case import SuslovBody, map_or_none, possible_f
 from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, number, slider_within
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
-from hess_explorer.scenes.framework.trial import Trial, colour_error, curve_error
+from hess_explorer.scenes.framework.torus_trials import boundary, colours
+from hess_explorer.scenes.framework.trial import Trial, curve_error
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import bifurcation_diagram as diagram
 from hess_explorer.views import circle_map as circle
@@ -25,7 +26,7 @@ from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, parall
 from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import nice_above, picture
 from hess_mechanics.errors import InvalidParameter, Separatrix
-from hess_mechanics.numerics.accuracy import DRAFT, REFERENCE, Kind, Level
+from hess_mechanics.numerics.accuracy import DRAFT, Kind, Level
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.rigid_body.attitude import Attitude
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, curve, curve_point, f_max, reach, turning_points
@@ -248,13 +249,12 @@ class SuslovHess(SuslovBody):
 
 _MEASURES: tuple[Trial[SuslovHess], ...] = (
     Trial(Kind.MAP, ("circle",), lambda s, plan: circle_map(s.body.a, s.h, s.f, plan.level).theta(_PHASES),
-          lambda s, theta, truth: curve_error(theta, truth, 2.0 * math.pi, period=2.0 * math.pi)),
-    # At the centres of the cells found, which are not those of the truth.
-    Trial(Kind.COLOURS, ("bifurcation",), lambda s, plan: s.colours(plan.grid(CELLS), plan.level).now(),
-          lambda s, found, truth: colour_error(found, s.colours((found.shape[1], found.shape[0]), REFERENCE).now()),
-          unit="steps of the colour, 99 of 100 cells"),
+          lambda s, theta, truth: curve_error(theta, truth, 2.0 * math.pi, period=2.0 * math.pi),
+          lambda s, theta: circle.look(_PHASES, theta)),
+    colours(lambda s, plan: s.colours(plan.grid(CELLS), plan.level).now(), lambda s: diagram.frame(s.h)),
+    boundary("bifurcation", lambda s, plan: lock_boundary(s.body.a, plan.level, plan.side(_ON_BOUNDARY)),
+             lambda s: diagram.frame(s.h)),
 )
-
 
 SCENE = Scene(
     SuslovHess, __file__, place=1, presets=PRESETS, measures=_MEASURES,

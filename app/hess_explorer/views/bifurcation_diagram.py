@@ -8,6 +8,7 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
+from hess_explorer.views.comparison import Frame
 from hess_explorer.views.layers import Axes, Grid, Layer, Sign, curves, image, points, region, target
 from hess_explorer.views.text import digits
 from hess_mechanics.numerics.accuracy import DRAFT
@@ -15,7 +16,7 @@ from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.bifurcation import f_max
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
 
-__all__ = ["about", "about_torus", "layers", "window"]
+__all__ = ["about", "about_torus", "frame", "layers", "window"]
 
 S = TypeVar("S")
 
@@ -27,6 +28,11 @@ def window(h: float) -> Axes:
         end *= 2.5
     top = 1.08 * f_max(end)
     return Axes((-1.0 - 0.08 * (end + 1.0), end), (-top, top))
+
+
+def frame(h: float) -> Frame:
+    """The axes and their names, for comparisons."""
+    return Frame(window(h), ("h", "f"))
 
 
 def _mirrored(half: Array) -> list[Array]:

@@ -9,7 +9,8 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
-from hess_explorer.views.layers import Layer, curves, line, points
+from hess_explorer.views.comparison import Curves, Frame
+from hess_explorer.views.layers import Axes, Layer, curves, line, points
 from hess_explorer.views.picture import Values
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
@@ -17,7 +18,7 @@ from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.invariant_measure import invariant_measure
 
-__all__ = ["EVENLY", "SIDE", "TICKS", "about", "cobweb", "picture", "riccati_matrix"]
+__all__ = ["EVENLY", "SIDE", "TICKS", "about", "cobweb", "look", "picture", "riccati_matrix"]
 
 S = TypeVar("S")
 Click = Callable[[S, float, float], Values]
@@ -66,6 +67,14 @@ def picture(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array 
     return Plot(name="circle", title=title, caption=caption, axes=("φ", "Θ(φ)"), x=SIDE, y=SIDE, ticks=TICKS, dot=dot,
                 message=lambda s: "" if map(s) is not None else "Separatrix: no return", on_click=on_click,
                 layers=_layers(map, iterates))
+
+
+def look(phi: Array, theta: Array) -> Curves:
+    """Θ (n,) over the phases (n,) and its copies, for comparisons."""
+    lifted = np.unwrap(theta)
+    lifted = lifted - 2.0 * math.pi * np.round(lifted[len(lifted) // 2] / (2.0 * math.pi))
+    return Curves(Frame(Axes(SIDE, SIDE), ("φ", "Θ(φ)")), tuple(
+        np.column_stack([phi, lifted + turn]) for turn in (0.0, -2.0 * math.pi, 2.0 * math.pi)))
 
 
 def _layers(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array | None]) -> tuple[Layer[S], ...]:

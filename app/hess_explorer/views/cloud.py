@@ -10,15 +10,17 @@ from typing import Any, ClassVar, TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
+from hess_explorer.views.comparison import Marks
 from hess_explorer.views.graph import over_time
 from hess_explorer.views.layers import Axes, Columns, Layer, Sign, f32, levels, line, points
 from hess_explorer.views.picture import Picture
-from hess_explorer.views.velocity_plane import centred
+from hess_explorer.views.velocity_plane import centred, frame, nice_above
 from hess_mechanics.chaplygin_ball.energy_surface import Strip, line_of_rest
 from hess_mechanics.chaplygin_ball.phase_cloud_density import BIN, SMALLEST, Clouds, Density
+from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["CloudPlane", "course_layers", "density_axes", "density_layers"]
+__all__ = ["CloudPlane", "course_layers", "density_axes", "density_layers", "look", "room"]
 
 S = TypeVar("S")
 
@@ -28,6 +30,22 @@ _ANGLES = np.linspace(0.0, 2.0 * math.pi, 97)
 def _frames(columns: Sequence[Array]) -> Array:
     """Columns (n, m) as one block of numbers [frame][column][point] in single precision."""
     return f32(np.stack([column.T for column in columns], axis=1)).ravel()
+
+
+def room(found: Clouds) -> float:
+    """Half the width of a plane for all of its ω."""
+    return nice_above(1.1 * found.fastest)
+
+
+def look(found: Clouds) -> Marks:
+    """Where the points are in the end, compared at all times, and on the sphere too."""
+    half_width = room(found)
+    w, radius = 0.5 * PIXELS / half_width, 0.5 * PIXELS
+    clouds = [(found.cloud.omega, found.cloud.gamma)]
+    if found.other is not None:
+        clouds.append((found.other.states[..., :2], found.other.states[..., 2:]))
+    return Marks(frame(half_width), tuple(omega[:, -1] for omega, _ in clouds),
+                  elsewhere=tuple((w * omega, radius * gamma) for omega, gamma in clouds))
 
 
 @dataclass(frozen=True, kw_only=True)

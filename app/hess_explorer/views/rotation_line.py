@@ -14,7 +14,7 @@ from hess_explorer.views.layers import Axes, Layer, curves, levels, ring, text
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.rotation_number import Line, TorusValues
 
-__all__ = ["RHO", "TRACE", "rho_layers", "trace_layers"]
+__all__ = ["JUMP", "RHO", "TRACE", "rho_layers", "trace_layers"]
 
 S = TypeVar("S")
 LineOf = Callable[[S], Line]
@@ -22,7 +22,7 @@ ValuesOf = Callable[[S], TorusValues]
 
 RHO, TRACE = (-0.52, 0.52), (0.0, 6.0)
 """The axes."""
-_JUMP = 0.3
+JUMP = 0.3
 """ρ jumps from −½ to ½: what differs by more is not joined."""
 _DRAWN_TRACE = 50.0
 """Larger traces are drawn at this height, which is beyond the frame."""
@@ -52,7 +52,7 @@ def rho_layers(line: LineOf[S], values: ValuesOf[S], perturbed: Callable[[S], Ar
 
     def other(state: S) -> list[Array]:
         found = perturbed(state)
-        return [] if found is None else _curve(line(state), values(state), found, _JUMP)
+        return [] if found is None else _curve(line(state), values(state), found, JUMP)
 
     def sought(state: S) -> list[float]:
         height = rational(state)
@@ -61,7 +61,7 @@ def rho_layers(line: LineOf[S], values: ValuesOf[S], perturbed: Callable[[S], Ar
     return (
         levels("levels", sought),
         curves("other", other, color=theme.MAP, dash="dashed", label="ρ of Θ(φ + ε sin 3φ)"),
-        curves("rho", lambda s: _curve(line(s), values(s), values(s).rho, _JUMP), color=theme.ORBIT,
+        curves("rho", lambda s: _curve(line(s), values(s), values(s).rho, JUMP), color=theme.ORBIT,
                label="ρ, trace of Θ"),
         *_here(line, place, lambda s: values(s).rho),
     )

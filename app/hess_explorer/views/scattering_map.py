@@ -9,19 +9,24 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
-from hess_explorer.views.layers import Grid, Layer, Range, Sign, image, line, target
+from hess_explorer.views.comparison import Frame
+from hess_explorer.views.layers import Axes, Grid, Layer, Range, Sign, image, line, target
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import nice_above
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["AZIMUTH", "AZIMUTH_TICKS", "POLAR", "POLAR_TICKS", "cosine_axis", "over_phases", "over_square", "spread"]
+__all__ = [
+    "AZIMUTH", "AZIMUTH_TICKS", "FRAME", "POLAR", "POLAR_TICKS", "cosine_axis", "over_phases", "over_square", "spread",
+]
 
 S = TypeVar("S")
 
 AZIMUTH: Range = (-math.pi, math.pi)
 POLAR: Range = (0.0, math.pi)
 AZIMUTH_TICKS = ((-math.pi, "−π"), (-math.pi / 2, "−π/2"), (0.0, "0"), (math.pi / 2, "π/2"), (math.pi, "π"))
+FRAME = Frame(Axes(AZIMUTH, POLAR), ("φ", "θ⁺"))
+"""Of a curve θ⁺(φ)."""
 POLAR_TICKS = ((0.0, "0"), (math.pi / 4, "π/4"), (math.pi / 2, "π/2"), (3 * math.pi / 4, "3π/4"), (math.pi, "π"))
 
 

@@ -8,6 +8,7 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
+from hess_explorer.views.comparison import Frame
 from hess_explorer.views.layers import Axes, Columns, Layer, Range, arrows, curves, f32, line, points
 from hess_explorer.views.picture import Values
 from hess_explorer.views.plot import Plot
@@ -17,7 +18,8 @@ from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.numerics.results import Array, Orbit
 
 __all__ = [
-    "arcs", "arrows_at", "arrows_on", "beside", "centred", "energy_levels", "equilibria", "halves", "nice_above",
+    "arcs", "arrows_at", "arrows_on", "beside", "centred", "energy_levels", "equilibria", "frame", "halves",
+    "nice_above",
     "orbit", "orbit_alone", "orbit_columns", "outside", "picture", "pixels_per_unit", "ring_outside", "room_for",
     "square", "to_the_edge", "velocity_columns",
 ]
@@ -77,6 +79,11 @@ def room_for(speed: float) -> float:
 def centred(half_width: float) -> Range:
     """An axis about 0."""
     return -half_width, half_width
+
+
+def frame(half_width: float) -> Frame:
+    """The plane with its axes, for comparisons."""
+    return Frame(Axes(centred(half_width), centred(half_width)), ("ω₁", "ω₂"))
 
 
 def square(half_width: float) -> Array:

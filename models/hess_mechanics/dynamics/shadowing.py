@@ -14,9 +14,12 @@ import numpy as np
 
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["HALF_A_PIXEL", "away_from", "errors_in_pixels", "right_crossings", "typical"]
+__all__ = ["HALF_A_PIXEL", "away_from", "errors_in_pixels", "right_crossings", "torn_away", "typical"]
 
 HALF_A_PIXEL = 0.5
+_LOST, _CHAOTIC, _NOTHING = 30.0, 30.0, 1e-6
+"""Pixels by which an orbit is another one; by what the errors of the second half of an orbit exceed those of the first,
+where neighbours part exponentially; and pixels that are round-off."""
 
 
 def errors_in_pixels(orbit: Array, exact: Array, pixels: Sequence[float], periods: Sequence[float] = (math.inf,) * 2
@@ -31,6 +34,12 @@ def errors_in_pixels(orbit: Array, exact: Array, pixels: Sequence[float], period
         if math.isfinite(period):
             away[:, i] -= period * np.round(away[:, i] / period)
     return np.asarray(np.linalg.norm(away * np.asarray(pixels), axis=1), float)
+
+
+def torn_away(away: Array) -> bool:
+    """Whether chaos makes an orbit another one, from its errors (n,) in pixels, one after the other."""
+    early, late = (float(part.max(initial=0.0)) for part in np.array_split(away, 2))
+    return max(early, late) >= _LOST or late > max(_CHAOTIC * early, _NOTHING)
 
 
 def away_from(points: Array, curve: Array) -> Array:

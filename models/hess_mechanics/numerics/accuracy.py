@@ -95,6 +95,7 @@ class Kind(StrEnum):
     SECTION = "section"
     ROTATION = "rotation number"
     GRID = "grid"
+    LINE = "line"
     COLOURS = "colours"
     MAP = "map"
     CURVE = "curve"
@@ -113,6 +114,7 @@ _UNITS = {
     Kind.SECTION: "crossings right to half a pixel where neighbours part e-fold from one to the next",
     Kind.ROTATION: "error of the rotation number of a closed curve, in turns",
     Kind.GRID: "error of ρ where |trace| is not within 1e-2 of 2, in turns",
+    Kind.LINE: "error of ρ where |trace| is not within 1e-2 of 2, in turns",
     Kind.COLOURS: "error of ρ where |trace| is not within 1e-2 of 2, in turns; 256 colours tell 4e-3 apart",
     Kind.MAP: "error of θ⁺, in radians",
     Kind.CURVE: "distance from the curve, in pixels, for |a| ≤ 1",
@@ -133,7 +135,8 @@ class Plan:
     ----------
     level : order and tolerance of the Taylor steps, under the name of the level.
     share : of the crossings, of the time, of the points asked for, the part that is computed.
-    cells : cells along each side of a grid, as a multiple of those at `standard`; phases of a map, orbits on a line.
+    cells : cells along each side of a grid, as a multiple of those at `standard`; phases of a map, orbits on a line,
+        tori on one.
     promise : in the `unit` of the kind.
     """
 
@@ -168,6 +171,9 @@ PLANS: Mapping[Kind, Mapping[str, Plan]] = {
     Kind.ROTATION: _plans((_CROSSED, 0.3, 0.5, 1e-3), (STANDARD, 1.0, 1.0, 1e-4), (PRECISE, 1.0, 1.0, 1e-4),
                           (REFERENCE, 1.0, 1.0, 1e-4)),
     Kind.GRID: _plans((DRAFT, 1.0, 0.5, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9),
+                      (REFERENCE, 1.0, 1.0, 1e-11)),
+    # Turns of a perturbed map take the time, whatever the accuracy of the map.
+    Kind.LINE: _plans((DRAFT, 1.0, 0.15, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9),
                       (REFERENCE, 1.0, 1.0, 1e-11)),
     Kind.COLOURS: _plans((DRAFT, 1.0, 0.5, 1e-3), (replace(DRAFT, name="standard"), 1.0, 1.0, 1e-3),
                          (replace(STANDARD, name="precise"), 1.0, 1.0, 1e-6),

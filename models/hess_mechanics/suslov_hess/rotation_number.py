@@ -136,14 +136,14 @@ def rotation_errors(a: Array | float, h: Array | float, f: Array | float, level:
     return frozen((4.0 if level.is_floor else 1.25) * np.abs(coarse - fine) + 4e-16)
 
 
-def lock_curve(plane: str, torus: Torus, window: Sequence[float], level: Level, points: int = 40) -> Array:
+def lock_curve(plane: str, torus: Torus, window: Sequence[float], level: Level, points: int = 48) -> Array:
     """The boundary |t| = 2 in a plane of `PLANES` through the torus, for x0 … x1 of `window`; (n, 2).
 
     In (h, f) it is `lock_boundary`, f ≥ 0; in the other planes a(h) or a(f), where it exists.
     """
     x0, x1 = window[:2]
     if plane == "h, f":
-        return lock_boundary(torus.a, level)
+        return lock_boundary(torus.a, level, points)
     found = []
     for x in np.linspace(x0, x1, points):
         try:

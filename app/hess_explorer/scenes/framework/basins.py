@@ -10,6 +10,8 @@ import numpy as np
 
 from hess_explorer.scenes.framework.filled_window import FilledWindow
 from hess_explorer.scenes.framework.trial import Trial
+from hess_explorer.views.comparison import Cells, Frame
+from hess_explorer.views.layers import Axes
 from hess_explorer.views.text import digits
 from hess_mechanics.numerics.accuracy import Kind, Plan
 from hess_mechanics.numerics.results import Array
@@ -99,6 +101,12 @@ def _changed(s: Basins, cells: Array, truth: Array) -> float:
     return 100.0 * float(np.mean(cells[np.ix_(rows, columns)] != truth))
 
 
+def _look(s: Basins, cells: Array) -> Cells:
+    (x0, y0), (x1, y1) = s.frame
+    # Groups are names, not numbers: any other one is another colour.
+    return Cells(Frame(Axes((x0, x1), (y0, y1)), s.names), np.where(cells < 0.0, np.nan, cells), step=0.5)
+
+
 BASINS: Trial[Basins] = Trial(
-    Kind.BASINS, ("section",), _all_basins, _changed, unit="% of the cells that change", seen=3.0,
+    Kind.BASINS, ("section",), _all_basins, _changed, _look, unit="% of the cells that change", seen=3.0,
     shown=lambda s: s.asked)

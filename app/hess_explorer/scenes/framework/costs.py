@@ -1,32 +1,37 @@
-"""Cost against error of all that another scene computes, kind by kind and level by level, measured when asked for."""
+"""Cost against error of all that another scene computes, and what the next level changes in its pictures."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property
 from typing import Any, TypeVar
 
 import numpy as np
 
 from hess_explorer.scenes.framework.looking_into import Insight
-from hess_explorer.scenes.framework.trial import Trial
+from hess_explorer.scenes.framework.parameters import specs_of
+from hess_explorer.scenes.framework.trial import Trial, next_level
 from hess_explorer.views import theme
-from hess_explorer.views.layers import Layer, line, points, ring
+from hess_explorer.views.comparison import Difference
+from hess_explorer.views.layers import Axes, Grid, Layer, Range, Sign, dots, image, line, points, ring, text
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
+from hess_mechanics.dynamics.shadowing import typical
 from hess_mechanics.dynamics.trade import enough
-from hess_mechanics.numerics.accuracy import LEVELS, Kind
+from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, Kind
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Costs", "trade_picture"]
+__all__ = ["Costs", "difference_picture", "trade_picture"]
 
 _ERRORS, _MS = (1e-9, 1e3), (1e-2, 1e5)
 _TICKS = [1e-8, 1e-6, 1e-4, 1e-2, 1.0, 100.0]
-_LOOKS = ((theme.ORBIT, "solid"), (theme.STABLE, "dashed"), (theme.UNSTABLE, "dotdash"), (theme.MAP, "dotted"))
+_DASHES = ("solid", "dashed", "dotdash", "dotted")
 
 
 class Costs(Insight):
-    """What the computations of the other scene cost, and how wrong they are."""
+    """What the computations of the other scene cost, how wrong they are, and what of it would be seen."""
+
+    # ---- cost against error -------------------------------------------------------------------------------------
 
     def cost_of(self, kind: Kind) -> tuple[Array, Array] | None:
         """Errors, as multiples of what can just not be seen, and milliseconds of the levels."""
@@ -36,6 +41,11 @@ class Costs(Insight):
         seen = next(trial.seen for trial in self.trials if trial.kind == kind)
         return (np.clip([one.error / seen for one in samples], *_ERRORS),
                 np.array([max(one.ms, _MS[0]) for one in samples]))
+
+    def costs_at(self, name: str) -> tuple[Array, Array] | None:
+        """The same of one level, for each kind."""
+        i, found = [*LEVELS].index(name), [xy for kind in self.costs if (xy := self.cost_of(kind)) is not None]
+        return (np.array([x[i] for x, _ in found]), np.array([y[i] for _, y in found])) if found else None
 
     def enough(self) -> list[tuple[float, float]]:
         """The points beyond which more accuracy changes nothing that is seen."""
@@ -64,21 +74,134 @@ class Costs(Insight):
                     [one.ms for one in samples], [one.error for one in samples]))
                 yield f"{trial.kind}: {times} ms; error {errors} {trial.unit}"
 
+    def measured_rows(self) -> Iterator[str]:
+        """Of the pictures in sight, what was measured and compared."""
+        if "trade" in self.seen:
+            yield from self.cost_rows()
+        if "difference" in self.seen:
+            yield from self.difference_rows()
+
+    # ---- what would change --------------------------------------------------------------------------------------
+
+    @property
+    def finer(self) -> str | None:
+        """The next more exact level; None for the last one."""
+        return next_level(self.chosen)
+
+    def about_difference(self) -> str:
+        """The caption: how much changes, and from which crossing on orbits are others."""
+        if self.finer is None:
+            return f"Nothing here is more exact than {self.chosen}: there is nothing to compare it with."
+        if self.dragging:
+            return "It is found when a slider is let go."
+        if self.changes is None:
+            return f"The scene shows no {self.difference} now." if self.difference_message() else "Being compared."
+        return f"{self.finer} {_said(self.changes)}"
+
+    def difference_message(self) -> str:
+        """Why there is nothing to see."""
+        if self.finer is None:
+            return f"{self.chosen} is the last level"
+        # Only what a state shows is compared: basins, where they are asked for.
+        return "" if self.trials and self.compared.shown(self.shown) else f"No {self.difference} in this state"
+
+    def difference_rows(self) -> Iterator[str]:
+        """What was compared, and where chaos takes orbits away."""
+        found = self.changes
+        if found is None:
+            return
+        small = self.compared.small(self.shown)
+        less = [f"{spec.label.lower()} {getattr(small, spec.name):g}" for spec in specs_of(type(small))
+                if getattr(small, spec.name) != getattr(self.shown, spec.name)]
+        if less:
+            yield f"Compared with no more than: {', '.join(less)}"
+        if found.lost:
+            yield (f"Lost to chaos between {self.chosen} and {self.finer}: {len(found.lost)} of {found.orbits} orbits, "
+                   f"from crossing {min(found.lost)} to {max(found.lost)} on, median {typical(found.lost)}")
+
+    def difference_title(self) -> str:
+        """Which levels are compared."""
+        return f"{self.difference.capitalize()}: {self.chosen}, then {self.finer or 'no other'}"
+
+    def difference_axis(self, side: str) -> Range | None:
+        """The axis "x" or "y" of the picture that is compared."""
+        if self.changes is None:
+            return None
+        found: Range = getattr(self.changes.frame.axes, side)
+        return found
+
+    def changed_cells(self) -> Grid | None:
+        """1 where a cell changes, 0 where it does not, −1 where nothing is."""
+        found = self.changes
+        if found is None or found.cells is None:
+            return None
+        return Grid(found.cells, found.frame.axes.x, found.frame.axes.y)
+
+    def added_by(self, name: str) -> Array | None:
+        """Points (2, n) that only this level has."""
+        return self.changes.added.T if self.changes is not None and self.finer == name else None
+
+    def difference_names(self) -> str:
+        """What the axes are."""
+        return "" if self.changes is None else "{} across, {} up".format(*self.changes.frame.names)
+
+
+def _pixels(count: float) -> str:
+    return f"{count:.0f}" if count >= 10.0 else digits(count, 2)
+
+
+def _said(found: Difference) -> str:
+    share = digits(100.0 * found.share, 2)
+    if found.cells is not None:
+        return f"changes {share} % of the cells." if found.share else "changes no cell."
+    more = ", adds more" if len(found.added) else ""
+    if not len(found.changed):
+        return f"moves nothing by more than {_pixels(found.largest)} pixels{more}."
+    chaos = f"; chaos takes {len(found.lost)} of {found.orbits} orbits, from crossing {min(found.lost)}" if (
+        found.lost) else f", at most {_pixels(found.largest)}"
+    return f"moves {share} % of the points over ½ pixel{more}{chaos}."
+
 
 C = TypeVar("C", bound=Costs)
 
 
-def trade_picture(trials: Sequence[Trial[Any]]) -> Plot[C]:
+def trade_picture(trials: Sequence[Trial[Any]], folded: bool = True) -> Plot[C]:
     """All that is computed, measured when it is asked for."""
-    def layers(kind: Kind, color: str, dash: str) -> tuple[Layer[C], ...]:
-        name = str(kind).replace(" ", "-")
-        return (line(name, lambda s: s.cost_of(kind), color=color, dash=dash, label=str(kind)),
-                points(f"{name}-marks", lambda s: s.cost_of(kind), color=color, size=8))
+    def kind(trial: Trial[Any], dash: str) -> Layer[C]:
+        return line(str(trial.kind).replace(" ", "-"), lambda s: s.cost_of(trial.kind), color=theme.MUTED, dash=dash,
+                    label=str(trial.kind))
+
+    def at(name: str) -> Layer[C]:
+        return points(f"at-{name}", lambda s: s.costs_at(name), color=theme.LEVELS[name], size=10, label=name)
 
     return Plot(
         name="trade", title="Cost of all that is computed", caption=Costs.about_costs, log="xy",
         axes=("error / what is not seen", "milliseconds"), x=_ERRORS, y=_MS, x_ticks=_TICKS,
-        y_tick_count=5, folded="Measure all that is computed",
-        layers=(line("visible", lambda s: ((1.0, 1.0), _MS), color=theme.MUTED, dash="dotted"),
-                *(layer for trial, look in zip(trials, _LOOKS, strict=False) for layer in layers(trial.kind, *look)),
+        y_tick_count=5, folded="Measure all that is computed" if folded else "",
+        layers=(line("visible", lambda s: ((1.0, 1.0), _MS), color=theme.MUTED, dash="dotted", width=1.0),
+                *(kind(trial, dash) for trial, dash in zip(trials, _DASHES, strict=False)), *map(at, LEVELS),
                 ring("enough", Costs.enough, size=20, label="more accuracy is not seen")))
+
+
+def difference_picture(folded: bool = True) -> Plot[C]:
+    """What the next more exact level changes in the picture of one kind of computation."""
+    clear = theme.MUTED + "00"
+
+    def of(part: Callable[[Difference], Array]) -> Callable[[C], Array | None]:
+        return lambda s: None if s.changes is None else part(s.changes).T
+
+    def added(name: str) -> Layer[C]:
+        return dots(f"added-{name}", lambda s: s.added_by(name), color=theme.LEVELS[name], size=4)
+
+    return Plot(
+        name="difference", title=Costs.difference_title, caption=Costs.about_difference, axes=(" ", " "),
+        first=Axes((-1.0, 1.0), (-1.0, 1.0)), message=Costs.difference_message,
+        x=lambda s: s.difference_axis("x"), y=lambda s: s.difference_axis("y"),
+        folded="Show what more accuracy changes" if folded else "",
+        layers=(
+            image("cells", Costs.changed_cells, palette=(theme.FORBIDDEN, clear, theme.CHANGED), low=-1.5, high=1.5,
+                  legend=(Sign("changes, point or cell", "box", f"background: {theme.CHANGED}"),)),
+            dots("same", of(lambda found: found.same), color=theme.MUTED, size=4, label="stays to ½ pixel"),
+            *(added(name) for name in LEVELS if name != DRAFT.name),
+            dots("changed", of(lambda found: found.changed), color=theme.CHANGED, size=7),
+            text("names", Costs.difference_names)))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from abc import abstractmethod
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -13,6 +13,7 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.one_orbit import OneOrbit
 from hess_explorer.scenes.framework.trial import Trial, section_error
 from hess_explorer.scenes.framework.work import drift_status, kept_status
+from hess_explorer.views.comparison import Frame, Marks
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.section_plane import joined
 from hess_mechanics.dynamics.sampling import PIXELS
@@ -45,6 +46,7 @@ class Crossings(OneOrbit):
 
     most: ClassVar[int] = 6000
     periods: ClassVar[tuple[float, float]] = (math.inf, math.inf)
+    section_names: ClassVar[tuple[str, str]]
 
     count: float
 
@@ -148,6 +150,18 @@ class Crossings(OneOrbit):
             yield self.reason
 
 
+_MOST_COMPARED = 400.0
+"""Crossings of each orbit for which levels are compared."""
+
+
+def _small(s: Crossings) -> Crossings:
+    state: Any = s  # a dataclass only where the scene declares its parameters
+    less: Crossings = replace(state, count=min(s.count, _MOST_COMPARED))
+    return less
+
+
 SECTION: Trial[Any] = Trial(
     Kind.SECTION, ("section",), lambda s, plan: s.orbits_at(plan),
-    lambda s, orbits, truth: section_error(orbits, truth, s.pixels, s.periods))
+    lambda s, orbits, truth: section_error(orbits, truth, s.pixels, s.periods),
+    lambda s, orbits: Marks(Frame(s.section_axes, s.section_names), tuple(orbits), s.periods, crossings=True),
+    small=_small)

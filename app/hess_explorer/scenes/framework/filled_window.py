@@ -18,6 +18,8 @@ from hess_explorer.scenes.framework.trial import Trial, section_error
 from hess_explorer.scenes.framework.windows import Window, boxed, inside, tidy_window, window_of
 from hess_explorer.scenes.framework.work import drift_status, kept_status
 from hess_explorer.views import layered_section
+from hess_explorer.views.comparison import Curves, Frame, Marks
+from hess_explorer.views.graph import settled_range, thinned
 from hess_explorer.views.layers import Axes, Layer
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.section_plane import joined
@@ -214,23 +216,23 @@ class FilledWindow(OneOrbit):
 
     @cached_property
     def first(self) -> Array:
-        """Points (n, 2) of orbits of the first kind."""
+        """Marks (n, 2) of orbits of the first kind."""
         return joined(map(self.shown, self.kind(True)))
 
     @cached_property
     def second(self) -> Array:
-        """Points (n, 2) of orbits of the second kind."""
+        """Marks (n, 2) of orbits of the second kind."""
         return joined(map(self.shown, self.kind(False)))
 
     @cached_property
     def elsewhere(self) -> Array:
-        """Points (n, 2) of all these orbits and of the chosen ones that are drawn apart from the others."""
+        """Marks (n, 2) of all these orbits and of the chosen ones that are drawn apart from the others."""
         own, others = self._known
         return joined(piece.elsewhere for piece in (*own, *others) if piece.elsewhere is not None)
 
     @cached_property
     def own(self) -> Array:
-        """Points (n, 2) of the chosen orbits."""
+        """Marks (n, 2) of the chosen orbits."""
         return joined(self.shown(orbit) for piece in self._known[0] for orbit in piece.orbits)
 
     @cached_property
@@ -327,19 +329,45 @@ W = TypeVar("W", bound=FilledWindow)
 PERIODS = (2.0 * math.pi, math.inf)
 """The first coordinate of these sections is an angle."""
 
+_LARGE = {"orbits": 40.0, "count": 400.0}
+"""The largest section for which levels are compared."""
+_LONG = {"long": 2000.0}
+"""The same for exponents."""
+
+
+def _at_most(s: FilledWindow, most: Mapping[str, float]) -> FilledWindow:
+    state: Any = s  # a dataclass only where the scene declares its parameters
+    less: FilledWindow = replace(state, **{name: min(getattr(s, name), value) for name, value in most.items()})
+    return less
+
+
+def _frame(s: FilledWindow) -> Frame:
+    (x0, y0), (x1, y1) = s.frame
+    return Frame(Axes((x0, x1), (y0, y1)), s.names)
+
+
 SECTION: Trial[Any] = Trial(
     Kind.SECTION, ("section",), lambda s, plan: s.orbits_at(plan),
-    lambda s, orbits, truth: section_error(orbits, truth, s.pixels, PERIODS))
+    lambda s, orbits, truth: section_error(orbits, truth, s.pixels, PERIODS),
+    lambda s, orbits: Marks(_frame(s), tuple(orbits), PERIODS, crossings=True),
+    small=lambda s: _at_most(s, _LARGE))
 
 
 def _exponent(s: FilledWindow, plan: Plan) -> Exponent:
     return largest_exponent(s.body.system, s.start, s.body.parameters, plan.share * s.long, plan.level)
 
 
+def _over_time(s: FilledWindow, found: Exponent) -> Curves:
+    """With room for all but the first tenth of the time."""
+    axes = Axes((0.0, s.long), settled_range([found.rates]))
+    return Curves(Frame(axes, ("t", "λ")), (np.column_stack(thinned(found.times, found.rates)),))
+
+
 EXPONENT: Trial[Any] = Trial(
     Kind.EXPONENT, ("exponent",), _exponent,
-    lambda s, found, truth: abs(found.value - truth.value) / max(truth.spread, 1e-12),
-    unit="of what it changes by in the second half of its time", seen=10.0)
+    lambda s, found, truth: abs(found.value - truth.value) / max(truth.spread, 1e-12), _over_time,
+    unit="of what it changes by in the second half of its time", seen=10.0,
+    small=lambda s: _at_most(s, _LONG))
 
 
 def filled_window(title: str | Callable[[W], str], caption: Callable[[W], str], scene: type[W],

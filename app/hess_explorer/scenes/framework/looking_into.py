@@ -7,10 +7,11 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, TypeVar
 
-from hess_explorer.protocol.parameters import Spec, Value, Values
+from hess_explorer.protocol.parameters import Choice, Spec, Value, Values
 from hess_explorer.scenes.framework.parameters import Slider
 from hess_explorer.scenes.framework.scene import Motion, Scene, State
-from hess_explorer.scenes.framework.trial import Trial, bare, measured
+from hess_explorer.scenes.framework.trial import Trial, bare, differing, measured, next_level
+from hess_explorer.views.comparison import Difference
 from hess_mechanics.dynamics.trade import Sample
 from hess_mechanics.numerics.accuracy import Kind
 
@@ -18,16 +19,24 @@ __all__ = ["Insight", "LookingInto"]
 
 I = TypeVar("I", bound="Insight")
 
+COMPARED = "difference"
+"""The parameter that says what is compared."""
+_COSTLIEST = (Kind.ROTATION, Kind.BASINS, Kind.SECTION, Kind.GRID, Kind.CLOUD, Kind.COLOURS, Kind.MAP, Kind.CURVE,
+              Kind.LINE, Kind.EXPONENT, Kind.ORBIT)
+"""From what takes longest on: as `hess-explorer bench --trade` measures it."""
+
 
 @dataclass(frozen=True)
 class Insight(State):
     """A state of such a scene; that of the other one is a part of it, so no name of one can hide a name of the other.
 
-    shown : the state of the other scene; trials : what is computed there.
+    shown : the state of the other scene; trials : what is computed there; difference : the name of the kind of those
+    whose levels are compared.
     """
 
     shown: State
     trials: tuple[Trial[Any], ...]
+    difference: str
 
     @cached_property
     def costs(self) -> dict[Kind, tuple[Sample, ...] | None]:
@@ -40,6 +49,19 @@ class Insight(State):
     def chosen(self) -> str:
         """The name of the level of accuracy on show, whether or not a slider is held."""
         return self.work.chosen
+
+    @property
+    def compared(self) -> Trial[Any]:
+        """What of it is compared."""
+        return next(trial for trial in self.trials if trial.kind == self.difference)
+
+    @cached_property
+    def changes(self) -> Difference | None:
+        """What the next more exact level changes; None until it is known, and where there is nothing to compare."""
+        plain, finer = bare(self.shown), next_level(self.chosen)
+        if self.dragging or finer is None or not self.compared.shown(plain):
+            return None
+        return self.work.later(differing, self.compared, plain, self.chosen, finer)
 
     @cached_property
     def shown_motion(self) -> Motion:
@@ -67,8 +89,17 @@ class LookingInto(Scene[I]):
 
     @cached_property
     def specs(self) -> tuple[Spec, ...]:
-        """The parameters of the other scene."""
-        return self.other.specs
+        """The parameters of the other scene, and which of its computations is compared, where there are several."""
+        kinds = tuple(str(trial.kind) for trial in self.other.trials)
+        choice = Choice(COMPARED, "Difference of", kinds, self._costliest,
+                        "What of the scene is compared: the chosen level with the next more exact one.")
+        return (*self.other.specs, choice) if len(kinds) > 1 else self.other.specs
+
+    @property
+    def _costliest(self) -> str:
+        """The kind that takes longest of what a newcomer sees there."""
+        plain = bare(self.other.of(self.other.defaults()))
+        return str(min((trial.kind for trial in self.other.trials if trial.shown(plain)), key=_COSTLIEST.index))
 
     def in_sight(self, state: I) -> Iterator[tuple[Trial[Any], State]]:
         """All that the other scene computes."""
@@ -78,11 +109,16 @@ class LookingInto(Scene[I]):
     def of(self, values: Values, seen: Collection[str] = (), dragging: bool = False) -> I:
         """The state of these values; nothing is computed yet."""
         shown = self.other.of(values, seen, dragging)
-        return self.state(shown, self.other.trials, work=shown.work, seen=shown.seen)
+        difference = str(values.get(COMPARED, self._costliest))
+        return self.state(shown, self.other.trials, difference, work=shown.work, seen=shown.seen)
 
     def admit(self, values: Values) -> tuple[dict[str, Value], list[str]]:
         """As the other scene does."""
-        return self.other.admit(values)
+        admitted, notes = self.other.admit(values)
+        for spec in self.specs[len(self.other.specs) :]:
+            admitted[spec.name], note = spec.read(str(values[spec.name]))
+            notes += [note] if note else []
+        return admitted, notes
 
     def limits(self, values: Values) -> dict[str, Slider]:
         """As the other scene has them."""

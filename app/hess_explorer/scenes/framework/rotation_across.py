@@ -12,6 +12,7 @@ from hess_explorer.scenes.framework.filled_window import FilledWindow, in_pieces
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views import theme
+from hess_explorer.views.comparison import Curves, Frame
 from hess_explorer.views.graph import with_room
 from hess_explorer.views.layers import Axes, Range, curves, points, text
 from hess_explorer.views.plot import Plot
@@ -129,8 +130,15 @@ def _turns(rho: float) -> str:
     return digits(round(float(rho) / RESOLVED) * RESOLVED)
 
 
+def _look(s: RotationAcross, found: Rotation) -> Curves:
+    rho = found.numbers
+    axes = Axes((s.ends[0][s.axis], s.ends[1][s.axis]), with_room(rho, 0.06, 1e-4) if rho.size else (-0.56, 0.56))
+    parts = tuple(np.column_stack(part) for part in zip(found.along, found.rho, strict=True))
+    return Curves(Frame(axes, ("L/G" if s.axis else "l", "ρ")), parts)
+
+
 ROTATION: Trial[RotationAcross] = Trial(
-    Kind.ROTATION, ("rotation",), RotationAcross.rotation_at, lambda s, found, truth: found.distance(truth),
+    Kind.ROTATION, ("rotation",), RotationAcross.rotation_at, lambda s, found, truth: found.distance(truth), _look,
     unit="turns, the median", seen=RESOLVED)
 
 

@@ -10,31 +10,38 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 import numpy as np
 
 from hess_explorer.scenes.framework.work import Work
+from hess_explorer.views.comparison import Difference, Frame, Look, Marks, compared
+from hess_explorer.views.layers import Axes
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.sampling import PIXELS
-from hess_mechanics.dynamics.shadowing import HALF_A_PIXEL, errors_in_pixels
+from hess_mechanics.dynamics.shadowing import HALF_A_PIXEL, errors_in_pixels, torn_away
 from hess_mechanics.dynamics.trade import Sample, measure, measure_until
+from hess_mechanics.dynamics.work_precision import longest_span
 from hess_mechanics.errors import ModelError
-from hess_mechanics.numerics.accuracy import STANDARD, Kind, Plan
+from hess_mechanics.numerics.accuracy import LEVELS, PLANS, STANDARD, Kind, Plan
 from hess_mechanics.numerics.results import Array
 
 if TYPE_CHECKING:
     from hess_explorer.scenes.framework.scene import State
 
-__all__ = ["Trial", "bare", "colour_error", "curve_error", "measured", "needed", "orbit_trial", "section_error"]
+__all__ = [
+    "Trial", "bare", "colour_error", "curve_error", "differing", "measured", "needed", "next_level",
+    "orbit_trial", "section_error",
+]
 
 S = TypeVar("S", bound="State")
 
 _SAMPLES = 400
 _COLOURS = 256.0
 """Steps of a colour map."""
-_LOST, _CHAOTIC, _NOTHING = 30.0, 30.0, 1e-6
-"""Pixels by which an orbit is another one; by what the errors of the second half of an orbit exceed those of the first,
-where neighbours part exponentially; and pixels that are round-off."""
 
 
 def _always(state: State) -> bool:
     return True
+
+
+def _as_it_is(state: S) -> S:
+    return state
 
 
 @dataclass(frozen=True)
@@ -43,16 +50,22 @@ class Trial(Generic[S]):
 
     kind, pictures : which, and the pictures that show it; none: all of them.
     run(state, plan) : computes it as the scene does, by itself; error(state, result, truth) : in the `unit`.
+    look(state, result) : how a picture shows it.
     seen : the largest error that cannot be seen; shown(state) : whether the pictures have it now.
+    alike : whether levels are compared where they compute as many points, as other points are those of other motions.
+    small(state) : the state with no more of it than is computed in about a second.
     """
 
     kind: Kind
     pictures: tuple[str, ...]
     run: Callable[[S, Plan], Any]
     error: Callable[[S, Any, Any], float]
+    look: Callable[[S, Any], Look]
     unit: str = "pixels"
     seen: float = HALF_A_PIXEL
     shown: Callable[[S], bool] = _always
+    alike: bool = False
+    small: Callable[[S], S] = _as_it_is
 
 
 def bare(state: S) -> S:
@@ -65,22 +78,40 @@ def bare(state: S) -> S:
 
 def measured(trial: Trial[S], state: S) -> tuple[Sample, ...]:
     """Time and error of each level, for a `bare` state.  Raises `ModelError`."""
-    return measure(trial.kind, lambda plan: trial.run(state, plan), lambda *both: trial.error(state, *both))
+    less = trial.small(state)
+    return measure(trial.kind, lambda plan: trial.run(less, plan), lambda *both: trial.error(less, *both))
 
 
 def needed(trial: Trial[S], state: S) -> str:
     """The cheapest level whose error cannot be seen; `standard` for what cannot be computed."""
     try:
-        return measure_until(trial.kind, lambda plan: trial.run(state, plan),
-                             lambda *both: trial.error(state, *both), trial.seen)
+        less = trial.small(state)
+        return measure_until(trial.kind, lambda plan: trial.run(less, plan),
+                             lambda *both: trial.error(less, *both), trial.seen)
     except ModelError:
         return STANDARD.name
+
+
+def next_level(name: str) -> str | None:
+    """The next more exact level; None after the last one."""
+    names = [*LEVELS]
+    return next(iter(names[names.index(name) + 1 :]), None)
+
+
+def differing(trial: Trial[S], state: S, name: str, finer: str) -> Difference:
+    """What a more exact level changes in the picture of a level, for a `bare` state.  Raises `ModelError`."""
+    less, plan, other = trial.small(state), PLANS[trial.kind][name], PLANS[trial.kind][finer]
+    if trial.alike:
+        other = replace(other, share=plan.share, cells=plan.cells)
+    one, exact = (trial.look(less, trial.run(less, each)) for each in (plan, other))
+    return compared(one, exact)
 
 
 def _orbit(state: State, plan: Plan) -> Array:
     motion = state.motion()
     assert motion is not None, "only scenes with a motion have this trial"
-    times = np.linspace(0.0, motion.span, _SAMPLES)
+    span = min(motion.span, longest_span(*motion.named[:3]))
+    times = np.linspace(0.0, span, _SAMPLES)
     return solve(motion.system, motion.state, motion.parameters, times, plan.level).states
 
 
@@ -91,9 +122,24 @@ def _orbit_error(state: State, states: Array, truth: Array) -> float:
     return float(max(np.linalg.norm(part, axis=1).max() for part in (away[:, :first], away[:, first:])))
 
 
+def _orbit_look(state: State, states: Array) -> Marks:
+    """In the plane of the angular velocities, or else of γ where no picture of the scene has that."""
+    motion = state.motion()
+    assert motion is not None
+    weights, first = np.asarray(motion.weights), motion.system.angular_velocities
+    i = 0 if weights[0] > 0.0 else first
+    places = states[:, i : i + 2]
+    # Half a picture, whose width these weights have.
+    x, y = np.maximum(0.5 * PIXELS / weights[i : i + 2], 1.02 * np.abs(places).max(axis=0))
+    pixels = states * weights
+    one, other = motion.system.variables[i : i + 2]
+    frame = Frame(Axes((-float(x), float(x)), (-float(y), float(y))), (one, other))
+    return Marks(frame, (places,), elsewhere=((pixels[:, :first], pixels[:, first:]),))
+
+
 def orbit_trial() -> Trial[Any]:
     """The motion on show."""
-    return Trial(Kind.ORBIT, (), _orbit, _orbit_error)
+    return Trial(Kind.ORBIT, (), _orbit, _orbit_error, _orbit_look)
 
 
 def curve_error(values: Array, exact: Array, height: float, period: float = math.inf) -> float:
@@ -115,7 +161,6 @@ def section_error(orbits: Sequence[Array], truth: Sequence[Array], pixels: Seque
     worst = 0.0
     for one, other in zip(orbits, truth, strict=True):
         away = errors_in_pixels(one, other, pixels, periods)
-        early, late = (part.max(initial=0.0) for part in np.array_split(away, 2))
-        if max(early, late) < _LOST and late <= max(_CHAOTIC * early, _NOTHING):
-            worst = max(worst, float(early), float(late))
+        if not torn_away(away):
+            worst = max(worst, float(away.max(initial=0.0)))
     return worst
