@@ -9,6 +9,7 @@ import pytest
 
 from hess_explorer.benchmark.trade import Row, as_json, as_text, costliest, names
 from hess_explorer.compute.cache import CACHE
+from hess_explorer.protocol.parameters import decode
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
@@ -19,6 +20,8 @@ from hess_mechanics.dynamics.trade import Sample
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import LEVELS, PLANS, REFERENCE, Kind
 from hess_mechanics.suslov.section import coordinates, suslov_points
+from hess_mechanics.suslov_hess.rotation_number import values_at
+from support.board import Browser
 
 SCENES = {name: scene for name, scene in scenes().items() if scene.origin is None}
 SUSLOV, QUARTIC = SCENES["suslov"], SCENES["quartic"]
@@ -177,7 +180,7 @@ def test_what_cannot_be_computed_is_measured_as_standard():
     def refuse(state, plan):
         raise InvalidParameter("No.")
 
-    assert needed(Trial(Kind.MAP, (), refuse, lambda *_: 0.0), None) == "standard"
+    assert needed(Trial(Kind.MAP, (), refuse, lambda *_: 0.0, refuse), None) == "standard"
 
 
 def test_every_scene_offers_auto_and_all_levels():
@@ -192,7 +195,7 @@ def test_every_scene_offers_auto_and_all_levels():
 
 def test_the_cost_of_all_is_measured_when_its_picture_is_unfolded():
     scene = scenes()["scattering-accuracy"]
-    assert scene.folded == {"trade": "Measure all that is computed"}
+    assert scene.folded == {"trade": "Measure all that is computed", "difference": "Show what more accuracy changes"}
     state, report = completed(scene, {}, ("trade",))
     samples = state.costs[Kind.MAP]
     errors, ms = state.cost_of(Kind.MAP)
@@ -206,6 +209,123 @@ def test_the_cost_of_all_is_measured_when_its_picture_is_unfolded():
 
 def test_a_scene_that_computes_only_its_motion_has_no_such_picture():
     assert "trade" not in scenes()["kharlamova-accuracy"].pictures
+
+
+# ---- what the next level changes ----------------------------------------------------------------------------------
+
+
+def difference(name, kind, level, **values):
+    """The state of "Speed and accuracy" with its difference picture, when that is known."""
+    return completed(scenes()[f"{name}-accuracy"], {"difference": kind, "accuracy": level, **values}, ("difference",))
+
+
+def test_the_cells_that_change_are_those_of_the_finer_grid_with_another_colour():
+    scene, (state, _) = SCENES["rotation-number"], difference("rotation-number", "grid", "draft")
+    axes = scene.of(scene.defaults()).window
+    found = {}
+    for name, (m, n) in (("draft", (150, 100)), ("standard", (300, 200))):
+        h, f = np.meshgrid(*(low + (high - low) * (np.arange(count) + 0.5) / count
+                             for (low, high), count in zip(axes, (m, n), strict=True)))
+        values = values_at(0.5, h.ravel(), f.ravel(), LEVELS[name])
+        # Locked tori have one tone, whatever ρ.
+        shown = np.where(values.possible, np.where(values.locked, 9.0, values.rho), np.nan)
+        found[name] = shown.reshape(n, m)
+    coarse, fine = np.kron(found["draft"], np.ones((2, 2))), found["standard"]
+    changed = (np.abs(coarse - fine) > 1.0 / 256.0) | (np.isnan(coarse) ^ np.isnan(fine))
+    nothing = np.isnan(coarse) & np.isnan(fine)
+    assert np.array_equal(state.changes.cells, np.where(nothing, -1.0, changed))
+    share = 100.0 * changed[~nothing].mean()
+    assert 3.0 < share < 12.0
+    assert float(re.search(r"standard changes ([\d.]+) % of the cells\.", state.about_difference())[1]) == (
+        pytest.approx(share, rel=0.05))
+    assert "difference" in scenes()["rotation-number-accuracy"].open_pictures
+    # Of the same cells more digits change none.
+    state, _ = difference("rotation-number", "grid", "standard")
+    assert state.about_difference() == "precise changes no cell."
+    assert not state.changes.cells.max()
+
+
+def test_the_points_that_move_are_those_of_the_finer_run_that_lie_elsewhere():
+    state, report = difference("suslov", "section", "draft", **SMALL)
+    section, shown = SUSLOV.of({**SUSLOV.defaults(), **SMALL}), state.changes
+    starts, away, longer = [section.start, *section.section.spread(section.frame, 12)], [], 0
+    for forward, some in ((True, starts), (False, starts[1:])):
+        coarse, fine = (suslov_points(section.body, 3, some, count, forward, PLANS[Kind.SECTION][name].level, threads=1)
+                        for name, count in (("draft", 30), ("standard", 120)))
+        for one, other in zip(coarse.states, fine.states, strict=True):
+            off = coordinates(one, 3) - coordinates(other, 3)[: len(one)]
+            off[:, 0] -= 2.0 * math.pi * np.round(off[:, 0] / (2.0 * math.pi))
+            away.append(np.linalg.norm(off * [300.0 / math.pi, 600.0 / math.pi], axis=1))
+            longer += len(other) - len(one)
+    changed = np.concatenate(away) > 0.5
+    assert (len(shown.changed), len(shown.same), len(shown.added)) == (changed.sum(), (~changed).sum(), longer)
+    first = [int(np.argmax(one > 0.5)) + 1 for one in away if one.max() > 30.0]
+    assert len(first) > 15
+    said = f"chaos takes {len(shown.lost)} of {len(away)} orbits, from crossing {min(first)}."
+    assert state.about_difference().endswith(said)
+    assert len(shown.lost) >= len(first)
+    assert any(row.startswith("Lost to chaos between draft and standard") for row in report.derived)
+
+
+def test_of_a_regular_motion_nothing_moves():
+    state, _ = difference("quartic", "section", "standard", ratio=1.0, h=0.6)
+    assert len(state.changes.changed) == len(state.changes.lost) == 0
+    assert len(state.changes.same) > 4000
+    assert state.about_difference().startswith("precise moves nothing by more than ")
+
+
+def test_there_is_nothing_beyond_the_last_level_and_nothing_of_what_is_not_shown():
+    state, report = difference("scattering", "map", "reference")
+    assert state.changes is None
+    assert report.todo == ()
+    assert state.about_difference() == "Nothing here is more exact than reference: there is nothing to compare it with."
+    state, _ = difference("suslov", "basins", "draft")
+    assert state.about_difference() == "The scene shows no basins now."
+    scene = scenes()["scattering-accuracy"]
+    held = scene.compute({**scene.defaults(), "accuracy": "draft"}, ("difference",), True)
+    assert (held.changes, held.about_difference()) == (None, "It is found when a slider is let go.")
+
+
+def test_what_is_compared_is_one_of_the_kinds_the_costliest_at_first():
+    scene = scenes()["euler-poisson-accuracy"]
+    assert scene.defaults()["difference"] == "rotation number"
+    # Basins are shown only where they are asked for.
+    assert scenes()["suslov-accuracy"].defaults()["difference"] == "section"
+    values, notes = decode("v=1&difference=everything", scene.specs)
+    assert values["difference"] == "rotation number"
+    assert notes == ["What is compared was not one of orbit, section, exponent, rotation number: it is rotation "
+                     "number now."]
+    admitted, notes = scene.admit({**scene.defaults(), "difference": "<b>"})
+    assert admitted == scene.defaults()
+    assert len(notes) == 1
+    assert "difference" not in scenes()["kharlamova-accuracy"].defaults()
+
+
+def test_what_was_compared_is_remembered_when_one_comes_back():
+    study = scenes()["rotation-number-accuracy"]
+    browser, hidden = Browser(study), list({*study.pictures, *study.other.pictures})
+    browser.ask(1, values={"difference": "line", "accuracy": "draft"}, hidden=hidden)
+    browser.ask(2, scene="rotation-number", hidden=hidden)
+    browser.ask(3, values={"h": 1.25}, hidden=hidden)
+    browser.ask(4, scene="rotation-number-accuracy", hidden=hidden)
+    assert {name: browser.session.values[name] for name in ("difference", "accuracy", "h")} == {
+        "difference": "line", "accuracy": "draft", "h": 1.25}
+
+
+def test_the_error_of_a_cloud_is_measured_on_the_same_points():
+    """Twice as far as another run says, at another tolerance and order; its own estimate is an independent bound."""
+    scene = SCENES["singular-measures"]
+    (trial,) = scene.trials
+    state = bare(scene.of({**scene.defaults(), "points": "1000", "span": 6.0}))
+    for name in ("draft", "standard"):
+        found = trial.run(state, PLANS[Kind.CLOUD][name])
+        cloud, exact = found.cloud, state.task(1000, LEVELS["reference"]).now().cloud
+        radius = 300.0
+        # 1.1 × the largest |ω| fits, in round steps, so a unit of ω is between 150 and 300 pixels over it.
+        off = max(radius * np.linalg.norm(cloud.gamma - exact.gamma, axis=2).max(),
+                  radius / (1.1 * found.fastest) * np.linalg.norm(cloud.omega - exact.omega, axis=2).max())
+        assert 0.5 * off < trial.error(state, found, None) <= 1.01 * off
+        assert trial.error(state, found, None) < 20.0 * radius * cloud.error_estimate
 
 
 # ---- tables -----------------------------------------------------------------------------------------------------

@@ -25,7 +25,8 @@ __all__ = ["Costs", "difference_picture", "trade_picture"]
 
 _ERRORS, _MS = (1e-9, 1e3), (1e-2, 1e5)
 _TICKS = [1e-8, 1e-6, 1e-4, 1e-2, 1.0, 100.0]
-_DASHES = ("solid", "dashed", "dotdash", "dotted")
+_LINES = (("solid", 1.5), ("dashed", 2.0), ("dotted", 3.0), ("solid", 4.0))
+"""Dash and width: the page's legend has no line of dots and dashes."""
 
 
 class Costs(Insight):
@@ -167,9 +168,9 @@ C = TypeVar("C", bound=Costs)
 
 def trade_picture(trials: Sequence[Trial[Any]], folded: bool = True) -> Plot[C]:
     """All that is computed, measured when it is asked for."""
-    def kind(trial: Trial[Any], dash: str) -> Layer[C]:
+    def kind(trial: Trial[Any], dash: str, width: float) -> Layer[C]:
         return line(str(trial.kind).replace(" ", "-"), lambda s: s.cost_of(trial.kind), color=theme.MUTED, dash=dash,
-                    label=str(trial.kind))
+                    width=width, label=str(trial.kind))
 
     def at(name: str) -> Layer[C]:
         return points(f"at-{name}", lambda s: s.costs_at(name), color=theme.LEVELS[name], size=10, label=name)
@@ -179,7 +180,7 @@ def trade_picture(trials: Sequence[Trial[Any]], folded: bool = True) -> Plot[C]:
         axes=("error / what is not seen", "milliseconds"), x=_ERRORS, y=_MS, x_ticks=_TICKS,
         y_tick_count=5, folded="Measure all that is computed" if folded else "",
         layers=(line("visible", lambda s: ((1.0, 1.0), _MS), color=theme.MUTED, dash="dotted", width=1.0),
-                *(kind(trial, dash) for trial, dash in zip(trials, _DASHES, strict=False)), *map(at, LEVELS),
+                *(kind(trial, *look) for trial, look in zip(trials, _LINES, strict=False)), *map(at, LEVELS),
                 ring("enough", Costs.enough, size=20, label="more accuracy is not seen")))
 
 

@@ -91,8 +91,8 @@ class LookingInto(Scene[I]):
     def specs(self) -> tuple[Spec, ...]:
         """The parameters of the other scene, and which of its computations is compared, where there are several."""
         kinds = tuple(str(trial.kind) for trial in self.other.trials)
-        choice = Choice(COMPARED, "Difference of", kinds, self._costliest,
-                        "What of the scene is compared: the chosen level with the next more exact one.")
+        choice = Choice(COMPARED, "What is compared", kinds, self._costliest,
+                        "Of the scene, at the chosen level and at the next more exact one.")
         return (*self.other.specs, choice) if len(kinds) > 1 else self.other.specs
 
     @property
