@@ -99,8 +99,11 @@ def needed(seen):
             | (ZONES if "bifurcation" in seen else set()) | ({BODY} if "body" in seen else set()))
 
 
+NOT_OVER_TIME = {"precision", "trade", "difference"}
+
+
 def needed_for_study(seen):
-    return ({LEVELS, OTHERS} if "precision" in seen else set()) | ({GROWTH} if seen - {"precision", "trade"} else set())
+    return ({LEVELS, OTHERS} if "precision" in seen else set()) | ({GROWTH} if seen - NOT_OVER_TIME else set())
 
 
 def compute(scene, values, seen=None, dragging=False):
@@ -449,7 +452,7 @@ def test_what_nobody_sees_is_not_measured(cache, seen):
     study = compute(ACCURACY, SHORT, seen)
     assert cache.take() == needed_for_study(seen)
     assert (study.known("measured") is None) == ("precision" not in seen)
-    assert (study.known("growing") is None) == (not seen - {"precision", "trade"})
+    assert (study.known("growing") is None) == (not seen - NOT_OVER_TIME)
 
 
 @every_subset_of_the_study

@@ -236,12 +236,12 @@ def test_the_cells_that_change_are_those_of_the_finer_grid_with_another_colour()
     assert np.array_equal(state.changes.cells, np.where(nothing, -1.0, changed))
     share = 100.0 * changed[~nothing].mean()
     assert 3.0 < share < 12.0
-    assert float(re.search(r"standard changes ([\d.]+) % of the cells\.", state.about_difference())[1]) == (
+    assert float(re.search(r"([\d.]+) % of the cells change\.", state.about_difference())[1]) == (
         pytest.approx(share, rel=0.05))
     assert "difference" in scenes()["rotation-number-accuracy"].open_pictures
     # Of the same cells more digits change none.
     state, _ = difference("rotation-number", "grid", "standard")
-    assert state.about_difference() == "precise changes no cell."
+    assert state.about_difference() == "No cell changes."
     assert not state.changes.cells.max()
 
 
@@ -271,14 +271,14 @@ def test_of_a_regular_motion_nothing_moves():
     state, _ = difference("quartic", "section", "standard", ratio=1.0, h=0.6)
     assert len(state.changes.changed) == len(state.changes.lost) == 0
     assert len(state.changes.same) > 4000
-    assert state.about_difference().startswith("precise moves nothing by more than ")
+    assert state.about_difference().startswith("Nothing moves by more than ")
 
 
 def test_there_is_nothing_beyond_the_last_level_and_nothing_of_what_is_not_shown():
     state, report = difference("scattering", "map", "reference")
     assert state.changes is None
     assert report.todo == ()
-    assert state.about_difference() == "Nothing here is more exact than reference: there is nothing to compare it with."
+    assert state.about_difference() == "Nothing is more exact than reference: nothing to compare it with."
     state, _ = difference("suslov", "basins", "draft")
     assert state.about_difference() == "The scene shows no basins now."
     scene = scenes()["scattering-accuracy"]

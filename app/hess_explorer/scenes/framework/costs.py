@@ -92,12 +92,12 @@ class Costs(Insight):
     def about_difference(self) -> str:
         """The caption: how much changes, and from which crossing on orbits are others."""
         if self.finer is None:
-            return f"Nothing here is more exact than {self.chosen}: there is nothing to compare it with."
+            return f"Nothing is more exact than {self.chosen}: nothing to compare it with."
         if self.dragging:
             return "It is found when a slider is let go."
         if self.changes is None:
             return f"The scene shows no {self.difference} now." if self.difference_message() else "Being compared."
-        return f"{self.finer} {_said(self.changes)}"
+        return _said(self.changes)
 
     def difference_message(self) -> str:
         """Why there is nothing to see."""
@@ -122,7 +122,7 @@ class Costs(Insight):
 
     def difference_title(self) -> str:
         """Which levels are compared."""
-        return f"{self.difference.capitalize()}: {self.chosen}, then {self.finer or 'no other'}"
+        return f"{self.difference.capitalize()}: {self.chosen}" + (f" against {self.finer}" if self.finer else "")
 
     def difference_axis(self, side: str) -> Range | None:
         """The axis "x" or "y" of the picture that is compared."""
@@ -152,15 +152,16 @@ def _pixels(count: float) -> str:
 
 
 def _said(found: Difference) -> str:
+    """Two short lines."""
     share = digits(100.0 * found.share, 2)
     if found.cells is not None:
-        return f"changes {share} % of the cells." if found.share else "changes no cell."
-    more = ", adds more" if len(found.added) else ""
+        return f"{share} % of the cells change." if found.share else "No cell changes."
     if not len(found.changed):
-        return f"moves nothing by more than {_pixels(found.largest)} pixels{more}."
-    chaos = f"; chaos takes {len(found.lost)} of {found.orbits} orbits, from crossing {min(found.lost)}" if (
-        found.lost) else f", at most {_pixels(found.largest)}"
-    return f"moves {share} % of the points over ½ pixel{more}{chaos}."
+        return f"Nothing moves by more than {_pixels(found.largest)} pixels."
+    if found.lost:
+        return (f"{share} % move over ½ pixel; chaos takes {len(found.lost)} of {found.orbits} orbits, from crossing "
+                f"{min(found.lost)}.")
+    return f"{share} % of the points move over ½ pixel, by at most {_pixels(found.largest)}."
 
 
 C = TypeVar("C", bound=Costs)
