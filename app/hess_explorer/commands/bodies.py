@@ -10,13 +10,36 @@ from .arguments import number, vector
 if TYPE_CHECKING:
     from hess_mechanics import BallBody
 
-__all__ = ["add_ball", "add_heavy_body", "add_start", "add_suslov_body", "ball_of"]
+__all__ = [
+    "add_ball", "add_end", "add_free_body", "add_heavy_body", "add_inner_ball", "add_start", "add_suslov_body",
+    "ball_of",
+]
+
+
+def _add_tensor(parser: argparse.ArgumentParser, more: str = "") -> None:
+    parser.add_argument("--I", type=vector("I11,I22,I13,I23"), required=True, metavar="I11,I22,I13,I23",
+                        help=f"inertia tensor (I12 = 0){more}")
+
+
+def add_free_body(parser: argparse.ArgumentParser) -> None:
+    """--I: inertia tensor of a body with Suslov's constraint that moves without a field."""
+    _add_tensor(parser, "; I13 and I23 not both 0")
+
+
+def add_inner_ball(parser: argparse.ArgumentParser) -> None:
+    """--D: the ball inside a body, if there is one."""
+    parser.add_argument("--D", type=number, default=0.0,
+                        help="𝒟 = (R/R_s)² I_s of a ball inside, 0 or more (default 0: none)")
+
+
+def add_end(parser: argparse.ArgumentParser, help: str = "the last time") -> None:
+    """--t: how long a motion is followed."""
+    parser.add_argument("--t", type=number, required=True, help=f"{help}; negative: backward")
 
 
 def add_suslov_body(parser: argparse.ArgumentParser) -> None:
     """--I and --b: inertia tensor and field of a body with Suslov's constraint."""
-    parser.add_argument("--I", type=vector("I11,I22,I13,I23"), required=True, metavar="I11,I22,I13,I23",
-                        help="inertia tensor (I12 = 0)")
+    _add_tensor(parser)
     parser.add_argument("--b", type=vector("b1,b2,b3"), default=(0.0, 0.0, 0.0), metavar="b1,b2,b3",
                         help="field (default 0,0,0)")
 

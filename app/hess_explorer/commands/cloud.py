@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from . import CommandError
-from .arguments import integer, number, vector
+from .arguments import integer, number
+from .bodies import add_end, add_free_body, add_inner_ball
 from .output import add_options, computing, quality, whether_body, write
 
 if TYPE_CHECKING:
@@ -29,10 +30,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
                     "largest of ln s(t)/s(0)), density (shares of the points per unit of ln|s| at the start, at the "
                     "end and in the mean over the time), points (the states at the last time, and their ln|s|).",
         epilog="Example: hess-explorer cloud --I 2,1,0.5,0.7 --h 2 --count 500 --t 10 --table density --format csv")
-    parser.add_argument("--I", type=vector("I11,I22,I13,I23"), required=True, metavar="I11,I22,I13,I23",
-                        help="inertia tensor (I12 = 0); I13 and I23 not both 0")
-    parser.add_argument("--D", type=number, default=0.0,
-                        help="𝒟 = (R/R_s)² I_s of a ball inside, 0 or more (default 0: none)")
+    add_free_body(parser)
+    add_inner_ball(parser)
     parser.add_argument("--h", type=number, required=True, help="energy in the middle of the cloud, h > 0")
     parser.add_argument("--spread", type=number, default=0.1, help="δ, between 0 and 1 (default 0.1)")
     parser.add_argument("--angle", type=number,
@@ -40,7 +39,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
                              "(default: the whole energy shell)")
     parser.add_argument("--count", type=integer(1, _MOST), default=1000, metavar="N",
                         help="how many points (default 1000)")
-    parser.add_argument("--t", type=number, required=True, help="the last time; negative: backward")
+    add_end(parser)
     parser.add_argument("--table", choices=("course", "density", "points"), default="course",
                         help="what the table is (default: course)")
     add_options(parser)

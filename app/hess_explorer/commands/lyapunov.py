@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from .arguments import number
-from .bodies import add_ball, add_heavy_body, add_start, add_suslov_body, ball_of
+from .bodies import add_ball, add_end, add_heavy_body, add_start, add_suslov_body, ball_of
 from .output import add_options, computing, write
 
 __all__ = ["add"]
@@ -53,7 +52,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 
 def _add_rest(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--t", type=number, required=True, help="time over which to average; negative: backward")
+    add_end(parser, "time over which to average")
     add_options(parser)
 
 

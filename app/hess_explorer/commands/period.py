@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import argparse
 
-from .arguments import number, vector
-from .bodies import add_start
+from .arguments import vector
+from .bodies import add_inner_ball, add_start
 from .output import add_options, computing, quality, write
 
 __all__ = ["add"]
@@ -23,8 +23,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         epilog="Example: hess-explorer period --I 1.3,0.8 --b 0.5,-0.2 --omega 1,-0.5 --gamma 0,0.6,0.8")
     parser.add_argument("--I", type=vector("I11,I22"), required=True, metavar="I11,I22", help="moments of inertia")
     parser.add_argument("--b", type=vector("b1,b2"), default=(0.0, 0.0), metavar="b1,b2", help="field (default 0,0)")
-    parser.add_argument("--D", type=number, default=0.0,
-                        help="𝒟 = (R/R_s)² I_s of a ball inside, 0 or more (default 0: none)")
+    add_inner_ball(parser)
     add_start(parser)
     add_options(parser)
     parser.set_defaults(run=_run)

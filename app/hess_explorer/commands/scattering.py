@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import argparse
 
-from .arguments import number, samples, vector
+from .arguments import number, samples
+from .bodies import add_free_body
 from .output import add_options, computing, quality, whether_body, write
 
 __all__ = ["add"]
@@ -18,8 +19,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
                     "the unstable point, with a phase φ, and goes to one at the angle θ⁺ round the stable point.  "
                     "cos_chi, sin_chi, phi_star: cos θ⁺ = cos χ cos θ⁻ + sin χ sin θ⁻ cos(φ − φ*).",
         epilog="Example: hess-explorer scattering --I 3.56,1,0,0.8 --theta 1.0 --phi 0,1,2 --accuracy reference")
-    parser.add_argument("--I", type=vector("I11,I22,I13,I23"), required=True, metavar="I11,I22,I13,I23",
-                        help="inertia tensor (I12 = 0); I13 and I23 not both 0")
+    add_free_body(parser)
     parser.add_argument("--theta", type=number, required=True, help="θ⁻ in radians")
     parser.add_argument("--phi", type=samples, default=[], metavar="LIST",
                         help="phases in radians, 0,1,2 or lo:hi:n (default: none)")

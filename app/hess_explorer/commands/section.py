@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from .arguments import integer, number, vector
-from .bodies import add_ball, add_heavy_body, add_start, add_suslov_body, ball_of
+from .bodies import add_ball, add_end, add_heavy_body, add_start, add_suslov_body, ball_of
 from .output import add_options, computing, quality, whether_body, write
 
 if TYPE_CHECKING:
@@ -73,7 +73,7 @@ def _add_plane(parser: argparse.ArgumentParser, usual: tuple[float, ...] | None)
     parser.add_argument("--offset", type=number, default=0.0, help="offset of the plane along its normal (default 0)")
     parser.add_argument("--sense", type=int, choices=(-1, 0, 1), default=1,
                         help="1 (default): crossed from below as time grows, -1: from above, 0: both")
-    parser.add_argument("--t", type=number, required=True, help="the last time; negative: backward")
+    add_end(parser)
     _add_count(parser)
 
 

@@ -15,6 +15,7 @@ from hess_explorer.scenes.framework.hess_case import (
     UNSURE,
     HeavyMotion,
     SuslovBody,
+    limit_cycles,
     possible_f,
     reduced_motion,
 )
@@ -35,7 +36,7 @@ from hess_mechanics.euler_poisson.hess_manifold import Difference, difference
 from hess_mechanics.numerics.accuracy import DRAFT
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, f_max, turning_points
-from hess_mechanics.suslov_hess.torus import MAX_RETURNS, Track, annulus, cycles, track
+from hess_mechanics.suslov_hess.torus import MAX_RETURNS, Track, annulus, track
 
 SUSLOV, HEAVY = "Suslov–Hess", "Euler–Poisson"
 _IN_A_PERIOD = 40
@@ -149,10 +150,7 @@ class BothSides(HeavyMotion, SuslovBody, _Given):
     @cached_property
     def cycles(self) -> tuple[Track, Track] | None:
         """The stable and the unstable limit cycle, where there are two."""
-        if self.map.kind != "hyperbolic":
-            return None
-        return self.work.get(cycles, self.bridge.hess, self.turning.h, self.turning.f, self.map.fixed_points[0],
-                             self.level, self.half_width)
+        return limit_cycles(self.work, self.bridge.hess, self.map, self.level, self.half_width)
 
     @cached_property
     def iterates(self) -> Array:

@@ -23,7 +23,17 @@ from hess_explorer.scenes.framework.filled_window import (
 from hess_explorer.scenes.framework.hess_case import HeavyMotion
 from hess_explorer.scenes.framework.inertia import Moments
 from hess_explorer.scenes.framework.one_orbit import Start
-from hess_explorer.scenes.framework.parameters import accuracy_level, choice, like, number, places, time_span
+from hess_explorer.scenes.framework.parameters import (
+    accuracy_level,
+    choice,
+    exponent_time,
+    like,
+    number,
+    orbits_spread,
+    places,
+    points_of_each,
+    time_span,
+)
 from hess_explorer.scenes.framework.rotation_across import ROTATION, RotationAcross, rotation_picture
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.windows import Window, inside
@@ -77,13 +87,10 @@ class EulerPoisson(Moments, RotationAcross):
     m: float = like(HeavyMotion, "m")
     h: float = like(HeavyMotion, "h", softbounds=(-1.0, 60.0), doc="H = h.")
     f: float = like(HeavyMotion, "f", doc="(M, γ) = f; the section needs G ≥ |f|.")
-    orbits: float = number("n", 60.0, (0.0, 200.0), 1.0, bounds=(0.0, 400.0), label="Orbits",
-                           doc="How many orbits are spread over the window.")
-    count: float = number("N", 300.0, (20.0, 1000.0), 10.0, bounds=(2.0, 4000.0), label="Crossings",
-                          doc="How many points each orbit leaves.")
+    orbits: float = orbits_spread(60.0, 200.0, 400.0)
+    count: float = points_of_each(300.0)
     span: float = time_span(20.0, 200.0, what="the chosen orbit")
-    long: float = number("T", 200.0, (10.0, 1000.0), 10.0, bounds=(1.0, 1e4), label="Time of the exponent",
-                         doc="How long the Lyapunov exponent is averaged.")
+    long: float = exponent_time(200.0, 1000.0, 1e4, "the Lyapunov exponent is")
     turns: str = choice("Rotation number", (_ALONG, _ABOUT), _ALONG,
                         doc="Turns counted by the angle l, on a vertical line through the chosen start; or about the "
                             "middle of the window, on a line from there to the right.")

@@ -16,7 +16,17 @@ from hess_explorer.scenes.framework.basins import BASINS, Basins
 from hess_explorer.scenes.framework.filled_window import EXPONENT, SECTION, TURN, Piece, filled_window
 from hess_explorer.scenes.framework.inertia import CentreOfMass, Tensor
 from hess_explorer.scenes.framework.one_orbit import Start
-from hess_explorer.scenes.framework.parameters import accuracy_level, choice, like, number, places, time_span
+from hess_explorer.scenes.framework.parameters import (
+    accuracy_level,
+    choice,
+    exponent_time,
+    like,
+    number,
+    orbits_spread,
+    places,
+    points_of_each,
+    time_span,
+)
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views import conformal_time, layered_section, theme
@@ -78,13 +88,10 @@ class Suslov(CentreOfMass, Tensor, Basins):
     colours: str = choice("Show", (_BOTH, "forward only", "basins"), _BOTH,
                           doc="Basins: to which group of motions, or attractor, each point of the section leads.")
     drop: str = choice("Points shown", ("all", "the later half"), "all", doc="The later half shows what attracts.")
-    orbits: float = number("n", 40.0, (0.0, 120.0), 1.0, bounds=(0.0, 300.0), label="Orbits",
-                           doc="How many orbits are spread over the window.")
-    count: float = number("N", 200.0, (20.0, 1000.0), 10.0, bounds=(2.0, 4000.0), label="Crossings",
-                          doc="How many points each orbit leaves.")
+    orbits: float = orbits_spread(40.0, 120.0, 300.0)
+    count: float = points_of_each(200.0)
     span: float = time_span(60.0, 400.0, what="the chosen orbit")
-    long: float = number("T", 1000.0, (10.0, 5000.0), 10.0, bounds=(1.0, 2e4), label="Time of the exponent",
-                         doc="How long the Lyapunov exponent and the divergence are averaged.")
+    long: float = exponent_time(1000.0, 5000.0, 2e4, "the Lyapunov exponent and the divergence are")
     accuracy: str = accuracy_level()
     starts: str = places("The places of the chosen orbits", 12, *_BOUNDS, "1,1")
     window: str = places("The window of the section", 2, *_BOUNDS)

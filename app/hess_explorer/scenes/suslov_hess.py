@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.hess_case import SuslovBody, map_or_none, possible_f
+from hess_explorer.scenes.framework.hess_case import SuslovBody, limit_cycles, map_or_none, possible_f
 from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, number, slider_within
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
 from hess_explorer.scenes.framework.torus_trials import boundary, colours
@@ -39,7 +39,6 @@ from hess_mechanics.suslov_hess.torus import (
     Track,
     annulus,
     attitude_of_track,
-    cycles,
     pixels_per_unit,
     start_of_track,
     track,
@@ -123,10 +122,7 @@ class SuslovHess(SuslovBody):
     @cached_property
     def cycles(self) -> tuple[Track, Track] | None:
         """The stable and the unstable limit cycle, where there are two."""
-        if self.map is None or self.map.kind != "hyperbolic":
-            return None
-        stable = self.map.fixed_points[0]
-        return self.work.get(cycles, self.body, self.h, self.f, stable, self.level, self.half_width)
+        return limit_cycles(self.work, self.body, self.map, self.level, self.half_width)
 
     @cached_property
     def iterates(self) -> Array | None:

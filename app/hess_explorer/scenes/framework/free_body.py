@@ -7,7 +7,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from hess_explorer.scenes.framework.parameters import number
+from hess_explorer.scenes.framework.inertia import Tensor
+from hess_explorer.scenes.framework.parameters import like, number
 from hess_explorer.scenes.framework.scene import Motion, State
 from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import pixels_per_unit
@@ -22,12 +23,11 @@ __all__ = ["FreeBody"]
 class FreeBody(State):
     """A body without a field, I13 and I23 not both 0."""
 
-    I22: float = number("I₂₂", 1.0, (0.2, 3.0), 0.01, bounds=(1e-3, 1e3), label="Inertia I₂₂",
-                        doc="Moment of inertia about the second body axis.")
-    I13: float = number("I₁₃", 0.0, (-1.0, 1.0), 0.01, bounds=(-1e3, 1e3), label="Inertia I₁₃",
-                        doc="Product of inertia; with I₂₃ it sets the line of equilibria I₁₃ω₁ + I₂₃ω₂ = 0.")
-    I23: float = number("I₂₃", 0.5, (-1.0, 1.0), 0.01, bounds=(-1e3, 1e3), label="Inertia I₂₃",
-                        doc="Product of inertia; not 0 together with I₁₃.")
+    I22: float = like(Tensor, "I22", 1.0, softbounds=(0.2, 3.0))
+    I13: float = like(Tensor, "I13", 0.0, softbounds=(-1.0, 1.0),
+                      doc="Product of inertia; with I₂₃ it sets the line of equilibria I₁₃ω₁ + I₂₃ω₂ = 0.")
+    I23: float = like(Tensor, "I23", 0.5, softbounds=(-1.0, 1.0),
+                      doc="Product of inertia; not 0 together with I₁₃.")
     k: float = number("k", 2.4, (-2.0, 7.0), 0.05, bounds=(-50.0, 50.0), label="k, drives I₁₁",
                       doc="I₁₁ = I₂₂ + k|k| (I₁₃² + I₂₃²)/I₂₂. With I₁₃ = 0 and k odd there is an additional integral "
                           "F₂.")

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Self
 
-from hess_explorer.scenes.framework.inertia import Moments
-from hess_explorer.scenes.framework.parameters import Slider, number, slider_within
+from hess_explorer.scenes.framework.inertia import CentreOfMass, Moments, Tensor
+from hess_explorer.scenes.framework.parameters import Slider, like, number, slider_within
 from hess_explorer.scenes.framework.scene import Motion, State
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.text import digits
@@ -21,10 +21,11 @@ from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, f_max, turning_points
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
 from hess_mechanics.suslov_hess.equations import SYSTEM, HessBody
+from hess_mechanics.suslov_hess.torus import Track, cycles
 
 __all__ = [
-    "BY_THE_UNSTABLE_CYCLE", "RIS", "UNSURE", "HeavyMotion", "SuslovBody", "map_or_none", "possible_f",
-    "reduced_motion",
+    "BY_THE_UNSTABLE_CYCLE", "RIS", "UNSURE", "HeavyMotion", "SuslovBody", "limit_cycles", "map_or_none",
+    "possible_f", "reduced_motion",
 ]
 
 _MAX_A = 100.0
@@ -63,16 +64,24 @@ def map_or_none(work: Work, a: float, h: float, f: float, level: Level) -> Circl
         return None
 
 
+def limit_cycles(work: Work, hess: HessBody, theta: CircleMap | None, level: Level, half_width: float
+                 ) -> tuple[Track, Track] | None:
+    """The stable and the unstable limit cycle on the torus of a circle map, where there are two; see `torus.cycles`."""
+    if theta is None or theta.kind != "hyperbolic":
+        return None
+    return work.get(cycles, hess, theta.h, theta.f, theta.fixed_points[0], level, half_width)
+
+
 @dataclass(frozen=True)
 class SuslovBody(State):
     """The body of a motion in the Suslov problem; mixed into the state of a scene."""
 
-    I22: float = number("I₂₂", 0.96, (0.2, 3.0), 0.01, bounds=(1e-3, 1e3), label="Inertia I₂₂",
-                        doc="Moment of inertia about the second body axis. I₁₁ follows from it and I₂₃.")
-    I23: float = number("I₂₃", 0.28, (-2.0, 2.0), 0.01, bounds=(-1e3, 1e3), label="Inertia I₂₃",
-                        doc="Product of inertia. a = I₂₃/I₂₂ tilts the circular section; a = 0 decouples the motion.")
-    b3: float = number("b₃", -1.0, (-3.0, -0.05), 0.01, bounds=(-1e3, -1e-3), label="Centre of mass b₃",
-                       doc="Third component of b = −mg r. It sets the unit of time; b₂ follows from it.")
+    I22: float = like(Tensor, "I22", 0.96, softbounds=(0.2, 3.0),
+                      doc="Moment of inertia about the second body axis. I₁₁ follows from it and I₂₃.")
+    I23: float = like(Tensor, "I23", 0.28,
+                      doc="Product of inertia. a = I₂₃/I₂₂ tilts the circular section; a = 0 decouples the motion.")
+    b3: float = like(CentreOfMass, "b3", -1.0, softbounds=(-3.0, -0.05), bounds=(-1e3, -1e-3),
+                     doc="Third component of b = −mg r. It sets the unit of time; b₂ follows from it.")
 
     @cached_property
     def body(self) -> HessBody:

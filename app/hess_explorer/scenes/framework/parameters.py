@@ -11,8 +11,8 @@ from hess_explorer.scenes.framework.work import AUTO
 from hess_mechanics.numerics.accuracy import LEVELS
 
 __all__ = [
-    "Slider", "accuracy_level", "choice", "crossings_of_each", "like", "number", "places", "slider_within", "specs_of",
-    "time_span",
+    "Slider", "accuracy_level", "choice", "crossings_of_each", "exponent_time", "like", "number", "orbits_spread",
+    "places", "points_of_each", "slider_within", "specs_of", "time_span",
 ]
 
 Slider = tuple[float, float, float]
@@ -52,6 +52,24 @@ def crossings_of_each() -> Any:
     """How many crossings of a section each orbit leaves, at once."""
     return number("n", 200.0, (50.0, 600.0), 10.0, bounds=(1.0, 1e3), label="Crossings of each orbit",
                   doc="Points for each orbit.")
+
+
+def orbits_spread(default: float, longest: float, most: float) -> Any:
+    """How many orbits fill a window."""
+    return number("n", default, (0.0, longest), 1.0, bounds=(0.0, most), label="Orbits",
+                  doc="How many orbits are spread over the window.")
+
+
+def points_of_each(default: float) -> Any:
+    """How many points each orbit leaves in a window, which come piece by piece."""
+    return number("N", default, (20.0, 1000.0), 10.0, bounds=(2.0, 4000.0), label="Crossings",
+                  doc="How many points each orbit leaves.")
+
+
+def exponent_time(default: float, longest: float, most: float, what: str) -> Any:
+    """How long something is averaged along the orbit on show."""
+    return number("T", default, (10.0, longest), 10.0, bounds=(1.0, most), label="Time of the exponent",
+                  doc=f"How long {what} averaged.")
 
 
 def time_span(default: float, longest: float, *, step: float = 1.0, most: float = 1e4, what: str = "the orbit") -> Any:
