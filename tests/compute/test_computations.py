@@ -158,6 +158,7 @@ def test_a_change_computes_what_depends_on_it_and_going_back_nothing(cache, chan
 PRESETS = {
     "Two limit cycles": set(),
     "No cycle": {MAP, TRACK},
+    "Smaller a": {MAP, TRACK, BOUNDARY, GRID},
     "At the lock boundary": {MAP, TRACK, BOUNDARY, GRID},
     "Pendulum": MOTION | {BOUNDARY, GRID},
     "Oscillation": {MAP, TRACK},

@@ -10,6 +10,7 @@ import re
 
 import numpy as np
 import pytest
+from scipy.integrate import quad
 
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.protocol.parameters import places
@@ -18,7 +19,7 @@ from hess_mechanics import circle_map, f_max, level, solve
 from hess_mechanics.dynamics.birkhoff import rotation_number
 from hess_mechanics.dynamics.lyapunov import largest_exponent
 from hess_mechanics.errors import ModelError
-from hess_mechanics.euler_poisson.andoyer import andoyer_points, coordinates, state_at
+from hess_mechanics.euler_poisson.andoyer import andoyer_points, coordinates, hess_curve, state_at
 from hess_mechanics.euler_poisson.equations import SYSTEM
 from hess_mechanics.numerics.accuracy import REFERENCE, STANDARD
 from support.andoyer import GESS1, angles, crossings_by_scipy, dense, energies_at
@@ -66,7 +67,7 @@ def test_an_example_shows_what_its_name_and_its_captions_promise(preset):
     slow = math.sqrt(2.0 * max(view.body.a) * (view.h + view.body.strength))
     times, states = crossings_by_scipy(view.body, view.start, 30.0 / slow)
     assert len(times)
-    assert own[: min(2, len(times))] == pytest.approx(coordinates(states)[:2], abs=1e-4)
+    assert own[-int(view.values["count"]):][: min(2, len(times))] == pytest.approx(coordinates(states)[:2], abs=1e-4)
     # What is said of the exponent.
     exponent, end = view.numbers("exponent", "λ = # after t = #")
     assert end == view.values["long"]
@@ -144,6 +145,72 @@ def test_at_the_meandering_torus_the_rotation_number_turns_round_at_an_eighth():
     # Eight islands: every eighth point stays in a small part of the picture.
     eighth = islands[::8]
     assert np.ptp(eighth, axis=0).max() < 0.35 * np.ptp(islands, axis=0).max()
+
+
+def test_below_the_separatrix_points_of_the_hess_curve_are_fixed_or_change_places_in_pairs():
+    preset = next(one for one in EP.presets if one.name.startswith("On the Hess curve"))
+    view = EulerPoisson({**preset.values, "orbits": 0.0}, seen={"section"})
+    assert view.values["f"] == 0.0
+    assert view.h < view.body.strength
+    starts = np.array(places(view.values["starts"]))
+    points = view.points("own").reshape(len(starts), -1, 2)
+    fixed = []
+    for start, orbit in zip(starts, points, strict=True):
+        turned, raised = np.angle(np.exp(1j * (orbit[:, 0] - start[0]))), orbit[:, 1] - start[1]
+        returns = [np.hypot(turned[k::2], raised[k::2]) for k in (0, 1)]
+        # The second crossing is the start again, and the first one too, or else a place far away; both on the curve.
+        assert np.max(returns[1]) < 1e-3
+        assert np.max(returns[0]) < 1e-3 or np.min(returns[0]) > 0.5
+        fixed.append(bool(np.max(returns[0]) < 1e-3))
+        l, x = orbit.T
+        r1, _, r3 = view.body.r
+        assert np.max(np.abs(r1 * np.sqrt(1.0 - x * x) * np.sin(l) + r3 * x)) < 1e-3
+    assert 2 <= sum(fixed) < len(fixed)
+
+
+def free_rotation_number(l, x):
+    """Turns of l in one of g of the free motion through (l, L/G): ġ = G(a1 sin²l + a2 cos²l), l̇ = L(a3 − the same)."""
+    a1, a2, a3 = 1.0 / 1.0, 1.0 / 0.625, 1.0 / 0.375
+
+    def across(l):
+        return a1 * math.sin(l) ** 2 + a2 * math.cos(l) ** 2
+
+    energy = (1.0 - x * x) * across(l) + a3 * x * x
+    turn, _ = quad(lambda l: across(l) / (math.sqrt((energy - across(l)) / (a3 - across(l))) * (a3 - across(l))),
+                   0.0, 2.0 * math.pi, epsabs=1e-12)
+    return 2.0 * math.pi / turn
+
+
+def test_at_high_energy_rotation_numbers_are_those_of_the_free_body():
+    preset = next(one for one in EP.presets if one.name.startswith("h → ∞"))
+    view = EulerPoisson({**preset.values, "orbits": 0.0}, seen={"rotation"})
+    along, rho = view.curve("rotation-rho")
+    above = np.flatnonzero(along > 0.02)
+    assert above.size > 10
+    apart = np.abs([math.remainder(rho[i] - free_rotation_number(0.0, along[i]), 1.0) for i in above])
+    assert np.median(apart) < 1e-3
+    # Next to a resonance, as 1/2, it is not as close.
+    assert np.max(apart) < 5e-3
+    # The difference falls as 1/h, for f = 0.
+    missed = []
+    for h in (5e3, 5e4):
+        orbit = andoyer_points(GESS1, h, 0.0, [state_at(GESS1, h, 0.0, 0.0, 0.75)], 1000, STANDARD).states[0]
+        rho, _ = rotation_number(coordinates(orbit), None)
+        missed.append(math.remainder(rho - free_rotation_number(0.0, 0.75), 1.0))
+    assert missed[0] / missed[1] == pytest.approx(10.0, rel=0.02)
+    # The Hess curve is a separatrix of the free body: there M·AM = a2 G², as in the turning about the middle axis.
+    l = np.linspace(-math.pi, math.pi, 25)
+    x = hess_curve(GESS1, l)
+    M2 = np.array([(1.0 - x * x) * np.sin(l) ** 2, (1.0 - x * x) * np.cos(l) ** 2, x * x])
+    assert np.array(GESS1.a) @ M2 == pytest.approx(1.0 / 0.625, abs=1e-6)
+
+
+def test_at_high_energy_the_multiplier_tends_to_that_of_f_0_as_the_cube():
+    exact, missed = 2.0 * math.pi * 0.5, []
+    for h in (5.0, 50.0, 500.0):
+        missed.append(exact - 2.0 * math.acosh(circle_map(0.5, h, 2.0, level("reference")).trace / 2.0))
+    assert missed[0] / missed[1] == pytest.approx(1e3, rel=0.02)
+    assert missed[1] / missed[2] == pytest.approx(1e3, rel=0.02)
 
 
 def test_the_barrier_is_gone_away_from_hess_and_there_in_it():

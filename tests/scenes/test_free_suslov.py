@@ -246,7 +246,7 @@ def test_all_four_signs_have_a_portrait():
         (True, True), (True, False), (False, True), (False, False)}
 
 
-def test_figure_3_is_that_of_the_caption():
+def test_figure_2_is_that_of_the_caption():
     values = {**FREE.defaults(), **FREE.presets[0].values}
     assert tensor_of(values) == pytest.approx((2.44, 1.0, 0.0, 0.5))
     assert (values["w1"], values["w2"]) == (2.0, 1e-4)
@@ -256,25 +256,47 @@ def test_figure_3_is_that_of_the_caption():
     assert found == pytest.approx(gamma / np.linalg.norm(gamma), abs=5e-5)
 
 
-def test_figure_4_has_the_starts_of_its_caption():
-    for preset in FREE.presets:
-        if not preset.name.startswith("Γ(t)"):
-            continue
-        values = {**FREE.defaults(), **preset.values}
-        slanting = "I₁₃ ≠ 0" in preset.name
-        first, second = (((-0.88, -0.48, 0.0), (-0.49, 0.26, 0.88)) if slanting
-                         else ((-0.44, 0.28, 0.85), (-0.44, 0.72, 0.53)))
-        _, xi, eta = axes_of(values)
-        assert (values["w1"], values["w2"]) == ((3.0, -2.001) if slanting else (2.0, 1e-3))
-        assert values["Gamma"] == pytest.approx(np.array(first) @ xi / np.linalg.norm(first), abs=2e-3)
-        for name, gamma in (("phi", first), ("phi2", second)):
-            azimuth = math.atan2(gamma[2], np.array(gamma) @ eta)
-            assert math.cos(values[name] - azimuth) > 1.0 - 1e-6
-        if slanting:
-            # As the words say: there the second γ(0) of the caption lies on another circle.
-            assert np.array(second) @ xi / np.linalg.norm(second) == pytest.approx(-0.531, abs=1e-3)
-            assert "-0.531" in FREE.words
-            assert "-0.465" in FREE.words
+STARTS = {"I₁₃ = 0": ((-0.44, 0.28, 0.85), (-0.44, 0.72, 0.53)), "d": ((-0.88, -0.48, 0.0), (-0.49, 0.26, 0.88))}
+"""γ(0) of both orbits in the caption of figure 3, as printed."""
+READ = np.array([0.1, 0.0, 0.0])
+"""What the second of d is read with."""
+
+
+@pytest.mark.parametrize("preset", [one for one in FREE.presets if one.name.endswith("(figure 3)")],
+                         ids=lambda preset: preset.name)
+def test_figure_3_has_the_starts_of_its_caption(preset):
+    values = {**FREE.defaults(), **preset.values}
+    slanting = values["I13"] != 0.0
+    assert (values["w1"], values["w2"]) == ((3.0, -2.001) if slanting else (2.0, 1e-3))
+    found = [gamma_at(values, math.acos(values["Gamma"]), values[name]) for name in ("phi", "phi2")]
+    first, second = map(np.array, STARTS["d" if slanting else "I₁₃ = 0"])
+    if not slanting:
+        assert found == [pytest.approx(one / np.linalg.norm(one), abs=3e-3) for one in (first, second)]
+    elif "as printed" in preset.name:
+        assert found[0] == pytest.approx(second / np.linalg.norm(second), abs=1e-4)
+    else:
+        # Both on one circle to all digits that are printed, one of them corrected.
+        assert found == [pytest.approx(one, abs=0.0051) for one in (first, second + READ)]
+
+
+def test_the_misprint_of_figure_3_d_is_one_digit():
+    xi = np.array([3.0, -2.0, 0.0]) / math.sqrt(13.0)
+    first, printed = map(np.array, STARTS["d"])
+    read = printed + READ
+    # Two digits are known to 0.005: the length to about as much, and so the height along ξ.
+    assert [np.linalg.norm(one) for one in (first, read)] == pytest.approx([1.0, 1.0], abs=5e-3)
+    assert first @ xi == pytest.approx(read @ xi, abs=7e-3)
+    assert np.linalg.norm(printed) == pytest.approx(1.04, abs=1e-3)
+    assert printed @ xi / np.linalg.norm(printed) == pytest.approx(-0.531, abs=1e-3)
+    assert first @ xi / np.linalg.norm(first) == pytest.approx(-0.465, abs=1e-3)
+    # A quarter of a turn apart.
+    eta = np.array([2.0, 3.0, 0.0]) / math.sqrt(13.0)
+    assert [math.atan2(one[2], one @ eta) for one in (first, read)] == pytest.approx([math.pi, 0.5 * math.pi], abs=1e-3)
+    # What the misprint does: the orbit leaves another circle, and joins another one.
+    as_read, as_printed = (View(FREE, one.values) for one in FREE.presets if one.values.get("w1") == 3.0)
+    went = [view.numbers("Gamma", "From Γ⁻ = # to Γ⁺ = # and # (dotted)") for view in (as_read, as_printed)]
+    assert went[0][0] - went[1][0] > 0.05
+    assert abs(went[0][2] - went[1][1]) > 0.05
 
 
 @pytest.mark.parametrize(("values", "words"), [
@@ -420,7 +442,7 @@ def test_the_graph_of_cos_chi_is_the_closed_form_wherever_k_is(values, ends_of_k
     assert np.ptp(heights) > 0.25 * (high - low)
 
 
-def test_figure_5_is_that_of_the_caption():
+def test_figure_4_is_that_of_the_caption():
     values = {**SCATTERING.defaults(), **SCATTERING.presets[0].values}
     assert tensor_of(values) == pytest.approx((3.56, 1.0, 0.0, 0.8))
     assert values["theta"] == math.pi / 2

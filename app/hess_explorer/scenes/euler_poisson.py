@@ -11,7 +11,7 @@ from typing import ClassVar
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.protocol.parameters import Value
+from hess_explorer.protocol.parameters import Value, written
 from hess_explorer.scenes.framework.exponent import exponent_picture
 from hess_explorer.scenes.framework.filled_window import (
     EXPONENT,
@@ -59,6 +59,8 @@ _RIS: dict[str, Value] = {"turns": _ALONG, "sheet": _LARGEST, "I1": 1.0, "I2": 1
 _THERE, _LOW = "2.8,0.3", "-1.54,-0.86"
 """At the lowest energies the first of these starts is not possible."""
 _BELOW, _AT, _ABOVE = "a curve in a regular leaf", "the separatrix", "two layers part"
+_LS = np.array([-2.9, -2.7, -2.5, -2.2, 2.2, 2.5, 2.7, 2.9])
+_ON_HESS = written([*zip(_LS, hess_curve(HeavyBody.hess((1.0, 1.5, 2.0), -math.sqrt(0.5)), _LS), strict=True)])
 _NONE, _STABLE, _UNSTABLE = "no Hess motion yet", "the Hess motion is stable", "it is unstable, two layers part"
 PRESETS = (
     Preset("Two layers that never mix (figure 11)", turns=_ALONG, sheet=_LARGEST),
@@ -72,6 +74,9 @@ PRESETS = (
       for letter, h, what in (("a", 0.0, _NONE), ("b", 0.2, _STABLE), ("c", 0.5, _STABLE), ("d", 0.8, _UNSTABLE),
                               ("e", 1.0, _UNSTABLE), ("f", 1.3, _UNSTABLE), ("g", 2.0, _UNSTABLE),
                               ("h", 4.0, _UNSTABLE))),
+    Preset("On the Hess curve, f = 0, h below: fixed points, some in pairs", **_RIS, h=0.2, f=0.0, starts=_ON_HESS),
+    Preset("h → ∞: Euler's case, h = 5000", turns=_ALONG, sheet=_LARGEST, h=5000.0, span=1.0, long=20.0,
+           starts="0,0.5"),
     Preset("The second sheet of figure 14 a: a smaller G", **_RIS, h=0.0, f=1.0, starts="2.5,-0.92",
            window="2,-0.97;2.6,-0.86", count=600.0),
 )

@@ -31,7 +31,7 @@ _MOST_TURNS = 30.0
 _DRAWN = 2000
 
 PRESETS = (
-    Preset("h above: the whole loxodrome (figure 13)"),
+    Preset("h above: the whole loxodrome (body of figure 13)"),
     Preset("h below: a segment of it", energy=0.3, l=1.1),
     Preset("h at the separatrix: once, to the top", energy=1.0, l=0.6),
     Preset("Small swings", energy=-0.9, l=1.2),
