@@ -1,0 +1,139 @@
+"""The table of the paper's figures in app/README.md: every example in it is there, and draws the figure.
+
+The values of the captions stand here as the paper prints them, its misprints corrected.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+
+import numpy as np
+import pytest
+
+from hess_explorer.scenes import scenes
+from support.board import flat
+from support.free_suslov import gamma_at, tensor_of
+from support.mechanics import ROOT
+from support.view import View
+
+SCENES = {name: scene for name, scene in scenes().items() if scene.origin is None}
+README = (ROOT / "app/README.md").read_text(encoding="utf-8")
+TABLE = README.partition("## The figures of the paper\n")[2].partition("\n## ")[0]
+ROWS = [[cell.strip() for cell in re.split(r"(?<!\\)\|", row)[1:-1]]
+        for row in re.findall(r"^\| \d.*\|$", TABLE, re.MULTILINE)]
+LABELS = ["fig02", "fig0112", "fig0222", "fig0111", "", "fig04", "fig_07", "fig05", "fig05Sy", "fig6-sy", "gess1.pcx",
+          "gess2.pcx", "gess-ris1", "gess-ris2"]
+"""Of the source, in its order; the scheme of the ellipsoid has none."""
+
+
+def example(scene, name):
+    """The only one of that name; where it ends in … it may go on."""
+    found = [one for one in scene.presets if one.name == name or (name[-1] == "…" and one.name.startswith(name[:-1]))]
+    assert len(found) == 1, (scene.name, name)
+    return found[0]
+
+
+def examples(row):
+    """The scene of a row, and its examples."""
+    scene = SCENES[row[2]]
+    return scene, [example(scene, name) for name in re.findall(r"\*([^*]+)\*", row[3])]
+
+
+def values_of(number):
+    """Of all examples of a figure."""
+    scene, found = examples(ROWS[number - 1])
+    return [{**scene.defaults(), **one.values} for one in found]
+
+
+def test_the_table_has_the_14_figures_in_the_order_of_the_source():
+    assert [int(row[0]) for row in ROWS] == list(range(1, 15))
+    assert [row[1].strip("`") for row in ROWS] == LABELS
+    assert all(examples(row)[1] for row in ROWS)
+
+
+def test_every_example_that_names_its_figure_stands_in_its_row():
+    named = 0
+    for scene in SCENES.values():
+        for one in scene.presets:
+            found = re.search(r"\(figure (\d+)\)$|^Figure (\d+) [a-h]:", one.name)
+            if found:
+                named += 1
+                row = ROWS[int(found[1] or found[2]) - 1]
+                assert (scene.name, one) in [(row[2], other) for other in examples(row)[1]], one.name
+    assert named > 20
+
+
+def full(columns):
+    """Whether there is anything in them; no number is NaN or infinite."""
+    drawn = [one for column in columns.values() for one in flat(column)]
+    assert np.all(np.isfinite([one for one in drawn if isinstance(one, int | float)]))
+    return bool(drawn)
+
+
+DRAWN = {(row[2], one.name): one for row in ROWS for one in examples(row)[1]}
+
+
+@pytest.mark.parametrize(("name", "preset"), [(name, one) for (name, _), one in DRAWN.items()],
+                         ids=[f"{name}: {title}" for name, title in DRAWN])
+def test_an_example_of_the_table_is_drawn_with_all_its_pictures(name, preset):
+    scene = SCENES[name]
+    # A draft, and fewer orbits than seen: what is asked is whether there is something in every picture.
+    few = {"orbits": 6.0, "count": 60.0, "long": 20.0} if name == "euler-poisson" else {}
+    view = View(scene, {**preset.values, **few, "accuracy": "draft"})
+    for one in scene.views:
+        assert len(view.text[one.name].split("\n")) == 2
+        message = view.data.get(f"{one.name}-message", {})
+        own = [view.data[source] for source in view.data
+               if re.fullmatch(rf"{one.name}(-(?!message$|point$).*)?", source)]
+        # Two say in a sentence why they are empty: no curve goes round; beside limit cycles there is no density.
+        assert any([*map(full, own)]) or one.name in ("rotation", "torus"), one.name
+        assert one.name == "rotation" or not full(message), one.name
+
+
+def test_the_values_are_those_of_the_captions():
+    (first,) = values_of(1)
+    assert (first["I13"] > 0.0, first["I23"] < 0.0) == (True, True)
+    for values in values_of(2):
+        assert tensor_of(values) == pytest.approx((2.44, 1.0, 0.0, 0.5))
+        assert (values["w1"], values["w2"]) == (2.0, 1e-4)
+        gamma = np.array([0.5, 0.26, 0.83])
+        assert gamma_at(values, math.acos(values["Gamma"]), values["phi"]) == pytest.approx(
+            gamma / np.linalg.norm(gamma), abs=5e-5)
+    assert [(one["w1"], one["w2"]) for one in values_of(3)] == [(2.0, 1e-3)] * 3 + [(3.0, -2.001)] * 2
+    (fourth,) = values_of(4)
+    assert (*tensor_of(fourth), fourth["theta"]) == pytest.approx((3.56, 1.0, 0.0, 0.8, 0.5 * math.pi))
+    for number in (8, 9, 10):
+        (ball,) = values_of(number)
+        assert [ball[name] for name in ("I11", "I22", "I13", "I23", "D", "h")] == [1.0, 1.5, 0.7, 1.2, 10.0, 10.0]
+    for number in (11, 12):
+        (gess,) = values_of(number)
+        assert [gess[name] for name in ("I1", "I2", "I3", "h", "f")] == [1.0, 0.625, 0.375, 50.0, 5.0]
+        # μ (3, 0, 4).
+        body = SCENES["euler-poisson"].of(gess).body
+        assert body.mu * np.array(body.r) == pytest.approx([1.995 * 3.0, 0.0, 1.995 * 4.0])
+    for number, f in ((13, 0.0), (14, 1.0)):
+        for ris in values_of(number):
+            assert ris["f"] == f
+            body = SCENES["euler-poisson"].of(ris).body
+            # H = ½(M1² + ⅔ M2² + ½ M3²) + γ1/√3 + γ3/√6.
+            assert body.a == pytest.approx((1.0, 2.0 / 3.0, 0.5))
+            assert -body.mu * np.array(body.r) == pytest.approx([1.0 / math.sqrt(3.0), 0.0, 1.0 / math.sqrt(6.0)])
+
+
+def test_the_schemes_are_drawn():
+    assert "![" in SCENES["chaplygin-ball"].words
+    (values,) = values_of(5)
+    body = View(SCENES["suslov-hess"], values, seen={"body"}).data["body"]
+    # The section across the centre of mass is a circle: as far as the ellipsoid reaches along any line in it.
+    *normal, radius = body["section"]
+    assert radius > 0.0
+    assert np.linalg.norm(normal) == pytest.approx(1.0)
+    assert any(look == "mass" for *_, look, _ in body["rods"])
+
+
+def test_the_circle_maps_of_figure_7_have_two_cycles_and_none_as_a_gets_smaller():
+    wide, narrow, _ = (View(SCENES["suslov-hess"], values, seen={"circle"}).result for values in values_of(7))
+    assert (wide.h, wide.f) == (narrow.h, narrow.f)
+    assert wide.body.a > narrow.body.a
+    assert [wide.map.kind, narrow.map.kind] == ["hyperbolic", "elliptic"]
