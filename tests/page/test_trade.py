@@ -8,10 +8,14 @@ from support.page import Explorer
 def test_the_cost_of_all_is_measured_when_its_button_is_pressed(open_page, server):
     explorer = Explorer(open_page("scene=scattering-accuracy"), server)
     assert not explorer.data("trade-map").get("x")
-    explorer.picture("trade").locator(".unfold").click()
+    explorer.unfold("trade")
     expect(explorer.picture("trade")).to_contain_text("Enough to the eye: orbit draft, map standard.")
     assert len(explorer.data("trade-map")["x"]) == 4
     assert len(explorer.data("trade-enough")["x"]) == 2
+    explorer.unfold("difference")
+    expect(explorer.picture("difference")).to_contain_text("Nothing moves by more than")
+    assert len(explorer.data("difference-same")["x"]) > 100
+    assert not explorer.data("difference-changed").get("x")
     explorer.assert_quiet()
 
 
