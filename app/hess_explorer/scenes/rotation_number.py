@@ -183,7 +183,8 @@ class RotationNumber(State):
     def perturbed(self) -> Array | None:
         """ρ of the other family there, as soon as it is known; NaN where there is no torus."""
         return None if self.dragging else self.work.later(
-            mechanics.perturbed_along, self.on_line, self.x.size, self.epsilon, self.plan(Kind.LINE).level)
+            mechanics.perturbed_along, self.on_line, self.x.size, self.epsilon, self.plan(Kind.LINE).level,
+            self.plan(Kind.LINE).part(mechanics.TURNS))
 
     @property
     def sought(self) -> Fraction:

@@ -134,7 +134,7 @@ class Plan:
     Parameters
     ----------
     level : order and tolerance of the Taylor steps, under the name of the level.
-    share : of the crossings, of the time, of the points asked for, the part that is computed.
+    share : of the crossings, of the turns, of the time, of the points asked for, the part that is computed.
     cells : cells along each side of a grid, as a multiple of those at `standard`; phases of a map, orbits on a line,
         tori on one.
     promise : in the `unit` of the kind.
@@ -173,7 +173,7 @@ PLANS: Mapping[Kind, Mapping[str, Plan]] = {
     Kind.GRID: _plans((DRAFT, 1.0, 0.5, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9),
                       (REFERENCE, 1.0, 1.0, 1e-11)),
     # Turns of a perturbed map take the time, whatever the accuracy of the map.
-    Kind.LINE: _plans((DRAFT, 1.0, 0.15, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9),
+    Kind.LINE: _plans((DRAFT, 0.15, 0.2, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9),
                       (REFERENCE, 1.0, 1.0, 1e-11)),
     Kind.COLOURS: _plans((DRAFT, 1.0, 0.5, 1e-3), (replace(DRAFT, name="standard"), 1.0, 1.0, 1e-3),
                          (replace(STANDARD, name="precise"), 1.0, 1.0, 1e-6),

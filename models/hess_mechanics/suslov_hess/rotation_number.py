@@ -27,7 +27,7 @@ from hess_mechanics.suslov_hess.circle_map import MAX_A, check_a, circle_map, di
 from hess_mechanics.suslov_hess.mode_locking import critical_a, lock_boundary
 
 __all__ = [
-    "PLANES", "Line", "PeriodicTorus", "Torus", "TorusValues", "along", "closed_after", "lock_curve",
+    "PLANES", "TURNS", "Line", "PeriodicTorus", "Torus", "TorusValues", "along", "closed_after", "lock_curve",
     "periodic_torus", "perturbed_along", "perturbed_rotation", "place_of", "plateaus", "rotation_errors", "rows",
     "rows_error", "together", "values_at",
 ]
@@ -36,6 +36,8 @@ PLANES = ("h, f", "h, a", "f, a")
 """The planes of parameters: horizontal, vertical."""
 
 MAX_POINTS = 1_000_000
+TURNS = 1500
+"""Of a perturbed map, over which ρ is averaged."""
 _TERM = 3
 """The harmonic that breaks the Möbius form."""
 _NEAR_SEPARATRIX = 1e-9
@@ -155,7 +157,7 @@ def lock_curve(plane: str, torus: Torus, window: Sequence[float], level: Level, 
 
 
 def perturbed_rotation(a: Array | float, h: Array | float, f: Array | float, epsilon: float, level: Level,
-                       count: int = 1500) -> Array:
+                       count: int = TURNS) -> Array:
     """ρ (n,) of Θ_ε for possible tori (a, h, f), arrays (n,) or numbers, by a weighted average of `count` turns.
 
     Raises `InvalidParameter` (|ε| ≥ 1/3), `WorkLimit`.
@@ -255,13 +257,13 @@ def along(line: Line, count: int, level: Level) -> TorusValues:
     return values_at(**{**vars(line.torus), line.name: line.places(count)}, level=level)
 
 
-def perturbed_along(line: Line, count: int, epsilon: float, level: Level) -> Array:
-    """`perturbed_rotation` at even places of a line, (count,); NaN where there is no torus."""
+def perturbed_along(line: Line, count: int, epsilon: float, level: Level, turns: int = TURNS) -> Array:
+    """`perturbed_rotation` by so many turns at even places of a line, (count,); NaN where there is no torus."""
     x, possible = line.places(count), along(line, count, level).possible
     out = np.full(count, np.nan)
     if possible.any():
         tori = {**vars(line.torus), line.name: x[possible]}
-        out[possible] = perturbed_rotation(**tori, epsilon=epsilon, level=level)
+        out[possible] = perturbed_rotation(**tori, epsilon=epsilon, level=level, count=turns)
     return frozen(out)
 
 

@@ -70,14 +70,14 @@ def grid(sides: tuple[int, int], frame: FrameOf) -> Trial[Any]:
 
 def on_line(count: int) -> Trial[Any]:
     """ρ of the tori on a line, and that of the other family, at so many places at `standard`."""
-    def at(line: Line, epsilon: float, places: int, level: Level) -> Array:
+    def at(line: Line, epsilon: float, places: int, level: Level, turns: int) -> Array:
         values = mechanics.along(line, places, level)
         return np.stack([np.where(values.possible, values.rho, np.nan),
-                         mechanics.perturbed_along(line, places, epsilon, level)])
+                         mechanics.perturbed_along(line, places, epsilon, level, turns)])
 
     def error(s: Any, found: Array, truth: object) -> float:
         # At the places found, which are not those of the truth.
-        exact = at(s.on_line, s.epsilon, found.shape[1], REFERENCE.tightened())
+        exact = at(s.on_line, s.epsilon, found.shape[1], REFERENCE.tightened(), mechanics.TURNS)
         there = np.isfinite(found) & np.isfinite(exact)
         return curve_error(found[there], exact[there], RHO[1] - RHO[0], period=1.0) if there.any() else 0.0
 
@@ -88,4 +88,5 @@ def on_line(count: int) -> Trial[Any]:
             np.column_stack([x, np.nan_to_num(rho)]), np.isfinite(rho), JUMP)))
 
     return Trial(Kind.LINE, ("line", "trace"),
-                 lambda s, plan: at(s.on_line, s.epsilon, plan.side(count), plan.level), error, look)
+                 lambda s, plan: at(s.on_line, s.epsilon, plan.side(count), plan.level,
+                                     plan.part(mechanics.TURNS)), error, look)
