@@ -121,7 +121,6 @@ export function sphere(el, options, source, signal, isShown) {
     ctx.fill()
     ctx.stroke()
     const behind = depth(...point) < 0
-    canvas.dataset.behind = behind
     if (!behind) return
     ring(11, [3.5 * ratio, 3.4 * ratio])
     ctx.stroke()

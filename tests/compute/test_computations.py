@@ -33,7 +33,7 @@ from support.board import (
 every_scene = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
 
 # By the names of the functions.
-MAP, CYCLES, TRACK, BODY = "circle_map", "cycles", "track", "attitude_of_track"
+MAP, CYCLES, TRACK = "circle_map", "cycles", "track"
 BOUNDARY, CURVE, GRID = "lock_boundary", "curve", "rotation_number_window"
 LEVELS, OTHERS, GROWTH = "measure_levels", "measure_others", "growth"
 MOTION = {MAP, CYCLES, TRACK}
@@ -96,7 +96,7 @@ every_subset_of_the_study = pytest.mark.parametrize("seen", subsets(ACCURACY.pic
 def needed(seen):
     """What the scene of the Hess case computes at a state with two cycles."""
     return ({MAP} | ({TRACK} if seen else set()) | ({CYCLES} if seen & {"omega", "sphere"} else set())
-            | (ZONES if "bifurcation" in seen else set()) | ({BODY} if "body" in seen else set()))
+            | (ZONES if "bifurcation" in seen else set()))
 
 
 NOT_OVER_TIME = {"precision", "trade", "difference"}
@@ -115,7 +115,7 @@ def compute(scene, values, seen=None, dragging=False):
 
 def test_the_first_view_computes_each_part_once_and_the_second_nothing(cache):
     compute(HESS, HESS.defaults())
-    assert cache.take() == MOTION | ZONES | {BODY}
+    assert cache.take() == MOTION | ZONES
     compute(HESS, HESS.defaults())
     assert cache.take() == set()
 
@@ -251,12 +251,12 @@ def test_every_part_of_a_drag_is_at_the_cheapest_level(cache, chosen):
     # The zones, which most drags leave as they are, are as chosen but no finer than `standard`.
     kept = "draft" if chosen == "draft" else "standard"
     assert cache.levels() == {
-        **dict.fromkeys(MOTION | {BODY}, "draft"), **dict.fromkeys((BOUNDARY, GRID), kept)}
+        **dict.fromkeys(MOTION, "draft"), **dict.fromkeys((BOUNDARY, GRID), kept)}
     assert {dragged.track.orbit.level, dragged.map.level, dragged.cycles[0].orbit.level} == {"draft"}
     let_go = compute(HESS, values)
     # Zones that are as chosen are there; a draft that was chosen is as well.
     zones = set() if chosen == kept else {BOUNDARY, GRID}
-    assert cache.levels() == ({} if chosen == "draft" else dict.fromkeys(MOTION | {BODY} | zones, chosen))
+    assert cache.levels() == ({} if chosen == "draft" else dict.fromkeys(MOTION | zones, chosen))
     assert {let_go.track.orbit.level, let_go.map.level, let_go.cycles[0].orbit.level} == {chosen}
     assert (let_go.rotation.cells is dragged.rotation.cells) == (chosen == kept)
 
@@ -336,7 +336,7 @@ def test_a_picture_that_is_not_computed_claims_no_separatrix(cache):
 
 def test_at_the_separatrix_too_what_is_hidden_is_not_computed(cache):
     values = {**HESS.defaults(), "h": 1.0, "f": 0.0}
-    for seen, expected in ((set(), set()), ({"circle"}, {TRACK}), (set(HESS.pictures), {*ZONES, BODY})):
+    for seen, expected in ((set(), set()), ({"circle"}, {TRACK}), (set(HESS.pictures), ZONES)):
         compute(HESS, values, seen)
         assert cache.take() == expected
 
@@ -555,7 +555,7 @@ def test_names_of_nobody_among_the_hidden_do_not_protect_the_others(cache):
     browser.ask(1, hidden=[None, "nobody", 3, ["omega"], "bifurcation", "bifurcation"])
     cache.take()
     browser.ask(2, values={"I23": 0.3})
-    assert cache.take() == MOTION | {BODY}
+    assert cache.take() == MOTION
 
 
 def test_a_message_without_hidden_leaves_it_as_it_was(cache):
@@ -564,7 +564,7 @@ def test_a_message_without_hidden_leaves_it_as_it_was(cache):
     cache.take()
     for requested, message in enumerate(({}, {"hidden": None}, {"hidden": "omega"}), 2):
         browser.ask(requested, values={"I23": 0.3 + 0.01 * requested}, **message)
-        assert cache.take() == MOTION | {BODY}
+        assert cache.take() == MOTION
 
 
 def test_all_hidden_the_state_still_follows_and_is_said(cache):
@@ -577,7 +577,7 @@ def test_all_hidden_the_state_still_follows_and_is_said(cache):
     assert browser.texts["status"].startswith("circle map ")
     assert "data-orbit" not in browser.screen.fresh
     browser.ask(3, hidden=[])
-    assert cache.take() == {TRACK, CYCLES, BODY}
+    assert cache.take() == {TRACK, CYCLES}
     assert "h = 1.25" in browser.texts["bifurcation"]
     assert np.all(browser.data["data-orbit"]["h"] == np.float32(1.25))
 

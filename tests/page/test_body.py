@@ -147,3 +147,31 @@ def test_the_module_s_outline_and_exits_are_those_of_the_ellipsoid(quartic):
         assert (inner, outer) == (True, False)
         assert (out["at"] * v) @ ellipsoid @ (out["at"] * v) == pytest.approx(1.0, rel=1e-12)
         assert out["near"] == bool((ellipsoid @ v)[2] >= 0.0)
+
+
+def test_the_point_behind_the_sphere_is_as_strong_as_before_it_and_has_a_ring_that_says_so(quartic):
+    orbit = quartic.data("data-orbit")
+    behind = {True: [], False: []}
+    for i in range(0, len(orbit["t"]), len(orbit["t"]) // 12):
+        quartic.set_time(orbit["t"][i])
+        wait_frames(quartic)
+        sphere = quartic.sphere
+        x, y, z = view_of(tuple(map(float, sphere.get_attribute("data-turn").split()))) @ [
+            orbit[name][i] for name in ("g1", "g2", "g3")]
+        around = sphere.evaluate(
+            """(canvas, [x, y]) => {
+              const half = canvas.width / 2
+              const at = (radius, angle) => [...canvas.getContext("2d").getImageData(
+                Math.round(half + 0.84 * half * x + radius * Math.cos(angle) - 0.5),
+                Math.round(half - 0.84 * half * y + radius * Math.sin(angle) - 0.5), 1, 1).data]
+              const angles = Array.from({ length: 60 }, (_, i) => i * Math.PI / 30)
+              return [at(0, 0), angles.map((angle) => at(11, angle))]
+            }""", [x, y])
+        middle, ring = np.array(around[0]), np.array(around[1])
+        assert middle == pytest.approx([240, 228, 66, 255], abs=3)
+        if abs(z) > 0.1:
+            behind[bool(z < 0.0)].append(np.mean((ring[:, :3].max(axis=1) < 120) & (ring[:, 3] > 100)))
+    assert len(behind[True]) > 1
+    assert len(behind[False]) > 1
+    assert min(behind[True]) > 0.25
+    assert max(behind[False]) < 0.15

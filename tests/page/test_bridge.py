@@ -91,6 +91,7 @@ def test_the_moving_points_go_along_the_exact_motion_in_every_picture(leak):
 
 
 def test_a_click_in_the_circle_map_starts_the_motion_at_that_phase(bridge):
+    bridge.unfold("circle")
     before = bridge.data("data-orbit")["omega1"][0]
     unit = click_on(bridge, "circle", -0.8, 1.0)
     assert bridge.shown("phi0")[0] == pytest.approx(-0.8, abs=2.0 * unit[0])

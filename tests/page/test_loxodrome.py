@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from support.loxodrome import HESS, LOXODROME, clock, slope, swing_at
-from support.page import Explorer, brought, chosen, said, wait_frames
+from support.page import brought, chosen, said, wait_frames
 from support.painted import assert_painted
 
 YELLOW = (240, 228, 66)
@@ -101,15 +101,7 @@ def test_keys_turn_the_body_and_the_link_keeps_it(loxodrome):
 # --- The body on the Suslov–Hess page -----------------------------------------------------------------
 
 
-def unfold(explorer):
-    return explorer.picture("body").locator(".unfold").click()
-
-
-def test_the_body_of_the_hess_case_is_drawn_when_it_is_unfolded(open_page, server):
-    explorer = Explorer(open_page("scene=suslov-hess"), server)
-    assert explorer.data("body") == {}
-    assert not canvas(explorer, "body").is_visible()
-    explorer.change(unfold, explorer)
+def test_the_body_of_the_hess_case_is_among_the_first_pictures_and_moves(explorer):
     body, orbit = explorer.data("body"), explorer.data("data-orbit")
     assert body["t"][-1] == orbit["t"][-1]
     moments = said(explorer, "body", "which is free: moments #, #, #.")
@@ -123,21 +115,23 @@ def test_the_body_of_the_hess_case_is_drawn_when_it_is_unfolded(open_page, serve
     explorer.assert_quiet()
 
 
-def test_folded_again_the_body_is_not_computed(explorer):
-    explorer.change(unfold, explorer)
-    first = explorer.data("body")
-    unfold(explorer)
+def test_a_picture_that_is_folded_is_not_computed(explorer):
+    assert explorer.data("sphere") == {}
+    assert not explorer.picture("sphere").locator("canvas").is_visible()
+    explorer.unfold("sphere")
+    first = explorer.data("sphere")
+    assert first["circles"]
+    explorer.fold("sphere")
     # The browser tells what is in sight a moment after it has changed.
     wait_frames(explorer)
     explorer.change(lambda: explorer.slide(h=1.2))
-    assert explorer.data("body") == first
-    explorer.change(unfold, explorer)
-    assert explorer.data("body")["g1"] != first["g1"]
+    assert explorer.data("sphere") == first
+    explorer.unfold("sphere")
+    assert explorer.data("sphere") != first
 
 
 def test_where_there_is_no_body_the_page_says_so_and_draws_none(tab):
     hess = brought(tab, HESS)
-    hess.change(unfold, hess)
     assert hess.data("body")["semi"]
     hess.change(hess.choose, "preset", "Strong contraction, a = 3 (not a body)")
     assert hess.data("body") == {}

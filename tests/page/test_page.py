@@ -54,7 +54,7 @@ def test_a_page_says_it_is_ready_once_and_when_its_pictures_are_drawn(browser, s
     assert [entry["ready"] for entry in record].count("true") == 1
     assert record[-1]["ready"] == "true"
     assert record[-1]["state"] == 1
-    # Three planar pictures of two canvases each, the coloured cells of one, and the sphere.
+    # Three planar pictures of two canvases each, the coloured cells of one, and the body.
     assert record[-1]["drawn"] == 8
     explorer.assert_quiet()
 

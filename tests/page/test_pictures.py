@@ -153,8 +153,8 @@ def radius(explorer):
 
 
 def test_the_sphere_turns_with_the_mouse_as_if_it_were_held(explorer):
-    state, sent = explorer.state, len(explorer.sent)
     box, mouse = explorer.sphere.bounding_box(), explorer.page.mouse
+    state, sent = explorer.state, len(explorer.sent)
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
     mouse.move(x, y)
     mouse.down()
@@ -310,6 +310,7 @@ def caption_numbers(explorer, pattern):
 @every_preset
 def test_the_caption_of_an_example_has_the_right_numbers(explorer, name):
     values = choose(explorer, name)
+    explorer.unfold("sphere")
     captions = {picture: explorer.caption(picture) for picture in PICTURES}
     for text in captions.values():
         title, _, sentence = text.partition("\n")
@@ -556,6 +557,7 @@ def test_every_picture_is_painted_in_its_colours(explorer, name):
 @every_preset
 def test_every_example_is_painted(explorer, name, artefacts):
     choose(explorer, name)
+    explorer.unfold("sphere")
     explorer.page.mouse.move(5, 5)
     for picture_name in PICTURES:
         pixels = canvas_of(explorer, picture_name)

@@ -213,7 +213,7 @@ def test_the_same_state_may_be_given_on_either_side():
 ], ids=range(len(BRIDGE.presets) + 1))
 def test_a_change_of_sides_keeps_the_motion_and_one_back_the_values(values):
     browser = Browser(BRIDGE, {**BRIDGE.defaults(), **values})
-    browser.ask()
+    browser.ask(hidden=[])
     sides = ["Suslov–Hess", "Euler–Poisson"]
     given = browser.controls["given"]
     body = {"Suslov–Hess": ("I22", "I23", "b3", "share"), "Euler–Poisson": ("I1", "I2", "I3", "m")}

@@ -88,12 +88,13 @@ class Explorer:
             self.change(lambda: page.evaluate("scene => hess.tell('scene', scene)", scene))
         if page.locator(".param-speed").is_visible():
             page.locator(".param-speed").select_option("1")
+        # A picture turns only while it is seen.
+        for turned in page.locator(".gallery:not(.away) :is(canvas.sphere, canvas.solid):visible").all():
+            turned.press("Home")
         for unfolded in page.locator(".gallery:not(.away) .unfold[aria-expanded=true]").all():
             unfolded.click()
         self.change(page.locator(".param-reset").click)
         self.set_time(0.0)
-        if self.sphere.count():
-            self.sphere.first.press("Home")
         page.evaluate("document.activeElement?.blur()")
         page.locator(".main-content").evaluate("item => item.scrollTo(0, 0)")
         page.mouse.move(5, 5)
@@ -211,13 +212,21 @@ class Explorer:
 
     @property
     def sphere(self):
-        return self.page.locator(".gallery:not(.away) canvas.sphere")
+        """The Poisson sphere of the scene on show, unfolded."""
+        sphere = self.page.locator(".gallery:not(.away) canvas.sphere")
+        if sphere.count() and not sphere.is_visible():
+            self.unfold("sphere")
+            sphere.scroll_into_view_if_needed()
+        return sphere
 
     def unfold(self, picture):
         """Show a picture that is not seen at first."""
-        cell = self.picture(picture)
-        if "folded" in cell.get_attribute("class").split():
-            self.change(cell.locator(".unfold").or_(self.page.locator(f".unfold-{picture}")).click)
+        if "folded" in self.picture(picture).get_attribute("class").split():
+            self.change(self.fold, picture)
+
+    def fold(self, picture):
+        """Press the button that shows a picture, or folds it again."""
+        self.picture(picture).locator(".unfold").or_(self.page.locator(f".unfold-{picture}")).click()
 
     def change(self, action, *arguments):
         """Do something that asks for a new state, and wait until it is painted."""
@@ -407,6 +416,7 @@ def brought(tab, scene):
 
 def said(explorer, picture, pattern):
     """The numbers where the pattern has #, in a caption."""
+    explorer.unfold(picture)
     return numbers_in(explorer.caption(picture), pattern)
 
 

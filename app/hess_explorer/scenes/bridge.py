@@ -21,6 +21,7 @@ from hess_explorer.scenes.framework.hess_case import (
 )
 from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, choice, like, number, slider_within
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
+from hess_explorer.scenes.framework.solid_body import Heavy, Hess, constrained_body, heavy_solid
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import andoyer, theme, torus_plane
 from hess_explorer.views import circle_map as circle
@@ -159,9 +160,21 @@ class BothSides(HeavyMotion, SuslovBody, _Given):
         return self.map.iterate(self.phi0, min(returns, MAX_RETURNS))
 
     @cached_property
+    def heavy_states(self) -> Array:
+        """The same motion in Euler–Poisson, (n, 6)."""
+        return self.bridge.from_suslov(np.hstack([self.track.omega, self.track.gamma]))
+
+    @cached_property
     def andoyer(self) -> Array:
-        """(l, L/G) of the same motion in Euler–Poisson."""
-        return coordinates(self.bridge.from_suslov(np.hstack([self.track.omega, self.track.gamma])))
+        """(l, L/G) of it."""
+        return coordinates(self.heavy_states)
+
+    @cached_property
+    def solids(self) -> tuple[Hess, Heavy]:
+        """Both bodies along it."""
+        found = self.track
+        return (Hess(found.times, found.omega, found.gamma, self.bridge.hess),
+                Heavy.along(self.bridge.heavy, found.times, self.heavy_states))
 
     @cached_property
     def difference(self) -> Difference:
@@ -261,12 +274,10 @@ SCENE = Scene(
             "unstable": lambda s: torus_plane.cycle_columns(s.cycles, 1)},
     angles=("phi", "phi_start", "l"),
     views=(
+        constrained_body(lambda s: s.solids[0], section=True, title="The body of Suslov–Hess"),
+        heavy_solid(lambda s: s.solids[1], name="heavy", title="The body of Euler–Poisson"),
         picture(BothSides._about_torus, lambda s: s.half_width, title="Suslov–Hess: the torus, (ω₁, ω₂)",
                 layers=torus_plane.layers(BothSides.ring, half_width=lambda s: s.half_width)),
-        circle.picture(map=lambda s: s.map, iterates=lambda s: s.iterates, caption=BothSides._about_map,
-                       title="Circle map of both", dot=("phi_start", "phi"), on_click=lambda s, x, y: {"phi0": x}),
-        andoyer.picture("Euler–Poisson: (l, L/G)", BothSides._about_andoyer,
-                        relation=lambda s: hess_circle(s.bridge.heavy), orbit=lambda s: s.andoyer),
         Plot(name="difference", title="Difference along the orbit", caption=BothSides._about_difference,
              axes=("t", "lg |difference|"), x=lambda s: (0.0, float(s.difference.times[-1])),
              y=lambda s: lg_axis(largest_distance(s.map.h)), dot=("t", "apart"),
@@ -274,5 +285,11 @@ SCENE = Scene(
                                label="difference, left to itself"),
                      over_time("held", lambda s: s.apart(s.difference.held), color=theme.ORBIT,
                                label="difference, held on r·M = 0"))),
+        replace(circle.picture(map=lambda s: s.map, iterates=lambda s: s.iterates, caption=BothSides._about_map,
+                               title="Circle map of both", dot=("phi_start", "phi"),
+                               on_click=lambda s, x, y: {"phi0": x}), folded="Show the circle map"),
+        replace(andoyer.picture("Euler–Poisson: (l, L/G)", BothSides._about_andoyer,
+                                relation=lambda s: hess_circle(s.bridge.heavy), orbit=lambda s: s.andoyer),
+                folded="Show (l, L/G)"),
     ),
 )

@@ -15,6 +15,7 @@ from hess_explorer.scenes.framework.circle_left import CircleLeft, sphere
 from hess_explorer.scenes.framework.one_orbit import OneOrbit, Start
 from hess_explorer.scenes.framework.parameters import accuracy_level, time_span
 from hess_explorer.scenes.framework.scene import Preset, Scene
+from hess_explorer.scenes.framework.solid_body import ConstrainedBody, constrained_body
 from hess_explorer.scenes.framework.trial import Trial, curve_error
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import scattering_map as square
@@ -50,7 +51,7 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class ChaplyginBall(CircleLeft, FreeBall, OneOrbit):
+class ChaplyginBall(CircleLeft, FreeBall, OneOrbit, ConstrainedBody):
     """The chosen orbit, many over the strip, and the map of the phases."""
 
     span: float = time_span(60.0, 400.0, what="the chosen orbit")
@@ -176,6 +177,7 @@ SCENE = Scene(
     summary="A ball rolls inside the body: every orbit crosses a strip between two ellipses, from Nᵘ to Nˢ.",
     tracks={"orbit": lambda s: plane.orbit_columns(s.orbit, Gamma=s.Gamma)},
     views=(
+        constrained_body(ball=True, field=False),
         plane.picture(
             lambda s: "Every orbit crosses the strip between σ₂ and σ₁ from Nᵘ to Nˢ.", lambda s: s.half_width, layers=(
                 region("forbidden", lambda s: plane.ring_outside(
@@ -198,6 +200,7 @@ SCENE = Scene(
                 ring("chosen", lambda s: [] if s.map is None else [(s.phi, s.map.at(s.phi))], size=18.0))),
         Plot(
             name="Gamma", title="Γ = (ξ, γ) against time", caption=ChaplyginBall._about_Gamma, axes=("t", "Γ"),
+            folded="Show Γ against time",
             x=lambda s: (0.0, s.span), y=(-1.05, 1.05), dot=("t", "Gamma"),
             layers=(levels("levels", lambda s: [math.cos(s.theta), s.Gamma[-1]]),
                     over_time("first", lambda s: (s.orbit.times, s.Gamma), color=theme.ORBIT))),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import ClassVar
 
@@ -36,6 +36,7 @@ from hess_explorer.scenes.framework.parameters import (
 )
 from hess_explorer.scenes.framework.rotation_across import ROTATION, RotationAcross, rotation_picture
 from hess_explorer.scenes.framework.scene import Preset, Scene
+from hess_explorer.scenes.framework.solid_body import HeavySolid, heavy_solid
 from hess_explorer.scenes.framework.windows import Window, inside
 from hess_explorer.views import theme
 from hess_explorer.views.layers import Columns, dots, f32, line
@@ -83,7 +84,7 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class EulerPoisson(Moments, RotationAcross):
+class EulerPoisson(Moments, RotationAcross, HeavySolid):
     """A section of one body at one energy and area integral, filled with orbits on both sides of the barrier."""
 
     away: float = number("ε", 0.0, (-0.5, 0.5), 0.005, bounds=(-math.pi, math.pi), label="Distance from Hess, ε",
@@ -203,10 +204,11 @@ SCENE = Scene(
                      dots("path", track="orbit", columns=("l", "x"), size=3, color=theme.MAP, alpha=0.4),
                      line("line", lambda s: tuple(zip(*inside(s.ends, s.frame), strict=True)) or None,
                           color=theme.MUTED, dash="dashed", width=1.5, label="line of the rotation number"))),
+        heavy_solid(),
         rotation_picture(),
-        exponent_picture(),
         Sphere(caption=lambda s: "The vertical γ along the chosen orbit; r: the centre of mass.",
                looks={"orbit": "orbit"},
                axis=lambda s: Direction(math.copysign(1.0, s.m) * np.array(s.body.r), "r")),
+        replace(exponent_picture(), folded="Show the Lyapunov exponent"),
     ),
 )

@@ -13,6 +13,7 @@ from hess_explorer.protocol.parameters import Values
 from hess_explorer.scenes.framework.free_body import FreeBody
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number, time_span
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
+from hess_explorer.scenes.framework.solid_body import ConstrainedBody, constrained_body
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import theme
 from hess_explorer.views import velocity_plane as plane
@@ -62,7 +63,7 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class FreeSuslov(FreeBody):
+class FreeSuslov(FreeBody, ConstrainedBody):
     """Two orbits from one circle of γ."""
 
     w1: float = number("ω₁", 2.0, (-4.0, 4.0), 0.01, bounds=(-1e3, 1e3), label="Angular velocity ω₁(0)",
@@ -242,6 +243,7 @@ SCENE = Scene(
                 plane.orbit("orbit"),
                 arrows("arrows", lambda s: plane.arrows_on(s.arcs, s.half_width), color=theme.ORBIT, alpha=0.8),
                 *plane.equilibria(lambda s: s.points.stable, lambda s: s.points.unstable))),
+        constrained_body(field=False),
         Sphere(
             caption=FreeSuslov._about_sphere, looks={"orbit": "orbit", "second": "second"},
             axis=lambda s: Direction(s.points.xi, "ξ"), circles=FreeSuslov.circles, marks=lambda s: ends(s.points.xi),
@@ -255,6 +257,7 @@ SCENE = Scene(
                     text("across", lambda s: "φ" if s.across == "phase" else "t"))),
         Plot(
             name="Gamma", title="Γ = (ξ, γ) against time", caption=FreeSuslov._about_Gamma, axes=("t", "Γ"),
+            folded="Show Γ against time",
             x=lambda s: (0.0, s.span), y=(-1.05, 1.05), dot=("t", "Gamma"),
             layers=(levels("levels", lambda s: [*s.orbit.limits, s.second.limits[1]]),
                     over_time("second", lambda s: (s.second.times, s.second.Gamma), color=theme.MAP, dash="dotdash"),

@@ -12,7 +12,7 @@ import numpy as np
 from hess_explorer.scenes.framework.hess_case import BY_THE_UNSTABLE_CYCLE, RIS, UNSURE, HeavyMotion, reduced_motion
 from hess_explorer.scenes.framework.parameters import accuracy_level, number
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
-from hess_explorer.scenes.framework.solid_body import HeavySolid, heavy_solid
+from hess_explorer.scenes.framework.solid_body import Heavy, heavy_solid
 from hess_explorer.views import andoyer, theme
 from hess_explorer.views.chart import LG_OF_0, lg, lg_axis
 from hess_explorer.views.graph import over_time
@@ -22,7 +22,6 @@ from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, gamma_
 from hess_explorer.views.text import digits
 from hess_mechanics.euler_poisson import hess_manifold as mechanics
 from hess_mechanics.euler_poisson.andoyer import hess_circle
-from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import largest_distance
 from hess_mechanics.numerics.accuracy import REFERENCE, level
 from hess_mechanics.numerics.results import Array, Orbit
@@ -42,7 +41,7 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class HessLeak(HeavyMotion, HeavySolid):
+class HessLeak(HeavyMotion):
     """One motion, left to itself at the chosen accuracy and at reference, and the exact one at the same times.
 
     A slider that is held keeps the accuracy, which is what is looked at.
@@ -90,15 +89,10 @@ class HessLeak(HeavyMotion, HeavySolid):
         """The exact motion, of the reduced system."""
         return reduced_motion(self.bridge.hess, self.turning, self.phi0, self._periods * self.turning.period)
 
-    @property
-    def heavy(self) -> HeavyBody:
-        """The body."""
-        return self.bridge.heavy
-
-    @property
-    def heavy_states(self) -> tuple[Array, Array]:
-        """The exact motion."""
-        return self.run.times, self.states
+    @cached_property
+    def solid(self) -> Heavy:
+        """The body in its exact motion."""
+        return Heavy.along(self.bridge.heavy, self.run.times, self.states)
 
     # ---- what the pictures show --------------------------------------------------------------------------------
 

@@ -19,7 +19,8 @@ from hess_explorer.scenes.framework.parameters import (
     slider_within,
     time_span,
 )
-from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
+from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
+from hess_explorer.scenes.framework.solid_body import ConstrainedBody, constrained_body
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import period_graph, plane_domain, plane_potential, theme
 from hess_explorer.views.graph import pieces
@@ -56,7 +57,7 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class Kharlamova(State):
+class Kharlamova(ConstrainedBody):
     """One orbit on its arc of a parabola, and the periods in all directions from its start."""
 
     I11: float = like(Tensor, "I11", bounds=(1e-2, 1e2))
@@ -262,6 +263,7 @@ SCENE = Scene(
     summary="Parabolas in an ellipse, run to and fro: every orbit closes but those that touch the equator from inside.",
     tracks={"orbit": Kharlamova.orbit_columns},
     views=(
+        constrained_body(),
         plane_domain.picture(
              "Domain of (q₁, q₂)", Kharlamova._about_domain, Kharlamova.half_width, names=("q1", "q2"),
              dots={"mirror": ("mirror_q1", "mirror_q2")}, layers=(
@@ -277,14 +279,6 @@ SCENE = Scene(
                  _MIRROR)),
         Sphere(caption=Kharlamova._about_sphere, looks={"orbit": "orbit"}, axis=Kharlamova.force,
                circles=lambda s: [Circle((0.0, 0.0, 1.0), 0.0, "limit")], marks=Kharlamova.on_the_equator),
-        Plot(name="curve", title="γ₃ against τ", caption=Kharlamova._about_curve, axes=("τ", "γ₃"),
-             x=Kharlamova.tau_axis, y=(-1.1, 1.1), dot=("tau", "g3"), dots={"mirror": ("mirror_tau", "mirror_g3")},
-             layers=(
-                 curves("other", lambda s: [s.arc.oval(s.arc.other)] if s.arc.other else [], color=theme.MUTED,
-                        dash="dashed"),
-                 curves("own", lambda s: [s.arc.oval(s.arc.tau)], color=theme.ORBIT),
-                 ring("chosen", lambda s: [(0.0, s.start[4])], size=18),
-                 _MIRROR)),
         Plot(name="period", title="Period T against direction α", caption=Kharlamova._about_period, axes=("α", "T"),
              x=(-math.pi, math.pi), y=lambda s: period_axis(s.periods), on_click=lambda s, x, y: {"alpha": x},
              on_drag=True, message=lambda s: "" if has_periods(s.periods) else "Nothing moves: no period.",
@@ -293,5 +287,14 @@ SCENE = Scene(
                  here=lambda s: None if s.arc.kind == "fixed" else (s.alpha, s.arc.period))),
         plane_potential.picture(lambda s: s.potential, lambda s: s.body, lambda s: s.other_body, lambda s: s.other,
                                 Kharlamova.half_width),
+        Plot(name="curve", title="γ₃ against τ", folded="Show γ₃ against τ", axes=("τ", "γ₃"),
+             caption=Kharlamova._about_curve, x=Kharlamova.tau_axis, y=(-1.1, 1.1),
+             dot=("tau", "g3"), dots={"mirror": ("mirror_tau", "mirror_g3")},
+             layers=(
+                 curves("other", lambda s: [s.arc.oval(s.arc.other)] if s.arc.other else [], color=theme.MUTED,
+                        dash="dashed"),
+                 curves("own", lambda s: [s.arc.oval(s.arc.tau)], color=theme.ORBIT),
+                 ring("chosen", lambda s: [(0.0, s.start[4])], size=18),
+                 _MIRROR)),
     ),
 )

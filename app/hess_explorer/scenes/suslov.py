@@ -28,6 +28,7 @@ from hess_explorer.scenes.framework.parameters import (
     time_span,
 )
 from hess_explorer.scenes.framework.scene import Preset, Scene
+from hess_explorer.scenes.framework.solid_body import ConstrainedBody, constrained_body
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views import conformal_time, layered_section, theme
 from hess_explorer.views.graph import over_time, settled_range, thinned
@@ -77,7 +78,7 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class Suslov(CentreOfMass, Tensor, Basins):
+class Suslov(CentreOfMass, Tensor, Basins, ConstrainedBody):
     """A section of one body at one energy, filled with orbits forward and backward in time."""
 
     I22: float = like(Tensor, "I22", 3.0)
@@ -257,6 +258,7 @@ SCENE = Scene(
         filled_window(title=Suslov._section_title, caption=Suslov._about_section, scene=Suslov,
                       labels=("forward in time", "backward"),
                       under=(layered_section.basins(lambda s: s.basin, lambda s: s.frame),)),
+        constrained_body(),
         Plot(name="exponent", title="Lyapunov exponent and divergence", caption=Suslov._about_rates,
              axes=("t", "λ"), first=Axes((0.0, 1000.0), (-0.2, 0.2)), x=lambda s: (0.0, s.long),
              y=lambda s: settled_range([y for _, y in s.rates]) if s.rates else None,
@@ -264,9 +266,9 @@ SCENE = Scene(
                      over_time("divergence", lambda s: s.rate(1), color=theme.MAP, dash="dashed",
                                label="mean divergence"),
                      over_time("lambda", lambda s: s.rate(0), color=theme.ORBIT, label="exponent λ"))),
-        orbit_alone(lambda s: s.half_width, energy=lambda s: s.E),
         Sphere(caption=lambda s: "The vertical γ along the chosen orbit; r: the centre of mass.",
                looks={"orbit": "orbit"}, axis=lambda s: s.r),
+        replace(orbit_alone(lambda s: s.half_width, energy=lambda s: s.E), folded="Show the angular velocity"),
         conformal_time.picture(lambda s: s._conformal[0], lambda s: s._conformal[1], lambda s: s.span),
     ),
 )

@@ -13,13 +13,13 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.hess_case import SuslovBody, limit_cycles, map_or_none, possible_f
 from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, number, slider_within
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
+from hess_explorer.scenes.framework.solid_body import Hess, constrained_body
 from hess_explorer.scenes.framework.torus_trials import boundary, colours
 from hess_explorer.scenes.framework.trial import Trial, curve_error
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import bifurcation_diagram as diagram
 from hess_explorer.views import circle_map as circle
 from hess_explorer.views import torus_density, torus_plane
-from hess_explorer.views.body import BodyInSpace, Curve, Rod, Shape
 from hess_explorer.views.layers import Columns, Grid
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, parallels
@@ -28,7 +28,6 @@ from hess_explorer.views.velocity_plane import nice_above, picture
 from hess_mechanics.errors import InvalidParameter, Separatrix
 from hess_mechanics.numerics.accuracy import DRAFT, Kind, Level
 from hess_mechanics.numerics.results import Array
-from hess_mechanics.rigid_body.attitude import Attitude
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, curve, curve_point, f_max, reach, turning_points
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
 from hess_mechanics.suslov_hess.equations import SYSTEM
@@ -38,7 +37,6 @@ from hess_mechanics.suslov_hess.torus import (
     MAX_RETURNS,
     Track,
     annulus,
-    attitude_of_track,
     pixels_per_unit,
     start_of_track,
     track,
@@ -145,16 +143,9 @@ class SuslovHess(SuslovBody):
             return None, str(error)
 
     @cached_property
-    def attitude(self) -> Attitude | None:
-        """How the body lies in space; None where this is no rigid body."""
-        if not self.body.check.is_body:
-            return None
-        return self.work.get(attitude_of_track, self.body, self.h, self.f, self.phi0, self.span, self.level)
-
-    @cached_property
-    def tensor(self) -> Array | None:
-        """Of inertia, along the axes of n; None where this is no rigid body."""
-        return None if self.body.middle_I33 is None else self.body.tensor(self.body.middle_I33)
+    def solid(self) -> Hess:
+        """The body along the orbit on show."""
+        return Hess(self.track.times, self.track.omega, self.track.gamma, self.body)
 
     def motion(self) -> Motion:
         """The orbit on show, in units b = 1."""
@@ -190,18 +181,7 @@ class SuslovHess(SuslovBody):
         task = self.colours(plan.grid(CELLS), plan.level)
         return Grid(self.work.get(task.function, *task.arguments), axes.x, axes.y)
 
-    def lying(self) -> tuple[Attitude, Array] | None:
-        """The attitude, and its times in the body's time."""
-        return None if self.attitude is None else (self.attitude, self.attitude.times / self.body.frequency_unit)
-
     # ---- words --------------------------------------------------------------------------------------------------
-
-    def about_body(self) -> str:
-        """The caption of the body."""
-        if self.tensor is None or self.body.middle_I33 is None:
-            return "Nothing is drawn: with |a| ≥ 1 there is no such rigid body, whatever I₃₃."
-        moments = ", ".join(map(digits, np.linalg.eigvalsh(self.tensor)))
-        return f"Gyration ellipsoid for I₃₃ = {digits(self.body.middle_I33)}, which is free: moments {moments}."
 
     def derived(self) -> Iterator[str]:
         """a, b, what follows of the body, the integrals in its own units, the period."""
@@ -221,16 +201,13 @@ class SuslovHess(SuslovBody):
                 yield f"ζ of the invariant density = {digits(invariant_measure(self.map).zeta, 6)}"
 
     def status(self) -> Iterator[str]:
-        """The orbit, the circle map, the attitude."""
+        """The orbit, the circle map."""
         if self.known("track"):
             yield from orbit_status(self.track.orbit)
         if self.map is None:
             yield "circle map: separatrix, no return"
         else:
             yield f"circle map {self.map.cost.steps} steps, error ≤ {self.map.error_estimate:.1e} ({self.map.status})"
-        if self.known("attitude") and self.attitude is not None:
-            lying = self.attitude.orbit
-            yield f"body {lying.cost.steps} steps, error ≤ {lying.error_estimate:.1e} ({lying.status})"
 
     def notes(self) -> Iterator[str]:
         """No body; an orbit that is not shown to its end; an angle that jumps."""
@@ -261,11 +238,9 @@ SCENE = Scene(
             "unstable": lambda s: torus_plane.cycle_columns(s.cycles, 1)},
     angles=("phi", "phi_start", "sigma"),
     views=(
+        constrained_body(section=True),
         picture(lambda s: torus_plane.about(s.map, s.turning), lambda s: s.half_width, torus_plane.layers(
             lambda s: annulus(s.body, s.h, s.turning), half_width=lambda s: s.half_width)),
-        Sphere(caption=lambda s: torus_plane.about_heights(s.turning), circles=SuslovHess.heights,
-               axis=lambda s: Direction(s.body.n3, "n₃"),
-               looks={"orbit": "orbit", "stable": "stable", "unstable": "unstable"}),
         Plot(name="bifurcation", title="Bifurcation diagram", axes=("h", "f"),
              caption=lambda s: diagram.about(s.h, s.f, s.map), dot=("h", "reach"),
              x=lambda s: diagram.window(s.h).x, y=lambda s: diagram.window(s.h).y,
@@ -277,10 +252,8 @@ SCENE = Scene(
         circle.picture(map=lambda s: s.map, iterates=lambda s: s.iterates, caption=lambda s: circle.about(s.map),
                        dot=("phi_start", "phi"), on_click=lambda s, x, y: {"phi0": x}),
         torus_density.picture(lambda s: s.density),
-        BodyInSpace(name="body", title="The body in space", caption=SuslovHess.about_body, bare=True,
-                    folded="Show the body in space", motion=SuslovHess.lying,
-                    shape=lambda s: None if s.tensor is None else Shape.of_tensor(s.tensor, (0.0, 0.0, 1.0)),
-                    rods=lambda s: [Rod(s.body.turn[:, 2], "muted", "3"), Rod((0.0, 0.0, 1.0), "mass")],
-                    curves=lambda s: [Curve(s.attitude.in_space((0.0, 0.0, 1.0)), "orbit")] if s.attitude else []),
+        Sphere(caption=lambda s: torus_plane.about_heights(s.turning), circles=SuslovHess.heights,
+               axis=lambda s: Direction(s.body.n3, "n₃"), folded="Show the Poisson sphere",
+               looks={"orbit": "orbit", "stable": "stable", "unstable": "unstable"}),
     ),
 )

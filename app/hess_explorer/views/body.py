@@ -48,6 +48,8 @@ class Shape:
     def of_tensor(cls, tensor: Array, section: Sequence[float] | Array | None = None) -> Shape:
         """From the tensor of inertia (3, 3), with axes that have no names."""
         moments, vectors = np.linalg.eigh(tensor)
+        # Round-off may leave nothing, or less, of a moment much smaller than the others.
+        moments = np.maximum(moments, 1e-9 * moments[-1])
         return cls(vectors.T, moments, None if section is None else np.asarray(section, float), ("", "", ""))
 
     @property

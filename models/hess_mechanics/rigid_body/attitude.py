@@ -92,7 +92,7 @@ class Lying:
 
 TURN = 0.1
 """The rotation, in radians, from one sample of `attitude_along` to the next, where the orbit does not turn faster."""
-MOST_TURNS = 6000
+MOST_TURNS = 4000
 """Samples at the most, besides those of the orbit."""
 
 

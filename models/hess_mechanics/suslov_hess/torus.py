@@ -15,14 +15,13 @@ from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA, sample_times
 from hess_mechanics.errors import Separatrix
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array, Orbit, frozen
-from hess_mechanics.rigid_body.attitude import Attitude, attitude
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, turning_points
 from hess_mechanics.suslov_hess.circle_map import FixedPoint
-from hess_mechanics.suslov_hess.equations import SYSTEM, WITH_ATTITUDE, HessBody
+from hess_mechanics.suslov_hess.equations import SYSTEM, HessBody
 
 __all__ = [
-    "Track", "annulus", "attitude_of_track", "cycles", "pixels_per_unit", "start_of_track", "track",
+    "Track", "annulus", "cycles", "pixels_per_unit", "start_of_track", "track",
 ]
 
 MAX_RETURNS = 100
@@ -95,18 +94,6 @@ def track(body: HessBody, h: float, f: float, phi0: float, span: float, level: L
     """
     start, length = start_of_track(body, h, f, phi0, span)
     return _solve_reduced(body, start, _times(body, start, length, half_width), level)
-
-
-def attitude_of_track(body: HessBody, h: float, f: float, phi0: float, span: float, level: Level) -> Attitude:
-    """The attitude of the body in space along the orbit of `start_of_track`, axes (n1, n2, n3), units b = 1.
-
-    e starts normal to the plane of the vertical and the centre of mass.
-    Raises `OutsideRegion`, `NoField`, `InvalidParameter`, `WorkLimit`.
-    """
-    start, length = start_of_track(body, h, f, phi0, span)
-    e = (math.cos(phi0), -math.sin(phi0), 0.0)
-    weights = (0.0, 0.0, *(0.5 * PIXELS,) * 6)
-    return attitude(WITH_ATTITUDE, [*start, *e], (body.a, 1.0), length, level, weights, SAGITTA, _MOST)
 
 
 def _times(body: HessBody, start: Array, length: float, half_width: float) -> Array:

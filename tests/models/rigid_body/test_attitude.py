@@ -24,7 +24,6 @@ from hess_mechanics.rigid_body.attitude import across, attitude, with_attitude
 from hess_mechanics.suslov import equations as suslov
 from hess_mechanics.suslov_hess import equations as hess
 from hess_mechanics.suslov_hess.equations import WITH_ATTITUDE, HessBody
-from hess_mechanics.suslov_hess.torus import attitude_of_track, track
 from oracle import uncompiled
 
 WEIGHTS = (0.0, 0.0, *(300.0,) * 6)
@@ -153,22 +152,6 @@ def test_the_same_numbers_are_read_only():
 
 
 # --- The body of the Suslov–Hess case ----------------------------------------------------------------
-
-
-def test_the_body_of_a_track_sees_the_vertical_of_the_track():
-    body = HessBody(0.96, 0.28, -1.0)
-    there = track(body, 1.5, 0.6, 0.5, 15.0, level("precise"), 4.0)
-    found = attitude_of_track(body, 1.5, 0.6, 0.5, 15.0, level("precise"))
-    at = found.times / body.frequency_unit
-    seen = found.axes[:, 0] @ body.turn  # n → γ
-    assert at[-1] == pytest.approx(there.times[-1], rel=1e-14)
-    for k in range(3):
-        # Between its samples the track is a line to a quarter of a pixel.
-        assert np.max(np.abs(np.interp(at, there.times, there.gamma[:, k]) - seen[:, k])) < 1.5 / 600
-    _, turn = turned(lambda w: np.array([*w[:2], -body.a * w[1]]), lambda w: hess.field(w, (body.a, 1.0)),
-                     found.orbit.states[0, :5], found.times)
-    assert np.max(np.abs(found.axes - found.axes[0] @ turn)) < 1e-8
-    assert found.axes[0, 1] @ (0.0, 0.0, 1.0) == pytest.approx(0.0, abs=1e-15)
 
 
 @pytest.mark.parametrize("I33", [0.2, 0.96, 1.7])

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, TypeVar
 
@@ -17,148 +19,217 @@ from hess_explorer.views.text import digits
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.rigid_body.attitude import Lying, attitude_along
-from hess_mechanics.rigid_body.inertia import check_body
+from hess_mechanics.rigid_body.inertia import BodyCheck, check_body
+from hess_mechanics.suslov_hess.equations import HessBody
 
-__all__ = ["ConstrainedBody", "HeavySolid", "SolidBody", "constrained_body", "heavy_solid"]
+__all__ = ["Constrained", "ConstrainedBody", "Heavy", "HeavySolid", "Hess", "Solid", "constrained_body", "heavy_solid"]
 
 _LOST = 0.02
 """The largest step of γ, in radians, between a sample and the one that follows from it, of a motion that is drawn."""
 _TOO_LONG = "Nothing is drawn: so long a motion has samples too far apart to follow its turns."
+_WHEEL = (math.sqrt(0.5), math.sqrt(0.5), 0.0)
+"""Where a wheel touches: across e; about ω1 or ω2 alone a body would turn that one without rolling it."""
 _MASS = Sign("centre of mass", "dot", "background: #F0E442; border: 1.5px solid black")
+_TRAIL = Sign("trail of the centre of mass", "line", "border-top: 3px solid #0072B2")
 _SECTION = Sign("circular section of the gyration ellipsoid", "line", "border-top: 2.5px solid #CC79A7")
 
 
-class SolidBody(State):
-    """A state whose body is seen to move: the scene has `body` and `orbit`."""
+@dataclass(frozen=True)
+class Solid:
+    """A body along an orbit: times (n,) of the player, ω (n, 2) with ω3 = 0 or (n, 3), γ (n, 3) in its axes."""
 
-    @property
-    @abstractmethod
-    def followed(self) -> tuple[Array, Array, Array]:
-        """Times (n,) of the player, ω (n, 3) and γ (n, 3) along the orbit on show."""
+    times: Array
+    omega: Array
+    gamma: Array
 
     @cached_property
     def lying(self) -> Lying:
-        """How the body lies along the orbit on show."""
-        return attitude_along(*self.followed)
+        """How it lies."""
+        omega = self.omega if self.omega.shape[1] == 3 else np.column_stack([self.omega, np.zeros(len(self.times))])
+        return attitude_along(self.times, omega, self.gamma)
 
     def in_space(self) -> tuple[Lying, Array] | None:
         """The same and its times; None where samples are too far apart for it."""
         return None if self.lying.defect > _LOST else (self.lying, self.lying.times)
 
-
-class ConstrainedBody(SolidBody):
-    """A body of the Suslov problem, or a ball, e = e3, its orbit with states (ω1, ω2, γ), or a `FreeMotion`."""
-
     @property
-    def followed(self) -> tuple[Array, Array, Array]:
-        """Along `orbit`."""
-        scene: Any = self
-        orbit = scene.orbit
-        omega, gamma = ((orbit.states[:, :2], orbit.states[:, 2:]) if hasattr(orbit, "states")
-                        else (orbit.omega, orbit.gamma))
-        return orbit.times, np.column_stack([omega, np.zeros(len(omega))]), gamma
+    @abstractmethod
+    def mass(self) -> Direction | None:
+        """The direction of the centre of mass; None without a field."""
 
-    @cached_property
-    def tensor(self) -> Array | None:
-        """Of inertia (3, 3), with the middle one of the possible I33; None where this is no rigid body."""
-        scene: Any = self
-        I11, I22, I13, I23 = scene.body.parameters[:4]
-        interval = self.work.get(check_body, I11, I22, I13, I23).I33
-        return None if interval is None else np.array(
-            [[I11, 0.0, I13], [0.0, I22, I23], [I13, I23, 0.5 * sum(interval)]])
+    @abstractmethod
+    def shape(self) -> Shape | None:
+        """Its ellipsoid; None where none is drawn."""
+
+    @abstractmethod
+    def said(self) -> str:
+        """What is to be said of that."""
+
+    def about(self) -> str:
+        """The caption."""
+        return _TOO_LONG if self.in_space() is None else self.said()
+
+
+@dataclass(frozen=True)
+class Constrained(Solid):
+    """A body of the Suslov problem, e = e3, with I11, I22, I13, I23 and b; check : whether it is one."""
+
+    tensor: tuple[float, float, float, float]
+    b: tuple[float, float, float]
+    check: BodyCheck
 
     @property
     def mass(self) -> Direction | None:
         """The direction of the centre of mass; None without a field."""
-        scene: Any = self
-        return centre_of_mass(scene.body.parameters[-3:])
+        return centre_of_mass(self.b)
+
+    @property
+    def I33(self) -> float:
+        """It is free: the middle one of those of rigid bodies, or one with which the tensor is positive definite."""
+        I11, I22, I13, I23 = self.tensor
+        return (max(0.5 * (I11 + I22), 2.0 * (I13**2 / I11 + I23**2 / I22)) if self.check.I33 is None
+                else 0.5 * sum(self.check.I33))
+
+    def shape(self) -> Shape:
+        """The ellipsoid of inertia."""
+        I11, I22, I13, I23 = self.tensor
+        return Shape.of_tensor(np.array([[I11, 0.0, I13], [0.0, I22, I23], [I13, I23, self.I33]]))
+
+    def said(self) -> str:
+        """I33, and whether this is a rigid body."""
+        free = "which is free; wheels for (ω, e) = 0." if self.check.is_body else "but no I₃₃ makes this a rigid body."
+        return f"Ellipsoid of inertia for I₃₃ = {digits(self.I33)}, {free}"
+
+
+@dataclass(frozen=True)
+class Hess(Solid):
+    """A body of the Suslov–Hess case."""
+
+    body: HessBody
+
+    @property
+    def mass(self) -> Direction | None:
+        """The direction of the centre of mass."""
+        return centre_of_mass((0.0, self.body.b2, self.body.b3))
+
+    @property
+    def _tensor(self) -> Array | None:
+        """In the axes of (n1, n2, n3), with the middle I33; None where this is no rigid body."""
+        return None if self.body.middle_I33 is None else self.body.tensor(self.body.middle_I33)
+
+    def in_space(self) -> tuple[Lying, Array] | None:
+        """The attitude and its times; None also where this is no rigid body."""
+        return None if self._tensor is None else super().in_space()
 
     def shape(self) -> Shape | None:
-        """The ellipsoid of inertia; None where this is no rigid body."""
-        return None if self.tensor is None else Shape.of_tensor(self.tensor)
+        """The gyration ellipsoid with its section across n3."""
+        turn = self.body.turn
+        return None if self._tensor is None else Shape.of_tensor(turn.T @ self._tensor @ turn, turn[2])
 
-    def rods(self) -> list[Rod]:
-        """e, and the centre of mass."""
-        e = Rod((0.0, 0.0, 1.0), "axis", "e")
-        return [e] if self.mass is None else [e, Rod(self.mass.along, "mass", "r")]
-
-    def about_body(self) -> str:
+    def about(self) -> str:
         """The caption."""
-        if self.in_space() is None:
-            return _TOO_LONG
-        if self.tensor is None:
-            return "No rigid body has this tensor: no ellipsoid. Wheels for (ω, e) = 0."
-        return f"Ellipsoid of inertia for I₃₃ = {digits(self.tensor[2, 2])}, which is free; wheels for (ω, e) = 0."
+        return self.said() if self._tensor is None else super().about()
 
-    def about_ball(self) -> str:
-        """The caption, of a ball."""
-        return (_TOO_LONG if self.in_space() is None else
-                "It rolls on a ball inside, whose centre stays; wheels for (ω, e) = 0.")
+    def said(self) -> str:
+        """I33 and the moments."""
+        if self._tensor is None or self.body.middle_I33 is None:
+            return "Nothing is drawn: with |a| ≥ 1 there is no such rigid body, whatever I₃₃."
+        moments = ", ".join(map(digits, np.linalg.eigvalsh(self._tensor)))
+        return f"Gyration ellipsoid for I₃₃ = {digits(self.body.middle_I33)}, which is free: moments {moments}."
 
 
-class HeavySolid(SolidBody):
-    """A heavy body without a constraint, its orbit with states (M, γ)."""
+@dataclass(frozen=True)
+class Heavy(Solid):
+    """A heavy body without a constraint."""
 
-    @property
-    def heavy(self) -> HeavyBody:
-        """The body."""
-        scene: Any = self
-        body: HeavyBody = scene.body
-        return body
+    body: HeavyBody
 
-    @property
-    def followed(self) -> tuple[Array, Array, Array]:
-        """Along `orbit`."""
-        times, states = self.heavy_states
-        return times, states[:, :3] * self.heavy.a, states[:, 3:]
+    @classmethod
+    def along(cls, body: HeavyBody, times: Array, states: Array) -> Heavy:
+        """From states (n, 6) = (M, γ)."""
+        return cls(times, states[:, :3] * body.a, states[:, 3:], body)
 
     @property
-    def heavy_states(self) -> tuple[Array, Array]:
-        """Times (n,) and states (n, 6) of the orbit on show."""
-        scene: Any = self
-        return scene.orbit.times, scene.orbit.states
-
-    @property
-    def mass(self) -> Array:
-        """The direction of the centre of mass, (3,)."""
-        return math.copysign(1.0, self.heavy.mu) * np.array(self.heavy.r)
+    def mass(self) -> Direction:
+        """The direction of the centre of mass."""
+        return Direction(math.copysign(1.0, self.body.mu) * np.array(self.body.r), "r")
 
     def shape(self) -> Shape | None:
         """The gyration ellipsoid with a circular section; None where this is no rigid body."""
-        if not self.heavy.check.is_body:
+        if not self.body.check.is_body:
             return None
-        I1, I2, I3 = (1.0 / a for a in self.heavy.a)
+        I1, I2, I3 = (1.0 / a for a in self.body.a)
         return Shape(np.eye(3), np.array([I1, I2, I3]), np.array(HeavyBody.hess((I1, I2, I3), 1.0).r))
 
-    def about_body(self) -> str:
-        """The caption."""
-        if self.in_space() is None:
-            return _TOO_LONG
-        if not self.heavy.check.is_body:
+    def said(self) -> str:
+        """How the centre of mass lies."""
+        if not self.body.check.is_body:
             return "No rigid body has these moments: no ellipsoid. r: the centre of mass."
-        across = "across" if self.heavy.is_hess else "not across"
-        return f"Gyration ellipsoid; the centre of mass, r, lies {across} its circular section."
+        normal = "normal" if self.body.is_hess else "not normal"
+        return f"Gyration ellipsoid; r, the centre of mass, is {normal} to its circular section."
 
 
-C = TypeVar("C", bound=ConstrainedBody)
-H = TypeVar("H", bound=HeavySolid)
+class ConstrainedBody(State):
+    """A state with a `body` of the Suslov problem, or a ball, and an `orbit`: states (ω1, ω2, γ), or a `FreeMotion`."""
+
+    @cached_property
+    def solid(self) -> Constrained:
+        """The body along it."""
+        scene: Any = self
+        orbit, p = scene.orbit, scene.body.parameters
+        omega, gamma = ((orbit.states[:, :2], orbit.states[:, 2:]) if hasattr(orbit, "states")
+                        else (orbit.omega, orbit.gamma))
+        return Constrained(orbit.times, omega, gamma, tuple(p[:4]), tuple(p[-3:]), self.work.get(check_body, *p[:4]))
 
 
-def constrained_body(ball: bool = False, field: bool = True, folded: str = "") -> BodyInSpace[C]:
-    """The picture of a `ConstrainedBody`; ball : it rolls on another one; field : whether there may be one."""
+class HeavySolid(State):
+    """A state with a heavy `body` and an `orbit` with states (M, γ)."""
+
+    @cached_property
+    def solid(self) -> Heavy:
+        """The body along it."""
+        scene: Any = self
+        return Heavy.along(scene.body, scene.orbit.times, scene.orbit.states)
+
+
+S = TypeVar("S")
+
+
+def _own(state: Any) -> Any:
+    return state.solid
+
+
+def constrained_body(of: Callable[[S], Solid] = _own, *, ball: bool = False, field: bool = True, section: bool = False,
+                     title: str = "The body in space") -> BodyInSpace[S]:
+    """The picture of a body with wheels; ball : it rolls on another one; field : whether there may be one.
+
+    section : whether its circular section is drawn, and the trail is that of the centre of mass, not that of a wheel.
+    """
+
+    def rods(state: S) -> list[Rod]:
+        mass = of(state).mass
+        return [Rod((0.0, 0.0, 1.0), "axis", "e"), *([] if mass is None else [Rod(mass.along, "mass", "r")])]
+
+    def trail(state: S) -> Trail:
+        mass = of(state).mass if section else None
+        return Trail(_WHEEL if mass is None else mass.along, "orbit")
+
     return BodyInSpace(
-        name="body", title="The ball in space" if ball else "The body in space", bare=True, hollow=ball, folded=folded,
-        caption=(lambda s: s.about_ball()) if ball else (lambda s: s.about_body()),
-        shape=(lambda s: Shape(np.eye(3), np.ones(3), None, ("", "", ""))) if ball else (lambda s: s.shape()),
-        motion=lambda s: s.in_space(), rods=lambda s: s.rods(), heavy=lambda s: s.mass is not None,
-        wheels=lambda s: Wheels((1.0, 0.0, 0.0), (0.0, 0.0, 1.0)), trail=lambda s: Trail((1.0, 0.0, 0.0), "orbit"),
-        signs=(Sign("trail of a wheel", "line", "border-top: 3px solid #0072B2"), *((_MASS,) if field else ())))
+        name="body", title="The ball in space" if ball else title, bare=True, hollow=ball,
+        caption=(lambda s: "It rolls on a ball inside, whose centre stays; wheels for (ω, e) = 0."
+                 if of(s).in_space() else of(s).about()) if ball else (lambda s: of(s).about()),
+        shape=(lambda s: Shape(np.eye(3), np.ones(3), None, ("", "", ""))) if ball else (lambda s: of(s).shape()),
+        motion=lambda s: of(s).in_space(), rods=rods, heavy=lambda s: of(s).mass is not None,
+        wheels=lambda s: Wheels(_WHEEL, (0.0, 0.0, 1.0)), trail=trail,
+        signs=(*((_TRAIL, _SECTION) if section else (replace(_TRAIL, label="trail of a wheel"),)),
+               *((_MASS,) if field else ())))
 
 
-def heavy_solid(folded: str = "") -> BodyInSpace[H]:
-    """The picture of a `HeavySolid`."""
+def heavy_solid(of: Callable[[S], Heavy] = _own, *, name: str = "body", title: str = "The body in space"
+                ) -> BodyInSpace[S]:
+    """The picture of a heavy body."""
     return BodyInSpace(
-        name="body", title="The body in space", bare=True, folded=folded, caption=lambda s: s.about_body(),
-        shape=lambda s: s.shape(), motion=lambda s: s.in_space(), rods=lambda s: [Rod(s.mass, "mass", "r")],
-        trail=lambda s: Trail(s.mass, "orbit"),
-        signs=(_MASS, _SECTION, Sign("trail of the centre of mass", "line", "border-top: 3px solid #0072B2")))
+        name=name, title=title, bare=True, caption=lambda s: of(s).about(), shape=lambda s: of(s).shape(),
+        motion=lambda s: of(s).in_space(), rods=lambda s: [Rod(of(s).mass.along, "mass", "r")],
+        trail=lambda s: Trail(of(s).mass.along, "orbit"),
+        signs=(_TRAIL, _SECTION, _MASS))

@@ -1,0 +1,56 @@
+"""How long the solid body takes to paint: `python tests/benchmarks/benchmark_body.py`; nothing here is asserted.
+
+Each frame turns the body by a key and reads a pixel back, so that all that was drawn is painted by then: in headless
+Chromium without a graphics card, at the size that the picture has on the page of 1600×950.
+"""
+
+from __future__ import annotations
+
+import statistics
+from pathlib import Path
+
+from playwright.sync_api import sync_playwright
+
+from hess_explorer.headless.browser import find_browser, wait_ready
+from hess_explorer.headless.screenshot import running_server
+
+FRAMES = """async (count) => {
+  const all = (root) => [...root.querySelectorAll("*")].flatMap((item) =>
+    [item, ...(item.shadowRoot ? all(item.shadowRoot) : [])])
+  const canvas = all(document).find((item) => item.matches(".gallery:not(.away) canvas.solid"))
+  const ctx = canvas.getContext("2d")
+  const clear = ctx.clearRect.bind(ctx)
+  let begun = null
+  ctx.clearRect = (...box) => {
+    begun = performance.now()
+    clear(...box)
+  }
+  const times = []
+  for (let i = 0; i < count; i++) {
+    const key = i % 2 ? "ArrowLeft" : "ArrowRight"
+    canvas.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true, composed: true }))
+    await new Promise(requestAnimationFrame)
+    ctx.getImageData(0, 0, 1, 1)
+    if (begun !== null) times.push(performance.now() - begun)
+    begun = null
+  }
+  return [canvas.width, times]
+}"""
+
+
+def main() -> None:
+    """The median and the least time of a frame, in some scenes."""
+    with sync_playwright() as playwright, running_server(Path("/dev/null")) as base:
+        browser = playwright.chromium.launch(
+            executable_path=find_browser(playwright.chromium.executable_path), args=["--no-sandbox"])
+        page = browser.new_page(viewport={"width": 1600, "height": 950})
+        for scene in ("suslov-hess", "quartic", "ball-section", "loxodrome"):
+            page.goto(f"{base}/?scene={scene}&t=10")
+            wait_ready(page)
+            width, times = page.evaluate(FRAMES, 200)
+            print(f"{scene}: {width} px, median {statistics.median(times):.1f} ms, least {min(times):.1f} ms")
+        browser.close()
+
+
+if __name__ == "__main__":
+    main()
