@@ -1,0 +1,94 @@
+"""The body of the orbit on show: a rigid body's ellipsoid, wheels that obey the constraint, and how it lies."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from hess_explorer.scenes import scenes
+from hess_explorer.scenes.framework.solid_body import Constrained, Heavy
+from hess_mechanics.euler_poisson.equations import HeavyBody
+from hess_mechanics.rigid_body.inertia import check_body
+
+SCENES = {name: scene for name, scene in scenes().items() if "body" in scene.pictures}
+WITH_WHEELS = [name for name, scene in SCENES.items() if any(getattr(view, "wheels", None) for view in scene.views)]
+
+
+def body_of(name, preset):
+    """The columns of the body, and the caption of its picture."""
+    scene = scenes()[name]
+    values, _ = scene.admit({**scene.defaults(), **scene.example(preset)})
+    state = scene.compute(values, ("body", "sphere") if "sphere" in scene.pictures else ("body",), False)
+    view = next(view for view in scene.views if view.name == "body")
+    return state, state.drawn["body"], view.said(state)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_the_body_is_open_and_the_first_picture_or_the_second_where_at_most_four_are_open(name):
+    opened = SCENES[name].open_pictures
+    assert "body" in opened[:2]
+    assert len(opened) <= 4
+
+
+@pytest.mark.parametrize("name", WITH_WHEELS)
+def test_every_example_of_a_constrained_body_is_drawn_as_it_lies(name):
+    for preset in scenes()[name].presets:
+        state, body, _ = body_of(name, preset)
+        if "t" not in body:
+            assert preset.name.endswith("(not a body)")
+            continue
+        g, e = (np.stack([body[f"{letter}{k}"] for k in (1, 2, 3)], axis=1) for letter in "ge")
+        assert np.linalg.norm(g, axis=1) == pytest.approx(1.0, abs=1e-6)
+        assert np.sum(g * e, axis=1) == pytest.approx(0.0, abs=1e-6)
+        orbit = state.drawn.get("data-orbit", {})
+        if "g1" in orbit:
+            # So long a motion turns by 0.4 radians from one of its samples to the next.
+            sagitta = 0.03 if preset.name.startswith("Started 1e-300") else 6e-3
+            for k in (1, 2, 3):
+                assert np.interp(body["t"], orbit["t"], orbit[f"g{k}"]) == pytest.approx(body[f"g{k}"], abs=sagitta)
+        # A wheel rolls along e: a velocity ω × at with ω across e has no part along its axle at × e.
+        at, axis = np.array(body["wheels"][:3]), np.array(body["wheels"][3:])
+        assert (at @ at, axis @ axis, at @ axis) == pytest.approx((1.0, 1.0, 0.0), abs=1e-12)
+        for omega in np.random.default_rng(1).normal(size=(5, 3)):
+            sideways = np.cross(omega, at) @ np.cross(at, axis)
+            assert sideways == pytest.approx(-(omega @ axis) * (at @ at), abs=1e-12)
+        assert axis == pytest.approx([0.0, 0.0, 1.0])
+
+
+@pytest.mark.parametrize(("tensor", "is_body"), [((2.0, 1.0, 0.3, 0.2), True), ((1.0, 2.5, 0.6, 0.6), False),
+                                                 ((0.1, 10.0, 9.0, -10.0), False)])
+def test_the_ellipsoid_is_that_of_a_rigid_body_where_there_is_one(tensor, is_body):
+    I11, I22, I13, I23 = tensor
+    one = Constrained(np.zeros(2), np.zeros((2, 2)), np.tile([0.0, 0.0, 1.0], (2, 1)), tensor, (0.0, 0.0, 0.0),
+                      check_body(*tensor))
+    shape = one.shape()
+    whole = np.array([[I11, 0.0, I13], [0.0, I22, I23], [I13, I23, one.I33]])
+    # What is drawn is the surface (ω, Iω) = const.
+    for axis, half in zip(shape.axes, shape.semi_axes, strict=True):
+        if half > 1.01 * min(shape.semi_axes):
+            assert half**2 * (axis @ whole @ axis) == pytest.approx(0.64 * shape.moments.min(), rel=1e-6)
+    assert np.all(shape.moments > 0.0)
+    moments = np.sort(shape.moments)
+    assert (moments[2] <= moments[0] + moments[1]) == is_body
+    assert ("no I₃₃ makes this a rigid body" in one.said()) != is_body
+
+
+def test_a_heavy_body_shows_its_circular_section_and_says_whether_the_centre_of_mass_is_its_normal():
+    moments, states = (1.0, 1.5, 2.0), np.array([[0.3, 0.4, -0.2, 0.0, 0.6, 0.8]] * 2)
+    for away in (0.0, 0.05):
+        body = HeavyBody.hess(moments, -0.7, away)
+        heavy = Heavy.along(body, np.array([0.0, 0.1]), states)
+        shape = heavy.shape()
+        assert shape is not None
+        assert shape.section is not None
+        # All radii of the gyration ellipsoid across the normal are alike.
+        normal = shape.section
+        across = np.linalg.svd(normal[None])[2][1:]
+        radii = [1.0 / math.sqrt(v @ np.diag(body.a) @ v) for v in (across[0], across[1], across.sum(axis=0) / 2**0.5)]
+        assert radii == pytest.approx([math.sqrt(1.5)] * 3, rel=1e-12)
+        assert ("not normal" in heavy.said()) == (away != 0.0)
+        # μ < 0: the centre of mass is opposite to r.
+        assert np.asarray(heavy.mass.along) == pytest.approx(-np.array(body.r))
+        assert heavy.omega[0] == pytest.approx(np.array(states[0, :3]) / moments)
