@@ -1,9 +1,11 @@
-// The controls of the scene on show: a slider and a box for each number, a menu for each choice, one of examples, and
-// Reset, Undo, Clear, Copy link.  What the server says of all values comes by "controls": {name: [value, low, high,
-// step, whether it is disabled] or option}.
+// The controls of the scene on show: a slider and a box for each number, a menu for each choice, one of examples.  Those
+// that are essential come first, the others are folded in groups; on a phone one of them is at hand, chosen by its symbol.
+// What the server says of all values comes by "controls": {name: [value, low, high, step,
+// whether it is disabled] or option}.
 
 import { listen, tell } from "../page/bus.js"
 import { element, lifetime } from "../page/mount.js"
+import { PHONE } from "../page/windows.js"
 import { menu } from "./menu.js"
 import { number } from "./number.js"
 
@@ -13,38 +15,74 @@ function choice({ name, label, options, help }) {
   return [element("div", {}, frame, element("p", { className: "text help", textContent: help })), show]
 }
 
-function button(name, label, title, press) {
-  const item = element("button", { type: "button", className: `button param-${name}`, textContent: label, title })
-  item.addEventListener("click", press)
-  return item
-}
+const EXAMPLES = "preset"
 
 export function render({ model, view, el }) {
   const signal = lifetime({ model, view })
-  const column = element("div", { className: "column" })
-  el.append(column)
+  const column = element("div", { className: "board" })
+  const chooser = element("div", { className: "chooser", role: "group", "aria-label": "Control at hand" })
+  el.append(chooser, column)
   let shows = {}
+  // Groups that the user has unfolded, in every scene; the control at hand on a phone.
+  const unfolded = new Set()
+  let items = new Map()
+  let atHand = EXAMPLES
 
-  const build = (scene) => {
-    const [examples, showExample] = menu("preset", "Example",
+  function take(name) {
+    atHand = items.has(name) ? name : items.keys().next().value
+    for (const [other, item] of items) item.classList.toggle("at-hand", other === atHand)
+    for (const chip of chooser.children) chip.setAttribute("aria-pressed", String(chip.dataset.name === atHand))
+  }
+
+  function groupOf(name, members) {
+    const group = element("details", { className: `group group-${name.toLowerCase()}` },
+      element("summary", { textContent: name }), element("div", { className: "column" }, ...members))
+    group.open = PHONE.matches || unfolded.has(name)
+    group.addEventListener("toggle", () => {
+      if (PHONE.matches) return
+      if (group.open) unfolded.add(name)
+      else unfolded.delete(name)
+    })
+    return group
+  }
+
+  function build(scene) {
+    const [examples, showExample] = menu(EXAMPLES, "Example",
       [["Choose an example…", ""], ...scene.presets.map((name) => [name, name])],
       "States to begin with", (name) => { if (name !== "") tell("preset", name) })
-    shows = { preset: showExample }
-    const items = scene.controls.map((control) => {
+    shows = { [EXAMPLES]: showExample }
+    items = new Map([[EXAMPLES, examples]])
+    const signs = new Map([[EXAMPLES, "Example"]])
+    for (const control of scene.controls) {
       const [item, show] = control.kind === "number" ? number(control) : choice(control)
       shows[control.name] = show
-      return item
-    })
-    column.replaceChildren(examples, ...items, element("div", { className: "buttons" },
-      button("reset", "Reset", "Back to the first state of this scene", () => tell("reset")),
-      ...(scene.drawn ? [
-        button("undo", "Undo", "Take back the last click or box in a picture", () => tell("undo")),
-        button("clear", "Clear", "Without all clicks and boxes", () => tell("clear"))] : []),
-      button("link", "Copy link", "A link to all that is on the screen", () => tell("link"))))
+      items.set(control.name, item)
+      signs.set(control.name, control.symbol ?? control.label)
+    }
+    const essential = scene.essential.map((name) => items.get(name))
+    const groups = scene.groups.map((group) => [group, scene.controls.filter((control) => (
+      control.group === group && !scene.essential.includes(control.name))).map(({ name }) => items.get(name))])
+    column.replaceChildren(
+      element("div", { className: "column" }, examples, ...essential),
+      ...groups.filter(([, members]) => members.length > 0).map(([group, members]) => groupOf(group, members)))
+    const order = [...scene.essential, EXAMPLES, ...[...items.keys()].filter((name) => (
+      name !== EXAMPLES && !scene.essential.includes(name)))]
+    chooser.replaceChildren(...order.map((name) => {
+      const chip = element("button", { type: "button", className: "chip", textContent: signs.get(name) })
+      chip.dataset.name = name
+      chip.addEventListener("click", () => take(name))
+      return chip
+    }))
+    take(scene.essential.includes(atHand) ? atHand : order[0])
   }
   const show = (values) => {
     for (const [name, value] of Object.entries(values)) shows[name]?.(value)
   }
+  PHONE.addEventListener("change", () => {
+    for (const group of column.querySelectorAll(".group")) {
+      group.open = PHONE.matches || unfolded.has(group.firstChild.textContent)
+    }
+  }, { signal })
   listen("enter", build, signal)
   listen("controls", show, signal)
   tell("mounted", { kind: "scene", show: build })

@@ -5,8 +5,18 @@ import { element } from "../page/mount.js"
 
 const IDLE = "Disabled: under the choices made it changes nothing."
 
+// Where less than this share of a slider is possible, the slider shows that part only.
+const LEAST_SHARE = 1 / 8
+
+// [low, high] of the slider's scale.  It is the parameter's own, whatever the others are: then the thumb of a slider
+// that nobody touches stays where it is, and what is possible is drawn on the track.
+export function scaleOf([own, end], low, high, value) {
+  const [from, to] = high - low < LEAST_SHARE * (end - own) ? [low, high] : [Math.min(own, low), Math.max(end, high)]
+  return [Math.min(from, value), Math.max(to, value)]
+}
+
 // [element, show([value, low, high, step, whether it is disabled])].
-export function number({ name, label, symbol, help }) {
+export function number({ name, label, symbol, help, range }) {
   const title = element("span", { className: "label", textContent: label, title: help })
   const box = element("input", {
     type: "text", inputMode: "decimal", spellcheck: false, title: `${help} Type an exact value and press Enter.`,
@@ -16,13 +26,16 @@ export function number({ name, label, symbol, help }) {
     type: "range", className: "hand", title: help, "aria-label": label, "aria-description": help,
   })
   let shown = null
+  let [low, high] = range
   const change = (value) => {
     shown = value
     tell("change", { [name]: value })
   }
   slider.addEventListener("input", () => {
-    box.value = slider.value
-    change(Number(slider.value))
+    const value = Math.min(Math.max(Number(slider.value), low), high)
+    if (value !== Number(slider.value)) slider.value = value
+    box.value = String(value)
+    change(value)
   })
   box.addEventListener("change", () => {
     const text = box.value.trim().replaceAll("−", "-").replace(",", ".")
@@ -41,6 +54,7 @@ export function number({ name, label, symbol, help }) {
     box.value = String(shown)
     box.setCustomValidity("")
     box.removeAttribute("aria-invalid")
+    event.preventDefault()
   })
   const frame = element("div", { className: `number param-${name}` }, title, box, slider)
   const rest = (idle) => {
@@ -50,15 +64,24 @@ export function number({ name, label, symbol, help }) {
     title.title = slider.title = says
     slider.setAttribute("aria-description", says)
   }
-  const show = ([value, low, high, step, idle = false]) => {
+  let track = ""
+  const show = ([value, from, to, step, idle = false]) => {
     rest(idle)
     // States may come while a number is typed, piece by piece of a section: they leave it alone.
     const typing = box.getRootNode().activeElement === box && box.value !== String(shown)
     shown = value
-    slider.min = Math.min(low, value)
-    slider.max = Math.max(high, value)
+    ;[low, high] = [Math.min(from, value), Math.max(to, value)]
+    const [start, end] = scaleOf(range, from, to, value)
+    slider.min = start
+    slider.max = end
     slider.step = step
     slider.value = value
+    const parts = [low, high].map((edge) => `${(100 * (edge - start) / (end - start)).toFixed(2)}%`)
+    if (track !== (track = parts.join())) {
+      slider.style.setProperty("--from", parts[0])
+      slider.style.setProperty("--to", parts[1])
+      Object.assign(slider.dataset, { low, high })
+    }
     if (typing) return
     // Nobody can look along a disabled box for digits that it has no room for.
     box.value = String(idle ? Number(value.toPrecision(6)) : value)

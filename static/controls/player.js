@@ -3,12 +3,13 @@
 // Tells "time" {t, state} to whoever draws the point, and moves the sources of one point.
 
 import { listen, tell } from "../page/bus.js"
+import { isTaken } from "../page/keys.js"
 import { element, lifetime } from "../page/mount.js"
 import { gallery } from "../pictures/gallery.js"
 
 const SPEEDS = [0.25, 0.5, 1, 2, 4, 8]
-// Where a key means something already.
-const OWN_KEYS = "input, textarea, select, button, a, [role=combobox], [role=option], [role=slider], [contenteditable]"
+// Where an arrow means something already.
+const OWN_ARROWS = "input, button, a, summary, [role=slider]"
 const ICONS = {
   play: "M8 5v14l11-7z",
   pause: "M6 5h4v14H6zm8 0h4v14h-4z",
@@ -52,6 +53,16 @@ function stateAt(data, angles, time) {
   return state
 }
 
+// A button that shows a picture which is not seen at first, or folds it again.
+function unfolding({ name, folded: label }) {
+  const item = element("button", {
+    type: "button", className: `button unfold unfold-${name}`, title: label, "aria-label": label, "aria-expanded": "false",
+    textContent: `+ ${label.replace(/^Show (the )?/, "")}`,
+  })
+  item.addEventListener("click", () => tell("fold", name))
+  return item
+}
+
 export function render({ model, view, el }) {
   const signal = lifetime({ model, view })
   const slider = element("input", { type: "range", className: "param-t", min: 0, step: "any", "aria-label": "Time t" })
@@ -61,7 +72,7 @@ export function render({ model, view, el }) {
   }, ...SPEEDS.map((value) => new Option(`${value}×`, value)))
   const bar = element("div", { className: "player", role: "group", "aria-label": "Motion in time" })
 
-  let scene = { dots: {}, angles: [] }
+  let scene = { dots: {}, angles: [], pictures: [] }
   let source = null
   let watching = null
   let t = 0
@@ -126,21 +137,25 @@ export function render({ model, view, el }) {
   slider.addEventListener("input", () => { play(false); move(Number(slider.value)) })
   slider.addEventListener("change", () => announce({ t: t.toFixed(3) }))
   speed.addEventListener("change", () => announce({ speed: speed.value }))
-  bar.append(back, toggle, forward, slider, output, speed)
+  const folds = element("span", { className: "folds" })
+  bar.append(back, toggle, forward, slider, output, speed, folds)
   el.append(bar)
 
-  // Space and arrows, unless the key already means something where the focus is.
+  // Space plays whatever has the focus but a text box; arrows step where they mean nothing else.
   const onKey = (event) => {
     const target = event.composedPath()[0]
-    if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey) return
-    if (target instanceof HTMLElement && target.closest(OWN_KEYS)) return
-    if (event.key === " ") play(!playing)
+    if (isTaken(event)) return
+    if (event.key === " ") {
+      if (!event.repeat && !toggle.hidden) play(!playing)
+    } else if (target instanceof HTMLElement && target.closest(OWN_ARROWS)) return
     else if (event.key === "ArrowLeft") step(-1)
     else if (event.key === "ArrowRight") step(1)
     else return
     event.preventDefault()
   }
   document.addEventListener("keydown", onKey, { signal })
+  // A button would be pressed when the key is let go.
+  document.addEventListener("keyup", (event) => { if (event.key === " " && !isTaken(event)) event.preventDefault() }, { signal })
   // The player of the next scene goes on from here.
   listen("scene", () => { if (playing) play(false) }, signal)
 
@@ -156,10 +171,14 @@ export function render({ model, view, el }) {
     scene = entered
     source = gallery.source("data-orbit") ?? null
     // A scene without a motion needs no time.
-    bar.hidden = source === null
+    for (const item of [back, toggle, forward, slider, output, speed]) item.hidden = source === null
+    folds.replaceChildren(...entered.pictures.filter(({ folded }) => folded !== null).map(unfolding))
     source?.watch(onData, watching.signal)
     onData()
   }
+  listen("folded", ({ name, folded }) => {
+    folds.querySelector(`.unfold-${name}`).setAttribute("aria-expanded", String(!folded))
+  }, signal)
   listen("client", begin, signal)
   listen("enter", enter, signal)
   tell("mounted", { kind: "client", show: begin })

@@ -1,4 +1,4 @@
-// The address bar: the query of the state on show, what the browser itself keeps (t, speed, az, el), and the theme.
+// The address bar: the query of the state on show, what the browser itself keeps (t, speed, az, el, large), and the theme.
 
 const PAUSE = 400
 
@@ -8,7 +8,7 @@ export function createAddress({ query, isDark, own }) {
   const writeNow = () => {
     clearTimeout(timer)
     timer = null
-    const extra = Object.entries(own).map(([key, value]) => `&${key}=${encodeURIComponent(value)}`).join("")
+    const extra = Object.entries(own).filter(([, value]) => value !== "").map(([key, value]) => `&${key}=${encodeURIComponent(value)}`).join("")
     const wanted = `?${query()}${extra}${isDark() ? "&theme=dark" : ""}`
     if (wanted !== window.location.search) window.history.replaceState(null, "", wanted)
   }

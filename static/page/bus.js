@@ -1,11 +1,11 @@
 // How the parts of the page speak to each other.  Every module of the page imports the same instance.
 //
 // To the client ("client.js"):            change {name: value}, preset name, scene name, near name, reset, undo, clear,
-//                                         stop, link, pick {pick, drag}, hover [picture, x, y], folded {name, folded},
-//                                         url {key: text}, mounted {kind, key, show}
+//                                         stop, link, theme, fullscreen, pick {pick, drag}, hover [picture, x, y],
+//                                         folded {name, folded}, url {key: text}, mounted {kind, key, show}
 // From the client to whoever is concerned: enter description, texts {key: text}, controls {name: value},
-//                                         progress [done, of] or null, client {key: text}, paint
-// From the player to the pictures:         time {t, state}
+//                                         progress [done, of] or null, client {key: text}, copied text, paint
+// From the player to the pictures:         time {t, state}, fold name
 
 const bus = new EventTarget()
 

@@ -20,7 +20,7 @@ const LOST = "The connection to the server is lost. See that it runs, and reload
 export function render({ model, view }) {
   const signal = lifetime({ model, view })
   const root = document.documentElement
-  // What the browser itself keeps of the address: t, speed, az, el.
+  // What the browser itself keeps of the address: t, speed, az, el, large.
   const own = model.client
   // Scene → its description.
   const descriptions = new Map()
@@ -46,10 +46,21 @@ export function render({ model, view }) {
     Object.assign(own, keys)
     address.write()
   }, signal)
-  listen("link", () => {
+  listen("link", async () => {
     // The link of what is on the screen, not of what the address bar has come to.
     address.writeNow()
-    navigator.clipboard?.writeText(window.location.href)
+    try {
+      await navigator.clipboard.writeText(window.location.href)
+      tell("copied", "Copied")
+    } catch {
+      // Only a page by https, or of this machine, may write there.
+      tell("copied", "It is in the address bar")
+    }
+  }, signal)
+  listen("theme", page.turnTheme, signal)
+  listen("fullscreen", () => {
+    if (document.fullscreenElement === null) root.requestFullscreen().catch(console.warn)
+    else document.exitFullscreen()
   }, signal)
   listen("mounted", ({ kind, key, show }) => {
     const known = kind === "client" ? own : kind === "texts" ? latest.texts[key] : latest[kind]
@@ -86,6 +97,7 @@ export function render({ model, view }) {
     sight.watch(scene.cells)
     requests.entered(name)
     root.dataset.scene = name
+    document.title = `Hess Explorer · ${latest.scene.title}`
     tell("enter", latest.scene)
   }
 
@@ -137,7 +149,12 @@ export function render({ model, view }) {
       requests.lose()
       tell("texts", { busy: LOST })
     })
-    page.onThemeChange(address.write)
+    const followTheme = () => { root.style.colorScheme = page.isDark() ? "dark" : "light" }
+    followTheme()
+    page.onThemeChange(() => {
+      followTheme()
+      address.write()
+    })
     tell("client", own)
     // The first state is read when the page stands, even if the user was faster and it is no longer the first.
     model.on("state", onState)

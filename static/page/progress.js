@@ -16,7 +16,10 @@ export function render({ model, view, el }) {
   let since = null
   const end = () => { if (since !== null) tell("stop") }
   stop.addEventListener("click", end)
-  document.addEventListener("keydown", (event) => { if (event.key === "Escape") end() }, { signal })
+  document.addEventListener("keydown", (event) => { if (event.key === "Escape" && since !== null) {
+    end()
+    event.preventDefault()
+  } }, { signal })
   listen("progress", (progress) => {
     if (progress === null) {
       since = null

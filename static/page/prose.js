@@ -7,6 +7,14 @@ export function render({ model, view, el }) {
   const signal = lifetime({ model, view })
   const item = element("div", { className: model.part })
   const show = (scene) => { item.innerHTML = scene[model.part] }
+  // A formula or a table that scrolls by itself is reached by the keyboard.
+  const resize = new ResizeObserver(() => {
+    for (const wide of item.querySelectorAll('math[display="block"], table')) {
+      wide.tabIndex = wide.scrollWidth > wide.clientWidth ? 0 : -1
+    }
+  })
+  resize.observe(item)
+  signal.addEventListener("abort", () => resize.disconnect())
   listen("enter", show, signal)
   tell("mounted", { kind: "scene", show })
   el.append(item)

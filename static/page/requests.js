@@ -6,8 +6,10 @@
 import { listen, tell } from "./bus.js"
 
 const PATIENCE = 400
+const LONG = 5000
 
-const LATE = "Computing… A scene is compiled when it is first used."
+const LATE = "Computing…"
+const COMPILING = "Computing… What is used for the first time is compiled."
 
 // send(message) takes the message to the server.  changed() is called whenever the user asks for another state.
 // hidden() gives the names of the pictures out of sight.  known(scene) says whether its description is here.
@@ -42,7 +44,10 @@ export function createRequests({ send, changed, hidden, known }, signal) {
       wish = {}
       chosen = null
       clearTimeout(late)
-      late = setTimeout(() => tell("texts", { busy: LATE }), PATIENCE)
+      late = setTimeout(() => {
+        tell("texts", { busy: LATE })
+        late = setTimeout(() => tell("texts", { busy: COMPILING }), LONG)
+      }, PATIENCE)
     })
   }
   const request = () => {

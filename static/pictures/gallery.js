@@ -1,11 +1,12 @@
 // The pictures of the scenes: each scene's are built once, then kept, and only filled with new data.
 
-import { listen, tell } from "../page/bus.js"
+import { listen } from "../page/bus.js"
 import { element, lifetime } from "../page/mount.js"
 import { cloudPlane } from "./cloud_plane.js"
 import { buildPlot, colourPlot } from "./plot.js"
 import { Source } from "./sources.js"
 import { sphere } from "./sphere.js"
+import { createStage } from "./stage.js"
 
 const KINDS = { sphere, cloud: cloudPlane }
 
@@ -14,6 +15,7 @@ let shelf = null
 let shown = null
 let signal = null
 let stand = null
+let stage = null
 
 // For the client; only one page has it.  `standing` resolves when there is a place for pictures.
 export const gallery = {
@@ -24,32 +26,16 @@ export const gallery = {
   build, enter,
 }
 
-// A button that shows a picture which is not seen at first, or folds it again.
-function unfolding(cell, label) {
-  const button = element("button", { type: "button", className: "button unfold" })
-  const show = () => {
-    const folded = cell.classList.contains("folded")
-    button.textContent = folded ? label : "Hide"
-    button.setAttribute("aria-expanded", String(!folded))
-  }
-  button.addEventListener("click", () => {
-    const folded = cell.classList.toggle("folded")
-    show()
-    tell("folded", { name: cell.dataset.name, folded })
-  })
-  show()
-  return button
-}
-
-// [cell, host]: caption, place for the picture, line under the mouse.
+// [cell, host]: caption, place for the picture, line about what is under the mouse.
 function cellOf({ name, folded }) {
   const host = element("div", { className: "host" })
   const under = element("output", { className: "text hover", hidden: true })
   const cell = element("section", { className: `picture picture-${name}` },
-    element("h2", { className: "text caption" }), host, under)
+    element("h2", { className: "text caption" },
+      element("span", { className: "title" }), "\n", element("span", { className: "said" })),
+    stage.cornerFor(name), host, under)
   cell.dataset.name = name
   cell.classList.toggle("folded", folded !== null)
-  if (folded !== null) cell.append(unfolding(cell, folded))
   cell.addEventListener("mouseleave", () => { under.hidden = true })
   return [cell, host]
 }
@@ -79,12 +65,14 @@ async function build(description) {
   // In place, for its size, but not to be seen before it is filled.
   grid.classList.add("away")
   shelf.append(grid)
+  stage.place(scene)
   for (const [host, picture] of places) {
     KINDS[picture.kind]?.(host, picture, source, signal, () => shown === scene)
   }
   scene.plots = await Promise.all(places.filter(([, { kind }]) => kind === "plot")
     .map(([host, picture]) => buildPlot(host, picture, source, signal)))
   colour(scene)
+  stage.size(scene)
   while (!scene.plots.every((plot) => plot.has_finished())) await new Promise(requestAnimationFrame)
   built.set(scene.name, scene)
   return scene
@@ -95,13 +83,18 @@ function enter(name) {
   shown?.grid.classList.add("away")
   shown = built.get(name)
   shown.grid.classList.remove("away")
+  stage.enter(shown)
   return shown
 }
 
 function showTexts(texts) {
   for (const cell of shown?.cells ?? []) {
     const { [cell.dataset.name]: text, [`hover-${cell.dataset.name}`]: hover } = texts
-    if (text !== undefined) cell.querySelector(".caption").textContent = text
+    if (text !== undefined) {
+      const [title, ...said] = text.split("\n")
+      cell.querySelector(".title").textContent = title
+      cell.querySelector(".said").textContent = said.join(" ")
+    }
     if (hover !== undefined) {
       const under = cell.querySelector(".hover")
       under.textContent = hover
@@ -116,6 +109,7 @@ export function render({ model, view, el }) {
   signal = lifetime({ model, view })
   shelf = element("div", { className: "shelf" })
   el.append(shelf)
+  stage = createStage(shelf, () => shown, signal)
   listen("texts", showTexts, signal)
   const theme = new MutationObserver(() => { for (const scene of built.values()) colour(scene) })
   for (const item of [document.documentElement, document.body]) {

@@ -8,6 +8,10 @@ import { frameCanvas } from "./frame_canvas.js"
 import { connectPicks } from "./picks.js"
 import { tickFormatter } from "./ticks.js"
 
+// The width of the frame in which a scene's axes have room for so many letters, in pixels.
+const USUAL = 240
+const TICKS_HERE = 12
+
 // Moving layers lie on a canvas of their own, which Bokeh does not clip to the frame.
 function clipOverlays(plot) {
   const { x0, y0, x1, y1 } = plot.frame.bbox
@@ -44,10 +48,25 @@ export async function buildPlot(host, picture, source, signal) {
   picture.letters.forEach((letters, i) => {
     if (letters === null) return
     const [axis] = i === 0 ? model.below : model.left
-    axis.formatter = tickFormatter(letters)
+    axis.formatter = tickFormatter(() => {
+      const size = Number.parseFloat(axis.major_label_text_font_size)
+      return letters * ((plot.frame.bbox.width || USUAL) / USUAL) * (TICKS_HERE / size)
+    })
   })
   connectPicks(model, picture.picks, source(`${picture.name}-box`))
   return plot
+}
+
+const TICKS = 0.86
+
+// Sizes of texts, in pixels, for type of this size beside the pictures.
+export function sizePlot(plot, type) {
+  for (const part of plot.model.references()) {
+    if (part.axis_label_text_font_size === undefined) continue
+    part.setv({
+      axis_label_text_font_size: `${type}px`, major_label_text_font_size: `${Math.round(TICKS * type)}px`,
+    })
+  }
 }
 
 // Words on what is grey in light and dark keep their colour, which no theme has; "theme.py" gives it to them.

@@ -17,10 +17,10 @@ export function tickLabels(ticks, letters) {
   return labels.map((label, i) => (i % every === 0 ? label : ""))
 }
 
-// A formatter of Bokeh that writes them.
+// A formatter of Bokeh that writes them; letters() is for how many there is room.
 export function tickFormatter(letters) {
   class ShortNumbers extends Bokeh.Models.BasicTickFormatter {
-    doFormat(ticks) { return tickLabels(ticks, letters) }
+    doFormat(ticks) { return tickLabels(ticks, letters()) }
   }
   return new ShortNumbers()
 }

@@ -21,6 +21,8 @@ ENDS = {
     "I22": (0.2, 3.0), "I23": (-2.0, 2.0), "b3": (-3.0, -0.05), "h": (-0.99, 4.0), "f": (-1.81, 1.81),
     "phi0": (-3.14, 3.14), "span": (1.0, 200.0),
 }
+SCALES = {**ENDS, "f": (-3.0, 3.0)}
+"""Of each slider: that of f is longer than what is possible, for it stays when h changes."""
 every_number = pytest.mark.parametrize("name", SLIDERS)
 # All numbers are controls of one kind; what tells them apart, ends and steps, is tested for each.
 some_numbers = pytest.mark.parametrize("name", ["h", "f", "span"])
@@ -56,7 +58,7 @@ def test_a_slider_reaches_its_ends_and_no_further(explorer, name):
 
 @some_numbers
 def test_a_slider_follows_the_mouse(explorer, name):
-    low, high = ENDS[name]
+    low, high = SCALES[name]
     box = explorer.slider(name).bounding_box()
     middle = box["y"] + box["height"] / 2
     mouse = explorer.page.mouse
@@ -147,7 +149,7 @@ def test_the_range_of_f_follows_h(explorer):
     for h in (-0.9, 0.25, 3.5):
         explorer.change(lambda h=h: explorer.slide(h=h))
         slider = explorer.slider("f")
-        low, high, step = (float(slider.get_attribute(name)) for name in ("min", "max", "step"))
+        low, high, step = (float(slider.get_attribute(name)) for name in ("data-low", "data-high", "step"))
         n = (math.sqrt(h * h + 3) - h) / 3
         edge = math.sqrt(2 * (h + n) * (1 - n * n))
         value = explorer.shown("f")[0]
@@ -258,7 +260,9 @@ def test_copy_link_copies_the_state_that_is_on_the_screen(explorer):
     explorer.wait_url(h="1.5", f="0.6")
     explorer.change(lambda: explorer.slide(h=0.75))
     # At once: a user does not wait for the address bar.
-    explorer.page.locator(".param-link").click()
+    link = explorer.page.locator(".param-link")
+    link.click()
+    link.get_by_text("Copied").wait_for(state="visible")
     copied = explorer.page.evaluate("navigator.clipboard.readText()")
     assert copied.startswith(explorer.base)
     assert dict(parse_qsl(urlsplit(copied).query))["h"] == "0.75"
@@ -417,9 +421,13 @@ def test_keys_that_mean_something_where_the_focus_is_leave_the_player_alone(expl
     explorer.sphere.press("ArrowRight")
     assert explorer.time == 0.0
     assert not explorer.playing
-    # On the button itself Space is a click, once.
-    explorer.page.locator(".param-play").press("Space")
-    assert explorer.playing
+    # Space plays, whatever has the focus but a box; on the button itself it is a click, once.
+    for item in (explorer.slider("h"), explorer.menu("preset"), explorer.page.locator(".param-reset"),
+                 explorer.page.locator(".param-play")):
+        for playing in (True, False):
+            item.press("Space")
+            assert explorer.playing == playing
+    assert explorer.shown("h")[0] == 1.51
 
 
 def test_the_motion_goes_on_along_the_new_orbit_when_a_slider_moves(explorer):

@@ -10,19 +10,19 @@ from axe_playwright_python.sync_playwright import Axe
 from PIL import Image, ImageStat
 
 from hess_explorer.scenes import scenes
-from support.page import HESS, SLIDERS, STUDY, Explorer
+from support.page import HESS, SLIDERS, STUDY, Explorer, wait_frames
 from support.painted import assert_captions_fit
 
-SIZES = {"wide": (1600, 950), "laptop": (1280, 720), "phone": (390, 844)}
-COLUMNS = {"wide": 4, "laptop": 2, "phone": 1}
+SIZES = {"wide": (1600, 950), "laptop": (1280, 720), "phone": (390, 844), "sideways": (844, 390)}
+WINDOWS = ((1280, 720), (1920, 1080), (3840, 2160), SIZES["wide"])
+LEAST = 0.36
+"""Of the window's height: the edge of the smallest picture where four are open, with controls and text beside them."""
 SCENES = [name for name, scene in scenes().items() if scene.origin in (None, HESS)]
-# Where pictures stand two by two their number alone makes a difference: one scene of each number.
-TWO_BY_TWO = {len(scenes()[name].open_pictures): name for name in SCENES}.values()
 LOOKS = [
     *((scene, size, "light") for size in ("wide", "phone") for scene in SCENES),
-    *((scene, "laptop", "light") for scene in TWO_BY_TWO),
     *((scene, "wide", "dark") for scene in SCENES),
     *((HESS, size, "dark") for size in SIZES if size != "wide"),
+    (HESS, "sideways", "light"),
 ]
 
 
@@ -35,8 +35,10 @@ def look_at(browser, server):
         if (size, theme) not in tabs:
             width, height = SIZES[size]
             context = browser.new_context(viewport={"width": width, "height": height})
-            tabs[size, theme] = Explorer(context.new_page(), server).open(f"scene={scene}&theme={theme}")
-            tabs[size, theme].page.locator(".MuiBackdrop-root").first.wait_for(state="hidden")
+            tab = tabs[size, theme] = Explorer(context.new_page(), server).open(f"scene={scene}&theme={theme}")
+            # As they are at first.
+            if size in ("wide", "laptop"):
+                tab.fold_controls()
         tab = tabs[size, theme]
         if tab.page.evaluate("document.documentElement.dataset.scene") != scene:
             tab.change(tell, tab.page, "scene", scene)
@@ -49,7 +51,7 @@ def look_at(browser, server):
 
 
 def tell(page, name, detail=None):
-    """What the controls say when they are used, also where they are behind the menu button."""
+    """What the controls say when they are used, also where they are folded."""
     page.evaluate("([name, detail]) => hess.tell(name, detail)", [name, detail])
 
 
@@ -82,59 +84,68 @@ def seen(page):
 
 
 # Where the drawings without their captions are; where the axes of planar pictures begin and end, and how high they are;
-# how much higher than its place each caption is.
-PLACES = """(gallery, [names, inside]) => {
-  const cells = names.map((name) => gallery.querySelector(`.picture-${name}`))
-  const find = (root) => {
-    for (const item of root.querySelectorAll("*")) {
-      const found = item.matches(inside) ? item : item.shadowRoot && find(item.shadowRoot)
-      if (found) return found
-    }
-    return null
+# how much higher than its place each caption is; where the player and the sliders are that are open at first; by how
+# much anything of the page could be scrolled but what is meant to.
+PLACES = """([names, essential, inside]) => {
+  const all = (root) => [...root.querySelectorAll("*")].flatMap(
+    (item) => [item, ...(item.shadowRoot ? all(item.shadowRoot) : [])])
+  const items = all(document)
+  const box = (item) => {
+    const { x, y, width, height } = item.getBoundingClientRect()
+    return { x, y, width, height }
   }
+  const gallery = items.find((item) => item.matches(".gallery:not(.away)"))
+  const cells = names.map((name) => gallery.querySelector(`.picture-${name}`)).filter((cell) => cell.checkVisibility())
+  const shown = cells.map((cell) => cell.dataset.name)
   return {
-    boxes: cells.map((cell) => {
-      const { x, y, width, height } = find(cell).getBoundingClientRect()
-      return { x, y, width, height }
-    }),
-    frames: hess.plots.filter(({ model }) => names.includes(model.name)).map(({ el, frame: { bbox } }) => {
+    boxes: cells.map((cell) => box(all(cell).find((item) => item.matches(inside)))),
+    frames: hess.plots.filter(({ model }) => shown.includes(model.name)).map(({ el, frame: { bbox } }) => {
       const { x } = el.getBoundingClientRect()
       return [x + bbox.x0, x + bbox.x1, bbox.y1 - bbox.y0]
     }),
-    captions: [...gallery.querySelectorAll(".picture h2")]
+    captions: cells.map((cell) => cell.querySelector("h2"))
       .map((item) => [item.textContent, item.scrollHeight - item.clientHeight]),
+    tools: items.filter((item) => item.matches(".player[role=group]") || essential.some(
+      (name) => item.matches(`.param-${name} .hand`))).filter((item) => item.checkVisibility()).map(box),
+    scrolled: items
+      .filter((item) => item.matches("html, body, .main, .main-content, .frame, .stage, .gallery:not(.away)"))
+      .map((item) => [item.className, item.scrollHeight - item.clientHeight, item.scrollWidth - item.clientWidth]),
   }
 }"""
 
 
-def assert_squares_in_columns(places, size):
-    """Pictures stand in as many columns as fit, and are square."""
-    width = SIZES[size][0]
+def places_of(page, scene):
+    shown = scenes()[scene]
+    return page.evaluate(PLACES, [list(shown.open_pictures), list(shown.essential), INSIDE])
+
+
+def assert_in_sight(places, width, height, count):
+    """All pictures are square, side by side and in the window, as player and sliders are; nothing scrolls."""
     boxes = places["boxes"]
-    for box in boxes:
-        assert box["width"] == pytest.approx(box["height"], abs=4)
-        assert box["width"] >= 290
-        assert box["x"] >= 0
-        assert box["x"] + box["width"] <= width
-    assert places["frames"]
-    for left, right, height in places["frames"]:
-        assert 0 <= left < right <= width
-        assert min(right - left, height) > 200
-    columns = COLUMNS[size]
+    assert len(boxes) == count
     for i, box in enumerate(boxes):
-        row = boxes[i - i % columns]
-        assert box["y"] == pytest.approx(row["y"], abs=2)
-        if i % columns:
-            assert box["x"] >= boxes[i - 1]["x"] + boxes[i - 1]["width"] - 1
-        elif i:
-            assert box["y"] >= boxes[i - 1]["y"] + boxes[i - 1]["height"] - 1
-            assert box["x"] == pytest.approx(boxes[0]["x"], abs=2)
+        assert box["width"] == pytest.approx(box["height"], abs=2)
+        for other in boxes[:i]:
+            assert (box["x"] >= other["x"] + other["width"] - 1 or other["x"] >= box["x"] + box["width"] - 1
+                    or box["y"] >= other["y"] + other["height"] - 1 or other["y"] >= box["y"] + box["height"] - 1)
+    for box in [*boxes, *places["tools"]]:
+        assert 0 <= box["x"] < box["x"] + box["width"] <= width
+        assert 0 <= box["y"] < box["y"] + box["height"] <= height
+    # One slider at hand on a phone; the player has nothing to play in one scene.
+    assert len(places["tools"]) >= 2
+    for left, right, high in places["frames"]:
+        assert 0 <= left < right <= width
+        assert min(right - left, high) > 0.5 * min(box["width"] for box in boxes)
+    for name, down, right in places["scrolled"]:
+        assert max(down, right) <= 1, name
+    for text, over in places["captions"]:
+        assert over <= 1, text
 
 
 # What must keep clear of each other: in the main part and beside it.
 PARTS = (
-    "h2.caption, .bk-Figure, canvas.sphere, canvas.solid, .legend li, .text.status, .words",
-    ".scenes, .menu, .number, .text.help, .param-reset, .param-link, .text.derived",
+    "h1, .param-reset, .param-link, h2.caption, .bk-Figure, canvas.sphere, canvas.solid, .player[role=group], .reader",
+    ".param-scenes, .menu, .number, .text.help, .text.derived",
 )
 # Of those that are to be seen.
 BOXES = """items => items.filter((item) => item.checkVisibility({ visibilityProperty: true })).map((item) => {
@@ -150,14 +161,14 @@ def assert_apart_and_whole(page, size):
     """Nothing covers anything else, and no text is cut off."""
     for selector in PARTS:
         parts = page.locator(selector).evaluate_all(BOXES)
-        # On a phone the controls are not there.
-        assert len(parts) >= 12 or size == "phone"
+        # On a phone one picture and one control are.
+        assert len(parts) >= (6 if size in ("wide", "laptop") else 2)
         for i, (name, left, top, right, bottom) in enumerate(parts):
             for other, its_left, its_top, its_right, its_bottom in parts[:i]:
                 apart = (right <= its_left + 0.5 or its_right <= left + 0.5
                          or bottom <= its_top + 0.5 or its_bottom <= top + 0.5)
                 assert apart, (name, other)
-    assert page.locator(".text, .scene, .legend li").evaluate_all(CUT_OFF) == []
+    assert page.locator(".text:not(.details), .legend li, .number, h1").evaluate_all(CUT_OFF) == []
 
 
 def luminance(colour):
@@ -185,15 +196,17 @@ TEXTS = """names => {
 }"""
 
 
-def assert_readable(page, scene):
-    """Every text of the pictures stands out from what is behind it."""
-    names = planar(scene)
+def assert_readable(page, scene, is_phone):
+    """Every text of the pictures in sight stands out from what is behind it."""
+    names = [name for name in planar(scene) if not is_phone or name == scenes()[scene].open_pictures[0]]
+    if not names:
+        return
     behind = corner(page, names[-1], bottom=True)
     texts = page.evaluate(TEXTS, names)
     assert len(texts) == 4 * len(names)
     for colour in texts:
         assert contrast(colour, behind) >= 4.5, (colour, behind)
-    if "sphere" not in scenes()[scene].pictures:
+    if "sphere" not in scenes()[scene].pictures or is_phone:
         return
     # The sphere writes in the colour of the page's text.
     colour = drawing(page, "sphere").evaluate("item => getComputedStyle(item).color")
@@ -209,20 +222,20 @@ def test_a_scene_has_its_columns_and_colours_and_nothing_is_covered_cut_off_or_h
     shot = Image.open(io.BytesIO(page.screenshot(path=artefacts / f"{scene}-{size}-{theme}.png")))
     assert len(shot.convert("RGB").getcolors(1 << 24)) > 500
     assert (brightness(shot) > 200) if theme == "light" else (brightness(shot) < 60)
-    places = page.locator(".gallery:not(.away)").evaluate(PLACES, [list(scenes()[scene].open_pictures), INSIDE])
-    assert_squares_in_columns(places, size)
-    # Nothing is wider than the window.
-    main = page.locator(".main-content")
-    assert page.evaluate("document.documentElement.scrollWidth") <= SIZES[size][0]
-    assert main.evaluate("item => item.scrollWidth - item.clientWidth") <= 0
-    # Those of the examples are looked at where examples are chosen, in the tests of each scene.
-    assert len(places["captions"]) == len(scenes()[scene].pictures)
-    for text, over in places["captions"]:
-        assert over <= 1, text
+    is_phone = size in ("phone", "sideways")
+    count = 1 if is_phone else len(scenes()[scene].open_pictures)
+    assert_in_sight(places_of(page, scene), *SIZES[size], count)
     assert_apart_and_whole(page, size)
-    # Last, for it scrolls.
-    assert_readable(page, scene)
-    main.evaluate("item => item.scrollTo(0, 0)")
+    assert_readable(page, scene, is_phone)
+    if (size, theme) != ("wide", "light"):
+        return
+    for window in WINDOWS:
+        page.set_viewport_size(dict(zip(("width", "height"), window, strict=True)))
+        wait_frames(Explorer(page, ""), 4)
+        places = places_of(page, scene)
+        assert_in_sight(places, *window, count)
+        if count <= 4:
+            assert min(box["width"] for box in places["boxes"]) >= LEAST * window[1], window
 
 
 def test_every_caption_of_the_accuracy_scene_fits_into_its_place(look_at):
@@ -234,29 +247,86 @@ def test_every_caption_of_the_accuracy_scene_fits_into_its_place(look_at):
     tab.change(tell, tab.page, "reset")
 
 
-def test_on_a_phone_the_pictures_are_seen_and_the_controls_are_behind_the_menu_button(open_page):
-    page = open_page(size=SIZES["phone"])
-    box = drawing(page, "omega").bounding_box()
-    # A screenshot is taken now: no drawer and no veil may be over the picture any more.
-    covering = page.evaluate(
-        """([x, y]) => document.elementsFromPoint(x, y)
-          .flatMap((item) => [item, ...(item.shadowRoot?.elementsFromPoint(x, y) ?? [])])
-          .map((item) => item.className).filter((name) => /Backdrop|Drawer-paper/.test(name))""",
-        [box["x"] + box["width"] / 2, box["y"] + box["height"] / 2])
-    assert covering == []
-    page.locator(".MuiBackdrop-root").wait_for(state="hidden")
+TARGETS = """items => items.filter((item) => item.checkVisibility()).map((item) => {
+  const { width, height } = item.getBoundingClientRect()
+  return [item.className || item.tagName, Math.min(width, height)]
+})"""
+
+
+@pytest.mark.parametrize("size", ["phone", "sideways"])
+def test_on_a_phone_one_hand_suffices_for_all_that_can_be_touched(look_at, size):
+    page = look_at(HESS, size)
+    for name, smallest in page.locator("button, select, input").evaluate_all(TARGETS):
+        assert smallest >= 43.9, name
     assert_accessible(page)
-    slider = page.locator(".param-h input[type=range]")
-    page.wait_for_function("item => item === null || item.getBoundingClientRect().right <= 0",
-                           arg=slider.element_handle() if slider.count() else None)
-    page.get_by_role("button").first.click()
-    slider.wait_for(state="visible")
-    page.wait_for_function("item => item.getBoundingClientRect().left >= 0", arg=slider.element_handle())
-    page.locator(".MuiBackdrop-root").wait_for(state="visible")
-    # The tip of the button fades in, and would be looked at half-way.
-    page.mouse.move(380, 700)
-    page.locator(".MuiTooltip-tooltip").wait_for(state="detached")
-    page.wait_for_function("() => document.getAnimations().every((one) => one.playState !== 'running')")
+    # The picture and the slider are there at once, and stay where they are while the text is scrolled.
+    before = places_of(page, HESS)
+    page.locator(".reader").evaluate("item => item.scrollTo(0, 400)")
+    assert page.locator(".reader").evaluate("item => item.scrollTop") > 100
+    assert places_of(page, HESS) == before
+    # No formula makes the text wider than the window.
+    assert page.locator(".reader").evaluate("item => item.scrollWidth - item.clientWidth") <= 0
+    page.locator(".reader").evaluate("item => item.scrollTo(0, 0)")
+
+
+def edges(page):
+    return [box["width"] for box in places_of(page, HESS)["boxes"]]
+
+
+def test_a_picture_is_enlarged_by_its_key_or_its_corner_and_the_link_keeps_it(open_page, server):
+    tab = Explorer(open_page(size=SIZES["laptop"]), server)
+    page, keys = tab.page, tab.page.keyboard
+    stage = page.locator(".shelf").bounding_box()["height"]
+    equal = edges(page)
+    assert max(equal) - min(equal) <= 1
+    for i, press in enumerate((lambda: keys.press("1"), page.locator(".picture-sphere .corner").click,
+                               lambda: keys.press("3"))):
+        press()
+        wait_frames(tab, 4)
+        found = edges(page)
+        assert found[i] >= 0.8 * stage
+        assert max(other for j, other in enumerate(found) if j != i) < 0.5 * found[i]
+        assert_in_sight(places_of(page, HESS), *SIZES["laptop"], 4)
+    # The others live.
+    before = [tab.caption(name) for name in ("omega", "circle")]
+    tab.change(lambda: tab.slide(h=0.2))
+    assert [tab.caption(name) for name in ("omega", "circle")] != before
+    keys.press("Shift+Digit1")
+    wait_frames(tab, 4)
+    assert tab.wait_url(large="bifurcation,omega")
+    two = edges(page)
+    assert two[0] == two[2] > max(two[1], two[3])
+    again = Explorer(open_page(tab.link().split("?")[1], size=SIZES["laptop"]), server)
+    assert edges(again.page) == pytest.approx(two, abs=1)
+    # What is typed into a box is for the box.
+    tab.box("h").fill("1.2")
+    tab.box("h").press("2")
+    assert edges(page) == two
+    tab.box("h").press("Escape")
+    assert edges(page) == two
+    page.evaluate("document.activeElement.blur()")
+    keys.press("Escape")
+    wait_frames(tab, 4)
+    assert edges(page) == equal
+    page.wait_for_function("!location.search.includes('large')")
+    keys.press("f")
+    page.wait_for_function("document.fullscreenElement !== null")
+    keys.press("f")
+    page.wait_for_function("document.fullscreenElement === null")
+
+
+def test_where_there_is_little_room_controls_and_text_are_tabs(look_at):
+    page = look_at(HESS, "laptop")
+    controls, text = page.get_by_role("tab", name="Controls"), page.get_by_role("tab", name="Text")
+    words, slider = page.locator(".words"), page.locator(".param-h .hand")
+    assert (slider.is_visible(), words.is_visible()) == (True, False)
+    controls.press("ArrowRight")
+    assert (slider.is_visible(), words.is_visible()) == (False, True)
+    assert [tab.get_attribute("aria-selected") for tab in (controls, text)] == ["false", "true"]
+    assert page.get_by_role("tabpanel", name="Text").is_visible()
+    assert_accessible(page)
+    text.press("ArrowRight")
+    assert (slider.is_visible(), words.is_visible()) == (True, False)
     assert_accessible(page)
 
 
@@ -322,7 +392,8 @@ def test_a_box_that_holds_no_number_says_so_to_everyone(look_at):
 
 
 def test_every_control_is_reached_by_the_tab_key(look_at):
-    page = look_at(HESS)
+    tab = Explorer(look_at(HESS), "").unfold_controls()
+    page = tab.page
     page.evaluate("document.activeElement?.blur()")
     reached = set()
     for _ in range(60):
@@ -332,12 +403,14 @@ def test_every_control_is_reached_by_the_tab_key(look_at):
             while (item?.shadowRoot?.activeElement) item = item.shadowRoot.activeElement
             const names = []
             for (let at = item; at; at = at.parentElement ?? at.getRootNode().host)
-                names.push(...[...(at.classList ?? [])].filter((name) => /^param-|^sphere$/.test(name)))
+                names.push(...[...(at.classList ?? [])].filter((name) => /^param-|^sphere$|^corner$/.test(name)))
             return names
         }"""))
     wanted = {"param-preset", "param-accuracy", "param-reset", "param-link", "param-play", "param-t", "param-speed",
-              "sphere", *(f"param-scene-{name}" for name in SCENES), *(f"param-{name}" for name in SLIDERS)}
+              "sphere", "param-scenes", "param-theme", "param-fullscreen", "corner",
+              *(f"param-{name}" for name in SLIDERS)}
     assert wanted <= reached, wanted - reached
+    tab.fold_controls()
 
 
 # --- Ticks -------------------------------------------------------------------------------------------

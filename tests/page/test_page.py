@@ -152,7 +152,7 @@ def test_a_page_that_has_lost_its_server_says_so_and_keeps_saying_it(on_a_line):
 
 # --- The link ----------------------------------------------------------------------------------------
 
-OTHER_KEYS = ("v", "scene", "accuracy", "theme")
+OTHER_KEYS = ("v", "scene", "accuracy", "theme", "large")
 """Those of the keys of a link that hold no numbers."""
 LINKED = {"I22": 1.25, "I23": -0.5, "b3": -2.5, "h": 0.75, "f": -0.4, "phi0": -2.0, "span": 15.0}
 
@@ -167,7 +167,8 @@ def assert_linked(explorer, values):
 
 
 def test_a_link_restores_the_whole_state(explorer):
-    query = {"v": 1, **LINKED, "accuracy": "precise", "t": 5.25, "speed": 4, "az": -2.25, "el": 1.125, "theme": "dark"}
+    query = {"v": 1, **LINKED, "accuracy": "precise", "t": 5.25, "speed": 4, "az": -2.25, "el": 1.125, "theme": "dark",
+             "large": "sphere,omega"}
     explorer.open(urlencode(query))
     assert_linked(explorer, LINKED)
     assert explorer.accuracy == "precise"
@@ -175,9 +176,11 @@ def test_a_link_restores_the_whole_state(explorer):
     assert explorer.time == pytest.approx(5.25)
     assert explorer.page.locator(".param-speed").input_value() == "4"
     assert explorer.turn == (-2.25, 1.125)
+    assert explorer.page.locator(".corner[aria-pressed=true]").count() == 2
     assert explorer.text("notes") == ""
     # And the page says so in its own words, losing nothing.
     found = explorer.wait_url(v="1", accuracy="precise", theme="dark")
+    assert found["large"] == "sphere,omega"
     numbers = {name: float(text) for name, text in found.items() if name not in OTHER_KEYS}
     assert numbers == {name: float(value) for name, value in query.items() if name not in OTHER_KEYS}
 
@@ -227,7 +230,8 @@ def test_a_link_made_at_the_pole_of_the_sphere_opens_without_a_note(explorer):
 
 def test_nonsense_in_a_link_is_clamped_key_by_key_with_a_note_each(explorer):
     nonsense = {"I22": -4, "I23": "banana", "b3": "nan", "h": 0.25, "f": 99, "phi0": "1e400", "span": "",
-                "accuracy": "best", "t": -1, "speed": 100, "az": 9, "el": "up", "theme": "blue"}
+                "accuracy": "best", "t": -1, "speed": 100, "az": 9, "el": "up", "theme": "blue",
+                "large": "omega,nobody"}
     explorer.open(urlencode(nonsense))
     # f_max at h = 1/4 by the corrected Geq3: n = 1/2 has h = (1 − 3/4)/1 = 1/4 and f = (3/4)/√½.
     top = 0.75 * math.sqrt(2)
@@ -238,7 +242,8 @@ def test_nonsense_in_a_link_is_clamped_key_by_key_with_a_note_each(explorer):
         assert explorer.shown(name)[0] == pytest.approx(expected[name], rel=1e-9), name
     notes = explorer.text("notes").splitlines()
     assert explorer.page.locator(".text.notes").is_visible()
-    for symbol in ("I₂₂", "I₂₃", "b₃", "φ₀", "t ", "Accuracy", "speed", "azimuth", "elevation", "Theme", "f is at"):
+    for symbol in ("I₂₂", "I₂₃", "b₃", "φ₀", "t ", "Accuracy", "speed", "azimuth", "elevation", "Theme", "Enlarged",
+                   "f is at"):
         assert any(symbol in note for note in notes), symbol
     assert not any("banana" in note or "blue" in note for note in notes)
     assert explorer.time == 0.0
@@ -269,7 +274,7 @@ def test_a_value_is_read_as_it_was_written_and_no_key_leaks_into_another(explore
 
 def test_a_script_in_any_key_of_a_link_is_neither_run_nor_shown(explorer):
     payload = "<img src=x onerror=pwned=1>\"'><script>pwned=1</script>javascript:pwned=1"
-    keys = ["v", *DEFAULTS, "t", "speed", "az", "el", "theme"]
+    keys = ["v", *DEFAULTS, "t", "speed", "az", "el", "theme", "large"]
     explorer.open("&".join(f"{key}={quote(payload)}" for key in keys) + f"&{quote(payload)}=1")
     for name in SLIDERS:
         assert explorer.shown(name)[0] == DEFAULTS[name]

@@ -109,16 +109,27 @@ def kept(explorer):
 
 # --- The menu of scenes ------------------------------------------------------------------------------
 
-def test_the_menu_offers_the_scenes_by_name_and_says_which_is_on_show(explorer):
-    menu = explorer.page.get_by_role("group", name="Scene", exact=True)
-    for name in OFFERED:
-        button = menu.get_by_role("button", name=SCENES[name].title, exact=True)
-        assert button.get_attribute("aria-pressed") == str(name == HESS).lower()
-        assert button.get_attribute("title") == SCENES[name].summary
-    assert [button.get_attribute("data-scene") for button in menu.get_by_role("button").all()] == OFFERED
+def test_the_menu_offers_the_scenes_in_groups_and_says_where_to_begin_and_which_is_on_show(explorer):
+    explorer.open_menu()
+    menu = explorer.page.get_by_role("dialog", name="Scenes", exact=True)
+    groups = list(dict.fromkeys(SCENES[name].group for name in OFFERED))
+    assert menu.locator("h3").all_text_contents() == groups
+    for group in groups:
+        tiles = menu.get_by_role("region", name=group, exact=True).get_by_role("button").all()
+        names = [name for name in OFFERED if SCENES[name].group == group]
+        assert [tile.get_attribute("data-scene") for tile in tiles] == names
+        for name, tile in zip(names, tiles, strict=True):
+            words = tile.inner_text()
+            assert SCENES[name].title in words
+            assert SCENES[name].summary in words
+            assert ("start here" in words) == (name == FIRST)
+            assert tile.get_attribute("aria-pressed") == str(name == HESS).lower()
+    explorer.page.keyboard.press("Escape")
+    assert menu.count() == 0
 
 
 def test_the_pictures_of_the_menu_are_drawings_and_nothing_else(explorer):
+    explorer.open_menu()
     drawings = explorer.page.locator(".scene svg")
     assert drawings.count() == len(OFFERED)
     for drawing in drawings.all():
@@ -131,26 +142,49 @@ def test_the_pictures_of_the_menu_are_drawings_and_nothing_else(explorer):
         assert set(shapes) <= {"path", "ellipse", "circle", "rect", "line", "g"}
         attributes = {name for item in root.iter() for name in item.attrib}
         assert not [name for name in attributes if name.startswith("on") or "href" in name or name == "style"]
+    explorer.page.keyboard.press("Escape")
 
 
-def test_the_menu_obeys_the_keyboard_and_keeps_the_focus(explorer):
-    first, other = (explorer.page.locator(f".param-scene-{name}") for name in (HESS, STUDY))
-    steps = OFFERED.index(STUDY) - OFFERED.index(HESS)
-    first.focus()
-    for _ in range(steps):
-        explorer.page.keyboard.press("Tab")
-    focused = "item => item.getRootNode().activeElement === item"
-    assert other.evaluate(focused)
-    explorer.change(explorer.page.keyboard.press, "Enter")
-    assert [item.get_attribute("aria-pressed") for item in (first, other)] == ["false", "true"]
-    assert other.evaluate(focused)
-    for _ in range(steps):
-        explorer.page.keyboard.press("Shift+Tab")
-    assert first.evaluate(focused)
-    explorer.change(explorer.page.keyboard.press, "Space")
-    assert [item.get_attribute("aria-pressed") for item in (first, other)] == ["true", "false"]
-    # Space on a button is no "play".
+FOCUSED = """() => {
+  let item = document.activeElement
+  while (item?.shadowRoot?.activeElement) item = item.shadowRoot.activeElement
+  return item?.dataset.scene ?? item?.className ?? ""
+}"""
+
+
+def test_the_menu_obeys_the_keyboard_and_is_searched(explorer):
+    page, keys = explorer.page, explorer.page.keyboard
+    button = page.locator(".param-scenes")
+    button.press("Enter")
+    assert page.evaluate(FOCUSED) == HESS
+    keys.press("ArrowRight")
+    second = page.evaluate(FOCUSED)
+    assert second not in (HESS, "")
+    keys.press("ArrowLeft")
+    assert page.evaluate(FOCUSED) == HESS
+    # Down and up again, over the edge of a group; at the top is the search.
+    for _ in range(4):
+        keys.press("ArrowDown")
+    assert SCENES[page.evaluate(FOCUSED)].group != SCENES[HESS].group
+    for _ in range(5):
+        keys.press("ArrowUp")
+    assert page.evaluate(FOCUSED) == "search"
+    # What is typed is for the search alone.
+    keys.type("f loxo 2 ")
+    assert page.get_by_text("No scene has these words.").is_visible()
+    page.locator(".search").fill("accuracy SPEED")
+    assert [tile.get_attribute("data-scene") for tile in page.locator(".scene:visible").all()] == [STUDY]
+    explorer.change(keys.press, "Enter")
+    assert explorer.scene == STUDY
+    # The focus never leaves the dialog while it is open, and comes back to its button.
+    button.press("Enter")
+    for _ in range(3):
+        keys.press("Shift+Tab")
+        assert page.evaluate(FOCUSED) in (*SCENES, "search", "button")
+    keys.press("Escape")
+    assert page.evaluate(FOCUSED) == "tool param-scenes"
     assert not explorer.playing
+    assert explorer.page.locator(".corner[aria-pressed=true]").count() == 0
 
 
 # --- From one scene to another -----------------------------------------------------------------------
@@ -174,14 +208,15 @@ def test_a_scene_changes_in_place_and_back_with_all_that_was_chosen(explorer):
 
     explorer.enter(STUDY)
     assert explorer.scene == STUDY
-    assert explorer.page.get_by_text(f"Hess Explorer · {SCENES[STUDY].title}").is_visible()
+    assert explorer.page.title() == f"Hess Explorer · {SCENES[STUDY].title}"
+    assert explorer.page.get_by_role("heading", level=1).inner_text() == SCENES[STUDY].title
     assert_drawn(explorer, STUDY, values)
     assert {name: explorer.shown(name)[0] for name in CHANGED} == CHANGED
     assert (explorer.accuracy, explorer.time) == ("precise", pytest.approx(7.5))
     link = explorer.wait_url(scene=STUDY)
     assert {name: float(link[name]) for name in CHANGED} == CHANGED
     assert [cell.get_attribute("data-name") for cell in explorer.page.locator(".picture:visible").all()] == list(
-        SCENES[STUDY].pictures)
+        SCENES[STUDY].open_pictures)
     assert explorer.sphere.count() == 0
 
     explorer.enter(HESS)
@@ -202,10 +237,11 @@ def test_the_pictures_of_a_scene_are_built_while_the_mouse_rests_on_it(tab):
     built = "name => hess.has(name)"
     card = page.page.locator
     passed = next(name for name in OFFERED if name not in (HESS, STUDY))
+    page.open_menu()
     card(f".param-scene-{STUDY}").hover()
     page.page.wait_for_function(built, arg=STUDY)
     # Whom it only passes by is not built, unless the keyboard comes to it.
-    page.page.mouse.move(900, 600)
+    page.page.mouse.move(5, 5)
     card(f".param-scene-{passed}").evaluate("""card => {
       for (const name of ["pointerenter", "pointerleave"]) card.dispatchEvent(new PointerEvent(name))
     }""")
@@ -217,6 +253,7 @@ def test_the_pictures_of_a_scene_are_built_while_the_mouse_rests_on_it(tab):
     assert page.scene == HESS
     assert page.page.locator(".gallery:not(.away)").count() == 1
     assert_drawn(page, HESS, DEFAULTS)
+    page.page.keyboard.press("Escape")
     page.enter(passed)
     assert page.scene == passed
     assert all(page.caption(name) for name in SCENES[passed].open_pictures)
@@ -257,7 +294,7 @@ def test_ten_changes_in_quick_succession_leave_one_scene_and_nothing_of_the_othe
     kept = [name for name in explorer.page.evaluate(SOURCES) if name.split("-")[0] not in SCENES[HESS].folded]
     assert kept == sorted(set(drawn(HESS, DEFAULTS)) - {"body"})
     assert listeners(explorer) == at_rest
-    assert explorer.page.locator(".picture:not(.folded):visible").count() == 4
+    assert explorer.page.locator(".picture:visible").count() == 4
     # One change is one state, and one key is pressed for one player.
     before = explorer.state
     explorer.change(lambda: explorer.slide(h=0.75))
@@ -332,11 +369,11 @@ def test_the_last_scene_that_was_clicked_counts_even_while_another_is_computed(o
             explorer.change(explorer.type, "h", str(h))
         line.hold()
         before = explorer.state
-        explorer.page.locator(f".param-scene-{STUDY}").click()
+        explorer.page.locator(f".param-scene-{STUDY}").dispatch_event("click")
         wait_frames(explorer, 3)
         assert not explorer.ready
         assert explorer.scene == HESS
-        explorer.page.locator(f".param-scene-{HESS}").click()
+        explorer.page.locator(f".param-scene-{HESS}").dispatch_event("click")
         wait_frames(explorer, 3)
         line.release()
         # One answer for each click.
@@ -351,7 +388,7 @@ def test_a_slider_that_is_only_touched_while_a_scene_is_on_its_way_leaves_the_ne
     for scene in (STUDY, HESS):
         line.hold()
         before = explorer.state
-        explorer.page.locator(f".param-scene-{scene}").click()
+        explorer.page.locator(f".param-scene-{scene}").dispatch_event("click")
         wait_frames(explorer, 3)
         box = explorer.slider("h").bounding_box()
         x = box["x"] + 8 + (1.5 + 0.99) / 4.99 * (box["width"] - 16)
@@ -596,27 +633,24 @@ def test_what_cannot_be_computed_is_said_in_both_scenes_and_nothing_of_another_s
 def phone(open_page, server):
     """phone(query) → a page on a phone."""
     def open_one(query=""):
-        explorer = Explorer(open_page(query, size=PHONE, has_touch=True, is_mobile=True), server)
-        explorer.page.locator(".MuiBackdrop-root").wait_for(state="hidden")
-        return explorer
+        return Explorer(open_page(query, size=PHONE, has_touch=True, is_mobile=True), server)
     return open_one
 
 
+def turn_to(explorer, number):
+    """Choose the picture of this number."""
+    explorer.page.get_by_role("button", name=f"Picture {number}").click()
+
+
 def send(explorer, **values):
-    """Change numbers as their controls do, which are not there on a phone while their drawer is closed."""
+    """Change numbers as their controls do, of which one is at hand on a phone."""
     explorer.change(lambda: explorer.page.evaluate(
         "detail => hess.tell('change', detail)", values))
 
 
-def in_sight(explorer, name):
-    box = explorer.picture(name).locator("h2").bounding_box()
-    return box["y"] < PHONE[1]
-
-
-def test_on_a_phone_what_is_out_of_sight_waits_until_it_is_scrolled_there(phone):
+def test_on_a_phone_what_is_out_of_sight_waits_until_it_is_chosen(phone):
     explorer = phone()
-    assert in_sight(explorer, "omega")
-    assert not in_sight(explorer, "bifurcation")
+    assert explorer.page.locator(".picture:visible").count() == 1
     waiting = ("bifurcation-boundary", "bifurcation-locked")
     before = {name: explorer.data(name) for name in waiting}
     values = {**DEFAULTS, "I23": 0.6, "h": 0.9}
@@ -625,10 +659,10 @@ def test_on_a_phone_what_is_out_of_sight_waits_until_it_is_scrolled_there(phone)
     assert_drawn(explorer, HESS, values, "omega")
     assert {name: explorer.data(name) for name in waiting} == before
     state = explorer.state
-    explorer.change(explorer.picture("bifurcation").scroll_into_view_if_needed)
+    explorer.change(turn_to, explorer, 3)
     assert {name: explorer.data(name) for name in waiting} != before
     assert "h = 0.9" in explorer.caption("bifurcation")
-    assert_drawn(explorer, HESS, values)
+    assert_drawn(explorer, HESS, values, "bifurcation")
     # What comes back into sight and is of this state is not sent again.
     assert explorer.state <= state + 2
     explorer.assert_quiet()
@@ -636,19 +670,15 @@ def test_on_a_phone_what_is_out_of_sight_waits_until_it_is_scrolled_there(phone)
 
 def test_on_a_phone_the_costs_are_measured_only_where_they_are_seen(phone):
     explorer = phone(f"scene={STUDY}")
-    explorer.page.locator(".words").scroll_into_view_if_needed()
-    explorer.picture("pixels").locator("canvas").first.scroll_into_view_if_needed()
+    explorer.change(turn_to, explorer, 4)
     wait_frames(explorer, 6)
     before = {name: explorer.data(name) for name in ("precision-Taylor", "precision-chosen")}
     values = {**DEFAULTS, "h": 0.9}
     send(explorer, h=0.9)
     assert_drawn(explorer, STUDY, values, "pixels")
     assert {name: explorer.data(name) for name in before} == before
-    for name in ("drift", "growth", "precision"):
-        explorer.picture(name).scroll_into_view_if_needed()
-        wait_frames(explorer, 6)
-        wait_ready(explorer.page)
-    assert_drawn(explorer, STUDY, values)
+    explorer.change(turn_to, explorer, 1)
+    assert_drawn(explorer, STUDY, values, "precision")
     assert explorer.data("precision-Taylor") != before["precision-Taylor"]
     explorer.assert_quiet()
 
@@ -660,35 +690,37 @@ def test_where_all_pictures_are_in_sight_each_change_draws_all_of_them(explorer)
             **DEFAULTS, "I23": 0.6, **({"h": 0.9} if "phi0" in values else {}), **values})
 
 
-def test_on_a_phone_the_controls_say_what_is_on_the_screen_whenever_they_are_opened(phone):
+def test_on_a_phone_one_control_is_at_hand_and_the_picture_stays_while_it_moves(phone):
     explorer = phone("h=0.75")
     page = explorer.page
 
-    def opened():
-        page.get_by_role("button").first.click()
-        explorer.box("h").wait_for(state="visible")
+    def at_hand():
+        return [item.get_attribute("class").split()[1] for item in page.locator(".number:visible").all()]
 
-    def close():
-        page.locator(".MuiBackdrop-root").first.click(position={"x": 350, "y": 400})
-        page.locator(".MuiBackdrop-root").first.wait_for(state="hidden")
-
-    send(explorer, h=0.9)
-    opened()
-    assert explorer.shown("h") == (0.9, 0.9)
-    assert "E = I₁₁ b h = 0.9375" in explorer.text("derived")
-    explorer.change(explorer.type, "h", "1.25")
+    assert at_hand() == ["param-h"]
     at_rest = listeners(explorer)
-    close()
-    opened()
-    assert explorer.shown("h") == (1.25, 1.25)
+    picture = explorer.picture("omega").bounding_box()
+    box = explorer.slider("h").bounding_box()
+    # Under the thumb, and as large as a thumb.
+    assert box["y"] > 0.85 * PHONE[1]
+    assert box["y"] + box["height"] <= PHONE[1]
+    assert box["height"] >= 44
+    explorer.change(page.touchscreen.tap, box["x"] + 0.8 * box["width"], box["y"] + box["height"] / 2)
+    h = explorer.shown("h")[0]
+    assert 2.0 < h < 4.0
+    assert_drawn(explorer, HESS, {**DEFAULTS, "h": h}, "omega")
+    page.locator(".chooser").get_by_role("button", name="b₃").click()
+    assert at_hand() == ["param-b3"]
+    explorer.change(explorer.type, "b3", "-2")
+    assert explorer.picture("omega").bounding_box() == picture
+    page.locator(".chooser").get_by_role("button", name="Example").click()
+    assert at_hand() == []
+    explorer.change(explorer.choose, "preset", "No cycle: every orbit winds")
     assert listeners(explorer) == at_rest
-    # Another scene is chosen here, and seen at once under the veil.
     explorer.enter(STUDY)
-    assert explorer.shown("h") == (1.25, 1.25)
-    assert "Suslov–Hess" in explorer.text("derived")
-    close()
-    assert_drawn(explorer, STUDY, {**DEFAULTS, "h": 1.25})
+    assert_drawn(explorer, STUDY, {**DEFAULTS, "h": 0.2, "f": 0.5}, "precision")
     explorer.assert_quiet()
+
 
 
 # --- While a slider is held --------------------------------------------------------------------------

@@ -21,7 +21,7 @@ def test_the_cost_of_all_is_measured_when_its_button_is_pressed(open_page, serve
 
 def test_a_link_with_the_accuracy_auto_says_what_it_stands_for(open_page, server):
     explorer = Explorer(open_page("scene=kharlamova&accuracy=auto"), server)
-    expect(explorer.page.locator(".text.status")).to_contain_text("auto: draft · ")
+    expect(explorer.page.locator(".text.details")).to_contain_text("auto: draft · ")
     assert explorer.text("status").startswith("draft: orbit")
     assert explorer.chosen("accuracy") == "auto"
     explorer.assert_quiet()

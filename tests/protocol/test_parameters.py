@@ -16,6 +16,7 @@ from hess_explorer.protocol.parameters import (
     MAX_QUERY,
     VERSION,
     Choice,
+    Names,
     Number,
     Places,
     decode,
@@ -295,3 +296,14 @@ def test_every_slider_spans_values_that_may_be_typed_and_holds_the_default(scene
         if isinstance(spec, Number):
             assert spec.bounds[0] <= spec.softbounds[0] <= spec.default < spec.softbounds[1] <= spec.bounds[1]
             assert 0 < spec.step < spec.softbounds[1] - spec.softbounds[0]
+
+
+@pytest.mark.parametrize(("text", "value", "noted"), [
+    ("", "", False), ("omega", "omega", False), ("sphere,omega", "sphere,omega", False),
+    ("sphere,sphere,omega,circle", "sphere,omega", False), ("omega,nobody", "", True), ("<b>", "", True)])
+def test_names_in_a_link_are_of_the_list_each_once_and_no_more_than_may_be(text, value, noted):
+    spec = Names("large", "Enlarged pictures", SCENE.pictures, most=2)
+    found, notes = decode(urlencode({"large": text}), (spec,))
+    assert found == {"large": value}
+    assert len(notes) == noted
+    assert not any(text in note for note in notes if text)

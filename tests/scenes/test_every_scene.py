@@ -139,11 +139,18 @@ def test_the_description_of_a_scene_has_all_that_the_browser_needs(scene):
     assert found["drawn"] == (len(controlled) < len(scene.specs))
     assert [control["name"] for control in found["controls"]] == [spec.name for spec in controlled]
     for control, spec in zip(found["controls"], controlled, strict=True):
-        assert (control["label"], control["help"]) == (spec.label, spec.doc)
+        assert (control["label"], control["help"], control["group"]) == (spec.label, spec.doc, spec.group)
+        assert spec.group in found["groups"]
         if isinstance(spec, Number):
-            assert (control["kind"], control["symbol"]) == ("number", spec.symbol)
+            assert (control["kind"], control["symbol"], control["range"]) == (
+                "number", spec.symbol, list(spec.softbounds))
         else:
             assert (control["kind"], control["options"]) == ("choice", list(spec.options))
+    # Three or four sliders are open.
+    assert 3 <= len(set(scene.essential)) == len(scene.essential) <= 4
+    assert set(scene.essential) <= {spec.name for spec in controlled if isinstance(spec, Number)}
+    assert found["essential"] == list(scene.essential)
+    assert scene.group
     assert found["presets"] == [preset.name for preset in scene.presets]
     assert found["legend"] == scene.legend
     assert len(re.sub(r"<[^>]*>", "", found["words"])) > 200

@@ -169,11 +169,8 @@ class Browser:
         self._receive = None
         self.block = b""
         self.entered, self.described, self.screens = [], [], {}
-        self.session = Session(self, self.enter, scene, values or scene.defaults(), list(notes))
-
-    def enter(self, scene):
         self.scene = scene
-        self.entered.append(scene.name)
+        self.session = Session(self, scene, values or scene.defaults(), list(notes))
 
     def on_msg(self, callback):
         self._receive = callback
@@ -192,6 +189,10 @@ class Browser:
         name = self._state["scene"]
         # It was described before.
         assert name in self.described
+        if self.entered[-1:] != [name]:
+            self.entered.append(name)
+            if name != self.scene.name:
+                self.scene = scenes()[name]
         self.screen = self.screens.setdefault(name, Screen(name))
         self.screen.take(self._state["tree"], self.block)
 

@@ -2,7 +2,7 @@
 
 hess.plots, hess.source(name), hess.has(scene) are the gallery's; hess.tell(name, detail) and hess.listen(name, hear,
 signal) the bus's; hess.plotted() names the sources of the planar pictures on show; hess.clouds(source, t), hess.ticks,
-hess.solid.
+hess.solid, hess.arrange.
 """
 
 from __future__ import annotations
@@ -15,11 +15,12 @@ _SCRIPT = """const begin = () => {
   const load = (path) => importShim(new URL(`MODULES/${path}`, document.baseURI).href)
   Promise.all([
     load("page/bus.js"), load("pictures/gallery.js"), load("pictures/cloud.js"), load("pictures/ticks.js"),
-    load("pictures/solid.js"),
-  ]).then(([bus, { gallery }, { cloudsOf }, ticks, solid]) => {
+    load("pictures/solid.js"), load("pictures/arrange.js"),
+  ]).then(([bus, { gallery }, { cloudsOf }, ticks, solid, { arrange }]) => {
     window.hess = {
       get plots() { return gallery.shown.plots }, source: gallery.source, has: gallery.has, tell: bus.tell,
       listen: bus.listen, clouds: (source, t) => cloudsOf(source).at(t), ticks, solid,
+      arrange,
       plotted() {
         const { sources, cells } = gallery.shown
         const drawn = cells.filter((cell) => cell.querySelector("canvas") !== null).map((cell) => cell.dataset.name)

@@ -69,6 +69,11 @@ class Explorer:
         """The page of exactly this address."""
         self.page.goto(self.base + address)
         wait_ready(self.page)
+        return self.unfold_controls()
+
+    def unfold_controls(self):
+        """Open all groups of controls, as a user who works all of them: they stay open in every scene."""
+        self.page.locator("details.group").evaluate_all("groups => groups.forEach((group) => { group.open = true })")
         return self
 
     def fresh(self, scene=HESS):
@@ -91,14 +96,20 @@ class Explorer:
         # A picture turns only while it is seen.
         for turned in page.locator(".gallery:not(.away) :is(canvas.sphere, canvas.solid):visible").all():
             turned.press("Home")
-        for unfolded in page.locator(".gallery:not(.away) .unfold[aria-expanded=true]").all():
+        for unfolded in page.locator(".unfold[aria-expanded=true]").all():
             unfolded.click()
+        page.evaluate("document.activeElement?.blur()")
+        # No picture is enlarged.
+        page.keyboard.press("Escape")
         self.change(page.locator(".param-reset").click)
         self.set_time(0.0)
         page.evaluate("document.activeElement?.blur()")
-        page.locator(".main-content").evaluate("item => item.scrollTo(0, 0)")
         page.mouse.move(5, 5)
-        return self
+        return self.unfold_controls()
+
+    def fold_controls(self):
+        """As they are at first."""
+        self.page.locator("details.group").evaluate_all("groups => groups.forEach((group) => { group.open = false })")
 
     def assert_quiet(self):
         """No error was reported and no other host was asked for anything; each is reported once."""
@@ -150,11 +161,11 @@ class Explorer:
         return self.page.locator(f".gallery:not(.away) .picture-{name}")
 
     def caption(self, picture):
-        return self.picture(picture).locator(".caption").inner_text()
+        return self.picture(picture).locator(".caption").text_content()
 
     def text(self, look):
-        """What stands in the status line, the notes or the derived quantities."""
-        return self.page.locator(f".text.{look}").text_content()
+        """What stands in the status line's details, the notes or the derived quantities."""
+        return self.page.locator({"status": ".text.details"}.get(look, f".text.{look}")).text_content()
 
     @property
     def scene(self):
@@ -226,7 +237,7 @@ class Explorer:
 
     def fold(self, picture):
         """Press the button that shows a picture, or folds it again."""
-        self.picture(picture).locator(".unfold").or_(self.page.locator(f".unfold-{picture}")).click()
+        self.page.locator(f".unfold-{picture}").click()
 
     def change(self, action, *arguments):
         """Do something that asks for a new state, and wait until it is painted."""
@@ -236,7 +247,12 @@ class Explorer:
 
     def enter(self, scene):
         """Choose a scene from the menu."""
+        self.open_menu()
         self.change(self.page.locator(f".param-scene-{scene}").click)
+
+    def open_menu(self):
+        """Open the menu of scenes."""
+        self.page.locator(".param-scenes").click()
 
     def type(self, name, text):
         """Type into the box of a number, and Enter."""

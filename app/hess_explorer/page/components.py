@@ -10,11 +10,11 @@ from __future__ import annotations
 from typing import Any
 
 import param
-from panel.custom import JSComponent
+from panel.custom import Child, JSComponent
 
 from hess_explorer.assets import STATIC, modules_path
 
-__all__ = ["Controls", "Pictures", "Player", "Progress", "Prose", "Ready", "SceneMenu", "Text"]
+__all__ = ["Bar", "Controls", "Pictures", "Player", "Progress", "Prose", "Ready", "Shell", "Status", "Text"]
 
 _MODULES = modules_path()
 
@@ -29,13 +29,33 @@ def _css(*names: str) -> list[str]:
     return [(STATIC / name).read_text(encoding="utf-8") for name in ("page/base.css", *names)]
 
 
-class SceneMenu(JSComponent):
-    """The scenes as pictures to choose from; a choice travels with the request for its first state."""
+class Shell(JSComponent):
+    """The frame of the page: where everything stands, in every window."""
 
-    scenes = param.List(default=[], doc="{name, title, summary, picture, origin} of each.")
+    bar = Child(doc="The bar.")
+    controls = Child(doc="The controls.")
+    derived = Child(doc="What follows from them.")
+    pictures = Child(doc="The pictures.")
+    player = Child(doc="The player, under the pictures.")
+    words = Child(doc="The words beside the pictures.")
+    legend = Child(doc="The legend under the words.")
+    notes = Child(doc="Notes on the state, under the controls.")
+    status = Child(doc="The status line, under the controls.")
+    busy = Child(doc="What is said while an answer takes long.")
+    progress = Child(doc="How much is computed.")
+    ready = Child(doc="What asks for states; it is not seen.")
 
-    _esm = _module("controls/scenes.js")
-    _stylesheets = _css("controls/controls.css")
+    _esm = _module("page/shell.js")
+    _stylesheets = _css("page/shell.css")
+
+
+class Bar(JSComponent):
+    """The menu of scenes, and what can be done with the page; a choice travels with the request for its first state."""
+
+    scenes = param.List(default=[], doc="{name, title, summary, picture, origin, group} of each.")
+
+    _esm = _module("controls/bar.js")
+    _stylesheets = _css("controls/bar.css")
 
 
 class Controls(JSComponent):
@@ -62,7 +82,7 @@ class Player(JSComponent):
     SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
 
     _esm = _module("controls/player.js")
-    _stylesheets = _css("controls/controls.css")
+    _stylesheets = _css("controls/controls.css", "controls/player.css")
 
 
 class Progress(JSComponent):
@@ -97,9 +117,16 @@ class Ready(JSComponent):
     state = param.String(default="", doc="JSON: number of the state, last request that it answers, URL query, "
                          "the tree of its data (see `wire`), name of its scene, progress [done, of] or null.")
     block = param.Bytes(default=b"", doc="The numbers of that tree.")
-    client = param.Dict(default={}, doc="URL keys that the browser itself keeps: t, speed, az, el.")
+    client = param.Dict(default={}, doc="URL keys that the browser itself keeps: t, speed, az, el, large.")
 
     _esm = _module("page/client.js")
+
+
+class Status(JSComponent):
+    """The status line: one sentence, and all that it sums up on a click."""
+
+    _esm = _module("page/status.js")
+    _stylesheets = _css("page/page.css")
 
 
 class Text(JSComponent):
@@ -107,7 +134,7 @@ class Text(JSComponent):
 
     key = param.String(default="", doc="By this the wire finds it.")
     tag: Any = param.Selector(default="p", objects=["p", "div"], doc="The element.")
-    look: Any = param.Selector(default="", objects=["", "status", "notes", "derived", "busy"], doc="Its style.")
+    look: Any = param.Selector(default="", objects=["", "notes", "derived", "busy"], doc="Its style.")
     live = param.Boolean(default=False, doc="Whether screen readers are told of changes.")
 
     _esm = _module("page/text.js")

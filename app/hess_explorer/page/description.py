@@ -11,7 +11,7 @@ from typing import Any
 from markdown_it import MarkdownIt
 from markdown_it.token import Token
 
-from hess_explorer.protocol.parameters import Choice, Number, Places
+from hess_explorer.protocol.parameters import GROUPS, Choice, Number
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.views.text import with_formulas
@@ -36,8 +36,10 @@ def _describe(name: str) -> str:
         "name": scene.name,
         "title": scene.title,
         "pictures": [{**view.describe(), "folded": view.folded or None} for view in scene.views],
-        "controls": [_control(spec) for spec in scene.specs if not isinstance(spec, Places)],
-        "drawn": any(isinstance(spec, Places) for spec in scene.specs),
+        "controls": [_control(spec) for spec in scene.specs if isinstance(spec, Number | Choice)],
+        "essential": list(scene.essential),
+        "groups": list(GROUPS),
+        "drawn": not all(isinstance(spec, Number | Choice) for spec in scene.specs),
         "presets": [preset.name for preset in scene.presets],
         "legend": scene.legend,
         "words": _html(scene),
@@ -60,7 +62,7 @@ def _html(scene: Scene[Any]) -> str:
 
 
 def _control(spec: Number | Choice) -> dict[str, Any]:
-    common = {"name": spec.name, "label": spec.label, "help": spec.doc}
+    common = {"name": spec.name, "label": spec.label, "help": spec.doc, "group": spec.group}
     if isinstance(spec, Number):
-        return {"kind": "number", "symbol": spec.symbol, **common}
+        return {"kind": "number", "symbol": spec.symbol, "range": list(spec.softbounds), **common}
     return {"kind": "choice", "options": list(spec.options), **common}

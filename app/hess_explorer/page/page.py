@@ -1,4 +1,4 @@
-"""The page: menu of scenes and controls beside, pictures in a row, player, status, words."""
+"""The page: Panel's for the document and its theme, with one component that says where everything stands."""
 
 from __future__ import annotations
 
@@ -10,9 +10,20 @@ import panel as pn
 import panel_material_ui as pmui
 from panel.util import edit_readonly
 
-from hess_explorer.page.components import Controls, Pictures, Player, Progress, Prose, Ready, SceneMenu, Text
+from hess_explorer.page.components import (
+    Bar,
+    Controls,
+    Pictures,
+    Player,
+    Progress,
+    Prose,
+    Ready,
+    Shell,
+    Status,
+    Text,
+)
 from hess_explorer.page.session import Session
-from hess_explorer.protocol.parameters import CLIENT, Choice, decode
+from hess_explorer.protocol.parameters import CLIENT, Choice, Names, decode
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 
@@ -25,7 +36,11 @@ THEME = Choice("theme", "Theme", ("light", "dark"), "light")
 # The system's font: the fourteen files of another one would come before the first picture.
 FONT = "system-ui, sans-serif"
 
-WIDE: dict[str, Any] = {"sizing_mode": "stretch_width"}
+BARE: dict[str, Any] = {
+    "height": "100dvh",
+    "& .MuiAppBar-root, & .main .MuiToolbar-root": {"display": "none"},
+}
+"""Of Panel's page neither the bar nor the room for it: its drawers would cover a phone."""
 
 
 def page() -> Any:
@@ -49,47 +64,41 @@ def _page(query: str) -> pmui.Page:
     choice = Choice("scene", "Scene", tuple(scenes()), next(iter(scenes())))
     chosen, _ = decode(query, (choice,))
     scene = scenes()[str(chosen["scene"])]
+    large = Names("large", "Enlarged pictures", scene.pictures, most=2)
     # A scene's own notes on the link; that of another version is among them.
-    state, notes = decode(query, (choice, *scene.specs, *CLIENT, THEME))
-    client = {spec.name: float(state.pop(spec.name)) for spec in CLIENT}
-    client["speed"] = min(Player.SPEEDS, key=lambda speed: abs(speed - client["speed"]))
+    state, notes = decode(query, (choice, *scene.specs, *CLIENT, large, THEME))
+    kept = {spec.name: float(state.pop(spec.name)) for spec in CLIENT}
+    kept["speed"] = min(Player.SPEEDS, key=lambda speed: abs(speed - kept["speed"]))
+    client = {**{name: repr(value) for name, value in kept.items()}, large.name: str(state.pop(large.name))}
     dark = state.pop("theme") == "dark"
 
-    ready = Ready(client={name: repr(value) for name, value in client.items()}, width=0, height=0, margin=0)
+    ready = Ready(client=client)
+    shell = Shell(
+        bar=Bar(scenes=[_entry(one) for one in scenes().values()]),
+        controls=Controls(),
+        derived=Text(key="derived", look="derived", tag="div"),
+        pictures=Pictures(),
+        player=Player(),
+        words=Prose(part="words"),
+        legend=Prose(part="legend"),
+        notes=Text(key="notes", look="notes", live=True),
+        status=Status(css_classes=["status-line"]),
+        busy=Text(key="busy", look="busy", live=True),
+        progress=Progress(),
+        ready=ready,
+        sizing_mode="stretch_both",
+    )
     result = pmui.Page(
+        title="Hess Explorer",
         meta_name="Hess Explorer",
         meta_description=scene.summary,
         dark_theme=dark,
         theme_config={"typography": {"fontFamily": FONT}},
-        sidebar=[
-            SceneMenu(scenes=[_entry(one) for one in scenes().values()], **WIDE),
-            Controls(**WIDE),
-            Text(key="derived", look="derived", tag="div", margin=(8, 8), **WIDE),
-        ],
-        sidebar_width=300,
-        sidebar_resizable=False,  # its handle has a name but no role
-        main=[
-            Pictures(**WIDE),
-            Prose(part="legend", margin=(0, 8), **WIDE),
-            Player(css_classes=["dock"], margin=(0, 8), **WIDE),
-            Text(key="status", look="status", live=True, margin=(4, 8, 0, 8), **WIDE),
-            Text(key="notes", look="notes", live=True, margin=(0, 8, 4, 8), **WIDE),
-            Prose(part="words", margin=(0, 8), **WIDE),
-            Progress(css_classes=["floating"], width=0, height=0, margin=0),
-            Text(key="busy", look="busy", live=True, css_classes=["floating"], width=0, height=0, margin=0),
-            ready,
-        ],
-        sx={
-            "& .MuiLinearProgress-root": {"display": "none"},  # has no name, and `data-ready` says the same
-            # On a phone a title of three lines would cover the first caption.
-            "@media (max-width: 799px)": {"& .MuiAppBar-root .MuiTypography-root": {"fontSize": "1.05rem"}},
-        },
+        main=[shell],
+        busy_indicator=None,
+        sx=BARE,
     )
-
-    def entered(scene: Scene[Any]) -> None:
-        result.title = f"Hess Explorer · {scene.title}"
-
-    session = Session(ready, entered, scene, state, notes)
+    session = Session(ready, scene, state, notes)
     pn.state.on_session_destroyed(lambda _: session.background.stop())
     # The page's own busy flag is sent with every event and makes Panel walk through all models each
     # time (100 ms); `data-ready` says the same.
@@ -101,4 +110,4 @@ def _page(query: str) -> pmui.Page:
 def _entry(scene: Scene[Any]) -> dict[str, str | None]:
     """What the menu of scenes says of one."""
     return {"name": scene.name, "title": scene.title, "summary": scene.summary, "picture": scene.thumbnail,
-            "origin": scene.origin}
+            "origin": scene.origin, "group": scene.group}

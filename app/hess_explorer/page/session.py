@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import logging
 import math
-from collections.abc import Callable, Collection
+from collections.abc import Collection
 from typing import Any
 
 from panel.io.document import unlocked
@@ -49,16 +49,13 @@ class Session:
     Parameters
     ----------
     ready : its messages ask for states, and it receives them.
-    entered(scene) : is called when a scene is entered.
     scene : what is shown first; values : the state to begin with; notes : what had to be changed in the link.
     """
 
-    def __init__(self, ready: Ready, entered: Callable[[Scene[Any]], None], scene: Scene[Any], values: Values,
-                 notes: list[str]) -> None:
+    def __init__(self, ready: Ready, scene: Scene[Any], values: Values, notes: list[str]) -> None:
         self.ready = ready
         self.wire = Wire()
         self.background = Background()
-        self._entered = entered
         self._stages: dict[str, Stage[Any]] = {}
         self._described: set[str] = set()
         self._left: dict[str, Values] = {}
@@ -86,7 +83,6 @@ class Session:
         self.stage = self._stages[scene.name]
         self._dirty = True
         self._stopped = False
-        self._entered(scene)
 
     def _describe(self, name: str) -> None:
         """Give the browser what it needs to build the pictures of a scene, once."""
@@ -279,6 +275,7 @@ class Session:
         # Under a drag the controls wait, unless the state had to differ from what they say.
         if not self._held or notes:
             show_controls(self.scene, self.values, self.wire)
+        self.wire.say("summary", report.summary)
         self.wire.say("status", report.status)
         self.wire.say("notes", "\n".join([*self._link_notes, *notes, *report.notes]))
         self.wire.say("derived", "\n".join(report.derived))
@@ -286,4 +283,4 @@ class Session:
     def _refuse(self, sentence: str) -> Report:
         """Show why there is nothing to see."""
         self.stage.fail(sentence, hold_axes=self._held)
-        return Report((), sentence, (), (), 0)
+        return Report((), sentence, (), (), 0, "Nothing could be computed")

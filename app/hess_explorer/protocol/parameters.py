@@ -9,15 +9,20 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Literal, get_args
 from urllib.parse import parse_qsl, urlencode
 
 __all__ = [
-    "CLIENT", "MAX_QUERY", "VERSION", "Choice", "Number", "Places", "Spec", "Value", "Values", "decode", "encode",
-    "places", "written",
+    "CLIENT", "GROUPS", "MAX_QUERY", "VERSION", "Choice", "Group", "Names", "Number", "Places", "Spec", "Value",
+    "Values", "decode", "encode", "places", "written",
 ]
 
 VERSION = "1"
 MAX_QUERY = 2000
+
+Group = Literal["Body", "State", "Computation"]
+GROUPS: tuple[Group, ...] = get_args(Group)
+"""The controls of a scene are folded in these, in this order."""
 
 Value = float | str
 Values = Mapping[str, Value]
@@ -38,6 +43,7 @@ class Number:
     step: float
     bounds: tuple[float, float]
     doc: str = ""
+    group: Group = "State"
 
     def read(self, text: str) -> tuple[float, str | None]:
         """The value that a text from outside means, and a note where it had to be changed."""
@@ -67,6 +73,7 @@ class Choice:
     options: tuple[str, ...]
     default: str
     doc: str = ""
+    group: Group = "Computation"
 
     def read(self, text: str) -> tuple[str, str | None]:
         """The option of that name, or the default and a note (which does not repeat the text)."""
@@ -102,6 +109,24 @@ class Places:
         return written(pairs[-self.most:]), None
 
 
+@dataclass(frozen=True)
+class Names:
+    """At most `most` of a fixed list of names, as a text "a,b".  They have no control of their own."""
+
+    name: str
+    label: str
+    options: tuple[str, ...]
+    most: int
+    default: str = ""
+
+    def read(self, text: str) -> tuple[str, str | None]:
+        """The first `most` of the names, each once; the default and a note where one is not of the list."""
+        names = list(dict.fromkeys(name for name in text.split(",") if name))
+        if not set(names) <= set(self.options):
+            return self.default, f"{self.label} were not among {', '.join(self.options)}: none is chosen now."
+        return ",".join(names[:self.most]), None
+
+
 def written(places: Sequence[tuple[float, ...]]) -> str:
     """The text of these points."""
     return ";".join(",".join(f"{value:.10g}" for value in place) for place in places)
@@ -113,7 +138,7 @@ def places(text: Value) -> list[tuple[float, float]]:
     return [(float(x), float(y)) for x, y in pairs]
 
 
-Spec = Number | Choice | Places
+Spec = Number | Choice | Places | Names
 
 CLIENT: tuple[Number, ...] = (
     Number("t", "t", "Time", 0.0, (0.0, 1000.0), 0.0, (0.0, 1e6)),
@@ -121,7 +146,7 @@ CLIENT: tuple[Number, ...] = (
     Number("az", "azimuth", "Azimuth of the sphere", 0.6, (-3.1416, 3.1416), 0.0, (-3.1416, 3.1416)),
     Number("el", "elevation", "Elevation of the sphere", 0.35, (-1.5708, 1.5708), 0.0, (-1.5708, 1.5708)),
 )
-"""Keys of the URL that the browser itself keeps: they need no computation."""
+"""Keys of the URL that the browser itself keeps, besides the pictures enlarged: they need no computation."""
 
 
 def _text(value: Value) -> str:

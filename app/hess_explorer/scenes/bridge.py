@@ -67,6 +67,7 @@ def _without_round_off(value: float) -> float:
 @dataclass(frozen=True)
 class _Given(State):
     given: str = choice("Given in", (SUSLOV, HEAVY), HEAVY,
+                        group="State",
                         doc="Whose parameters and integrals the sliders mean; those of the other side show its body. A "
                             "change of sides keeps the motion.")
 
@@ -82,7 +83,7 @@ class BothSides(HeavyMotion, SuslovBody, _Given):
     phi0: float = like(HeavyMotion, "phi0", doc="Phase of the orbit on the section n₃ = n₃⁽¹⁾, in radians.")
     share: float = number("x", 0.5, (0.01, 1.0), 0.01, bounds=(1e-6, 1.0), label="Free moment, x",
                           doc="Suslov–Hess leaves a moment of Euler–Poisson free: x = 1 is a flat body, where |a| < 1.")
-    span: float = number("t", 50.0, (1.0, 200.0), 1.0, bounds=(0.01, 1e5), label="Time span",
+    span: float = number("t", 50.0, (1.0, 200.0), 1.0, bounds=(0.01, 1e5), group="Computation", label="Time span",
                          doc="How long the motion is followed, in the time that both sides share.")
     accuracy: str = accuracy_level()
 
@@ -268,6 +269,7 @@ class BothSides(HeavyMotion, SuslovBody, _Given):
 
 SCENE = Scene(
     BothSides, __file__, place=13, presets=PRESETS,
+    group="Euler–Poisson", essential=("h", "f", "phi0"),
     title="Bridge: Suslov and Euler–Poisson",
     summary="The Suslov–Hess case and the Hess case of Euler–Poisson are one system: two orbits and their difference.",
     tracks={"orbit": BothSides.orbit_columns, "stable": lambda s: torus_plane.cycle_columns(s.cycles, 0),

@@ -173,6 +173,7 @@ _MEASURES: tuple[Trial[ChaplyginBall], ...] = (
 
 SCENE = Scene(
     ChaplyginBall, __file__, place=9, presets=PRESETS, measures=_MEASURES,
+    group="Ball", essential=("D", "h", "theta", "phi"),
     title="Chaplygin ball",
     summary="A ball rolls inside the body: every orbit crosses a strip between two ellipses, from Nᵘ to Nˢ.",
     tracks={"orbit": lambda s: plane.orbit_columns(s.orbit, Gamma=s.Gamma)},

@@ -190,6 +190,7 @@ def _piece(section: AndoyerSection, starts: tuple[Start, ...], crossings: int, l
 
 SCENE = Scene(
     EulerPoisson, __file__, place=11, presets=PRESETS, measures=(SECTION, EXPONENT, ROTATION),
+    group="Euler–Poisson", essential=("away", "h", "f"),
     title="Euler–Poisson: sections",
     summary="A heavy body near the Hess case: two stochastic layers with a barrier between them, a meandering torus.",
     tracks={"orbit": EulerPoisson.track},

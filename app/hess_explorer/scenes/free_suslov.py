@@ -225,6 +225,7 @@ class FreeSuslov(FreeBody, ConstrainedBody):
 
 SCENE = Scene(
     FreeSuslov, __file__, place=2, presets=PRESETS,
+    group="Free body", essential=("k", "I23", "Gamma", "phi"),
     title="Free Suslov problem",
     summary="No field: ω passes from an unstable to a stable state; γ leaves one circle and joins another.",
     tracks={"orbit": FreeSuslov.orbit_columns,

@@ -47,7 +47,7 @@ class HessLeak(HeavyMotion):
     A slider that is held keeps the accuracy, which is what is looked at.
     """
 
-    returns: float = number("N", 20.0, (5.0, 60.0), 1.0, bounds=(1.0, 200.0), label="Periods",
+    returns: float = number("N", 20.0, (5.0, 60.0), 1.0, bounds=(1.0, 200.0), group="Computation", label="Periods",
                             doc="How many periods of n₃ are followed.")
     accuracy: str = accuracy_level()
 
@@ -185,6 +185,7 @@ def _both(distances: Callable[[mechanics.Leak], Array]) -> tuple[Layer[HessLeak]
 
 SCENE = Scene(
     HessLeak, __file__, place=12, presets=PRESETS,
+    group="Euler–Poisson", essential=("h", "f", "phi0", "returns"),
     title="Leak off the Hess manifold",
     summary="An orbit on the Hess manifold of Euler–Poisson leaves it by round-off alone, at the rate of the cycle.",
     tracks={"orbit": HessLeak.exact_columns, "second": HessLeak.leaking}, angles=("l",),

@@ -46,7 +46,8 @@ class Loxodrome(Moments):
 
     I2: float = like(Moments, "I2", 1.5, doc="Middle principal moment: it must lie between I₁ and I₃.")
     I3: float = like(Moments, "I3", 2.0)
-    m: float = number("μ|r|", 0.7071, (0.05, 20.0), 0.05, bounds=(1e-3, 1e3), label="Weight times distance, μ|r|",
+    m: float = number("μ|r|", 0.7071, (0.05, 20.0), 0.05, bounds=(1e-3, 1e3), group="Body",
+                      label="Weight times distance, μ|r|",
                       doc="It sets the unit of energy and of time; the direction of r follows from the moments.")
     energy: float = number("h", 1.5, (-0.95, 4.0), 0.01, bounds=(-1.0 + 1e-4, 1e4), label="Energy h",
                            doc="In units of μ|r|: −1 hanging at rest, 1 the separatrix, on which it comes to rest "
@@ -147,6 +148,7 @@ class Loxodrome(Moments):
 
 SCENE = Scene(
     Loxodrome, __file__, place=14, presets=PRESETS,
+    group="Euler–Poisson", essential=("energy", "l", "I2"),
     title="Loxodromic pendulum",
     summary="A heavy body whose centre of mass swings in a plane while its middle axis runs along a loxodrome.",
     tracks={"orbit": Loxodrome.track},

@@ -59,7 +59,7 @@ class Quartic(Crossings, ConstrainedBody):
     """The orbit of one point in the potential, among others of its energy."""
 
     I22: float = like(Tensor, "I22", 1.0, softbounds=(0.2, 3.0), bounds=(1e-2, 1e2))
-    ratio: float = number("I₁₁/I₂₂", 2.0, (0.2, 5.0), 0.01, bounds=(1e-2, 1e2), label="Ratio I₁₁/I₂₂",
+    ratio: float = number("I₁₁/I₂₂", 2.0, (0.2, 5.0), 0.01, bounds=(1e-2, 1e2), group="Body", label="Ratio I₁₁/I₂₂",
                           doc="At 1 the potential is central and the motion integrable.")
     b3: float = like(CentreOfMass, "b3", 1.0, bounds=(-1e2, 1e2), doc="b = −mg r; not 0 here, b₁ = b₂ = 0.")
     h: float = number("h", 0.8, (-0.9, 4.0), 0.01, bounds=(-1e2, 1e3), label="Energy E = h",
@@ -178,6 +178,7 @@ class Quartic(Crossings, ConstrainedBody):
 
 SCENE = Scene(
     Quartic, __file__, place=7, presets=PRESETS, measures=(SECTION,),
+    group="Heavy body", essential=("ratio", "h", "Q1", "Q2"),
     title="Principal axis, b₁ = b₂ = 0",
     summary="The body as a point in a quartic potential: integrable for I₁₁ = I₂₂, else curves and seas in a section.",
     tracks={"orbit": lambda s: plane_domain.plane_columns(

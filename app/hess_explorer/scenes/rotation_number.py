@@ -65,17 +65,18 @@ PRESETS = (
 class RotationNumber(State):
     """One torus, a map of ρ over two parameters, and a line through the torus along one."""
 
-    a: float = number("a", 0.5, (0.0, 2.0), 0.005, bounds=(-100.0, 100.0), label="Inertia parameter a",
+    a: float = number("a", 0.5, (0.0, 2.0), 0.005, bounds=(-100.0, 100.0), group="Body", label="Inertia parameter a",
                       doc="a = I₂₃/I₂₂ in the Suslov problem, √((a₃−a₂)(a₂−a₁))/a₂ in Euler–Poisson; a body has "
                           "|a| < 1.")
     h: float = number("h", 0.5, (-0.99, 4.0), 0.005, bounds=(_BOTTOM, 1e6), label="Energy h",
                       doc="Energy integral in units b = 1.")
     f: float = number("f", 0.8, (-3.0, 3.0), 0.005, bounds=(-1e4, 1e4), label="Area integral f",
                       doc="Area integral in units b = 1.")
-    over: str = choice("Map over", PLANES, "h, f", doc="The two parameters of the map; the third stays.")
+    over: str = choice("Map over", PLANES, "h, f", group="State", doc="The two parameters of the map; the third stays.")
     line: str = choice("Line along", ("f", "h", "a"), "f",
-                       doc="The parameter along which ρ and the trace are drawn.")
+                       group="State", doc="The parameter along which ρ and the trace are drawn.")
     rational: str = choice("Rational number", _RATIONALS, "−1/4",
+                           group="State",
                            doc="On the line the torus with this ρ is looked for, and how many cycles it has.")
     epsilon: float = number("ε", 0.25, (0.0, 0.3), 0.005, bounds=(0.0, 0.33), label="Away from Möbius, ε",
                             doc="The other family: Θ(φ + ε sin 3φ). It is no Möbius map, and its ρ makes a ladder.")
@@ -272,6 +273,7 @@ _MEASURES = (grid(_FINE, lambda s: s.frame), on_line(_ON_LINE),
 
 SCENE = Scene(
     RotationNumber, __file__, place=8, presets=PRESETS, measures=_MEASURES,
+    group="Heavy body", essential=("a", "h", "f"),
     title="Rotation number",
     summary="Is ρ of the Suslov–Hess torus a ladder, as the paper asks? One plateau, and a family that has many.",
     views=(

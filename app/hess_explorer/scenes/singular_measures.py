@@ -64,12 +64,13 @@ class SingularMeasures(FreeBall):
     b3: float = number("b₃", 1.0, (-3.0, 3.0), 0.01, bounds=(-1e3, 1e3), label="Field b₃ of the cloud beside",
                        doc="With I₁₃ = I₂₃ = 0 nothing would move without a field; the first cloud has none.")
     start: str = choice("Cloud", ("energy shell", "small patch"), "energy shell",
+                        group="State",
                         doc="All states with about the energy h, or those about one state; evenly spread over the "
                             "phase volume.")
     direction: str = choice("Time", ("forward", "backward"), "forward",
-                            doc="Forward to the stable half of s = 0, backward to the other.")
+                            group="State", doc="Forward to the stable half of s = 0, backward to the other.")
     beside: str = choice("Beside", ("nothing", "principal axis"), "nothing",
-                         doc="The same points with I₁₃ = I₂₃ = 0 and the field b₃, in another colour.")
+                         group="State", doc="The same points with I₁₃ = I₂₃ = 0 and the field b₃, in another colour.")
     along: str = choice("Fourth picture", ("divergence", "volume"), "divergence",
                         doc="The divergence div v at the points, or the logarithm of small volumes about them.")
     points: str = choice("Points", ("1000", "10000"), "10000", doc="How many points both clouds have together.")
@@ -187,6 +188,7 @@ _CLOUD: Trial[SingularMeasures] = Trial(
 
 SCENE = Scene(
     SingularMeasures, __file__, place=16, presets=PRESETS, measures=(_CLOUD,),
+    group="Free body", essential=("h", "I23", "D", "spread"),
     title="Singular measures",
     summary="10 000 phase points are drawn onto an invariant manifold, where an invariant density is infinite.",
     tracks={"orbit": SingularMeasures.track},

@@ -205,5 +205,6 @@ def looking_into(other: Scene[Any]) -> Scene[Any]:
     trade: tuple[Plot[Study], ...] = (trade_picture(other.trials),) if other.measures else ()
     return LookingInto(
         Study, __file__, other=other, title="Speed and accuracy", presets=other.presets, place=other.place,
+        group="Accuracy", essential=other.essential,
         summary="Error, drift and cost of the motion on show, at every level of accuracy, measured here and now.",
         tracks={"orbit": Study.worst}, views=(*VIEWS, *trade, difference_picture()))

@@ -31,5 +31,6 @@ def without_motion(other: Scene[Any]) -> Scene[Any]:
     """The scene "Speed and accuracy" for another one that shows no motion, with its parameters."""
     return LookingInto(
         Tally, __file__, other=other, title="Speed and accuracy", presets=other.presets, place=other.place,
+        group="Accuracy", essential=other.essential,
         summary="Cost and error of all that the scene computes, at every level of accuracy, measured here and now.",
         views=(trade_picture(other.trials, folded=False), difference_picture(folded=False)))

@@ -251,6 +251,7 @@ def _piece(section: SuslovSection, starts: tuple[Start, ...], crossings: int, fo
 
 SCENE = Scene(
     Suslov, __file__, place=5, presets=PRESETS, measures=(SECTION, EXPONENT, BASINS),
+    group="Heavy body", essential=("h", "I13", "I23", "b3"),
     title="Suslov problem with gravity",
     summary="Regular orbits, seas, strange attractors: sections forward and backward in time.",
     tracks={"orbit": lambda s: orbit_columns(s.orbit)},

@@ -69,7 +69,7 @@ class SuslovHess(SuslovBody):
                       doc="Area integral in units b = 1. Its range follows h.")
     phi0: float = number("φ₀", 0.5, (-3.14, 3.14), 0.01, bounds=(-math.pi, math.pi), label="Phase φ₀",
                          doc="Phase of the orbit on the section n₃ = n₃⁽¹⁾, in radians.")
-    span: float = number("t", 40.0, (1.0, 200.0), 1.0, bounds=(0.01, 1e5), label="Time span",
+    span: float = number("t", 40.0, (1.0, 200.0), 1.0, bounds=(0.01, 1e5), group="Computation", label="Time span",
                          doc="How long the orbit is followed, in the time of the body (at most 100 returns).")
     accuracy: str = accuracy_level()
 
@@ -232,6 +232,7 @@ _MEASURES: tuple[Trial[SuslovHess], ...] = (
 
 SCENE = Scene(
     SuslovHess, __file__, place=1, presets=PRESETS, measures=_MEASURES,
+    group="Heavy body", essential=("h", "f", "I23", "phi0"),
     title="The Suslov–Hess case",
     summary="A heavy rigid body with ω₃ = 0 whose motions live on tori: rotation, locking, limit cycles.",
     tracks={"orbit": SuslovHess.orbit_columns, "stable": lambda s: torus_plane.cycle_columns(s.cycles, 0),

@@ -48,14 +48,14 @@ def build(plot: Plot[Any]) -> figure:
     drawn = _renderer.get_plot(background.opts(
         xlabel=labels[0], ylabel=labels[1], xlim=x, ylim=y, toolbar=None, default_tools=[],
         logx="x" in plot.log, logy="y" in plot.log,
-        responsive=True, min_height=200, min_width=200, title="",
+        responsive=True, title="",
         fontsize={"labels": theme.FONT_SIZE, "ticks": "12px"},
         **({} if plot.ticks is None else {"xticks": list(plot.ticks), "yticks": list(plot.y_ticks or plot.ticks)}),
     ))
     root: figure = drawn.state
     # The page shines through, whatever its theme.  An invisible background that is painted all the same makes Bokeh
     # begin a new path for the outline; without one it strokes the ticks of the last painting once more.
-    root.update(name=plot.name, min_border=4, sizing_mode="stretch_width", aspect_ratio=1,
+    root.update(name=plot.name, min_border=4, sizing_mode="stretch_both", aspect_ratio=None,
                 background_fill_color="#00000000", background_fill_alpha=1, border_fill_alpha=0)
     if plot.x_ticks is not None:
         root.xaxis.ticker = list(plot.x_ticks)

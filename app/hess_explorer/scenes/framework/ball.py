@@ -20,7 +20,7 @@ __all__ = ["Ball", "FreeBall"]
 class Ball(Tensor):
     """A body with a ball rolling inside."""
 
-    D: float = number("𝒟", 10.0, (0.0, 20.0), 0.05, bounds=(0.0, 300.0), label="Ball inside, 𝒟",
+    D: float = number("𝒟", 10.0, (0.0, 20.0), 0.05, bounds=(0.0, 300.0), group="Body", label="Ball inside, 𝒟",
                       doc="𝒟 = (R/Rₛ)² Iₛ of the ball that rolls inside; 0 is the free Suslov problem.")
 
 

@@ -28,7 +28,7 @@ class FreeBody(State):
                       doc="Product of inertia; with I₂₃ it sets the line of equilibria I₁₃ω₁ + I₂₃ω₂ = 0.")
     I23: float = like(Tensor, "I23", 0.5, softbounds=(-1.0, 1.0),
                       doc="Product of inertia; not 0 together with I₁₃.")
-    k: float = number("k", 2.4, (-2.0, 7.0), 0.05, bounds=(-50.0, 50.0), label="k, drives I₁₁",
+    k: float = number("k", 2.4, (-2.0, 7.0), 0.05, bounds=(-50.0, 50.0), group="Body", label="k, drives I₁₁",
                       doc="I₁₁ = I₂₂ + k|k| (I₁₃² + I₂₃²)/I₂₂. With I₁₃ = 0 and k odd there is an additional integral "
                           "F₂.")
 

@@ -102,7 +102,8 @@ class SuslovBody(State):
 class HeavyMotion(Moments):
     """A motion of Euler–Poisson on the Hess manifold: body, integrals, phase; mixed into the state of a scene."""
 
-    m: float = number("μ|r|", 9.975, (-20.0, 20.0), 0.005, bounds=(-1e3, 1e3), label="Weight times distance, μ|r|",
+    m: float = number("μ|r|", 9.975, (-20.0, 20.0), 0.005, bounds=(-1e3, 1e3), group="Body",
+                      label="Weight times distance, μ|r|",
                       doc="The potential is −μ(r, γ). Its sign is that of r.")
     h: float = number("h", 50.0, (-9.0, 100.0), 0.05, bounds=(-1e3, 1e5), label="Energy h", doc="H = h; above −μ|r|.")
     f: float = number("f", 5.0, (-8.0, 8.0), 0.05, bounds=(-1e3, 1e3), label="Area integral f",

@@ -17,13 +17,13 @@ __all__ = ["CentreOfMass", "Moments", "Tensor"]
 class Tensor(State):
     """The tensor of inertia of a body with ω3 = 0, in the axes in which I12 = 0."""
 
-    I11: float = number("I₁₁", 1.5, (0.2, 5.0), 0.01, bounds=(1e-3, 1e3), label="Inertia I₁₁",
+    I11: float = number("I₁₁", 1.5, (0.2, 5.0), 0.01, bounds=(1e-3, 1e3), group="Body", label="Inertia I₁₁",
                         doc="Moment of inertia about the first body axis.")
-    I22: float = number("I₂₂", 1.5, (0.2, 5.0), 0.01, bounds=(1e-3, 1e3), label="Inertia I₂₂",
+    I22: float = number("I₂₂", 1.5, (0.2, 5.0), 0.01, bounds=(1e-3, 1e3), group="Body", label="Inertia I₂₂",
                         doc="Moment of inertia about the second body axis.")
-    I13: float = number("I₁₃", 0.4, (-2.0, 2.0), 0.01, bounds=(-1e3, 1e3), label="Inertia I₁₃",
+    I13: float = number("I₁₃", 0.4, (-2.0, 2.0), 0.01, bounds=(-1e3, 1e3), group="Body", label="Inertia I₁₃",
                         doc="Product of inertia. With I₂₃ it decides where volume shrinks and where it grows.")
-    I23: float = number("I₂₃", 0.4, (-2.0, 2.0), 0.01, bounds=(-1e3, 1e3), label="Inertia I₂₃",
+    I23: float = number("I₂₃", 0.4, (-2.0, 2.0), 0.01, bounds=(-1e3, 1e3), group="Body", label="Inertia I₂₃",
                         doc="Product of inertia.")
 
 
@@ -31,11 +31,11 @@ class Tensor(State):
 class CentreOfMass(State):
     """The centre of mass of such a body, b = −mg r."""
 
-    b1: float = number("b₁", -0.5, (-3.0, 3.0), 0.01, bounds=(-1e3, 1e3), label="Centre of mass b₁",
+    b1: float = number("b₁", -0.5, (-3.0, 3.0), 0.01, bounds=(-1e3, 1e3), group="Body", label="Centre of mass b₁",
                        doc="First component of b = −mg r.")
-    b2: float = number("b₂", -0.5, (-3.0, 3.0), 0.01, bounds=(-1e3, 1e3), label="Centre of mass b₂",
+    b2: float = number("b₂", -0.5, (-3.0, 3.0), 0.01, bounds=(-1e3, 1e3), group="Body", label="Centre of mass b₂",
                        doc="Second component of b.")
-    b3: float = number("b₃", 0.7, (-3.0, 3.0), 0.01, bounds=(-1e3, 1e3), label="Centre of mass b₃",
+    b3: float = number("b₃", 0.7, (-3.0, 3.0), 0.01, bounds=(-1e3, 1e3), group="Body", label="Centre of mass b₃",
                        doc="Third component of b.")
 
     @cached_property
@@ -51,11 +51,11 @@ _ENDS, _STEP = (0.1, 3.0), 0.005
 class Moments(State):
     """The principal moments of inertia of a heavy body."""
 
-    I1: float = number("I₁", 1.0, _ENDS, _STEP, bounds=(1e-3, 1e3), label="Moment I₁",
+    I1: float = number("I₁", 1.0, _ENDS, _STEP, bounds=(1e-3, 1e3), group="Body", label="Moment I₁",
                        doc="First principal moment of inertia.")
-    I2: float = number("I₂", 0.625, _ENDS, _STEP, bounds=(1e-3, 1e3), label="Moment I₂",
+    I2: float = number("I₂", 0.625, _ENDS, _STEP, bounds=(1e-3, 1e3), group="Body", label="Moment I₂",
                        doc="Middle principal moment: it lies between I₁ and I₃, else there is no Hess condition.")
-    I3: float = number("I₃", 0.375, _ENDS, _STEP, bounds=(1e-3, 1e3), label="Moment I₃",
+    I3: float = number("I₃", 0.375, _ENDS, _STEP, bounds=(1e-3, 1e3), group="Body", label="Moment I₃",
                        doc="Third principal moment of inertia.")
 
     def limits(self) -> Mapping[str, Slider]:

@@ -6,7 +6,7 @@ import math
 from dataclasses import field, fields, replace
 from typing import Any
 
-from hess_explorer.protocol.parameters import Choice, Number, Places, Spec, Value
+from hess_explorer.protocol.parameters import Choice, Group, Number, Places, Spec, Value
 from hess_explorer.scenes.framework.work import AUTO
 from hess_mechanics.numerics.accuracy import LEVELS
 
@@ -26,14 +26,14 @@ def _parameter(spec: Spec) -> Any:
 
 
 def number(symbol: str, default: float, softbounds: tuple[float, float], step: float, *, bounds: tuple[float, float],
-           label: str, doc: str) -> Any:
+           label: str, doc: str, group: Group = "State") -> Any:
     """A number: its slider covers `softbounds` in steps; what is typed, or comes by a link, lies within `bounds`."""
-    return _parameter(Number("", symbol, label, default, softbounds, step, bounds, doc))
+    return _parameter(Number("", symbol, label, default, softbounds, step, bounds, doc, group))
 
 
-def choice(label: str, options: tuple[str, ...], default: str, *, doc: str) -> Any:
+def choice(label: str, options: tuple[str, ...], default: str, *, doc: str, group: Group = "Computation") -> Any:
     """One of a fixed list of names."""
-    return _parameter(Choice("", label, options, default, doc))
+    return _parameter(Choice("", label, options, default, doc, group))
 
 
 def places(label: str, most: int, low: tuple[float, float], high: tuple[float, float], default: str = "") -> Any:
@@ -51,31 +51,31 @@ def accuracy_level(doc: str = "Promised error of an orbit: draft 1e-3, standard 
 def crossings_of_each() -> Any:
     """How many crossings of a section each orbit leaves, at once."""
     return number("n", 200.0, (50.0, 600.0), 10.0, bounds=(1.0, 1e3), label="Crossings of each orbit",
-                  doc="Points for each orbit.")
+                  doc="Points for each orbit.", group="Computation")
 
 
 def orbits_spread(default: float, longest: float, most: float) -> Any:
     """How many orbits fill a window."""
     return number("n", default, (0.0, longest), 1.0, bounds=(0.0, most), label="Orbits",
-                  doc="How many orbits are spread over the window.")
+                  group="Computation", doc="How many orbits are spread over the window.")
 
 
 def points_of_each(default: float) -> Any:
     """How many points each orbit leaves in a window, which come piece by piece."""
     return number("N", default, (20.0, 1000.0), 10.0, bounds=(2.0, 4000.0), label="Crossings",
-                  doc="How many points each orbit leaves.")
+                  group="Computation", doc="How many points each orbit leaves.")
 
 
 def exponent_time(default: float, longest: float, most: float, what: str) -> Any:
     """How long something is averaged along the orbit on show."""
     return number("T", default, (10.0, longest), 10.0, bounds=(1.0, most), label="Time of the exponent",
-                  doc=f"How long {what} averaged.")
+                  group="Computation", doc=f"How long {what} averaged.")
 
 
 def time_span(default: float, longest: float, *, step: float = 1.0, most: float = 1e4, what: str = "the orbit") -> Any:
     """How long something is followed; the slider goes to `longest`, and what is typed to `most`."""
     return number("t", default, (1.0, longest), step, bounds=(0.01, most), label="Time span",
-                  doc=f"How long {what} is followed.")
+                  doc=f"How long {what} is followed.", group="Computation")
 
 
 def like(state: type[Any], name: str, default: Value | None = None, **changes: Any) -> Any:

@@ -58,7 +58,7 @@ class Motion:
 
 @dataclass(frozen=True)
 class Report:
-    """What the page says beside the pictures: derived quantities, the status line, notes.
+    """What the page says beside the pictures: derived quantities, the status line and what it sums up, notes.
 
     todo : what is still to be computed before the state is complete; total : of how many pieces.
     """
@@ -68,6 +68,7 @@ class Report:
     notes: Sequence[str]
     todo: Sequence[Task]
     total: int
+    summary: str
 
 
 @dataclass(frozen=True)
@@ -154,7 +155,8 @@ class Scene(Generic[S]):
     tracks : columns that several pictures and the player share; the player follows "orbit", by its column t.
     angles : those of its columns that are angles.
     measures : what it computes besides the motion, to be measured at each level.
-    place : its place in the menu; the first one opens the page.
+    place : its place in the menu; the first one opens the page; group : under which heading it stands there.
+    essential : the parameters whose controls are open; the others are folded by their groups.
     """
 
     state: type[S]
@@ -167,6 +169,8 @@ class Scene(Generic[S]):
     angles: tuple[str, ...] = ()
     measures: tuple[Trial[S], ...] = ()
     place: int = 0
+    group: str = ""
+    essential: tuple[str, ...] = ()
 
     @property
     def name(self) -> str:

@@ -47,7 +47,7 @@ class Stage(Generic[S]):
             self.wire.say(view.name, said[view.name])
         for source, columns in drawn.items():
             self._put(source, columns)
-        return Report(derived, status, notes, tuple(state.work.todo), state.work.pieces)
+        return Report(derived, status, notes, tuple(state.work.todo), state.work.pieces, state.work.summary())
 
     def fail(self, sentence: str, hold_axes: bool = False) -> None:
         """Clear all pictures, and show the sentence in their captions; the axes are those of an empty page."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
@@ -86,6 +87,12 @@ class Work:
         if not self.dragging:
             self.later(whole.function, *whole.arguments)
         return found
+
+    def summary(self) -> str:
+        """The status line in short: the level, what it promises, how long it took until now."""
+        chosen = f"{AUTO}: {self.level.name}" if self.auto else self.level.name
+        right = "the floor of double precision" if self.level.is_floor else f"1e−{-math.log10(self.level.promise):.0f}"
+        return f"{chosen}, right to {right} · {1e3 * (time.perf_counter() - self._start):.0f} ms"
 
     def ended(self) -> str:
         """For the status line: how long it took until now, and whether anything was computed."""

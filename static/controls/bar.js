@@ -1,0 +1,86 @@
+// The bar: the menu of scenes with the name of the one on show, and what can be done with the page.
+
+import { listen, tell } from "../page/bus.js"
+import { element, lifetime } from "../page/mount.js"
+import { sceneMenu } from "./scenes.js"
+
+const SAID_FOR = 2000
+const MENU = "M4 6h16v2H4zm0 5h16v2H4zm0 5h16v2H4z"
+
+// In groups; each tells its name.  isDrawn: only where clicks and boxes are drawn.
+const TOOLS = [
+  [
+    { name: "undo", label: "Undo", title: "Take back the last click or box in a picture", isDrawn: true,
+      icon: "M9 5 3 10l6 5v-4h5a3.5 3.5 0 0 1 0 7H8v2h6a5.5 5.5 0 0 0 0-11H9z" },
+    { name: "clear", label: "Clear", title: "Without all clicks and boxes", isDrawn: true,
+      icon: "M6 4.6 12 10.6 18 4.6 19.4 6 13.4 12 19.4 18 18 19.4 12 13.4 6 19.4 4.6 18 10.6 12 4.6 6z" },
+    { name: "reset", label: "Reset", title: "Back to the first state of this scene",
+      icon: "M12 5a7 7 0 1 1-6.7 9h2.1A5 5 0 1 0 12 7v3.5L6.5 6 12 1.5z" },
+  ],
+  [
+    { name: "link", label: "Link", title: "Copy a link to all that is on the screen",
+      icon: "M4 12a4 4 0 0 1 4-4h3v2H8a2 2 0 0 0 0 4h3v2H8a4 4 0 0 1-4-4zm5-1h6v2H9zm4-3h3a4 4 0 0 1 0 8h-3v-2h3a2 2 0 0 0 0-4h-3z" },
+    { name: "fullscreen", label: "Full screen", title: "Full screen, and back (F)",
+      icon: "M5 5h5v2H7v3H5zm9 0h5v5h-2V7h-3zM5 14h2v3h3v2H5zm12 0h2v5h-5v-2h3z" },
+    { name: "theme", label: "Theme", title: "Light or dark",
+      icon: "M12 3a9 9 0 1 0 0 18 9 9 0 0 0 0-18zm0 2v14a7 7 0 0 1 0-14z" },
+  ],
+]
+
+const icon = (path) => `<svg viewBox="0 0 24 24" width="1.4em" height="1.4em" aria-hidden="true"><path fill="currentColor" d="${path}"/></svg>`
+
+// [button, words beside its icon].
+function tool({ name, label, title, icon: path }) {
+  const words = element("span", { className: "label", textContent: label })
+  const button = element("button", { type: "button", className: `tool param-${name}`, title, "aria-label": label })
+  button.innerHTML = icon(path)
+  button.append(words)
+  button.addEventListener("click", () => tell(name))
+  return [button, words]
+}
+
+export function render({ model, view, el }) {
+  const signal = lifetime({ model, view })
+  const menu = sceneMenu(model.scenes)
+  const heading = element("h1", { className: "heading" })
+  const open = element("button", {
+    type: "button", className: "tool param-scenes", title: "Choose a scene", "aria-haspopup": "dialog",
+  })
+  open.innerHTML = icon(MENU)
+  open.append(element("span", { textContent: "Scenes" }))
+  open.addEventListener("click", menu.open)
+
+  const drawn = []
+  const groups = TOOLS.map((group) => element("div", { className: "group" }, ...group.map((one) => {
+    const [button, words] = tool(one)
+    if (one.isDrawn) drawn.push(button)
+    if (one.name === "link") sayCopied(button, words)
+    return button
+  })))
+  el.append(element("div", { className: "tools" }, open, heading, element("span", { className: "room" }), ...groups), menu.dialog)
+
+  // The button itself says that the link is copied; so do screen readers.
+  function sayCopied(button, words) {
+    let timer = null
+    const said = element("span", { className: "unseen", role: "status" })
+    listen("copied", (text) => {
+      clearTimeout(timer)
+      words.textContent = said.textContent = text
+      button.classList.add("said")
+      timer = setTimeout(() => {
+        words.textContent = "Link"
+        said.textContent = ""
+        button.classList.remove("said")
+      }, SAID_FOR)
+    }, signal)
+    el.append(said)
+  }
+
+  const show = (scene) => {
+    heading.textContent = scene.title
+    for (const button of drawn) button.hidden = !scene.drawn
+    menu.show(scene.name)
+  }
+  listen("enter", show, signal)
+  tell("mounted", { kind: "scene", show })
+}

@@ -1,0 +1,5 @@
+// Which window the page is in: the same lines as the media queries of the style sheets.
+
+export const PHONE = window.matchMedia("(max-width: 799px), (max-height: 499px)")
+// Controls and text share a column, as tabs.
+export const NARROW = window.matchMedia("(max-width: 1499px)")

@@ -1,0 +1,107 @@
+// Where square pictures stand: side by side, as large as their place allows.  Pure: numbers in, numbers out.
+
+// Of the height: so large is a picture that is enlarged, if the width allows.
+const LARGE = 0.82
+const STEP = 2
+
+// `count` pictures of equal right in columns.
+function grid({ width, height, count, gap, caption }, columns) {
+  const rows = Math.ceil(count / columns)
+  const wide = (width - gap * (columns - 1)) / columns
+  const high = (height - gap * (rows - 1)) / rows
+  const edge = Math.floor(Math.min(wide, high - caption(wide)))
+  const cell = Math.min(wide, Math.max(edge, caption.wide))
+  const left = (width - columns * cell - gap * (columns - 1)) / 2
+  const row = edge + caption(wide) + gap
+  const top = (height - rows * row + gap) / 2
+  const boxes = Array.from({ length: count }, (_, i) => ({
+    x: left + (i % columns) * (cell + gap), y: top + Math.floor(i / columns) * row,
+    width: cell, edge, caption: caption(wide), small: false,
+  }))
+  return { boxes, smallest: edge }
+}
+
+// The first `leading` pictures with edge `lead` in a row, the rest in a strip beside them or below.
+function strip({ width, height, count, gap, caption }, leading, lead, isBeside, titlesOnly) {
+  const rest = count - leading
+  const over = caption(lead)
+  const row = leading * lead + gap * (leading - 1)
+  const [wide, high] = isBeside
+    ? [width - row - gap, (height - gap * (rest - 1)) / rest]
+    : [(width - gap * (rest - 1)) / rest, height - lead - over - gap]
+  const above = titlesOnly ? caption.title : caption(wide)
+  const edge = Math.floor(Math.min(wide, high - above, lead))
+  const cell = isBeside || titlesOnly ? wide : Math.min(wide, Math.max(edge, caption.wide))
+  const left = isBeside ? 0 : (width - rest * cell - gap * (rest - 1)) / 2
+  const boxes = Array.from({ length: count }, (_, i) => {
+    if (i < leading) {
+      const x = isBeside ? 0 : (width - row) / 2
+      return { x: x + i * (lead + gap), y: 0, width: lead, edge: lead, caption: over, small: false }
+    }
+    const k = i - leading
+    return {
+      x: isBeside ? row + gap : left + k * (cell + gap), y: isBeside ? k * (high + gap) : lead + over + gap,
+      width: cell, edge, caption: above, small: titlesOnly,
+    }
+  })
+  return { boxes, smallest: Math.min(edge, lead), lead }
+}
+
+// The largest edge that `leading` pictures in a row can have.
+function largest({ width, height, gap, caption }, leading) {
+  const wide = (width - gap * (leading - 1)) / leading
+  return Math.floor(Math.min(wide, height - caption(Math.min(wide, height))))
+}
+
+const better = (one, other, ...measures) => {
+  if (other === null) return true
+  for (const measure of measures) {
+    const [mine, its] = [measure(one), measure(other)]
+    if (Math.abs(mine - its) >= 1) return mine > its
+  }
+  return false
+}
+
+const area = ({ boxes }) => boxes.reduce((sum, { edge }) => sum + edge * edge, 0) / 1000
+
+// Nobody is enlarged: the arrangement whose smallest picture is largest.
+function even(place) {
+  let best = null
+  const consider = (found) => { if (better(found, best, ({ smallest }) => smallest, area)) best = found }
+  for (let columns = 1; columns <= place.count; columns++) consider(grid(place, columns))
+  if (place.count > 2) {
+    const most = largest(place, 1)
+    for (let lead = most; lead > 0.4 * most; lead -= STEP) {
+      for (const isBeside of [true, false]) consider(strip(place, 1, lead, isBeside, false))
+    }
+  }
+  return best
+}
+
+// The first `leading` pictures are enlarged: those of at least `LARGE` of the height that leave the rest most room.
+function enlarged(place, leading) {
+  const most = largest(place, leading)
+  if (leading === place.count) return grid(place, leading)
+  const least = Math.min(LARGE * place.height, 0.94 * most)
+  let best = null
+  for (let lead = most; lead >= least; lead -= STEP) {
+    for (const isBeside of [true, false]) {
+      const found = strip(place, leading, lead, isBeside, true)
+      if (better(found, best, ({ smallest }) => smallest, area)) best = found
+    }
+  }
+  return best
+}
+
+// place: {width, height, count, gap, caption}.  caption(width) is the height of a caption over a picture in a cell so
+// wide; `caption.title` that of its title alone, which is what stands over a small picture beside an enlarged one;
+// `caption.wide`: a cell that is wider than its picture need be no wider than this.  large: the numbers of the pictures enlarged.
+// One {x, y, width, edge, caption, small} for each picture, in their order.
+export function arrange(place, large = []) {
+  if (place.count === 0) return []
+  const order = [...large, ...Array.from({ length: place.count }, (_, i) => i).filter((i) => !large.includes(i))]
+  const { boxes } = large.length > 0 ? enlarged(place, large.length) : even(place)
+  const placed = []
+  order.forEach((picture, i) => { placed[picture] = boxes[i] })
+  return placed
+}

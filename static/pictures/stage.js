@@ -1,0 +1,167 @@
+// Where the pictures of a scene stand, and which of them are large.
+//
+// A picture is enlarged by the button in its corner or the key of its number; Shift adds a second one; Escape brings all
+// back.  On a phone one picture is seen at a time, chosen by its number below it.
+
+import { listen, tell } from "../page/bus.js"
+import { isTaken } from "../page/keys.js"
+import { element } from "../page/mount.js"
+import { PHONE } from "../page/windows.js"
+import { arrange } from "./arrange.js"
+import { sizePlot } from "./plot.js"
+
+const MOST_LARGE = 2
+const ENLARGE = "M4 4h6v2H6v4H4zm10 0h6v6h-2V6h-4zM4 14h2v4h4v2H4zm14 0h2v6h-6v-2h4z"
+const REDUCE = "M8 4h2v6H4V8h4zm6 0h2v4h4v2h-6zM4 14h6v6H8v-4H4zm10 0h6v2h-4v4h-2z"
+
+// Heights of captions, in units of the type's size.
+const LINE = 1.29
+const AIR = 0.3
+// Of so many letters' width is the longest caption with its title.
+const LONGEST = 56
+// Of the corner, on both sides.
+const SIDES = 4.4
+const WIDEST = 34
+const MOST_LINES = 4
+
+// The height of a caption over a picture in a cell so wide, see "arrange.js".
+function captions(type) {
+  const lines = (width) => Math.min(MOST_LINES, Math.max(2, Math.ceil(LONGEST / Math.max(1, width / type - SIDES))))
+  const high = (count) => Math.ceil((count * LINE + AIR) * type)
+  return Object.assign((width) => high(lines(width)), { title: high(1), wide: WIDEST * type })
+}
+
+function cornerButton(toggle) {
+  const button = element("button", { type: "button", className: "corner" })
+  button.innerHTML = `<svg viewBox="0 0 24 24" width="1.3em" height="1.3em" aria-hidden="true"><path fill="currentColor"/></svg>`
+  button.addEventListener("click", (event) => toggle(event.shiftKey))
+  return button
+}
+
+// `shelf` holds the pictures; shown() is the scene on show.
+export function createStage(shelf, shown, signal) {
+  let large = []
+  let wanted = ""
+  const chips = element("div", { className: "chips", role: "group", "aria-label": "Picture" })
+  shelf.after(chips)
+
+  const openCells = (scene) => scene.cells.filter((cell) => !cell.classList.contains("folded"))
+  const nameOf = (cell) => cell.dataset.name
+
+  // Only what changes is written: a plot whose size is set is laid out again.
+  function put(cell, { x, y, width, edge, caption, small }) {
+    const place = [x, y, width, edge, caption].map(Math.round).join(" ")
+    cell.classList.toggle("small", small)
+    if (cell.dataset.place === place) return
+    cell.dataset.place = place
+    for (const [key, value] of Object.entries({ x, y, width, edge, caption })) {
+      cell.style.setProperty(`--${key}`, `${Math.round(value)}px`)
+    }
+  }
+
+  // The size of the type, also in the plots of this scene.
+  function size(scene) {
+    const type = Number.parseFloat(getComputedStyle(shelf).fontSize)
+    if (scene.type !== type && scene.plots.length > 0) {
+      scene.type = type
+      for (const plot of scene.plots) sizePlot(plot, type)
+    }
+    return type
+  }
+
+  // Give the pictures of a scene their places; those of another scene as it would open.
+  function place(scene) {
+    const { clientWidth: width, clientHeight: height } = shelf
+    if (width === 0) return
+    const type = size(scene)
+    const cells = openCells(scene)
+    const own = scene === shown() ? large.map((name) => cells.findIndex((cell) => nameOf(cell) === name)) : []
+    const chosen = own.filter((i) => i >= 0)
+    const seen = PHONE.matches ? [chosen[0] ?? 0] : cells.map((_, i) => i)
+    const boxes = arrange({
+      width, height, count: seen.length, gap: Math.round(0.6 * type), caption: captions(type),
+    }, PHONE.matches ? [] : chosen)
+    cells.forEach((cell, i) => {
+      const at = seen.indexOf(i)
+      cell.classList.toggle("off", at < 0)
+      if (at >= 0) put(cell, boxes[at])
+      label(cell, i, chosen.includes(i))
+    })
+    if (scene === shown() && PHONE.matches) showChips(scene.cells, cells[seen[0]])
+  }
+
+  function label(cell, i, isLarge) {
+    const corner = cell.querySelector(".corner")
+    const said = `${isLarge ? "Beside the others again" : "Enlarge"} (${i + 1})`
+    if (corner.title === said) return
+    corner.title = said
+    corner.setAttribute("aria-label", `${isLarge ? "Reduce" : "Enlarge"} picture ${i + 1}`)
+    corner.setAttribute("aria-pressed", String(isLarge))
+    corner.querySelector("path").setAttribute("d", isLarge ? REDUCE : ENLARGE)
+  }
+
+  function showChips(cells, seen) {
+    chips.replaceChildren(...cells.map((cell, i) => {
+      const chip = element("button", {
+        type: "button", className: "chip", textContent: i + 1, "aria-pressed": String(cell === seen),
+        "aria-label": `Picture ${i + 1}`,
+      })
+      chip.addEventListener("click", () => {
+        if (cell.classList.contains("folded")) tell("fold", nameOf(cell))
+        else enlarge([nameOf(cell)])
+      })
+      return chip
+    }))
+  }
+
+  function enlarge(names) {
+    large = names
+    tell("url", { large: names.join(",") })
+    place(shown())
+  }
+
+  // Another one in its place, or with it; the same one again: all are equal.
+  function toggle(name, isAdded) {
+    if (large.includes(name)) return enlarge(large.filter((one) => one !== name))
+    enlarge(isAdded ? [...large, name].slice(-MOST_LARGE) : [name])
+  }
+
+  document.addEventListener("keydown", (event) => {
+    if (isTaken(event) || shown() === null) return
+    const [, digit] = /^(?:Digit|Numpad)([1-9])$/.exec(event.code) ?? []
+    const cell = openCells(shown())[Number(digit) - 1]
+    if (cell === undefined) return
+    event.preventDefault()
+    toggle(nameOf(cell), event.shiftKey)
+  }, { signal })
+  // After whoever else Escape is for.
+  window.addEventListener("keydown", (event) => {
+    if (event.key === "Escape" && !isTaken(event) && large.length > 0) enlarge([])
+  }, { signal })
+
+  listen("client", (own) => { wanted = own.large ?? "" }, signal)
+  listen("fold", (name) => {
+    const cell = shown().cells.find((one) => nameOf(one) === name)
+    const folded = cell.classList.toggle("folded")
+    if (folded) large = large.filter((one) => one !== name)
+    else if (PHONE.matches) large = [name]
+    place(shown())
+    tell("folded", { name, folded })
+  }, signal)
+
+  const resize = new ResizeObserver(() => { if (shown() !== null) place(shown()) })
+  resize.observe(shelf)
+  signal.addEventListener("abort", () => resize.disconnect())
+
+  return {
+    place, size, cornerFor: (name) => cornerButton((isAdded) => toggle(name, isAdded)),
+    // The scene is on show: what its link has enlarged is so at first.
+    enter(scene) {
+      const names = scene.cells.map(nameOf)
+      large = wanted.split(",").filter((name) => names.includes(name)).slice(0, MOST_LARGE)
+      wanted = ""
+      tell("url", { large: large.join(",") })
+      place(scene)
+    },
+  }
+}
