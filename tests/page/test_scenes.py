@@ -51,7 +51,7 @@ def study(tab):
 
 def drawn(scene, values):
     """What the sources of the pictures that a scene shows at first hold in this state."""
-    sources = contents(shown(SCENES[scene], values)[0].sources)
+    sources = contents(shown(SCENES[scene], {**SCENES[scene].defaults(), **values})[0].sources)
     return {name: columns for name, columns in sources.items() if name.split("-")[0] not in SCENES[scene].folded}
 
 
