@@ -55,10 +55,12 @@ function stateAt(data, angles, time) {
 
 // A button that shows a picture which is not seen at first, or folds it again.
 function unfolding({ name, folded: label }) {
+  const cell = gallery.shown.cells.find((one) => one.dataset.name === name)
   const item = element("button", {
-    type: "button", className: `button unfold unfold-${name}`, title: label, "aria-label": label, "aria-expanded": "false",
+    type: "button", className: `button unfold unfold-${name}`, title: label, "aria-label": label,
     textContent: `+ ${label.replace(/^Show (the )?/, "")}`,
   })
+  item.setAttribute("aria-expanded", String(!cell.classList.contains("folded")))
   item.addEventListener("click", () => tell("fold", name))
   return item
 }

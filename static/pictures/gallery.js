@@ -36,6 +36,8 @@ function cellOf({ name, folded }) {
     stage.cornerFor(name), host, under)
   cell.dataset.name = name
   cell.classList.toggle("folded", folded !== null)
+  // Until it is unfolded the server does not draw it.
+  if (folded !== null) cell.dataset.late = ""
   cell.addEventListener("mouseleave", () => { under.hidden = true })
   return [cell, host]
 }

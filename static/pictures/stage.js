@@ -159,6 +159,7 @@ export function createStage(shelf, shown, signal) {
     enter(scene) {
       const names = scene.cells.map(nameOf)
       large = wanted.split(",").filter((name) => names.includes(name)).slice(0, MOST_LARGE)
+      for (const name of large) scene.cells[names.indexOf(name)].classList.remove("folded")
       wanted = ""
       tell("url", { large: large.join(",") })
       place(scene)

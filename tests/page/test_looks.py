@@ -279,7 +279,8 @@ def test_a_picture_is_enlarged_by_its_key_or_its_corner_and_the_link_keeps_it(op
     stage = page.locator(".shelf").bounding_box()["height"]
     equal = edges(page)
     assert max(equal) - min(equal) <= 1
-    for i, press in enumerate((lambda: keys.press("1"), page.locator(".picture-sphere .corner").click,
+    first, second, third, last = scenes()[HESS].open_pictures
+    for i, press in enumerate((lambda: keys.press("1"), page.locator(f".picture-{second} .corner").click,
                                lambda: keys.press("3"))):
         press()
         wait_frames(tab, 4)
@@ -288,12 +289,12 @@ def test_a_picture_is_enlarged_by_its_key_or_its_corner_and_the_link_keeps_it(op
         assert max(other for j, other in enumerate(found) if j != i) < 0.5 * found[i]
         assert_in_sight(places_of(page, HESS), *SIZES["laptop"], 4)
     # The others live.
-    before = [tab.caption(name) for name in ("omega", "circle")]
+    before = [tab.caption(name) for name in (second, last)]
     tab.change(lambda: tab.slide(h=0.2))
-    assert [tab.caption(name) for name in ("omega", "circle")] != before
+    assert all(tab.caption(name) != said for name, said in zip((second, last), before, strict=True))
     keys.press("Shift+Digit1")
     wait_frames(tab, 4)
-    assert tab.wait_url(large="bifurcation,omega")
+    assert tab.wait_url(large=f"{third},{first}")
     two = edges(page)
     assert two[0] == two[2] > max(two[1], two[3])
     again = Explorer(open_page(tab.link().split("?")[1], size=SIZES["laptop"]), server)

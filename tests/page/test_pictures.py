@@ -218,14 +218,20 @@ def phone(open_page, server):
     return Explorer(open_page(size=(390, 844), has_touch=True, is_mobile=True), server)
 
 
+def turn_to(phone, picture):
+    """Choose a picture by its number."""
+    number = 1 + scenes()["suslov-hess"].pictures.index(picture)
+    phone.change(phone.page.get_by_role("button", name=f"Picture {number}").click)
+
+
 def test_the_sphere_turns_under_a_finger_and_the_page_stays(phone):
-    phone.change(phone.page.get_by_role("button", name="Picture 2").click)
+    turn_to(phone, "sphere")
     assert Finger(phone.page).drag(phone.sphere, -40, 30) == 0
     assert_turned(phone, HOME[0] + 40 / radius(phone), HOME[1] + 30 / radius(phone))
 
 
 def test_a_finger_that_moves_over_the_diagram_or_scrolls_the_text_chooses_nothing(phone):
-    phone.change(phone.page.get_by_role("button", name="Picture 3").click)
+    turn_to(phone, "bifurcation")
     before = phone.here()
     finger = Finger(phone.page)
     finger.drag(phone.picture("bifurcation").locator("canvas").first, 0, -120)

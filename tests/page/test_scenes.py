@@ -637,8 +637,9 @@ def phone(open_page, server):
     return open_one
 
 
-def turn_to(explorer, number):
-    """Choose the picture of this number."""
+def turn_to(explorer, scene, picture):
+    """Choose a picture by its number."""
+    number = 1 + SCENES[scene].pictures.index(picture)
     explorer.page.get_by_role("button", name=f"Picture {number}").click()
 
 
@@ -651,15 +652,15 @@ def send(explorer, **values):
 def test_on_a_phone_what_is_out_of_sight_waits_until_it_is_chosen(phone):
     explorer = phone()
     assert explorer.page.locator(".picture:visible").count() == 1
-    waiting = ("bifurcation-boundary", "bifurcation-locked")
+    waiting, first = ("bifurcation-boundary", "bifurcation-locked"), SCENES[HESS].open_pictures[0]
     before = {name: explorer.data(name) for name in waiting}
     values = {**DEFAULTS, "I23": 0.6, "h": 0.9}
     send(explorer, I23=0.6)
     send(explorer, h=0.9)
-    assert_drawn(explorer, HESS, values, "omega")
+    assert_drawn(explorer, HESS, values, first)
     assert {name: explorer.data(name) for name in waiting} == before
     state = explorer.state
-    explorer.change(turn_to, explorer, 3)
+    explorer.change(turn_to, explorer, HESS, "bifurcation")
     assert {name: explorer.data(name) for name in waiting} != before
     assert "h = 0.9" in explorer.caption("bifurcation")
     assert_drawn(explorer, HESS, values, "bifurcation")
@@ -670,14 +671,14 @@ def test_on_a_phone_what_is_out_of_sight_waits_until_it_is_chosen(phone):
 
 def test_on_a_phone_the_costs_are_measured_only_where_they_are_seen(phone):
     explorer = phone(f"scene={STUDY}")
-    explorer.change(turn_to, explorer, 4)
+    explorer.change(turn_to, explorer, STUDY, "pixels")
     wait_frames(explorer, 6)
     before = {name: explorer.data(name) for name in ("precision-Taylor", "precision-chosen")}
     values = {**DEFAULTS, "h": 0.9}
     send(explorer, h=0.9)
     assert_drawn(explorer, STUDY, values, "pixels")
     assert {name: explorer.data(name) for name in before} == before
-    explorer.change(turn_to, explorer, 1)
+    explorer.change(turn_to, explorer, STUDY, "precision")
     assert_drawn(explorer, STUDY, values, "precision")
     assert explorer.data("precision-Taylor") != before["precision-Taylor"]
     explorer.assert_quiet()
@@ -699,6 +700,7 @@ def test_on_a_phone_one_control_is_at_hand_and_the_picture_stays_while_it_moves(
 
     assert at_hand() == ["param-h"]
     at_rest = listeners(explorer)
+    explorer.change(turn_to, explorer, HESS, "omega")
     picture = explorer.picture("omega").bounding_box()
     box = explorer.slider("h").bounding_box()
     # Under the thumb, and as large as a thumb.
