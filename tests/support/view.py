@@ -86,7 +86,9 @@ class View:
         for name, columns in self.data.items():
             for column in columns.values():
                 for part in column if isinstance(column, list) else [column]:
+                    # A rod of a body is a list of numbers and words.
+                    numbers = [x for x in part if not isinstance(x, str)] if isinstance(part, list) else part
                     if not isinstance(part, str):
-                        assert np.all(np.isfinite(np.asarray(part, float))), name
+                        assert np.all(np.isfinite(np.asarray(numbers, float))), name
         for text in [*self.text.values(), self.report.status, *self.report.derived]:
             assert not re.search(r"nan|inf\b|None", text), text
