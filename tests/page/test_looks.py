@@ -206,7 +206,7 @@ def assert_readable(page, scene, is_phone):
     assert len(texts) == 4 * len(names)
     for colour in texts:
         assert contrast(colour, behind) >= 4.5, (colour, behind)
-    if "sphere" not in scenes()[scene].pictures or is_phone:
+    if "sphere" not in scenes()[scene].open_pictures or is_phone:
         return
     # The sphere writes in the colour of the page's text.
     colour = drawing(page, "sphere").evaluate("item => getComputedStyle(item).color")
