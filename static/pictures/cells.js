@@ -1,4 +1,6 @@
-// Numbers on a grid as coloured cells.
+// Numbers on a grid as coloured cells, or, of a continuous function, without steps.
+
+import { onDark, shade } from "./looks.js"
 
 const UNKNOWN = "#808080"
 
@@ -9,39 +11,94 @@ function bytes(colour) {
   return ((alpha << 24) | (blue << 16) | (green << 8) | red) >>> 0
 }
 
-// Row 0 is the lowest; colours of the palette from `low` to `high`.
-function sheetOf({ rows, columns, numbers }, palette, low, high) {
+// A sheet of so many pixels, filled by fill(out, colours, colourOf), row 0 the highest.
+function sheetOf(columns, rows, { palette, low, high }, fill) {
   const sheet = document.createElement("canvas")
   ;[sheet.width, sheet.height] = [columns, rows]
   const paper = sheet.getContext("2d")
   const pixels = paper.createImageData(columns, rows)
-  const out = new Uint32Array(pixels.data.buffer)
-  const colours = palette.map(bytes)
-  const unknown = bytes(UNKNOWN)
+  const colours = Uint32Array.from(palette, (colour) => bytes(shade(colour)))
+  const last = colours.length - 1
   const scale = colours.length / (high - low)
-  for (let row = 0; row < rows; row++) {
-    for (let i = 0, from = row * columns, to = (rows - 1 - row) * columns; i < columns; i++) {
-      const value = numbers[from + i]
-      out[to + i] = Number.isNaN(value) ? unknown
-        : colours[Math.max(0, Math.min(colours.length - 1, Math.floor((value - low) * scale)))]
-    }
-  }
+  fill(new Uint32Array(pixels.data.buffer),
+    (value) => colours[Math.max(0, Math.min(last, Math.floor((value - low) * scale)))])
   paper.putImageData(pixels, 0, 0)
   return sheet
 }
 
-// layers: [{source, palette, low, high}]; a source holds image, x, y, dw, dh, as Bokeh's glyph "image".
+function inCells({ rows, columns, numbers }, layer) {
+  const unknown = bytes(UNKNOWN)
+  return sheetOf(columns, rows, layer, (out, colourOf) => {
+    for (let row = 0; row < rows; row++) {
+      for (let i = 0, from = row * columns, to = (rows - 1 - row) * columns; i < columns; i++) {
+        const value = numbers[from + i]
+        out[to + i] = Number.isNaN(value) ? unknown : colourOf(value)
+      }
+    }
+  })
+}
+
+// Where the pixels of a row of `size` lie among the centres of `count` cells: the cell before, and the share of the next.
+function between(size, count) {
+  const [cells, shares] = [new Int32Array(size), new Float32Array(size)]
+  for (let i = 0; i < size; i++) {
+    const at = Math.max(0, Math.min(count - 1, ((i + 0.5) * count) / size - 0.5))
+    cells[i] = Math.min(Math.max(0, count - 2), Math.floor(at))
+    shares[i] = at - cells[i]
+  }
+  return [cells, shares]
+}
+
+// Interpolated in each of width × height pixels; with `cyclic` the nearest way round.
+function interpolated(cells, layer, width, height) {
+  const { rows, columns, numbers } = cells
+  const { low, high, cyclic } = layer
+  const period = high - low
+  const [ys, ups] = between(height, rows)
+  const [xs, rights] = between(width, columns)
+  const [right, above] = [columns > 1 ? 1 : 0, rows > 1 ? columns : 0]
+  const mix = (a, b, share) => {
+    let step = b - a
+    if (cyclic) step -= period * Math.round(step / period)
+    return a + share * step
+  }
+  return sheetOf(width, height, layer, (out, colourOf) => {
+    for (let y = 0; y < height; y++) {
+      const [row, up] = [ys[height - 1 - y] * columns, ups[height - 1 - y]]
+      for (let x = 0; x < width; x++) {
+        const at = row + xs[x]
+        const value = mix(mix(numbers[at], numbers[at + right], rights[x]),
+          mix(numbers[at + above], numbers[at + above + right], rights[x]), up)
+        out[y * width + x] = colourOf(cyclic ? value - period * Math.floor((value - low) / period) : value)
+      }
+    }
+  })
+}
+
+// layers: [{source, palette, low, high, smooth, cyclic}]; a source holds image, x, y, dw, dh, as Bokeh's glyph "image".
 export function cellsPainter(layers, source) {
   const sheets = new Map()
+
+  function sheetFor(layer, cells, width, height) {
+    const size = layer.smooth ? [Math.min(1200, width), Math.min(1200, height)] : []
+    const key = [onDark(), ...size].join()
+    const before = sheets.get(layer.source)
+    if (before?.cells === cells && before.key === key) return before.sheet
+    const sheet = layer.smooth ? interpolated(cells, layer, ...size) : inCells(cells, layer)
+    sheets.set(layer.source, { cells, key, sheet })
+    return sheet
+  }
+
   return (ctx, xScale, yScale) => {
     ctx.imageSmoothingEnabled = false
-    for (const { source: name, palette, low, high } of layers) {
-      const { image: [cells] = [], x: [x] = [], y: [y] = [], dw: [wide] = [], dh: [high_] = [] } = source(name).data
+    const { a: ratio } = ctx.getTransform()
+    for (const layer of layers) {
+      const { image: [cells] = [], x: [x] = [], y: [y] = [], dw: [wide] = [], dh: [high] = [] } = source(layer.source).data
       if (cells === undefined) continue
-      if (sheets.get(name)?.cells !== cells) sheets.set(name, { cells, sheet: sheetOf(cells, palette, low, high) })
       const [left, right] = [xScale.compute(x), xScale.compute(x + wide)]
-      const [bottom, top] = [yScale.compute(y), yScale.compute(y + high_)]
-      ctx.drawImage(sheets.get(name).sheet, left, top, right - left, bottom - top)
+      const [bottom, top] = [yScale.compute(y), yScale.compute(y + high)]
+      const sheet = sheetFor(layer, cells, Math.round(ratio * (right - left)), Math.round(ratio * (bottom - top)))
+      ctx.drawImage(sheet, left, top, right - left, bottom - top)
     }
   }
 }

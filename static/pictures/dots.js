@@ -1,5 +1,7 @@
 // Thousands of dots of one colour as squares; Bokeh paints each as a circle with colours of its own.
 
+import { shade } from "./looks.js"
+
 // As large as a circle of Bokeh's marker "dot", whose diameter is a quarter of `size`.
 const sideOf = (size) => (size / 8) * Math.sqrt(Math.PI)
 
@@ -11,7 +13,7 @@ export function dotsPainter(layers, source) {
       const side = sideOf(size)
       const [left, top] = [xScale.v_compute(xs), yScale.v_compute(ys)]
       ctx.globalAlpha = alpha
-      ctx.fillStyle = color
+      ctx.fillStyle = shade(color)
       for (let i = 0; i < left.length; i++) ctx.fillRect(left[i] - side / 2, top[i] - side / 2, side, side)
     }
   }

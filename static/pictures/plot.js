@@ -5,6 +5,7 @@ import { waitLongForPress } from "./bokeh_private.js"
 import { cellsPainter } from "./cells.js"
 import { dotsPainter } from "./dots.js"
 import { frameCanvas } from "./frame_canvas.js"
+import { isDark, setDark, shade } from "./looks.js"
 import { connectPicks } from "./picks.js"
 import { tickFormatter } from "./ticks.js"
 
@@ -69,11 +70,27 @@ export function sizePlot(plot, type) {
   }
 }
 
-// Words on what is grey in light and dark keep their colour, which no theme has; "theme.py" gives it to them.
-const ON_GREY = "#101010"
+// Of each glyph, its colours as "theme.py" has them.
+const given = new WeakMap()
+
+// The shades of a glyph's colours for this page.
+function shadeGlyph(glyph) {
+  if (!given.has(glyph)) {
+    const colours = {}
+    for (const name of ["line_color", "fill_color"]) {
+      const value = glyph[name]?.value ?? glyph[name]
+      if (typeof value === "string" && value.startsWith("#")) colours[name] = value
+    }
+    given.set(glyph, colours)
+  }
+  const changed = Object.entries(given.get(glyph)).map(([name, colour]) => [name, shade(colour)])
+    .filter(([name, colour]) => (glyph[name].value ?? glyph[name]) !== colour)
+  if (changed.length > 0) glyph.setv(Object.fromEntries(changed))
+}
 
 // Colours of the page's theme, on whatever Bokeh draws itself.
 export function colourPlot(plot, text, muted) {
+  setDark(isDark(text))
   for (const part of plot.model.references()) {
     if (part.axis_label_text_color !== undefined) {
       part.setv({
@@ -82,8 +99,10 @@ export function colourPlot(plot, text, muted) {
         axis_line_color: muted, axis_line_alpha: 0.4, major_tick_line_color: muted, major_tick_line_alpha: 0.4,
         minor_tick_line_alpha: 0,
       })
-    } else if (part.text_color !== undefined && part.text_baseline !== undefined && part.text_color.value !== ON_GREY) {
+    } else if (part.text_color !== undefined && part.text_baseline !== undefined) {
       part.setv({ text_color: text })
+    } else if (part.line_color !== undefined && part.type !== "Plot") {
+      shadeGlyph(part)
     }
   }
   plot.model.setv({ outline_line_color: muted, outline_line_alpha: 0.4 })

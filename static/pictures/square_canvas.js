@@ -2,6 +2,7 @@
 
 import { listen } from "../page/bus.js"
 import { element } from "../page/mount.js"
+import { isDark, setDark } from "./looks.js"
 
 // paint(ctx, {size, ratio, text, dark}): the side in device pixels, their number for each of CSS's, the colour of text,
 // whether that is the lighter one of text and page.  `width` is the side in pixels of CSS.
@@ -22,8 +23,9 @@ export function squareCanvas(el, properties, paint, signal) {
     ctx.setTransform(1, 0, 0, 1, 0, 0)
     ctx.clearRect(0, 0, size, size)
     const text = getComputedStyle(canvas).color
-    const [red, green, blue] = text.match(/\d+/g).map(Number)
-    paint(ctx, { size, ratio, text, dark: red + green + blue > 382 })
+    const dark = isDark(text)
+    setDark(dark)
+    paint(ctx, { size, ratio, text, dark })
   }
 
   function request() {

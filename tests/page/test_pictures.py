@@ -527,7 +527,7 @@ def test_the_moving_point_is_at_the_state_of_its_time_in_every_plane(explorer, t
 PAINTED = {
     "omega": (theme.ORBIT, theme.STABLE, theme.UNSTABLE, theme.POINT, theme.FORBIDDEN),
     "sphere": (theme.ORBIT, theme.STABLE, theme.UNSTABLE, theme.POINT),
-    "bifurcation": (theme.LOCKED, theme.FORBIDDEN, theme.POINT, "#000000", "#00224E"),
+    "bifurcation": (theme.LOCKED, theme.FORBIDDEN, theme.POINT, theme.INK, theme.TURN_MAP[0]),
     "circle": (theme.MAP, theme.STABLE, theme.UNSTABLE, theme.ORBIT, theme.POINT),
 }
 

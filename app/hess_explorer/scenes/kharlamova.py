@@ -254,7 +254,7 @@ class Kharlamova(ConstrainedBody):
                    "curves.")
 
 
-_MIRROR: Layer[Kharlamova] = points("mirror", color=theme.MAP, edge="black", edge_width=1.5, size=11,
+_MIRROR: Layer[Kharlamova] = points("mirror", color=theme.MAP, edge=theme.INK, edge_width=1.5, size=11,
                                     label="its mirror image, t → −t")
 
 SCENE = Scene(

@@ -283,6 +283,8 @@ SCENE = Scene(
              on_box=lambda s, corners: boxed(corners, _corners(s.over, _AT_MOST), s.part),
              layers=rotation_plane.layers(
                  grids=lambda s: s.grids, boundary=lambda s: s.boundary, across=RotationNumber.line_in_map,
+                 impossible=lambda s: rotation_plane.outside(s.over, s.torus, *s.window),
+                 edges=lambda s: rotation_plane.edges(s.over, s.torus, *s.window),
                  here=RotationNumber.here, names=lambda s: f"{s.across} across, {s.up} up")),
         Plot(name="line", title=lambda s: f"ρ along {s.line}", caption=RotationNumber._about_line, axes=(" ", "ρ"),
              x=lambda s: s.on_line.ends, y=rotation_line.RHO, on_click=lambda s, x, y: {s.line: x},

@@ -9,14 +9,14 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.comparison import Frame
-from hess_explorer.views.layers import Axes, Grid, Layer, Sign, curves, image, points, region, target
+from hess_explorer.views.layers import TURNS, Axes, Grid, Layer, curves, image, points, region, target
 from hess_explorer.views.text import digits
 from hess_mechanics.numerics.accuracy import DRAFT
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.bifurcation import f_max
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
 
-__all__ = ["about", "about_torus", "frame", "layers", "window"]
+__all__ = ["about", "about_torus", "frame", "impossible", "layers", "window"]
 
 S = TypeVar("S")
 
@@ -40,8 +40,8 @@ def _mirrored(half: Array) -> list[Array]:
     return [half, half * (1.0, -1.0)]
 
 
-def _impossible(curve: Array, axes: Axes) -> list[list[Array]]:
-    """Everything outside the curve, whose upper branch is given."""
+def impossible(curve: Array, axes: Axes) -> list[list[Array]]:
+    """For a `region`: everything outside the curve, whose upper branch (n, 2) is given."""
     top = axes.y[1]
     edge = [[axes.x[0], 0.0], *curve, [axes.x[1], top], [axes.x[0], top]]
     return [[one] for one in _mirrored(np.array(edge))]
@@ -53,7 +53,9 @@ def _locked(boundary: Array, axes: Axes) -> list[list[Array]]:
         return []
     h, f = boundary[0]
     far, top = max(axes.x[1], h) + 1.0, 2.0 * max(axes.y[1], f)
-    return [[one] for one in _mirrored(np.array([*boundary, [far, 0.0], [far, top], [h, top]]))]
+    # One part: two that meet at f = 0 would show a seam.
+    mirrored = boundary[::-1] * (1.0, -1.0)
+    return [[np.array([*boundary, *mirrored, [h, -top], [far, -top], [far, top], [h, top]])]]
 
 
 def layers(rotation: Callable[[S], Grid], boundary: Callable[[S], Array], curve: Callable[[S], Array],
@@ -69,14 +71,14 @@ def layers(rotation: Callable[[S], Grid], boundary: Callable[[S], Array], curve:
         return _mirrored(found) if len(found) else []
 
     return (
-        image("rotation", rotation, palette=theme.NUMBER_MAP, low=-0.5, high=0.5,
-              legend=(Sign("ρ from −½ to ½", "box rho", ""),)),
+        image("rotation", rotation, palette=theme.TURN_MAP, low=-0.5, high=0.5, cyclic=True,
+              legend=(TURNS,)),
         region("locked", lambda s: _locked(boundary(s), axes(s)), color=theme.LOCKED, label="locked"),
-        curves("boundary", lock, moving=False, color="black"),
-        region("forbidden", lambda s: _impossible(curve(s), axes(s)), label="impossible"),
-        curves("curve", lambda s: _mirrored(curve(s)), moving=False, color="black"),
+        curves("boundary", lock, moving=False, color=theme.INK),
+        region("forbidden", lambda s: impossible(curve(s), axes(s)), label="impossible"),
+        curves("curve", lambda s: _mirrored(curve(s)), moving=False, color=theme.INK),
         points("special", lambda s: ((1.0, -1.0), (0.0, 0.0)), columns=corners, moving=False, marker="diamond",
-               color="white", edge="black", size=11),
+               color=theme.PAPER, edge=theme.INK, size=11),
         *target("here", here, columns=corners),
     )
 

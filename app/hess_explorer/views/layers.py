@@ -16,8 +16,8 @@ from hess_explorer.views import theme
 from hess_mechanics.numerics.results import Array
 
 __all__ = [
-    "MESSAGE", "MOVING_POINT", "POINT", "Axes", "Columns", "Grid", "Layer", "Range", "Sign", "arrows", "curves", "dots",
-    "f32", "image", "levels", "line", "names", "points", "region", "ring", "target", "text",
+    "MESSAGE", "MOVING_POINT", "POINT", "TURNS", "Axes", "Columns", "Grid", "Layer", "Range", "Sign", "arrows",
+    "curves", "dots", "f32", "image", "levels", "line", "names", "points", "region", "ring", "target", "text",
 ]
 
 S = TypeVar("S")
@@ -53,6 +53,8 @@ class Sign:
     style: str
 
 
+TURNS = Sign("ρ from −½ to ½, the same", "box rho", f"background: {theme.gradient(theme.TURN_MAP)}")
+"""The scale of rotation numbers."""
 MOVING_POINT = Sign("moving point", "dot", f"background: {theme.POINT}; border: 1.5px solid")
 
 
@@ -79,7 +81,7 @@ class Layer(Generic[S]):
 
 
 POINT: Layer[Any] = Layer("point", "scatter", ("x", "y"), {
-    "color": theme.POINT, "line_color": "black", "line_width": 1.5, "size": 13})
+    "color": theme.POINT, "line_color": theme.INK, "line_width": 1.5, "size": 13})
 """The moving point of a plot."""
 
 MESSAGE: Layer[Any] = Layer("message", "text", ("x", "y", "text"), {
@@ -223,10 +225,14 @@ def target(name: str, data: Callable[[S], Sequence[Place]], size: float = 21.0,
 
 
 def image(name: str, data: Callable[[S], Grid | None], *, palette: str | tuple[str, ...], low: float, high: float,
-          legend: tuple[Sign, ...] = ()) -> Layer[S]:
-    """Numbers on a grid, under all other layers."""
+          smooth: bool = False, cyclic: bool = False, legend: tuple[Sign, ...] = ()) -> Layer[S]:
+    """Numbers on a grid, under all other layers.
+
+    smooth : of a continuous function, interpolated between the centres of cells; cyclic : so, and `low` and `high` are
+    the same.
+    """
     colors = getattr(palettes, palette) if isinstance(palette, str) else palette
-    style = {"palette": list(colors), "low": low, "high": high}
+    style = {"palette": list(colors), "low": low, "high": high, "smooth": smooth or cyclic, "cyclic": cyclic}
     layer: Layer[S] = Layer(name, "image", ("image", "x", "y", "dw", "dh"), style, moving=False,
                             legend=legend)
     return _layer(layer, _cells, data, None)
@@ -248,7 +254,7 @@ def levels(name: str, data: Callable[[S], Sequence[float]]) -> Layer[S]:
 def names(name: str, data: Callable[[S], Sequence[tuple[float, float, str]]]) -> Layer[S]:
     """Words about places of the part that is impossible: data(state) = [(x, y, word), …]."""
     columns = ("x", "y", "text")
-    style = {"text_color": theme.ON_FORBIDDEN, "text_font_size": "16px", "text_align": "center",
+    style = {"text_color": theme.INK, "text_font_size": "16px", "text_align": "center",
              "text_baseline": "middle"}
     return Layer(name, "text", columns, style,
                  data=lambda state: dict(zip(columns, map(list, zip(*data(state), strict=True)), strict=False)))

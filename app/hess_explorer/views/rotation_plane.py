@@ -8,41 +8,105 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
-from hess_explorer.views.layers import Grid, Layer, Range, Sign, curves, image, target, text
-from hess_mechanics.numerics.results import Array
-from hess_mechanics.suslov_hess.rotation_number import TorusValues
+from hess_explorer.views.bifurcation_diagram import impossible
+from hess_explorer.views.layers import TURNS, Axes, Grid, Layer, Range, Sign, curves, image, region, target, text
+from hess_mechanics.numerics.results import Array, Mask
+from hess_mechanics.suslov_hess.bifurcation import f_max, h_min
+from hess_mechanics.suslov_hess.rotation_number import Torus, TorusValues
 
-__all__ = ["across", "grids", "layers"]
+__all__ = ["across", "edges", "grids", "layers", "outside"]
 
 S = TypeVar("S")
 
-_ZONES = (theme.FORBIDDEN + "00", theme.FORBIDDEN, theme.LOCKED)
+_ON_EDGE = 300
+_CLEAR = theme.LOCKED + "00"
+
+
+def _filled(values: Array, known: Mask) -> Array:
+    """Cells (n, m) with those not known as the nearest known one of their row, else of their column, else 0."""
+    for axis in (1, 0):
+        if not known.any():
+            break
+        size = values.shape[axis]
+        place = np.expand_dims(np.arange(size), 1 - axis)
+        before = np.maximum.accumulate(np.where(known, place, -1), axis=axis)
+        after = np.flip(np.minimum.accumulate(np.flip(np.where(known, place, size), axis), axis=axis), axis)
+        nearest = np.where((before < 0) | ((after < size) & (after - place < place - before)), after, before)
+        found = (nearest >= 0) & (nearest < size)
+        values = np.take_along_axis(values, np.clip(nearest, 0, size - 1), axis)
+        known = found
+    return np.where(known, values, 0.0)
 
 
 def grids(values: TorusValues, cells: tuple[int, int], x: Range, y: Range) -> tuple[Grid, Grid]:
-    """ρ, and the zone (free, impossible, locked), at the centres of cells (m, n) that fill a window."""
+    """ρ, and ln |t|/2, which is positive where it locks, at the centres of cells (m, n) that fill a window.
+
+    Cells without a torus have the value of one beside them, so that both can be interpolated up to the edge.
+    """
     m, n = cells
-    zones = np.where(values.possible, np.where(values.locked, 2.5, 0.5), 1.5)
-    # Cells without a torus lie under their zone, whatever their colour.
-    rho = np.where(values.possible, values.rho, 0.0)
-    return Grid(rho.reshape(n, m), x, y), Grid(zones.reshape(n, m), x, y)
+    known = values.possible.reshape(n, m)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        height = np.clip(np.log(0.5 * values.trace), -1.0, 1.0)
+    rho, zones = (Grid(_filled(one.reshape(n, m), known), x, y) for one in (values.rho, height))
+    return rho, zones
+
+
+def _upper(x: Range) -> Array:
+    """The bifurcation curve (n, 2) with f ≥ 0, as far as it is in a window."""
+    energies = np.linspace(max(x[0], -1.0), x[1], _ON_EDGE)
+    return np.array([[h, f_max(h) if h > -1.0 else 0.0] for h in energies.tolist()])
+
+
+def edges(plane: str, torus: Torus, x: Range, y: Range) -> list[Array]:
+    """Curves (n, 2) between the tori of a plane of `PLANES` that are possible and those that are not, in a window."""
+    if plane == "h, f":
+        if x[1] <= -1.0:
+            return []
+        upper = _upper(x)
+        return [upper, upper * (1.0, -1.0)]
+    if plane == "h, a":
+        places = [h_min(torus.f)]
+    else:
+        top = f_max(torus.h) if torus.h > -1.0 else 0.0
+        places = [-top, top]
+    return [np.array([[place, y[0]], [place, y[1]]]) for place in places if x[0] < place < x[1]]
+
+
+def outside(plane: str, torus: Torus, x: Range, y: Range) -> list[list[Array]]:
+    """For a `region`: all of the window that is not possible."""
+    (x0, x1), (y0, y1) = x, y
+    if plane == "h, f":
+        return impossible(_upper(x), Axes(x, (min(y0, -y1), max(y1, -y0)))) if x1 > -1.0 else [
+            [_rectangle(x0, x1, y)]]
+    if plane == "h, a":
+        parts = [(x0, min(x1, h_min(torus.f)))]
+    else:
+        top = f_max(torus.h) if torus.h > -1.0 else 0.0
+        parts = [(x0, min(x1, -top)), (max(x0, top), x1)]
+    return [[_rectangle(low, high, y)] for low, high in parts if low < high]
+
+
+def _rectangle(low: float, high: float, y: Range) -> Array:
+    return np.array([[low, y[0]], [high, y[0]], [high, y[1]], [low, y[1]]])
 
 
 def layers(grids: Callable[[S], tuple[Grid, Grid]], boundary: Callable[[S], Sequence[Array]],
+           impossible: Callable[[S], Sequence[Sequence[Array]]], edges: Callable[[S], Sequence[Array]],
            across: Callable[[S], Sequence[Array]], here: Callable[[S], Sequence[tuple[float, float]]],
            names: Callable[[S], str]) -> tuple[Layer[S], ...]:
     """Colours and zones; curves (n, 2) where |t| = 2; the line, and the torus on show, if it is in sight.
 
-    names : what the axes are, as that is not always the same.
+    impossible, edges : `outside` and `edges`; names : what the axes are, as that is not always the same.
     """
     return (
-        image("rho", lambda s: grids(s)[0], palette=theme.NUMBER_MAP, low=-0.5, high=0.5,
-              legend=(Sign("ρ from −½ to ½", "box rho", ""),)),
-        image("zones", lambda s: grids(s)[1], palette=_ZONES, low=0.0, high=3.0,
-              legend=(Sign("locked, two limit cycles", "box", f"background: {theme.LOCKED}"),
-                      Sign("impossible", "box", f"background: {theme.FORBIDDEN}"))),
-        curves("boundary", boundary, moving=False, color="black", label="its boundary, |trace| = 2"),
-        curves("across", across, color=theme.MUTED, dash="dashed", label="the line"),
+        image("rho", lambda s: grids(s)[0], palette=theme.TURN_MAP, low=-0.5, high=0.5, cyclic=True, legend=(TURNS,)),
+        image("zones", lambda s: grids(s)[1], palette=(_CLEAR, theme.LOCKED), low=-1.0, high=1.0, smooth=True,
+              legend=(Sign("locked, two limit cycles", "box", f"background: {theme.LOCKED}"),)),
+        curves("boundary", boundary, moving=False, color=theme.INK, label="its boundary, |trace| = 2"),
+        region("forbidden", impossible, label="impossible"),
+        curves("edge", edges, moving=False, color=theme.INK, width=1.5),
+        curves("across-under", across, color=theme.PAPER, width=4, alpha=0.7),
+        curves("across", across, color=theme.INK, dash="dashed", label="the line"),
         *target("here", here),
         text("names", names),
     )

@@ -17,7 +17,7 @@ from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov_hess.bifurcation_kernels import f_max_and_roots, largest_f
 
-__all__ = ["SPECIAL_POINTS", "TurningPoints", "curve", "curve_point", "f_max", "reach", "turning_points"]
+__all__ = ["SPECIAL_POINTS", "TurningPoints", "curve", "curve_point", "f_max", "h_min", "reach", "turning_points"]
 
 SPECIAL_POINTS: tuple[tuple[float, float], ...] = ((1.0, 0.0), (-1.0, 0.0))
 """(h, f) of the upper and the lower equilibrium (`Geq4`)."""
@@ -72,6 +72,19 @@ def f_max(h: float) -> float:
     """The largest |f| of motions with this h (`Geq3`).  Raises `OutsideRegion` for h ≤ −1."""
     _check_h(h)
     return float(largest_f(float(h)))
+
+
+def h_min(f: float) -> float:
+    """The least h of motions with this f, where |f| = `f_max` (`Geq3`): 1 − n² = |f|√n there, of √n the root in (0, 1].
+
+    Raises `InvalidParameter` for f that is not finite.
+    """
+    require_finite(f=f)
+    low, high = 0.0, 1.0
+    # Bisection to round-off: n⁴ + |f|n − 1 grows.
+    while low < (root := 0.5 * (low + high)) < high:
+        low, high = (root, high) if root**4 + abs(f) * root < 1.0 else (low, root)
+    return curve_point(high * high)[0]
 
 
 def reach(h: float, n3: Array) -> Array:

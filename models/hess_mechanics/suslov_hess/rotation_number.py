@@ -22,7 +22,7 @@ from hess_mechanics.errors import InvalidParameter, ModelError, WorkLimit
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array, Mask, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
-from hess_mechanics.suslov_hess.bifurcation import f_max
+from hess_mechanics.suslov_hess.bifurcation import f_max, h_min
 from hess_mechanics.suslov_hess.circle_map import MAX_A, check_a, circle_map, discriminants, matrices, rotation_numbers
 from hess_mechanics.suslov_hess.mode_locking import critical_a, lock_boundary
 
@@ -147,13 +147,24 @@ def lock_curve(plane: str, torus: Torus, window: Sequence[float], level: Level, 
     if plane == "h, f":
         return lock_boundary(torus.a, level, points)
     found = []
-    for x in np.linspace(x0, x1, points):
+    for x in _abscissas(plane, torus, x0, x1, points):
         try:
             h, f = (x, torus.f) if plane == "h, a" else (torus.h, x)
             found.append((x, critical_a(float(h), abs(float(f)), level, 20.0)))
         except ModelError:
             continue
     return frozen(np.array(found).reshape(-1, 2))
+
+
+def _abscissas(plane: str, torus: Torus, x0: float, x1: float, points: int) -> Array:
+    """Places between x0 and x1 from edge to edge of what is possible; of f closer to 0, where the a wanted grows."""
+    if plane == "h, a":
+        low = max(x0, h_min(torus.f) + 1e-9)
+        return np.linspace(low, x1, points) if low < x1 else np.empty(0)
+    top = f_max(torus.h) * (1.0 - 1e-9) if torus.h > -1.0 else 0.0
+    ends = np.clip([x0, x1], -top, top)
+    roots = np.linspace(*np.copysign(np.sqrt(np.abs(ends)), ends), points)
+    return np.asarray(roots * np.abs(roots))
 
 
 def perturbed_rotation(a: Array | float, h: Array | float, f: Array | float, epsilon: float, level: Level,

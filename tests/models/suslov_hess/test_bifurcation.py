@@ -274,3 +274,11 @@ def test_w_is_smallest_and_largest_where_n3_turns(h, f):
     for rho, n3 in ((turning.initial_rho, turning.roots[1]), (turning.final_rho, turning.roots[2])):
         assert 0.5 * rho * rho - n3 == pytest.approx(h, rel=1e-12)
     assert turning.initial_rho < turning.final_rho
+
+
+@pytest.mark.parametrize("f", [0.0, 1e-6, -0.3, 1.0, 17.0])
+def test_the_least_energy_is_where_f_is_the_largest(f):
+    if f == 0.0:
+        assert h_min(f) == pytest.approx(-1.0, abs=1e-12)
+    else:
+        assert f_max(h_min(f)) == pytest.approx(abs(f), rel=1e-9)

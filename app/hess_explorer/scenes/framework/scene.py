@@ -17,6 +17,7 @@ from hess_explorer.scenes.framework.trial import Trial, bare, needed, orbit_tria
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.layers import Columns
 from hess_explorer.views.picture import Picture
+from hess_explorer.views.theme import in_css
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.accuracy import LEVELS, Kind, Level, Plan
@@ -207,7 +208,7 @@ class Scene(Generic[S]):
             said = words.setdefault((sign.kind, sign.style), [])
             if sign.label not in said:
                 said.append(sign.label)
-        items = (f'<li><span class="{kind}" style="{style}"></span>{escape(", ".join(labels))}</li>'
+        items = (f'<li><span class="{kind}" style="{in_css(style)}"></span>{escape(", ".join(labels))}</li>'
                  for (kind, style), labels in words.items())
         return f'<ul class="legend" aria-label="Legend">{"".join(items)}</ul>'
 

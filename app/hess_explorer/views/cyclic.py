@@ -1,0 +1,32 @@
+"""A scale of colours that ends where it begins, for numbers of which −½ and ½ are the same.
+
+Darkest at ±½, lightest at 0, blue below and yellow above, even in lightness, and the same order to the colour-blind:
+CET-CBC1 of P. Kovesi, "Good Colour Maps: How to Design Them" (arXiv:1509.03700), turned so that it begins at its
+darkest colour.  Every eighth colour stands here, as the package that has it (colorcet, CC BY 4.0) takes a second to
+import.
+"""
+
+from __future__ import annotations
+
+__all__ = ["TURN"]
+
+_COUNT = 256
+_EVERY_EIGHTH = (
+    "2F2E2C 2F323D 343C53 38486A 3B5383 3C5F9C 3B6BB5 3877D0 "
+    "3A83E6 528FEF 709CF0 89A9F1 9FB6F2 B4C3F2 C7D1F3 DADFF3 "
+    "E9E9ED EAE4D8 E2D7BC D8C9A1 CEBB85 C3AE6B B7A14F AB9433 "
+    "9D8716 8F7A0F 806E17 72621D 645621 564B24 484025 3A3527 "
+)
+
+
+def _scale() -> tuple[str, ...]:
+    anchors = [[int(one[i : i + 2], 16) for i in (0, 2, 4)] for one in _EVERY_EIGHTH.split()]
+    step = _COUNT // len(anchors)
+    mixed = (
+        [((step - j) * x + j * y) / step for x, y in zip(anchor, anchors[(i + 1) % len(anchors)], strict=True)]
+        for i, anchor in enumerate(anchors) for j in range(step))
+    return tuple("#" + "".join(f"{round(part):02X}" for part in colour) for colour in mixed)
+
+
+TURN = _scale()
+"""From −½ to just below ½, 256 colours."""

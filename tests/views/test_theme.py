@@ -1,0 +1,72 @@
+"""Colours: clear on both pages, the same in the browser, and a scale of turns that closes."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hess_explorer.views import theme
+
+LOOKS = Path(__file__).resolve().parents[2] / "static/pictures/looks.js"
+
+
+def rgb(colour):
+    return np.array([int(colour[i : i + 2], 16) for i in (1, 3, 5)]) / 255
+
+
+def luminance(colour):
+    """Relative luminance, as WCAG defines it."""
+    parts = rgb(colour)
+    return float(np.where(parts <= 0.04045, parts / 12.92, ((parts + 0.055) / 1.055) ** 2.4) @ (0.2126, 0.7152, 0.0722))
+
+
+def contrast(one, other):
+    low, high = sorted(map(luminance, (one, other)))
+    return (high + 0.05) / (low + 0.05)
+
+
+@pytest.mark.parametrize("page", [0, 1], ids=["light", "dark"])
+def test_lines_stand_out_and_what_is_impossible_is_quiet(page):
+    shades = {name: pair[page] for name, pair in theme.SHADES.items()}
+    behind = shades["paper"]
+    assert contrast(shades["orbit"], behind) >= 4.5
+    for name in ("stable", "unstable", "second", "muted"):
+        assert contrast(shades[name], behind) >= 3.0, name
+    assert contrast(shades["forbidden"], behind) < 1.5
+    # Points and lines may lie on what is locked, and words on what is impossible.
+    assert contrast(shades["ink"], shades["locked"]) >= 4.5
+    assert contrast(shades["ink"], shades["forbidden"]) >= 4.5
+    # Nothing else of a picture outshines the orbit on a dark page but what marks the orbit.
+    assert page == 0 or all(
+        luminance(shades[name]) < luminance(shades["orbit"]) for name in ("forbidden", "locked", "muted", "unstable"))
+
+
+def test_the_browser_has_the_same_shades():
+    rows = re.findall(r'\["(\w+)", "(#\w{6})", "(#\w{6})"\]', LOOKS.read_text(encoding="utf-8"))
+    assert {name: pair for name, *pair in rows} == {name: list(pair) for name, pair in theme.SHADES.items()}
+
+
+def test_legends_follow_the_page():
+    assert theme.in_css("border: 3px solid #0072B2") == "border: 3px solid var(--orbit, #0072B2)"
+    assert theme.in_css("background: #009E7370") == (
+        "background: color-mix(in srgb, var(--stable, #009E73) 44%, transparent)")
+    assert theme.in_css("background: #123456") == "background: #123456"
+
+
+def test_the_scale_of_turns_ends_where_it_begins():
+    scale = np.array([rgb(colour) for colour in theme.TURN_MAP])
+    steps = np.linalg.norm(np.roll(scale, -1, axis=0) - scale, axis=1)
+    assert len(scale) == 256
+    # Across ±1/2 it goes on as elsewhere.
+    assert steps[-1] <= 1.5 * np.median(steps)
+    assert steps.max() < 0.03
+    # Half a turn apart it differs, and as clearly in lightness or between blue and yellow.
+    apart = np.roll(scale, 128, axis=0) - scale
+    assert np.abs(apart @ (0.2126, 0.7152, 0.0722)).max() > 0.6
+    assert np.abs(apart[64, 2]) > 0.4
+    lightness = [luminance(colour) for colour in theme.TURN_MAP]
+    assert abs(int(np.argmax(lightness)) - 128) <= 4
+    assert int(np.argmin(lightness)) in (0, 1, 255)
