@@ -163,7 +163,8 @@ def _abscissas(plane: str, torus: Torus, x0: float, x1: float, points: int) -> A
         return np.linspace(low, x1, points) if low < x1 else np.empty(0)
     top = f_max(torus.h) * (1.0 - 1e-9) if torus.h > -1.0 else 0.0
     ends = np.clip([x0, x1], -top, top)
-    roots = np.linspace(*np.copysign(np.sqrt(np.abs(ends)), ends), points)
+    first, last = np.copysign(np.sqrt(np.abs(ends)), ends).tolist()
+    roots = np.linspace(first, last, points)
     return np.asarray(roots * np.abs(roots))
 
 

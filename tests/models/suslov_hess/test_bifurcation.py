@@ -13,7 +13,7 @@ from scipy.special import ellipkm1
 
 from hess_mechanics import curve, curve_point, f_max, systems, turning_points
 from hess_mechanics.errors import InvalidParameter, ModelError, OutsideRegion, Separatrix
-from hess_mechanics.suslov_hess.bifurcation import SPECIAL_POINTS
+from hess_mechanics.suslov_hess.bifurcation import SPECIAL_POINTS, h_min
 from support.mechanics import PROPERTY
 
 ULP = 2.0**-52
