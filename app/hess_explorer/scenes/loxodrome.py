@@ -158,7 +158,7 @@ SCENE = Scene(
             motion=lambda s: (s.found.attitude, s.found.times), rods=Loxodrome.rods,
             curves=lambda s: [Curve(s.found.centre, "stable", 2.0)], trail=lambda s: Trail((0.0, 1.0, 0.0), "orbit"),
             signs=(Sign("gyration ellipsoid", "line", "border-top: 2px solid #808080"),
-                   Sign("circular section", "line", "border-top: 2px solid #CC79A7"))),
+                   Sign("circular section", "line", "border-top: 2px solid #BF6699"))),
         BodyInSpace(
             name="space", title="Sphere fixed in space", caption=Loxodrome._about_space, attitude="body",
             rods=lambda s: s.rods("2"),

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import TypeVar
 
 import numpy as np
+from bokeh.palettes import Cividis256
 
 from hess_explorer.views import theme
 from hess_explorer.views.comparison import Frame
@@ -43,7 +44,8 @@ def _layers(theta_plus: Callable[[S], Array], here: Callable[[S], tuple[float, f
     """Colours: θ⁺ from 0 to π, at the centres of cells, rows of equal θ⁻.  A ring: (φ, θ⁻); a line: the curve there."""
     return (
         image("theta", lambda s: Grid(theta_plus(s), AZIMUTH, POLAR), palette=theme.NUMBER_MAP, low=0.0, high=math.pi,
-              legend=(Sign("θ⁺ from 0 to π", "box rho", ""),)),
+              smooth=True,
+              legend=(Sign("θ⁺ from 0 to π", "box rho", f"background: {theme.gradient(Cividis256)}"),)),
         line("line", lambda s: (AZIMUTH, (here(s)[1],) * 2), color="white", dash="dashed"),
         *target("here", lambda s: [here(s)], size=19.0),
     )

@@ -31,7 +31,7 @@ _WHEEL = (math.sqrt(0.5), math.sqrt(0.5), 0.0)
 """Where a wheel touches: across e; about ω1 or ω2 alone a body would turn that one without rolling it."""
 _MASS = Sign("centre of mass", "dot", "background: #F0E442; border: 1.5px solid black")
 _TRAIL = Sign("trail of the centre of mass", "line", "border-top: 3px solid #0072B2")
-_SECTION = Sign("circular section of the gyration ellipsoid", "line", "border-top: 2.5px solid #CC79A7")
+_SECTION = Sign("circular section of the gyration ellipsoid", "line", "border-top: 2.5px solid #BF6699")
 
 
 @dataclass(frozen=True)
