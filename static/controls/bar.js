@@ -7,11 +7,14 @@ import { sceneMenu } from "./scenes.js"
 const SAID_FOR = 2000
 const MENU = "M4 6h16v2H4zm0 5h16v2H4zm0 5h16v2H4z"
 
-// In groups; each tells its name.  isDrawn: only where clicks and boxes are drawn.
+// In groups; each tells its name.  isDrawn: only where clicks and boxes are drawn;
+// isStep: enabled where there is such a step.
 const TOOLS = [
   [
-    { name: "undo", label: "Undo", title: "Take back the last click or box in a picture", isDrawn: true,
+    { name: "undo", label: "Undo", title: "Take back the last change (Ctrl+Z)", isStep: true,
       icon: "M9 5 3 10l6 5v-4h5a3.5 3.5 0 0 1 0 7H8v2h6a5.5 5.5 0 0 0 0-11H9z" },
+    { name: "redo", label: "Redo", title: "The change that was taken back (Ctrl+Shift+Z)", isStep: true,
+      icon: "M15 5l6 5-6 5v-4h-5a3.5 3.5 0 0 0 0 7h6v2h-6a5.5 5.5 0 0 1 0-11h5z" },
     { name: "clear", label: "Clear", title: "Without all clicks and boxes", isDrawn: true,
       icon: "M6 4.6 12 10.6 18 4.6 19.4 6 13.4 12 19.4 18 18 19.4 12 13.4 6 19.4 4.6 18 10.6 12 4.6 6z" },
     { name: "reset", label: "Reset", title: "Back to the first state of this scene",
@@ -51,9 +54,11 @@ export function render({ model, view, el }) {
   open.addEventListener("click", menu.open)
 
   const drawn = []
+  const steps = new Map()
   const groups = TOOLS.map((group) => element("div", { className: "group" }, ...group.map((one) => {
     const [button, words] = tool(one)
     if (one.isDrawn) drawn.push(button)
+    if (one.isStep) steps.set(one.name, button)
     if (one.name === "link") sayCopied(button, words)
     return button
   })))
@@ -81,6 +86,9 @@ export function render({ model, view, el }) {
     for (const button of drawn) button.hidden = !scene.drawn
     menu.show(scene.name)
   }
+  const enable = (counts) => { for (const [name, button] of steps) button.disabled = counts[name] === 0 }
+  enable({ undo: 0, redo: 0 })
+  listen("steps", enable, signal)
   listen("enter", show, signal)
   tell("mounted", { kind: "scene", show })
 }

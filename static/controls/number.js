@@ -20,7 +20,7 @@ export function number({ name, label, symbol, help, range }) {
   const title = element("span", { className: "label", textContent: label, title: help })
   const box = element("input", {
     type: "text", inputMode: "decimal", spellcheck: false, title: `${help} Type an exact value and press Enter.`,
-    "aria-label": `${symbol}, exact value`,
+    "aria-label": `${symbol}, exact value`, className: "exact",
   })
   const slider = element("input", {
     type: "range", className: "hand", title: help, "aria-label": label, "aria-description": help,
@@ -50,6 +50,8 @@ export function number({ name, label, symbol, help, range }) {
   })
   box.addEventListener("input", () => box.setCustomValidity(""))
   box.addEventListener("keydown", (event) => {
+    // While a text is typed the browser itself undoes.
+    if ((event.ctrlKey || event.metaKey) && box.value !== String(shown)) event.stopPropagation()
     if (event.key !== "Escape") return
     box.value = String(shown)
     box.setCustomValidity("")

@@ -1,10 +1,11 @@
 // How the parts of the page speak to each other.  Every module of the page imports the same instance.
 //
-// To the client ("client.js"):            change {name: value}, preset name, scene name, near name, reset, undo, clear,
-//                                         stop, link, theme, fullscreen, pick {pick, drag}, hover [picture, x, y],
+// To the client ("client.js"):            change {name: value}, preset name, scene name, near name, restore query,
+//                                         expression {name, text}, reset, undo, redo, clear, stop, link, theme, fullscreen, pick {pick, drag}, hover [picture, x, y],
 //                                         folded {name, folded}, url {key: text}, mounted {kind, key, show}
 // From the client to whoever is concerned: enter description, texts {key: text}, controls {name: value},
-//                                         progress [done, of] or null, client {key: text}, copied text, paint
+//                                         progress [done, of] or null, client {key: text}, copied text, paint,
+//                                         steps {undo: number, redo: number}
 // From the player to the pictures:         time {t, state}, fold name
 
 const bus = new EventTarget()

@@ -6,6 +6,7 @@
 import { gallery } from "../pictures/gallery.js"
 import { createAddress } from "./address.js"
 import { listen, tell } from "./bus.js"
+import { createHistory } from "./history.js"
 import { lifetime } from "./mount.js"
 import { paint } from "./painting.js"
 import { createPage } from "./panel_page.js"
@@ -40,6 +41,10 @@ export function render({ model, view }) {
     changed: () => { root.dataset.ready = "false" },
     hidden: sight.hidden,
     known: (name) => descriptions.has(name),
+  }, signal)
+
+  const history = createHistory({
+    query: () => state.query, isSettled: () => state !== null && !requests.isBehind(state.answers), address,
   }, signal)
 
   listen("url", (keys) => {
@@ -109,6 +114,7 @@ export function render({ model, view }) {
     address.write()
     root.dataset.state = String(state.number)
     requests.settled()
+    history.settle()
     if (!requests.lost) tell("texts", { busy: "" })
     tell("progress", state.progress)
     clearTimeout(more)

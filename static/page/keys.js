@@ -2,6 +2,11 @@
 
 const TEXT_BOX = "textarea, [contenteditable], input:not([type=range], [type=checkbox], [type=radio])"
 
+// Whether a key with Ctrl is for a text that is typed, or a dialog.  The box of a number says itself when it is.
+export function isTyped(event) {
+  return event.composedPath().some((item) => item instanceof HTMLElement && item.matches(`dialog, :is(${TEXT_BOX}):not(.exact)`))
+}
+
 // Whether the key is one that is typed, belongs to the browser, or to a dialog that covers the page.
 export function isTaken(event) {
   if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey) return true

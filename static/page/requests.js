@@ -85,7 +85,12 @@ export function createRequests({ send, changed, hidden, known }, signal) {
     request()
   }, signal)
   listen("preset", (preset) => restart({ preset }), signal)
-  for (const what of ["reset", "undo", "clear"]) listen(what, () => restart({ [what]: true }), signal)
+  for (const what of ["reset", "clear"]) listen(what, () => restart({ [what]: true }), signal)
+  // The query of a state, perhaps of another scene.
+  listen("restore", (restore) => {
+    chosen = target = new URLSearchParams(restore).get("scene") ?? shown
+    restart({ restore })
+  }, signal)
   listen("stop", () => want({ stop: true }), signal)
   listen("pick", ({ pick, drag }) => {
     // A finger that moves scrolls the page.
@@ -106,6 +111,7 @@ export function createRequests({ send, changed, hidden, known }, signal) {
     // The scene chosen last, though its pictures may still be on their way.
     if (scene === (target ?? shown)) return
     chosen = target = scene
+    delete wish.restore
     request()
   }, signal)
 

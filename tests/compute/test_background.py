@@ -450,6 +450,7 @@ def test_a_refusal_in_the_background_is_said(free_gate, monkeypatch):
 
 
 def test_a_click_starts_an_orbit_and_undo_and_clear_take_it_back(free_gate):
+    """Undo is a step back to the query of an earlier state."""
     browser = Browser(EP, SMALL)
     completed(browser)
     browser.ask(1, picked=["section", 0.5, -0.3])
@@ -457,7 +458,7 @@ def test_a_click_starts_an_orbit_and_undo_and_clear_take_it_back(free_gate):
     assert browser.data["section-chosen"]["x"] == pytest.approx([0.0, 0.5])
     browser.ask(2, picked=["section", 1.0, 0.4])
     assert len(places(browser.session.values["starts"])) == 3
-    browser.ask(3, undo=True)
+    browser.ask(3, restore=encode(EP.name, {**SMALL, "starts": "0,0.2;0.5,-0.3"}))
     assert places(browser.session.values["starts"]) == [(0.0, 0.2), (0.5, -0.3)]
     browser.ask(4, picked=["section", -0.5, 0.6, -1.5, -0.2])
     assert places(browser.session.values["window"]) == [(-1.5, -0.2), (-0.5, 0.6)]
@@ -465,12 +466,6 @@ def test_a_click_starts_an_orbit_and_undo_and_clear_take_it_back(free_gate):
     browser.ask(5, clear=True)
     assert (browser.session.values["starts"], browser.session.values["window"]) == ("0,0.2", "")
     assert browser.screen.ranges["section"] == pytest.approx([-math.pi, math.pi, -1.0, 1.0], abs=1e-6)
-    # Also that can be undone, step by step, as far as there is anything.
-    browser.ask(6, undo=True)
-    assert places(browser.session.values["window"]) == [(-1.5, -0.2), (-0.5, 0.6)]
-    for requested in range(7, 11):
-        browser.ask(requested, undo=True)
-    assert (browser.session.values["starts"], browser.session.values["window"]) == ("0,0.2", "")
     assert decode(browser.state["query"], EP.specs) == (browser.session.values, [])
 
 
@@ -490,8 +485,8 @@ def test_a_box_beyond_the_section_is_cut_and_one_that_is_none_is_not_taken(free_
 
 
 @pytest.mark.parametrize("message", [
-    {"undo": True}, {"undo": 1, "clear": "yes", "stop": None}, {"stop": True}, {"picked": []}, {"picked": [None]},
-    {"picked": ["section"]}, {"picked": ["section", 1.0]}, {"picked": ["section", 1.0, 0.1, 2.0]},
+    {"restore": None}, {"restore": ["v=1"]}, {"clear": "yes", "stop": None}, {"stop": True}, {"picked": []},
+    {"picked": [None]}, {"picked": ["section"]}, {"picked": ["section", 1.0]}, {"picked": ["section", 1.0, 0.1, 2.0]},
     {"picked": ["section", 0.1, 0.2, 0.6, 0.7, 0.8, 0.9]}, {"values": {"starts": None}},
     {"values": {"starts": ["0,0"]}}, {"values": {"window": {}}}, {"values": {"starts": "0" * 5000}},
     {"values": {"window": "1,2,3;4"}}])
@@ -511,12 +506,32 @@ def test_a_click_where_nothing_is_possible_is_answered_by_another_start(free_gat
     assert len(browser.data["section-chosen"]["x"]) == 1
 
 
-def test_another_scene_has_its_own_history(free_gate):
+def test_a_step_back_leads_to_another_scene_too_with_all_of_its_values_and_no_others(free_gate):
     browser = Browser(EP, SMALL)
-    browser.ask(1, picked=["section", 0.5, -0.3])
-    browser.ask(2, scene="suslov-hess")
-    browser.ask(3, scene=EP.name)
-    starts = browser.session.values["starts"]
-    browser.ask(4, undo=True)
-    assert browser.session.values["starts"] == starts
+    first = browser.ask(1, picked=["section", 0.5, -0.3])["query"]
+    there = browser.ask(2, scene="suslov-hess", values={})["query"]
+    browser.ask(3, values={"h": 2.25, "accuracy": "draft"})
+    state = browser.ask(4, restore=first)
+    assert (state["scene"], state["query"]) == (EP.name, first)
+    assert browser.texts["notes"] == ""
+    # Nothing is carried along, and a name of the scene after that is described with it.
+    state = browser.ask(5, restore=there, near="loxodrome")
+    assert (state["scene"], state["query"]) == ("suslov-hess", there)
+    assert browser.described == [EP.name, "suslov-hess"]
     assert isinstance(STARTS, Places)
+
+
+def test_a_step_back_is_read_as_a_link_is(free_gate):
+    browser = Browser(EP, SMALL)
+    state = browser.ask(1, restore=f"scene={EP.name}&h=1e9&f=nobody&t=3&large=section&theme=dark&undo=1")
+    low, high = next(spec for spec in EP.specs if spec.name == "h").bounds
+    assert dict(decode(state["query"], EP.specs)[0])["h"] == high
+    assert f"h lies between {low:g} and {high:g}" in browser.texts["notes"]
+    assert "f was not a number" in browser.texts["notes"]
+    # Of no scene that there is: this one.
+    state = browser.ask(2, restore="scene=nowhere&h=1")
+    assert state["scene"] == EP.name
+    assert "Scene was not one of" in browser.texts["notes"]
+    # Too long is not read at all.
+    state = browser.ask(3, restore="h=2&" + "x" * MAX_QUERY)
+    assert f"longer than {MAX_QUERY} characters" in browser.texts["notes"]

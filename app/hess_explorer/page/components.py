@@ -109,7 +109,8 @@ class Ready(JSComponent):
     - "values": {name: number or option, …}; "preset": the example chosen; "scene": the scene chosen;
     - "picked": [picture, x, y] or [picture, x0, y0, x1, y1]; "hover": [picture, x, y], where the mouse is;
     - "near": a scene that may be chosen next;
-    - "reset", "undo", "clear", "stop": whether that was pressed; "held": whether a slider is held;
+    - "restore": the query of a state to go to, as in a link;
+    - "reset", "clear", "stop": whether that was pressed; "held": whether a slider is held;
     - "hidden": [the pictures out of sight, …].
     """
 

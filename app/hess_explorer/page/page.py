@@ -22,7 +22,7 @@ from hess_explorer.page.components import (
     Status,
     Text,
 )
-from hess_explorer.page.session import Session
+from hess_explorer.page.session import Session, linked
 from hess_explorer.protocol.parameters import CLIENT, Choice, Names, decode
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
@@ -61,16 +61,15 @@ def _query() -> str:
 
 
 def _page(query: str) -> pmui.Page:
-    choice = Choice("scene", "Scene", tuple(scenes()), next(iter(scenes())))
-    chosen, _ = decode(query, (choice,))
-    scene = scenes()[str(chosen["scene"])]
+    scene, state, notes = linked(query, next(iter(scenes())))
     large = Names("large", "Enlarged pictures", scene.pictures, most=2)
-    # A scene's own notes on the link; that of another version is among them.
-    state, notes = decode(query, (choice, *scene.specs, *CLIENT, large, THEME))
-    kept = {spec.name: float(state.pop(spec.name)) for spec in CLIENT}
+    looks, more = decode(query, (*CLIENT, large, THEME))
+    # Of the link as a whole there is one note.
+    notes = list(dict.fromkeys([*notes, *more]))
+    kept = {spec.name: float(looks[spec.name]) for spec in CLIENT}
     kept["speed"] = min(Player.SPEEDS, key=lambda speed: abs(speed - kept["speed"]))
-    client = {**{name: repr(value) for name, value in kept.items()}, large.name: str(state.pop(large.name))}
-    dark = state.pop("theme") == "dark"
+    client = {**{name: repr(value) for name, value in kept.items()}, large.name: str(looks[large.name])}
+    dark = looks["theme"] == "dark"
 
     ready = Ready(client=client)
     shell = Shell(

@@ -18,19 +18,16 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.page.components import Ready
 from hess_explorer.page.controls import show_controls
 from hess_explorer.page.description import describe
-from hess_explorer.protocol.parameters import Choice, Number, Places, Values, encode
+from hess_explorer.protocol.parameters import Choice, Number, Places, Value, Values, decode, encode
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Report, Scene
 from hess_explorer.scenes.framework.stage import Stage
 from hess_mechanics.errors import ModelError
 
-__all__ = ["Session"]
+__all__ = ["Session", "linked"]
 
 logger = logging.getLogger("hess_explorer")
-
-MOST_UNDONE = 50
-
 
 def _float(value: Any) -> float:
     """A number from the browser; NaN for whatever is none."""
@@ -38,6 +35,15 @@ def _float(value: Any) -> float:
         return float(value) if isinstance(value, int | float) else math.nan
     except OverflowError:
         return math.nan
+
+
+def linked(query: str, here: str) -> tuple[Scene[Any], dict[str, Value], list[str]]:
+    """The scene that a query names, else the one of the name `here`; its values there; notes on what was changed."""
+    choice = Choice("scene", "Scene", tuple(scenes()), here)
+    scene = scenes()[str(decode(query, (choice,))[0]["scene"])]
+    values, notes = decode(query, (choice, *scene.specs))
+    del values["scene"]
+    return scene, values, notes
 
 
 class Session:
@@ -75,7 +81,6 @@ class Session:
         self._wanted = scene.defaults() | {name: values[name] for name in self._specs if name in values}
         self._link_notes = notes
         self._shown: Collection[str] = scene.open_pictures
-        self._history: list[Values] = []
         # The browser keeps the pictures of all scenes that it has seen, and a stage knows what it has drawn on them.
         if scene.name not in self._stages:
             self._stages[scene.name] = Stage(scene, self.wire)
@@ -136,12 +141,17 @@ class Session:
         """Back to the scene's defaults."""
         self.change(self.scene.defaults())
 
-    def _draw_on(self, values: Values) -> None:
-        """What the mouse has chosen; it can be undone."""
-        if values and any(isinstance(spec, Places) for spec in self._specs.values()):
-            before = {name: self._wanted[name] for name in values}
-            self._history = [*self._history, before][-MOST_UNDONE:]
-        self.change(values)
+    def _restore(self, query: str) -> bool:
+        """The state of a link, or of a step that is undone; whether that is in another scene."""
+        scene, values, notes = linked(query, self.scene.name)
+        if scene is self.scene:
+            self.change(values)
+            self._link_notes, self._dirty = notes, self._dirty or bool(notes)
+            return False
+        self._left[self.scene.name] = self._wanted
+        self._own_instead = False
+        self._enter(scene, values, notes)
+        return True
 
     def _picked(self, picked: Any) -> Values:
         """The values that a click [picture, x, y] or a box [picture, x0, y0, x1, y1] chooses; else a note why not."""
@@ -190,22 +200,24 @@ class Session:
         """A message of the browser: nothing in it is trusted."""
         if not isinstance(message, dict):
             return
+        query, moved = message.get("restore"), False
+        if isinstance(query, str):
+            with unlocked():
+                moved = self._restore(query)
         if message.get("reset") is True:
             self.reset()
         for preset in self.scene.presets:
             if preset.name == message.get("preset"):
                 self.change(self.scene.example(preset))
         values = message.get("values")
-        # What asks for more of the same is no change.
-        if isinstance(values, dict) and (values or self._progress is None):
+        # What asks for more of the same is no change, nor is what says nothing beside a step back.
+        if isinstance(values, dict) and (values or (self._progress is None and not isinstance(query, str))):
             self.change({name: value for name, value in values.items() if name in self._specs})
-        if message.get("undo") is True and self._history:
-            self.change(self._history.pop())
         if message.get("clear") is True:
-            self._draw_on({name: spec.default for name, spec in self._specs.items() if isinstance(spec, Places)})
+            self.change({name: spec.default for name, spec in self._specs.items() if isinstance(spec, Places)})
         picked = self._picked(message.get("picked"))
         if picked:
-            self._draw_on(picked)
+            self.change(picked)
         hover = message.get("hover")
         if isinstance(hover, list) and len(hover) == 3:
             self._hover(hover[0], *map(_float, hover[1:]))
@@ -216,9 +228,11 @@ class Session:
         with unlocked():
             scene, near = (scenes().get(name) if isinstance(name, str) else None
                            for name in (message.get("scene"), message.get("near")))
-            if scene is not None and scene is not self.scene:
-                self._change_scene(scene)
             # One description goes with one state.
+            if moved:
+                pass
+            elif scene is not None and scene is not self.scene:
+                self._change_scene(scene)
             elif near is not None:
                 self._describe(near.name)
             hidden = message.get("hidden")
