@@ -23,6 +23,7 @@ export function render({ model, view, el }) {
   const chooser = element("div", { className: "chooser", role: "group", "aria-label": "Control at hand" })
   el.append(chooser, column)
   let shows = {}
+  let refusals = {}
   // Groups that the user has unfolded, in every scene; the control at hand on a phone.
   const unfolded = new Set()
   let items = new Map()
@@ -51,11 +52,13 @@ export function render({ model, view, el }) {
       [["Choose an example…", ""], ...scene.presets.map((name) => [name, name])],
       "States to begin with", (name) => { if (name !== "") tell("preset", name) })
     shows = { [EXAMPLES]: showExample }
+    refusals = {}
     items = new Map([[EXAMPLES, examples]])
     const signs = new Map([[EXAMPLES, "Example"]])
     for (const control of scene.controls) {
-      const [item, show] = control.kind === "number" ? number(control) : choice(control)
+      const [item, show, refuse] = control.kind === "number" ? number(control) : choice(control)
       shows[control.name] = show
+      refusals[`error-${control.name}`] = refuse
       items.set(control.name, item)
       signs.set(control.name, control.symbol ?? control.label)
     }
@@ -84,6 +87,8 @@ export function render({ model, view, el }) {
     }
   }, { signal })
   listen("enter", build, signal)
+  // What is wrong with an expression is said by "error-" and the name of the number.
+  listen("texts", (texts) => { for (const [key, text] of Object.entries(texts)) refusals[key]?.(text) }, signal)
   listen("controls", show, signal)
   tell("mounted", { kind: "scene", show: build })
   tell("mounted", { kind: "controls", show })

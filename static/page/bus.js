@@ -1,7 +1,8 @@
 // How the parts of the page speak to each other.  Every module of the page imports the same instance.
 //
 // To the client ("client.js"):            change {name: value}, preset name, scene name, near name, restore query,
-//                                         expression {name, text}, reset, undo, redo, clear, stop, link, theme, fullscreen, pick {pick, drag}, hover [picture, x, y],
+//                                         expression {name: text}, reset, undo, redo, clear, stop, link, theme,
+//                                         fullscreen, pick {pick, drag}, hover [picture, x, y], animated boolean,
 //                                         folded {name, folded}, url {key: text}, mounted {kind, key, show}
 // From the client to whoever is concerned: enter description, texts {key: text}, controls {name: value},
 //                                         progress [done, of] or null, client {key: text}, copied text, paint,

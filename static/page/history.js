@@ -21,6 +21,7 @@ export function createHistory({ query, isSettled, address }, signal) {
   let goal = null
   let entered = null
   let isHeld = false
+  let isAnimated = false
   let isChanged = false
   let isExample = false
   let isPopped = false
@@ -53,7 +54,7 @@ export function createHistory({ query, isSettled, address }, signal) {
 
   // A state has been painted, or nothing is held any more: it may be a step.
   function settle() {
-    if (isHeld || !isSettled()) return
+    if (isHeld || isAnimated || !isSettled()) return
     const here = query()
     if (goal === null && current !== null && here !== current) {
       past = [...past, current].slice(-MOST)
@@ -78,6 +79,7 @@ export function createHistory({ query, isSettled, address }, signal) {
       isPopped = false
     }, signal)
   }
+  listen("animated", (on) => { isAnimated = on }, signal)
   listen("undo", undo, signal)
   listen("redo", redo, signal)
   for (const name of ["pointerdown", "keydown"]) {

@@ -18,7 +18,9 @@ export function createRequests({ send, changed, hidden, known }, signal) {
   let asked = null
   let asking = false
   let lost = false
-  let held = false
+  // By a pointer; by an animation.
+  let grasped = false
+  let animated = false
   let touched = false
   let wish = {}
   let values = {}
@@ -38,7 +40,7 @@ export function createRequests({ send, changed, hidden, known }, signal) {
       asked = requested
       const entering = chosen !== null && chosen !== shown
       send({
-        requested, held, values, ...wish, scene: entering ? chosen : null, hidden: entering ? null : hidden(),
+        requested, held: grasped || animated, values, ...wish, scene: entering ? chosen : null, hidden: entering ? null : hidden(),
       })
       values = {}
       wish = {}
@@ -70,19 +72,30 @@ export function createRequests({ send, changed, hidden, known }, signal) {
   // While a pointer holds a slider the axes hold still; letting go is a request of its own.
   document.addEventListener("pointerdown", (event) => {
     touched = event.pointerType === "touch"
-    held = event.composedPath().some((item) => item.classList?.contains("hand"))
+    grasped = event.composedPath().some((item) => item instanceof Element && item.matches(".hand, .scrub"))
   }, { capture: true, signal })
   for (const name of ["pointerup", "pointercancel"]) {
     document.addEventListener(name, () => {
-      if (!held) return
-      held = false
+      if (!grasped) return
+      grasped = false
       request()
     }, { capture: true, signal })
   }
+  listen("animated", (on) => {
+    animated = on
+    request()
+  }, signal)
   listen("change", (changes) => {
     Object.assign(values, changes)
-    for (const name of Object.keys(changes)) moved.set(name, requested + 1)
+    for (const name of Object.keys(changes)) {
+      moved.set(name, requested + 1)
+      delete wish.expressions?.[name]
+    }
     request()
+  }, signal)
+  listen("expression", (texts) => {
+    for (const name of Object.keys(texts)) moved.set(name, requested + 1)
+    want({ expressions: { ...wish.expressions, ...texts } })
   }, signal)
   listen("preset", (preset) => restart({ preset }), signal)
   for (const what of ["reset", "clear"]) listen(what, () => restart({ [what]: true }), signal)

@@ -12,7 +12,7 @@ import pytest
 from hess_explorer.headless.browser import wait_ready
 from hess_mechanics import f_max
 from hess_mechanics.numerics.accuracy import LEVELS
-from support.page import DEFAULTS, MOMENT, POINTS, SLIDERS, wait_frames, wait_time
+from support.page import DEFAULTS, FIND, MOMENT, POINTS, SLIDERS, wait_frames, wait_time
 from support.painted import yellow
 from support.suslov_hess import assert_orbit, exact_states, rounding
 
@@ -105,14 +105,15 @@ def test_a_box_is_read_when_it_is_left_too(explorer):
     assert_orbit(explorer, {**DEFAULTS, "h": 0.25})
 
 
-@pytest.mark.parametrize("text", ["abc", "", "1e", "--1", "NaN", "Infinity", "1 2", "1,2,3", "<b>2</b>", "1e999"])
+@pytest.mark.parametrize("text", ["abc", "", "1e", "NaN", "Infinity", "1 2", "1,2,3", "<b>2</b>", "1e999", "1/0"])
 def test_what_is_not_a_number_is_marked_and_changes_nothing(explorer, text):
-    before = explorer.state
     explorer.type("h", text)
-    assert explorer.box("h").get_attribute("aria-invalid") == "true"
-    assert explorer.ready
+    # What is no plain number is read by the server.
+    explorer.page.locator(".param-h .exact[aria-invalid=true]").wait_for()
+    assert explorer.box("h").evaluate("box => box.validationMessage").startswith("This ")
+    explorer.page.wait_for_function("document.documentElement.dataset.ready === 'true'")
+    assert explorer.box("h").input_value() == text
     explorer.change(lambda: explorer.slide(phi0=1.0))
-    assert explorer.state == before + 1
     assert_orbit(explorer, {**DEFAULTS, "phi0": 1.0})
 
 
@@ -196,6 +197,76 @@ def test_a_dragged_slider_leaves_the_axes_alone_until_it_is_let_go(explorer):
     assert wide[1] < 1.6 * body * math.sqrt(10)
     assert wide == [-wide[1], wide[1]] * 2
     assert others == before[1:]
+
+
+def test_a_box_reads_expressions_and_shows_their_numbers(explorer):
+    for name, text, value in (("phi0", "pi/3", math.pi / 3), ("h", "sqrt(2)", math.sqrt(2)), ("f", "−1/7", -1 / 7)):
+        explorer.change(explorer.type, name, text)
+        assert float(explorer.box(name).input_value()) == pytest.approx(value, rel=1e-15)
+        # Once more: the text goes, though the number stays.
+        explorer.change(explorer.type, name, text)
+        assert float(explorer.box(name).input_value()) == pytest.approx(value, rel=1e-15)
+    assert_orbit(explorer, {**DEFAULTS, "phi0": math.pi / 3, "h": math.sqrt(2), "f": -1 / 7})
+    # After a refusal a number is welcome.
+    explorer.type("h", "sqrt(-1)")
+    explorer.page.locator(".param-h .exact[aria-invalid=true]").wait_for()
+    assert "no finite value" in explorer.box("h").evaluate("box => box.validationMessage")
+    explorer.change(explorer.type, "h", "2")
+    assert explorer.box("h").evaluate("box => box.validity.valid")
+    assert_orbit(explorer, {**DEFAULTS, "phi0": math.pi / 3, "h": 2.0, "f": -1 / 7})
+
+
+def test_arrows_nudge_a_box_shift_by_ten_steps_and_a_label_is_dragged(explorer):
+    for item in (explorer.box("h"), explorer.slider("h")):
+        for key, value in (("ArrowUp", 1.51), ("Shift+ArrowUp", 1.61), ("ArrowDown", 1.6), ("Shift+ArrowDown", 1.5)):
+            explorer.change(item.press, key)
+            assert explorer.shown("h") == (value, value)
+    assert_orbit(explorer, DEFAULTS)
+    label = explorer.page.locator(".param-h .label").bounding_box()
+    mouse, middle = explorer.page.mouse, label["y"] + label["height"] / 2
+    mouse.move(label["x"] + 5, middle)
+    mouse.down()
+    explorer.change(mouse.move, label["x"] + 25, middle)
+    assert explorer.shown("h") == (1.7, 1.7)
+    explorer.change(mouse.move, label["x"] + 2000, middle)
+    assert explorer.shown("h") == (4.0, 4.0)
+    explorer.change(mouse.move, label["x"] - 25, middle)
+    assert explorer.shown("h") == (1.2, 1.2)
+    explorer.change(mouse.up)
+    assert_orbit(explorer, {**DEFAULTS, "h": 1.2})
+    # All of the drag is one step.
+    explorer.change(explorer.page.keyboard.press, "Control+z")
+    assert explorer.shown("h") == (1.5, 1.5)
+
+
+def test_a_button_moves_a_slider_to_and_fro_until_it_is_touched(explorer):
+    page = explorer.page
+    sway, pace = page.locator(".param-f .sway"), page.locator(".param-f .pace")
+    assert pace.is_hidden()
+    sway.click()
+    pace.select_option("4")
+    # Beyond its start, to the upper end, and below it again.
+    for condition in ("value > 1.7", "value < 0.4"):
+        page.wait_for_function(f"() => {{ const value = Number(({FIND})('f', 'range').value); return {condition} }}")
+    assert not explorer.ready
+    # Only one at a time.
+    page.locator(".param-phi0 .sway").click()
+    assert sway.get_attribute("aria-pressed") == "false"
+    assert page.locator(".param-phi0 .pace").input_value() == "4"
+    before = explorer.state
+    page.keyboard.press("Escape")
+    wait_ready(page, after=before)
+    assert page.locator(".sway[aria-pressed=true]").count() == 0
+    f, phi0 = explorer.shown("f")[0], explorer.shown("phi0")[0]
+    assert f == pytest.approx(round(f, 2), abs=1e-12)
+    assert_orbit(explorer, {**DEFAULTS, "f": f, "phi0": phi0})
+    # Let go, it is of the accuracy chosen, and each was one step.
+    assert explorer.text("status").startswith("standard:")
+    sway.click()
+    explorer.slider("f").press("ArrowRight")
+    assert sway.get_attribute("aria-pressed") == "false"
+    page.wait_for_function("document.documentElement.dataset.ready === 'true'")
+    page.locator(".param-reset").click()
 
 
 # --- Menus and buttons -------------------------------------------------------------------------------

@@ -107,6 +107,7 @@ class Ready(JSComponent):
     It sends messages, for `on_msg`, that ask for the state after the user's n-th change, "requested": n, with
 
     - "values": {name: number or option, …}; "preset": the example chosen; "scene": the scene chosen;
+    - "expressions": {name: text, …}, numbers as they were typed, pi/3;
     - "picked": [picture, x, y] or [picture, x0, y0, x1, y1]; "hover": [picture, x, y], where the mouse is;
     - "near": a scene that may be chosen next;
     - "restore": the query of a state to go to, as in a link;

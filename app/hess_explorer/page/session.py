@@ -18,6 +18,7 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.page.components import Ready
 from hess_explorer.page.controls import show_controls
 from hess_explorer.page.description import describe
+from hess_explorer.protocol.expressions import NotANumber, evaluate
 from hess_explorer.protocol.parameters import Choice, Number, Places, Value, Values, decode, encode
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
@@ -132,6 +133,17 @@ class Session:
         # Also where the state stays but a control shows something else: it must be put right.
         self._dirty |= self._wanted != before or any(self.values.get(name) != value for name, value in values.items())
 
+    def _evaluate(self, expressions: dict[Any, Any]) -> None:
+        """The user wants what these texts are as numbers; what is wrong with one is said at its box."""
+        for name, text in expressions.items():
+            if isinstance(self._specs.get(name), Number) and isinstance(text, str):
+                try:
+                    self.change({name: evaluate(text)})
+                    # The box shows the number, also where it was that before.
+                    self._dirty = True
+                except NotANumber as refusal:
+                    self.wire.say(f"error-{name}", str(refusal))
+
     def _want(self, spec: Number, value: float) -> None:
         self._wanted[spec.name], note = spec.admit(value)
         if note:
@@ -213,6 +225,9 @@ class Session:
         # What asks for more of the same is no change, nor is what says nothing beside a step back.
         if isinstance(values, dict) and (values or (self._progress is None and not isinstance(query, str))):
             self.change({name: value for name, value in values.items() if name in self._specs})
+        expressions = message.get("expressions")
+        if isinstance(expressions, dict):
+            self._evaluate(expressions)
         if message.get("clear") is True:
             self.change({name: spec.default for name, spec in self._specs.items() if isinstance(spec, Places)})
         picked = self._picked(message.get("picked"))
