@@ -16,6 +16,15 @@ export function render({ model, view, el }) {
   resize.observe(item)
   signal.addEventListener("abort", () => resize.disconnect())
   listen("enter", show, signal)
+  // Of the legend, only what is there.
+  const showSigns = (said) => {
+    const there = new Set(said.split(","))
+    for (const [i, entry] of item.querySelectorAll(".legend li").entries()) entry.hidden = !there.has(String(i))
+  }
+  if (model.part === "legend") {
+    listen("texts", ({ signs }) => { if (signs !== undefined) showSigns(signs) }, signal)
+    tell("mounted", { kind: "texts", key: "signs", show: showSigns })
+  }
   tell("mounted", { kind: "scene", show })
   el.append(item)
 }

@@ -75,16 +75,49 @@ function interpolated(cells, layer, width, height) {
   })
 }
 
-// layers: [{source, palette, low, high, smooth, cyclic}]; a source holds image, x, y, dw, dh, as Bokeh's glyph "image".
+// Kinds, not numbers: in each pixel the kind that has most of the centres around it, by their shares; so that a border
+// between two kinds runs straight between cells instead of around them.
+function divided(cells, layer, width, height) {
+  const { rows, columns, numbers } = cells
+  const [ys, ups] = between(height, rows)
+  const [xs, rights] = between(width, columns)
+  const [right, above] = [columns > 1 ? 1 : 0, rows > 1 ? columns : 0]
+  return sheetOf(width, height, layer, (out, colourOf) => {
+    for (let y = 0; y < height; y++) {
+      const [row, up] = [ys[height - 1 - y] * columns, ups[height - 1 - y]]
+      for (let x = 0; x < width; x++) {
+        const at = row + xs[x]
+        const [a, b] = [numbers[at], numbers[at + right]]
+        const [c, d] = [numbers[at + above], numbers[at + above + right]]
+        let most = a
+        if (a !== b || a !== c || a !== d) {
+          const [p, q] = [rights[x], up]
+          const shares = [(1 - p) * (1 - q), p * (1 - q), (1 - p) * q, p * q]
+          const kinds = [a, b, c, d]
+          let largest = -1
+          for (let i = 0; i < 4; i++) {
+            let share = 0
+            for (let j = 0; j < 4; j++) if (kinds[j] === kinds[i]) share += shares[j]
+            if (share > largest) [largest, most] = [share, kinds[i]]
+          }
+        }
+        out[y * width + x] = colourOf(most)
+      }
+    }
+  })
+}
+
+// layers: [{source, palette, low, high, smooth, cyclic, kinds}]; a source holds image, x, y, dw, dh, as Bokeh's glyph "image".
 export function cellsPainter(layers, source) {
   const sheets = new Map()
 
   function sheetFor(layer, cells, width, height) {
-    const size = layer.smooth ? [Math.min(1200, width), Math.min(1200, height)] : []
+    const size = layer.smooth || layer.kinds ? [Math.min(1200, width), Math.min(1200, height)] : []
     const key = [onDark(), ...size].join()
     const before = sheets.get(layer.source)
     if (before?.cells === cells && before.key === key) return before.sheet
-    const sheet = layer.smooth ? interpolated(cells, layer, ...size) : inCells(cells, layer)
+    const sheet = layer.smooth ? interpolated(cells, layer, ...size)
+      : layer.kinds ? divided(cells, layer, ...size) : inCells(cells, layer)
     sheets.set(layer.source, { cells, key, sheet })
     return sheet
   }

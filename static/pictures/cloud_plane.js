@@ -108,11 +108,12 @@ export function cloudPlane(el, options, source, signal, isShown) {
     ctx.beginPath()
     ctx.rect(MARGIN.left, MARGIN.top, here.w, here.h)
     ctx.clip()
+    // Over the points of rest: there all of a cloud may end.
+    drawLines(ctx, here, text)
     ctx.save()
     ctx.setTransform(1, 0, 0, 1, 0, 0)
     drawClouds(ctx, here, size, ratio)
     ctx.restore()
-    drawLines(ctx, here, text)
     ctx.restore()
   }
 

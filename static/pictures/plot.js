@@ -35,6 +35,16 @@ function addCanvases(plot, { cells, dots }, source, signal) {
   add(dots, overlays.el, dotsPainter)
 }
 
+// The names of the axes, where they depend on the state.
+function nameAxes({ below: [x], left: [y] }, names, signal) {
+  names.watch(() => {
+    for (const [i, axis] of [x, y].entries()) {
+      const name = names.data.text?.[i]
+      if (name !== undefined && axis.axis_label !== name) axis.axis_label = name
+    }
+  }, signal)
+}
+
 // source(name) gives the source of that name, a new one if there is none.  The plot's view.
 export async function buildPlot(host, picture, source, signal) {
   waitLongForPress()
@@ -54,6 +64,7 @@ export async function buildPlot(host, picture, source, signal) {
       return letters * ((plot.frame.bbox.width || USUAL) / USUAL) * (TICKS_HERE / size)
     })
   })
+  if (picture.renamed) nameAxes(model, source(`${picture.name}-axes`), signal)
   connectPicks(model, picture.picks, source(`${picture.name}-box`))
   return plot
 }

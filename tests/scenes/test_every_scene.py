@@ -44,6 +44,7 @@ from support.board import (
     variant,
 )
 from support.mechanics import PROPERTY
+from support.view import View
 
 # A state with other axes than the default one.
 OTHERS = {HESS.name: {"b3": -2.9, "h": 100.0, "f": -5.0, "phi0": -1.0, "I22": 1.3, "I23": -0.4}}
@@ -922,3 +923,24 @@ def test_a_click_on_the_cost_of_a_level_chooses_it():
     assert "precise chosen" in browser.texts["status"]
     browser.ask(2, picked=["growth", 10.0, 1e-3])
     assert browser.session.values["accuracy"] == "precise"
+
+
+@every_scene
+def test_the_legend_has_only_what_is_drawn(scene):
+    view = View(scene, {}, seen=scene.open_pictures)
+    numbers = {int(one) for one in view.text["signs"].split(",")}
+    shown = {look for i, look in enumerate(scene.signs) if i in numbers}
+    assert shown
+    layers = [(picture, layer) for picture in scene.views for layer in getattr(picture, "layers", ())]
+    drawn, absent = set(), set()
+    for picture, layer in layers:
+        columns = view.data.get(picture.source_of(layer), {}) if picture.name in scene.open_pictures else {}
+        for sign in layer.legend:
+            cells = np.asarray(columns["image"]).ravel() if sign.least is not None and columns.get("image") else None
+            there = (len(columns.get(layer.columns[0], ())) > 0 if cells is None else
+                     bool(((cells >= sign.least) & (cells < sign.least + 1)).any()))
+            (drawn if there else absent).add((sign.kind, sign.style))
+    others = {(sign.kind, sign.style) for picture in scene.views for sign in picture.legend
+              if sign not in [one for _, layer in layers for one in layer.legend]}
+    assert drawn <= shown
+    assert not (absent - drawn - others) & shown

@@ -57,11 +57,12 @@ def empty_sources(name):
     pictures = description(name)["pictures"]
     canvases = {picture["name"]: {} for picture in pictures if picture["kind"] != "plot"}
     cells = {one["source"]: {} for picture in pictures for one in picture.get("cells", ())}
+    axes = {f"{picture['name']}-axes": {"text": []} for picture in pictures if picture.get("renamed")}
     dots = {one["source"]: {one["x"]: [], one["y"]: []} for picture in pictures for one in picture.get("dots", ())}
     empty = {model.name: dict(model.data) for model in found}
     assert not any(column for columns in empty.values() for column in columns.values())
     assert not set(empty) & set(canvases)
-    return {**{track: {} for track in tracks_of(name)}, **cells, **dots, **empty, **canvases}
+    return {**{track: {} for track in tracks_of(name)}, **cells, **axes, **dots, **empty, **canvases}
 
 
 def tracks_of(name):

@@ -125,8 +125,9 @@ class ChaplyginBall(CircleLeft, FreeBall, OneOrbit, ConstrainedBody):
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_sphere(self) -> str:
-        return (f"From Γ = {in_digits(math.cos(self.theta))} (the circle left) to Γ = {in_digits(self.Gamma[-1])} "
-                "at the end.")
+        left, last = in_digits(math.cos(self.theta)), in_digits(self.Gamma[-1])
+        return (f"Leaves the circle Γ = {left} and comes back to it in the end." if left == last else
+                f"Leaves the circle Γ = {left} and comes to Γ = {last} in the end.")
 
     def _about_curve(self) -> str:
         if self.map is None:
@@ -134,7 +135,7 @@ class ChaplyginBall(CircleLeft, FreeBall, OneOrbit, ConstrainedBody):
         return f"θ⁻ = {in_digits(self.theta)}: {square.spread(self.map.theta_plus)}; dashed: 𝒟 = 0."
 
     def _about_Gamma(self) -> str:
-        return f"From {in_digits(math.cos(self.theta))} to {in_digits(self.Gamma[-1])}."
+        return _change(math.cos(self.theta), float(self.Gamma[-1]))
 
     def derived(self) -> Iterator[str]:
         """The strip, its line, the start."""
@@ -170,6 +171,13 @@ _MEASURES: tuple[Trial[ChaplyginBall], ...] = (
               found, s.strip_orbits(len(found), REFERENCE).now()),
           lambda s, found: Curves(plane.frame(s.half_width), tuple(
               math.sqrt(s.h) * track for track, _ in found), in_pairs=True), alike=True))
+
+def _change(first: float, last: float) -> str:
+    """What an angle cosine does in all."""
+    shown = in_digits(first), in_digits(last)
+    return f"Γ is {shown[0]} again in the end." if shown[0] == shown[1] else (
+        f"Γ {'grows' if last > first else 'falls'} from {shown[0]} to {shown[1]}.")
+
 
 SCENE = Scene(
     ChaplyginBall, __file__, place=9, presets=PRESETS, measures=_MEASURES,

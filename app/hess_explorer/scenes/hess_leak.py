@@ -177,10 +177,10 @@ class HessLeak(HeavyMotion):
 
 def _both(distances: Callable[[mechanics.Leak], Array]) -> tuple[Layer[HessLeak], Layer[HessLeak]]:
     """lg of a distance over time, of both runs."""
-    return (over_time("reference", lambda s: (s.run.times, lg(distances(s.leaks["reference"]))), color=theme.MAP,
-                      dash="dotdash", label="at reference; on the sphere the one that leaks"),
-            over_time("own", lambda s: (s.run.times, lg(distances(s.leaks["own"]))), color=theme.ORBIT,
-                      label="orbit at the chosen accuracy; on the sphere the exact one"))
+    return (over_time("reference", lambda s: (s.run.times, lg(distances(s.leaks["reference"]))),
+                      color=theme.LEVELS["reference"], dash="dotdash", label="the same at reference"),
+            over_time("own", lambda s: (s.run.times, lg(distances(s.leaks["own"]))), color=theme.MAP,
+                      label="orbit that leaks, at the chosen accuracy"))
 
 
 SCENE = Scene(
@@ -197,7 +197,7 @@ SCENE = Scene(
                      curves("slope", lambda s: s.leaks["own"].straight_line(mechanics.exact_growth(s.map), _RANGE),
                             color=theme.MUTED, dash="dashed", label="slope ln(multiplier) per period"))),
         andoyer.picture("Andoyer variables (l, L/G)", HessLeak._about_side,
-                        relation=lambda s: hess_circle(s.bridge.heavy), orbit=lambda s: s.run.andoyer),
+                        relation=lambda s: hess_circle(s.bridge.heavy), orbit=lambda s: s.run.andoyer, color=theme.MAP),
         Sphere(caption=HessLeak._about_sphere, looks={"orbit": "orbit", "second": "second"},
                axis=lambda s: Direction(s.bridge.heavy.r, "r"), circles=HessLeak.heights),
         Plot(name="difference", title="Distance from the exact motion", caption=HessLeak._about_difference,

@@ -217,7 +217,7 @@ class Kharlamova(ConstrainedBody):
     def _about_curve(self) -> str:
         if self.arc.kind == "fixed":
             return "τ does not run: dτ = γ₃ dt = 0." if self.arc.rate > 0.0 else "Nothing depends on τ."
-        said = "γ₃² = P(τ) from {} to {}".format(*map(digits, self.arc.tau))
+        said = "γ₃² = P(τ) between its zeros {} and {}".format(*map(digits, self.arc.tau))
         if self.arc.kind == "asymptotic":
             return f"{said}, with a double zero at {digits(self.arc.touch or 0.0)}."
         return f"{said}; dτ = γ₃ dt, ∮dτ/γ₃ = T."
@@ -281,7 +281,8 @@ SCENE = Scene(
         Sphere(caption=Kharlamova._about_sphere, looks={"orbit": "orbit"}, axis=Kharlamova.force,
                circles=lambda s: [Circle((0.0, 0.0, 1.0), 0.0, "limit")], marks=Kharlamova.on_the_equator),
         Plot(name="period", title="Period T against direction α", caption=Kharlamova._about_period, axes=("α", "T"),
-             x=(-math.pi, math.pi), y=lambda s: period_axis(s.periods), on_click=lambda s, x, y: {"alpha": x},
+             x=(-math.pi, math.pi), y=lambda s: period_axis(s.periods, s.arc.period),
+             on_click=lambda s, x, y: {"alpha": x},
              on_drag=True, message=lambda s: "" if has_periods(s.periods) else "Nothing moves: no period.",
              layers=period_graph.layers(
                  lambda s: s.periods,

@@ -156,13 +156,17 @@ class Quartic(Crossings, ConstrainedBody):
 
     def _about_sphere(self) -> str:
         g3 = self.orbit.states[:, 4]
-        return f"Back to the body: γ = (p₁, p₂, γ₃), γ₃ from {digits(float(g3.min()))} to {digits(float(g3.max()))}."
+        low, high = digits(float(g3.min())), digits(float(g3.max()))
+        return "Back to the body: γ = (p₁, p₂, γ₃), γ₃ " + (
+            f"stays {low}." if low == high else f"between {low} and {high}.")
 
     def _about_momentum(self) -> str:
         low, high = float(self.momentum.min()), float(self.momentum.max())
         if self.body.integrable:
             return f"I₁₁ = I₂₂: an integral, {digits(float(self.momentum[0]))}, kept to {power(high - low)}."
-        return f"I₁₁ ≠ I₂₂: no integral, from {digits(low)} to {digits(high)}."
+        if digits(low) == digits(high):
+            return f"I₁₁ ≠ I₂₂: no integral, but here it stays {digits(low)}."
+        return f"I₁₁ ≠ I₂₂: no integral, between {digits(low)} and {digits(high)}."
 
     def derived(self) -> Iterator[str]:
         """Moment of inertia, energy, start; how well the point stays on its level."""

@@ -26,7 +26,7 @@ from hess_mechanics.numerics.accuracy import REFERENCE, Kind, Plan
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess import rotation_number as mechanics
 from hess_mechanics.suslov_hess.circle_map import CircleMap
-from hess_mechanics.suslov_hess.rotation_number import PLANES, Line, PeriodicTorus, Torus, TorusValues
+from hess_mechanics.suslov_hess.rotation_number import PLANES, Line, PeriodicTorus, Torus, TorusValues, possible_part
 
 _COARSE, _FINE = (75, 50), (300, 200)
 _ROWS = 25
@@ -168,7 +168,7 @@ class RotationNumber(State):
         names = (self.across, self.up)
         low, high = self.window[names.index(self.line)] if self.line in names else _FULL[self.line]
         # Only what the line depends on: it stays while the torus moves along it.
-        return Line(self.line, self.torus.at(**{self.line: 0.0}), max(low, _BOTTOM) if self.line == "h" else low, high)
+        return possible_part(Line(self.line, self.torus.at(**{self.line: 0.0}), low, high))
 
     @property
     def x(self) -> Array:
@@ -277,7 +277,7 @@ SCENE = Scene(
     title="Rotation number",
     summary="Is ρ of the Suslov–Hess torus a ladder, as the paper asks? One plateau, and a family that has many.",
     views=(
-        Plot(name="map", title=lambda s: f"Rotation number ρ over ({s.over})", axes=(" ", " "),
+        Plot(name="map", title=lambda s: f"Rotation number ρ over ({s.over})", axes=lambda s: (s.across, s.up),
              caption=lambda s: "One plateau, ρ = 0, where it locks; else ρ changes everywhere.",
              x=lambda s: s.window[0], y=lambda s: s.window[1], on_click=lambda s, x, y: {s.across: x, s.up: y},
              on_box=lambda s, corners: boxed(corners, _corners(s.over, _AT_MOST), s.part),
@@ -285,14 +285,14 @@ SCENE = Scene(
                  grids=lambda s: s.grids, boundary=lambda s: s.boundary, across=RotationNumber.line_in_map,
                  impossible=lambda s: rotation_plane.outside(s.over, s.torus, *s.window),
                  edges=lambda s: rotation_plane.edges(s.over, s.torus, *s.window),
-                 here=RotationNumber.here, names=lambda s: f"{s.across} across, {s.up} up")),
-        Plot(name="line", title=lambda s: f"ρ along {s.line}", caption=RotationNumber._about_line, axes=(" ", "ρ"),
-             x=lambda s: s.on_line.ends, y=rotation_line.RHO, on_click=lambda s, x, y: {s.line: x},
-             layers=rotation_line.rho_layers(
+                 here=RotationNumber.here)),
+        Plot(name="line", title=lambda s: f"ρ along {s.line}", caption=RotationNumber._about_line,
+             axes=lambda s: (s.line, "ρ"), x=lambda s: s.on_line.ends, y=rotation_line.RHO,
+             on_click=lambda s, x, y: {s.line: x}, layers=rotation_line.rho_layers(
                  line=lambda s: s.on_line, values=lambda s: s.along, perturbed=lambda s: s.perturbed,
                  rational=lambda s: None if s.periodic is None else float(s.sought),
                  place=lambda s: s.on_line.place(s.torus))),
-        Plot(name="trace", title=lambda s: f"|trace| along {s.line}", axes=(" ", "|trace|"),
+        Plot(name="trace", title=lambda s: f"|trace| along {s.line}", axes=lambda s: (s.line, "|trace|"),
              caption=lambda s: "Elliptic below 2: no cycle; hyperbolic above: two limit cycles.",
              x=lambda s: s.on_line.ends, y=rotation_line.TRACE, on_click=lambda s, x, y: {s.line: x},
              layers=rotation_line.trace_layers(line=lambda s: s.on_line, values=lambda s: s.along,

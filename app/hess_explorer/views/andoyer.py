@@ -21,14 +21,14 @@ _L_TICKS = [(-math.pi, "−π"), (-math.pi / 2, "−π/2"), (0.0, "0"), (math.pi
 _X_TICKS = [(-1.0, "−1"), (-0.5, "−½"), (0.0, "0"), (0.5, "½"), (1.0, "1")]
 
 
-def picture(title: str, caption: Callable[[S], str], relation: Callable[[S], Array], orbit: Callable[[S], Array]
-            ) -> Plot[S]:
+def picture(title: str, caption: Callable[[S], str], relation: Callable[[S], Array], orbit: Callable[[S], Array],
+            color: str = theme.ORBIT) -> Plot[S]:
     """The Hess relation and an orbit, (l, L/G) in rows (n, 2) of each, with a ring where the orbit starts."""
     return Plot(
         name="andoyer", title=title, caption=caption, axes=("l", "L/G"), x=(-math.pi, math.pi), y=(-1.0, 1.0),
         ticks=_L_TICKS, y_ticks=_X_TICKS, dot=("l", "x"), layers=(
             curves("hess", lambda s: _parts(relation(s)), color=theme.STABLE, label="Hess manifold, r·M = 0"),
-            curves("orbit", lambda s: _parts(orbit(s)), color=theme.ORBIT),
+            curves("orbit", lambda s: _parts(orbit(s)), color=color),
             ring("chosen", lambda s: [(float(orbit(s)[0, 0]), float(orbit(s)[0, 1]))], size=18, label="start")))
 
 

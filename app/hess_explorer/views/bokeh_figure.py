@@ -41,7 +41,7 @@ _ON_CANVAS = ("image", "dots")
 
 def build(plot: Plot[Any]) -> figure:
     """The picture as a Bokeh model, with empty sources."""
-    (x, y), labels = (plot.first_axes.x, plot.first_axes.y), plot.axes
+    (x, y), labels = (plot.first_axes.x, plot.first_axes.y), plot.axes if isinstance(plot.axes, tuple) else (" ", " ")
     # Plain arrays: any other form of data makes HoloViews import pandas (0.25 s).
     point = {"x": np.array([x[0]]), "y": np.array([y[0]])}
     background = hv.Curve(point, "x", "y", datatype=["dictionary"])
@@ -83,7 +83,7 @@ def build(plot: Plot[Any]) -> figure:
 def describe(plot: Plot[Any]) -> dict[str, Any]:
     """What the browser needs to know of a plot, see "plot.js"."""
     return {
-        "item": json_item(build(plot)), "picks": list(plot.events),
+        "item": json_item(build(plot)), "renamed": not isinstance(plot.axes, tuple), "picks": list(plot.events),
         "letters": [None if plot.ticks is not None or side in plot.log else letters
                     for side, letters in (("x", _LETTERS), ("y", 1000))],
         "cells": [{"source": plot.source_of(layer), **layer.style} for layer in plot.layers if layer.glyph == "image"],

@@ -19,6 +19,7 @@ Window = tuple[tuple[float, float], tuple[float, float]]
 _MANY = 50_000
 _ACROSS = 384
 """Cells across a window: as many as its picture has pixels, on most screens."""
+_GROUPS = ("one", "a second", "a third", "a fourth", "any other")
 _CLEAR = theme.FORBIDDEN + "00"
 
 
@@ -52,8 +53,9 @@ def basins(cells: Callable[[S], Array | None], window: Callable[[S], Window]) ->
         return None if found is None else np.minimum(found, len(colors) - 1) + 1.5
 
     return image("basins", _grid(shifted, window), palette=(_CLEAR, *colors), low=0.0, high=len(colors) + 1.0,
-                 legend=(Sign("basin of one,", "box", f"background: {colors[0]}"),
-                         Sign("of another group of motions", "box", f"background: {colors[1]}")))
+                 kinds=True, legend=tuple(
+                     Sign(f"basin of {name} group of motions", "box", f"background: {color}", i + 1.0)
+                     for i, (name, color) in enumerate(zip(_GROUPS, colors, strict=True))))
 
 
 def layers(first: Callable[[S], Array], second: Callable[[S], Array], own: Callable[[S], Array],
@@ -66,8 +68,8 @@ def layers(first: Callable[[S], Array], second: Callable[[S], Array], own: Calla
     further layers, over the points of all orbits and under those of the chosen ones.
     """
     return (
-        image("impossible", _grid(impossible, window), palette=(_CLEAR, theme.FORBIDDEN), low=0.0, high=1.0,
-              legend=(Sign("impossible", "box", f"background: {theme.FORBIDDEN}"),)),
+        image("impossible", _grid(impossible, window), palette=(_CLEAR, theme.FORBIDDEN), low=0.0, high=1.0, kinds=True,
+              legend=(Sign("impossible", "box", f"background: {theme.FORBIDDEN}", 1.0),)),
         _points("first", first, window, 5, theme.ORBIT, labels[0]),
         _points("second", second, window, 5, theme.UNSTABLE, labels[1]),
         *between,

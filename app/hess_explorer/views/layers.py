@@ -46,11 +46,15 @@ class Grid:
 
 @dataclass(frozen=True)
 class Sign:
-    """One entry of a legend: a word, and a sign of that kind ("line", "dot", "dot small", "box") in a CSS style."""
+    """One entry of a legend: a word, and a sign of that kind ("line", "dot", "dot small", "box") in a CSS style.
+
+    least : of a layer of cells, the least number of a cell that has it, the greatest being less than one more.
+    """
 
     label: str
     kind: str
     style: str
+    least: float | None = None
 
 
 TURNS = Sign("ρ from −½ to ½, the same", "box rho", f"background: {theme.gradient(theme.TURN_MAP)}")
@@ -225,14 +229,15 @@ def target(name: str, data: Callable[[S], Sequence[Place]], size: float = 21.0,
 
 
 def image(name: str, data: Callable[[S], Grid | None], *, palette: str | tuple[str, ...], low: float, high: float,
-          smooth: bool = False, cyclic: bool = False, legend: tuple[Sign, ...] = ()) -> Layer[S]:
+          smooth: bool = False, cyclic: bool = False, kinds: bool = False, legend: tuple[Sign, ...] = ()) -> Layer[S]:
     """Numbers on a grid, under all other layers.
 
     smooth : of a continuous function, interpolated between the centres of cells; cyclic : so, and `low` and `high` are
-    the same.
+    the same; kinds : numbers that are names, with smooth borders between them.
     """
     colors = getattr(palettes, palette) if isinstance(palette, str) else palette
-    style = {"palette": list(colors), "low": low, "high": high, "smooth": smooth or cyclic, "cyclic": cyclic}
+    style = {"palette": list(colors), "low": low, "high": high, "smooth": smooth or cyclic, "cyclic": cyclic,
+             "kinds": kinds}
     layer: Layer[S] = Layer(name, "image", ("image", "x", "y", "dw", "dh"), style, moving=False,
                             legend=legend)
     return _layer(layer, _cells, data, None)

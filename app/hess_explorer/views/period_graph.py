@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import TypeVar
 
@@ -22,10 +23,12 @@ def has_periods(periods: Array) -> bool:
     return bool(np.isfinite(periods[:, 1]).any())
 
 
-def period_axis(periods: Array) -> Range:
-    """Room for most of the periods: some are infinite."""
+def period_axis(periods: Array, here: float = 0.0) -> Range:
+    """Room for most of the periods, as some are infinite, and for the one on show, if it is not."""
     finite = periods[np.isfinite(periods[:, 1]), 1]
-    return 0.0, nice_above(1.5 * float(np.median(finite))) if finite.size else 20.0
+    if not finite.size:
+        return 0.0, 20.0
+    return 0.0, nice_above(max(1.5 * float(np.median(finite)), 1.1 * here if math.isfinite(here) else 0.0))
 
 
 def layers(periods: Callable[[S], Array], here: Callable[[S], tuple[float, float] | None]

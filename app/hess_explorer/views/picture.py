@@ -67,6 +67,10 @@ class Picture(ABC, Generic[S]):
         """What it adds to the legend of its scene."""
         return self.signs
 
+    def there(self, drawn: Mapping[str, Columns]) -> tuple[Sign, ...]:
+        """Those of its legend that are drawn, where these are the columns of all sources."""
+        return self.legend
+
     @property
     def first_axes(self) -> Axes | None:
         """Its axes before the first state."""

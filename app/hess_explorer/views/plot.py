@@ -27,8 +27,8 @@ class Plot(Picture[S]):
 
     Parameters
     ----------
-    axes : the names of the axes; x, y : their ranges, of a state where they depend on it; both stay as they are where
-        one is None.
+    axes : the names of the axes; x, y : their ranges; each of a state where it depends on that.  Both ranges stay as
+        they are where one is None.
     layers : what is drawn, from the back to the front.  The moving point and a message come on top.
     message(state) : a sentence in the middle of the frame where there is nothing to see; empty for none.
     dot : columns of the track "orbit" that the moving point follows; dots : further layers that follow it.
@@ -38,7 +38,7 @@ class Plot(Picture[S]):
     x_ticks : positions on the horizontal axis; y_tick_count : how many labels the vertical one wants.
     """
 
-    axes: tuple[str, str]
+    axes: tuple[str, str] | Callable[[S], tuple[str, str]]
     x: Range | Callable[[S], Range | None]
     y: Range | Callable[[S], Range | None]
     layers: tuple[Layer[S], ...]
@@ -84,6 +84,12 @@ class Plot(Picture[S]):
         return (*(sign for layer in self.layers for sign in layer.legend), *self.signs,
                 *((MOVING_POINT,) if self.dot is not None else ()))
 
+    def there(self, drawn: Mapping[str, Columns]) -> tuple[Sign, ...]:
+        """Those of its legend that are drawn, where these are the columns of all sources."""
+        found = (sign for layer in self.layers for sign in layer.legend
+                 if _has(drawn.get(self.source_of(layer), {}), layer, sign))
+        return (*found, *self.signs, *((MOVING_POINT,) if self.dot is not None and drawn.get("data-orbit") else ()))
+
     @property
     def first_axes(self) -> Axes:
         """The axes before the first state: any that are possible, where they depend on it and none are given."""
@@ -110,7 +116,8 @@ class Plot(Picture[S]):
         assert axes is not None
         found = {self.source_of(layer): layer.within(state, axes) for layer in self.layers if layer.within is not None}
         sentence = "" if self.message is None else self.message(state)
-        return {**found, f"{self.name}-message": self._said(sentence, axes)}
+        names = {} if isinstance(self.axes, tuple) else {f"{self.name}-axes": {"text": list(self.axes(state))}}
+        return {**found, **names, f"{self.name}-message": self._said(sentence, axes)}
 
     def nothing(self, sentence: str, axes: Axes | None) -> dict[str, Columns]:
         """The columns of all its sources where there is nothing to see but the reason."""
@@ -122,6 +129,15 @@ class Plot(Picture[S]):
         return {} if not sentence else {
             "x": [_middle(axes.x, "x" in self.log)], "y": [_middle(axes.y, "y" in self.log)],
             "text": [textwrap.fill(sentence, 24)]}
+
+
+def _has(columns: Columns, layer: Layer[Any], sign: Sign) -> bool:
+    """Whether a layer with these columns draws what a sign of it means."""
+    first = columns.get(layer.columns[0], ())
+    if not len(first) or sign.least is None:
+        return bool(len(first))
+    cells = first[0]
+    return bool(((cells >= sign.least) & (cells < sign.least + 1.0)).any())
 
 
 def _middle(axis: Range, log: bool) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.graph import pieces
-from hess_explorer.views.layers import Axes, Layer, curves, levels, ring, text
+from hess_explorer.views.layers import Axes, Layer, curves, levels, ring
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.rotation_number import Line, TorusValues
 
@@ -32,8 +32,8 @@ def _curve(line: Line, values: TorusValues, y: Array, jump: float) -> list[Array
     return pieces(np.column_stack([line.places(len(y)), y]), values.possible, jump)
 
 
-def _here(line: LineOf[S], place: Callable[[S], float], curve: Callable[[S], Array]) -> tuple[Layer[S], Layer[S]]:
-    """What the horizontal axis is, and a ring on a curve at the place of the torus on show, if it is in sight."""
+def _here(line: LineOf[S], place: Callable[[S], float], curve: Callable[[S], Array]) -> tuple[Layer[S]]:
+    """A ring on a curve at the place of the torus on show, if it is in sight."""
 
     def chosen(state: S, axes: Axes) -> list[tuple[float, float]]:
         x, heights = place(state), curve(state)
@@ -43,7 +43,7 @@ def _here(line: LineOf[S], place: Callable[[S], float], curve: Callable[[S], Arr
         y = float(np.interp(x, line(state).places(len(heights))[there], heights[there]))
         return [(x, y)] if axes.x[0] <= x <= axes.x[1] and axes.y[0] <= y <= axes.y[1] else []
 
-    return text("across", lambda s: line(s).name), ring("chosen", within=chosen, size=18)
+    return (ring("chosen", within=chosen, size=18),)
 
 
 def rho_layers(line: LineOf[S], values: ValuesOf[S], perturbed: Callable[[S], Array | None],

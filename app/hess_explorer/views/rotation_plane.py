@@ -9,7 +9,7 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.bifurcation_diagram import impossible
-from hess_explorer.views.layers import TURNS, Axes, Grid, Layer, Range, Sign, curves, image, region, target, text
+from hess_explorer.views.layers import TURNS, Axes, Grid, Layer, Range, Sign, curves, image, region, target
 from hess_mechanics.numerics.results import Array, Mask
 from hess_mechanics.suslov_hess.bifurcation import f_max, h_min
 from hess_mechanics.suslov_hess.rotation_number import Torus, TorusValues
@@ -92,11 +92,11 @@ def _rectangle(low: float, high: float, y: Range) -> Array:
 
 def layers(grids: Callable[[S], tuple[Grid, Grid]], boundary: Callable[[S], Sequence[Array]],
            impossible: Callable[[S], Sequence[Sequence[Array]]], edges: Callable[[S], Sequence[Array]],
-           across: Callable[[S], Sequence[Array]], here: Callable[[S], Sequence[tuple[float, float]]],
-           names: Callable[[S], str]) -> tuple[Layer[S], ...]:
+           across: Callable[[S], Sequence[Array]], here: Callable[[S], Sequence[tuple[float, float]]]
+           ) -> tuple[Layer[S], ...]:
     """Colours and zones; curves (n, 2) where |t| = 2; the line, and the torus on show, if it is in sight.
 
-    impossible, edges : `outside` and `edges`; names : what the axes are, as that is not always the same.
+    impossible, edges : `outside` and `edges`.
     """
     return (
         image("rho", lambda s: grids(s)[0], palette=theme.TURN_MAP, low=-0.5, high=0.5, cyclic=True, legend=(TURNS,)),
@@ -108,7 +108,6 @@ def layers(grids: Callable[[S], tuple[Grid, Grid]], boundary: Callable[[S], Sequ
         curves("across-under", across, color=theme.PAPER, width=4, alpha=0.7),
         curves("across", across, color=theme.INK, dash="dashed", label="the line"),
         *target("here", here),
-        text("names", names),
     )
 
 

@@ -8,13 +8,15 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
-from hess_explorer.views.layers import Axes, Layer, dots, region, ring
+from hess_explorer.views.layers import Axes, Layer, dots, points, region, ring
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["band", "joined", "layers", "outside"]
 
 S = TypeVar("S")
 Points = Callable[[S], Array | None]
+_CLOSES = 12
+"""An orbit with no more places in the section is one that closes, to the eye."""
 
 
 def layers(own: Points[S], others: Points[S] | None = None,
@@ -29,7 +31,8 @@ def layers(own: Points[S], others: Points[S] | None = None,
         found.append(region("forbidden", within=forbidden, label="impossible"))
     if others is not None:
         found.append(_points("others", others, theme.MUTED, 6, "other orbits"))
-    found.append(_points("own", own, theme.ORBIT, 11, ""))
+    found.append(_points("own", own, theme.ORBIT, 14, ""))
+    found.append(points("own-few", lambda s: _few(own(s)), color=theme.ORBIT, size=9))
     if start is not None:
         found.append(ring("chosen", start, label="where it starts"))
     return tuple(found)
@@ -41,6 +44,14 @@ def _points(name: str, of: Points[S], color: str, size: float, label: str) -> La
         return None if found is None else found.T
 
     return dots(name, columns, color=color, size=size, label=label)
+
+
+def _few(found: Array | None) -> Array | None:
+    """Places (2, n) of an orbit that closes, which would hardly be seen as dots; None of one with more places."""
+    if found is None or not len(found):
+        return None
+    places = np.unique(np.round(found, 3), axis=0)
+    return places.T if len(places) <= _CLOSES else None
 
 
 def joined(parts: Iterable[Array]) -> Array:

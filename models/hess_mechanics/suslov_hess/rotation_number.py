@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import numpy as np
@@ -28,8 +28,8 @@ from hess_mechanics.suslov_hess.mode_locking import critical_a, lock_boundary
 
 __all__ = [
     "PLANES", "TURNS", "Line", "PeriodicTorus", "Torus", "TorusValues", "along", "closed_after", "lock_curve",
-    "periodic_torus", "perturbed_along", "perturbed_rotation", "place_of", "plateaus", "rotation_errors", "rows",
-    "rows_error", "together", "values_at",
+    "periodic_torus", "perturbed_along", "perturbed_rotation", "place_of", "plateaus", "possible_part",
+    "rotation_errors", "rows", "rows_error", "together", "values_at",
 ]
 
 PLANES = ("h, f", "h, a", "f, a")
@@ -77,6 +77,22 @@ class Line:
     def places(self, count: int) -> Array:
         """Even places (count,), both ends included."""
         return np.linspace(self.low, self.high, count)
+
+
+def possible_part(line: Line, margin: float = 0.03) -> Line:
+    """The line with no more of it where no motion is possible than that share at each end; whole where none is."""
+    first, last = -math.inf, math.inf
+    if line.name == "h":
+        first = h_min(line.torus.f)
+    elif line.name == "f":
+        last = f_max(line.torus.h) if line.torus.h > -1.0 else 0.0
+        first = -last
+    low, high = max(line.low, first), min(line.high, last)
+    room = margin * (high - low)
+    bottom = -1.0 + 1e-9 if line.name == "h" else -math.inf
+    if room <= 0.0:
+        return replace(line, low=max(bottom, line.low))
+    return replace(line, low=max(bottom, line.low, first - room), high=min(line.high, last + room))
 
 
 @dataclass(frozen=True)

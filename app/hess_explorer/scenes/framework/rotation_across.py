@@ -14,7 +14,7 @@ from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views import theme
 from hess_explorer.views.comparison import Curves, Frame
 from hess_explorer.views.graph import with_room
-from hess_explorer.views.layers import Axes, Range, curves, points, text
+from hess_explorer.views.layers import Axes, Range, curves, points
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
@@ -120,7 +120,10 @@ class RotationAcross(FilledWindow):
         # A line through all of the section meets orbits of many kinds, whose numbers are no one function of the place.
         turning = self.rotation.extremum if self.about_middle else None
         standing = f"; {self.rotation.standing} curves do not go round." if self.rotation.standing else "."
-        return f"From {_turns(rho.min())} to {_turns(rho.max())}" + (
+        low, high = _turns(rho.min()), _turns(rho.max())
+        if low == high:
+            return f"All closed curves have ρ = {low}{standing}"
+        return f"ρ of closed curves lies between {low} and {high}" + (
             standing if turning is None else
             f"; it turns round at {digits(turning[0])} with ρ = {_turns(turning[1])}: no twist there.")
 
@@ -146,13 +149,13 @@ def rotation_picture() -> Plot[Any]:
     """ρ along the line, in branches, and the orbits that it is known from."""
     return Plot(
         name="rotation", title="Rotation number across the section", caption=lambda s: s.about_rotation(),
-        axes=(" ", "ρ"), first=Axes((-1.0, 1.0), (-0.5, 0.5)), message=lambda s: s.rotation_message(),
+        axes=lambda s: ("L/G" if s.axis else "l", "ρ"), first=Axes((-1.0, 1.0), (-0.5, 0.5)),
+        message=lambda s: s.rotation_message(),
         x=lambda s: (s.ends[0][s.axis], s.ends[1][s.axis]), y=lambda s: s.rotation_axis(),
         layers=(
             curves("rho", lambda s: [] if s.rotation is None else [
                 np.column_stack(part) for part in zip(s.rotation.along, s.rotation.rho, strict=True)],
                 color=theme.ORBIT),
-            text("across", lambda s: "" if s.rotation is None else "L/G" if s.axis else "l"),
             # An orbit between two gaps is a curve of one point.
             points("orbits", lambda s: None if s.rotation is None else (s.rotation.places, s.rotation.numbers),
                    size=4, color=theme.ORBIT)))

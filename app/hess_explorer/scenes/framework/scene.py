@@ -15,7 +15,7 @@ from hess_explorer.protocol.parameters import Choice, Number, Spec, Value, Value
 from hess_explorer.scenes.framework.parameters import Slider, specs_of
 from hess_explorer.scenes.framework.trial import Trial, bare, needed, orbit_trial
 from hess_explorer.scenes.framework.work import Work
-from hess_explorer.views.layers import Columns
+from hess_explorer.views.layers import Columns, Sign
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.theme import in_css
 from hess_mechanics.dynamics.system import System
@@ -201,15 +201,26 @@ class Scene(Generic[S]):
         return Path(self.module).with_name(name).read_text(encoding="utf-8")
 
     @cached_property
+    def signs(self) -> Mapping[tuple[str, str], Sequence[Sign]]:
+        """The entries of the legend: signs of all pictures that look alike, by kind and style."""
+        found: dict[tuple[str, str], list[Sign]] = {}
+        for sign in (sign for view in self.views for sign in view.legend):
+            alike = found.setdefault((sign.kind, sign.style), [])
+            if sign.label not in [one.label for one in alike]:
+                alike.append(sign)
+        return found
+
+    def shown_signs(self, there: Collection[Sign]) -> str:
+        """The numbers of the entries of which a sign is there, with a comma between them."""
+        known = {(sign.kind, sign.style) for sign in there}
+        return ",".join(str(i) for i, look in enumerate(self.signs) if look in known)
+
+    @cached_property
     def legend(self) -> str:
         """HTML: a list of the signs of all pictures; one sign has one entry."""
-        words: dict[tuple[str, str], list[str]] = {}
-        for sign in (sign for view in self.views for sign in view.legend):
-            said = words.setdefault((sign.kind, sign.style), [])
-            if sign.label not in said:
-                said.append(sign.label)
-        items = (f'<li><span class="{kind}" style="{in_css(style)}"></span>{escape(", ".join(labels))}</li>'
-                 for (kind, style), labels in words.items())
+        items = (f'<li><span class="{kind}" style="{in_css(style)}"></span>'
+                 f'{escape(", ".join(sign.label for sign in signs))}</li>'
+                 for (kind, style), signs in self.signs.items())
         return f'<ul class="legend" aria-label="Legend">{"".join(items)}</ul>'
 
     @cached_property

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, Generic, TypeVar
 
 import numpy as np
@@ -47,7 +47,12 @@ class Stage(Generic[S]):
             self.wire.say(view.name, said[view.name])
         for source, columns in drawn.items():
             self._put(source, columns)
+        self._name_signs(views, drawn)
         return Report(derived, status, notes, tuple(state.work.todo), state.work.pieces, state.work.summary())
+
+    def _name_signs(self, views: Sequence[Picture[S]], drawn: Mapping[str, Columns]) -> None:
+        """Say which entries of the legend are there."""
+        self.wire.say("signs", self.scene.shown_signs({sign for view in views for sign in view.there(drawn)}))
 
     def fail(self, sentence: str, hold_axes: bool = False) -> None:
         """Clear all pictures, and show the sentence in their captions; the axes are those of an empty page."""
