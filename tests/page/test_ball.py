@@ -56,7 +56,7 @@ def test_an_example_of_the_ball_is_drawn_with_the_numbers_of_its_captions(ball, 
     assert ball.chosen("preset") == preset.name
     xi, start = xi_of(values), start_of(values)
     end = integrate(values, start, [1.3 * values["span"]])[-1]
-    left, joined = said(ball, "sphere", "From Γ = # (the circle left) to Γ = # at the end")
+    left, joined = said(ball, "sphere", "Leaves the circle Γ = # and comes to Γ = # in the end")
     assert left == shown(math.cos(values["theta"]))
     assert joined == pytest.approx(end[2:4] @ xi, abs=2e-3)
     ring = ball.data("curve-chosen")

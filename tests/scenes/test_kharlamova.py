@@ -153,7 +153,7 @@ def test_an_example_of_the_quartic_potential_is_what_its_name_says(preset):
     # q and γ of the body; in a sea errors grow.
     assert np.column_stack([orbit["q1"], orbit["q2"]]) == pytest.approx(
         np.column_stack([body.I22 * states[:, 1], -body.I11 * states[:, 0]]) / body.b3, abs=1e-4)
-    low, high = view.numbers("sphere", "γ₃ from # to #.")
+    low, high = view.numbers("sphere", "γ₃ between # and #.")
     assert (low, high) == pytest.approx((states[:, 4].min(), states[:, 4].max()), rel=6e-4, abs=1e-4)
     G = (body.I11 * states[:, 0] * states[:, 2] + body.I22 * states[:, 1] * states[:, 3]) / body.b3
     if preset.name.startswith("Integrable"):
@@ -162,7 +162,7 @@ def test_an_example_of_the_quartic_potential_is_what_its_name_says(preset):
         assert np.ptp(G) < 1e-12
         assert kept <= 1e-6
     else:
-        assert view.numbers("momentum", "from # to #.") == pytest.approx([G.min(), G.max()], rel=1e-3, abs=1e-3)
+        assert view.numbers("momentum", "between # and #.") == pytest.approx([G.min(), G.max()], rel=1e-3, abs=1e-3)
     points, visited = view.numbers("section", "The orbit: # points in # of 1024 cells.")
     assert points == len(view.data["section-own"]["x"])
     assert (visited > 0.6 * points) is ("sea" in preset.name)
