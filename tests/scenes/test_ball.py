@@ -64,7 +64,8 @@ def test_the_chosen_orbit_goes_from_its_circle_to_the_one_in_the_captions(name):
     times = np.linspace(0.0, values["span"], 9)
     exact = integrate(values, start, times)
     left, joined = math.cos(values["theta"]), exact[-1, 2:4] @ xi
-    for picture, pattern in (("sphere", "Leaves the circle Γ = # and comes to Γ = # in the end"), ("Gamma", "from # to #.")):
+    for picture, pattern in (("sphere", "Leaves the circle Γ = # and comes to Γ = # in the end"),
+                             ("Gamma", "from # to #.")):
         assert view.numbers(picture, pattern) == [shown(left), pytest.approx(joined, abs=1e-4)]
     # And it has arrived there: ω at rest on Nˢ.
     assert xi @ exact[-1, :2] < 0.0
