@@ -2,9 +2,10 @@
 
 import { listen, tell } from "../page/bus.js"
 import { element, lifetime } from "../page/mount.js"
+import { isPresenting, wear } from "../page/presenting.js"
 import { sceneMenu } from "./scenes.js"
+import { shareDialog } from "./share.js"
 
-const SAID_FOR = 2000
 const MENU = "M4 6h16v2H4zm0 5h16v2H4zm0 5h16v2H4z"
 
 // In groups; each tells its name.  isDrawn: only where clicks and boxes are drawn;
@@ -21,8 +22,10 @@ const TOOLS = [
       icon: "M12 5a7 7 0 1 1-6.7 9h2.1A5 5 0 1 0 12 7v3.5L6.5 6 12 1.5z" },
   ],
   [
-    { name: "link", label: "Link", title: "Copy a link to all that is on the screen",
+    { name: "share", label: "Share", title: "Link to all that is on the screen, QR code, parts for another page",
       icon: "M4 12a4 4 0 0 1 4-4h3v2H8a2 2 0 0 0 0 4h3v2H8a4 4 0 0 1-4-4zm5-1h6v2H9zm4-3h3a4 4 0 0 1 0 8h-3v-2h3a2 2 0 0 0 0-4h-3z" },
+    { name: "present", label: "Present", title: "For a lecture hall: large type and lines, few controls; and back (P)",
+      icon: "M3 4h18v2h-1v10h-7v1.6l3.4 3-1.3 1.4L12 19.6 8.9 22l-1.3-1.4 3.4-3V16H4V6H3zm3 2v8h12V6z" },
     { name: "fullscreen", label: "Full screen", title: "Full screen, and back (F)",
       icon: "M5 5h5v2H7v3H5zm9 0h5v5h-2V7h-3zM5 14h2v3h3v2H5zm12 0h2v5h-5v-2h3z" },
     { name: "theme", label: "Theme", title: "Light or dark",
@@ -32,19 +35,18 @@ const TOOLS = [
 
 const icon = (path) => `<svg viewBox="0 0 24 24" width="1.4em" height="1.4em" aria-hidden="true"><path fill="currentColor" d="${path}"/></svg>`
 
-// [button, words beside its icon].
 function tool({ name, label, title, icon: path }) {
-  const words = element("span", { className: "label", textContent: label })
   const button = element("button", { type: "button", className: `tool param-${name}`, title, "aria-label": label })
   button.innerHTML = icon(path)
-  button.append(words)
+  button.append(element("span", { className: "label", textContent: label }))
   button.addEventListener("click", () => tell(name))
-  return [button, words]
+  return button
 }
 
 export function render({ model, view, el }) {
   const signal = lifetime({ model, view })
   const menu = sceneMenu(model.scenes)
+  const share = shareDialog(signal)
   const heading = element("h1", { className: "heading" })
   const open = element("button", {
     type: "button", className: "tool param-scenes", title: "Choose a scene", "aria-haspopup": "dialog",
@@ -56,39 +58,31 @@ export function render({ model, view, el }) {
   const drawn = []
   const steps = new Map()
   const groups = TOOLS.map((group) => element("div", { className: "group" }, ...group.map((one) => {
-    const [button, words] = tool(one)
+    const button = tool(one)
     if (one.isDrawn) drawn.push(button)
     if (one.isStep) steps.set(one.name, button)
-    if (one.name === "link") sayCopied(button, words)
+    if (one.name === "present") sayPresenting(button)
     return button
   })))
-  el.append(element("div", { className: "tools" }, open, heading, element("span", { className: "room" }), ...groups), menu.dialog)
+  el.append(element("div", { className: "tools" }, open, heading, element("span", { className: "room" }), ...groups), menu.dialog, share.dialog)
 
-  // The button itself says that the link is copied; so do screen readers.
-  function sayCopied(button, words) {
-    let timer = null
-    const said = element("span", { className: "unseen", role: "status" })
-    listen("copied", (text) => {
-      clearTimeout(timer)
-      words.textContent = said.textContent = text
-      button.classList.add("said")
-      timer = setTimeout(() => {
-        words.textContent = "Link"
-        said.textContent = ""
-        button.classList.remove("said")
-      }, SAID_FOR)
-    }, signal)
-    el.append(said)
+  function sayPresenting(button) {
+    const say = (on) => button.setAttribute("aria-pressed", String(on))
+    listen("presenting", say, signal)
+    say(isPresenting())
   }
 
   const show = (scene) => {
     heading.textContent = scene.title
     for (const button of drawn) button.hidden = !scene.drawn
     menu.show(scene.name)
+    share.show(scene)
   }
   const enable = (counts) => { for (const [name, button] of steps) button.disabled = counts[name] === 0 }
   enable({ undo: 0, redo: 0 })
   listen("steps", enable, signal)
+  wear(el, signal)
   listen("enter", show, signal)
+  listen("share", share.open, signal)
   tell("mounted", { kind: "scene", show })
 }

@@ -5,6 +5,7 @@
 
 import { listen, tell } from "../page/bus.js"
 import { element, lifetime } from "../page/mount.js"
+import { wear } from "../page/presenting.js"
 import { PHONE } from "../page/windows.js"
 import { menu } from "./menu.js"
 import { number } from "./number.js"
@@ -73,6 +74,7 @@ export function render({ model, view, el }) {
     chooser.replaceChildren(...order.map((name) => {
       const chip = element("button", { type: "button", className: "chip", textContent: signs.get(name) })
       chip.dataset.name = name
+      chip.classList.toggle("further", !scene.essential.includes(name))
       chip.addEventListener("click", () => take(name))
       return chip
     }))
@@ -86,6 +88,7 @@ export function render({ model, view, el }) {
       group.open = PHONE.matches || unfolded.has(group.firstChild.textContent)
     }
   }, { signal })
+  wear(el, signal)
   listen("enter", build, signal)
   // What is wrong with an expression is said by "error-" and the name of the number.
   listen("texts", (texts) => { for (const [key, text] of Object.entries(texts)) refusals[key]?.(text) }, signal)

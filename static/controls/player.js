@@ -5,6 +5,7 @@
 import { listen, tell } from "../page/bus.js"
 import { isTaken } from "../page/keys.js"
 import { element, lifetime } from "../page/mount.js"
+import { wear } from "../page/presenting.js"
 import { gallery } from "../pictures/gallery.js"
 
 const SPEEDS = [0.25, 0.5, 1, 2, 4, 8]
@@ -181,6 +182,7 @@ export function render({ model, view, el }) {
   listen("folded", ({ name, folded }) => {
     folds.querySelector(`.unfold-${name}`).setAttribute("aria-expanded", String(!folded))
   }, signal)
+  wear(el, signal)
   listen("client", begin, signal)
   listen("enter", enter, signal)
   tell("mounted", { kind: "client", show: begin })

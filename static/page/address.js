@@ -1,4 +1,4 @@
-// The address bar: the query of the state on show, what the browser itself keeps (t, speed, az, el, large), and the theme.
+// The address bar: the query of the state on show, what the browser itself keeps (t, speed, az, el, large, present), and the theme.
 
 const PAUSE = 400
 

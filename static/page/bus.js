@@ -1,12 +1,14 @@
 // How the parts of the page speak to each other.  Every module of the page imports the same instance.
 //
 // To the client ("client.js"):            change {name: value}, preset name, scene name, near name, restore query,
-//                                         expression {name: text}, reset, undo, redo, clear, stop, link, theme,
-//                                         fullscreen, pick {pick, drag}, hover [picture, x, y], animated boolean,
-//                                         folded {name, folded}, url {key: text}, mounted {kind, key, show}
+//                                         expression {name: text}, reset, undo, redo, clear, stop, link, address,
+//                                         copy text, theme, fullscreen, present, pick {pick, drag}, hover [picture, x, y],
+//                                         animated boolean, folded {name, folded}, url {key: text},
+//                                         mounted {kind, key, show}
 // From the client to whoever is concerned: enter description, texts {key: text}, controls {name: value},
-//                                         progress [done, of] or null, client {key: text}, copied text, paint,
-//                                         steps {undo: number, redo: number}
+//                                         progress [done, of] or null, client {key: text}, paint,
+//                                         copied {text or null, said}, steps {undo: number, redo: number},
+//                                         presenting boolean, embedding
 // From the player to the pictures:         time {t, state}, fold name
 
 const bus = new EventTarget()

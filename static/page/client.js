@@ -6,10 +6,12 @@
 import { gallery } from "../pictures/gallery.js"
 import { createAddress } from "./address.js"
 import { listen, tell } from "./bus.js"
+import { embed, embedded } from "./embedding.js"
 import { createHistory } from "./history.js"
 import { lifetime } from "./mount.js"
 import { paint } from "./painting.js"
 import { createPage } from "./panel_page.js"
+import { isPresenting, present } from "./presenting.js"
 import { createRequests } from "./requests.js"
 import { createSight } from "./sight.js"
 import { unpack } from "./unpack.js"
@@ -21,7 +23,7 @@ const LOST = "The connection to the server is lost. See that it runs, and reload
 export function render({ model, view }) {
   const signal = lifetime({ model, view })
   const root = document.documentElement
-  // What the browser itself keeps of the address: t, speed, az, el, large.
+  // What the browser itself keeps of the address: t, speed, az, el, large, present; embed, pictures, controls.
   const own = model.client
   // Scene → its description.
   const descriptions = new Map()
@@ -32,6 +34,11 @@ export function render({ model, view }) {
   let latest = { scene: null, texts: {}, controls: {} }
   root.dataset.ready = "false"
   root.dataset.state = "0"
+  present(own.present === "1")
+  const isPart = own.embed === "1"
+  if (isPart) embed()
+  // Pictures of the scene that are not on this page.
+  let absent = []
 
   const page = createPage(view)
   const address = createAddress({ query: () => state.query, isDark: page.isDark, own })
@@ -39,7 +46,7 @@ export function render({ model, view }) {
   const requests = createRequests({
     send: (message) => model.send_msg(message),
     changed: () => { root.dataset.ready = "false" },
-    hidden: sight.hidden,
+    hidden: () => [...sight.hidden(), ...absent],
     known: (name) => descriptions.has(name),
   }, signal)
 
@@ -56,13 +63,26 @@ export function render({ model, view }) {
     address.writeNow()
     try {
       await navigator.clipboard.writeText(window.location.href)
-      tell("copied", "Copied")
+      tell("copied", { text: null, said: "Copied" })
     } catch {
       // Only a page by https, or of this machine, may write there.
-      tell("copied", "It is in the address bar")
+      tell("copied", { text: null, said: "It is in the address bar" })
+    }
+  }, signal)
+  listen("address", address.writeNow, signal)
+  listen("copy", async (text) => {
+    try {
+      await navigator.clipboard.writeText(text)
+      tell("copied", { text, said: "Copied" })
+    } catch {
+      tell("copied", { text, said: "Copy it by hand" })
     }
   }, signal)
   listen("theme", page.turnTheme, signal)
+  listen("present", () => {
+    present(!isPresenting())
+    tell("url", { present: isPresenting() ? "1" : "" })
+  }, signal)
   listen("fullscreen", () => {
     if (document.fullscreenElement === null) root.requestFullscreen().catch(console.warn)
     else document.exitFullscreen()
@@ -75,19 +95,21 @@ export function render({ model, view }) {
   // The plots that a state gives other axes or other data; all of them at first.
   const touchedPlots = ({ ranges, sources }) => {
     if (!scene.painted) return scene.plots
-    const filled = Object.keys(sources).map((name) => scene.sources.get(name).plots)
+    const filled = Object.keys(sources).map((name) => scene.sources.get(name)?.plots ?? new Set())
     return scene.plots.filter((plot) => plot.model.name in ranges || filled.some((some) => some.has(plot)))
   }
 
   // Put a state into the pictures, texts and controls.
   const fill = ({ tree, answers }, block) => {
     for (const [name, [x0, x1, y0, y1]] of Object.entries(tree.ranges)) {
-      const { x_range: x, y_range: y } = scene.plots.find((one) => one.model.name === name).model
+      const plot = scene.plots.find((one) => one.model.name === name)
+      if (plot === undefined) continue
+      const { x_range: x, y_range: y } = plot.model
       x.setv({ start: x0, end: x1 })
       y.setv({ start: y0, end: y1 })
     }
     scene.painted = true
-    for (const [name, columns] of unpack(tree.sources, block)) scene.sources.get(name).put(columns)
+    for (const [name, columns] of unpack(tree.sources, block)) scene.sources.get(name)?.put(columns)
     Object.assign(latest.texts, tree.texts)
     Object.assign(latest.controls, tree.controls)
     tell("texts", tree.texts)
@@ -136,6 +158,11 @@ export function render({ model, view }) {
     if (model.scene !== described) {
       described = model.scene
       description = JSON.parse(described)
+      if (isPart) {
+        const whole = description
+        description = embedded(whole, own)
+        absent = whole.pictures.filter(({ name }) => !own.pictures.split(",").includes(name)).map(({ name }) => name)
+      }
       descriptions.set(description.name, description)
     }
     arriving = arriving.then(async () => {

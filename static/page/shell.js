@@ -3,8 +3,10 @@
 // control at hand below, and the text scrolls between them.
 
 import { tell } from "./bus.js"
-import { isTaken } from "./keys.js"
 import { element, lifetime } from "./mount.js"
+import { linkTo } from "./embedding.js"
+import { isTaken } from "./keys.js"
+import { spot, wear } from "./presenting.js"
 import { NARROW, PHONE } from "./windows.js"
 
 // The tabs of the two columns: {tab id: column}.
@@ -57,6 +59,19 @@ function tabsOf(columns, signal) {
   return list
 }
 
+// Of an embedded page: the way to all of it.
+function opener() {
+  const link = element("a", { className: "opener", target: "_blank", rel: "noopener", textContent: "Open in Hess Explorer", href: "." })
+  // The state on show when it is used.
+  for (const event of ["pointerdown", "focus", "click"]) {
+    link.addEventListener(event, () => {
+      tell("address")
+      link.href = linkTo()
+    })
+  }
+  return link
+}
+
 export function render({ model, view, el }) {
   const signal = lifetime({ model, view })
   const children = (...names) => names.map((name) => model.get_child(name))
@@ -70,10 +85,12 @@ export function render({ model, view, el }) {
   el.append(
     element("header", { className: "bar" }, ...children("bar"), box("news", "busy", "progress")),
     tabsOf({ Controls: controls, Text: text }, signal), controls,
-    box("stage", "pictures", "player"), text, box("foot", "notes", "status"), box("unseen", "ready"))
+    box("stage", "pictures", "player"), text, box("foot", "notes", "status"), box("unseen", "ready"), opener(), spot(signal))
+  wear(el, signal)
   document.addEventListener("keydown", (event) => {
-    if (isTaken(event) || event.key.toLowerCase() !== "f") return
+    const wish = { f: "fullscreen", p: "present" }[event.key.toLowerCase()]
+    if (isTaken(event) || wish === undefined) return
     event.preventDefault()
-    tell("fullscreen")
+    tell(wish)
   }, { signal })
 }

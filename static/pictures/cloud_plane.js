@@ -5,6 +5,7 @@
 // source that the option `density` names.
 
 import { listen, tell } from "../page/bus.js"
+import { zoom } from "../page/presenting.js"
 import { cloudsOf } from "./cloud.js"
 import { CLOUDS, LOOKS } from "./looks.js"
 import { alphaOf, pointLayer, sideOf } from "./point_layer.js"
@@ -24,7 +25,8 @@ export function cloudPlane(el, options, source, signal, isShown) {
   let range = 1
 
   function place() {
-    const [w, h] = [sheet.width - MARGIN.left - MARGIN.right, sheet.width - MARGIN.top - MARGIN.bottom]
+    const edge = sheet.width / zoom()
+    const [w, h] = [edge - MARGIN.left - MARGIN.right, edge - MARGIN.top - MARGIN.bottom]
     range = own.data.half ?? range
     const half = range
     return {
@@ -137,8 +139,8 @@ export function cloudPlane(el, options, source, signal, isShown) {
   sheet.canvas.addEventListener("click", (event) => {
     const { w, h, half } = place()
     const box = sheet.canvas.getBoundingClientRect()
-    const a = ((event.clientX - box.left - MARGIN.left) / w) * 2 * half - half
-    const b = half - ((event.clientY - box.top - MARGIN.top) / h) * 2 * half
+    const a = (((event.clientX - box.left) / zoom() - MARGIN.left) / w) * 2 * half - half
+    const b = half - (((event.clientY - box.top) / zoom() - MARGIN.top) / h) * 2 * half
     tell("pick", { pick: [options.name, a, b], drag: false })
   })
   const refresh = () => {

@@ -1,5 +1,6 @@
 // Thousands of dots of one colour as squares; Bokeh paints each as a circle with colours of its own.
 
+import { zoom } from "../page/presenting.js"
 import { shade } from "./looks.js"
 
 // As large as a circle of Bokeh's marker "dot", whose diameter is a quarter of `size`.
@@ -10,7 +11,7 @@ export function dotsPainter(layers, source) {
   return (ctx, xScale, yScale) => {
     for (const { source: name, x, y, size, color, alpha } of layers) {
       const { [x]: xs = [], [y]: ys = [] } = source(name).data
-      const side = sideOf(size)
+      const side = zoom() * sideOf(size)
       const [left, top] = [xScale.v_compute(xs), yScale.v_compute(ys)]
       ctx.globalAlpha = alpha
       ctx.fillStyle = shade(color)

@@ -1,5 +1,6 @@
 // A canvas of our own over the frame of a Bokeh plot, for what would take Bokeh too long to draw.
 
+import { zoom } from "../page/presenting.js"
 import { onDark } from "./looks.js"
 
 // `before`: the element of the plot's canvas under which it lies.  paint(ctx, x, y): the context is clipped to the
@@ -16,7 +17,9 @@ export function frameCanvas(plot, before, paint) {
     const { x_range: x, y_range: y } = plot.model
     const { x0, y0, x1, y1 } = plot.frame.bbox
     const { width, height } = plot.bbox
-    return [x.start, x.end, y.start, y.end, x0, y0, x1, y1, width, height, window.devicePixelRatio, onDark()].join()
+    return [
+      x.start, x.end, y.start, y.end, x0, y0, x1, y1, width, height, window.devicePixelRatio, onDark(), zoom(),
+    ].join()
   }
 
   // Does nothing where neither data nor axes nor the theme have changed.

@@ -2,6 +2,7 @@
 
 import { listen } from "../page/bus.js"
 import { element, lifetime } from "../page/mount.js"
+import { wear } from "../page/presenting.js"
 import { cloudPlane } from "./cloud_plane.js"
 import { buildPlot, colourPlot } from "./plot.js"
 import { Source } from "./sources.js"
@@ -63,7 +64,7 @@ async function build(description) {
     return scene.sources.get(name)
   }
   // The player follows the orbit's, whether or not a picture draws it.
-  for (const name of description.tracks) source(name)
+  for (const name of [...description.tracks, ...Object.keys(description.dots)]) source(name)
   // In place, for its size, but not to be seen before it is filled.
   grid.classList.add("away")
   shelf.append(grid)
@@ -111,6 +112,7 @@ export function render({ model, view, el }) {
   signal = lifetime({ model, view })
   shelf = element("div", { className: "shelf" })
   el.append(shelf)
+  wear(el, signal)
   stage = createStage(shelf, () => shown, signal)
   listen("texts", showTexts, signal)
   const theme = new MutationObserver(() => { for (const scene of built.values()) colour(scene) })

@@ -1,6 +1,7 @@
 // A picture that Bokeh draws: axes, lines and markers, from the description that "figure.py" makes of it.
 
 import { listen } from "../page/bus.js"
+import { isPresenting, zoom } from "../page/presenting.js"
 import { waitLongForPress } from "./bokeh_private.js"
 import { cellsPainter } from "./cells.js"
 import { dotsPainter } from "./dots.js"
@@ -12,6 +13,8 @@ import { tickFormatter } from "./ticks.js"
 // The width of the frame in which a scene's axes have room for so many letters, in pixels.
 const USUAL = 240
 const TICKS_HERE = 12
+// From afar labels must stand further apart.
+const APART = 1.3
 
 // Moving layers lie on a canvas of their own, which Bokeh does not clip to the frame.
 function clipOverlays(plot) {
@@ -61,7 +64,7 @@ export async function buildPlot(host, picture, source, signal) {
     const [axis] = i === 0 ? model.below : model.left
     axis.formatter = tickFormatter(() => {
       const size = Number.parseFloat(axis.major_label_text_font_size)
-      return letters * ((plot.frame.bbox.width || USUAL) / USUAL) * (TICKS_HERE / size)
+      return (letters * ((plot.frame.bbox.width || USUAL) / USUAL) * (TICKS_HERE / size)) / (isPresenting() ? APART : 1)
     })
   })
   if (picture.renamed) nameAxes(model, source(`${picture.name}-axes`), signal)
@@ -71,9 +74,22 @@ export async function buildPlot(host, picture, source, signal) {
 
 const TICKS = 0.86
 
-// Sizes of texts, in pixels, for type of this size beside the pictures.
+const WEIGHTS = ["line_width", "axis_line_width", "major_tick_line_width", "outline_line_width", "size", "text_font_size"]
+
+const times = (factor, value) => (typeof value === "number" ? factor * value
+  : typeof value === "string" ? `${factor * Number.parseFloat(value)}px` : value)
+
+// What Bokeh draws with as it was made; those of columns are no numbers.
+const weightsOf = (part) => Object.fromEntries(WEIGHTS.filter((name) => part[name] != null)
+  .map((name) => [name, part[name].value ?? part[name]]).filter(([, value]) => typeof value !== "object"))
+const made = new WeakMap()
+
+// Sizes of texts, in pixels, for type of this size beside the pictures; lines and dots for the mode that is on.
 export function sizePlot(plot, type) {
   for (const part of plot.model.references()) {
+    if (!made.has(part)) made.set(part, weightsOf(part))
+    const wide = Object.entries(made.get(part)).map(([name, value]) => [name, times(zoom(), value)])
+    part.setv(Object.fromEntries(wide))
     if (part.axis_label_text_font_size === undefined) continue
     part.setv({
       axis_label_text_font_size: `${type}px`, major_label_text_font_size: `${Math.round(TICKS * type)}px`,

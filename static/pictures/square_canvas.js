@@ -2,10 +2,12 @@
 
 import { listen } from "../page/bus.js"
 import { element } from "../page/mount.js"
+import { zoom } from "../page/presenting.js"
 import { isDark, setDark } from "./looks.js"
 
-// paint(ctx, {size, ratio, text, dark}): the side in device pixels, their number for each of CSS's, the colour of text,
-// whether that is the lighter one of text and page.  `width` is the side in pixels of CSS.
+// paint(ctx, {size, ratio, text, dark}): the side in device pixels, their number for each of the units in which lines and
+// letters are measured, the colour of text, whether that is the lighter one of text and page.  A unit is a pixel of CSS,
+// but larger in present mode.  `width` is the side in pixels of CSS.
 export function squareCanvas(el, properties, paint, signal) {
   const canvas = element("canvas", properties)
   el.append(canvas)
@@ -25,7 +27,7 @@ export function squareCanvas(el, properties, paint, signal) {
     const text = getComputedStyle(canvas).color
     const dark = isDark(text)
     setDark(dark)
-    paint(ctx, { size, ratio, text, dark })
+    paint(ctx, { size, ratio: ratio * zoom(), text, dark })
   }
 
   function request() {
@@ -36,6 +38,7 @@ export function squareCanvas(el, properties, paint, signal) {
 
   // With all the others of a state, rather than in the next frame.
   listen("paint", draw, signal)
+  listen("presenting", request, signal)
   const theme = new MutationObserver(request)
   for (const item of [document.documentElement, document.body]) {
     theme.observe(item, { attributes: true, attributeFilter: ["data-theme", "class", "style"] })

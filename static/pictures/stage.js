@@ -6,6 +6,7 @@
 import { listen, tell } from "../page/bus.js"
 import { isTaken } from "../page/keys.js"
 import { element } from "../page/mount.js"
+import { isPresenting, zoom } from "../page/presenting.js"
 import { PHONE } from "../page/windows.js"
 import { arrange } from "./arrange.js"
 import { sizePlot } from "./plot.js"
@@ -23,10 +24,14 @@ const LONGEST = 56
 const SIDES = 4.4
 const WIDEST = 34
 const MOST_LINES = 4
+const LARGE_LINES = 3
 
 // The height of a caption over a picture in a cell so wide, see "arrange.js".
 function captions(type) {
-  const lines = (width) => Math.min(MOST_LINES, Math.max(2, Math.ceil(LONGEST / Math.max(1, width / type - SIDES))))
+  // From afar a few words are read, and the rest of the room is the picture's.
+  const most = isPresenting() ? LARGE_LINES : MOST_LINES
+  const needed = (width) => Math.max(2, Math.ceil(LONGEST / Math.max(1, width / type - SIDES)))
+  const lines = (width) => (isPresenting() && needed(width) > most ? 1 : Math.min(most, needed(width)))
   const high = (count) => Math.ceil((count * LINE + AIR) * type)
   return Object.assign((width) => high(lines(width)), { title: high(1), wide: WIDEST * type })
 }
@@ -62,8 +67,9 @@ export function createStage(shelf, shown, signal) {
   // The size of the type, also in the plots of this scene.
   function size(scene) {
     const type = Number.parseFloat(getComputedStyle(shelf).fontSize)
-    if (scene.type !== type && scene.plots.length > 0) {
-      scene.type = type
+    const sizes = `${type} ${zoom()}`
+    if (scene.sizes !== sizes && scene.plots.length > 0) {
+      scene.sizes = sizes
       for (const plot of scene.plots) sizePlot(plot, type)
     }
     return type
@@ -77,14 +83,17 @@ export function createStage(shelf, shown, signal) {
     const cells = openCells(scene)
     const own = scene === shown() ? large.map((name) => cells.findIndex((cell) => nameOf(cell) === name)) : []
     const chosen = own.filter((i) => i >= 0)
-    const seen = PHONE.matches ? [chosen[0] ?? 0] : cells.map((_, i) => i)
+    // From afar nothing is seen of a small one beside.
+    const isAlone = isPresenting() && chosen.length > 0
+    const seen = PHONE.matches ? [chosen[0] ?? 0] : isAlone ? chosen : cells.map((_, i) => i)
+    const caption = captions(type)
     const boxes = arrange({
-      width, height, count: seen.length, gap: Math.round(0.6 * type), caption: captions(type),
-    }, PHONE.matches ? [] : chosen)
+      width, height, count: seen.length, gap: Math.round(0.6 * type), caption,
+    }, PHONE.matches || isAlone ? [] : chosen)
     cells.forEach((cell, i) => {
       const at = seen.indexOf(i)
       cell.classList.toggle("off", at < 0)
-      if (at >= 0) put(cell, boxes[at])
+      if (at >= 0) put(cell, { ...boxes[at], small: boxes[at].small || boxes[at].caption <= caption.title })
       label(cell, i, chosen.includes(i))
     })
     if (scene === shown() && PHONE.matches) showChips(scene.cells, cells[seen[0]])
@@ -136,7 +145,9 @@ export function createStage(shelf, shown, signal) {
   }, { signal })
   // After whoever else Escape is for.
   window.addEventListener("keydown", (event) => {
-    if (event.key === "Escape" && !isTaken(event) && large.length > 0) enlarge([])
+    if (event.key !== "Escape" || isTaken(event) || large.length === 0) return
+    event.preventDefault()
+    enlarge([])
   }, { signal })
 
   listen("client", (own) => { wanted = own.large ?? "" }, signal)
@@ -151,6 +162,8 @@ export function createStage(shelf, shown, signal) {
 
   const resize = new ResizeObserver(() => { if (shown() !== null) place(shown()) })
   resize.observe(shelf)
+  // When all of the page has its new sizes.
+  listen("presenting", () => requestAnimationFrame(() => { if (shown() !== null) place(shown()) }), signal)
   signal.addEventListener("abort", () => resize.disconnect())
 
   return {

@@ -331,12 +331,14 @@ def test_copy_link_copies_the_state_that_is_on_the_screen(explorer):
     explorer.wait_url(h="1.5", f="0.6")
     explorer.change(lambda: explorer.slide(h=0.75))
     # At once: a user does not wait for the address bar.
+    explorer.page.locator(".param-share").click()
     link = explorer.page.locator(".param-link")
     link.click()
     link.get_by_text("Copied").wait_for(state="visible")
     copied = explorer.page.evaluate("navigator.clipboard.readText()")
     assert copied.startswith(explorer.base)
     assert dict(parse_qsl(urlsplit(copied).query))["h"] == "0.75"
+    explorer.page.keyboard.press("Escape")
 
 
 # --- The player --------------------------------------------------------------------------------------

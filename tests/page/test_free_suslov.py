@@ -325,7 +325,9 @@ def test_a_link_restores_the_scene_and_reset_its_first_state(tab, scene):
         assert (tab.chosen(name) if isinstance(value, str) else tab.shown(name)[0]) == value
     tab.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
     tab.change(lambda: tab.slide(I22=1.5))
+    tab.page.locator(".param-share").click()
     tab.page.locator(".param-link").click()
+    tab.page.keyboard.press("Escape")
     copied = dict(parse_qsl(urlsplit(tab.page.evaluate("navigator.clipboard.readText()")).query))
     assert (copied["scene"], copied["I22"]) == (scene, "1.5")
     tab.assert_quiet()

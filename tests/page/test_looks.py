@@ -144,7 +144,7 @@ def assert_in_sight(places, width, height, count):
 
 # What must keep clear of each other: in the main part and beside it.
 PARTS = (
-    "h1, .param-reset, .param-link, h2.caption, .bk-Figure, canvas.sphere, canvas.solid, .player[role=group], .reader",
+    "h1, .param-reset, .param-share, h2.caption, .bk-Figure, canvas.sphere, canvas.solid, .player[role=group], .reader",
     ".param-scenes, .menu, .number, .text.help, .text.derived",
 )
 # Of those that are to be seen.
@@ -407,8 +407,8 @@ def test_every_control_is_reached_by_the_tab_key(look_at):
                 names.push(...[...(at.classList ?? [])].filter((name) => /^param-|^sphere$|^corner$/.test(name)))
             return names
         }"""))
-    wanted = {"param-preset", "param-accuracy", "param-reset", "param-link", "param-play", "param-t", "param-speed",
-              "sphere", "param-scenes", "param-theme", "param-fullscreen", "corner",
+    wanted = {"param-preset", "param-accuracy", "param-reset", "param-share", "param-present", "param-play", "param-t",
+              "param-speed", "sphere", "param-scenes", "param-theme", "param-fullscreen", "corner",
               *(f"param-{name}" for name in SLIDERS)}
     assert wanted <= reached, wanted - reached
     tab.fold_controls()

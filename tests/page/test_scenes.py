@@ -495,7 +495,9 @@ def test_an_example_and_reset_set_the_state_of_the_accuracy_scene(study):
 def test_the_copied_link_leads_into_the_accuracy_scene(study):
     study.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
     study.change(lambda: study.slide(h=0.75))
+    study.page.locator(".param-share").click()
     study.page.locator(".param-link").click()
+    study.page.keyboard.press("Escape")
     copied = parse_qs(urlsplit(study.page.evaluate("navigator.clipboard.readText()")).query)
     assert (copied["scene"], copied["h"]) == ([STUDY], ["0.75"])
 

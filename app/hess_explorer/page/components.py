@@ -119,7 +119,8 @@ class Ready(JSComponent):
     state = param.String(default="", doc="JSON: number of the state, last request that it answers, URL query, "
                          "the tree of its data (see `wire`), name of its scene, progress [done, of] or null.")
     block = param.Bytes(default=b"", doc="The numbers of that tree.")
-    client = param.Dict(default={}, doc="URL keys that the browser itself keeps: t, speed, az, el, large.")
+    client = param.Dict(default={}, doc="URL keys that the browser itself keeps: t, speed, az, el, large, present, "
+                        "embed, pictures, controls.")
 
     _esm = _module("page/client.js")
 

@@ -23,7 +23,7 @@ from hess_explorer.page.components import (
     Text,
 )
 from hess_explorer.page.session import Session, linked
-from hess_explorer.protocol.parameters import CLIENT, Choice, Names, decode
+from hess_explorer.protocol.parameters import CLIENT, Choice, Names, Number, decode
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 
@@ -32,6 +32,8 @@ __all__ = ["page"]
 logger = logging.getLogger("hess_explorer")
 
 THEME = Choice("theme", "Theme", ("light", "dark"), "light")
+PRESENT = Choice("present", "Present mode", ("0", "1"), "0")
+EMBED = Choice("embed", "Embedding", ("0", "1"), "0")
 
 # The system's font: the fourteen files of another one would come before the first picture.
 FONT = "system-ui, sans-serif"
@@ -63,13 +65,22 @@ def _query() -> str:
 def _page(query: str) -> pmui.Page:
     scene, state, notes = linked(query, next(iter(scenes())))
     large = Names("large", "Enlarged pictures", scene.pictures, most=2)
-    looks, more = decode(query, (*CLIENT, large, THEME))
+    embedded = _embedded(scene)
+    looks, more = decode(query, (*CLIENT, large, THEME, PRESENT, EMBED, *embedded))
     # Of the link as a whole there is one note.
     notes = list(dict.fromkeys([*notes, *more]))
     kept = {spec.name: float(looks[spec.name]) for spec in CLIENT}
     kept["speed"] = min(Player.SPEEDS, key=lambda speed: abs(speed - kept["speed"]))
     client = {**{name: repr(value) for name, value in kept.items()}, large.name: str(looks[large.name])}
     dark = looks["theme"] == "dark"
+    # What is not written into the address is empty.
+    for spec in (PRESENT, EMBED):
+        client[spec.name] = str(looks[spec.name]).strip("0")
+    # None at all is none meant.
+    parts = {spec.name: str(looks[spec.name]) or spec.default for spec in embedded}
+    pictures = parts["pictures"].split(",") if client[EMBED.name] else scene.open_pictures
+    if client[EMBED.name]:
+        client |= parts
 
     ready = Ready(client=client)
     shell = Shell(
@@ -97,13 +108,20 @@ def _page(query: str) -> pmui.Page:
         busy_indicator=None,
         sx=BARE,
     )
-    session = Session(ready, scene, state, notes)
+    session = Session(ready, scene, state, notes, pictures)
     pn.state.on_session_destroyed(lambda _: session.background.stop())
     # The page's own busy flag is sent with every event and makes Panel walk through all models each
     # time (100 ms); `data-ready` says the same.
     with edit_readonly(result):
         result.busy = False
     return result
+
+
+def _embedded(scene: Scene[Any]) -> tuple[Names, Names]:
+    """The pictures and the controls of a page inside another one (`embed=1`); "none": no control."""
+    controls = tuple(spec.name for spec in scene.specs if isinstance(spec, Number | Choice))
+    return (Names("pictures", "Embedded pictures", scene.pictures, len(scene.pictures), ",".join(scene.open_pictures)),
+            Names("controls", "Embedded controls", (*controls, "none"), len(controls), ",".join(scene.essential)))
 
 
 def _entry(scene: Scene[Any]) -> dict[str, str | None]:

@@ -56,10 +56,12 @@ class Session:
     Parameters
     ----------
     ready : its messages ask for states, and it receives them.
-    scene : what is shown first; values : the state to begin with; notes : what had to be changed in the link.
+    scene : what is shown first; values : the state to begin with; notes : what had to be changed in the link;
+    pictures : those in sight, until the browser says what is.
     """
 
-    def __init__(self, ready: Ready, scene: Scene[Any], values: Values, notes: list[str]) -> None:
+    def __init__(self, ready: Ready, scene: Scene[Any], values: Values, notes: list[str],
+                 pictures: Collection[str] | None = None) -> None:
         self.ready = ready
         self.wire = Wire()
         self.background = Background()
@@ -71,17 +73,18 @@ class Session:
         self._number = 0
         self._progress: tuple[int, int] | None = None
         self._followed: set[Task] = set()
-        self._enter(scene, values, notes)
+        self._enter(scene, values, notes, pictures)
         self._draw()
         self._send(0)
         ready.on_msg(lambda event: self._receive(event.data))
 
-    def _enter(self, scene: Scene[Any], values: Values, notes: list[str]) -> None:
+    def _enter(self, scene: Scene[Any], values: Values, notes: list[str],
+               pictures: Collection[str] | None = None) -> None:
         self.scene = scene
         self._specs = {spec.name: spec for spec in scene.specs}
         self._wanted = scene.defaults() | {name: values[name] for name in self._specs if name in values}
         self._link_notes = notes
-        self._shown: Collection[str] = scene.open_pictures
+        self._shown: Collection[str] = scene.open_pictures if pictures is None else pictures
         # The browser keeps the pictures of all scenes that it has seen, and a stage knows what it has drawn on them.
         if scene.name not in self._stages:
             self._stages[scene.name] = Stage(scene, self.wire)

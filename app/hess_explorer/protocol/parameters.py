@@ -120,11 +120,12 @@ class Names:
     default: str = ""
 
     def read(self, text: str) -> tuple[str, str | None]:
-        """The first `most` of the names, each once; the default and a note where one is not of the list."""
+        """The first `most` of the names, each once; a note where one is not of the list, the default if all are not."""
         names = list(dict.fromkeys(name for name in text.split(",") if name))
-        if not set(names) <= set(self.options):
-            return self.default, f"{self.label} were not among {', '.join(self.options)}: none is chosen now."
-        return ",".join(names[:self.most]), None
+        known = [name for name in names if name in self.options]
+        note = (f"{self.label} may be {', '.join(self.options)}: what the link names besides is left out."
+                if len(known) < len(names) else None)
+        return ",".join(known[:self.most]) or (self.default if note else ""), note
 
 
 def written(places: Sequence[tuple[float, ...]]) -> str:

@@ -16,6 +16,7 @@ from hess_explorer.page.page import page
 from hess_explorer.server.liveness import is_alive
 from hess_explorer.server.modules import module_routes
 from hess_explorer.server.prompt_socket import send_promptly
+from hess_explorer.server.qr_code import QrCode
 from hess_explorer.server.warm import warm
 
 __all__ = ["serve"]
@@ -75,7 +76,7 @@ def serve(port: int, address: str, show: bool, origins: Sequence[str], ready: Ca
         address=address,
         show=show,
         websocket_origin=[f"localhost:{port}", f"127.0.0.1:{port}", *origins],
-        extra_patterns=[("/metrics", Metrics), *module_routes()],
+        extra_patterns=[("/metrics", Metrics), ("/qr.svg", QrCode), *module_routes()],
         liveness=True,
         verbose=False,
         websocket_max_message_size=MESSAGE_LIMIT,

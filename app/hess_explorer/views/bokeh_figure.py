@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import holoviews as hv
 import numpy as np
 from bokeh.embed import json_item
-from bokeh.models import ColumnDataSource, ContinuousTicker
+from bokeh.models import ColumnDataSource, ContinuousTicker, NoOverlap
 from bokeh.plotting import figure
 
 from hess_explorer.views import theme
@@ -57,6 +57,8 @@ def build(plot: Plot[Any]) -> figure:
     # begin a new path for the outline; without one it strokes the ticks of the last painting once more.
     root.update(name=plot.name, min_border=4, sizing_mode="stretch_both", aspect_ratio=None,
                 background_fill_color="#00000000", background_fill_alpha=1, border_fill_alpha=0)
+    for axis in root.axis:
+        axis.major_label_policy = NoOverlap(min_distance=4)
     if plot.x_ticks is not None:
         root.xaxis.ticker = list(plot.x_ticks)
     if plot.y_tick_count is not None:

@@ -1,0 +1,100 @@
+"""Present mode: what is said of a page that is shown in a lecture hall."""
+
+from __future__ import annotations
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+
+from hess_explorer.scenes import scenes
+from support.page import HESS, Explorer, wait_frames
+
+# The size of every text in sight, those of the axes among them; the widths of Bokeh's lines by plot and model.
+SIZES = """() => {
+  const all = (root) => [...root.querySelectorAll("*")].flatMap(
+    (item) => [item, ...(item.shadowRoot ? all(item.shadowRoot) : [])])
+  const written = (item) => [...item.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim() !== "")
+  const texts = all(document).filter((item) => (written(item) || item.matches("input[type=text], select"))
+    && item.checkVisibility({ visibilityProperty: true }) && !item.closest("option, .gallery.away")
+    && item.getBoundingClientRect().width > 1)
+  const axes = hess.plots.flatMap(({ model }) => [...model.below, ...model.left])
+  const parts = hess.plots.flatMap(({ model }) => [...model.references()])
+  return {
+    texts: texts.map((item) => [
+      item.textContent || item.className, Number.parseFloat(getComputedStyle(item).fontSize)]),
+    ticks: axes.flatMap(({ axis_label_text_font_size, major_label_text_font_size }) => (
+      [axis_label_text_font_size, major_label_text_font_size].map(Number.parseFloat))),
+    lines: Object.fromEntries(parts.filter(({ line_width }) => line_width?.value > 0)
+      .map(({ id, line_width }) => [id, line_width.value])),
+  }
+}"""
+# The widths of lines that the canvas of the sphere is told to stroke in one painting, in device pixels.
+STROKES = """item => new Promise((resolve) => {
+  const ctx = item.getContext("2d")
+  const widths = new Set()
+  const { stroke } = ctx
+  ctx.stroke = (...path) => {
+    widths.add(ctx.lineWidth)
+    stroke.apply(ctx, path)
+  }
+  item.dispatchEvent(new KeyboardEvent("keydown", { key: "Home" }))
+  requestAnimationFrame(() => requestAnimationFrame(() => {
+    delete ctx.stroke
+    resolve([...widths].sort((a, b) => a - b))
+  }))
+})"""
+
+
+@pytest.mark.parametrize(("size", "theme"), [((1920, 1080), "light"), ((1280, 720), "dark")])
+def test_what_is_presented_is_read_from_afar_and_the_link_keeps_it(open_page, server, size, theme):
+    tab = Explorer(open_page(f"theme={theme}", size=size), server)
+    page = tab.page
+    usual, strokes = page.evaluate(SIZES), tab.sphere.evaluate(STROKES)
+    page.evaluate("document.activeElement?.blur()")
+    page.keyboard.press("p")
+    page.wait_for_function("location.search.includes('present=1')")
+    wait_frames(tab, 4)
+    large = page.evaluate(SIZES)
+    assert len(large["texts"]) > 20
+    for text, points in large["texts"]:
+        assert points >= 20, text
+    assert len(large["ticks"]) >= 12
+    assert min(large["ticks"]) >= 20
+    assert len(usual["lines"]) > 10
+    assert large["lines"] == {name: 2 * width for name, width in usual["lines"].items()}
+    assert tab.sphere.evaluate(STROKES) == pytest.approx([2 * width for width in strokes])
+    essential = scenes()[HESS].essential
+    numbers = page.locator(".number").evaluate_all(
+        "items => items.filter((item) => item.checkVisibility()).map((item) => item.className)")
+    assert len(numbers) == len(essential)
+    assert all(f"param-{name}" in " ".join(numbers) for name in essential)
+    # All of it is in sight.
+    boxes = [tab.picture(name).bounding_box() for name in scenes()[HESS].open_pictures]
+    boxes += [item.bounding_box() for item in page.locator(".number:visible").all()]
+    for box in boxes:
+        assert 0 <= box["x"] < box["x"] + box["width"] <= size[0]
+        assert 0 <= box["y"] < box["y"] + box["height"] <= size[1]
+    # The spot goes with the pointer.
+    page.mouse.move(200, 300)
+    page.mouse.move(500, 320)
+    spot = page.locator(".spot").bounding_box()
+    assert (spot["x"] + spot["width"] / 2, spot["y"] + spot["height"] / 2) == pytest.approx((500, 320), abs=1)
+    found = Axe().run(page, options={"runOnly": ["wcag2a", "wcag2aa"]}).response
+    assert [(rule["id"], rule["nodes"][0]["html"]) for rule in found["violations"]] == []
+    # A link opens it; a picture that is large is reduced first, then Escape leaves; all is as it was.
+    again = Explorer(open_page(tab.link().split("?")[1], size=size), server)
+    wait_frames(again, 4)
+    opened = again.page.evaluate(SIZES)
+    for what in ("lines", "ticks"):
+        one, other = (found[what].values() if what == "lines" else found[what] for found in (opened, large))
+        assert sorted(one) == sorted(other)
+    page.keyboard.press("1")
+    wait_frames(tab, 4)
+    # From afar nothing is seen of a small picture beside it.
+    assert [tab.picture(name).is_visible() for name in scenes()[HESS].open_pictures] == [True, False, False, False]
+    page.keyboard.press("Escape")
+    assert page.evaluate("document.documentElement.hasAttribute('data-present')")
+    page.keyboard.press("Escape")
+    wait_frames(tab, 4)
+    page.wait_for_function("!location.search.includes('present')")
+    back = page.evaluate(SIZES)
+    assert (back["lines"], back["ticks"]) == (usual["lines"], usual["ticks"])

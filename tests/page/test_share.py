@@ -1,0 +1,144 @@
+"""What is shared of the page: its link, its QR code, and parts of it inside another page."""
+
+from __future__ import annotations
+
+import io
+from urllib.error import HTTPError
+from urllib.parse import parse_qsl, quote, urlsplit
+from urllib.request import urlopen
+
+import pytest
+import zxingcpp
+from axe_playwright_python.sync_playwright import Axe
+from PIL import Image
+
+from hess_explorer.headless.browser import wait_ready
+from hess_explorer.scenes import scenes
+from hess_explorer.server.qr_code import MOST
+from support.modules import look_inside
+from support.page import HESS, Explorer, wait_frames
+
+# Names of the pictures and of the controls that are to be seen, and their notes.
+SHOWN = """() => {
+  const all = (root) => [...root.querySelectorAll("*")].flatMap(
+    (item) => [item, ...(item.shadowRoot ? all(item.shadowRoot) : [])])
+  const seen = all(document).filter((item) => item.checkVisibility({ visibilityProperty: true }))
+  const named = (selector) => seen.filter((item) => item.matches(selector))
+  return {
+    pictures: named(".picture").map((item) => item.dataset.name).sort(),
+    controls: named(".number, .menu").flatMap(({ classList }) => [...classList])
+      .filter((name) => name.startsWith("param-")).map((name) => name.slice(6)).sort(),
+    others: named(".tools, .words, .legend, .tabs, .derived, .status").length,
+    player: named(".player[role=group]").length,
+    notes: named(".text.notes").map((item) => item.textContent).join(),
+  }
+}"""
+
+
+def read(png):
+    """The texts of all bar codes in a picture."""
+    return [code.text for code in zxingcpp.read_barcodes(Image.open(io.BytesIO(png)).convert("L"))]
+
+
+def assert_accessible(page):
+    found = Axe().run(page, options={"runOnly": ["wcag2a", "wcag2aa"]}).response
+    assert [(rule["id"], node["html"][:200]) for rule in found["violations"] for node in rule["nodes"]] == []
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_the_dialog_gives_link_and_code_and_what_embeds_opens_the_same_state(open_page, browser, server, theme):
+    tab = Explorer(open_page(f"theme={theme}&h=1.2"), server)
+    page = tab.page
+    tab.change(lambda: tab.slide(f=0.3))
+    page.get_by_role("button", name="Share").click()
+    dialog = page.get_by_role("dialog", name="Share")
+    link = page.get_by_role("textbox", name="Link").input_value()
+    assert link == page.url
+    assert dict(parse_qsl(urlsplit(link).query))["f"] == "0.3"
+    page.locator(".share .code svg").wait_for()
+    assert read(page.locator(".share .code").screenshot()) == [link]
+    assert_accessible(page)
+    # The focus stays in the dialog, or with the browser itself.
+    for _ in range(30):
+        page.keyboard.press("Tab")
+        assert page.evaluate("""() => {
+          let item = document.activeElement
+          while (item?.shadowRoot?.activeElement) item = item.shadowRoot.activeElement
+          return item === document.body || item.closest("dialog") !== null
+        }""")
+    for name in ("sphere", "body", "bifurcation"):
+        page.locator(f".embed-pictures input[value={name}]").uncheck()
+    for name in ("omega", "circle"):
+        page.locator(f".embed-pictures input[value={name}]").check()
+    for name in scenes()[HESS].essential:
+        page.locator(f".embed-controls input[value={name}]").set_checked(name in ("h", "f"))
+    snippet = page.get_by_role("textbox", name="HTML to embed").input_value()
+    page.keyboard.press("Escape")
+    assert not dialog.is_visible()
+
+    context = browser.new_context(viewport={"width": 1100, "height": 700})
+    outer = context.new_page()
+    look_inside(outer)
+    problems = []
+    outer.on("console", lambda message: problems.append(message.text) if message.type == "error" else None)
+    outer.set_content(f"<title>Another page</title>{snippet}")
+    inner = outer.frames[1]
+    wait_ready(inner)
+    assert inner.evaluate(SHOWN) == {
+        "pictures": ["circle", "omega"], "controls": ["f", "h"], "others": 0, "player": 1, "notes": ""}
+    framed, there = Explorer(outer, server), "document.documentElement.dataset.state"
+    framed.page = inner
+    assert framed.data("data-orbit") == tab.data("data-orbit")
+    # It is as alive as the page.
+    before = int(inner.evaluate(there))
+    framed.slide(h=0.7)
+    wait_ready(inner, after=before)
+    tab.change(lambda: tab.slide(h=0.7))
+    assert framed.data("data-orbit") == tab.data("data-orbit")
+    assert framed.caption("circle") == tab.caption("circle")
+    opener = inner.get_by_role("link", name="Open in Hess Explorer")
+    opener.focus()
+    whole = dict(parse_qsl(urlsplit(opener.get_attribute("href")).query))
+    assert (whole["h"], whole["f"]) == ("0.7", "0.3")
+    assert not {"embed", "pictures", "controls"} & set(whole)
+    assert (opener.get_attribute("target"), opener.get_attribute("rel")) == ("_blank", "noopener")
+    assert problems == []
+    context.close()
+
+
+@pytest.mark.parametrize(("keys", "pictures", "controls", "is_noted"), [
+    # What is folded at first is there when it is named.
+    ("pictures=omega,torus&controls=h", ["omega", "torus"], ["h"], False),
+    ("pictures=bifurcation,<b>,omega&controls=none,h,h", ["bifurcation", "omega"], ["h"], True),
+    ("pictures=%00&controls=none", None, [], True),
+    ("pictures=&controls=accuracy", None, ["accuracy"], False),
+    ("pictures=nobody&controls=nothing", None, None, True)])
+def test_an_embedded_page_has_what_its_address_names_and_nonsense_is_harmless(
+        open_page, server, keys, pictures, controls, is_noted):
+    scene = scenes()[HESS]
+    tab = Explorer(open_page(f"embed=1&{keys}", size=(1000, 700)), server)
+    wait_frames(tab, 4)
+    found = tab.page.evaluate(SHOWN)
+    assert found.pop("pictures") == sorted(scene.open_pictures if pictures is None else pictures)
+    assert found.pop("controls") == sorted(scene.essential if controls is None else controls)
+    notes = found.pop("notes")
+    assert bool(notes) == is_noted
+    assert "<b>" not in notes
+    assert found == {"others": 0, "player": 1}
+    assert_accessible(tab.page)
+
+
+def test_a_code_holds_the_longest_link_that_it_may_and_says_so_of_a_longer_one(browser, server):
+    text = f"{server}/?" + "a" * (MOST - len(server) - 2)
+    # Five pixels for each of its 145 modules and the margin.
+    page = browser.new_page(viewport={"width": 765, "height": 765})
+    page.goto(f"{server}/qr.svg?text={quote(text)}")
+    assert read(page.screenshot()) == [text]
+    page.close()
+    for wrong in (text + "a", ""):
+        with pytest.raises(HTTPError) as refused:
+            urlopen(f"{server}/qr.svg?text={quote(wrong)}")
+        assert refused.value.code == 400
+        said = refused.value.read().decode()
+        assert f"at most {MOST}" in said
+        assert f"{len(wrong)} characters" in said
