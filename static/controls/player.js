@@ -85,6 +85,8 @@ export function render({ model, view, el }) {
   }
   let playing = false
   let last = null
+  // Of a lesson: from, to, in so many seconds.
+  let run = null
 
   const end = () => {
     const times = source?.data.t
@@ -112,8 +114,11 @@ export function render({ model, view, el }) {
   function frame(now) {
     if (!playing) return
     if (last !== null) {
-      const next = t + (Number(speed.value) * Math.min(100, now - last)) / 1000
-      move(next >= end() ? 0 : next)
+      const rate = run ? (run.to - run.from) / run.seconds : Number(speed.value)
+      const next = t + (rate * Math.min(100, now - last)) / 1000
+      const isOver = run !== null && (next - run.to) * rate >= 0
+      move(isOver ? run.to : run === null && next >= end() ? 0 : next)
+      if (isOver) return play(false)
     }
     last = now
     requestAnimationFrame(frame)
@@ -121,6 +126,7 @@ export function render({ model, view, el }) {
 
   function play(on) {
     playing = on
+    if (!on) run = null
     last = null
     setPlay(on ? "pause" : "play", on ? "Pause (Space)" : "Play (Space)")
     bar.dataset.playing = on
@@ -159,6 +165,13 @@ export function render({ model, view, el }) {
   document.addEventListener("keydown", onKey, { signal })
   // A button would be pressed when the key is let go.
   document.addEventListener("keyup", (event) => { if (event.key === " " && !isTaken(event)) event.preventDefault() }, { signal })
+  listen("run", (wanted) => {
+    play(false)
+    if (wanted === null) return
+    run = wanted
+    move(run.from)
+    play(true)
+  }, signal)
   // The player of the next scene goes on from here.
   listen("scene", () => { if (playing) play(false) }, signal)
 

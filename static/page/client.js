@@ -23,13 +23,16 @@ const LOST = "The connection to the server is lost. See that it runs, and reload
 export function render({ model, view }) {
   const signal = lifetime({ model, view })
   const root = document.documentElement
-  // What the browser itself keeps of the address: t, speed, az, el, large, present; embed, pictures, controls.
+  // What the browser itself keeps of the address: t, speed, az, el, large, present; embed, pictures, controls;
+  // lesson, step.
   const own = model.client
   // Scene → its description.
   const descriptions = new Map()
   let scene = null
   let state = null
   let more = null
+  // The lesson that nobody has read yet.
+  let unread = null
   // What has been said of the scene on show, for what is mounted later (controls in a drawer that opens).
   let latest = { scene: null, texts: {}, controls: {} }
   root.dataset.ready = "false"
@@ -56,8 +59,10 @@ export function render({ model, view }) {
 
   listen("url", (keys) => {
     Object.assign(own, keys)
-    address.write()
+    // The first state brings the others.
+    if (state !== null) address.write()
   }, signal)
+  listen("reading", () => { unread = null }, signal)
   listen("link", async () => {
     // The link of what is on the screen, not of what the address bar has come to.
     address.writeNow()
@@ -88,7 +93,7 @@ export function render({ model, view }) {
     else document.exitFullscreen()
   }, signal)
   listen("mounted", ({ kind, key, show }) => {
-    const known = kind === "client" ? own : kind === "texts" ? latest.texts[key] : latest[kind]
+    const known = kind === "client" ? own : kind === "lesson" ? unread : kind === "texts" ? latest.texts[key] : latest[kind]
     if (known != null) show(known)
   }, signal)
 
@@ -141,8 +146,13 @@ export function render({ model, view }) {
     tell("progress", state.progress)
     clearTimeout(more)
     if (requests.isBehind(state.answers)) requests.ask()
-    else if (state.progress === null) root.dataset.ready = "true"
-    else more = setTimeout(requests.ask, Math.max(PAUSE_BETWEEN_PIECES, performance.now() - since))
+    else {
+      tell("painted")
+      // What hears that may have asked for another state.
+      if (requests.isBehind(state.answers)) return
+      if (state.progress === null) root.dataset.ready = "true"
+      else more = setTimeout(requests.ask, Math.max(PAUSE_BETWEEN_PIECES, performance.now() - since))
+    }
   }
 
   const build = async (description) => {
@@ -176,6 +186,12 @@ export function render({ model, view }) {
     })
   }
 
+  // A lesson that was asked for; at first the one that the link names, with its step.
+  const readLesson = (step) => {
+    unread = { lesson: JSON.parse(model.lesson), step }
+    tell("lesson-read", unread)
+  }
+
   const start = async () => {
     await Promise.all([gallery.standing, page.standing()])
     page.onConnectionLost(() => {
@@ -191,6 +207,8 @@ export function render({ model, view }) {
     tell("client", own)
     // The first state is read when the page stands, even if the user was faster and it is no longer the first.
     model.on("state", onState)
+    model.on("lesson", () => readLesson(null))
+    if (model.lesson !== "") readLesson(Number(own.step) - 1)
     onState()
   }
   start()

@@ -25,6 +25,8 @@ export function render({ model, view, el }) {
     listen("texts", ({ signs }) => { if (signs !== undefined) showSigns(signs) }, signal)
     tell("mounted", { kind: "texts", key: "signs", show: showSigns })
   }
+  // A lesson has the place of the words.
+  if (model.part === "words") listen("reading", (on) => { item.hidden = on }, signal)
   tell("mounted", { kind: "scene", show })
   el.append(item)
 }

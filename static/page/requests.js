@@ -104,6 +104,14 @@ export function createRequests({ send, changed, hidden, known }, signal) {
     chosen = target = new URLSearchParams(restore).get("scene") ?? shown
     restart({ restore })
   }, signal)
+  listen("step", (step) => {
+    chosen = target = null
+    restart({ step })
+  }, signal)
+  listen("lesson", (lesson) => {
+    wish.lesson = lesson
+    ask()
+  }, signal)
   listen("stop", () => want({ stop: true }), signal)
   listen("pick", ({ pick, drag }) => {
     // A finger that moves scrolls the page.

@@ -78,7 +78,7 @@ export function render({ model, view, el }) {
   const box = (className, ...names) => element("div", { className }, ...children(...names))
   const controls = element("section", { className: "controls column", id: "controls" }, ...children("controls", "derived"))
   const text = element("section", { className: "reader column", id: "text" },
-    box("reading", "words"), box("signs", "legend"))
+    box("reading", "lessons", "words"), box("signs", "legend"))
   // What scrolls is reached by keys.
   for (const column of [controls, text.firstChild]) column.tabIndex = 0
   el.classList.add("frame")

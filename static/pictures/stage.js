@@ -151,6 +151,12 @@ export function createStage(shelf, shown, signal) {
   }, { signal })
 
   listen("client", (own) => { wanted = own.large ?? "" }, signal)
+  // What a lesson looks at.
+  listen("look", (name) => {
+    const cell = shown().cells.find((one) => nameOf(one) === name)
+    if (cell.classList.contains("folded")) tell("fold", name)
+    enlarge([name])
+  }, signal)
   listen("fold", (name) => {
     const cell = shown().cells.find((one) => nameOf(one) === name)
     const folded = cell.classList.toggle("folded")

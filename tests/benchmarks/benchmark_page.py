@@ -283,7 +283,7 @@ async def measure() -> None:
                 for _ in range(1 if "first" in label else 3):
                     start = time.perf_counter()
                     with server(environment) as url:
-                        page = await browser.new_page(viewport={"width": 1600, "height": 950})
+                        page = await browser.new_page(viewport={"width": 1600, "height": 950}, reduced_motion="reduce")
                         await open_page(page, url)
                         seconds.append(time.perf_counter() - start)
                         await page.close()
@@ -291,7 +291,7 @@ async def measure() -> None:
                 subprocess.run([sys.executable, "-c", compile_everything], env=environment, check=True)
                 rows.append((f"command to painted pictures, {label}", f"{statistics.median(seconds):.2f} s", bar))
             with server(environment) as url:
-                page = await browser.new_page(viewport={"width": 1600, "height": 950})
+                page = await browser.new_page(viewport={"width": 1600, "height": 950}, reduced_motion="reduce")
                 await open_page(page, url)
                 await asyncio.sleep(1.5)
                 await page.evaluate(RECORD)
@@ -307,7 +307,7 @@ async def measure() -> None:
                                  f"({queued} more states)", "≥ 25 a second"))
                 await page.locator(".param-reset").click()
                 await page.wait_for_function(READY)
-                rested = await browser.new_page(viewport={"width": 1600, "height": 950})
+                rested = await browser.new_page(viewport={"width": 1600, "height": 950}, reduced_motion="reduce")
                 await open_page(rested, url)
                 for scene in others():
                     first, prepared, again = await entries(page, rested, scene.name)

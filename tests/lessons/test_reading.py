@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from hess_explorer.lessons import shipped
+from hess_explorer.lessons import shipped, tries
 from hess_explorer.lessons.lesson import Animation, LessonError
 from hess_explorer.lessons.markdown import to_html
 from hess_explorer.lessons.reading import MAX_BYTES, MAX_STEPS, read, read_file, without_tries
@@ -62,8 +62,10 @@ MISTAKES = [
     ("&h=0.2&f=0.5", "&h=1e9&f=0.5", 9, "h lies between"),
     ("&h=0.2&f=0.5", "&g=0.2", 9, "'g', which the scene suslov-hess does not"),
     ("&h=0.2&f=0.5", "&h=0.2" + "0" * 2000, 9, "longer than 2000"),
-    ("look: circle", "look: circel", 9, "look is one of omega"),
-    ("look: circle", "glance: circle", 9, "allowed are state, look, animate, predict"),
+    ("look: circle", "look: circel", 9, "look is one of body, omega"),
+    ("look: circle", "glance: circle", 9, "allowed are state, example, look, animate, predict"),
+    ("look: circle", "example: U", 9, "Two limit cycles, No cycle"),
+    ("look: circle", "example: S", 9, "just one of the examples"),
     ("look: circle", "look: [circle", 11, "not YAML"),
     ("look: circle", "look: &a circle\nmore: *a", 9, "references"),
     ("name: h,", "name: k,", 9, "name of animate is one of time, I22"),
@@ -122,7 +124,7 @@ def test_html_of_a_lesson_is_text_and_it_asks_no_other_host():
             to_html(f"${formula}$")
 
 
-LESSONS = {lesson.name: lesson for lesson in shipped().values()}
+LESSONS = {lesson.name: lesson for lesson in (*shipped().values(), *tries().values())}
 LINKED = [(lesson, step) for lesson in LESSONS.values() for step in lesson.steps]
 
 

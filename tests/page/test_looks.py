@@ -34,7 +34,7 @@ def look_at(browser, server):
     def enter(scene, size="wide", theme="light"):
         if (size, theme) not in tabs:
             width, height = SIZES[size]
-            context = browser.new_context(viewport={"width": width, "height": height})
+            context = browser.new_context(viewport={"width": width, "height": height}, reduced_motion="reduce")
             tab = tabs[size, theme] = Explorer(context.new_page(), server).open(f"scene={scene}&theme={theme}")
             # As they are at first.
             if size in ("wide", "laptop"):

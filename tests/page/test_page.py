@@ -45,7 +45,7 @@ RECORD = """
 
 
 def test_a_page_says_it_is_ready_once_and_when_its_pictures_are_drawn(browser, server):
-    context = browser.new_context(viewport={"width": 1600, "height": 950})
+    context = browser.new_context(viewport={"width": 1600, "height": 950}, reduced_motion="reduce")
     context.add_init_script(RECORD)
     explorer = Explorer(context.new_page(), server).open()
     record = explorer.page.evaluate("record")
@@ -354,7 +354,7 @@ def test_what_no_control_of_the_page_would_send_does_no_harm(explorer):
 
 
 def test_a_page_whose_server_has_ended_keeps_its_pictures_and_plays_on(browser, tmp_path):
-    context = browser.new_context(viewport={"width": 1600, "height": 950})
+    context = browser.new_context(viewport={"width": 1600, "height": 950}, reduced_motion="reduce")
     page = context.new_page()
     closed = []
     page.on("websocket", lambda socket: socket.on("close", lambda _: closed.append(socket)))

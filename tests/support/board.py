@@ -13,6 +13,7 @@ import pytest
 from bokeh.document import Document
 from bokeh.models import ColumnDataSource
 
+from hess_explorer.lessons import shipped
 from hess_explorer.page.description import describe
 from hess_explorer.page.session import Session
 from hess_explorer.protocol.parameters import Number, Places, decode
@@ -171,7 +172,7 @@ class Browser:
         self.block = b""
         self.entered, self.described, self.screens = [], [], {}
         self.scene = scene
-        self.session = Session(self, scene, values or scene.defaults(), list(notes))
+        self.session = Session(self, scene, values or scene.defaults(), list(notes), shipped())
 
     def on_msg(self, callback):
         self._receive = callback

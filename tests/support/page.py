@@ -313,8 +313,8 @@ SLIDE = f"""pairs => {{
   }}
   return document.documentElement.dataset.ready
 }}"""
-# Dark, or not of the size that tests share: a link made it so.
-IS_ODD = "location.search.includes('theme=dark') || innerWidth !== 1600"
+# Dark, in a lesson, or not of the size that tests share: a link made it so.
+IS_ODD = "/theme=dark|lesson=/.test(location.search) || innerWidth !== 1600"
 ENTER = f"""pairs => {{
   for (const [name, value] of pairs) {{
     const box = ({FIND})(name, "text")
@@ -328,7 +328,9 @@ ENTER = f"""pairs => {{
 def one_tab(browser, server):
     """A tab for many tests: loading a page is what takes longest."""
     context = browser.new_context(
-        viewport={"width": WIDE[0], "height": WIDE[1]}, permissions=["clipboard-read", "clipboard-write"])
+        viewport={"width": WIDE[0], "height": WIDE[1]}, permissions=["clipboard-read", "clipboard-write"],
+        # A scene begins at rest.
+        reduced_motion="reduce")
     yield Explorer(context.new_page(), server)
     context.close()
 
@@ -373,7 +375,7 @@ class Line:
 
 def tab_on_a_line(browser, server):
     """(explorer, line): a tab for many tests, and what is between it and the server."""
-    context = browser.new_context(viewport={"width": WIDE[0], "height": WIDE[1]})
+    context = browser.new_context(viewport={"width": WIDE[0], "height": WIDE[1]}, reduced_motion="reduce")
     page = context.new_page()
     yield Explorer(page, server), Line(page)
     context.close()

@@ -10,9 +10,14 @@ import re
 import socket
 import webbrowser
 from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 from . import CommandError
 from .arguments import integer, shown
+
+if TYPE_CHECKING:
+    from hess_explorer.lessons.lesson import Lesson
 
 __all__ = ["add"]
 
@@ -27,6 +32,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser.add_argument("--no-browser", dest="browser", action="store_false", help="do not open a browser")
     parser.add_argument("--allow-origin", dest="origins", type=_origin, nargs="+", action="extend", default=[],
                         metavar="HOST:PORT", help="host and port in the browser's address bar, if not this machine's")
+    parser.add_argument("--lesson", type=Path, metavar="FILE",
+                        help="a lesson of your own, in Markdown, to begin with (see app/README.md)")
     parser.set_defaults(run=_run)
 
 
@@ -37,6 +44,7 @@ def _origin(text: str) -> str:
 
 
 def _run(options: argparse.Namespace) -> None:
+    lesson = _lesson(options.lesson)
     _require_free(options.address, options.port)
     # A browser cannot open the address that stands for all interfaces.
     host = "localhost" if options.address in ("127.0.0.1", "0.0.0.0", "::") else options.address
@@ -55,7 +63,21 @@ def _run(options: argparse.Namespace) -> None:
     with suppress(KeyboardInterrupt):
         from hess_explorer.server.serving import serve
 
-        serve(port=options.port, address=options.address, show=show, origins=options.origins, ready=ready)
+        serve(port=options.port, address=options.address, show=show, origins=options.origins, ready=ready,
+              lesson=lesson)
+
+
+def _lesson(path: Path | None) -> Lesson | None:
+    """The lesson in a file.  Raises `CommandError`."""
+    if path is None:
+        return None
+    from hess_explorer.lessons.lesson import LessonError
+    from hess_explorer.lessons.reading import read_file
+
+    try:
+        return read_file(path)
+    except LessonError as error:
+        raise CommandError(str(error)) from error
 
 
 def _first_words() -> str:

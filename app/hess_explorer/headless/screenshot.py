@@ -72,7 +72,7 @@ def screenshot(query: str, size: tuple[int, int], *, dark: bool = False) -> byte
 
         with running_server(Path(folder) / "server.log") as base:
             page = browser.new_page(viewport={"width": size[0], "height": size[1]},
-                                    color_scheme="dark" if dark else "light")
+                                    color_scheme="dark" if dark else "light", reduced_motion="reduce")
             try:
                 page.goto(f"{base}/?{query}", timeout=1000 * _LOAD_SECONDS)
                 wait_ready(page)

@@ -1,4 +1,4 @@
-"""Lessons: the Markdown files of this package."""
+"""Lessons: the Markdown files of this package, and what the scenes say under "Try this"."""
 
 from __future__ import annotations
 
@@ -7,9 +7,10 @@ from functools import cache
 from pathlib import Path
 
 from hess_explorer.lessons.lesson import Lesson
-from hess_explorer.lessons.reading import read_file
+from hess_explorer.lessons.reading import read_file, read_tries
+from hess_explorer.scenes import scenes
 
-__all__ = ["shipped"]
+__all__ = ["shipped", "tries"]
 
 
 @cache
@@ -17,3 +18,10 @@ def shipped() -> Mapping[str, Lesson]:
     """The lessons of this package by name, the longest first."""
     found = map(read_file, Path(__file__).parent.glob("*.md"))
     return {lesson.name: lesson for lesson in sorted(found, key=lambda lesson: (-lesson.minutes, lesson.title))}
+
+
+@cache
+def tries() -> Mapping[str, Lesson]:
+    """What can be tried, by the name of the scene; those that look into another scene have no own."""
+    found = {scene.name: read_tries(scene) for scene in scenes().values() if scene.origin is None}
+    return {name: lesson for name, lesson in found.items() if lesson is not None}

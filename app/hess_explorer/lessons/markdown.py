@@ -44,10 +44,13 @@ def parser() -> MarkdownIt:
     return found.use(front_matter_plugin).use(dollarmath_plugin, renderer=_formula, allow_space=False)
 
 
-def to_html(text: str, line: int = 1) -> str:
-    """HTML of a piece of Markdown that begins in this line.  Raises `LessonError` for a formula that cannot be set."""
+def to_html(text: str, line: int = 1, inline: bool = False) -> str:
+    """HTML of Markdown that begins in this line, without paragraphs if `inline`.
+
+    Raises `LessonError` for a formula that cannot be set.
+    """
     try:
-        html: str = parser().render(text)
+        html: str = parser().renderInline(text) if inline else parser().render(text)
     except _BadFormula as error:
         formula = str(error)
         shown = formula if len(formula) <= _SHOWN else formula[:_SHOWN] + "…"

@@ -18,8 +18,9 @@ says, as YAML, what belongs to it; headings one level down, "Question" and "Answ
     ### Question
     ### Answer
 
-`state` is a link as the page gives it; a step without one stays where the last one has come to.  "Try this" of a scene
-is a section of its words with steps two levels down.
+`state` is a link as the page gives it; `example: Two limit`, the beginning of the name of an example of that scene, may
+stand in its place.  A step without either stays where the last one has come to.  "Try this" of a scene is a section of
+its words with steps two levels down.
 """
 
 from __future__ import annotations
@@ -48,7 +49,7 @@ MAX_BYTES = 256 * 1024
 MAX_STEPS = 200
 TRY_THIS = "Try this"
 _MOST_MINUTES, _MOST_SECONDS, _MOST_TIME = 600.0, 600.0, 1e6
-_KEYS = ("state", "look", "animate", "predict")
+_KEYS = ("state", "example", "look", "animate", "predict")
 _KEPT_BY_BROWSER = {"v", "scene", "theme", "large", "lesson", "step", *(spec.name for spec in CLIENT)}
 _CURVES, _POINTS = ("multi_line", "line"), ("scatter",)
 
@@ -206,6 +207,8 @@ def _step(part: _Part, tag: str, place: Place | None) -> Step:
     line = part.fields_line or part.line
     if "state" in fields:
         place = _place(fields["state"], line)
+    if "example" in fields:
+        place = _example(fields["example"], place, line)
     if place is None:
         raise LessonError('the first step needs a state: a link of the page, like state: "?scene=suslov-hess&h=1.5", '
                           "in a fence named step.", line)
@@ -262,6 +265,16 @@ def _place(link: object, line: int) -> Place:
     if notes:
         raise LessonError(f"the link cannot be followed as it is. {notes[0]}", line)
     return Place(scene.name, values)
+
+
+def _example(begins: object, place: Place | None, line: int) -> Place:
+    """The example of the scene whose name begins so."""
+    scene = next(iter(scenes().values())) if place is None else scenes()[place.scene]
+    found = [one for one in scene.presets if isinstance(begins, str) and begins and one.name.startswith(begins)]
+    if len(found) != 1:
+        raise LessonError(_not_one(f"example is the beginning of just one of the examples of {scene.name}; it", begins,
+                                   tuple(preset.name for preset in scene.presets)), line)
+    return Place(scene.name, scene.defaults() | scene.example(found[0]))
 
 
 def _animation(found: object, scene: Scene[Any], line: int) -> Animation | None:

@@ -14,7 +14,7 @@ from panel.custom import Child, JSComponent
 
 from hess_explorer.assets import STATIC, modules_path
 
-__all__ = ["Bar", "Controls", "Pictures", "Player", "Progress", "Prose", "Ready", "Shell", "Status", "Text"]
+__all__ = ["Bar", "Controls", "Lessons", "Pictures", "Player", "Progress", "Prose", "Ready", "Shell", "Status", "Text"]
 
 _MODULES = modules_path()
 
@@ -37,6 +37,7 @@ class Shell(JSComponent):
     derived = Child(doc="What follows from them.")
     pictures = Child(doc="The pictures.")
     player = Child(doc="The player, under the pictures.")
+    lessons = Child(doc="A lesson, over the words.")
     words = Child(doc="The words beside the pictures.")
     legend = Child(doc="The legend under the words.")
     notes = Child(doc="Notes on the state, under the controls.")
@@ -47,6 +48,15 @@ class Shell(JSComponent):
 
     _esm = _module("page/shell.js")
     _stylesheets = _css("page/shell.css")
+
+
+class Lessons(JSComponent):
+    """A lesson step by step, the menu of lessons, and what can be tried in the scene on show."""
+
+    index = param.List(default=[], doc="{name, title, minutes} of each lesson.")
+
+    _esm = _module("page/lessons.js")
+    _stylesheets = _css("page/page.css", "page/lessons.css")
 
 
 class Bar(JSComponent):
@@ -109,6 +119,7 @@ class Ready(JSComponent):
     - "values": {name: number or option, …}; "preset": the example chosen; "scene": the scene chosen;
     - "expressions": {name: text, …}, numbers as they were typed, pi/3;
     - "picked": [picture, x, y] or [picture, x0, y0, x1, y1]; "hover": [picture, x, y], where the mouse is;
+    - "lesson": the lesson wanted; "step": [lesson or scene, number of the step from 0, whether its guess is revealed];
     - "near": a scene that may be chosen next;
     - "restore": the query of a state to go to, as in a link;
     - "reset", "clear", "stop": whether that was pressed; "held": whether a slider is held;
@@ -119,8 +130,9 @@ class Ready(JSComponent):
     state = param.String(default="", doc="JSON: number of the state, last request that it answers, URL query, "
                          "the tree of its data (see `wire`), name of its scene, progress [done, of] or null.")
     block = param.Bytes(default=b"", doc="The numbers of that tree.")
+    lesson = param.String(default="", doc="JSON: the lesson that was wanted last, see `description`.")
     client = param.Dict(default={}, doc="URL keys that the browser itself keeps: t, speed, az, el, large, present, "
-                        "embed, pictures, controls.")
+                        "embed, pictures, controls, lesson, step.")
 
     _esm = _module("page/client.js")
 

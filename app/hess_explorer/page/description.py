@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import threading
 from collections.abc import Sequence
@@ -11,12 +12,16 @@ from typing import Any
 from markdown_it import MarkdownIt
 from markdown_it.token import Token
 
+from hess_explorer.lessons import tries
+from hess_explorer.lessons.lesson import Lesson, Step
+from hess_explorer.lessons.markdown import to_html
+from hess_explorer.lessons.reading import without_tries
 from hess_explorer.protocol.parameters import GROUPS, Choice, Number
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.views.text import with_formulas
 
-__all__ = ["describe"]
+__all__ = ["describe", "describe_lesson"]
 
 
 _one_at_a_time = threading.Lock()
@@ -43,6 +48,7 @@ def _describe(name: str) -> str:
         "presets": [preset.name for preset in scene.presets],
         "legend": scene.legend,
         "words": _html(scene),
+        "tries": _steps(tries().get(scene.name)),
         "tracks": [f"data-{name}" for name in scene.tracks],
         "dots": {source: list(columns) for source, columns in scene.dots.items()},
         "angles": list(scene.angles),
@@ -57,7 +63,7 @@ def _html(scene: Scene[Any]) -> str:
 
     markdown = MarkdownIt().enable("table")
     markdown.add_render_rule("image", drawing)
-    html: str = markdown.render(with_formulas(scene.words))
+    html: str = markdown.render(with_formulas(scene.words if scene.origin else without_tries(scene.words)))
     return html
 
 
@@ -66,3 +72,26 @@ def _control(spec: Number | Choice) -> dict[str, Any]:
     if isinstance(spec, Number):
         return {"kind": "number", "symbol": spec.symbol, "range": list(spec.softbounds), **common}
     return {"kind": "choice", "options": list(spec.options), **common}
+
+
+@cache
+def describe_lesson(lesson: Lesson) -> str:
+    """JSON of a lesson; the same for all sessions."""
+    return json.dumps({"name": lesson.name, "title": lesson.title, "minutes": lesson.minutes, "steps": _steps(lesson)})
+
+
+def _steps(lesson: Lesson | None) -> list[dict[str, Any]]:
+    return [_step(step) for step in lesson.steps] if lesson else []
+
+
+def _step(step: Step) -> dict[str, Any]:
+    found: dict[str, Any] = {
+        "title": to_html(step.title, inline=True), "text": to_html(step.text), "scene": step.at.scene,
+        "look": step.look, "question": to_html(step.question), "answer": to_html(step.answer)}
+    if step.animation:
+        found["animation"] = dataclasses.asdict(step.animation)
+    if step.prediction:
+        guess = step.prediction
+        found["prediction"] = {"picture": guess.picture, "source": guess.source, "columns": guess.columns,
+                               "what": guess.what}
+    return found

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import logging
 from typing import Any
-from urllib.parse import urlencode
+from urllib.parse import parse_qsl, urlencode
 
 import panel as pn
 import panel_material_ui as pmui
 from panel.util import edit_readonly
 
+from hess_explorer.lessons import shipped
+from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.components import (
     Bar,
     Controls,
+    Lessons,
     Pictures,
     Player,
     Progress,
@@ -22,8 +25,9 @@ from hess_explorer.page.components import (
     Status,
     Text,
 )
+from hess_explorer.page.description import describe_lesson
 from hess_explorer.page.session import Session, linked
-from hess_explorer.protocol.parameters import CLIENT, Choice, Names, Number, decode
+from hess_explorer.protocol.parameters import CLIENT, Choice, Names, Number, decode, encode
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 
@@ -45,10 +49,13 @@ BARE: dict[str, Any] = {
 """Of Panel's page neither the bar nor the room for it: its drawers would cover a phone."""
 
 
-def page() -> Any:
-    """A new page for one session, in the state that its URL describes."""
+def page(own: Lesson | None = None) -> Any:
+    """A new page for one session, in the state that its URL describes; own : a lesson besides those of the package.
+
+    An address that names neither a scene nor a lesson begins that one.
+    """
     try:
-        return _page(_query())
+        return _page(_query(), own)
     # Whatever it is, a user sees a sentence and the log the rest.
     except Exception:
         logger.exception("the page could not be built")
@@ -62,7 +69,21 @@ def _query() -> str:
     return urlencode([(name, given[0].decode("utf-8", "replace")) for name, given in arguments.items() if given])
 
 
-def _page(query: str) -> pmui.Page:
+def _page(query: str, own: Lesson | None) -> pmui.Page:
+    lessons = {own.name: own, **shipped()} if own else dict(shipped())
+    given = dict(parse_qsl(query))
+    if own and not {"scene", "lesson"} & given.keys():
+        query = urlencode([("lesson", own.name), *given.items()])
+    lesson = Choice("lesson", "Lesson", ("", *lessons), "")
+    read, lesson_notes = decode(query, (lesson,))
+    reading = lessons.get(str(read["lesson"]))
+    most = len(reading.steps) if reading else 1
+    read, step_notes = decode(query, (Number("step", "step", "Step", 1.0, (1.0, most), 1.0, (1.0, most)),))
+    at = int(float(read["step"]))
+    if reading and "scene" not in given:
+        # A link to a step alone is one to its state.
+        place = reading.steps[at - 1].at
+        query = f"{query}&{encode(place.scene, place.values)}"
     scene, state, notes = linked(query, next(iter(scenes())))
     large = Names("large", "Enlarged pictures", scene.pictures, most=2)
     embedded = _embedded(scene)
@@ -71,7 +92,8 @@ def _page(query: str) -> pmui.Page:
     notes = list(dict.fromkeys([*notes, *more]))
     kept = {spec.name: float(looks[spec.name]) for spec in CLIENT}
     kept["speed"] = min(Player.SPEEDS, key=lambda speed: abs(speed - kept["speed"]))
-    client = {**{name: repr(value) for name, value in kept.items()}, large.name: str(looks[large.name])}
+    client = {**{name: repr(value) for name, value in kept.items()}, large.name: str(looks[large.name]),
+              "lesson": reading.name if reading else "", "step": str(at) if reading else ""}
     dark = looks["theme"] == "dark"
     # What is not written into the address is empty.
     for spec in (PRESENT, EMBED):
@@ -82,13 +104,15 @@ def _page(query: str) -> pmui.Page:
     if client[EMBED.name]:
         client |= parts
 
-    ready = Ready(client=client)
+    ready = Ready(client=client, lesson=describe_lesson(reading) if reading else "")
     shell = Shell(
         bar=Bar(scenes=[_entry(one) for one in scenes().values()]),
         controls=Controls(),
         derived=Text(key="derived", look="derived", tag="div"),
         pictures=Pictures(),
         player=Player(),
+        lessons=Lessons(index=[{"name": one.name, "title": one.title, "minutes": one.minutes}
+                               for one in lessons.values()]),
         words=Prose(part="words"),
         legend=Prose(part="legend"),
         notes=Text(key="notes", look="notes", live=True),
@@ -108,7 +132,7 @@ def _page(query: str) -> pmui.Page:
         busy_indicator=None,
         sx=BARE,
     )
-    session = Session(ready, scene, state, notes, pictures)
+    session = Session(ready, scene, state, [*lesson_notes, *step_notes, *notes], lessons, pictures)
     pn.state.on_session_destroyed(lambda _: session.background.stop())
     # The page's own busy flag is sent with every event and makes Panel walk through all models each
     # time (100 ms); `data-ready` says the same.

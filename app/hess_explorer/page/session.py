@@ -8,16 +8,18 @@ from __future__ import annotations
 import json
 import logging
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from typing import Any
 
 from panel.io.document import unlocked
 
 from hess_explorer.compute.background import Background
 from hess_explorer.compute.cache import Task
+from hess_explorer.lessons import tries
+from hess_explorer.lessons.lesson import Lesson, Place
 from hess_explorer.page.components import Ready
 from hess_explorer.page.controls import show_controls
-from hess_explorer.page.description import describe
+from hess_explorer.page.description import describe, describe_lesson
 from hess_explorer.protocol.expressions import NotANumber, evaluate
 from hess_explorer.protocol.parameters import Choice, Number, Places, Value, Values, decode, encode
 from hess_explorer.protocol.wire import Wire
@@ -57,12 +59,13 @@ class Session:
     ----------
     ready : its messages ask for states, and it receives them.
     scene : what is shown first; values : the state to begin with; notes : what had to be changed in the link;
-    pictures : those in sight, until the browser says what is.
+    lessons : those that can be given, by name; pictures : those in sight, until the browser says what is.
     """
 
     def __init__(self, ready: Ready, scene: Scene[Any], values: Values, notes: list[str],
-                 pictures: Collection[str] | None = None) -> None:
+                 lessons: Mapping[str, Lesson], pictures: Collection[str] | None = None) -> None:
         self.ready = ready
+        self._lessons = lessons
         self.wire = Wire()
         self.background = Background()
         self._stages: dict[str, Stage[Any]] = {}
@@ -182,6 +185,25 @@ class Session:
             self._link_notes, self._dirty = [str(error)], True
         return {}
 
+    def _place_of(self, step: Any) -> Place | None:
+        """The state that a step [lesson or scene, number, whether its guess is revealed] goes to."""
+        match step:
+            case [str(name), int(number), bool(revealed)]:
+                lesson = self._lessons.get(name) or tries().get(name)
+                if lesson is not None and 0 <= number < len(lesson.steps):
+                    found = lesson.steps[number]
+                    return found.prediction.then if revealed and found.prediction else found.at
+        return None
+
+    def _go(self, place: Place) -> None:
+        """Show the state of a step: all of it, whatever was chosen before."""
+        scene = scenes()[place.scene]
+        if scene is self.scene:
+            self.change(place.values)
+        else:
+            self._left[self.scene.name] = self._wanted
+            self._enter(scene, place.values, [])
+
     def _hover(self, picture: Any, x: float, y: float) -> None:
         text = ""
         if picture in self.scene.pictures and math.isfinite(x) and math.isfinite(y):
@@ -242,6 +264,10 @@ class Session:
         if message.get("stop") is True and self._progress is not None:
             self._stopped = True
             self.background.stop()
+        lesson = message.get("lesson")
+        if isinstance(lesson, str) and lesson in self._lessons:
+            self.ready.lesson = describe_lesson(self._lessons[lesson])
+        place = self._place_of(message.get("step"))
         requested = message.get("requested")
         with unlocked():
             scene, near = (scenes().get(name) if isinstance(name, str) else None
@@ -253,8 +279,12 @@ class Session:
                 self._change_scene(scene)
             elif near is not None:
                 self._describe(near.name)
+            here = self.scene
+            if place is not None:
+                self._go(place)
             hidden = message.get("hidden")
-            if isinstance(hidden, list):
+            # Those of another scene say nothing of this one.
+            if isinstance(hidden, list) and self.scene is here:
                 shown = [name for name in self.scene.pictures if name not in hidden]
                 # What comes into sight must be of this state.
                 self._dirty |= not set(shown) <= set(self._shown)

@@ -12,6 +12,7 @@ from tornado.web import RequestHandler
 from tornado.websocket import WebSocketClosedError
 
 from hess_explorer.compute.cache import CACHE
+from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.page import page
 from hess_explorer.server.liveness import is_alive
 from hess_explorer.server.modules import module_routes
@@ -56,11 +57,13 @@ def _prepare(address: str, port: int, ready: Callable[[], None]) -> None:
     warm(first_is_ready)
 
 
-def serve(port: int, address: str, show: bool, origins: Sequence[str], ready: Callable[[], None]) -> None:
+def serve(port: int, address: str, show: bool, origins: Sequence[str], ready: Callable[[], None],
+          lesson: Lesson | None = None) -> None:
     """Serve the explorer until interrupted.
 
     address : to listen on; show : open the browser; origins : HOST:PORT pairs whose pages may open a websocket,
-    besides this machine's own; ready : called from another thread when the page answers without compiling first.
+    besides this machine's own; ready : called from another thread when the page answers without compiling
+    first; lesson : one besides those of the package.
     """
     logging.basicConfig(format="%(asctime)s %(name)s %(message)s")
     logger.setLevel(logging.INFO)
@@ -70,7 +73,7 @@ def serve(port: int, address: str, show: bool, origins: Sequence[str], ready: Ca
     # Kernels are compiled while the browser loads the page.
     threading.Thread(target=_prepare, args=(address, port, ready), name="warm", daemon=True).start()
     pn.serve(
-        {"/": page},
+        {"/": lambda: page(lesson)},
         title="Hess Explorer",
         port=port,
         address=address,

@@ -1,0 +1,167 @@
+// A guess in a picture: the audience clicks where something will be, then the truth is drawn with the distance to it.
+
+import { gallery } from "./gallery.js"
+
+const RING = 9
+const MOST = 40
+const GUESS = "#D55E00"
+const TRUTH = "#009E73"
+const STEP = 8
+
+const shown = (value) => value.toPrecision(2).replace("-", "−")
+const mean = (values) => values.reduce((sum, one) => sum + one, 0) / values.length
+
+// The nearest to [x, y] of a polyline's points, or of places between them.
+function nearestOn(line, [x, y]) {
+  let best = { distance: Infinity, place: null }
+  const take = (place) => {
+    const distance = Math.hypot(place[0] - x, place[1] - y)
+    if (distance < best.distance) best = { distance, place }
+  }
+  line.forEach(([x1, y1], i) => {
+    if (i === 0) return take([x1, y1])
+    const [x0, y0] = line[i - 1]
+    const squared = (x1 - x0) ** 2 + (y1 - y0) ** 2
+    const share = squared > 0 ? Math.max(0, Math.min(1, ((x - x0) * (x1 - x0) + (y - y0) * (y1 - y0)) / squared)) : 0
+    take([x0 + share * (x1 - x0), y0 + share * (y1 - y0)])
+  })
+  return best
+}
+
+const zip = (xs, ys) => Array.from(xs, (x, i) => [x, ys[i]]).filter((place) => place.every(Number.isFinite))
+
+// What the source holds, as polylines of data: points are lines of one.
+function linesOf({ source, columns: [x, y], what }) {
+  const { [x]: xs = [], [y]: ys = [] } = gallery.source(source).data
+  if (what === "point") return zip(xs, ys).map((place) => [place])
+  return typeof xs[0] === "number" ? [zip(xs, ys)] : Array.from(xs, (part, i) => zip(part, ys[i]))
+}
+
+// prediction: {picture, source, columns, what}; say(text) tells what is to be done, and how near the guess was.
+export function createGuess(prediction, say) {
+  const isCurve = prediction.what === "curve"
+  let plot = null
+  let sheet = null
+  let clicks = []
+  let truth = null
+
+  const scales = () => [plot.frame.x_scale, plot.frame.y_scale]
+  const toPixels = ([x, y]) => scales().map((scale, i) => scale.compute([x, y][i]))
+  const toData = ([x, y]) => scales().map((scale, i) => scale.invert([x, y][i]))
+
+  // What is to be guessed is not seen.
+  function hide(isHidden) {
+    for (const renderer of plot.model.renderers) {
+      if (renderer.data_source?.name === prediction.source) renderer.visible = !isHidden
+    }
+  }
+
+  function draw() {
+    const ratio = window.devicePixelRatio || 1
+    const { width, height } = plot.bbox
+    sheet.width = Math.round(ratio * width)
+    sheet.height = Math.round(ratio * height)
+    const ctx = sheet.getContext("2d")
+    ctx.scale(ratio, ratio)
+    const ring = ([x, y], colour, isDashed) => {
+      for (const [weight, style] of [[6, "white"], [3, colour]]) {
+        ctx.beginPath()
+        ctx.setLineDash(isDashed ? [4, 4] : [])
+        ctx.arc(x, y, RING, 0, 2 * Math.PI)
+        ctx.lineWidth = weight
+        ctx.strokeStyle = style
+        ctx.stroke()
+      }
+    }
+    for (const [i, click] of clicks.map(toPixels).entries()) {
+      if (truth !== null) {
+        const place = toPixels(truth[i])
+        ctx.beginPath()
+        ctx.setLineDash([4, 4])
+        ctx.moveTo(...click)
+        ctx.lineTo(...place)
+        ctx.lineWidth = 2
+        ctx.strokeStyle = GUESS
+        ctx.stroke()
+        ring(place, TRUTH, false)
+      }
+      ring(click, GUESS, true)
+    }
+  }
+
+  function add(place) {
+    clicks = isCurve ? [...clicks, place].slice(-MOST) : [place]
+    draw()
+    say(isCurve ? `Your curve: ${clicks.length} point${clicks.length === 1 ? "" : "s"}.` : "Your guess is set.")
+  }
+
+  const inside = ([x, y]) => {
+    const { x0, x1, y0, y1 } = plot.frame.bbox
+    return [Math.max(x0, Math.min(x1, x)), Math.max(y0, Math.min(y1, y))]
+  }
+
+  function onKey(event) {
+    const move = { ArrowLeft: [-STEP, 0], ArrowRight: [STEP, 0], ArrowUp: [0, -STEP], ArrowDown: [0, STEP] }[event.key]
+    if (move === undefined) return
+    const { x0, x1, y0, y1 } = plot.frame.bbox
+    const [x, y] = clicks.length > 0 ? toPixels(clicks.at(-1)) : [(x0 + x1) / 2, (y0 + y1) / 2]
+    add(toData(inside([x + move[0], y + move[1]])))
+    event.preventDefault()
+    event.stopPropagation()
+  }
+
+  return {
+    isRevealed: false,
+    // The state of the step is on show.
+    begin() {
+      plot = gallery.shown.plots.find(({ model }) => model.name === prediction.picture)
+      hide(true)
+      sheet = document.createElement("canvas")
+      sheet.className = "guess"
+      sheet.style.cssText = "position: absolute; inset: 0; width: 100%; height: 100%; cursor: crosshair; touch-action: none"
+      sheet.tabIndex = 0
+      sheet.setAttribute("role", "application")
+      sheet.setAttribute("aria-label", "Your guess: click, or move it with the arrow keys")
+      sheet.title = isCurve ? "Click along the curve as you expect it" : "Click where you expect it"
+      plot.canvas_view.overlays.el.parentNode.append(sheet)
+      // Not a click or a drag of the picture.
+      for (const name of ["pointerdown", "pointermove", "pointerup", "wheel"]) {
+        sheet.addEventListener(name, (event) => event.stopPropagation())
+      }
+      sheet.addEventListener("click", (event) => {
+        if (!this.isRevealed) add(toData(inside([event.offsetX, event.offsetY])))
+      })
+      sheet.addEventListener("keydown", onKey)
+      plot.repainted.connect(draw)
+      draw()
+      say(`${sheet.title}, then reveal.`)
+    },
+    // The truth is on its way: nothing is taken any more.
+    wait() {
+      this.isRevealed = true
+    },
+    // The state that is revealed is on show.
+    reveal: () => {
+      hide(false)
+      sheet.style.pointerEvents = "none"
+      const lines = linesOf(prediction).map((line) => line.map((place) => ({ place, at: toPixels(place) })))
+      const found = clicks.map((click) => lines.map((line) => nearestOn(line.map(({ at }) => at), toPixels(click)))
+        .reduce((best, one) => (one.distance < best.distance ? one : best), { distance: Infinity, place: null }))
+      if (found.length === 0) return say("Revealed. Nobody has guessed.")
+      if (found.some(({ place }) => place === null)) return say("Revealed: there is none here.")
+      truth = found.map(({ place }) => toData(place))
+      draw()
+      const off = [0, 1].map((i) => mean(clicks.map((click, j) => Math.abs(click[i] - truth[j][i]))))
+      const [[x], [y]] = [plot.model.below, plot.model.left]
+      say(`${isCurve ? "On average" : "You were"} ${Math.round(mean(found.map(({ distance }) => distance)))} pixels away: ` +
+        `${shown(off[0])} in ${x.axis_label}, ${shown(off[1])} in ${y.axis_label}.`)
+    },
+    // The lesson goes on.
+    end() {
+      if (plot === null) return
+      hide(false)
+      plot.repainted.disconnect(draw)
+      sheet.remove()
+    },
+  }
+}

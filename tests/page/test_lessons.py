@@ -1,0 +1,124 @@
+"""A lesson is given: step by step, by the keys of a clicker, with guesses and what they are told."""
+
+from __future__ import annotations
+
+import re
+from urllib.parse import parse_qs, urlsplit
+
+import numpy as np
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+
+from hess_explorer.lessons import shipped, tries
+from support.board import SCENES
+from support.page import HESS, values_of
+from support.pointer import at
+
+NAME = "scattering-by-a-nonholonomic-top"
+# Whether the layers of a source are seen in a picture.
+SEEN = """([picture, source]) => hess.plots.find(({ model }) => model.name === picture).model.renderers
+  .filter((one) => one.data_source?.name === source).map((one) => one.visible)"""
+
+
+def here(explorer):
+    """(scene, its values, lesson, step) of the address."""
+    query = {name: one for name, [one] in parse_qs(urlsplit(explorer.link()).query, keep_blank_values=True).items()}
+    scene = SCENES[query["scene"]]
+    return scene.name, values_of(explorer, scene), query.get("lesson"), query.get("step"), query.get("large")
+
+
+def guess(explorer, prediction):
+    """Click in the picture: the places clicked, in pixels."""
+    x0, x1, y0, y1 = explorer.axes(prediction.picture)
+    shares = [(0.2, 0.3), (0.5, 0.8), (0.8, 0.6)] if prediction.what == "curve" else [(0.3, 0.6)]
+    pixels = [at(explorer, prediction.picture, x0 + x * (x1 - x0), y0 + y * (y1 - y0))[0] for x, y in shares]
+    for pixel in pixels:
+        explorer.page.mouse.click(*pixel)
+    return np.array(pixels)
+
+
+def distance(explorer, prediction, pixels):
+    """How far the places are from what is drawn now, on average."""
+    columns = explorer.data(prediction.source)
+    xs, ys = (columns[name] for name in prediction.columns)
+    if prediction.what == "point":
+        xs, ys = [xs], [ys]
+    drawn = []
+    for x, y in zip(xs, ys, strict=True):
+        places = np.array([at(explorer, prediction.picture, *place)[0] for place in zip(x[:1] + x[-1:], y[:1] + y[-1:],
+                                                                                       strict=True)])
+        # Linear between two places whose pixels are known, on each axis.
+        (left, right), (bottom, top) = zip(*(at(explorer, prediction.picture, *corner)[0] for corner in (
+            (0.0, 0.0), (1.0, 1.0))), strict=True)
+        line = np.column_stack([left + np.array(x) * (right - left), bottom + np.array(y) * (top - bottom)])
+        np.testing.assert_allclose(line[[0, -1]], places, atol=1e-6)
+        share = np.linspace(0.0, 1.0, 50)[:, None, None]
+        drawn.append((line[:-1] * (1 - share) + line[1:] * share).reshape(-1, 2) if len(line) > 1 else line)
+    return np.mean([np.hypot(*(np.concatenate(drawn) - pixel).T).min() for pixel in pixels])
+
+
+def test_a_lesson_is_given_by_page_down_from_start_to_end(explorer):
+    lesson, page = shipped()[NAME], explorer.page
+    explorer.goto(f"/?lesson={NAME}")
+    assert page.locator(".words").is_hidden()
+    for number, step in enumerate(lesson.steps, 1):
+        assert page.locator(".lesson .title").inner_text() == step.title
+        assert page.locator(".lesson .count").inner_text() == f"{number} / {len(lesson.steps)}"
+        assert re.fullmatch(r"\d:\d\d of 20 min", page.locator(".timer").inner_text())
+        assert here(explorer) == (step.at.scene, step.at.values, NAME, str(number), step.look or None)
+        if step.prediction:
+            wanted = [step.prediction.picture, step.prediction.source]
+            assert page.evaluate(SEEN, wanted) == [False]
+            pixels = guess(explorer, step.prediction)
+            # The picture has taken none of the clicks.
+            assert here(explorer)[1] == step.at.values
+            explorer.change(page.keyboard.press, "PageDown")
+            assert here(explorer)[1] == step.prediction.then.values
+            assert page.evaluate(SEEN, wanted) == [True]
+            [told] = re.findall(r"(\d+) pixels away", page.locator(".lesson .said").inner_text())
+            assert float(told) == pytest.approx(distance(explorer, step.prediction, pixels), abs=1.0)
+        if step.question:
+            answer = page.locator(".answer > div")
+            assert answer.is_hidden()
+            page.keyboard.press("PageDown")
+            assert answer.is_visible()
+        if number == 3:
+            found = Axe().run(page, options={"runOnly": ["wcag2a", "wcag2aa"]})
+            assert found.violations_count == 0, found.generate_report()
+        if number < len(lesson.steps):
+            explorer.change(page.keyboard.press, "PageDown")
+    # The end is the end; back is a step, and out of the lesson are the words.
+    page.keyboard.press("PageDown")
+    explorer.change(page.keyboard.press, "PageUp")
+    assert here(explorer)[3] == str(len(lesson.steps) - 1)
+    page.locator(".param-leave-lesson").click()
+    assert page.locator(".words").is_visible()
+    assert here(explorer)[2:4] == (None, None)
+
+
+def test_what_can_be_tried_is_done_for_one(explorer):
+    page, steps = explorer.page, tries()[HESS].steps
+    assert page.locator(".words").get_by_text("Try this").count() == 0
+    for number, step in enumerate(steps):
+        assert page.locator(".tries h3").inner_text() == f"Try this: {step.title}"
+        assert page.locator(".tries .count").inner_text() == f"{number + 1} / {len(steps)}"
+        explorer.change(page.locator(".param-try").click)
+        assert here(explorer)[1] == step.at.values
+        page.locator(".param-try-next").click()
+    assert page.locator(".tries .count").inner_text() == f"1 / {len(steps)}"
+
+
+def test_a_link_to_a_step_that_is_not_there_is_one_to_the_last_and_a_lesson_is_chosen_from_the_menu(explorer):
+    page, lessons = explorer.page, shipped()
+    explorer.goto("/?lesson=two-chaotic-layers-that-never-mix&step=99")
+    last = lessons["two-chaotic-layers-that-never-mix"].steps[-1]
+    assert page.locator(".lesson .title").inner_text() == last.title
+    assert "step lies between 1 and 9" in explorer.text("notes")
+    explorer.goto("/?lesson=none")
+    assert "Lesson was not one of" in explorer.text("notes")
+    page.locator(".lesson-menu > summary").click()
+    assert page.locator(".lesson-menu button").count() == len(lessons)
+    explorer.change(page.locator(".param-lesson-limit-cycles-and-locking").click)
+    first = lessons["limit-cycles-and-locking"].steps[0]
+    assert here(explorer)[1:4] == (first.at.values, "limit-cycles-and-locking", "1")
+    page.locator(".param-leave-lesson").click()
