@@ -22,6 +22,8 @@ const TOOLS = [
       icon: "M12 5a7 7 0 1 1-6.7 9h2.1A5 5 0 1 0 12 7v3.5L6.5 6 12 1.5z" },
   ],
   [
+    { name: "pin", label: "Pin", title: "Keep this state, to compare others with it", isPin: true,
+      icon: "M9 3h6v2l-1 1v5l3 3v2h-4v5h-2v-5H7v-2l3-3V6L9 5z" },
     { name: "share", label: "Share", title: "Link to all that is on the screen, QR code, parts for another page",
       icon: "M4 12a4 4 0 0 1 4-4h3v2H8a2 2 0 0 0 0 4h3v2H8a4 4 0 0 1-4-4zm5-1h6v2H9zm4-3h3a4 4 0 0 1 0 8h-3v-2h3a2 2 0 0 0 0-4h-3z" },
     { name: "present", label: "Present", title: "For a lecture hall: large type and lines, few controls; and back (P)",
@@ -62,6 +64,7 @@ export function render({ model, view, el }) {
     if (one.isDrawn) drawn.push(button)
     if (one.isStep) steps.set(one.name, button)
     if (one.name === "present") sayPresenting(button)
+    if (one.isPin) listen("compared", (compared) => button.setAttribute("aria-pressed", String(compared !== null)), signal)
     return button
   })))
   el.append(element("div", { className: "tools" }, open, heading, element("span", { className: "room" }), ...groups), menu.dialog, share.dialog)

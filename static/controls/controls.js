@@ -7,6 +7,7 @@ import { listen, tell } from "../page/bus.js"
 import { element, lifetime } from "../page/mount.js"
 import { wear } from "../page/presenting.js"
 import { PHONE } from "../page/windows.js"
+import { comparison } from "./comparison.js"
 import { menu } from "./menu.js"
 import { number } from "./number.js"
 
@@ -22,7 +23,7 @@ export function render({ model, view, el }) {
   const signal = lifetime({ model, view })
   const column = element("div", { className: "board" })
   const chooser = element("div", { className: "chooser", role: "group", "aria-label": "Control at hand" })
-  el.append(chooser, column)
+  el.append(chooser, column, comparison(signal))
   let shows = {}
   let refusals = {}
   // Groups that the user has unfolded, in every scene; the control at hand on a phone.

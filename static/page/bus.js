@@ -3,13 +3,13 @@
 // To the client ("client.js"):            change {name: value}, preset name, scene name, near name, restore query,
 //                                         expression {name: text}, reset, undo, redo, clear, stop, link, address,
 //                                         copy text, theme, fullscreen, present, pick {pick, drag}, hover [picture, x, y],
-//                                         animated boolean, folded {name, folded}, url {key: text}, lesson name,
+//                                         animated boolean, pin, flip, folded {name, folded}, url {key: text}, lesson name,
 //                                         step [lesson, number, revealed], mounted {kind, key, show}
 // From the client to whoever is concerned: enter description, texts {key: text}, controls {name: value},
 //                                         progress [done, of] or null, client {key: text}, paint,
 //                                         copied {text or null, said}, steps {undo: number, redo: number},
 //                                         presenting boolean, embedding, painted,
-//                                         lesson-read {lesson, step}
+//                                         lesson-read {lesson, step}, compared {title, isPinnedShown, rows}
 // From the player to the pictures:         time {t, state}, fold name
 // From a lesson:                           reading on, look picture, run {from, to, seconds} or null
 

@@ -6,6 +6,7 @@
 import { gallery } from "../pictures/gallery.js"
 import { createAddress } from "./address.js"
 import { listen, tell } from "./bus.js"
+import { createCompare } from "./compare.js"
 import { embed, embedded } from "./embedding.js"
 import { createHistory } from "./history.js"
 import { lifetime } from "./mount.js"
@@ -56,6 +57,10 @@ export function render({ model, view }) {
   const history = createHistory({
     query: () => state.query, isSettled: () => state !== null && !requests.isBehind(state.answers), address,
   }, signal)
+
+  const compare = createCompare(() => ({
+    query: state.query, scene: latest.scene, derived: latest.texts.derived ?? "",
+  }), signal)
 
   listen("url", (keys) => {
     Object.assign(own, keys)
@@ -142,6 +147,7 @@ export function render({ model, view }) {
     root.dataset.state = String(state.number)
     requests.settled()
     history.settle()
+    compare.painted()
     if (!requests.lost) tell("texts", { busy: "" })
     tell("progress", state.progress)
     clearTimeout(more)

@@ -42,5 +42,5 @@ export function frameCanvas(plot, before, paint) {
   }
 
   plot.repainted.connect(draw)
-  return { draw, request: () => { stale = true } }
+  return { element: canvas, draw, request: () => { stale = true } }
 }

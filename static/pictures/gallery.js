@@ -4,6 +4,7 @@ import { listen } from "../page/bus.js"
 import { element, lifetime } from "../page/mount.js"
 import { wear } from "../page/presenting.js"
 import { cloudPlane } from "./cloud_plane.js"
+import { planeGhost } from "./ghost.js"
 import { buildPlot, colourPlot } from "./plot.js"
 import { Source } from "./sources.js"
 import { sphere } from "./sphere.js"
@@ -24,7 +25,7 @@ export const gallery = {
   has: (name) => built.has(name),
   source: (name) => shown?.sources.get(name),
   get shown() { return shown },
-  build, enter,
+  build, enter, takeGhost, showGhost,
 }
 
 // [cell, host]: caption, place for the picture, line about what is under the mouse.
@@ -52,7 +53,7 @@ function colour(scene) {
 // The pictures of a scene that the server has described, not seen yet: {name, grid, cells, plots, sources}.
 async function build(description) {
   const grid = element("div", { className: "gallery" })
-  const scene = { name: description.name, grid, sources: new Map(), cells: [], plots: [], painted: false }
+  const scene = { name: description.name, grid, sources: new Map(), cells: [], plots: [], ghosts: [], painted: false }
   const places = description.pictures.map((picture) => {
     const [cell, host] = cellOf(picture)
     grid.append(cell)
@@ -70,15 +71,28 @@ async function build(description) {
   shelf.append(grid)
   stage.place(scene)
   for (const [host, picture] of places) {
-    KINDS[picture.kind]?.(host, picture, source, signal, () => shown === scene)
+    const ghost = KINDS[picture.kind]?.(host, picture, source, signal, () => shown === scene)
+    if (ghost) scene.ghosts.push(ghost)
   }
   scene.plots = await Promise.all(places.filter(([, { kind }]) => kind === "plot")
     .map(([host, picture]) => buildPlot(host, picture, source, signal)))
+  scene.ghosts.push(...scene.plots.map(planeGhost))
   colour(scene)
   stage.size(scene)
   while (!scene.plots.every((plot) => plot.has_finished())) await new Promise(requestAnimationFrame)
   built.set(scene.name, scene)
   return scene
+}
+
+// What is painted, as a faint copy: to be shown later, beside another state.
+function takeGhost() {
+  const scene = shown
+  return { scene, parts: scene.ghosts.map((ghost) => ghost.take()) }
+}
+
+// Of another scene there is nothing to be seen; null: of none.
+function showGhost(taken) {
+  shown.ghosts.forEach((ghost, i) => ghost.show(taken?.scene === shown ? taken.parts[i] : null))
 }
 
 // Show the pictures of this scene in place of those on show.

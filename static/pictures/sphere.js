@@ -11,6 +11,7 @@ import { listen, tell } from "../page/bus.js"
 import { bodyIn } from "./body.js"
 import { circle, graticule } from "./circles.js"
 import { sphereClouds } from "./cloud_on_sphere.js"
+import { FAINT } from "./ghost.js"
 import { LOOKS, POINT } from "./looks.js"
 import { squareCanvas } from "./square_canvas.js"
 
@@ -176,12 +177,28 @@ export function sphere(el, options, source, signal, isShown) {
     canvas.dataset.turn = turn.map((x) => x.toFixed(4)).join(" ")
   }
 
+  // Of an earlier state, its tracks: [look, [xs, ys, zs]].
+  let kept = null
+  let faint = null
+  function paintGhost(ctx, look) {
+    if (kept === null) return
+    const on = createSheet(ctx, look, turn)
+    for (const [name, track] of kept) {
+      on.use(LOOKS[name])
+      for (const near of [false, true]) {
+        ctx.globalAlpha = near ? FAINT : 0.3 * FAINT
+        on.stroke(track, near)
+      }
+    }
+  }
+
   function rotate(azimuth, elevation) {
     const limit = Math.PI / 2
     const wrapped = Math.atan2(Math.sin(azimuth), Math.cos(azimuth))
     turn = [wrapped, Math.max(-limit, Math.min(limit, elevation))]
     tell("url", { az: turn[0].toFixed(4), el: turn[1].toFixed(4) })
     request()
+    faint?.request()
   }
 
   let grabbed = null
@@ -212,4 +229,14 @@ export function sphere(el, options, source, signal, isShown) {
   }, signal)
   const watched = [options.name, ...Object.keys(options.tracks), options.clouds, options.attitude]
   for (const name of watched) if (name !== undefined) source(name).watch(request, signal)
+  return {
+    take: () => Object.entries(options.tracks).map(([name, look]) => [look, columns(name)])
+      .filter(([, track]) => track !== null && track[0].length > 1),
+    show(what) {
+      if (what === kept) return
+      kept = what
+      faint ??= squareCanvas(el, { className: "ghost", "aria-hidden": "true" }, paintGhost, signal)
+      faint.request()
+    },
+  }
 }

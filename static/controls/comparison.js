@@ -1,0 +1,35 @@
+// What the pinned state and the one on show differ in, in a table under the controls.
+
+import { listen, tell } from "../page/bus.js"
+import { element } from "../page/mount.js"
+
+export function comparison(signal) {
+  const said = element("p", { className: "text", role: "status" })
+  const flip = element("button", {
+    type: "button", className: "button param-flip", textContent: "A | B", title: "The pinned state, and back (C)",
+  })
+  const unpin = element("button", { type: "button", className: "button param-unpin", textContent: "Unpin" })
+  const body = element("tbody")
+  const table = element("table", {}, element("thead", {}, element("tr", {},
+    ...["", "A", "B"].map((text) => element(text === "" ? "td" : "th", { textContent: text })))), body)
+  const box = element("section", { className: "comparison", hidden: true, "aria-label": "Comparison" },
+    element("div", { className: "comparing" }, said, flip, unpin), table)
+  flip.addEventListener("click", () => tell("flip"))
+  unpin.addEventListener("click", () => tell("pin"))
+  let shown = ""
+  listen("compared", (compared) => {
+    // It comes with every state.
+    const text = JSON.stringify(compared)
+    if (text === shown) return
+    shown = text
+    box.hidden = compared === null
+    if (compared === null) return
+    const { title, isPinnedShown, rows } = compared
+    said.textContent = title !== null ? `A: ${title}` : isPinnedShown ? "A, pinned, is on show" : "B is on show, A is pinned"
+    flip.setAttribute("aria-pressed", String(isPinnedShown))
+    table.hidden = rows.length === 0
+    body.replaceChildren(...rows.map(([name, one, two]) => element("tr", {},
+      element("th", { scope: "row", textContent: name }), element("td", { textContent: one }), element("td", { textContent: two }))))
+  }, signal)
+  return box
+}

@@ -1,0 +1,51 @@
+// A faint copy of an earlier state under or over the one on show: drawn once, and again only where axes or sizes change.
+
+import { frameCanvas } from "./frame_canvas.js"
+
+export const FAINT = 0.4
+
+// Of the lines and points of a Bokeh plot, as they are painted: {take() → what is on show, show(that, or null)}.
+export function planeGhost(plot) {
+  let canvas = null
+  let kept = null
+
+  function paint(ctx, xScale, yScale) {
+    if (kept === null) return
+    const { sheet, x: [x0, x1], y: [y0, y1] } = kept
+    const [left, right, bottom, top] = [xScale.compute(x0), xScale.compute(x1), yScale.compute(y0), yScale.compute(y1)]
+    ctx.globalAlpha = FAINT
+    ctx.drawImage(sheet, left - 0.5, top - 0.5, right - left, bottom - top)
+  }
+
+  return {
+    take() {
+      const { primary, overlays } = plot.canvas_view
+      const { x_range: x, y_range: y } = plot.model
+      const { x0, y0, x1, y1 } = plot.frame.bbox
+      // Folded, or of a window without room.
+      if (!(x1 > x0 && y1 > y0 && primary.el.width > 0)) return null
+      const sheet = document.createElement("canvas")
+      const ratio = primary.el.width / plot.bbox.width
+      const [width, height] = [x1 - x0, y1 - y0].map((side) => Math.ceil(ratio * side))
+      Object.assign(sheet, { width, height })
+      const paper = sheet.getContext("2d")
+      // The layers from Bokeh's lines up to what moves.
+      for (let layer = primary.el; layer !== null && layer !== overlays.el; layer = layer.nextElementSibling) {
+        if (layer instanceof HTMLCanvasElement && layer.width > 0) {
+          paper.drawImage(layer, ratio * x0, ratio * y0, width, height, 0, 0, width, height)
+        }
+      }
+      return { sheet, x: [x.start, x.end], y: [y.start, y.end] }
+    },
+    show(what) {
+      if (what === kept) return
+      kept = what
+      if (canvas === null) {
+        canvas = frameCanvas(plot, plot.canvas_view.primary.el, paint)
+        canvas.element.classList.add("ghost")
+      }
+      canvas.request()
+      canvas.draw()
+    },
+  }
+}

@@ -1,0 +1,90 @@
+"""Two states in the same pictures: the ghost of the one before, the pinned one, and how they differ."""
+
+from __future__ import annotations
+
+from support.page import DEFAULTS, wait_frames
+from support.suslov_hess import assert_orbit
+
+# The painted pixels of ghosts: of the planar pictures, inside Bokeh's own trees, and of the spheres.
+GHOSTS = """() => {
+  const found = []
+  const walk = (root) => {
+    for (const item of root.querySelectorAll("*")) {
+      if (item.matches("canvas.ghost") && item.checkVisibility({ visibilityProperty: true })) found.push(item)
+      if (item.shadowRoot) walk(item.shadowRoot)
+    }
+  }
+  walk(document)
+  return found.map((canvas) => {
+    if (canvas.width === 0) return 0
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height)
+    let painted = 0
+    for (let i = 3; i < data.length; i += 4) if (data[i] > 40) painted += 1
+    return painted
+  })
+}"""
+
+
+def painted(explorer):
+    wait_frames(explorer, 3)
+    return sum(count > 100 for count in explorer.page.evaluate(GHOSTS))
+
+
+def rows(explorer):
+    return {name: (one, two) for name, one, two in explorer.page.locator(".comparison tbody tr").evaluate_all(
+        "rows => rows.map((row) => [...row.children].map((cell) => cell.textContent))")}
+
+
+def test_while_a_slider_is_held_the_state_before_it_is_seen_and_no_longer(explorer):
+    page = explorer.page
+    box = explorer.slider("h").bounding_box()
+    middle = box["y"] + box["height"] / 2
+    assert painted(explorer) == 0
+    page.mouse.move(box["x"] + 0.5 * box["width"], middle)
+    page.mouse.down()
+    sent = len(explorer.sent)
+    explorer.change(page.mouse.move, box["x"] + 0.6 * box["width"], middle)
+    # The plane and the sphere at least.
+    assert painted(explorer) >= 2
+    before = page.evaluate(GHOSTS)
+    explorer.change(page.mouse.move, box["x"] + 0.7 * box["width"], middle)
+    wait_frames(explorer, 3)
+    # That of the first moment stays as it was painted, and costs no message.
+    assert page.evaluate(GHOSTS) == before
+    assert len(explorer.sent) > sent
+    explorer.change(page.mouse.up)
+    assert painted(explorer) == 0
+
+
+def test_a_pinned_state_is_seen_beside_others_named_in_numbers_and_gone_back_to(explorer):
+    page = explorer.page
+    pin, table = page.locator(".param-pin"), page.locator(".comparison")
+    assert table.is_hidden()
+    pin.click()
+    assert pin.get_attribute("aria-pressed") == "true"
+    assert rows(explorer) == {}
+    explorer.change(lambda: explorer.slide(h=1.8))
+    assert painted(explorer) >= 2
+    found = rows(explorer)
+    assert found["h"] == ("1.5", "1.8")
+    assert not {"a", "b", "f", "I₂₃", "accuracy"} & set(found)
+    # E = I₁₁ b h.
+    one, two = (float(text.replace("−", "-")) for text in found["E = I₁₁ b h"])
+    assert abs(two / one - 1.8 / 1.5) < 1e-5
+    # There and back, by the key and the button.
+    explorer.change(page.keyboard.press, "c")
+    assert_orbit(explorer, DEFAULTS)
+    assert rows(explorer)["h"] == ("1.5", "1.8")
+    assert painted(explorer) >= 2
+    explorer.change(page.locator(".param-flip").click)
+    assert_orbit(explorer, {**DEFAULTS, "h": 1.8})
+    # In another scene it is named, and gone back to.
+    explorer.enter("loxodrome")
+    assert "Suslov–Hess" in table.text_content()
+    assert rows(explorer) == {}
+    assert painted(explorer) == 0
+    explorer.change(page.locator(".param-flip").click)
+    assert_orbit(explorer, DEFAULTS)
+    page.locator(".param-unpin").click()
+    assert table.is_hidden()
+    assert painted(explorer) == 0
