@@ -29,9 +29,10 @@ export function planeGhost(plot) {
       const [width, height] = [x1 - x0, y1 - y0].map((side) => Math.ceil(ratio * side))
       Object.assign(sheet, { width, height })
       const paper = sheet.getContext("2d")
-      // The layers from Bokeh's lines up to what moves.
-      for (let layer = primary.el; layer !== null && layer !== overlays.el; layer = layer.nextElementSibling) {
-        if (layer instanceof HTMLCanvasElement && layer.width > 0) {
+      // Bokeh's layers and what lies between them, but no other ghost.
+      const layers = [...primary.el.parentNode.children]
+      for (const layer of layers.slice(layers.indexOf(primary.el), layers.indexOf(overlays.el) + 1)) {
+        if (layer instanceof HTMLCanvasElement && layer.width > 0 && !layer.classList.contains("ghost")) {
           paper.drawImage(layer, ratio * x0, ratio * y0, width, height, 0, 0, width, height)
         }
       }
@@ -41,7 +42,8 @@ export function planeGhost(plot) {
       if (what === kept) return
       kept = what
       if (canvas === null) {
-        canvas = frameCanvas(plot, plot.canvas_view.primary.el, paint)
+        // Over what is filled, under what moves.
+        canvas = frameCanvas(plot, plot.canvas_view.overlays.el, paint)
         canvas.element.classList.add("ghost")
       }
       canvas.request()
