@@ -404,11 +404,11 @@ def test_every_control_is_reached_by_the_tab_key(look_at):
             while (item?.shadowRoot?.activeElement) item = item.shadowRoot.activeElement
             const names = []
             for (let at = item; at; at = at.parentElement ?? at.getRootNode().host)
-                names.push(...[...(at.classList ?? [])].filter((name) => /^param-|^sphere$|^corner$/.test(name)))
+                names.push(...[...(at.classList ?? [])].filter((name) => /^param-|^solid$|^corner$/.test(name)))
             return names
         }"""))
     wanted = {"param-preset", "param-accuracy", "param-reset", "param-share", "param-present", "param-play", "param-t",
-              "param-speed", "sphere", "param-scenes", "param-theme", "param-fullscreen", "corner",
+              "param-speed", "solid", "param-scenes", "param-theme", "param-fullscreen", "corner",
               *(f"param-{name}" for name in SLIDERS)}
     assert wanted <= reached, wanted - reached
     tab.fold_controls()

@@ -330,12 +330,13 @@ def test_the_ring_is_round_the_chosen_level(accuracy):
 
 def test_every_way_to_compute_is_a_point_of_its_line():
     data = shown()[0].sources
-    for method in ("Taylor", "DOP853", "LSODA"):
-        own = [point for point in WORK if point.method == method]
-        for layer in (f"precision-{method}", f"precision-{method}-marks"):
-            # What has no error at all is drawn on the edge of the logarithmic axis.
-            assert flat(data[layer]["x"]) == pytest.approx([max(point.error, 1e-17) for point in own])
-            assert flat(data[layer]["y"]) == pytest.approx([point.ms for point in own])
+    drawn = {method: [point for point in WORK if point.method == method] for method in ("Taylor", "DOP853", "LSODA")}
+    drawn |= {f"{method}-marks": drawn[method] for method in ("DOP853", "LSODA")}
+    drawn |= {f"at-{name}": [point for point in drawn["Taylor"] if point.setting == name] for name in LEVELS}
+    for layer, own in drawn.items():
+        # What has no error at all is drawn on the edge of the logarithmic axis.
+        assert flat(data[f"precision-{layer}"]["x"]) == pytest.approx([max(point.error, 1e-17) for point in own])
+        assert flat(data[f"precision-{layer}"]["y"]) == pytest.approx([point.ms for point in own])
 
 
 def test_each_chart_shows_its_curves_over_the_time_of_the_page():
