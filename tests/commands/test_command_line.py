@@ -316,8 +316,18 @@ def free_port():
 
 def test_serve(served, free_port, capsys):
     assert main(["serve", "--port", str(free_port), "--no-browser", "--allow-origin", "a.org:80", "b.org"]) == 0
-    assert served == [{"port": free_port, "address": "127.0.0.1", "show": False, "origins": ["a.org:80", "b.org"]}]
+    assert served == [{"port": free_port, "address": "127.0.0.1", "show": False, "origins": ["a.org:80", "b.org"],
+                       "lesson": None}]
     assert f"http://localhost:{free_port}" in capsys.readouterr().out
+
+
+def test_a_lesson_that_cannot_be_read_is_no_lesson(served, free_port, capsys, tmp_path):
+    wrong = tmp_path / "wrong.md"
+    wrong.write_text("A lesson without a title.")
+    for path in (wrong, tmp_path / "nowhere.md"):
+        assert main(["serve", "--port", str(free_port), "--no-browser", "--lesson", str(path)]) != 0
+        assert path.name in capsys.readouterr().err
+    assert served == []
 
 
 @pytest.mark.parametrize(("compiled", "words"), [
