@@ -13,15 +13,3 @@ export async function qrCode(link) {
     return answer(false, "The server does not answer: there is no QR code.")
   }
 }
-
-// At once, for a browser that is about to print and waits for nothing.
-export function qrCodeNow(link) {
-  const request = new XMLHttpRequest()
-  try {
-    request.open("GET", address(link), false)
-    request.send()
-    return answer(request.status === 200, request.responseText)
-  } catch {
-    return answer(false, "")
-  }
-}

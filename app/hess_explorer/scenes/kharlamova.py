@@ -38,9 +38,7 @@ from hess_mechanics.suslov.kharlamova import MOST_SAMPLES, Arc, PlaneBody
 from hess_mechanics.suslov.plane_potential import POTENTIALS, PlaneMotion, PotentialBody, motion_from
 from hess_mechanics.suslov.principal_axis import divergence
 
-_LEVELS = (-0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75)
-"""Equipotentials, in units of the potential's largest value."""
-
+_LEVELS = (-0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75)  # equipotentials, in units of the potential's largest value
 _ROUND = {"I11": 1.0, "I22": 1.0, "b1": 1.0, "b2": 0.0}
 PRESETS = (
     Preset("Periodic: a parabola's arc, to and fro"),

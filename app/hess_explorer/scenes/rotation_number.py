@@ -29,11 +29,9 @@ from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.rotation_number import PLANES, Line, PeriodicTorus, Torus, TorusValues, possible_part
 
 _COARSE, _FINE = (75, 50), (300, 200)
-_ROWS = 25
-"""Rows of the fine map that are computed together."""
+_ROWS = 25  # of the fine map that are computed together
 _ON_LINE = 400
-_ON_CURVE = 48
-"""Points of the boundary of the lock zone."""
+_ON_CURVE = 48  # points of the boundary of the lock zone
 _RATIONALS = ("−1/2", "−1/3", "−1/4", "−2/5", "−1/5", "−3/7", "−1/6")
 _FULL = {"h": (-1.0, 4.0), "f": (-3.0, 3.0), "a": (0.0, 2.0)}
 _AT_MOST = {"h": (-1.0, 1e6), "f": (-1e4, 1e4), "a": (-100.0, 100.0)}
@@ -75,8 +73,7 @@ class RotationNumber(State):
     over: str = choice("Map over", PLANES, "h, f", group="State", doc="The two parameters of the map; the third stays.")
     line: str = choice("Line along", ("f", "h", "a"), "f",
                        group="State", doc="The parameter along which ρ and the trace are drawn.")
-    rational: str = choice("Rational number", _RATIONALS, "−1/4",
-                           group="State",
+    rational: str = choice("Rational number", _RATIONALS, "−1/4", group="State",
                            doc="On the line the torus with this ρ is looked for, and how many cycles it has.")
     epsilon: float = number("ε", 0.25, (0.0, 0.3), 0.005, bounds=(0.0, 0.33), label="Away from Möbius, ε",
                             doc="The other family: Θ(φ + ε sin 3φ). It is no Möbius map, and its ρ makes a ladder.")
