@@ -105,6 +105,8 @@ export function createSolid() {
         data[i + 3] = glass ? 255 * Math.min(1, GLASS + 0.12 * share + 0.5 * rim * rim + 0.6 * shine) : 255
       }
     }
+    // Smoothing looks a pixel beyond, where a larger body was before.
+    shade.clearRect(0, 0, MOST, MOST)
     shade.putImageData(image, 0, 0, 0, 0, columns, rows)
   }
 
