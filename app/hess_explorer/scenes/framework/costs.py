@@ -122,7 +122,7 @@ class Costs(Insight):
 
     def difference_title(self) -> str:
         """Which levels are compared."""
-        return f"{self.difference.capitalize()}: {self.chosen}" + (f" against {self.finer}" if self.finer else "")
+        return f"{self.difference.capitalize()}: {self.chosen}" + (f" and {self.finer}" if self.finer else "")
 
     def difference_axis(self, side: str) -> Range | None:
         """The axis "x" or "y" of the picture that is compared."""
