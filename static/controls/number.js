@@ -85,6 +85,8 @@ export function number({ name, label, symbol, help, range }) {
       event.preventDefault()
     }
     if (event.key !== "Escape") return
+    // Whatever the server says of it now.
+    isAsked = false
     box.value = String(shown)
     box.setCustomValidity("")
     box.removeAttribute("aria-invalid")

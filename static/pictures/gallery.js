@@ -34,7 +34,7 @@ function cellOf({ name, folded }) {
   const under = element("output", { className: "text hover", hidden: true })
   const cell = element("section", { className: `picture picture-${name}` },
     element("h2", { className: "text caption" },
-      element("span", { className: "title" }), element("span", { className: "said" })),
+      element("span", { className: "title" }), "\n", element("span", { className: "said" })),
     stage.cornerFor(name), host, under)
   cell.dataset.name = name
   cell.classList.toggle("folded", folded !== null)
@@ -110,8 +110,7 @@ function showTexts(texts) {
     if (text !== undefined) {
       const [title, ...said] = text.split("\n")
       cell.querySelector(".title").textContent = title
-      // A refusal is a title alone.
-      cell.querySelector(".said").textContent = said.length > 0 ? `\n${said.join(" ")}` : ""
+      cell.querySelector(".said").textContent = said.join(" ")
     }
     if (hover !== undefined) {
       const under = cell.querySelector(".hover")

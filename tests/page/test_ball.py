@@ -179,7 +179,7 @@ def test_a_ball_without_a_line_of_rest_says_so_and_nothing_stale_stays(ball):
     assert ball.text("status").startswith(NO_LINE)
     assert ball.text("derived") == ""
     for picture in BALL.pictures:
-        assert ball.picture(picture).locator(".caption").text_content() == NO_LINE
+        assert ball.caption(picture) == NO_LINE
     for name in sources:
         data = flat(ball.data(name))
         assert data == [] or name.endswith("-message"), name

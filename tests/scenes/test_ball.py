@@ -204,8 +204,8 @@ def test_every_energy_above_zero_is_drawn():
         assert (view.values["span"] < span) == (h == 1e-6)
         # ω and t scale with √h: the same circles.
         if h > 1e-6:
-            assert view.numbers("sphere", "to Γ = # at")[0] == pytest.approx(
-                ball(BALL.presets[0].name).numbers("sphere", "to Γ = # at")[0], abs=2e-4)
+            assert view.numbers("sphere", "to Γ = #")[0] == pytest.approx(
+                ball(BALL.presets[0].name).numbers("sphere", "to Γ = #")[0], abs=2e-4)
 
 
 @pytest.mark.parametrize("values", [

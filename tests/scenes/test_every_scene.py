@@ -378,7 +378,7 @@ def assert_drawn(scene, values, seen, dragging):
     for words in (*board.texts.values(), report.status, *report.derived, *report.notes):
         assert re.search(r"\w", words)
         assert not re.search(r"\bnan\b|\binf\b", words, re.IGNORECASE), words
-    assert set(seen) <= set(board.texts) <= set(scene.pictures)
+    assert set(seen) <= set(board.texts) <= {*scene.pictures, "signs"}
     orbit = board.fresh.get("data-orbit")
     if orbit is not None:
         assert orbit["t"][0] == 0.0

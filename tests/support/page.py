@@ -161,7 +161,7 @@ class Explorer:
         return self.page.locator(f".gallery:not(.away) .picture-{name}")
 
     def caption(self, picture):
-        return self.picture(picture).locator(".caption").text_content()
+        return self.picture(picture).locator(".caption").text_content().strip()
 
     def text(self, look):
         """What stands in the status line's details, the notes or the derived quantities."""

@@ -125,7 +125,7 @@ class RotationAcross(FilledWindow):
             return f"All closed curves have ρ = {low}{standing}"
         return f"ρ of closed curves lies between {low} and {high}" + (
             standing if turning is None else
-            f"; it turns round at {digits(turning[0])} with ρ = {_turns(turning[1])}: no twist there.")
+            f"; it turns round at {digits(turning[0])} (ρ = {_turns(turning[1])}): no twist.")
 
 
 def _turns(rho: float) -> str:
