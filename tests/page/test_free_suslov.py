@@ -275,7 +275,7 @@ def test_what_is_no_motion_says_so_and_nothing_stale_stays(tab, scene, typed, se
     assert explorer.text("derived") == ""
     whole = explorer.text("status").split(" · ")[0]
     for picture in scene.pictures:
-        assert explorer.picture(picture).locator(".caption").text_content() == whole
+        assert explorer.caption(picture) == whole
     for name in sources:
         data = flat(explorer.data(name))
         if name.endswith("-message"):

@@ -78,13 +78,14 @@ def test_back_and_forward_go_by_scenes_and_examples_and_do_not_reload(explorer):
     page = explorer.page
     explorer.goto(f"/?scene={HESS}")
     page.evaluate("window.kept = true")
-    length = page.evaluate("history.length")
+    # A browser keeps fifty entries, and other tests have made some in this tab.
+    length = min(page.evaluate("history.length") + 2, 50)
     explorer.change(lambda: explorer.slide(h=0.7))
     explorer.change(explorer.choose, "preset", "No cycle: every orbit winds")
     explorer.change(lambda: explorer.slide(f=0.25))
     explorer.enter("loxodrome")
     # As long as it takes the browser to tell of it.
-    assert page.evaluate("history.length") == length + 2
+    assert page.evaluate("history.length") == length
     for name, h, f in ((HESS, 0.2, 0.25), (HESS, 0.7, 0.6)):
         before = explorer.state
         page.evaluate("history.back()")
@@ -97,7 +98,7 @@ def test_back_and_forward_go_by_scenes_and_examples_and_do_not_reload(explorer):
         page.evaluate("history.forward()")
         wait_ready(page, after=before)
         assert page.evaluate("document.documentElement.dataset.scene") == name
-    assert page.evaluate("history.length") == length + 2
+    assert page.evaluate("history.length") == length
     assert page.evaluate("window.kept")
     # Going back is a change as any other: it can be undone.
     explorer.change(page.keyboard.press, "Control+z")
