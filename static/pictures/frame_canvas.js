@@ -24,6 +24,9 @@ export function frameCanvas(plot, before, paint) {
 
   // Does nothing where neither data nor axes nor the theme have changed.
   function draw() {
+    const { frame: { bbox } } = plot
+    // Out of sight it has no size.
+    if (!(bbox.x1 > bbox.x0 && bbox.y1 > bbox.y0)) return
     const here = place()
     if (!stale && here === drawn) return
     stale = false
