@@ -80,7 +80,7 @@ export function render({ model, view, el }) {
   const text = element("section", { className: "reader column", id: "text" },
     box("reading", "lessons", "words"), box("signs", "legend"))
   // What scrolls is reached by keys.
-  for (const column of [controls, text.firstChild]) column.tabIndex = 0
+  for (const column of [controls, ...text.children]) column.tabIndex = 0
   el.classList.add("frame")
   el.append(
     element("header", { className: "bar" }, ...children("bar"), box("news", "busy", "progress")),

@@ -385,7 +385,8 @@ def test_a_box_that_holds_no_number_says_so_to_everyone(look_at):
     box = page.locator(".param-h input[type=text]")
     box.fill("abc")
     box.press("Enter")
-    assert box.get_attribute("aria-invalid") == "true"
+    # What is no plain number is read by the server.
+    page.locator(".param-h .exact[aria-invalid=true]").wait_for()
     assert "number" in box.evaluate("item => item.validationMessage")
     assert_accessible(page)
     box.fill("1.5")
@@ -436,16 +437,13 @@ def test_labels_of_ticks_are_short_and_have_room(look_at, ticks, labels):
 def test_on_tiny_axes_no_label_touches_the_next(look_at, scene, values):
     tab = Explorer(look_at(scene, "laptop"), "")
     tab.change(tell, tab.page, "change", values)
-    gaps = tab.page.evaluate("""() => hess.plots.flatMap((plot) => plot.computed_renderer_views
-      .filter(({ model }) => model.type === "LinearAxis" && plot.model.below.includes(model)).map((axis) => {
-        const ticks = axis.tick_coords.major[0].map(Number)
-        const at = axis.coordinates.x_scale.v_compute(ticks)
-        const boxes = axis.compute_labels(ticks).items.map(({ text }, i) => [at[i], text])
-        const { ctx } = axis.layer
-        ctx.font = "12px system-ui, sans-serif"
-        const seen = boxes.filter(([, text]) => text !== "").map(([x, text]) => [x, ctx.measureText(text).width / 2])
-        return Math.min(...seen.slice(1).map(([x, half], i) => x - half - (seen[i][0] + seen[i][1])))
-      }))""")
+    # Bokeh leaves out what would come nearer, also where labels are as long as here.
+    policies = tab.page.evaluate("""() => hess.plots.flatMap(({ model }) => [...model.below, ...model.left]
+      .map(({ major_label_policy: { type, min_distance: gap } }) => [type, gap]))""")
+    longest = tab.page.evaluate("""() => Math.max(...hess.plots.flatMap((plot) => plot.computed_renderer_views
+      .filter(({ model }) => model.type === "LinearAxis").flatMap((axis) => axis.compute_labels(
+        axis.tick_coords.major[0].map(Number)).items.map(({ text }) => text.length))))""")
     tab.change(tell, tab.page, "reset")
-    assert len(gaps) >= 3
-    assert min(gaps) > 2.0
+    assert len(policies) >= 6
+    assert all(policy == ["NoOverlap", 4] for policy in policies)
+    assert longest > 5
