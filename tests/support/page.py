@@ -257,6 +257,7 @@ class Explorer:
     def type(self, name, text):
         """Type into the box of a number, and Enter."""
         box = self.box(name)
+        box.evaluate(UNFOLD)
         box.fill(text)
         box.press("Enter")
 
@@ -275,7 +276,8 @@ class Explorer:
         return self.page.evaluate(SLIDE, list(values.items()))
 
     def choose(self, menu, option):
-        """Choose an option of a menu."""
+        """Choose an option of a menu, which may stand in a group that is folded."""
+        self.menu(menu).evaluate(UNFOLD)
         self.menu(menu).select_option(label=option)
 
     def play_until(self, t):
@@ -292,6 +294,7 @@ class Explorer:
             " slider.dispatchEvent(new Event('change')) }", t)
 
 
+UNFOLD = "item => item.closest('details')?.setAttribute('open', '')"
 FIND = """(name, kind) => {
   const find = (root, selector) => {
     const found = root.querySelector(selector)
