@@ -48,6 +48,8 @@ from support.view import View
 
 # A state with other axes than the default one.
 OTHERS = {HESS.name: {"b3": -2.9, "h": 100.0, "f": -5.0, "phi0": -1.0, "I22": 1.3, "I23": -0.4}}
+BESIDE = ("status", "summary", "notes", "derived", "signs")
+"""The texts beside the captions."""
 every_scene = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
 # The scenes that look into another one are of one class: of each the first example and the last.
 EXAMPLES = [(scene, preset) for scene in SCENES.values()
@@ -726,7 +728,7 @@ def test_another_scene_keeps_the_values_and_brings_its_own_pictures():
     # Its data are in the answer that enters it, and nothing of the old pictures is sent any more.
     assert len(browser.screen.fresh["data-orbit"]["t"]) > 100
     assert {name.split("-")[0] for name in browser.screen.fresh} <= {*ACCURACY.pictures, "data"}
-    assert set(state["tree"]["texts"]) == {*ACCURACY.open_pictures, "status", "notes", "derived"}
+    assert set(state["tree"]["texts"]) == {*ACCURACY.open_pictures, *BESIDE}
     assert set(browser.controls) == {*(spec.name for spec in ACCURACY.specs), "preset"}
     state = browser.ask(3, values={"phi0": 2.0})
     assert {name.split("-")[0] for name in state["tree"]["sources"]} <= {*ACCURACY.pictures, "data"}
@@ -808,7 +810,7 @@ def test_from_any_scene_to_any_other_and_back_everything_is_of_the_state():
         browser.assert_admissible()
         assert (state["scene"], state["answers"]) == (name, requested)
         scene = SCENES[name]
-        assert {*scene.open_pictures, "status", "notes", "derived"} == set(state["tree"]["texts"])
+        assert {*scene.open_pictures, *BESIDE} == set(state["tree"]["texts"])
         assert set(state["tree"]["controls"]) == {*(spec.name for spec in scene.specs), "preset"}
         # What arrives later is waited for.
         while browser.state["progress"] is not None:

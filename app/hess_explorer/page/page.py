@@ -132,7 +132,7 @@ def _page(query: str, own: Lesson | None) -> pmui.Page:
         busy_indicator=None,
         sx=BARE,
     )
-    session = Session(ready, scene, state, [*lesson_notes, *step_notes, *notes], lessons, pictures)
+    session = Session(ready, scene, state, list(dict.fromkeys([*lesson_notes, *step_notes, *notes])), lessons, pictures)
     pn.state.on_session_destroyed(lambda _: session.background.stop())
     # The page's own busy flag is sent with every event and makes Panel walk through all models each
     # time (100 ms); `data-ready` says the same.
