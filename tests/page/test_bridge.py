@@ -148,5 +148,6 @@ def test_moments_and_energy_stay_from_one_scene_to_the_next(leak):
     leak.change(lambda: leak.slide(h=60.0, I3=0.4))
     leak.enter("bridge")
     assert (leak.shown("h")[0], leak.shown("I3")[0]) == (60.0, 0.4)
+    leak.unfold("andoyer")
     assert leak.caption("andoyer").startswith("Euler–Poisson: (l, L/G)\nH = 60,")
     assert_painted(leak, BRIDGE)
