@@ -83,7 +83,7 @@ def test_an_example_is_drawn_with_the_numbers_of_its_captions(page, preset):
     exponent, span = said(page, "exponent", "λ = # after t = #")
     assert span == values["long"]
     assert page.data("exponent-lambda")["ys"][0][-1] == pytest.approx(exponent, rel=6e-3)
-    low, high = said(page, "rotation", "between # and #")
+    low, high = said(page, "rotation", "ρ = # … #")
     rho = flat(page.data("rotation-rho")["ys"])
     assert (min(rho), max(rho)) == (pytest.approx(low, abs=6e-5), pytest.approx(high, abs=6e-5))
     for picture in EP.pictures:

@@ -19,6 +19,7 @@ from support.phase_cloud import SCENE, captions
 DEFAULTS = SCENE.defaults()
 HERE = ".gallery:not(.away) .picture-{} canvas"
 BLUE, PINK = (0, 114, 178), (204, 121, 167)
+DARK_BLUE = (77, 174, 235)
 WIDTH = 600
 """Pixels of a picture that interpolation is to be right for."""
 EVERY = 20
@@ -161,15 +162,15 @@ def test_a_state_without_a_manifold_is_refused_and_nothing_stale_is_drawn(cloud)
     assert share_of(cloud, "omega", BLUE) > 0.001
 
 
-@pytest.mark.parametrize("theme", ["light", "dark"])
-def test_the_plane_is_drawn_in_every_window_and_theme(open_page, artefacts, theme):
+@pytest.mark.parametrize(("theme", "blue"), [("light", BLUE), ("dark", DARK_BLUE)])
+def test_the_plane_is_drawn_in_every_window_and_theme(open_page, artefacts, theme, blue):
     page = open_page(urlencode({"scene": SCENE.name, "t": 4.0, "theme": theme}))
     canvas = page.locator(HERE.format("omega"))
     for width, height in ((1600, 950), (1280, 720), (390, 844)):
         page.set_viewport_size({"width": width, "height": height})
         # The canvas has as many pixels as its place again: it was painted anew.
         page.wait_for_function(FILLED, arg=canvas.element_handle())
-        assert share_of(Explorer(page, page.url), "omega", BLUE) > 0.002
+        assert share_of(Explorer(page, page.url), "omega", blue) > 0.002
         box = canvas.bounding_box()
         assert box["width"] == pytest.approx(box["height"], abs=1.0)
         assert box["x"] + box["width"] <= width

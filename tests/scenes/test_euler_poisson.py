@@ -95,7 +95,7 @@ def test_an_example_shows_what_its_name_and_its_captions_promise(preset):
 @pytest.mark.parametrize("preset", EP.presets[1:2] + EP.presets[5:6] + EP.presets[10:16:5], ids=lambda p: p.name)
 def test_rotation_numbers_are_those_of_10000_points(preset):
     view = EulerPoisson({**preset.values, "orbits": 0.0})
-    low, high = view.numbers("rotation", "between # and #")
+    low, high = view.numbers("rotation", "ρ = # … #")
     title, second_line = view.text["rotation"].split("\n")
     assert title
     assert len(second_line) <= 110
@@ -116,7 +116,7 @@ def test_rotation_numbers_are_those_of_10000_points(preset):
 def test_an_orbit_between_two_gaps_is_seen_too():
     """A line of one point is none: every number that the caption speaks of is a point as well."""
     view = EulerPoisson({"orbits": 0.0}, seen={"rotation"})
-    low, high = view.numbers("rotation", "between # and #")
+    low, high = view.numbers("rotation", "ρ = # … #")
     lines, points = view.data["rotation-rho"], view.data["rotation-orbits"]
     assert any(len(line) == 1 for line in lines["ys"])
     for axis in "xy":
@@ -126,7 +126,7 @@ def test_an_orbit_between_two_gaps_is_seen_too():
 
 def test_at_the_meandering_torus_the_rotation_number_turns_round_at_an_eighth():
     view = EulerPoisson({**EP.presets[1].values, "orbits": 0.0}, seen={"rotation"})
-    place, rho = view.numbers("rotation", "it turns round at # (ρ = #): no twist.")
+    place, rho = view.numbers("rotation", "turns round at # (ρ = #): no twist.")
     assert rho == pytest.approx(0.125, abs=1e-4)
     centre = view.result.ends[0]
 

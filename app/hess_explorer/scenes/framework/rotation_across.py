@@ -123,9 +123,9 @@ class RotationAcross(FilledWindow):
         low, high = _turns(rho.min()), _turns(rho.max())
         if low == high:
             return f"All closed curves have ρ = {low}{standing}"
-        return f"ρ of closed curves lies between {low} and {high}" + (
+        return f"Closed curves: ρ = {low} … {high}" + (
             standing if turning is None else
-            f"; it turns round at {digits(turning[0])} (ρ = {_turns(turning[1])}): no twist.")
+            f", turns round at {digits(turning[0])} (ρ = {_turns(turning[1])}): no twist.")
 
 
 def _turns(rho: float) -> str:
