@@ -298,6 +298,7 @@ def test_a_picture_is_enlarged_by_its_key_or_its_corner_and_the_link_keeps_it(op
     two = edges(page)
     assert two[0] == two[2] > max(two[1], two[3])
     again = Explorer(open_page(tab.link().split("?")[1], size=SIZES["laptop"]), server)
+    wait_frames(again, 4)
     assert edges(again.page) == pytest.approx(two, abs=1)
     # What is typed into a box is for the box.
     tab.box("h").fill("1.2")
