@@ -378,11 +378,11 @@ def assert_drawn(scene, values, seen, dragging):
     assert len(board.fresh) > 3 or set(seen) != set(scene.pictures)
     # While a slider is held an exponent waits.
     assert board.fresh or not seen or dragging
-    said = {**board.texts, "status": report.status}
+    said = dict(board.texts)
     if not seen:
-        # Nothing was computed that a status could speak of, and nothing drawn that a legend could.
-        assert not re.search(r"\w", said.pop("status") + said.pop("signs", ""))
-    for words in (*said.values(), report.summary, *report.derived, *report.notes):
+        # Nothing is drawn that a legend could speak of.
+        assert said.pop("signs", "") == ""
+    for words in (*said.values(), report.status, report.summary, *report.derived, *report.notes):
         assert re.search(r"\w", words)
         assert not re.search(r"\bnan\b|\binf\b", words, re.IGNORECASE), words
     assert set(seen) <= set(board.texts) <= {*scene.pictures, "signs"}
