@@ -65,7 +65,8 @@ def evaluate(text: str) -> float:
         value = math.nan
     except (InvalidExpression, SyntaxError, TypeError, RecursionError, MemoryError, Warning):
         raise NotANumber(
-            f"This is no number and no expression that can be read: + − * / **, parentheses, pi, e and {', '.join(FUNCTIONS)} are known.") from None
+            "This is no number and no expression that can be read: + − * / **, parentheses, pi, e and "
+            f"{', '.join(FUNCTIONS)} are known.") from None
     if not math.isfinite(value):
         raise NotANumber("This has no finite value: change the expression.")
     return value
