@@ -18,6 +18,7 @@ from hess_explorer.scenes import scenes
 from hess_mechanics import SuslovBody, solve
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import REFERENCE
+from hess_mechanics.suslov.section import SuslovSection
 from support.free_suslov import shown
 from support.suslov import energy, field, permanent_rotations
 from support.view import View
@@ -219,6 +220,38 @@ def test_the_basins_of_the_example_are_those_that_scipy_finds():
         means[cells[i, j]].append(run.y[0][up].mean())
     assert [len(means[kind]) for kind in (0.0, 1.0)] == [3, 3]
     assert max(means[0.0]) < min(means[1.0]) - 0.1
+
+
+def test_basins_come_coarse_at_first_and_then_row_by_row_finer():
+    def picture():
+        view = View(SCENE, values, seen=("section",), whole=False)
+        return view, np.asarray(view.data.get("section-basins", {}).get("image", [np.empty(0)])[0]).reshape(-1, 18)
+
+    values = {**example(TWO).values, **FEW, "accuracy": "draft", "window": "-3.1,0.1;3.1,3.1"}
+    seen = []
+    for _ in range(4 + 12):
+        view, cells = picture()
+        seen.append(cells)
+        task = next(task for task in view.report.todo if task.function is SuslovSection.ends)
+        CACHE.get(task.function, *task.arguments)
+        if len(cells):
+            assert "Basins, coarse as yet" in view.text["section"]
+            assert "basins 18" not in view.report.status
+    view, final = picture()
+    assert not any(task.function is SuslovSection.ends for task in view.report.todo)
+    assert final.shape == (12, 18)
+    # Nothing before the coarse ones are known; each of them is what the middle one of nine will be.
+    assert [len(cells) for cells in seen] == 4 * [0] + 12 * [12]
+    coarse = seen[4]
+    assert np.array_equal(coarse, np.kron(final[1::3, 1::3], np.ones((3, 3))))
+    assert 0.02 < np.mean(coarse != final) < 0.4
+    # A row is finer at a time, every third one first.
+    now = coarse
+    for row, cells in zip([*range(0, 12, 3), *range(1, 12, 3), *range(2, 12, 3)], [*seen[5:], final], strict=True):
+        assert np.array_equal(cells[row], final[row])
+        rest = np.arange(12) != row
+        assert np.array_equal(cells[rest], now[rest])
+        now = cells
 
 
 def test_where_volume_is_kept_no_attractor_is_claimed():

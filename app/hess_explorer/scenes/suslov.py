@@ -38,7 +38,6 @@ from hess_explorer.views.poisson_sphere import Sphere
 from hess_explorer.views.section_plane import joined
 from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import nice_above, orbit_alone, orbit_columns, pixels_per_unit
-from hess_mechanics.dynamics.basin_boundary import unsure
 from hess_mechanics.dynamics.sampling import HALF_A_PIXEL
 from hess_mechanics.dynamics.section import occupied_cells
 from hess_mechanics.errors import WorkLimit
@@ -228,14 +227,6 @@ class Suslov(CentreOfMass, Tensor, Basins, ConstrainedBody):
         yield f"E = {digits(self.E, 6)}"
         yield f"chosen: {self.at(self.picked.places[-1])}"
         yield check_body(self.I11, self.I22, self.I13, self.I23).sentence
-
-    def status(self) -> Iterator[str]:
-        """The section, the orbit on show, the basins."""
-        yield from super().status()
-        basin: Array | None = self.known("basin")
-        if basin is not None:
-            n, m = basin.shape
-            yield f"basins {m} × {n}, twice as many cells would change {digits(100.0 * unsure(basin), 2)} % of it"
 
 
 def _later(orbit: Array) -> Array:

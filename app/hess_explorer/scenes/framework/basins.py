@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from collections.abc import Iterator
 from functools import cached_property
 from typing import Any
 
@@ -13,6 +14,7 @@ from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.views.comparison import Cells, Frame
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.text import digits
+from hess_mechanics.dynamics.basin_boundary import unsure
 from hess_mechanics.numerics.accuracy import Kind, Plan
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov.basins import Contraction, contraction_at, groups_of_cells, middle_cells
@@ -21,6 +23,8 @@ from hess_mechanics.suslov.section import SuslovSection
 __all__ = ["BASINS", "Basins"]
 
 _CELLS = (36, 24)
+_COARSE = 3
+"""Cells along each side of one of those that are seen first: odd, so that its middle is that of one of them."""
 _CROSSINGS = 240
 _MOST_STEPS = 100_000
 _NUMBERS = {2: "Two", 3: "Three", 4: "Four"}
@@ -40,28 +44,48 @@ class Basins(FilledWindow):
         """Whether basins are to be shown."""
 
     @cached_property
-    def ends(self) -> Array | None:
-        """`SuslovSection.ends` of all cells (m, n), ∞ where nothing moves; None before all are known."""
+    def _found(self) -> tuple[Array, int] | None:
+        """`SuslovSection.ends` of all cells (n, m), ∞ where nothing moves, and how many of their rows are still coarse.
+
+        None before the coarse ones are known, of which each is the middle one of `_COARSE`² cells.
+        """
         if not self.asked or self.dragging:
             return None
-        _ = self.pieces  # come sooner
-        rows = [self.work.later(SuslovSection.ends, *row) for row in _rows(self, self.plan(Kind.BASINS))]
-        known = [row for row in rows if row is not None]
-        return np.stack(known) if len(known) == len(rows) else None
+        plan = self.plan(Kind.BASINS)
+        coarse = [self.work.later(SuslovSection.ends, *row) for row in _rows(self, plan, _COARSE)]
+        _ = self.pieces  # come sooner than what is fine
+        rows = _rows(self, plan)
+        # Every third one first: all over the window it becomes finer.
+        fine = {i: self.work.later(SuslovSection.ends, *rows[i])
+                for first in range(_COARSE) for i in range(first, len(rows), _COARSE)}
+        known = [row for row in coarse if row is not None]
+        if len(known) < len(coarse):
+            return None
+        ends = np.kron(np.stack(known), np.ones((_COARSE, _COARSE)))
+        for i, row in fine.items():
+            if row is not None:
+                ends[i] = row
+        return ends, sum(row is None for row in fine.values())
+
+    @property
+    def ends(self) -> Array | None:
+        """`SuslovSection.ends` of all cells (n, m), ∞ where nothing moves; None before all are known."""
+        return None if self._found is None or self._found[1] else self._found[0]
 
     @cached_property
     def basin(self) -> Array | None:
-        """Cells (m, n): the group of each, 0, 1, …; −1 where nothing moves."""
-        return None if self.ends is None else groups_of_cells(self.ends)
+        """Cells (n, m): the group of each, 0, 1, …; −1 where nothing moves; coarse ones where no finer are known."""
+        return None if self._found is None else groups_of_cells(self._found[0])
 
     @cached_property
     def contractions(self) -> list[Contraction] | None:
         """Of a motion of each group, when all are known."""
-        if self.basin is None or self.ends is None:
+        ends = self.ends
+        if self.basin is None or ends is None:
             return None
         grid, long = self.plan(Kind.BASINS).grid(_CELLS), self.plan(Kind.EXPONENT).share * self.long
         found = [self.work.later(contraction_at, self.section, self.frame, grid, row, column, long)
-                 for row, column in middle_cells(self.ends, self.basin)]
+                 for row, column in middle_cells(ends, self.basin)]
         known = [one for one in found if one is not None]
         return known if len(known) == len(found) else None
 
@@ -69,7 +93,8 @@ class Basins(FilledWindow):
         """The caption of the basins."""
         found = self.contractions
         if found is None:
-            return "Basins; whether they are of attractors is being found."
+            coarse = "coarse as yet" if self.ends is None else "to the end"
+            return f"Basins, {coarse}; whether they are of attractors is being found."
         if not found:
             return "Nothing moves in this window."
         largest = max(found, key=lambda one: one.mean)
@@ -85,10 +110,18 @@ class Basins(FilledWindow):
         *parts, last = (f"{digits(share, 2)} %" for share in reversed(drawn))
         return f"{_NUMBERS.get(len(drawn), len(drawn))} attractors, with {', '.join(parts)} and {last} of the cells."
 
+    def status(self) -> Iterator[str]:
+        """The section, the orbit on show, the basins when all of them are known."""
+        yield from super().status()
+        if self.known("basin") is not None and self.basin is not None and self.ends is not None:
+            n, m = self.basin.shape
+            yield f"basins {m} × {n}, twice as many cells would change {digits(100.0 * unsure(self.basin), 2)} % of it"
 
-def _rows(s: Basins, plan: Plan) -> list[tuple[Any, ...]]:
-    """What `SuslovSection.ends` is asked for, for each row of cells."""
-    cells = plan.grid(_CELLS)
+
+def _rows(s: Basins, plan: Plan, coarse: int = 1) -> list[tuple[Any, ...]]:
+    """What `SuslovSection.ends` is asked for, for each row of cells; coarse : so many of them in one, along each side."""
+    m, n = plan.grid(_CELLS)
+    cells = m // coarse, n // coarse
     return [(s.section, s.frame, cells, row, _CROSSINGS, _MOST_STEPS, plan.level) for row in range(cells[1])]
 
 
