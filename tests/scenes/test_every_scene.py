@@ -8,6 +8,7 @@ import logging
 import math
 import re
 import time
+from itertools import permutations
 from xml.etree import ElementTree
 
 import numpy as np
@@ -836,6 +837,39 @@ def with_extra(**defaults):
     extra = number("x", 2.0, (1.0, 3.0), 0.1, bounds=(0.0, 4.0), label="Extra", doc="One more.")
     state = dataclasses.make_dataclass("Other", [*own, ("extra", float, extra)], bases=(HESS.state,), frozen=True)
     return variant(HESS, name="other", state=state)
+
+
+# Scenes in which a number of the same name is the same number, read off the equations in their words.
+SAME = {
+    "h": [{"suslov-hess", "rotation-number"}, {"euler-poisson", "hess-leak", "bridge"},
+          {"chaplygin-ball", "singular-measures"}],
+    "f": [{"suslov-hess", "rotation-number"}, {"euler-poisson", "hess-leak", "bridge"}],
+    "b3": [{"suslov-hess", "suslov", "quartic", "ball-section"}],
+    "theta": [{"scattering", "chaplygin-ball"}],
+    "phi": [],
+    "a": [],
+}
+
+
+@pytest.mark.parametrize("name", SAME)
+def test_a_number_goes_along_to_another_scene_where_it_means_the_same_and_there_alone(name):
+    own = [scene for scene in SCENES.values() if scene.origin is None and scene.name != "speed-accuracy"
+           and name in scene.defaults()]
+    together = {frozenset(pair) for group in SAME[name] for pair in permutations(group, 2)}
+    assert {one for pair in together for one in pair} <= {scene.name for scene in own}
+    for before, scene in permutations(own, 2):
+        specs = [next(spec for spec in one.specs if spec.name == name) for one in (before, scene)]
+        low, high = (max(specs[0].bounds[0], specs[1].bounds[0]), min(specs[0].bounds[1], specs[1].bounds[1]))
+        value = next(x for x in (-0.7, 0.7, 1.3) if low <= x <= high and x != specs[0].default)
+        taken = scene.taken_over(scene.defaults(), before, {**before.defaults(), name: value})
+        goes = frozenset((before.name, scene.name)) in together
+        assert taken == ({**scene.defaults(), name: value} if goes else scene.defaults()), (before.name, scene.name)
+
+
+def test_a_number_that_is_not_possible_there_does_not_go_along():
+    # b₃ = 0.7 of the general body is none of the Suslov–Hess case, where b₃ < 0.
+    taken = HESS.taken_over(HESS.defaults(), SCENES["suslov"], {**SCENES["suslov"].defaults(), "b3": 0.5, "I22": 1.0})
+    assert taken == {**HESS.defaults(), "I22": 1.0}
 
 
 def test_a_parameter_that_only_the_new_scene_has_takes_its_default(monkeypatch):

@@ -103,19 +103,16 @@ class Session:
             self.ready.scene = describe(name)
 
     def _change_scene(self, scene: Scene[Any]) -> None:
-        """Another scene as it was left (at first: in its own first state), with what was changed in this one."""
-        here, wanted = self._specs, self._wanted
+        """Another scene as it was left (at first: in its own first state), with what was changed in this one and means
+        the same there."""
+        wanted = self._wanted
         self._left[self.scene.name] = values = wanted
         # "Speed and accuracy" of a scene is of the very same state.
         self._own_instead = (scene.origin or scene.name) != (self.scene.origin or self.scene.name)
         if not self._own_instead:
             values = {**self._left.get(scene.name, {}), **wanted}
         else:
-            values = dict(self._left.get(scene.name, scene.defaults())) | {
-                spec.name: wanted[spec.name] for spec in scene.specs
-                if spec.name in here and wanted[spec.name] != here[spec.name].default and (
-                    (isinstance(spec, Number) and isinstance(here[spec.name], Number))
-                    or (isinstance(spec, Choice) and wanted[spec.name] in spec.options))}
+            values = scene.taken_over(self._left.get(scene.name, scene.defaults()), self.scene, wanted)
         self._enter(scene, values, [])
 
     def change(self, values: Values) -> None:

@@ -33,6 +33,7 @@ class Number:
     """A number with a slider over `softbounds`; values within `bounds` may be typed.
 
     The words are those of the library param.
+    means : what number it is, where its label does not say that: a scene takes from another one what means the same.
     """
 
     name: str
@@ -44,6 +45,7 @@ class Number:
     bounds: tuple[float, float]
     doc: str = ""
     group: Group = "State"
+    means: str = ""
 
     def read(self, text: str) -> tuple[float, str | None]:
         """The value that a text from outside means, and a note where it had to be changed."""

@@ -11,7 +11,9 @@ import numpy as np
 
 from hess_explorer.scenes.framework.hess_case import (
     BY_THE_UNSTABLE_CYCLE,
+    OF_HEAVY,
     RIS,
+    UNITS_OF_B,
     UNSURE,
     HeavyMotion,
     SuslovBody,
@@ -111,6 +113,10 @@ class BothSides(HeavyMotion, SuslovBody, _Given):
         else:
             body = {"m": heavy.mu, **{name: 1.0 / a for name, a in zip(("I1", "I2", "I3"), heavy.a, strict=True)}}
         return {name: _without_round_off(value) for name, value in body.items()}
+
+    def means(self) -> Mapping[str, str]:
+        """h and f are those of the side that is given."""
+        return dict.fromkeys("hf", OF_HEAVY if self.given == HEAVY else UNITS_OF_B)
 
     def carried(self, before: BothSides) -> Mapping[str, float]:
         """The same motion, given on the other side.  Raises `ModelError`."""

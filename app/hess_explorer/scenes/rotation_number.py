@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.hess_case import map_or_none, possible_f
+from hess_explorer.scenes.framework.hess_case import UNITS_OF_B, map_or_none, possible_f
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number, places
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
 from hess_explorer.scenes.framework.torus_trials import boundary, grid, on_line
@@ -67,9 +67,9 @@ class RotationNumber(State):
                       doc="a = I₂₃/I₂₂ in the Suslov problem, √((a₃−a₂)(a₂−a₁))/a₂ in Euler–Poisson; a body has "
                           "|a| < 1.")
     h: float = number("h", 0.5, (-0.99, 4.0), 0.005, bounds=(_BOTTOM, 1e6), label="Energy h",
-                      doc="Energy integral in units b = 1.")
+                      doc="Energy integral in units b = 1.", means=UNITS_OF_B)
     f: float = number("f", 0.8, (-3.0, 3.0), 0.005, bounds=(-1e4, 1e4), label="Area integral f",
-                      doc="Area integral in units b = 1.")
+                      doc="Area integral in units b = 1.", means=UNITS_OF_B)
     over: str = choice("Map over", PLANES, "h, f", group="State", doc="The two parameters of the map; the third stays.")
     line: str = choice("Line along", ("f", "h", "a"), "f",
                        group="State", doc="The parameter along which ρ and the trace are drawn.")

@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.hess_case import SuslovBody, limit_cycles, map_or_none, possible_f
+from hess_explorer.scenes.framework.hess_case import UNITS_OF_B, SuslovBody, limit_cycles, map_or_none, possible_f
 from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, number, slider_within
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
 from hess_explorer.scenes.framework.solid_body import Hess, constrained_body
@@ -64,9 +64,9 @@ class SuslovHess(SuslovBody):
     """One orbit on one torus M²(h, f), all tori beside it."""
 
     h: float = number("h", 1.5, (-0.99, 4.0), 0.01, bounds=(-1.0 + 1e-9, 1e6), label="Energy h",
-                      doc="Energy integral in units b = 1: h > −1; the separatrix is at h = 1, f = 0.")
+                      doc="Energy integral in units b = 1: h > −1; separatrix at h = 1, f = 0.", means=UNITS_OF_B)
     f: float = number("f", 0.6, (-3.0, 3.0), 0.01, bounds=(-1e4, 1e4), label="Area integral f",
-                      doc="Area integral in units b = 1. Its range follows h.")
+                      doc="Area integral in units b = 1. Its range follows h.", means=UNITS_OF_B)
     phi0: float = number("φ₀", 0.5, (-3.14, 3.14), 0.01, bounds=(-math.pi, math.pi), label="Phase φ₀",
                          doc="Phase of the orbit on the section n₃ = n₃⁽¹⁾, in radians.")
     span: float = number("t", 40.0, (1.0, 200.0), 1.0, bounds=(0.01, 1e5), group="Computation", label="Time span",

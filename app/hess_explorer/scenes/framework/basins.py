@@ -61,7 +61,7 @@ class Basins(FilledWindow):
         known = [row for row in coarse if row is not None]
         if len(known) < len(coarse):
             return None
-        ends = np.kron(np.stack(known), np.ones((_COARSE, _COARSE)))
+        ends = np.asarray(np.kron(np.stack(known), np.ones((_COARSE, _COARSE))), float)
         for i, row in fine.items():
             if row is not None:
                 ends[i] = row
@@ -119,7 +119,7 @@ class Basins(FilledWindow):
 
 
 def _rows(s: Basins, plan: Plan, coarse: int = 1) -> list[tuple[Any, ...]]:
-    """What `SuslovSection.ends` is asked for, for each row of cells; coarse : so many of them in one, along each side."""
+    """What `SuslovSection.ends` is asked for, for each row of cells, of which one is as wide as `coarse` of them."""
     m, n = plan.grid(_CELLS)
     cells = m // coarse, n // coarse
     return [(s.section, s.frame, cells, row, _CROSSINGS, _MOST_STEPS, plan.level) for row in range(cells[1])]

@@ -24,8 +24,8 @@ from hess_mechanics.suslov_hess.equations import SYSTEM, HessBody
 from hess_mechanics.suslov_hess.torus import Track, cycles
 
 __all__ = [
-    "BY_THE_UNSTABLE_CYCLE", "RIS", "UNSURE", "HeavyMotion", "SuslovBody", "limit_cycles", "map_or_none",
-    "possible_f", "reduced_motion",
+    "BY_THE_UNSTABLE_CYCLE", "OF_HEAVY", "RIS", "UNITS_OF_B", "UNSURE", "HeavyMotion", "SuslovBody", "limit_cycles",
+    "map_or_none", "possible_f", "reduced_motion",
 ]
 
 _MAX_A = 100.0
@@ -35,6 +35,9 @@ _INSIDE = 1.0 - 1e-12
 
 UNSURE = 1e-9
 BY_THE_UNSTABLE_CYCLE = "This motion starts next to the unstable cycle: on the torus too any round-off grows there."
+
+UNITS_OF_B, OF_HEAVY = "Suslov–Hess, in units b = 1", "Euler–Poisson"
+"""Whose energy and area integral h and f are."""
 
 RIS = {"I1": 1.0, "I2": 1.5, "I3": 2.0, "m": math.sqrt(0.5)}
 """The body of figures 13 and 14, after half a turn about its middle axis."""
@@ -105,9 +108,10 @@ class HeavyMotion(Moments):
     m: float = number("μ|r|", 9.975, (-20.0, 20.0), 0.005, bounds=(-1e3, 1e3), group="Body",
                       label="Weight times distance, μ|r|",
                       doc="The potential is −μ(r, γ). Its sign is that of r.")
-    h: float = number("h", 50.0, (-9.0, 100.0), 0.05, bounds=(-1e3, 1e5), label="Energy h", doc="H = h; above −μ|r|.")
+    h: float = number("h", 50.0, (-9.0, 100.0), 0.05, bounds=(-1e3, 1e5), label="Energy h", doc="H = h; above −μ|r|.",
+                      means=OF_HEAVY)
     f: float = number("f", 5.0, (-8.0, 8.0), 0.05, bounds=(-1e3, 1e3), label="Area integral f",
-                      doc="(M, γ) = f. Its range follows h.")
+                      doc="(M, γ) = f. Its range follows h.", means=OF_HEAVY)
     phi0: float = number("φ₀", 0.5, (-3.14, 3.14), 0.01, bounds=(-math.pi, math.pi), label="Phase φ₀",
                          doc="Phase of the start on the torus, at the lowest place of the centre of mass, in radians.")
 

@@ -26,9 +26,9 @@ def _parameter(spec: Spec) -> Any:
 
 
 def number(symbol: str, default: float, softbounds: tuple[float, float], step: float, *, bounds: tuple[float, float],
-           label: str, doc: str, group: Group = "State") -> Any:
+           label: str, doc: str, group: Group = "State", means: str = "") -> Any:
     """A number: its slider covers `softbounds` in steps; what is typed, or comes by a link, lies within `bounds`."""
-    return _parameter(Number("", symbol, label, default, softbounds, step, bounds, doc, group))
+    return _parameter(Number("", symbol, label, default, softbounds, step, bounds, doc, group, means))
 
 
 def choice(label: str, options: tuple[str, ...], default: str, *, doc: str, group: Group = "Computation") -> Any:

@@ -118,6 +118,10 @@ class State:
         """
         return {}
 
+    def means(self) -> Mapping[str, str]:
+        """What the numbers mean whose meaning hangs on the choices made, as `Number.means`."""
+        return {}
+
     def carried(self, before: Self) -> Mapping[str, float]:
         """What has to follow so that the motion goes on when another choice is made in the state before.
 
@@ -311,6 +315,24 @@ class Scene(Generic[S]):
             return self.of(values).carried(self.of(self.admit(before)[0]))
         except ModelError:
             return {}
+
+    def _meanings(self, values: Values) -> Mapping[str, str]:
+        """What each number and choice of a state means, by its name; without those that nothing depends on."""
+        labels = {spec.name: (isinstance(spec, Number) and spec.means) or spec.label for spec in self.specs
+                  if isinstance(spec, Number | Choice)}
+        idle = self.idle(values)
+        return {name: said for name, said in {**labels, **self.of(values).means()}.items() if name not in idle}
+
+    def taken_over(self, there: Values, before: Scene[Any], left: Values) -> dict[str, Value]:
+        """The values of this scene, `there`, with those changed in the scene before that mean the same here.
+
+        left : its values, of which those are taken that are possible here.
+        """
+        defaults, mine, its = before.defaults(), self._meanings(there), before._meanings(left)
+        taken = {spec.name: left[spec.name] for spec in self.specs
+                 if spec.name in mine and mine[spec.name] == its.get(spec.name)
+                 and left[spec.name] != defaults[spec.name] and spec.read(str(left[spec.name]))[1] is None}
+        return {**there, **taken}
 
     def compute(self, values: Values, seen: Collection[str], dragging: bool) -> S:
         """The state of admitted values, with all that the pictures `seen` ask for.  Raises `ModelError`."""
