@@ -115,7 +115,8 @@ def test_rotation_numbers_are_those_of_10000_points(preset):
 
 def test_an_orbit_between_two_gaps_is_seen_too():
     """A line of one point is none: every number that the caption speaks of is a point as well."""
-    view = EulerPoisson({"orbits": 0.0}, seen={"rotation"})
+    preset = next(one for one in EP.presets if one.name.startswith("Figure 13 d"))
+    view = EulerPoisson({**preset.values, "orbits": 0.0}, seen={"rotation"})
     low, high = view.numbers("rotation", "ρ = # … #")
     lines, points = view.data["rotation-rho"], view.data["rotation-orbits"]
     assert any(len(line) == 1 for line in lines["ys"])
@@ -356,8 +357,52 @@ def test_a_drag_shows_the_section_at_once_with_fewer_orbits():
     view = EulerPoisson({"h": 41.37}, dragging=True)
     assert view.report.todo == ()
     assert 0 < len(view.points("first")) + len(view.points("second")) <= 16 * 40
-    assert "let go" in view.text["rotation"]
     assert "let go" in view.text["exponent"]
+
+
+def test_while_epsilon_is_dragged_the_rotation_number_is_that_of_few_orbits_right_to_a_hundredth():
+    values = {"away": 0.02, "orbits": 0.0}
+    rest, held = (EulerPoisson(values, seen={"rotation"}, dragging=dragging) for dragging in (False, True))
+    assert held.report.todo == ()
+    along, rho = (held.data["rotation-orbits"][axis].astype(float) for axis in "xy")
+    places, exact = (rest.data["rotation-orbits"][axis].astype(float) for axis in "xy")
+    above = along[along > 0.6]
+    assert len(above) >= 3
+    apart = [math.remainder(y - np.interp(x, places, exact), 1.0) for x, y in zip(along, rho, strict=True) if x > 0.6]
+    assert np.max(np.abs(apart)) < 0.01
+    # What is no closed curve at rest is none here: the sea is shown as one.
+    low, high = np.array(held.data["rotation-sea"]["xs"][0][0][0])[[0, 1]]
+    assert high - low > 0.1
+    assert not np.any((places > low + 1.0 / 16) & (places < high - 1.0 / 16))
+
+
+def test_another_start_leaves_rotation_numbers_as_they_are():
+    one, two = (EulerPoisson({"orbits": 0.0, "starts": starts}, seen={"rotation"})
+                for starts in ("0,0.2", "0,0.2;0.5,-0.3"))
+    assert two.begun.work.todo == []
+    assert two.data["rotation-rho"].keys() == one.data["rotation-rho"].keys()
+    assert np.array_equal(two.data["rotation-orbits"]["y"], one.data["rotation-orbits"]["y"])
+
+
+def test_the_rotation_picture_says_of_all_the_line_what_its_orbits_are():
+    view = EulerPoisson({"orbits": 0.0}, seen={"rotation"})
+    low, high = view.numbers("rotation", "ρ = # … #")
+    # ½ is −½: the curve is not torn in two, and the axis is as high as it and 0.
+    assert (-0.52 < low < -0.49) and (-0.3 < high < -0.27)
+    x0, x1, y0, y1 = view.axes["rotation"]
+    assert (x0, x1) == (-1.0, 1.0)
+    assert (y0, y1) == (pytest.approx(low, abs=0.06), pytest.approx(0.0, abs=0.06))
+    seas = [np.asarray(part[0][0]) for part in view.data["rotation-sea"]["xs"]]
+    covered = sum(float(np.ptp(part)) for part in seas)
+    marked = len(view.data["rotation-orbits"]["x"]) + len(view.data["rotation-standing"]["x"])
+    assert covered + 2.0 * marked / 48 == pytest.approx(2.0, abs=1e-6)
+    assert np.all(view.data["rotation-standing"]["y"] == 0.0)
+    # The exponent of an orbit from the middle of the largest sea is positive, of one in an island it falls to 0.
+    sea = max(seas, key=np.ptp)
+    exponents = [largest_exponent(SYSTEM, state_at(GESS1, 50.0, 5.0, 0.0, place), view.body.parameters, 300.0).value
+                 for place in (float(sea.mean()), float(view.data["rotation-standing"]["x"][2]))]
+    assert exponents[0] > 0.2
+    assert exponents[1] < 0.05
 
 
 @pytest.mark.parametrize("seen", [set(), {"section"}, {"rotation"}, {"exponent"}, {"sphere"}])

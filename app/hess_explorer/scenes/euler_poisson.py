@@ -98,8 +98,8 @@ class EulerPoisson(Moments, RotationAcross, HeavySolid):
     span: float = time_span(20.0, 200.0, what="the chosen orbit")
     long: float = exponent_time(200.0, 1000.0, 1e4, "the Lyapunov exponent is")
     turns: str = choice("Rotation number", (_ALONG, _ABOUT), _ALONG,
-                        doc="Turns counted by the angle l, on a vertical line through the chosen start; or about the "
-                            "middle of the window, on a line from there to the right.")
+                        doc="Turns counted by the angle l, on a vertical line through the first chosen start; or about "
+                            " the middle of the window, on a line from there to the right.")
     sheet: str = choice("Sheet", (_LARGEST, _SECOND), _LARGEST,
                         doc="Of the momenta G with this energy at one point of the section, where there are two: on "
                             "which orbits start.")

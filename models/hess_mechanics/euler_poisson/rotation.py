@@ -29,12 +29,15 @@ Ends = tuple[tuple[float, float], tuple[float, float]]
 class Rotation:
     """Rotation numbers `rho` (n,) of orbits that start at `along` (n,) on a line, each in parts without a gap.
 
-    standing : how many closed curves do not go round, and so have none.
+    They lie in (−½, ½]; or, where all are within half a turn of one another, side by side, about a number that does.
+    standing : (n,), where closed curves start that do not go round, and so have none.
+    sea : (n, 2), parts of the line whose orbits are no closed curves, from one place to another.
     """
 
     along: tuple[Array, ...]
     rho: tuple[Array, ...]
-    standing: int
+    standing: Array
+    sea: Array
 
     @property
     def places(self) -> Array:
@@ -59,7 +62,8 @@ class Rotation:
         """The median of the differences over the places where both know ρ; elsewhere the line crosses seas."""
         if not (self.numbers.size and exact.numbers.size):
             return 0.0
-        return float(np.median(np.abs(self.numbers - np.interp(self.places, exact.places, exact.numbers))))
+        apart = self.numbers - np.interp(self.places, exact.places, exact.numbers)
+        return float(np.median(np.abs(apart - np.round(apart))))
 
 
 def on_line(section: AndoyerSection, ends: Ends, count: int) -> tuple[tuple[float, tuple[float, ...]], ...]:
@@ -74,30 +78,39 @@ def on_line(section: AndoyerSection, ends: Ends, count: int) -> tuple[tuple[floa
                  for share, state in zip(shares[growing], states[growing], strict=True))
 
 
-def rotation_along(ends: Ends, shares: Sequence[float], orbits: Sequence[Array], about_first: bool, count: int
-                   ) -> Rotation:
+def rotation_along(ends: Ends, shares: Sequence[float], orbits: Sequence[Array], about_first: bool, count: int,
+                   resolved: float = RESOLVED) -> Rotation:
     """Of orbits (n, 2) that start at these shares of the way, of `count` even ones.
 
     about_first : turns are counted about the first end, and the place is l; else by the angle l, and it is L/G.
+    resolved : to what both halves of a closed curve agree.
     """
     centre, axis = (ends[0], 0) if about_first else (None, 1)
-    along: list[list[float]] = [[]]
-    rho: list[list[float]] = [[]]
-    last, standing = -1.0, 0
-    for share, points in zip(shares, orbits, strict=True):
-        if len(points) < _FEWEST:
-            continue
-        turns, spread = rotation_number(points, centre)
-        if spread > RESOLVED:
-            continue
-        if abs(turns) <= RESOLVED:
-            standing += 1
-            continue
-        # A gap, or the jump from ½ to −½, divides the curve.
-        if rho[-1] and (share - last > 1.5 / count or abs(turns - rho[-1][-1]) > 0.5):
-            along.append([])
-            rho.append([])
-        along[-1].append((1.0 - share) * ends[0][axis] + share * ends[1][axis])
-        rho[-1].append(turns)
-        last = share
-    return Rotation(tuple(map(np.array, along)), tuple(map(np.array, rho)), standing)
+    found = [(share, *rotation_number(points, centre)) for share, points in zip(shares, orbits, strict=True)
+             if len(points) >= _FEWEST]
+    going = [(share, turns) for share, turns, spread in found if spread <= resolved < abs(turns)]
+
+    def place(share: Array) -> Array:
+        return np.asarray((1.0 - share) * ends[0][axis] + share * ends[1][axis])
+
+    along, rho = (np.array(column) for column in zip(*going, strict=True)) if going else (np.empty(0), np.empty(0))
+    rho = _side_by_side(rho)
+    # A gap, or the jump from ½ to −½, divides the curve.
+    cuts = np.flatnonzero((np.diff(along) > 1.5 / count) | (np.abs(np.diff(rho)) > 0.5)) + 1
+    at_sea = np.array([share for share, _, spread in found if spread > resolved])
+    coasts = np.flatnonzero(np.diff(at_sea) > 1.5 / count) + 1
+    seas = [(part[0] - 0.5 / count, part[-1] + 0.5 / count) for part in np.split(at_sea, coasts) if part.size]
+    return Rotation(
+        tuple(np.split(place(along), cuts)), tuple(np.split(rho, cuts)),
+        place(np.array([share for share, turns, spread in found if spread <= resolved and abs(turns) <= resolved])),
+        place(np.array(seas).reshape(-1, 2)))
+
+
+def _side_by_side(rho: Array) -> Array:
+    """Numbers (n,) up to whole turns: within half a turn of one another where they can be, else as they are."""
+    order = np.sort(rho)
+    for first in order:
+        turned = first + (rho - first) % 1.0
+        if np.ptp(turned) <= 0.5:
+            return np.asarray(turned - np.ceil(0.5 * (turned.min() + turned.max()) - 0.5))
+    return rho

@@ -32,14 +32,52 @@ def test_a_closed_curve_that_does_not_go_round_has_no_number():
     ends = ((0.0, -0.5), (0.0, 0.5))
     orbits = [circle(GOLDEN / 3.0, radius=radius) for radius in (0.1, 0.3)] + [rotating(0.3 * GOLDEN)]
     found = rotation_along(ends, [0.1, 0.2, 0.3], orbits, about_first=False, count=10)
-    assert found.standing == 2
+    assert found.standing == pytest.approx([-0.4, -0.3])
+    assert found.sea.size == 0
     assert found.numbers == pytest.approx([0.3 * GOLDEN], abs=1e-6)
     assert found.places == pytest.approx([-0.2])
     # About a centre inside, the same circle has one; about one outside, none.
     inside = rotation_along(((0.0, 0.0), (1.0, 0.0)), [0.3], [circle(GOLDEN / 3.0)], about_first=True, count=10)
-    assert (inside.standing, inside.numbers) == (0, pytest.approx([GOLDEN / 3.0], abs=1e-6))
+    assert (inside.standing.size, inside.numbers) == (0, pytest.approx([GOLDEN / 3.0], abs=1e-6))
     outside = rotation_along(((0.5, 0.0), (1.0, 0.0)), [0.3], [circle(GOLDEN / 3.0)], about_first=True, count=10)
-    assert (outside.standing, outside.numbers.size) == (1, 0)
+    assert (outside.standing.tolist(), outside.numbers.size) == ([pytest.approx(0.65)], 0)
+
+
+def test_numbers_on_both_sides_of_a_half_are_one_curve_and_what_is_far_apart_stays():
+    ends = ((0.0, -0.5), (0.0, 0.5))
+
+    def numbers(*turns):
+        shares = (np.arange(len(turns)) + 0.5) / len(turns)
+        found = rotation_along(ends, shares, [rotating(turn) for turn in turns], about_first=False, count=len(turns))
+        return found.numbers, len(found.rho)
+
+    # ½ + x and −½ + x are the same rotation: side by side they lie about −½, or about ½, and make one curve.
+    near, parts = numbers(0.4931, 0.5007, -0.4853, -0.4513)
+    assert (near, parts) == (pytest.approx([-0.5069, -0.4993, -0.4853, -0.4513], abs=1e-5), 1)
+    near, parts = numbers(0.4131, 0.4507, 0.4853, -0.4913)
+    assert (near, parts) == (pytest.approx([0.4131, 0.4507, 0.4853, 0.5087], abs=1e-5), 1)
+    far, parts = numbers(0.3507, 0.0131, -0.3153, 0.4513)
+    assert (far, parts) == (pytest.approx([0.3507, 0.0131, -0.3153, 0.4513], abs=1e-5), 2)
+
+
+def test_parts_of_the_line_at_sea_reach_half_way_to_the_closed_curves():
+    ends = ((0.0, -1.0), (0.0, 1.0))
+    chaos = np.random.default_rng(3).uniform(-1.0, 1.0, (400, 2)) * (math.pi, 1.0)
+    curve, short = rotating(0.3 * GOLDEN), rotating(0.3)[:10]
+    orbits = [chaos, chaos, curve, chaos, short, chaos]
+    found = rotation_along(ends, (np.arange(6) + 0.5) / 6, orbits, about_first=False, count=6)
+    assert found.sea == pytest.approx(np.array([[-1.0, -1.0 / 3.0], [0.0, 1.0 / 3.0], [2.0 / 3.0, 1.0]]))
+    assert found.places == pytest.approx([-1.0 / 6.0])
+
+
+def test_levels_that_place_a_half_on_either_side_agree():
+    ends = ((0.0, -0.5), (0.0, 0.5))
+
+    def along(*turns):
+        return rotation_along(ends, [0.25, 0.75], [rotating(turn) for turn in turns], about_first=False, count=2)
+
+    assert along(0.4931, 0.4953).distance(along(-0.5069, -0.5047)) == pytest.approx(0.0, abs=1e-6)
+    assert along(0.4931, 0.4953).distance(along(0.4941, 0.4963)) == pytest.approx(1e-3, abs=1e-6)
 
 
 @pytest.mark.parametrize(("h", "f"), [(0.0, 0.0), (-0.4, 0.0)])
@@ -50,7 +88,7 @@ def test_in_gess_ris1_a_and_b_the_curves_through_the_line_do_not_go_round(h, f):
     orbits = andoyer_points(RIS, h, f, [state for _, state in starts], 1000, STANDARD).states
     places = [coordinates(states) for states in orbits]
     found = rotation_along(line, [share for share, _ in starts], places, about_first=False, count=24)
-    assert found.standing >= 8
+    assert found.standing.size >= 8
     assert np.all(np.abs(found.numbers) > RESOLVED)
     # Of those without a number the points stay in a part of the circle of l.
     gaps = []
@@ -59,5 +97,5 @@ def test_in_gess_ris1_a_and_b_the_curves_through_the_line_do_not_go_round(h, f):
         gap = max(np.max(np.diff(l)), 2.0 * math.pi - (l[-1] - l[0]))
         if not np.any(np.isclose(found.places, -1.0 + 2.0 * share)):
             gaps.append(gap)
-    assert len(gaps) >= found.standing
+    assert len(gaps) >= found.standing.size
     assert np.median(gaps) > 0.5
