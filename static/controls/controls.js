@@ -4,6 +4,7 @@
 // whether it is disabled] or option}.
 
 import { listen, tell } from "../page/bus.js"
+import { sayDragMe } from "../page/handle.js"
 import { element, lifetime } from "../page/mount.js"
 import { wear } from "../page/presenting.js"
 import { PHONE } from "../page/windows.js"
@@ -90,6 +91,15 @@ export function render({ model, view, el }) {
     }
   }, { signal })
   wear(el, signal)
+  // Beside the thumb of the slider, where there is room.
+  sayDragMe(({ control }) => {
+    const item = items.get(control)
+    if (!item?.checkVisibility()) return null
+    const { min, max, value } = item.querySelector(".hand")
+    const share = 100 * (value - min) / (max - min)
+    const place = share < 60 ? { left: `calc(${share}% + 1.4em)` } : { right: `calc(${100 - share}% + 1.4em)` }
+    return { host: item, place: () => place }
+  }, signal)
   listen("enter", build, signal)
   // What is wrong with an expression is said by "error-" and the name of the number.
   listen("texts", (texts) => { for (const [key, text] of Object.entries(texts)) refusals[key]?.(text) }, signal)

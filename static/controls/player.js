@@ -7,8 +7,12 @@ import { isTaken } from "../page/keys.js"
 import { element, lifetime } from "../page/mount.js"
 import { wear } from "../page/presenting.js"
 import { gallery } from "../pictures/gallery.js"
+import { between } from "../pictures/moment.js"
+import { opening } from "./opening.js"
 
 const SPEEDS = [0.25, 0.5, 1, 2, 4, 8]
+// Seconds from the beginning of a motion to its end, at least, while nobody has touched anything.
+const GENTLE = 20
 // Where an arrow means something already.
 const OWN_ARROWS = "input, button, a, summary, [role=slider]"
 const ICONS = {
@@ -34,16 +38,7 @@ function button(name, label, onClick) {
 
 // The columns of `data` at a time; `angles`: those that may jump by a turn.
 function stateAt(data, angles, time) {
-  const { t } = data
-  // The last sample not after this time: samples lie closer where the curve bends.
-  let i = 0
-  let above = t.length - 1
-  while (above - i > 1) {
-    const middle = (i + above) >> 1
-    if (t[middle] <= time) i = middle
-    else above = middle
-  }
-  const s = Math.max(0, Math.min(1, (time - t[i]) / (t[i + 1] - t[i])))
+  const [i, s] = between(data.t, time)
   const state = {}
   for (const [name, column] of Object.entries(data)) {
     const [a, b] = [column[i], column[i + 1]]
@@ -81,12 +76,16 @@ export function render({ model, view, el }) {
   let t = 0
   const begin = (own) => {
     t = Number(own.t)
+    // A link that names a time is one to that moment.
+    if (t !== 0) start.rest()
     speed.value = SPEEDS.includes(Number(own.speed)) ? Number(own.speed) : 1
   }
   let playing = false
   let last = null
   // Of a lesson: from, to, in so many seconds.
   let run = null
+  // Units of t per second while nobody has touched anything, see "opening.js"; else null.
+  let gentle = null
 
   const end = () => {
     const times = source?.data.t
@@ -114,7 +113,7 @@ export function render({ model, view, el }) {
   function frame(now) {
     if (!playing) return
     if (last !== null) {
-      const rate = run ? (run.to - run.from) / run.seconds : Number(speed.value)
+      const rate = run ? (run.to - run.from) / run.seconds : gentle ?? Number(speed.value)
       const next = t + (rate * Math.min(100, now - last)) / 1000
       const isOver = run !== null && (next - run.to) * rate >= 0
       move(isOver ? run.to : run === null && next >= end() ? 0 : next)
@@ -126,7 +125,7 @@ export function render({ model, view, el }) {
 
   function play(on) {
     playing = on
-    if (!on) run = null
+    if (!on) run = gentle = null
     last = null
     setPlay(on ? "pause" : "play", on ? "Pause (Space)" : "Play (Space)")
     bar.dataset.playing = on
@@ -175,6 +174,16 @@ export function render({ model, view, el }) {
   // The player of the next scene goes on from here.
   listen("scene", () => { if (playing) play(false) }, signal)
 
+  const start = opening({
+    begin() {
+      if (playing || end() === 0) return
+      gentle = Math.min(Number(speed.value), end() / GENTLE)
+      play(true)
+    },
+    end() { if (gentle !== null) play(false) },
+    isOwn: (event) => event.composedPath().includes(toggle) || (event.key === " " && !isTaken(event)),
+  }, signal)
+
   const onData = () => {
     slider.max = end()
     // Where there is nothing to see the time waits.
@@ -184,6 +193,7 @@ export function render({ model, view, el }) {
   const enter = (entered) => {
     watching?.abort()
     watching = new AbortController()
+    start.enter(entered.name)
     scene = entered
     source = gallery.source("data-orbit") ?? null
     // A scene without a motion needs no time.

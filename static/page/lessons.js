@@ -9,9 +9,9 @@ import { createAnimation } from "./animation.js"
 import { listen, tell } from "./bus.js"
 import { isTaken } from "./keys.js"
 import { element, lifetime } from "./mount.js"
+import { CALM } from "./windows.js"
 
 const SECOND = 1000
-const CALM = window.matchMedia("(prefers-reduced-motion: reduce)")
 
 const html = (tag, className, innerHTML) => element(tag, { className, innerHTML })
 const clock = (ms) => `${Math.floor(ms / 60000)}:${String(Math.floor(ms / SECOND) % 60).padStart(2, "0")}`

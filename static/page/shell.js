@@ -2,7 +2,7 @@
 // pictures.  Where there is no room for both columns they are tabs of one; on a phone the picture stays above, the
 // control at hand below, and the text scrolls between them.
 
-import { tell } from "./bus.js"
+import { listen, tell } from "./bus.js"
 import { element, lifetime } from "./mount.js"
 import { linkTo } from "./embedding.js"
 import { isTaken } from "./keys.js"
@@ -72,6 +72,20 @@ function opener() {
   return link
 }
 
+// The sentence on what moves what: over the stage; on a phone it scrolls with the text.
+function sayWhatMoves(stage, reading, signal) {
+  const sentence = element("p", { className: "text moves" })
+  const enter = ({ moves }) => { sentence.textContent = moves }
+  const place = () => {
+    if (PHONE.matches) reading.prepend(sentence)
+    else stage.before(sentence)
+  }
+  listen("enter", enter, signal)
+  tell("mounted", { kind: "scene", show: enter })
+  PHONE.addEventListener("change", place, { signal })
+  place()
+}
+
 export function render({ model, view, el }) {
   const signal = lifetime({ model, view })
   const children = (...names) => names.map((name) => model.get_child(name))
@@ -81,11 +95,13 @@ export function render({ model, view, el }) {
     box("reading", "lessons", "words"), box("signs", "legend"))
   // What scrolls is reached by keys.
   for (const column of [controls, ...text.children]) column.tabIndex = 0
+  const stage = box("stage", "pictures", "player")
   el.classList.add("frame")
   el.append(
     element("header", { className: "bar" }, ...children("bar"), box("news", "busy", "progress")),
     tabsOf({ Controls: controls, Text: text }, signal), controls,
-    box("stage", "pictures", "player"), text, box("foot", "notes", "status"), box("unseen", "ready"), opener(), spot(signal))
+    stage, text, box("foot", "notes", "status"), box("unseen", "ready"), opener(), spot(signal))
+  sayWhatMoves(stage, text.firstChild, signal)
   wear(el, signal)
   document.addEventListener("keydown", (event) => {
     const wish = { f: "fullscreen", p: "present" }[event.key.toLowerCase()]

@@ -3,3 +3,4 @@
 export const PHONE = window.matchMedia("(max-width: 799px), (max-height: 499px)")
 // Controls and text share a column, as tabs.
 export const NARROW = window.matchMedia("(max-width: 1499px)")
+export const CALM = window.matchMedia("(prefers-reduced-motion: reduce)")

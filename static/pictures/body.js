@@ -13,6 +13,7 @@
 
 import { circle } from "./circles.js"
 import { LOOKS } from "./looks.js"
+import { between } from "./moment.js"
 import { covers, createSolid, dot, leaves } from "./solid.js"
 
 const TRAIL = 160
@@ -29,18 +30,6 @@ const unit = (v) => v.map((x) => x / Math.hypot(...v))
 export function bodyIn(source, attitude) {
   const solid = createSolid()
   let t = 0
-
-  // The last sample not after t.
-  function before(times) {
-    let i = 0
-    let above = times.length - 1
-    while (above - i > 1) {
-      const middle = (i + above) >> 1
-      if (times[middle] <= t) i = middle
-      else above = middle
-    }
-    return i
-  }
 
   // What takes a direction of the body to space: γ and e orthonormal, whatever the straight lines between the samples
   // have made of them.
@@ -61,8 +50,7 @@ export function bodyIn(source, attitude) {
   function now({ view }) {
     const { t: times, ...columns } = attitude.data
     if (!(times?.length > 1)) return null
-    const i = before(times)
-    const s = Math.max(0, Math.min(1, (t - times[i]) / (times[i + 1] - times[i])))
+    const [i, s] = between(times, t)
     const place = placing(columns, i, s)
     const { axes = [], semi = [], trail = [] } = source.data
     const path = [[], [], []]

@@ -1,6 +1,7 @@
 // The pictures of the scenes: each scene's are built once, then kept, and only filled with new data.
 
 import { listen } from "../page/bus.js"
+import { sayDragMe } from "../page/handle.js"
 import { element, lifetime } from "../page/mount.js"
 import { wear } from "../page/presenting.js"
 import { cloudPlane } from "./cloud_plane.js"
@@ -11,6 +12,12 @@ import { sphere } from "./sphere.js"
 import { createStage } from "./stage.js"
 
 const KINDS = { sphere, cloud: cloudPlane }
+// What the mouse does in a picture.
+const HINTS = {
+  drag: "Drag or click: what you point at is chosen",
+  box: "Click: what you point at is chosen. Drag a box: a closer look",
+  click: "Click: what you point at is chosen",
+}
 
 const built = new Map()
 let shelf = null
@@ -29,8 +36,8 @@ export const gallery = {
 }
 
 // [cell, host]: caption, place for the picture, line about what is under the mouse.
-function cellOf({ name, folded }) {
-  const host = element("div", { className: "host" })
+function cellOf({ name, folded, hands }) {
+  const host = element("div", { className: `host hands-${hands}`, title: HINTS[hands] ?? "" })
   const under = element("output", { className: "text hover", hidden: true })
   const cell = element("section", { className: `picture picture-${name}` },
     element("h2", { className: "text caption" },
@@ -104,6 +111,20 @@ function enter(name) {
   return shown
 }
 
+// Beside the first of what a layer draws.
+function besideLayer({ picture, source, columns }) {
+  const plot = shown.plots.find(({ model }) => model.name === picture)
+  const place = columns?.map((column) => shown.sources.get(source).data[column]?.[0])
+  const cell = shown.cells.find(({ dataset }) => dataset.name === picture)
+  if (place?.[0] === undefined || !cell.checkVisibility()) return null
+  return {
+    host: cell.querySelector(".host"), moved: plot.repainted,
+    place: () => ({
+      left: `calc(${plot.frame.x_scale.compute(place[0])}px + 1.2em)`, top: `${plot.frame.y_scale.compute(place[1])}px`,
+    }),
+  }
+}
+
 function showTexts(texts) {
   for (const cell of shown?.cells ?? []) {
     const { [cell.dataset.name]: text, [`hover-${cell.dataset.name}`]: hover } = texts
@@ -128,6 +149,7 @@ export function render({ model, view, el }) {
   el.append(shelf)
   wear(el, signal)
   stage = createStage(shelf, () => shown, signal)
+  sayDragMe(besideLayer, signal)
   listen("texts", showTexts, signal)
   const theme = new MutationObserver(() => { for (const scene of built.values()) colour(scene) })
   for (const item of [document.documentElement, document.body]) {

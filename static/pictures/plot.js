@@ -1,6 +1,7 @@
 // A picture that Bokeh draws: axes, lines and markers, from the description that "figure.py" makes of it.
 
 import { listen } from "../page/bus.js"
+import { element } from "../page/mount.js"
 import { isPresenting, zoom } from "../page/presenting.js"
 import { waitLongForPress } from "./bokeh_private.js"
 import { cellsPainter } from "./cells.js"
@@ -23,6 +24,11 @@ function clipOverlays(plot) {
   const clip = `inset(${y0}px ${width - x1 - 1}px ${height - y1 - 1}px ${x0}px)`
   const { style } = plot.canvas_view.overlays.el
   if (style.clipPath !== clip) style.clipPath = clip
+}
+
+// Bokeh has a cursor of its own over the frame: here the picture says which one.
+function inheritCursor(plot) {
+  plot.canvas_view.overlays.el.parentNode.append(element("style", { textContent: "div { cursor: inherit !important }" }))
 }
 
 // Canvases for what Bokeh would draw slowly: cells under everything else, dots under the moving layers.
@@ -58,6 +64,7 @@ export async function buildPlot(host, picture, source, signal) {
     if (one.data !== undefined && one.name !== null) source(one.name).add(one, plot)
   }
   addCanvases(plot, picture, source, signal)
+  inheritCursor(plot)
   plot.repainted.connect(() => clipOverlays(plot))
   picture.letters.forEach((letters, i) => {
     if (letters === null) return

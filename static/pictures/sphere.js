@@ -63,6 +63,7 @@ export function sphere(el, options, source, signal, isShown) {
   const sheet = squareCanvas(el, {
     className: inSpace ? "solid" : "sphere", tabIndex: 0, role: "application", "aria-roledescription": "rotatable sphere",
     "aria-label": `${options.title ?? "Poisson sphere"}: arrow keys turn it, Home turns it back`,
+    title: "Drag: it turns. So it does by arrow keys; Home turns it back",
   }, paint, signal)
   const { canvas, request } = sheet
   const lines = options.bare ? [circle([0, 0, 1], 0)] : graticule()

@@ -88,10 +88,46 @@ def test_a_scene_explains_itself_and_each_of_its_parameters(scene):
         assert len(spec.doc.split()) > 2, spec.name
         assert spec.doc.endswith((".", ")")), spec.name
         assert spec.label.isprintable()
+    # In a line over the pictures, as plain text.
+    assert re.fullmatch(r"[A-Z][^$*]{20,108}\.", scene.moves)
+    assert not scene.words.startswith("---")
+    assert scene.handle in ("", *scene.essential) or "/" in scene.handle
     assert len({preset.name for preset in scene.presets}) == len(scene.presets) > 2
     for preset in scene.presets:
         assert preset.name.isprintable()
         assert preset.name
+
+
+# Of the sentence over the pictures: the scene, what is moved, and the pictures that are said to follow.
+FOLLOWS = [
+    ("suslov-hess", "h", "body omega bifurcation circle"), ("free-suslov", "k", "omega body sphere gamma1"),
+    ("scattering", "phi", "body sphere"), ("kharlamova", "alpha", "body domain sphere"),
+    ("quartic", "ratio", "body domain section sphere"), ("rotation-number", "a", "line trace circle"),
+    ("chaplygin-ball", "phi", "body omega sphere"), ("ball-section", "psi", "body omega sphere"),
+    ("euler-poisson", "away", "section"), ("hess-leak", "h", "body leak andoyer sphere"),
+    ("hess-leak", "phi0", "body leak andoyer sphere"), ("bridge", "h", "body heavy omega difference"),
+    ("bridge", "phi0", "body heavy omega difference"), ("loxodrome", "energy", "body space angle height"),
+]
+
+
+@pytest.mark.parametrize(("name", "parameter", "pictures"), FOLLOWS)
+def test_what_is_said_to_follow_does(name, parameter, pictures):
+    scene = SCENES[name]
+    values = scene.defaults()
+    low, high, step = scene.limits(values).get(parameter, (*next(
+        (*spec.softbounds, spec.step) for spec in scene.specs if spec.name == parameter),))
+    near = values[parameter] + max(step, (high - low) / 20) * (1 if values[parameter] < (low + high) / 2 else -1)
+
+    def columns(changes):
+        state = scene.compute({**values, **changes}, pictures.split(), dragging=True)
+        return {view.name: {source: state.drawn[source]
+                            for source in (*view.data(state), *(f"data-{track}" for track in view.tracks))}
+                for view in scene.views if view.name in pictures.split()}
+
+    before, after = columns({}), columns({parameter: near})
+    assert set(before) == set(pictures.split()) <= set(scene.open_pictures)
+    for picture in before:
+        assert repr(before[picture]) != repr(after[picture]), picture
 
 
 @every_scene

@@ -19,6 +19,7 @@ from hess_explorer.lessons.reading import without_tries
 from hess_explorer.protocol.parameters import GROUPS, Choice, Number
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
+from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import with_formulas
 
 __all__ = ["describe", "describe_lesson"]
@@ -43,6 +44,8 @@ def _describe(name: str) -> str:
         "pictures": [{**view.describe(), "folded": view.folded or None} for view in scene.views],
         "controls": [_control(spec) for spec in scene.specs if isinstance(spec, Number | Choice)],
         "essential": list(scene.essential),
+        "handle": _handle(scene),
+        "moves": scene.moves,
         "groups": list(GROUPS),
         "drawn": not all(isinstance(spec, Number | Choice) for spec in scene.specs),
         "presets": [preset.name for preset in scene.presets],
@@ -53,6 +56,17 @@ def _describe(name: str) -> str:
         "dots": {source: list(columns) for source, columns in scene.dots.items()},
         "angles": list(scene.angles),
     })
+
+
+def _handle(scene: Scene[Any]) -> dict[str, Any] | None:
+    """What a newcomer should drag: the control of a parameter, or a layer of a picture."""
+    picture, _, layer = scene.handle.partition("/")
+    if not layer:
+        name = scene.handle or next(iter(scene.essential), "")
+        return {"control": name} if name else None
+    view = next(view for view in scene.views if view.name == picture and isinstance(view, Plot))
+    found = next(one for one in view.layers if one.name == layer)
+    return {"picture": picture, "source": view.source_of(found), "columns": list(found.columns)}
 
 
 def _html(scene: Scene[Any]) -> str:

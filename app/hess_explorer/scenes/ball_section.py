@@ -181,7 +181,7 @@ class BallSection(CentreOfMass, Ball, Crossings, ConstrainedBody):
 
 SCENE = Scene(
     BallSection, __file__, place=10, presets=PRESETS, measures=(SECTION,),
-    group="Ball", essential=("h", "I13", "D", "psi"),
+    group="Ball", essential=("h", "I13", "D", "psi"), handle="psi",
     title="Ball with a field",
     summary="The ball in a field: a section at one energy shows curves, seas and, with I₁₃ or I₂₃, attractors.",
     tracks={"orbit": lambda s: orbit_columns(s.orbit)},

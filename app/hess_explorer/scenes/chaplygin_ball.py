@@ -181,7 +181,7 @@ def _change(first: float, last: float) -> str:
 
 SCENE = Scene(
     ChaplyginBall, __file__, place=9, presets=PRESETS, measures=_MEASURES,
-    group="Ball", essential=("D", "h", "theta", "phi"),
+    group="Ball", essential=("D", "h", "theta", "phi"), handle="phi",
     title="Chaplygin ball",
     summary="A ball rolls inside the body: every orbit crosses a strip between two ellipses, from Nᵘ to Nˢ.",
     tracks={"orbit": lambda s: plane.orbit_columns(s.orbit, Gamma=s.Gamma)},

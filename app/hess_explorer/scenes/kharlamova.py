@@ -257,7 +257,7 @@ _MIRROR: Layer[Kharlamova] = points("mirror", color=theme.MAP, edge=theme.INK, e
 
 SCENE = Scene(
     Kharlamova, __file__, place=6, presets=PRESETS,
-    group="Heavy body", essential=("q1", "q2", "p", "alpha"),
+    group="Heavy body", essential=("q1", "q2", "p", "alpha"), handle="alpha",
     title="Principal axis, b₃ = 0",
     summary="Parabolas in an ellipse, run to and fro: every orbit closes but those that touch the equator from inside.",
     tracks={"orbit": Kharlamova.orbit_columns},

@@ -181,7 +181,7 @@ _MAP: Trial[Scattering] = Trial(
 
 SCENE = Scene(
     Scattering, __file__, place=4, presets=PRESETS, measures=(_MAP,),
-    group="Free body", essential=("k", "I23", "theta", "phi"),
+    group="Free body", essential=("k", "I23", "theta", "phi"), handle="phi",
     title="Scattering",
     summary="No field: from the circle γ leaves and its phase to the circle it joins, exact for all phases at once.",
     tracks={"orbit": lambda s: velocity_columns(s.orbit.times, s.orbit.omega, s.orbit.gamma)},

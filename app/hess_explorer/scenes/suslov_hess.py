@@ -232,7 +232,7 @@ _MEASURES: tuple[Trial[SuslovHess], ...] = (
 
 SCENE = Scene(
     SuslovHess, __file__, place=1, presets=PRESETS, measures=_MEASURES,
-    group="Heavy body", essential=("h", "f", "I23", "phi0"),
+    group="Heavy body", essential=("h", "f", "I23", "phi0"), handle="bifurcation/here",
     title="The Suslov–Hess case",
     summary="A heavy rigid body with ω₃ = 0 whose motions live on tori: rotation, locking, limit cycles.",
     tracks={"orbit": SuslovHess.orbit_columns, "stable": lambda s: torus_plane.cycle_columns(s.cycles, 0),

@@ -76,9 +76,16 @@ class Picture(ABC, Generic[S]):
         """Its axes before the first state."""
         return None
 
+    @property
+    def hands(self) -> str:
+        """What the mouse chooses in it: "drag", "box", "click", or nothing."""
+        if self.on_click is None:
+            return ""
+        return "drag" if self.on_drag else "box" if self.on_box is not None else "click"
+
     def describe(self) -> dict[str, Any]:
         """What the browser needs to know before the first data."""
-        return {"name": self.name, "kind": self.kind}
+        return {"name": self.name, "kind": self.kind, "hands": self.hands}
 
     def ranges(self, state: S) -> Axes | None:
         """The axes that fit a state."""

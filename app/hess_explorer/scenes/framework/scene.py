@@ -162,6 +162,7 @@ class Scene(Generic[S]):
     measures : what it computes besides the motion, to be measured at each level.
     place : its place in the menu; the first one opens the page; group : under which heading it stands there.
     essential : the parameters whose controls are open; the others are folded by their groups.
+    handle : what a newcomer should drag: one of those, or "picture/layer"; the first of them where nothing is said.
     """
 
     state: type[S]
@@ -176,6 +177,7 @@ class Scene(Generic[S]):
     place: int = 0
     group: str = ""
     essential: tuple[str, ...] = ()
+    handle: str = ""
 
     @property
     def name(self) -> str:
@@ -188,9 +190,22 @@ class Scene(Generic[S]):
         return None
 
     @cached_property
+    def _text(self) -> tuple[str, str]:
+        """What the front matter of its Markdown says, and the rest, with its lines where they are in the file."""
+        text = Path(self.module).with_suffix(".md").read_text(encoding="utf-8")
+        found = re.match(r"---\nmoves: (.+)\n---\n", text)
+        assert found is not None, self.module
+        return found[1], "\n" * found[0].count("\n") + text[found.end():]
+
+    @property
     def words(self) -> str:
         """Markdown with formulas."""
-        return Path(self.module).with_suffix(".md").read_text(encoding="utf-8")
+        return self._text[1]
+
+    @property
+    def moves(self) -> str:
+        """A sentence that says what moves what."""
+        return self._text[0]
 
     @cached_property
     def thumbnail(self) -> str:

@@ -1,0 +1,40 @@
+// A scene begins in gentle motion: what moves is seen before anything is asked.  The first touch ends it.
+//
+// Not where less motion is preferred, nor inside another page, nor in a lesson, which says itself what moves.
+
+import { listen } from "../page/bus.js"
+import { isEmbedded } from "../page/embedding.js"
+import { CALM } from "../page/windows.js"
+
+const TOUCHES = ["pointerdown", "keydown", "wheel"]
+
+// begin() sets the player going, end() stops it; isOwn(event): the player itself answers this touch.
+// {enter(name): the scene is on show; rest(): the first one begins at rest}.
+export function opening({ begin, end, isOwn }, signal) {
+  // Scenes that have begun once.
+  const begun = new Set()
+  let isResting = false
+  let isWaiting = false
+  let isReading = false
+
+  listen("reading", (on) => { isReading = on }, signal)
+  listen("painted", () => {
+    if (isWaiting && !isReading) begin()
+    isWaiting = false
+  }, signal)
+  for (const name of TOUCHES) {
+    document.addEventListener(name, (event) => {
+      isWaiting = false
+      if (!isOwn(event)) end()
+    }, { capture: true, passive: true, signal })
+  }
+  return {
+    enter(name) {
+      end()
+      isWaiting = !isResting && !begun.has(name) && !CALM.matches && !isEmbedded()
+      isResting = false
+      begun.add(name)
+    },
+    rest() { isResting = true },
+  }
+}

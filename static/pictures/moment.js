@@ -1,0 +1,14 @@
+// A moment between the samples of an orbit.
+
+// [i, s]: t lies between the samples i and i + 1, the share s of the way; at an end where it lies beyond.  Samples are
+// closer where the curve bends.  `times` has two samples at least.
+export function between(times, t) {
+  let i = 0
+  let above = times.length - 1
+  while (above - i > 1) {
+    const middle = (i + above) >> 1
+    if (times[middle] <= t) i = middle
+    else above = middle
+  }
+  return [i, Math.max(0, Math.min(1, (t - times[i]) / (times[i + 1] - times[i])))]
+}

@@ -1,0 +1,123 @@
+"""The first ten seconds: what moves by itself, what is to be dragged, what the mouse does where."""
+
+from __future__ import annotations
+
+import pytest
+
+from hess_explorer.scenes import scenes
+from support.page import HESS, WIDE, Explorer
+from support.pointer import at
+
+SIGN = ".drag-me:visible"
+# The cursor over a place in the window, whatever is on top there; what is said of the place on hover.
+UNDER = """([x, y]) => {
+  let item = document.elementFromPoint(x, y)
+  while (item.shadowRoot?.elementFromPoint(x, y) && item.shadowRoot.elementFromPoint(x, y) !== item)
+    item = item.shadowRoot.elementFromPoint(x, y)
+  const { cursor } = getComputedStyle(item)
+  for (let at = item; at; at = at.parentElement ?? at.getRootNode().host) if (at.title) return [cursor, at.title]
+  return [cursor, ""]
+}"""
+
+
+@pytest.fixture
+def fresh_browser(browser, server):
+    """fresh_browser(reduced_motion) → a page that is ready, of a visitor who has never been here."""
+    tabs = []
+
+    def visit(query, motion):
+        context = browser.new_context(viewport=dict(zip(("width", "height"), WIDE, strict=True)), reduced_motion=motion)
+        tabs.append(Explorer(context.new_page(), server))
+        return tabs[-1].open(query)
+
+    yield visit
+    for tab in tabs:
+        tab.assert_quiet()
+        tab.page.context.close()
+
+
+def moves(explorer):
+    """Whether the time goes on within a few frames."""
+    return explorer.page.locator("input.param-t").evaluate(
+        """async (slider) => {
+          const before = slider.value
+          for (let i = 0; i < 6; i++) await new Promise(requestAnimationFrame)
+          return slider.value !== before
+        }""")
+
+
+def test_a_scene_begins_in_gentle_motion_until_the_first_touch_and_asks_for_nothing(fresh_browser):
+    explorer = fresh_browser(f"scene={HESS}", "no-preference")
+    page = explorer.page
+    before = explorer.state, page.url, page.evaluate("history.length"), len(explorer.sent)
+    page.mouse.move(300, 300)
+    assert all(moves(explorer) for _ in range(3))
+    # No state, no address, no entry for Back, no message.
+    assert (explorer.state, page.url, page.evaluate("history.length"), len(explorer.sent)) == before
+    rate = page.evaluate(
+        """async () => {
+          const times = []
+          const ended = new AbortController()
+          const note = ({ t }) => times.push([performance.now(), t])
+          hess.listen("time", note, ended.signal)
+          while (times.length < 30) await new Promise(requestAnimationFrame)
+          ended.abort()
+          return 1000 * (times.at(-1)[1] - times[0][1]) / (times.at(-1)[0] - times[0][0])
+        }""")
+    assert 0 < rate <= 1.3 * explorer.data("data-orbit")["t"][-1] / 20
+    # The first touch of any kind ends it where it is; the player's own button and key are a pause.
+    touches = {
+        HESS: lambda: page.mouse.click(800, 5),
+        "free-suslov": lambda: page.keyboard.press("Shift"),
+        "scattering": lambda: page.mouse.wheel(0, 10),
+        "loxodrome": lambda: page.locator(".param-play").click(),
+        "kharlamova": lambda: page.keyboard.press("Space"),
+    }
+    for scene, touch in touches.items():
+        if scene != HESS:
+            explorer.change(lambda name: page.evaluate("name => hess.tell('scene', name)", name), scene)
+            assert explorer.playing, scene
+        touch()
+        assert not explorer.playing, scene
+        assert not moves(explorer)
+        assert explorer.time > 0
+    # None begins twice, and a link that names a time is one to that moment.
+    explorer.change(lambda: page.evaluate("name => hess.tell('scene', name)", HESS))
+    assert not explorer.playing
+    explorer.open(f"scene={HESS}&t=3.5")
+    assert (explorer.playing, explorer.time) == (False, pytest.approx(3.5))
+    # Nor where less motion is preferred.
+    assert not fresh_browser(f"scene={HESS}", "reduce").playing
+
+
+def test_the_one_handle_says_drag_me_once_and_what_the_mouse_does_is_said_where_it_does_it(fresh_browser):
+    explorer = fresh_browser(f"scene={HESS}", "reduce")
+    page = explorer.page
+    # Beside the ring of the diagram.
+    ring, _ = at(explorer, "bifurcation", *explorer.here())
+    sign = page.locator(SIGN).bounding_box()
+    assert 0 < sign["x"] - ring[0] < 40
+    assert sign["y"] + sign["height"] / 2 == pytest.approx(ring[1], abs=3)
+    assert page.locator(".moves").inner_text() == scenes()[HESS].moves
+    explorer.change(page.locator(".param-h .hand").press, "ArrowRight")
+    assert page.locator(SIGN).count() == 0
+    # Of another scene it is a slider; beside its thumb.
+    explorer.enter("scattering")
+    slider, sign = explorer.slider("phi").bounding_box(), page.locator(SIGN).bounding_box()
+    assert slider["y"] < sign["y"] + sign["height"] / 2 < slider["y"] + slider["height"]
+    assert page.locator(".moves").inner_text() == scenes()["scattering"].moves
+    # What can be dragged, clicked, boxed, turned.
+    for scene, picture, cursor, word in (("scattering", "curve", "move", "Drag"), ("scattering", "body", "grab", "turns"),
+                                         ("free-suslov", "omega", "pointer", "Click"),
+                                         ("rotation-number", "map", "crosshair", "box")):
+        if explorer.page.evaluate("document.documentElement.dataset.scene") != scene:
+            explorer.change(lambda name: page.evaluate("name => hess.tell('scene', name)", name), scene)
+        box = explorer.picture(picture).locator(".host").bounding_box()
+        place = [box["x"] + 0.6 * box["width"], box["y"] + 0.4 * box["height"]]
+        page.mouse.move(*place)
+        found, said = page.evaluate(UNDER, place)
+        assert found == cursor, picture
+        assert word in said
+    # Never again in this browser.
+    explorer.open(f"scene={HESS}")
+    assert page.locator(SIGN).count() == 0
