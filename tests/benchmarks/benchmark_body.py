@@ -43,7 +43,7 @@ def main() -> None:
     with sync_playwright() as playwright, running_server(Path("/dev/null")) as base:
         browser = playwright.chromium.launch(
             executable_path=find_browser(playwright.chromium.executable_path), args=["--no-sandbox"])
-        page = browser.new_page(viewport={"width": 1600, "height": 950})
+        page = browser.new_page(viewport={"width": 1600, "height": 950}, reduced_motion="reduce")
         for scene in ("suslov-hess", "quartic", "ball-section", "loxodrome"):
             page.goto(f"{base}/?scene={scene}&t=10")
             wait_ready(page)
