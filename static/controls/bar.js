@@ -26,6 +26,8 @@ const TOOLS = [
       icon: "M9 3h6v2l-1 1v5l3 3v2h-4v5h-2v-5H7v-2l3-3V6L9 5z" },
     { name: "share", label: "Share", title: "Link to all that is on the screen, QR code, parts for another page",
       icon: "M4 12a4 4 0 0 1 4-4h3v2H8a2 2 0 0 0 0 4h3v2H8a4 4 0 0 1-4-4zm5-1h6v2H9zm4-3h3a4 4 0 0 1 0 8h-3v-2h3a2 2 0 0 0 0-4h-3z" },
+    { name: "print", label: "Print", title: "A handout: pictures, numbers, text, link and QR code (Ctrl+P)",
+      icon: "M7 3h10v5H7zm-3 6h16a1 1 0 0 1 1 1v7h-4v4H7v-4H3v-7a1 1 0 0 1 1-1zm5 6v4h6v-4z" },
     { name: "present", label: "Present", title: "For a lecture hall: large type and lines, few controls; and back (P)",
       icon: "M3 4h18v2h-1v10h-7v1.6l3.4 3-1.3 1.4L12 19.6 8.9 22l-1.3-1.4 3.4-3V16H4V6H3zm3 2v8h12V6z" },
     { name: "fullscreen", label: "Full screen", title: "Full screen, and back (F)",

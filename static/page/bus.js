@@ -2,7 +2,7 @@
 //
 // To the client ("client.js"):            change {name: value}, preset name, scene name, near name, restore query,
 //                                         expression {name: text}, reset, undo, redo, clear, stop, link, address,
-//                                         copy text, theme, fullscreen, present, pick {pick, drag}, hover [picture, x, y],
+//                                         copy text, theme, fullscreen, present, print, pick {pick, drag}, hover [picture, x, y],
 //                                         animated boolean, pin, flip, folded {name, folded}, url {key: text}, lesson name,
 //                                         step [lesson, number, revealed], mounted {kind, key, show}
 // From the client to whoever is concerned: enter description, texts {key: text}, controls {name: value},

@@ -8,14 +8,16 @@ import { createAddress } from "./address.js"
 import { listen, tell } from "./bus.js"
 import { createCompare } from "./compare.js"
 import { embed, embedded } from "./embedding.js"
+import { createHandout } from "./handout.js"
 import { createHistory } from "./history.js"
 import { lifetime } from "./mount.js"
 import { paint } from "./painting.js"
 import { createPage } from "./panel_page.js"
-import { isPresenting, present } from "./presenting.js"
+import { present } from "./presenting.js"
 import { createRequests } from "./requests.js"
 import { createSight } from "./sight.js"
 import { unpack } from "./unpack.js"
+import { grantWishes } from "./wishes.js"
 
 // The next pieces are asked for after a pause as long as the last ones took: half of the time is the user's.
 const PAUSE_BETWEEN_PIECES = 80
@@ -62,41 +64,15 @@ export function render({ model, view }) {
     query: state.query, scene: latest.scene, derived: latest.texts.derived ?? "",
   }), signal)
 
+  grantWishes({ address, page }, signal)
+  createHandout(() => latest, signal)
+
   listen("url", (keys) => {
     Object.assign(own, keys)
     // The first state brings the others.
     if (state !== null) address.write()
   }, signal)
   listen("reading", () => { unread = null }, signal)
-  listen("link", async () => {
-    // The link of what is on the screen, not of what the address bar has come to.
-    address.writeNow()
-    try {
-      await navigator.clipboard.writeText(window.location.href)
-      tell("copied", { text: null, said: "Copied" })
-    } catch {
-      // Only a page by https, or of this machine, may write there.
-      tell("copied", { text: null, said: "It is in the address bar" })
-    }
-  }, signal)
-  listen("address", address.writeNow, signal)
-  listen("copy", async (text) => {
-    try {
-      await navigator.clipboard.writeText(text)
-      tell("copied", { text, said: "Copied" })
-    } catch {
-      tell("copied", { text, said: "Copy it by hand" })
-    }
-  }, signal)
-  listen("theme", page.turnTheme, signal)
-  listen("present", () => {
-    present(!isPresenting())
-    tell("url", { present: isPresenting() ? "1" : "" })
-  }, signal)
-  listen("fullscreen", () => {
-    if (document.fullscreenElement === null) root.requestFullscreen().catch(console.warn)
-    else document.exitFullscreen()
-  }, signal)
   listen("mounted", ({ kind, key, show }) => {
     const known = kind === "client" ? own : kind === "lesson" ? unread : kind === "texts" ? latest.texts[key] : latest[kind]
     if (known != null) show(known)

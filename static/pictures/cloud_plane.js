@@ -153,4 +153,5 @@ export function cloudPlane(el, options, source, signal, isShown) {
     refresh()
   }, signal)
   own.watch(refresh, signal)
+  return { shoot: sheet.shoot }
 }

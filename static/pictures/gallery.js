@@ -6,7 +6,9 @@ import { element, lifetime } from "../page/mount.js"
 import { wear } from "../page/presenting.js"
 import { cloudPlane } from "./cloud_plane.js"
 import { planeGhost } from "./ghost.js"
+import { onDark, setDark } from "./looks.js"
 import { buildPlot, colourPlot } from "./plot.js"
+import { shootPlot } from "./shots.js"
 import { Source } from "./sources.js"
 import { sphere } from "./sphere.js"
 import { createStage } from "./stage.js"
@@ -32,7 +34,7 @@ export const gallery = {
   has: (name) => built.has(name),
   source: (name) => shown?.sources.get(name),
   get shown() { return shown },
-  build, enter, takeGhost, showGhost,
+  build, enter, takeGhost, showGhost, shoot,
 }
 
 // [cell, host]: caption, place for the picture, line about what is under the mouse.
@@ -57,10 +59,10 @@ function colour(scene) {
   for (const plot of scene.plots) colourPlot(plot, style.color, muted)
 }
 
-// The pictures of a scene that the server has described, not seen yet: {name, grid, cells, plots, sources}.
+// The pictures of a scene that the server has described, not seen yet: {name, grid, cells, plots, sources, …}.
 async function build(description) {
   const grid = element("div", { className: "gallery" })
-  const scene = { name: description.name, grid, sources: new Map(), cells: [], plots: [], ghosts: [], painted: false }
+  const scene = { name: description.name, grid, sources: new Map(), cells: [], plots: [], ghosts: [], shots: new Map(), painted: false }
   const places = description.pictures.map((picture) => {
     const [cell, host] = cellOf(picture)
     grid.append(cell)
@@ -78,11 +80,14 @@ async function build(description) {
   shelf.append(grid)
   stage.place(scene)
   for (const [host, picture] of places) {
-    const ghost = KINDS[picture.kind]?.(host, picture, source, signal, () => shown === scene)
-    if (ghost) scene.ghosts.push(ghost)
+    const drawn = KINDS[picture.kind]?.(host, picture, source, signal, () => shown === scene)
+    if (drawn === undefined) continue
+    scene.shots.set(picture.name, drawn.shoot)
+    if (drawn.take) scene.ghosts.push(drawn)
   }
   scene.plots = await Promise.all(places.filter(([, { kind }]) => kind === "plot")
     .map(([host, picture]) => buildPlot(host, picture, source, signal)))
+  for (const plot of scene.plots) scene.shots.set(plot.model.name, (side) => shootPlot(plot, side))
   scene.ghosts.push(...scene.plots.map(planeGhost))
   colour(scene)
   stage.size(scene)
@@ -100,6 +105,17 @@ function takeGhost() {
 // Of another scene there is nothing to be seen; null: of none.
 function showGhost(taken) {
   shown.ghosts.forEach((ghost, i) => ghost.show(taken?.scene === shown ? taken.parts[i] : null))
+}
+
+// Those in sight as they are printed, so many pixels wide: [[title, caption, canvas], …].
+function shoot(side) {
+  const wasDark = onDark()
+  setDark(false)
+  const shots = shown.cells.filter((cell) => cell.checkVisibility()).map((cell) => [
+    cell.querySelector(".title").textContent, cell.querySelector(".said").textContent, shown.shots.get(cell.dataset.name)(side)])
+  setDark(wasDark)
+  colour(shown)
+  return shots
 }
 
 // Show the pictures of this scene in place of those on show.

@@ -4,6 +4,14 @@ import { frameCanvas } from "./frame_canvas.js"
 
 export const FAINT = 0.4
 
+// The canvases of a plot from the back to the front: Bokeh's layers and ours between them, but no ghost.
+export function layersOf(plot) {
+  const { primary, overlays } = plot.canvas_view
+  const layers = [...primary.el.parentNode.children]
+  return layers.slice(0, layers.indexOf(overlays.el) + 1).filter((layer) => (
+    layer instanceof HTMLCanvasElement && layer.width > 0 && !layer.classList.contains("ghost")))
+}
+
 // Of the lines and points of a Bokeh plot, as they are painted: {take() → what is on show, show(that, or null)}.
 export function planeGhost(plot) {
   let canvas = null
@@ -19,7 +27,7 @@ export function planeGhost(plot) {
 
   return {
     take() {
-      const { primary, overlays } = plot.canvas_view
+      const { primary } = plot.canvas_view
       const { x_range: x, y_range: y } = plot.model
       const { x0, y0, x1, y1 } = plot.frame.bbox
       // Folded, or of a window without room.
@@ -29,12 +37,10 @@ export function planeGhost(plot) {
       const [width, height] = [x1 - x0, y1 - y0].map((side) => Math.ceil(ratio * side))
       Object.assign(sheet, { width, height })
       const paper = sheet.getContext("2d")
-      // Bokeh's layers and what lies between them, but no other ghost.
-      const layers = [...primary.el.parentNode.children]
-      for (const layer of layers.slice(layers.indexOf(primary.el), layers.indexOf(overlays.el) + 1)) {
-        if (layer instanceof HTMLCanvasElement && layer.width > 0 && !layer.classList.contains("ghost")) {
-          paper.drawImage(layer, ratio * x0, ratio * y0, width, height, 0, 0, width, height)
-        }
+      // What fills the frame under Bokeh's own would hide the state on show.
+      const layers = layersOf(plot)
+      for (const layer of layers.slice(layers.indexOf(primary.el))) {
+        paper.drawImage(layer, ratio * x0, ratio * y0, width, height, 0, 0, width, height)
       }
       return { sheet, x: [x.start, x.end], y: [y.start, y.end] }
     },

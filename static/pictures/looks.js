@@ -28,10 +28,11 @@ export function isDark(text) {
 export function setDark(value) {
   if (value === dark) return
   dark = value
-  for (const [name, ...shades] of SHADES) {
-    document.documentElement.style.setProperty(`--${name}`, shades[dark ? 1 : 0])
-  }
+  for (const [name, shade] of shadesOf(dark)) document.documentElement.style.setProperty(`--${name}`, shade)
 }
+
+// [name, colour] of all, on a dark page or a light one.
+export const shadesOf = (isDarkPage) => SHADES.map(([name, ...shades]) => [name, shades[isDarkPage ? 1 : 0]])
 
 // "#rrggbb" or "#rrggbbaa" of "theme.py" → as it is on this page.
 export function shade(colour) {

@@ -231,6 +231,7 @@ export function sphere(el, options, source, signal, isShown) {
   const watched = [options.name, ...Object.keys(options.tracks), options.clouds, options.attitude]
   for (const name of watched) if (name !== undefined) source(name).watch(request, signal)
   return {
+    shoot: sheet.shoot,
     take: () => Object.entries(options.tracks).map(([name, look]) => [look, columns(name)])
       .filter(([, track]) => track !== null && track[0].length > 1),
     show(what) {

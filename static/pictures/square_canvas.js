@@ -4,10 +4,11 @@ import { listen } from "../page/bus.js"
 import { element } from "../page/mount.js"
 import { zoom } from "../page/presenting.js"
 import { isDark, setDark } from "./looks.js"
+import { shootSquare } from "./shots.js"
 
 // paint(ctx, {size, ratio, text, dark}): the side in device pixels, their number for each of the units in which lines and
 // letters are measured, the colour of text, whether that is the lighter one of text and page.  A unit is a pixel of CSS,
-// but larger in present mode.  `width` is the side in pixels of CSS.
+// but larger in present mode.  {canvas, width: the side in pixels of CSS, request(), shoot(side)}.
 export function squareCanvas(el, properties, paint, signal) {
   const canvas = element("canvas", properties)
   el.append(canvas)
@@ -35,6 +36,9 @@ export function squareCanvas(el, properties, paint, signal) {
     requested = true
     requestAnimationFrame(draw)
   }
+
+  // As it is printed, `side` pixels wide.
+  own.shoot = (side) => shootSquare(paint, side, zoom() * side / own.width)
 
   // With all the others of a state, rather than in the next frame.
   listen("paint", draw, signal)

@@ -107,9 +107,9 @@ def test_the_one_handle_says_drag_me_once_and_what_the_mouse_does_is_said_where_
     assert slider["y"] < sign["y"] + sign["height"] / 2 < slider["y"] + slider["height"]
     assert page.locator(".moves").inner_text() == scenes()["scattering"].moves
     # What can be dragged, clicked, boxed, turned.
-    for scene, picture, cursor, word in (("scattering", "curve", "move", "Drag"), ("scattering", "body", "grab", "turns"),
-                                         ("free-suslov", "omega", "pointer", "Click"),
-                                         ("rotation-number", "map", "crosshair", "box")):
+    for scene, picture, cursor, word in (
+            ("scattering", "curve", "move", "Drag"), ("scattering", "body", "grab", "turns"),
+            ("free-suslov", "omega", "pointer", "Click"), ("rotation-number", "map", "crosshair", "box")):
         if explorer.page.evaluate("document.documentElement.dataset.scene") != scene:
             explorer.change(lambda name: page.evaluate("name => hess.tell('scene', name)", name), scene)
         box = explorer.picture(picture).locator(".host").bounding_box()

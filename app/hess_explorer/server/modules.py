@@ -1,4 +1,4 @@
-"""The JavaScript modules of the page, under a URL that changes when they do."""
+"""The JavaScript modules of the page and the styles of what is printed, under a URL that changes when they do."""
 
 from __future__ import annotations
 

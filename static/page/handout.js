@@ -1,0 +1,82 @@
+// What is printed: a handout of the state on show, with its pictures, its numbers in a table, its text, and its link as a
+// QR code, in place of the page.
+
+import { gallery } from "../pictures/gallery.js"
+import { shadesOf } from "../pictures/looks.js"
+import { listen, tell } from "./bus.js"
+import { linkTo } from "./embedding.js"
+import { element } from "./mount.js"
+import { qrCode } from "./qr.js"
+
+// Pixels of a picture that is printed 88 mm wide: 340 to an inch.
+const SIDE = 1180
+const PLAYED = "Time t"
+
+const styles = new URL("handout.css", import.meta.url).href
+
+// [[name, value as text], …] of all controls; `values` as "controls.js" gets them.
+function numbersOf({ controls }, values, t) {
+  const text = (value) => (Array.isArray(value) ? String(Number(value[0].toPrecision(12))).replace("-", "−") : value)
+  return [...controls.filter(({ name }) => values[name]?.[4] !== true)
+    .map(({ name, label }) => [label, text(values[name])]), ...(t === null ? [] : [[PLAYED, t.toFixed(3)]])]
+}
+
+function figureOf([title, said, canvas]) {
+  return element("figure", {}, canvas, element("figcaption", {}, element("strong", { textContent: title }), ` ${said}`))
+}
+
+function legendOf({ legend }, signs) {
+  const box = element("div", { innerHTML: legend })
+  const there = new Set(signs.split(","))
+  for (const [i, entry] of box.querySelectorAll(".legend li").entries()) entry.hidden = !there.has(String(i))
+  return box
+}
+
+// now() → {scene, texts, controls}: what has been said of the state on show.
+export function createHandout(now, signal) {
+  let sheet = null
+  let moment = 0
+
+  const link = element("link", { rel: "stylesheet", media: "print", href: styles })
+  document.head.append(link)
+  signal.addEventListener("abort", () => link.remove())
+
+  function put(code) {
+    const { scene, texts, controls } = now()
+    const url = linkTo()
+    const t = gallery.source("data-orbit") === undefined ? null : moment
+    const rows = numbersOf(scene, controls, t).map(([name, value]) => element("tr", {},
+      element("th", { scope: "row", textContent: name }), element("td", { textContent: value })))
+    sheet?.remove()
+    sheet = element("article", { className: "handout", hidden: true },
+      element("header", {},
+        element("div", {}, element("h1", { textContent: scene.title }), element("a", { href: url, textContent: url })),
+        element("div", { className: "code", innerHTML: code })),
+      element("div", { className: "pictures" }, ...gallery.shoot(SIDE).map(figureOf)),
+      legendOf(scene, texts.signs ?? ""),
+      element("div", { className: "numbers" }, element("table", {}, element("tbody", {}, ...rows)),
+        element("p", { textContent: [texts.derived, texts.notes].filter(Boolean).join("\n\n") })),
+      element("div", { className: "words", innerHTML: scene.words }))
+    // Legends and drawings ask for colours by name.
+    for (const [name, shade] of shadesOf(false)) sheet.style.setProperty(`--${name}`, shade)
+    document.body.append(sheet)
+  }
+
+  listen("time", ({ t }) => { moment = t }, signal)
+  listen("print", async () => {
+    tell("address")
+    put((await qrCode(linkTo())).svg)
+    window.print()
+  }, signal)
+  document.addEventListener("keydown", (event) => {
+    if (event.defaultPrevented || !(event.ctrlKey || event.metaKey) || event.shiftKey || event.altKey || event.key !== "p") return
+    event.preventDefault()
+    tell("print")
+  }, { signal })
+  // From the browser's own menu, which waits for nobody: the link, without its code.
+  window.addEventListener("beforeprint", () => { if (sheet === null && now().scene !== null) put("") }, { signal })
+  window.addEventListener("afterprint", () => {
+    sheet?.remove()
+    sheet = null
+  }, { signal })
+}

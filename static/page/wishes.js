@@ -1,0 +1,34 @@
+// What the user asks of the page itself rather than of the state: its link, its theme, the full screen, present mode.
+
+import { listen, tell } from "./bus.js"
+import { isPresenting, present } from "./presenting.js"
+
+// Only a page by https, or of this machine, may write to the clipboard: `instead` is said where it may not.
+async function copy(text, instead) {
+  try {
+    await navigator.clipboard.writeText(text)
+    return "Copied"
+  } catch {
+    return instead
+  }
+}
+
+export function grantWishes({ address, page }, signal) {
+  const grant = (name, wish) => listen(name, wish, signal)
+  grant("link", async () => {
+    // The link of what is on the screen, not of what the address bar has come to.
+    address.writeNow()
+    tell("copied", { text: null, said: await copy(window.location.href, "It is in the address bar") })
+  })
+  grant("address", address.writeNow)
+  grant("copy", async (text) => tell("copied", { text, said: await copy(text, "Copy it by hand") }))
+  grant("theme", page.turnTheme)
+  grant("present", () => {
+    present(!isPresenting())
+    tell("url", { present: isPresenting() ? "1" : "" })
+  })
+  grant("fullscreen", () => {
+    if (document.fullscreenElement === null) document.documentElement.requestFullscreen().catch(console.warn)
+    else document.exitFullscreen()
+  })
+}

@@ -1,0 +1,54 @@
+// The pictures as they are printed: dark on white in both themes, sharper than on a screen.
+
+import { atRatio, takeColours } from "./bokeh_private.js"
+import { layersOf } from "./ghost.js"
+import { colourPlot } from "./plot.js"
+
+const INK = "rgb(16, 16, 16)"
+
+function composed(plot, side, ratio) {
+  const { primary } = plot.canvas_view
+  const { x0, y0, x1, y1 } = plot.frame.bbox
+  const sheet = document.createElement("canvas")
+  sheet.width = side
+  sheet.height = Math.round(ratio * plot.bbox.height)
+  const paper = sheet.getContext("2d")
+  for (const layer of layersOf(plot)) {
+    paper.save()
+    if (layer !== primary.el) {
+      paper.beginPath()
+      paper.rect(ratio * x0, ratio * y0, ratio * (x1 - x0), ratio * (y1 - y0))
+      paper.clip()
+    }
+    paper.drawImage(layer, 0, 0, sheet.width, sheet.height)
+    paper.restore()
+  }
+  return sheet
+}
+
+// A plot of Bokeh's with our canvases in it, `side` pixels wide.  It is painted as it is printed, and left in the colours
+// of print: all in one task, so that nobody sees it.
+export function shootPlot(plot, side) {
+  const repaint = () => {
+    plot.canvas_view.resize()
+    plot.invalidate_painters()
+    plot.paint()
+  }
+  const ratio = side / plot.bbox.width
+  colourPlot(plot, INK, INK)
+  takeColours(plot)
+  const sheet = atRatio(ratio, () => {
+    repaint()
+    return composed(plot, side, ratio)
+  })
+  repaint()
+  return sheet
+}
+
+// What is painted by paint(ctx, {size, ratio, text, dark}), see "square_canvas.js".
+export function shootSquare(paint, side, ratio) {
+  const sheet = document.createElement("canvas")
+  sheet.width = sheet.height = side
+  paint(sheet.getContext("2d"), { size: side, ratio, text: INK, dark: false })
+  return sheet
+}
