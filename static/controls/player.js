@@ -171,6 +171,10 @@ export function render({ model, view, el }) {
     move(run.from)
     play(true)
   }, signal)
+  listen("follow", (time) => {
+    if (playing) play(false)
+    move(Number(time))
+  }, signal)
   // The player of the next scene goes on from here.
   listen("scene", () => { if (playing) play(false) }, signal)
 

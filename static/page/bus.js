@@ -9,8 +9,11 @@
 //                                         progress [done, of] or null, client {key: text}, paint,
 //                                         copied {text or null, said}, steps {undo: number, redo: number},
 //                                         presenting boolean, embedding, painted,
-//                                         lesson-read {lesson, step}, compared {title, isPinnedShown, rows}
+//                                         lesson-read {lesson, step},
+//                                         compared {title, isPinnedShown, rows, queries}
 // From the player to the pictures:         time {t, state}, fold name
+// From a picture, and to it:               turned [picture, azimuth, elevation], turn the same
+// From another page beside this one:       follow t, turn
 // From a lesson:                           reading on, look picture, run {from, to, seconds} or null
 
 const bus = new EventTarget()

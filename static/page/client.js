@@ -10,6 +10,7 @@ import { createCompare } from "./compare.js"
 import { embed, embedded } from "./embedding.js"
 import { createHandout } from "./handout.js"
 import { createHistory } from "./history.js"
+import { joinOther } from "./linked.js"
 import { lifetime } from "./mount.js"
 import { paint } from "./painting.js"
 import { createPage } from "./panel_page.js"
@@ -66,6 +67,7 @@ export function render({ model, view }) {
 
   grantWishes({ address, page }, signal)
   createHandout(() => latest, signal)
+  joinOther(signal)
 
   listen("url", (keys) => {
     Object.assign(own, keys)

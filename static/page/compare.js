@@ -39,13 +39,14 @@ export function createCompare(now, signal) {
   function comparison() {
     const here = now()
     const title = here.scene.name === pinned.scene.name ? null : pinned.scene.title
-    if (title !== null) return { title, isPinnedShown: false, rows: [] }
     const second = isPinnedShown() && other !== null ? other : here
+    const queries = [pinned.query, second.query]
+    if (title !== null) return { title, isPinnedShown: false, rows: [], queries }
     const names = new Map(here.scene.controls.map(({ name, symbol, label }) => [name, symbol ?? label]))
     const values = ({ query }) => [...new URLSearchParams(query)].filter(([key]) => !SAID_OF_THE_PAGE.has(key))
     const lines = ({ derived }) => derived.split("\n").filter(Boolean).map(parted)
     return {
-      title, isPinnedShown: isPinnedShown(),
+      title, isPinnedShown: isPinnedShown(), queries,
       rows: [...differences(values(pinned), values(second), names), ...differences(lines(pinned), lines(second), names)],
     }
   }

@@ -198,6 +198,7 @@ export function sphere(el, options, source, signal, isShown) {
     const wrapped = Math.atan2(Math.sin(azimuth), Math.cos(azimuth))
     turn = [wrapped, Math.max(-limit, Math.min(limit, elevation))]
     tell("url", { az: turn[0].toFixed(4), el: turn[1].toFixed(4) })
+    tell("turned", [options.name, ...turn])
     request()
     faint?.request()
   }
@@ -222,6 +223,9 @@ export function sphere(el, options, source, signal, isShown) {
     event.stopPropagation()
   })
 
+  listen("turn", ([name, ...turned]) => {
+    if (isShown() && name === options.name && turned.every(Number.isFinite)) rotate(...turned)
+  }, signal)
   listen("time", ({ t, state }) => {
     if (!isShown()) return
     point = inSpace || state?.g1 === undefined ? null : [state.g1, state.g2, state.g3]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from axe_playwright_python.sync_playwright import Axe
+
 from support.page import DEFAULTS, wait_frames
 from support.suslov_hess import assert_orbit
 
@@ -23,6 +25,11 @@ GHOSTS = """() => {
     return painted
   })
 }"""
+
+
+def assert_accessible(page):
+    found = Axe().run(page, options={"runOnly": ["wcag2a", "wcag2aa"]}).response
+    assert [(rule["id"], node["html"][:200]) for rule in found["violations"] for node in rule["nodes"]] == []
 
 
 def painted(explorer):
@@ -56,6 +63,41 @@ def test_while_a_slider_is_held_the_state_before_it_is_seen_and_no_longer(explor
     assert painted(explorer) == 0
 
 
+PAINTED_TURN = """async (canvas) => {
+  for (let i = 0; i < 4; i++) await new Promise(requestAnimationFrame)
+  return canvas.dataset.turn
+}"""
+READY = "() => document.documentElement.dataset.ready === 'true'"
+
+
+def assert_side_by_side(explorer):
+    """Both states in pages of their own, where time and rotation are the same."""
+    page = explorer.page
+    page.locator(".param-beside").click()
+    one, other = (page.locator("iframe.half").nth(i).element_handle().content_frame() for i in range(2))
+    for half, h in ((one, 1.5), (other, 1.8)):
+        half.wait_for_load_state()
+        half.wait_for_function(READY, timeout=120_000)
+        assert float(half.locator(".param-h input[type=text]").input_value()) == h
+        # All pictures at once.
+        assert half.locator(".picture:visible").count() == 4
+    assert_accessible(page)
+    for half, follower, t in ((one, other, "7.25"), (other, one, "3.5")):
+        half.locator("input.param-t").evaluate(
+            "(slider, t) => { slider.value = t; slider.dispatchEvent(new Event('input')) }", t)
+        follower.locator("output", has_text=f"t = {float(t):.2f}").wait_for()
+        half.locator("canvas.solid").press("ArrowLeft")
+        turn = half.locator("canvas.solid").evaluate(PAINTED_TURN)
+        follower.locator(f"canvas.solid[data-turn='{turn}']").wait_for()
+    one.locator(".param-play").click()
+    page.wait_for_timeout(300)
+    one.locator(".param-play").click()
+    assert float(other.locator("input.param-t").input_value()) > 3.5
+    assert other.locator(".player[role=group]").get_attribute("data-playing") != "true"
+    page.get_by_role("dialog", name="Side by side").get_by_role("button", name="Close").click()
+    assert page.locator("iframe.half").first.is_hidden()
+
+
 def test_a_pinned_state_is_seen_beside_others_named_in_numbers_and_gone_back_to(explorer):
     page = explorer.page
     pin, table = page.locator(".param-pin"), page.locator(".comparison")
@@ -71,6 +113,7 @@ def test_a_pinned_state_is_seen_beside_others_named_in_numbers_and_gone_back_to(
     # E = I₁₁ b h.
     one, two = (float(text.replace("−", "-")) for text in found["E = I₁₁ b h"])
     assert abs(two / one - 1.8 / 1.5) < 1e-5
+    assert_side_by_side(explorer)
     # There and back, by the key and the button.
     explorer.change(page.keyboard.press, "c")
     assert_orbit(explorer, DEFAULTS)

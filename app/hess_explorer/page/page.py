@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 from typing import Any
-from urllib.parse import parse_qsl, urlencode
+from urllib.parse import urlencode
 
 import panel as pn
 import panel_material_ui as pmui
@@ -27,7 +27,7 @@ from hess_explorer.page.components import (
 )
 from hess_explorer.page.description import describe_lesson
 from hess_explorer.page.session import Session, linked
-from hess_explorer.protocol.parameters import CLIENT, Choice, Names, Number, decode, encode
+from hess_explorer.protocol.parameters import CLIENT, Choice, Link, Names, Number
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 
@@ -71,25 +71,20 @@ def _query() -> str:
 
 def _page(query: str, own: Lesson | None) -> pmui.Page:
     lessons = {own.name: own, **shipped()} if own else dict(shipped())
-    given = dict(parse_qsl(query))
-    if own and not {"scene", "lesson"} & given.keys():
-        query = urlencode([("lesson", own.name), *given.items()])
-    lesson = Choice("lesson", "Lesson", ("", *lessons), "")
-    read, lesson_notes = decode(query, (lesson,))
-    reading = lessons.get(str(read["lesson"]))
+    link = Link(query)
+    first = own.name if own and "scene" not in link.given else ""
+    reading = lessons.get(str(link.value(Choice("lesson", "Lesson", ("", *lessons), first))))
     most = len(reading.steps) if reading else 1
-    read, step_notes = decode(query, (Number("step", "step", "Step", 1.0, (1.0, most), 1.0, (1.0, most)),))
-    at = int(float(read["step"]))
-    if reading and "scene" not in given:
+    at = int(float(link.value(Number("step", "step", "Step", 1.0, (1.0, most), 1.0, (1.0, most)))))
+    if reading and "scene" not in link.given:
         # A link to a step alone is one to its state.
         place = reading.steps[at - 1].at
-        query = f"{query}&{encode(place.scene, place.values)}"
-    scene, state, notes = linked(query, next(iter(scenes())))
+        scene, state = scenes()[place.scene], dict(place.values)
+    else:
+        scene, state = linked(link, next(iter(scenes())))
     large = Names("large", "Enlarged pictures", scene.pictures, most=2)
     embedded = _embedded(scene)
-    looks, more = decode(query, (*CLIENT, large, THEME, PRESENT, EMBED, *embedded))
-    # Of the link as a whole there is one note.
-    notes = list(dict.fromkeys([*notes, *more]))
+    looks = link.values((*CLIENT, large, THEME, PRESENT, EMBED, *embedded))
     kept = {spec.name: float(looks[spec.name]) for spec in CLIENT}
     kept["speed"] = min(Player.SPEEDS, key=lambda speed: abs(speed - kept["speed"]))
     client = {**{name: repr(value) for name, value in kept.items()}, large.name: str(looks[large.name]),
@@ -132,7 +127,7 @@ def _page(query: str, own: Lesson | None) -> pmui.Page:
         busy_indicator=None,
         sx=BARE,
     )
-    session = Session(ready, scene, state, list(dict.fromkeys([*lesson_notes, *step_notes, *notes])), lessons, pictures)
+    session = Session(ready, scene, state, link.notes, lessons, pictures)
     pn.state.on_session_destroyed(lambda _: session.background.stop())
     # The page's own busy flag is sent with every event and makes Panel walk through all models each
     # time (100 ms); `data-ready` says the same.

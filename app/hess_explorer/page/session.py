@@ -21,7 +21,7 @@ from hess_explorer.page.components import Ready
 from hess_explorer.page.controls import show_controls
 from hess_explorer.page.description import describe, describe_lesson
 from hess_explorer.protocol.expressions import NotANumber, evaluate
-from hess_explorer.protocol.parameters import Choice, Number, Places, Value, Values, decode, encode
+from hess_explorer.protocol.parameters import Choice, Link, Number, Places, Value, Values, encode
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Report, Scene
@@ -40,13 +40,10 @@ def _float(value: Any) -> float:
         return math.nan
 
 
-def linked(query: str, here: str) -> tuple[Scene[Any], dict[str, Value], list[str]]:
-    """The scene that a query names, else the one of the name `here`; its values there; notes on what was changed."""
-    choice = Choice("scene", "Scene", tuple(scenes()), here)
-    scene = scenes()[str(decode(query, (choice,))[0]["scene"])]
-    values, notes = decode(query, (choice, *scene.specs))
-    del values["scene"]
-    return scene, values, notes
+def linked(link: Link, here: str) -> tuple[Scene[Any], dict[str, Value]]:
+    """The scene that a link names, else the one of the name `here`, and its values there."""
+    scene = scenes()[str(link.value(Choice("scene", "Scene", tuple(scenes()), here)))]
+    return scene, link.values(scene.specs)
 
 
 class Session:
@@ -158,7 +155,9 @@ class Session:
 
     def _restore(self, query: str) -> bool:
         """The state of a link, or of a step that is undone; whether that is in another scene."""
-        scene, values, notes = linked(query, self.scene.name)
+        link = Link(query)
+        scene, values = linked(link, self.scene.name)
+        notes = link.notes
         if scene is self.scene:
             self.change(values)
             self._link_notes, self._dirty = notes, self._dirty or bool(notes)

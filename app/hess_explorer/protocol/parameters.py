@@ -13,7 +13,7 @@ from typing import Literal, get_args
 from urllib.parse import parse_qsl, urlencode
 
 __all__ = [
-    "CLIENT", "GROUPS", "MAX_QUERY", "VERSION", "Choice", "Group", "Names", "Number", "Places", "Spec", "Value",
+    "CLIENT", "GROUPS", "MAX_QUERY", "VERSION", "Choice", "Group", "Link", "Names", "Number", "Places", "Spec", "Value",
     "Values", "decode", "encode", "places", "written",
 ]
 
@@ -161,19 +161,37 @@ def encode(scene: str, values: Values) -> str:
     return urlencode([("v", VERSION), ("scene", scene), *((name, _text(value)) for name, value in values.items())])
 
 
+class Link:
+    """A query from outside, read once.
+
+    notes : what had to be changed in it, and what is wrong with all of it, each once; given : its keys and their texts.
+    """
+
+    def __init__(self, query: str) -> None:
+        self.given: Mapping[str, str] = {}
+        self.notes: list[str] = []
+        if len(query) > MAX_QUERY:
+            self.notes.append(f"The link was longer than {MAX_QUERY} characters and was not read.")
+            return
+        self.given = dict(parse_qsl(query.lstrip("?"), keep_blank_values=True))
+        if self.given.get("v", VERSION) != VERSION:
+            self.notes.append("The link is of another version of this page: what it says may mean something else here.")
+
+    def value(self, spec: Spec) -> Value:
+        """The value of a parameter, its default where the link says nothing."""
+        if spec.name not in self.given:
+            return spec.default
+        value, note = spec.read(self.given[spec.name])
+        if note:
+            self.notes.append(note)
+        return value
+
+    def values(self, specs: Sequence[Spec]) -> dict[str, Value]:
+        """The values of all of these."""
+        return {spec.name: self.value(spec) for spec in specs}
+
+
 def decode(query: str, specs: Sequence[Spec]) -> tuple[dict[str, Value], list[str]]:
     """The values of all specs from a query, defaults where it has none, and notes on what was changed."""
-    values: dict[str, Value] = {spec.name: spec.default for spec in specs}
-    notes: list[str] = []
-    if len(query) > MAX_QUERY:
-        return values, [f"The link was longer than {MAX_QUERY} characters and was not read."]
-    given = dict(parse_qsl(query.lstrip("?"), keep_blank_values=True))
-    if given.get("v", VERSION) != VERSION:
-        notes.append("The link is of another version of this page: what it says may mean something else here.")
-    for spec in specs:
-        if spec.name in given:
-            value, note = spec.read(given[spec.name])
-            values[spec.name] = value
-            if note:
-                notes.append(note)
-    return values, notes
+    link = Link(query)
+    return link.values(specs), link.notes
