@@ -3,36 +3,40 @@
 import { listen, tell } from "../page/bus.js"
 import { element, lifetime } from "../page/mount.js"
 import { isPresenting, wear } from "../page/presenting.js"
+import { moreMenu } from "./more.js"
 import { sceneMenu } from "./scenes.js"
 import { shareDialog } from "./share.js"
 
+const MORE = "M5 10a2 2 0 1 0 0 4 2 2 0 0 0 0-4zm7 0a2 2 0 1 0 0 4 2 2 0 0 0 0-4zm7 0a2 2 0 1 0 0 4 2 2 0 0 0 0-4z"
 const MENU = "M4 6h16v2H4zm0 5h16v2H4zm0 5h16v2H4z"
 
 // In groups; each tells its name.  isDrawn: only where clicks and boxes are drawn;
-// isStep: enabled where there is such a step.
+// isStep: enabled where there is such a step, `without` says why it is not; isFar: on a phone in the menu More.
 const TOOLS = [
   [
     { name: "undo", label: "Undo", title: "Take back the last change (Ctrl+Z)", isStep: true,
+      without: "nothing has been changed yet",
       icon: "M9 5 3 10l6 5v-4h5a3.5 3.5 0 0 1 0 7H8v2h6a5.5 5.5 0 0 0 0-11H9z" },
     { name: "redo", label: "Redo", title: "The change that was taken back (Ctrl+Shift+Z)", isStep: true,
+      without: "nothing has been taken back",
       icon: "M15 5l6 5-6 5v-4h-5a3.5 3.5 0 0 0 0 7h6v2h-6a5.5 5.5 0 0 1 0-11h5z" },
-    { name: "clear", label: "Clear", title: "Without all clicks and boxes", isDrawn: true,
+    { name: "clear", label: "Clear", title: "Without all clicks and boxes", isDrawn: true, isFar: true,
       icon: "M6 4.6 12 10.6 18 4.6 19.4 6 13.4 12 19.4 18 18 19.4 12 13.4 6 19.4 4.6 18 10.6 12 4.6 6z" },
     { name: "reset", label: "Reset", title: "Back to the first state of this scene",
       icon: "M12 5a7 7 0 1 1-6.7 9h2.1A5 5 0 1 0 12 7v3.5L6.5 6 12 1.5z" },
   ],
   [
-    { name: "pin", label: "Pin", title: "Keep this state, to compare others with it", isPin: true,
+    { name: "pin", label: "Pin", title: "Keep this state, to compare others with it", isPin: true, isFar: true,
       icon: "M9 3h6v2l-1 1v5l3 3v2h-4v5h-2v-5H7v-2l3-3V6L9 5z" },
     { name: "share", label: "Share", title: "Link to all that is on the screen, QR code, parts for another page",
       icon: "M4 12a4 4 0 0 1 4-4h3v2H8a2 2 0 0 0 0 4h3v2H8a4 4 0 0 1-4-4zm5-1h6v2H9zm4-3h3a4 4 0 0 1 0 8h-3v-2h3a2 2 0 0 0 0-4h-3z" },
-    { name: "print", label: "Print", title: "A handout: pictures, numbers, text, link and QR code (Ctrl+P)",
+    { name: "print", label: "Print", title: "A handout: pictures, numbers, text, link and QR code (Ctrl+P)", isFar: true,
       icon: "M7 3h10v5H7zm-3 6h16a1 1 0 0 1 1 1v7h-4v4H7v-4H3v-7a1 1 0 0 1 1-1zm5 6v4h6v-4z" },
-    { name: "present", label: "Present", title: "For a lecture hall: large type and lines, few controls; and back (P)",
+    { name: "present", label: "Present", title: "For a lecture hall: large type and lines, few controls; and back (P)", isFar: true,
       icon: "M3 4h18v2h-1v10h-7v1.6l3.4 3-1.3 1.4L12 19.6 8.9 22l-1.3-1.4 3.4-3V16H4V6H3zm3 2v8h12V6z" },
-    { name: "fullscreen", label: "Full screen", title: "Full screen, and back (F)",
+    { name: "fullscreen", label: "Full screen", title: "Full screen, and back (F)", isFar: true,
       icon: "M5 5h5v2H7v3H5zm9 0h5v5h-2V7h-3zM5 14h2v3h3v2H5zm12 0h2v5h-5v-2h3z" },
-    { name: "theme", label: "Theme", title: "Light or dark",
+    { name: "theme", label: "Theme", title: "Light or dark", isFar: true,
       icon: "M12 3a9 9 0 1 0 0 18 9 9 0 0 0 0-18zm0 2v14a7 7 0 0 1 0-14z" },
   ],
 ]
@@ -60,16 +64,21 @@ export function render({ model, view, el }) {
   open.addEventListener("click", menu.open)
 
   const drawn = []
+  const far = []
   const steps = new Map()
   const groups = TOOLS.map((group) => element("div", { className: "group" }, ...group.map((one) => {
     const button = tool(one)
     if (one.isDrawn) drawn.push(button)
-    if (one.isStep) steps.set(one.name, button)
+    if (one.isFar) far.push(button)
+    if (one.isStep) steps.set(one.name, [button, one])
     if (one.name === "present") sayPresenting(button)
     if (one.isPin) listen("compared", (compared) => button.setAttribute("aria-pressed", String(compared !== null)), signal)
     return button
   })))
-  el.append(element("div", { className: "tools" }, open, heading, element("span", { className: "room" }), ...groups), menu.dialog, share.dialog)
+  const more = moreMenu(far, icon(MORE), signal)
+  el.append(
+    element("div", { className: "tools" }, open, heading, element("span", { className: "room" }), ...groups, ...more),
+    menu.dialog, share.dialog)
 
   function sayPresenting(button) {
     const say = (on) => button.setAttribute("aria-pressed", String(on))
@@ -83,7 +92,12 @@ export function render({ model, view, el }) {
     menu.show(scene.name)
     share.show(scene)
   }
-  const enable = (counts) => { for (const [name, button] of steps) button.disabled = counts[name] === 0 }
+  const enable = (counts) => {
+    for (const [name, [button, { title, without }]] of steps) {
+      button.disabled = counts[name] === 0
+      button.title = button.disabled ? `Disabled: ${without}` : title
+    }
+  }
   enable({ undo: 0, redo: 0 })
   listen("steps", enable, signal)
   wear(el, signal)

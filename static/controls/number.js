@@ -6,6 +6,7 @@ import { element } from "../page/mount.js"
 import { animation } from "./animation.js"
 
 const IDLE = "Disabled: under the choices made it changes nothing."
+const TYPE = "Type an exact value or an expression such as pi/3, and press Enter."
 
 // A label that is dragged across so many pixels goes from end to end, where steps are not longer.
 const FULL_DRAG = 400
@@ -28,7 +29,7 @@ export function scaleOf([own, end], low, high, value) {
 export function number({ name, label, symbol, help, range }) {
   const title = element("span", { className: "label scrub", textContent: label, title: help })
   const box = element("input", {
-    type: "text", inputMode: "decimal", spellcheck: false, title: `${help} Type an exact value or an expression such as pi/3, and press Enter.`,
+    type: "text", inputMode: "decimal", spellcheck: false, title: `${help} ${TYPE}`,
     "aria-label": `${symbol}, exact value`, className: "exact",
   })
   const slider = element("input", {
@@ -119,6 +120,8 @@ export function number({ name, label, symbol, help, range }) {
     title.classList.toggle("scrub", !idle)
     const says = idle ? `${IDLE} ${help}` : help
     title.title = slider.title = says
+    box.title = idle ? says : `${help} ${TYPE}`
+    sway.title = idle ? says : `Move ${symbol} to and fro`
     slider.setAttribute("aria-description", says)
   }
   let track = ""

@@ -152,9 +152,9 @@ export function render({ model, view, el }) {
   // Space plays whatever has the focus but a text box; arrows step where they mean nothing else.
   const onKey = (event) => {
     const target = event.composedPath()[0]
-    if (isTaken(event)) return
+    if (isTaken(event) || toggle.hidden) return
     if (event.key === " ") {
-      if (!event.repeat && !toggle.hidden) play(!playing)
+      if (!event.repeat) play(!playing)
     } else if (target instanceof HTMLElement && target.closest(OWN_ARROWS)) return
     else if (event.key === "ArrowLeft") step(-1)
     else if (event.key === "ArrowRight") step(1)
@@ -163,7 +163,9 @@ export function render({ model, view, el }) {
   }
   document.addEventListener("keydown", onKey, { signal })
   // A button would be pressed when the key is let go.
-  document.addEventListener("keyup", (event) => { if (event.key === " " && !isTaken(event)) event.preventDefault() }, { signal })
+  document.addEventListener("keyup", (event) => {
+    if (event.key === " " && !isTaken(event) && !toggle.hidden) event.preventDefault()
+  }, { signal })
   listen("run", (wanted) => {
     play(false)
     if (wanted === null) return

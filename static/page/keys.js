@@ -11,6 +11,6 @@ export function isTyped(event) {
 export function isTaken(event) {
   if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey) return true
   // A menu finds its options by their letters.
-  const typed = event.key.length === 1 && event.key !== " " ? `dialog, select, ${TEXT_BOX}` : `dialog, ${TEXT_BOX}`
+  const typed = event.key.length === 1 && event.key !== " " ? `dialog, [popover], select, ${TEXT_BOX}` : `dialog, [popover], ${TEXT_BOX}`
   return event.composedPath().some((item) => item instanceof HTMLElement && item.matches(typed))
 }

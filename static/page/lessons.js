@@ -71,6 +71,7 @@ export function render({ model, view, el }) {
     const step = lesson.steps[at]
     question = questionOf(step)
     const { prediction } = step
+    const isLast = at === lesson.steps.length - 1
     const [said, buttons] = [element("output", { className: "said" }), element("div", { className: "row" })]
     if (prediction) {
       guess = createGuess(prediction, (text) => { said.textContent = text })
@@ -94,8 +95,12 @@ export function render({ model, view, el }) {
         element("span", { className: "count", textContent: `${at + 1} / ${lesson.steps.length}` }), time),
       title, html("div", "text", step.text), buttons, said, ...question.parts,
       element("div", { className: "row" },
-        button("back-a-step", "Back", () => turnTo(at - 1), { disabled: at === 0, title: "Back (Page Up)" }),
-        button("next-step", "Next", next, { disabled: at === lesson.steps.length - 1, title: "What comes next (Page Down)" }),
+        button("back-a-step", "Back", () => turnTo(at - 1), {
+          disabled: at === 0, title: at === 0 ? "Disabled: this is the first step" : "Back (Page Up)",
+        }),
+        button("next-step", "Next", next, {
+          disabled: isLast, title: isLast ? "Disabled: this is the last step" : "What comes next (Page Down)",
+        }),
         button("leave-lesson", "Leave the lesson", leave)))
     for (const item of [buttons, said]) item.hidden = !prediction && !(item === buttons && step.animation)
     tell("url", { lesson: lesson.name, step: String(at + 1) })

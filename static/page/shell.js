@@ -103,6 +103,7 @@ export function render({ model, view, el }) {
     stage, text, box("foot", "notes", "status"), box("unseen", "ready"), opener(), spot(signal))
   sayWhatMoves(stage, text.firstChild, signal)
   wear(el, signal)
+  listen("reading", (on) => el.classList.toggle("in-lesson", on), signal)
   document.addEventListener("keydown", (event) => {
     const wish = { f: "fullscreen", p: "present" }[event.key.toLowerCase()]
     if (isTaken(event) || wish === undefined) return
