@@ -57,6 +57,13 @@ function colour(scene) {
   const style = getComputedStyle(shelf)
   const muted = style.getPropertyValue("--mui-palette-text-secondary") || style.color
   for (const plot of scene.plots) colourPlot(plot, style.color, muted)
+  scene.coloured = style.color
+}
+
+// The theme turns the colour of text some time after its name.
+function followTheme() {
+  const { color } = getComputedStyle(shelf)
+  for (const scene of built.values()) if (scene.coloured !== color) colour(scene)
 }
 
 // The pictures of a scene that the server has described, not seen yet: {name, grid, cells, plots, sources, …}.
@@ -167,10 +174,11 @@ export function render({ model, view, el }) {
   stage = createStage(shelf, () => shown, signal)
   sayDragMe(besideLayer, signal)
   listen("texts", showTexts, signal)
-  const theme = new MutationObserver(() => { for (const scene of built.values()) colour(scene) })
+  const theme = new MutationObserver(followTheme)
   for (const item of [document.documentElement, document.body]) {
-    theme.observe(item, { attributes: true, attributeFilter: ["data-theme", "class"] })
+    theme.observe(item, { attributes: true, attributeFilter: ["data-theme", "class", "style"] })
   }
+  listen("paint", followTheme, signal)
   signal.addEventListener("abort", () => theme.disconnect())
   stand()
 }
