@@ -17,7 +17,7 @@ const TOOLS = [
     { name: "undo", label: "Undo", title: "Take back the last change (Ctrl+Z)", isStep: true,
       without: "nothing has been changed yet",
       icon: "M9 5 3 10l6 5v-4h5a3.5 3.5 0 0 1 0 7H8v2h6a5.5 5.5 0 0 0 0-11H9z" },
-    { name: "redo", label: "Redo", title: "The change that was taken back (Ctrl+Shift+Z)", isStep: true,
+    { name: "redo", label: "Redo", title: "The change that was taken back (Ctrl+Shift+Z)", isStep: true, isFar: true,
       without: "nothing has been taken back",
       icon: "M15 5l6 5-6 5v-4h-5a3.5 3.5 0 0 0 0 7h6v2h-6a5.5 5.5 0 0 1 0-11h5z" },
     { name: "clear", label: "Clear", title: "Without all clicks and boxes", isDrawn: true, isFar: true,

@@ -94,7 +94,7 @@ export function render({ model, view, el }) {
       element("div", { className: "row where" }, progress,
         element("span", { className: "count", textContent: `${at + 1} / ${lesson.steps.length}` }), time),
       title, html("div", "text", step.text), buttons, said, ...question.parts,
-      element("div", { className: "row" },
+      element("div", { className: "row steps" },
         button("back-a-step", "Back", () => turnTo(at - 1), {
           disabled: at === 0, title: at === 0 ? "Disabled: this is the first step" : "Back (Page Up)",
         }),

@@ -496,12 +496,19 @@ def test_keys_that_mean_something_where_the_focus_is_leave_the_player_alone(expl
     assert explorer.time == 0.0
     assert not explorer.playing
     # Space plays, whatever has the focus but a box; on the button itself it is a click, once.
-    for item in (explorer.slider("h"), explorer.menu("preset"), explorer.page.locator(".param-reset"),
-                 explorer.page.locator(".param-play")):
+    page = explorer.page
+    for item in (explorer.slider("h"), explorer.menu("preset"), page.locator(".param-reset"), page.locator(".param-play"),
+                 page.locator(".param-speed"), page.locator(".group > summary").first, page.locator(".corner:visible").first,
+                 page.locator(".param-pin"), page.locator(".lesson-menu > summary"), page.locator(".unfold").first,
+                 page.locator("canvas.solid:visible"), page.locator(".param-h .sway")):
         for playing in (True, False):
             item.press("Space")
             assert explorer.playing == playing
     assert explorer.shown("h")[0] == 1.51
+    # Neither was anything of them done.
+    assert page.locator(".comparison").is_hidden()
+    assert page.locator(".lesson-menu").get_attribute("open") is None
+    assert page.locator(".param-h .sway").get_attribute("aria-pressed") == "false"
 
 
 def test_the_motion_goes_on_along_the_new_orbit_when_a_slider_moves(explorer):

@@ -57,6 +57,23 @@ def distance(explorer, prediction, pixels):
     return np.mean([np.hypot(*(np.concatenate(drawn) - pixel).T).min() for pixel in pixels])
 
 
+def assert_given_in_present_mode(page, step):
+    """The step stays beside the pictures, all of the way on in sight, and is as accessible."""
+    page.keyboard.press("p")
+    page.wait_for_function("location.search.includes('present=1')")
+    title, picture = page.locator(".lesson .title"), page.locator(f".gallery:not(.away) .picture-{step.look}")
+    assert title.inner_text() == step.title
+    boxes = [item.bounding_box() for item in (title, page.locator(".param-next-step"), picture)]
+    for box in boxes:
+        assert 0 <= box["x"] < box["x"] + box["width"] <= 1600
+        assert 0 <= box["y"] < box["y"] + box["height"] <= 950
+    assert boxes[2]["x"] + boxes[2]["width"] <= boxes[0]["x"]
+    found = Axe().run(page, options={"runOnly": ["wcag2a", "wcag2aa"]})
+    assert found.violations_count == 0, found.generate_report()
+    page.keyboard.press("p")
+    page.wait_for_function("!location.search.includes('present')")
+
+
 def test_a_lesson_is_given_by_page_down_from_start_to_end(explorer):
     lesson, page = shipped()[NAME], explorer.page
     explorer.goto(f"/?lesson={NAME}")
@@ -85,6 +102,7 @@ def test_a_lesson_is_given_by_page_down_from_start_to_end(explorer):
         if number == 3:
             found = Axe().run(page, options={"runOnly": ["wcag2a", "wcag2aa"]})
             assert found.violations_count == 0, found.generate_report()
+            assert_given_in_present_mode(page, step)
         if number < len(lesson.steps):
             explorer.change(page.keyboard.press, "PageDown")
     # The end is the end; back is a step, and out of the lesson are the words.

@@ -373,6 +373,14 @@ def test_no_rule_of_wcag_is_broken(look_at, theme):
     tab.change(lambda: tab.slide(I22=0.5, I23=1.5))
     assert tab.page.locator(".text.notes").is_visible()
     assert_accessible(tab.page)
+    # With the menu of scenes; with a pinned state and another one.
+    tab.open_menu()
+    assert_accessible(tab.page)
+    tab.page.keyboard.press("Escape")
+    tab.page.locator(".param-pin").click()
+    tab.change(lambda: tab.slide(h=2.0))
+    assert_accessible(tab.page)
+    tab.page.locator(".param-unpin").click()
     tab.change(tell, tab.page, "reset")
 
 
@@ -413,7 +421,44 @@ def test_every_control_is_reached_by_the_tab_key(look_at):
               "param-speed", "solid", "param-scenes", "param-theme", "param-fullscreen", "corner",
               *(f"param-{name}" for name in SLIDERS)}
     assert wanted <= reached, wanted - reached
+    # None is cut off by the edge of its column.
+    right = page.locator("#controls").evaluate("item => item.getBoundingClientRect().left + item.clientWidth")
+    for item in page.locator("#controls select, #controls input").all():
+        box = item.bounding_box()
+        assert box["x"] + box["width"] <= right - 5
+    # Each that is disabled says why.
+    said = page.locator(":disabled").evaluate_all("items => items.map((item) => item.title)")
+    assert len(said) >= 2
+    assert all(title.startswith("Disabled: ") for title in said), said
     tab.fold_controls()
+
+
+@pytest.mark.parametrize("size", ["phone", "sideways"])
+def test_on_a_phone_tools_without_room_in_the_bar_are_in_a_menu(look_at, size):
+    page = look_at(HESS, size)
+    far = ("redo", "pin", "print", "present", "fullscreen", "theme")
+    assert not any(page.locator(f".param-{name}").is_visible() for name in far)
+    page.locator(".param-more").click()
+    for name in far:
+        box = page.locator(f".param-{name}").bounding_box()
+        assert min(box["width"], box["height"]) >= 44
+        assert 0 <= box["x"] < box["x"] + box["width"] <= SIZES[size][0]
+        assert 0 <= box["y"] < box["y"] + box["height"] <= SIZES[size][1]
+    assert_accessible(page)
+    page.locator(".param-present").click()
+    assert page.evaluate("document.documentElement.hasAttribute('data-present')")
+    assert page.locator(".param-pin").is_hidden()
+    # By keys alone, too.
+    page.locator(".param-more").press("Enter")
+    page.locator(".param-present").press("Enter")
+    assert not page.evaluate("document.documentElement.hasAttribute('data-present')")
+    # In a wider window they stand in the bar again, in their order.
+    page.set_viewport_size({"width": 1600, "height": 950})
+    page.locator(".param-print").wait_for()
+    assert page.locator(".param-more").is_hidden()
+    assert page.locator(".tools .label:visible").all_inner_texts() == [
+        "Undo", "Redo", "Reset", "Pin", "Share", "Print", "Present", "Full screen", "Theme"]
+    page.set_viewport_size(dict(zip(("width", "height"), SIZES[size], strict=True)))
 
 
 # --- Ticks -------------------------------------------------------------------------------------------
