@@ -497,10 +497,9 @@ def test_keys_that_mean_something_where_the_focus_is_leave_the_player_alone(expl
     assert not explorer.playing
     # Space plays, whatever has the focus but a box; on the button itself it is a click, once.
     page = explorer.page
-    for item in (explorer.slider("h"), explorer.menu("preset"), page.locator(".param-reset"), page.locator(".param-play"),
-                 page.locator(".param-speed"), page.locator(".group > summary").first, page.locator(".corner:visible").first,
-                 page.locator(".param-pin"), page.locator(".lesson-menu > summary"), page.locator(".unfold").first,
-                 page.locator("canvas.solid:visible"), page.locator(".param-h .sway")):
+    others = (".param-reset", ".param-play", ".param-speed", ".group > summary", ".corner:visible", ".param-pin",
+              ".lesson-menu > summary", ".unfold:visible", "canvas.solid:visible", ".param-h .sway")
+    for item in (explorer.slider("h"), explorer.menu("preset"), *(page.locator(name).first for name in others)):
         for playing in (True, False):
             item.press("Space")
             assert explorer.playing == playing
