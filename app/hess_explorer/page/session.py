@@ -13,13 +13,13 @@ from typing import Any
 
 from panel.io.document import unlocked
 
-from hess_explorer.compute.background import Background
-from hess_explorer.compute.cache import Task
 from hess_explorer.lessons import tries
 from hess_explorer.lessons.lesson import Lesson, Place
 from hess_explorer.page.components import Ready
 from hess_explorer.page.controls import show_controls
 from hess_explorer.page.description import describe, describe_lesson
+from hess_explorer.page.pieces import Pieces
+from hess_explorer.page.wanted import Wanted, as_float
 from hess_explorer.protocol.expressions import NotANumber, evaluate
 from hess_explorer.protocol.parameters import Choice, Link, Number, Places, Value, Values, encode
 from hess_explorer.protocol.wire import Wire
@@ -31,13 +31,6 @@ from hess_mechanics.errors import ModelError
 __all__ = ["Session", "linked"]
 
 logger = logging.getLogger("hess_explorer")
-
-def _float(value: Any) -> float:
-    """A number from the browser; NaN for whatever is none."""
-    try:
-        return float(value) if isinstance(value, int | float) else math.nan
-    except OverflowError:
-        return math.nan
 
 
 def linked(link: Link, here: str) -> tuple[Scene[Any], dict[str, Value]]:
@@ -64,15 +57,14 @@ class Session:
         self.ready = ready
         self._lessons = lessons
         self.wire = Wire()
-        self.background = Background()
+        self._pieces = Pieces()
+        self.background = self._pieces.background
         self._stages: dict[str, Stage[Any]] = {}
         self._described: set[str] = set()
         self._left: dict[str, Values] = {}
         self._own_instead = False
         self._held = False
         self._number = 0
-        self._progress: tuple[int, int] | None = None
-        self._followed: set[Task] = set()
         self._enter(scene, values, notes, pictures)
         self._draw()
         self._send(0)
@@ -81,9 +73,7 @@ class Session:
     def _enter(self, scene: Scene[Any], values: Values, notes: list[str],
                pictures: Collection[str] | None = None) -> None:
         self.scene = scene
-        self._specs = {spec.name: spec for spec in scene.specs}
-        self._wanted = scene.defaults() | {name: values[name] for name in self._specs if name in values}
-        self._link_notes = notes
+        self._wanted = Wanted(scene, values, notes)
         self._shown: Collection[str] = scene.open_pictures if pictures is None else pictures
         # The browser keeps the pictures of all scenes that it has seen, and a stage knows what it has drawn on them.
         if scene.name not in self._stages:
@@ -91,7 +81,7 @@ class Session:
             self._describe(scene.name)
         self.stage = self._stages[scene.name]
         self._dirty = True
-        self._stopped = False
+        self._pieces.resume()
 
     def _describe(self, name: str) -> None:
         """Give the browser what it needs to build the pictures of a scene, once."""
@@ -102,7 +92,7 @@ class Session:
     def _change_scene(self, scene: Scene[Any]) -> None:
         """Another scene as it was left (at first: in its own first state), with what was changed in this one and means
         the same there."""
-        wanted = self._wanted
+        wanted = self._wanted.values
         self._left[self.scene.name] = values = wanted
         # "Speed and accuracy" of a scene is of the very same state.
         self._own_instead = (scene.origin or scene.name) != (self.scene.origin or self.scene.name)
@@ -114,40 +104,24 @@ class Session:
 
     def change(self, values: Values) -> None:
         """The user wants these values."""
-        before = dict(self._wanted)
         # A note on what came before goes, also where the state stays.
-        self._dirty |= bool(self._link_notes)
-        self._link_notes = []
-        for name, value in values.items():
-            spec = self._specs.get(name)
-            if isinstance(spec, Number):
-                self._want(spec, _float(value))
-            elif spec is not None:
-                self._wanted[name], _ = spec.read(str(value))
-        if any(isinstance(spec, Choice) and self._wanted[name] != before[name] for name, spec in self._specs.items()):
-            for name, value in self.scene.carried(before, self._wanted).items():
-                spec = self._specs[name]
-                if name not in values and isinstance(spec, Number):
-                    self._want(spec, value)
-        self._stopped &= self._wanted == before
+        self._dirty |= bool(self._wanted.notes)
+        if self._wanted.change(values):
+            self._pieces.resume()
+            self._dirty = True
         # Also where the state stays but a control shows something else: it must be put right.
-        self._dirty |= self._wanted != before or any(self.values.get(name) != value for name, value in values.items())
+        self._dirty |= any(self.values.get(name) != value for name, value in values.items())
 
     def _evaluate(self, expressions: dict[Any, Any]) -> None:
         """The user wants what these texts are as numbers; what is wrong with one is said at its box."""
         for name, text in expressions.items():
-            if isinstance(self._specs.get(name), Number) and isinstance(text, str):
+            if isinstance(self._wanted.specs.get(name), Number) and isinstance(text, str):
                 try:
                     self.change({name: evaluate(text)})
                     # The box shows the number, also where it was that before.
                     self._dirty = True
                 except NotANumber as refusal:
                     self.wire.say(f"error-{name}", str(refusal))
-
-    def _want(self, spec: Number, value: float) -> None:
-        self._wanted[spec.name], note = spec.admit(value)
-        if note:
-            self._link_notes.append(note)
 
     def reset(self) -> None:
         """Back to the scene's defaults."""
@@ -160,9 +134,9 @@ class Session:
         notes = link.notes
         if scene is self.scene:
             self.change(values)
-            self._link_notes, self._dirty = notes, self._dirty or bool(notes)
+            self._wanted.notes, self._dirty = notes, self._dirty or bool(notes)
             return False
-        self._left[self.scene.name] = self._wanted
+        self._left[self.scene.name] = self._wanted.values
         self._own_instead = False
         self._enter(scene, values, notes)
         return True
@@ -171,14 +145,14 @@ class Session:
         """The values that a click [picture, x, y] or a box [picture, x0, y0, x1, y1] chooses; else a note why not."""
         try:
             match picked:
-                case [str(name), *given] if all(map(math.isfinite, place := [_float(one) for one in given])):
+                case [str(name), *given] if all(map(math.isfinite, place := [as_float(one) for one in given])):
                     match place:
                         case [x, y]:
                             return self.stage.pick(name, x, y)
                         case [x0, y0, x1, y1]:
                             return self.stage.box(name, (x0, y0, x1, y1))
         except ModelError as error:
-            self._link_notes, self._dirty = [str(error)], True
+            self._wanted.notes, self._dirty = [str(error)], True
         return {}
 
     def _place_of(self, step: Any) -> Place | None:
@@ -197,7 +171,7 @@ class Session:
         if scene is self.scene:
             self.change(place.values)
         else:
-            self._left[self.scene.name] = self._wanted
+            self._left[self.scene.name] = self._wanted.values
             self._enter(scene, place.values, [])
 
     def _hover(self, picture: Any, x: float, y: float) -> None:
@@ -208,26 +182,6 @@ class Session:
             except ModelError as error:
                 text = str(error)
             self.wire.say(f"hover-{picture}", text)
-
-    def _follow(self, report: Report, more: bool, ended: bool) -> list[str]:
-        """Compute in the background what the report lacks; a note where that had ended before its end."""
-        left = len(report.todo)
-        if not more:
-            self._followed = set()
-        # What was found may ask for more.
-        fresh = [task for task in report.todo if task not in self._followed]
-        # Once stopped, a picture that comes into sight begins nothing again.
-        if not self._stopped and (not more or (ended and fresh and not self.background.error)):
-            self._followed.update(fresh)
-            self.background.follow(fresh)
-            ended = False
-        elif not more:
-            self.background.follow(())
-        self._progress = (report.total - left, report.total) if left and not ended else None
-        if not (left and ended):
-            return []
-        return [self.background.error or (
-            f"Stopped: {report.total - left} of {report.total} parts are drawn. Change a value to compute again.")]
 
     def _receive(self, message: Any) -> None:
         """A message of the browser: nothing in it is trusted."""
@@ -244,22 +198,21 @@ class Session:
                 self.change(self.scene.example(preset))
         values = message.get("values")
         # What asks for more of the same is no change, nor is what says nothing beside a step back.
-        if isinstance(values, dict) and (values or (self._progress is None and not isinstance(query, str))):
-            self.change({name: value for name, value in values.items() if name in self._specs})
+        if isinstance(values, dict) and (values or (self._pieces.progress is None and not isinstance(query, str))):
+            self.change({name: value for name, value in values.items() if name in self._wanted.specs})
         expressions = message.get("expressions")
         if isinstance(expressions, dict):
             self._evaluate(expressions)
         if message.get("clear") is True:
-            self.change({name: spec.default for name, spec in self._specs.items() if isinstance(spec, Places)})
+            self.change({name: spec.default for name, spec in self._wanted.specs.items() if isinstance(spec, Places)})
         picked = self._picked(message.get("picked"))
         if picked:
             self.change(picked)
         hover = message.get("hover")
         if isinstance(hover, list) and len(hover) == 3:
-            self._hover(hover[0], *map(_float, hover[1:]))
-        if message.get("stop") is True and self._progress is not None:
-            self._stopped = True
-            self.background.stop()
+            self._hover(hover[0], *map(as_float, hover[1:]))
+        if message.get("stop") is True:
+            self._pieces.stop()
         lesson = message.get("lesson")
         if isinstance(lesson, str) and lesson in self._lessons:
             self.ready.lesson = describe_lesson(self._lessons[lesson])
@@ -292,7 +245,7 @@ class Session:
                 self._held = held
                 if self._dirty:
                     self._draw()
-                elif self._progress is not None:
+                elif self._pieces.progress is not None:
                     self._draw(more=True)
                 self._send(requested)
 
@@ -303,39 +256,38 @@ class Session:
         self.ready.block = block
         self.ready.state = json.dumps({
             "number": self._number, "answers": answers, "query": encode(self.scene.name, self.values), "tree": tree,
-            "scene": self.scene.name, "progress": self._progress,
+            "scene": self.scene.name, "progress": self._pieces.progress,
         })
 
     def _draw(self, more: bool = False) -> None:
         """The pictures of what is wanted; `more`: of the same, of which more may be known by now."""
         self._dirty = False
-        # Before the pieces are looked for: the last one may come while this is drawn.
-        ended = self.background.left == 0 if more else self._stopped
+        ended = self._pieces.ended(more)
         notes: list[str] = []
         try:
-            self.values, notes = self.scene.admit(self._wanted)
+            self.values, notes = self.scene.admit(self._wanted.values)
             state = self.scene.compute(self.values, self._shown, self._held)
             report = self.stage.show(state, hold_axes=self._held)
         except ModelError as error:
             if self._own_instead:
                 # Whoever enters a scene meets a picture, not a refusal of what was chosen elsewhere.
                 self._own_instead = False
-                self._wanted = self.scene.defaults()
-                self._link_notes = ["What was chosen before is not possible here: this is the scene's own first state."]
+                self._wanted = Wanted(self.scene, self.scene.defaults(), [
+                    "What was chosen before is not possible here: this is the scene's own first state."])
                 return self._draw()
             report = self._refuse(str(error))
         # Whatever it is, no traceback and no older picture stays on the page; the log says all.
         except Exception:
-            logger.exception("a computation failed at %s", encode(self.scene.name, self._wanted))
+            logger.exception("a computation failed at %s", encode(self.scene.name, self._wanted.values))
             report = self._refuse("This state could not be computed. Press Reset, and please report the link.")
         self._own_instead = False
-        notes = [*notes, *self._follow(report, more, ended)]
+        notes = [*notes, *self._pieces.follow(report, more, ended)]
         # Under a drag the controls wait, unless the state had to differ from what they say.
         if not self._held or notes:
             show_controls(self.scene, self.values, self.wire)
         self.wire.say("summary", report.summary)
         self.wire.say("status", report.status)
-        self.wire.say("notes", "\n".join([*self._link_notes, *notes, *report.notes]))
+        self.wire.say("notes", "\n".join([*self._wanted.notes, *notes, *report.notes]))
         self.wire.say("derived", "\n".join(report.derived))
 
     def _refuse(self, sentence: str) -> Report:

@@ -1,0 +1,59 @@
+"""What a state still lacks: computed in the background, piece by piece, until it is stopped."""
+
+from __future__ import annotations
+
+from hess_explorer.compute.background import Background
+from hess_explorer.compute.cache import Task
+from hess_explorer.scenes.framework.scene import Report
+
+__all__ = ["Pieces"]
+
+
+class Pieces:
+    """The pieces of the state on show.
+
+    background : computes them; progress : (done, of) while some are on their way.
+    """
+
+    def __init__(self) -> None:
+        self.background = Background()
+        self.progress: tuple[int, int] | None = None
+        self._followed: set[Task] = set()
+        self._stopped = False
+
+    def stop(self) -> None:
+        """Leave it at what is drawn, until something else is wanted."""
+        if self.progress is not None:
+            self._stopped = True
+            self.background.stop()
+
+    def resume(self) -> None:
+        """Something else is wanted."""
+        self._stopped = False
+
+    def ended(self, more: bool) -> bool:
+        """Whether nothing is computed any more; more : whether the state is the same.
+
+        To be asked before pieces are looked for: the last one may come meanwhile.
+        """
+        return self.background.left == 0 if more else self._stopped
+
+    def follow(self, report: Report, more: bool, ended: bool) -> list[str]:
+        """Compute in the background what the report lacks; a note where that had ended before its end."""
+        left = len(report.todo)
+        if not more:
+            self._followed = set()
+        # What was found may ask for more.
+        fresh = [task for task in report.todo if task not in self._followed]
+        # Once stopped, a picture that comes into sight begins nothing again.
+        if not self._stopped and (not more or (ended and fresh and not self.background.error)):
+            self._followed.update(fresh)
+            self.background.follow(fresh)
+            ended = False
+        elif not more:
+            self.background.follow(())
+        self.progress = (report.total - left, report.total) if left and not ended else None
+        if not (left and ended):
+            return []
+        return [self.background.error or (
+            f"Stopped: {report.total - left} of {report.total} parts are drawn. Change a value to compute again.")]

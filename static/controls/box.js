@@ -1,0 +1,86 @@
+// The box of a number: exact values, and expressions, which the server reads; arrows move it by steps, by ten with Shift.
+
+import { tell } from "../page/bus.js"
+import { element } from "../page/mount.js"
+
+const TYPE = "Type an exact value or an expression such as pi/3, and press Enter."
+const STEPS = { ArrowUp: 1, ArrowDown: -1 }
+
+// A number as it is typed, or printed; NaN for a text that is none.
+function numberOf(text) {
+  const plain = text.trim().replaceAll("−", "-").replace(",", ".")
+  return plain === "" || !Number.isFinite(Number(plain)) ? Number.NaN : Number(plain)
+}
+
+// value() is the number that the control shows; change(value) takes one that was typed, nudge(value) one by an arrow,
+// stepOf() says how far.  {box, put(value), show(value, isIdle), refuse(sentence), rest(why or ""), forget()}.
+export function exactBox({ name, symbol, help, value, change, nudge, stepOf }) {
+  const box = element("input", {
+    type: "text", inputMode: "decimal", spellcheck: false, title: `${help} ${TYPE}`, "aria-label": `${symbol}, exact value`,
+    className: "exact",
+  })
+  // Whether the server is reading what was typed.
+  let isAsked = false
+
+  // `why`: what is wrong, "" for nothing.
+  const mark = (why) => {
+    box.setAttribute("aria-invalid", String(why !== ""))
+    box.setCustomValidity(why)
+  }
+  const put = (shown) => {
+    isAsked = false
+    box.value = String(shown)
+    mark("")
+    box.removeAttribute("aria-invalid")
+  }
+
+  box.addEventListener("change", () => {
+    const text = box.value.trim()
+    const typed = numberOf(text)
+    if (text !== "" && Number.isNaN(typed)) {
+      isAsked = true
+      return tell("expression", { [name]: text.replaceAll("−", "-").replace(",", ".") })
+    }
+    mark(text === "" ? "This is not a number: type one like 1.5, 1e-8 or pi/3." : "")
+    if (text === "") return void box.reportValidity()
+    if (typed !== value()) change(typed)
+    // As the server will write it: from here on another text is one that is being typed.
+    box.value = String(typed)
+  })
+  box.addEventListener("input", () => box.setCustomValidity(""))
+  box.addEventListener("keydown", (event) => {
+    // While a text is typed the browser itself undoes.
+    if ((event.ctrlKey || event.metaKey) && box.value !== String(value())) event.stopPropagation()
+    if (event.key in STEPS) {
+      const typed = numberOf(box.value)
+      nudge((Number.isNaN(typed) ? value() : typed) + STEPS[event.key] * stepOf() * (event.shiftKey ? 10 : 1))
+      event.preventDefault()
+    }
+    if (event.key !== "Escape") return
+    put(value())
+    event.preventDefault()
+  })
+
+  return {
+    box, put,
+    // Of a state: those may come while a number is typed, piece by piece of a section, and leave it alone.
+    show(before, shown, isIdle) {
+      if (!isAsked && box.getRootNode().activeElement === box && box.value !== String(before)) return
+      isAsked = false
+      // Nobody can look along a disabled box for digits that it has no room for.
+      box.value = String(isIdle ? Number(shown.toPrecision(6)) : shown)
+      box.removeAttribute("aria-invalid")
+    },
+    refuse(sentence) {
+      if (!isAsked) return
+      isAsked = false
+      mark(sentence)
+      if (box.getRootNode().activeElement === box) box.reportValidity()
+    },
+    rest(why) {
+      box.disabled = why !== ""
+      box.title = why === "" ? `${help} ${TYPE}` : why
+    },
+    forget() { isAsked = false },
+  }
+}
