@@ -85,13 +85,13 @@ def assert_side_by_side(explorer):
     for half, follower, t in ((one, other, "7.25"), (other, one, "3.5")):
         half.locator("input.param-t").evaluate(
             "(slider, t) => { slider.value = t; slider.dispatchEvent(new Event('input')) }", t)
-        follower.locator("output", has_text=f"t = {float(t):.2f}").wait_for()
+        follower.locator(".player output", has_text=f"t = {float(t):.2f}").wait_for()
         half.locator("canvas.solid").press("ArrowLeft")
         turn = half.locator("canvas.solid").evaluate(PAINTED_TURN)
         follower.locator(f"canvas.solid[data-turn='{turn}']").wait_for()
     # By its event: Playwright does not find its way into a frame that is zoomed.
     one.locator(".param-play").dispatch_event("click")
-    other.locator("output").filter(has_not_text="t = 3.50").wait_for()
+    other.locator(".player output").filter(has_not_text="t = 3.50").wait_for()
     one.locator(".param-play").dispatch_event("click")
     assert float(other.locator("input.param-t").input_value()) > 3.5
     assert other.locator(".player[role=group]").get_attribute("data-playing") != "true"
