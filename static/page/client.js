@@ -15,6 +15,7 @@ import { lifetime } from "./mount.js"
 import { paint } from "./painting.js"
 import { createPage } from "./panel_page.js"
 import { present } from "./presenting.js"
+import { answering } from "./reconnect.js"
 import { createRequests } from "./requests.js"
 import { createSight } from "./sight.js"
 import { unpack } from "./unpack.js"
@@ -22,7 +23,7 @@ import { grantWishes } from "./wishes.js"
 
 // The next pieces are asked for after a pause as long as the last ones took: half of the time is the user's.
 const PAUSE_BETWEEN_PIECES = 80
-const LOST = "The connection to the server is lost. See that it runs, and reload this page: its address keeps the state."
+const LOST = "The connection to the server is lost. As soon as it answers, this page goes on in the same state."
 
 export function render({ model, view }) {
   const signal = lifetime({ model, view })
@@ -178,9 +179,15 @@ export function render({ model, view }) {
 
   const start = async () => {
     await Promise.all([gallery.standing, page.standing()])
-    page.onConnectionLost(() => {
+    page.onConnectionLost(async () => {
+      if (requests.lost) return
       requests.lose()
       tell("texts", { busy: LOST })
+      await answering()
+      // Its own link is all that it needs; a page that has never shown anything would only come here again.
+      if (state === null) return
+      address.writeNow()
+      window.location.reload()
     })
     const followTheme = () => { root.style.colorScheme = page.isDark() ? "dark" : "light" }
     followTheme()
@@ -193,7 +200,8 @@ export function render({ model, view }) {
     model.on("state", onState)
     model.on("lesson", () => readLesson(null))
     if (model.lesson !== "") readLesson(Number(own.step) - 1)
-    onState()
+    if (model.state !== "") onState()
+    else requests.begin()
   }
   start()
 }

@@ -31,6 +31,13 @@ export function createRequests({ send, changed, hidden, known }, signal) {
   // Control → the request by which it was changed last.
   const moved = new Map()
 
+  const wait = () => {
+    clearTimeout(late)
+    late = setTimeout(() => {
+      tell("texts", { busy: LATE })
+      late = setTimeout(() => tell("texts", { busy: COMPILING }), LONG)
+    }, PATIENCE)
+  }
   const ask = () => {
     if (shown === null || asked !== null || asking || lost) return
     asking = true
@@ -45,11 +52,7 @@ export function createRequests({ send, changed, hidden, known }, signal) {
       values = {}
       wish = {}
       chosen = null
-      clearTimeout(late)
-      late = setTimeout(() => {
-        tell("texts", { busy: LATE })
-        late = setTimeout(() => tell("texts", { busy: COMPILING }), LONG)
-      }, PATIENCE)
+      wait()
     })
   }
   const request = () => {
@@ -140,6 +143,8 @@ export function createRequests({ send, changed, hidden, known }, signal) {
     ask,
     request,
     get lost() { return lost },
+    // The first state is on its way without being asked for.
+    begin: wait,
     // This scene is on show; only now can anything be asked for.
     entered: (scene) => { shown = scene },
     // A state was painted, or failed to be: the next request may go.

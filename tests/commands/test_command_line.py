@@ -236,6 +236,8 @@ def test_out_writes_a_file_and_prints_nothing(answer, capsys, tmp_path):
     (["draw"], "invalid choice: 'draw'"),
     (["serve", "--port", "0"], "from 1 to 65535"),
     (["serve", "--allow-origin", "*"], "not a host"),
+    (["serve", "--embed-in", "example.org; script-src *"], "not a host"),
+    (["serve", "--workers", "0"], "not a whole number from 1 to 64"),
     (["serve", "--address", "203.0.113.7", "--no-browser"], "--address 127.0.0.1"),
     (["shot", "--size", "100x100", "out.png"], "each side from 200 to 8000"),
     (["shot", "--size", "9000x300", "out.png"], "each side from 200 to 8000"),
@@ -317,8 +319,16 @@ def free_port():
 def test_serve(served, free_port, capsys):
     assert main(["serve", "--port", str(free_port), "--no-browser", "--allow-origin", "a.org:80", "b.org"]) == 0
     assert served == [{"port": free_port, "address": "127.0.0.1", "show": False, "origins": ["a.org:80", "b.org"],
-                       "lesson": None}]
+                       "lesson": None, "embedders": ["*"], "workers": 1}]
     assert f"http://localhost:{free_port}" in capsys.readouterr().out
+
+
+def test_serve_is_told_who_may_show_it_and_how_many_processes_serve(served, free_port):
+    assert main(["serve", "--port", str(free_port), "--no-browser", "--workers", "2",
+                 "--embed-in", "example.org", "*.example.com"]) == 0
+    assert main(["serve", "--port", str(free_port), "--no-browser", "--embed-in", "none"]) == 0
+    assert [(call["workers"], call["embedders"]) for call in served] == [
+        (2, ["example.org", "*.example.com"]), (1, [])]
 
 
 def test_a_lesson_that_cannot_be_read_is_no_lesson(served, free_port, capsys, tmp_path):

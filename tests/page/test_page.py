@@ -132,10 +132,18 @@ def test_an_answer_that_takes_long_is_said_to_be_under_way(on_a_line):
     assert page.evaluate("said") == []
 
 
-def test_a_page_that_has_lost_its_server_says_so_and_keeps_saying_it(on_a_line):
+def test_a_page_that_has_lost_its_server_says_so_and_goes_on_in_the_same_state_when_it_is_back(on_a_line):
     explorer, line = on_a_line
     page = explorer.page
     sign = page.locator(".text.busy")
+    explorer.change(lambda: explorer.slide(f=0.5))
+    asked = []
+
+    def keep(route):
+        asked.append(route)
+
+    # The server does not answer yet.
+    page.route("**/liveness", keep)
     line.cut()
     sign.wait_for(state="visible")
     assert sign.inner_text().startswith("The connection to the server is lost.")
@@ -145,9 +153,18 @@ def test_a_page_that_has_lost_its_server_says_so_and_keeps_saying_it(on_a_line):
     assert sign.inner_text().startswith("The connection to the server is lost.")
     assert not explorer.ready
     # The pictures stay what they were, and so does the motion on them.
-    assert explorer.here()[0] == 1.5
+    assert explorer.here() == (1.5, 0.5)
     page.locator(".param-play").click()
     assert explorer.playing
+    while not asked:
+        page.wait_for_timeout(50)
+    with page.expect_navigation(timeout=60_000):
+        asked[0].continue_()
+    wait_ready(page)
+    assert explorer.here() == (1.5, 0.5)
+    assert sign.inner_text() == ""
+    assert len(asked) == 1
+    page.unroute("**/liveness")
 
 
 # --- The link ----------------------------------------------------------------------------------------

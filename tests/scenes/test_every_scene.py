@@ -49,6 +49,7 @@ from support.view import View
 
 # A state with other axes than the default one.
 OTHERS = {HESS.name: {"b3": -2.9, "h": 100.0, "f": -5.0, "phi0": -1.0, "I22": 1.3, "I23": -0.4}}
+BALL = SCENES["chaplygin-ball"]
 BESIDE = ("status", "summary", "notes", "derived", "signs")
 """The texts beside the captions."""
 every_scene = pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
@@ -1024,3 +1025,42 @@ def test_the_legend_has_only_what_is_drawn(scene):
               if sign not in [one for _, layer in layers for one in layer.legend]}
     assert drawn <= shown
     assert not (absent - drawn - others) & shown
+
+
+# --- Sessions: whatever is raised ---------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("source", "given", "target"), [
+    ("quartic", {"h": -53.9}, "suslov-hess"), ("suslov-hess", {"I22": 0.001}, "kharlamova"),
+    ("suslov-hess", {"span": 77552.0}, "suslov")])
+def test_values_of_another_scene_are_admitted_by_the_bounds_of_this_one(source, given, target):
+    browser = Browser(SCENES[source])
+    browser.ask(1, values=given, hidden=list(browser.scene.pictures))
+    assert given.items() <= dict(browser.session.values).items()
+    assert browser.ask(2, scene=target)["scene"] == target
+    browser.assert_admissible()
+    assert browser.texts["status"] != session.FAILED
+
+
+@pytest.mark.parametrize("where", ["admit", "carried", "limits", "compute"])
+def test_whatever_is_raised_while_a_message_is_handled_the_page_gets_a_state(where, caplog):
+    broken = []
+
+    def fail(*arguments):
+        if broken:
+            raise ZeroDivisionError("secret")
+        return getattr(BALL, where)(*arguments)
+
+    scene = variant(BALL, **{where: fail})
+    browser = Browser(scene)
+    broken.append(True)
+    choice = next(spec for spec in scene.specs if not isinstance(spec, Number))
+    state = browser.ask(1, values={choice.name: choice.options[0], "h": 7.0})
+    assert state["answers"] == 1
+    assert browser.texts["status"] == session.FAILED
+    assert "ZeroDivisionError" in caplog.text
+    assert "secret" not in json.dumps(browser.texts)
+    broken.clear()
+    state = browser.ask(2, values={"h": 8.0})
+    assert (state["answers"], browser.session.values["h"]) == (2, 8.0)
+    assert browser.texts["status"] != session.FAILED

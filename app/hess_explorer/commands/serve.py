@@ -32,6 +32,11 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser.add_argument("--no-browser", dest="browser", action="store_false", help="do not open a browser")
     parser.add_argument("--allow-origin", dest="origins", type=_origin, nargs="+", action="extend", default=[],
                         metavar="HOST:PORT", help="host and port in the browser's address bar, if not this machine's")
+    parser.add_argument("--embed-in", dest="embedders", type=_embedder, nargs="+", action="extend", metavar="HOST",
+                        help="whose pages may show parts of this one (embed=1): hosts like example.org or "
+                             "*.example.org, or none (default: any)")
+    parser.add_argument("--workers", type=integer(1, 64), default=1, metavar="N",
+                        help="processes that serve (default 1; for a class about as many as there are cores)")
     parser.add_argument("--lesson", type=Path, metavar="FILE",
                         help="a lesson of your own, in Markdown, to begin with (see app/README.md)")
     parser.set_defaults(run=_run)
@@ -43,9 +48,17 @@ def _origin(text: str) -> str:
     return text
 
 
+def _embedder(text: str) -> str:
+    if text != "none" and not re.fullmatch(r"(https?://)?(\*\.)?[A-Za-z0-9._-]{1,253}(:\d{1,5})?", text):
+        raise argparse.ArgumentTypeError(f"{shown(text)} is not a host; write it like example.org, or none")
+    return text
+
+
 def _run(options: argparse.Namespace) -> None:
     lesson = _lesson(options.lesson)
     _require_free(options.address, options.port)
+    if options.workers > 1 and not hasattr(os, "fork"):
+        raise CommandError("This system has no way to share a port between processes: leave --workers out.")
     # A browser cannot open the address that stands for all interfaces.
     host = "localhost" if options.address in ("127.0.0.1", "0.0.0.0", "::") else options.address
     url = f"http://{f'[{host}]' if ':' in host else host}:{options.port}"
@@ -63,8 +76,9 @@ def _run(options: argparse.Namespace) -> None:
     with suppress(KeyboardInterrupt):
         from hess_explorer.server.serving import serve
 
+        embedders = ["*"] if options.embedders is None else [one for one in options.embedders if one != "none"]
         serve(port=options.port, address=options.address, show=show, origins=options.origins, ready=ready,
-              lesson=lesson)
+              lesson=lesson, embedders=embedders, workers=options.workers)
 
 
 def _lesson(path: Path | None) -> Lesson | None:

@@ -8,6 +8,8 @@ from collections import deque
 from collections.abc import Iterable
 from concurrent.futures import ThreadPoolExecutor
 
+import numpy as np
+
 from hess_explorer.compute.cache import CACHE, Task
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.parallel import THREADS
@@ -34,7 +36,9 @@ class _Job:
             task = self.tasks.popleft()
             self._running += 1
         try:
-            CACHE.get(task.function, *task.arguments)
+            # The mechanics check their results for overflow themselves.
+            with np.errstate(all="ignore"):
+                CACHE.get(task.function, *task.arguments)
         except ModelError as error:
             self.error = str(error)
             self.tasks.clear()

@@ -13,6 +13,8 @@ from typing import Any
 
 import numpy as np
 
+from hess_explorer.compute.budget import Abandoned, OverBudget, check
+
 __all__ = ["CACHE", "ResultCache", "Task", "size_of"]
 
 logger = logging.getLogger("hess_explorer")
@@ -61,7 +63,8 @@ class ResultCache:
         self._entries: OrderedDict[Hashable, tuple[Future[Any], int]] = OrderedDict()
 
     def get(self, function: Callable[..., Any], *arguments: Hashable) -> tuple[Any, bool]:
-        """The result of function(*arguments), and whether it was there already."""
+        """The result of function(*arguments), and whether it was there already.  Raises as `budget.check`."""
+        check()
         key = _key(function, arguments)
         with self._lock:
             entry = self._entries.get(key)
@@ -74,7 +77,11 @@ class ResultCache:
                 future = Future()
                 self._entries[key] = (future, 0)
         if entry is not None:
-            return future.result(), True
+            try:
+                return future.result(), True
+            except (Abandoned, OverBudget):
+                # That was the end of another session's budget.
+                return self.get(function, *arguments)
         try:
             value = function(*arguments)
         except BaseException as error:

@@ -26,6 +26,7 @@ from hess_explorer.page.components import (
     Text,
 )
 from hess_explorer.page.description import describe_lesson
+from hess_explorer.page.desk import Desk
 from hess_explorer.page.session import Session, linked
 from hess_explorer.protocol.parameters import CLIENT, Choice, Link, Names, Number
 from hess_explorer.scenes import scenes
@@ -127,11 +128,14 @@ def _page(query: str, own: Lesson | None) -> pmui.Page:
         busy_indicator=None,
         sx=BARE,
     )
-    session = Session(ready, scene, state, link.notes, lessons, pictures)
-    pn.state.on_session_destroyed(lambda _: session.background.stop())
+    desk, notes = Desk(ready), link.notes
+    desk.begin(lambda: Session(desk, scene, state, notes, lessons, pictures))
+    pn.state.on_session_destroyed(lambda _: desk.end())
     # The page's own busy flag is sent with every event and makes Panel walk through all models each
-    # time (100 ms); `data-ready` says the same.
+    # time (100 ms); `data-ready` says the same.  It follows Panel's global state, whose watcher would keep every page
+    # alive: a reference to what lives as long as this page takes its place, for setting a value would leave it there.
     with edit_readonly(result):
+        result.busy = ready.param.loading
         result.busy = False
     return result
 

@@ -27,6 +27,11 @@ class Pieces:
             self._stopped = True
             self.background.stop()
 
+    def drop(self) -> None:
+        """Nothing of the state on show is of use."""
+        self.progress = None
+        self.background.stop()
+
     def resume(self) -> None:
         """Something else is wanted."""
         self._stopped = False

@@ -8,14 +8,14 @@ from __future__ import annotations
 import json
 import logging
 import math
-from collections.abc import Collection, Mapping
-from typing import Any
+from collections.abc import Callable, Collection, Mapping
+from typing import Any, Protocol
 
-from panel.io.document import unlocked
+import numpy as np
 
+from hess_explorer.compute.budget import Abandoned
 from hess_explorer.lessons import tries
 from hess_explorer.lessons.lesson import Lesson, Place
-from hess_explorer.page.components import Ready
 from hess_explorer.page.controls import show_controls
 from hess_explorer.page.description import describe, describe_lesson
 from hess_explorer.page.pieces import Pieces
@@ -32,11 +32,25 @@ __all__ = ["Session", "linked"]
 
 logger = logging.getLogger("hess_explorer")
 
+FAILED = "This state could not be computed. Press Reset, and please report the link."
+
 
 def linked(link: Link, here: str) -> tuple[Scene[Any], dict[str, Value]]:
     """The scene that a link names, else the one of the name `here`, and its values there."""
     scene = scenes()[str(link.value(Choice("scene", "Scene", tuple(scenes()), here)))]
     return scene, link.values(scene.specs)
+
+
+class Page(Protocol):
+    """What a session speaks to: see `components.Ready`, whose attributes these are."""
+
+    scene: str
+    lesson: str
+    block: bytes
+    state: str
+
+    def on_msg(self, handle: Callable[[Any], object]) -> None:
+        """Have each message handled, as its `data`."""
 
 
 class Session:
@@ -52,7 +66,7 @@ class Session:
     lessons : those that can be given, by name; pictures : those in sight, until the browser says what is.
     """
 
-    def __init__(self, ready: Ready, scene: Scene[Any], values: Values, notes: list[str],
+    def __init__(self, ready: Page, scene: Scene[Any], values: Values, notes: list[str],
                  lessons: Mapping[str, Lesson], pictures: Collection[str] | None = None) -> None:
         self.ready = ready
         self._lessons = lessons
@@ -66,7 +80,9 @@ class Session:
         self._held = False
         self._number = 0
         self._enter(scene, values, notes, pictures)
-        self._draw()
+        # The mechanics check their results for overflow themselves: NumPy's warnings would only be noise.
+        with np.errstate(all="ignore"):
+            self._draw()
         self._send(0)
         ready.on_msg(lambda event: self._receive(event.data))
 
@@ -74,6 +90,7 @@ class Session:
                pictures: Collection[str] | None = None) -> None:
         self.scene = scene
         self._wanted = Wanted(scene, values, notes)
+        self.values: Values = dict(self._wanted.values)
         self._shown: Collection[str] = scene.open_pictures if pictures is None else pictures
         # The browser keeps the pictures of all scenes that it has seen, and a stage knows what it has drawn on them.
         if scene.name not in self._stages:
@@ -184,13 +201,27 @@ class Session:
             self.wire.say(f"hover-{picture}", text)
 
     def _receive(self, message: Any) -> None:
-        """A message of the browser: nothing in it is trusted."""
+        """A message of the browser: nothing in it is trusted, and who waits for an answer gets one."""
         if not isinstance(message, dict):
             return
+        try:
+            with np.errstate(all="ignore"):
+                self._handle(message)
+        except Abandoned:
+            raise
+        # Whatever it is, no traceback and no older picture stays on the page; the log says all.
+        except Exception:
+            logger.exception("a message failed at %s", encode(self.scene.name, self._wanted.values))
+            self._pieces.drop()
+            self._dirty = True
+            self._say(self._refuse(FAILED), [])
+            if isinstance(message.get("requested"), int):
+                self._send(message["requested"])
+
+    def _handle(self, message: dict[Any, Any]) -> None:
         query, moved = message.get("restore"), False
         if isinstance(query, str):
-            with unlocked():
-                moved = self._restore(query)
+            moved = self._restore(query)
         if message.get("reset") is True:
             self.reset()
         for preset in self.scene.presets:
@@ -218,36 +249,35 @@ class Session:
             self.ready.lesson = describe_lesson(self._lessons[lesson])
         place = self._place_of(message.get("step"))
         requested = message.get("requested")
-        with unlocked():
-            scene, near = (scenes().get(name) if isinstance(name, str) else None
-                           for name in (message.get("scene"), message.get("near")))
-            # One description goes with one state.
-            if moved:
-                pass
-            elif scene is not None and scene is not self.scene:
-                self._change_scene(scene)
-            elif near is not None:
-                self._describe(near.name)
-            here = self.scene
-            if place is not None:
-                self._go(place)
-            hidden = message.get("hidden")
-            # Those of another scene say nothing of this one.
-            if isinstance(hidden, list) and self.scene is here:
-                shown = [name for name in self.scene.pictures if name not in hidden]
-                # What comes into sight must be of this state.
-                self._dirty |= not set(shown) <= set(self._shown)
-                self._shown = shown
-            if isinstance(requested, int):
-                held = message.get("held") is True
-                # When a slider is let go, accuracy, axes and other controls may have to follow.
-                self._dirty |= self._held and not held
-                self._held = held
-                if self._dirty:
-                    self._draw()
-                elif self._pieces.progress is not None:
-                    self._draw(more=True)
-                self._send(requested)
+        scene, near = (scenes().get(name) if isinstance(name, str) else None
+                       for name in (message.get("scene"), message.get("near")))
+        # One description goes with one state.
+        if moved:
+            pass
+        elif scene is not None and scene is not self.scene:
+            self._change_scene(scene)
+        elif near is not None:
+            self._describe(near.name)
+        here = self.scene
+        if place is not None:
+            self._go(place)
+        hidden = message.get("hidden")
+        # Those of another scene say nothing of this one.
+        if isinstance(hidden, list) and self.scene is here:
+            shown = [name for name in self.scene.pictures if name not in hidden]
+            # What comes into sight must be of this state.
+            self._dirty |= not set(shown) <= set(self._shown)
+            self._shown = shown
+        if isinstance(requested, int):
+            held = message.get("held") is True
+            # When a slider is let go, accuracy, axes and other controls may have to follow.
+            self._dirty |= self._held and not held
+            self._held = held
+            if self._dirty:
+                self._draw()
+            elif self._pieces.progress is not None:
+                self._draw(more=True)
+            self._send(requested)
 
     def _send(self, answers: int) -> None:
         self._number += 1
@@ -276,15 +306,20 @@ class Session:
                     "What was chosen before is not possible here: this is the scene's own first state."])
                 return self._draw()
             report = self._refuse(str(error))
+        except Abandoned:
+            raise
         # Whatever it is, no traceback and no older picture stays on the page; the log says all.
         except Exception:
             logger.exception("a computation failed at %s", encode(self.scene.name, self._wanted.values))
-            report = self._refuse("This state could not be computed. Press Reset, and please report the link.")
+            report = self._refuse(FAILED)
         self._own_instead = False
         notes = [*notes, *self._pieces.follow(report, more, ended)]
         # Under a drag the controls wait, unless the state had to differ from what they say.
         if not self._held or notes:
             show_controls(self.scene, self.values, self.wire)
+        self._say(report, notes)
+
+    def _say(self, report: Report, notes: list[str]) -> None:
         self.wire.say("summary", report.summary)
         self.wire.say("status", report.status)
         self.wire.say("notes", "\n".join([*self._wanted.notes, *notes, *report.notes]))

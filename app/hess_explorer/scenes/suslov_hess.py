@@ -32,7 +32,7 @@ from hess_mechanics.suslov_hess.bifurcation import TurningPoints, curve, curve_p
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
 from hess_mechanics.suslov_hess.equations import SYSTEM
 from hess_mechanics.suslov_hess.invariant_measure import density_on_torus, invariant_measure
-from hess_mechanics.suslov_hess.mode_locking import CELLS, lock_boundary, rotation_number_window
+from hess_mechanics.suslov_hess.mode_locking import CELLS, affordable_cells, lock_boundary, rotation_number_window
 from hess_mechanics.suslov_hess.torus import (
     MAX_RETURNS,
     Track,
@@ -178,7 +178,7 @@ class SuslovHess(SuslovBody):
     def rotation(self) -> Grid:
         """The rotation number over the diagram."""
         axes, plan = diagram.window(self.h), self.plan(Kind.COLOURS, steady=True)
-        task = self.colours(plan.grid(CELLS), plan.level)
+        task = self.colours(affordable_cells(self.body.a, plan.grid(CELLS)), plan.level)
         return Grid(self.work.get(task.function, *task.arguments), axes.x, axes.y)
 
     # ---- words --------------------------------------------------------------------------------------------------
@@ -225,7 +225,8 @@ _MEASURES: tuple[Trial[SuslovHess], ...] = (
     Trial(Kind.MAP, ("circle",), lambda s, plan: circle_map(s.body.a, s.h, s.f, plan.level).theta(_PHASES),
           lambda s, theta, truth: curve_error(theta, truth, 2.0 * math.pi, period=2.0 * math.pi),
           lambda s, theta: circle.look(_PHASES, theta)),
-    colours(lambda s, plan: s.colours(plan.grid(CELLS), plan.level).now(), lambda s: diagram.frame(s.h)),
+    colours(lambda s, plan: s.colours(affordable_cells(s.body.a, plan.grid(CELLS)), plan.level).now(),
+            lambda s: diagram.frame(s.h)),
     boundary("bifurcation", lambda s, plan: lock_boundary(s.body.a, plan.level, plan.side(_ON_BOUNDARY)),
              lambda s: diagram.frame(s.h)),
 )

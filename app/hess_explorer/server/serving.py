@@ -3,24 +3,34 @@
 from __future__ import annotations
 
 import logging
+import os
+import sys
 import threading
 import time
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import panel as pn
+from bokeh.document import Document
+from bokeh.server.server import Server
+from panel.io.resources import LOCAL_DIST, patch_model_css
+from panel.io.server import get_server
+from tornado.ioloop import PeriodicCallback
+from tornado.process import task_id
 from tornado.web import RequestHandler
 from tornado.websocket import WebSocketClosedError
 
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.page import page
+from hess_explorer.server.headers import guard
 from hess_explorer.server.liveness import is_alive
 from hess_explorer.server.modules import module_routes
 from hess_explorer.server.prompt_socket import send_promptly
 from hess_explorer.server.qr_code import QrCode
 from hess_explorer.server.warm import warm
 
-__all__ = ["serve"]
+__all__ = ["options", "serve"]
 
 MESSAGE_LIMIT = 256 * 1024
 """Bytes of one websocket message from the browser: slider values and clicks are far smaller."""
@@ -57,33 +67,69 @@ def _prepare(address: str, port: int, ready: Callable[[], None]) -> None:
     warm(first_is_ready)
 
 
+def _end_with(parent: int, server: Server) -> None:
+    """Stop serving when the process that began is gone."""
+    if os.getppid() != parent:
+        server.io_loop.stop()
+
+
+def _page(lesson: Lesson | None) -> Any:
+    """The page, with styles of this server: Panel sees to that only in the process that writes the HTML."""
+    document = pn.state.curdoc
+    if document is not None:
+        document.add_next_tick_callback(lambda: _own_styles(document))
+    return page(lesson)
+
+
+def _own_styles(document: Document) -> None:
+    for root in document.roots:
+        patch_model_css(root, dist_url=LOCAL_DIST)
+
+
+def options(port: int, address: str, origins: Sequence[str], lesson: Lesson | None = None) -> dict[str, Any]:
+    """What `panel.serve` is told; the arguments are those of `serve`."""
+    return {
+        "panels": {"/": lambda: _page(lesson)},
+        "title": "Hess Explorer",
+        "port": port,
+        "address": address,
+        "websocket_origin": [f"localhost:{port}", f"127.0.0.1:{port}", *origins],
+        "extra_patterns": [("/metrics", Metrics), ("/qr.svg", QrCode), *module_routes()],
+        "liveness": True,
+        "verbose": False,
+        "websocket_max_message_size": MESSAGE_LIMIT,
+        "unused_session_lifetime_milliseconds": UNUSED_SESSION_MS,
+        "check_unused_sessions_milliseconds": UNUSED_SESSION_MS // 4,
+        "session_token_expiration": 3600,
+    }
+
+
 def serve(port: int, address: str, show: bool, origins: Sequence[str], ready: Callable[[], None],
-          lesson: Lesson | None = None) -> None:
+          lesson: Lesson | None = None, embedders: Sequence[str] = ("*",), workers: int = 1) -> None:
     """Serve the explorer until interrupted.
 
     address : to listen on; show : open the browser; origins : HOST:PORT pairs whose pages may open a websocket,
     besides this machine's own; ready : called from another thread when the page answers without compiling
-    first; lesson : one besides those of the package.
+    first; lesson : one besides those of the package; embedders : hosts whose pages may show parts of this one, "*" any;
+    workers : processes that serve; a session stays with the one that its websocket comes to.
     """
     logging.basicConfig(format="%(asctime)s %(name)s %(message)s")
     logger.setLevel(logging.INFO)
     logging.getLogger("asyncio").addFilter(_is_news)
+    # The thread that serves waits so long for Python's lock behind each that computes; 5 ms otherwise.
+    sys.setswitchinterval(0.001)
     pn.extension()
     send_promptly()
+    guard(embedders)
+    parent = os.getpid()
+    # With several workers this comes back in each of them, and the process that began stays behind to watch over them.
+    told = options(port, address, origins, lesson)
+    server = get_server(told.pop("panels"), start=False, show=show and workers == 1, num_procs=workers, **told)
+    if workers > 1:
+        # One worker says that the explorer is ready, and none outlives the process that began.
+        ready = ready if task_id() == 0 else lambda: None
+        PeriodicCallback(lambda: _end_with(parent, server), 1000.0).start()
     # Kernels are compiled while the browser loads the page.
     threading.Thread(target=_prepare, args=(address, port, ready), name="warm", daemon=True).start()
-    pn.serve(
-        {"/": lambda: page(lesson)},
-        title="Hess Explorer",
-        port=port,
-        address=address,
-        show=show,
-        websocket_origin=[f"localhost:{port}", f"127.0.0.1:{port}", *origins],
-        extra_patterns=[("/metrics", Metrics), ("/qr.svg", QrCode), *module_routes()],
-        liveness=True,
-        verbose=False,
-        websocket_max_message_size=MESSAGE_LIMIT,
-        unused_session_lifetime_milliseconds=UNUSED_SESSION_MS,
-        check_unused_sessions_milliseconds=UNUSED_SESSION_MS // 4,
-        session_token_expiration=3600,
-    )
+    server.start()
+    server.io_loop.start()

@@ -21,8 +21,8 @@ from hess_mechanics.suslov_hess.bifurcation_kernels import largest_f
 from hess_mechanics.suslov_hess.circle_map import check_a, matrices, rotation_numbers
 
 __all__ = [
-    "CELLS", "critical_a", "lock_boundary", "lock_boundary_end", "lock_boundary_f", "lock_boundary_h",
-    "rotation_number_grid", "rotation_number_window", "trace_on_curve",
+    "CELLS", "affordable_cells", "critical_a", "lock_boundary", "lock_boundary_end", "lock_boundary_f",
+    "lock_boundary_h", "rotation_number_grid", "rotation_number_window", "trace_on_curve",
 ]
 
 
@@ -188,15 +188,21 @@ CELLS = (100, 75)
 """Of a window, at most."""
 
 
+def affordable_cells(a: float, cells: tuple[int, int]) -> tuple[int, int]:
+    """Fewer cells (m, n) than these where a makes each one expensive, but at least 8 × 8."""
+    share_ = min(1.0, math.sqrt(10.0 / max(abs(a), 1e-9)))
+    m, n = (max(8, round(size * share_)) for size in cells)
+    return m, n
+
+
 def rotation_number_window(a: float, h: tuple[float, float], f: tuple[float, float], level: Level,
                            cells: tuple[int, int] = CELLS) -> Array:
-    """ρ at the centres of the cells (m, n) of a window, shape (n, m); fewer cells where a makes each one expensive.
+    """ρ at the centres of the cells (m, n) of a window, shape (n, m).
 
     Cells outside the region take the value at its edge (same h), so that a picture can be clipped along the
     bifurcation curve.  Raises as `rotation_number_grid`.
     """
-    share_ = min(1.0, math.sqrt(10.0 / max(abs(a), 1e-9)))
-    m, n = (max(8, round(size * share_)) for size in cells)
+    m, n = cells
     hs = h[0] + (np.arange(m) + 0.5) * (h[1] - h[0]) / m
     fs = f[0] + (np.arange(n) + 0.5) * (f[1] - f[0]) / n
     return frozen(_filled_grid(a, np.maximum(hs, -1.0 + 1e-6), fs, level))

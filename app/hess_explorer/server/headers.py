@@ -1,0 +1,72 @@
+"""What the page may do in a browser, and who may show it inside another: headers of the document.
+
+Scripts run with the nonce of their answer, or from this server: what finds its way into the page as text is not run.
+Bokeh asks for more in two places.  Its `CustomJS`, with which Panel tells that the document is ready, is compiled in
+the browser (`unsafe-eval`), and its styles, as those of Material UI, stand in the elements (`unsafe-inline`).
+"""
+
+from __future__ import annotations
+
+import secrets
+from collections.abc import Sequence
+
+from bokeh.server.urls import per_app_patterns
+from panel.io.server import DocHandler
+
+__all__ = ["guard", "policy"]
+
+_embedders: tuple[str, ...] = ("*",)
+"""Who may show a part of the page, `embed=1`."""
+
+
+def policy(nonce: str, embedded: bool) -> str:
+    """The Content-Security-Policy of an answer."""
+    # Where any page may, also one of a file, which "*" does not mean, nothing is said.
+    ancestors = "'self'" if not embedded else "" if "*" in _embedders else " ".join(_embedders)
+    return "; ".join([
+        "default-src 'none'",
+        # Panel makes modules of texts, as blobs, which import those of this server.
+        f"script-src 'self' blob: 'nonce-{nonce}' 'unsafe-eval'",
+        "style-src 'self' 'unsafe-inline'",
+        "img-src 'self' data: blob:",
+        "font-src 'self' data:",
+        "media-src 'self' blob:",
+        "worker-src 'self' blob:",
+        # The websocket, and those modules; a page that compares states shows two of itself.
+        "connect-src 'self' blob:",
+        "frame-src 'self'",
+        "base-uri 'self'",
+        "form-action 'none'",
+        *([f"frame-ancestors {ancestors}"] if ancestors else []),
+    ])
+
+
+class GuardedDocument(DocHandler):
+    """The document of the page, with these headers."""
+
+    async def prepare(self) -> None:
+        """Choose the nonce of this answer."""
+        await super().prepare()  # type: ignore[no-untyped-call]  # Panel declares no types
+        self._nonce = secrets.token_urlsafe(16)
+        embedded = self.get_query_argument("embed", "") == "1"
+        self.set_header("Content-Security-Policy", policy(self._nonce, embedded))
+        if not embedded:
+            # For what does not know the policy.
+            self.set_header("X-Frame-Options", "SAMEORIGIN")
+        self.set_header("X-Content-Type-Options", "nosniff")
+        self.set_header("Referrer-Policy", "same-origin")
+
+    def write(self, chunk: str | bytes | dict[str, object]) -> None:
+        """The page, its scripts with the nonce; in its data there are no such tags, which are escaped there."""
+        if isinstance(chunk, str):
+            chunk = chunk.replace("<script", f'<script nonce="{self._nonce}"')
+        super().write(chunk)
+
+
+def guard(embedders: Sequence[str]) -> None:
+    """From the next server on; embedders : hosts that may show parts of the page, "*" any, none at all: nobody."""
+    global _embedders  # noqa: PLW0603  # one process serves one explorer
+    _embedders = tuple(embedders) or ("'none'",)
+    for i, route in enumerate(per_app_patterns):
+        if route[1] is DocHandler:
+            per_app_patterns[i] = (route[0], GuardedDocument)

@@ -1,0 +1,146 @@
+"""What sessions ask for outside the thread that serves: one at a time in each, in turn, within a budget."""
+
+from __future__ import annotations
+
+import threading
+import time
+
+import pytest
+
+from hess_explorer.compute import turns
+from hess_explorer.compute.budget import Abandoned, OverBudget, check, limited
+from hess_explorer.compute.cache import ResultCache
+from hess_explorer.compute.turns import MOST, Turns
+
+PATIENCE = 60.0
+
+
+def square(n):
+    return n * n
+
+
+def waited(event):
+    assert event.wait(PATIENCE)
+
+
+def test_a_session_does_one_thing_at_a_time_in_order_and_elsewhere():
+    session, done, ended, begun = Turns(), [], threading.Event(), []
+
+    def work(n):
+        begun.append(n)
+        assert threading.current_thread().name.startswith("turn")
+        # Nothing of this session was begun before the one before it ended.
+        assert begun == [*done, n]
+        done.append(n)
+        if n == 9:
+            ended.set()
+
+    for n in range(10):
+        assert session.take(lambda n=n: work(n))
+    waited(ended)
+    assert done == list(range(10))
+
+
+def test_of_too_much_that_waits_the_newest_is_done():
+    session, go, ended, done = Turns(), threading.Event(), threading.Event(), []
+    started = threading.Event()
+    session.take(lambda: (started.set(), go.wait(PATIENCE)))
+    waited(started)
+    for n in range(MOST + 5):
+        assert session.take(lambda n=n: done.append(n)) == (n < MOST)
+    session.take(ended.set)
+    go.set()
+    waited(ended)
+    assert done == list(range(6, MOST + 5))
+
+
+def test_sessions_take_turns_and_an_error_ends_none(caplog):
+    sessions, ended = [Turns() for _ in range(3)], threading.Semaphore(0)
+
+    def fail():
+        raise ZeroDivisionError("secret")
+
+    for session in sessions:
+        session.take(fail)
+        session.take(ended.release)
+    for _ in sessions:
+        assert ended.acquire(timeout=PATIENCE)
+    assert [record.exc_info[0] for record in caplog.records] == [ZeroDivisionError] * 3
+
+
+def test_what_nobody_waits_for_is_not_begun_and_what_runs_ends_at_its_next_computation():
+    session, go, started, found, ended = Turns(), threading.Event(), threading.Event(), [], threading.Event()
+    cache = ResultCache(2**20)
+
+    def work():
+        try:
+            found.append(cache.get(square, 2))
+            started.set()
+            waited(go)
+            found.append(cache.get(square, 3))
+        finally:
+            ended.set()
+
+    session.take(work)
+    session.take(lambda: found.append("the next"))
+    waited(started)
+    session.end()
+    go.set()
+    waited(ended)
+    assert session.take(lambda: found.append("later"))
+    other = threading.Event()
+    Turns().take(other.set)
+    waited(other)
+    assert found == [(4, False)]
+
+
+def test_what_costs_more_than_its_budget_is_refused_with_a_sentence():
+    nobody = threading.Event()
+    check()
+    with limited(nobody, seconds=0.02), pytest.raises(OverBudget, match=r"more than 0\.02 s to compute"):
+        end = time.thread_time() + 0.05
+        while time.thread_time() < end:
+            pass
+        check()
+    with limited(nobody, wait=0.0), pytest.raises(OverBudget, match="too busy"):
+        time.sleep(0.001)
+        check()
+    nobody.set()
+    with limited(nobody), pytest.raises(Abandoned):
+        check()
+    check()
+
+
+def test_the_end_of_one_budget_is_not_that_of_others_who_wait_for_the_same():
+    cache, started, go, calls = ResultCache(2**20), threading.Event(), threading.Event(), []
+    gone = threading.Event()
+
+    def dear(n):
+        calls.append(n)
+        if len(calls) == 1:
+            started.set()
+            waited(go)
+            check()
+        return n
+
+    def first():
+        with limited(gone), pytest.raises(Abandoned):
+            cache.get(dear, 5)
+
+    found = []
+    leaving = threading.Thread(target=first)
+    leaving.start()
+    waited(started)
+    waiting = threading.Thread(target=lambda: found.append(cache.get(dear, 5)[0]))
+    waiting.start()
+    gone.set()
+    go.set()
+    leaving.join(PATIENCE)
+    waiting.join(PATIENCE)
+    assert found == [5]
+    assert calls == [5, 5]
+
+
+def test_there_are_more_threads_than_cores():
+    """So that one who asks for what takes long keeps no other waiting."""
+    assert turns._pool._max_workers > turns.THREADS

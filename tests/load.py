@@ -1,0 +1,208 @@
+"""A class at once: `python tests/load.py 10 50 200` prints what so many sessions, over the websocket, take and cost.
+
+Each session opens a scene, the scenes in turn, and changes one of its numbers every 2 s.  Then the same with one more
+that asks for the dearest scene at `reference` without a pause.
+"""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import os
+import random
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from contextlib import contextmanager
+from pathlib import Path
+
+if __name__ == "__main__":
+    sys.path[:0] = [str(Path(__file__).parent)]
+
+from hess_explorer.protocol.parameters import Number
+from hess_explorer.scenes import scenes
+from support.serving import free_port
+from support.visitor import Visitor
+
+EVERY = 2.0
+DEAREST = "scene=euler-poisson&accuracy=reference"
+
+
+def processes(pid):
+    """A process and all below it."""
+    found = [pid]
+    for one in found:
+        try:
+            found += map(int, Path(f"/proc/{one}/task/{one}/children").read_text().split())
+        except OSError:
+            continue
+    return found
+
+
+def memory(pid):
+    """Bytes in memory, each page shared between processes counted once."""
+    total = 0
+    for one in processes(pid):
+        for line in Path(f"/proc/{one}/smaps_rollup").read_text().splitlines():
+            if line.startswith("Pss:"):
+                total += 1024 * int(line.split()[1])
+    return total
+
+
+def worked(pid):
+    """Seconds of the processor until now."""
+    ticks = 0
+    for one in processes(pid):
+        fields = Path(f"/proc/{one}/stat").read_text().rpartition(")")[2].split()
+        ticks += int(fields[11]) + int(fields[12])
+    return ticks / os.sysconf("SC_CLK_TCK")
+
+
+@contextmanager
+def server(options):
+    """The command of the README in a process of its own: its URL and number."""
+    port = free_port()
+    command = [sys.executable, "-m", "hess_explorer", "serve", "--port", str(port), "--no-browser", *options]
+    with tempfile.TemporaryFile() as log, subprocess.Popen(command, stdout=log, stderr=log) as process:
+        try:
+            yield f"http://127.0.0.1:{port}", process.pid
+        finally:
+            process.terminate()
+            process.wait(30.0)
+
+
+class Crowd:
+    """So many visitors of the scenes in turn."""
+
+    def __init__(self, base):
+        self.base, self.visitors, self.errors = base, [], 0
+        self.opened, self.answered = [], []
+        self.names = [name for name, scene in scenes().items() if scene.origin is None]
+
+    async def open(self, count):
+        """Sixteen at a time, as browsers do that come within a few seconds."""
+        room = asyncio.Semaphore(16)
+
+        async def one(i):
+            async with room:
+                begun = time.monotonic()
+                try:
+                    visitor = await Visitor.open(self.base, f"scene={self.names[i % len(self.names)]}", timeout=120.0)
+                    self.opened.append(time.monotonic() - begun)
+                    self.visitors.append((self.names[i % len(self.names)], visitor))
+                # Whatever it is, it counts.
+                except Exception as error:
+                    self.errors += 1
+                    print(f"open: {error!r}", file=sys.stderr)
+
+        begun = time.monotonic()
+        await asyncio.gather(*(one(i) for i in range(count)))
+        return time.monotonic() - begun
+
+    async def use(self, seconds, seed):
+        """Change a value every 2 s; the times to the answers."""
+        self.answered = []
+        ends = time.monotonic() + seconds
+
+        async def one(i, name, visitor):
+            chance = random.Random(1000 * seed + i)
+            spec = next(spec for spec in scenes()[name].specs if isinstance(spec, Number))
+            await asyncio.sleep(EVERY * chance.random())
+            while time.monotonic() < ends:
+                begun = time.monotonic()
+                try:
+                    low, high = spec.softbounds
+                    value = spec.default + 0.05 * (high - low) * (chance.random() - 0.5)
+                    await visitor.ask(timeout=60.0, values={spec.name: round(min(max(value, low), high), 6)})
+                    self.answered.append(time.monotonic() - begun)
+                except Exception as error:
+                    self.errors += 1
+                    print(f"{name}: {error!r}", file=sys.stderr)
+                    return
+                await asyncio.sleep(max(0.0, EVERY - (time.monotonic() - begun)))
+
+        await asyncio.gather(*(one(i, *pair) for i, pair in enumerate(self.visitors)))
+
+    def leave(self):
+        for _, visitor in self.visitors:
+            visitor.leave()
+
+
+async def dear(base, until):
+    """The user who asks for the dearest without a pause."""
+    visitor = await Visitor.open(base, DEAREST, timeout=120.0)
+    chance = random.Random(7)
+    while not until.is_set():
+        try:
+            await visitor.ask(timeout=300.0, values={"h": round(chance.uniform(40.0, 60.0), 6)})
+            while visitor.state["progress"] is not None and not until.is_set():
+                await visitor.ask(timeout=300.0)
+                await asyncio.sleep(0.08)
+        except TimeoutError:
+            continue
+    visitor.leave()
+
+
+def _row(times):
+    times = sorted(times) or [float("nan")]
+    return statistics.median(times), times[min(len(times) - 1, int(0.95 * len(times)))]
+
+
+async def measure(base, pid, counts, seconds):
+    """One line of the table for each count."""
+    # What is loaded after the start is no part of a session.
+    warm = Crowd(base)
+    await warm.open(len(warm.names))
+    await warm.use(2.0 * EVERY, 99)
+    warm.leave()
+    print("| sessions | opened in | median | p95 | cores | memory each | beside one at reference | errors |")
+    print("|---|---|---|---|---|---|---|---|", flush=True)
+    for count in counts:
+        before, crowd = memory(pid), Crowd(base)
+        opening = await crowd.open(count)
+        held, cpu, begun = memory(pid), worked(pid), time.monotonic()
+        await crowd.use(seconds, count)
+        share = (worked(pid) - cpu) / (time.monotonic() - begun)
+        median, late = _row(crowd.answered)
+        until = asyncio.Event()
+        other = asyncio.create_task(dear(base, until))
+        await crowd.use(seconds, count + 1)
+        until.set()
+        both = _row(crowd.answered)
+        crowd.leave()
+        other.cancel()
+        print(f"| {count} | {opening:.1f} s | {1e3 * median:.0f} ms | {1e3 * late:.0f} ms | {share:.2f} | "
+              f"{(held - before) / max(1, count) / 2**20:.2f} MB | {1e3 * both[0]:.0f}, {1e3 * both[1]:.0f} ms | "
+              f"{crowd.errors} |", flush=True)
+
+
+def main():
+    """Serve and measure."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("counts", type=int, nargs="+")
+    parser.add_argument("--seconds", type=float, default=20.0, help="of each of the two parts")
+    parser.add_argument("--serve", nargs=argparse.REMAINDER, default=[], help="options of `hess-explorer serve`")
+    options = parser.parse_args()
+    with server(options.serve) as (base, pid):
+        time.sleep(2.0)
+        asyncio.run(_ready(base))
+        asyncio.run(measure(base, pid, options.counts, options.seconds))
+    print(f"load of the machine before and during: {os.getloadavg()}, {os.cpu_count()} cores")
+
+
+async def _ready(base):
+    """The server answers."""
+    ends = time.monotonic() + 120.0
+    while True:
+        try:
+            return await Visitor.open(base)
+        except OSError:
+            if time.monotonic() > ends:
+                raise
+            await asyncio.sleep(0.2)
+
+
+if __name__ == "__main__":
+    main()

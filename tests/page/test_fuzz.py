@@ -1,0 +1,17 @@
+"""A little of what `tests/fuzz.py` sends: links, messages and command lines at random, the same in every run."""
+
+import random
+
+import pytest
+
+from support.fuzzing import fuzz_commands, fuzz_links, fuzz_messages
+
+
+@pytest.mark.parametrize(("fuzz", "count"), [(fuzz_links, 12), (fuzz_messages, 25), (fuzz_commands, 25)],
+                         ids=["links", "messages", "commands"])
+def test_strangers_get_answers(fuzz, count):
+    findings = fuzz(random.Random(20), count)
+    assert findings.done == count
+    # How long it takes is for the script: here the machine may be busy, and kernels may have to be loaded.
+    del findings.count["stall"]
+    assert findings.total == 0, str(findings)

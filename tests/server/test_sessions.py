@@ -1,0 +1,48 @@
+"""What a session leaves behind when it is gone: nothing."""
+
+from __future__ import annotations
+
+import asyncio
+import gc
+import time
+import weakref
+
+import panel as pn
+from tornado.httpclient import AsyncHTTPClient
+
+from hess_explorer.page import page
+from support.serving import served
+from support.visitor import Visitor
+
+
+def test_a_session_that_is_left_is_freed_and_nothing_watches_for_it(monkeypatch):
+    """Panel's pages follow its global state: that must not hold them."""
+    opened = []
+
+    class Recorded(page.Session):
+        def __init__(self, *arguments):
+            super().__init__(*arguments)
+            opened.append(weakref.ref(self))
+
+    monkeypatch.setattr(page, "Session", Recorded)
+    watchers = pn.state.param.watchers
+    before = len(watchers.get("busy", {}).get("value", ()))
+
+    async def visit(base):
+        for _ in range(3):
+            visitor = await Visitor.open(base)
+            await visitor.ask(values={"h": 1.25})
+            assert "h=1.25" in visitor.state["query"]
+            visitor.leave()
+        # Who never comes to the websocket has nothing computed.
+        await AsyncHTTPClient().fetch(base)
+
+    with served(unused_session_lifetime_milliseconds=500, check_unused_sessions_milliseconds=50) as base:
+        asyncio.run(visit(base))
+        end = time.monotonic() + 60.0
+        while any(one() is not None for one in opened):
+            assert time.monotonic() < end, [gc.get_referrers(one()) for one in opened if one() is not None]
+            time.sleep(0.05)
+            gc.collect()
+    assert len(opened) == 3
+    assert len(watchers.get("busy", {}).get("value", ())) == before

@@ -1,0 +1,318 @@
+"""What strangers send: links, messages and command lines made at random, and what of the answers is counted."""
+
+from __future__ import annotations
+
+import argparse
+import io
+import json
+import logging
+import re
+import shlex
+import time
+import warnings
+from collections import Counter
+from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from urllib.parse import quote, urlencode
+
+from hess_explorer.__main__ import _parser, main
+from hess_explorer.page.session import linked
+from hess_explorer.protocol.parameters import CLIENT, Choice, Link, Number, Places, written
+from hess_explorer.scenes import scenes
+from support.board import Browser
+
+__all__ = ["Findings", "fuzz_commands", "fuzz_links", "fuzz_messages"]
+
+STALL = 5.0
+"""Seconds of the processor after which an answer counts as a stall."""
+
+GARBAGE = (
+    "", "nan", "inf", "-inf", "1e400", "-1e308", "1e-320", "-0", "0x10", "1_0", "٣", "NaN,1",
+    "<script>alert(1)</script>", "%00", "\x00", "9" * 400, "null", "true", "[]", "../..", "1;DROP",
+    "é" * 50, "1e5e5", "++1", ",", ";;;")
+_NO_NUMBER = re.compile(r"(?<![\w−-])(?:nan|inf)(?![\w-])", re.IGNORECASE)
+
+
+class Findings:
+    """What went wrong, by kind, with the inputs that show it; `slow` : the seconds of the slowest."""
+
+    tell = None
+    """Called with each finding as it is found."""
+
+    def __init__(self):
+        self.count, self.examples, self.done, self.seconds = Counter(), {}, 0, []
+
+    def found(self, kind, given, detail=""):
+        self.count[kind] += 1
+        kept = self.examples.setdefault(kind, [])
+        if len(kept) < 25:
+            kept.append((given, detail))
+            if self.tell is not None:
+                self.tell(f"{self.done} {kind}: {given}\n        {detail}")
+
+    def timed(self, seconds, given):
+        self.done += 1
+        self.seconds.append(seconds)
+        if seconds > STALL:
+            self.found("stall", given, f"{seconds:.1f} s")
+
+    @property
+    def total(self):
+        return sum(self.count.values())
+
+    def __str__(self):
+        times = sorted(self.seconds) or [0.0]
+        lines = [f"{self.done} done; seconds: median {times[len(times) // 2]:.3f}, "
+                 f"99 of 100 {times[int(0.99 * (len(times) - 1))]:.2f}, slowest {times[-1]:.2f}"]
+        for kind, count in self.count.most_common():
+            lines.append(f"{kind}: {count}")
+            lines += [f"    {given}\n        {detail}" for given, detail in self.examples[kind]]
+        return "\n".join(lines)
+
+
+class _Heard(logging.Handler):
+    def __init__(self):
+        super().__init__(logging.ERROR)
+        self.said = []
+
+    def emit(self, record):
+        self.said.append(self.format(record))
+
+
+@contextmanager
+def _watched(findings, given):
+    """Count what is raised, warned of and logged meanwhile, and the time it takes."""
+    heard, logger = _Heard(), logging.getLogger("hess_explorer")
+    logger.addHandler(heard)
+    propagate, logger.propagate = logger.propagate, False
+    # What this process works: others may keep the machine busy.
+    start = time.process_time()
+    try:
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            yield
+        for one in caught:
+            findings.found("warning", given, f"{one.filename.rpartition('/')[2]}:{one.lineno} {one.message}")
+    # Whatever it is, it is what is looked for.
+    except Exception as error:
+        at = error.__traceback__
+        while at.tb_next is not None:
+            at = at.tb_next
+        findings.found("raised", given, f"{at.tb_frame.f_code.co_filename}:{at.tb_lineno} {error!r}"[:400])
+    finally:
+        findings.timed(time.process_time() - start, given)
+        logger.removeHandler(heard)
+        logger.propagate = propagate
+    for said in heard.said:
+        findings.found("logged", given, " | ".join(said.splitlines()[-3:]))
+
+
+def _checked(browser, findings, given):
+    browser.assert_admissible()
+    for key, text in browser.texts.items():
+        if "could not be computed" in text:
+            findings.found("could not be computed", given, f"{key}: {text}")
+        elif _NO_NUMBER.search(text):
+            findings.found("no number in a sentence", given, f"{key}: {text[:300]}")
+
+
+def _number(random, spec, wild=False):
+    kind = random.uniform(0.45, 0.85) if wild else random.random()
+    low, high = spec.bounds
+    if kind < 0.45:
+        return random.uniform(*spec.softbounds)
+    if kind < 0.6:
+        return random.uniform(low, high)
+    if kind < 0.7:
+        return random.choice([low, high, 0.0, spec.default, -spec.default, *spec.softbounds])
+    if kind < 0.85:
+        return random.choice([-1.0, 1.0]) * 10.0 ** random.uniform(-9.0, 4.0)
+    return round(random.uniform(*spec.softbounds), random.randint(0, 2))
+
+
+def _value(random, spec, wild=False):
+    if random.random() < 0.04:
+        return random.choice(GARBAGE)
+    if isinstance(spec, Number):
+        return repr(_number(random, spec, wild))
+    if isinstance(spec, Choice):
+        return random.choice(spec.options)
+    assert isinstance(spec, Places)
+    return written([tuple(random.uniform(low, high) for low, high in zip(spec.low, spec.high, strict=True))
+                    for _ in range(random.randint(0, spec.most + 2))])
+
+
+def _some(random, specs):
+    share, wild = random.choice([0.1, 0.3, 0.6, 1.0]), random.random() < 0.3
+    return {spec.name: _value(random, spec, wild) for spec in specs if random.random() < share}
+
+
+def link(random):
+    """A query, of one scene for the most part."""
+    if random.random() < 0.02:
+        return quote(random.choice(GARBAGE)) * random.randint(1, 9)
+    scene = random.choice([*scenes().values()])
+    given = {"v": "1", "scene": scene.name}
+    if random.random() < 0.3:
+        given |= {name: str(value) for name, value in scene.example(random.choice(scene.presets)).items()}
+    given |= _some(random, scene.specs)
+    if random.random() < 0.1:
+        given |= _some(random, CLIENT)
+    if random.random() < 0.02:
+        given["scene"] = random.choice(GARBAGE)
+    return urlencode(given)
+
+
+def fuzz_links(random, count, scene=None):
+    """Open so many links, each in a session of its own."""
+    findings, first = Findings(), next(iter(scenes()))
+    for _ in range(count):
+        query = link(random)
+        if scene is not None and f"scene={scene}&" not in f"{query}&":
+            continue
+        with _watched(findings, query):
+            there = Link(query)
+            found, values = linked(there, first)
+            browser = Browser(found, values, there.notes)
+            browser.session.background.stop()
+            _checked(browser, findings, query)
+    return findings
+
+
+def message(random, scene):
+    """A message for a session that shows this scene."""
+    given = {}
+
+    def sometimes(share):
+        return random.random() < share
+
+    if sometimes(0.7):
+        given["values"] = {name: text if sometimes(0.1) or not isinstance(spec, Number) else _number(random, spec)
+                           for spec in scene.specs for name, text in [(spec.name, _value(random, spec))]
+                           if sometimes(0.3)}
+    if sometimes(0.15):
+        given["picked"] = [random.choice([*scene.pictures, "nobody", 3]),
+                           *(random.choice([random.uniform(-4.0, 4.0), 1e300, None, float("nan")])
+                             if sometimes(0.1) else random.uniform(-3.0, 3.0)
+                             for _ in range(random.choice([2, 2, 2, 4, 4, 1, 3])))]
+    if sometimes(0.15):
+        given["hover"] = [random.choice(scene.pictures), random.uniform(-4.0, 4.0), random.uniform(-4.0, 4.0)]
+    if sometimes(0.1):
+        given["scene"] = random.choice([*scenes(), "nobody", 3, None])
+    if sometimes(0.05):
+        given["near"] = random.choice([*scenes(), "nobody"])
+    if sometimes(0.05):
+        given["restore"] = link(random)
+    if sometimes(0.05):
+        given["preset"] = random.choice([preset.name for preset in scene.presets])
+    if sometimes(0.05):
+        given["expressions"] = {random.choice([spec.name for spec in scene.specs]): random.choice(
+            ["pi/3", "1/0", "9**9**9", "__import__('os')", "sqrt(-1)", "e", "(" * 60, *GARBAGE])}
+    if sometimes(0.05):
+        given["step"] = [random.choice(["introduction", scene.name, "nobody"]), random.randint(-2, 9), sometimes(0.5)]
+    if sometimes(0.3):
+        given["held"] = sometimes(0.7)
+    if sometimes(0.1):
+        given["hidden"] = [name for name in scene.pictures if sometimes(0.5)]
+    for name in ("reset", "clear", "stop"):
+        if sometimes(0.02):
+            given[name] = random.choice([True, False, 1, "x"])
+    if sometimes(0.05):
+        given[random.choice(["values", "picked", "hover", "hidden", "lesson", "step", "expressions", "restore"])] = (
+            random.choice([None, 3, "x", [], {}, [[]], {"a": []}, [None] * 5, 1e400, 10**400]))
+    return given
+
+
+def fuzz_messages(random, count, length=25):
+    """Send so many messages, to sessions that are left after `length` of them."""
+    findings, browser, story = Findings(), None, []
+    for number in range(count):
+        if number % length == 0:
+            if browser is not None:
+                browser.session.background.stop()
+            scene = random.choice([*scenes().values()])
+            browser, story = Browser(scene), [scene.name]
+        given = message(random, browser.scene)
+        story = [*story, given]
+        with _watched(findings, _Story(story)):
+            state = browser.ask(number + 1, **given)
+            if state["answers"] != number + 1:
+                findings.found("no answer", _Story(story))
+            _checked(browser, findings, _Story(story))
+    return findings
+
+
+class _Story:
+    """The messages that led here: the state before the last one, and that one."""
+
+    def __init__(self, story):
+        self.scene, self.length, self.last = story[0], len(story), story[-1]
+        self.whole = story
+
+    def __str__(self):
+        return f"[{self.scene}, message {self.length - 1}] {json.dumps(self.last, default=str)[:600]}"
+
+
+# ---- command lines ----------------------------------------------------------------------------------------------
+
+
+def _examples(parser):
+    """The command lines in the help of all commands, and whether each takes a level of accuracy."""
+    for action in parser._actions:
+        if isinstance(action, argparse._SubParsersAction):
+            for one in action.choices.values():
+                yield from _examples(one)
+    given = re.search(r"Example: hess-explorer (.*)", parser.epilog or "", re.DOTALL)
+    if given is not None:
+        yield shlex.split(given[1])
+
+
+def _argument(random, text):
+    """Another value in the place of this one, of the same form for the most part."""
+    kind = random.random()
+    if kind < 0.1:
+        return random.choice(GARBAGE)
+    if kind < 0.2:
+        return random.choice([f"{text},{text}", text[:-1], f"-{text}", f"{text}:2", "draft", "reference", "0:10:11"])
+    return re.sub(r"\d+\.?\d*(e-?\d+)?", lambda found: found[0] if random.random() < 0.5 else random.choice([
+        "0", "1", f"{random.uniform(0.0, 5.0):.3g}", f"{10.0 ** random.uniform(-12.0, 4.0):.3g}", f"-{found[0]}",
+        f"{10.0 ** random.uniform(-300.0, 300.0):.3g}"]), text)
+
+
+def command_line(random, examples):
+    """The words of a command that computes, and does not write a file."""
+    words = list(random.choice(examples))
+    for i, word in enumerate(words[1:], 1):
+        name, sign, value = word.partition("=")
+        if word.startswith("--") and sign:
+            words[i] = f"{name}={_argument(random, value)}" if random.random() < 0.4 else word
+        elif not word.startswith("--") and i > 1 and random.random() < 0.4:
+            words[i] = _argument(random, word)
+    if random.random() < 0.1:
+        del words[random.randrange(1, len(words))]
+    if random.random() < 0.1:
+        words.insert(random.randrange(1, len(words) + 1), random.choice(
+            ["--help", "--nobody", "--format=csv", "--format=xml", "--accuracy=draft", "--accuracy=nobody", *GARBAGE]))
+    return words
+
+
+def fuzz_commands(random, count):
+    """Carry out so many command lines in this process."""
+    # Those that write files or take a browser are for other tests.
+    findings = Findings()
+    examples = [one for one in _examples(_parser()) if one[0] not in ("bench", "shot")]
+    for _ in range(count):
+        words = command_line(random, examples)
+        given, out, err = shlex.join(words), io.TextIOWrapper(io.BytesIO(), encoding="utf-8"), io.StringIO()
+        code = None
+        with _watched(findings, given), redirect_stdout(out), redirect_stderr(err):
+            try:
+                code = main(words)
+            except SystemExit as end:
+                code = end.code
+        said = err.getvalue()
+        if code not in (0, 2) or "Traceback" in said or (code == 2) != said.startswith("hess-explorer: "):
+            findings.found("exit", given, f"{code} {said[-300:]}")
+        out.flush()
+        if code == 0 and re.search(rb"\b(NaN|Infinity)\b", out.buffer.getvalue()):
+            findings.found("no number in a result", given, out.buffer.getvalue()[:200])
+    return findings

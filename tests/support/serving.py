@@ -1,0 +1,45 @@
+"""The page served in the process of the test, so that what stays behind can be counted."""
+
+from __future__ import annotations
+
+import logging
+import socket
+import time
+from contextlib import contextmanager
+
+import panel as pn
+
+from hess_explorer.server import serving
+from hess_explorer.server.headers import guard
+from hess_explorer.server.liveness import is_alive
+
+__all__ = ["free_port", "served"]
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+@contextmanager
+def served(embedders=("*",), **changed):
+    """The URL of a server in another thread, with the options of `serve` but those that are changed."""
+    port = free_port()
+    options = {**serving.options(port, "127.0.0.1", []), **changed}
+    pn.extension()
+    guard(embedders)
+    thread = pn.serve(show=False, threaded=True, **options)
+    # What pytest keeps of a log holds what it speaks of.
+    logging.disable(logging.INFO)
+    try:
+        end = time.monotonic() + 30.0
+        while not is_alive("127.0.0.1", port):
+            assert time.monotonic() < end, "the server does not answer"
+            time.sleep(0.02)
+        yield f"http://127.0.0.1:{port}"
+    finally:
+        logging.disable(logging.NOTSET)
+        thread.stop()
+        thread.join(10.0)
+        pn.state.kill_all_servers()
