@@ -125,9 +125,9 @@ class Crowd:
 
         await asyncio.gather(*(one(i, *pair) for i, pair in enumerate(self.visitors)))
 
-    def leave(self):
-        for _, visitor in self.visitors:
-            visitor.leave()
+    async def leave(self):
+        """Close all pages."""
+        await asyncio.gather(*(visitor.leave() for _, visitor in self.visitors), return_exceptions=True)
 
 
 async def dear(base, until):
@@ -142,7 +142,7 @@ async def dear(base, until):
                 await asyncio.sleep(0.08)
         except TimeoutError:
             continue
-    visitor.leave()
+    await visitor.leave()
 
 
 def _row(times):
@@ -156,7 +156,7 @@ async def measure(base, pid, counts, seconds):
     warm = Crowd(base)
     await warm.open(len(warm.names))
     await warm.use(2.0 * EVERY, 99)
-    warm.leave()
+    await warm.leave()
     print("| sessions | opened in | median | p95 | cores | memory each | beside one at reference | errors |")
     print("|---|---|---|---|---|---|---|---|", flush=True)
     for count in counts:
@@ -171,7 +171,7 @@ async def measure(base, pid, counts, seconds):
         await crowd.use(seconds, count + 1)
         until.set()
         both = _row(crowd.answered)
-        crowd.leave()
+        await crowd.leave()
         other.cancel()
         print(f"| {count} | {opening:.1f} s | {1e3 * median:.0f} ms | {1e3 * late:.0f} ms | {share:.2f} | "
               f"{(held - before) / max(1, count) / 2**20:.2f} MB | {1e3 * both[0]:.0f}, {1e3 * both[1]:.0f} ms | "

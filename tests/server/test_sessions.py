@@ -33,7 +33,7 @@ def test_a_session_that_is_left_is_freed_and_nothing_watches_for_it(monkeypatch)
             visitor = await Visitor.open(base)
             await visitor.ask(values={"h": 1.25})
             assert "h=1.25" in visitor.state["query"]
-            visitor.leave()
+            await visitor.leave()
         # Who never comes to the websocket has nothing computed.
         await AsyncHTTPClient().fetch(base)
 

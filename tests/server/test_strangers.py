@@ -53,7 +53,9 @@ def test_a_page_whose_websocket_comes_to_another_process_asks_no_other_host():
     with served(unused_session_lifetime_milliseconds=1, check_unused_sessions_milliseconds=20) as base:
         async def late():
             visitor = await Visitor.open(base, "scene=scattering", pause=0.5)
-            return visitor.document, await visitor.ask(values={"theta": 1.0})
+            state = await visitor.ask(values={"theta": 1.0})
+            await visitor.leave()
+            return visitor.document, state
 
         document, state = asyncio.run(late())
     text = json.dumps(document)

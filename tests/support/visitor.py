@@ -125,6 +125,8 @@ class Visitor:
             await self.ask(timeout)
         return self.state
 
-    def leave(self):
+    async def leave(self):
         """Close the websocket, as a tab that is closed does."""
         self._socket.close()
+        while await self._socket.read_message() is not None:
+            pass
