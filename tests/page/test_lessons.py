@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from urllib.parse import parse_qs, urlsplit
 
@@ -68,6 +69,12 @@ def assert_given_in_present_mode(page, step):
         assert 0 <= box["x"] < box["x"] + box["width"] <= 1600
         assert 0 <= box["y"] < box["y"] + box["height"] <= 950
     assert boxes[2]["x"] + boxes[2]["width"] <= boxes[0]["x"]
+    # No control lies over the next one.
+    parts = sorted((box["y"], box["x"], box["width"]) for box in (
+        item.bounding_box() for item in page.locator(".number .label:visible, .number .exact:visible").all()))
+    assert len(parts) == 8
+    for (_, x, width), (_, other, _) in itertools.pairwise(sorted(parts, key=lambda part: part[1])):
+        assert x + width <= other + 1
     found = Axe().run(page, options={"runOnly": ["wcag2a", "wcag2aa"]})
     assert found.violations_count == 0, found.generate_report()
     page.keyboard.press("p")
