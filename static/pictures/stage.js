@@ -25,15 +25,21 @@ const SIDES = 4.4
 const WIDEST = 34
 const MOST_LINES = 4
 const LARGE_LINES = 3
+// In cells of so few units the captions are set smaller.
+const NARROW = 26
+const SMALLER = 0.88
+
+const isNarrow = (width, type) => width / type < NARROW && !isPresenting() && !PHONE.matches
 
 // The height of a caption over a picture in a cell so wide, see "arrange.js".
 function captions(type) {
   // From afar a few words are read, and the rest of the room is the picture's.
   const most = isPresenting() ? LARGE_LINES : MOST_LINES
-  const needed = (width) => Math.max(2, Math.ceil(LONGEST / Math.max(1, width / type - SIDES)))
+  const own = (width) => (isNarrow(width, type) ? SMALLER * type : type)
+  const needed = (width) => Math.max(2, Math.ceil(LONGEST / Math.max(1, width / own(width) - SIDES)))
   const lines = (width) => (isPresenting() && needed(width) > most ? 1 : Math.min(most, needed(width)))
-  const high = (count) => Math.ceil((count * LINE + AIR) * type)
-  return Object.assign((width) => high(lines(width)), { title: high(1), wide: WIDEST * type })
+  const high = (count, size) => Math.ceil((count * LINE + AIR) * size)
+  return Object.assign((width) => high(lines(width), own(width)), { title: high(1, type), wide: WIDEST * type })
 }
 
 function cornerButton(toggle) {
@@ -54,9 +60,10 @@ export function createStage(shelf, shown, signal) {
   const nameOf = (cell) => cell.dataset.name
 
   // Only what changes is written: a plot whose size is set is laid out again.
-  function put(cell, { x, y, width, edge, caption, small }) {
+  function put(cell, { x, y, width, edge, caption, small }, type) {
     const place = [x, y, width, edge, caption].map(Math.round).join(" ")
     cell.classList.toggle("small", small)
+    cell.classList.toggle("narrow", isNarrow(width, type))
     if (cell.dataset.place === place) return
     cell.dataset.place = place
     for (const [key, value] of Object.entries({ x, y, width, edge, caption })) {
@@ -93,7 +100,7 @@ export function createStage(shelf, shown, signal) {
     cells.forEach((cell, i) => {
       const at = seen.indexOf(i)
       cell.classList.toggle("off", at < 0)
-      if (at >= 0) put(cell, { ...boxes[at], small: boxes[at].small || boxes[at].caption <= caption.title })
+      if (at >= 0) put(cell, { ...boxes[at], small: boxes[at].small || boxes[at].caption <= caption.title }, type)
       label(cell, i, chosen.includes(i))
     })
     if (scene === shown() && PHONE.matches) showChips(scene.cells, cells[seen[0]])

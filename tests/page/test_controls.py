@@ -366,7 +366,6 @@ def wait_silence(explorer):
 
 
 def test_play_moves_the_point_in_all_four_pictures_without_the_server(explorer):
-    explorer.unfold("sphere")
     wait_silence(explorer)
     state, sent, received = explorer.state, len(explorer.sent), len(explorer.received)
     _, before = moment(explorer)

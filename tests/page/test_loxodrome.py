@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from support.loxodrome import HESS, LOXODROME, clock, slope, swing_at
-from support.page import brought, chosen, said, wait_frames
+from support.page import brought, chosen, flat, said, wait_frames
 from support.painted import assert_painted
 
 YELLOW = (240, 228, 66)
@@ -116,18 +116,19 @@ def test_the_body_of_the_hess_case_is_among_the_first_pictures_and_moves(explore
 
 
 def test_a_picture_that_is_folded_is_not_computed(explorer):
-    assert explorer.data("sphere") == {}
-    assert not explorer.picture("sphere").locator("canvas").is_visible()
-    explorer.unfold("sphere")
-    first = explorer.data("sphere")
-    assert first["circles"]
-    explorer.fold("sphere")
+    explorer.change(lambda: explorer.slide(h=0.2))
+    assert flat(explorer.data("torus-density")) == []
+    assert not explorer.picture("torus").is_visible()
+    explorer.unfold("torus")
+    first = explorer.data("torus-density")
+    assert flat(first) != []
+    explorer.fold("torus")
     # The browser tells what is in sight a moment after it has changed.
     wait_frames(explorer)
-    explorer.change(lambda: explorer.slide(h=1.2))
-    assert explorer.data("sphere") == first
-    explorer.unfold("sphere")
-    assert explorer.data("sphere") != first
+    explorer.change(lambda: explorer.slide(h=0.4))
+    assert explorer.data("torus-density") == first
+    explorer.unfold("torus")
+    assert explorer.data("torus-density") != first
 
 
 def test_where_there_is_no_body_the_page_says_so_and_draws_none(tab):

@@ -378,7 +378,6 @@ def test_a_page_whose_server_has_ended_keeps_its_pictures_and_plays_on(browser, 
     names = ("data-orbit", "circle-map", "bifurcation-here", "bifurcation-boundary")
     with running_server(tmp_path / "server.log") as base:
         explorer = Explorer(page, base).open("h=0.75")
-        explorer.unfold("sphere")
         before = {name: explorer.data(name) for name in names}
         captions = [explorer.caption(name) for name in PICTURES]
         explorer.wait_url(h="0.75")

@@ -316,7 +316,6 @@ def caption_numbers(explorer, pattern):
 @every_preset
 def test_the_caption_of_an_example_has_the_right_numbers(explorer, name):
     values = choose(explorer, name)
-    explorer.unfold("sphere")
     captions = {picture: explorer.caption(picture) for picture in PICTURES}
     for text in captions.values():
         title, _, sentence = text.partition("\n")
@@ -563,7 +562,6 @@ def test_every_picture_is_painted_in_its_colours(explorer, name):
 @every_preset
 def test_every_example_is_painted(explorer, name, artefacts):
     choose(explorer, name)
-    explorer.unfold("sphere")
     explorer.page.mouse.move(5, 5)
     for picture_name in PICTURES:
         pixels = canvas_of(explorer, picture_name)

@@ -327,7 +327,6 @@ def test_the_spheres_of_all_scenes_are_seen_from_the_same_side_as_the_link_says(
     for name in [*SPHERES, *SPHERES]:
         if name != explorer.scene:
             explorer.enter(name)
-        explorer.unfold("sphere")
         assert turn() == pytest.approx(last, abs=2e-4), name
         sphere.press("ArrowLeft")
         sphere.press("ArrowDown")

@@ -243,6 +243,9 @@ SCENE = Scene(
         constrained_body(section=True),
         picture(lambda s: torus_plane.about(s.map, s.turning), lambda s: s.half_width, torus_plane.layers(
             lambda s: annulus(s.body, s.h, s.turning), half_width=lambda s: s.half_width)),
+        Sphere(caption=lambda s: torus_plane.about_heights(s.turning), circles=SuslovHess.heights,
+               axis=lambda s: Direction(s.body.n3, "n₃"),
+               looks={"orbit": "orbit", "stable": "stable", "unstable": "unstable"}),
         Plot(name="bifurcation", title="Bifurcation diagram", axes=("h", "f"),
              caption=lambda s: diagram.about(s.h, s.f, s.map), dot=("h", "reach"),
              x=lambda s: diagram.window(s.h).x, y=lambda s: diagram.window(s.h).y,
@@ -254,8 +257,5 @@ SCENE = Scene(
         circle.picture(map=lambda s: s.map, iterates=lambda s: s.iterates, caption=lambda s: circle.about(s.map),
                        dot=("phi_start", "phi"), on_click=lambda s, x, y: {"phi0": x}),
         torus_density.picture(lambda s: s.density),
-        Sphere(caption=lambda s: torus_plane.about_heights(s.turning), circles=SuslovHess.heights,
-               axis=lambda s: Direction(s.body.n3, "n₃"), folded="Show the Poisson sphere",
-               looks={"orbit": "orbit", "stable": "stable", "unstable": "unstable"}),
     ),
 )
