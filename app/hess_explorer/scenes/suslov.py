@@ -218,7 +218,7 @@ class Suslov(CentreOfMass, Tensor, Basins, ConstrainedBody):
     def _about_rates(self) -> str:
         exponent, course = self.exponent, self.course
         if exponent is None or course is None:
-            return "They are found when a slider is let go."
+            return self.awaited("They are")
         return (f"λ = {digits(exponent.value, 3)} ± {digits(exponent.spread, 2)}, "
                 f"div = {digits(float(course.mean[-1]), 3)} after t = {digits(float(course.times[-1]))}.")
 

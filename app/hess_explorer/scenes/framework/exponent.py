@@ -34,7 +34,7 @@ def _axis(s: FilledWindow) -> Range | None:
 def _about(s: FilledWindow) -> str:
     exponent = s.exponent
     if exponent is None:
-        return "It is found when a slider is let go."
+        return s.awaited()
     end = float(exponent.times[-1])
     kind = "falling as ln(t)/t: regular so far" if exponent.is_regular else "chaotic"
     return f"λ = {digits(exponent.value, 3)} after t = {digits(end)}, ± {digits(exponent.spread, 2)} lately: {kind}."

@@ -103,6 +103,10 @@ class State:
         """A cached property, if a picture in sight has asked for it."""
         return vars(self).get(name)
 
+    def awaited(self, what: str = "It is") -> str:
+        """What a caption says of what is not known yet."""
+        return f"{what} found when a slider is let go." if self.dragging else f"{what} being computed."
+
     def admitted(self, notes: list[str]) -> Self:
         """The nearest possible state; what was changed is said in the notes."""
         return self
