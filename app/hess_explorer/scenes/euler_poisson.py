@@ -39,7 +39,7 @@ from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.solid_body import HeavySolid, heavy_solid
 from hess_explorer.scenes.framework.windows import Window, inside
 from hess_explorer.views import theme
-from hess_explorer.views.layers import Columns, dots, f32, line
+from hess_explorer.views.layers import Columns, column, dots, line
 from hess_explorer.views.poisson_sphere import Direction, Sphere, gamma_columns
 from hess_explorer.views.section_plane import joined
 from hess_explorer.views.text import digits, vector
@@ -152,7 +152,8 @@ class EulerPoisson(Moments, RotationAcross, HeavySolid):
     def track(self) -> Columns:
         """The orbit on show."""
         l, x = self.section.places_of(self.orbit.states).T
-        return {"t": f32(self.orbit.times), "l": f32(l), "x": f32(x), **gamma_columns(self.orbit.states[:, 3:])}
+        orbit = self.orbit
+        return {"t": column(orbit.times), "l": column(l), "x": column(x), **gamma_columns(orbit.states[:, 3:])}
 
     def hess_curve(self) -> tuple[Array, Array]:
         """The Hess manifold across the window."""

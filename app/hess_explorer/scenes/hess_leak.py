@@ -16,7 +16,7 @@ from hess_explorer.scenes.framework.solid_body import Heavy, heavy_solid
 from hess_explorer.views import andoyer, theme
 from hess_explorer.views.chart import LG_OF_0, lg, lg_axis
 from hess_explorer.views.graph import over_time
-from hess_explorer.views.layers import Columns, Layer, Range, curves, f32
+from hess_explorer.views.layers import Columns, Layer, Range, column, curves
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, gamma_columns, parallels
 from hess_explorer.views.text import digits
@@ -103,12 +103,12 @@ class HessLeak(HeavyMotion):
     def leaking(self) -> Columns:
         """The chosen orbit."""
         apart = lg(self.leaks["own"].apart)
-        return {"t": f32(self.run.times), "apart": f32(apart), **gamma_columns(self.run.states[:, 3:])}
+        return {"t": column(self.run.times), "apart": column(apart), **gamma_columns(self.run.states[:, 3:])}
 
     def exact_columns(self) -> Columns:
         """The exact motion, and what the moving points of the graphs follow."""
         l, x = self.run.andoyer.T
-        return {**self.leaking(), "lg": f32(lg(np.abs(self.run.off))), "l": f32(l), "x": f32(x),
+        return {**self.leaking(), "lg": column(lg(np.abs(self.run.off))), "l": column(l), "x": column(x),
                 **gamma_columns(self.states[:, 3:])}
 
     def heights(self) -> list[Circle]:

@@ -15,7 +15,7 @@ from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import theme
 from hess_explorer.views.body import BodyInSpace, Curve, Rod, Shape, Trail
-from hess_explorer.views.layers import Columns, Sign, f32, line
+from hess_explorer.views.layers import Columns, Sign, column, line
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Mark
 from hess_explorer.views.text import digits, power, vector
@@ -89,7 +89,7 @@ class Loxodrome(Moments):
 
     def track(self) -> Columns:
         """Height of the centre of mass and l, over time."""
-        return {"t": f32(self.found.times), "height": f32(-self.found.centre[:, 0]), "l": f32(self.found.l)}
+        return {"t": column(self.found.times), "height": column(-self.found.centre[:, 0]), "l": column(self.found.l)}
 
     # ---- words --------------------------------------------------------------------------------------------------
 

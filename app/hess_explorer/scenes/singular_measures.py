@@ -18,7 +18,7 @@ from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.views.cloud import CloudPlane, course_layers, density_axes, density_layers, look, room
 from hess_explorer.views.comparison import compared
 from hess_explorer.views.graph import with_room
-from hess_explorer.views.layers import Axes, Columns, Range, f32
+from hess_explorer.views.layers import Axes, Columns, Range, column
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Direction, Sphere
 from hess_explorer.views.text import digits, vector
@@ -119,7 +119,7 @@ class SingularMeasures(FreeBall):
 
     def track(self) -> Columns:
         """The time of the moving clouds, and the mean at it."""
-        return {"t": f32(self.times), "mean": f32(self.on_show[0])}
+        return {"t": column(self.times), "mean": column(self.on_show[0])}
 
     # ---- words --------------------------------------------------------------------------------------------------
 

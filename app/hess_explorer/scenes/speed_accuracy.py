@@ -15,7 +15,7 @@ from hess_explorer.scenes.framework.looking_into import LookingInto
 from hess_explorer.scenes.framework.scene import Motion, Scene
 from hess_explorer.views import theme
 from hess_explorer.views.chart import POWERS, clipped, limit
-from hess_explorer.views.layers import Columns, Layer, f32, line, points, ring
+from hess_explorer.views.layers import Columns, Layer, column, line, points, ring
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics import work_precision as mechanics
@@ -87,9 +87,9 @@ class Study(Costs):
 
     def worst(self) -> Columns:
         """What the moving points follow."""
-        return {"t": f32(self.times), "growth": f32(clipped(self.growing.errors[self.chosen], _FLOOR)),
-                "drift": f32(clipped(np.max([*self._drifts.values()], axis=0), _FLOOR)),
-                "pixels": f32(clipped(self.growing.pixels[self.chosen], _PIXEL_FLOOR))}
+        return {"t": column(self.times), "growth": column(clipped(self.growing.errors[self.chosen], _FLOOR)),
+                "drift": column(clipped(np.max([*self._drifts.values()], axis=0), _FLOOR)),
+                "pixels": column(clipped(self.growing.pixels[self.chosen], _PIXEL_FLOOR))}
 
     def choose(self, x: float, y: float) -> Mapping[str, str]:
         """The level whose point lies nearest to the error x."""

@@ -10,7 +10,7 @@ from typing import Any, ClassVar, TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
-from hess_explorer.views.layers import Axes, Columns, Sign, f32
+from hess_explorer.views.layers import Axes, Columns, Sign, column
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.poisson_sphere import Circle, Mark
 from hess_mechanics.numerics.results import Array
@@ -170,7 +170,7 @@ class BodyInSpace(Picture[S]):
         if motion is not None:
             attitude, times = motion
             directions = attitude.axes[:, :2].reshape(len(times), 6)
-            columns = {"t": f32(times), **{name: f32(directions[:, i]) for i, name in enumerate(_COLUMNS)}}
+            columns = {"t": column(times), **{name: column(directions[:, i]) for i, name in enumerate(_COLUMNS)}}
         if shape is not None:
             semi = [LARGEST] * 3 if self.hollow else shape.semi_axes.tolist()
             radius = LARGEST * math.sqrt(float(np.median(shape.moments) / np.max(shape.moments)))
@@ -187,7 +187,7 @@ class BodyInSpace(Picture[S]):
         return {self.name: {
             **columns,
             "rods": [[*map(float, one.along), one.look, one.label] for one in rods],
-            "curves": [[one.look, one.weight, *f32(seen_in_space(one.points).T)] for one in curves],
+            "curves": [[one.look, one.weight, *column(seen_in_space(one.points).T)] for one in curves],
             "axis": [0.0, 0.0, -1.0], "label": "γ, gravity" if self.heavy is None or self.heavy(state) else "γ",
             "circles": [[*map(float, one.axis), float(one.height), one.look] for one in self.circles],
             "marks": [[*map(float, one.at), one.look, one.label] for one in self.marks]}}

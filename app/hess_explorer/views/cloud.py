@@ -12,7 +12,7 @@ import numpy as np
 from hess_explorer.views import theme
 from hess_explorer.views.comparison import Marks
 from hess_explorer.views.graph import over_time
-from hess_explorer.views.layers import Axes, Columns, Layer, Sign, f32, levels, line, points
+from hess_explorer.views.layers import Axes, Columns, Layer, Sign, column, levels, line, points
 from hess_explorer.views.picture import Picture
 from hess_explorer.views.velocity_plane import centred, frame, nice_above
 from hess_mechanics.chaplygin_ball.energy_surface import Strip, line_of_rest
@@ -29,7 +29,8 @@ _ANGLES = np.linspace(0.0, 2.0 * math.pi, 97)
 
 def _frames(columns: Sequence[Array]) -> Array:
     """Columns (n, m) as one block of numbers [frame][column][point] in single precision."""
-    return f32(np.stack([column.T for column in columns], axis=1)).ravel()
+    # Some millions: in double precision they would fill the memory.
+    return np.stack([one.T for one in columns], axis=1).astype(np.float32).ravel()
 
 
 def room(found: Clouds) -> float:
@@ -100,9 +101,9 @@ class CloudPlane(Picture[S]):
                  for point in ends[:count]]
         second = {} if found.other is None else {"frames1": _frames(list(np.moveaxis(found.other.states, -1, 0)))}
         return {self.name: {
-            "times": f32(np.abs(cloud.times)), "sense": -1 if cloud.times[-1] < 0.0 else 1,
+            "times": column(np.abs(cloud.times)), "sense": -1 if cloud.times[-1] < 0.0 else 1,
             "frames0": _frames([cloud.along, cloud.log_s, *np.moveaxis(cloud.gamma, -1, 0)]),
-            "signs0": f32(cloud.signs), "body": [body.I11, body.I22, body.I13, body.I23, body.D, self.b3(state)],
+            "signs0": column(cloud.signs), "body": [body.I11, body.I22, body.I13, body.I23, body.D, self.b3(state)],
             "points": marks, "bins": [float(log_s[0]) - 0.5 * BIN, BIN, log_s.size], **second}}
 
     def framed(self, state: S, axes: Axes | None) -> dict[str, Columns]:
@@ -113,7 +114,7 @@ class CloudPlane(Picture[S]):
         far = 3.0 * half * xi
         edges = [strip.sigma1(_ANGLES)] + ([strip.sigma2(_ANGLES)] if strip.body.D else [])
         return {self.name: {"half": half, "curves": [
-            *(["muted", *f32(edge.T)] for edge in edges),
+            *(["muted", *column(edge.T)] for edge in edges),
             ["stable", [0.0, -far[0]], [0.0, -far[1]]], ["unstable", [0.0, far[0]], [0.0, far[1]]]]}}
 
     def nothing(self, sentence: str, axes: Axes | None) -> dict[str, Columns]:

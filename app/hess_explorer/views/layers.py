@@ -16,8 +16,29 @@ from hess_explorer.views import theme
 from hess_mechanics.numerics.results import Array
 
 __all__ = [
-    "MESSAGE", "MOVING_POINT", "POINT", "TURNS", "Axes", "Columns", "Grid", "Layer", "Range", "Sign", "arrows",
-    "curves", "dots", "f32", "image", "levels", "line", "names", "points", "region", "ring", "target", "text",
+    "MESSAGE",
+    "MOVING_POINT",
+    "POINT",
+    "TURNS",
+    "Axes",
+    "Columns",
+    "Grid",
+    "Layer",
+    "Range",
+    "Sign",
+    "arrows",
+    "column",
+    "curves",
+    "dots",
+    "image",
+    "levels",
+    "line",
+    "names",
+    "points",
+    "region",
+    "ring",
+    "target",
+    "text",
 ]
 
 S = TypeVar("S")
@@ -94,25 +115,25 @@ MESSAGE: Layer[Any] = Layer("message", "text", ("x", "y", "text"), {
 """A sentence where there is nothing to see."""
 
 
-def f32(values: Any) -> Array:
-    """In the single precision that a screen needs, contiguous."""
-    return np.ascontiguousarray(values, dtype=np.float32)
+def column(values: Any) -> Array:
+    """Numbers side by side, in double precision, for whoever takes them away; the wire sends a screen's single one."""
+    return np.ascontiguousarray(values, dtype=np.float64)
 
 
 def _positions(columns: Sequence[str], value: Any) -> Columns:
     """Arrays, one for each column; nothing for None."""
-    return {} if value is None else {name: f32(one) for name, one in zip(columns, value, strict=True)}
+    return {} if value is None else {name: column(one) for name, one in zip(columns, value, strict=True)}
 
 
 def _parts(value: Sequence[Array] | None) -> Columns:
-    curves_ = [f32(np.asarray(curve).T) for curve in value or ()]
+    curves_ = [column(np.asarray(curve).T) for curve in value or ()]
     return {"xs": [curve[0] for curve in curves_], "ys": [curve[1] for curve in curves_]} if curves_ else {}
 
 
 def _regions(value: Sequence[Sequence[Array]] | None) -> Columns:
     if not value:
         return {}
-    polygons = [[f32(np.asarray(curve).T) for curve in one] for one in value]
+    polygons = [[column(np.asarray(curve).T) for curve in one] for one in value]
     return {"xs": [[[curve[0] for curve in one]] for one in polygons],
             "ys": [[[curve[1] for curve in one]] for one in polygons]}
 
@@ -121,7 +142,7 @@ def _cells(value: Grid | None) -> Columns:
     if value is None:
         return {}
     (x0, x1), (y0, y1) = value.x, value.y
-    return {"image": [f32(value.cells)], "x": [x0], "y": [y0], "dw": [x1 - x0], "dh": [y1 - y0]}
+    return {"image": [column(value.cells)], "x": [x0], "y": [y0], "dw": [x1 - x0], "dh": [y1 - y0]}
 
 
 def _places(value: Sequence[Place] | None) -> Columns:

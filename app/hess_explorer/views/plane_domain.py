@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TypeVar
 
 from hess_explorer.views import theme
-from hess_explorer.views.layers import Axes, Columns, Layer, Sign, curves, f32, line, region, ring
+from hess_explorer.views.layers import Axes, Columns, Layer, Sign, column, curves, line, region, ring
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import gamma_columns
 from hess_explorer.views.velocity_plane import centred, square
@@ -19,8 +19,8 @@ S = TypeVar("S")
 
 def plane_columns(orbit: Orbit, q: Array, **more: Array) -> Columns:
     """The columns of an orbit, states (ω, γ), for this plane and the sphere: q (m, 2), and more for the player."""
-    return {"t": f32(orbit.times), "q1": f32(q[:, 0]), "q2": f32(q[:, 1]), **gamma_columns(orbit.states[:, 2:]),
-            **{name: f32(one) for name, one in more.items()}}
+    return {"t": column(orbit.times), "q1": column(q[:, 0]), "q2": column(q[:, 1]),
+            **gamma_columns(orbit.states[:, 2:]), **{name: column(one) for name, one in more.items()}}
 
 
 def picture(title: str, caption: Callable[[S], str], half_width: Callable[[S], float], names: tuple[str, str],

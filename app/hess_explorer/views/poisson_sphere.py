@@ -8,7 +8,7 @@ from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 
-from hess_explorer.views.layers import MOVING_POINT, Axes, Columns, Sign, f32
+from hess_explorer.views.layers import MOVING_POINT, Axes, Columns, Sign, column
 from hess_explorer.views.picture import Picture
 from hess_mechanics.numerics.results import Array
 
@@ -61,7 +61,7 @@ def parallels(axis: Sequence[float] | Array, heights: Iterable[float]) -> list[C
 
 def gamma_columns(gamma: Array) -> Columns:
     """The columns of a track, γ (n, 3) along a motion."""
-    return {f"g{i + 1}": f32(gamma[:, i]) for i in range(3)}
+    return {f"g{i + 1}": column(gamma[:, i]) for i in range(3)}
 
 
 @dataclass(frozen=True, kw_only=True)

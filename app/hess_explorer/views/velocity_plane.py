@@ -9,7 +9,7 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.comparison import Frame
-from hess_explorer.views.layers import Axes, Columns, Layer, Range, arrows, curves, f32, line, points
+from hess_explorer.views.layers import Axes, Columns, Layer, Range, arrows, column, curves, line, points
 from hess_explorer.views.picture import Values
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import gamma_columns
@@ -29,9 +29,9 @@ S = TypeVar("S")
 
 def velocity_columns(times: Array | None, omega: Array, gamma: Array, **more: Array) -> Columns:
     """The columns of a motion for this plane and the sphere: ω (m, 2), γ (m, 3), and further ones for the player."""
-    moving = {} if times is None else {"t": f32(times)}
-    return {**moving, "omega1": f32(omega[:, 0]), "omega2": f32(omega[:, 1]),
-            **gamma_columns(gamma), **{name: f32(one) for name, one in more.items()}}
+    moving = {} if times is None else {"t": column(times)}
+    return {**moving, "omega1": column(omega[:, 0]), "omega2": column(omega[:, 1]),
+            **gamma_columns(gamma), **{name: column(one) for name, one in more.items()}}
 
 
 def orbit_columns(orbit: Orbit, **more: Array) -> Columns:
