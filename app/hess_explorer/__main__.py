@@ -15,6 +15,7 @@ from hess_explorer.commands import (
     bench,
     circle_map,
     cloud,
+    export,
     lyapunov,
     orbit,
     period,
@@ -48,7 +49,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"hess-explorer {_version()}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     for command in (serve, circle_map, orbit, period, section, scattering, rotation_number, lyapunov, basins, cloud,
-                    shot, bench):
+                    export, shot, bench):
         command.add(commands)
     return parser
 

@@ -428,6 +428,24 @@ def test_shot_without_a_browser(refusal, monkeypatch, tmp_path):
     assert "No Chromium was found." in refusal("shot", str(tmp_path / "out.png"))
 
 
+def test_export(capsys, refusal, tmp_path):
+    state = ["export", "--state", "h=1.2&f=0.3&accuracy=draft", "--picture", "circle"]
+    main(state)
+    facts, header, rows = table(capsys.readouterr().out)
+    assert (facts["scene"], facts["parameters"]["h"], header[:2]) == ("suslov-hess", 1.2, ["layer", "part"])
+    assert len(rows) > 100
+    main([*state, "--format", "json"])
+    assert strict_json(capsys.readouterr().out)["caption"] == facts["caption"]
+    for kind, begins in (("svg", b"<?xml"), ("pdf", b"%PDF"), ("png", b"\x89PNG")):
+        file = tmp_path / f"circle.{kind}"
+        main([*state, "--format", kind, "--width", "40", "--black", "--out", str(file)])
+        assert file.read_bytes().startswith(begins)
+    assert "name a file with --out FILE" in refusal(*state, "--format", "png")
+    assert "20 to 400 mm wide" in refusal(*state, "--format", "svg", "--width", "nan")
+    assert "choose one of body, omega" in refusal("export", "--picture", "../../etc")
+    assert "write it like" in refusal("export", "--state", "h")
+
+
 def test_a_server_that_does_not_start_says_why(monkeypatch, tmp_path):
     # Taken: the port is given away a second time.
     with socket.create_server(("127.0.0.1", 0)) as other:

@@ -11,7 +11,7 @@ from . import CommandError
 from .arguments import shown
 from .output import write_file
 
-__all__ = ["add"]
+__all__ = ["add", "state_of"]
 
 _MAX_STATE = 2000
 _SIDE = range(200, 8001)
@@ -22,7 +22,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser = commands.add_parser("shot", help="a picture of the page, as PNG",
                                  description="Draw the page in a headless Chromium and save it as PNG.",
                                  epilog="Example: hess-explorer shot --state 'h=1.2&f=0.3' --size 1600x950 out.png")
-    parser.add_argument("--state", type=_state, default={}, metavar="QUERY",
+    parser.add_argument("--state", type=state_of, default={}, metavar="QUERY",
                         help="what follows ? in a link to the page (default: its first view)")
     parser.add_argument("--size", type=_size, default=(1600, 950), metavar="WxH",
                         help=f"pixels, each side {_SIDE[0]} to {_SIDE[-1]} (default 1600x950)")
@@ -31,7 +31,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser.set_defaults(run=_run)
 
 
-def _state(text: str) -> dict[str, str]:
+def state_of(text: str) -> dict[str, str]:
+    """What a query says, by key.  Raises `argparse.ArgumentTypeError`."""
     if len(text) > _MAX_STATE:
         raise argparse.ArgumentTypeError(f"the state has {len(text)} characters; at most {_MAX_STATE} are allowed")
     query = text.removeprefix("?")

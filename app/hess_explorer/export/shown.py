@@ -1,0 +1,100 @@
+"""One picture of the state that a link describes, with all that it shows computed to the end."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib.metadata import version
+from typing import Any
+
+from hess_explorer.protocol.parameters import CLIENT, Choice, Value, decode, encode
+from hess_explorer.scenes import scenes
+from hess_explorer.scenes.framework.scene import Scene
+from hess_explorer.views.layers import Axes, Columns
+from hess_explorer.views.picture import Picture
+from hess_mechanics.errors import InvalidParameter
+
+__all__ = ["Shown", "shown"]
+
+_ROUNDS = 4
+"""What is found may ask for more: so often at most."""
+
+
+@dataclass(frozen=True)
+class Shown:
+    """A picture of one state.
+
+    values : the parameters as they were admitted; client : time of the player and turn of the spheres, by key.
+    columns : of all its sources, by source; axes : its axes, None for pictures that have none.
+    title, caption : what the page says over it; status : level, errors and drift of what was computed, without times.
+    notes : what had to be changed in the link, and what the page notes of the state.
+    """
+
+    scene: Scene[Any]
+    picture: Picture[Any]
+    values: Mapping[str, Value]
+    client: Mapping[str, float]
+    state: Any
+    columns: Mapping[str, Columns]
+    axes: Axes | None
+    title: str
+    caption: str
+    status: tuple[str, ...]
+    notes: tuple[str, ...]
+
+    @property
+    def link(self) -> str:
+        """The query of the state: what follows ? in its address."""
+        looks = "".join(f"&{name}={value!r}" for name, value in self.client.items() if value != _DEFAULTS[name])
+        return encode(self.scene.name, self.values) + looks
+
+    @property
+    def facts(self) -> dict[str, Any]:
+        """What every file says of itself."""
+        return {
+            "link": self.link, "scene": self.scene.name, "picture": self.picture.name, "title": self.title,
+            "caption": self.caption, "parameters": dict(self.values), "status": list(self.status),
+            "notes": list(self.notes), "program": f"hess-explorer {version('hess-explorer')}"}
+
+
+_CLIENT = tuple(spec for spec in CLIENT if spec.name != "speed")
+_DEFAULTS = {spec.name: spec.default for spec in _CLIENT}
+
+
+def shown(query: str, picture: str = "") -> Shown:
+    """The picture of that name, else the first one, of the state that a query describes.
+
+    Raises
+    ------
+    InvalidParameter : the scene has no such picture.
+    ModelError : the state cannot be computed.
+    """
+    known = scenes()
+    read, notes = decode(query, (Choice("scene", "Scene", tuple(known), next(iter(known))), *_CLIENT))
+    scene = known[str(read.pop("scene"))]
+    wanted, more = decode(query, scene.specs)
+    values, changed = scene.admit(wanted)
+    if picture and picture not in scene.pictures:
+        raise InvalidParameter(
+            f"The scene {scene.name} has no picture {picture!r}: choose one of {', '.join(scene.pictures)}.")
+    view: Picture[Any] = next(view for view in scene.views if picture in ("", view.name))
+    state, columns, axes, title, caption, status, said = _complete(scene, view, values)
+    return Shown(scene, view, values, {name: float(value) for name, value in read.items()}, state, columns, axes,
+                 title, caption, status, tuple(dict.fromkeys([*notes, *more, *changed, *said])))
+
+
+def _complete(scene: Scene[Any], view: Picture[Any], values: Mapping[str, Value]) -> tuple[Any, ...]:
+    """The state with all that the picture asks for, and what is said of it."""
+    for _ in range(_ROUNDS):
+        state = scene.compute(values, {view.name}, False)
+        title, _, caption = view.said(state).partition("\n")
+        axes = view.ranges(state) or view.first_axes
+        columns = dict(state.drawn)
+        for source, more in view.framed(state, axes).items():
+            columns[source] = {**columns.get(source, {}), **more}
+        status, notes = tuple(state.status()), tuple(state.notes())
+        if not state.work.todo:
+            break
+        for task in state.work.todo:
+            state.work.get(task.function, *task.arguments)
+    return state, columns, axes, title, caption, (f"accuracy: {state.work.chosen}", *status), notes

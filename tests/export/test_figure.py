@@ -1,0 +1,91 @@
+"""Figures for paper: their lines are those of the data, their text is text, and they say where they come from."""
+
+from __future__ import annotations
+
+import io
+import math
+import re
+import xml.etree.ElementTree as ET
+
+import numpy as np
+import pytest
+from PIL import Image
+from scipy.spatial.transform import Rotation
+
+from hess_explorer.export import figure as figures
+from hess_explorer.export.figure import as_file, draw
+from hess_explorer.export.shown import shown
+from hess_explorer.export.spheres import seen
+from hess_mechanics.errors import ModelError
+
+DRAFT = "accuracy=draft"
+# Between them they have all glyphs.
+SEVERAL = [("", "omega"), ("", "bifurcation"), ("", "circle"), ("", "sphere"), ("scene=scattering", "map"),
+           ("scene=suslov&colours=basins", "section"), ("scene=singular-measures&points=1000", "density"),
+           ("scene=free-suslov", "omega"), ("scene=rotation-number", "line")]
+
+
+@pytest.mark.parametrize(("link", "picture"), SEVERAL)
+def test_text_stays_text_and_the_file_says_link_and_version(link, picture):
+    found = shown(f"{link}&{DRAFT}", picture)
+    svg = as_file(found, "svg")
+    assert ET.fromstring(svg).tag.endswith("svg")
+    text = svg.decode()
+    assert found.facts["program"] in text
+    assert found.link.replace("&", "&amp;") in text
+    words = re.findall(r"<text[^>]*>([^<]+)</text>", text)
+    names = getattr(found.picture, "axes", ("γ₁", "γ₂"))
+    names = names(found.state) if callable(names) else names
+    assert set(names) <= set(words)
+    assert as_file(found, "svg") == svg
+
+
+def test_the_size_is_that_asked_for_and_black_has_no_colours():
+    found = shown(DRAFT, "bifurcation")
+    for black in (False, True):
+        picture = Image.open(io.BytesIO(as_file(found, "png", 50.0, black)))
+        assert picture.size == pytest.approx((50 / 25.4 * 300, 50 / 25.4 * 300), abs=1)
+        red, green, blue = np.asarray(picture.convert("RGB"), float).reshape(-1, 3).T
+        # The cells of ρ are grey or coloured as on the page: only what is drawn about them is black.
+        locked = (np.abs(red - 0xB9) < 3) & (np.abs(green - 0xA7) < 3) & (np.abs(blue - 0xD6) < 3)
+        assert (np.mean(locked) > 0.05) is not black
+    assert as_file(found, "pdf").startswith(b"%PDF")
+    assert "hess-explorer" in picture.info["Software"]
+    assert found.link in picture.info["Description"]
+
+
+def test_the_lines_of_a_figure_are_the_curves_of_the_data():
+    found = shown(DRAFT, "omega")
+    drawn = draw(found)
+    orbit = found.columns["data-orbit"]
+    lines = [line.get_xydata() for line in drawn.axes[0].lines]
+    expected = np.column_stack([orbit["omega1"], orbit["omega2"]])
+    assert any(line.shape == expected.shape and np.array_equal(line, expected) for line in lines)
+    assert drawn.axes[0].get_xlim() == found.axes.x
+
+
+@pytest.mark.parametrize(("azimuth", "elevation"), [(0.6, 0.35), (-2.0, -1.1), (0.0, math.pi / 2)])
+def test_a_sphere_is_seen_from_where_the_link_says(azimuth, elevation):
+    eye = np.array([math.cos(elevation) * math.cos(azimuth), math.cos(elevation) * math.sin(azimuth),
+                    math.sin(elevation)])
+    assert seen(eye[None], azimuth, elevation)[0] == pytest.approx([0.0, 0.0, 1.0], abs=1e-15)
+    points = np.random.default_rng(1).normal(size=(20, 3))
+    # Right, up, towards the eye: turned by the azimuth, then by the elevation, and the axes renamed.
+    turned = Rotation.from_euler("zy", [-azimuth, elevation]).apply(points)
+    assert seen(points, azimuth, elevation) == pytest.approx(turned[:, [1, 2, 0]], abs=1e-14)
+
+
+def test_what_cannot_be_drawn_is_refused_with_a_sentence(monkeypatch):
+    body = shown(DRAFT, "body")
+    with pytest.raises(ModelError, match="cannot be drawn as a figure yet: take its data"):
+        as_file(body, "svg")
+    circle = shown(DRAFT, "circle")
+    for wrong in (0.0, 19.9, 401.0, math.nan):
+        with pytest.raises(ModelError, match="20 to 400 mm wide"):
+            as_file(circle, "svg", wrong)
+    with pytest.raises(ModelError, match="choose one of png, svg, pdf"):
+        as_file(circle, "gif")
+    monkeypatch.setitem(__import__("sys").modules, "matplotlib", None)
+    with pytest.raises(ModelError, match=r"pip install 'hess-explorer\[export\]'"):
+        as_file(circle, "svg")
+    assert figures.FORMATS == ("png", "svg", "pdf")

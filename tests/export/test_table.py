@@ -1,0 +1,96 @@
+"""The data of pictures: every digit of what the mechanics give, and what every file says of itself."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from hess_explorer.export.shown import shown
+from hess_explorer.export.table import as_csv, as_json, rows
+from hess_explorer.protocol.parameters import encode
+from hess_explorer.scenes import scenes
+from hess_mechanics import circle_map, level
+from hess_mechanics.errors import ModelError
+
+PICTURES = [(name, picture) for name, scene in scenes().items() if scene.origin is None for picture in scene.pictures]
+
+
+def read(text):
+    """Comments by key, and the table."""
+    comments = dict(line[2:].split(": ", 1) for line in text.splitlines() if line.startswith("# "))
+    body = "\n".join(line for line in text.splitlines() if not line.startswith("# "))
+    table = list(csv.DictReader(io.StringIO(body)))
+    return {key: json.loads(value) for key, value in comments.items()}, table
+
+
+def test_the_graph_of_the_circle_map_is_that_of_the_mechanics_to_the_last_digits():
+    facts, table = read(as_csv(shown("h=1.2&f=0.3&accuracy=reference", "circle")))
+    assert (facts["scene"], facts["picture"], facts["parameters"]["h"]) == ("suslov-hess", "circle", 1.2)
+    found = circle_map(a=0.28 / 0.96, h=1.2, f=0.3, level=level("reference"))
+    graph = [row for row in table if row["layer"] == "map"]
+    x, y = (np.array([float(row[name]) for row in graph]) for name in "xy")
+    assert len(x) > 100
+    off = np.abs(np.angle(np.exp(1j * (y - found.theta(x)))))
+    # A graph is cut where it leaves the frame: there it has no value of its own.
+    assert np.sort(off)[: -4].max() < 1e-13
+
+
+def test_an_orbit_is_that_of_another_integrator_and_its_columns_have_names():
+    found = shown("I22=0.96&I23=0.28&b3=-1&h=1.5&f=0.6&phi0=0.5&span=10&accuracy=reference", "omega")
+    orbit = [row for row in rows(found) if row["layer"] == "orbit"]
+    t, *y = (np.array([row[name] for row in orbit]) for name in ("t", "omega1", "omega2", "g1", "g2", "g3"))
+    I11, I22, I23 = 0.96 + 0.28**2 / 0.96, 0.96, 0.28
+    b = np.array([0.0, I23 / I22, -1.0])
+
+    def rates(_, state):
+        # M' = M × ω + γ × ∂U/∂γ, U = (b, γ), but for the constraint's torque about e3; γ' = γ × ω.
+        w, g = np.array([state[0], state[1], 0.0]), state[2:]
+        M = np.array([I11 * w[0], I22 * w[1], I23 * w[1]])
+        torque = np.cross(M, w) + np.cross(g, b)
+        return [torque[0] / I11, torque[1] / I22, *np.cross(g, w)]
+
+    start = [one[0] for one in y]
+    run = solve_ivp(rates, (0.0, t[-1]), start, method="DOP853", rtol=1e-12, atol=1e-13, t_eval=t)
+    assert np.max(np.abs(run.y - np.array(y))) < 1e-8
+    assert found.link in as_csv(found)
+
+
+@pytest.mark.parametrize(("scene", "picture"), PICTURES)
+def test_every_picture_has_its_numbers_in_both_formats(scene, picture):
+    values = {**scenes()[scene].defaults(), "accuracy": "draft"}
+    found = shown(encode(scene, values), picture)
+    facts, table = read(as_csv(found))
+    whole = json.loads(as_json(found), parse_constant=pytest.fail)
+    assert {"link", "parameters", "status", "program", "caption"} <= facts.keys() & whole.keys()
+    assert facts["parameters"] == whole["parameters"] == values
+    assert shown(facts["link"], picture).values == values
+    assert facts["status"][0] == "accuracy: draft"
+    numbers = [float(value) for row in table for name, value in row.items() if value and name not in ("layer", "text")]
+    assert len(numbers) > 10 or whole["caption"]
+    assert all(map(math.isfinite, numbers))
+    assert {row["layer"] for row in table} <= whole["layers"].keys()
+
+
+def test_a_cloud_is_that_of_the_time_in_the_link():
+    link = "scene=singular-measures&points=1000&accuracy=draft"
+    early, late = ([row for row in rows(shown(f"{link}&t={t}", "omega")) if row["layer"] == "omega-cloud"]
+                   for t in (0.0, 5.0))
+    assert len(early) == len(late) > 300
+    assert {row["t"] for row in early} == {0.0}
+    assert {abs(row["t"] - 5.0) < 0.5 for row in late} == {True}
+    # s tends to 0 on the whole.
+    assert np.mean([row["log_s"] for row in late]) < np.mean([row["log_s"] for row in early]) - 1.0
+
+
+def test_what_a_link_has_wrong_is_put_right_and_noted():
+    found = shown("I22=-5&scene=nowhere", "circle")
+    assert found.scene.name == "suslov-hess"
+    assert [note.split()[0] for note in found.notes[:2]] == ["Scene", "I₂₂"]
+    with pytest.raises(ModelError, match=r"has no picture 'x': choose one of body, omega, sphere"):
+        shown("", "x")
