@@ -160,6 +160,7 @@ def _areas(frame: Frame, layer: Layer[Any], columns: Columns, colour: Callable[[
 
 def _markers(frame: Frame, layer: Layer[Any], columns: Columns, colour: Callable[[str], str], order: float) -> None:
     from matplotlib.markers import MarkerStyle
+    from matplotlib.transforms import Affine2D
 
     style = layer.style
     x, y = (np.asarray(columns[name]) for name in layer.columns[:2])
@@ -173,8 +174,7 @@ def _markers(frame: Frame, layer: Layer[Any], columns: Columns, colour: Callable
         frame.scatter(x, y, marker=marker, **look)
         return
     for at, turned, angle in zip(x, y, columns["angle"], strict=True):
-        turn = MarkerStyle(marker)
-        frame.scatter([at], [turned], marker=MarkerStyle(marker, transform=turn.get_transform().rotate(angle)), **look)
+        frame.scatter([at], [turned], marker=MarkerStyle(marker, transform=Affine2D().rotate(angle)), **look)
 
 
 def _dots(frame: Frame, layer: Layer[Any], columns: Columns, colour: Callable[[str], str], order: float) -> None:

@@ -30,7 +30,8 @@ _ANGLES = np.linspace(0.0, 2.0 * math.pi, 181)
 def seen(points: Array, azimuth: float, elevation: float) -> Array:
     """(n, 3) in the axes of the body → to the right, upwards, towards the eye."""
     ca, sa, ce, se = math.cos(azimuth), math.sin(azimuth), math.cos(elevation), math.sin(elevation)
-    return points @ np.array([[-sa, ca, 0.0], [-se * ca, -se * sa, ce], [ce * ca, ce * sa, se]]).T
+    turned: Array = points @ np.array([[-sa, ca, 0.0], [-se * ca, -se * sa, ce], [ce * ca, ce * sa, se]]).T
+    return turned
 
 
 def draw_sphere(frame: Frame, shown: Shown, colour: Callable[[str], str]) -> None:

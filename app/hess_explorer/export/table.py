@@ -87,9 +87,10 @@ def _clouds(columns: Columns, time: float) -> dict[str, Columns]:
         return {"t": np.full(block.shape[1], at), **dict(zip(names, block, strict=True))}
 
     gamma = ("g1", "g2", "g3")
-    found = {"cloud": {**there("frames0", ("u", "log_s", *gamma)), "sign": columns["signs0"]}}
-    return found if "frames1" not in columns else {
-        **found, "beside": there("frames1", ("omega1", "omega2", *gamma))}
+    found: dict[str, Columns] = {"cloud": {**there("frames0", ("u", "log_s", *gamma)), "sign": columns["signs0"]}}
+    if "frames1" in columns:
+        found["beside"] = there("frames1", ("omega1", "omega2", *gamma))
+    return found
 
 
 def _axes(shown: Shown) -> dict[str, Any]:

@@ -27,7 +27,7 @@ S = TypeVar("S")
 _ANGLES = np.linspace(0.0, 2.0 * math.pi, 97)
 
 
-def _frames(columns: Sequence[Array]) -> Array:
+def _frames(columns: Sequence[Array]) -> np.ndarray:
     """Columns (n, m) as one block of numbers [frame][column][point] in single precision."""
     # Some millions: in double precision they would fill the memory.
     return np.stack([one.T for one in columns], axis=1).astype(np.float32).ravel()
