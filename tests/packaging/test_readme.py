@@ -68,7 +68,7 @@ def test_the_python_of_the_readme_runs(capsys):
 def test_there_are_commands():
     assert {words[0] for words in COMMANDS} == {
         "circle-map", "orbit", "section", "scattering", "rotation-number", "lyapunov", "shot", "bench", "serve",
-        "period", "basins", "cloud"}
+        "period", "basins", "cloud", "export"}
 
 
 @pytest.mark.parametrize("words", COMMANDS, ids=lambda words: words[0])
