@@ -7,18 +7,25 @@ import { isTaken } from "./keys.js"
 import { element } from "./mount.js"
 
 const LARGER = 2
+// Type of this size, in pixels, is read at a desk.
+const DESK = 14
 const REST = 3000
 
 const root = document.documentElement
 let leaving = null
+let worn = null
 
 export const isPresenting = () => leaving !== null
 
-// How much wider than beside a desk lines, dots and what is written on canvases are.
-export const zoom = () => (isPresenting() ? LARGER : 1)
+// How much wider than beside a desk lines, dots and what is written on canvases are: with the type of a large screen.
+export function zoom() {
+  const type = worn === null ? DESK : Number.parseFloat(getComputedStyle(worn).fontSize)
+  return Math.max(isPresenting() ? LARGER : 1, type / DESK)
+}
 
 // The component wears the classes `presenting` and `embedded` where that is so.
 export function wear(el, signal) {
+  worn = el
   const follow = () => {
     el.classList.toggle("presenting", isPresenting())
     el.classList.toggle("embedded", isEmbedded())

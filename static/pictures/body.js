@@ -62,10 +62,8 @@ export function bodyIn(source, attitude) {
     return { place, placed: axes.map(place), seen: semi.length === 3 ? axes.map((axis) => view(place(axis))) : [], path }
   }
 
-  // The disc of radius `size` about a place, across `axle`, in space.
-  function disc({ ctx, px, py }, [x, y, z], axle, size) {
-    const [X, Y, Z] = circle(axle, 0, 40)
-    ctx.beginPath()
+  // Adds to the path the disc of radius `size` about a place, as the unit circle across its axle, in space.
+  function disc({ ctx, px, py }, [x, y, z], [X, Y, Z], size) {
     for (let i = 0; i < X.length; i++) {
       const at = [x + size * X[i], y + size * Y[i], z + size * Z[i]]
       if (i === 0) ctx.moveTo(px(at[0], at[1]), py(...at))
@@ -83,18 +81,21 @@ export function bodyIn(source, attitude) {
     ctx.lineJoin = "round"
     ctx.strokeStyle = ctx.fillStyle = text
     ctx.lineWidth = 2.5 * ratio
-    for (const at of [-1, -0.6, -0.2, 0.2, 0.6]) {
-      disc(sheet, middle.map((x, k) => x + at * side * axle[k]), axle, WHEEL)
-      ctx.fill()
-      ctx.stroke()
-    }
+    const rim = circle(axle, 0, 40)
+    // The tread is what its discs cover: one path of all of them.
+    ctx.beginPath()
+    for (const at of [-1, -0.6, -0.2, 0.2, 0.6]) disc(sheet, middle.map((x, k) => x + at * side * axle[k]), rim, WHEEL)
+    ctx.fill()
+    ctx.stroke()
     const face = middle.map((x, k) => x + side * axle[k])
     ctx.fillStyle = dark ? "#C8C8C8" : "#EEE"
-    disc(sheet, face, axle, WHEEL)
+    ctx.beginPath()
+    disc(sheet, face, rim, WHEEL)
     ctx.fill()
     ctx.stroke()
     ctx.fillStyle = text
-    disc(sheet, face, axle, 0.25 * WHEEL)
+    ctx.beginPath()
+    disc(sheet, face, rim, 0.25 * WHEEL)
     ctx.fill()
   }
 

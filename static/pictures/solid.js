@@ -68,6 +68,9 @@ export function createSolid() {
     // In the coordinates in which it is the unit sphere: a ray is start + depth × along.
     const [ux, uy, uz] = [0, 1, 2].map((i) => axes.map((axis, k) => axis[i] / semi[k]))
     const a = dot(uz, uz)
+    // Of the ellipse that is seen, its square distance a few pixels beyond its edge.
+    const beyond = 1 + 6 / Math.min(columns, rows)
+    const outside = a * (1 - beyond * beyond)
     // Where the tone changes it does so over a pixel and a half.
     const sharp = columns / (3 * width)
     const [s0, s1, s2] = semi.map((length) => length * sharp)
@@ -78,9 +81,10 @@ export function createSolid() {
         const x = width * ((2 * column + 1) / columns - 1)
         let [p, q, r] = [x * ux[0] + y * uy[0], x * ux[1] + y * uy[1], x * ux[2] + y * uy[2]]
         const b = p * uz[0] + q * uz[1] + r * uz[2]
-        const c = p * p + q * q + r * r - 1
+        const inside = b * b - a * (p * p + q * q + r * r - 1)
+        if (inside < outside) continue
         // Beside it the edge goes on, so that there is something to smooth it with.
-        const z = (Math.sqrt(Math.max(0, b * b - a * c)) - b) / a
+        const z = (Math.sqrt(Math.max(0, inside)) - b) / a
         p += z * uz[0]
         q += z * uz[1]
         r += z * uz[2]

@@ -18,6 +18,8 @@ import { squareCanvas } from "./square_canvas.js"
 const RADIUS = 0.84
 const STEP = Math.PI / 36
 const HOME = [0.6, 0.35]
+// Where a label goes whose place is taken: below, above, to the right, to the left.
+const ASIDE = [[0, 0], [0, 1], [0, -1], [1, 0], [-1, 0], [1, 1], [-1, 1]]
 
 // What everything on a sphere is drawn with: projection, depth towards the eye, lines and labels.
 function createSheet(ctx, { size, ratio, text, dark }, [azimuth, elevation]) {
@@ -27,6 +29,8 @@ function createSheet(ctx, { size, ratio, text, dark }, [azimuth, elevation]) {
   const px = (x, y) => half + scale * (ca * y - sa * x)
   const py = (x, y, z) => half - scale * (ce * z - se * (ca * x + sa * y))
   const depth = (x, y, z) => ce * (ca * x + sa * y) + se * z
+  // Where a label stands already: middle and half of its width.
+  const taken = []
   return {
     ctx, size, ratio, text, dark, half, scale, px, py, depth,
     // To the right, upwards, towards the eye.
@@ -50,10 +54,18 @@ function createSheet(ctx, { size, ratio, text, dark }, [azimuth, elevation]) {
       ctx.lineWidth = weight * ratio
       ctx.strokeStyle = colour ?? text
     },
-    // Whole, also at the edge of the picture.
+    // Whole, also at the edge of the picture, and beside any other label.
     write(label, x, y) {
+      if (!label) return
       const [across, down] = [ctx.measureText(label).width / 2, 8 * ratio]
-      ctx.fillText(label, Math.min(Math.max(x, across), size - across), Math.min(Math.max(y, down), size - down))
+      const places = ASIDE.map(([a, b]) => [
+        Math.min(Math.max(x + a * (2 * across + 4 * ratio), across), size - across),
+        Math.min(Math.max(y + 2 * b * down, down), size - down)])
+      const free = ([left, top]) => taken.every(([other, above, wide]) => (
+        Math.abs(left - other) >= across + wide + 2 * ratio || Math.abs(top - above) >= 2 * down))
+      const [left, top] = places.find(free) ?? places[0]
+      taken.push([left, top, across])
+      ctx.fillText(label, left, top)
     },
   }
 }
@@ -84,13 +96,13 @@ export function sphere(el, options, source, signal, isShown) {
     return g1 ? [g1, g2, g3] : null
   }
 
-  function drawAxis({ ctx, ratio, px, py, depth, write }, [x, y, z], label, near, aside = 0) {
+  function drawAxis({ ctx, px, py, depth, write }, [x, y, z], label, near) {
     if (depth(x, y, z) >= 0 !== near) return
     ctx.beginPath()
     ctx.moveTo(px(x, y), py(x, y, z))
     ctx.lineTo(px(1.12 * x, 1.12 * y), py(1.12 * x, 1.12 * y, 1.12 * z))
     ctx.stroke()
-    write(label, px(1.2 * x, 1.2 * y) + aside * ratio, py(1.2 * x, 1.2 * y, 1.2 * z) + aside * ratio)
+    write(label, px(1.2 * x, 1.2 * y), py(1.2 * x, 1.2 * y, 1.2 * z))
   }
 
   function drawMarks({ ctx, ratio, text, px, py, depth, write }, near) {
@@ -144,7 +156,7 @@ export function sphere(el, options, source, signal, isShown) {
       drawAxis(on, [0, 1, 0], "γ₂", near)
       drawAxis(on, [0, 0, 1], "γ₃", near)
     }
-    if (!inSpace && own.data.axis?.length === 3) drawAxis(on, own.data.axis, own.data.label, near, 13)
+    if (!inSpace && own.data.axis?.length === 3) drawAxis(on, own.data.axis, own.data.label, near)
     for (const [a, b, c, height, look] of own.data.circles ?? []) {
       use(LOOKS[look])
       stroke(circle([a, b, c], height), near)

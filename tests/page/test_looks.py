@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import io
 import re
+from itertools import combinations
 
+import numpy as np
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 from PIL import Image, ImageStat
@@ -483,13 +485,100 @@ def test_labels_of_ticks_are_short_and_have_room(look_at, ticks, labels):
 def test_on_tiny_axes_no_label_touches_the_next(look_at, scene, values):
     tab = Explorer(look_at(scene, "laptop"), "")
     tab.change(tell, tab.page, "change", values)
-    # Bokeh leaves out what would come nearer, also where labels are as long as here.
-    policies = tab.page.evaluate("""() => hess.plots.flatMap(({ model }) => [...model.below, ...model.left]
-      .map(({ major_label_policy: { type, min_distance: gap } }) => [type, gap]))""")
-    longest = tab.page.evaluate("""() => Math.max(...hess.plots.flatMap((plot) => plot.computed_renderer_views
-      .filter(({ model }) => model.type === "LinearAxis").flatMap((axis) => axis.compute_labels(
-        axis.tick_coords.major[0].map(Number)).items.map(({ text }) => text.length))))""")
+    # Painted anew, as they stand: [text, left, top, right, bottom], of each plot.
+    plots = tab.page.evaluate(WRITTEN, """for (const plot of hess.plots) for (const axis of plot.model.below)
+      axis.setv({ axis_line_alpha: axis.axis_line_alpha === 0.4 ? 0.41 : 0.4 })""")
     tab.change(tell, tab.page, "reset")
-    assert len(policies) >= 6
-    assert all(policy == ["NoOverlap", 4] for policy in policies)
-    assert longest >= 5
+    assert len(plots) >= 3
+    ticks = [[one for one in labels if re.fullmatch(r"−?[\d.]+(e−?\d+)?", one[0])] for labels in plots]
+    gaps = [gap for labels in ticks for gap in gaps_of(labels)]
+    assert len(gaps) > 20
+    assert min(gaps) >= 3.9
+    assert max(len(text) for labels in ticks for text, *_ in labels) >= 5
+
+
+WRITTEN = """async (change) => {
+  const own = CanvasRenderingContext2D.prototype.fillText
+  const written = new Map()
+  CanvasRenderingContext2D.prototype.fillText = function (text, x, y, ...rest) {
+    const wide = this.measureText(text).width
+    const high = parseFloat(/([\\d.]+)px/.exec(this.font)[1])
+    const left = x - ({ center: 0.5, right: 1, end: 1 }[this.textAlign] ?? 0) * wide
+    const top = y - ({ middle: 0.5, top: 0, hanging: 0 }[this.textBaseline] ?? 0.8) * high
+    const scale = this.canvas.getBoundingClientRect().width / this.canvas.width
+    const at = this.getTransform()
+    const corners = [[left, top], [left + wide, top + high]].map(([a, b]) => at.transformPoint({ x: a, y: b }))
+    const [xs, ys] = ["x", "y"].map((key) => corners.map((corner) => scale * corner[key]).sort((p, q) => p - q))
+    if (!written.has(this.canvas)) written.set(this.canvas, new Map())
+    const box = [text, xs[0], ys[0], xs[1], ys[1]]
+    written.get(this.canvas).set(`${text} ${Math.round(xs[0])} ${Math.round(ys[0])}`, box)
+    own.call(this, text, x, y, ...rest)
+  }
+  new Function(change)()
+  for (let i = 0; i < 4; i++) await new Promise(requestAnimationFrame)
+  CanvasRenderingContext2D.prototype.fillText = own
+  return [...written.values()].map((labels) => [...labels.values()])
+}"""
+"""What is written on each canvas after a change: a list of [text, left, top, right, bottom] in pixels of CSS."""
+
+
+def gaps_of(labels):
+    """The distance of every two of them, along the axis along which they are further apart."""
+    return [max(max(one[1], other[1]) - min(one[3], other[3]), max(one[2], other[2]) - min(one[4], other[4]))
+            for one, other in combinations(labels, 2)]
+
+
+@pytest.mark.parametrize("scene", ["free-suslov", "scattering", "loxodrome"])
+def test_on_a_sphere_no_label_touches_the_next(look_at, scene):
+    page = look_at(scene, "laptop")
+    touching = """const all = (root) => [...root.querySelectorAll("*")].flatMap((item) =>
+      [item, ...(item.shadowRoot ? all(item.shadowRoot) : [])])
+    for (const canvas of all(document).filter((item) => item.matches(".gallery:not(.away) :is(.sphere, .solid)")))
+      canvas.dispatchEvent(new KeyboardEvent("keydown", { key: "Home", bubbles: true, composed: true }))"""
+    canvases = page.evaluate(WRITTEN, touching)
+    labels = [one for canvas in canvases for one in canvas]
+    # In the free Suslov problem with I₁₃ = 0 the axis ξ is that of γ₁.
+    assert {"loxodrome": {"2", "e"}}.get(scene, {"γ₁", "ξ"}) <= {text for text, *_ in labels}
+    assert min(gap for canvas in canvases if len(canvas) > 1 for gap in gaps_of(canvas)) >= 0.0
+
+
+def test_on_a_large_screen_lines_are_as_much_wider_as_the_type(look_at):
+    page = look_at("free-suslov", "laptop")
+    seen = []
+    for window in (SIZES["laptop"], (3840, 2160)):
+        page.set_viewport_size(dict(zip(("width", "height"), window, strict=True)))
+        wait_frames(Explorer(page, ""), 4)
+        seen.append(page.locator(".gallery:not(.away) canvas.sphere").evaluate("""async (canvas) => {
+          const ctx = canvas.getContext("2d")
+          const widths = []
+          ctx.stroke = (...path) => {
+            widths.push(ctx.lineWidth)
+            CanvasRenderingContext2D.prototype.stroke.apply(ctx, path)
+          }
+          canvas.dispatchEvent(new KeyboardEvent("keydown", { key: "Home", bubbles: true }))
+          for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame)
+          delete ctx.stroke
+          const lines = hess.plots.flatMap(({ model }) => model.renderers)
+            .map(({ glyph }) => glyph?.line_width?.value ?? 0)
+          const type = parseFloat(getComputedStyle(canvas).fontSize)
+          return [Math.min(...widths), Math.max(...widths), Math.max(...lines), type]
+        }"""))
+    page.set_viewport_size(dict(zip(("width", "height"), SIZES["laptop"], strict=True)))
+    wait_frames(Explorer(page, ""), 4)
+    small, large = np.array(seen)
+    assert large[3] / small[3] == pytest.approx(25.92 / 14.0, rel=1e-3)
+    assert large / small == pytest.approx(large[3] / small[3], rel=1e-3)
+    assert small[:2] == pytest.approx([1.0, 3.0])
+
+
+def test_what_is_said_of_a_place_under_the_mouse_covers_neither_picture_nor_axis(look_at):
+    page = look_at(HESS, "laptop")
+    frame = page.locator(".gallery:not(.away) .picture-bifurcation")
+    host = frame.locator(".host").bounding_box()
+    page.mouse.move(host["x"] + 0.5 * host["width"], host["y"] + 0.5 * host["height"])
+    hover = frame.locator(".hover")
+    hover.wait_for(state="visible")
+    assert "ρ = " in hover.text_content()
+    box = hover.bounding_box()
+    assert box["y"] + box["height"] <= host["y"] + 0.5
+    page.mouse.move(5, 5)

@@ -45,7 +45,7 @@ from support.board import (
     variant,
 )
 from support.mechanics import PROPERTY
-from support.view import View
+from support.view import NUMBER, View
 
 # A state with other axes than the default one.
 OTHERS = {HESS.name: {"b3": -2.9, "h": 100.0, "f": -5.0, "phi0": -1.0, "I22": 1.3, "I23": -0.4}}
@@ -268,6 +268,10 @@ def test_a_preset_is_possible_as_it_stands_and_is_drawn(scene, preset):
         assert len(title) < 40, name
         assert len(sentence) <= 110, (name, sentence)
         assert not re.search(r"\bnan\b|\binf\b", caption, re.IGNORECASE)
+        # A range that is one number says nothing: it is that number.
+        ranges = (rf"from {NUMBER} to {NUMBER}", rf"between [^.,;]*?{NUMBER} and {NUMBER}", rf"{NUMBER} … {NUMBER}")
+        for low, high in (found for one in ranges for found in re.findall(one, sentence)):
+            assert low != high, (name, sentence)
 
 
 @every_preset

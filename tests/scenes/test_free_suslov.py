@@ -168,7 +168,8 @@ def test_with_F2_both_orbits_join_the_mirrored_circle_and_F2_is_that_of_the_pape
     V = np.column_stack([F2(*way, *unit) for unit in np.eye(3)])
     length = np.linalg.norm(V, axis=1)
     grey = [circle for circle in view.data["sphere"]["circles"] if circle[4] == "muted"]
-    assert len(grey) > 5
+    # Enough to see how it turns, and few enough to see the orbits.
+    assert len(grey) == 4
     for *axis, height, _ in grey:
         nearest = np.argmin(np.linalg.norm(V / length[:, None] - axis, axis=1))
         assert V[nearest] / length[nearest] == pytest.approx(axis, abs=1e-3)

@@ -71,6 +71,24 @@ def test_the_straight_line_the_two_orbits_and_the_long_period():
     assert View(ARC, ARC.presets[-1].values).result.arc.period > 15.0
 
 
+def test_the_circles_on_the_sphere_are_the_equipotentials_of_the_domain():
+    view = View(ARC, ARC.presets[0].values)
+    equator, *others = view.data["sphere"]["circles"]
+    assert (equator[:4], equator[4]) == ([0.0, 0.0, 1.0, 0.0], "limit")
+    assert {look for *_, look in others} == {"muted"}
+    b1, b2 = (view.values[name] for name in ("b1", "b2"))
+    # On a circle γ = height · axis + …, and so (b, γ) = height · (b, axis); in the domain q1 = √I11 γ2, q2 = −√I22 γ1.
+    heights = sorted(height * (b1 * x + b2 * y) for x, y, _, height, _ in others)
+    lines = view.data["domain-levels"]
+    in_domain = []
+    for q1, q2 in zip(lines["xs"], lines["ys"], strict=True):
+        gamma1 = -np.asarray(q2, float) / math.sqrt(view.values["I22"])
+        potential = b1 * gamma1 + b2 * np.asarray(q1, float) / math.sqrt(view.values["I11"])
+        assert np.ptp(potential) < 1e-5
+        in_domain.append(float(potential.mean()))
+    assert heights == pytest.approx(sorted(in_domain), abs=1e-5)
+
+
 def test_the_mirror_image_runs_along_the_same_curves():
     view = View(ARC, {})
     orbit, found = view.data["data-orbit"], view.result.arc

@@ -25,6 +25,18 @@ def body_of(name, preset):
     return state, state.drawn["body"], view.said(state)
 
 
+def test_while_a_slider_is_held_the_body_has_every_second_sample():
+    scene = scenes()["suslov-hess"]
+    values = {**scene.defaults(), "h": 1.4321, "accuracy": "draft"}
+    rest, held = (scene.compute(values, ("body",), dragging).drawn["body"] for dragging in (False, True))
+    kept = [*range(0, len(rest["t"]) - 1, 2), len(rest["t"]) - 1]
+    for name in ("t", "g1", "g2", "g3", "e1", "e2", "e3"):
+        assert np.array_equal(held[name], rest[name][kept]), name
+    # Half way along a chord of two of them the body is no further from where it is than a pixel of 150 in its radius.
+    chord = 0.5 * (held["g1"][:-2] + held["g1"][1:-1])
+    assert np.max(np.abs(chord - rest["g1"][1:-1:2][: len(chord)])) < 1.0 / 150
+
+
 @pytest.mark.parametrize("name", SCENES)
 def test_the_body_is_open_and_the_first_picture_or_the_second_where_at_most_four_are_open(name):
     opened = SCENES[name].open_pictures

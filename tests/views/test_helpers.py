@@ -1,17 +1,22 @@
 """Layers and words that several scenes share."""
 
 import math
+import re
+import threading
 
+import numba
 import numpy as np
 import pytest
 
+from hess_explorer.scenes.framework import work
 from hess_explorer.views import circle_map, rotation_plane, section_plane
 from hess_explorer.views.graph import over_time
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.poisson_sphere import parallels
-from hess_explorer.views.text import vector
+from hess_explorer.views.text import ranging, vector
 from hess_explorer.views.velocity_plane import pixels_per_unit
 from hess_mechanics import level
+from hess_mechanics.numerics.jit import seconds_compiling
 from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.circle_map import circle_map as computed
 
@@ -19,6 +24,36 @@ from hess_mechanics.suslov_hess.circle_map import circle_map as computed
 def test_a_vector_has_its_components_in_brackets():
     assert vector((0.123456, -2.0, 0.0)) == "(0.1235, −2, 0)"
     assert vector([1.23456789], 6) == "(1.23457)"
+
+
+def test_a_range_that_is_one_number_is_said_to_be_that():
+    assert ranging(-1.0, 2.5) == "from −1 to 2.5"
+    assert ranging(0.14159, 0.1416) == "= 0.1416"
+    assert ranging(0.14159, 0.1416, 6) == "from 0.14159 to 0.1416"
+    assert ranging(0.0, 0.0) == "= 0"
+
+
+def test_time_for_compiling_is_said_apart(monkeypatch):
+    clock = [0.0]
+    monkeypatch.setattr(work, "seconds_compiling", lambda: clock[0])
+    one = work.Work()
+    assert re.fullmatch(r"standard, right to 1e−6 · \d ms", one.summary())
+    clock[0] = 10.54
+    # As if all of it had been spent since.
+    one._start -= 10.54
+    assert re.fullmatch(r"standard, right to 1e−6 · \d ms, and 10\.5 s to compile, once", one.summary())
+    assert re.fullmatch(r"\d\.\d ms, cached", one.ended())
+
+
+def test_the_clock_of_compiling_runs_for_the_thread_that_compiles():
+    before = seconds_compiling()
+    numba.njit(lambda x: x + 1.25)(2.0)
+    assert 0.0 < seconds_compiling() - before < 30.0
+    elsewhere = []
+    thread = threading.Thread(target=lambda: elsewhere.append(seconds_compiling()))
+    thread.start()
+    thread.join()
+    assert elsewhere == [0.0]
 
 
 def test_pixels_are_those_of_a_picture_600_wide():

@@ -49,7 +49,7 @@ _PLAIN = {"I13": 0.0, "I23": 0.0}
 PRESETS = (
     Preset("Mixed: curves and a sea, I₁₃ = I₂₃ = 0"),
     Preset("Regular: I₁₁ = I₂₂, b ∥ e₃", **_PLAIN, I11=1.0, I22=1.0, D=3.0, b1=0.0, b3=1.0, h=1.5),
-    Preset("Every orbit closes: b₃ = 0", **_PLAIN, I11=1.0, I22=2.0, D=1.0, b1=1.0, b2=0.5, b3=0.0, h=2.618, psi=2.0),
+    Preset("Every orbit closes: b₃ = 0", **_PLAIN, I11=1.0, I22=2.0, D=1.0, b1=1.0, b2=0.5, b3=0.0, h=2.618, psi=0.5),
     Preset("A sea nearly everywhere", **_PLAIN, I11=1.0, I22=4.0, D=2.0, b1=0.3, b3=1.0, h=0.8),
     Preset("Strange attractor, I₁₃ ≠ 0", I11=1.5, I22=3.0, I13=-0.3, I23=0.0, D=1.0, b1=1.0, b2=-0.7, b3=0.7, h=2.72,
            psi=2.5, count=600.0, drop="the later half"),

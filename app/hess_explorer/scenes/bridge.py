@@ -31,7 +31,7 @@ from hess_explorer.views.chart import LG_OF_0, lg, lg_axis
 from hess_explorer.views.graph import over_time
 from hess_explorer.views.layers import Columns
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.text import digits
+from hess_explorer.views.text import digits, ranging
 from hess_explorer.views.velocity_plane import nice_above, picture
 from hess_mechanics.euler_poisson.andoyer import coordinates, hess_circle
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge, largest_distance, share_of
@@ -214,8 +214,8 @@ class BothSides(HeavyMotion, SuslovBody, _Given):
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_torus(self) -> str:
-        return (f"h = {digits(self.map.h, 6)}, f = {digits(self.map.f, 6)} in units b = 1; |w| from "
-                f"{digits(self.turning.initial_rho)} to {digits(self.turning.final_rho)}.")
+        return (f"h = {digits(self.map.h, 6)}, f = {digits(self.map.f, 6)} in units b = 1; |w| "
+                f"{ranging(self.turning.initial_rho, self.turning.final_rho)}.")
 
     def _about_map(self) -> str:
         zone = f"No cycle, ρ = {digits(self.map.rotation_number)}"

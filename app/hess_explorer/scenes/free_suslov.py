@@ -30,6 +30,8 @@ from hess_mechanics.suslov.additional_integral import AdditionalIntegral, of_bod
 
 _LEVELS = (0.25, 0.6, 1.6)
 """Energies of the other ellipses drawn, in that of the orbit."""
+_ON_THE_WAY = 4
+"""Circles of F2 between the one that is left and the one that is joined: more would hide the orbits."""
 _ROOM_BELOW = (-1.25, 1.05)
 """The axis of γ₁, with room for the name of the other axis."""
 
@@ -165,7 +167,8 @@ class FreeSuslov(FreeBody, ConstrainedBody):
                  Circle(xi, self.second.limits[1], "stable")]
         if self.F2 is not None:
             integral, f = self.F2
-            on_the_way = self.arcs[0 if self.passage.arc > 0 else 1][5:-5:8]
+            arc = self.arcs[0 if self.passage.arc > 0 else 1]
+            on_the_way = arc[np.linspace(0, len(arc) - 1, _ON_THE_WAY + 2).astype(int)[1:-1]]
             found += [Circle(*integral.circle(omega, f), "muted") for omega in on_the_way]
         return found
 

@@ -18,7 +18,7 @@ from hess_explorer.views.body import BodyInSpace, Curve, Rod, Shape, Trail
 from hess_explorer.views.layers import Columns, Sign, column, line
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Mark
-from hess_explorer.views.text import digits, power, vector
+from hess_explorer.views.text import digits, power, ranging, vector
 from hess_explorer.views.velocity_plane import pixels_per_unit
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.loxodromic_pendulum import LoxodromicMotion, LoxodromicPendulum, loxodromic_motion
@@ -101,11 +101,11 @@ class Loxodrome(Moments):
         p, l = self.pendulum, self.found.l
         if p.h < 1.0:
             low, high = sorted(map(float, p.l_at(np.array([-p.amplitude, p.amplitude]))))
-            return f"Middle axis: to and fro on a segment of the loxodrome, l from {digits(low)} to {digits(high)}."
+            return f"Middle axis: to and fro on a segment of the loxodrome, l {ranging(low, high)}."
         if p.h == 1.0:
             top = float(p.l_at(np.array([math.pi]))[0])
             return f"Middle axis: once along the loxodrome, from l = {digits(l[0])} towards {digits(top)}."
-        return f"Middle axis: along the whole loxodrome to a pole; l from {digits(l[0])} to {digits(l[-1])}."
+        return f"Middle axis: along the whole loxodrome to a pole; l {ranging(l[0], l[-1])}."
 
     def _about_angle(self) -> str:
         measured, theta = self.found.measured[1], self.pendulum.angle

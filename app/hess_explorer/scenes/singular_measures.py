@@ -21,7 +21,7 @@ from hess_explorer.views.graph import with_room
 from hess_explorer.views.layers import Axes, Columns, Range, column
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Direction, Sphere
-from hess_explorer.views.text import digits, vector
+from hess_explorer.views.text import digits, ranging, vector
 from hess_mechanics.chaplygin_ball.phase_cloud_density import Clouds, clouds
 from hess_mechanics.numerics.accuracy import REFERENCE, Kind, Level
 from hess_mechanics.numerics.results import Array
@@ -129,8 +129,8 @@ class SingularMeasures(FreeBall):
         return f"Half of {cloud.signs.size} points begin within |s| < {before}, and end within {after}."
 
     def _about_sphere(self) -> str:
-        first, last = (digits(float(((self.clouds.cloud.gamma[:, i] @ self.xi) ** 2).mean()), 3) for i in (0, -1))
-        return f"γ of the same points; the mean of (γ, ξ)² goes from {first} to {last}."
+        first, last = (float(((self.clouds.cloud.gamma[:, i] @ self.xi) ** 2).mean()) for i in (0, -1))
+        return f"γ of the same points; mean of (γ, ξ)² {ranging(first, last, 3)}."
 
     def _about_density(self) -> str:
         s, mean = self.clouds.density.passed_by_most
@@ -142,9 +142,8 @@ class SingularMeasures(FreeBall):
         if self.along == "volume" and self.start == "small patch":
             said = f"The patch has {digits(course.volume[-1], 3)} of its volume left"
         else:
-            first, last = (digits(course.divergence[0, i], 3) for i in (0, -1))
-            said = (f"Mean of div v from {first} to {last}; mean of ln s(t)/s(0) in the end "
-                    f"{digits(course.log_growth[0, -1], 3)}")
+            said = (f"Mean of div v {ranging(course.divergence[0, 0], course.divergence[0, -1], 3)}; "
+                    f"mean of ln s(t)/s(0) in the end {digits(course.log_growth[0, -1], 3)}")
         return f"{said}; beside, all of it." if self.clouds.other is not None else f"{said}."
 
     def derived(self) -> Iterator[str]:

@@ -12,7 +12,8 @@ from hess_explorer.views.layers import MOVING_POINT, Axes, Columns, Sign, column
 from hess_explorer.views.picture import Picture
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Circle", "Direction", "Mark", "Sphere", "centre_of_mass", "ends", "gamma_columns", "parallels"]
+__all__ = ["Circle", "Direction", "Mark", "Sphere", "centre_of_mass", "ends", "gamma_columns", "levels_about",
+           "parallels"]
 
 S = TypeVar("S")
 
@@ -57,6 +58,11 @@ def centre_of_mass(b: Sequence[float]) -> Direction | None:
 def parallels(axis: Sequence[float] | Array, heights: Iterable[float]) -> list[Circle]:
     """Circles about an axis at which something ends; a height of ±1 is no circle."""
     return [Circle(axis, height, "limit") for height in heights if abs(height) < 1.0 - 1e-9]
+
+
+def levels_about(axis: Direction | None, heights: Iterable[float]) -> list[Circle]:
+    """Circles of equal height about an axis, as lines of a function of that height; none without an axis."""
+    return [] if axis is None else [Circle(axis.along, height, "muted") for height in heights]
 
 
 def gamma_columns(gamma: Array) -> Columns:

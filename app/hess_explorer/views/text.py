@@ -8,7 +8,7 @@ from collections.abc import Iterable
 
 from latex2mathml.converter import convert
 
-__all__ = ["digits", "power", "vector", "with_formulas"]
+__all__ = ["digits", "power", "ranging", "vector", "with_formulas"]
 
 
 def digits(value: float, count: int = 4) -> str:
@@ -16,6 +16,12 @@ def digits(value: float, count: int = 4) -> str:
     if math.isinf(value):
         return "∞" if value > 0 else "−∞"
     return f"{value:.{count}g}".replace("-", "−").replace("e+", "e")
+
+
+def ranging(low: float, high: float, count: int = 4) -> str:
+    """From one number to another one; "= …" where both are the same in so many digits."""
+    first, last = digits(low, count), digits(high, count)
+    return f"= {first}" if first == last else f"from {first} to {last}"
 
 
 def vector(components: Iterable[float], count: int = 4) -> str:

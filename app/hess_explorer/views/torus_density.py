@@ -47,8 +47,10 @@ def why_none(theta: CircleMap | None, turning: TurningPoints | None) -> str:
 
 def about(density: Array) -> str:
     """What a density, relative to an even one, says."""
-    return (f"The flow keeps it: {digits(float(density.min()), 3)} to {digits(float(density.max()), 3)} times an even "
-            "one, greener is more.")
+    low, high = digits(float(density.min()), 3), digits(float(density.max()), 3)
+    if low == high:
+        return "The flow keeps it: the even one, to three digits."
+    return f"The flow keeps it: {low} to {high} times an even one, greener is more."
 
 
 def picture(density: Callable[[S], tuple[Array | None, str]]) -> Plot[S]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.layers import Columns, Layer, line, region
-from hess_explorer.views.text import digits
+from hess_explorer.views.text import digits, ranging
 from hess_explorer.views.velocity_plane import ring_outside, velocity_columns
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints
@@ -61,7 +61,7 @@ def about(theta: CircleMap | None, turning: TurningPoints | None) -> str:
                  theta.kind, "The orbit winds round the torus, no limit cycle")
     if n2 - n1 < 1e-6:
         orbit = "On the bifurcation curve the torus is a circle"
-    return f"{orbit}; |w| from {digits(turning.initial_rho)} to {digits(turning.final_rho)}."
+    return f"{orbit}; |w| {ranging(turning.initial_rho, turning.final_rho)}."
 
 
 def about_heights(turning: TurningPoints | None) -> str:
@@ -69,4 +69,6 @@ def about_heights(turning: TurningPoints | None) -> str:
     if turning is None:
         return "Towards the upper equilibrium, n₃ = −1."
     n1, n2 = turning.roots[1:]
+    if digits(n1) == digits(n2):
+        return f"The vertical γ, at the height n₃ = {digits(n1)}."
     return f"The vertical γ, between heights n₃ = {digits(n1)} and {digits(n2)}."

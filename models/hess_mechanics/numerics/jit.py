@@ -14,14 +14,17 @@ import json
 import os
 import stat
 import tempfile
+import threading
+import time
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 import numba
+from numba.core import event
 
-__all__ = ["CACHE_FOLDER", "derived_kernel", "inner", "kernel", "part", "source_hash"]
+__all__ = ["CACHE_FOLDER", "derived_kernel", "inner", "kernel", "part", "seconds_compiling", "source_hash"]
 
 _OPTIONS: dict[str, Any] = {
     # NumPy's division lets LLVM vectorise; `contract` fuses a*b+c and nothing else, so
@@ -178,6 +181,32 @@ def _part_of(name: str) -> str:
 
 # Numba leaves LLVM's packing of straight-line arithmetic into vectors off; here it is worth a quarter of the time.
 _CONFIG.SLP_VECTORIZE = 1
+
+
+class _Clock(event.Listener):  # type: ignore[misc]  # numba has no types
+    """How long each thread has held the lock under which Numba compiles kernels and reads compiled ones."""
+
+    def __init__(self) -> None:
+        self.of = threading.local()
+
+    def on_start(self, event: Any) -> None:
+        self.of.depth = getattr(self.of, "depth", 0) + 1
+        if self.of.depth == 1:
+            self.of.begun = time.perf_counter()
+
+    def on_end(self, event: Any) -> None:
+        self.of.depth = getattr(self.of, "depth", 1) - 1
+        if self.of.depth == 0:
+            self.of.seconds = getattr(self.of, "seconds", 0.0) + time.perf_counter() - self.of.begun
+
+
+_CLOCK = _Clock()
+event.register("numba:compiler_lock", _CLOCK)
+
+
+def seconds_compiling() -> float:
+    """For how long this thread has compiled kernels, or read compiled ones from disk, since it began."""
+    return float(getattr(_CLOCK.of, "seconds", 0.0))
 
 
 def _folder_for(module: str) -> Path | None:

@@ -89,6 +89,11 @@ class Lying:
     axes: Array
     defect: float
 
+    def every_second(self) -> Lying:
+        """With the first, every second and the last of its samples: for a picture that is looked at for a moment."""
+        kept = [*range(0, len(self.times) - 1, 2), len(self.times) - 1]
+        return replace(self, times=frozen(self.times[kept]), axes=frozen(self.axes[kept]))
+
 
 TURN = 0.1
 """The rotation, in radians, from one sample of `attitude_along` to the next, where the orbit does not turn faster."""

@@ -28,7 +28,7 @@ _ACROSS = 48
 """Orbits on the line along which the rotation number is looked at."""
 _ON_LINE = 3000
 """Crossings of each: with fewer the rotation number in a chain of islands is not known to `RESOLVED`."""
-_HELD = (16, 60, 1e-2)
+_HELD = (16, 40, 1e-2)
 """While a slider is held: orbits, crossings of each, and to what both halves of a closed curve then agree."""
 
 

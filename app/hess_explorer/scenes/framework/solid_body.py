@@ -48,9 +48,12 @@ class Solid:
         omega = self.omega if self.omega.shape[1] == 3 else np.column_stack([self.omega, np.zeros(len(self.times))])
         return attitude_along(self.times, omega, self.gamma)
 
-    def in_space(self) -> tuple[Lying, Array] | None:
-        """The same and its times; None where samples are too far apart for it."""
-        return None if self.lying.defect > _LOST else (self.lying, self.lying.times)
+    def in_space(self, held: bool = False) -> tuple[Lying, Array] | None:
+        """The same and its times, every second one while a slider is held; None where they are too far apart for it."""
+        if self.lying.defect > _LOST:
+            return None
+        found = self.lying.every_second() if held else self.lying
+        return found, found.times
 
     @property
     @abstractmethod
@@ -117,9 +120,9 @@ class Hess(Solid):
         """In the axes of (n1, n2, n3), with the middle I33; None where this is no rigid body."""
         return None if self.body.middle_I33 is None else self.body.tensor(self.body.middle_I33)
 
-    def in_space(self) -> tuple[Lying, Array] | None:
+    def in_space(self, held: bool = False) -> tuple[Lying, Array] | None:
         """The attitude and its times; None also where this is no rigid body."""
-        return None if self._tensor is None else super().in_space()
+        return None if self._tensor is None else super().in_space(held)
 
     def shape(self) -> Shape | None:
         """The gyration ellipsoid with its section across n3."""
@@ -192,7 +195,7 @@ class HeavySolid(State):
         return Heavy.along(scene.body, scene.orbit.times, scene.orbit.states)
 
 
-S = TypeVar("S")
+S = TypeVar("S", bound=State)
 
 
 def _own(state: Any) -> Any:
@@ -219,7 +222,7 @@ def constrained_body(of: Callable[[S], Solid] = _own, *, ball: bool = False, fie
         caption=(lambda s: "It rolls on a ball inside, whose centre stays; wheels for (ω, e) = 0."
                  if of(s).in_space() else of(s).about()) if ball else (lambda s: of(s).about()),
         shape=(lambda s: Shape(np.eye(3), np.ones(3), None, ("", "", ""))) if ball else (lambda s: of(s).shape()),
-        motion=lambda s: of(s).in_space(), rods=rods, heavy=lambda s: of(s).mass is not None,
+        motion=lambda s: of(s).in_space(s.dragging), rods=rods, heavy=lambda s: of(s).mass is not None,
         wheels=lambda s: Wheels(_WHEEL, (0.0, 0.0, 1.0)), trail=trail,
         signs=(*((_TRAIL, _SECTION) if section else (replace(_TRAIL, label="trail of a wheel"),)),
                *((_MASS,) if field else ())))
@@ -230,6 +233,6 @@ def heavy_solid(of: Callable[[S], Heavy] = _own, *, name: str = "body", title: s
     """The picture of a heavy body."""
     return BodyInSpace(
         name=name, title=title, bare=True, caption=lambda s: of(s).about(), shape=lambda s: of(s).shape(),
-        motion=lambda s: of(s).in_space(), rods=lambda s: [Rod(of(s).mass.along, "mass", "r")],
+        motion=lambda s: of(s).in_space(s.dragging), rods=lambda s: [Rod(of(s).mass.along, "mass", "r")],
         trail=lambda s: Trail(of(s).mass.along, "orbit"),
         signs=(_TRAIL, _SECTION, _MASS))

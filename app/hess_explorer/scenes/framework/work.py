@@ -11,11 +11,15 @@ from typing import Any, ParamSpec, TypeVar, cast
 from hess_explorer.compute.cache import CACHE, Task
 from hess_mechanics.dynamics.sampling import HALF_A_PIXEL
 from hess_mechanics.numerics.accuracy import STANDARD, Kind, Level, Plan, cheapest, level, plan
+from hess_mechanics.numerics.jit import seconds_compiling
 from hess_mechanics.numerics.results import Orbit
 from hess_mechanics.suslov.free import FreeMotion
 
 __all__ = ["AUTO", "Work", "drift_status", "kept_status", "orbit_status"]
 
+
+_NOTED = 0.1
+"""Seconds for compiling that are worth a word."""
 
 AUTO = "auto"
 """The accuracy that is chosen by measurement."""
@@ -32,7 +36,7 @@ class Work:
     """
 
     def __init__(self, accuracy: str = "standard", dragging: bool = False) -> None:
-        self._start = time.perf_counter()
+        self._start, self._compiled = time.perf_counter(), seconds_compiling()
         self._misses = 0
         self.dragging = dragging
         self.auto, self._settled = accuracy == AUTO, False
@@ -88,16 +92,22 @@ class Work:
             self.later(whole.function, *whole.arguments)
         return found
 
+    def _spent(self) -> tuple[float, float]:
+        """Seconds until now, those for compiling kernels apart: that happens once."""
+        compiling = seconds_compiling() - self._compiled
+        return time.perf_counter() - self._start - compiling, compiling
+
     def summary(self) -> str:
         """The status line in short: the level, what it promises, how long it took until now."""
+        spent, compiling = self._spent()
+        once = f", and {compiling:.1f} s to compile, once" if compiling > _NOTED else ""
         chosen = f"{AUTO}: {self.level.name}" if self.auto else self.level.name
         right = "the floor of double precision" if self.level.is_floor else f"1e−{-math.log10(self.level.promise):.0f}"
-        return f"{chosen}, right to {right} · {1e3 * (time.perf_counter() - self._start):.0f} ms"
+        return f"{chosen}, right to {right} · {1e3 * spent:.0f} ms{once}"
 
     def ended(self) -> str:
         """For the status line: how long it took until now, and whether anything was computed."""
-        ms = (time.perf_counter() - self._start) * 1e3
-        said = f"{ms:.1f} ms, {'computed' if self._misses else 'cached'}"
+        said = f"{1e3 * self._spent()[0]:.1f} ms, {'computed' if self._misses else 'cached'}"
         if not self.auto:
             return said
         return f"{AUTO}: {self.chosen}{'' if self._settled else ' until it is measured'} · {said}"
