@@ -161,9 +161,9 @@ import functools, sys, time
 from collections import Counter
 from pathlib import Path
 from hess_explorer.__main__ import main
-from hess_explorer.scenes import euler_poisson
+from hess_explorer.scenes.framework import rotation_across
 
-gate, piece, begun = Path(sys.argv.pop(1)), euler_poisson._piece, Counter()
+gate, piece, begun = Path(sys.argv.pop(1)), rotation_across._piece, Counter()
 
 @functools.wraps(piece)
 def held(section, starts, crossings, level):
@@ -172,7 +172,7 @@ def held(section, starts, crossings, level):
         time.sleep(0.02)
     return piece(section, starts, crossings, level)
 
-euler_poisson._piece = held
+rotation_across._piece = held
 main()
 """
 """The server; a section of 4000 crossings at 20 < h < 21 stops growing after six pieces, while a file is there."""

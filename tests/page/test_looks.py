@@ -493,7 +493,8 @@ def test_on_tiny_axes_no_label_touches_the_next(look_at, scene, values):
     ticks = [[one for one in labels if re.fullmatch(r"−?[\d.]+(e−?\d+)?", one[0])] for labels in plots]
     gaps = [gap for labels in ticks for gap in gaps_of(labels)]
     assert len(gaps) > 20
-    assert min(gaps) >= 3.9
+    # Bokeh keeps 4 pixels between what it measures; here a letter is as high as its type.
+    assert min(gaps) >= 3.0
     assert max(len(text) for labels in ticks for text, *_ in labels) >= 5
 
 

@@ -22,7 +22,7 @@ from hess_explorer.views import scattering_map as square
 from hess_explorer.views import section_plane
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.poisson_sphere import Sphere
+from hess_explorer.views.poisson_sphere import along_the_orbit
 from hess_explorer.views.text import digits, vector
 from hess_explorer.views.velocity_plane import orbit_alone, orbit_columns, pixels_per_unit, room_for
 from hess_mechanics.chaplygin_ball.energy_surface import lowest_energy
@@ -165,10 +165,6 @@ class BallSection(CentreOfMass, Ball, Crossings, ConstrainedBody):
             return "ψ and the next ψ: a curve, as ω₁γ₁ + ω₂γ₂ is an integral."
         return "ψ and the next ψ: a point if closed, a curve if regular, a cloud in chaos."
 
-    def _about_sphere(self) -> str:
-        field = "; r: the centre of mass." if any(self.body.parameters[5:]) else "; no field, b = 0."
-        return f"The vertical γ along the chosen orbit{field}"
-
     def derived(self) -> Iterator[str]:
         """Energies, and where the orbit starts."""
         yield f"E = {digits(self.E, 6)}"
@@ -195,7 +191,7 @@ SCENE = Scene(
                  lambda s: s.own, others=lambda s: s.others, forbidden=BallSection.forbidden,
                  start=lambda s: [] if s.own is None else [(s.psi, s.delta)])),
         orbit_alone(BallSection.half_width, energy=lambda s: s.E, label="chosen orbit"),
-        Sphere(caption=BallSection._about_sphere, looks={"orbit": "orbit"}, axis=lambda s: s.r),
+        along_the_orbit(lambda s: s.r),
         Plot(name="returns", title="First return", folded="Show the first return", caption=BallSection._about_returns,
              axes=("ψ", "ψ at the next crossing"), x=square.AZIMUTH, y=square.AZIMUTH, ticks=square.AZIMUTH_TICKS,
              message=lambda s: s.reason, layers=section_plane.layers(BallSection.returns)),

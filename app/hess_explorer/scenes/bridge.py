@@ -217,15 +217,6 @@ class BothSides(HeavyMotion, SuslovBody, _Given):
         return (f"h = {digits(self.map.h, 6)}, f = {digits(self.map.f, 6)} in units b = 1; |w| "
                 f"{ranging(self.turning.initial_rho, self.turning.final_rho)}.")
 
-    def _about_map(self) -> str:
-        zone = f"No cycle, ρ = {digits(self.map.rotation_number)}"
-        if self.map.kind == "hyperbolic":
-            stable, unstable = (digits(point.multiplier) for point in self.map.fixed_points)
-            zone = f"Two cycles, multipliers {stable}, {unstable}"
-        elif self.map.kind == "parabolic":
-            zone = "The two cycles have merged, multiplier 1"
-        return f"{zone}; |trace| {digits(self.map.trace, 5)}."
-
     def _about_andoyer(self) -> str:
         H, F1 = self.bridge.from_units_of_b(self.map.h, self.map.f)
         return f"H = {digits(H, 6)}, F₁ = {digits(F1, 6)}: it keeps to the Hess relation."
@@ -293,9 +284,10 @@ SCENE = Scene(
                                label="difference, left to itself"),
                      over_time("held", lambda s: s.apart(s.difference.held), color=theme.ORBIT,
                                label="difference, held on r·M = 0"))),
-        replace(circle.picture(map=lambda s: s.map, iterates=lambda s: s.iterates, caption=BothSides._about_map,
-                               title="Circle map of both", dot=("phi_start", "phi"),
-                               on_click=lambda s, x, y: {"phi0": x}), folded="Show the circle map"),
+        replace(circle.picture(map=lambda s: s.map, iterates=lambda s: s.iterates,
+                               caption=lambda s: circle.about_cycles(s.map), title="Circle map of both",
+                               dot=("phi_start", "phi"), on_click=lambda s, x, y: {"phi0": x}),
+                folded="Show the circle map"),
         replace(andoyer.picture("Euler–Poisson: (l, L/G)", BothSides._about_andoyer,
                                 relation=lambda s: hess_circle(s.bridge.heavy), orbit=lambda s: s.andoyer),
                 folded="Show (l, L/G)"),

@@ -10,19 +10,11 @@ from typing import ClassVar
 
 import numpy as np
 
-from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Value, written
 from hess_explorer.scenes.framework.exponent import exponent_picture
-from hess_explorer.scenes.framework.filled_window import (
-    EXPONENT,
-    SECTION,
-    TURN,
-    Piece,
-    filled_window,
-)
+from hess_explorer.scenes.framework.filled_window import EXPONENT, SECTION, TURN, filled_window
 from hess_explorer.scenes.framework.hess_case import HeavyMotion
 from hess_explorer.scenes.framework.inertia import Moments
-from hess_explorer.scenes.framework.one_orbit import Start
 from hess_explorer.scenes.framework.parameters import (
     accuracy_level,
     choice,
@@ -38,18 +30,15 @@ from hess_explorer.scenes.framework.rotation_across import ROTATION, RotationAcr
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.solid_body import HeavySolid, heavy_solid
 from hess_explorer.scenes.framework.windows import Window, inside
-from hess_explorer.views import theme
-from hess_explorer.views.layers import Columns, column, dots, line
-from hess_explorer.views.poisson_sphere import Direction, Sphere, gamma_columns
-from hess_explorer.views.section_plane import joined
+from hess_explorer.views import andoyer
+from hess_explorer.views.layers import Columns, column
+from hess_explorer.views.poisson_sphere import Direction, along_the_orbit, gamma_columns
 from hess_explorer.views.text import digits, vector
 from hess_mechanics.dynamics.sampling import PIXELS
-from hess_mechanics.euler_poisson.andoyer import AndoyerSection, andoyer_points, hess_curve, relation
+from hess_mechanics.euler_poisson.andoyer import AndoyerSection, hess_curve
 from hess_mechanics.euler_poisson.equations import HeavyBody
-from hess_mechanics.numerics.accuracy import Level
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.results import Array
 
-_MOST_STEPS = 200_000
 _BOUNDS = ((-TURN, -1.0), (TURN, 1.0))
 _ALONG, _ABOUT = "along l", "about the middle"
 _LARGEST, _SECOND = "largest G", "second G"
@@ -129,10 +118,6 @@ class EulerPoisson(Moments, RotationAcross, HeavySolid):
         """The section."""
         return AndoyerSection(self.body, self.h, self.f, (_LARGEST, _SECOND).index(self.sheet))
 
-    def piece(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task:
-        """What follows these orbits."""
-        return Task(_piece, (self.section, starts, crossings, level))
-
     @property
     def impossible_here(self) -> str:
         """What is said where nothing is possible in the window."""
@@ -178,17 +163,6 @@ class EulerPoisson(Moments, RotationAcross, HeavySolid):
         yield self.body.check.sentence
 
 
-def _piece(section: AndoyerSection, starts: tuple[Start, ...], crossings: int, level: Level) -> Piece:
-    found = andoyer_points(section.body, section.h, section.f, starts, crossings, level, threads=1,
-                           most_steps=_MOST_STEPS)
-    signs = np.sign(relation(section.body, np.array(starts)))
-    kept = (bool(np.all(sign * relation(section.body, states) >= 0.0))
-            for states, sign in zip(found.states, signs, strict=True))
-    other = [section.places_of(states)[~section.is_on(states)] for states in found.states]
-    return Piece(tuple(frozen(section.places_of(states)) for states in found.states),
-                 tuple(bool(sign > 0.0) for sign in signs), found.drift, tuple(kept), frozen(joined(other)))
-
-
 SCENE = Scene(
     EulerPoisson, __file__, place=11, presets=PRESETS, measures=(SECTION, EXPONENT, ROTATION),
     group="Euler–Poisson", essential=("away", "h", "f"),
@@ -200,17 +174,12 @@ SCENE = Scene(
         filled_window(
             title="Section g = π/2 (Andoyer–Deprit)", caption=EulerPoisson._about_section, scene=EulerPoisson,
             labels=("r·M > 0", "r·M < 0"), dot=("l", "x"),
-            between=(dots("elsewhere", lambda s: s.elsewhere.T, color=theme.SHEET, size=12,
-                          label="on another sheet: another G"),
-                     line("curve", EulerPoisson.hess_curve, color=theme.STABLE, label="Hess manifold, r·M = 0"),
-                     dots("path", track="orbit", columns=("l", "x"), size=3, color=theme.MAP, alpha=0.4),
-                     line("line", lambda s: tuple(zip(*inside(s.ends, s.frame), strict=True)) or None,
-                          color=theme.MUTED, dash="dashed", width=1.5, label="line of the rotation number"))),
+            between=andoyer.between(
+                elsewhere=lambda s: s.elsewhere, curve=EulerPoisson.hess_curve,
+                across=lambda s: inside(s.ends, s.frame))),
         heavy_solid(),
         rotation_picture(),
-        Sphere(caption=lambda s: "The vertical γ along the chosen orbit; r: the centre of mass.",
-               looks={"orbit": "orbit"},
-               axis=lambda s: Direction(math.copysign(1.0, s.m) * np.array(s.body.r), "r")),
+        along_the_orbit(lambda s: Direction(math.copysign(1.0, s.m) * np.array(s.body.r), "r")),
         replace(exponent_picture(), folded="Show the Lyapunov exponent"),
     ),
 )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -15,11 +15,11 @@ from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
 from hess_explorer.scenes.framework.solid_body import Heavy, heavy_solid
 from hess_explorer.views import andoyer, theme
 from hess_explorer.views.chart import LG_OF_0, lg, lg_axis
-from hess_explorer.views.graph import over_time
-from hess_explorer.views.layers import Columns, Layer, Range, column, curves
+from hess_explorer.views.layers import Columns, Range, column, curves
+from hess_explorer.views.leak import distances
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, gamma_columns, parallels
-from hess_explorer.views.text import digits
+from hess_explorer.views.text import digits, ranging
 from hess_mechanics.euler_poisson import hess_manifold as mechanics
 from hess_mechanics.euler_poisson.andoyer import hess_circle
 from hess_mechanics.euler_poisson.hess_isomorphism import largest_distance
@@ -140,8 +140,7 @@ class HessLeak(HeavyMotion):
                 f"{' and stays in it' if stays else ', and changes it later'}.")
 
     def _about_sphere(self) -> str:
-        low, high = map(digits, self.turning.roots[1:])
-        return f"The exact γ, n₃ from {low} to {high}, and the one that leaks."
+        return f"The exact γ, n₃ {ranging(*self.turning.roots[1:])}, and the one that leaks."
 
     def derived(self) -> Iterator[str]:
         """The reduced body and torus, the exact growth, and what was measured of it."""
@@ -175,14 +174,6 @@ class HessLeak(HeavyMotion):
             yield BY_THE_UNSTABLE_CYCLE
 
 
-def _both(distances: Callable[[mechanics.Leak], Array]) -> tuple[Layer[HessLeak], Layer[HessLeak]]:
-    """lg of a distance over time, of both runs."""
-    return (over_time("reference", lambda s: (s.run.times, lg(distances(s.leaks["reference"]))),
-                      color=theme.LEVELS["reference"], dash="dotdash", label="the same at reference"),
-            over_time("own", lambda s: (s.run.times, lg(distances(s.leaks["own"]))), color=theme.MAP,
-                      label="orbit that leaks, at the chosen accuracy"))
-
-
 SCENE = Scene(
     HessLeak, __file__, place=12, presets=PRESETS,
     group="Euler–Poisson", essential=("h", "f", "phi0", "returns"),
@@ -193,7 +184,7 @@ SCENE = Scene(
         heavy_solid(),
         Plot(name="leak", title="r·M against time", caption=HessLeak._about_leak, axes=("t", "lg |r·M|"),
              x=HessLeak.times, y=_RANGE, dot=("t", "lg"),
-             layers=(*_both(lambda leak: np.abs(leak.run.off)),
+             layers=(*distances(lambda s: s.leaks, lambda leak: np.abs(leak.run.off)),
                      curves("slope", lambda s: s.leaks["own"].straight_line(mechanics.exact_growth(s.map), _RANGE),
                             color=theme.MUTED, dash="dashed", label="slope ln(multiplier) per period"))),
         andoyer.picture("Andoyer variables (l, L/G)", HessLeak._about_side,
@@ -203,6 +194,6 @@ SCENE = Scene(
         Plot(name="difference", title="Distance from the exact motion", caption=HessLeak._about_difference,
              folded="Show the distance from the exact motion", axes=("t", "lg |difference|"),
              x=HessLeak.times, y=lambda s: lg_axis(largest_distance(s.map.h)),
-             dot=("t", "apart"), layers=_both(lambda leak: leak.apart)),
+             dot=("t", "apart"), layers=distances(lambda s: s.leaks, lambda leak: leak.apart)),
     ),
 )

@@ -28,7 +28,7 @@ from hess_explorer.views.layers import Columns, Layer, curves, points, ring
 from hess_explorer.views.period_graph import has_periods, period_axis
 from hess_explorer.views.plane_domain import plane_columns
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.poisson_sphere import Direction, Mark, Sphere, centre_of_mass, levels_about, parallels
+from hess_explorer.views.poisson_sphere import EQUATOR, Direction, Mark, Sphere, centre_of_mass, levels_about
 from hess_explorer.views.text import digits, power, vector
 from hess_explorer.views.velocity_plane import nice_above
 from hess_mechanics.numerics.results import Array, Orbit
@@ -175,8 +175,7 @@ class Kharlamova(ConstrainedBody):
         return [] if self.arc.kind == "fixed" else [
             self.body.place(self.arc.u(np.linspace(low - more, high + more, 181)))]
 
-    @property
-    def r(self) -> Direction | None:
+    def force(self) -> Direction | None:
         """The direction of the centre of mass; None without a field."""
         return centre_of_mass((self.b1, self.b2, 0.0))
 
@@ -277,8 +276,8 @@ SCENE = Scene(
                         label="unstable fixed points"),
                  *plane_domain.orbit(start=lambda s: (s.q1, s.q2)),
                  _MIRROR)),
-        Sphere(caption=Kharlamova._about_sphere, looks={"orbit": "orbit"}, axis=lambda s: s.r,
-               marks=Kharlamova.marks, circles=lambda s: [*parallels((0, 0, 1), [0]), *levels_about(s.r, _LEVELS)]),
+        Sphere(caption=Kharlamova._about_sphere, looks={"orbit": "orbit"}, marks=Kharlamova.marks,
+               axis=Kharlamova.force, circles=lambda s: [EQUATOR, *levels_about(s.force(), _LEVELS)]),
         Plot(name="period", title="Period T against direction α", caption=Kharlamova._about_period, axes=("α", "T"),
              x=(-math.pi, math.pi), y=lambda s: period_axis(s.periods, s.arc.period),
              on_click=lambda s, x, y: {"alpha": x},

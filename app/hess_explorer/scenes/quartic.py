@@ -24,12 +24,11 @@ from hess_explorer.scenes.framework.parameters import (
 )
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.solid_body import ConstrainedBody, constrained_body
-from hess_explorer.views import plane_domain, section_plane, theme
-from hess_explorer.views.graph import about_0, over_time
+from hess_explorer.views import plane_domain, section_plane
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Sphere, centre_of_mass, parallels
-from hess_explorer.views.text import digits, power, vector
+from hess_explorer.views.text import digits, power, staying, vector
 from hess_explorer.views.velocity_plane import centred, nice_above
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.accuracy import Level
@@ -155,18 +154,7 @@ class Quartic(Crossings, ConstrainedBody):
         return f"The orbit: {len(self.own)} points in {visited} of {_CELLS * _CELLS} cells."
 
     def _about_sphere(self) -> str:
-        g3 = self.orbit.states[:, 4]
-        low, high = digits(float(g3.min())), digits(float(g3.max()))
-        return "Back to the body: γ = (p₁, p₂, γ₃), γ₃ " + (
-            f"stays {low}." if low == high else f"between {low} and {high}.")
-
-    def _about_momentum(self) -> str:
-        low, high = float(self.momentum.min()), float(self.momentum.max())
-        if self.body.integrable:
-            return f"I₁₁ = I₂₂: an integral, {digits(float(self.momentum[0]))}, kept to {power(high - low)}."
-        if digits(low) == digits(high):
-            return f"I₁₁ ≠ I₂₂: no integral, but here it stays {digits(low)}."
-        return f"I₁₁ ≠ I₂₂: no integral, between {digits(low)} and {digits(high)}."
+        return f"Back to the body: γ = (p₁, p₂, γ₃), γ₃ {staying(self.orbit.states[:, 4])}."
 
     def derived(self) -> Iterator[str]:
         """Moment of inertia, energy, start; how well the point stays on its level."""
@@ -201,10 +189,7 @@ SCENE = Scene(
              layers=section_plane.layers(lambda s: s.own, others=lambda s: s.others, forbidden=Quartic.impossible)),
         Sphere(caption=Quartic._about_sphere, looks={"orbit": "orbit"}, axis=lambda s: centre_of_mass((0.0, 0.0, s.b3)),
                circles=lambda s: parallels((0.0, 0.0, 1.0), [s.body.h / s.body.b3])),
-        Plot(name="momentum", title="q₁p₂ − q₂p₁ against time", caption=Quartic._about_momentum,
-             folded="Show q₁p₂ − q₂p₁ against time", axes=("t", "q₁p₂ − q₂p₁"),
-             x=lambda s: (0.0, float(s.orbit.times[-1])), dot=("t", "momentum"),
-             y=lambda s: about_0(s.momentum, 1e-3 * max(s.body.axes)),
-             layers=(over_time("G", lambda s: (s.orbit.times, s.momentum), color=theme.ORBIT),)),
+        plane_domain.momentum_picture(lambda s: (s.orbit.times, s.momentum), least=lambda s: 1e-3 * max(s.body.axes),
+                                      is_integral=lambda s: s.body.integrable),
     ),
 )

@@ -20,7 +20,6 @@ from hess_explorer.views import scattering_map as square
 from hess_explorer.views import theme
 from hess_explorer.views.comparison import Curves
 from hess_explorer.views.layers import curves, levels, ring
-from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits as in_digits
 from hess_explorer.views.text import vector
 from hess_explorer.views.velocity_plane import velocity_columns
@@ -136,11 +135,6 @@ class Scattering(CircleLeft, FreeBody, ConstrainedBody):
     def _about_map(self) -> str:
         return f"All of it from one rotation, which turns ξ by χ = {in_digits(math.acos(self.limit.cos_chi))}."
 
-    def _about_chi(self) -> str:
-        computed, closed = self.limit.cos_chi, model.cos_chi(self.body)
-        return (f"Computed {in_digits(computed, 6)}; closed form {in_digits(closed, 6)}, "
-                f"difference {in_digits(abs(computed - closed), 2)}.")
-
     def _about_sphere(self) -> str:
         return f"φ = {in_digits(self.phi)}: from θ⁻ = {in_digits(self.theta)} to θ⁺ = {in_digits(self.theta_plus)}."
 
@@ -194,12 +188,7 @@ SCENE = Scene(
         square.over_square(Scattering._about_map, Scattering.grid, lambda s: (s.phi, s.theta)),
         sphere(Scattering._about_sphere, xi=lambda s: s.points.xi, Gamma=lambda s: math.cos(s.theta_plus),
                signs=CIRCLES),
-        Plot(
-            name="chi", title="cos χ against k", caption=Scattering._about_chi, axes=("k", "cos χ"),
-            folded="Show cos χ against k", x=lambda s: s.k_axis,
-            y=lambda s: square.cosine_axis(s.orders[:, 1].max(initial=s.limit.cos_chi)),
-            on_click=lambda s, x, y: {"k": x}, on_drag=True,
-            layers=(curves("closed", lambda s: [s.orders], color=theme.MAP, dash="dashed", label="closed form"),
-                    ring("chosen", lambda s: [(s.k, s.limit.cos_chi)], size=18.0))),
+        square.over_orders(lambda s: s.k_axis, lambda s: s.orders, lambda s: (s.k, s.limit.cos_chi),
+                           closed=lambda s: model.cos_chi(s.body)),
     ),
 )

@@ -15,10 +15,10 @@ from hess_explorer.scenes.framework.ball import FreeBall
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, like, number, time_span
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.trial import Trial
-from hess_explorer.views.cloud import CloudPlane, course_layers, density_axes, density_layers, look, room
+from hess_explorer.views import cloud
 from hess_explorer.views.comparison import compared
 from hess_explorer.views.graph import with_room
-from hess_explorer.views.layers import Axes, Columns, Range, column
+from hess_explorer.views.layers import Columns, Range, column
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Direction, Sphere
 from hess_explorer.views.text import digits, ranging, vector
@@ -107,11 +107,6 @@ class SingularMeasures(FreeBall):
         course = self.clouds.course
         return course.divergence if self.along == "divergence" else course.log_growth
 
-    @cached_property
-    def density_axes(self) -> Axes:
-        """That fit the cloud."""
-        return density_axes(self.clouds)
-
     @property
     def heights(self) -> Range:
         """The vertical axis of the fourth picture."""
@@ -124,9 +119,7 @@ class SingularMeasures(FreeBall):
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_velocity(self) -> str:
-        cloud = self.clouds.cloud
-        before, after = (digits(math.exp(float(np.median(cloud.log_s[:, i]))), 3) for i in (0, -1))
-        return f"Half of {cloud.signs.size} points begin within |s| < {before}, and end within {after}."
+        return cloud.about_ends(self.clouds)
 
     def _about_sphere(self) -> str:
         first, last = (float(((self.clouds.cloud.gamma[:, i] @ self.xi) ** 2).mean()) for i in (0, -1))
@@ -138,13 +131,7 @@ class SingularMeasures(FreeBall):
         return f"Mean over time · |s| at {digits(s, 2)}: {digits(mean, 3)}; dotted {height}/|s|."
 
     def _about_course(self) -> str:
-        course = self.clouds.course
-        if self.along == "volume" and self.start == "small patch":
-            said = f"The patch has {digits(course.volume[-1], 3)} of its volume left"
-        else:
-            said = (f"Mean of div v {ranging(course.divergence[0, 0], course.divergence[0, -1], 3)}; "
-                    f"mean of ln s(t)/s(0) in the end {digits(course.log_growth[0, -1], 3)}")
-        return f"{said}; beside, all of it." if self.clouds.other is not None else f"{said}."
+        return cloud.about_course(self.clouds, of_patch=self.along == "volume" and self.start == "small patch")
 
     def derived(self) -> Iterator[str]:
         """The system, its invariant density, what becomes of volumes."""
@@ -163,11 +150,7 @@ class SingularMeasures(FreeBall):
 
     def status(self) -> Iterator[str]:
         """Size, cost and errors of the clouds."""
-        cloud, other = self.clouds.cloud, self.clouds.other
-        yield (f"{cloud.level}: {cloud.signs.size} points, {cloud.times.size} frames, {cloud.cost.steps} Taylor steps, "
-               f"error of ω/ν, γ and ln|s| ≤ {cloud.error_estimate:.1e} ({cloud.status})")
-        if other is not None:
-            yield f"beside ≤ {other.errors.max():.1e}"
+        return cloud.status_of(self.clouds)
 
 
 def _exact(s: SingularMeasures, found: Clouds) -> Clouds:
@@ -182,8 +165,8 @@ def _count(found: Clouds) -> int:
 
 _CLOUD: Trial[SingularMeasures] = Trial(
     Kind.CLOUD, (), lambda s, plan: s.task(plan.part(int(s.points), _FEW), plan.level).now(),
-    lambda s, found, truth: compared(look(found), look(_exact(s, found))).largest, lambda s, found: look(found),
-    alike=True)
+    lambda s, found, truth: compared(cloud.look(found), cloud.look(_exact(s, found))).largest,
+    lambda s, found: cloud.look(found), alike=True)
 
 SCENE = Scene(
     SingularMeasures, __file__, place=16, presets=PRESETS, measures=(_CLOUD,),
@@ -192,21 +175,22 @@ SCENE = Scene(
     summary="10 000 phase points are drawn onto an invariant manifold, where an invariant density is infinite.",
     tracks={"orbit": SingularMeasures.track},
     views=(
-        CloudPlane(
+        cloud.CloudPlane(
             name="omega", title="Angular velocity (ω₁, ω₂)", caption=SingularMeasures._about_velocity,
             clouds=lambda s: s.clouds, strip=lambda s: s.strip, b3=lambda s: s.b3, density="density-now",
-            half_width=lambda s: room(s.clouds),
+            half_width=lambda s: cloud.room(s.clouds),
             on_click=lambda s, x, y: {"start": "small patch", "angle": math.atan2(y, x)}),
         Sphere(caption=SingularMeasures._about_sphere, looks={}, clouds="omega", axis=lambda s: Direction(s.xi, "ξ")),
         Plot(
             name="density", title="Density against |s|", caption=SingularMeasures._about_density, log="xy",
             axes=("|s| = |I₁₃ω₁ + I₂₃ω₂|", "share of points per |s|"), y_tick_count=5, drawn_from=("omega",),
-            x=lambda s: s.density_axes.x, y=lambda s: s.density_axes.y,
-            layers=density_layers(lambda s: s.clouds.density)),
+            x=lambda s: cloud.density_axes(s.clouds).x, y=lambda s: cloud.density_axes(s.clouds).y,
+            layers=cloud.density_layers(lambda s: s.clouds.density)),
         Plot(
             name="divergence", caption=SingularMeasures._about_course, axes=("t", "div v, or ln s(t)/s(0)"),
             title=lambda s: f"{'Divergence' if s.along == 'divergence' else 'Small volumes'} along the way",
             x=lambda s: (0.0, float(s.times[-1])), y=lambda s: s.heights, dot=("t", "mean"),
-            layers=course_layers(lambda s: s.times, lambda s: s.on_show, beside=lambda s: s.clouds.other is not None)),
+            layers=cloud.course_layers(lambda s: s.times, lambda s: s.on_show,
+                                       beside=lambda s: s.clouds.other is not None)),
     ),
 )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -13,9 +13,9 @@ import numpy as np
 from hess_explorer.scenes.framework.costs import Costs, difference_picture, trade_picture
 from hess_explorer.scenes.framework.looking_into import LookingInto
 from hess_explorer.scenes.framework.scene import Motion, Scene
-from hess_explorer.views import theme
 from hess_explorer.views.chart import POWERS, clipped, limit
-from hess_explorer.views.layers import Columns, Layer, column, line, points, ring
+from hess_explorer.views.layers import Columns, column, ring
+from hess_explorer.views.levels import curves_of_levels, integrals, methods
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics import work_precision as mechanics
@@ -26,8 +26,6 @@ __all__ = ["looking_into"]
 
 SAMPLES = 400
 _FLOOR, _PIXEL_FLOOR = 1e-17, 1e-14
-_INTEGRALS = tuple(zip(theme.INTEGRALS, theme.DASHES.values(), strict=True))
-_OTHERS = {"DOP853": "square", "LSODA": "triangle"}
 
 
 @dataclass(frozen=True)
@@ -150,25 +148,6 @@ class Study(Costs):
             yield "SciPy's methods are left out: over so long a span they take long. Choose a shorter one."
 
 
-def _level(name: str, values: Callable[[Study], Mapping[str, Array]], floor: float) -> Layer[Study]:
-    return line(name, lambda s: s.over_time(values(s)[name], floor), color=theme.LEVELS[name],
-                dash=theme.DASHES[name], label=name)
-
-
-def _integral(i: int, color: str, dash: str) -> Layer[Study]:
-    return line(f"integral-{i}", lambda s: s.drift_of(i), color=color, dash=dash, label=f"integral {i + 1}")
-
-
-def _at(name: str) -> Layer[Study]:
-    return points(f"at-{name}", lambda s: s.at_level(name), color=theme.LEVELS[name], size=12, label=name)
-
-
-def _other(name: str, marker: str) -> tuple[Layer[Study], Layer[Study]]:
-    return (line(name, lambda s: s.of_method(name), color=theme.MUTED, dash="dashed"),
-            points(f"{name}-marks", lambda s: s.of_method(name), color=theme.MUTED, marker=marker, size=10,
-                   label=f"{name} (SciPy), {marker}s"))
-
-
 def _end(s: Study) -> tuple[float, float]:
     return 0.0, float(s.times[-1])
 
@@ -180,23 +159,23 @@ VIEWS = (
         axes=("largest error", "milliseconds"), x=_ERRORS, y=(1e-2, 1e4), x_ticks=POWERS, y_tick_count=5,
         on_click=Study.choose,
         layers=(
-            line("Taylor", lambda s: s.of_method("Taylor"), color=theme.MUTED), *map(_at, LEVELS),
-            *(layer for name, marker in _OTHERS.items() for layer in _other(name, marker)),
+            *methods(Study.of_method, Study.at_level),
             ring("chosen", lambda s: [(max(s._here.error, _FLOOR), max(s._here.ms, _FLOOR))], size=20,
                  label="chosen level"))),
     Plot[Study](
         name="growth", title="Error over time", caption=Study._about_growth, log="y", axes=("t", "error"), x=_end,
         y=_ERRORS, y_tick_count=5, dot=("t", "growth"),
         layers=(limit(lambda s: level(s.chosen).promise),
-                *(_level(name, lambda s: s.growing.errors, _FLOOR) for name in LEVELS))),
+                *curves_of_levels(lambda s, name: s.over_time(s.growing.errors[name])))),
     Plot[Study](
         name="drift", title="Drift of the integrals", caption=Study._about_drift, log="y", x=_end, y=_ERRORS,
         axes=("t", "relative drift"), y_tick_count=5, dot=("t", "drift"),
-        layers=tuple(_integral(i, *look) for i, look in enumerate(_INTEGRALS))),
+        layers=integrals(Study.drift_of)),
     Plot[Study](
         name="pixels", title="What it means for the pictures", caption=Study._about_pixels, log="y", x=_end,
         axes=("t", "error in pixels"), y=(_PIXEL_FLOOR, 1e4), y_tick_count=5, dot=("t", "pixels"),
-        layers=(limit(lambda s: 1.0), *(_level(name, lambda s: s.growing.pixels, _PIXEL_FLOOR) for name in LEVELS))),
+        layers=(limit(lambda s: 1.0),
+                *curves_of_levels(lambda s, name: s.over_time(s.growing.pixels[name], _PIXEL_FLOOR)))),
 )
 
 

@@ -34,7 +34,7 @@ from hess_explorer.views import conformal_time, layered_section, theme
 from hess_explorer.views.graph import over_time, settled_range, thinned
 from hess_explorer.views.layers import Axes, levels
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.poisson_sphere import Sphere
+from hess_explorer.views.poisson_sphere import along_the_orbit
 from hess_explorer.views.section_plane import joined
 from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import nice_above, orbit_alone, orbit_columns, pixels_per_unit
@@ -258,8 +258,7 @@ SCENE = Scene(
                      over_time("divergence", lambda s: s.rate(1), color=theme.MAP, dash="dashed",
                                label="mean divergence"),
                      over_time("lambda", lambda s: s.rate(0), color=theme.ORBIT, label="exponent λ"))),
-        Sphere(caption=lambda s: "The vertical γ along the chosen orbit; r: the centre of mass.",
-               looks={"orbit": "orbit"}, axis=lambda s: s.r),
+        along_the_orbit(lambda s: s.r),
         replace(orbit_alone(lambda s: s.half_width, energy=lambda s: s.E), folded="Show the angular velocity"),
         conformal_time.picture(lambda s: s._conformal[0], lambda s: s._conformal[1], lambda s: s.span),
     ),

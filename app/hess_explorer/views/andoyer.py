@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TypeVar
 
 import numpy as np
 
 from hess_explorer.views import theme
-from hess_explorer.views.layers import curves, ring
+from hess_explorer.views.layers import Layer, curves, dots, line, ring
 from hess_explorer.views.plot import Plot
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["picture"]
+__all__ = ["between", "picture"]
 
 S = TypeVar("S")
 
@@ -30,6 +30,21 @@ def picture(title: str, caption: Callable[[S], str], relation: Callable[[S], Arr
             curves("hess", lambda s: _parts(relation(s)), color=theme.STABLE, label="Hess manifold, r·M = 0"),
             curves("orbit", lambda s: _parts(orbit(s)), color=color),
             ring("chosen", lambda s: [(float(orbit(s)[0, 0]), float(orbit(s)[0, 1]))], size=18, label="start")))
+
+
+def between(elsewhere: Callable[[S], Array], curve: Callable[[S], tuple[Array, Array]],
+            across: Callable[[S], Sequence[tuple[float, float]]]) -> tuple[Layer[S], ...]:
+    """What lies between the orbits of a section and the chosen ones, whose track is drawn too.
+
+    elsewhere : points (n, 2) on another sheet; curve : l and L/G of the Hess relation.
+    across : both ends of the line of the rotation number, as far as it is in the window.
+    """
+    return (dots("elsewhere", lambda s: elsewhere(s).T, color=theme.SHEET, size=12,
+                 label="on another sheet: another G"),
+            line("curve", curve, color=theme.STABLE, label="Hess manifold, r·M = 0"),
+            dots("path", track="orbit", columns=("l", "x"), size=3, color=theme.MAP, alpha=0.4),
+            line("line", lambda s: tuple(zip(*across(s), strict=True)) or None, color=theme.MUTED, dash="dashed",
+                 width=1.5, label="line of the rotation number"))
 
 
 def _parts(points: Array) -> list[Array]:

@@ -111,3 +111,14 @@ def riccati_matrix(theta: CircleMap) -> str:
     alpha, beta = theta.alpha_beta
     return (f"Riccati matrix α = {digits(alpha.real)} {'−' if alpha.imag < 0.0 else '+'} {digits(abs(alpha.imag))} i, "
             f"β = {digits(beta.imag)} i")
+
+
+def about_cycles(theta: CircleMap) -> str:
+    """What the cycles of a map are, and its trace."""
+    zone = f"No cycle, ρ = {digits(theta.rotation_number)}"
+    if theta.kind == "hyperbolic":
+        stable, unstable = (digits(point.multiplier) for point in theta.fixed_points)
+        zone = f"Two cycles, multipliers {stable}, {unstable}"
+    elif theta.kind == "parabolic":
+        zone = "The two cycles have merged, multiplier 1"
+    return f"{zone}; |trace| {digits(theta.trace, 5)}."

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, TypeVar
 
@@ -14,13 +14,17 @@ from hess_explorer.views.comparison import Marks
 from hess_explorer.views.graph import over_time
 from hess_explorer.views.layers import Axes, Columns, Layer, Sign, column, levels, line, points
 from hess_explorer.views.picture import Picture
+from hess_explorer.views.text import digits, ranging
 from hess_explorer.views.velocity_plane import centred, frame, nice_above
 from hess_mechanics.chaplygin_ball.energy_surface import Strip, line_of_rest
 from hess_mechanics.chaplygin_ball.phase_cloud_density import BIN, SMALLEST, Clouds, Density
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["CloudPlane", "course_layers", "density_axes", "density_layers", "look", "room"]
+__all__ = [
+    "CloudPlane", "about_course", "about_ends", "course_layers", "density_axes", "density_layers", "look", "room",
+    "status_of",
+]
 
 S = TypeVar("S")
 
@@ -36,6 +40,32 @@ def _frames(columns: Sequence[Array]) -> np.ndarray:
 def room(found: Clouds) -> float:
     """Half the width of a plane for all of its ω."""
     return nice_above(1.1 * found.fastest)
+
+
+def about_ends(found: Clouds) -> str:
+    """How far from s = 0 half of the points begin and end."""
+    before, after = (digits(math.exp(float(np.median(found.cloud.log_s[:, i]))), 3) for i in (0, -1))
+    return f"Half of {found.cloud.signs.size} points begin within |s| < {before}, and end within {after}."
+
+
+def status_of(found: Clouds) -> Iterator[str]:
+    """For the status line: size, cost and errors of the clouds."""
+    cloud, other = found.cloud, found.other
+    yield (f"{cloud.level}: {cloud.signs.size} points, {cloud.times.size} frames, {cloud.cost.steps} Taylor steps, "
+           f"error of ω/ν, γ and ln|s| ≤ {cloud.error_estimate:.1e} ({cloud.status})")
+    if other is not None:
+        yield f"beside ≤ {other.errors.max():.1e}"
+
+
+def about_course(found: Clouds, of_patch: bool) -> str:
+    """What becomes of small volumes; of_patch : of that of the patch."""
+    course = found.course
+    if of_patch:
+        said = f"The patch has {digits(course.volume[-1], 3)} of its volume left"
+    else:
+        said = (f"Mean of div v {ranging(course.divergence[0, 0], course.divergence[0, -1], 3)}; "
+                f"mean of ln s(t)/s(0) in the end {digits(course.log_growth[0, -1], 3)}")
+    return f"{said}; beside, all of it." if found.other is not None else f"{said}."
 
 
 def look(found: Clouds) -> Marks:

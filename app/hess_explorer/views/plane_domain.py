@@ -5,14 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import TypeVar
 
+import numpy as np
+
 from hess_explorer.views import theme
+from hess_explorer.views.graph import about_0, over_time
 from hess_explorer.views.layers import Axes, Columns, Layer, Sign, column, curves, line, region, ring
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import gamma_columns
+from hess_explorer.views.text import digits, power, staying
 from hess_explorer.views.velocity_plane import centred, square
 from hess_mechanics.numerics.results import Array, Orbit
 
-__all__ = ["ground", "orbit", "picture", "plane_columns"]
+__all__ = ["ground", "momentum_picture", "orbit", "picture", "plane_columns"]
 
 S = TypeVar("S")
 
@@ -51,3 +55,23 @@ def orbit(start: Callable[[S], tuple[float, float]], label: str = "") -> tuple[L
     """The track of the orbit, and a ring where it starts."""
     return (line("orbit", track="orbit", columns=("q1", "q2"), color=theme.ORBIT, label="orbit"),
             ring("start", lambda s: [start(s)], label=label))
+
+
+def momentum_picture(momentum: Callable[[S], tuple[Array, Array]], least: Callable[[S], float],
+                     is_integral: Callable[[S], bool]) -> Plot[S]:
+    """q1p2 − q2p1 over time, (n,) each: an integral of a central force.
+
+    least : half the height of its axis at least; is_integral : whether the force is central.
+    """
+
+    def about(state: S) -> str:
+        _, values = momentum(state)
+        if is_integral(state):
+            return f"I₁₁ = I₂₂: an integral, {digits(float(values[0]))}, kept to {power(float(np.ptp(values)))}."
+        stays = staying(values)
+        return f"I₁₁ ≠ I₂₂: no integral, {f'but here it {stays}' if stays.startswith('stays') else stays}."
+
+    return Plot(
+        name="momentum", title="q₁p₂ − q₂p₁ against time", caption=about, axes=("t", "q₁p₂ − q₂p₁"),
+        folded="Show q₁p₂ − q₂p₁ against time", x=lambda s: (0.0, float(momentum(s)[0][-1])), dot=("t", "momentum"),
+        y=lambda s: about_0(momentum(s)[1], least(s)), layers=(over_time("G", momentum, color=theme.ORBIT),))

@@ -12,8 +12,10 @@ from hess_explorer.views.layers import MOVING_POINT, Axes, Columns, Sign, column
 from hess_explorer.views.picture import Picture
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Circle", "Direction", "Mark", "Sphere", "centre_of_mass", "ends", "gamma_columns", "levels_about",
-           "parallels"]
+__all__ = [
+    "EQUATOR", "Circle", "Direction", "Mark", "Sphere", "along_the_orbit", "centre_of_mass", "ends", "gamma_columns",
+    "levels_about", "parallels",
+]
 
 S = TypeVar("S")
 
@@ -25,6 +27,9 @@ class Circle:
     axis: Sequence[float] | Array
     height: float
     look: str
+
+
+EQUATOR = Circle((0.0, 0.0, 1.0), 0.0, "limit")
 
 
 @dataclass(frozen=True)
@@ -119,6 +124,13 @@ class Sphere(Picture[S]):
     def nothing(self, sentence: str, axes: Axes | None) -> dict[str, Columns]:
         """Neither axis nor circles nor marks; the reason is for the caption to say."""
         return {self.name: _drawn(None, (), ())}
+
+
+def along_the_orbit(axis: Callable[[S], Direction | None]) -> Sphere[S]:
+    """The vertical along the track "orbit", and the axis of the centre of mass, where there is a field."""
+    return Sphere(
+        looks={"orbit": "orbit"}, axis=axis, caption=lambda s: "The vertical γ along the chosen orbit; " + (
+            "no field, b = 0." if axis(s) is None else "r: the centre of mass."))
 
 
 def _drawn(axis: Direction | None, circles: Sequence[Circle], marks: Sequence[Mark]) -> Columns:

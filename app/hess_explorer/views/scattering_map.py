@@ -11,14 +11,15 @@ from bokeh.palettes import Cividis256
 
 from hess_explorer.views import theme
 from hess_explorer.views.comparison import Frame
-from hess_explorer.views.layers import Axes, Grid, Layer, Range, Sign, image, line, target
+from hess_explorer.views.layers import Axes, Grid, Layer, Range, Sign, curves, image, line, ring, target
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import nice_above
 from hess_mechanics.numerics.results import Array
 
 __all__ = [
-    "AZIMUTH", "AZIMUTH_TICKS", "FRAME", "POLAR", "POLAR_TICKS", "cosine_axis", "over_phases", "over_square", "spread",
+    "AZIMUTH", "AZIMUTH_TICKS", "FRAME", "POLAR", "POLAR_TICKS", "cosine_axis", "over_orders", "over_phases",
+    "over_square", "spread",
 ]
 
 S = TypeVar("S")
@@ -64,6 +65,26 @@ def spread(theta_plus: Array) -> str:
     """Between which values a curve θ⁺(φ) lies."""
     low, high = float(np.min(theta_plus)), float(np.max(theta_plus))
     return f"θ⁺ = {digits(low)} for every φ" if high - low < 1e-4 else f"θ⁺ from {digits(low)} to {digits(high)}"
+
+
+def over_orders(ends: Callable[[S], Range], orders: Callable[[S], Array], here: Callable[[S], tuple[float, float]],
+                closed: Callable[[S], float]) -> Plot[S]:
+    """cos χ over k; a click chooses k.
+
+    orders : the closed form, rows (k, cos χ); closed : its value at the body; here : k of that, and what was computed.
+    """
+
+    def about(state: S) -> str:
+        computed, exact = here(state)[1], closed(state)
+        return (f"Computed {digits(computed, 6)}; closed form {digits(exact, 6)}, "
+                f"difference {digits(abs(computed - exact), 2)}.")
+
+    return Plot(
+        name="chi", title="cos χ against k", caption=about, axes=("k", "cos χ"), folded="Show cos χ against k", x=ends,
+        y=lambda s: cosine_axis(orders(s)[:, 1].max(initial=here(s)[1])), on_click=lambda s, x, y: {"k": x},
+        on_drag=True, layers=(
+            curves("closed", lambda s: [orders(s)], color=theme.MAP, dash="dashed", label="closed form"),
+            ring("chosen", lambda s: [here(s)], size=18.0)))
 
 
 def cosine_axis(largest: float) -> Range:

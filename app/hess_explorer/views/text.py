@@ -8,7 +8,9 @@ from collections.abc import Iterable
 
 from latex2mathml.converter import convert
 
-__all__ = ["digits", "power", "ranging", "vector", "with_formulas"]
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["digits", "power", "ranging", "staying", "vector", "with_formulas"]
 
 
 def digits(value: float, count: int = 4) -> str:
@@ -22,6 +24,12 @@ def ranging(low: float, high: float, count: int = 4) -> str:
     """From one number to another one; "= …" where both are the same in so many digits."""
     first, last = digits(low, count), digits(high, count)
     return f"= {first}" if first == last else f"from {first} to {last}"
+
+
+def staying(values: Array) -> str:
+    """Between which numbers values (n,) lie, or where they stay."""
+    low, high = digits(float(values.min())), digits(float(values.max()))
+    return f"stays {low}" if low == high else f"between {low} and {high}"
 
 
 def vector(components: Iterable[float], count: int = 4) -> str:

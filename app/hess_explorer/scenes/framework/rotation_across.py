@@ -8,7 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from hess_explorer.scenes.framework.filled_window import FilledWindow, in_pieces
+from hess_explorer.compute.cache import Task
+from hess_explorer.scenes.framework.filled_window import FilledWindow, Piece, in_pieces
+from hess_explorer.scenes.framework.one_orbit import Start
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views import theme
@@ -16,11 +18,12 @@ from hess_explorer.views.comparison import Curves, Frame
 from hess_explorer.views.graph import with_room
 from hess_explorer.views.layers import Axes, Range, curves, points, region
 from hess_explorer.views.plot import Plot
+from hess_explorer.views.section_plane import joined
 from hess_explorer.views.text import digits
-from hess_mechanics.euler_poisson.andoyer import AndoyerSection
+from hess_mechanics.euler_poisson.andoyer import AndoyerSection, andoyer_points, relation
 from hess_mechanics.euler_poisson.rotation import RESOLVED, Rotation, on_line, rotation_along
-from hess_mechanics.numerics.accuracy import Kind, Plan
-from hess_mechanics.numerics.results import Array
+from hess_mechanics.numerics.accuracy import Kind, Level, Plan
+from hess_mechanics.numerics.results import Array, frozen
 
 __all__ = ["ROTATION", "RotationAcross", "rotation_picture"]
 
@@ -28,6 +31,7 @@ _ACROSS = 48
 """Orbits on the line along which the rotation number is looked at."""
 _ON_LINE = 3000
 """Crossings of each: with fewer the rotation number in a chain of islands is not known to `RESOLVED`."""
+_MOST_STEPS = 200_000
 _HELD = (16, 40, 1e-2)
 """While a slider is held: orbits, crossings of each, and to what both halves of a closed curve then agree."""
 
@@ -39,6 +43,10 @@ class RotationAcross(FilledWindow):
     @abstractmethod
     def section(self) -> AndoyerSection:
         """The section.  Raises `ModelError`."""
+
+    def piece(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task:
+        """What follows these orbits."""
+        return Task(_piece, (self.section, starts, crossings, level))
 
     @property
     @abstractmethod
@@ -137,6 +145,17 @@ class RotationAcross(FilledWindow):
     def _turns(self, rho: float) -> str:
         """A rotation number, to what is known of it."""
         return digits(round(float(rho) / self._resolved) * self._resolved)
+
+
+def _piece(section: AndoyerSection, starts: tuple[Start, ...], crossings: int, level: Level) -> Piece:
+    found = andoyer_points(section.body, section.h, section.f, starts, crossings, level, threads=1,
+                           most_steps=_MOST_STEPS)
+    signs = np.sign(relation(section.body, np.array(starts)))
+    kept = (bool(np.all(sign * relation(section.body, states) >= 0.0))
+            for states, sign in zip(found.states, signs, strict=True))
+    other = [section.places_of(states)[~section.is_on(states)] for states in found.states]
+    return Piece(tuple(frozen(section.places_of(states)) for states in found.states),
+                 tuple(bool(sign > 0.0) for sign in signs), found.drift, tuple(kept), frozen(joined(other)))
 
 
 def _axis_of(found: Rotation) -> Range:

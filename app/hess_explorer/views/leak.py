@@ -1,0 +1,31 @@
+"""How far orbits leak off the Hess manifold, over time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TypeVar
+
+from hess_explorer.views import theme
+from hess_explorer.views.chart import lg
+from hess_explorer.views.graph import over_time
+from hess_explorer.views.layers import Layer
+from hess_mechanics.euler_poisson.hess_manifold import Leak
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["distances"]
+
+S = TypeVar("S")
+
+
+def distances(leaks: Callable[[S], Mapping[str, Leak]], distance: Callable[[Leak], Array]
+              ) -> tuple[Layer[S], Layer[S]]:
+    """lg of a distance (n,) over time, of the orbits "own", at the accuracy chosen, and "reference"."""
+
+    def curve(state: S, name: str) -> tuple[Array, Array]:
+        leak = leaks(state)[name]
+        return leak.run.times, lg(distance(leak))
+
+    return (over_time("reference", lambda s: curve(s, "reference"), color=theme.LEVELS["reference"], dash="dotdash",
+                      label="the same at reference"),
+            over_time("own", lambda s: curve(s, "own"), color=theme.MAP,
+                      label="orbit that leaks, at the chosen accuracy"))

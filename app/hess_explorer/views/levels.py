@@ -1,0 +1,52 @@
+"""Curves and points of the accuracy levels, of other methods beside them, and of the integrals of a motion."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeVar
+
+from hess_explorer.views import theme
+from hess_explorer.views.layers import Layer, line, points
+from hess_mechanics.numerics.accuracy import LEVELS
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["curves_of_levels", "integrals", "methods"]
+
+S = TypeVar("S")
+Curve = tuple[Array, Array]
+
+_INTEGRALS = tuple(zip(theme.INTEGRALS, theme.DASHES.values(), strict=True))
+_OTHERS = {"DOP853": "square", "LSODA": "triangle"}
+
+
+def curves_of_levels(curve: Callable[[S, str], Curve]) -> tuple[Layer[S], ...]:
+    """A curve for each level, by its name, in its colour and dashes."""
+
+    def of(name: str) -> Layer[S]:
+        return line(name, lambda s: curve(s, name), color=theme.LEVELS[name], dash=theme.DASHES[name], label=name)
+
+    return tuple(map(of, LEVELS))
+
+
+def integrals(curve: Callable[[S, int], Curve | None]) -> tuple[Layer[S], ...]:
+    """A curve for each integral, by its number from 0; None for those that a motion does not have."""
+
+    def of(i: int, color: str, dash: str) -> Layer[S]:
+        return line(f"integral-{i}", lambda s: curve(s, i), color=color, dash=dash, label=f"integral {i + 1}")
+
+    return tuple(of(i, *look) for i, look in enumerate(_INTEGRALS))
+
+
+def methods(method: Callable[[S, str], Curve], level: Callable[[S, str], Curve]) -> tuple[Layer[S], ...]:
+    """The curve of the Taylor series with a point for each level, and those of SciPy's methods, by their names."""
+
+    def at(name: str) -> Layer[S]:
+        return points(f"at-{name}", lambda s: level(s, name), color=theme.LEVELS[name], size=12, label=name)
+
+    def other(name: str, marker: str) -> tuple[Layer[S], Layer[S]]:
+        return (line(name, lambda s: method(s, name), color=theme.MUTED, dash="dashed"),
+                points(f"{name}-marks", lambda s: method(s, name), color=theme.MUTED, marker=marker, size=10,
+                       label=f"{name} (SciPy), {marker}s"))
+
+    return (line("Taylor", lambda s: method(s, "Taylor"), color=theme.MUTED), *map(at, LEVELS),
+            *(layer for name, marker in _OTHERS.items() for layer in other(name, marker)))
