@@ -59,8 +59,9 @@ function createSheet(ctx, { size, ratio, text, dark }, [azimuth, elevation]) {
       if (!label) return
       const [across, down] = [ctx.measureText(label).width / 2, 8 * ratio]
       const places = ASIDE.map(([a, b]) => [
-        Math.min(Math.max(x + a * (2 * across + 4 * ratio), across), size - across),
-        Math.min(Math.max(y + 2 * b * down, down), size - down)])
+        Math.min(Math.max(x + a * (across + 16 * ratio), across), size - across),
+        // A little further than needed: sums are rounded.
+        Math.min(Math.max(y + b * (2 * down + ratio), down), size - down)])
       const free = ([left, top]) => taken.every(([other, above, wide]) => (
         Math.abs(left - other) >= across + wide + 2 * ratio || Math.abs(top - above) >= 2 * down))
       const [left, top] = places.find(free) ?? places[0]

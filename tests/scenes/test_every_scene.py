@@ -905,6 +905,10 @@ def test_a_number_goes_along_to_another_scene_where_it_means_the_same_and_there_
         assert taken == ({**scene.defaults(), name: value} if goes else scene.defaults()), (before.name, scene.name)
 
 
+def test_the_accuracy_is_said_in_the_same_words_in_every_scene():
+    assert len({spec for scene in SCENES.values() for spec in scene.specs if spec.name == "accuracy"}) == 1
+
+
 def test_a_number_that_is_not_possible_there_does_not_go_along():
     # b₃ = 0.7 of the general body is none of the Suslov–Hess case, where b₃ < 0.
     taken = HESS.taken_over(HESS.defaults(), SCENES["suslov"], {**SCENES["suslov"].defaults(), "b3": 0.5, "I22": 1.0})

@@ -83,8 +83,7 @@ class BallSection(CentreOfMass, Ball, Crossings, ConstrainedBody):
     count: float = crossings_of_each()
     span: float = time_span(40.0, 200.0, what="the chosen orbit")
     drop: str = choice("Points shown", ("all", "the later half"), "all", doc="The later half shows what attracts.")
-    accuracy: str = accuracy_level(
-        "Of the orbit. Points of the section are right on their integrals; chaos moves them along.")
+    accuracy: str = accuracy_level()
 
     section_axes: ClassVar[Axes] = Axes(square.AZIMUTH, square.POLAR)
     section_names: ClassVar[tuple[str, str]] = ("ψ", "δ")

@@ -79,10 +79,10 @@ BODIES = [CAPTION, BallBody(1.64, 1.0, 0.0, 0.8, 2.0), BallBody(2.0, 1.0, -0.3, 
 
 
 @pytest.mark.parametrize("body", BODIES, ids=lambda body: f"D={body.D:g}")
-@pytest.mark.parametrize("theta", [0.4, math.pi / 2, 2.9])
+@pytest.mark.parametrize("theta", [0.0, 0.4, 1.1, math.pi / 2, 2.9])
 def test_the_start_is_where_motions_of_its_circle_pass_but_for_the_square_of_the_distance(body, theta):
     xi = np.array([body.I23, -body.I13]) / math.hypot(body.I13, body.I23)
-    phases = np.array([-2.5, 0.7])
+    phases = np.array([-2.5, 0.0, 0.7, 2.0])
     worst = []
     for distance in (1e-2, -1e-3):
         states, errors = starts(Strip(body, 10.0), theta, phases, distance)

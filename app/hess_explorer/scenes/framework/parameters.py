@@ -41,11 +41,12 @@ def places(label: str, most: int, low: tuple[float, float], high: tuple[float, f
     return _parameter(Places("", label, most, low, high, default))
 
 
-def accuracy_level(doc: str = "Promised error of an orbit: draft 1e-3, standard 1e-6, precise 1e-9; reference: the "
-                              "floor of double precision. Draft also computes less. Auto: the cheapest that shows all "
-                              "of it right to half a pixel.") -> Any:
-    """The accuracy level, by its name."""
-    return choice("Accuracy", (*LEVELS, AUTO), "standard", doc=doc)
+def accuracy_level() -> Any:
+    """The accuracy level, by its name: in the same words in every scene."""
+    return choice("Accuracy", (*LEVELS, AUTO), "standard",
+                  doc="Promised error of an orbit: draft 1e-3, standard 1e-6, precise 1e-9; reference: the floor of "
+                      "double precision. Draft also computes less. Auto: the cheapest that shows all of it right to "
+                      "half a pixel.")
 
 
 def crossings_of_each() -> Any:
