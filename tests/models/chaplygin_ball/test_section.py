@@ -221,12 +221,13 @@ def test_regular_the_product_of_omega_and_gamma_is_an_integral():
 
 def test_mixed_some_orbits_lie_on_curves_and_others_fill_a_sea():
     counts = np.array([len(found) for found in late_cells("Mixed")])
-    # A curve once round passes 32 cells or a few more.  How many one passes that stays beside an island until the end is
-    # decided by round-off; whether it is chaotic is not: its exponent says so, and those of curves fall to 0.
+    # A curve once round passes 32 cells or a few more.  How many one passes that stays beside an island until the end
+    # hangs on round-off; whether it is chaotic does not: its exponent says so, and those of curves fall to 0.
     assert np.count_nonzero(counts <= 80) >= 8
     assert np.count_nonzero(counts >= 120) >= 8
     body, h = example("Mixed")
-    exponents = np.array([largest_exponent(SYSTEM, start, body.parameters, 1500.0).value for start in seeds(body, h, 24)])
+    exponents = np.array(
+        [largest_exponent(SYSTEM, start, body.parameters, 1500.0).value for start in seeds(body, h, 24)])
     assert np.max(exponents[counts <= 80]) < 0.007
     assert np.min(exponents[counts > 80]) > 0.009
 
