@@ -99,15 +99,15 @@ class Work:
 
     def summary(self) -> str:
         """The status line in short: the level, what it promises, how long it took until now."""
-        spent, compiling = self._spent()
-        once = f", and {compiling:.1f} s to compile, once" if compiling > _NOTED else ""
         chosen = f"{AUTO}: {self.level.name}" if self.auto else self.level.name
         right = "the floor of double precision" if self.level.is_floor else f"1e−{-math.log10(self.level.promise):.0f}"
-        return f"{chosen}, right to {right} · {1e3 * spent:.0f} ms{once}"
+        return f"{chosen}, right to {right} · {1e3 * self._spent()[0]:.0f} ms"
 
     def ended(self) -> str:
         """For the status line: how long it took until now, and whether anything was computed."""
-        said = f"{1e3 * self._spent()[0]:.1f} ms, {'computed' if self._misses else 'cached'}"
+        spent, compiling = self._spent()
+        once = f"{compiling:.1f} s to compile, once · " if compiling > _NOTED else ""
+        said = f"{once}{1e3 * spent:.1f} ms, {'computed' if self._misses else 'cached'}"
         if not self.auto:
             return said
         return f"{AUTO}: {self.chosen}{'' if self._settled else ' until it is measured'} · {said}"
