@@ -3,6 +3,7 @@
 import { listen, tell } from "../page/bus.js"
 import { element, lifetime } from "../page/mount.js"
 import { isPresenting, wear } from "../page/presenting.js"
+import { exportDialog } from "./export.js"
 import { moreMenu } from "./more.js"
 import { sceneMenu } from "./scenes.js"
 import { shareDialog } from "./share.js"
@@ -30,6 +31,8 @@ const TOOLS = [
       icon: "M9 3h6v2l-1 1v5l3 3v2h-4v5h-2v-5H7v-2l3-3V6L9 5z" },
     { name: "share", label: "Share", title: "Link to all that is on the screen, QR code, parts for another page",
       icon: "M4 12a4 4 0 0 1 4-4h3v2H8a2 2 0 0 0 0 4h3v2H8a4 4 0 0 1-4-4zm5-1h6v2H9zm4-3h3a4 4 0 0 1 0 8h-3v-2h3a2 2 0 0 0 0-4h-3z" },
+    { name: "export", label: "Export", title: "Data and figures of a picture: CSV, JSON, PNG, SVG, PDF", isFar: true,
+      icon: "M11 3h2v8l3-3 1.4 1.4L12 14.8 6.6 9.4 8 8l3 3zM4 15h2v4h12v-4h2v6H4z" },
     { name: "print", label: "Print", title: "A handout: pictures, numbers, text, link and QR code (Ctrl+P)", isFar: true,
       icon: "M7 3h10v5H7zm-3 6h16a1 1 0 0 1 1 1v7h-4v4H7v-4H3v-7a1 1 0 0 1 1-1zm5 6v4h6v-4z" },
     { name: "present", label: "Present", title: "For a lecture hall: large type and lines, few controls; and back (P)", isFar: true,
@@ -55,6 +58,7 @@ export function render({ model, view, el }) {
   const signal = lifetime({ model, view })
   const menu = sceneMenu(model.scenes)
   const share = shareDialog(signal)
+  const taking = exportDialog()
   const heading = element("h1", { className: "heading" })
   const open = element("button", {
     type: "button", className: "tool param-scenes", title: "Choose a scene", "aria-haspopup": "dialog",
@@ -78,7 +82,7 @@ export function render({ model, view, el }) {
   const more = moreMenu(far, icon(MORE), signal)
   el.append(
     element("div", { className: "tools" }, open, heading, element("span", { className: "room" }), ...groups, ...more),
-    menu.dialog, share.dialog)
+    menu.dialog, share.dialog, taking.dialog)
 
   function sayPresenting(button) {
     const say = (on) => button.setAttribute("aria-pressed", String(on))
@@ -91,6 +95,7 @@ export function render({ model, view, el }) {
     for (const button of drawn) button.hidden = !scene.drawn
     menu.show(scene.name)
     share.show(scene)
+    taking.show(scene)
   }
   const enable = (counts) => {
     for (const [name, [button, { title, without }]] of steps) {
@@ -103,5 +108,6 @@ export function render({ model, view, el }) {
   wear(el, signal)
   listen("enter", show, signal)
   listen("share", share.open, signal)
+  listen("export", taking.open, signal)
   tell("mounted", { kind: "scene", show })
 }

@@ -23,6 +23,7 @@ from tornado.websocket import WebSocketClosedError
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.page import page
+from hess_explorer.server.export import Export
 from hess_explorer.server.headers import guard
 from hess_explorer.server.liveness import is_alive
 from hess_explorer.server.modules import module_routes
@@ -94,7 +95,7 @@ def options(port: int, address: str, origins: Sequence[str], lesson: Lesson | No
         "port": port,
         "address": address,
         "websocket_origin": [f"localhost:{port}", f"127.0.0.1:{port}", *origins],
-        "extra_patterns": [("/metrics", Metrics), ("/qr.svg", QrCode), *module_routes()],
+        "extra_patterns": [("/metrics", Metrics), ("/qr.svg", QrCode), ("/export", Export), *module_routes()],
         "liveness": True,
         "verbose": False,
         "websocket_max_message_size": MESSAGE_LIMIT,
