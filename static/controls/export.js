@@ -23,7 +23,7 @@ export function exportDialog() {
   const black = element("input", { type: "checkbox", className: "param-black" })
   const command = element("textarea", { className: "snippet", readOnly: true, rows: 4, "aria-label": "Command" })
   const save = element("button", { type: "button", className: "button param-save", textContent: "Save file" })
-  const stop = element("button", { type: "button", className: "button param-stop", textContent: "Stop", hidden: true })
+  const stop = element("button", { type: "button", className: "button param-cancel", textContent: "Stop", hidden: true })
   const said = element("p", { className: "why", role: "status" })
   const close = element("button", { type: "button", className: "button", textContent: "Close" })
   const figure = element("div", { className: "figure" },

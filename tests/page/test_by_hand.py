@@ -8,10 +8,12 @@ from __future__ import annotations
 
 import io
 import math
+import re
 
 import numpy as np
 import pytest
 from PIL import Image
+from playwright.sync_api import expect
 
 from hess_explorer.scenes import scenes
 from support.page import wait_frames
@@ -35,6 +37,9 @@ BLUR = """() => {
 
 def pictures(explorer):
     """All pictures with their captions as they are on the screen, as RGB."""
+    # What comes later has come.
+    expect(explorer.page.locator(".gallery:not(.away) .caption").filter(
+        has_text=re.compile(r"[Bb]eing (measured|compared|computed)"))).to_have_count(0, timeout=120_000)
     explorer.page.mouse.move(5, 5)
     explorer.page.evaluate(BLUR)
     wait_frames(explorer)

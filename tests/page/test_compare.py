@@ -80,7 +80,7 @@ def assert_side_by_side(explorer):
         half.wait_for_function(READY, timeout=120_000)
         assert float(half.locator(".param-h input[type=text]").input_value()) == h
         # All pictures at once.
-        assert half.locator(".picture:visible").count() == 4
+        assert half.locator(".picture:visible").count() == 5
     assert_accessible(page)
     for half, follower, t in ((one, other, "7.25"), (other, one, "3.5")):
         half.locator("input.param-t").evaluate(

@@ -60,8 +60,9 @@ def test_what_is_presented_is_read_from_afar_and_the_link_keeps_it(open_page, se
     assert len(large["ticks"]) >= 12
     assert min(large["ticks"]) >= 20
     assert len(usual["lines"]) > 10
-    assert large["lines"] == {name: 2 * width for name, width in usual["lines"].items()}
-    assert tab.sphere.evaluate(STROKES) == pytest.approx([2 * width for width in strokes])
+    # On a large screen they grow a little more, with the type.
+    assert large["lines"] == pytest.approx({name: 2 * width for name, width in usual["lines"].items()}, rel=0.01)
+    assert tab.sphere.evaluate(STROKES) == pytest.approx([2 * width for width in strokes], rel=0.01)
     essential = scenes()[HESS].essential
     numbers = page.locator(".number").evaluate_all(
         "items => items.filter((item) => item.checkVisibility()).map((item) => item.className)")
@@ -90,7 +91,7 @@ def test_what_is_presented_is_read_from_afar_and_the_link_keeps_it(open_page, se
     page.keyboard.press("1")
     wait_frames(tab, 4)
     # From afar nothing is seen of a small picture beside it.
-    assert [tab.picture(name).is_visible() for name in scenes()[HESS].open_pictures] == [True, False, False, False]
+    assert [tab.picture(name).is_visible() for name in scenes()[HESS].open_pictures] == [True] + 4 * [False]
     page.keyboard.press("Escape")
     assert page.evaluate("document.documentElement.hasAttribute('data-present')")
     page.keyboard.press("Escape")
