@@ -19,6 +19,8 @@ SIZES = {"wide": (1600, 950), "laptop": (1280, 720), "phone": (390, 844), "sidew
 WINDOWS = ((1280, 720), (1920, 1080), (3840, 2160), SIZES["wide"])
 LEAST = 0.36
 """Of the window's height: the edge of the smallest picture where five are open, with controls and text beside them."""
+THUMBNAIL = 0.39
+"""The share of the frame in the smallest pictures there are: four beside an enlarged one, in the smallest window."""
 SCENES = [name for name, scene in scenes().items() if scene.origin in (None, HESS)]
 LOOKS = [
     *((scene, size, "light") for size in ("wide", "phone") for scene in SCENES),
@@ -289,7 +291,7 @@ def test_a_picture_is_enlarged_by_its_key_or_its_corner_and_the_link_keeps_it(op
         found = edges(page)
         assert found[i] >= 0.8 * stage
         assert max(other for j, other in enumerate(found) if j != i) < 0.5 * found[i]
-        assert_in_sight(places_of(page, HESS), *SIZES["laptop"], 5, 0.45)
+        assert_in_sight(places_of(page, HESS), *SIZES["laptop"], 5, THUMBNAIL)
     # The others live.
     before = [tab.caption(name) for name in (second, last)]
     tab.change(lambda: tab.slide(h=0.2))
@@ -354,7 +356,9 @@ def test_the_button_turns_the_page_dark_and_the_link_says_so(explorer, look_at):
     button.click()
     page.wait_for_function("location.search.includes('theme=dark')")
     assert brightness(seen(page)) < 60
-    assert axis_colour(page) == axis_colour(look_at(HESS, theme="dark"))
+    # The colours of the plots come from Panel, with the theme, a moment later.
+    page.wait_for_function("""colour => hess.plots.find(({ model }) => model.name === "omega")
+      .model.below[0].major_label_text_color === colour""", arg=axis_colour(look_at(HESS, theme="dark")))
     button.click()
     page.wait_for_function("!location.search.includes('theme=dark')")
     assert brightness(seen(page)) > 200
@@ -409,7 +413,7 @@ def test_every_control_is_reached_by_the_tab_key(look_at):
     page = tab.page
     page.evaluate("document.activeElement?.blur()")
     reached = set()
-    for _ in range(60):
+    for _ in range(90):
         page.keyboard.press("Tab")
         reached |= set(page.evaluate("""() => {
             let item = document.activeElement

@@ -292,9 +292,9 @@ def test_ten_changes_in_quick_succession_leave_one_scene_and_nothing_of_the_othe
     assert explorer.scene == HESS
     assert_drawn(explorer, HESS, DEFAULTS)
     kept = [name for name in explorer.page.evaluate(SOURCES) if name.split("-")[0] not in SCENES[HESS].folded]
-    assert kept == sorted(set(drawn(HESS, DEFAULTS)) - {"body"})
+    assert kept == sorted(set(drawn(HESS, DEFAULTS)) - {"body", "sphere"})
     assert listeners(explorer) == at_rest
-    assert explorer.page.locator(".picture:visible").count() == 4
+    assert explorer.page.locator(".picture:visible").count() == 5
     # One change is one state, and one key is pressed for one player.
     before = explorer.state
     explorer.change(lambda: explorer.slide(h=0.75))
