@@ -14,8 +14,10 @@ function grid({ width, height, count, gap, caption }, columns) {
   const left = (width - columns * cell - gap * (columns - 1)) / 2
   const row = edge + caption(wide) + gap
   const top = (height - rows * row + gap) / 2
+  // A last row of fewer stands in the middle.
+  const aside = (i) => (i < columns * (rows - 1) ? 0 : (rows * columns - count) / 2)
   const boxes = Array.from({ length: count }, (_, i) => ({
-    x: left + (i % columns) * (cell + gap), y: top + Math.floor(i / columns) * row,
+    x: left + ((i % columns) + aside(i)) * (cell + gap), y: top + Math.floor(i / columns) * row,
     width: cell, edge, caption: caption(wide), small: false,
   }))
   return { boxes, smallest: edge }
