@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import gc
 import time
 import weakref
@@ -11,6 +10,7 @@ import panel as pn
 from tornado.httpclient import AsyncHTTPClient
 
 from hess_explorer.page import page
+from support.asynchronous import finished
 from support.serving import served
 from support.visitor import Visitor
 
@@ -38,7 +38,7 @@ def test_a_session_that_is_left_is_freed_and_nothing_watches_for_it(monkeypatch)
         await AsyncHTTPClient().fetch(base)
 
     with served(unused_session_lifetime_milliseconds=500, check_unused_sessions_milliseconds=50) as base:
-        asyncio.run(visit(base))
+        finished(visit(base))
         end = time.monotonic() + 60.0
         while any(one() is not None for one in opened):
             assert time.monotonic() < end, [gc.get_referrers(one()) for one in opened if one() is not None]

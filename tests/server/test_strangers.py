@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import json
 import re
 
@@ -10,6 +9,7 @@ import pytest
 from tornado.httpclient import AsyncHTTPClient, HTTPClientError
 
 from hess_explorer.server.headers import guard, policy
+from support.asynchronous import finished
 from support.serving import served
 from support.visitor import Visitor
 
@@ -18,14 +18,14 @@ def fetched(base, *paths):
     async def fetch():
         return [await AsyncHTTPClient().fetch(f"{base}/{path}") for path in paths]
 
-    return asyncio.run(fetch())
+    return finished(fetch())
 
 
 def test_the_page_runs_its_own_scripts_and_only_its_parts_are_shown_elsewhere():
     with served(embedders=("example.org",)) as base:
         whole, part, again = fetched(base, "", "?embed=1", "")
         with pytest.raises(HTTPClientError, match="403"):
-            asyncio.run(Visitor.open(base, origin="http://example.org"))
+            finished(Visitor.open(base, origin="http://example.org"))
     policies = [dict(one.split(" ", 1) for one in answer.headers["Content-Security-Policy"].split("; "))
                 for answer in (whole, part, again)]
     for answer, given in zip((whole, part, again), policies, strict=True):
@@ -57,7 +57,7 @@ def test_a_page_whose_websocket_comes_to_another_process_asks_no_other_host():
             await visitor.leave()
             return visitor.document, state
 
-        document, state = asyncio.run(late())
+        document, state = finished(late())
     text = json.dumps(document)
     assert "static/extensions/panel/css/loading.css" in text
     assert not re.search(r"https?://(?!www\.w3\.org/)[\w.]*(?:cdn|holoviz|bokeh)[\w.]*/[^\"]*\.(?:css|js)", text)
