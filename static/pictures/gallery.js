@@ -13,6 +13,8 @@ import { Source } from "./sources.js"
 import { sphere } from "./sphere.js"
 import { createStage } from "./stage.js"
 
+// Milliseconds until the last colour of a theme has come.
+const LATE = 2000
 const KINDS = { sphere, cloud: cloudPlane }
 // What the mouse does in a picture.
 const HINTS = {
@@ -53,17 +55,34 @@ function cellOf({ name, folded, hands }) {
   return [cell, host]
 }
 
-function colour(scene) {
+// The colours of text and of what is less important, by this theme.
+function inks() {
   const style = getComputedStyle(shelf)
-  const muted = style.getPropertyValue("--mui-palette-text-secondary") || style.color
-  for (const plot of scene.plots) colourPlot(plot, style.color, muted)
-  scene.coloured = style.color
+  return [style.color, style.getPropertyValue("--mui-palette-text-secondary") || style.color]
 }
 
-// The theme turns the colour of text some time after its name.
+function colour(scene) {
+  const [text, muted] = inks()
+  for (const plot of scene.plots) colourPlot(plot, text, muted)
+  scene.coloured = [text, muted].join()
+}
+
+// The theme turns these colours some time after its name, and not both at once.
 function followTheme() {
-  const { color } = getComputedStyle(shelf)
-  for (const scene of built.values()) if (scene.coloured !== color) colour(scene)
+  const now = inks().join()
+  for (const scene of built.values()) if (scene.coloured !== now) colour(scene)
+}
+
+let followed = 0
+
+function followThemeForAWhile() {
+  const isFollowing = performance.now() < followed
+  followed = performance.now() + LATE
+  const step = () => {
+    followTheme()
+    if (performance.now() < followed) requestAnimationFrame(step)
+  }
+  if (!isFollowing) step()
 }
 
 // The pictures of a scene that the server has described, not seen yet: {name, grid, cells, plots, sources, …}.
@@ -174,7 +193,7 @@ export function render({ model, view, el }) {
   stage = createStage(shelf, () => shown, signal)
   sayDragMe(besideLayer, signal)
   listen("texts", showTexts, signal)
-  const theme = new MutationObserver(followTheme)
+  const theme = new MutationObserver(followThemeForAWhile)
   for (const item of [document.documentElement, document.body]) {
     theme.observe(item, { attributes: true, attributeFilter: ["data-theme", "class", "style"] })
   }

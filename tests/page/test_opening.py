@@ -49,6 +49,8 @@ def moves(explorer):
 def test_a_scene_begins_in_gentle_motion_until_the_first_touch_and_asks_for_nothing(fresh_browser):
     explorer = fresh_browser(f"scene={HESS}", "no-preference")
     page = explorer.page
+    # The address is written a moment after the first state.
+    page.wait_for_function("location.search.includes('v=1')")
     before = explorer.state, page.url, page.evaluate("history.length"), len(explorer.sent)
     page.mouse.move(300, 300)
     assert all(moves(explorer) for _ in range(3))
