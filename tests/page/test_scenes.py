@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from playwright.sync_api import expect
 
 from hess_explorer.headless.browser import wait_ready
 from hess_explorer.headless.screenshot import running_server
@@ -496,6 +497,8 @@ def test_the_copied_link_leads_into_the_accuracy_scene(study):
     study.change(lambda: study.slide(h=0.75))
     study.page.locator(".param-share").click()
     study.page.locator(".param-link").click()
+    # It says so when it is copied.
+    expect(study.page.locator(".param-link")).not_to_have_text("Copy link")
     study.page.keyboard.press("Escape")
     copied = parse_qs(urlsplit(study.page.evaluate("navigator.clipboard.readText()")).query)
     assert (copied["scene"], copied["h"]) == ([STUDY], ["0.75"])

@@ -63,7 +63,7 @@ class Costs(Insight):
         if self.dragging:
             return "It is measured when a slider is let go."
         if len(self._enough) < len(self.costs):
-            return f"Being measured: {len(self._enough)} of {len(self.costs)}."
+            return f"Measured so far: {len(self._enough)} of {len(self.costs)}."
         return f"Enough to the eye: {', '.join(f'{kind} {name}' for kind, name in self._enough.items())}."
 
     def cost_rows(self) -> Iterator[str]:
@@ -96,7 +96,7 @@ class Costs(Insight):
         if self.dragging:
             return "It is found when a slider is let go."
         if self.changes is None:
-            return f"The scene shows no {self.difference} now." if self.difference_message() else "Being compared."
+            return f"The scene shows no {self.difference} now." if self.difference_message() else "Not compared yet."
         return _said(self.changes)
 
     def difference_message(self) -> str:
