@@ -8,10 +8,11 @@ import json
 import logging
 import re
 import shlex
+import tempfile
 import time
 import warnings
 from collections import Counter
-from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from contextlib import chdir, contextmanager, redirect_stderr, redirect_stdout
 from urllib.parse import quote, urlencode
 
 from hess_explorer.__main__ import _parser, main
@@ -298,8 +299,13 @@ def command_line(random, examples):
 
 
 def fuzz_commands(random, count):
-    """Carry out so many command lines in this process."""
-    # Those that write files or take a browser are for other tests.
+    """Carry out so many command lines in this process; the files that they write are thrown away."""
+    with tempfile.TemporaryDirectory() as folder, chdir(folder):
+        return _fuzz_commands(random, count)
+
+
+def _fuzz_commands(random, count):
+    # Those that take long or a browser are for other tests.
     findings = Findings()
     examples = [one for one in _examples(_parser()) if one[0] not in ("bench", "shot")]
     for _ in range(count):
