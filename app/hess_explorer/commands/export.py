@@ -35,19 +35,15 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 
 def _run(options: argparse.Namespace) -> None:
+    if options.out is None and options.format in ("png", "pdf"):
+        raise CommandError(f"A {options.format.upper()} is no text: name a file with --out FILE.")
     with computing():
-        from hess_explorer.export.figure import FORMATS, as_file
+        from hess_explorer.export.file import content
         from hess_explorer.export.shown import shown
-        from hess_explorer.export.table import as_csv, as_json
 
         found = shown(urlencode(options.state), options.picture)
-        if options.format in FORMATS:
-            data = as_file(found, options.format, options.width, options.black)
-        else:
-            data = {"csv": as_csv, "json": as_json}[options.format](found).encode()
+        data = content(found, options.format, options.width, options.black)
     if options.out is not None:
         write_file(options.out, data)
-    elif options.format in ("png", "pdf"):
-        raise CommandError(f"A {options.format.upper()} is no text: name a file with --out FILE.")
     else:
         show(data)

@@ -11,9 +11,8 @@ import numpy as np
 from tornado.web import RequestHandler
 
 from hess_explorer.compute.budget import Abandoned, limited
-from hess_explorer.export.figure import FORMATS, as_file
+from hess_explorer.export.file import content
 from hess_explorer.export.shown import shown
-from hess_explorer.export.table import as_csv, as_json
 from hess_explorer.protocol.parameters import MAX_QUERY, Choice, Number, decode
 from hess_mechanics.errors import ModelError
 
@@ -73,10 +72,7 @@ class Export(RequestHandler):
         picture, kind = given.pop("picture", ""), str(read["format"])
         with limited(self._left), np.errstate(all="ignore"):
             found = shown(urlencode(given), picture)
-            if kind in FORMATS:
-                data = as_file(found, kind, float(read["width"]), read["black"] == "1")
-            else:
-                data = (as_csv if kind == "csv" else as_json)(found).encode()
+            data = content(found, kind, float(read["width"]), read["black"] == "1")
         return f"{found.scene.name}-{found.picture.name}", kind, data
 
     def _refuse(self, status: int, sentence: str) -> None:
