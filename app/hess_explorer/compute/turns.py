@@ -62,6 +62,7 @@ class Turns:
                 work()
         except Abandoned:
             pass
+        # Whatever it is, what waits behind it in the session has its turn; the log says all.
         except Exception:
             logger.exception("a message could not be handled")
         _pool.submit(self._one)

@@ -18,6 +18,8 @@ __all__ = ["Shown", "shown"]
 
 _ROUNDS = 4
 """What is found may ask for more: so often at most."""
+_CLIENT = tuple(spec for spec in CLIENT if spec.name != "speed")
+_DEFAULTS = {spec.name: spec.default for spec in _CLIENT}
 
 
 @dataclass(frozen=True)
@@ -55,10 +57,6 @@ class Shown:
             "link": self.link, "scene": self.scene.name, "picture": self.picture.name, "title": self.title,
             "caption": self.caption, "parameters": dict(self.values), "status": list(self.status),
             "notes": list(self.notes), "program": f"hess-explorer {version('hess-explorer')}"}
-
-
-_CLIENT = tuple(spec for spec in CLIENT if spec.name != "speed")
-_DEFAULTS = {spec.name: spec.default for spec in _CLIENT}
 
 
 def shown(query: str, picture: str = "") -> Shown:
