@@ -207,6 +207,26 @@ def test_the_cost_of_all_is_measured_when_its_picture_is_unfolded():
     assert state.about_costs() == "Enough to the eye: orbit draft, map standard."
 
 
+def test_what_is_too_large_to_be_measured_or_compared_says_so_and_leaves_no_axes_of_before():
+    scene, stage = scenes()["singular-measures-accuracy"], Stage(scenes()["singular-measures-accuracy"], Wire())
+
+    def shown(**values):
+        for _ in range(2):
+            state = scene.compute({**scene.defaults(), **values}, ("trade", "difference"), False)
+            report = stage.show(state, False)
+            for task in report.todo:
+                CACHE.get(task.function, *task.arguments)
+        return state, report, stage.wire.pack()[0]["ranges"]["difference"]
+
+    assert max(shown(points="1000", h=3.0)[2]) > 1.5
+    state, report, axes = shown(h=60.0, span=200.0)
+    why = "In this time the cloud turns too often for 30 frames: choose a time span below "
+    assert state.about_costs().startswith(f"Cloud cannot be measured: {why}")
+    assert state.about_difference().startswith(why)
+    assert state.difference_message() == "The cloud cannot be compared"
+    assert (report.todo, axes) == ((), [-1.0, 1.0, -1.0, 1.0])
+
+
 def test_a_scene_that_computes_only_its_motion_has_no_such_picture():
     assert "trade" not in scenes()["kharlamova-accuracy"].pictures
 

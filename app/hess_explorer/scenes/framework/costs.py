@@ -10,20 +10,21 @@ import numpy as np
 
 from hess_explorer.scenes.framework.looking_into import Insight
 from hess_explorer.scenes.framework.parameters import specs_of
-from hess_explorer.scenes.framework.trial import Trial, next_level
+from hess_explorer.scenes.framework.trial import Refused, Trial, next_level
 from hess_explorer.views import theme
 from hess_explorer.views.comparison import Difference
 from hess_explorer.views.layers import Axes, Grid, Layer, Range, Sign, dots, image, line, points, ring, text
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.shadowing import typical
-from hess_mechanics.dynamics.trade import enough
+from hess_mechanics.dynamics.trade import Sample, enough
 from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, Kind
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["Costs", "difference_picture", "trade_picture"]
 
 _ERRORS, _MS = (1e-9, 1e3), (1e-2, 1e5)
+_NO_AXIS = (-1.0, 1.0)
 _TICKS = [1e-8, 1e-6, 1e-4, 1e-2, 1.0, 100.0]
 _LINES = (("solid", 1.5), ("dashed", 2.0), ("dotted", 3.0), ("solid", 4.0))
 """Dash and width: the page's legend has no line of dots and dashes."""
@@ -34,9 +35,13 @@ class Costs(Insight):
 
     # ---- cost against error -------------------------------------------------------------------------------------
 
+    def _samples(self, kind: Kind) -> tuple[Sample, ...] | None:
+        found = self.costs.get(kind)
+        return None if isinstance(found, Refused) else found
+
     def cost_of(self, kind: Kind) -> tuple[Array, Array] | None:
         """Errors, as multiples of what can just not be seen, and milliseconds of the levels."""
-        samples = self.costs.get(kind)
+        samples = self._samples(kind)
         if samples is None:
             return None
         seen = next(trial.seen for trial in self.trials if trial.kind == kind)
@@ -56,20 +61,25 @@ class Costs(Insight):
     @cached_property
     def _enough(self) -> dict[Kind, str]:
         return {trial.kind: enough(samples, trial.seen) for trial in self.trials
-                if (samples := self.costs.get(trial.kind)) is not None}
+                if (samples := self._samples(trial.kind)) is not None}
 
     def about_costs(self) -> str:
         """The caption: which level is enough for what, as far as that is measured."""
         if self.dragging:
             return "It is measured when a slider is let go."
-        if len(self._enough) < len(self.costs):
-            return f"Measured so far: {len(self._enough)} of {len(self.costs)}."
-        return f"Enough to the eye: {', '.join(f'{kind} {name}' for kind, name in self._enough.items())}."
+        known = [found for found in self.costs.values() if found is not None]
+        if len(known) < len(self.costs):
+            return f"Measured so far: {len(known)} of {len(self.costs)}."
+        said = [f"{kind} cannot be measured: {found.reason}" for kind, found in self.costs.items()
+                if isinstance(found, Refused)]
+        if self._enough:
+            said.insert(0, f"Enough to the eye: {', '.join(f'{kind} {name}' for kind, name in self._enough.items())}.")
+        return _capitalized(" ".join(said))
 
     def cost_rows(self) -> Iterator[str]:
         """Milliseconds and errors of the levels, a line for each kind."""
         for trial in self.trials:
-            samples = self.costs.get(trial.kind)
+            samples = self._samples(trial.kind)
             if samples is not None:
                 times, errors = (", ".join(digits(value, 2) for value in values) for values in (
                     [one.ms for one in samples], [one.error for one in samples]))
@@ -95,6 +105,8 @@ class Costs(Insight):
             return f"Nothing is more exact than {self.chosen}: nothing to compare it with."
         if self.dragging:
             return "It is found when a slider is let go."
+        if isinstance(self.changes, Refused):
+            return self.changes.reason
         if self.changes is None:
             return f"The scene shows no {self.difference} now." if self.difference_message() else "Not compared yet."
         return _said(self.changes)
@@ -104,11 +116,13 @@ class Costs(Insight):
         if self.finer is None:
             return f"{self.chosen} is the last level"
         # Only what a state shows is compared: basins, where they are asked for.
-        return "" if self.trials and self.compared.shown(self.shown) else f"No {self.difference} in this state"
+        if not (self.trials and self.compared.shown(self.shown)):
+            return f"No {self.difference} in this state"
+        return f"The {self.difference} cannot be compared" if isinstance(self.changes, Refused) else ""
 
     def difference_rows(self) -> Iterator[str]:
         """What was compared, and where chaos takes orbits away."""
-        found = self.changes
+        found = self.found_difference
         if found is None:
             return
         small = self.compared.small(self.shown)
@@ -125,26 +139,37 @@ class Costs(Insight):
         return f"{self.difference.capitalize()}: {self.chosen}" + (f" and {self.finer}" if self.finer else "")
 
     def difference_axis(self, side: str) -> Range | None:
-        """The axis "x" or "y" of the picture that is compared."""
-        if self.changes is None:
+        """The axis "x" or "y" of the picture that is compared; as it was while that is being found."""
+        if self.difference_message():
+            return _NO_AXIS
+        if self.found_difference is None:
             return None
-        found: Range = getattr(self.changes.frame.axes, side)
+        found: Range = getattr(self.found_difference.frame.axes, side)
         return found
 
     def changed_cells(self) -> Grid | None:
         """1 where a cell changes, 0 where it does not, −1 where nothing is."""
-        found = self.changes
+        found = self.found_difference
         if found is None or found.cells is None:
             return None
         return Grid(found.cells, found.frame.axes.x, found.frame.axes.y)
 
     def added_by(self, name: str) -> Array | None:
         """Points (2, n) that only this level has."""
-        return self.changes.added.T if self.changes is not None and self.finer == name else None
+        return self.found_difference.added.T if self.found_difference is not None and self.finer == name else None
 
     def difference_names(self) -> str:
         """What the axes are."""
-        return "" if self.changes is None else "{} across, {} up".format(*self.changes.frame.names)
+        return "" if self.found_difference is None else "{} across, {} up".format(*self.found_difference.frame.names)
+
+    @property
+    def found_difference(self) -> Difference | None:
+        """The `changes`, where they are known."""
+        return None if isinstance(self.changes, Refused) else self.changes
+
+
+def _capitalized(sentence: str) -> str:
+    return sentence[:1].upper() + sentence[1:]
 
 
 def _pixels(count: float) -> str:
@@ -190,14 +215,14 @@ def difference_picture(folded: bool = True) -> Plot[C]:
     clear = theme.MUTED + "00"
 
     def of(part: Callable[[Difference], Array]) -> Callable[[C], Array | None]:
-        return lambda s: None if s.changes is None else part(s.changes).T
+        return lambda s: None if (found := s.found_difference) is None else part(found).T
 
     def added(name: str) -> Layer[C]:
         return dots(f"added-{name}", lambda s: s.added_by(name), color=theme.LEVELS[name], size=4)
 
     return Plot(
         name="difference", title=Costs.difference_title, caption=Costs.about_difference, axes=(" ", " "),
-        first=Axes((-1.0, 1.0), (-1.0, 1.0)), message=Costs.difference_message,
+        first=Axes(_NO_AXIS, _NO_AXIS), message=Costs.difference_message,
         x=lambda s: s.difference_axis("x"), y=lambda s: s.difference_axis("y"),
         folded="Show what more accuracy changes" if folded else "",
         layers=(

@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 from hess_explorer.protocol.parameters import Choice, Spec, Value, Values
 from hess_explorer.scenes.framework.parameters import Slider
 from hess_explorer.scenes.framework.scene import Motion, Scene, State
-from hess_explorer.scenes.framework.trial import Trial, bare, differing, measured, next_level
+from hess_explorer.scenes.framework.trial import Refused, Trial, bare, differing, measured, next_level
 from hess_explorer.views.comparison import Difference
 from hess_mechanics.dynamics.trade import Sample
 from hess_mechanics.numerics.accuracy import Kind
@@ -39,8 +39,8 @@ class Insight(State):
     difference: str
 
     @cached_property
-    def costs(self) -> dict[Kind, tuple[Sample, ...] | None]:
-        """Time and error of every level, for each kind of computation; None until it is known."""
+    def costs(self) -> dict[Kind, tuple[Sample, ...] | Refused | None]:
+        """Time and error of every level, for each kind of computation, or why not; None until it is known."""
         plain = bare(self.shown)
         return {trial.kind: None if self.dragging else self.work.later(measured, trial, plain)
                 for trial in self.trials if trial.shown(plain)}
@@ -56,8 +56,9 @@ class Insight(State):
         return next(trial for trial in self.trials if trial.kind == self.difference)
 
     @cached_property
-    def changes(self) -> Difference | None:
-        """What the next more exact level changes; None until it is known, and where there is nothing to compare."""
+    def changes(self) -> Difference | Refused | None:
+        """What the next more exact level changes, or why that is not found; None until it is known, and where there is
+        nothing to compare."""
         plain, finer = bare(self.shown), next_level(self.chosen)
         if self.dragging or finer is None or not self.compared.shown(plain):
             return None

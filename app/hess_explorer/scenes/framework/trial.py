@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
 
+from hess_explorer.compute.budget import OverBudget
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.comparison import Difference, Frame, Look, Marks, compared
 from hess_explorer.views.layers import Axes
@@ -25,11 +26,12 @@ if TYPE_CHECKING:
     from hess_explorer.scenes.framework.scene import State
 
 __all__ = [
-    "Trial", "bare", "colour_error", "curve_error", "differing", "measured", "needed", "next_level",
+    "Refused", "Trial", "bare", "colour_error", "curve_error", "differing", "measured", "needed", "next_level",
     "orbit_trial", "section_error",
 ]
 
 S = TypeVar("S", bound="State")
+T = TypeVar("T")
 
 _SAMPLES = 400
 _COLOURS = 256.0
@@ -68,6 +70,13 @@ class Trial(Generic[S]):
     small: Callable[[S], S] = _as_it_is
 
 
+@dataclass(frozen=True)
+class Refused:
+    """Why something could not be measured: a sentence, kept in the cache as a result is."""
+
+    reason: str
+
+
 def bare(state: S) -> S:
     """The state whatever its accuracy and pictures in sight, for the cache."""
     typed: Any = state
@@ -76,10 +85,23 @@ def bare(state: S) -> S:
     return found
 
 
-def measured(trial: Trial[S], state: S) -> tuple[Sample, ...]:
-    """Time and error of each level, for a `bare` state.  Raises `ModelError`."""
-    less = trial.small(state)
-    return measure(trial.kind, lambda plan: trial.run(less, plan), lambda *both: trial.error(less, *both))
+def _unless_refused(found: Callable[[], T]) -> T | Refused:
+    """What the mechanics refuses it will refuse again; what only took too long is not known yet."""
+    try:
+        return found()
+    except OverBudget:
+        raise
+    except ModelError as error:
+        return Refused(str(error))
+
+
+def measured(trial: Trial[S], state: S) -> tuple[Sample, ...] | Refused:
+    """Time and error of each level, for a `bare` state.  Raises `OverBudget`."""
+    def found() -> tuple[Sample, ...]:
+        less = trial.small(state)
+        return measure(trial.kind, lambda plan: trial.run(less, plan), lambda *both: trial.error(less, *both))
+
+    return _unless_refused(found)
 
 
 def needed(trial: Trial[S], state: S) -> str:
@@ -98,13 +120,16 @@ def next_level(name: str) -> str | None:
     return next(iter(names[names.index(name) + 1 :]), None)
 
 
-def differing(trial: Trial[S], state: S, name: str, finer: str) -> Difference:
-    """What a more exact level changes in the picture of a level, for a `bare` state.  Raises `ModelError`."""
-    less, plan, other = trial.small(state), PLANS[trial.kind][name], PLANS[trial.kind][finer]
-    if trial.alike:
-        other = replace(other, share=plan.share, cells=plan.cells)
-    one, exact = (trial.look(less, trial.run(less, each)) for each in (plan, other))
-    return compared(one, exact)
+def differing(trial: Trial[S], state: S, name: str, finer: str) -> Difference | Refused:
+    """What a more exact level changes in the picture of a level, for a `bare` state.  Raises `OverBudget`."""
+    def found() -> Difference:
+        less, plan, other = trial.small(state), PLANS[trial.kind][name], PLANS[trial.kind][finer]
+        if trial.alike:
+            other = replace(other, share=plan.share, cells=plan.cells)
+        one, exact = (trial.look(less, trial.run(less, each)) for each in (plan, other))
+        return compared(one, exact)
+
+    return _unless_refused(found)
 
 
 def _orbit(state: State, plan: Plan) -> Array:
