@@ -33,3 +33,18 @@ def refusal(capsys):
         return err
 
     return call
+
+
+@pytest.fixture
+def example(capsys):
+    """The words of the example at the end of a command's help, without the program's name."""
+
+    def call(*words):
+        with pytest.raises(SystemExit) as end:
+            main([*words, "--help"])
+        assert end.value.code == 0
+        # Help is broken into lines, after a hyphen too.
+        text = " ".join(capsys.readouterr().out.split())
+        return text.partition("Example: hess-explorer ")[2].replace("- 0.9", "-0.9").split()
+
+    return call

@@ -13,7 +13,7 @@ from hess_mechanics import BallBody, SuslovBody, section, systems
 from hess_mechanics.chaplygin_ball.phase_cloud import shell
 from hess_mechanics.numerics.accuracy import REFERENCE
 from hess_mechanics.suslov.section import plane_of, state_at
-from support.command_line import replaced, run, table
+from support.command_line import replaced, table
 
 SECTION = ["section", "ball", "--I", "1,3,0.2,-0.1", "--D", "5", "--b", "0.5,0.2,0.8", "--omega", "0.6,1.1",
            "--gamma", "0.6,0.8,0", "--t", "30"]
@@ -247,12 +247,8 @@ def test_what_is_wrong_is_one_sentence(refusal, words, said):
 
 
 @pytest.mark.parametrize("words", [["section", "ball"], ["lyapunov", "ball"], ["period"], ["cloud"], ["basins"]])
-def test_help_has_an_example_that_runs(words):
-    done = run(*words, "--help")
-    assert done.returncode == 0
-    text = " ".join(done.stdout.decode().split())
-    example = text.partition("Example: hess-explorer ")[2].split()
-    assert example[: len(words)] == words
-    again = run(*example)
-    assert again.returncode == 0, again.stderr
-    assert again.stdout
+def test_help_has_an_example_that_runs(example, capsys, words):
+    found = example(*words)
+    assert found[: len(words)] == words
+    assert main(found) == 0
+    assert capsys.readouterr().out

@@ -11,6 +11,7 @@ import subprocess
 import sys
 import types
 import webbrowser
+from contextlib import nullcontext
 from io import BytesIO
 from urllib.request import urlopen
 
@@ -410,10 +411,15 @@ def test_a_first_start_answers_at_the_address_it_prints_and_ends_silently(free_p
 # shot
 
 
-def test_shot(tmp_path, browser):
-    file = tmp_path / "page.png"
-    done = run("shot", "--state", "h=1.2&f=0.3", "--size", "900x700", "--dark", str(file))
-    assert (done.returncode, done.stdout, done.stderr) == (0, b"", b"")
+def test_shot(tmp_path, browser, server, monkeypatch, capsys):
+    # A server and a browser are running: starting others is what these two did.
+    monkeypatch.setattr(hess_explorer.headless.screenshot, "running_server", lambda log: nullcontext(server))
+    monkeypatch.setattr(hess_explorer.headless.screenshot, "launched", lambda: nullcontext(browser))
+    before, file = set(browser.contexts), tmp_path / "page.png"
+    assert main(["shot", "--state", "h=1.2&f=0.3", "--size", "900x700", "--dark", str(file)]) == 0
+    for context in set(browser.contexts) - before:
+        context.close()
+    assert capsys.readouterr() == ("", "")
     with Image.open(BytesIO(file.read_bytes())) as picture:
         assert picture.size == (900, 700)
         # Dark: most of the page is.
