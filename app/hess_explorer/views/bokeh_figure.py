@@ -84,8 +84,11 @@ def build(plot: Plot[Any]) -> figure:
 
 def describe(plot: Plot[Any]) -> dict[str, Any]:
     """What the browser needs to know of a plot, see "plot.js"."""
+    item: Any = json_item(build(plot))
+    # Panel's models, by name, in every document (150 kB): a figure has none of them, and the page has them already.
+    item["doc"].pop("defs", None)
     return {
-        "item": json_item(build(plot)), "renamed": not isinstance(plot.axes, tuple), "picks": list(plot.events),
+        "item": item, "renamed": not isinstance(plot.axes, tuple), "picks": list(plot.events),
         "letters": [None if plot.ticks is not None or side in plot.log else letters
                     for side, letters in (("x", _LETTERS), ("y", 1000))],
         "cells": [{"source": plot.source_of(layer), **layer.style} for layer in plot.layers if layer.glyph == "image"],
