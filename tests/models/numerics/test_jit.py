@@ -27,11 +27,31 @@ def run(code, folder, path, *arguments):
 # ---- what makes it stale ----------------------------------------------------------------------------------------
 
 
-HASHES = """
-import json, sys
-from hess_mechanics.numerics.jit import source_hash
-print(json.dumps({part: source_hash(part) for part in sys.argv[1:]} | {"all": source_hash()}))
-"""
+@pytest.fixture(scope="module")
+def copied(tmp_path_factory):
+    """A copy of the package, and a folder where its hashes are kept."""
+    package, memory = (tmp_path_factory.mktemp(name) / "hess_mechanics" for name in ("models", "cache"))
+    shutil.copytree(PACKAGE, package, ignore=shutil.ignore_patterns("__pycache__"))
+    memory.mkdir(mode=0o700)
+    return package, memory
+
+
+@pytest.fixture
+def hashes(copied, monkeypatch):
+    """hashes() → those of the copied package, as a process that has just begun finds them."""
+    monkeypatch.setattr(jit, "_PACKAGE", copied[0])
+    monkeypatch.setattr(jit, "CACHE_FOLDER", copied[1])
+
+    def forget():
+        jit._sources.cache_clear()
+        jit.source_hash.cache_clear()
+
+    def found():
+        forget()
+        return {part: jit.source_hash(part) for part in PARTS} | {"all": jit.source_hash()}
+
+    yield found
+    forget()
 
 
 @pytest.mark.parametrize(("file", "change", "stale"), [
@@ -44,19 +64,25 @@ print(json.dumps({part: source_hash(part) for part in sys.argv[1:]} | {"all": so
     ("numerics/taylor_kernels.py", lambda text: f"{text}\n_NEW = 1\n", set(PARTS)),
     ("dynamics/system.py", lambda text: f"{text}\n_NEW = 1\n", set(PARTS)),
 ], ids=["comment", "docstring", "another subject", "the field", "what others import", "numerics", "dynamics"])
-def test_a_change_makes_stale_what_it_is_part_of_and_nothing_else(tmp_path, file, change, stale):
-    package = tmp_path / "models" / "hess_mechanics"
-    shutil.copytree(PACKAGE, package, ignore=shutil.ignore_patterns("__pycache__"))
-    before = run(HASHES, tmp_path / "cache", package.parent, *PARTS)
-    assert run(HASHES, tmp_path / "cache", package.parent, *PARTS) == before
-    path = package / file
+def test_a_change_makes_stale_what_it_is_part_of_and_nothing_else(copied, hashes, file, change, stale):
+    before = hashes()
+    assert hashes() == before
+    path = copied[0] / file
     text = path.read_text(encoding="utf-8")
     assert change(text) != text
     path.write_text(change(text), encoding="utf-8")
-    after = run(HASHES, tmp_path / "cache", package.parent, *PARTS)
+    after = hashes()
+    # What comes back is as it was.
+    path.write_text(text, encoding="utf-8")
+    assert hashes() == before
     changed = {part for part in PARTS if before[part] != after[part]}
     assert changed == stale
     assert (before["all"] != after["all"]) == bool(changed)
+
+
+def test_a_process_hashes_the_package_that_it_imports(hashes, copied, tmp_path):
+    code = "import json; from hess_mechanics.numerics.jit import source_hash; print(json.dumps(source_hash()))"
+    assert run(code, tmp_path, copied[0].parent) == hashes()["all"]
 
 
 # ---- whose folder it is -----------------------------------------------------------------------------------------
@@ -153,19 +179,24 @@ print(json.dumps(found))
 """
 
 
-def test_systems_of_one_name_have_each_its_own_kernel_in_every_process(tmp_path):
-    path = PACKAGE.parent
+@pytest.fixture(scope="module")
+def two_systems(tmp_path_factory):
+    """A cache folder, and what the process said that filled it."""
+    folder = tmp_path_factory.mktemp("kernels")
+    return folder, run(TWO_OF_ONE_NAME, folder, PACKAGE.parent, "grows", "falls")
+
+
+def test_systems_of_one_name_have_each_its_own_kernel_in_every_process(two_systems):
+    folder, first = two_systems
     grows, falls = pytest.approx(2.718281828459045, abs=1e-14), pytest.approx(0.36787944117144233, abs=1e-15)
-    first = run(TWO_OF_ONE_NAME, tmp_path, path, "grows", "falls")
     assert first == {"grows": [grows, 0], "falls": [falls, 0]}
     # Read from disk, in another order.
-    assert run(TWO_OF_ONE_NAME, tmp_path, path, "falls", "grows") == {"grows": [grows, 1], "falls": [falls, 1]}
-    assert run(TWO_OF_ONE_NAME, tmp_path, path, "falls") == {"falls": [falls, 1]}
+    found = run(TWO_OF_ONE_NAME, folder, PACKAGE.parent, "falls", "grows")
+    assert found == {"grows": [grows, 1], "falls": [falls, 1]}
 
 
-def test_the_derived_source_can_be_read(tmp_path):
-    run(TWO_OF_ONE_NAME, tmp_path, PACKAGE.parent, "grows")
-    (path,) = tmp_path.rglob("same_orbit-*.py")
-    text = path.read_text(encoding="utf-8")
-    assert "# def rates(y, q, p, one):\n#     return ((p[0] * y[0]),)" in text
-    assert "def same_orbit(y, p, times, order, tolerance, max_steps, out):" in text
+def test_the_derived_source_can_be_read(two_systems):
+    texts = [path.read_text(encoding="utf-8") for path in two_systems[0].rglob("same_orbit-*.py")]
+    assert len(texts) == 2
+    (grows,) = (text for text in texts if "# def rates(y, q, p, one):\n#     return ((p[0] * y[0]),)" in text)
+    assert "def same_orbit(y, p, times, order, tolerance, max_steps, out):" in grows
