@@ -7,6 +7,7 @@ level.  Nor may it cry wolf: where the true error is more than round-off, half o
 import math
 from decimal import Decimal
 
+import mpmath
 import numpy as np
 import pytest
 
@@ -103,6 +104,15 @@ def test_closed_forms_of_maps_agree_with_three_orbits(torus, digits, closed, bou
     for phi in np.linspace(-3.0, 3.0, 7):
         assert abs(math.remainder(left.theta(phi) - right.theta(phi), 2 * math.pi)) <= bound * max(1.0, left.slope(phi))
     assert math.exp(left.log_trace) == pytest.approx(math.exp(right.log_trace), rel=bound, abs=bound)
+
+
+@pytest.mark.parametrize(("h", "f"), [(0.5, 0.5), (1.0, 1e-12), (0.3, 1e-100), (-1 + 2**-53, 0.0), (1e8, 14000.0)])
+def test_the_turning_roots_are_those_of_mpmath(h, f):
+    with mpmath.workdps(250):
+        h, f = mpmath.mpf(h), mpmath.mpf(f)
+        roots = mpmath.polyroots([-2, -2 * h, 2, 2 * h - f * f], maxsteps=5000, extraprec=2 * mpmath.mp.prec)
+        for found, exact in zip(oracle.turning_roots(h, f), sorted(map(mpmath.re, roots)), strict=True):
+            assert abs(found - exact) < mpmath.mpf(10) ** -240 * (1 + abs(exact))
 
 
 def test_the_cycle_by_collocation_agrees_with_three_orbits():

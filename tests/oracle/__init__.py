@@ -16,6 +16,7 @@ from oracle.circle_maps import (
     map_without_a,
     maps_by_three_orbits,
     stable_cycle,
+    turning_roots,
 )
 from oracle.closed_forms import pendulum, steady_rotation
 from oracle.kept import ANSWERED, FUNCTIONS, KEPT, found_anew, plain
@@ -52,5 +53,6 @@ __all__ = [
     "stable_cycle",
     "steady_rotation",
     "taylor",
+    "turning_roots",
     "uncompiled",
 ]

@@ -45,10 +45,22 @@ def decimal_of(x):
     return Decimal(mpmath.nstr(x, mpmath.mp.dps))
 
 
+def turning_roots(h, f):
+    """n0 < n1 < n2 of 2(h + n)(1 − n²) = f², with the working precision of mpmath.
+
+    By cosines of thirds of an angle, with three times the digits: it loses half of them where two roots are close; and
+    300 more, so that a root at 0 is one as doubles.  `mpmath.polyroots` takes 5 to 200 times as long.
+    """
+    with mpmath.workprec(3 * mpmath.mp.prec + 1000):
+        r = mpmath.sqrt(h * h + 3) / 3
+        angle = mpmath.acos((9 * h - h**3 - 27 * f * f / 4) / (27 * r**3)) / 3
+        roots = [2 * r * mpmath.re(mpmath.cos(angle - 2 * mpmath.pi * k / 3)) - h / 3 for k in range(3)]
+    return sorted(+root for root in roots)
+
+
 def roots_and_period(h, f):
     """n0 < n1 < n2 and one period of n3, with the working precision of mpmath."""
-    roots = mpmath.polyroots([-2, -2 * h, 2, 2 * h - f * f], maxsteps=5000, extraprec=3 * mpmath.mp.prec)
-    n0, n1, n2 = sorted(mpmath.re(root) for root in roots)
+    n0, n1, n2 = turning_roots(h, f)
     return n0, n1, n2, 2 * mpmath.sqrt(2 / (n2 - n0)) * mpmath.ellipk((n2 - n1) / (n2 - n0))
 
 

@@ -1,14 +1,16 @@
 """Orders of convergence, measured as slopes."""
 
+from decimal import Decimal
+
 import mpmath
 import numpy as np
 import pytest
 
+import oracle
 from hess_mechanics import level, solve, systems
 from hess_mechanics.numerics.accuracy import LEVELS
 from hess_mechanics.numerics.taylor_kernels import columns_of
 from hess_mechanics.numerics.unrolled import evaluation
-from oracle import uncompiled
 
 SYSTEMS = systems()
 every_system = pytest.mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)
@@ -23,18 +25,18 @@ def slope(x, y):
 
 @pytest.fixture(scope="module", params=SYSTEMS.values(), ids=SYSTEMS)
 def truth(request):
-    """A system, its example in multiple precision, and the state after each of STEPS by mpmath."""
+    """A system, its example in multiple precision, and the state after each of STEPS by the oracle."""
     system = request.param
+    exact = oracle.orbit_in_decimals(system, *system.example, [Decimal(h) for h in STEPS], 75)
     with mpmath.workdps(75):
         state, parameters = ([mpmath.mpf(value) for value in values] for values in system.example)
-        exact = mpmath.odefun(lambda _, y: list(system.field(y, parameters)), 0, state)
-        return system, state, parameters, {h: list(exact(mpmath.mpf(h))) for h in STEPS}
+        return system, state, parameters, {h: list(map(mpmath.mpf, map(str, y))) for h, y in zip(STEPS, exact, strict=True)}
 
 
 @pytest.mark.parametrize("order", ORDERS)
 def test_the_local_error_of_one_step_has_the_order_of_the_series(truth, order):
     system, state, parameters, exact = truth
-    expand = uncompiled(system.recursion)["expand"]
+    expand = oracle.uncompiled(system.recursion)["expand"]
     # In multiple precision, so that round-off does not end the slope: the same source, uncompiled.
     with mpmath.workdps(75):
         c, left, right = (np.full((order + 1, columns), mpmath.mpf(0))

@@ -14,6 +14,7 @@ from scipy.special import ellipkm1
 from hess_mechanics import curve, curve_point, f_max, systems, turning_points
 from hess_mechanics.errors import InvalidParameter, ModelError, OutsideRegion, Separatrix
 from hess_mechanics.suslov_hess.bifurcation import SPECIAL_POINTS, h_min
+from oracle import turning_roots
 from support.mechanics import PROPERTY
 
 ULP = 2.0**-52
@@ -47,20 +48,25 @@ def digits(h, f):
 
 @cache
 def exact(h, f):
-    """Gaps, |w|², 1 − n1² and the roots from mpmath's roots of the cubic with exactly these doubles h and f."""
+    """Gaps, |w|², 1 − n1² and the roots of the cubic with exactly these doubles h and f."""
     with mpmath.workdps(digits(h, f)):
         h, f = mpmath.mpf(h), mpmath.mpf(f)
-        roots = mpmath.polyroots([-2, -2 * h, 2, 2 * h - f * f], maxsteps=5000, extraprec=2 * mpmath.mp.prec)
-        n0, n1, n2 = sorted(mpmath.re(root) for root in roots)
+        n0, n1, n2 = turning_roots(h, f)
         return {"n0": n0, "n1": n1, "n2": n2, "g10": n1 - n0, "g20": n2 - n0, "g21": n2 - n1,
                 "w_squared": 2 * (h + n1), "sine_squared": (1 - n1) * (1 + n1)}
+
+
+def double_root(h):
+    """n3 > 0 on the curve: 3n² + 2hn = 1, without cancellation."""
+    root = mpmath.sqrt(h * h + 3)
+    return 1 / (h + root) if h > 0 else (root - h) / 3
 
 
 @cache
 def exact_f_max(h):
     with mpmath.workdps(60 + int(6 * math.log10(abs(h) + 10))):
         h = mpmath.mpf(h)
-        n = max(mpmath.polyroots([-3, -2 * h, 1], maxsteps=500, extraprec=500))
+        n = double_root(h)
         return mpmath.sqrt(2 * (h + n) * (1 - n * n))
 
 
@@ -76,7 +82,7 @@ def exact_neighbours(h, f):
 def on_the_edge(h):
     with mpmath.workdps(60 + int(6 * math.log10(abs(h) + 10))):
         h = mpmath.mpf(h)
-        n = max(mpmath.polyroots([-3, -2 * h, 1], maxsteps=500, extraprec=500))
+        n = double_root(h)
         n0 = -h - 2 * n
         return {"n0": n0, "n1": n, "n2": n, "g10": n - n0, "g20": n - n0, "g21": mpmath.mpf(0),
                 "w_squared": 2 * (h + n), "sine_squared": (1 - n) * (1 + n)}

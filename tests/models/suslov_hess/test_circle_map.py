@@ -1,6 +1,7 @@
 """The circle map of the torus: against brute force, closed forms and its symmetries."""
 
 import cmath
+import decimal
 import math
 
 import mpmath
@@ -10,6 +11,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
 
+import oracle
 from hess_mechanics import (
     circle_map,
     critical_a,
@@ -106,20 +108,25 @@ def test_theta_is_where_the_orbit_comes_back_on_every_torus(torus, phi):
     assert angle_between(math.atan2(end[0], end[1]), found.theta(phi)) < edge + 100 * lever * round_off(found)
 
 
-def angles_in_multiple_precision(a, h, f, phases):
-    """Θ by mpmath's Taylor integration of n̈3 = ½ p'(n3) and of the equation of φ."""
-    a, h, f = mpmath.mpf(a), mpmath.mpf(h), mpmath.mpf(f)
-    n0, n1, n2 = sorted(mpmath.re(n) for n in mpmath.polyroots([-2, -2 * h, 2, 2 * h - f * f], 500, extraprec=300))
-    period = 2 * mpmath.sqrt(2 / (n2 - n0)) * mpmath.ellipk((n2 - n1) / (n2 - n0))
+def angles_in_multiple_precision(a, h, f, phases, digits):
+    """Θ by a Taylor series of n̈3 = ½ p'(n3) and of the equation of φ, with |w|, cos φ and sin φ as variables."""
+    with mpmath.workdps(digits), decimal.localcontext(prec=digits):
+        n0, n1, n2 = oracle.turning_roots(mpmath.mpf(h), mpmath.mpf(f))
+        period = 2 * mpmath.sqrt(2 / (n2 - n0)) * mpmath.ellipk((n2 - n1) / (n2 - n0))
+        size = mpmath.sqrt(2 * (h + n1))
 
-    def rates(_, y):
-        n, speed, *angles = y
-        w_squared = 2 * (h + n)
-        return [speed, 1 - n * n - 2 * n * (h + n),
-                *(-a * mpmath.sqrt(w_squared) * mpmath.cos(phi) - f / w_squared for phi in angles)]
+        def rates(y, p):
+            n, speed, size, c, s = y
+            a, h, f = p
+            rate = -a * size * c - f / (size * size)
+            return speed, 1 - n * n - 2 * n * (h + n), speed / size, -s * rate, c * rate
 
-    end = mpmath.odefun(rates, 0, [n1, 0, *map(mpmath.mpf, phases)])(period)[2:]
-    return [float(mpmath.atan2(mpmath.sin(phi), mpmath.cos(phi))) for phi in end]
+        start = [[n1, 0, size, mpmath.cos(phi), mpmath.sin(phi)] for phi in map(mpmath.mpf, phases)]
+        y = oracle.as_decimals([[mpmath.nstr(mpmath.mpf(x), digits) for x in row] for row in start]).T
+        p = oracle.as_decimals([[a, h, f]] * len(phases)).T
+        times = oracle.as_decimals([[mpmath.nstr(period, digits)] * len(phases)])
+        end = oracle.taylor(rates, y, p, times, round(1.15 * digits), 10.0**-digits)[0]
+    return np.arctan2(end[4].astype(float), end[3].astype(float))
 
 
 @pytest.mark.parametrize(
@@ -128,8 +135,7 @@ def angles_in_multiple_precision(a, h, f, phases):
 def test_theta_agrees_with_multiple_precision_to_round_off(a, h, share, digits, phases):
     # The second torus is next to the bottom, where 1 − n3 is 1e-8: nothing may be lost there.
     f = share * f_max(h)
-    with mpmath.workdps(digits):
-        expected = angles_in_multiple_precision(a, h, f, phases)
+    expected = angles_in_multiple_precision(a, h, f, phases, digits)
     assert angle_between(circle_map(a, h, f, REFERENCE).theta(phases), expected) < 1e-13
 
 
