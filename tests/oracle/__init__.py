@@ -21,6 +21,7 @@ from oracle.circle_maps import (
 from oracle.closed_forms import pendulum, steady_rotation
 from oracle.kept import ANSWERED, FUNCTIONS, KEPT, found_anew, plain
 from oracle.orbits import (
+    Along,
     as_decimals,
     as_long_doubles,
     coefficients,
@@ -35,6 +36,7 @@ __all__ = [
     "ANSWERED",
     "FUNCTIONS",
     "KEPT",
+    "Along",
     "MoebiusMap",
     "as_decimals",
     "as_long_doubles",

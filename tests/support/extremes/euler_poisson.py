@@ -47,10 +47,11 @@ def crossings(Row, name, body, h, f, place, count, **options):
     And how far g is from π/2 there, as a time.
     """
     state = state_at(body, h, f, *place)
+    truth = oracle.Along(SYSTEM, state, body.parameters, 40)
 
     def error(grade):
         found = section(SYSTEM, state, body.parameters, AndoyerPlane(f), 1e4, level(grade), count)
-        exact = oracle.orbit_in_decimals(SYSTEM, state, body.parameters, found.times.tolist(), 40)
+        exact = truth.at(found.times.tolist())
         apart = oracle.distances(found.states, exact)
         M, gamma = exact[:, :3].astype(float), exact[:, 3:].astype(float)
         G = np.linalg.norm(M, axis=1)

@@ -27,16 +27,13 @@ def crossings(Row, name, body, k, E, count=3, sense=1, **options):
     """How far the first crossings are from where a Taylor series is at their times, and that from the plane."""
     start = seeds(body, E, k, WHOLE, 1)[0]
     nu = float(SYSTEM.frequency(np.array(start), np.array(body.parameters)))
-
-    @cache
-    def exact(times):
-        return oracle.orbit_in_decimals(SYSTEM, start, body.parameters, times, 30).astype(float)
+    truth = oracle.Along(SYSTEM, start, body.parameters, 30)
 
     def error(grade):
         found = section(SYSTEM, start, body.parameters, plane_of(k), sense * 400.0 / nu, level(grade), count)
         if not found.times.size:
             return 1.0
-        states = exact(tuple(found.times.tolist()))
+        states = truth.at(found.times.tolist()).astype(float)
         apart = np.abs(found.states - states) / np.array([nu, nu, 1.0, 1.0, 1.0])
         return float(max(apart.max(), np.max(np.abs(states[:, k + 1]))))
 
