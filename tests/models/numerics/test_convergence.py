@@ -30,7 +30,8 @@ def truth(request):
     exact = oracle.orbit_in_decimals(system, *system.example, [Decimal(h) for h in STEPS], 75)
     with mpmath.workdps(75):
         state, parameters = ([mpmath.mpf(value) for value in values] for values in system.example)
-        return system, state, parameters, {h: list(map(mpmath.mpf, map(str, y))) for h, y in zip(STEPS, exact, strict=True)}
+        after = [[mpmath.mpf(str(value)) for value in values] for values in exact]
+        return system, state, parameters, dict(zip(STEPS, after, strict=True))
 
 
 @pytest.mark.parametrize("order", ORDERS)
