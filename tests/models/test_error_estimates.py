@@ -35,23 +35,26 @@ def parameters_of(row):
 
 def quickest(name):
     """Two of the questions to this function that are answered soonest."""
-    of_this = (question for question in oracle.KEPT if f'"{name}"' in question)
+    of_this = (question for question in oracle.KEPT if f'"{name}"' in question and "sha256" not in question)
     return sorted(of_this, key=lambda question: oracle.KEPT[question][0])[:2]
 
 
-@pytest.mark.parametrize("name", oracle.FUNCTIONS)
+@pytest.mark.parametrize("name", [
+    pytest.param(name, marks=in_long_double if "long_double" in name else ()) for name in oracle.FUNCTIONS])
 def test_what_is_kept_is_what_the_oracle_finds(name):
     questions = quickest(name)
     assert questions
+    # Of 34 or 40 decimals the last ones follow the order of the sums in the field; of a long double, see below.
+    within = Decimal("1e-13" if "long_double" in name else "1e-31")
     for question in questions:
-        assert agree(oracle.found_anew(question), oracle.KEPT[question][1])
+        assert agree(oracle.found_anew(question), oracle.KEPT[question][1], within)
 
 
-def agree(found, kept):
-    """Whether answers are the same; of 34 or 40 decimals the last ones follow the order of the sums in the field."""
+def agree(found, kept, within):
+    """Whether answers are the same, decimals up to so much."""
     if isinstance(found, list):
-        return len(found) == len(kept) and all(map(agree, found, kept))
-    return abs(Decimal(found) - Decimal(kept)) <= Decimal("1e-31") if isinstance(found, str) else found == kept
+        return len(found) == len(kept) and all(agree(*pair, within) for pair in zip(found, kept, strict=True))
+    return abs(Decimal(found) - Decimal(kept)) <= within if isinstance(found, str) else found == kept
 
 
 @in_long_double

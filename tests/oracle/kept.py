@@ -1,5 +1,6 @@
 """Answers that took long, looked up by their questions in "oracle_values.json"."""
 
+import hashlib
 import json
 import time
 from decimal import Decimal
@@ -13,7 +14,7 @@ from hess_mechanics.dynamics.system import System
 
 KEPT_IN = Path(__file__).with_name("oracle_values.json")
 KEPT = json.loads(KEPT_IN.read_text()) if KEPT_IN.exists() else {}
-"""Question → [seconds that it took, answer]; a question is the name of a function with its arguments, as JSON."""
+"""Question → [seconds that it took, answer]; see `asked`."""
 ANSWERED = {}
 """The same of what had to be computed."""
 FUNCTIONS = {}
@@ -29,7 +30,15 @@ def plain(value):
         return value.digits
     if isinstance(value, System):
         return value.name
-    return str(value) if isinstance(value, Decimal) else value
+    return str(value) if isinstance(value, Decimal | np.longdouble) else value
+
+
+def asked(function, arguments):
+    """A question; arguments that fill pages are replaced by their hash."""
+    question = json.dumps([function.__name__, *map(plain, arguments)])
+    if len(question) < 4000:
+        return question
+    return json.dumps([function.__name__, {"sha256": hashlib.sha256(question.encode()).hexdigest()}])
 
 
 def kept(read):
@@ -37,7 +46,7 @@ def kept(read):
     def of(function):
         @wraps(function)
         def answer(*arguments, **named):
-            question = json.dumps([function.__name__, *map(plain, arguments), *map(plain, named.values())])
+            question = asked(function, [*arguments, *named.values()])
             if question in KEPT:
                 return read(KEPT[question][1])
             start = time.process_time()
@@ -54,6 +63,6 @@ def kept(read):
 def found_anew(question):
     """The answer to a question, as JSON has it."""
     name, *arguments = json.loads(question)
-    if name == "orbit_in_decimals":
+    if name in ("orbit_in_decimals", "orbits_in_long_double"):
         arguments[0] = systems()[arguments[0]]
     return plain(FUNCTIONS[name](*arguments))

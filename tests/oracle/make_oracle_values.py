@@ -1,6 +1,7 @@
 """Finds anew what the oracle keeps: `python tests/oracle/make_oracle_values.py` (some minutes).
 
 The tests that ask the oracle are run with nothing kept; what took long to answer goes to "oracle_values.json".
+With files of tests as arguments only these are run, and what is missing is added.
 """
 
 import json
@@ -16,9 +17,15 @@ if __name__ == "__main__":
     sys.path[:0] = [str(TESTS)]
     from oracle import kept
 
-    kept.KEPT.clear()
-    asking = [str(path) for path in sorted(TESTS.rglob("test_*.py")) if "oracle" in path.read_text()]
-    pytest.main([*asking, "-n", "0", "-k", "not what_is_kept"])
+    asking = sys.argv[1:]
+    if not asking:
+        kept.KEPT.clear()
+        asking = [str(path) for path in sorted(TESTS.rglob("test_*.py")) if "oracle" in path.read_text()]
+    # The oracle is imported before pytest could rewrite its asserts.
+    quiet = ["-W", "ignore::pytest.PytestAssertRewriteWarning"]
+    if pytest.main([*asking, "-n", "0", "-k", "not what_is_kept", *quiet]):
+        sys.exit("A test failed: nothing is changed.")
+    answers = kept.KEPT | kept.ANSWERED
     lines = (f"{json.dumps(question)}: {json.dumps([seconds, kept.plain(found)])}"
-             for question, (seconds, found) in sorted(kept.ANSWERED.items()) if seconds >= LONG)
+             for question, (seconds, found) in sorted(answers.items()) if seconds >= LONG)
     kept.KEPT_IN.write_text("{\n" + ",\n".join(lines) + "\n}\n")

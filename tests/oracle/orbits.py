@@ -150,9 +150,10 @@ def as_long_doubles(texts):
     return np.vectorize(np.longdouble, otypes=[np.longdouble])(np.array(texts))
 
 
+@kept(as_long_doubles)
 def orbits_in_long_double(system, states, parameters, times):
     """Many orbits at once: states (orbits, d), parameters (orbits, q), times (orbits, n) → (orbits, n, d)."""
-    y, p, t = (np.asarray(values, np.longdouble).T for values in (states, parameters, times))
+    y, p, t = (as_long_doubles(values).T for values in (states, parameters, times))
     return np.moveaxis(taylor(system.field, y, p, t, order=28, tolerance=1e-22), -1, 0)
 
 
