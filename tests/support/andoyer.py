@@ -17,11 +17,18 @@ RIS = HeavyBody.hess((1.0, 1.5, 2.0), -math.sqrt(0.5))
 """Figures 13 and 14: H = ½(M1² + ⅔M2² + ½M3²) + γ1/√3 + γ3/√6."""
 
 
+def cross(u, v):
+    """u × v of three numbers each: `np.cross` takes twenty times as long."""
+    return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
+
+
 def rates(body, y):
     """hh01, by vectors."""
-    M, gamma = np.asarray(y[:3]), np.asarray(y[3:])
-    omega = np.array(body.a) * M
-    return np.concatenate([np.cross(M, omega) + body.mu * np.cross(body.r, gamma), np.cross(gamma, omega)])
+    y = np.asarray(y, float).tolist()
+    M, gamma = y[:3], y[3:]
+    omega = [one * m for one, m in zip(body.a, M, strict=True)]
+    free, torque = cross(M, omega), cross(body.r, gamma)
+    return np.array([one + body.mu * other for one, other in zip(free, torque, strict=True)] + [*cross(gamma, omega)])
 
 
 def energy(body, states):

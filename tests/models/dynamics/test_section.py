@@ -94,12 +94,14 @@ def random_motions(system, count, seed, end=10.0):
 
 
 def crossings_by_scipy(system, state, parameters, normal, offset, end):
-    def height(_, y):
-        return normal @ y - offset
-
-    run = solve_ivp(lambda _, y: system.field(y, parameters), (0.0, end), state, method="DOP853", rtol=1e-12,
-                    atol=1e-13, events=height, max_step=0.02)
-    return run.t_events[0], run.y_events[0].reshape(-1, len(state))
+    run = solve_ivp(lambda _, y: system.field(y.tolist(), parameters), (0.0, end), state, method="DOP853", rtol=1e-12,
+                    atol=1e-13, dense_output=True, max_step=0.1)
+    # Looked for every 0.002, and found between.
+    times = np.linspace(0.0, end, 5001)
+    above = np.sign(normal @ run.sol(times) - offset)
+    found = np.array([brentq(lambda t: normal @ run.sol(t) - offset, times[i], times[i + 1], xtol=1e-14)
+                      for i in np.flatnonzero(above[1:] != above[:-1])])
+    return found, run.sol(found).T if found.size else np.empty((0, len(state)))
 
 
 def turning_heights(system, state, parameters, normal, heights, end):
