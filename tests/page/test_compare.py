@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from axe_playwright_python.sync_playwright import Axe
-
+from support.accessible import assert_accessible
 from support.page import DEFAULTS, wait_frames
 from support.suslov_hess import assert_orbit
 
@@ -25,11 +24,6 @@ GHOSTS = """() => {
     return painted
   })
 }"""
-
-
-def assert_accessible(page):
-    found = Axe().run(page, options={"runOnly": ["wcag2a", "wcag2aa"]}).response
-    assert [(rule["id"], node["html"][:200]) for rule in found["violations"] for node in rule["nodes"]] == []
 
 
 def painted(explorer):

@@ -162,6 +162,7 @@ from collections import Counter
 from pathlib import Path
 from hess_explorer.__main__ import main
 from hess_explorer.scenes.framework import rotation_across
+from hess_explorer.server import serving
 
 gate, piece, begun = Path(sys.argv.pop(1)), rotation_across._piece, Counter()
 
@@ -173,6 +174,7 @@ def held(section, starts, crossings, level):
     return piece(section, starts, crossings, level)
 
 rotation_across._piece = held
+serving.warm = lambda first_is_ready: first_is_ready()
 main()
 """
 """The server; a section of 4000 crossings at 20 < h < 21 stops growing after six pieces, while a file is there."""

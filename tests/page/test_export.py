@@ -9,12 +9,12 @@ from urllib.parse import urlsplit
 from urllib.request import urlopen
 
 import pytest
-from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import expect
 
 from hess_explorer.export.shown import shown
 from hess_explorer.export.table import as_csv
 from hess_explorer.protocol.parameters import MAX_QUERY
+from support.accessible import assert_accessible
 
 DRAFT = "h=1.2&f=0.3&accuracy=draft"
 
@@ -45,8 +45,7 @@ def test_the_dialog_saves_what_is_on_the_screen_and_names_the_command(explorer):
     expect(dialog.locator(".why")).to_contain_text("cannot be drawn as a figure yet")
     # The browser itself reports an answer that refuses.
     explorer.errors[:] = [error for error in explorer.errors if "status of 400" not in error]
-    found = Axe().run(page, options={"runOnly": ["wcag2a", "wcag2aa"]}).response
-    assert [(rule["id"], node["html"][:200]) for rule in found["violations"] for node in rule["nodes"]] == []
+    assert_accessible(page)
     page.keyboard.press("Escape")
     assert not dialog.is_visible()
     explorer.assert_quiet()

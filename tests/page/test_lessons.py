@@ -8,9 +8,9 @@ from urllib.parse import parse_qs, urlsplit
 
 import numpy as np
 import pytest
-from axe_playwright_python.sync_playwright import Axe
 
 from hess_explorer.lessons import shipped, tries
+from support.accessible import assert_accessible
 from support.board import SCENES
 from support.page import HESS, values_of
 from support.pointer import at
@@ -75,8 +75,7 @@ def assert_given_in_present_mode(page, step):
     assert len(parts) == 8
     for (_, x, width), (_, other, _) in itertools.pairwise(sorted(parts, key=lambda part: part[1])):
         assert x + width <= other + 1
-    found = Axe().run(page, options={"runOnly": ["wcag2a", "wcag2aa"]})
-    assert found.violations_count == 0, found.generate_report()
+    assert_accessible(page)
     page.keyboard.press("p")
     page.wait_for_function("!location.search.includes('present')")
 
@@ -107,8 +106,7 @@ def test_a_lesson_is_given_by_page_down_from_start_to_end(explorer):
             page.keyboard.press("PageDown")
             assert answer.is_visible()
         if number == 3:
-            found = Axe().run(page, options={"runOnly": ["wcag2a", "wcag2aa"]})
-            assert found.violations_count == 0, found.generate_report()
+            assert_accessible(page)
             assert_given_in_present_mode(page, step)
         if number < len(lesson.steps):
             explorer.change(page.keyboard.press, "PageDown")

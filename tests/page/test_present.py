@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import pytest
-from axe_playwright_python.sync_playwright import Axe
 
 from hess_explorer.scenes import scenes
+from support.accessible import assert_accessible
 from support.page import HESS, Explorer, wait_frames
 
 # The size of every text in sight, those of the axes among them; the widths of Bokeh's lines by plot and model.
@@ -44,10 +44,20 @@ STROKES = """item => new Promise((resolve) => {
 })"""
 
 
+@pytest.fixture
+def plain(tab):
+    """The page as it is at first, its controls folded."""
+    tab.fresh()
+    tab.fold_controls()
+    yield tab
+    tab.assert_quiet()
+
+
 @pytest.mark.parametrize(("size", "theme"), [((1920, 1080), "light"), ((1280, 720), "dark")])
-def test_what_is_presented_is_read_from_afar_and_the_link_keeps_it(open_page, server, size, theme):
-    tab = Explorer(open_page(f"theme={theme}", size=size), server)
-    page = tab.page
+def test_what_is_presented_is_read_from_afar_and_the_link_keeps_it(plain, open_page, server, size, theme):
+    tab, page = plain, plain.page
+    tab.turn_theme(is_dark=theme == "dark")
+    tab.resize(*size)
     usual, strokes = page.evaluate(SIZES), tab.sphere.evaluate(STROKES)
     page.evaluate("document.activeElement?.blur()")
     page.keyboard.press("p")
@@ -79,15 +89,15 @@ def test_what_is_presented_is_read_from_afar_and_the_link_keeps_it(open_page, se
     page.mouse.move(500, 320)
     spot = page.locator(".spot").bounding_box()
     assert (spot["x"] + spot["width"] / 2, spot["y"] + spot["height"] / 2) == pytest.approx((500, 320), abs=1)
-    found = Axe().run(page, options={"runOnly": ["wcag2a", "wcag2aa"]}).response
-    assert [(rule["id"], rule["nodes"][0]["html"]) for rule in found["violations"]] == []
+    assert_accessible(page)
     # A link opens it; a picture that is large is reduced first, then Escape leaves; all is as it was.
-    again = Explorer(open_page(tab.link().split("?")[1], size=size), server)
-    wait_frames(again, 4)
-    opened = again.page.evaluate(SIZES)
-    for what in ("lines", "ticks"):
-        one, other = (found[what].values() if what == "lines" else found[what] for found in (opened, large))
-        assert sorted(one) == sorted(other)
+    if theme == "dark":
+        again = Explorer(open_page(tab.link().split("?")[1], size=size), server)
+        wait_frames(again, 4)
+        opened = again.page.evaluate(SIZES)
+        for what in ("lines", "ticks"):
+            one, other = (found[what].values() if what == "lines" else found[what] for found in (opened, large))
+            assert sorted(one) == sorted(other)
     page.keyboard.press("1")
     wait_frames(tab, 4)
     # From afar nothing is seen of a small picture beside it.

@@ -9,12 +9,12 @@ from urllib.request import urlopen
 
 import pytest
 import zxingcpp
-from axe_playwright_python.sync_playwright import Axe
 from PIL import Image
 
 from hess_explorer.headless.browser import wait_ready
 from hess_explorer.scenes import scenes
 from hess_explorer.server.qr_code import MOST
+from support.accessible import assert_accessible
 from support.modules import look_inside
 from support.page import HESS, Explorer, wait_frames
 
@@ -40,24 +40,24 @@ def read(png):
     return [code.text for code in zxingcpp.read_barcodes(Image.open(io.BytesIO(png)).convert("L"))]
 
 
-def assert_accessible(page):
-    found = Axe().run(page, options={"runOnly": ["wcag2a", "wcag2aa"]}).response
-    assert [(rule["id"], node["html"][:200]) for rule in found["violations"] for node in rule["nodes"]] == []
-
-
-@pytest.mark.parametrize("theme", ["light", "dark"])
-def test_the_dialog_gives_link_and_code_and_what_embeds_opens_the_same_state(open_page, browser, server, theme):
-    tab = Explorer(open_page(f"theme={theme}&h=1.2"), server)
-    page = tab.page
-    tab.change(lambda: tab.slide(f=0.3))
+def test_the_dialog_gives_link_and_code_and_what_embeds_opens_the_same_state(explorer, browser, server):
+    tab, page = explorer, explorer.page
+    tab.change(lambda: tab.slide(h=1.2, f=0.3))
+    for theme in ("light", "dark"):
+        tab.turn_theme(is_dark=theme == "dark")
+        page.get_by_role("button", name="Share").click()
+        link = page.get_by_role("textbox", name="Link").input_value()
+        assert link == page.url
+        assert dict(parse_qsl(urlsplit(link).query)).get("theme", "light") == theme
+        page.locator(".share .code svg").wait_for()
+        assert read(page.locator(".share .code").screenshot()) == [link]
+        assert_accessible(page)
+        page.keyboard.press("Escape")
     page.get_by_role("button", name="Share").click()
     dialog = page.get_by_role("dialog", name="Share")
     link = page.get_by_role("textbox", name="Link").input_value()
     assert link == page.url
     assert dict(parse_qsl(urlsplit(link).query))["f"] == "0.3"
-    page.locator(".share .code svg").wait_for()
-    assert read(page.locator(".share .code").screenshot()) == [link]
-    assert_accessible(page)
     # The focus stays in the dialog, or with the browser itself.
     for _ in range(30):
         page.keyboard.press("Tab")
@@ -108,11 +108,10 @@ def test_the_dialog_gives_link_and_code_and_what_embeds_opens_the_same_state(ope
 
 @pytest.mark.parametrize(("keys", "pictures", "controls", "is_noted"), [
     # What is folded at first is there when it is named.
-    ("pictures=omega,torus&controls=h", ["omega", "torus"], ["h"], False),
+    ("pictures=omega,torus&controls=h,accuracy", ["omega", "torus"], ["accuracy", "h"], False),
     ("pictures=bifurcation,<b>,omega&controls=none,h,h", ["bifurcation", "omega"], ["h"], True),
-    ("pictures=%00&controls=none", None, [], True),
-    ("pictures=&controls=accuracy", None, ["accuracy"], False),
-    ("pictures=nobody&controls=nothing", None, None, True)])
+    ("pictures=%00&controls=nobody", None, None, True),
+    ("pictures=&controls=none", None, [], False)])
 def test_an_embedded_page_has_what_its_address_names_and_nonsense_is_harmless(
         open_page, server, keys, pictures, controls, is_noted):
     scene = scenes()[HESS]

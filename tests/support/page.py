@@ -83,9 +83,12 @@ class Explorer:
         page.mouse.up()
         self.sent.clear()
         self.received.clear()
-        if not page.url.startswith(self.base) or not self.ready or page.evaluate(IS_ODD):
-            page.set_viewport_size({"width": WIDE[0], "height": WIDE[1]})
+        page.set_viewport_size({"width": WIDE[0], "height": WIDE[1]})
+        if not page.url.startswith(self.base) or not self.ready:
             return self.open(f"scene={scene}")
+        if page.locator(".param-leave-lesson").is_visible():
+            page.locator(".param-leave-lesson").click()
+        self.turn_theme(is_dark=False)
         if self.playing:
             page.locator(".param-play").click()
         if page.evaluate("document.documentElement.dataset.scene") != scene:
@@ -110,6 +113,24 @@ class Explorer:
     def fold_controls(self):
         """As they are at first."""
         self.page.locator("details.group").evaluate_all("groups => groups.forEach((group) => { group.open = false })")
+
+    def resize(self, width, height):
+        """A window of another size, and all that follows it painted."""
+        self.page.set_viewport_size({"width": width, "height": height})
+        wait_frames(self, 4)
+
+    @property
+    def dark(self):
+        return self.page.evaluate(f"{PANEL}.dark_theme")
+
+    def turn_theme(self, *, is_dark):
+        """Dark or light, as its button does, and the colours of the plots with it: they come from Panel, later."""
+        if self.dark == is_dark:
+            return
+        before = self.page.evaluate(COLOURS)
+        self.page.evaluate("hess.tell('theme')")
+        self.page.wait_for_function(f"before => ({COLOURS}).every((colour, i) => colour !== before[i])", arg=before)
+        wait_frames(self, 3)
 
     def assert_quiet(self):
         """No error was reported and no other host was asked for anything; each is reported once."""
@@ -316,8 +337,10 @@ SLIDE = f"""pairs => {{
   }}
   return document.documentElement.dataset.ready
 }}"""
-# Dark, in a lesson, or not of the size that tests share: a link made it so.
-IS_ODD = "/theme=dark|lesson=/.test(location.search) || innerWidth !== 1600"
+# What Panel keeps of the page, and the colour of the axes of each plot in sight.
+PANEL = """Bokeh.documents.flatMap((document) => document.roots())
+  .find((top) => top.data?.attributes.dark_theme !== undefined).data"""
+COLOURS = "hess.plots.flatMap(({ model }) => model.below).map((axis) => axis.major_label_text_color)"
 ENTER = f"""pairs => {{
   for (const [name, value] of pairs) {{
     const box = ({FIND})(name, "text")
@@ -344,6 +367,32 @@ def default_state(tab):
     tab.assert_quiet()
     yield tab
     tab.assert_quiet()
+
+
+def one_phone(browser, server):
+    """A tab on a phone for many tests, whose controls are as they are at first."""
+    context = browser.new_context(viewport={"width": 390, "height": 844}, reduced_motion="reduce", has_touch=True,
+                                  is_mobile=True)
+    yield Explorer(context.new_page(), server).open()
+    context.close()
+
+
+def first_on_phone(phone_tab):
+    """phone(scene) → the page on a phone in the first state of a scene, with its first picture."""
+    def bring(scene=HESS):
+        page = phone_tab.page
+        if page.evaluate("document.documentElement.dataset.scene") != scene:
+            phone_tab.change(lambda: page.evaluate("scene => hess.tell('scene', scene)", scene))
+        if page.get_by_role("button", name="Picture 1", exact=True).get_attribute("aria-pressed") != "true":
+            phone_tab.change(page.get_by_role("button", name="Picture 1", exact=True).click)
+        for turned in page.locator(".gallery:not(.away) :is(canvas.sphere, canvas.solid):visible").all():
+            turned.press("Home")
+        phone_tab.change(lambda: page.evaluate("hess.tell('reset')"))
+        return phone_tab
+
+    phone_tab.assert_quiet()
+    yield bring
+    phone_tab.assert_quiet()
 
 
 class Line:

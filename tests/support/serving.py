@@ -13,7 +13,17 @@ from hess_explorer.server import serving
 from hess_explorer.server.headers import guard
 from hess_explorer.server.liveness import is_alive
 
-__all__ = ["free_port", "served"]
+__all__ = ["UNWARMED", "free_port", "served"]
+
+# It gets no scene ready before somebody enters it: that takes longer than the test of one or two.
+UNWARMED = ("-c", """
+from hess_explorer.__main__ import main
+from hess_explorer.server import serving
+
+serving.warm = lambda first_is_ready: first_is_ready()
+main()
+""")
+"""What Python is told to run as a server, for `running_server`."""
 
 
 def free_port():
