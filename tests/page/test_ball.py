@@ -290,7 +290,7 @@ def test_play_moves_the_points_along_the_orbit(tab, scene):
 
 
 def test_the_body_goes_from_scene_to_scene(tab):
-    tab.open("scene=chaplygin-ball&I11=1.25&I23=0.5&D=2.5")
+    brought(tab, BALL).give(I11=1.25, I23=0.5, D=2.5)
     tab.enter("ball-section")
     assert [tab.shown(name)[0] for name in ("I11", "I23", "D")] == [1.25, 0.5, 2.5]
     assert_painted(tab, SECTION)

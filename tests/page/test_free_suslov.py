@@ -389,7 +389,8 @@ def test_play_moves_the_orbit_of_the_scattering_on_the_sphere(scattering):
 
 
 def test_the_scenes_are_entered_from_the_menu_and_share_the_body(tab):
-    tab.open("scene=suslov-hess&I22=1.5&I23=0.75")
+    tab.fresh()
+    tab.give(I22=1.5, I23=0.75)
     tab.enter("free-suslov")
     assert (tab.shown("I22")[0], tab.shown("I23")[0]) == (1.5, 0.75)
     assert_painted(tab, FREE)

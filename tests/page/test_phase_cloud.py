@@ -3,7 +3,6 @@
 import io
 import json
 import math
-from urllib.parse import urlencode
 
 import numpy as np
 import pytest
@@ -12,7 +11,7 @@ from PIL import Image
 from hess_mechanics import ensemble, level, systems
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud import carried, frame_times, patch, shell
-from support.page import Explorer, brought
+from support.page import brought
 from support.painted import assert_captions_fit
 from support.phase_cloud import SCENE, captions
 
@@ -163,14 +162,16 @@ def test_a_state_without_a_manifold_is_refused_and_nothing_stale_is_drawn(cloud)
 
 
 @pytest.mark.parametrize(("theme", "blue"), [("light", BLUE), ("dark", DARK_BLUE)])
-def test_the_plane_is_drawn_in_every_window_and_theme(open_page, artefacts, theme, blue):
-    page = open_page(urlencode({"scene": SCENE.name, "t": 4.0, "theme": theme}))
+def test_the_plane_is_drawn_in_every_window_and_theme(cloud, artefacts, theme, blue):
+    page = cloud.page
+    cloud.set_time(4.0)
+    cloud.turn_theme(is_dark=theme == "dark")
     canvas = page.locator(HERE.format("omega"))
     for width, height in ((1600, 950), (1280, 720), (390, 844)):
         page.set_viewport_size({"width": width, "height": height})
         # The canvas has as many pixels as its place again: it was painted anew.
         page.wait_for_function(FILLED, arg=canvas.element_handle())
-        assert share_of(Explorer(page, page.url), "omega", blue) > 0.002
+        assert share_of(cloud, "omega", blue) > 0.002
         box = canvas.bounding_box()
         assert box["width"] == pytest.approx(box["height"], abs=1.0)
         assert box["x"] + box["width"] <= width

@@ -15,7 +15,7 @@ from hess_explorer.scenes import scenes
 from hess_explorer.views import theme
 from hess_mechanics import circle_map, f_max, level, solve, systems, trace_on_curve, turning_points
 from support.mechanics import angle_between, lifted_return
-from support.page import DEFAULTS, PICTURES, Explorer
+from support.page import DEFAULTS, PICTURES
 from support.painted import assert_captions_fit
 from support.pointer import HOME, STEP, assert_turned, at
 from support.suslov_hess import assert_orbit, body_of, exact_states
@@ -213,11 +213,6 @@ class Finger:
         return self.page.locator(".reader").evaluate("item => item.scrollTop")
 
 
-@pytest.fixture
-def phone(open_page, server):
-    return Explorer(open_page(size=(390, 844), has_touch=True, is_mobile=True), server)
-
-
 def turn_to(phone, picture):
     """Choose a picture by its number."""
     number = 1 + scenes()["suslov-hess"].pictures.index(picture)
@@ -225,12 +220,14 @@ def turn_to(phone, picture):
 
 
 def test_the_sphere_turns_under_a_finger_and_the_page_stays(phone):
+    phone = phone()
     turn_to(phone, "sphere")
     assert Finger(phone.page).drag(phone.sphere, -40, 30) == 0
     assert_turned(phone, HOME[0] + 40 / radius(phone), HOME[1] + 30 / radius(phone))
 
 
 def test_a_finger_that_moves_over_the_diagram_or_scrolls_the_text_chooses_nothing(phone):
+    phone = phone()
     turn_to(phone, "bifurcation")
     before = phone.here()
     finger = Finger(phone.page)
@@ -285,9 +282,7 @@ def columns_of(data, *names):
 STATE = ("omega1", "omega2", "g1", "g2", "g3")
 
 
-@every_preset
-def test_the_orbit_of_an_example_is_the_one_of_the_equations(explorer, name):
-    values = choose(explorer, name)
+def assert_orbit_of_the_equations(explorer, name, values):
     orbit = columns_of(explorer.data("data-orbit"), *STATE)
     # Its integrals in S1's own variables: E = I11 b h, F1 = 1, F2 = (Iω, γ) = I11 √b f.
     body = body_of(values)
@@ -313,9 +308,7 @@ def caption_numbers(explorer, pattern):
     return numbers_in(caption.split(pattern, 1)[1])
 
 
-@every_preset
-def test_the_caption_of_an_example_has_the_right_numbers(explorer, name):
-    values = choose(explorer, name)
+def assert_numbers_of_captions(explorer, name, values):
     captions = {picture: explorer.caption(picture) for picture in PICTURES}
     for text in captions.values():
         title, _, sentence = text.partition("\n")
@@ -562,9 +555,7 @@ def test_every_picture_is_painted_in_its_colours(explorer, name):
     assert name == "sphere" or like(pixels[:6], "#FFFFFF").mean() > 0.95
 
 
-@every_preset
-def test_every_example_is_painted(explorer, name, artefacts):
-    choose(explorer, name)
+def assert_every_picture_painted(explorer, name, artefacts):
     explorer.page.mouse.move(5, 5)
     for picture_name in PICTURES:
         pixels = canvas_of(explorer, picture_name)
@@ -578,6 +569,15 @@ def test_every_example_is_painted(explorer, name, artefacts):
         assert painted(pixels, wanted[picture_name]) >= 40, picture_name
     assert_captions_fit(explorer, scenes()["suslov-hess"])
     explorer.page.screenshot(path=artefacts / f"example-{list(PRESETS).index(name) + 1}.png")
+
+
+# One visit for all that is to be seen of an example.
+@every_preset
+def test_an_example_is_the_one_of_the_equations_with_the_right_numbers_and_painted(explorer, name, artefacts):
+    values = choose(explorer, name)
+    assert_orbit_of_the_equations(explorer, name, values)
+    assert_numbers_of_captions(explorer, name, values)
+    assert_every_picture_painted(explorer, name, artefacts)
 
 
 def test_the_separatrix_says_no_return_and_the_others_go_on(explorer):

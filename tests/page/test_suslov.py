@@ -155,7 +155,9 @@ def test_a_link_brings_back_window_starts_and_choices(tab):
 def test_nothing_possible_in_a_window_is_a_sentence_and_clear_the_way_back(tab):
     # E = −0.1: impossible all round the angle of b.
     h = -0.1 + math.hypot(0.5, 0.5, 0.7)
-    explorer = opened(tab, SUSLOV, **FEW, h=h, starts="-2.356,1.5", window="-2.5,1;-2.2,2")
+    explorer = brought(tab, SUSLOV)
+    explorer.change(lambda: explorer.page.evaluate(
+        "detail => hess.tell('change', detail)", {**FEW, "h": h, "starts": "-2.356,1.5", "window": "-2.5,1;-2.2,2"}))
     sentence = "Nothing is possible in this window with the energy E = -0.1: choose a larger h, or press Clear"
     assert explorer.text("status").startswith(sentence)
     for picture in SUSLOV.pictures:
@@ -277,7 +279,9 @@ def test_a_link_of_the_rotation_number_with_nonsense_is_put_right(tab):
 
 
 def test_the_scenes_are_entered_from_one_another_whatever_was_chosen(tab):
-    explorer = opened(tab, SUSLOV, **FEW, plane="γ₁ = 0", window="0,0.5;1,2")
+    explorer = brought(tab, SUSLOV)
+    explorer.change(lambda: explorer.page.evaluate(
+        "detail => hess.tell('change', detail)", {**FEW, "plane": "γ₁ = 0", "window": "0,0.5;1,2"}))
     explorer.enter("rotation-number")
     assert explorer.chosen("over") == "h, f"
     assert explorer.axes("map") == pytest.approx([-1.0, 4.0, -3.0, 3.0])

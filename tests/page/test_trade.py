@@ -2,11 +2,12 @@
 
 from playwright.sync_api import expect
 
-from support.page import Explorer
+from hess_explorer.scenes import scenes
+from support.page import brought
 
 
-def test_the_cost_of_all_is_measured_when_its_button_is_pressed(open_page, server):
-    explorer = Explorer(open_page("scene=scattering-accuracy"), server)
+def test_the_cost_of_all_is_measured_when_its_button_is_pressed(tab):
+    explorer = brought(tab, scenes()["scattering-accuracy"])
     assert not explorer.data("trade-map").get("x")
     explorer.unfold("trade")
     expect(explorer.picture("trade")).to_contain_text("Enough to the eye: orbit draft, map standard.")
@@ -19,8 +20,8 @@ def test_the_cost_of_all_is_measured_when_its_button_is_pressed(open_page, serve
     explorer.assert_quiet()
 
 
-def test_a_link_with_the_accuracy_auto_says_what_it_stands_for(open_page, server):
-    explorer = Explorer(open_page("scene=kharlamova&accuracy=auto"), server)
+def test_a_link_with_the_accuracy_auto_says_what_it_stands_for(tab):
+    explorer = tab.open("scene=kharlamova&accuracy=auto")
     expect(explorer.page.locator(".text.details")).to_contain_text("auto: draft · ")
     assert explorer.text("status").startswith("draft: orbit")
     assert explorer.chosen("accuracy") == "auto"
