@@ -25,7 +25,7 @@ const ICONS = {
 // [button, set(icon, label)].
 function button(name, label, onClick) {
   const item = element("button", { type: "button", className: `transport param-${name}` })
-  item.innerHTML = `<svg viewBox="0 0 24 24" width="22" height="22" aria-hidden="true"><path fill="currentColor"/></svg>`
+  item.innerHTML = `<svg viewBox="0 0 24 24" width="1.6em" height="1.6em" aria-hidden="true"><path fill="currentColor"/></svg>`
   item.addEventListener("click", onClick)
   const set = (icon, text) => {
     item.querySelector("path").setAttribute("d", ICONS[icon])
