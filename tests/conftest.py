@@ -25,8 +25,9 @@ SHARED, SHARED_SERVER = pytest.StashKey(), pytest.StashKey()
 def pytest_configure(config):
     """Where several processes run the tests: compile everything once before they begin, and serve the page to all."""
     if config.getoption("numprocesses", None) and not config.option.collectonly:
-        subprocess.run([sys.executable, "-c", "from hess_explorer.server.warm import compile_all; compile_all()"],
-                       check=True)
+        compile_half = "from hess_explorer.server.warm import compile_all; compile_all(backwards={})"
+        halves = [subprocess.Popen([sys.executable, "-c", compile_half.format(end)]) for end in (False, True)]
+        assert [half.wait() for half in halves] == [0, 0], "the kernels could not be compiled"
         shared = config.stash[SHARED] = ExitStack()
         log = Path(shared.enter_context(tempfile.TemporaryDirectory())) / "server.log"
         config.stash[SHARED_SERVER] = (shared.enter_context(running_server(log)), str(log))

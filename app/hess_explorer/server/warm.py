@@ -42,12 +42,15 @@ def compute(scene: Scene[Any], folded: bool = True) -> None:
         logger.warning("%s: %s", scene.name, error)
 
 
-def compile_all() -> None:
-    """Leave the kernels of all scenes on disk; stops early when the parent process has ended."""
+def compile_all(backwards: bool = False) -> None:
+    """Leave the kernels of all scenes on disk; stops early when the parent process has ended.
+
+    backwards : from the last scene on, beside another process that begins with the first: it takes half as long.
+    """
     parent = os.getppid()
     if all_compiled():
         return
-    for scene in scenes().values():
+    for scene in [*scenes().values()][:: -1 if backwards else 1]:
         if os.getppid() != parent:
             return
         compute(scene)
