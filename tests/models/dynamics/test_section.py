@@ -3,6 +3,7 @@
 import math
 import sys
 import threading
+from functools import cache
 
 import numpy as np
 import pytest
@@ -418,6 +419,15 @@ def test_a_motion_inside_the_plane_crosses_nothing(system):
     assert len(result.times) == 0
 
 
+@cache
+def turnings(system):
+    """(component, height) wherever a component of the example turns until t = 20."""
+    state, parameters = (np.array(values) for values in system.example)
+    along = solve(system, state, parameters, np.linspace(0.0, 20.0, 401), level("standard")).states
+    return [(i, turning) for i in range(state.size)
+            for turning in turning_heights(system, state, parameters, np.array(axis(system, i)), along[:, i], 20.0)]
+
+
 @every_system
 @pytest.mark.parametrize("sense", [1, -1, 0])
 def test_a_run_that_finds_other_crossings_than_the_more_exact_one_is_replaced_by_it(system, sense):
@@ -425,25 +435,23 @@ def test_a_run_that_finds_other_crossings_than_the_more_exact_one_is_replaced_by
     careless = Level("draft", 1e-3, 1e-4, 10)
     state, parameters = (np.array(values) for values in system.example)
     nu = system.frequency(state, parameters)
-    along = solve(system, state, parameters, np.linspace(0.0, 20.0, 401), level("standard")).states
     times, states = np.empty(100), np.empty((100, state.size))
     differing = 0
-    for component in range(state.size):
+    for component, turning in turnings(system):
         normal = np.array(axis(system, component))
         height = nu if component < system.angular_velocities else 1.0
-        for turning in turning_heights(system, state, parameters, normal, along[:, component], 20.0):
-            for depth in (1e-3, -1e-3, 1e-4, -1e-4, 1e-5, -1e-5):
-                runs = [
-                    system.cross(*system.rescale(state, parameters, nu), normal, (turning + depth) / height, sense,
-                                 20.0 * nu, rung.order, rung.tolerance, 10_000, times, states)
-                    for rung in (careless, careless.tightened())]
-                (count, steps), (other_count, other_steps) = runs
-                plane = Plane(tuple(normal), turning + depth, sense)
-                result = section(system, state, parameters, plane, 20.0, careless)
-                assert result.cost.steps >= steps + other_steps
-                if count != other_count:
-                    differing += 1
-                    assert result.cost.steps > steps + other_steps, (component, turning, depth)
+        for depth in (1e-3, -1e-3, 1e-4, -1e-4, 1e-5, -1e-5):
+            runs = [
+                system.cross(*system.rescale(state, parameters, nu), normal, (turning + depth) / height, sense,
+                             20.0 * nu, rung.order, rung.tolerance, 10_000, times, states)
+                for rung in (careless, careless.tightened())]
+            (count, steps), (other_count, other_steps) = runs
+            plane = Plane(tuple(normal), turning + depth, sense)
+            result = section(system, state, parameters, plane, 20.0, careless)
+            assert result.cost.steps >= steps + other_steps
+            if count != other_count:
+                differing += 1
+                assert result.cost.steps > steps + other_steps, (component, turning, depth)
     assert differing > 3
 
 

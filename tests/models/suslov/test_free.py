@@ -1,5 +1,6 @@
 """The Suslov problem without a field: closed form of ω, rotation of γ, limit circles, refusals."""
 
+import decimal
 import json
 import math
 import os
@@ -99,16 +100,17 @@ def exact_of(body, omega, times):
     return _known[key]
 
 
-def test_a_hard_case_against_the_odes_in_mpmath():
+def test_a_hard_case_against_the_odes_in_decimals():
     # Not `System.field`, nor the formulas of the passage: biz132 and γ̇ = γ × ω written out.
-    with mpmath.workdps(25):
-        def rates(_, y):
-            w1, w2, g1, g2, g3 = y
-            s = mpmath.mpf(0.3) * w1 + mpmath.mpf(0.5) * w2
-            return [-w2 * s / 2, w1 * s, -g3 * w2, g3 * w1, g1 * w2 - g2 * w1]
+    def rates(y, p):
+        w1, w2, g1, g2, g3 = y
+        s = p[0] * w1 + p[1] * w2
+        return [-w2 * s / 2, w1 * s, -g3 * w2, g3 * w1, g1 * w2 - g2 * w1]
 
-        start = [0.5, -0.3 + 1e-9, *UP]
-        exact = mpmath.odefun(rates, 0, start, tol=mpmath.mpf("1e-20"))(40)
+    start = [0.5, -0.3 + 1e-9, *UP]
+    with decimal.localcontext(prec=30):
+        y, p, times = (oracle.as_decimals([[value] for value in values]) for values in (start, (0.3, 0.5), (40.0,)))
+        exact = oracle.taylor(rates, y, p, times, order=34, tolerance=1e-30)[0, :, 0]
     states, _ = motion_of(GENERIC, start, [40.0])
     # γ is brought to length one, which it has but for its last digit.
     assert states[0] == pytest.approx([float(x) for x in exact], abs=1e-13)
