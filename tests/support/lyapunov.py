@@ -22,10 +22,11 @@ def finite_exponent(body, state, span):
 
     def rates(_, z):
         M, gamma, dM, dgamma = z.reshape(4, 3)
-        return np.concatenate([
-            np.cross(M, a * M) + np.cross(m, gamma), np.cross(gamma, a * M),
-            np.cross(dM, a * M) + np.cross(M, a * dM) + np.cross(m, dgamma),
-            np.cross(dgamma, a * M) + np.cross(gamma, a * dM)])
+        omega, domega = a * M, a * dM
+        # All products at once: a call of `np.cross` takes as long for eight as for one.
+        found = np.cross([M, m, gamma, dM, M, m, dgamma, gamma],
+                         [omega, gamma, omega, omega, domega, dgamma, omega, domega])
+        return np.concatenate([found[0] + found[1], found[2], found[3] + found[4] + found[5], found[6] + found[7]])
 
     run = solve_ivp(rates, (0.0, span), np.concatenate([state, direction]), method="DOP853", rtol=1e-11, atol=1e-12)
     return math.log(np.linalg.norm(run.y[6:, -1] / scale)) / abs(span)
