@@ -320,16 +320,16 @@ def free_port():
 def test_serve(served, free_port, capsys):
     assert main(["serve", "--port", str(free_port), "--no-browser", "--allow-origin", "a.org:80", "b.org"]) == 0
     assert served == [{"port": free_port, "address": "127.0.0.1", "show": False, "origins": ["a.org:80", "b.org"],
-                       "lesson": None, "embedders": ["*"], "workers": 1}]
+                       "lesson": None, "embedders": ["*"], "workers": 1, "sessions": 1000}]
     assert f"http://localhost:{free_port}" in capsys.readouterr().out
 
 
 def test_serve_is_told_who_may_show_it_and_how_many_processes_serve(served, free_port):
     assert main(["serve", "--port", str(free_port), "--no-browser", "--workers", "2",
-                 "--embed-in", "example.org", "*.example.com"]) == 0
+                 "--sessions", "300", "--embed-in", "example.org", "*.example.com"]) == 0
     assert main(["serve", "--port", str(free_port), "--no-browser", "--embed-in", "none"]) == 0
-    assert [(call["workers"], call["embedders"]) for call in served] == [
-        (2, ["example.org", "*.example.com"]), (1, [])]
+    assert [(call["workers"], call["sessions"], call["embedders"]) for call in served] == [
+        (2, 300, ["example.org", "*.example.com"]), (1, 1000, [])]
 
 
 def test_a_lesson_that_cannot_be_read_is_no_lesson(served, free_port, capsys, tmp_path):

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import asyncio
 import gc
 import time
 import weakref
 
 import panel as pn
+import pytest
 from tornado.httpclient import AsyncHTTPClient
 
 from hess_explorer.page import page
 from support.asynchronous import finished
 from support.serving import served
-from support.visitor import Visitor
+from support.visitor import Closed, Visitor
 
 
 def test_a_session_that_is_left_is_freed_and_nothing_watches_for_it(monkeypatch):
@@ -46,3 +48,30 @@ def test_a_session_that_is_left_is_freed_and_nothing_watches_for_it(monkeypatch)
             gc.collect()
     assert len(opened) == 3
     assert len(watchers.get("busy", {}).get("value", ())) == before
+
+
+def test_who_finds_no_room_reads_why_and_finds_it_when_another_has_left():
+    async def visit(base):
+        inside = [await Visitor.open(base) for _ in range(2)]
+        with pytest.raises(Closed, match=r"as many pages are open as this server has room for \(2\)"):
+            await Visitor.open(base)
+        # Who is inside is served as before.
+        await inside[1].ask(values={"h": 1.25})
+        await inside[0].leave()
+        end = time.monotonic() + 60.0
+        while True:
+            try:
+                found = await Visitor.open(base)
+                break
+            except Closed:
+                assert time.monotonic() < end, "nobody has made room"
+                await asyncio.sleep(0.1)
+        await found.ask(values={"h": 1.5})
+        for visitor in (found, inside[1]):
+            await visitor.leave()
+        return found.state["query"], inside[1].state["query"]
+
+    with served(sessions=2, unused_session_lifetime_milliseconds=500, check_unused_sessions_milliseconds=50) as base:
+        new, old = finished(visit(base))
+    assert "h=1.5" in new
+    assert "h=1.25" in old

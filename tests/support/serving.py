@@ -33,10 +33,10 @@ def free_port():
 
 
 @contextmanager
-def served(embedders=("*",), **changed):
+def served(embedders=("*",), sessions=1000, **changed):
     """The URL of a server in another thread, with the options of `serve` but those that are changed."""
     port = free_port()
-    options = {**serving.options(port, "127.0.0.1", []), **changed}
+    options = {**serving.options(port, "127.0.0.1", [], sessions=sessions), **changed}
     pn.extension()
     guard(embedders)
     thread = pn.serve(show=False, threaded=True, **options)

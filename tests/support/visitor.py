@@ -19,7 +19,7 @@ _numbers = itertools.count(1)
 
 
 class Closed(Exception):
-    """The server has ended the connection; the message says why."""
+    """The server has ended the connection, or has no page to show; the message says why."""
 
 
 def _nodes(item):
@@ -62,7 +62,11 @@ class Visitor:
         await found._send("PULL-DOC-REQ", {})
         reply = await found._next("PULL-DOC-REPLY", timeout)
         found.document = reply.content
-        found._read(reply)
+        try:
+            found._read(reply)
+        except Closed:
+            await found.leave()
+            raise
         # Panel sends nothing before.
         await found._trigger("document_ready", {})
         while found.state is None:
@@ -77,7 +81,7 @@ class Visitor:
                 if data["attributes"].get("state"):
                     self.state = json.loads(data["attributes"]["state"])
                 return
-        raise AssertionError("the page has no component that asks for states")
+        raise Closed(f"nothing here asks for states: {message.content['doc']}")
 
     async def _send(self, kind, content):
         header = {"msgid": f"visitor-{next(_numbers)}", "msgtype": kind}

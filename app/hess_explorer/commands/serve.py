@@ -37,6 +37,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
                              "*.example.org, or none (default: any)")
     parser.add_argument("--workers", type=integer(1, 64), default=1, metavar="N",
                         help="processes that serve (default 1; for a class about as many as there are cores)")
+    parser.add_argument("--sessions", type=integer(1, 100_000), default=1000, metavar="N",
+                        help="pages that each of them serves at a time (default 1000, for some 3 GB of memory)")
     parser.add_argument("--lesson", type=Path, metavar="FILE",
                         help="a lesson of your own, in Markdown, to begin with (see app/README.md)")
     parser.set_defaults(run=_run)
@@ -78,7 +80,7 @@ def _run(options: argparse.Namespace) -> None:
 
         embedders = ["*"] if options.embedders is None else [one for one in options.embedders if one != "none"]
         serve(port=options.port, address=options.address, show=show, origins=options.origins, ready=ready,
-              lesson=lesson, embedders=embedders, workers=options.workers)
+              lesson=lesson, embedders=embedders, workers=options.workers, sessions=options.sessions)
 
 
 def _lesson(path: Path | None) -> Lesson | None:

@@ -23,6 +23,7 @@ from tornado.websocket import WebSocketClosedError
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.page import page
+from hess_explorer.server.capacity import SESSIONS, Capacity
 from hess_explorer.server.export import Export
 from hess_explorer.server.headers import guard
 from hess_explorer.server.liveness import is_alive
@@ -74,8 +75,10 @@ def _end_with(parent: int, server: Server) -> None:
         server.io_loop.stop()
 
 
-def _page(lesson: Lesson | None) -> Any:
+def _page(lesson: Lesson | None, capacity: Capacity) -> Any:
     """The page, with styles of this server: Panel sees to that only in the process that writes the HTML."""
+    if not capacity.take():
+        return pn.pane.Str(capacity.sentence)
     document = pn.state.curdoc
     if document is not None:
         document.add_next_tick_callback(lambda: _own_styles(document))
@@ -87,10 +90,12 @@ def _own_styles(document: Document) -> None:
         patch_model_css(root, dist_url=LOCAL_DIST)
 
 
-def options(port: int, address: str, origins: Sequence[str], lesson: Lesson | None = None) -> dict[str, Any]:
+def options(port: int, address: str, origins: Sequence[str], lesson: Lesson | None = None,
+            sessions: int = SESSIONS) -> dict[str, Any]:
     """What `panel.serve` is told; the arguments are those of `serve`."""
+    capacity = Capacity(sessions)
     return {
-        "panels": {"/": lambda: _page(lesson)},
+        "panels": {"/": lambda: _page(lesson, capacity)},
         "title": "Hess Explorer",
         "port": port,
         "address": address,
@@ -106,13 +111,15 @@ def options(port: int, address: str, origins: Sequence[str], lesson: Lesson | No
 
 
 def serve(port: int, address: str, show: bool, origins: Sequence[str], ready: Callable[[], None],
-          lesson: Lesson | None = None, embedders: Sequence[str] = ("*",), workers: int = 1) -> None:
+          lesson: Lesson | None = None, embedders: Sequence[str] = ("*",), workers: int = 1,
+          sessions: int = SESSIONS) -> None:
     """Serve the explorer until interrupted.
 
     address : to listen on; show : open the browser; origins : HOST:PORT pairs whose pages may open a websocket,
     besides this machine's own; ready : called from another thread when the page answers without compiling
     first; lesson : one besides those of the package; embedders : hosts whose pages may show parts of this one, "*" any;
-    workers : processes that serve; a session stays with the one that its websocket comes to.
+    workers : processes that serve; a session stays with the one that its websocket comes to; sessions : as many as each
+    of them serves at a time.
     """
     logging.basicConfig(format="%(asctime)s %(name)s %(message)s")
     logger.setLevel(logging.INFO)
@@ -124,7 +131,7 @@ def serve(port: int, address: str, show: bool, origins: Sequence[str], ready: Ca
     guard(embedders)
     parent = os.getpid()
     # With several workers this comes back in each of them, and the process that began stays behind to watch over them.
-    told = options(port, address, origins, lesson)
+    told = options(port, address, origins, lesson, sessions)
     server = get_server(told.pop("panels"), start=False, show=show and workers == 1, num_procs=workers, **told)
     if workers > 1:
         # One worker says that the explorer is ready, and none outlives the process that began.
