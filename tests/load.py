@@ -23,41 +23,12 @@ if __name__ == "__main__":
 
 from hess_explorer.protocol.parameters import Number
 from hess_explorer.scenes import scenes
+from support.processes import memory, worked
 from support.serving import free_port
 from support.visitor import Visitor
 
 EVERY = 2.0
 DEAREST = "scene=euler-poisson&accuracy=reference"
-
-
-def processes(pid):
-    """A process and all below it."""
-    found = [pid]
-    for one in found:
-        try:
-            found += map(int, Path(f"/proc/{one}/task/{one}/children").read_text().split())
-        except OSError:
-            continue
-    return found
-
-
-def memory(pid):
-    """Bytes in memory, each page shared between processes counted once."""
-    total = 0
-    for one in processes(pid):
-        for line in Path(f"/proc/{one}/smaps_rollup").read_text().splitlines():
-            if line.startswith("Pss:"):
-                total += 1024 * int(line.split()[1])
-    return total
-
-
-def worked(pid):
-    """Seconds of the processor until now."""
-    ticks = 0
-    for one in processes(pid):
-        fields = Path(f"/proc/{one}/stat").read_text().rpartition(")")[2].split()
-        ticks += int(fields[11]) + int(fields[12])
-    return ticks / os.sysconf("SC_CLK_TCK")
 
 
 @contextmanager

@@ -1,9 +1,11 @@
-"""Child processes that can be interrupted."""
+"""Child processes: interrupted, weighed, timed."""
 
+import os
 import signal
 from contextlib import contextmanager
+from pathlib import Path
 
-__all__ = ["interruptible"]
+__all__ = ["interruptible", "memory", "worked"]
 
 
 @contextmanager
@@ -17,3 +19,33 @@ def interruptible():
         yield
     finally:
         signal.signal(signal.SIGINT, before)
+
+
+def _below(pid):
+    """A process and all below it."""
+    found = [pid]
+    for one in found:
+        try:
+            found += map(int, Path(f"/proc/{one}/task/{one}/children").read_text().split())
+        except OSError:
+            continue
+    return found
+
+
+def memory(pid):
+    """Bytes in memory, each page shared between processes counted once."""
+    total = 0
+    for one in _below(pid):
+        for line in Path(f"/proc/{one}/smaps_rollup").read_text().splitlines():
+            if line.startswith("Pss:"):
+                total += 1024 * int(line.split()[1])
+    return total
+
+
+def worked(pid):
+    """Seconds of the processor until now."""
+    ticks = 0
+    for one in _below(pid):
+        fields = Path(f"/proc/{one}/stat").read_text().rpartition(")")[2].split()
+        ticks += int(fields[11]) + int(fields[12])
+    return ticks / os.sysconf("SC_CLK_TCK")
