@@ -7,6 +7,7 @@ import functools
 import gc
 import itertools
 import math
+import threading
 from collections import Counter
 
 import numpy as np
@@ -40,20 +41,25 @@ MOTION = {MAP, CYCLES, TRACK}
 ZONES = {BOUNDARY, CURVE, GRID}
 STUDY = {LEVELS, OTHERS, GROWTH}
 # SciPy's methods take as long as the span is.
-SHORT = {**ACCURACY.defaults(), "span": 4.0}
+SHORT = {**ACCURACY.defaults(), "span": 1.0}
 
 
 class Recorder(ResultCache):
-    """A cache that writes down which functions are called, with which arguments."""
+    """A cache that writes down which functions its thread calls, with which arguments.
+
+    What an earlier test has left in the background may still ask here: its calls are none of this test's.
+    """
 
     def __init__(self):
         super().__init__(2**28)
         self.calls = []
+        self._own = threading.get_ident()
 
     def get(self, function, *arguments):
         @functools.wraps(function)
         def recorded(*given):
-            self.calls.append((function.__name__, given))
+            if threading.get_ident() == self._own:
+                self.calls.append((function.__name__, given))
             return function(*given)
 
         return super().get(recorded, *arguments)
@@ -82,7 +88,9 @@ def cache(monkeypatch):
 
 
 def subsets(names):
-    return [set(some) for size in range(len(names) + 1) for some in itertools.combinations(names, size)]
+    """None, each alone, all but one, all: what a picture asks for depends on no two others."""
+    sizes = (0, 1, len(names) - 1, len(names))
+    return [set(some) for size in sizes for some in itertools.combinations(names, size)]
 
 
 def ids(some):
@@ -592,12 +600,21 @@ def test_a_state_asks_the_cache_for_each_of_its_parts_once(cache):
     assert [counted[f"cache_{name}"] for name in ("hits", "misses", "entries")] == [10, 14, 14]
 
 
+def quick(scene):
+    """The scene with a first state that takes little to compute; of sections hardly more than their shape is left."""
+    little = {"accuracy": "draft", "span": 5.0, "long": 50.0, "count": 50.0, "orbits": 5.0, "points": "2000"}
+    values, _ = scene.admit({**scene.defaults(), **{name: little[name] for name in little.keys() & scene.defaults()}})
+    return variant(scene, defaults=lambda: dict(values))
+
+
 def test_warming_up_computes_the_first_state_of_every_scene(cache, monkeypatch):
+    scenes = {name: quick(scene) for name, scene in SCENES.items()}
+    monkeypatch.setattr(warm, "scenes", lambda: scenes)
     monkeypatch.setattr(warm, "QUIET_SECONDS", 0.0)
     warm.warm()
     assert gc.isenabled()
     cache.calls.clear()
-    for scene in SCENES.values():
+    for scene in scenes.values():
         Browser(scene)
         assert cache.take() == set(), scene.name
 
