@@ -8,12 +8,12 @@ import gc
 import itertools
 import math
 import threading
+import types
 from collections import Counter
 
 import numpy as np
 import pytest
 import scipy.integrate
-from bokeh.models import ColumnDataSource
 
 from hess_explorer.compute.cache import ResultCache
 from hess_explorer.server import warm
@@ -356,8 +356,7 @@ def own_sources(board, name):
     """The data of one picture, those that others hold for it among them."""
     own = {name, *board.tracks.get(name, ())}
     if name in plots_of(board.scene.name):
-        references = plots_of(board.scene.name)[name].references()
-        own |= {model.name for model in references if isinstance(model, ColumnDataSource)}
+        own |= set(plots_of(board.scene.name)[name].sources)
     found = {key: data for key, data in board.sources.items() if key in own}
     # In the orbit that all share: not what only the moving point of another picture needs.
     dots = board.scene.dots.items()
@@ -600,23 +599,21 @@ def test_a_state_asks_the_cache_for_each_of_its_parts_once(cache):
     assert [counted[f"cache_{name}"] for name in ("hits", "misses", "entries")] == [10, 14, 14]
 
 
-def quick(scene):
-    """The scene with a first state that takes little to compute; of sections hardly more than their shape is left."""
-    little = {"accuracy": "draft", "span": 5.0, "long": 50.0, "count": 50.0, "orbits": 5.0, "points": "2000"}
-    values, _ = scene.admit({**scene.defaults(), **{name: little[name] for name in little.keys() & scene.defaults()}})
-    return variant(scene, defaults=lambda: dict(values))
-
-
 def test_warming_up_computes_the_first_state_of_every_scene(cache, monkeypatch):
-    scenes = {name: quick(scene) for name, scene in SCENES.items()}
-    monkeypatch.setattr(warm, "scenes", lambda: scenes)
+    tasks = []
+    # What can wait is asked for, one of each kind; how long it takes is of no interest here.
+    later = types.SimpleNamespace(get=lambda function, *arguments: tasks.append((function, arguments)), asked=0)
+    monkeypatch.setattr(warm, "CACHE", later)
     monkeypatch.setattr(warm, "QUIET_SECONDS", 0.0)
     warm.warm()
     assert gc.isenabled()
     cache.calls.clear()
-    for scene in scenes.values():
+    for scene in SCENES.values():
         Browser(scene)
         assert cache.take() == set(), scene.name
+        left = {task.function for task in Board(scene).show(compute(scene, scene.defaults())).todo}
+        assert left <= {function for function, _ in tasks}, scene.name
+    assert len(tasks) > len(SCENES)
 
 
 def test_a_scene_that_refuses_its_first_state_keeps_no_other_from_being_ready(cache, monkeypatch, caplog):

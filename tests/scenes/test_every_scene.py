@@ -13,7 +13,8 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from bokeh.models import LogScale
+from bokeh.document import Document
+from bokeh.models import ColumnDataSource, LogScale
 from bokeh.models.glyphs import Line, Scatter
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -201,11 +202,30 @@ def test_the_description_of_a_scene_has_all_that_the_browser_needs(scene):
 
 @every_scene
 def test_the_pictures_of_a_description_are_empty_and_belong_to_no_session(scene):
-    for root in plots_of(scene.name).values():
-        assert root.js_event_callbacks.keys() <= {"tap", "doubletap", "pan", "panstart", "panend", "mousemove"}
-        assert not root.tools
-        assert root.toolbar_location is None
+    for plot in plots_of(scene.name).values():
+        # The page listens by itself.
+        assert "js_event_callbacks" not in plot.attributes
+        assert "attributes" not in plot.attributes["toolbar"]
+        assert plot.attributes["toolbar_location"] is None
     assert "data-orbit" in empty_sources(scene.name) or not description(scene.name)["dots"]
+
+
+@pytest.mark.parametrize("scene", [HESS, ACCURACY], ids=lambda scene: scene.name)
+def test_bokeh_reads_in_a_description_what_these_tests_do(scene):
+    for picture in (one for one in description(scene.name)["pictures"] if one["kind"] == "plot"):
+        (root,), read = Document.from_json(picture["item"]["doc"]).roots, plots_of(scene.name)[picture["name"]]
+        assert (root.name, root.toolbar_location) == (picture["name"], None)
+        assert not root.tools
+        assert not root.js_event_callbacks
+        assert read.ranges == [root.x_range.start, root.x_range.end, root.y_range.start, root.y_range.end]
+        assert read.logarithmic == tuple(isinstance(one, LogScale) for one in (root.x_scale, root.y_scale))
+        assert read.sources == {one.name: dict(one.data) for one in root.references()
+                                if isinstance(one, ColumnDataSource) and one.name is not None}
+        assert [(kind, source) for kind, _, _, source in read.glyphs] == [
+            (type(one.glyph).__name__, one.data_source.name) for one in root.renderers]
+        lines = [one for one in root.renderers if isinstance(one.glyph, Line | Scatter)]
+        assert [(x, y) for kind, x, y, _ in read.glyphs if kind in ("Line", "Scatter")] == [
+            (one.glyph.x.field, one.glyph.y.field) for one in lines]
 
 
 @every_scene
@@ -382,20 +402,19 @@ def in_sight(scene):
 def assert_within_the_axes(board, in_sight):
     """Every line and marker of what is fresh lies in its picture; so on a logarithmic axis it is positive."""
     seen = set()
-    for plot, root in plots_of(board.scene.name).items():
+    for plot, figure in plots_of(board.scene.name).items():
         # A hidden plot keeps its axes, though a track that it shares may be sent for another picture.
         if plot not in in_sight:
             continue
         x0, x1, y0, y1 = board.ranges[plot]
-        for renderer in root.renderers:
-            glyph, name = renderer.glyph, renderer.data_source.name
+        for kind, x, y, name in figure.glyphs:
             # The line that marks a limit runs out of the picture on purpose.
-            if not isinstance(glyph, Line | Scatter) or name not in board.fresh or name.endswith("-limit"):
+            if kind not in ("Line", "Scatter") or name not in board.fresh or name.endswith("-limit"):
                 continue
             seen.add(name)
-            for column, low, high, scale in ((glyph.x, x0, x1, root.x_scale), (glyph.y, y0, y1, root.y_scale)):
-                values, ends = np.asarray(flat(board.fresh[name][column.field])), np.array([low, high])
-                if isinstance(scale, LogScale):
+            for column, low, high, logarithmic in zip((x, y), (x0, y0), (x1, y1), figure.logarithmic, strict=True):
+                values, ends = np.asarray(flat(board.fresh[name][column])), np.array([low, high])
+                if logarithmic:
                     assert np.all(values > 0.0), (name, column)
                     values, ends = np.log10(values), np.log10(ends)
                 # What comes by the wire is in single precision.
