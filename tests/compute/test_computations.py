@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 import scipy.integrate
 
+from hess_explorer.compute import background
 from hess_explorer.compute.cache import ResultCache
 from hess_explorer.server import warm
 from hess_mechanics.errors import InvalidParameter, WorkLimit
@@ -76,6 +77,12 @@ class Recorder(ResultCache):
         found = {name: level.name for name, given in self.calls for level in given if hasattr(level, "promise")}
         self.calls.clear()
         return found
+
+
+@pytest.fixture(autouse=True)
+def nothing_later(monkeypatch):
+    """What can wait is never begun: here it is asked what a state computes at once, and threads outlive their test."""
+    monkeypatch.setattr(background, "_pool", types.SimpleNamespace(submit=lambda job: None))
 
 
 @pytest.fixture
