@@ -16,13 +16,15 @@ from oracle.kept import kept
 class Series:
     """A power series in time, for many orbits at once, whose coefficients are found when they are asked for.
 
-    `rule(k)` is coefficient k (one number for each orbit), from coefficients that are known by then.
+    `rule(k)` is coefficient k, from coefficients that are known by then: one number for each orbit in an array of this
+    shape (order + 1, orbits); with the shape (order + 1,) one number, which saves decimals the work of arrays.
     """
 
     __array_ufunc__ = None  # an array on the left of an operator leaves the work to the series
 
     def __init__(self, rule, shape, dtype):
-        self.rule, self.c, self.known = rule, np.empty(shape, dtype), 0
+        self.rule, self.shape, self.dtype, self.known = rule, shape, dtype, 0
+        self.c = np.empty(shape, dtype) if len(shape) == 2 else [None] * shape[0]
 
     def upto(self, k):
         """All coefficients, filled up to order k."""
@@ -32,7 +34,7 @@ class Series:
         return self.c
 
     def like(self, rule):
-        return Series(rule, self.c.shape, self.c.dtype)
+        return Series(rule, self.shape, self.dtype)
 
     def lifted(self, other):
         """`other` as a series: a number is one whose higher coefficients vanish."""
@@ -83,6 +85,8 @@ class Series:
 def folded(left, right):
     """Σ left[m] right[k−m], over the k+1 coefficients that `right` has."""
     left = left[: len(right)]
+    if isinstance(left, list):
+        return sum(map(mul, left, reversed(right)))
     if left.dtype == object:
         return (left * right[::-1]).sum(axis=0)
     return np.einsum("kl,kl->l", left, right[::-1])
@@ -90,14 +94,16 @@ def folded(left, right):
 
 def coefficients(field, y, p, order):
     """Taylor coefficients of ẏ = field(y, p), shape (d, order + 1, orbits), for y (d, orbits) and p (q, orbits)."""
-    rates = []
+    rates, shape, dtype = [], (order + 1, y.shape[1]), y.dtype
+    if dtype == object and y.shape[1] == 1:
+        y, p, shape = y[:, 0].tolist(), p[:, 0].tolist(), (order + 1,)
 
     def variable(i):
-        return Series(lambda k: y[i] if k == 0 else rates[i].upto(k - 1)[k - 1] / k, (order + 1, y.shape[1]), y.dtype)
+        return Series(lambda k: y[i] if k == 0 else rates[i].upto(k - 1)[k - 1] / k, shape, dtype)
 
     variables = [variable(i) for i in range(len(y))]
     rates.extend(variables[0].lifted(rate) for rate in field(variables, list(p)))
-    return np.array([series.upto(order) for series in variables])
+    return np.array([series.upto(order) for series in variables], dtype).reshape(len(y), order + 1, -1)
 
 
 def taylor(field, y, p, times, order, tolerance):
