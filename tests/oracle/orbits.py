@@ -94,8 +94,9 @@ def folded(left, right):
 
 def coefficients(field, y, p, order):
     """Taylor coefficients of ẏ = field(y, p), shape (d, order + 1, orbits), for y (d, orbits) and p (q, orbits)."""
-    rates, shape, dtype = [], (order + 1, y.shape[1]), y.dtype
-    if dtype == object and y.shape[1] == 1:
+    dtype = y.dtype
+    rates, shape = [], (order + 1, y.shape[1])
+    if y.dtype == object and y.shape[1] == 1:
         y, p, shape = y[:, 0].tolist(), p[:, 0].tolist(), (order + 1,)
 
     def variable(i):
