@@ -43,7 +43,7 @@ def vector(exact, w1, w2):
 @every_k
 @pytest.mark.parametrize(("I22", "I23"), [(Fraction(1), Fraction(2, 5)), (Fraction(7, 3), Fraction(-5, 2))])
 def test_F2_is_conserved_exactly(k, I22, I23):
-    # dF2/dt is a polynomial of degree k + 1 in ω: it vanishes at k + 2 directions, and so everywhere.
+    # dF2/dt is a polynomial in ω, and vanishes.
     exact = coefficients(k, I22, I23)
     assert exact.rest == 0
     I11 = I22 + k * k * I23**2 / I22
@@ -51,8 +51,8 @@ def test_F2_is_conserved_exactly(k, I22, I23):
     V = sympy.Matrix([sympy.nsimplify(v) for v in vector(exact, w1, w2)])
     first, second = sympy.nsimplify(I23 / I11), sympy.nsimplify(I23 / I22)
     rate = -first * w2**2 * V.diff(w1) + second * w1 * w2 * V.diff(w2) - V.cross(sympy.Matrix([w1, w2, 0]))
-    for point in range(-1, k + 1):
-        assert rate.subs({w1: 1, w2: sympy.Rational(point, 3)}) == sympy.zeros(3, 1)
+    assert len(rate) == 3
+    assert all(sympy.Poly(one, w1, w2).is_zero for one in rate)
 
 
 @both_cases
