@@ -323,7 +323,8 @@ def test_the_spheres_of_all_scenes_are_seen_from_the_same_side_as_the_link_says(
 
     assert len(SPHERES) > 1
     last = HOME
-    for name in [*SPHERES, *SPHERES]:
+    # Each is built when it is entered first; two that were built before.
+    for name in [*SPHERES, *SPHERES[:2]]:
         if name != explorer.scene:
             explorer.enter(name)
         assert turn() == pytest.approx(last, abs=2e-4), name

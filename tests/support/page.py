@@ -96,9 +96,7 @@ class Explorer:
             self.change(lambda: page.evaluate("scene => hess.tell('scene', scene)", scene))
         if page.locator(".param-speed").is_visible():
             page.locator(".param-speed").select_option("1")
-        # A picture turns only while it is seen.
-        for turned in page.locator(".gallery:not(.away) :is(canvas.sphere, canvas.solid):visible").all():
-            turned.press("Home")
+        page.evaluate(HOMEWARDS)
         for unfolded in page.locator(".unfold[aria-expanded=true]").all():
             unfolded.click()
         page.evaluate("document.activeElement?.blur()")
@@ -337,6 +335,14 @@ SLIDE = f"""pairs => {{
   }}
   return document.documentElement.dataset.ready
 }}"""
+# Home, pressed on what is turned: a picture turns only while it is seen.
+HOMEWARDS = """() => {
+  const all = (root) => [...root.querySelectorAll("*")].flatMap((item) =>
+    [item, ...(item.shadowRoot ? all(item.shadowRoot) : [])])
+  for (const item of all(document).filter((one) => one.matches(".gallery:not(.away) :is(canvas.sphere, canvas.solid)")))
+    if (item.checkVisibility())
+      item.dispatchEvent(new KeyboardEvent("keydown", { key: "Home", bubbles: true, composed: true }))
+}"""
 # What Panel keeps of the page, and the colour of the axes of each plot in sight.
 PANEL = """Bokeh.documents.flatMap((document) => document.roots())
   .find((top) => top.data?.attributes.dark_theme !== undefined).data"""
@@ -385,8 +391,7 @@ def first_on_phone(phone_tab):
             phone_tab.change(lambda: page.evaluate("scene => hess.tell('scene', scene)", scene))
         if page.get_by_role("button", name="Picture 1", exact=True).get_attribute("aria-pressed") != "true":
             phone_tab.change(page.get_by_role("button", name="Picture 1", exact=True).click)
-        for turned in page.locator(".gallery:not(.away) :is(canvas.sphere, canvas.solid):visible").all():
-            turned.press("Home")
+        page.evaluate(HOMEWARDS)
         phone_tab.change(lambda: page.evaluate("hess.tell('reset')"))
         return phone_tab
 
