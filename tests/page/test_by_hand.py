@@ -74,11 +74,11 @@ def through_examples(explorer):
 
 
 def through_numbers(explorer):
-    """The first numbers typed, one after the other, and the first of all once more."""
+    """The first numbers typed, one after the other; the first of them twice."""
     boxes = explorer.page.locator(".number:not(:has(:disabled))")
     names = [classes.split("param-")[1].split()[0] for classes in
              boxes.evaluate_all("boxes => boxes.map((box) => box.className)")]
-    for share, count in ((0.8, 3), (0.6, 1)):
+    for share, count in ((0.8, 1), (0.6, 3)):
         for name in names[:count]:
             low, high = (float(explorer.slider(name).get_attribute(end)) for end in ("min", "max"))
             text = f"{low + share * (high - low):.3g}"
