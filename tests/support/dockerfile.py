@@ -50,10 +50,8 @@ class Image:
         """Nothing of the caller's: above all no PYTHONPATH and no home."""
         home = "/root" if self.user == "root" else f"/home/{self.user}"
         proxies = {name: value for name, value in os.environ.items() if name.startswith(("PIP_", "SSL_"))}
-        # Byte code of every library is not what the instructions are asked for; what is imported is compiled then.
-        path = f"{self.root / 'venv' / 'bin'}:/usr/local/bin:/usr/bin:/bin"
-        return {**proxies, "PIP_NO_COMPILE": "1", "PATH": path, "LANG": "C.UTF-8", "HOME": str(self.at(home)),
-                **self.set}
+        return {**proxies, "PATH": f"{self.root / 'venv' / 'bin'}:/usr/local/bin:/usr/bin:/bin", "LANG": "C.UTF-8",
+                "HOME": str(self.at(home)), **self.set}
 
     def run(self, command, **options):
         """Run as the image would at this point.  Fails with all the output if the command does."""
