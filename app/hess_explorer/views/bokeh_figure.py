@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import holoviews as hv
 import numpy as np
-from bokeh.embed import json_item
+from bokeh import __version__
+from bokeh.core.serialization import Serializer
 from bokeh.models import ColumnDataSource, ContinuousTicker, NoOverlap
 from bokeh.plotting import figure
 
@@ -82,13 +83,18 @@ def build(plot: Plot[Any]) -> figure:
     return root
 
 
+def _item(root: figure) -> dict[str, Any]:
+    """What `bokeh.embed.json_item` says of a figure, but for the definitions of all models of Panel that it adds: the
+    page has them already (150 kB), and to write them takes longer than all the rest."""
+    roots = Serializer(deferred=False).encode([root])
+    return {"doc": {"version": __version__, "title": "", "roots": roots}, "root_id": root.id, "target_id": None,
+            "version": __version__}
+
+
 def describe(plot: Plot[Any]) -> dict[str, Any]:
     """What the browser needs to know of a plot, see "plot.js"."""
-    item: Any = json_item(build(plot))
-    # Panel's models, by name, in every document (150 kB): a figure has none of them, and the page has them already.
-    item["doc"].pop("defs", None)
     return {
-        "item": item, "renamed": not isinstance(plot.axes, tuple), "picks": list(plot.events),
+        "item": _item(build(plot)), "renamed": not isinstance(plot.axes, tuple), "picks": list(plot.events),
         "letters": [None if plot.ticks is not None or side in plot.log else letters
                     for side, letters in (("x", _LETTERS), ("y", 1000))],
         "cells": [{"source": plot.source_of(layer), **layer.style} for layer in plot.layers if layer.glyph == "image"],
