@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import math
+import time
 from urllib.parse import quote, urlencode, urlsplit
 
 import numpy as np
@@ -130,8 +131,18 @@ def test_an_answer_that_takes_long_is_said_to_be_under_way(on_a_line):
       window.said = []
       hess.listen("texts", ({ busy }) => { if (busy) said.push(busy) })
     }""")
-    for h in (0.8, 0.7):
+    in_time = 0
+    for h in np.linspace(0.8, 0.2, 20):
+        page.evaluate("said.length = 0")
+        begun = time.monotonic()
         explorer.change(lambda h=h: explorer.slide(h=h))
+        if time.monotonic() - begun < 0.4:
+            assert page.evaluate("said") == []
+            in_time += 1
+        if in_time == 2:
+            break
+    assert in_time == 2
+    # Nor afterwards.
     page.evaluate("new Promise((done) => setTimeout(done, 600))")
     assert page.evaluate("said") == []
 

@@ -366,9 +366,9 @@ def test_a_stage_that_fails_shows_the_sentence_and_nothing_of_another_state(scen
     board.fail("No motion here.")
     left = contents(board.sources)
     for name in depends:
-        # The names of axes say nothing of a state.
-        words = name.endswith(("-message", "-axes"))
-        assert words or not [x for values in left[name].values() for x in values if x != ""], name
+        # Neither do names of axes stay: a link to nothing shows none.
+        assert name.endswith("-message") or not [
+            x for values in left[name].values() for x in values if x not in ("", " ")], name
     assert any("No motion here." in values for columns in left.values() for values in columns.values())
     assert set(board.captions.values()) == {"No motion here."}
     # And the next state is drawn whole.

@@ -12,6 +12,7 @@ import holoviews as hv
 import numpy as np
 from bokeh import __version__
 from bokeh.core.serialization import Serializer
+from bokeh.document import Document
 from bokeh.models import ColumnDataSource, ContinuousTicker, NoOverlap
 from bokeh.plotting import figure
 
@@ -86,9 +87,11 @@ def build(plot: Plot[Any]) -> figure:
 def _item(root: figure) -> dict[str, Any]:
     """What `bokeh.embed.json_item` says of a figure, but for the definitions of all models of Panel that it adds: the
     page has them already (150 kB), and to write them takes longer than all the rest."""
-    roots = Serializer(deferred=False).encode([root])
-    return {"doc": {"version": __version__, "title": "", "roots": roots}, "root_id": root.id, "target_id": None,
-            "version": __version__}
+    # The serializer knows what it has met by its place in memory: that lives on.
+    serializer, empty = Serializer(deferred=False), Document()
+    config = serializer.encode(empty.config)
+    document = {"version": __version__, "title": "", "config": config, "roots": serializer.encode([root])}
+    return {"doc": document, "root_id": root.id, "target_id": None, "version": __version__}
 
 
 def describe(plot: Plot[Any]) -> dict[str, Any]:

@@ -123,7 +123,8 @@ class Plot(Picture[S]):
         """The columns of all its sources where there is nothing to see but the reason."""
         assert axes is not None
         empty: dict[str, Columns] = {self.source_of(layer): {} for layer in (*self.layers, POINT)}
-        return {**empty, f"{self.name}-message": self._said(sentence, axes)}
+        names = {} if isinstance(self.axes, tuple) else {f"{self.name}-axes": {"text": [" ", " "]}}
+        return {**empty, **names, f"{self.name}-message": self._said(sentence, axes)}
 
     def _said(self, sentence: str, axes: Axes) -> Columns:
         return {} if not sentence else {
