@@ -8,6 +8,7 @@ from urllib.parse import parse_qsl, urlencode, urlsplit
 
 import numpy as np
 import pytest
+from playwright.sync_api import expect
 
 from hess_explorer.headless.browser import wait_ready
 from hess_explorer.headless.screenshot import running_server
@@ -218,6 +219,8 @@ def test_a_long_section_fills_and_can_be_stopped(long_section, gate, how, h):
     page = long_section(h)
     box = page.page.locator(".computing")
     bar = box.locator("progress")
+    # The first pieces wait for their kernels.
+    expect(bar).not_to_have_js_property("value", 0, timeout=60_000)
     assert 0 < float(bar.evaluate("bar => bar.value")) < float(bar.evaluate("bar => bar.max"))
     assert not page.ready
     if how == "button":
