@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import panel as pn
 
-__all__ = ["SESSIONS", "Capacity"]
-
-SESSIONS = 1000
-"""Some 3 GB."""
+__all__ = ["Capacity"]
 
 
 class Capacity:

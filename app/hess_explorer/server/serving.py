@@ -23,7 +23,7 @@ from tornado.websocket import WebSocketClosedError
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.page import page
-from hess_explorer.server.capacity import SESSIONS, Capacity
+from hess_explorer.server.capacity import Capacity
 from hess_explorer.server.export import Export
 from hess_explorer.server.headers import guard
 from hess_explorer.server.liveness import is_alive
@@ -90,8 +90,8 @@ def _own_styles(document: Document) -> None:
         patch_model_css(root, dist_url=LOCAL_DIST)
 
 
-def options(port: int, address: str, origins: Sequence[str], lesson: Lesson | None = None,
-            sessions: int = SESSIONS) -> dict[str, Any]:
+def options(port: int, address: str, origins: Sequence[str], lesson: Lesson | None = None, *,
+            sessions: int) -> dict[str, Any]:
     """What `panel.serve` is told; the arguments are those of `serve`."""
     capacity = Capacity(sessions)
     return {
@@ -111,8 +111,8 @@ def options(port: int, address: str, origins: Sequence[str], lesson: Lesson | No
 
 
 def serve(port: int, address: str, show: bool, origins: Sequence[str], ready: Callable[[], None],
-          lesson: Lesson | None = None, embedders: Sequence[str] = ("*",), workers: int = 1,
-          sessions: int = SESSIONS) -> None:
+          lesson: Lesson | None = None, embedders: Sequence[str] = ("*",), workers: int = 1, *,
+          sessions: int) -> None:
     """Serve the explorer until interrupted.
 
     address : to listen on; show : open the browser; origins : HOST:PORT pairs whose pages may open a websocket,
@@ -131,7 +131,7 @@ def serve(port: int, address: str, show: bool, origins: Sequence[str], ready: Ca
     guard(embedders)
     parent = os.getpid()
     # With several workers this comes back in each of them, and the process that began stays behind to watch over them.
-    told = options(port, address, origins, lesson, sessions)
+    told = options(port, address, origins, lesson, sessions=sessions)
     server = get_server(told.pop("panels"), start=False, show=show and workers == 1, num_procs=workers, **told)
     if workers > 1:
         # One worker says that the explorer is ready, and none outlives the process that began.

@@ -99,6 +99,11 @@ class Costs(Insight):
         """The next more exact level; None for the last one."""
         return next_level(self.chosen)
 
+    @property
+    def found_difference(self) -> Difference | None:
+        """The `changes`, where they are known."""
+        return None if isinstance(self.changes, Refused) else self.changes
+
     def about_difference(self) -> str:
         """The caption: how much changes, and from which crossing on orbits are others."""
         if self.finer is None:
@@ -161,11 +166,6 @@ class Costs(Insight):
     def difference_names(self) -> str:
         """What the axes are."""
         return "" if self.found_difference is None else "{} across, {} up".format(*self.found_difference.frame.names)
-
-    @property
-    def found_difference(self) -> Difference | None:
-        """The `changes`, where they are known."""
-        return None if isinstance(self.changes, Refused) else self.changes
 
 
 def _capitalized(sentence: str) -> str:
