@@ -127,10 +127,11 @@ class Ready(JSComponent):
     """
 
     scene = param.String(default="", doc="JSON: the description of the newest scene, see `description`.")
+    lesson = param.String(default="", doc="JSON: the lesson that was wanted last, see `description`.")
+    # What is set together arrives in this order, and the state says how to read the rest.
+    block = param.Bytes(default=b"", doc="The numbers of the tree of the state.")
     state = param.String(default="", doc="JSON: number of the state, last request that it answers, URL query, "
                          "the tree of its data (see `wire`), name of its scene, progress [done, of] or null.")
-    block = param.Bytes(default=b"", doc="The numbers of that tree.")
-    lesson = param.String(default="", doc="JSON: the lesson that was wanted last, see `description`.")
     client = param.Dict(default={}, doc="URL keys that the browser itself keeps: t, speed, az, el, large, present, "
                         "embed, pictures, controls, lesson, step.")
 

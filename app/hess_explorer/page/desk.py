@@ -29,7 +29,7 @@ class _Told(Generic[T]):
         return cast(T, getattr(desk.ready, self._name))
 
     def __set__(self, desk: Desk, value: T) -> None:
-        desk.said.append((self._name, value))
+        desk.said[self._name] = value
 
 
 class Desk:
@@ -41,7 +41,8 @@ class Desk:
     scene, lesson, state, block = _Told[str](), _Told[str](), _Told[str](), _Told[bytes]()
 
     def __init__(self, ready: Ready) -> None:
-        self.said: list[tuple[str, Any]] = []
+        # One answer tells each thing once.
+        self.said: dict[str, Any] = {}
         self.ready = ready
         document = pn.state.curdoc
         self._served = document if document is not None and document.session_context is not None else None
@@ -80,16 +81,15 @@ class Desk:
         try:
             work()
         finally:
-            said, self.said = self.said, []
+            said, self.said = self.said, {}
             if said and self._served is not None:
                 self._served.add_next_tick_callback(partial(self._tell, said))
 
     def _tell_all(self) -> None:
-        said, self.said = self.said, []
+        said, self.said = self.said, {}
         self._tell(said)
 
-    def _tell(self, said: list[tuple[str, Any]]) -> None:
-        # All of one answer at once; and Panel would wait for the next turn of the loop with each.
+    def _tell(self, said: dict[str, Any]) -> None:
+        # All of one answer at once; outside `unlocked` Panel would wait for the next turn of the loop.
         with unlocked():
-            for name, value in said:
-                setattr(self.ready, name, value)
+            self.ready.param.update(**said)

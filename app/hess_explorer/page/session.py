@@ -282,7 +282,6 @@ class Session:
     def _send(self, answers: int) -> None:
         self._number += 1
         tree, block = self.wire.pack()
-        # In this order: the state says how to read the block.
         self.ready.block = block
         self.ready.state = json.dumps({
             "number": self._number, "answers": answers, "query": encode(self.scene.name, self.values), "tree": tree,
