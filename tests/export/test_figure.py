@@ -14,8 +14,8 @@ from scipy.spatial.transform import Rotation
 
 from hess_explorer.export import figure as figures
 from hess_explorer.export.figure import as_file, draw
+from hess_explorer.export.sheet import seen
 from hess_explorer.export.shown import shown
-from hess_explorer.export.spheres import seen
 from hess_mechanics.errors import ModelError
 
 DRAFT = "accuracy=draft"
@@ -37,7 +37,11 @@ def test_text_stays_text_and_the_file_says_link_and_version(link, picture):
     names = getattr(found.picture, "axes", ("γ₁", "γ₂"))
     names = names(found.state) if callable(names) else names
     assert set(names) <= set(words)
-    assert as_file(found, "svg") == svg
+
+
+def test_the_same_state_gives_the_same_file():
+    found = shown(DRAFT, "omega")
+    assert as_file(found, "svg", 40.0) == as_file(found, "svg", 40.0)
 
 
 def test_the_size_is_that_asked_for_and_black_has_no_colours():
@@ -75,10 +79,7 @@ def test_a_sphere_is_seen_from_where_the_link_says(azimuth, elevation):
     assert seen(points, azimuth, elevation) == pytest.approx(turned[:, [1, 2, 0]], abs=1e-14)
 
 
-def test_what_cannot_be_drawn_is_refused_with_a_sentence(monkeypatch):
-    body = shown(DRAFT, "body")
-    with pytest.raises(ModelError, match="cannot be drawn as a figure yet: take its data"):
-        as_file(body, "svg")
+def test_what_cannot_be_made_is_refused_with_a_sentence(monkeypatch):
     circle = shown(DRAFT, "circle")
     for wrong in (0.0, 19.9, 401.0, math.nan):
         with pytest.raises(ModelError, match="20 to 400 mm wide"):

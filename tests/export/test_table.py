@@ -2,31 +2,15 @@
 
 from __future__ import annotations
 
-import csv
-import io
-import json
-import math
-
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
 from hess_explorer.export.shown import shown
-from hess_explorer.export.table import as_csv, as_json, rows
-from hess_explorer.protocol.parameters import encode
-from hess_explorer.scenes import scenes
+from hess_explorer.export.table import as_csv, rows
 from hess_mechanics import circle_map, level
 from hess_mechanics.errors import ModelError
-
-PICTURES = [(name, picture) for name, scene in scenes().items() if scene.origin is None for picture in scene.pictures]
-
-
-def read(text):
-    """Comments by key, and the table."""
-    comments = dict(line[2:].split(": ", 1) for line in text.splitlines() if line.startswith("# "))
-    body = "\n".join(line for line in text.splitlines() if not line.startswith("# "))
-    table = list(csv.DictReader(io.StringIO(body)))
-    return {key: json.loads(value) for key, value in comments.items()}, table
+from support.exported import read
 
 
 def test_the_graph_of_the_circle_map_is_that_of_the_mechanics_to_the_last_digits():
@@ -59,22 +43,6 @@ def test_an_orbit_is_that_of_another_integrator_and_its_columns_have_names():
     run = solve_ivp(rates, (0.0, t[-1]), start, method="DOP853", rtol=1e-12, atol=1e-13, t_eval=t)
     assert np.max(np.abs(run.y - np.array(y))) < 1e-8
     assert found.link in as_csv(found)
-
-
-@pytest.mark.parametrize(("scene", "picture"), PICTURES)
-def test_every_picture_has_its_numbers_in_both_formats(scene, picture):
-    values = {**scenes()[scene].defaults(), "accuracy": "draft"}
-    found = shown(encode(scene, values), picture)
-    facts, table = read(as_csv(found))
-    whole = json.loads(as_json(found), parse_constant=pytest.fail)
-    assert {"link", "parameters", "status", "program", "caption"} <= facts.keys() & whole.keys()
-    assert facts["parameters"] == whole["parameters"] == values
-    assert shown(facts["link"], picture).values == values
-    assert facts["status"][0] == "accuracy: draft"
-    numbers = [float(value) for row in table for name, value in row.items() if value and name not in ("layer", "text")]
-    assert len(numbers) > 10 or whole["caption"]
-    assert all(map(math.isfinite, numbers))
-    assert {row["layer"] for row in table} <= whole["layers"].keys()
 
 
 def test_a_cloud_is_that_of_the_time_in_the_link():

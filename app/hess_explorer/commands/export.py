@@ -18,8 +18,9 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser = commands.add_parser(
         "export", help="what a picture of the page shows, as CSV, JSON, PNG, SVG or PDF",
         description="Compute the state that a link describes and write what one of its pictures shows: its data, every "
-                    "digit, as CSV or JSON, or a square figure as PNG, SVG or PDF, without the moving point. Every "
-                    "file says link, parameters, accuracy, errors and version. Figures need the extra: "
+                    "digit, as CSV or JSON, or a square figure as PNG, SVG or PDF, with bodies and clouds at the "
+                    "link's time, without the moving point. Every file says link, parameters, accuracy, errors and "
+                    "version. Figures need the extra: "
                     "pip install '.[export]'.",
         epilog="Example: hess-explorer export --state 'h=1.2&f=0.3' --picture circle --format csv --out circle.csv")
     parser.add_argument("--state", type=state_of, default={}, metavar="QUERY",

@@ -58,6 +58,13 @@ class Shown:
             "caption": self.caption, "parameters": dict(self.values), "status": list(self.status),
             "notes": list(self.notes), "program": f"hess-explorer {version('hess-explorer')}"}
 
+    @property
+    def said(self) -> str:
+        """The same in one paragraph, for files whose metadata are sentences."""
+        parameters = ", ".join(f"{name} = {value}" for name, value in self.values.items())
+        return (f"{self.facts['program']}, ?{self.link} | {parameters} | {'; '.join(self.status)}"
+                + "".join(f" | {note}" for note in self.notes))
+
 
 def shown(query: str, picture: str = "") -> Shown:
     """The picture of that name, else the first one, of the state that a query describes.

@@ -1,111 +1,124 @@
-"""The Poisson sphere as a figure: orthographic, from where the link looks; what lies behind is faint."""
+"""Spheres as figures, orthographic, from where the link looks: the Poisson sphere, and the one with the body in it.
+
+What lies behind is faint, and drawn before what lies in the middle.
+"""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from hess_explorer.export.body import Body
+from hess_explorer.export.clouds import on_sphere
+from hess_explorer.export.moment import clouds_at, state_at
+from hess_explorer.export.sheet import LOOKS, Colour, Sheet, circle, graticule
 from hess_explorer.export.shown import Shown
 from hess_explorer.views import theme
+from hess_explorer.views.body import BodyInSpace
+from hess_explorer.views.layers import Columns
 from hess_explorer.views.poisson_sphere import Sphere
-from hess_mechanics.numerics.results import Array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes as Frame
 
-__all__ = ["draw_sphere", "seen"]
+__all__ = ["draw_moving", "draw_still"]
 
-_LOOKS: dict[str, tuple[str, Any, float]] = {
-    "orbit": (theme.ORBIT, "-", 1.3), "second": (theme.MAP, "-", 1.3), "stable": (theme.STABLE, "-", 1.8),
-    "unstable": (theme.UNSTABLE, (0, (5, 3)), 1.8), "limit": (theme.INK, (0, (2, 3)), 0.7),
-    "muted": (theme.MUTED, "-", 0.7)}
-"""Colour, dash and weight by the names of `Circle`, `Mark` and the tracks."""
 _FAINT = 0.3
-_ANGLES = np.linspace(0.0, 2.0 * math.pi, 181)
 
 
-def seen(points: Array, azimuth: float, elevation: float) -> Array:
-    """(n, 3) in the axes of the body → to the right, upwards, towards the eye."""
-    ca, sa, ce, se = math.cos(azimuth), math.sin(azimuth), math.cos(elevation), math.sin(elevation)
-    turned: Array = points @ np.array([[-sa, ca, 0.0], [-se * ca, -se * sa, ce], [ce * ca, ce * sa, se]]).T
-    return turned
+def draw_still(frame: Frame, shown: Shown, colour: Colour) -> None:
+    """What no motion changes, and lies beneath what moves: the far half, and the near one where only a point moves."""
+    sheet = Sheet(frame, (shown.client["az"], shown.client["el"]), colour)
+    sheet.prepare()
+    _half(sheet, shown, False)
+    if not _has_guest(shown):
+        sheet.outline()
+        _half(sheet, shown, True)
 
 
-def draw_sphere(frame: Frame, shown: Shown, colour: Callable[[str], str]) -> None:
-    """The outline, parallels and meridians, the axes, circles, marks and tracks."""
-    sphere = shown.picture
-    assert isinstance(sphere, Sphere)
-    view = shown.client["az"], shown.client["el"]
-    frame.set(xlim=(-1.25, 1.25), ylim=(-1.25, 1.25), aspect="equal")
-    frame.set_axis_off()
-    frame.plot(np.cos(_ANGLES), np.sin(_ANGLES), color=colour(theme.INK), linewidth=0.6, alpha=0.5)
-    for curve in _graticule():
-        _stroke(frame, seen(curve, *view), colour(theme.INK), "-", 0.4, (0.25, 0.1))
-    for axis, label in zip(np.eye(3), ("γ₁", "γ₂", "γ₃"), strict=True):
-        _axis(frame, axis, label, view, colour)
-    own = shown.columns.get(sphere.name, {})
-    if len(own.get("axis", ())):
-        _axis(frame, np.array(own["axis"]), own["label"], view, colour)
+def draw_moving(frame: Frame, shown: Shown, colour: Colour, t: float, point: bool) -> None:
+    """The body or the clouds at a time, with what lies over them; point : the moving point too."""
+    sheet = Sheet(frame, (shown.client["az"], shown.client["el"]), colour)
+    # Over all that is still.
+    sheet.start(2.0)
+    picture, columns = shown.picture, shown.columns
+    if isinstance(picture, BodyInSpace):
+        body = Body(sheet, columns.get(picture.name, {}), columns.get(picture.attitude or picture.name, {}), t)
+        body.half(False)
+        sheet.outline()
+        body.middle()
+        _half(sheet, shown, True, body)
+    elif isinstance(picture, Sphere) and picture.clouds:
+        clouds = clouds_at(columns.get(picture.clouds, {}), t)
+        on_sphere(sheet, clouds, False)
+        sheet.outline()
+        _half(sheet, shown, True)
+        on_sphere(sheet, clouds, True)
+    state = state_at(columns.get("data-orbit", {}), shown.scene.angles, t) if point else {}
+    if isinstance(picture, Sphere) and "g1" in state:
+        _point(sheet, [state[name] for name in ("g1", "g2", "g3")])
+
+
+def _has_guest(shown: Shown) -> bool:
+    picture = shown.picture
+    return isinstance(picture, BodyInSpace) or (isinstance(picture, Sphere) and bool(picture.clouds))
+
+
+def _half(sheet: Sheet, shown: Shown, near: bool, body: Body | None = None) -> None:
+    picture = shown.picture
+    own = shown.columns.get(picture.name, {})
+    in_space = isinstance(picture, BodyInSpace)
+    equator = circle(np.array([0.0, 0.0, 1.0]), 0.0)
+    for line in [equator] if isinstance(picture, BodyInSpace) and picture.bare else graticule():
+        sheet.stroke(line, (theme.INK, "-", 0.4), near, 0.25 if near else 0.1)
+    if not in_space:
+        for axis, label in zip(np.eye(3), ("γ₁", "γ₂", "γ₃"), strict=True):
+            _axis(sheet, axis, label, near)
+        if len(own.get("axis", ())):
+            _axis(sheet, np.array(own["axis"]), own["label"], near)
+    faint = 1.0 if near else _FAINT
     for a, b, c, height, look in own.get("circles", ()):
-        _drawn(frame, _circle(np.array([a, b, c]), height), look, view, colour)
-    for track, look in sphere.looks.items():
+        sheet.stroke(circle(np.array([a, b, c]), height), LOOKS[look], near, faint)
+    for track, look in (picture.looks if isinstance(picture, Sphere) else {}).items():
         columns = shown.columns.get(f"data-{track}", {})
         if len(columns.get("g1", ())) > 1:
-            _drawn(frame, np.column_stack([columns[name] for name in ("g1", "g2", "g3")]), look, view, colour)
+            sheet.stroke(_gamma(columns), LOOKS[look], near, faint)
+    if body is not None:
+        body.half(near)
     for x, y, z, look, label in own.get("marks", ()):
-        _mark(frame, np.array([x, y, z]), look, label, view, colour)
+        if sheet.is_near((x, y, z)) == near:
+            _mark(sheet, (x, y, z), look, label, faint)
 
 
-def _graticule() -> Iterator[Array]:
-    for height in (-0.5, 0.0, 0.5):
-        yield _circle(np.array([0.0, 0.0, 1.0]), height)
-    for angle in np.arange(3) * math.pi / 3.0:
-        yield _circle(np.array([-math.sin(angle), math.cos(angle), 0.0]), 0.0)
+def _gamma(columns: Columns) -> Any:
+    return np.column_stack([columns[name] for name in ("g1", "g2", "g3")])
 
 
-def _circle(axis: Array, height: float) -> Array:
-    """The circle (γ, axis) = height, (n, 3)."""
-    axis = axis / np.linalg.norm(axis)
-    across = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis))])
-    across /= np.linalg.norm(across)
-    radius = math.sqrt(max(0.0, 1.0 - height**2))
-    turned: Array = height * axis + radius * (
-        np.cos(_ANGLES)[:, None] * across + np.sin(_ANGLES)[:, None] * np.cross(axis, across))
-    return turned
+def _axis(sheet: Sheet, axis: Any, label: str, near: bool) -> None:
+    if sheet.is_near(axis) != near:
+        return
+    alpha = 0.9 if near else 0.4
+    sheet.line(axis, 1.12 * axis, (theme.INK, "-", 0.8), alpha)
+    x, y, _ = sheet.at(1.2 * axis)
+    sheet.write(label, x, y, alpha)
 
 
-def _drawn(frame: Frame, points: Array, look: str, view: tuple[float, float], colour: Callable[[str], str]) -> None:
-    ink, dash, weight = _LOOKS[look]
-    _stroke(frame, seen(points, *view), colour(ink), dash, weight, (1.0, _FAINT))
+def _mark(sheet: Sheet, at: tuple[float, float, float], look: str, label: str, alpha: float) -> None:
+    x, y, _ = sheet.at(at)
+    ink = sheet.colour(LOOKS[look][0])
+    sheet.dot(x, y, 4.5, markerfacecolor="none" if look == "unstable" else ink, markeredgecolor=ink,
+              markeredgewidth=1.4, alpha=alpha)
+    sheet.write(label, 1.15 * x, 1.15 * y)
 
 
-def _stroke(frame: Frame, curve: Array, colour: str, dash: Any, weight: float, alphas: Sequence[float]) -> None:
-    """The near parts, and faint the far ones."""
-    near = curve[1:, 2] + curve[:-1, 2] >= 0.0
-    for side, alpha, order in ((True, alphas[0], 2.0), (False, alphas[1], 1.0)):
-        at = np.flatnonzero(near == side)
-        for run in np.split(at, np.flatnonzero(np.diff(at) > 1) + 1):
-            if run.size:
-                part = curve[run[0] : run[-1] + 2]
-                frame.plot(part[:, 0], part[:, 1], color=colour, linestyle=dash, linewidth=weight, alpha=alpha,
-                           zorder=order)
-
-
-def _axis(frame: Frame, axis: Array, label: str, view: tuple[float, float], colour: Callable[[str], str]) -> None:
-    (x, y, depth), = seen(axis[None, :], *view)
-    alpha = 0.9 if depth >= 0.0 else 0.4
-    frame.plot((x, 1.12 * x), (y, 1.12 * y), color=colour(theme.INK), linewidth=0.8, alpha=alpha)
-    frame.text(1.2 * x, 1.2 * y, label, ha="center", va="center", color=colour(theme.INK), alpha=alpha)
-
-
-def _mark(frame: Frame, at: Array, look: str, label: str, view: tuple[float, float],
-          colour: Callable[[str], str]) -> None:
-    (x, y, depth), = seen(at[None, :], *view)
-    ink = colour(_LOOKS[look][0])
-    frame.scatter([x], [y], s=20.0, facecolors="none" if look == "unstable" else ink, edgecolors=ink, linewidths=1.4,
-                  alpha=1.0 if depth >= 0.0 else _FAINT, zorder=3.0 if depth >= 0.0 else 1.0)
-    if label:
-        frame.text(1.15 * x, 1.15 * y, label, ha="center", va="center", color=colour(theme.INK))
+def _point(sheet: Sheet, at: list[float]) -> None:
+    """Seen on the far side too, with a dashed ring about it that says so."""
+    x, y, depth = sheet.at(at)
+    ink = sheet.colour(theme.INK)
+    sheet.dot(x, y, 6.5, markerfacecolor=theme.POINT, markeredgecolor=ink, markeredgewidth=0.9)
+    if depth < 0.0:
+        radius = 6.6 * sheet.point
+        angles = np.linspace(0.0, 2.0 * np.pi, 49)
+        sheet.frame.plot(x + radius * np.cos(angles), y + radius * np.sin(angles), color=ink, linewidth=0.9,
+                         linestyle=(0, (2.2, 2.1)), zorder=sheet.above())

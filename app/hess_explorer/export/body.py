@@ -1,0 +1,214 @@
+"""The body in space as a figure: what is far of it is drawn before it, what is near after it, as `body.js` does."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from hess_explorer.export import solid
+from hess_explorer.export.moment import between
+from hess_explorer.export.sheet import LOOKS, Look, Sheet, circle, seen
+from hess_explorer.views import theme
+from hess_explorer.views.layers import Columns
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["Body", "placing"]
+
+_TRAIL, _PIECES = 160, 16
+_WHEEL, _THICK = 0.15, 0.024
+_CAVITY, _INNER = 0.62, 0.26
+_BALL = 0.055
+"""Radius of the ball at the end of a rod with a mass."""
+_SHADES = 320
+"""Pixels of the shading on a side."""
+_COLUMNS = ("g1", "g2", "g3", "e1", "e2", "e3")
+
+Place = Callable[[Any], Array]
+
+
+def placing(attitude: Columns, t: float) -> Array:
+    """The rotation (3, 3) that takes directions of the body to the axes of the picture: e, γ × −e and upwards, −γ.
+
+    attitude : the columns t, γ and e along the motion, orthonormal at the samples.
+    """
+    i, s = between(attitude["t"], t)
+    return _turned([float(attitude[name][i] + s * (attitude[name][i + 1] - attitude[name][i])) for name in _COLUMNS])
+
+
+def _turned(directions: Any) -> Array:
+    """The same from γ and e, whatever straight lines between samples have made of them."""
+    g, raw = np.array(directions[:3]), np.array(directions[3:])
+    g = g / np.linalg.norm(g)
+    e = raw - (g @ raw) * g
+    e /= np.linalg.norm(e)
+    return np.stack([e, -np.cross(g, e), -g])
+
+
+class Body:
+    """A body at a time, to be drawn on a sheet: `half(False)`, `middle()`, `half(True)`.
+
+    own : the columns of its picture; attitude : those with its motion, {} where it has none.
+    """
+
+    def __init__(self, sheet: Sheet, own: Columns, attitude: Columns, t: float) -> None:
+        self.sheet, self.own = sheet, own
+        self.turn: Array | None = None
+        self.path = np.empty((0, 3))
+        semi = own.get("semi", ())
+        if len(attitude.get("t", ())) > 1:
+            self.turn = placing(attitude, t)
+            if own.get("trail"):
+                self.path = self._path(attitude, t)
+        self.semi = np.array(semi, float)
+        # The principal axes in space and in the view.
+        self.axes = np.array(own["axes"]) @ self.turn.T if self.turn is not None and len(semi) == 3 else None
+        self.seen = None if self.axes is None else seen(self.axes, *sheet.view)
+
+    def _path(self, attitude: Columns, t: float) -> Array:
+        tip, (i, _) = np.array(self.own["trail"][:3], float), between(attitude["t"], t)
+        samples = np.column_stack([attitude[name][max(0, i - _TRAIL) : i + 1] for name in _COLUMNS])
+        assert self.turn is not None
+        return np.array([*(_turned(one) @ tip for one in samples), self.turn @ tip])
+
+    def half(self, near: bool) -> None:
+        """All of it on this side but the solid itself."""
+        for look, weight, *curve in self.own.get("curves", ()):
+            ink, dash, usual = LOOKS[look]
+            self.sheet.stroke(np.array(curve).T, (ink, dash, 0.6 * weight or usual), near, 1.0 if near else 0.45)
+        if self.turn is None:
+            return
+        self._trail(near)
+        if near and self.seen is not None and len(self.own.get("section", ())) == 4:
+            self._section()
+        self._principal_axes(near)
+        self._wheels(near)
+        for x, y, z, look, label in self.own.get("rods", ()):
+            self._rod(self.turn @ np.array([x, y, z]), LOOKS[look], label, near, ball=look == "mass")
+        if len(self.own.get("axis", ())) == 3 and self.sheet.is_near(self.own["axis"]) == near:
+            self._arrow(np.array(self.own["axis"]), self.own.get("label", ""))
+
+    def middle(self) -> None:
+        """The body itself, between both halves."""
+        if self.seen is None:
+            return
+        hollow = bool(self.own.get("hollow"))
+        if hollow:
+            self._inside()
+        solid.paint(self.sheet, self.seen, self.semi, hollow, _SHADES)
+
+    def _inside(self) -> None:
+        """The cavity of a ball of glass, and the ball that it rolls on."""
+        sheet = self.sheet
+        from matplotlib.patches import Circle
+
+        sheet.frame.add_patch(Circle((0.0, 0.0), _CAVITY, facecolor="none", edgecolor=sheet.colour(theme.INK),
+                                     linewidth=0.7, alpha=0.5, zorder=sheet.above()))
+        x, y, _ = sheet.at((0.0, 0.0, _INNER - _CAVITY))
+        self._ball(x, y, _INNER, "#9AA0AA")
+        x, y, _ = sheet.at((0.0, 0.0, -_CAVITY))
+        sheet.dot(x, y, 3.0, color=sheet.colour(theme.INK))
+
+    def _ball(self, x: float, y: float, radius: float, colour: str) -> None:
+        from matplotlib.patches import Circle
+
+        sheet = self.sheet
+        sheet.frame.add_patch(Circle((x, y), radius, facecolor=sheet.colour(colour), edgecolor=sheet.colour(theme.INK),
+                                     linewidth=0.9, zorder=sheet.above()))
+        # The light comes over the left shoulder of whoever looks.
+        sheet.frame.add_patch(Circle((x - 0.35 * radius, y + 0.38 * radius), 0.28 * radius, facecolor="white",
+                                     edgecolor="none", alpha=0.85, zorder=sheet.above()))
+
+    def _trail(self, near: bool) -> None:
+        count, most = len(self.path), _TRAIL // _PIECES
+        if not count:
+            return
+        ink, dash, _ = LOOKS[self.own["trail"][3]]
+        for k in range(_PIECES):
+            # The newest piece ends at the point itself.
+            first, last = max(0, count - 1 - (k + 1) * most), count - 1 - k * most
+            if last < 1:
+                break
+            share = 1.0 - k / _PIECES
+            self.sheet.stroke(self.path[first : last + 1], (ink, dash, 0.7 + 1.4 * share), near,
+                              (1.0 if near else 0.4) * share)
+
+    def _section(self) -> None:
+        """The circular section, where the surface there looks to the eye."""
+        assert self.axes is not None
+        assert self.turn is not None
+        *normal, radius = self.own["section"]
+        ring = circle(self.turn @ np.array(normal), 0.0)
+        sides = (ring @ self.axes.T / self.semi**2) @ self.axes
+        self.sheet.stroke(radius * ring, (LOOKS["second"][0], "-", 1.5), True, sides=sides)
+
+    def _principal_axes(self, near: bool) -> None:
+        if self.axes is None:
+            return
+        for axis, length, name in zip(self.axes, self.semi + 0.1, self.own["names"], strict=True):
+            if name:
+                for sign in (1.0, -1.0):
+                    self._rod(sign * length * axis, (theme.INK, "-", 1.2), name if sign > 0.0 else "", near)
+
+    def _rod(self, to: Array, look: Look, label: str, near: bool, ball: bool = False) -> None:
+        """From the surface to its end, on the side where it leaves that."""
+        sheet = self.sheet
+        at, is_near = (0.0, sheet.is_near(to)) if self.seen is None else solid.leaves(
+            self.seen, self.semi, seen(to[None, :], *sheet.view)[0])
+        if is_near != near or at >= 1.0:
+            return
+        sheet.line(0.99 * at * to, to, look)
+        x, y, _ = sheet.at(to)
+        if ball:
+            self._ball(x, y, _BALL, look[0])
+        right, up, _ = sheet.at((1.0 + 0.12 / float(np.linalg.norm(to))) * to)
+        if ball:
+            # Beyond the ball, also where the rod points to the eye.
+            far = math.hypot(x, y)
+            along = (x / far, y / far) if far > 0.1 else (0.7, 0.7)
+            right, up = (at + (2.5 * _BALL) * one for at, one in zip((x, y), along, strict=True))
+        # What is half hidden cannot be read.
+        if near or self.seen is None or not solid.covers(self.seen, self.semi, right, up, 0.05):
+            sheet.write(label, right, up)
+
+    def _wheels(self, near: bool) -> None:
+        if len(self.own.get("wheels", ())) != 6:
+            return
+        assert self.turn is not None
+        at, e = np.array(self.own["wheels"]).reshape(2, 3) @ self.turn.T
+        for touching in (at, -at):
+            self._rod((1.0 - _WHEEL) * touching, (theme.INK, "-", 1.8), "", near)
+            if self.sheet.is_near(touching) == near:
+                self._wheel(touching, e)
+
+    def _wheel(self, touching: Array, e: Array) -> None:
+        sheet = self.sheet
+        axle = np.cross(touching, e)
+        axle /= np.linalg.norm(axle)
+        side = _THICK if sheet.is_near(axle) else -_THICK
+        rim, middle, ink = circle(axle, 0.0)[::4], (1.0 - _WHEEL) * touching, sheet.colour(theme.INK)
+
+        def disc(along: float, size: float, face: str) -> None:
+            x, y, _ = seen(middle + along * axle + size * rim, *sheet.view).T
+            sheet.frame.fill(x, y, facecolor=face, edgecolor=ink, linewidth=1.3, joinstyle="round",
+                             zorder=sheet.above())
+
+        # The tread is what its discs cover.
+        for along in (-side, -0.6 * side, -0.2 * side, 0.2 * side, 0.6 * side):
+            disc(along, _WHEEL, ink)
+        disc(side, _WHEEL, "#EEEEEE")
+        disc(side, 0.25 * _WHEEL, ink)
+
+    def _arrow(self, along: Array, label: str) -> None:
+        """From the sphere outwards, with the label beside its head."""
+        sheet = self.sheet
+        sheet.line(1.02 * along, 1.15 * along, (theme.INK, "-", 1.5))
+        (x, y, _), (x0, y0, _) = sheet.at(1.15 * along), sheet.at(1.02 * along)
+        if math.hypot(x - x0, y - y0) > 3.0 * sheet.point:
+            angle, size = math.atan2(y - y0, x - x0), 4.2 * sheet.point
+            corners = np.array([[math.cos(angle + turned), math.sin(angle + turned)] for turned in (0.0, 2.4, -2.4)])
+            sheet.frame.fill(*(np.array([x, y]) + size * corners).T, color=sheet.colour(theme.INK), linewidth=0,
+                             zorder=sheet.above())
+        sheet.write(label, x + (8.0 + 2.8 * len(label)) * sheet.point, y)

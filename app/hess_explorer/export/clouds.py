@@ -1,0 +1,61 @@
+"""Clouds of phase points as figures, on the plane of ω1 and ω2 and on the sphere: pixels in a vector file too."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from hess_explorer.export.moment import Cloud, clouds_at
+from hess_explorer.export.sheet import LOOKS, Colour, Sheet, seen
+from hess_explorer.export.shown import Shown
+from hess_explorer.views import theme
+from hess_explorer.views.cloud import CloudPlane
+from hess_mechanics.numerics.results import Array
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes as Frame
+
+__all__ = ["draw_moving", "draw_still", "on_sphere"]
+
+_COLOURS = (theme.ORBIT, theme.MAP)
+_SIDE = 0.9
+"""Of a point, in points of type."""
+
+
+def draw_still(frame: Frame, shown: Shown, colour: Colour) -> None:
+    """The axes, σ1 and σ2, the line of equilibria and the ends of its halves."""
+    picture, axes = shown.picture, shown.axes
+    assert isinstance(picture, CloudPlane)
+    assert axes is not None
+    frame.set(xlim=axes.x, ylim=axes.y, box_aspect=1.0, xlabel="ω₁", ylabel="ω₂")
+    own = shown.columns.get(picture.name, {})
+    for look, x, y in own.get("curves", ()):
+        ink, dash, weight = LOOKS[look]
+        frame.plot(x, y, color=colour(ink), linestyle=dash, linewidth=weight)
+    for look, a, b in own.get("points", ()):
+        ink = colour(LOOKS[look][0])
+        frame.plot([a], [b], marker="o", markersize=5.0, markeredgecolor=ink, markeredgewidth=1.5,
+                   markerfacecolor="none" if look == "unstable" else ink, linestyle="none")
+
+
+def draw_moving(frame: Frame, shown: Shown, colour: Colour, t: float) -> None:
+    """The clouds at a time, over the points of rest: there all of a cloud may end."""
+    for cloud, ink in zip(clouds_at(shown.columns.get(shown.picture.name, {}), t), _COLOURS, strict=False):
+        _dots(frame, cloud.omega, colour(ink), 3.0)
+
+
+def on_sphere(sheet: Sheet, clouds: Sequence[Cloud], near: bool) -> None:
+    """The half of the points that is near, or far."""
+    for cloud, ink in zip(clouds, _COLOURS, strict=False):
+        x, y, depth = seen(cloud.gamma, *sheet.view).T
+        there = (depth >= 0.0) == near
+        _dots(sheet.frame, np.column_stack([x, y])[there], sheet.colour(ink), sheet.above(), 1.0 if near else 0.3)
+
+
+def _dots(frame: Frame, places: Array, colour: str, order: float, faint: float = 1.0) -> None:
+    # The fewer, the darker.
+    alpha = faint * float(np.clip(4300.0 / max(1, len(places)), 0.43, 0.9))
+    frame.plot(*places.T, linestyle="none", marker="s", markersize=_SIDE, markeredgewidth=0, color=colour, alpha=alpha,
+               zorder=order, rasterized=True)

@@ -1,0 +1,145 @@
+"""What everything on a sphere is drawn with: projection, lines of its near and far half, labels beside each other."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from hess_explorer.views import theme
+from hess_mechanics.numerics.results import Array
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes as Frame
+
+__all__ = ["LOOKS", "ROOM", "Colour", "Look", "Sheet", "circle", "graticule", "seen"]
+
+Colour = Callable[[str], str]
+Point = Sequence[float] | Array
+"""(3,)."""
+Look = tuple[str, Any, float]
+"""Colour, dash, weight in points."""
+
+ROOM = 1.25
+"""Half of the side of the picture, in radii of the sphere."""
+
+LOOKS: dict[str, Look] = {
+    "orbit": (theme.ORBIT, "-", 1.3), "second": (theme.MAP, "-", 1.3), "stable": (theme.STABLE, "-", 1.8),
+    "unstable": (theme.UNSTABLE, (0, (5, 3)), 1.8), "limit": (theme.INK, (0, (2, 3)), 0.7),
+    "muted": (theme.MUTED, "-", 0.7), "axis": (theme.INK, "-", 1.5), "mass": (theme.POINT, "-", 1.8)}
+"""By the names of `Circle`, `Mark`, `Rod`, `Trail` and the tracks."""
+_ANGLES = np.linspace(0.0, 2.0 * math.pi, 181)
+_ASIDE = ((0, 0), (0, -1), (0, 1), (1, 0), (-1, 0), (1, -1), (-1, -1))
+"""Where a label goes whose place is taken: below, above, to the right, to the left."""
+
+
+def seen(points: Array, azimuth: float, elevation: float) -> Array:
+    """(n, 3) in the axes of the picture → to the right, upwards, towards the eye."""
+    ca, sa, ce, se = math.cos(azimuth), math.sin(azimuth), math.cos(elevation), math.sin(elevation)
+    turned: Array = points @ np.array([[-sa, ca, 0.0], [-se * ca, -se * sa, ce], [ce * ca, ce * sa, se]]).T
+    return turned
+
+
+def circle(axis: Array, height: float) -> Array:
+    """The circle (γ, axis) = height on the unit sphere, (n, 3)."""
+    axis = axis / np.linalg.norm(axis)
+    across = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis))])
+    across /= np.linalg.norm(across)
+    radius = math.sqrt(max(0.0, 1.0 - height**2))
+    turned: Array = height * axis + radius * (
+        np.cos(_ANGLES)[:, None] * across + np.sin(_ANGLES)[:, None] * np.cross(axis, across))
+    return turned
+
+
+def graticule() -> Iterator[Array]:
+    """Three parallels and six meridians."""
+    for height in (-0.5, 0.0, 0.5):
+        yield circle(np.array([0.0, 0.0, 1.0]), height)
+    for angle in np.arange(3) * math.pi / 3.0:
+        yield circle(np.array([-math.sin(angle), math.cos(angle), 0.0]), 0.0)
+
+
+class Sheet:
+    """A frame of Matplotlib in which a sphere of radius 1 is seen from a direction: azimuth and elevation in radians.
+
+    What is drawn later lies above what was drawn before; lengths of type are in points, all others in radii.
+    """
+
+    def __init__(self, frame: Frame, view: tuple[float, float], colour: Colour) -> None:
+        self.frame, self.view, self.colour = frame, view, colour
+        self._order = 1.0
+        figure = frame.get_figure(root=True)
+        assert figure is not None
+        self.point = 2.0 * ROOM / (72.0 * figure.get_figwidth())
+        """Radii of the sphere in a point of type."""
+        self._taken: list[tuple[float, float, float]] = []
+
+    def prepare(self) -> None:
+        """The place of the sphere, without axes."""
+        self.frame.set(xlim=(-ROOM, ROOM), ylim=(-ROOM, ROOM), aspect="equal")
+        self.frame.set_axis_off()
+
+    def start(self, order: float) -> None:
+        """What follows lies above that."""
+        self._order = order
+
+    def above(self) -> float:
+        """The order of what is drawn next."""
+        self._order += 0.001
+        return self._order
+
+    def at(self, point: Point) -> tuple[float, float, float]:
+        """A point (3,) as it is seen."""
+        (x, y, depth), = seen(np.asarray(point, float)[None, :], *self.view)
+        return float(x), float(y), float(depth)
+
+    def is_near(self, point: Point) -> bool:
+        """Whether it lies on this side of the middle."""
+        return self.at(point)[2] >= 0.0
+
+    def outline(self) -> None:
+        """Of the sphere."""
+        self.frame.plot(np.cos(_ANGLES), np.sin(_ANGLES), color=self.colour(theme.INK), linewidth=0.6, alpha=0.5,
+                        zorder=self.above())
+
+    def stroke(self, curve: Array, look: Look, near: bool, alpha: float = 1.0, sides: Array | None = None) -> None:
+        """A curve (n, 3) where it, or the sides (n, 3), are on this half."""
+        ink, dash, weight = look
+        place, depth = seen(curve, *self.view), seen(curve if sides is None else sides, *self.view)[:, 2]
+        at = np.flatnonzero((depth[1:] + depth[:-1] >= 0.0) == near)
+        order = self.above()
+        for run in np.split(at, np.flatnonzero(np.diff(at) > 1) + 1):
+            if run.size:
+                part = place[run[0] : run[-1] + 2]
+                self.frame.plot(part[:, 0], part[:, 1], color=self.colour(ink), linestyle=dash, linewidth=weight,
+                                alpha=alpha, zorder=order)
+
+    def line(self, start: Point, end: Point, look: Look, alpha: float = 1.0) -> None:
+        """A straight one, all of it."""
+        (x0, y0, _), (x1, y1, _) = self.at(start), self.at(end)
+        self.frame.plot((x0, x1), (y0, y1), color=self.colour(look[0]), linewidth=look[2], alpha=alpha,
+                        solid_capstyle="round", zorder=self.above())
+
+    def dot(self, x: float, y: float, size: float, **style: Any) -> None:
+        """A disc of so many points across, in the plane of the picture."""
+        self.frame.plot([x], [y], marker="o", markersize=size, linestyle="none", zorder=self.above(), **style)
+
+    def write(self, label: str, x: float, y: float, alpha: float = 1.0) -> None:
+        """In the plane of the picture: whole, also at its edge, and beside any other label."""
+        if not label:
+            return
+        from matplotlib import rcParams
+
+        size = float(rcParams["font.size"])
+        across, up = 0.31 * size * len(label) * self.point, 0.62 * size * self.point
+        places = [(min(max(x + a * (across + size * self.point), across - ROOM), ROOM - across),
+                   min(max(y + 2.05 * b * up, up - ROOM), ROOM - up)) for a, b in _ASIDE]
+        free = (place for place in places if all(
+            abs(place[0] - other) >= across + wide or abs(place[1] - high) >= 2.0 * up
+            for other, high, wide in self._taken))
+        left, top = next(free, places[0])
+        self._taken.append((left, top, across))
+        self.frame.text(left, top, label, ha="center", va="center", color=self.colour(theme.INK), alpha=alpha,
+                        zorder=self.above())

@@ -1,0 +1,65 @@
+"""The table of formats × pictures: every picture of every scene in every format."""
+
+from __future__ import annotations
+
+import io
+import json
+import math
+import xml.etree.ElementTree as ET
+from html import escape
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+from PIL import Image
+
+from hess_explorer.export.figure import FORMATS, STYLE, draw, saved
+from hess_explorer.export.shown import shown
+from hess_explorer.export.table import as_csv, as_json
+from hess_explorer.protocol.parameters import encode
+from hess_explorer.scenes import scenes
+from support.exported import read
+
+PICTURES = [(name, picture) for name, scene in scenes().items() if scene.origin is None for picture in scene.pictures]
+ELSEWHERE = {("suslov", "conformal"): "On a principal axis"}
+"""Pictures that are empty at first, and the examples that fill them."""
+
+
+@pytest.mark.parametrize(("scene", "picture"), PICTURES)
+def test_every_picture_is_there_in_every_format(scene, picture):
+    wanted = ELSEWHERE.get((scene, picture))
+    example = next((one.values for one in scenes()[scene].presets if wanted and one.name.startswith(wanted)), {})
+    values = {**scenes()[scene].defaults(), **example, "accuracy": "draft"}
+    found = shown(encode(scene, values), picture)
+    assert_numbers(found, values)
+    # Small, laid out once, and with outlines of letters in the PDF: embedding a font takes three times as long as all
+    # of this; "test_figure" has the whole files.
+    with mpl.rc_context({**STYLE, "pdf.fonttype": 3}):
+        figure = draw(found, 20.0)
+        figure.set_layout_engine("none")
+        files = {kind: saved(figure, found, kind) for kind in FORMATS}
+    drawn = Image.open(io.BytesIO(files["png"]))
+    assert found.said in drawn.info["Description"]
+    ink = np.asarray(drawn.convert("L")) < 200
+    # Something inside the frame: the plain frame with its ticks and names is on the outer fifth.
+    inner = ink[ink.shape[0] // 5 : -ink.shape[0] // 5, ink.shape[1] // 5 : -ink.shape[1] // 5]
+    assert inner.mean() > 0.002
+    svg = files["svg"].decode()
+    assert ET.fromstring(svg).tag.endswith("svg")
+    assert escape(found.said, quote=False) in svg
+    assert files["pdf"].startswith(b"%PDF")
+    assert files["pdf"].rstrip().endswith(b"%%EOF")
+
+
+def assert_numbers(found, values):
+    """The tables have finite numbers, the facts, and a link that leads back."""
+    facts, table = read(as_csv(found))
+    whole = json.loads(as_json(found), parse_constant=pytest.fail)
+    assert {"link", "parameters", "status", "program", "caption"} <= facts.keys() & whole.keys()
+    assert facts["parameters"] == whole["parameters"] == values
+    assert shown(facts["link"], found.picture.name).values == values
+    assert facts["status"][0] == "accuracy: draft"
+    numbers = [float(value) for row in table for name, value in row.items() if value and name not in ("layer", "text")]
+    assert len(numbers) > 10 or whole["caption"]
+    assert all(map(math.isfinite, numbers))
+    assert {row["layer"] for row in table} <= whole["layers"].keys()

@@ -1,0 +1,160 @@
+"""Bodies and clouds in figures, at the time and the turn of the link: against closed forms and SciPy."""
+
+from __future__ import annotations
+
+import io
+import math
+
+import numpy as np
+import pytest
+from matplotlib.patches import Circle, Ellipse
+from PIL import Image
+from scipy.integrate import solve_ivp
+
+from hess_explorer.export import solid
+from hess_explorer.export.figure import as_file, draw
+from hess_explorer.export.moment import clouds_at, density_at
+from hess_explorer.export.shown import shown
+
+DRAFT = "accuracy=draft"
+BODY = "I22=0.96&I23=0.28&b3=-1&h=1.5&f=0.6&phi0=0.5&span=10&accuracy=reference"
+AXES = np.linalg.qr(np.random.default_rng(5).normal(size=(3, 3)))[0]
+SEMI = np.array([0.8, 0.5, 0.3])
+
+
+def on_surface(count=20_000):
+    """Points of the ellipsoid's surface in the view, (count, 3)."""
+    directions = np.random.default_rng(6).normal(size=(count, 3))
+    return (directions / np.linalg.norm(directions, axis=1, keepdims=True) * SEMI) @ AXES
+
+
+def test_the_outline_of_an_ellipsoid_is_the_edge_of_its_points():
+    a, b, angle = solid.outline(AXES, SEMI)
+    x, y, _ = on_surface().T
+    c, s = math.cos(angle), math.sin(angle)
+    reach = np.hypot((c * x + s * y) / a, (c * y - s * x) / b)
+    assert reach.max() <= 1.0 + 1e-12
+    # And it touches them all round.
+    turns = np.floor((np.arctan2(c * y - s * x, c * x + s * y) + math.pi) / (math.pi / 6.0)).astype(int) % 12
+    assert min(reach[turns == k].max() for k in range(12)) > 0.999
+    assert solid.covers(AXES, SEMI, 0.9 * a * c, 0.9 * a * s)
+    assert not solid.covers(AXES, SEMI, 1.1 * a * c, 1.1 * a * s)
+    for point in on_surface(20):
+        at, _ = solid.leaves(AXES, SEMI, 3.0 * point)
+        assert at == pytest.approx(1.0 / 3.0)
+
+
+def test_the_shading_is_that_of_the_surface_that_is_seen_and_no_other():
+    side = 64
+    colours, width, height = solid.shaded(AXES, SEMI, ("#FF0000", "#0000FF"), side)
+    points = on_surface(200_000)
+    # Of the points in each pixel, the one nearest to the eye.
+    columns, rows = ((points[:, i] / half + 1.0) * side / 2.0 for i, half in ((0, width), (1, height)))
+    assert max(columns.max(), rows.max()) <= side * (1.0 + 1e-9)
+    order = np.argsort(points[:, 2])
+    nearest = np.full((side, side), -1)
+    nearest[np.minimum(rows[order].astype(int), side - 1), np.minimum(columns[order].astype(int), side - 1)] = order
+    signs = np.prod(np.sign(points @ AXES.T), axis=1)
+    inside = nearest >= 0
+    even = colours[..., 0] > colours[..., 2]
+    # All but the pixels at the borders of octants.
+    assert np.mean(even[inside] == (signs[nearest[inside]] > 0)) > 0.93
+    assert colours.min() >= 0.0
+    assert colours.max() <= 1.0
+
+
+@pytest.mark.parametrize("t", [0.0, 3.7, 10.0])
+def test_the_centre_of_mass_is_where_the_motion_has_it(t):
+    """Seen along the axis y of the picture: to the right r·e, e fixed in space, upwards −r·γ."""
+    found = shown(f"{BODY}&t={t}&az={-0.5 * math.pi}&el=0", "body")
+    I11, I22, I23 = 0.96 + 0.28**2 / 0.96, 0.96, 0.28
+    b = np.array([0.0, I23 / I22, -1.0])
+    r = -b / np.linalg.norm(b)
+
+    def right_side(_, y):
+        w, g, e = np.array([y[0], y[1], 0.0]), y[2:5], y[5:]
+        M = np.array([I11 * w[0], I22 * w[1], I23 * w[1]])
+        torque = np.cross(M, w) + np.cross(g, b)
+        return [torque[0] / I11, torque[1] / I22, *np.cross(g, w), *np.cross(e, w)]
+
+    track, own = found.columns["data-orbit"], found.columns["body"]
+    start = [*(track[name][0] for name in ("omega1", "omega2", "g1", "g2", "g3")),
+             *(own[name][0] for name in ("e1", "e2", "e3"))]
+    run = solve_ivp(right_side, (0.0, t), start, rtol=1e-11, atol=1e-12) if t else None
+    gamma, e = (start[2:5], start[5:]) if run is None else (run.y[2:5, -1], run.y[5:, -1])
+    balls = [patch for patch in draw(found).axes[0].patches if isinstance(patch, Circle) and patch.radius > 0.05]
+    assert len(balls) == 1
+    # The track and the attitude are sampled for half a pixel.
+    assert balls[0].center == pytest.approx((r @ e, -r @ gamma), abs=2e-3)
+
+
+def test_a_body_has_its_ellipsoid_its_section_its_wheels_and_its_trail():
+    frame = draw(shown(f"{BODY}&t=6", "body")).axes[0]
+    ellipses = [patch for patch in frame.patches if isinstance(patch, Ellipse) and not isinstance(patch, Circle)]
+    assert len(ellipses) == 1
+    assert len(frame.images) == 1
+    # At this time both rods are behind the body.
+    texts = {text.get_text() for text in draw(shown(BODY, "body")).axes[0].texts}
+    assert {"e", "r", "γ, gravity"} <= texts
+    # The trail is newer where it is wider.
+    widths = {round(line.get_linewidth(), 3) for line in frame.lines if line.get_color() == "#0072B2"}
+    assert len(widths) > 5
+    # Discs of two wheels, of seven each, and the head of the arrow.
+    assert len(frame.patches) - len(ellipses) - 2 == 2 * 7 + 1
+    assert len(draw(shown("scene=chaplygin-ball&accuracy=draft", "body")).axes[0].images) == 1
+
+
+def test_in_black_a_body_is_grey():
+    found = shown(f"{DRAFT}&t=2", "body")
+    red, green, blue = np.asarray(
+        Image.open(io.BytesIO(as_file(found, "png", 30.0, True))).convert("RGB"), int).reshape(-1, 3).T
+    assert np.max(np.abs(red - green)) == np.max(np.abs(red - blue)) == 0
+    assert 0.05 < np.mean((red > 60) & (red < 230)) < 0.6
+
+
+def rates(body):
+    """ω̇ and γ̇ of the ball without a field: Îω̇ = s (−ω2, ω1), s = I13ω1 + I23ω2, Î = I + 𝒟(E − γγᵀ) in the plane."""
+    I11, I22, I13, I23, D, _ = body
+
+    def right_side(_, y):
+        w1, w2, *gamma = y
+        g = np.array(gamma)
+        tensor = np.diag([I11, I22]) + D * (g @ g * np.eye(2) - np.outer(g[:2], g[:2]))
+        s = I13 * w1 + I23 * w2
+        return [*np.linalg.solve(tensor, s * np.array([-w2, w1])), *np.cross(g, [w1, w2, 0.0])]
+
+    return right_side
+
+
+def test_clouds_between_two_frames_are_where_the_motion_takes_them():
+    found = shown("scene=singular-measures&points=1000&accuracy=precise", "omega")
+    columns = found.columns["omega"]
+    times = columns["times"]
+    before, after = float(times[3]), float(times[4])
+    middle = 0.5 * (before + after)
+    (start,), (there,) = clouds_at(columns, before), clouds_at(columns, middle)
+    right_side = rates(columns["body"])
+    for i in range(0, 1000, 97):
+        run = solve_ivp(right_side, (0.0, middle - before), [*start.omega[i], *start.gamma[i]], rtol=1e-10, atol=1e-12)
+        half = columns["half"]
+        # To a pixel of pictures 600 pixels wide.
+        assert there.omega[i] == pytest.approx(run.y[:2, -1], abs=half / 300.0)
+        assert there.gamma[i] == pytest.approx(run.y[2:, -1], abs=1.0 / 300.0)
+    s = np.abs(there.omega @ columns["body"][2:4])
+    assert s == pytest.approx(np.exp(there.log_s), rel=1e-9)
+    at, share = density_at(columns, middle)
+    first, wide, _ = columns["bins"]
+    for x, y in zip(at, share, strict=True):
+        k = math.floor((math.log(x) - first) / wide)
+        low, high = math.exp(first + k * wide), math.exp(first + (k + 1) * wide)
+        assert y * wide * x * 1000 == pytest.approx(np.sum((s >= low) & (s < high)), abs=1e-6)
+
+
+@pytest.mark.parametrize("picture", ["omega", "sphere"])
+def test_the_points_of_a_cloud_are_pixels_in_a_vector_file(picture):
+    found = shown(f"scene=singular-measures&points=10000&t=2&{DRAFT}", picture)
+    svg = as_file(found, "svg")
+    assert b"<image" in svg
+    assert len(svg) < 400_000
+    lines = [line for line in draw(found).axes[0].lines if line.get_rasterized()]
+    assert sum(len(line.get_xdata()) for line in lines) == len(found.columns["omega"]["signs0"])
