@@ -24,6 +24,7 @@ from hess_explorer.commands import (
     section,
     serve,
     shot,
+    sweep,
 )
 
 __all__ = ["main"]
@@ -49,7 +50,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"hess-explorer {_version()}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     for command in (serve, circle_map, orbit, period, section, scattering, rotation_number, lyapunov, basins, cloud,
-                    export, shot, bench):
+                    export, sweep, shot, bench):
         command.add(commands)
     return parser
 
@@ -81,8 +82,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     except CommandError as error:
         print(f"hess-explorer: {error}", file=sys.stderr)
         return 2
-    except KeyboardInterrupt:
-        print("hess-explorer: interrupted.", file=sys.stderr)
+    except KeyboardInterrupt as error:
+        print(f"hess-explorer: {str(error) or 'interrupted.'}", file=sys.stderr)
         return 130
     return 0
 

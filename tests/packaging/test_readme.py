@@ -14,7 +14,8 @@ from support.mechanics import ROOT
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 DOCUMENTS = [ROOT / name for name in (
     "README.md", "app/README.md", "models/README.md", "app/hess_explorer/benchmark/README.md", "tests/models/README.md",
-    "tests/benchmarks/README.md", ".github/CONTRIBUTING.md", ".github/CHANGELOG.md")]
+    "tests/benchmarks/README.md", "app/hess_explorer/sweep/README.md", ".github/CONTRIBUTING.md",
+    ".github/CHANGELOG.md")]
 MEASURED = {
     "tests/models/README.md": "tests/models/test_extremes.py",
     "tests/benchmarks/README.md": "tests/benchmarks/benchmark_page.py",
@@ -68,7 +69,7 @@ def test_the_python_of_the_readme_runs(capsys):
 def test_there_are_commands():
     assert {words[0] for words in COMMANDS} == {
         "circle-map", "orbit", "section", "scattering", "rotation-number", "lyapunov", "shot", "bench", "serve",
-        "period", "basins", "cloud", "export"}
+        "period", "basins", "cloud", "export", "sweep"}
 
 
 @pytest.mark.parametrize("words", COMMANDS, ids=lambda words: words[0])

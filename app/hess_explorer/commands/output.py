@@ -105,8 +105,9 @@ def _json(value: Any) -> str:
 
 
 def _row(cells: Sequence[Any]) -> str:
-    flat = [number for cell in cells for number in (cell if isinstance(cell, list) else [cell])]
-    return ",".join("" if number is None else repr(number) for number in flat)
+    flat = [one for cell in cells for one in (cell if isinstance(cell, list) else [cell])]
+    # Words have no commas.
+    return ",".join("" if one is None else one if isinstance(one, str) else repr(one) for one in flat)
 
 
 def show(data: bytes) -> None:

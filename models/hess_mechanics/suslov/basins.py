@@ -14,11 +14,15 @@ from itertools import pairwise
 
 import numpy as np
 
+from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.section import SuslovSection, Window, mean_divergence
 
-__all__ = ["Contraction", "contraction", "contraction_at", "groups", "groups_of_cells", "middle_cells", "middles"]
+__all__ = [
+    "Contraction", "contraction", "contraction_at", "count_attractors", "groups", "groups_of_cells", "middle_cells",
+    "middles",
+]
 
 _NARROWEST = 1e-3
 """Averages closer than this are the same."""
@@ -106,3 +110,15 @@ def contraction_at(section: SuslovSection, window: Window, cells: tuple[int, int
 def _width(part: Array) -> float:
     low, high = np.quantile(part, [0.1, 0.9])
     return float(high - low)
+
+
+def count_attractors(section: SuslovSection, cells: tuple[int, int], crossings: int, span: float, level: Level) -> int:
+    """How many of the groups of a whole section attract, from the orbits of cells (m, n) across and up.
+
+    crossings : of each orbit; span : the time over which the divergence of one motion of each group is averaged.
+    0 where no motion is possible.  Raises `InvalidParameter`, `WorkLimit`.
+    """
+    window = ((-math.pi, 0.0), (math.pi, math.pi))
+    ends = np.array([section.ends(window, cells, row, crossings, level=level) for row in range(cells[1])])
+    return sum(contraction_at(section, window, cells, *cell, span).attracts
+               for cell in middle_cells(ends, groups_of_cells(ends)))

@@ -1,0 +1,39 @@
+"""Sweeps: a quantity of a system over one to three parameters, on one core or a thousand, stopped and gone on with.
+
+>>> from hess_explorer.sweep import sweep
+>>> sweep("cos-chi", over={"I11": (1.0, 3.0, 5)}).cos_chi.shape
+(5,)
+
+`QUANTITIES` lists what can be swept.  Needs the extra "sweep": pip install 'hess-explorer[sweep]'.
+"""
+
+from hess_explorer.sweep.errors import (
+    Interrupted,
+    MissingLibrary,
+    NoValue,
+    OtherSweep,
+    StoreError,
+    WorkersLost,
+)
+from hess_explorer.sweep.progress import Progress
+from hess_explorer.sweep.quantities import QUANTITIES
+from hess_explorer.sweep.quantity import Outcome, Parameter, Quantity
+from hess_explorer.sweep.result import read
+from hess_explorer.sweep.run import explain, sweep
+
+__all__ = [
+    "QUANTITIES",
+    "Interrupted",
+    "MissingLibrary",
+    "NoValue",
+    "OtherSweep",
+    "Outcome",
+    "Parameter",
+    "Progress",
+    "Quantity",
+    "StoreError",
+    "WorkersLost",
+    "explain",
+    "read",
+    "sweep",
+]

@@ -1,0 +1,152 @@
+"""The cells of a sweep: axes, parameters that stay, and boxes of cells, each of which is one piece of work."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+
+from hess_explorer.sweep.quantity import Cells, Parameter, Quantity
+from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["HARD_LIMIT", "MAX_NUMBERS", "Axis", "Box", "Grid", "expanded"]
+
+MAX_NUMBERS = 10_000_000
+"""Of a sweep, unless more are allowed by name: 90 MB, in memory or on disk."""
+HARD_LIMIT = 10_000_000_000
+_MOST_AXES = 3
+
+Axis = tuple[float, float, int] | Sequence[float] | Array
+"""(low, high, count), a tuple whose last is a whole number: even places, both ends included; else the values."""
+
+Box = tuple[tuple[int, int], ...]
+"""Of each axis, the first index and the one behind the last."""
+
+
+@dataclass(frozen=True)
+class Grid:
+    """The product of some axes, by name, and the value of each other parameter."""
+
+    axes: Mapping[str, Array]
+    fixed: Mapping[str, float]
+
+    @classmethod
+    def of(cls, quantity: Quantity, over: Mapping[str, Axis], fixed: Mapping[str, float], most: int) -> Grid:
+        """Check everything.  Raises `InvalidParameter`, `WorkLimit`."""
+        if not 1 <= len(over) <= _MOST_AXES:
+            raise InvalidParameter(f"A sweep goes over one to {_MOST_AXES} parameters, not {len(over)}.")
+        both = sorted(set(over) & set(fixed))
+        if both:
+            raise InvalidParameter(f"{both[0]} is swept and has one value too: give it once.")
+        for name in (*over, *fixed):
+            quantity.parameter(name)
+        counts = {name: _count(values, name) for name, values in over.items()}
+        numbers = math.prod(counts.values()) * quantity.numbers
+        if not 1 <= most <= HARD_LIMIT:
+            raise WorkLimit(f"At most {HARD_LIMIT:g} numbers can be allowed, and at least 1, not {most:g}.")
+        if numbers > most:
+            raise WorkLimit(f"These are {numbers} numbers; at most {most} are allowed: choose fewer values, or allow "
+                            f"more with most_cells (on the command line --most-cells), up to {HARD_LIMIT:g}.")
+        axes = {name: _axis(quantity.parameter(name), values) for name, values in over.items()}
+        return cls(axes, {one.name: _value(one, quantity, fixed) for one in quantity.parameters
+                          if one.name not in over})
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Cells along each axis."""
+        return tuple(values.size for values in self.axes.values())
+
+    @property
+    def cells(self) -> int:
+        """Cells altogether."""
+        return math.prod(self.shape)
+
+    def pieces(self, box: Box) -> dict[str, Array]:
+        """The parts of the axes that a box has, by name."""
+        return {name: values[low:high] for (name, values), (low, high) in zip(self.axes.items(), box, strict=True)}
+
+    def box_of(self, cells: float) -> tuple[int, ...]:
+        """The shape of boxes of about so many cells: the longest side is halved until it has no more."""
+        shape = list(self.shape)
+        while math.prod(shape) > max(1.0, cells):
+            longest = max(range(len(shape)), key=shape.__getitem__)
+            shape[longest] = -(-shape[longest] // 2)
+        return tuple(shape)
+
+    def boxes(self, shape: Sequence[int]) -> Iterator[Box]:
+        """All boxes of this shape, the last of each axis may be smaller."""
+        starts = [range(0, whole, side) for whole, side in zip(self.shape, shape, strict=True)]
+        for corner in product(*starts):
+            yield tuple((low, min(low + side, whole))
+                        for low, side, whole in zip(corner, shape, self.shape, strict=True))
+
+
+def expanded(pieces: Mapping[str, Array], fixed: Mapping[str, float]) -> Cells:
+    """The parameters at each cell of the product of pieces, the last one fastest."""
+    swept = np.meshgrid(*pieces.values(), indexing="ij")
+    count = swept[0].size
+    return {**{name: np.ascontiguousarray(column.ravel()) for name, column in zip(pieces, swept, strict=True)},
+            **{name: np.full(count, value) for name, value in fixed.items()}}
+
+
+def _is_range(values: Axis) -> bool:
+    return isinstance(values, tuple) and len(values) == 3 and isinstance(values[2], (int, np.integer)) \
+        and not isinstance(values[2], bool)
+
+
+def _count(values: Axis, name: str) -> int:
+    """How many values, before any of them is made."""
+    if _is_range(values):
+        count = int(values[2])
+        if count < 2:
+            raise InvalidParameter(f"The range of {name} has {count} values: choose 2 or more, as in (0.0, 1.0, 11).")
+        return count
+    try:
+        return len(values)
+    except TypeError:
+        raise InvalidParameter(f"{name} is swept over values, or (low, high, count): give one of these.") from None
+
+
+def _axis(one: Parameter, values: Axis) -> Array:
+    if _is_range(values):
+        low, high, count = float(values[0]), float(values[1]), int(values[2])
+        for end in (low, high):
+            _check(one, end)
+        found = np.linspace(low, high, count)
+    else:
+        try:
+            found = np.array(values, float)
+        except (TypeError, ValueError):
+            raise InvalidParameter(f"The values of {one.name} are not all numbers.") from None
+    if found.ndim != 1 or found.size == 0:
+        raise InvalidParameter(f"The values of {one.name} are one or more numbers in a row.")
+    for value in (float(found.min()), float(found.max())):
+        _check(one, value)
+    if one.whole and np.any(found != np.round(found)):
+        raise InvalidParameter(f"{one.name} is a whole number: choose such values.")
+    if np.unique(found).size < found.size:
+        raise InvalidParameter(f"A value of {one.name} is there twice: give each once.")
+    return found
+
+
+def _value(one: Parameter, quantity: Quantity, fixed: Mapping[str, float]) -> float:
+    if one.name not in fixed and one.default is None:
+        raise InvalidParameter(f"{quantity.name} needs {one.name}, {one.doc}: sweep over it, or give it a value.")
+    try:
+        value = float(fixed.get(one.name, one.default or 0.0))
+    except (TypeError, ValueError):
+        raise InvalidParameter(f"{one.name} is a number, not {fixed[one.name]!r}.") from None
+    _check(one, value)
+    if one.whole and value != round(value):
+        raise InvalidParameter(f"{one.name} is a whole number, not {value:g}.")
+    return value
+
+
+def _check(one: Parameter, value: float) -> None:
+    if not one.low <= value <= one.high:
+        raise InvalidParameter(f"{one.name} = {value:g}, but it lies between {one.low:g} and {one.high:g}: choose it "
+                               "there.")

@@ -1,0 +1,257 @@
+"""What a sweep gives: an xarray Dataset, collected in memory or in a Zarr store that a second run goes on with.
+
+Chunks of the store are the boxes of the sweep.  Of each box the numbers are written first and the status last, every
+file under another name that it loses when it is whole; so a box whose status is there is done, whenever the run ended.
+A box that cannot be read, or lacks a number that its status promises, is computed again.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import shutil
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
+
+from hess_explorer.sweep.errors import MissingLibrary, OtherSweep, StoreError
+from hess_explorer.sweep.grid import MAX_NUMBERS, Box, Grid
+from hess_explorer.sweep.quantities import QUANTITIES
+from hess_explorer.sweep.quantity import Outcome, Outcomes, Quantity
+from hess_explorer.sweep.work import Done, version
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["Kept", "Memory", "Store", "opened", "read", "require_libraries"]
+
+_PROGRAM = "hess-explorer sweep"
+PART = "number"
+"""The dimension of several numbers at a cell."""
+
+
+def require_libraries() -> None:
+    """Raise `MissingLibrary`, which says what to install."""
+    if any(find_spec(name) is None for name in ("xarray", "zarr", "dask", "distributed")):
+        raise MissingLibrary("Sweeps need xarray, Zarr and Dask: pip install 'hess-explorer[sweep]'.")
+
+
+class Kept(Protocol):
+    """Where finished boxes go."""
+
+    shape: tuple[int, ...]
+    """Of a box."""
+
+    def has(self, box: Box) -> bool:
+        """Whether this box is done."""
+
+    def write(self, box: Box, done: Done) -> None:
+        """Keep a box.  Raises `StoreError`."""
+
+    def dataset(self) -> xr.Dataset:
+        """What there is; status 0 where nothing is computed yet."""
+
+    @property
+    def said(self) -> str:
+        """Where that is, and how to go on: a sentence."""
+
+
+def _slices(box: Box) -> tuple[slice, ...]:
+    return tuple(slice(low, high) for low, high in box)
+
+
+def _described(what: Quantity, grid: Grid, level: str, values: Any, errors: Any, status: Any) -> xr.Dataset:
+    """A Dataset with names, units and words, around arrays of any kind."""
+    import xarray as xr
+
+    axes = tuple(grid.axes)
+    coordinates: dict[str, Any] = {}
+    for name, places in grid.axes.items():
+        one = what.parameter(name)
+        coordinates[name] = (name, places, {"long_name": one.doc, "symbol": one.symbol, "units": one.units})
+    dimensions = axes
+    if what.parts:
+        dimensions = (*axes, PART)
+        coordinates[PART] = (PART, np.array(what.parts, object), {"long_name": what.doc})
+    variables = {
+        what.variable: (dimensions, values, {"long_name": what.title, "symbol": what.symbol, "units": what.units,
+                                             "description": what.doc}),
+        "status": (axes, status, {
+            "long_name": "how each cell ended", "units": "1", "flag_values": [int(one) for one in Outcome],
+            "flag_meanings": " ".join(one.words.replace(" ", "_") for one in Outcome)})}
+    if what.error:
+        variables["error"] = (axes, errors, {"long_name": f"estimated error: {what.error}", "units": what.units})
+    return xr.Dataset(variables, coordinates, {
+        "title": what.title, "program": _PROGRAM, "version": version(), "quantity": what.name, "level": level,
+        "parameters": json.dumps(dict(grid.fixed), ensure_ascii=False, sort_keys=True)})
+
+
+def _arrays(what: Quantity, grid: Grid) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """The shapes of the values and of the status."""
+    return (*grid.shape, *((len(what.parts),) if what.parts else ())), grid.shape
+
+
+class Memory:
+    """Finished boxes in memory."""
+
+    said = ""
+
+    def __init__(self, what: Quantity, grid: Grid, level: str, shape: tuple[int, ...]) -> None:
+        self.shape = shape
+        self._what, self._grid, self._level = what, grid, level
+        of_values, of_status = _arrays(what, grid)
+        self._values, self._errors = np.full(of_values, np.nan), np.full(of_status, np.nan)
+        self._status: Outcomes = np.zeros(of_status, np.uint8)
+
+    def has(self, box: Box) -> bool:
+        """Whether this box is done."""
+        return bool(self._status[_slices(box)].all())
+
+    def write(self, box: Box, done: Done) -> None:
+        """Keep a box."""
+        own = _slices(box)
+        self._values[own], self._errors[own], self._status[own] = done.values, done.errors, done.status
+
+    def dataset(self) -> xr.Dataset:
+        """What there is."""
+        return _described(self._what, self._grid, self._level, self._values, self._errors, self._status)
+
+
+class Store:
+    """Finished boxes in a folder, as Zarr."""
+
+    def __init__(self, path: Path, what: Quantity) -> None:
+        """Open the store.  Raises `StoreError`."""
+        import zarr
+
+        self.path, self._what = path, what
+        group = _group(path, "r+")
+        found = {name: group.get(name) for name in (what.variable, "status", *(["error"] if what.error else []))}
+        if not all(isinstance(array, zarr.Array) for array in found.values()):
+            raise StoreError(f"{str(path)!r} is no whole store of a sweep: choose another folder.")
+        self._arrays: dict[str, Any] = found
+        self.shape: tuple[int, ...] = found["status"].chunks
+
+    @classmethod
+    def create(cls, path: Path, what: Quantity, grid: Grid, level: str, shape: tuple[int, ...]) -> Store:
+        """Make a store with boxes of this shape, nothing in it.  Raises `StoreError`."""
+        import dask.array
+        from zarr.codecs import ZstdCodec
+
+        of_values, of_status = _arrays(what, grid)
+        boxes = (*shape, *of_values[len(shape):])
+        template = _described(
+            what, grid, level, dask.array.full(of_values, np.nan, chunks=boxes),
+            dask.array.full(of_status, np.nan, chunks=shape), dask.array.zeros(of_status, dtype=np.uint8, chunks=shape))
+        # Checksums tell a file that is not whole.
+        packed = (ZstdCodec(level=1, checksum=True),)
+        encoding = {name: {"chunks": boxes if name == what.variable else shape, "compressors": packed}
+                    for name in template.data_vars}
+        begun = path.with_name(f"{path.name}.begun")
+        try:
+            shutil.rmtree(begun, ignore_errors=True)
+            template.to_zarr(begun, compute=False, encoding=encoding, zarr_format=3, consolidated=False)
+            # Whole or not at all.
+            begun.rename(path)
+        except OSError as error:
+            raise StoreError(f"{str(path)!r} cannot be written ({error.strerror}); choose another folder.") from error
+        return cls(path, what)
+
+    @property
+    def said(self) -> str:
+        """Where it is."""
+        return f"What is done is kept in {str(self.path)!r}: the same sweep goes on there."
+
+    def require(self, grid: Grid, level: str) -> None:
+        """Raise `OtherSweep` unless this is what the store was made for."""
+        held = _group(self.path, "r").attrs
+        wanted = {"quantity": self._what.name, "level": level, "version": version()}
+        for name, value in wanted.items():
+            if held.get(name) != value:
+                self._refuse(f"has {name} {held.get(name)!r}, not {value!r}")
+        axes = tuple(self._arrays["status"].metadata.dimension_names or ())
+        if axes != tuple(grid.axes):
+            self._refuse(f"goes over {', '.join(axes)}, not {', '.join(grid.axes)}")
+        for name, places in grid.axes.items():
+            if not np.array_equal(np.asarray(_group(self.path, "r")[name]), places):
+                self._refuse(f"has other values of {name}")
+        fixed = json.loads(str(held["parameters"]))
+        for name, one in grid.fixed.items():
+            if fixed.get(name) != one:
+                self._refuse(f"has {name} = {fixed.get(name)}, not {one}")
+
+    def _refuse(self, why: str) -> None:
+        raise OtherSweep(f"{str(self.path)!r} is the store of another sweep: it {why}.  Choose another folder, or ask "
+                         "for the same sweep.")
+
+    def has(self, box: Box) -> bool:
+        """Whether this box is done, and can be read."""
+        own = _slices(box)
+        try:
+            status = self._arrays["status"][own]
+            if not status.all():
+                return False
+            values = self._arrays[self._what.variable][own]
+            if self._what.error:
+                self._arrays["error"][own]
+        # Whatever the decoder says of a file that is not whole.
+        except (OSError, ValueError, RuntimeError):
+            return False
+        known = (status >= Outcome.OK) & (status < Outcome.OUTSIDE_REGION)
+        return bool(np.isfinite(values[known]).all())
+
+    def write(self, box: Box, done: Done) -> None:
+        """Keep a box: the status last."""
+        own = _slices(box)
+        try:
+            self._arrays[self._what.variable][own] = done.values
+            if self._what.error:
+                self._arrays["error"][own] = done.errors
+            self._arrays["status"][own] = done.status
+        except OSError as error:
+            raise StoreError(f"{str(self.path)!r} cannot be written ({error.strerror}).  {self.said}") from error
+
+    def dataset(self) -> xr.Dataset:
+        """What there is; read at once, or where it is more than a sweep may usually have, when it is looked at."""
+        return read(self.path)
+
+
+def _group(path: Path, mode: Any) -> Any:
+    import zarr
+
+    try:
+        return zarr.open_group(path, mode=mode, zarr_format=3)
+    except (OSError, ValueError) as error:
+        raise StoreError(f"{str(path)!r} is no store of a sweep: choose another folder.") from error
+
+
+def read(path: str | Path) -> xr.Dataset:
+    """The Dataset in the store of a sweep, finished or not; read at once up to `MAX_NUMBERS`.  Raises `StoreError`."""
+    require_libraries()
+    import xarray as xr
+
+    path = Path(path)
+    if _group(path, "r").attrs.get("program") != _PROGRAM:
+        raise StoreError(f"{str(path)!r} is no store of a sweep: choose another folder.")
+    found: xr.Dataset = xr.open_zarr(path, consolidated=False, zarr_format=3, chunks=None)
+    try:
+        return found.load() if math.prod(found.sizes.values()) <= MAX_NUMBERS else found
+    except (OSError, ValueError, RuntimeError) as error:
+        raise StoreError(f"A part of {str(path)!r} cannot be read: run the same sweep again, which computes it "
+                         "anew.") from error
+
+
+def opened(path: Path, what: Quantity, grid: Grid, level: str) -> Store | None:
+    """The store of this sweep at a place; None where nothing is yet.  Raises `OtherSweep`, `StoreError`."""
+    if not path.exists() or (path.is_dir() and not any(path.iterdir())):
+        return None
+    held = _group(path, "r").attrs.get("quantity")
+    if held != what.name and held in QUANTITIES:
+        raise OtherSweep(f"{str(path)!r} is the store of another sweep: it has quantity {held!r}, not {what.name!r}.  "
+                         "Choose another folder, or ask for the same sweep.")
+    found = Store(path, what)
+    found.require(grid, level)
+    return found
+

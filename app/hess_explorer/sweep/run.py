@@ -1,0 +1,129 @@
+"""`sweep`: a quantity over one to three parameters; `explain`: why a cell has no number."""
+
+from __future__ import annotations
+
+import json
+import math
+import threading
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from hess_explorer.sweep.errors import Interrupted, StoreError, WorkersLost
+from hess_explorer.sweep.grid import MAX_NUMBERS, Axis, Box, Grid, expanded
+from hess_explorer.sweep.progress import Report, reporting
+from hess_explorer.sweep.quantities import quantity as named
+from hess_explorer.sweep.quantity import Outcome, Quantity, evaluate
+from hess_explorer.sweep.result import Kept, Memory, Store, opened, require_libraries
+from hess_explorer.sweep.work import Piece, cost_of_a_cell, version
+from hess_explorer.sweep.workers import Workers, crew
+from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.accuracy import level as level_named
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["explain", "sweep"]
+
+_SHORTEST, _LONGEST = 0.25, 2.0
+"""Seconds of a piece: long beside what it takes to hand out and to keep one, short enough to lose."""
+_PIECES = 16
+"""Of each worker, so that all end together; fewer where these would be shorter than the shortest."""
+_MOST_NUMBERS = 1_000_000
+"""Of a piece: 8 MB."""
+
+
+def _cells_of_a_piece(what: Quantity, grid: Grid, accuracy: Level, workers: int) -> float:
+    cost = cost_of_a_cell(what, grid, accuracy)
+    seconds = min(_LONGEST, max(_SHORTEST, cost * grid.cells / (_PIECES * workers)))
+    return min(seconds / cost, _MOST_NUMBERS / what.numbers)
+
+
+def sweep(quantity: str, over: Mapping[str, Axis], *, level: str = "precise", store: str | Path | None = None,
+          workers: Workers = None, progress: bool | Report | None = None, most_cells: int = MAX_NUMBERS,
+          stop: threading.Event | None = None, **fixed: float) -> xr.Dataset:
+    """A quantity over one to three of its parameters.
+
+    >>> from hess_explorer.sweep import sweep
+    >>> found = sweep("rotation-number", over={"h": (1.2, 1.6, 3), "f": [0.1, 0.6]}, a=0.5)
+    >>> found.rotation_number.dims, found.status.values.tolist()
+    (('h', 'f'), [[1, 1], [1, 1], [1, 1]])
+
+    Parameters
+    ----------
+    quantity : a name in `QUANTITIES`, which has its parameters, their bounds and defaults.
+    over : for each swept parameter (low, high, count), even places with both ends, or a list of values.
+    level : "draft", "standard", "precise" or "reference".
+    store : a folder that keeps every finished piece (Zarr).  The same call goes on with what is there, however the run
+        before it ended.  Two runs at once do the work twice, and no harm.
+    workers : None, this thread; "all", a process for each core; a number of processes; or "tcp://…", a Dask cluster,
+        whose workers have this package.
+    progress : True for a bar; or a function, called with a `Progress`.
+    most_cells : how many numbers are allowed.
+    stop : when it is set, what is done is returned; cells that are not have the status 0.
+    fixed : the other parameters, where they are not the defaults.
+
+    Returns the values, their `status` (see `Outcome`; `explain` gives the sentence) and, where one is known, the
+    estimated `error`.  Values do not depend on `store` and `workers`: not in one bit, on one kind of processor.
+
+    Raises
+    ------
+    InvalidParameter, WorkLimit, MissingLibrary, StoreError, OtherSweep, WorkersLost;
+    Interrupted : Ctrl-C.  It has what is done, as `dataset`.
+    """
+    require_libraries()
+    what, accuracy = named(quantity), level_named(level)
+    grid = Grid.of(what, over, fixed, most_cells)
+    path = None if store is None else Path(store)
+    kept: Kept | None = None if path is None else opened(path, what, grid, level)
+    todo = None if kept is None else [box for box in grid.boxes(kept.shape) if not kept.has(box)]
+    if kept is not None and not todo:
+        return kept.dataset()
+    try:
+        with crew(workers) as hands:
+            if kept is None:
+                shape = grid.box_of(_cells_of_a_piece(what, grid, accuracy, hands.size))
+                kept = Memory(what, grid, level, shape) if path is None else \
+                    Store.create(path, what, grid, level, shape)
+                todo = list(grid.boxes(shape))
+            missing = sum(_size(box) for box in todo or ())
+            pieces = ((box, Piece(what.name, level, version(), grid.pieces(box), grid.fixed)) for box in todo or ())
+            with reporting(progress, grid.cells, grid.cells - missing) as report:
+                for box, done in hands.run(pieces, (stop or threading.Event()).is_set):
+                    kept.write(box, done)
+                    report(_size(box))
+    except KeyboardInterrupt as error:
+        if kept is None:
+            raise
+        found = kept.dataset()
+        ended = int(np.count_nonzero(found.status))
+        raise Interrupted(" ".join([f"stopped after {ended} of {grid.cells} cells.", kept.said]).strip(),
+                          found) from error
+    except WorkersLost as error:
+        raise WorkersLost(" ".join([str(error), kept.said if kept else ""]).strip()) from error
+    return kept.dataset()
+
+
+def _size(box: Box) -> int:
+    return math.prod(high - low for low, high in box)
+
+
+def explain(found: xr.Dataset, **cell: float) -> str:
+    """How the cell at these coordinates ended, in a sentence: it is computed once more.
+
+    Raises `InvalidParameter` where the sweep has no such cell, `StoreError` where `found` is none of `sweep`.
+    """
+    try:
+        what, accuracy = named(found.attrs["quantity"]), level_named(found.attrs["level"])
+        fixed = json.loads(found.attrs["parameters"])
+    except KeyError as error:
+        raise StoreError("This Dataset is not of a sweep: give one that `sweep` or `read` has returned.") from error
+    axes = tuple(map(str, found.status.dims))
+    if set(cell) != set(axes):
+        raise InvalidParameter(f"A cell of this sweep has coordinates {', '.join(axes)}: give each.")
+    grid = Grid.of(what, {name: [cell[name]] for name in axes}, fixed, what.numbers)
+    outcome = evaluate(what, expanded(grid.axes, grid.fixed), accuracy)
+    return outcome.why.get(0, f"{Outcome(int(outcome.status[0])).words}.")

@@ -1,0 +1,97 @@
+"""One piece of work of a sweep, as a worker gets it and gives it back; and what a cell costs, measured beforehand."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib import metadata
+
+import numpy as np
+
+from hess_explorer.sweep.errors import WorkersLost
+from hess_explorer.sweep.grid import Grid, expanded
+from hess_explorer.sweep.quantities import quantity
+from hess_explorer.sweep.quantity import Outcomes, Quantity, evaluate
+from hess_mechanics.numerics.accuracy import Level, level
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["Done", "Piece", "compute", "cost_of_a_cell", "version"]
+
+
+@cache
+def version() -> str:
+    """Of this package: numbers of two versions are not mixed."""
+    try:
+        return metadata.version("hess-explorer")
+    except metadata.PackageNotFoundError:
+        return "not installed"
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A box of cells: the parts of the axes, in their order, and everything else by name; a few kilobytes."""
+
+    quantity: str
+    level: str
+    version: str
+    axes: Mapping[str, Array]
+    fixed: Mapping[str, float]
+
+
+@dataclass(frozen=True)
+class Done:
+    """The outcome at the cells of a box, in its shape; values with one more axis where there are several at a cell."""
+
+    values: Array
+    errors: Array
+    status: Outcomes
+
+
+def compute(piece: Piece) -> Done:
+    """Compute a box.  Raises `WorkersLost` where this process has another version than the one that asks."""
+    if piece.version != version():
+        raise WorkersLost(f"A worker has version {version()} of hess-explorer, and {piece.version} is asked for: "
+                          "install the same on all.")
+    what = quantity(piece.quantity)
+    found = evaluate(what, expanded(piece.axes, piece.fixed), level(piece.level))
+    shape = tuple(part.size for part in piece.axes.values())
+    return Done(found.values.reshape(*shape, *found.values.shape[1:]), found.errors.reshape(shape),
+                found.status.reshape(shape))
+
+
+_LONG_ENOUGH = 0.05
+"""Seconds of a trial that say what a cell costs."""
+_PART = 128
+"""A trial takes no more than this part of all cells."""
+_PLACES = 4
+
+
+def cost_of_a_cell(what: Quantity, grid: Grid, accuracy: Level) -> float:
+    """Seconds, from trials at random places that grow until they take long enough; ∞ where there are few cells.
+
+    The first cell is not counted: its kernels are compiled, or loaded.
+    """
+    if grid.cells <= _PART // 4:
+        return float("inf")
+    random = np.random.default_rng(0)
+    _trial(what, grid, accuracy, 1, random)
+    count = 1
+    while True:
+        cells, seconds = _trial(what, grid, accuracy, count, random)
+        if seconds >= _LONG_ENOUGH or 2 * count * _PART > grid.cells:
+            return seconds / cells
+        count *= 2
+
+
+def _trial(what: Quantity, grid: Grid, accuracy: Level, count: int, random: np.random.Generator) -> tuple[int, float]:
+    """Cells computed, and seconds: of some boxes, as they will be computed together."""
+    places = min(_PLACES, count)
+    shape = grid.box_of(count / places)
+    cells, begun = 0, time.perf_counter()
+    for _ in range(places):
+        corner = [int(random.integers(whole - side + 1)) for whole, side in zip(grid.shape, shape, strict=True)]
+        box = tuple((low, low + side) for low, side in zip(corner, shape, strict=True))
+        cells += evaluate(what, expanded(grid.pieces(box), grid.fixed), accuracy).status.size
+    return cells, time.perf_counter() - begun

@@ -1,0 +1,183 @@
+"""`hess-explorer sweep`: numbers, formats, stores; killed, interrupted, gone on with; what is wrong, in a sentence."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from hess_explorer.__main__ import main
+from hess_explorer.sweep import read
+from hess_mechanics import systems
+from hess_mechanics.dynamics.lyapunov import largest_exponent
+from hess_mechanics.numerics.accuracy import PLANS, Kind
+from support.command_line import replaced, table
+from support.mechanics import ROOT
+from support.processes import interruptible
+
+SWEEP = ["sweep", "rotation-number", "--over", "h=-0.5,1,1.5", "--over", "f=0:0.6:2", "--set", "a=0.5"]
+CYCLES = ["sweep", "limit-cycles", "--over", "h=0.2,1.5", "--set", "f=0.6", "--set", "a=0.5"]
+
+
+def test_the_table_is_that_of_the_command_rotation_number(answer):
+    found = answer(*SWEEP)
+    assert found["h"] == [-0.5, -0.5, 1.0, 1.0, 1.5, 1.5]
+    assert found["f"] == [0.0, 0.6] * 3
+    alone = answer("rotation-number", "--a", "0.5", "--h", "-0.5,1,1.5", "--f", "0,0.6")
+    assert found["rotation_number"] == alone["rotation_number"]
+    assert found["status"] == ["ok", "no such motion", "separatrix", "ok", "ok", "ok"]
+    assert [word == "ok" for word in found["status"]] == alone["possible"]
+    assert found["status_counts"] == {"ok": 4, "no such motion": 1, "separatrix": 1}
+    assert (found["level"], found["cells"], found["parameters"]) == ("precise", [3, 2], {"a": 0.5})
+
+
+@pytest.mark.parametrize("words", [SWEEP, CYCLES], ids=["scalar", "several"])
+def test_csv_and_json_say_the_same(answer, capsys, words):
+    found = answer(*words)
+    assert main([*words, "--format", "csv"]) == 0
+    facts, header, rows = table(capsys.readouterr().out)
+    for i, name in enumerate(header):
+        values = [row[i] or None for row in rows]
+        assert [value if name == "status" or value is None else float(value) for value in values] == found[name]
+    assert {name: found[name] for name in facts} == facts
+
+
+def test_a_store_is_kept_read_back_and_refused_to_others(answer, refusal, tmp_path, capsys):
+    store = str(tmp_path / "rho.zarr")
+    facts = answer(*SWEEP, "--store", store)
+    assert "rotation_number" not in facts
+    assert facts["status_counts"]["ok"] == 4
+    assert main([*SWEEP, "--format", "csv"]) == 0
+    wanted = capsys.readouterr().out
+    for words in ([*SWEEP, "--store", store], ["sweep", "--read", store]):
+        assert main([*words, "--format", "csv"]) == 0
+        said = capsys.readouterr().out
+        assert [line for line in said.splitlines() if "# store" not in line] == wanted.splitlines()
+    assert main(["sweep", "--read", store, "--out", str(tmp_path / "rho.csv"), "--format", "csv"]) == 0
+    assert (tmp_path / "rho.csv").read_text() == wanted
+    assert "another sweep: it has a = 0.5, not 0.6" in refusal(*replaced(SWEEP, "--set", "a=0.6"), "--store", store)
+    assert "no store of a sweep" in refusal("sweep", "--read", str(tmp_path))
+    assert "--read computes nothing" in refusal(*SWEEP, "--read", store)
+
+
+def test_quantities_and_their_parameters_are_listed(capsys):
+    assert main(["sweep", "--list"]) == 0
+    said = capsys.readouterr().out
+    assert "rotation-number\n    ρ: Rotation number" in said
+    assert "lyapunov-euler-poisson" in said
+    assert main(["sweep", "--list", "theta-plus"]) == 0
+    assert "theta = 1: angle of the circle from ξ" in capsys.readouterr().out
+
+
+T = "3000"
+LAMBDA = ["sweep", "lyapunov-suslov", "--over", "w1=0.2:1.4:8", "--over", "I22=1:2:8", "--set", f"t={T}",
+          "--accuracy", "draft"]
+
+
+def begun(store):
+    return len([path for path in (store / "status" / "c").rglob("*") if path.is_file() and path.suffix != ".partial"])
+
+
+def started(words, store, least):
+    """The command as a process, when so many pieces are done."""
+    with interruptible():
+        process = subprocess.Popen([sys.executable, "-m", "hess_explorer", *words, "--store", str(store)], cwd=ROOT,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    deadline = time.monotonic() + 120
+    while begun(store) < least and process.poll() is None:
+        assert time.monotonic() < deadline
+        time.sleep(0.005)
+    return process
+
+
+def test_a_sweep_that_is_killed_and_then_interrupted_goes_on_and_is_the_loop_by_hand(tmp_path, answer):
+    store = tmp_path / "lambda.zarr"
+    first = started(LAMBDA, store, 1)
+    first.send_signal(signal.SIGKILL)
+    first.communicate(timeout=60)
+    assert first.returncode == -signal.SIGKILL
+    kept = begun(store)
+    cells = read(store)
+    done = int((cells.status.values > 0).sum())
+    assert 0 < done < 64
+    second = started(LAMBDA, store, kept + 1)
+    second.send_signal(signal.SIGINT)
+    out, err = second.communicate(timeout=60)
+    assert second.returncode == 130, err
+    assert out == b""
+    said = err.decode().splitlines()[-1]
+    assert said.startswith("hess-explorer: stopped after ")
+    assert said.endswith("the same sweep goes on there.")
+    now = int((read(store).status.values > 0).sum())
+    assert done < now < 64
+    found = answer(*LAMBDA, "--store", str(store), "--format", "json")
+    assert found["status_counts"] == {"ok": 64}
+    suslov, exact = systems()["suslov"], PLANS[Kind.EXPONENT]["draft"].level
+    state, parameters = suslov.example
+    for i in (0, 21, 42, 63):
+        by_hand = largest_exponent(suslov, (found["w1"][i], *state[1:]),
+                                   (parameters[0], found["I22"][i], *parameters[2:]), float(T), exact)
+        assert found["lyapunov_suslov"][i] == by_hand.value
+
+
+def test_ctrl_c_without_a_store_writes_what_is_done(capsys, monkeypatch, tmp_path):
+    import hess_explorer.sweep.run as running
+    from hess_explorer.sweep import work
+    from hess_explorer.sweep import workers as working
+
+    calls = []
+
+    def interrupted(piece):
+        calls.append(piece)
+        if len(calls) == 3:
+            raise KeyboardInterrupt
+        return work.compute(piece)
+
+    monkeypatch.setattr(running, "_cells_of_a_piece", lambda *_: 1)
+    monkeypatch.setattr(working, "compute", interrupted)
+    assert main([*SWEEP, "--format", "csv", "--out", str(tmp_path / "part.csv")]) == 130
+    assert capsys.readouterr().err == "hess-explorer: stopped after 2 of 6 cells.\n"
+    _, header, rows = table((tmp_path / "part.csv").read_text())
+    assert [row[header.index("status")] for row in rows] == ["ok", "no such motion", *["not computed"] * 4]
+
+
+@pytest.mark.parametrize(("words", "said"), [
+    (["sweep"], "hess-explorer sweep --list names them"),
+    (["sweep", "speed", "--over", "h=1"], "There is no quantity 'speed'"),
+    (["sweep", "rotation-number"], "one to 3 parameters"),
+    (replaced(SWEEP, "--set", "a"), "is not a parameter; write it like h=1.5"),
+    (replaced(SWEEP, "--set", "a=x"), "is not a number"),
+    (replaced(SWEEP, "--set", "b=1"), "no parameter 'b'; choose from a, h, f"),
+    (replaced(SWEEP, "--set", "store=1"), "no parameter 'store'"),
+    ([*SWEEP, "--set", "a=0.6"], "--set names a parameter twice"),
+    ([*SWEEP, "--over", "h=1,2"], "--over names a parameter twice"),
+    (replaced(SWEEP, "--over", "h=0:1"), "is not a range"),
+    (replaced(SWEEP, "--over", "h=0:1:1"), "is not a whole number from 2"),
+    (replaced(SWEEP, "--over", "h=inf"), "is not a finite number"),
+    (replaced(SWEEP, "--over", "h=0:1:1000000"), "give a folder for them, --store FOLDER"),
+    ([*replaced(SWEEP, "--over", "h=0:1:9000000"), "--store", "x"], "at most 10000000 are allowed"),
+    ([*SWEEP, "--most-cells", "0"], "is not a whole number from 1"),
+    ([*SWEEP, "--workers", "many"], "is not a whole number from 1"),
+    ([*SWEEP, "--workers", "9999"], "or the address of a Dask cluster"),
+    ([*SWEEP, "--out", "/nowhere/at/all"], "choose another file"),
+    ([*SWEEP, "--store", "/proc/nowhere/at/all"], "cannot be written"),
+    ([*SWEEP, "--accuracy", "sloppy"], "choose one of draft"),
+    (["sweep", "--list", "speed"], "There is no quantity"),
+])
+def test_what_is_wrong_is_one_sentence(refusal, words, said):
+    assert said in refusal(*words)
+
+
+def test_a_library_that_is_missing_is_named_with_the_command_that_installs_it(refusal, monkeypatch):
+    monkeypatch.setitem(sys.modules, "xarray", None)
+    assert "pip install 'hess-explorer[sweep]'" in refusal(*SWEEP)
+
+
+def test_help_has_an_example_that_runs(example, capsys):
+    found = example("sweep")
+    assert found[:2] == ["sweep", "rotation-number"]
+    assert main(found) == 0
+    assert capsys.readouterr().out.count("\n") > 600

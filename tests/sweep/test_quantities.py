@@ -1,0 +1,178 @@
+"""The quantities: as loops written by hand give them, bit for bit, and as other ways of computation say."""
+
+from __future__ import annotations
+
+import inspect
+import math
+
+import numpy as np
+import pytest
+
+from hess_explorer.sweep import QUANTITIES, Outcome, sweep
+from hess_mechanics import Plane, SuslovBody, circle_map, level, scattering, section, solve, systems
+from hess_mechanics.dynamics.lyapunov import largest_exponent
+from hess_mechanics.numerics.accuracy import PLANS, Kind
+from hess_mechanics.suslov.kharlamova import PlaneBody, arc
+from hess_mechanics.suslov_hess.rotation_number import values_at
+
+SUSLOV = systems()["suslov"]
+
+
+def rotation(h, f):
+    return values_at(0.5, h, f, level("precise")).rho[0]
+
+
+def theta_plus(I11, phi):
+    return float(scattering(SuslovBody(I11, 1.0, 0.3, 0.5), level("precise")).theta_plus(0.7, phi))
+
+
+def exponent(w1, I22, t=20.0):
+    state = (w1, -0.4, 0.6, 0.0, 0.8)
+    p = (2.0, I22, 0.3, 0.5, 0.3, -0.5, 1.0)
+    return largest_exponent(SUSLOV, state, p, t, PLANS[Kind.EXPONENT]["draft"].level).value
+
+
+def crossings(b3, t=40.0):
+    plane = Plane((0.0, 0.0, 0.0, 0.0, 1.0))
+    found = section(SUSLOV, SUSLOV.example[0], (*SUSLOV.example[1][:6], b3), plane, t, level("standard"))
+    return float(found.times.size)
+
+
+def plane_period(w1, b1):
+    found = arc(PlaneBody(1.3, 0.8, b1, -0.2), (w1, -0.5, 0.0, 0.6, 0.8))
+    return found.period
+
+
+LOOPS = {
+    "rotation-number": ({"h": (-1.2, 2.0, 9), "f": (0.0, 1.2, 7)}, {"a": 0.5}, "precise", rotation),
+    "theta-plus": ({"I11": (1.5, 3.0, 3), "phi": (-3.0, 3.0, 5)}, {"theta": 0.7}, "precise", theta_plus),
+    "lyapunov-suslov": ({"w1": [0.8, -0.3], "I22": [1.0, 1.7]}, {"t": 20.0}, "draft", exponent),
+    "crossings-suslov": ({"b3": [0.5, 1.0, 2.0]}, {"t": 40.0}, "standard", crossings),
+    "period": ({"w1": (0.5, 2.0, 4), "b1": (0.1, 0.7, 3)}, {}, "precise", plane_period),
+}
+
+
+@pytest.mark.parametrize("name", LOOPS)
+def test_a_sweep_is_the_loop_by_hand_bit_for_bit(name):
+    over, fixed, accuracy, function = LOOPS[name]
+    found = sweep(name, over, level=accuracy, **fixed)
+    value = found[name.replace("-", "_")]
+    axes = [np.linspace(*places) if isinstance(places, tuple) else np.array(places) for places in over.values()]
+    assert value.shape == tuple(axis.size for axis in axes)
+    by_hand = np.array([function(*(float(x) for x in place)) for place in
+                        np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, len(axes))])
+    assert value.values.ravel().tobytes() == by_hand.tobytes()
+    for coordinate, axis in zip(over, axes, strict=True):
+        assert found[coordinate].values.tobytes() == axis.tobytes()
+    ended = found.status.values.ravel()
+    assert np.array_equal(np.isnan(by_hand), ended >= 10)
+    assert (ended < 10).any()
+
+
+def test_limit_cycles_are_several_numbers_at_a_cell():
+    found = sweep("limit-cycles", {"h": [-1.5, 0.2, 1.5, 2.0], "f": [0.6]}, a=0.5)
+    assert found.limit_cycles.dims == ("h", "f", "number")
+    assert found.number.values.tolist() == ["stable", "unstable", "log_multiplier"]
+    assert found.status.values[:, 0].tolist() == [Outcome.OUTSIDE_REGION, Outcome.NO_VALUE, Outcome.OK, Outcome.OK]
+    theta = circle_map(0.5, 1.5, 0.6, level("precise"))
+    stable, unstable, grown = found.limit_cycles.sel(h=1.5, f=0.6).values
+    # Fixed points of the map, and the slope there by a difference.
+    assert theta.theta([stable, unstable]) == pytest.approx([stable, unstable], abs=1e-10)
+    ends = theta.theta([stable - 1e-5, stable + 1e-5])
+    assert math.log((ends[1] - ends[0]) / 2e-5) == pytest.approx(grown, abs=1e-6)
+    assert found.error.values[0, 0] != found.error.values[0, 0]
+    assert 0.0 < found.error.values[2, 0] < 1e-9
+
+
+def test_trace_locking_and_birth_agree_with_the_rotation_number():
+    over = {"h": (-0.5, 2.0, 6), "f": (0.1, 0.7, 4)}
+    rho, trace, locked = (sweep(name, over, a=0.5)[name.replace("-", "_")].values
+                          for name in ("rotation-number", "trace", "locked"))
+    turning = locked == 0.0
+    assert turning.any()
+    assert (locked == 1.0).any()
+    assert trace[turning] == pytest.approx(np.abs(2.0 * np.cos(np.pi * rho[turning])), abs=1e-9)
+    assert np.all(trace[locked == 1.0] > 2.0)
+    born = sweep("critical-a", {"h": [0.5, 1.5]}, f=0.3).critical_a.values
+    for h, a in zip((0.5, 1.5), born, strict=True):
+        assert circle_map(a, h, 0.3, level("reference")).trace == pytest.approx(2.0, abs=1e-9)
+
+
+def test_scattering_from_the_pole_is_the_angle_in_closed_form():
+    # From θ⁻ = 0 the motion comes to Γ⁺ = cos χ with every phase: one is an integration, the other a formula.
+    over = {"I11": (1.2, 4.0, 5)}
+    chi = sweep("cos-chi", over, I13=0.0).cos_chi.values
+    at_pole = sweep("theta-plus", over, I13=0.0, theta=0.0, phi=1.0).theta_plus.values
+    assert np.cos(at_pole) == pytest.approx(chi, abs=1e-9)
+
+
+def test_the_period_is_that_of_the_ball_without_a_ball():
+    over = {"w1": (0.6, 1.8, 3), "b2": [-0.3, 0.2]}
+    closed = sweep("period", over).period.values
+    crossed = sweep("ball-period", over, D=0.0)
+    assert crossed.ball_period.values == pytest.approx(closed, rel=1e-9)
+    assert np.all(np.abs(crossed.ball_period.values - closed) <= crossed.error.values + 1e-12)
+    # And the motion is back after it.
+    start = (0.6, -0.5, 0.0, 0.6, 0.8)
+    after = solve(SUSLOV, start, (1.3, 0.8, 0.0, 0.0, 0.5, -0.3, 0.0), [closed[0, 0]], level("precise")).states[0]
+    assert after == pytest.approx(start, abs=1e-8)
+
+
+def test_a_free_symmetric_motion_crosses_as_often_as_it_turns():
+    # b = 0, I13 = I23 = 0: ω is constant, and γ turns about it at the rate |ω|.
+    found = sweep("crossings-suslov", {"w1": [0.5, 1.0, 2.0]}, w2=0.0, I13=0.0, I23=0.0, b1=0.0, b2=0.0, b3=0.0,
+                  g1=0.0, g2=-1.0, g3=0.2, t=20.0)
+    # γ3 ~ 0.2 cos(w1 t) + sin(w1 t), through 0 from below once a turn.
+    assert found.crossings_suslov.values.tolist() == [
+        math.floor((20.0 * w + math.atan(0.2)) / (2 * math.pi)) for w in (0.5, 1.0, 2.0)] == [1.0, 3.0, 6.0]
+
+
+def test_where_volume_is_kept_nothing_attracts():
+    over = {"I13": [0.0, 0.4]}
+    body = {"I11": 1.5, "I22": 1.0, "I23": 0.0, "b1": 0.3, "b2": -0.5, "b3": 1.0,
+            "h": round(1.842 + math.hypot(0.3, 0.5, 1.0), 6)}
+    divergence = sweep("divergence-at-energy", over, **body, t=100.0)
+    assert divergence.divergence_at_energy.values[0] == 0.0
+    assert divergence.error.values[0] == 0.0
+    assert divergence.error.values[1] > 0.0
+    # The example "Two attractors" of the scene.
+    assert sweep("attractors", over, level="draft", **body, t=1000.0).attractors.values.tolist() == [0.0, 2.0]
+
+
+def test_the_ball_without_a_ball_scatters_as_the_free_body_does():
+    over = {"theta": [0.6, 1.4]}
+    free = SuslovBody(2.0, 1.0, 0.3, 0.5)
+    found = sweep("ball-theta-plus", over, level="standard", D=0.0, phi=0.4, distance=1e-6)
+    by_rotation = [float(scattering(free, level("precise"), 1, 1e-6).theta_plus(theta, 0.4)) for theta in (0.6, 1.4)]
+    # Their starts differ by a term of the order of the distance.
+    assert found.ball_theta_plus.values == pytest.approx(by_rotation, abs=5e-6)
+
+
+def test_exponents_at_an_energy_are_those_of_the_state_there():
+    found = sweep("lyapunov-at-energy", {"h": [0.0, 0.05, 2.5]}, level="draft", t=20.0, k=3)
+    assert found.status.values.tolist() == [Outcome.INVALID_PARAMETER, Outcome.INVALID_PARAMETER, Outcome.OK]
+    E = 2.5 - math.hypot(0.3, 0.5, 1.0)
+    # By hand: γ = (cos ψ, sin ψ, 0), ω = |ω|(cos(ψ + δ), sin(ψ + δ)) with the energy E.
+    gamma, turn = (math.cos(1.0), math.sin(1.0), 0.0), (math.cos(2.0), math.sin(2.0))
+    speed = math.sqrt(2.0 * (E - 0.3 * gamma[0] + 0.5 * gamma[1]) / (2.0 * turn[0] ** 2 + turn[1] ** 2))
+    state = (speed * turn[0], speed * turn[1], *gamma)
+    by_hand = largest_exponent(SUSLOV, state, SUSLOV.example[1], 20.0, PLANS[Kind.EXPONENT]["draft"].level)
+    assert found.lyapunov_at_energy.values[2] == pytest.approx(by_hand.value, abs=1e-4)
+
+
+def test_every_quantity_says_what_it_is():
+    keywords = set(inspect.signature(sweep).parameters)
+    for name, one in QUANTITIES.items():
+        assert name == one.name
+        assert one.variable.isidentifier()
+        assert all((one.symbol, one.title, one.units, one.doc))
+        names = [each.name for each in one.parameters]
+        assert len(set(names)) == len(names)
+        assert not keywords & set(names)
+        assert not {one.variable, "status", "error", "number"} & set(names)
+        for each in one.parameters:
+            assert each.doc
+            assert each.low < each.high
+            assert each.default is None or each.low <= each.default <= each.high
+            assert not each.whole or each.default == round(each.default)
+    assert {f"{what}-{system}" for what in ("lyapunov", "crossings") for system in systems()} <= set(QUANTITIES)

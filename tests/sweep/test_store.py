@@ -1,0 +1,181 @@
+"""Stores: gone on with after every kind of end, read back, refused where they are another's."""
+
+from __future__ import annotations
+
+import json
+import shutil
+
+import numpy as np
+import pytest
+
+from hess_explorer.sweep import Interrupted, OtherSweep, Outcome, StoreError, read, sweep, work
+from hess_explorer.sweep import run as running
+from hess_explorer.sweep import workers as working
+
+TORI = {"h": (-1.2, 2.0, 12), "f": (0.0, 1.2, 9)}
+CYCLES = {"h": (0.5, 2.0, 6), "f": (0.0, 0.6, 4)}
+
+
+@pytest.fixture(autouse=True)
+def small_pieces(monkeypatch):
+    monkeypatch.setattr(running, "_cells_of_a_piece", lambda *_: 8)
+
+
+@pytest.fixture
+def computed(monkeypatch):
+    """The pieces that have been computed since."""
+    pieces = []
+    monkeypatch.setattr(working, "compute", lambda piece: pieces.append(piece) or work.compute(piece))
+    return pieces
+
+
+def interrupted_after(cells):
+    def report(now):
+        if now.done >= cells:
+            raise KeyboardInterrupt
+    return report
+
+
+@pytest.mark.parametrize(("name", "over"), [("rotation-number", TORI), ("limit-cycles", CYCLES)])
+def test_a_second_run_goes_on_where_the_first_ended(tmp_path, computed, name, over):
+    in_memory = sweep(name, over, a=0.5)
+    pieces = len(computed)
+    assert pieces > 2
+    with pytest.raises(Interrupted, match=r"kept in .*rho\.zarr.*the same sweep goes on there") as ended:
+        sweep(name, over, a=0.5, store=tmp_path / "rho.zarr", progress=interrupted_after(9))
+    begun = len(computed) - pieces
+    assert 0 < begun < pieces
+    assert read(tmp_path / "rho.zarr").identical(ended.value.dataset)
+    assert (read(tmp_path / "rho.zarr").status.values == 0).any()
+    seen = []
+    found = sweep(name, over, a=0.5, store=tmp_path / "rho.zarr", progress=seen.append)
+    assert len(computed) == 2 * pieces
+    assert seen[0].done == np.count_nonzero(ended.value.dataset.status)
+    assert found.identical(in_memory)
+    assert found[name.replace("-", "_")].values.tobytes() == in_memory[name.replace("-", "_")].values.tobytes()
+    # Nothing is left to do.
+    assert sweep(name, over, a=0.5, store=str(tmp_path / "rho.zarr")).identical(in_memory)
+    assert len(computed) == 2 * pieces
+    assert read(tmp_path / "rho.zarr").identical(in_memory)
+
+
+def test_pieces_half_written_are_computed_again(tmp_path, computed, monkeypatch):
+    monkeypatch.setattr(running, "_cells_of_a_piece", lambda *_: 4)
+    store = tmp_path / "cycles.zarr"
+    whole = sweep("limit-cycles", CYCLES, a=0.5, store=store)
+    assert len(computed) == 6
+
+    # The numbers of one piece are cut, those of one are away, of one a bit of the errors is wrong, of one the status is
+    # cut.
+    cut = store / "limit_cycles" / "c" / "2" / "0" / "0"
+    cut.write_bytes(cut.read_bytes()[:-7])
+    with pytest.raises(StoreError, match="run the same sweep again"):
+        read(store)
+    (store / "limit_cycles" / "c" / "2" / "1" / "0").unlink()
+    flipped = store / "error" / "c" / "1" / "1"
+    content = bytearray(flipped.read_bytes())
+    content[-6] ^= 1
+    flipped.write_bytes(bytes(content))
+    status = store / "status" / "c" / "0" / "0"
+    status.write_bytes(status.read_bytes()[:5])
+    # What a writer that was killed leaves beside.
+    (status.parent / "0.5e1f.partial").write_bytes(b"\x28\xb5")
+    again = sweep("limit-cycles", CYCLES, a=0.5, store=store)
+    assert again.identical(whole)
+    assert len(computed) == 6 + 4
+
+
+def test_a_store_that_was_not_whole_when_it_was_made_is_made_again(tmp_path):
+    (tmp_path / "rho.zarr.begun" / "h").mkdir(parents=True)
+    (tmp_path / "rho.zarr.begun" / "zarr.json").write_text("{")
+    (tmp_path / "rho.zarr").mkdir()
+    found = sweep("rotation-number", TORI, a=0.5, store=tmp_path / "rho.zarr")
+    assert (found.status.values > 0).all()
+    assert not (tmp_path / "rho.zarr.begun").exists()
+
+
+def test_a_store_is_plain_zarr_that_says_what_it_is(tmp_path):
+    sweep("rotation-number", TORI, a=0.5, store=tmp_path / "rho.zarr", level="draft")
+    # Read without this package, and without Zarr.
+    said = json.loads((tmp_path / "rho.zarr" / "zarr.json").read_text())
+    assert said["zarr_format"] == 3
+    assert said["attributes"]["quantity"] == "rotation-number"
+    assert said["attributes"]["level"] == "draft"
+    assert said["attributes"]["parameters"] == '{"a": 0.5}'
+    assert said["attributes"]["version"]
+    assert json.loads((tmp_path / "rho.zarr" / "status" / "zarr.json").read_text())["data_type"] == "uint8"
+    array = json.loads((tmp_path / "rho.zarr" / "rotation_number" / "zarr.json").read_text())
+    assert array["dimension_names"] == ["h", "f"]
+    assert array["attributes"]["units"] == "turns per return"
+    meanings = json.loads((tmp_path / "rho.zarr" / "status" / "zarr.json").read_text())["attributes"]["flag_meanings"]
+    assert len(meanings.split()) == len(Outcome)
+
+
+@pytest.mark.parametrize(("change", "said"), [
+    ({"quantity": "trace"}, "has quantity 'rotation-number', not 'trace'"),
+    ({"level": "draft"}, "has level 'precise', not 'draft'"),
+    ({"over": {"h": (-1.2, 2.0, 13), "f": (0.0, 1.2, 9)}}, "has other values of h"),
+    ({"over": {"h": (-1.2, 2.0, 12), "f": (0.0, 1.3, 9)}}, "has other values of f"),
+    ({"over": {"f": (0.0, 1.2, 9), "h": (-1.2, 2.0, 12)}}, "goes over h, f, not f, h"),
+    ({"over": {"h": (-1.2, 2.0, 12)}, "f": 0.1}, "goes over h, f, not h"),
+    ({"a": 0.25}, "has a = 0.5, not 0.25"),
+])
+def test_the_store_of_another_sweep_is_refused_and_not_touched(tmp_path, change, said):
+    store = tmp_path / "rho.zarr"
+    with pytest.raises(Interrupted):
+        sweep("rotation-number", TORI, a=0.5, store=store, progress=interrupted_after(1))
+    files = {path: path.read_bytes() for path in store.rglob("*") if path.is_file()}
+    with pytest.raises(OtherSweep, match=said):
+        sweep(**{"quantity": "rotation-number", "over": TORI, "a": 0.5, "store": store, **change})
+    assert {path: path.read_bytes() for path in store.rglob("*") if path.is_file()} == files
+
+
+def test_the_store_of_another_version_is_refused(tmp_path, monkeypatch):
+    sweep("rotation-number", TORI, a=0.5, store=tmp_path / "rho.zarr")
+    monkeypatch.setattr("hess_explorer.sweep.result.version", lambda: "9.9")
+    with pytest.raises(OtherSweep, match=r"has version .*, not '9.9'"):
+        sweep("rotation-number", TORI, a=0.5, store=tmp_path / "rho.zarr")
+
+
+def test_what_is_no_store_is_refused(tmp_path):
+    (tmp_path / "file").write_text("a letter")
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "folder" / "letter").write_text("a letter")
+    for place in ("file", "folder"):
+        with pytest.raises(StoreError, match="no store of a sweep: choose another folder"):
+            sweep("rotation-number", TORI, a=0.5, store=tmp_path / place)
+        with pytest.raises(StoreError, match="no store of a sweep: choose another folder"):
+            read(tmp_path / place)
+    assert (tmp_path / "folder" / "letter").read_text() == "a letter"
+    with pytest.raises(StoreError, match="no store of a sweep"):
+        read(tmp_path / "nothing")
+    with pytest.raises(StoreError, match="cannot be written"):
+        sweep("rotation-number", TORI, a=0.5, store=tmp_path / "file" / "below")
+
+
+def test_a_store_that_loses_an_array_is_no_whole_store(tmp_path):
+    sweep("rotation-number", TORI, a=0.5, store=tmp_path / "rho.zarr")
+    shutil.rmtree(tmp_path / "rho.zarr" / "status")
+    with pytest.raises(StoreError, match="no whole store"):
+        sweep("rotation-number", TORI, a=0.5, store=tmp_path / "rho.zarr")
+
+
+def test_a_disk_that_is_full_is_said_and_the_rest_is_kept(tmp_path, monkeypatch):
+    store, left = tmp_path / "rho.zarr", iter(range(3))
+    real = work.compute
+
+    def until_full(piece):
+        if next(left, None) is None:
+            monkeypatch.setattr("zarr.storage._local._put", full)
+        return real(piece)
+
+    def full(*_, **__):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(working, "compute", until_full)
+    with pytest.raises(StoreError, match=r"No space left on device.*the same sweep goes on there"):
+        sweep("rotation-number", TORI, a=0.5, store=store)
+    monkeypatch.undo()
+    monkeypatch.setattr(running, "_cells_of_a_piece", lambda *_: 8)
+    assert (read(store).status.values > 0).any()
+    assert sweep("rotation-number", TORI, a=0.5, store=store).identical(sweep("rotation-number", TORI, a=0.5))

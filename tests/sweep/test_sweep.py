@@ -1,0 +1,209 @@
+"""`sweep`: pieces of any size, cells that fail, progress, stopping, and one sentence for whatever is wrong."""
+
+from __future__ import annotations
+
+import sys
+import threading
+from itertools import count
+
+import numpy as np
+import pytest
+
+from hess_explorer.sweep import QUANTITIES, Interrupted, MissingLibrary, Outcome, Parameter, Quantity, explain, sweep
+from hess_explorer.sweep import run as running
+from hess_explorer.sweep.grid import Grid
+from hess_explorer.sweep.quantity import Found
+from hess_explorer.sweep.work import cost_of_a_cell
+from hess_mechanics import level
+from hess_mechanics.errors import InvalidParameter, ModelError, NoField, WorkLimit
+
+TORI = {"h": (-1.2, 2.0, 12), "f": (0.0, 1.2, 9)}
+
+
+@pytest.fixture
+def in_pieces(monkeypatch):
+    """Pieces of about so many cells."""
+    def choose(cells):
+        monkeypatch.setattr(running, "_cells_of_a_piece", lambda *_: cells)
+    return choose
+
+
+def own(compute, parts=()):
+    """A quantity that exists only here, of x and y."""
+    x, y = (Parameter(name, name, 0.0, -10.0, 10.0, "a number") for name in "xy")
+    return Quantity("own", "q", "A quantity of this test", "1", "of x and y", (x, y), compute, parts)
+
+
+@pytest.mark.parametrize("cells", [1, 7, 40])
+def test_values_do_not_depend_on_the_pieces(in_pieces, cells):
+    whole = sweep("rotation-number", TORI, a=0.5)
+    in_pieces(cells)
+    assert sweep("rotation-number", TORI, a=0.5).identical(whole)
+
+
+def test_a_dataset_says_what_it_is():
+    found = sweep("rotation-number", {"h": [0.5, 1.5]}, a=0.5, f=0.6, level="standard")
+    assert found.attrs["quantity"] == "rotation-number"
+    assert found.attrs["level"] == "standard"
+    assert found.attrs["parameters"] == '{"a": 0.5, "f": 0.6}'
+    assert found.attrs["version"]
+    assert found.rotation_number.attrs["units"] == "turns per return"
+    assert found.rotation_number.attrs["symbol"] == "ρ"
+    assert found.h.attrs["long_name"].startswith("energy")
+    words = dict(zip(found.status.attrs["flag_values"], found.status.attrs["flag_meanings"].split(), strict=True))
+    assert words[1] == "ok"
+    assert words[10] == "no_such_motion"
+    assert found.rotation_number.sel(h=1.5).item() == 0.0
+
+
+def test_a_cell_without_a_number_says_why():
+    found = sweep("rotation-number", {"h": [-2.0, 1.0, 1.5], "f": [0.0, 9.0]}, a=0.5)
+    assert found.status.values.tolist() == [[10, 10], [11, 10], [1, 10]]
+    assert np.array_equal(np.isnan(found.rotation_number.values), found.status.values >= 10)
+    assert explain(found, h=-2.0, f=0.0) == "no such motion."
+    assert explain(found, h=1.5, f=0.0) == "ok."
+    cycles = sweep("limit-cycles", {"h": [1.0, 0.2]}, a=0.5, f=0.0)
+    assert "separatrix" in explain(cycles, h=1.0).lower()
+    assert "elliptic" in explain(cycles, h=0.2) or "two limit cycles" in explain(cycles, h=0.2)
+    with pytest.raises(InvalidParameter, match="coordinates h: give each"):
+        explain(cycles, f=0.0)
+    with pytest.raises(ModelError, match="not of a sweep"):
+        explain(cycles.drop_attrs(), h=1.0)
+
+
+def test_one_bad_cell_does_not_spoil_the_others(monkeypatch, caplog):
+    def compute(cells, accuracy):
+        x, y = cells["x"], cells["y"]
+        if np.any(x == 3.0):
+            raise NoField("x = 3 has no field.")
+        if np.any((x == 4.0) & (y == 1.0)):
+            raise RuntimeError("a mistake in a program")
+        with np.errstate(divide="ignore"):
+            return Found(1.0 / y + x, np.full(x.size, np.nan), np.ones(x.size, np.uint8))
+
+    monkeypatch.setitem(QUANTITIES, "own", own(compute))
+    found = sweep("own", {"x": (0.0, 5.0, 6), "y": [0.0, 1.0]})
+    wanted = np.ones((6, 2), int)
+    wanted[:, 0], wanted[3], wanted[4] = Outcome.BEYOND_RANGE, Outcome.NO_FIELD, (Outcome.BEYOND_RANGE, Outcome.FAILED)
+    assert np.array_equal(found.status, wanted)
+    assert found.own.values[[0, 1, 2, 5], 1].tolist() == [1.0, 2.0, 3.0, 6.0]
+    assert explain(found, x=3.0, y=1.0) == "x = 3 has no field."
+    assert "a mistake in a program" in explain(found, x=4.0, y=1.0)
+    assert "a cell of a sweep failed" in caplog.text
+
+
+def test_a_trace_beyond_double_range_is_no_silent_number():
+    found = sweep("trace", {"a": [0.5, 500.0]}, h=1.5, f=0.6)
+    assert found.status.values.tolist() == [Outcome.OK, Outcome.BEYOND_RANGE]
+
+
+def test_progress_says_what_is_left(in_pieces):
+    in_pieces(20)
+    seen = []
+    sweep("rotation-number", TORI, a=0.5, progress=seen.append)
+    assert [one.done for one in seen] == sorted(one.done for one in seen)
+    assert (seen[0].done, seen[0].left) == (0, None)
+    assert (seen[-1].done, seen[-1].cells, seen[-1].left) == (108, 108, 0.0)
+    middle = seen[len(seen) // 2]
+    assert middle.left == pytest.approx(middle.seconds * (108 - middle.done) / middle.done)
+
+
+def test_a_bar_is_drawn_where_somebody_looks(capsys, monkeypatch):
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
+    sweep("rotation-number", TORI, a=0.5, progress=True)
+    assert "100%" in capsys.readouterr().err
+
+
+def test_what_is_done_is_returned_when_it_is_stopped(in_pieces):
+    in_pieces(20)
+    whole = sweep("rotation-number", TORI, a=0.5)
+    stop = threading.Event()
+    part = sweep("rotation-number", TORI, a=0.5, stop=stop, progress=lambda now: now.done and stop.set())
+    done = part.status.values > 0
+    assert 0 < done.sum() < 108
+    assert np.array_equal(part.rotation_number.values[done], whole.rotation_number.values[done], equal_nan=True)
+    assert np.isnan(part.rotation_number.values[~done]).all()
+
+
+def test_ctrl_c_leaves_what_is_done(in_pieces):
+    in_pieces(20)
+
+    def interrupt(now):
+        if now.done:
+            raise KeyboardInterrupt
+
+    with pytest.raises(Interrupted) as stopped:
+        sweep("rotation-number", TORI, a=0.5, progress=interrupt)
+    done = int((stopped.value.dataset.status.values > 0).sum())
+    assert str(stopped.value) == f"stopped after {done} of 108 cells."
+    assert 0 < done < 108
+    assert isinstance(stopped.value, KeyboardInterrupt)
+
+
+def test_pieces_take_as_long_as_they_should(monkeypatch):
+    seconds = count(0.0, 0.5)
+    monkeypatch.setattr("hess_explorer.sweep.work.time.perf_counter", lambda: next(seconds))
+    what = QUANTITIES["rotation-number"]
+    grid = Grid.of(what, {"h": (0.5, 2.0, 300), "f": (0.0, 0.2, 200)}, {"a": 0.5}, 10**6)
+    # By that clock every trial takes half a second, also the first, of one cell.
+    assert cost_of_a_cell(what, grid, level("draft")) == 0.5
+    assert running._cells_of_a_piece(what, grid, level("draft"), 1) == 4.0
+    monkeypatch.undo()
+    shape = grid.box_of(running._cells_of_a_piece(what, grid, level("draft"), 2))
+    assert np.prod(shape) > 1000
+    boxes = list(grid.boxes((77, 41)))
+    covered = np.zeros(grid.shape, int)
+    for (a, b), (c, d) in boxes:
+        covered[a:b, c:d] += 1
+    assert (covered == 1).all()
+
+
+WRONG = [
+    (("speed", {"h": [1.0]}, {}), "There is no quantity 'speed'; choose from rotation-number"),
+    (("rotation-number", {}, {}), "one to 3 parameters, not 0"),
+    (("rotation-number", {"h": [1.0], "f": [0.1], "a": [0.5], "x": [1.0]}, {}), "one to 3 parameters, not 4"),
+    (("rotation-number", {"x": [1.0]}, {}), "no parameter 'x'; choose from a, h, f"),
+    (("rotation-number", {"h": [1.0]}, {"g": 1.0}), "no parameter 'g'"),
+    (("rotation-number", {"h": [1.0]}, {"a": 0.5}), "needs f, area integral"),
+    (("rotation-number", {"h": [1.0], "f": [0.1]}, {"h": 1.0, "a": 0.5}), "h is swept and has one value too"),
+    (("rotation-number", {"h": (0.0, 1.0, 1)}, {"a": 0.5, "f": 0.1}), "has 1 values: choose 2 or more"),
+    (("rotation-number", {"h": []}, {"a": 0.5, "f": 0.1}), "one or more numbers in a row"),
+    (("rotation-number", {"h": [[1.0]]}, {"a": 0.5, "f": 0.1}), "one or more numbers in a row"),
+    (("rotation-number", {"h": ["x"]}, {"a": 0.5, "f": 0.1}), "are not all numbers"),
+    (("rotation-number", {"h": 1.0}, {"a": 0.5, "f": 0.1}), "give one of these"),
+    (("rotation-number", {"h": [1.0, 1.0]}, {"a": 0.5, "f": 0.1}), "is there twice"),
+    (("rotation-number", {"h": [np.nan]}, {"a": 0.5, "f": 0.1}), "h = nan, but it lies between"),
+    (("rotation-number", {"h": (0.0, np.inf, 5)}, {"a": 0.5, "f": 0.1}), "h = inf, but it lies between"),
+    (("rotation-number", {"h": [1.0]}, {"a": 1e9, "f": 0.1}), "a = 1e\\+09, but it lies between -1e\\+06 and 1e\\+06"),
+    (("rotation-number", {"h": [1.0]}, {"a": "much", "f": 0.1}), "a is a number, not 'much'"),
+    (("crossings-suslov", {"variable": [1.5]}, {}), "variable is a whole number"),
+    (("crossings-suslov", {"w1": [1.0]}, {"sense": 0.5}), "sense is a whole number, not 0.5"),
+    (("rotation-number", {"h": [1.0]}, {"a": 0.5, "f": 0.1, "level": "sloppy"}), "choose one of draft"),
+    (("rotation-number", {"h": [1.0]}, {"a": 0.5, "f": 0.1, "workers": "many"}), "no address of a Dask scheduler"),
+    (("rotation-number", {"h": [1.0]}, {"a": 0.5, "f": 0.1, "workers": 10_000}), "or the address of a Dask cluster"),
+]
+
+
+@pytest.mark.parametrize(("request_", "said"), WRONG, ids=[said[:30] for _, said in WRONG])
+def test_what_is_wrong_is_one_sentence(request_, said):
+    name, over, fixed = request_
+    with pytest.raises(InvalidParameter, match=said):
+        sweep(name, over, **fixed)
+
+
+def test_work_is_capped_before_anything_is_made():
+    huge = {"h": (0.0, 1.0, 10**6), "f": (0.0, 1.0, 10**6)}
+    with pytest.raises(WorkLimit, match=r"1000000000000 numbers; at most 10000000 are allowed.*most_cells"):
+        sweep("rotation-number", huge, a=0.5)
+    with pytest.raises(WorkLimit, match="At most 1e\\+10 numbers can be allowed"):
+        sweep("rotation-number", huge, a=0.5, most_cells=10**13)
+    # Three numbers at a cell count as three.
+    with pytest.raises(WorkLimit, match="These are 30 numbers"):
+        sweep("limit-cycles", {"h": (0.0, 1.0, 10)}, a=0.5, f=0.1, most_cells=20)
+
+
+@pytest.mark.parametrize("library", ["xarray", "zarr", "dask", "distributed"])
+def test_a_library_that_is_missing_is_named_with_the_command_that_installs_it(monkeypatch, library):
+    monkeypatch.setitem(sys.modules, library, None)
+    with pytest.raises(MissingLibrary, match=r"pip install 'hess-explorer\[sweep\]'"):
+        sweep("rotation-number", TORI, a=0.5)

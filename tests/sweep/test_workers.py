@@ -1,0 +1,114 @@
+"""Workers of a Dask cluster on this machine: the same numbers, and nothing lost where one dies."""
+
+from __future__ import annotations
+
+import os
+import signal
+from contextlib import contextmanager
+
+import pytest
+
+from hess_explorer.sweep import WorkersLost, sweep
+from hess_explorer.sweep import run as running
+from hess_explorer.sweep import workers as working
+
+MOTIONS = {"w1": (0.2, 1.4, 6), "I22": (1.0, 2.0, 5)}
+TIME = 15.0
+
+
+@pytest.fixture(scope="module")
+def cluster():
+    """The address of a cluster of two."""
+    with working.local_cluster(2) as address:
+        yield address
+
+
+@pytest.fixture
+def client(cluster):
+    from distributed import Client
+
+    with Client(cluster, set_as_default=False) as found:
+        found.wait_for_workers(2, timeout=60)
+        yield found
+
+
+@pytest.fixture
+def pairs(monkeypatch):
+    """Pieces of two cells."""
+    monkeypatch.setattr(running, "_cells_of_a_piece", lambda *_: 2)
+
+
+@pytest.fixture(scope="module")
+def alone():
+    """What one thread finds."""
+    return sweep("lyapunov-suslov", MOTIONS, level="draft", t=TIME)
+
+
+def test_workers_find_the_same_and_one_that_is_killed_is_no_loss(cluster, client, pairs, alone, tmp_path):
+    before = client.run(os.getpid)
+    killed = []
+
+    def kill_one(now):
+        if now.done and not killed:
+            killed.append(next(iter(before.values())))
+            os.kill(killed[0], signal.SIGKILL)
+
+    found = sweep("lyapunov-suslov", MOTIONS, level="draft", t=TIME, workers=cluster, progress=kill_one,
+                  store=tmp_path / "lambda.zarr")
+    assert killed
+    assert found.identical(alone)
+    assert found.lyapunov_suslov.values.tobytes() == alone.lyapunov_suslov.values.tobytes()
+    # Another one has taken its place.
+    client.wait_for_workers(2, timeout=60)
+    assert set(client.run(os.getpid).values()) - set(before.values())
+
+
+def test_all_cores_are_a_cluster_of_as_many(cluster, client, pairs, alone, monkeypatch):
+    asked = []
+
+    @contextmanager
+    def that_one(processes):
+        asked.append(processes)
+        yield cluster
+
+    monkeypatch.setattr(working, "local_cluster", that_one)
+    monkeypatch.setattr(working, "_cores", lambda: 2)
+    assert sweep("lyapunov-suslov", MOTIONS, level="draft", t=TIME, workers="all").identical(alone)
+    assert sweep("lyapunov-suslov", {"w1": [0.2]}, level="draft", t=TIME, I22=1.0, workers=2).lyapunov_suslov.item() \
+        == alone.lyapunov_suslov.values[0, 0]
+    assert asked == [2, 2]
+
+
+def test_a_piece_that_no_worker_can_do_is_said_and_the_others_are_kept(cluster, client, pairs, alone, tmp_path,
+                                                                      monkeypatch):
+    from hess_explorer.sweep.work import compute
+
+    bad = MOTIONS["w1"][0]
+
+    # Not at the top of this module, which the workers do not have.
+    def breaks(piece):
+        if bad in piece.axes["w1"]:
+            raise RuntimeError("this machine has no such thing")
+        return compute(piece)
+
+    store = tmp_path / "lambda.zarr"
+    monkeypatch.setattr(working, "compute", breaks)
+    with pytest.raises(WorkersLost, match=r"pieces were given up.*no such thing\..*the same sweep goes on there"):
+        sweep("lyapunov-suslov", MOTIONS, level="draft", t=TIME, workers=cluster, store=store)
+    monkeypatch.setattr(working, "compute", compute)
+    seen = []
+    found = sweep("lyapunov-suslov", MOTIONS, level="draft", t=TIME, store=store, progress=seen.append)
+    assert seen[0].done >= 20
+    assert found.identical(alone)
+
+
+def test_workers_of_another_version_are_refused(cluster, client, pairs, monkeypatch):
+    monkeypatch.setattr(running, "version", lambda: "9.9")
+    with pytest.raises(WorkersLost, match=r"and 9\.9 is asked for: install the same on all"):
+        sweep("lyapunov-suslov", MOTIONS, level="draft", t=TIME, workers=cluster)
+
+
+def test_a_cluster_that_is_not_there_is_one_sentence(monkeypatch):
+    monkeypatch.setattr(working, "_WAIT", 0.5)
+    with pytest.raises(WorkersLost, match=r"At tcp://127\.0\.0\.1:9 no Dask scheduler .* answers within 0\.5 s"):
+        sweep("rotation-number", {"h": [0.5]}, a=0.5, f=0.1, workers="tcp://127.0.0.1:9")
