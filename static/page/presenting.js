@@ -13,19 +13,20 @@ const REST = 3000
 
 const root = document.documentElement
 let leaving = null
-let worn = null
+let type = DESK
 
 export const isPresenting = () => leaving !== null
 
+// The size of the type beside the pictures, in pixels, for `zoom`: whoever places them has looked it up.
+export const setType = (size) => { type = size }
+
 // How much wider than beside a desk lines, dots and what is written on canvases are: with the type of a large screen.
 export function zoom() {
-  const type = worn === null ? DESK : Number.parseFloat(getComputedStyle(worn).fontSize)
   return Math.max(isPresenting() ? LARGER : 1, type / DESK)
 }
 
 // The component wears the classes `presenting` and `embedded` where that is so.
 export function wear(el, signal) {
-  worn = el
   const follow = () => {
     el.classList.toggle("presenting", isPresenting())
     el.classList.toggle("embedded", isEmbedded())

@@ -197,7 +197,8 @@ export function render({ model, view, el }) {
   for (const item of [document.documentElement, document.body]) {
     theme.observe(item, { attributes: true, attributeFilter: ["data-theme", "class", "style"] })
   }
-  listen("paint", followTheme, signal)
+  // In the frame after a state: the browser looks up styles then in any case.
+  listen("painted", () => requestAnimationFrame(followTheme), signal)
   signal.addEventListener("abort", () => theme.disconnect())
   stand()
 }

@@ -6,7 +6,7 @@
 import { listen, tell } from "../page/bus.js"
 import { isTaken } from "../page/keys.js"
 import { element } from "../page/mount.js"
-import { isPresenting, zoom } from "../page/presenting.js"
+import { isPresenting, setType, zoom } from "../page/presenting.js"
 import { PHONE } from "../page/windows.js"
 import { arrange } from "./arrange.js"
 import { sizePlot } from "./plot.js"
@@ -74,6 +74,7 @@ export function createStage(shelf, shown, signal) {
   // The size of the type, also in the plots of this scene.
   function size(scene) {
     const type = Number.parseFloat(getComputedStyle(shelf).fontSize)
+    setType(type)
     const sizes = `${type} ${zoom()}`
     if (scene.sizes !== sizes && scene.plots.length > 0) {
       scene.sizes = sizes
