@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import sys
 import threading
 from itertools import count
@@ -138,6 +139,32 @@ def test_ctrl_c_leaves_what_is_done(in_pieces):
     assert str(stopped.value) == f"stopped after {done} of 108 cells."
     assert 0 < done < 108
     assert isinstance(stopped.value, KeyboardInterrupt)
+
+
+def test_the_first_ctrl_c_lets_the_piece_end_and_the_handler_is_what_it_was(in_pieces):
+    in_pieces(20)
+    before = signal.getsignal(signal.SIGINT)
+    seen = []
+
+    def press(now):
+        seen.append(now.done)
+        signal.raise_signal(signal.SIGINT)
+
+    # Before the first piece: it is computed no more.
+    with pytest.raises(Interrupted, match=r"stopped after 0 of 108 cells\."):
+        sweep("rotation-number", TORI, a=0.5, progress=press)
+    assert seen == [0]
+    # The second one does not wait.
+    with pytest.raises(KeyboardInterrupt):
+        sweep("rotation-number", TORI, a=0.5, progress=lambda now: (press(now), press(now)))
+    assert seen == [0, 0, 0]
+    assert signal.getsignal(signal.SIGINT) is before
+    # Elsewhere than in the main thread there are no signals.
+    found = []
+    thread = threading.Thread(target=lambda: found.append(sweep("rotation-number", TORI, a=0.5)))
+    thread.start()
+    thread.join()
+    assert found[0].status.all()
 
 
 def test_pieces_take_as_long_as_they_should(monkeypatch):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import threading
 from contextlib import contextmanager
 
 import pytest
@@ -11,6 +12,7 @@ import pytest
 from hess_explorer.sweep import WorkersLost, sweep
 from hess_explorer.sweep import run as running
 from hess_explorer.sweep import workers as working
+from support.processes import interruptible
 
 MOTIONS = {"w1": (0.2, 1.4, 6), "I22": (1.0, 2.0, 5)}
 TIME = 15.0
@@ -112,3 +114,17 @@ def test_a_cluster_that_is_not_there_is_one_sentence(monkeypatch):
     monkeypatch.setattr(working, "_WAIT", 0.5)
     with pytest.raises(WorkersLost, match=r"At tcp://127\.0\.0\.1:9 no Dask scheduler .* answers within 0\.5 s"):
         sweep("rotation-number", {"h": [0.5]}, a=0.5, f=0.1, workers="tcp://127.0.0.1:9")
+
+
+def test_a_cluster_without_workers_is_waited_for_until_ctrl_c_or_not_for_ever(monkeypatch):
+    from distributed import LocalCluster
+
+    with LocalCluster(n_workers=0, dashboard_address=None, silence_logs="ERROR") as empty:
+        timer = threading.Timer(0.7, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        with interruptible(), pytest.raises(KeyboardInterrupt, match=r"stopped before anything was computed\."):
+            sweep("rotation-number", {"h": [0.5]}, a=0.5, f=0.1, workers=empty.scheduler_address)
+        timer.join()
+        monkeypatch.setattr(working, "_WAIT", 0.5)
+        with pytest.raises(WorkersLost, match="with 1 or more workers"):
+            sweep("rotation-number", {"h": [0.5]}, a=0.5, f=0.1, workers=empty.scheduler_address)

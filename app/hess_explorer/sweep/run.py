@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import json
 import math
+import signal
 import threading
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
+from types import FrameType
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -26,20 +29,27 @@ from hess_mechanics.numerics.accuracy import level as level_named
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["explain", "sweep"]
+__all__ = ["explain", "seconds_of_a_piece", "sweep"]
 
 _SHORTEST, _LONGEST = 0.25, 2.0
 """Seconds of a piece: long beside what it takes to hand out and to keep one, short enough to lose."""
 _PIECES = 16
 """Of each worker, so that all end together; fewer where these would be shorter than the shortest."""
+_RATE = 50.0
+"""Pieces a second that are asked of the one scheduler and the one writer, where many work for them."""
 _MOST_NUMBERS = 1_000_000
 """Of a piece: 8 MB."""
 
 
+def seconds_of_a_piece(work: float, workers: int) -> float:
+    """How long a piece is to take, of so many seconds of work for so many workers."""
+    least = workers / _RATE
+    return min(max(_LONGEST, least), max(_SHORTEST, least, work / (_PIECES * workers)))
+
+
 def _cells_of_a_piece(what: Quantity, grid: Grid, accuracy: Level, workers: int) -> float:
     cost = cost_of_a_cell(what, grid, accuracy)
-    seconds = min(_LONGEST, max(_SHORTEST, cost * grid.cells / (_PIECES * workers)))
-    return min(seconds / cost, _MOST_NUMBERS / what.numbers)
+    return min(seconds_of_a_piece(cost * grid.cells, workers) / cost, _MOST_NUMBERS / what.numbers)
 
 
 def sweep(quantity: str, over: Mapping[str, Axis], *, level: str = "precise", store: str | Path | None = None,
@@ -79,22 +89,35 @@ def sweep(quantity: str, over: Mapping[str, Axis], *, level: str = "precise", st
     grid = Grid.of(what, over, fixed, most_cells)
     path = None if store is None else Path(store)
     kept: Kept | None = None if path is None else opened(path, what, grid, level)
-    todo = None if kept is None else [box for box in grid.boxes(kept.shape) if not kept.has(box)]
-    if kept is not None and not todo:
-        return kept.dataset()
+    todo: Iterable[Box] = ()
+    missing = grid.cells
+    if kept is not None:
+        todo = [box for box in grid.boxes(kept.shape) if not kept.has(box)]
+        missing = sum(map(_size, todo))
+        if not missing:
+            return kept.dataset()
     try:
-        with crew(workers) as hands:
+        with ExitStack() as stack:
+            interrupted = stack.enter_context(_ctrl_c())
+
+            def stopped() -> bool:
+                return interrupted.is_set() or (stop is not None and stop.is_set())
+
+            hands = stack.enter_context(crew(workers, stopped))
             if kept is None:
+                if interrupted.is_set():
+                    raise KeyboardInterrupt("stopped before anything was computed.")
                 shape = grid.box_of(_cells_of_a_piece(what, grid, accuracy, hands.size))
                 kept = Memory(what, grid, level, shape) if path is None else \
                     Store.create(path, what, grid, level, shape)
-                todo = list(grid.boxes(shape))
-            missing = sum(_size(box) for box in todo or ())
-            pieces = ((box, Piece(what.name, level, version(), grid.pieces(box), grid.fixed)) for box in todo or ())
-            with reporting(progress, grid.cells, grid.cells - missing) as report:
-                for box, done in hands.run(pieces, (stop or threading.Event()).is_set):
-                    kept.write(box, done)
-                    report(_size(box))
+                todo = grid.boxes(shape)
+            pieces = ((box, Piece(what.name, level, version(), grid.pieces(box), grid.fixed)) for box in todo)
+            report = stack.enter_context(reporting(progress, grid.cells, grid.cells - missing))
+            for box, done in hands.run(pieces, stopped):
+                kept.write(box, done)
+                report(_size(box))
+        if interrupted.is_set():
+            raise KeyboardInterrupt
     except KeyboardInterrupt as error:
         if kept is None:
             raise
@@ -109,6 +132,26 @@ def sweep(quantity: str, over: Mapping[str, Axis], *, level: str = "precise", st
 
 def _size(box: Box) -> int:
     return math.prod(high - low for low, high in box)
+
+
+@contextmanager
+def _ctrl_c() -> Iterator[threading.Event]:
+    """An event that the first Ctrl-C sets, so that it ends no library in the middle of something; the second raises."""
+    pressed = threading.Event()
+    if threading.current_thread() is not threading.main_thread():
+        yield pressed
+        return
+
+    def press(number: int, frame: FrameType | None) -> None:
+        if pressed.is_set():
+            raise KeyboardInterrupt
+        pressed.set()
+
+    before = signal.signal(signal.SIGINT, press)
+    try:
+        yield pressed
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def explain(found: xr.Dataset, **cell: float) -> str:

@@ -70,7 +70,7 @@ def here() -> Crew:
 class _Cluster:
     def __init__(self, client: Client) -> None:
         self._client = client
-        self.size = self._threads()
+        self.size = max(1, self._threads())
 
     def _threads(self) -> int:
         try:
@@ -155,8 +155,8 @@ def local_cluster(processes: int) -> Iterator[str]:
 
 
 @contextmanager
-def crew(workers: Workers) -> Iterator[Crew]:
-    """Who computes.  Raises `InvalidParameter`, `WorkersLost`."""
+def crew(workers: Workers, stopped: Callable[[], bool]) -> Iterator[Crew]:
+    """Who computes; it waits for workers until `stopped`.  Raises `InvalidParameter`, `WorkersLost`."""
     if workers is None or workers == 1:
         yield here()
         return
@@ -171,18 +171,22 @@ def crew(workers: Workers) -> Iterator[Crew]:
                                        "the address of a Dask cluster.")
             wanted = workers
             address = stack.enter_context(local_cluster(wanted))
-        yield _Cluster(_connected(stack, str(address), wanted))
+        yield _Cluster(_connected(stack, str(address), wanted, stopped))
 
 
-def _connected(stack: ExitStack, address: str, wanted: int) -> Client:
+def _connected(stack: ExitStack, address: str, wanted: int, stopped: Callable[[], bool]) -> Client:
     """A client of the scheduler there, when so many workers have come.  Raises `InvalidParameter`, `WorkersLost`."""
     from distributed import Client
 
     if "://" not in address:
         raise InvalidParameter(f"{address!r} is no address of a Dask scheduler: write it like tcp://host:8786, or all.")
+    latest = time.monotonic() + _WAIT
     try:
         client = stack.enter_context(Client(address, timeout=_WAIT, set_as_default=False))
-        client.wait_for_workers(wanted, timeout=_WAIT)
+        while len(client.nthreads()) < wanted and not stopped():
+            if time.monotonic() > latest:
+                raise TimeoutError
+            time.sleep(_LOOK)
     except (OSError, TimeoutError, ValueError) as error:
         raise WorkersLost(f"At {address} no Dask scheduler with {wanted} or more workers answers within {_WAIT:g} s: "
                           "start one with `dask scheduler`, and workers with `dask worker`.") from error
