@@ -1,4 +1,5 @@
-// The dialog Export: the data or a figure of one picture, as a file made by the server, and the command that makes it.
+// The dialog Export: the data, a figure or a film of one picture, as a file made by the server, and the command that
+// makes it.
 
 import { tell } from "../page/bus.js"
 import { linkTo } from "../page/embedding.js"
@@ -8,10 +9,37 @@ import { gallery } from "../pictures/gallery.js"
 const FORMATS = [
   ["csv", "CSV: data, every digit"], ["json", "JSON: data, every digit"],
   ["png", "PNG, 300 dots an inch"], ["svg", "SVG"], ["pdf", "PDF"],
+  ["webm", "WebM: a film of the motion"], ["mp4", "MP4: a film of the motion"],
 ]
-const FIGURES = ["png", "svg", "pdf"]
+const FILMS = ["webm", "mp4"]
+const DRAWN = ["png", "svg", "pdf", ...FILMS]
 
 const options = (pairs) => pairs.map(([value, textContent]) => element("option", { value, textContent }))
+
+// The film out of an answer that says in lines before it how far it is, see "server/export.py": {file} or {why}.
+async function filmOf(answer, tell) {
+  const reader = answer.body.getReader()
+  const parts = []
+  let [begun, length, line] = [false, 0, []]
+  for (;;) {
+    const { value, done } = await reader.read()
+    if (done) break
+    let from = 0
+    while (!begun) {
+      const at = value.indexOf(10, from)
+      line.push(...value.subarray(from, at < 0 ? value.length : at))
+      if (at < 0) break
+      const [word, ...rest] = new TextDecoder().decode(Uint8Array.from(line)).split(" ")
+      ;[from, line] = [at + 1, []]
+      if (word === "why") return { why: rest.join(" ") }
+      if (word === "file") [begun, length] = [true, Number(rest[0])]
+      else if (word !== "queued") tell(word.split("/").map(Number))
+    }
+    if (begun) parts.push(value.subarray(from))
+  }
+  const file = new Blob(parts)
+  return begun && file.size === length ? { file } : { why: "The film broke off: there is no file." }
+}
 
 // {dialog, open(), show(description of the scene on show)}.
 export function exportDialog() {
@@ -20,6 +48,8 @@ export function exportDialog() {
   const picture = element("select", { className: "param-picture" })
   const format = element("select", { className: "param-format" }, ...options(FORMATS))
   const width = element("input", { type: "number", className: "param-width", min: 20, max: 400, step: 5, value: 85 })
+  const seconds = element("input", { type: "number", className: "param-seconds", min: 1, max: 30, step: 1, value: 10 })
+  const frames = element("progress", { "aria-label": "Frames of the film", hidden: true })
   const black = element("input", { type: "checkbox", className: "param-black" })
   const command = element("textarea", { className: "snippet", readOnly: true, rows: 4, "aria-label": "Command" })
   const save = element("button", { type: "button", className: "button param-save", textContent: "Save file" })
@@ -28,21 +58,23 @@ export function exportDialog() {
   const close = element("button", { type: "button", className: "button", textContent: "Close" })
   const figure = element("div", { className: "figure" },
     element("label", {}, "Width, mm ", width), element("label", {}, black, " Black on white"))
+  const film = element("div", { className: "figure" }, element("label", {}, "Seconds for all of the motion ", seconds))
   const dialog = element("dialog", { className: "menu-of-scenes share export", "aria-label": "Export" },
     element("div", { className: "head" }, element("h2", { textContent: "Export" }), close),
     element("div", { className: "parts" },
       element("section", { "aria-label": "File" }, element("h3", { textContent: "What a picture shows, as a file" }),
-        element("label", {}, "Picture ", picture), element("label", {}, "Format ", format), figure,
-        element("span", {}, save, stop), said),
+        element("label", {}, "Picture ", picture), element("label", {}, "Format ", format), figure, film,
+        element("span", {}, save, stop), frames, said),
       element("section", { "aria-label": "Command" }, element("h3", { textContent: "The same at the command line" }),
         command)))
 
   // What is asked for besides the state: the width and the look are those of a figure.
   function wanted() {
-    const drawn = FIGURES.includes(format.value)
+    const drawn = DRAWN.includes(format.value)
     return {
       picture: picture.value, format: format.value,
       ...(drawn ? { width: width.value } : {}), ...(drawn && black.checked ? { black: "1" } : {}),
+      ...(FILMS.includes(format.value) ? { seconds: seconds.value } : {}),
     }
   }
 
@@ -50,26 +82,34 @@ export function exportDialog() {
   const state = () => new URL(linkTo()).search.slice(1)
 
   function write() {
-    figure.hidden = !FIGURES.includes(format.value)
-    const { picture: name, format: kind, width: wide, black: isBlack } = wanted()
+    figure.hidden = !DRAWN.includes(format.value)
+    film.hidden = !FILMS.includes(format.value)
+    const { picture: name, format: kind, width: wide, black: isBlack, seconds: long } = wanted()
     command.value = `hess-explorer export --state '${state().replaceAll("'", "%27")}' --picture ${name} --format ${kind}` +
-      `${wide ? ` --width ${wide}` : ""}${isBlack ? " --black" : ""} --out ${scene.name}-${name}.${kind}`
+      `${wide ? ` --width ${wide}` : ""}${isBlack ? " --black" : ""}${long ? ` --seconds ${long}` : ""} --out ${scene.name}-${name}.${kind}`
   }
 
   async function fetched() {
-    const query = new URLSearchParams(wanted())
+    const isFilm = FILMS.includes(format.value)
+    const query = new URLSearchParams({ ...wanted(), ...(isFilm ? { progress: "1" } : {}) })
     try {
       const answer = await fetch(new URL(`export?${state()}&${query}`, document.baseURI), { signal: running.signal })
       if (!answer.ok) return { why: await answer.text() }
-      return { file: await answer.blob() }
+      return isFilm ? await filmOf(answer, count) : { file: await answer.blob() }
     } catch (error) {
       return { why: error.name === "AbortError" ? "Stopped." : "The server does not answer: there is no file." }
     }
   }
 
+  function count([done, of]) {
+    ;[frames.hidden, frames.max, frames.value] = [false, of, done]
+    said.textContent = `Frame ${done} of ${of}.`
+  }
+
   function busy(is) {
     save.disabled = is
     stop.hidden = !is
+    frames.hidden = true
   }
 
   async function make() {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shlex
+import time
 from pathlib import Path
 from urllib.error import HTTPError
 from urllib.parse import urlsplit
@@ -15,6 +16,7 @@ from hess_explorer.export.shown import shown
 from hess_explorer.export.table import as_csv
 from hess_explorer.protocol.parameters import MAX_QUERY
 from support.accessible import assert_accessible
+from support.films import frames_of, tags_of
 
 DRAFT = "h=1.2&f=0.3&accuracy=draft"
 
@@ -52,6 +54,69 @@ def test_the_dialog_saves_what_is_on_the_screen_and_names_the_command(explorer):
     explorer.assert_quiet()
 
 
+def filming():
+    """The processes that make films of half a minute."""
+    found = []
+    for one in Path("/proc").glob("[0-9]*/cmdline"):
+        try:
+            words = one.read_bytes().split(b"\0")
+        except OSError:
+            continue
+        if b"--progress" in words and b"30" in words:
+            found.append(words)
+    return found
+
+
+def test_a_film_is_made_with_progress_and_is_stopped(explorer):
+    page = explorer.page
+    explorer.change(lambda: explorer.slide(f=0.25))
+    page.get_by_role("button", name="Export").click()
+    dialog = page.get_by_role("dialog", name="Export")
+    assert dialog.locator(".param-seconds").is_hidden()
+    dialog.locator(".param-picture").select_option("sphere")
+    dialog.locator(".param-format").select_option("webm")
+    dialog.locator(".param-width").fill("60")
+    dialog.locator(".param-seconds").fill("1")
+    state = urlsplit(page.url).query
+    assert shlex.split(dialog.locator(".snippet").input_value())[-4:] == [
+        "--seconds", "1", "--out", "suslov-hess-sphere.webm"]
+    # All that is said while it is made.
+    dialog.locator(".why").evaluate("""said => {
+        window.heard = []
+        new MutationObserver(() => window.heard.push(said.textContent)).observe(said, {childList: true})
+    }""")
+    with page.expect_download() as download:
+        dialog.get_by_role("button", name="Save file").click()
+    assert download.value.suggested_filename == "suslov-hess-sphere.webm"
+    path = download.value.path()
+    assert len(frames_of(path, 480)) == 25
+    assert shown(state, "sphere").link in tags_of(path)
+    heard = page.evaluate("window.heard")
+    assert heard[0] == "Being made…"
+    assert "Frame 25 of 25." in heard
+    assert heard[-1].startswith("suslov-hess-sphere.webm:")
+    dialog.locator(".param-seconds").fill("30")
+    dialog.get_by_role("button", name="Save file").click()
+    wait_for(filming)
+    dialog.get_by_role("button", name="Stop").click()
+    expect(dialog.locator(".why")).to_have_text("Stopped.")
+    wait_for(lambda: not filming())
+    page.route("**/export?*", lambda route: route.fulfill(body="queued\n1/3\nwhy Nothing moves: so it is.\n"))
+    dialog.get_by_role("button", name="Save file").click()
+    expect(dialog.locator(".why")).to_have_text("Nothing moves: so it is.")
+    page.unroute("**/export?*")
+    page.keyboard.press("Escape")
+    explorer.assert_quiet()
+
+
+def wait_for(what, seconds=60.0):
+    """Until it holds; fails after so long."""
+    end = time.monotonic() + seconds
+    while not what():
+        assert time.monotonic() < end
+        time.sleep(0.1)
+
+
 def test_the_server_gives_files_and_sentences(server):
     with urlopen(f"{server}/export?{DRAFT}&picture=circle") as answer:
         assert answer.headers["Content-Type"].startswith("text/csv")
@@ -63,7 +128,7 @@ def test_the_server_gives_files_and_sentences(server):
 
 
 @pytest.mark.parametrize(("query", "sentence"), [
-    ("picture=nothing", "choose one of body, omega"),
+    ("picture=nothing", "choose one of body, omega"), ("picture=-x&format=webm", "has no picture '-x'"),
     ("h=" + "1" * MAX_QUERY, f"longer than {MAX_QUERY} characters"),
     ("scene=chaplygin-ball&I13=0&I23=0", "no line of equilibria"),
 ])

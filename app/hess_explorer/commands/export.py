@@ -1,8 +1,10 @@
-"""`hess-explorer export`: what a picture of the page shows, as a table or as a figure for paper."""
+"""`hess-explorer export`: what a picture of the page shows, as a table, as a figure for paper, or as a film."""
 
 from __future__ import annotations
 
 import argparse
+import sys
+from collections.abc import Callable
 from pathlib import Path
 from urllib.parse import urlencode
 
@@ -12,38 +14,61 @@ from .shot import state_of
 
 __all__ = ["add"]
 
+_TEXTS = ("csv", "json", "svg")
+_KINDS = (*_TEXTS, "png", "pdf", "webm", "mp4")
+
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
     parser = commands.add_parser(
-        "export", help="what a picture of the page shows, as CSV, JSON, PNG, SVG or PDF",
+        "export", help="what a picture of the page shows, as CSV, JSON, PNG, SVG, PDF or a film",
         description="Compute the state that a link describes and write what one of its pictures shows: its data, every "
                     "digit, as CSV or JSON, or a square figure as PNG, SVG or PDF, with bodies and clouds at the "
-                    "link's time, without the moving point. Every file says link, parameters, accuracy, errors and "
-                    "version. Figures need the extra: "
+                    "link's time, without the moving point, or a film of its motion as WebM or MP4. Every file "
+                    "says link, parameters, accuracy, errors and version. Figures and films need the extra: "
                     "pip install '.[export]'.",
         epilog="Example: hess-explorer export --state 'h=1.2&f=0.3' --picture circle --format csv --out circle.csv")
     parser.add_argument("--state", type=state_of, default={}, metavar="QUERY",
                         help="what follows ? in a link to the page (default: its first view)")
     parser.add_argument("--picture", default="", metavar="NAME",
                         help="the name of the picture, as in pictures=… of a link that embeds (default: the first)")
-    parser.add_argument("--format", choices=("csv", "json", "png", "svg", "pdf"), default="csv", help="default: csv")
+    parser.add_argument("--format", choices=_KINDS, default="csv", help="default: csv")
     parser.add_argument("--width", type=float, default=85.0, metavar="MM",
-                        help="of a figure, 20 to 400 millimetres (default 85, a column of a journal)")
-    parser.add_argument("--black", action="store_true", help="a figure in black on white instead of the page's colours")
+                        help="of a figure, 20 to 400 millimetres (default 85, a column of a journal); of a film 60 to "
+                             "160, at 8 pixels a millimetre")
+    parser.add_argument("--seconds", type=float, default=10.0, metavar="S",
+                        help="length of a film, all of the motion in so many: 1 to 60 (default 10), 25 frames a second")
+    parser.add_argument("--black", action="store_true",
+                        help="a figure or a film in black on white instead of the page's colours")
+    parser.add_argument("--progress", action="store_true",
+                        help="say on standard error, a line each, how many frames of a film there are, of how many")
     parser.add_argument("--out", type=Path, metavar="FILE", help="write to this file instead of standard output")
     parser.set_defaults(run=_run)
 
 
+def _teller(lines: bool) -> Callable[[int, int], None]:
+    """How far a film is: in lines, or in one that changes where somebody looks on."""
+    seen = sys.stderr.isatty()
+
+    def tell(done: int, of: int) -> None:
+        if lines:
+            print(f"{done}/{of}", file=sys.stderr, flush=True)
+        elif seen:
+            print(f"\rframe {done} of {of}", end="" if done < of else "\n", file=sys.stderr, flush=True)
+
+    return tell
+
+
 def _run(options: argparse.Namespace) -> None:
-    if options.out is None and options.format in ("png", "pdf"):
+    if options.out is None and options.format not in _TEXTS:
         raise CommandError(f"A {options.format.upper()} is no text: name a file with --out FILE.")
     with computing():
-        from hess_explorer.export.file import content
+        from hess_explorer.export.file import Wish, content
         from hess_explorer.export.shown import shown
 
         found = shown(urlencode(options.state), options.picture)
-        data = content(found, options.format, options.width, options.black)
+        wish = Wish(options.format, options.width, options.black, options.seconds)
+        data = content(found, wish, _teller(options.progress))
     if options.out is not None:
         write_file(options.out, data)
     else:

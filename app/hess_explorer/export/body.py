@@ -22,7 +22,7 @@ _WHEEL, _THICK = 0.15, 0.024
 _CAVITY, _INNER = 0.62, 0.26
 _BALL = 0.055
 """Radius of the ball at the end of a rod with a mass."""
-_SHADES = 320
+_SHADES = 224
 """Pixels of the shading on a side."""
 _COLUMNS = ("g1", "g2", "g3", "e1", "e2", "e3")
 
@@ -35,16 +35,18 @@ def placing(attitude: Columns, t: float) -> Array:
     attitude : the columns t, γ and e along the motion, orthonormal at the samples.
     """
     i, s = between(attitude["t"], t)
-    return _turned([float(attitude[name][i] + s * (attitude[name][i + 1] - attitude[name][i])) for name in _COLUMNS])
+    there = [float(attitude[name][i] + s * (attitude[name][i + 1] - attitude[name][i])) for name in _COLUMNS]
+    placed: Array = _turned(np.array([there]))[0]
+    return placed
 
 
-def _turned(directions: Any) -> Array:
-    """The same from γ and e, whatever straight lines between samples have made of them."""
-    g, raw = np.array(directions[:3]), np.array(directions[3:])
-    g = g / np.linalg.norm(g)
-    e = raw - (g @ raw) * g
-    e /= np.linalg.norm(e)
-    return np.stack([e, -np.cross(g, e), -g])
+def _turned(directions: Array) -> Array:
+    """The same (n, 3, 3) from γ and e (n, 6), whatever straight lines between samples have made of them."""
+    g, raw = directions[:, :3], directions[:, 3:]
+    g = g / np.linalg.norm(g, axis=1, keepdims=True)
+    e = raw - np.sum(g * raw, axis=1, keepdims=True) * g
+    e /= np.linalg.norm(e, axis=1, keepdims=True)
+    return np.stack([e, -np.cross(g, e), -g], axis=1)
 
 
 class Body:
@@ -71,7 +73,7 @@ class Body:
         tip, (i, _) = np.array(self.own["trail"][:3], float), between(attitude["t"], t)
         samples = np.column_stack([attitude[name][max(0, i - _TRAIL) : i + 1] for name in _COLUMNS])
         assert self.turn is not None
-        return np.array([*(_turned(one) @ tip for one in samples), self.turn @ tip])
+        return np.vstack([_turned(samples) @ tip, self.turn @ tip])
 
     def half(self, near: bool) -> None:
         """All of it on this side but the solid itself."""
@@ -191,9 +193,8 @@ class Body:
         rim, middle, ink = circle(axle, 0.0)[::4], (1.0 - _WHEEL) * touching, sheet.colour(theme.INK)
 
         def disc(along: float, size: float, face: str) -> None:
-            x, y, _ = seen(middle + along * axle + size * rim, *sheet.view).T
-            sheet.frame.fill(x, y, facecolor=face, edgecolor=ink, linewidth=1.3, joinstyle="round",
-                             zorder=sheet.above())
+            sheet.area(seen(middle + along * axle + size * rim, *sheet.view)[:, :2], facecolor=face, edgecolor=ink,
+                       linewidth=1.3, joinstyle="round")
 
         # The tread is what its discs cover.
         for along in (-side, -0.6 * side, -0.2 * side, 0.2 * side, 0.6 * side):
@@ -209,6 +210,5 @@ class Body:
         if math.hypot(x - x0, y - y0) > 3.0 * sheet.point:
             angle, size = math.atan2(y - y0, x - x0), 4.2 * sheet.point
             corners = np.array([[math.cos(angle + turned), math.sin(angle + turned)] for turned in (0.0, 2.4, -2.4)])
-            sheet.frame.fill(*(np.array([x, y]) + size * corners).T, color=sheet.colour(theme.INK), linewidth=0,
-                             zorder=sheet.above())
+            sheet.area(np.array([x, y]) + size * corners, color=sheet.colour(theme.INK), linewidth=0)
         sheet.write(label, x + (8.0 + 2.8 * len(label)) * sheet.point, y)

@@ -21,9 +21,10 @@ def between(times: Array, t: float) -> tuple[int, float]:
 
 
 def end(columns: Mapping[str, Columns]) -> float:
-    """The last time of the orbit; 0 where nothing moves."""
-    times = columns.get("data-orbit", {}).get("t", ())
-    return float(times[-1]) if len(times) > 1 else 0.0
+    """The last time of the orbit, or of the clouds; 0 where nothing moves."""
+    clouds = (one["times"] for one in columns.values() if "frames0" in one)
+    tracks = (columns.get("data-orbit", {}).get("t", ()), *clouds)
+    return max((float(times[-1]) for times in tracks if len(times) > 1), default=0.0)
 
 
 def state_at(track: Columns, angles: tuple[str, ...], t: float) -> dict[str, float]:

@@ -19,7 +19,7 @@ from hess_explorer.views.plot import Plot
 if TYPE_CHECKING:
     from matplotlib.axes import Axes as Frame
 
-__all__ = ["draw_moving", "draw_still"]
+__all__ = ["densities", "draw_moving", "draw_still"]
 
 _MOST_VECTORS = 5000
 """More dots than these are pixels in a vector file, which would else take a viewer seconds."""
@@ -60,15 +60,22 @@ def draw_still(frame: Frame, shown: Shown, colour: Colour) -> None:
         frame.text(0.5, 0.5, text, transform=frame.transAxes, ha="center", va="center", color=colour(theme.MUTED))
 
 
+def densities(shown: Shown) -> list[tuple[CloudPlane[Any], Layer[Any]]]:
+    """The layers that show the density of a cloud at the moving time, and whose."""
+    plot = shown.picture
+    layers = {plot.source_of(layer): layer for layer in plot.layers} if isinstance(plot, Plot) else {}
+    return [(view, layers[view.density]) for view in shown.scene.views
+            if isinstance(view, CloudPlane) and view.density in layers and view.name in plot.needs]
+
+
 def draw_moving(frame: Frame, shown: Shown, colour: Colour, t: float, point: bool) -> None:
     """The density of a cloud at a time; point : the points that follow the orbit too."""
     plot = shown.picture
     assert isinstance(plot, Plot)
+    for view, layer in densities(shown):
+        x, y = density_at(shown.columns.get(view.name, {}), t)
+        _markers(frame, layer, {"x": x, "y": y}, colour, _OVER)
     layers = {plot.source_of(layer): layer for layer in (*plot.layers, POINT)}
-    for view in shown.scene.views:
-        if isinstance(view, CloudPlane) and view.density in layers and view.name in plot.needs:
-            x, y = density_at(shown.columns.get(view.name, {}), t)
-            _markers(frame, layers[view.density], {"x": x, "y": y}, colour, _OVER)
     state = state_at(shown.columns.get("data-orbit", {}), shown.scene.angles, t) if point else {}
     if state:
         for source, (across, up) in plot.followers.items():

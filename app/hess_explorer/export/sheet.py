@@ -122,6 +122,13 @@ class Sheet:
         self.frame.plot((x0, x1), (y0, y1), color=self.colour(look[0]), linewidth=look[2], alpha=alpha,
                         solid_capstyle="round", zorder=self.above())
 
+    def area(self, corners: Array, **style: Any) -> None:
+        """A polygon (n, 2) in the plane of the picture."""
+        from matplotlib.patches import Polygon
+
+        # As an artist: a patch is first asked how far it reaches, which takes longer than to draw it.
+        self.frame.add_artist(Polygon(corners, zorder=self.above(), **style))
+
     def dot(self, x: float, y: float, size: float, **style: Any) -> None:
         """A disc of so many points across, in the plane of the picture."""
         self.frame.plot([x], [y], marker="o", markersize=size, linestyle="none", zorder=self.above(), **style)
@@ -134,8 +141,8 @@ class Sheet:
 
         size = float(rcParams["font.size"])
         across, up = 0.31 * size * len(label) * self.point, 0.62 * size * self.point
-        places = [(min(max(x + a * (across + size * self.point), across - ROOM), ROOM - across),
-                   min(max(y + 2.05 * b * up, up - ROOM), ROOM - up)) for a, b in _ASIDE]
+        places = [(min(max(x + far * a * (across + size * self.point), across - ROOM), ROOM - across),
+                   min(max(y + far * 2.05 * b * up, up - ROOM), ROOM - up)) for far in (1, 2) for a, b in _ASIDE]
         free = (place for place in places if all(
             abs(place[0] - other) >= across + wide or abs(place[1] - high) >= 2.0 * up
             for other, high, wide in self._taken))

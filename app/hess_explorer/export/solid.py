@@ -66,9 +66,12 @@ def shaded(axes: Array, semi: Array, tones: tuple[str, str], side: int, glass: b
     place = start + z[..., None] * along
     normal = (place / semi) @ axes
     normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
-    lit, shine = np.maximum(0.0, normal @ _LIGHT), np.maximum(0.0, normal @ _HALFWAY) ** 16
+    lit, shine = np.maximum(0.0, normal @ _LIGHT), np.maximum(0.0, normal @ _HALFWAY)
+    for _ in range(4):
+        shine *= shine
     sharp = side / (3.0 * width)
-    share = 0.5 + 0.5 * np.prod(np.clip(place * semi * sharp, -1.0, 1.0), axis=-1)
+    p, q, r = np.moveaxis(np.clip(place * (semi * sharp), -1.0, 1.0), -1, 0)
+    share = 0.5 + 0.5 * p * q * r
     even, odd = (np.array([int(tone[i : i + 2], 16) / 255.0 for i in (1, 3, 5)]) for tone in tones)
     bright = _AMBIENT + (1.08 - _AMBIENT) * lit
     colours = bright[..., None] * (odd + share[..., None] * (even - odd)) + (70.0 / 255.0) * shine[..., None]

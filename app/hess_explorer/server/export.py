@@ -5,42 +5,56 @@ from __future__ import annotations
 import asyncio
 import threading
 from concurrent.futures import ThreadPoolExecutor
+from typing import Any
 from urllib.parse import urlencode
 
 import numpy as np
+from tornado.iostream import StreamClosedError
 from tornado.web import RequestHandler
 
 from hess_explorer.compute.budget import Abandoned, limited
-from hess_explorer.export.file import content
+from hess_explorer.export.file import Wish, content
+from hess_explorer.export.film import FILMS
 from hess_explorer.export.shown import shown
 from hess_explorer.protocol.parameters import MAX_QUERY, Choice, Number, decode
+from hess_explorer.scenes import scenes
+from hess_explorer.server.film import Film
 from hess_mechanics.errors import ModelError
 
 __all__ = ["Export"]
 
 _TYPES = {"csv": "text/csv; charset=utf-8", "json": "application/json", "png": "image/png",
-          "svg": "image/svg+xml; charset=utf-8", "pdf": "application/pdf"}
+          "svg": "image/svg+xml; charset=utf-8", "pdf": "application/pdf", "webm": "video/webm", "mp4": "video/mp4"}
 _SPECS = (Choice("format", "Format", tuple(_TYPES), "csv"), Choice("black", "Black", ("0", "1"), "0"),
-          Number("width", "width", "Width", 85.0, (20.0, 400.0), 5.0, (20.0, 400.0)))
+          Number("width", "width", "Width", 85.0, (20.0, 400.0), 5.0, (20.0, 400.0)),
+          Number("seconds", "seconds", "Seconds", 10.0, (1.0, 30.0), 1.0, (1.0, 30.0)),
+          Choice("progress", "Progress", ("0", "1"), "0"))
 
-# One file at a time: those who look at pages come first.
-_pool = ThreadPoolExecutor(max_workers=1, thread_name_prefix="export")
+# One file at a time, and one film: those who look at pages come first.
+_files = ThreadPoolExecutor(max_workers=1, thread_name_prefix="export")
+_films = ThreadPoolExecutor(max_workers=1, thread_name_prefix="film")
 _MOST = 20
 """So many may wait."""
 
 
 class Export(RequestHandler):
-    """GET /export?<state>&picture=NAME&format=…&width=MM&black=1: the file, or a sentence why there is none."""
+    """GET /export?<state>&picture=NAME&format=…&width=MM&black=1&seconds=S: the file, or a sentence why there is none.
+
+    A film with progress=1 comes after lines that say how far it is: "queued", "3/250" after the third frame, at last
+    "file 12345", the number of bytes that follow, or "why" and a sentence.
+    """
 
     waiting = 0
 
     def initialize(self) -> None:
         """Nobody has left yet."""
         self._left = threading.Event()
+        self._film = Film()
 
     def on_connection_close(self) -> None:
         """What nobody waits for any more is not computed to the end."""
         self._left.set()
+        self._film.stop()
 
     async def get(self) -> None:
         """Answer with the file; 400 and a sentence for what cannot be computed or drawn, 503 where too many wait."""
@@ -51,29 +65,68 @@ class Export(RequestHandler):
         if Export.waiting >= _MOST:
             self._refuse(503, "Too many files are being made at the moment: try again in a minute.")
             return
+        given = {name: self.get_query_argument(name) for name in self.request.query_arguments}
+        read, _ = decode(self.request.query, _SPECS)
+        own = {spec.name for spec in _SPECS} | {"picture"}
+        state, picture = {name: value for name, value in given.items() if name not in own}, given.get("picture", "")
         Export.waiting += 1
         try:
-            name, kind, data = await asyncio.get_running_loop().run_in_executor(_pool, self._file)
-        except Abandoned:
+            if read["format"] in FILMS:
+                await self._answer_film(state, picture, read)
+            else:
+                wish = Wish(str(read["format"]), float(read["width"]), read["black"] == "1")
+                name, data = await asyncio.get_running_loop().run_in_executor(_files, self._file, state, picture, wish)
+                self._send(name, wish.kind, data)
+        except (Abandoned, StreamClosedError):
             return
         except ModelError as error:
             self._refuse(400, str(error))
-            return
         finally:
             Export.waiting -= 1
+
+    def _file(self, state: dict[str, str], picture: str, wish: Wish) -> tuple[str, bytes]:
+        """Name and bytes of what is asked for.  Raises `ModelError`, `Abandoned`."""
+        with limited(self._left), np.errstate(all="ignore"):
+            found = shown(urlencode(state), picture)
+            return f"{found.scene.name}-{found.picture.name}", content(found, wish)
+
+    async def _answer_film(self, state: dict[str, str], picture: str, read: dict[str, Any]) -> None:
+        """The film, after lines about it where they are asked for.  Raises `ModelError`, `Abandoned`."""
+        loop, kind, lines = asyncio.get_running_loop(), str(read["format"]), read["progress"] == "1"
+        words = [f"--state={urlencode(state)}", f"--picture={picture}", "--format", kind,
+                 "--width", f"{read['width']:g}", "--seconds", f"{read['seconds']:g}",
+                 *(["--black"] if read["black"] == "1" else [])]
+
+        def say(line: str) -> None:
+            if not self._left.is_set():
+                self.write(f"{line}\n")
+                self.flush()
+
+        def tell(line: str) -> None:
+            if lines:
+                loop.call_soon_threadsafe(say, line)
+
+        if lines:
+            self.set_header("Content-Type", "application/octet-stream")
+            say("queued")
+        try:
+            data = await loop.run_in_executor(_films, self._film.made, words, tell)
+        except ModelError as error:
+            if not lines:
+                raise
+            say(f"why {error}")
+            return
+        if lines:
+            say(f"file {len(data)}")
+            self.finish(data)
+        else:
+            scene = state.get("scene", "")
+            self._send(f"{scene if scene in scenes() else next(iter(scenes()))}-{picture or 'film'}", kind, data)
+
+    def _send(self, name: str, kind: str, data: bytes) -> None:
         self.set_header("Content-Type", _TYPES[kind])
         self.set_header("Content-Disposition", f'attachment; filename="{name}.{kind}"')
         self.finish(data)
-
-    def _file(self) -> tuple[str, str, bytes]:
-        """Name, format and bytes of what is asked for.  Raises `ModelError`, `Abandoned`."""
-        read, _ = decode(self.request.query, _SPECS)
-        given = {name: self.get_query_argument(name) for name in self.request.query_arguments}
-        picture, kind = given.pop("picture", ""), str(read["format"])
-        with limited(self._left), np.errstate(all="ignore"):
-            found = shown(urlencode(given), picture)
-            data = content(found, kind, float(read["width"]), read["black"] == "1")
-        return f"{found.scene.name}-{found.picture.name}", kind, data
 
     def _refuse(self, status: int, sentence: str) -> None:
         self.set_status(status)

@@ -1,0 +1,128 @@
+"""Films: they decode, have the frames that were asked for, and the point is where the motion is at that time."""
+
+from __future__ import annotations
+
+import math
+import sys
+import tempfile
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from hess_explorer.export.film import FILMS, as_film, moves, pictures_at, times_of
+from hess_explorer.export.shown import shown
+from hess_mechanics.errors import ModelError
+from support.films import frames_of, tags_of
+
+LINK = "I22=0.96&I23=0.28&b3=-1&h=1.5&f=0.6&phi0=0.5&span=10&accuracy=precise"
+SIDE = 480
+"""Pixels of a film 60 mm wide."""
+
+
+@pytest.fixture(scope="module")
+def found():
+    return shown(LINK, "omega")
+
+
+def box_of(picture):
+    """The frame of the plot in pixels: left, right, top, bottom, where its dark lines are."""
+    dark = picture.astype(int).sum(axis=2) < 500
+    columns, rows = (np.flatnonzero(dark.mean(axis=axis) > 0.5) for axis in (0, 1))
+    return columns.min(), columns.max(), rows.min(), rows.max()
+
+
+def point_in(picture):
+    """The middle of the yellow point, (x, y) in pixels from the left and from above."""
+    red, green, blue = picture.astype(int).transpose(2, 0, 1)
+    rows, columns = np.nonzero((red > 190) & (green > 180) & (blue < 140))
+    assert columns.size > 20
+    # A median: at the edges of orange lines single pixels are yellow too.
+    return np.median(columns), np.median(rows)
+
+
+@pytest.mark.parametrize("kind", FILMS)
+def test_the_moving_point_is_where_the_orbit_is_at_that_time(found, kind, tmp_path):
+    told = []
+    path = tmp_path / f"film.{kind}"
+    path.write_bytes(as_film(found, kind, 60.0, seconds=1.0, tell=lambda *done: told.append(done)))
+    assert told == [(i + 1, 25) for i in range(25)]
+    pictures = frames_of(path, SIDE)
+    assert len(pictures) == 25
+    track = found.columns["data-orbit"]
+    I11, I22, I23 = 0.96 + 0.28**2 / 0.96, 0.96, 0.28
+    b = np.array([0.0, I23 / I22, -1.0])
+
+    def right_side(_, y):
+        w, g = np.array([y[0], y[1], 0.0]), y[2:]
+        torque = np.cross([I11 * w[0], I22 * w[1], I23 * w[1]], w) + np.cross(g, b)
+        return [torque[0] / I11, torque[1] / I22, *np.cross(g, w)]
+
+    chosen = np.array([5, 14, 24])
+    start = [track[name][0] for name in ("omega1", "omega2", "g1", "g2", "g3")]
+    run = solve_ivp(right_side, (0.0, 10.0), start, rtol=1e-10, atol=1e-12, t_eval=10.0 * chosen / 24.0)
+    left, right, top, bottom = box_of(pictures[0])
+    for i, (w1, w2) in zip(chosen, run.y[:2].T, strict=True):
+        x, y = point_in(pictures[i])
+        (x0, x1), (y0, y1) = found.axes.x, found.axes.y
+        # The point is 13 pixels wide; it may be off by one, where the film has its colours for four pixels together.
+        assert x == pytest.approx(left + (right - left) * (w1 - x0) / (x1 - x0), abs=1.2)
+        assert y == pytest.approx(bottom - (bottom - top) * (w2 - y0) / (y1 - y0), abs=1.2)
+    said = tags_of(path)
+    for fact in (found.title, found.link, found.facts["program"], "f = 0.6", "accuracy: precise", "error"):
+        assert fact in said
+
+
+def test_what_moves_moves_and_what_stands_stands():
+    cloud = shown("scene=singular-measures&points=1000&accuracy=draft", "omega")
+    times = times_of(cloud, 4.0)
+    assert (times[0], times[-1], len(times)) == (0.0, cloud.columns["omega"]["times"][-1], 100)
+    first, last = (np.array(one, int) for one in pictures_at(cloud, times[[0, -1]], 60.0))
+    left, right, top, bottom = box_of(first)
+    changed = np.abs(first - last).sum(axis=2) > 60
+    inside = changed[top : bottom + 1, left : right + 1]
+    assert inside.sum() > 200
+    changed[top : bottom + 1, left : right + 1] = False
+    # Besides, only the clock in the corner.
+    rows, columns = np.nonzero(changed)
+    assert rows.max() < top
+    assert columns.min() > SIDE / 2
+    body = shown(f"{LINK}&t=3", "body")
+    first, again = pictures_at(body, np.array([3.0, 3.0]), 60.0)
+    assert np.array_equal(first, again)
+
+
+def test_which_pictures_move():
+    expected = {("", "body"): True, ("", "circle"): True, ("", "bifurcation"): True, ("", "sphere"): True,
+                ("scene=singular-measures", "density"): True, ("scene=singular-measures", "sphere"): True,
+                ("scene=scattering", "map"): False, ("scene=rotation-number", "line"): False}
+    found = {(link, name): moves(shown(f"{link}&accuracy=draft&points=1000", name)) for link, name in expected}
+    assert found == expected
+
+
+def test_a_film_that_is_stopped_leaves_nothing_behind(found, tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+
+    def stop(done, of):
+        if done == 3:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        as_film(found, "webm", 60.0, tell=stop)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_what_cannot_be_filmed_is_refused_with_a_sentence(found, monkeypatch):
+    for wrong in (0.0, 59.9, 161.0, math.nan):
+        with pytest.raises(ModelError, match="60 to 160 mm wide"):
+            as_film(found, "webm", wrong)
+    for wrong in (0.5, 61.0, math.nan):
+        with pytest.raises(ModelError, match="1 to 60 seconds long"):
+            as_film(found, "webm", seconds=wrong)
+    with pytest.raises(ModelError, match="choose one of webm, mp4"):
+        as_film(found, "avi")
+    with pytest.raises(ModelError, match="Nothing moves in “"):
+        as_film(shown("scene=scattering&accuracy=draft", "map"), "webm")
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
+    with pytest.raises(ModelError, match=r"pip install 'hess-explorer\[export\]'"):
+        as_film(found, "webm")
