@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import io
 import re
 import sys
 from collections.abc import Sequence
@@ -76,6 +77,9 @@ def _with_negative_values(words: list[str]) -> list[str]:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command.  Returns 0, 2 when the request cannot be carried out, 130 when interrupted."""
     words = list(sys.argv[1:] if argv is None else argv)
+    # A terminal of another encoding than UTF-8 shows Greek letters by their numbers.
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(errors="backslashreplace")
     try:
         options = _parser().parse_args(_with_negative_values(_with_command(words)))
         options.run(options)

@@ -5,12 +5,16 @@ from __future__ import annotations
 import threading
 import time
 
+import numba
 import pytest
 
 from hess_explorer.compute import turns
 from hess_explorer.compute.budget import Abandoned, OverBudget, check, limited
 from hess_explorer.compute.cache import ResultCache
 from hess_explorer.compute.turns import MOST, Turns
+from hess_mechanics.dynamics.trade import measure
+from hess_mechanics.numerics.accuracy import Kind
+from hess_mechanics.numerics.parallel import share
 
 PATIENCE = 60.0
 
@@ -98,9 +102,7 @@ def test_what_costs_more_than_its_budget_is_refused_with_a_sentence():
     nobody = threading.Event()
     check()
     with limited(nobody, seconds=0.02), pytest.raises(OverBudget, match=r"more than 0\.02 s to compute"):
-        end = time.thread_time() + 0.05
-        while time.thread_time() < end:
-            pass
+        busy(0.05)
         check()
     with limited(nobody, wait=0.0), pytest.raises(OverBudget, match="too busy"):
         time.sleep(0.001)
@@ -109,6 +111,48 @@ def test_what_costs_more_than_its_budget_is_refused_with_a_sentence():
     with limited(nobody), pytest.raises(Abandoned):
         check()
     check()
+
+
+def busy(seconds):
+    end = time.thread_time() + seconds
+    while time.thread_time() < end:
+        pass
+
+
+def test_what_other_threads_work_for_an_answer_counts_and_ends_between_two_parts():
+    done = []
+
+    def part(i):
+        busy(0.02)
+        done.append(i)
+
+    with limited(threading.Event(), seconds=0.05), pytest.raises(OverBudget):
+        share(part, 40, threads=2)
+    # Those of two threads that had begun, and no others.
+    assert 2 <= len(done) <= 6
+    share(part, 2, threads=2)
+
+
+def test_a_long_computation_ends_between_its_parts_when_nobody_waits():
+    left, run = threading.Event(), []
+
+    def one(plan):
+        run.append(plan)
+        left.set()
+        return 0.0
+
+    with limited(left), pytest.raises(Abandoned):
+        measure(Kind.ORBIT, one, lambda found, truth: 0.0)
+    assert len(run) == 1
+
+
+def test_what_is_compiled_meanwhile_is_no_part_of_the_budget():
+    compiled = numba.njit(lambda x: x + 1.0)
+    with limited(threading.Event(), seconds=0.02):
+        begun = time.thread_time()
+        assert compiled(1.0) == 2.0
+        assert time.thread_time() - begun > 0.02
+        check()
 
 
 def test_the_end_of_one_budget_is_not_that_of_others_who_wait_for_the_same():

@@ -30,7 +30,9 @@ class Image:
     def __init__(self, project, root):
         self.project, self.root = project, root
         self.user, self.workdir, self.set = "root", "/", {}
-        self.stopsignal = self.cmd = self.health = None
+        # Docker sends it unless another one is named.
+        self.stopsignal = "SIGTERM"
+        self.cmd = self.health = None
         (root / "root").mkdir(parents=True)
         subprocess.run([sys.executable, "-m", "venv", root / "venv"], check=True)
         # The libraries come from the environment of the tests; what the Dockerfile installs goes before them.

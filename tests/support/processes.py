@@ -5,7 +5,7 @@ import signal
 from contextlib import contextmanager
 from pathlib import Path
 
-__all__ = ["interruptible", "memory", "worked"]
+__all__ = ["below", "interruptible", "memory", "worked"]
 
 
 @contextmanager
@@ -21,7 +21,7 @@ def interruptible():
         signal.signal(signal.SIGINT, before)
 
 
-def _below(pid):
+def below(pid):
     """A process and all below it."""
     found = [pid]
     for one in found:
@@ -35,7 +35,7 @@ def _below(pid):
 def memory(pid):
     """Bytes in memory, each page shared between processes counted once."""
     total = 0
-    for one in _below(pid):
+    for one in below(pid):
         for line in Path(f"/proc/{one}/smaps_rollup").read_text().splitlines():
             if line.startswith("Pss:"):
                 total += 1024 * int(line.split()[1])
@@ -45,7 +45,7 @@ def memory(pid):
 def worked(pid):
     """Seconds of the processor until now."""
     ticks = 0
-    for one in _below(pid):
+    for one in below(pid):
         fields = Path(f"/proc/{one}/stat").read_text().rpartition(")")[2].split()
         ticks += int(fields[11]) + int(fields[12])
     return ticks / os.sysconf("SC_CLK_TCK")

@@ -12,6 +12,7 @@ import panel as pn
 from hess_explorer.server import serving
 from hess_explorer.server.headers import guard
 from hess_explorer.server.liveness import is_alive
+from hess_explorer.server.page_socket import use
 
 __all__ = ["UNWARMED", "free_port", "served"]
 
@@ -39,6 +40,7 @@ def served(embedders=("*",), sessions=1000, **changed):
     options = {**serving.options(port, "127.0.0.1", [], sessions=sessions), **changed}
     pn.extension()
     guard(embedders)
+    use()
     thread = pn.serve(show=False, threaded=True, **options)
     # What pytest keeps of a log holds what it speaks of.
     logging.disable(logging.INFO)

@@ -41,6 +41,7 @@ class Visitor:
         self._socket, self.origin = socket, origin
         self._receiver = Receiver(Protocol())
         self._asked = 0
+        self._ended = False
         self.state = None
         self.bytes = 0
 
@@ -92,6 +93,7 @@ class Visitor:
         while True:
             fragment = await asyncio.wait_for(self._socket.read_message(), timeout)
             if fragment is None:
+                self._ended = True
                 raise Closed(f"{self._socket.close_code}: {self._socket.close_reason}")
             self.bytes += len(fragment)
             message = await self._receiver.consume(fragment)
@@ -132,5 +134,6 @@ class Visitor:
     async def leave(self):
         """Close the websocket, as a tab that is closed does."""
         self._socket.close()
-        while await self._socket.read_message() is not None:
+        # That something has ended is read once.
+        while not self._ended and await self._socket.read_message() is not None:
             pass

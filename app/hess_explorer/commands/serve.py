@@ -7,6 +7,7 @@ import errno
 import gc
 import os
 import re
+import signal
 import socket
 import webbrowser
 from contextlib import suppress
@@ -72,6 +73,8 @@ def _run(options: argparse.Namespace) -> None:
         if options.browser and not show:
             print(f"There is no browser to open here: open {url} in one.", flush=True)
 
+    # As Ctrl-C, from the first moment on: so ends what is started by another program.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     # Imported objects live as long as the process: collecting garbage among them would only cost 0.25 s of the start.
     # `hess_explorer.server.warm` turns the collector on again.
     gc.disable()
@@ -98,8 +101,11 @@ def _lesson(path: Path | None) -> Lesson | None:
 
 def _first_words() -> str:
     """What is about to take time, before it does."""
-    from hess_explorer.server.compiled import all_compiled
+    from hess_explorer.server.compiled import KEEPS_KERNELS, all_compiled
 
+    if not KEEPS_KERNELS:
+        return ("Compiling, ready in about 20 s, and again at each start: no folder for what is compiled can be "
+                "written; name one of your own in NUMBA_CACHE_DIR.")
     return "Starting, ready in a few seconds." if all_compiled() else "Compiling, ready in about 20 s."
 
 

@@ -1,4 +1,5 @@
-"""How much one answer may cost: what takes longer is refused with a sentence, between two computations of it."""
+"""How much one answer may cost: what takes longer is refused with a sentence, between two computations of it, and
+between two parts of a long one."""
 
 from __future__ import annotations
 
@@ -9,11 +10,13 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 
 from hess_mechanics.errors import WorkLimit
+from hess_mechanics.numerics.jit import seconds_compiling
+from hess_mechanics.numerics.patience import limited_by
 
 __all__ = ["SECONDS", "WAIT", "Abandoned", "OverBudget", "check", "limited"]
 
-SECONDS = 10.0
-"""Of the processor, for one answer."""
+SECONDS = 4.0
+"""Of the processor, all cores together, for one answer; what is compiled meanwhile is compiled once, and apart."""
 
 WAIT = 60.0
 """Seconds by the clock, on a machine that has much else to do."""
@@ -28,9 +31,26 @@ class OverBudget(WorkLimit):
 
 
 class _Budget:
+    """Of the thread that makes it; others work for it."""
+
     def __init__(self, left: threading.Event, seconds: float, wait: float) -> None:
         self.left, self.seconds, self.wait = left, seconds, wait
-        self.work_ends, self.clock_ends = time.thread_time() + seconds, time.monotonic() + wait
+        self._thread, self._began, self._compiled = threading.get_ident(), time.thread_time(), seconds_compiling()
+        self.clock_ends = time.monotonic() + wait
+        self._elsewhere, self._lock = 0.0, threading.Lock()
+
+    def spend(self, seconds: float) -> None:
+        """Another thread has worked."""
+        with self._lock:
+            self._elsewhere += seconds
+
+    @property
+    def spent(self) -> float:
+        """Seconds of the processor, but for compiling; what this thread has done is known in it alone."""
+        own = 0.0
+        if threading.get_ident() == self._thread:
+            own = max(0.0, time.thread_time() - self._began - (seconds_compiling() - self._compiled))
+        return own + self._elsewhere
 
 
 _budget: ContextVar[_Budget | None] = ContextVar("budget", default=None)
@@ -39,9 +59,11 @@ _budget: ContextVar[_Budget | None] = ContextVar("budget", default=None)
 @contextmanager
 def limited(left: threading.Event, seconds: float = SECONDS, wait: float = WAIT) -> Iterator[None]:
     """What this thread computes inside is refused by `check` when that is used up, and abandoned once `left` is set."""
-    token = _budget.set(_Budget(left, seconds, wait))
+    budget = _Budget(left, seconds, wait)
+    token = _budget.set(budget)
     try:
-        yield
+        with limited_by(check, budget.spend):
+            yield
     finally:
         _budget.reset(token)
 
@@ -53,7 +75,7 @@ def check() -> None:
         return
     if budget.left.is_set():
         raise Abandoned
-    if time.thread_time() > budget.work_ends:
+    if budget.spent > budget.seconds:
         raise OverBudget(f"This state takes more than {budget.seconds:g} s to compute, and no more is given to one: "
                         "choose a shorter time span, fewer orbits or a cheaper accuracy.")
     if time.monotonic() > budget.clock_ends:

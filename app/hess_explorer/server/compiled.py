@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from contextlib import suppress
 from pathlib import Path
 
 import hess_mechanics
@@ -26,4 +27,6 @@ def all_compiled() -> bool:
 def mark_all_compiled() -> None:
     """Say so from now on, for this version of the mechanics and of Numba."""
     if _MARK is not None:
-        _MARK.touch()
+        # On a full disk the next start looks again.
+        with suppress(OSError):
+            _MARK.touch()

@@ -35,6 +35,8 @@ _files = ThreadPoolExecutor(max_workers=1, thread_name_prefix="export")
 _films = ThreadPoolExecutor(max_workers=1, thread_name_prefix="film")
 _MOST = 20
 """So many may wait."""
+_SECONDS = 10.0
+"""Of the processor for a file: nobody looks at a page that waits for it."""
 
 
 class Export(RequestHandler):
@@ -86,7 +88,7 @@ class Export(RequestHandler):
 
     def _file(self, state: dict[str, str], picture: str, wish: Wish) -> tuple[str, bytes]:
         """Name and bytes of what is asked for.  Raises `ModelError`, `Abandoned`."""
-        with limited(self._left), np.errstate(all="ignore"):
+        with limited(self._left, _SECONDS), np.errstate(all="ignore"):
             found = shown(urlencode(state), picture)
             return f"{found.scene.name}-{found.picture.name}", content(found, wish)
 

@@ -13,7 +13,12 @@ from collections.abc import Sequence
 from bokeh.server.urls import per_app_patterns
 from panel.io.server import DocHandler
 
+from hess_explorer.protocol.parameters import MAX_QUERY
+
 __all__ = ["guard", "policy"]
+
+QUERY_LIMIT = 4 * MAX_QUERY
+"""Characters of a link: the whole of it comes back with the websocket, in a header."""
 
 _embedders: tuple[str, ...] = ("*",)
 """Who may show a part of the page, `embed=1`."""
@@ -46,8 +51,15 @@ class GuardedDocument(DocHandler):
 
     async def prepare(self) -> None:
         """Choose the nonce of this answer."""
-        await super().prepare()  # type: ignore[no-untyped-call]  # Panel declares no types
         self._nonce = secrets.token_urlsafe(16)
+        # Before anything is made of it; what is a little too long opens the page, with a note.
+        if len(self.request.query) > QUERY_LIMIT:
+            self.set_status(414)
+            self.set_header("Content-Type", "text/plain; charset=utf-8")
+            self.finish(f"The link is longer than {QUERY_LIMIT} characters, and the explorer's own are shorter than "
+                        f"{MAX_QUERY}: open the page without the part of its address after “?”.")
+            return
+        await super().prepare()  # type: ignore[no-untyped-call]  # Panel declares no types
         embedded = self.get_query_argument("embed", "") == "1"
         self.set_header("Content-Security-Policy", policy(self._nonce, embedded))
         if not embedded:

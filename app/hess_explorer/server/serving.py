@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import logging
-import os
 import sys
 import threading
 import time
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, NoReturn
 
 import panel as pn
 from bokeh.document import Document
-from bokeh.server.server import Server
 from panel.io.resources import LOCAL_DIST, patch_model_css
 from panel.io.server import get_server
-from tornado.ioloop import PeriodicCallback
 from tornado.process import task_id
 from tornado.web import RequestHandler
 from tornado.websocket import WebSocketClosedError
@@ -24,18 +21,19 @@ from hess_explorer.compute.cache import CACHE
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.page import page
 from hess_explorer.server.capacity import Capacity
+from hess_explorer.server.ending import Workers, end_on_signals, leave
 from hess_explorer.server.export import Export
 from hess_explorer.server.headers import guard
 from hess_explorer.server.liveness import is_alive
 from hess_explorer.server.modules import module_routes
-from hess_explorer.server.prompt_socket import send_promptly
+from hess_explorer.server.page_socket import MESSAGE_LIMIT, use
 from hess_explorer.server.qr_code import QrCode
 from hess_explorer.server.warm import warm
 
 __all__ = ["options", "serve"]
 
-MESSAGE_LIMIT = 256 * 1024
-"""Bytes of one websocket message from the browser: slider values and clicks are far smaller."""
+BODY_LIMIT = 64 * 1024
+"""Bytes of a request's body: nothing here takes one."""
 
 UNUSED_SESSION_MS = 60_000
 _EVERY_ADDRESS = ("", "0.0.0.0", "::")
@@ -69,12 +67,6 @@ def _prepare(address: str, port: int, ready: Callable[[], None]) -> None:
     warm(first_is_ready)
 
 
-def _end_with(parent: int, server: Server) -> None:
-    """Stop serving when the process that began is gone."""
-    if os.getppid() != parent:
-        server.io_loop.stop()
-
-
 def _page(lesson: Lesson | None, capacity: Capacity) -> Any:
     """The page, with styles of this server: Panel sees to that only in the process that writes the HTML."""
     if not capacity.take():
@@ -103,7 +95,10 @@ def options(port: int, address: str, origins: Sequence[str], lesson: Lesson | No
         "extra_patterns": [("/metrics", Metrics), ("/qr.svg", QrCode), ("/export", Export), *module_routes()],
         "liveness": True,
         "verbose": False,
-        "websocket_max_message_size": MESSAGE_LIMIT,
+        # `PageSocket` says in a sentence what a frame may have; beyond this Tornado cuts the line with two words.
+        "websocket_max_message_size": 4 * MESSAGE_LIMIT,
+        # Who is slow to say what is wanted holds a connection for so many seconds.
+        "http_server_kwargs": {"max_body_size": BODY_LIMIT, "body_timeout": 20.0, "idle_connection_timeout": 300.0},
         "unused_session_lifetime_milliseconds": UNUSED_SESSION_MS,
         "check_unused_sessions_milliseconds": UNUSED_SESSION_MS // 4,
         "session_token_expiration": 3600,
@@ -112,8 +107,8 @@ def options(port: int, address: str, origins: Sequence[str], lesson: Lesson | No
 
 def serve(port: int, address: str, show: bool, origins: Sequence[str], ready: Callable[[], None],
           lesson: Lesson | None = None, embedders: Sequence[str] = ("*",), workers: int = 1, *,
-          sessions: int) -> None:
-    """Serve the explorer until interrupted.
+          sessions: int) -> NoReturn:
+    """Serve the explorer until Ctrl-C or SIGTERM, then end the process with exit code 0.
 
     address : to listen on; show : open the browser; origins : HOST:PORT pairs whose pages may open a websocket,
     besides this machine's own; ready : called from another thread when the page answers without compiling
@@ -127,17 +122,19 @@ def serve(port: int, address: str, show: bool, origins: Sequence[str], ready: Ca
     # The thread that serves waits so long for Python's lock behind each that computes; 5 ms otherwise.
     sys.setswitchinterval(0.001)
     pn.extension()
-    send_promptly()
+    use()
     guard(embedders)
-    parent = os.getpid()
+    together = Workers() if workers > 1 else None
     # With several workers this comes back in each of them, and the process that began stays behind to watch over them.
     told = options(port, address, origins, lesson, sessions=sessions)
     server = get_server(told.pop("panels"), start=False, show=show and workers == 1, num_procs=workers, **told)
-    if workers > 1:
+    end_on_signals(server.io_loop)
+    if together is not None:
         # One worker says that the explorer is ready, and none outlives the process that began.
         ready = ready if task_id() == 0 else lambda: None
-        PeriodicCallback(lambda: _end_with(parent, server), 1000.0).start()
+        together.end_together(server.io_loop)
     # Kernels are compiled while the browser loads the page.
     threading.Thread(target=_prepare, args=(address, port, ready), name="warm", daemon=True).start()
     server.start()
     server.io_loop.start()
+    leave(server)

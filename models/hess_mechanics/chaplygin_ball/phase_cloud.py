@@ -31,6 +31,7 @@ from hess_mechanics.dynamics.orbit import checked_times, require_finite_states, 
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Level, Status
 from hess_mechanics.numerics.parallel import THREADS, share
+from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Cost, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 from hess_mechanics.rigid_body.inertia import require_finite
@@ -249,6 +250,7 @@ def carried(body: BallBody, states: Array, times: Array, level: Level) -> Cloud:
     out, total = _run(first, p, t * nu, level, max_steps)
     current = level
     while True:
+        go_on()
         finer = current.tightened()
         fine, steps = _run(first[checked], p, t * nu, finer, 2 * max_steps)
         total += steps

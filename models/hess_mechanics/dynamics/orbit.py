@@ -10,6 +10,7 @@ import numpy as np
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Level, Status
+from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Cost, Orbit, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
@@ -89,6 +90,7 @@ def solve(system: System, state: Sequence[float] | Array, parameters: Sequence[f
     current = level
     coarse, total = _run(system, problem, scaled_times, current, MAX_STEPS)
     while True:
+        go_on()
         tighter = current.tightened()
         fine, steps = _run(system, problem, scaled_times, tighter, MAX_STEPS - total)
         total += steps

@@ -15,13 +15,14 @@ from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.parallel import THREADS, share
+from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Cost, Section, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
 __all__ = ["MAX_CROSSINGS", "Plane", "Points", "Surface", "occupied_cells", "section", "section_points", "sections"]
 
 MAX_CROSSINGS = 100_000
-MAX_STEPS = 10_000_000
+MAX_STEPS = 5_000_000
 _ROOM = 1000
 """Crossings for which memory is allocated at first: few orbits have more."""
 _PARTS = 8
@@ -118,6 +119,7 @@ class _Search:
         current = self.level
         coarse_times, coarse, total = self.run(i, current, MAX_STEPS)
         while True:
+            go_on()
             tighter = current.tightened()
             fine_times, fine, steps = self.run(i, tighter, MAX_STEPS - total)
             total += steps
@@ -214,6 +216,7 @@ def section_points(system: System, states: Sequence[Sequence[float]] | Array, pa
         pieces: list[Array] = []
         start, steps = None, 0
         for _ in range(parts):
+            go_on()
             _, points, taken = one_part.run(orbit, level, most_steps - steps, start)
             pieces.append(points)
             steps += taken

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from typing import TypeVar
 
 from hess_mechanics.numerics.accuracy import LEVELS, PLANS, REFERENCE, Kind, Plan
+from hess_mechanics.numerics.patience import go_on
 
 __all__ = ["Sample", "beyond", "enough", "measure", "measure_until"]
 
@@ -33,6 +34,7 @@ def beyond(kind: Kind) -> Plan:
 def _sample(plan: Plan, run: Callable[[Plan], R], error: Callable[[R, R], float], truth: R, repeats: int) -> Sample:
     best = float("inf")
     for _ in range(repeats):
+        go_on()
         start = time.perf_counter()
         result = run(plan)
         best = min(best, time.perf_counter() - start)

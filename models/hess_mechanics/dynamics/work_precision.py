@@ -11,6 +11,7 @@ import numpy as np
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.system import Problem, System, systems
 from hess_mechanics.numerics.accuracy import LEVELS, REFERENCE
+from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, frozen
 
 __all__ = [
@@ -74,6 +75,7 @@ def growth(name: str, state: tuple[float, ...], parameters: tuple[float, ...], s
     first = system.angular_velocities
     errors, pixels, drifts = {}, {}, {}
     for level in LEVELS.values():
+        go_on()
         states = solve(system, state, parameters, times, level).states
         difference = np.abs(states - truth)
         errors[level.name] = frozen(np.max(difference / scale, axis=1))
@@ -92,6 +94,7 @@ def _best_of(run: Callable[[], Array], repeats: int) -> tuple[float, Array]:
     """Milliseconds of the fastest of `repeats` runs, and the result."""
     best = np.inf
     for _ in range(repeats):
+        go_on()
         start = time.perf_counter()
         result = run()
         best = min(best, time.perf_counter() - start)

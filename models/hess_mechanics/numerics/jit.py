@@ -17,12 +17,15 @@ import tempfile
 import threading
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 import numba
 from numba.core import event
+
+from hess_mechanics.numerics.kernel_files import keep
 
 __all__ = ["CACHE_FOLDER", "derived_kernel", "inner", "kernel", "part", "seconds_compiling", "source_hash"]
 
@@ -130,14 +133,20 @@ def _sources() -> dict[str, tuple[str, list[str]]]:
     memory = None if CACHE_FOLDER is None else (
         CACHE_FOLDER / f"sources-{hashlib.sha256(str(_PACKAGE).encode()).hexdigest()[:16]}.json")
     try:
-        known = json.loads(memory.read_text()) if memory is not None else {}
+        known = json.loads(memory.read_text(encoding="utf-8")) if memory is not None else {}
     except (OSError, ValueError):
+        known = {}
+    if not isinstance(known, dict):
         known = {}
     found: dict[str, Any] = {}
     for path in sorted(_PACKAGE.rglob("*.py")):
         name, status = path.relative_to(_PACKAGE).as_posix(), path.stat()
         mark = [status.st_mtime_ns, status.st_size]
-        found[name] = known[name] if name in known and known[name][0] == mark else [mark, *_read(path)]
+        match known.get(name):
+            case [before, str(), list()] as entry if before == mark:
+                found[name] = entry
+            case _:
+                found[name] = [mark, *_read(path)]
     if memory is not None and found != known:
         _write(memory, json.dumps(found))
     return {name: (digest, imported) for name, (_, digest, imported) in found.items()}
@@ -145,13 +154,17 @@ def _sources() -> dict[str, tuple[str, list[str]]]:
 
 def _write(path: Path, text: str) -> None:
     """Write a file of the cache folder at once, so that no other process reads half of it."""
+    half = None
     try:
         with tempfile.NamedTemporaryFile("w", dir=path.parent, encoding="utf-8", delete=False) as file:
+            half = Path(file.name)
             file.write(text)
-        Path(file.name).replace(path)
+        half.replace(path)
     except OSError:
         # Without it only more work is done.
-        pass
+        if half is not None:
+            with suppress(OSError):
+                half.unlink()
 
 
 @cache
@@ -225,7 +238,7 @@ def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
     # Numba asks for the folder when it is told to cache, here and now.
     before, _CONFIG.CACHE_DIR = _CONFIG.CACHE_DIR, str(folder)
     try:
-        return _compiled(function, {**_OPTIONS, "cache": True})
+        return keep(_compiled(function, _OPTIONS), folder)
     finally:
         _CONFIG.CACHE_DIR = before
 
@@ -237,17 +250,28 @@ def derived_kernel(name: str, source: str, module: str, **names: Any) -> Callabl
     to the cache folder, under a name of its own for each text.
     """
     folder = _folder_for(module)
-    file = f"{name}.py"
+    file, kept = f"{name}.py", False
     if folder is not None:
         path = folder / f"{name}-{hashlib.sha256(source.encode()).hexdigest()[:16]}.py"
         file = str(path)
-        if not (path.exists() and path.read_text(encoding="utf-8") == source):
-            folder.mkdir(mode=0o700, exist_ok=True)
+        kept = _holds(path, source)
+        if not kept:
+            with suppress(OSError):
+                folder.mkdir(mode=0o700, exist_ok=True)
             _write(path, source)
+            kept = _holds(path, source)
     namespace: dict[str, Any] = {"__name__": module, **names}
     exec(compile(source, file, "exec"), namespace)
     # Where the file could not be written there is nothing to cache.
-    return kernel(namespace[name]) if Path(file).exists() else _compiled(namespace[name], _OPTIONS)
+    return kernel(namespace[name]) if kept else _compiled(namespace[name], _OPTIONS)
+
+
+def _holds(path: Path, text: str) -> bool:
+    """Whether a file is there and holds just that."""
+    try:
+        return path.read_text(encoding="utf-8") == text
+    except (OSError, ValueError):
+        return False
 
 
 def inner(function: Callable[..., Any]) -> Callable[..., Any]:

@@ -105,11 +105,13 @@ def measured(trial: Trial[S], state: S) -> tuple[Sample, ...] | Refused:
 
 
 def needed(trial: Trial[S], state: S) -> str:
-    """The cheapest level whose error cannot be seen; `standard` for what cannot be computed."""
+    """The cheapest level whose error cannot be seen; `standard` for what cannot be computed.  Raises `OverBudget`."""
     try:
         less = trial.small(state)
         return measure_until(trial.kind, lambda plan: trial.run(less, plan),
                              lambda *both: trial.error(less, *both), trial.seen)
+    except OverBudget:
+        raise
     except ModelError:
         return STANDARD.name
 

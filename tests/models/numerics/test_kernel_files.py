@@ -1,0 +1,170 @@
+"""Faults of the files of compiled kernels: what cannot be read or written is compiled anew, and the result is right."""
+
+import json
+import os
+import pickle
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import hess_mechanics
+from hess_mechanics.numerics import jit
+
+SOURCE = "def twice(x):\n    return 2 * x + 1\n"
+
+
+@pytest.fixture
+def kernels(tmp_path, monkeypatch):
+    """made() → the kernel as a process that has just begun has it; its files are below `made.folder`."""
+    folder = tmp_path / "hess-explorer"
+    folder.mkdir(mode=0o700)
+    monkeypatch.setattr(jit, "CACHE_FOLDER", folder)
+
+    def made():
+        return jit.derived_kernel("twice", SOURCE, __name__)
+
+    made.folder = folder
+    return made
+
+
+def files(kernels):
+    (index,), data = kernels.folder.rglob("*.nbi"), sorted(kernels.folder.rglob("*.nbc"))
+    return index, data
+
+
+def read(kernel):
+    """How many kernels were read from disk."""
+    return sum(kernel.stats.cache_hits.values())
+
+
+def filled(kernels):
+    """Compile it, and make sure that the next one is read."""
+    first = kernels()
+    assert (first(1.5), read(first)) == (4.0, 0)
+    again = kernels()
+    assert (again(1.5), read(again)) == (4.0, 1)
+    return files(kernels)
+
+
+@pytest.mark.parametrize("left", [0.0, 0.5, 0.99])
+@pytest.mark.parametrize("which", ["index", "data"])
+def test_a_file_cut_short_is_replaced(kernels, which, left):
+    index, (data,) = filled(kernels)
+    file = index if which == "index" else data
+    whole = file.read_bytes()
+    file.write_bytes(whole[: int(left * len(whole))])
+    mended = kernels()
+    assert (mended(1.5), read(mended)) == (4.0, 0)
+    after = kernels()
+    assert (after(1.5), read(after)) == (4.0, 1)
+
+
+@pytest.mark.parametrize("foreign", [
+    b"no pickle at all", pickle.dumps("0.0.1") + b"of another Numba", pickle.dumps(["another", "thing"]),
+    pickle.dumps(jit.numba.__version__) + pickle.dumps(("another stamp", {})),
+    pickle.dumps(jit.numba.__version__) + pickle.dumps(17)])
+@pytest.mark.parametrize("which", ["index", "data"])
+def test_a_foreign_file_is_replaced(kernels, which, foreign):
+    index, (data,) = filled(kernels)
+    (index if which == "index" else data).write_bytes(foreign)
+    mended = kernels()
+    assert (mended(1.5), read(mended)) == (4.0, 0)
+    after = kernels()
+    assert (after(1.5), read(after)) == (4.0, 1)
+
+
+def test_a_kernel_for_other_arguments_is_never_called(kernels):
+    """As two processes can leave it that wrote at once: the index names the file of the other."""
+    kernel = kernels()
+    assert (kernel(1.5), kernel(10**15)) == (4.0, 2 * 10**15 + 1)
+    _, (one, other) = files(kernels)
+    one_bytes, other_bytes = one.read_bytes(), other.read_bytes()
+    one.write_bytes(other_bytes)
+    other.write_bytes(one_bytes)
+    mixed = kernels()
+    assert (mixed(1.5), mixed(10**15), read(mixed)) == (4.0, 2 * 10**15 + 1, 0)
+
+
+def test_a_derived_source_cut_short_is_written_again(kernels):
+    filled(kernels)
+    (source,) = kernels.folder.rglob("twice-*.py")
+    source.write_text(SOURCE[:10])
+    assert kernels()(1.5) == 4.0
+    assert source.read_text() == SOURCE
+
+
+@pytest.mark.parametrize("said", ["", "{", "[]", "17", '{"errors.py": 3}', '{"errors.py": [1, 2]}', '"text"'])
+def test_hashes_that_cannot_be_read_are_found_anew(tmp_path, monkeypatch, said):
+    package, memory = tmp_path / "package", tmp_path / "memory"
+    for folder in (package, memory):
+        folder.mkdir()
+    (package / "errors.py").write_text("class Wrong(Exception):\n    pass\n")
+    monkeypatch.setattr(jit, "_PACKAGE", package)
+    monkeypatch.setattr(jit, "CACHE_FOLDER", memory)
+    # Not what is kept for this process.
+    sources = jit._sources.__wrapped__
+    right = sources()
+    (file,) = memory.glob("sources-*.json")
+    whole = file.read_text()
+    file.write_text(said)
+    assert sources() == right
+    assert file.read_text() == whole
+
+
+# ---- processes --------------------------------------------------------------------------------------------------
+
+
+MANY = """
+import json, resource, sys
+
+if sys.argv[1] == "full":
+    # As on a full disk: not one byte can be written to a file.
+    resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
+
+from hess_mechanics.numerics import jit
+
+right = read = 0
+for n in range(int(sys.argv[2])):
+    kernel = jit.derived_kernel("plus", f"def plus(x):\\n    return {n} + x\\n", "many")
+    # Another order of types in each process: both write into the same index.
+    for value in (1.5, 2)[:: int(sys.argv[3])]:
+        right += kernel(value) == n + value
+    read += sum(kernel.stats.cache_hits.values())
+    print(json.dumps([right, read]), flush=True)
+"""
+
+
+def process(folder, *arguments):
+    models = Path(hess_mechanics.__file__).parents[1]
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(folder), "PYTHONPATH": str(models)}
+    return subprocess.Popen([sys.executable, "-W", "error", "-c", MANY, *map(str, arguments)], env=environment,
+                            text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+
+
+def ended(running):
+    """The last thing that a process says, which ends well and has nothing to complain of."""
+    out, err = running.communicate(timeout=300)
+    assert (running.returncode, err) == (0, "")
+    return json.loads(out.splitlines()[-1])
+
+
+def test_one_of_two_that_compile_into_one_folder_is_killed_and_the_other_and_the_next_are_right(tmp_path):
+    killed, other = process(tmp_path, "", 2000, 1), process(tmp_path, "", 6, -1)
+    with killed, other:
+        # In the middle: it has written one kernel, and is about to write the next.
+        assert json.loads(killed.stdout.readline()) == [2, 0]
+        killed.send_signal(signal.SIGKILL)
+        killed.communicate()
+        assert killed.returncode == -signal.SIGKILL
+        assert ended(other)[0] == 12
+    with process(tmp_path, "", 6, 1) as after:
+        assert ended(after)[0] == 12
+
+
+def test_on_a_full_disk_kernels_are_compiled_all_the_same_and_nothing_is_left_behind(tmp_path):
+    with process(tmp_path, "full", 2, 1) as running:
+        assert ended(running) == [4, 0]
+    assert [file for file in tmp_path.rglob("*") if file.is_file()] == []

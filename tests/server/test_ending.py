@@ -1,0 +1,77 @@
+"""How a server ends: its pages are told, and its processes are gone."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from hess_explorer.headless.screenshot import wait_alive
+from support.asynchronous import finished
+from support.processes import below
+from support.serving import UNWARMED, free_port
+from support.visitor import Closed, Visitor
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@contextlib.contextmanager
+def started(log, *options):
+    port = free_port()
+    command = [sys.executable, *UNWARMED, "serve", "--port", str(port), "--no-browser", *options]
+    with log.open("wb") as out, subprocess.Popen(command, cwd=ROOT / "app", stdout=out, stderr=out) as process:
+        try:
+            wait_alive(process, port, log)
+            yield process, f"http://127.0.0.1:{port}"
+        finally:
+            process.kill()
+
+
+async def told(base, end, count):
+    """What so many pages hear when the server ends."""
+    visitors = [await Visitor.open(base, "scene=kharlamova&accuracy=draft") for _ in range(count)]
+    end()
+    heard = []
+    for visitor in visitors:
+        with pytest.raises(Closed) as why:
+            await visitor._next("nothing of this kind", 60.0)
+        await visitor.leave()
+        heard.append(str(why.value))
+    return heard
+
+
+def gone(processes):
+    ends = time.monotonic() + 20.0
+    while any(Path(f"/proc/{one}").exists() for one in processes):
+        assert time.monotonic() < ends, "a process was left behind"
+        time.sleep(0.05)
+
+
+def test_of_several_workers_all_tell_their_pages_and_end_with_the_process_that_began(tmp_path):
+    log = tmp_path / "log"
+    with started(log, "--workers", "2") as (process, base):
+        workers = below(process.pid)[1:]
+        assert len(workers) == 2
+        # One that was killed is replaced.
+        os.kill(workers[0], signal.SIGKILL)
+        heard = finished(told(base, process.terminate, 4))
+        assert process.wait(20) == 0
+        gone(workers)
+    assert heard == ["1001: The server ends or is started anew: open the page again in a moment."] * 4
+    said = log.read_text()
+    assert "Traceback" not in said
+    assert "ERROR" not in said
+
+
+def test_no_worker_outlives_the_process_that_began(tmp_path):
+    with started(tmp_path / "log", "--workers", "2") as (process, _):
+        workers = below(process.pid)[1:]
+        process.kill()
+        process.wait()
+        gone(workers)

@@ -1,0 +1,103 @@
+"""How much one visitor may send, and the sentence for who sends more."""
+
+from __future__ import annotations
+
+import pytest
+from tornado.httpclient import AsyncHTTPClient, HTTPClientError
+
+from hess_explorer.protocol.parameters import MAX_QUERY
+from hess_explorer.server import page_socket
+from hess_explorer.server.export import Export
+from hess_explorer.server.headers import QUERY_LIMIT
+from hess_explorer.server.page_socket import MESSAGE_LIMIT
+from support.asynchronous import finished
+from support.serving import served
+from support.visitor import Closed, Visitor
+
+
+@pytest.fixture(scope="module")
+def base():
+    with served() as url:
+        yield url
+
+
+async def cut_off(visitor):
+    """Why the server ends the connection, which it does while it is spoken to."""
+    with pytest.raises(Closed) as why:
+        await visitor._next("nothing of this kind", 60.0)
+    await visitor.leave()
+    return str(why.value)
+
+
+def test_who_sends_too_much_reads_why_and_others_are_served(base, monkeypatch):
+    # However slow the machine is that sends.
+    monkeypatch.setattr(page_socket, "RATE", 1.0)
+    monkeypatch.setattr(page_socket, "BURST", 150.0)
+
+    async def visits():
+        large, fast, other = [await Visitor.open(base) for _ in range(3)]
+        await large.say("x" * MESSAGE_LIMIT)
+        for _ in range(100):
+            await fast.say(17)
+        whys = [await cut_off(one) for one in (large, fast)]
+        state = await other.ask(values={"h": 1.25})
+        await other.leave()
+        return whys, state["query"]
+
+    (large, fast), query = finished(visits())
+    assert large == "1009: A message may have 256 KB: send a smaller one."
+    assert fast == "1008: More than 150 messages in a second: wait for each answer before you ask again."
+    assert "h=1.25" in query
+
+
+def test_a_message_of_hundred_kilobytes_is_none_too_large(base):
+    async def visit():
+        visitor = await Visitor.open(base)
+        state = await visitor.ask(expressions={"h": "1" * 100_000})
+        await visitor.leave()
+        return state
+
+    assert "At most 100 characters are read." in finished(visit())["tree"]["texts"]["error-h"]
+
+
+def answer(base, path, **options):
+    """Status and text of what a server says, also where it refuses."""
+    async def fetch():
+        try:
+            return await AsyncHTTPClient().fetch(f"{base}/{path}", **options)
+        except HTTPClientError as refused:
+            return refused.response
+
+    found = finished(fetch())
+    return found.code, found.body.decode()
+
+
+def test_a_link_that_is_too_long_is_refused_with_a_sentence(base):
+    async def visit(length):
+        visitor = await Visitor.open(base, "h=1.2&" + "x" * (length - 6))
+        await visitor.leave()
+        return visitor.state
+
+    assert answer(base, "?" + "x" * (QUERY_LIMIT + 1)) == (
+        414, "The link is longer than 8000 characters, and the explorer's own are shorter than 2000: open the page "
+             "without the part of its address after “?”.")
+    # Up to there the page opens.
+    for length in (MAX_QUERY + 100, QUERY_LIMIT):
+        state = finished(visit(length))
+        assert "longer than 2000 characters and was not read" in state["tree"]["texts"]["notes"]
+
+
+def test_what_nothing_here_takes_is_not_taken(base):
+    assert answer(base, "export", method="POST", body="x" * 100)[0] == 405
+    assert answer(base, "export", method="POST", body="x" * 100_000)[0] == 400
+    assert answer(base, "liveness")[0] == 200
+
+
+def test_of_too_many_files_at_once_the_last_are_refused_with_a_sentence(base, monkeypatch):
+    monkeypatch.setattr(Export, "waiting", 20)
+    assert answer(base, "export?picture=circle") == (
+        503, "Too many files are being made at the moment: try again in a minute.")
+    monkeypatch.setattr(Export, "waiting", 19)
+    code, table = answer(base, "export?picture=circle&accuracy=draft")
+    assert (code, table[:1]) == (200, "#")
+    assert answer(base, "export?picture=" + "x" * MAX_QUERY)[0] == 400
