@@ -6,9 +6,12 @@ import { element } from "../page/mount.js"
 const TYPE = "Type an exact value or an expression such as pi/3, and press Enter."
 const STEPS = { ArrowUp: 1, ArrowDown: -1 }
 
-// A number as it is typed, or printed; NaN for a text that is none.
+// With a point where the reader's language has a comma.
+const pointed = (text) => text.trim().replace(",", ".")
+
+// A number as it is typed; NaN for a text that is none, or one for the server to read.
 function numberOf(text) {
-  const plain = text.trim().replaceAll("−", "-").replace(",", ".")
+  const plain = pointed(text)
   return plain === "" || !Number.isFinite(Number(plain)) ? Number.NaN : Number(plain)
 }
 
@@ -39,7 +42,7 @@ export function exactBox({ name, symbol, help, value, change, nudge, stepOf }) {
     const typed = numberOf(text)
     if (text !== "" && Number.isNaN(typed)) {
       isAsked = true
-      return tell("expression", { [name]: text.replaceAll("−", "-").replace(",", ".") })
+      return tell("expression", { [name]: pointed(text) })
     }
     mark(text === "" ? "This is not a number: type one like 1.5, 1e-8 or pi/3." : "")
     if (text === "") return void box.reportValidity()

@@ -15,7 +15,7 @@ from hess_explorer.scenes import scenes
 from hess_explorer.views import theme
 from hess_mechanics import circle_map, f_max, level, solve, systems, trace_on_curve, turning_points
 from support.mechanics import angle_between, lifted_return
-from support.page import DEFAULTS, PICTURES
+from support.page import DEFAULTS, FIND, PICTURES
 from support.painted import assert_captions_fit
 from support.pointer import HOME, STEP, assert_turned, at
 from support.suslov_hess import assert_orbit, body_of, exact_states
@@ -578,6 +578,37 @@ def test_an_example_is_the_one_of_the_equations_with_the_right_numbers_and_paint
     assert_orbit_of_the_equations(explorer, name, values)
     assert_numbers_of_captions(explorer, name, values)
     assert_every_picture_painted(explorer, name, artefacts)
+
+
+# [before, at the moment at which the page says that it is ready, some frames later]: what is on the canvases of plots
+# while a slider goes to another place.
+PAINTED = f"""async () => {{
+  const all = (root) => [...root.querySelectorAll("*")].flatMap((item) =>
+    [item, ...(item.shadowRoot ? all(item.shadowRoot) : [])])
+  const canvases = all(document).filter((item) => item.matches("canvas") && item.getRootNode().host?.matches(".bk-Canvas"))
+  const painted = () => canvases.map((canvas) => canvas.toDataURL())
+  const frames = async (count) => {{ while (count-- > 0) await new Promise((done) => requestAnimationFrame(done)) }}
+  const root = document.documentElement
+  const before = painted()
+  const ready = new Promise((done) => new MutationObserver((changes, observer) => {{
+    if (root.dataset.ready !== "true") return
+    observer.disconnect()
+    done(painted())
+  }}).observe(root, {{ attributes: true, attributeFilter: ["data-ready"] }}))
+  const slider = ({FIND})("h", "range")
+  slider.value = 2.5
+  slider.dispatchEvent(new Event("input", {{ bubbles: true }}))
+  slider.dispatchEvent(new Event("change", {{ bubbles: true }}))
+  const then = await ready
+  await frames(4)
+  return [before, then, painted()]
+}}"""
+
+
+def test_what_is_called_painted_is_painted(explorer):
+    before, then, later = explorer.page.evaluate(PAINTED)
+    assert sum(old != new for old, new in zip(before, later, strict=True)) >= 3
+    assert then == later
 
 
 def test_the_separatrix_says_no_return_and_the_others_go_on(explorer):
