@@ -585,7 +585,8 @@ def test_an_example_is_the_one_of_the_equations_with_the_right_numbers_and_paint
 PAINTED = f"""async () => {{
   const all = (root) => [...root.querySelectorAll("*")].flatMap((item) =>
     [item, ...(item.shadowRoot ? all(item.shadowRoot) : [])])
-  const canvases = all(document).filter((item) => item.matches("canvas") && item.getRootNode().host?.matches(".bk-Canvas"))
+  const canvases = all(document).filter(
+    (item) => item.matches("canvas") && item.getRootNode().host?.matches(".bk-Canvas"))
   const painted = () => canvases.map((canvas) => canvas.toDataURL())
   const frames = async (count) => {{ while (count-- > 0) await new Promise((done) => requestAnimationFrame(done)) }}
   const root = document.documentElement
