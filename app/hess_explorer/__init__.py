@@ -1,1 +1,31 @@
-"""The web explorer."""
+"""The explorer, from Python: states by name with their data and pictures, besides the page.
+
+>>> import hess_explorer as hess
+>>> state = hess.state("suslov-hess", h=1.2, f=0.3, accuracy="draft")
+>>> state.data("circle").layer("stable")["y"].round(3)
+
+The mechanics are the package `hess_mechanics`.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from hess_explorer.library.state import State, from_link, state
+
+__all__ = ["State", "from_link", "state"]
+
+_PLACES = {"State": "state", "from_link": "state", "state": "state"}
+
+
+def __getattr__(name: str) -> Any:
+    # Only when they are asked for: the commands that compute do not load what draws.
+    if name not in _PLACES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(importlib.import_module(f"{__name__}.library.{_PLACES[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

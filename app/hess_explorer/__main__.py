@@ -16,6 +16,7 @@ from hess_explorer.commands import (
     bench,
     circle_map,
     cloud,
+    code,
     export,
     lyapunov,
     orbit,
@@ -51,7 +52,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"hess-explorer {_version()}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     for command in (serve, circle_map, orbit, period, section, scattering, rotation_number, lyapunov, basins, cloud,
-                    export, sweep, shot, bench):
+                    export, code, sweep, shot, bench):
         command.add(commands)
     return parser
 

@@ -14,12 +14,39 @@ from hess_explorer.views.layers import Axes, Columns
 from hess_explorer.views.picture import Picture
 from hess_mechanics.errors import InvalidParameter
 
-__all__ = ["Shown", "shown"]
+__all__ = ["CLIENT_KEPT", "Address", "Shown", "address", "picture_of", "show", "shown"]
 
 _ROUNDS = 4
 """What is found may ask for more: so often at most."""
-_CLIENT = tuple(spec for spec in CLIENT if spec.name != "speed")
-_DEFAULTS = {spec.name: spec.default for spec in _CLIENT}
+CLIENT_KEPT = tuple(spec for spec in CLIENT if spec.name != "speed")
+"""What the browser keeps of a state and a file shows: the time, and how the spheres are turned."""
+_DEFAULTS = {spec.name: spec.default for spec in CLIENT_KEPT}
+
+
+@dataclass(frozen=True)
+class Address:
+    """Which picture of which state: what a link says, put right.  Nothing is computed yet.
+
+    values : the parameters as they were admitted; client : time of the player and turn of the spheres, by key.
+    notes : what had to be changed in the link.
+    """
+
+    scene: Scene[Any]
+    picture: Picture[Any]
+    values: Mapping[str, Value]
+    client: Mapping[str, float]
+    notes: tuple[str, ...] = ()
+
+    @property
+    def link(self) -> str:
+        """The query of the state: what follows ? in its address."""
+        return encode(self.scene.name, self.values) + "".join(
+            f"&{name}={value!r}" for name, value in self.looks.items())
+
+    @property
+    def looks(self) -> dict[str, float]:
+        """Those of the time and the turn that are not as at first."""
+        return {name: value for name, value in self.client.items() if value != _DEFAULTS[name]}
 
 
 @dataclass(frozen=True)
@@ -47,8 +74,7 @@ class Shown:
     @property
     def link(self) -> str:
         """The query of the state: what follows ? in its address."""
-        looks = "".join(f"&{name}={value!r}" for name, value in self.client.items() if value != _DEFAULTS[name])
-        return encode(self.scene.name, self.values) + looks
+        return Address(self.scene, self.picture, self.values, self.client).link
 
     @property
     def facts(self) -> dict[str, Any]:
@@ -74,18 +100,34 @@ def shown(query: str, picture: str = "") -> Shown:
     InvalidParameter : the scene has no such picture.
     ModelError : the state cannot be computed.
     """
+    return show(address(query, picture))
+
+
+def address(query: str, picture: str = "") -> Address:
+    """What a query describes, put right.  Raises `InvalidParameter`: the scene has no such picture."""
     known = scenes()
-    read, notes = decode(query, (Choice("scene", "Scene", tuple(known), next(iter(known))), *_CLIENT))
+    read, notes = decode(query, (Choice("scene", "Scene", tuple(known), next(iter(known))), *CLIENT_KEPT))
     scene = known[str(read.pop("scene"))]
     wanted, more = decode(query, scene.specs)
     values, changed = scene.admit(wanted)
-    if picture and picture not in scene.pictures:
+    client = {name: float(value) for name, value in read.items()}
+    return Address(scene, picture_of(scene, picture), values, client, tuple(dict.fromkeys([*notes, *more, *changed])))
+
+
+def picture_of(scene: Scene[Any], name: str) -> Picture[Any]:
+    """The picture of that name, the first one without a name.  Raises `InvalidParameter`."""
+    if name and name not in scene.pictures:
         raise InvalidParameter(
-            f"The scene {scene.name} has no picture {picture!r}: choose one of {', '.join(scene.pictures)}.")
-    view: Picture[Any] = next(view for view in scene.views if picture in ("", view.name))
-    state, columns, axes, title, caption, status, said = _complete(scene, view, values)
-    return Shown(scene, view, values, {name: float(value) for name, value in read.items()}, state, columns, axes,
-                 title, caption, status, tuple(dict.fromkeys([*notes, *more, *changed, *said])))
+            f"The scene {scene.name} has no picture {name!r}: choose one of {', '.join(scene.pictures)}.")
+    return next(view for view in scene.views if name in ("", view.name))
+
+
+def show(address: Address) -> Shown:
+    """The picture, with all that it shows computed to the end.  Raises `ModelError`."""
+    scene, view = address.scene, address.picture
+    state, columns, axes, title, caption, status, said = _complete(scene, view, address.values)
+    return Shown(scene, view, address.values, address.client, state, columns, axes, title, caption, status,
+                 tuple(dict.fromkeys([*address.notes, *said])))
 
 
 def _complete(scene: Scene[Any], view: Picture[Any], values: Mapping[str, Value]) -> tuple[Any, ...]:

@@ -6,41 +6,59 @@ import csv
 import io
 import json
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import repeat
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hess_explorer.export.shown import Shown
 from hess_explorer.views.layers import Columns
 from hess_explorer.views.plot import Plot
 
-__all__ = ["as_csv", "as_json", "rows"]
+__all__ = ["Block", "as_csv", "as_json", "blocks", "names_of", "rows"]
 
 _FIRST = ("layer", "part", "ring")
 Row = dict[str, Any]
+Block = Mapping[str, NDArray[Any]]
+"""Columns of equal length by name, "layer" the first of them."""
 
 
-def rows(shown: Shown) -> list[Row]:
-    """One row for each point of each layer, in double precision: "layer", and its coordinates by name.
+def blocks(shown: Shown) -> list[Block]:
+    """The points of all layers, in double precision: "layer", and coordinates by name.
 
     Curves of several parts, and areas, number them in "part", and the curves that bound an area in "ring", 0 the outer
     one; a grid has the value at the centre (x, y) of each cell.
     """
-    return [row for layer, columns in _layers(shown).items() for row in _rows_of(layer, columns)]
+    return [{"layer": np.full(len(next(iter(block.values()))), layer), **block}
+            for layer, columns in _layers(shown).items() for block in _blocks_of(columns)]
+
+
+def rows(shown: Shown) -> list[Row]:
+    """The same, one row for each point."""
+    return [dict(zip(block, numbers, strict=True)) for block in blocks(shown)
+            for numbers in zip(*(column.tolist() for column in block.values()), strict=True)]
+
+
+def names_of(found: Sequence[Block]) -> list[str]:
+    """The names of the columns: "layer" in any case, then those that number parts, then coordinates."""
+    known = dict.fromkeys(name for block in found for name in block)
+    return list(dict.fromkeys(["layer", *(name for name in _FIRST if name in known), *known]))
 
 
 def as_csv(shown: Shown) -> str:
     """A table with the facts as # comments above it; a field is empty where a layer has no such coordinate."""
-    table = rows(shown)
-    names = list(dict.fromkeys([name for name in _FIRST if any(name in row for row in table)]
-                               + [name for row in table for name in row]))
+    found = blocks(shown)
+    names = names_of(found)
     out = io.StringIO()
     for key, value in {**shown.facts, **_axes(shown), **_besides(shown)}.items():
         out.write(f"# {key}: {json.dumps(value, ensure_ascii=False, allow_nan=False)}\n")
-    writer = csv.DictWriter(out, names or ["layer"], restval="", lineterminator="\n")
-    writer.writeheader()
-    writer.writerows({key: _field(value) for key, value in row.items()} for row in table)
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(names)
+    for block in found:
+        fields = {name: [_field(value) for value in column.tolist()] for name, column in block.items()}
+        writer.writerows(zip(*(fields.get(name, repeat("")) for name in names), strict=False))
     return out.getvalue()
 
 
@@ -100,29 +118,24 @@ def _axes(shown: Shown) -> dict[str, Any]:
     return {"axes": {"x": [names[0], *map(float, shown.axes.x)], "y": [names[1], *map(float, shown.axes.y)]}}
 
 
-def _rows_of(layer: str, columns: Columns) -> Iterator[Row]:
+def _blocks_of(columns: Columns) -> Iterator[dict[str, NDArray[Any]]]:
     if "image" in columns:
-        yield from _cells(layer, columns)
+        for cells, x, y, width, height in zip(
+                *(columns[name] for name in ("image", "x", "y", "dw", "dh")), strict=True):
+            m, n = cells.shape
+            across, up = x + (np.arange(n) + 0.5) * width / n, y + (np.arange(m) + 0.5) * height / m
+            yield {"x": np.tile(across, m), "y": np.repeat(up, n), "value": cells.ravel()}
     elif "xs" in columns:
         for part, (xs, ys) in enumerate(zip(columns["xs"], columns["ys"], strict=True)):
             # An area is a list of parts, each of an outer curve and holes.
             rings = [(None, xs, ys)] if isinstance(xs, np.ndarray) else [
                 (ring, x, y) for ring, (x, y) in enumerate(zip(xs[0], ys[0], strict=True))]
             for ring, x, y in rings:
-                number = {} if ring is None else {"ring": ring}
-                yield from ({"layer": layer, "part": part, **number, "x": a, "y": b} for a, b in zip(x, y, strict=True))
+                number = {} if ring is None else {"ring": np.full(len(x), ring)}
+                yield {"part": np.full(len(x), part), **number, "x": np.asarray(x), "y": np.asarray(y)}
     else:
         for names in _together(columns):
-            for numbers in zip(*(columns[name] for name in names), strict=True):
-                yield {"layer": layer, **dict(zip(names, numbers, strict=True))}
-
-
-def _cells(layer: str, columns: Columns) -> Iterator[Row]:
-    for cells, x, y, width, height in zip(*(columns[name] for name in ("image", "x", "y", "dw", "dh")), strict=True):
-        m, n = cells.shape
-        for i, row in enumerate(cells):
-            for j, value in enumerate(row):
-                yield {"layer": layer, "x": x + (j + 0.5) * width / n, "y": y + (i + 0.5) * height / m, "value": value}
+            yield {name: columns[name] for name in names}
 
 
 def _together(columns: Columns) -> list[list[str]]:
@@ -146,9 +159,9 @@ def _besides(shown: Shown) -> dict[str, Any]:
 
 
 def _field(value: Any) -> str:
-    if isinstance(value, (str, int, np.integer)):
+    if isinstance(value, (str, int)):
         return str(value)
-    return repr(float(value)) if math.isfinite(value) else ""
+    return repr(value) if math.isfinite(value) else ""
 
 
 def _plain(value: Any) -> Any:

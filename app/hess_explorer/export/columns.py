@@ -1,0 +1,91 @@
+"""The data of a picture as columns by name: those of its CSV, in memory."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hess_explorer.export.shown import Shown
+from hess_explorer.export.table import Block, blocks, names_of
+from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.labelled import Labelled, Labels
+from hess_mechanics.numerics.results import frozen
+
+__all__ = ["Table", "columns_of"]
+
+
+@dataclass(frozen=True, eq=False)
+class Table(Labelled):
+    """Columns of equal length by the names of the CSV: "layer", and coordinates, NaN where a layer has no such one.
+
+    columns : read-only arrays; facts : link, parameters, level, errors, version, as every file says them.
+
+    >>> import hess_explorer as hess
+    >>> data = hess.state("suslov-hess", accuracy="draft").data("circle")
+    >>> data.layers
+    ('diagonal', 'iterates', 'map', 'stable', 'unstable')
+    >>> data.layer("stable")["x"]
+    """
+
+    columns: Mapping[str, NDArray[Any]]
+    facts: Mapping[str, Any]
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        if name not in self.columns:
+            raise InvalidParameter(f"There is no column {name!r}: choose one of {', '.join(self.columns)}.")
+        return self.columns[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.columns
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.columns)
+
+    def __len__(self) -> int:
+        """How many rows."""
+        return len(self.columns["layer"])
+
+    def keys(self) -> tuple[str, ...]:
+        """The names of the columns."""
+        return tuple(self.columns)
+
+    @property
+    def layers(self) -> tuple[str, ...]:
+        """The names of the layers that have rows."""
+        return tuple(dict.fromkeys(self.columns["layer"].tolist()))
+
+    def layer(self, name: str) -> Table:
+        """The rows of one layer, and those columns that it has.  Raises `InvalidParameter`."""
+        if name not in self.layers:
+            raise InvalidParameter(f"There is no layer {name!r}: choose one of {', '.join(self.layers)}.")
+        there = self.columns["layer"] == name
+        return Table({key: part for key, column in self.columns.items() if _has_any(part := column[there])}, self.facts)
+
+    def labels(self) -> Labels:
+        """All columns over the rows."""
+        return Labels({}, {name: (("row",), column) for name, column in self.columns.items()}, {}, self.facts)
+
+    def __repr__(self) -> str:
+        return f"<{len(self)} rows of {self.facts['title']!r}: {', '.join(self.columns)}>"
+
+
+def columns_of(shown: Shown) -> Table:
+    """The columns of the CSV of a picture, every digit."""
+    found = blocks(shown)
+    return Table({name: frozen(_column(name, found)) for name in names_of(found)}, shown.facts)
+
+
+def _column(name: str, found: Sequence[Block]) -> NDArray[Any]:
+    parts = [block.get(name) for block in found]
+    nothing = "" if any(part is not None and part.dtype.kind == "U" for part in parts) else np.nan
+    sizes = (len(block["layer"]) for block in found)
+    filled = [np.full(size, nothing) if part is None else part for size, part in zip(sizes, parts, strict=True)]
+    return np.concatenate(filled) if filled else np.array([], str)
+
+
+def _has_any(column: NDArray[Any]) -> bool:
+    return bool((column != "").any() if column.dtype.kind == "U" else not np.isnan(column).all())

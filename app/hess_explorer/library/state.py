@@ -1,0 +1,233 @@
+"""A state of the explorer as an object: its parameters by name, the data of its pictures, their drawing."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from numbers import Real
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+from urllib.parse import urlsplit
+
+import numpy as np
+
+from hess_explorer.export.code import code
+from hess_explorer.export.columns import Table, columns_of
+from hess_explorer.export.file import content
+from hess_explorer.export.shown import CLIENT_KEPT, Address, Shown, address, picture_of, show
+from hess_explorer.protocol.parameters import Number, Places, Spec, Value, written
+from hess_explorer.scenes import scenes
+from hess_mechanics.errors import InvalidParameter
+
+__all__ = ["State", "from_link", "state"]
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """One state of a scene; nothing is computed until it is asked for.  Made by `state` and `from_link`.
+
+    >>> import hess_explorer as hess
+    >>> state = hess.state("suslov-hess", h=1.2, f=0.3, accuracy="draft")
+    >>> state.parameters["h"], state.pictures
+    (1.2, ('body', 'omega', 'sphere', 'bifurcation', 'circle', 'torus'))
+    >>> state.body.a
+    0.2916666666666667
+    """
+
+    _address: Address
+    _known: dict[str, Shown] = field(default_factory=dict, repr=False)
+
+    @cached_property
+    def _state(self) -> Any:
+        address = self._address
+        return address.scene.of(address.values)
+
+    @property
+    def body(self) -> Any:
+        """The body of the mechanics: a `HessBody`, `SuslovBody`, `BallBody`, `HeavyBody`, …; None without one.
+
+        Raises `ModelError` where there can be none.
+        """
+        return _first(self._state, ("body", "bridge", "pendulum"))
+
+    @property
+    def motion(self) -> Any:
+        """The motion on show: its system, start, parameters and time; None without one.  Raises `ModelError`."""
+        return self._state.motion()
+
+    @property
+    def section(self) -> Any:
+        """The section that the scene draws, of the mechanics; None without one.  Raises `ModelError`."""
+        return _first(self._state, ("section",))
+
+    @property
+    def scene(self) -> str:
+        """The name of the scene, as in a link."""
+        return self._address.scene.name
+
+    @property
+    def parameters(self) -> Mapping[str, Value]:
+        """All parameters by name."""
+        return MappingProxyType(dict(self._address.values))
+
+    @property
+    def link(self) -> str:
+        """The query of the state: what follows ? in its address on any server."""
+        return f"?{self._address.link}"
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was wrong in the link, and is put right."""
+        return self._address.notes
+
+    @property
+    def pictures(self) -> tuple[str, ...]:
+        """The names of the pictures."""
+        return self._address.scene.pictures
+
+    def but(self, **changes: Any) -> State:
+        """The same with some parameters changed.  Raises `InvalidParameter` as `state` does.
+
+        >>> import hess_explorer as hess
+        >>> hess.state("suslov-hess").but(h=2.0).parameters["h"]
+        2.0
+        """
+        return state(self.scene, **{**self.parameters, **self._address.looks, **changes})
+
+    def data(self, picture: str = "") -> Table:
+        """What a picture shows, the first one without a name: the columns of its CSV.
+
+        Raises
+        ------
+        InvalidParameter : there is no such picture.
+        ModelError : the state cannot be computed.
+        """
+        return columns_of(self._shown(picture))
+
+    def plot(self, picture: str = "") -> Any:
+        """The picture by HoloViews, to look at, to combine and to restyle.  Raises as `data`."""
+        from hess_explorer.library.drawing import draw
+
+        return draw(self._shown(picture))
+
+    def save(self, file: str | Path, picture: str = "", *, width: float = 85.0, black: bool = False) -> Path:
+        """Write a picture as the file's ending says: csv, json, or a figure as png, svg, pdf of so many millimetres.
+
+        Raises `InvalidParameter`, `ModelError`, `OSError`.
+        """
+        path = Path(file)
+        path.write_bytes(content(self._shown(picture), path.suffix.removeprefix("."), width, black))
+        return path
+
+    def code(self, picture: str = "") -> str:
+        """The few lines of Python that make this state, compute and draw.
+
+        >>> import hess_explorer as hess
+        >>> print(hess.state("loxodrome").code("angle"))  # doctest: +ELLIPSIS
+        # ...
+        import hess_explorer as hess
+        <BLANKLINE>
+        state = hess.state(
+            "loxodrome", I1=...)
+        data = state.data("angle")
+        state.plot("angle")
+        <BLANKLINE>
+        """
+        return code(self._at(picture))
+
+    def _at(self, picture: str) -> Address:
+        return replace(self._address, picture=picture_of(self._address.scene, picture))
+
+    def _shown(self, picture: str) -> Shown:
+        found = self._at(picture)
+        if found.picture.name not in self._known:
+            # The kernels check for overflow themselves.
+            with np.errstate(all="ignore"):
+                self._known[found.picture.name] = show(found)
+        return self._known[found.picture.name]
+
+    def __repr__(self) -> str:
+        given = ", ".join(f"{name}={value!r}" for name, value in self.parameters.items())
+        return f"hess.state({self.scene!r}, {given})"
+
+
+def state(scene: str = "suslov-hess", /, **parameters: Any) -> State:
+    """The state of a scene with these parameters, as the page names them; the others are those of a newcomer.
+
+    Besides parameters: `t`, the time of clouds; `az`, `el`, from where spheres are seen.
+    Raises `InvalidParameter` for a name or a value that cannot be, which says what can.
+
+    >>> import hess_explorer as hess
+    >>> hess.state("suslov-hess", I22=1.5, h=1.2, f=0.3).parameters["I22"]
+    1.5
+    >>> hess.state("suslov-hess", height=1.2)
+    Traceback (most recent call last):
+    hess_mechanics.errors.InvalidParameter: The scene suslov-hess has no parameter 'height': choose one of I22, ...
+    """
+    known = scenes()
+    if scene not in known:
+        raise InvalidParameter(f"There is no scene {scene!r}: choose one of {', '.join(known)}.")
+    found = known[scene]
+    looks = {spec.name: spec for spec in CLIENT_KEPT}
+    specs: dict[str, Spec] = {**{spec.name: spec for spec in found.specs}, **looks}
+    for name in parameters:
+        if name not in specs:
+            raise InvalidParameter(f"The scene {scene} has no parameter {name!r}: choose one of {', '.join(specs)}.")
+    given = {name: _checked(specs[name], value) for name, value in parameters.items()}
+    wanted = {name: given.get(name, spec.default) for name, spec in specs.items()}
+    client = {name: float(wanted.pop(name)) for name in looks}
+    values, notes = found.admit(wanted)
+    if notes:
+        raise InvalidParameter(" ".join(map(_refusal, notes)))
+    return State(Address(found, found.views[0], values, client))
+
+
+def from_link(link: str) -> State:
+    """The state that a link describes, or what follows ? in it; what is wrong in it is put right, and noted.
+
+    >>> import hess_explorer as hess
+    >>> state = hess.from_link("http://localhost:5006/?scene=scattering&theta=1.0&digits=-3")
+    >>> state.parameters["theta"]
+    1.0
+    >>> state.notes
+    """
+    parts = urlsplit(link)
+    return State(address(parts.query if parts.scheme or link.startswith("?") else link.lstrip("?")))
+
+
+def _checked(spec: Spec, value: Any) -> Value:
+    """A value of a parameter.  Raises `InvalidParameter`, in the words of a link's notes."""
+    found: Value
+    note: str | None
+    if isinstance(spec, Number):
+        if isinstance(value, bool) or not isinstance(value, Real):
+            raise InvalidParameter(f"{value!r} is not a number: {spec.name} ({spec.label}) is one from "
+                                   f"{spec.bounds[0]:g} to {spec.bounds[1]:g}.")
+        if not math.isfinite(value):
+            raise InvalidParameter(f"{spec.name} ({spec.label}) must be a finite number.")
+        found, note = spec.admit(float(value))
+    elif isinstance(spec, Places) and not isinstance(value, str):
+        try:
+            pairs = [(float(x), float(y)) for x, y in value]
+        except (TypeError, ValueError):
+            raise InvalidParameter(f"{spec.name} ({spec.label}) are pairs [(x, y), …].") from None
+        found, note = spec.read(written(pairs))
+    else:
+        found, note = spec.read(str(value))
+    if note:
+        raise InvalidParameter(_refusal(note))
+    return found
+
+
+def _refusal(note: str) -> str:
+    """The sentence of a note, without what was put in the place of the value."""
+    return f"{note.partition(': ')[0].removesuffix('.')}."
+
+
+def _first(state: Any, names: tuple[str, ...]) -> Any:
+    """The first of these properties that the state of a scene has; None without one."""
+    return next((getattr(state, name) for name in names if isinstance(
+        getattr(type(state), name, None), (property, cached_property))), None)

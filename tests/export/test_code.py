@@ -1,0 +1,96 @@
+"""Copy Python: what the lines compute is what the page exports, every bit of it."""
+
+from __future__ import annotations
+
+import csv
+import json
+
+import nbformat
+import numpy as np
+import pytest
+from nbclient import NotebookClient
+
+from hess_explorer import State
+from hess_explorer.__main__ import main
+from hess_explorer.export.code import code, is_drawn
+from hess_explorer.export.columns import columns_of
+from hess_explorer.export.notebook import notebook
+from hess_explorer.export.shown import address, shown
+from hess_explorer.protocol.parameters import encode
+from hess_explorer.scenes import scenes
+
+OWN = [(scene.name, number) for scene in scenes().values() if scene.origin is None
+       for number in range(len(scene.presets))]
+
+
+def ran(lines):
+    names = {}
+    exec(compile(lines, "<copied>", "exec"), names)
+    return names["data"]
+
+
+def same_bits(a, b):
+    return a.dtype == b.dtype and a.tobytes() == b.tobytes()
+
+
+def link_of(name, number, **more):
+    scene = scenes()[name]
+    return encode(name, {**scene.defaults(), **scene.example(scene.presets[number]), "accuracy": "draft", **more})
+
+
+@pytest.mark.parametrize(("name", "number"), OWN)
+def test_the_lines_leave_what_is_exported_of_every_picture_of_every_preset(name, number, monkeypatch):
+    drawn = []
+    # Drawing has tests of its own, and takes as long as all the rest.
+    monkeypatch.setattr(State, "plot", lambda self, picture: drawn.append(picture))
+    link = link_of(name, number)
+    for view in scenes()[name].views:
+        expected = columns_of(shown(link, view.name))
+        data = ran(code(address(link, view.name)))
+        assert data.facts == expected.facts
+        assert data.keys() == expected.keys()
+        assert all(same_bits(data[column], expected[column]) for column in expected)
+    assert drawn == [view.name for view in scenes()[name].views if is_drawn(view)]
+
+
+@pytest.mark.parametrize(("link", "picture"), [
+    ("h=1.2&f=0.3&accuracy=precise", "circle"), ("scene=suslov&accuracy=draft&starts=0.1,0.2;1,1", "section"),
+    ("scene=scattering&az=1.5&accuracy=draft", "sphere"), ("scene=euler-poisson-accuracy&accuracy=draft", "difference"),
+    ("scene=suslov-hess&h=1&f=0&accuracy=draft", "circle")])
+def test_the_columns_are_those_of_the_file_written_by_the_command(link, picture, tmp_path):
+    lines, file = tmp_path / "of.py", tmp_path / "of.csv"
+    for command, out in (("code", lines), ("export", file)):
+        assert main([command, "--state", link, "--picture", picture, "--out", str(out)]) == 0
+    data = ran(lines.read_text(encoding="utf-8"))
+    lines = file.read_text(encoding="utf-8").splitlines(keepends=True)
+    table = list(csv.reader(line for line in lines if not line.startswith("# ")))
+    assert table[0] == list(data)
+    for row, fields in zip(zip(*data.columns.values(), strict=True), table[1:], strict=True):
+        for value, said in zip(row, fields, strict=True):
+            assert str(value) == said if isinstance(value, str) else (
+                not np.isfinite(value) if said == "" else float(said) == value)
+    assert len(table) > 10
+
+
+def test_the_lines_are_few_and_name_every_parameter():
+    lines = code(address("scene=suslov&starts=0.5,1&b1=-0.25", "section"))
+    assert len(lines.splitlines()) < 14
+    assert max(map(len, lines.splitlines()[2:])) <= 110
+    given = lines.split("hess.state(")[1]
+    assert all(f"{spec.name}=" in given for spec in scenes()["suslov"].specs if spec.name != "window")
+    assert "starts=[(0.5,1.0)]" in given
+    assert "b1=-0.25" in given
+
+
+def test_a_notebook_runs_from_its_first_cell_to_its_last():
+    found = address("h=1.2&f=0.3&accuracy=draft", "circle")
+    book = nbformat.reads(notebook(found), as_version=4)
+    nbformat.validate(book)
+    assert found.link in book.cells[0].source
+    NotebookClient(book, timeout=120).execute()
+    kinds = [kind for cell in book.cells if cell.cell_type == "code" for output in cell.outputs
+             for kind in output.get("data", {})]
+    assert "application/vnd.holoviews_exec.v0+json" in kinds
+    text = book.cells[-1].outputs[0]["data"]["text/html"]
+    assert "cobweb" in text or "phi" in text
+    assert json.loads(notebook(found))["nbformat"] == 4

@@ -1,0 +1,136 @@
+"""States of the explorer in Python: parameters by name, sentences for what cannot be, drawing, the mechanics behind."""
+
+from __future__ import annotations
+
+import math
+import subprocess
+import sys
+
+import holoviews as hv
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+import hess_explorer as hess
+from hess_explorer.export.shown import shown
+from hess_mechanics import BallBody, HeavyBody, HessBody, SuslovBody, circle_map, level
+from hess_mechanics.errors import InvalidParameter, ModelError
+from hess_mechanics.euler_poisson import equations as euler_poisson
+
+DRAWN = [("suslov-hess", "circle", "cobweb", ("phi", "theta")), ("suslov-hess", "bifurcation", "here", ("h", "f")),
+         ("free-suslov", "omega", "arrows", ("x", "y")), ("scattering", "map", "theta", ("value",)),
+         ("suslov", "section", "first", ("x", "y"))]
+
+
+def test_a_link_and_its_parameters_are_the_same_state():
+    state = hess.from_link("https://example.org/x/?v=1&scene=suslov&b1=-0.5&starts=0.5,1;1,1&t=2.5")
+    again = hess.state("suslov", b1=-0.5, starts=[(0.5, 1.0), (1, np.float64(1.0))], t=2.5)
+    assert again.link == state.link == hess.from_link(state.link).link
+    assert "&t=2.5" in state.link
+    assert (state.scene, state.notes) == ("suslov", ())
+    assert state.but(b1=0.25, t=0.0).parameters == {**again.parameters, "b1": 0.25}
+    noted = hess.from_link("h=-7&scene=suslov-hess")
+    assert noted.parameters["h"] == pytest.approx(-1.0)
+    assert noted.notes[0].startswith("h lies between -1 and")
+
+
+@pytest.mark.parametrize(("given", "sentence"), [
+    ({"height": 1.0}, "has no parameter 'height': choose one of I22, I23, b3, h, f, phi0, span, accuracy, t, az, el."),
+    ({"h": "high"}, "'high' is not a number: h (Energy h) is one from -1 to 1e+06."),
+    ({"h": True}, "True is not a number"), ({"h": None}, "None is not a number"),
+    ({"h": math.nan}, "h (Energy h) must be a finite number."), ({"h": -2.0}, "h lies between -1 and 1e+06."),
+    ({"f": 50.0}, "At h = 1.5 only |f| ≤ 1.812 is possible."),
+    ({"accuracy": "best"}, "Accuracy was not one of draft, standard, precise, reference, auto."),
+])
+def test_what_cannot_be_is_refused_with_a_sentence(given, sentence):
+    with pytest.raises(InvalidParameter) as refused:
+        hess.state("suslov-hess", **given)
+    assert sentence in str(refused.value)
+    assert str(refused.value).endswith(".")
+
+
+def test_scenes_pictures_layers_and_columns_that_are_not_there_are_named():
+    with pytest.raises(InvalidParameter, match="There is no scene 'hess': choose one of suslov-hess, free-suslov"):
+        hess.state("hess")
+    with pytest.raises(InvalidParameter, match="are pairs"):
+        hess.state("suslov", starts=[1.0, 2.0])
+    state = hess.state("suslov-hess", accuracy="draft")
+    for call, sentence in ((lambda: state.data("x"), "has no picture 'x': choose one of body"),
+                           (lambda: state.data("circle")["z"], "no column 'z': choose one of layer"),
+                           (lambda: state.data("circle").layer("z"), "no layer 'z': choose one of cobweb"),
+                           (lambda: state.plot("body"), "take its data"),
+                           (lambda: hess.state("bridge", given=2), "was not one of")):
+        with pytest.raises(ModelError, match=sentence):
+            call()
+    with pytest.raises(AttributeError, match="no attribute 'stat'"):
+        hess.stat  # noqa: B018
+
+
+def test_the_mechanics_behind_a_state_are_objects_of_the_library():
+    state = hess.state("suslov-hess", I22=1.5, I23=0.3, h=1.2, f=0.3)
+    assert state.body == HessBody(1.5, 0.3, -1.0)
+    assert state.section is None
+    motion = state.motion
+    theta = circle_map(state.body.a, 1.2, 0.3, level("reference"))
+    # One period later n3 is at the lower turn again: the motion is the one whose map this is.
+    orbit = hess.state("suslov-hess", I22=1.5, I23=0.3, h=1.2, f=0.3, accuracy="reference").data("omega").layer("orbit")
+    n3 = np.column_stack([orbit[name] for name in ("g1", "g2", "g3")]) @ state.body.n3
+    at = np.interp(theta.period / state.body.frequency_unit, orbit["t"], n3)
+    # Between samples n3 is not straight: 0.03 apart at most, of a swing whose second derivative is about 1.
+    assert at == pytest.approx(n3[0], abs=1e-3)
+    assert motion.span == pytest.approx(40.0 * state.body.frequency_unit)
+    kinds = {"suslov": SuslovBody, "chaplygin-ball": BallBody, "euler-poisson": HeavyBody}
+    assert {name: type(hess.state(name).body) for name in kinds} == kinds
+    section = hess.state("euler-poisson", f=1.0, h=40.0).section
+    states, possible = section.states_at(np.array([0.3]), np.array([0.2]))
+    # On the section (M, γ) = f, and the energy is h.
+    integrals = euler_poisson.integrals(states[0], section.body.parameters)
+    assert possible.all()
+    assert (integrals["H"], integrals["F1"]) == pytest.approx((40.0, 1.0))
+
+
+def test_columns_become_frames_of_pandas_and_xarray():
+    data = hess.state("suslov-hess", accuracy="draft").data("circle")
+    frame, whole = data.to_pandas(), data.to_xarray()
+    assert list(frame.columns) == list(data) == list(whole.data_vars)
+    assert len(frame) == len(data) == whole.sizes["row"]
+    assert frame.attrs["link"] == whole.attrs["link"] == data.facts["link"]
+    cobweb = frame[frame.layer == "cobweb"]
+    assert np.array_equal(cobweb.phi, data.layer("cobweb")["phi"])
+    assert not data["phi"].flags.writeable
+    assert "<table>" in data._repr_html_()
+
+
+@pytest.mark.parametrize(("scene", "picture", "layer", "columns"), DRAWN)
+def test_a_plot_draws_the_numbers_of_the_data_on_the_axes_of_the_page(scene, picture, layer, columns):
+    state = hess.state(scene, accuracy="draft")
+    plot, data = state.plot(picture), state.data(picture)
+    part = data.layer(layer)
+    elements = plot.traverse(lambda one: one, [hv.Path, hv.Points, hv.Image, hv.Polygons])
+    drawn = [[one.dimension_values(name) for name in (one.vdims if isinstance(one, hv.Image) else one.dimensions())[
+        :len(columns)]] for one in elements]
+    drawn = [[one[np.isfinite(one)] for one in found] for found in drawn]
+    wanted = [part[name] for name in columns]
+    assert any(all(map(np.array_equal, map(np.sort, found), map(np.sort, wanted))) for found in drawn)
+    figure = hv.render(plot, "bokeh")
+    axes = shown(state.link, picture).axes
+    assert (figure.x_range.start, figure.x_range.end) == pytest.approx(axes.x)
+    assert (figure.y_range.start, figure.y_range.end) == pytest.approx(axes.y)
+    assert figure.title.text == data.facts["title"]
+
+
+def test_a_sphere_is_seen_from_where_the_state_says():
+    state = hess.state("suslov-hess", accuracy="draft", az=1.0, el=-0.4)
+    gamma = np.column_stack([state.data("sphere").layer("orbit")[name] for name in ("g1", "g2", "g3")])
+    seen = Rotation.from_euler("zy", [-1.0, -0.4]).apply(gamma)[:, 1:]
+    paths = state.plot("sphere").traverse(lambda one: one, [hv.Path])
+    points = np.vstack([np.column_stack([path.dimension_values(0), path.dimension_values(1)]) for path in paths])
+    points = points[np.isfinite(points).all(axis=1)]
+    assert all(np.abs(points - place).max(axis=1).min() < 1e-12 for place in seen)
+
+
+def test_importing_it_loads_nothing_that_draws():
+    loaded = "import sys, hess_explorer, hess_mechanics; print(*{name.partition('.')[0] for name in sys.modules})"
+    names = subprocess.run([sys.executable, "-c", loaded], capture_output=True, check=True, text=True).stdout.split()
+    assert not {"panel", "holoviews", "bokeh", "pandas", "xarray", "matplotlib"} & set(names)
+    assert {"state", "from_link"} <= set(dir(hess))
