@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any
 
 from hess_explorer.export.shown import Address
 from hess_explorer.protocol.parameters import Number, Places, Spec, Value, places
-from hess_explorer.views.picture import Picture
-from hess_explorer.views.plot import Plot
-from hess_explorer.views.poisson_sphere import Sphere
 
-__all__ = ["code", "is_drawn", "lines_of"]
+__all__ = ["code", "lines_of"]
 
 _WIDTH = 100
 
@@ -35,13 +31,7 @@ def lines_of(address: Address) -> list[str]:
     given = {spec.name: _value(spec, address.values[spec.name]) for spec in scene.specs}
     given |= {key: repr(value) for key, value in address.looks.items()}
     words = [repr(scene.name).replace("'", '"'), *(f"{key}={said}" for key, said in given.items() if said)]
-    drawn = f'state.plot("{name}")' if is_drawn(address.picture) else "# It moves, and is drawn on the page only."
-    return ["state = hess.state(", *_filled(words), f'data = state.data("{name}")', drawn]
-
-
-def is_drawn(picture: Picture[Any]) -> bool:
-    """Whether HoloViews draws it, see `library.drawing`."""
-    return isinstance(picture, (Plot, Sphere))
+    return ["state = hess.state(", *_filled(words), f'data = state.data("{name}")', f'state.plot("{name}")']
 
 
 def _filled(words: Sequence[str]) -> Iterator[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import math
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -10,32 +11,27 @@ import holoviews as hv
 import numpy as np
 from holoviews import dim
 
+from hess_explorer.export.figure import as_file
 from hess_explorer.export.shown import Shown
-from hess_explorer.export.spheres import draw_sphere
 from hess_explorer.views import theme
 from hess_explorer.views.layers import Columns, Layer
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.poisson_sphere import Sphere
-from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.numerics.labelled import Labelled, Labels
+from hess_mechanics.numerics.labelled import Labels, Result
 
 __all__ = ["draw", "draw_result"]
 
 _SIDE = 420
 """Pixels of a picture in a notebook."""
-_UP = math.pi / 2.0
+_MILLIMETRES = 71.0
+"""Two pixels of the image for one of the picture."""
 
 
 def draw(shown: Shown) -> Any:
-    """A picture as an overlay of its layers, in the page's colours, on the page's axes.
+    """A picture in the page's colours: a plot as an overlay of its layers; spheres, bodies and clouds as an image.
 
-    Raises `InvalidParameter` for pictures that are neither plots nor Poisson spheres.
+    Raises `InvalidParameter`: an image needs Matplotlib.
     """
-    if isinstance(shown.picture, Plot):
-        return _plot(shown, shown.picture)
-    if isinstance(shown.picture, Sphere):
-        return _sphere(shown)
-    raise InvalidParameter(f"{shown.title} moves, and is drawn on the page only: take its data.")
+    return _plot(shown, shown.picture) if isinstance(shown.picture, Plot) else _painted(shown)
 
 
 def _plot(shown: Shown, plot: Plot[Any]) -> Any:
@@ -142,53 +138,44 @@ _GLYPHS: Mapping[str, Glyph] = {
     "image": _cells, "segment": _segments, "text": _texts}
 
 
-class _Sheet:
-    """What `draw_sphere` asks of a frame of Matplotlib, as layers of HoloViews."""
+def _painted(shown: Shown) -> Any:
+    """What is solid or seen from somewhere, as the figure for paper has it, in pixels."""
+    # Matplotlib is an extra: `as_file` says so where it is missing.
+    file = as_file(shown, "png", _MILLIMETRES)
+    from matplotlib.image import imread
 
-    def __init__(self) -> None:
-        self.drawn: list[tuple[float, Any]] = []
-
-    def set(self, **_: Any) -> None:
-        """The axes are those of the overlay."""
-
-    def set_axis_off(self) -> None:
-        """They are bare."""
-
-    def plot(self, x: Any, y: Any, *, color: str, linestyle: Any = "-", linewidth: float = 1.0, alpha: float = 1.0,
-             zorder: float = 2.0) -> None:
-        """A line; dashes as Matplotlib writes them."""
-        dash = "solid" if linestyle == "-" else " ".join(f"{3 * length}" for length in linestyle[1])
-        path = hv.Path([np.column_stack([x, y])], ["x", "y"])
-        self.drawn.append((zorder, path.opts(color=color, line_dash=dash, line_width=1.4 * linewidth, alpha=alpha)))
-
-    def text(self, x: float, y: float, said: str, *, color: str, alpha: float = 1.0, **_: Any) -> None:
-        """A word about a place."""
-        self.drawn.append((3.0, hv.Labels([(x, y, said)], ["x", "y"], "text").opts(
-            text_color=color, text_alpha=alpha, text_font_size="12px")))
-
-    def scatter(self, x: Any, y: Any, *, facecolors: str, edgecolors: str, alpha: float, zorder: float,
-                **_: Any) -> None:
-        """A mark."""
-        hollow = facecolors == "none"
-        self.drawn.append((zorder, hv.Points((x, y), ["x", "y"]).opts(
-            size=8, color=edgecolors, fill_alpha=0.0 if hollow else alpha, line_alpha=alpha)))
+    pixels = imread(io.BytesIO(file))
+    return hv.RGB(pixels, bounds=(-1.0, -1.0, 1.0, 1.0)).opts(hv.opts.RGB(
+        frame_width=_SIDE, frame_height=_SIDE, title=shown.title, xaxis=None, yaxis=None))
 
 
-def _sphere(shown: Shown) -> Any:
-    sheet = _Sheet()
-    draw_sphere(sheet, shown, lambda colour: colour)  # type: ignore[arg-type]
-    layers = [layer for _, layer in sorted(sheet.drawn, key=lambda one: one[0])]
-    return _framed(layers, shown.title, xlim=(-1.25, 1.25), ylim=(-1.25, 1.25), xaxis=None, yaxis=None)
+def draw_result(result: Result) -> Any:
+    """A result of the mechanics, a panel for each variable: over its coordinate, or a map over two of them.
 
-
-def draw_result(result: Labelled) -> Any:
-    """A result of the mechanics: each of its variables over the first dimension, or points of the plane.
-
-    Raises `InvalidParameter` where it has neither.
+    What has no coordinate are points of a plane, whose first two variables are the axes.
     """
     known = result.labels()
-    return _over_time(known, type(result).__name__)
+    axes = [dims[0] for name, (dims, _) in known.coords.items() if dims == (name,)]
+    if not axes:
+        (x, (_, across)), (y, (_, up)), *_ = known.variables.items()
+        return hv.Points((across, up), [_axis(known, x), _axis(known, y)]).opts(
+            hv.opts.Points(size=1.5, frame_width=_SIDE, frame_height=_SIDE, title=type(result).__name__))
+    panels = [_panel(known, name, axes) for name, (dims, values) in known.variables.items()
+              if dims[-1] in axes and values.dtype.kind == "f"]
+    return hv.Layout(panels).cols(2) if len(panels) > 1 else panels[0]
 
 
-def _over_time(known: Labels, title: str) -> Any:
-    raise NotImplementedError
+def _axis(known: Labels, name: str) -> Any:
+    return hv.Dimension(name, unit=known.units.get(name) or None)
+
+
+def _panel(known: Labels, name: str, axes: list[str]) -> Any:
+    """One variable over its last dimension; over its last two where both have coordinates."""
+    dims, values = known.variables[name]
+    x = known.coords[dims[-1]][1]
+    if len(dims) > 1 and dims[-2] in axes:
+        return hv.Image((x, known.coords[dims[-2]][1], values), [_axis(known, dims[-1]), _axis(known, dims[-2])],
+                        _axis(known, name)).opts(hv.opts.Image(colorbar=True, title=name, frame_width=_SIDE // 2))
+    curves = [np.column_stack([x, one]) for one in values.reshape(-1, x.size)]
+    return hv.Path(curves, [_axis(known, dims[-1]), _axis(known, name)]).opts(
+        hv.opts.Path(frame_width=_SIDE, frame_height=_SIDE // 3, color=theme.ORBIT))

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from hess_mechanics.errors import InvalidParameter
 
-__all__ = ["Labelled", "Labels"]
+__all__ = ["Labelled", "Labels", "Result"]
 
 Named = Mapping[str, tuple[tuple[str, ...], NDArray[Any]]]
 """Arrays by name, each with the names of its dimensions."""
@@ -69,11 +69,6 @@ class Labelled(ABC):
         frame.attrs.update(known.facts)
         return frame
 
-    def plot(self) -> Any:
-        """A HoloViews object that draws it.  Raises `InvalidParameter` where it has no curve or points to draw."""
-        # By name, as pandas finds what plots: the mechanics know no user interface.
-        return importlib.import_module("hess_explorer.library.drawing").draw_result(self)
-
     def _repr_html_(self) -> str:
         """A table of the facts, and of the arrays with their units, for notebooks."""
         known = self.labels()
@@ -84,6 +79,15 @@ class Labelled(ABC):
             f"{escape(known.units.get(name, ''))}</td></tr>"
             for name, (dims, values) in {**known.coords, **known.variables}.items())
         return f"<table><caption>{escape(type(self).__name__)}</caption>{facts}{arrays}</table>"
+
+
+class Result(Labelled):
+    """One that has something to draw: variables over a coordinate, over two, or points of a plane."""
+
+    def plot(self) -> Any:
+        """A HoloViews object, which a notebook shows.  Needs the package `hess_explorer` beside this one."""
+        # By name, as pandas finds what plots: the mechanics know no user interface.
+        return importlib.import_module("hess_explorer.library.drawing").draw_result(self)
 
 
 def _short(value: Any) -> str:
