@@ -16,13 +16,17 @@ import numpy as np
 
 from hess_explorer.export.code import code
 from hess_explorer.export.columns import Table, columns_of
-from hess_explorer.export.file import content
+from hess_explorer.export.figure import FORMATS
+from hess_explorer.export.file import Wish, content
+from hess_explorer.export.film import FILMS
 from hess_explorer.export.shown import CLIENT_KEPT, Address, Shown, address, picture_of, show
 from hess_explorer.protocol.parameters import Number, Places, Spec, Value, written
 from hess_explorer.scenes import scenes
 from hess_mechanics.errors import InvalidParameter
 
 __all__ = ["State", "from_link", "state"]
+
+_ENDINGS = ("csv", "json", *FORMATS, *FILMS)
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,13 +117,19 @@ class State:
 
         return draw(self._shown(picture))
 
-    def save(self, file: str | Path, picture: str = "", *, width: float = 85.0, black: bool = False) -> Path:
-        """Write a picture as the file's ending says: csv, json, or a figure as png, svg, pdf of so many millimetres.
+    def save(self, file: str | Path, picture: str = "", *, width: float = 85.0, black: bool = False,
+             seconds: float = 10.0) -> Path:
+        """Write a picture as the file's ending says: csv and json, a figure as png, svg, pdf, a film as webm, mp4.
 
+        width : millimetres of a figure or film; black : black on white; seconds : of a film.
         Raises `InvalidParameter`, `ModelError`, `OSError`.
         """
         path = Path(file)
-        path.write_bytes(content(self._shown(picture), path.suffix.removeprefix("."), width, black))
+        kind = path.suffix.removeprefix(".").lower()
+        if kind not in _ENDINGS:
+            raise InvalidParameter(f"A file whose name ends in {path.suffix!r} cannot be written: choose one of "
+                                   f".{', .'.join(_ENDINGS)}.")
+        path.write_bytes(content(self._shown(picture), Wish(kind, width, black, seconds)))
         return path
 
     def code(self, picture: str = "") -> str:
