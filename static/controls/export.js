@@ -1,5 +1,5 @@
-// The dialog Export: the data, a figure or a film of one picture, as a file made by the server, and the command that
-// makes it.
+// The dialog Export: the data, a figure or a film of one picture, as a file made by the server, the command that makes
+// it, and the lines of Python that compute the same.
 
 import { tell } from "../page/bus.js"
 import { linkTo } from "../page/embedding.js"
@@ -52,6 +52,9 @@ export function exportDialog() {
   const frames = element("progress", { "aria-label": "Frames of the film", hidden: true })
   const black = element("input", { type: "checkbox", className: "param-black" })
   const command = element("textarea", { className: "snippet", readOnly: true, rows: 4, "aria-label": "Command" })
+  const python = element("textarea", { className: "snippet", readOnly: true, rows: 6, "aria-label": "Python" })
+  const copy = element("button", { type: "button", className: "button param-copy-python", textContent: "Copy Python" })
+  const book = element("button", { type: "button", className: "button param-notebook", textContent: "Open as notebook" })
   const save = element("button", { type: "button", className: "button param-save", textContent: "Save file" })
   const stop = element("button", { type: "button", className: "button param-cancel", textContent: "Stop", hidden: true })
   const said = element("p", { className: "why", role: "status" })
@@ -66,7 +69,9 @@ export function exportDialog() {
         element("label", {}, "Picture ", picture), element("label", {}, "Format ", format), figure, film,
         element("span", {}, save, stop), frames, said),
       element("section", { "aria-label": "Command" }, element("h3", { textContent: "The same at the command line" }),
-        command)))
+        command),
+      element("section", { "aria-label": "Python" }, element("h3", { textContent: "The same numbers in Python" }),
+        python, element("span", {}, copy, book))))
 
   // What is asked for besides the state: the width and the look are those of a figure.
   function wanted() {
@@ -89,11 +94,19 @@ export function exportDialog() {
       `${wide ? ` --width ${wide}` : ""}${isBlack ? " --black" : ""}${long ? ` --seconds ${long}` : ""} --out ${scene.name}-${name}.${kind}`
   }
 
-  async function fetched() {
-    const isFilm = FILMS.includes(format.value)
-    const query = new URLSearchParams({ ...wanted(), ...(isFilm ? { progress: "1" } : {}) })
+  // The lines of Python, one picture after the other: the newest is the one that stays.
+  async function writePython() {
+    const name = picture.value
+    const { file, why } = await fetched({ picture: name, format: "py" })
+    const text = why ?? await file.text()
+    if (name === picture.value) python.value = text
+  }
+
+  async function fetched(what, signal) {
+    const isFilm = FILMS.includes(what.format)
+    const query = new URLSearchParams({ ...what, ...(isFilm ? { progress: "1" } : {}) })
     try {
-      const answer = await fetch(new URL(`export?${state()}&${query}`, document.baseURI), { signal: running.signal })
+      const answer = await fetch(new URL(`export?${state()}&${query}`, document.baseURI), { signal })
       if (!answer.ok) return { why: await answer.text() }
       return isFilm ? await filmOf(answer, count) : { file: await answer.blob() }
     } catch (error) {
@@ -112,13 +125,13 @@ export function exportDialog() {
     frames.hidden = true
   }
 
-  async function make() {
-    const { picture: name, format: kind } = wanted()
+  async function make(what) {
+    const { picture: name, format: kind } = what
     const file = `${scene.name}-${name}.${kind}`
     running = new AbortController()
     busy(true)
     said.textContent = "Being made…"
-    const { file: content, why } = await fetched()
+    const { file: content, why } = await fetched(what, running.signal)
     busy(false)
     said.textContent = why ?? `${file}: ${Math.ceil(content.size / 1024)} kB.`
     if (why !== undefined) return
@@ -127,7 +140,18 @@ export function exportDialog() {
     URL.revokeObjectURL(address)
   }
 
-  save.addEventListener("click", make)
+  save.addEventListener("click", () => make(wanted()))
+  book.addEventListener("click", () => make({ picture: picture.value, format: "ipynb" }))
+  copy.addEventListener("click", async () => {
+    python.select()
+    try {
+      await navigator.clipboard.writeText(python.value)
+      said.textContent = "The lines of Python are copied."
+    } catch {
+      said.textContent = "The browser does not allow it: copy the lines that are selected."
+    }
+  })
+  picture.addEventListener("change", writePython)
   stop.addEventListener("click", () => running.abort())
   close.addEventListener("click", () => dialog.close())
   dialog.addEventListener("close", () => running?.abort())
@@ -150,6 +174,7 @@ export function exportDialog() {
       if (open.some((cell) => cell.dataset.name === before)) picture.value = before
       said.textContent = ""
       write()
+      writePython()
       dialog.showModal()
     },
   }

@@ -12,7 +12,9 @@ from urllib.request import urlopen
 import pytest
 from playwright.sync_api import expect
 
-from hess_explorer.export.shown import shown
+from hess_explorer.export.code import code
+from hess_explorer.export.notebook import notebook
+from hess_explorer.export.shown import address, shown
 from hess_explorer.export.table import as_csv
 from hess_explorer.protocol.parameters import MAX_QUERY
 from support.accessible import assert_accessible
@@ -37,9 +39,21 @@ def test_the_dialog_saves_what_is_on_the_screen_and_names_the_command(explorer):
     dialog.locator(".param-format").select_option("svg")
     dialog.locator(".param-width").fill("60")
     dialog.locator(".param-black").check()
-    words = shlex.split(dialog.locator(".snippet").input_value())
+    words = shlex.split(dialog.get_by_label("Command").get_by_role("textbox").input_value())
     assert words == ["hess-explorer", "export", "--state", state, "--picture", "circle", "--format", "svg", "--width",
                      "60", "--black", "--out", "suslov-hess-circle.svg"]
+    # The lines of Python, those of the command line too, and the notebook.
+    explorer.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    python = dialog.get_by_label("Python", exact=True).get_by_role("textbox")
+    lines = code(address(state, "circle"))
+    expect(python).to_have_value(lines)
+    dialog.get_by_role("button", name="Copy Python").click()
+    expect(dialog.locator(".why")).to_have_text("The lines of Python are copied.")
+    assert page.evaluate("navigator.clipboard.readText()") == lines
+    with page.expect_download() as download:
+        dialog.get_by_role("button", name="Open as notebook").click()
+    assert download.value.suggested_filename == "suslov-hess-circle.ipynb"
+    assert Path(download.value.path()).read_text(encoding="utf-8") == notebook(address(state, "circle"))
     # What cannot be made is said in the dialog, and nothing is saved.
     page.route("**/export?*", lambda route: route.continue_(url=route.request.url.replace("picture=body", "picture=x")))
     dialog.locator(".param-picture").select_option("body")
@@ -78,7 +92,7 @@ def test_a_film_is_made_with_progress_and_is_stopped(explorer):
     dialog.locator(".param-width").fill("60")
     dialog.locator(".param-seconds").fill("1")
     state = urlsplit(page.url).query
-    assert shlex.split(dialog.locator(".snippet").input_value())[-4:] == [
+    assert shlex.split(dialog.get_by_label("Command").get_by_role("textbox").input_value())[-4:] == [
         "--seconds", "1", "--out", "suslov-hess-sphere.webm"]
     # All that is said while it is made.
     dialog.locator(".why").evaluate("""said => {

@@ -31,12 +31,10 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def _run(options: argparse.Namespace) -> None:
     with computing():
-        from hess_explorer.export.code import code
-        from hess_explorer.export.notebook import notebook
+        from hess_explorer.export.notebook import PROGRAMS
         from hess_explorer.export.shown import address
 
-        found = address(urlencode(options.state), options.picture)
-        text = (notebook if options.format == "ipynb" else code)(found)
+        text = PROGRAMS[options.format](address(urlencode(options.state), options.picture))
     if options.out is not None:
         write_file(options.out, text.encode())
     else:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable, Mapping
 from importlib.metadata import version
 from typing import Any
 
-from hess_explorer.export.code import lines_of
+from hess_explorer.export.code import code, lines_of
 from hess_explorer.export.shown import Address
 
-__all__ = ["notebook"]
+__all__ = ["PROGRAMS", "notebook"]
 
 
 def notebook(address: Address) -> str:
@@ -32,3 +33,7 @@ def notebook(address: Address) -> str:
 def _cell(number: int, kind: str, source: str) -> dict[str, Any]:
     outputs: dict[str, Any] = {"execution_count": None, "outputs": []} if kind == "code" else {}
     return {"cell_type": kind, "id": f"cell-{number}", "metadata": {}, "source": source.splitlines(True), **outputs}
+
+
+PROGRAMS: Mapping[str, Callable[[Address], str]] = {"py": code, "ipynb": notebook}
+"""What computes a picture, by format."""

@@ -15,7 +15,8 @@ from tornado.web import RequestHandler
 from hess_explorer.compute.budget import Abandoned, limited
 from hess_explorer.export.file import Wish, content
 from hess_explorer.export.film import FILMS
-from hess_explorer.export.shown import shown
+from hess_explorer.export.notebook import PROGRAMS
+from hess_explorer.export.shown import address, show
 from hess_explorer.protocol.parameters import MAX_QUERY, Choice, Number, decode
 from hess_explorer.scenes import scenes
 from hess_explorer.server.film import Film
@@ -24,7 +25,8 @@ from hess_mechanics.errors import ModelError
 __all__ = ["Export"]
 
 _TYPES = {"csv": "text/csv; charset=utf-8", "json": "application/json", "png": "image/png",
-          "svg": "image/svg+xml; charset=utf-8", "pdf": "application/pdf", "webm": "video/webm", "mp4": "video/mp4"}
+          "svg": "image/svg+xml; charset=utf-8", "pdf": "application/pdf", "webm": "video/webm", "mp4": "video/mp4",
+          "py": "text/x-python; charset=utf-8", "ipynb": "application/x-ipynb+json"}
 _SPECS = (Choice("format", "Format", tuple(_TYPES), "csv"), Choice("black", "Black", ("0", "1"), "0"),
           Number("width", "width", "Width", 85.0, (20.0, 400.0), 5.0, (20.0, 400.0)),
           Number("seconds", "seconds", "Seconds", 10.0, (1.0, 30.0), 1.0, (1.0, 30.0)),
@@ -41,6 +43,8 @@ _SECONDS = 10.0
 
 class Export(RequestHandler):
     """GET /export?<state>&picture=NAME&format=…&width=MM&black=1&seconds=S: the file, or a sentence why there is none.
+
+    The formats py and ipynb are the lines of Python that compute the picture, and a notebook of them.
 
     A film with progress=1 comes after lines that say how far it is: "queued", "3/250" after the third frame, at last
     "file 12345", the number of bytes that follow, or "why" and a sentence.
@@ -88,9 +92,12 @@ class Export(RequestHandler):
 
     def _file(self, state: dict[str, str], picture: str, wish: Wish) -> tuple[str, bytes]:
         """Name and bytes of what is asked for.  Raises `ModelError`, `Abandoned`."""
+        where = address(urlencode(state), picture)
+        name = f"{where.scene.name}-{where.picture.name}"
+        if wish.kind in PROGRAMS:
+            return name, PROGRAMS[wish.kind](where).encode()
         with limited(self._left, _SECONDS), np.errstate(all="ignore"):
-            found = shown(urlencode(state), picture)
-            return f"{found.scene.name}-{found.picture.name}", content(found, wish)
+            return name, content(show(where), wish)
 
     async def _answer_film(self, state: dict[str, str], picture: str, read: dict[str, Any]) -> None:
         """The film, after lines about it where they are asked for.  Raises `ModelError`, `Abandoned`."""
