@@ -12,7 +12,7 @@ from hess_mechanics.chaplygin_ball.energy_surface import Strip
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.scattering import BallScattering, ball_scattering
 from hess_mechanics.dynamics.ensemble import ensemble
-from hess_mechanics.dynamics.lyapunov import Exponent, largest_exponent
+from hess_mechanics.dynamics.lyapunov import Exponent, Spectrum, largest_exponent, spectrum
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.section import Plane, Points, section, section_points, sections
 from hess_mechanics.dynamics.system import System, systems
@@ -44,7 +44,8 @@ from hess_mechanics.suslov_hess.mode_locking import (
 __all__ = [  # noqa: RUF022 (by subject)
     # Any system
     "System", "systems", "solve", "Orbit", "ensemble", "Ensemble",
-    "section", "sections", "section_points", "Plane", "Section", "Points", "largest_exponent", "Exponent",
+    "section", "sections", "section_points", "Plane", "Section", "Points", "largest_exponent", "Exponent", "spectrum",
+    "Spectrum",
     # Accuracy, cost, errors
     "LEVELS", "Level", "level", "Status", "Cost", "ModelError",
     # Bodies

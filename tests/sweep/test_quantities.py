@@ -160,6 +160,16 @@ def test_exponents_at_an_energy_are_those_of_the_state_there():
     assert found.lyapunov_at_energy.values[2] == pytest.approx(by_hand.value, abs=1e-4)
 
 
+def test_all_exponents_of_a_cell_stand_side_by_side():
+    found = sweep("spectrum-suslov", {"I13": [0.0, 0.3]}, level="draft", t=10.0, I23=0.0)
+    assert found.spectrum_suslov.shape == (2, 5)
+    assert found.number.values.tolist() == ["1", "2", "3", "4", "5"]
+    # Their sum is the divergence, which is 0 with I13 = I23 = 0 alone.
+    together = found.spectrum_suslov.sum("number").values
+    assert together[0] == pytest.approx(0.0, abs=1e-6)
+    assert abs(together[1]) > 1e-4
+
+
 def test_every_quantity_says_what_it_is():
     keywords = set(inspect.signature(sweep).parameters)
     for name, one in QUANTITIES.items():
@@ -175,4 +185,5 @@ def test_every_quantity_says_what_it_is():
             assert each.low < each.high
             assert each.default is None or each.low <= each.default <= each.high
             assert not each.whole or each.default == round(each.default)
-    assert {f"{what}-{system}" for what in ("lyapunov", "crossings") for system in systems()} <= set(QUANTITIES)
+    of_any_system = {f"{what}-{system}" for what in ("lyapunov", "spectrum", "crossings") for system in systems()}
+    assert of_any_system <= set(QUANTITIES)

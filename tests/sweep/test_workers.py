@@ -65,6 +65,17 @@ def test_workers_find_the_same_and_one_that_is_killed_is_no_loss(cluster, client
     assert set(client.run(os.getpid).values()) - set(before.values())
 
 
+def test_a_cluster_of_this_machine_listens_to_this_machine_alone(cluster, client):
+    import psutil
+
+    # The scheduler is in this process, the workers are below another one.
+    pids = [os.getpid(), *client.run(os.getpid).values()]
+    pids += [psutil.Process(pid).ppid() for pid in pids[1:]]
+    heard = {place.laddr.ip for pid in pids for place in psutil.Process(pid).net_connections("inet")
+             if place.status == psutil.CONN_LISTEN}
+    assert heard == {"127.0.0.1"}
+
+
 def test_all_cores_are_a_cluster_of_as_many(cluster, client, pairs, alone, monkeypatch):
     asked = []
 
@@ -117,14 +128,12 @@ def test_a_cluster_that_is_not_there_is_one_sentence(monkeypatch):
 
 
 def test_a_cluster_without_workers_is_waited_for_until_ctrl_c_or_not_for_ever(monkeypatch):
-    from distributed import LocalCluster
-
-    with LocalCluster(n_workers=0, dashboard_address=None, silence_logs="ERROR") as empty:
+    with working.local_cluster(0) as empty:
         timer = threading.Timer(0.7, os.kill, (os.getpid(), signal.SIGINT))
         timer.start()
         with interruptible(), pytest.raises(KeyboardInterrupt, match=r"stopped before anything was computed\."):
-            sweep("rotation-number", {"h": [0.5]}, a=0.5, f=0.1, workers=empty.scheduler_address)
+            sweep("rotation-number", {"h": [0.5]}, a=0.5, f=0.1, workers=empty)
         timer.join()
         monkeypatch.setattr(working, "_WAIT", 0.5)
         with pytest.raises(WorkersLost, match="with 1 or more workers"):
-            sweep("rotation-number", {"h": [0.5]}, a=0.5, f=0.1, workers=empty.scheduler_address)
+            sweep("rotation-number", {"h": [0.5]}, a=0.5, f=0.1, workers=empty)

@@ -17,7 +17,7 @@ from hess_explorer.sweep.quantity import Cell, Cells, Found, Outcome, Parameter,
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.integrable_cases import period
 from hess_mechanics.chaplygin_ball.scattering import ball_scattering
-from hess_mechanics.dynamics.lyapunov import largest_exponent
+from hess_mechanics.dynamics.lyapunov import largest_exponent, spectrum
 from hess_mechanics.dynamics.section import Plane, section
 from hess_mechanics.dynamics.system import System, systems
 from hess_mechanics.errors import InvalidParameter
@@ -179,6 +179,11 @@ def _lyapunov(system: System, level: Level, t: float, **values: float) -> Cell:
     return Cell(found.value, found.spread)
 
 
+def _spectrum(system: System, level: Level, t: float, **values: float) -> Cell:
+    found = spectrum(system, *_start(system, values), t, _exponent_level(level))
+    return Cell(tuple(found.values.tolist()), found.spread)
+
+
 def _crossings(system: System, level: Level, variable: float, offset: float, sense: float, t: float,
                **values: float) -> Cell:
     plane = Plane(tuple(float(i + 1 == variable) for i in range(len(system.variables))), offset, int(sense))
@@ -187,7 +192,7 @@ def _crossings(system: System, level: Level, variable: float, offset: float, sen
 
 
 def _for_system(system: System) -> tuple[Quantity, ...]:
-    """λ and the number of crossings, for a motion of this system."""
+    """λ, all exponents and the number of crossings, for a motion of this system."""
     motion = _motion(system)
     size = len(system.variables)
     return (
@@ -195,6 +200,12 @@ def _for_system(system: System) -> tuple[Quantity, ...]:
                  "Mean rate at which neighbours part over the time t (Benettin, Galgani, Strelcyn 1976).",
                  (*motion, _time(500.0, "time over which to average")),
                  one_by_one(partial(_lyapunov, system)), error="range of the running average in its second half"),
+        Quantity(f"spectrum-{system.name}", "λᵢ", f"All Lyapunov exponents: {system.title}", "1/time",
+                 "Mean rates at which a frame of neighbours grows over the time t, the largest first (Benettin, "
+                 "Galgani, Giorgilli, Strelcyn 1980).",
+                 (*motion, _time(500.0, "time over which to average")),
+                 one_by_one(partial(_spectrum, system), size), tuple(str(i + 1) for i in range(size)),
+                 error="largest change of one of them in the second half of the time"),
         Quantity(f"crossings-{system.name}", "n", f"Crossings of a plane: {system.title}", "1",
                  "How often the motion crosses the plane y_variable = offset up to the time t.",
                  (*motion, _whole("variable", "i", size, 1, size, "which of the variables, counted from 1"),

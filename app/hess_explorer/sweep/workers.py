@@ -130,17 +130,23 @@ def _gone() -> WorkersLost:
 
 @contextmanager
 def local_cluster(processes: int) -> Iterator[str]:
-    """The address of a cluster of so many workers on this machine, of one thread each."""
+    """The address of a cluster of so many workers on this machine, of one thread each; 0: a scheduler alone."""
     from distributed import LocalCluster
 
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path)),
                    # One thread each, in their libraries too.
                    **dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")}
-    with LocalCluster(n_workers=0, dashboard_address=None, silence_logs="ERROR") as cluster:
+    # It listens to this machine alone, its pages too, which by default are for all hosts.
+    quiet = {"dashboard": False, "dashboard_address": "127.0.0.1:0"}
+    with LocalCluster(n_workers=0, host="127.0.0.1", scheduler_kwargs=quiet, silence_logs="ERROR") as cluster:
         # Not workers of LocalCluster: those import the main script again, which must be written for that.  In a session
         # of their own Ctrl-C does not reach them.
         command = [sys.executable, "-m", "dask", "worker", cluster.scheduler_address, "--nworkers", str(processes),
-                   "--nthreads", "1", "--memory-limit", "0", "--no-dashboard", "--death-timeout", "30"]
+                   "--nthreads", "1", "--memory-limit", "0", "--host", "127.0.0.1", "--no-dashboard",
+                   "--dashboard-address", "127.0.0.1:0", "--death-timeout", "30"]
+        if not processes:
+            yield cluster.scheduler_address
+            return
         workers = subprocess.Popen(command, env=environment, start_new_session=True, stdin=subprocess.DEVNULL,
                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         try:
