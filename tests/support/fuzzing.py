@@ -12,10 +12,12 @@ import tempfile
 import time
 import warnings
 from collections import Counter
-from contextlib import chdir, contextmanager, redirect_stderr, redirect_stdout
+from contextlib import chdir, contextmanager, nullcontext, redirect_stderr, redirect_stdout
+from threading import Event
 from urllib.parse import quote, urlencode
 
 from hess_explorer.__main__ import _parser, main
+from hess_explorer.compute.budget import limited
 from hess_explorer.page.session import linked
 from hess_explorer.protocol.parameters import CLIENT, Choice, Link, Number, Places, written
 from hess_explorer.scenes import scenes
@@ -80,7 +82,7 @@ class _Heard(logging.Handler):
 
 
 @contextmanager
-def _watched(findings, given):
+def _watched(findings, given, budget=True):
     """Count what is raised, warned of and logged meanwhile, and the time it takes."""
     heard, logger = _Heard(), logging.getLogger("hess_explorer")
     logger.addHandler(heard)
@@ -88,7 +90,8 @@ def _watched(findings, given):
     # What this process works: others may keep the machine busy.
     start = time.process_time()
     try:
-        with warnings.catch_warnings(record=True) as caught:
+        # A session answers within this budget.
+        with warnings.catch_warnings(record=True) as caught, limited(Event()) if budget else nullcontext():
             warnings.simplefilter("always")
             # What an earlier test has left open is found by the collector at any time.
             warnings.simplefilter("ignore", ResourceWarning)
@@ -312,7 +315,7 @@ def _fuzz_commands(random, count):
         words = command_line(random, examples)
         given, out, err = shlex.join(words), io.TextIOWrapper(io.BytesIO(), encoding="utf-8"), io.StringIO()
         code = None
-        with _watched(findings, given), redirect_stdout(out), redirect_stderr(err):
+        with _watched(findings, given, budget=False), redirect_stdout(out), redirect_stderr(err):
             try:
                 code = main(words)
             except SystemExit as end:

@@ -46,17 +46,20 @@ class Visitor:
         self.bytes = 0
 
     @classmethod
-    async def open(cls, base, query="", origin=None, timeout=60.0, pause=0.0):
+    async def open(cls, base, query="", origin=None, timeout=60.0, pause=0.0, headers=None, trusted=None):
         """The page of a query, when its first state is there.
 
-        origin : of the page that opens the websocket; pause : seconds before it does.
+        origin : of the page that opens the websocket; pause : seconds before it does; headers : of both requests;
+        trusted : whose certificates count, by https.
         """
-        answer = await AsyncHTTPClient().fetch(HTTPRequest(f"{base}/?{query}", request_timeout=timeout))
+        answer = await AsyncHTTPClient().fetch(HTTPRequest(
+            f"{base}/?{query}", request_timeout=timeout, headers=headers, ssl_options=trusted))
         token = re.search(r'"token":"([^"]+)"', html.unescape(answer.body.decode()))
         assert token is not None, answer.body[:500]
         await asyncio.sleep(pause)
-        request = HTTPRequest(f"ws{base.removeprefix('http')}/ws", headers={"Origin": origin or base},
-                              connect_timeout=timeout)
+        headers = {"Origin": origin or base, **(headers or {})}
+        request = HTTPRequest(f"ws{base.removeprefix('http')}/ws", headers=headers,
+                              connect_timeout=timeout, ssl_options=trusted)
         socket = await websocket_connect(request, subprotocols=["bokeh", token[1]], max_message_size=2**28)
         found = cls(socket, origin or base)
         await found._next("ACK", timeout)

@@ -24,6 +24,8 @@ _TOLERANCES = (1e-4, 1e-7, 1e-10)
 _LONGEST_FOR_OTHERS = 150.0
 _LONGEST = 5000.0
 """Time spans, in units of 1/ν, that SciPy's methods and the levels integrate in about a second."""
+_LONG_RUN = 0.1
+"""Seconds of a run beside which what disturbs it is short."""
 _MOST_STEPS_FOR_OTHERS = 1500
 """Steps of the level `reference`; for each of them SciPy's methods take about 0.16 ms together."""
 
@@ -91,9 +93,11 @@ def growth(name: str, state: tuple[float, ...], parameters: tuple[float, ...], s
 
 
 def _best_of(run: Callable[[], Array], repeats: int) -> tuple[float, Array]:
-    """Milliseconds of the fastest of `repeats` runs, and the result."""
+    """Milliseconds of the fastest of `repeats` runs, and the result; what takes long is run once."""
     best = np.inf
     for _ in range(repeats):
+        if _LONG_RUN < best < np.inf:
+            break
         go_on()
         start = time.perf_counter()
         result = run()

@@ -1,0 +1,106 @@
+"""A server where much is not as it should be starts and serves, or says in one sentence what to do."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from hess_explorer.commands import serve
+from hess_explorer.headless.screenshot import wait_alive
+from hess_explorer.server import compiled
+from hess_mechanics.numerics.jit import CACHE_FOLDER
+from support.asynchronous import finished
+from support.kernels import copy_kernels
+from support.serving import UNWARMED, free_port
+from support.visitor import Visitor
+
+ROOT = Path(__file__).resolve().parents[2]
+
+# No UTF-8, whatever Python would make of such a locale; an action and a category of warnings that Python does not know.
+BARE = {"LANG": "C", "LC_ALL": "C", "PYTHONCOERCECLOCALE": "0", "PYTHONUTF8": "0",
+        "PYTHONWARNINGS": "nonsense,ignore::no.SuchWarning", "HOME": "/nonexistent"}
+
+# Where root may write whatever the rights say: not without this capability.
+OBEYS_RIGHTS = ("setpriv", "--bounding-set=-dac_override") if os.getuid() == 0 else ()
+
+
+@pytest.fixture
+def read_only(tmp_path):
+    """A copy of the packages that nobody can write to."""
+    copy = tmp_path / "installed"
+    for name in ("app", "models", "static"):
+        shutil.copytree(ROOT / name, copy / name, ignore=shutil.ignore_patterns("__pycache__"))
+    folders = [copy, *(path for path in copy.rglob("*") if path.is_dir())]
+    for folder in folders:
+        folder.chmod(0o555)
+    yield copy
+    for folder in folders:
+        folder.chmod(0o755)
+
+
+def kernels(shared, package):
+    """Kernels of this package; two that the first picture needs, and that are soon compiled, are spoiled."""
+    copy_kernels(shared, package)
+    # On a full disk derived source cannot be written, and what was compiled of it is not looked for.
+    for source in CACHE_FOLDER.glob("*/*.py"):
+        if (there := shared / "hess-explorer" / source.parent.name).is_dir():
+            shutil.copy2(source, there)
+    spoiled = 0
+    for file in (*shared.rglob("circle_map_kernels.theta_of-*.nbi"),
+                 *shared.rglob("bifurcation_kernels.f_max_and_roots-*.nbc")):
+        file.write_bytes(file.read_bytes()[:40] if file.suffix == ".nbi" else b"of something else")
+        spoiled += 1
+    assert spoiled >= 2
+
+
+def test_a_bare_machine_serves(tmp_path, read_only):
+    """A read-only installation, no home, a full disk, files of kernels that are spoiled, ASCII, unknown warnings."""
+    shared, log, port = tmp_path / "kernels", tmp_path / "log", free_port()
+    shared.mkdir()
+    kernels(shared, read_only / "models" / "hess_mechanics")
+    environment = {**os.environ, **BARE, "NUMBA_CACHE_DIR": str(shared),
+                   "PYTHONPATH": f"{read_only}/app:{read_only}/models"}
+    with subprocess.Popen(
+            ["prlimit", "--fsize=0", *OBEYS_RIGHTS, sys.executable, *UNWARMED, "serve", "--port", str(port),
+             "--no-browser"], env=environment, cwd="/", stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as process:
+        try:
+            log.touch()
+            wait_alive(process, port, log)
+            state = finished(asked(f"http://127.0.0.1:{port}"))
+        finally:
+            process.terminate()
+        said = process.stdout.read().decode()
+        assert process.wait(20) == 0
+    assert "ρ = " in state["tree"]["texts"]["circle"]
+    assert "1.25" in state["query"]
+    # Python itself complains of what it does not know.
+    lines = [line for line in said.splitlines() if "Invalid -W option" not in line]
+    url = f"http://localhost:{port}"
+    assert lines == ["Compiling, ready in about 20 s.", f"Hess Explorer runs at {url} (Ctrl-C ends it)."]
+    assert not list(read_only.rglob("__pycache__"))
+
+
+async def asked(base):
+    visitor = await Visitor.open(base, timeout=300.0)
+    state = await visitor.ask(timeout=300.0, values={"h": 1.25})
+    await visitor.leave()
+    return state
+
+
+def test_without_any_folder_for_kernels_the_first_line_says_what_to_do(monkeypatch):
+    monkeypatch.setattr(compiled, "KEEPS_KERNELS", False)
+    assert serve._first_words() == (
+        "Compiling, ready in about 20 s, and again at each start: no folder for what is compiled can be written; name "
+        "one of your own in NUMBA_CACHE_DIR.")
+
+
+def test_a_terminal_of_another_encoding_shows_greek_letters_by_their_numbers():
+    done = subprocess.run([sys.executable, "-m", "hess_explorer", "circle-map", "--help"], env={**os.environ, **BARE},
+                          capture_output=True, text=True, check=True)
+    assert r"\u0398" in done.stdout
+    assert "Traceback" not in done.stderr
