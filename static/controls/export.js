@@ -1,5 +1,5 @@
-// The dialog Export: the data, a figure or a film of one picture, as a file made by the server, the command that makes
-// it, and the lines of Python that compute the same.
+// The dialog Export: the data, a figure or a film of one picture, or all of a state in one file, made by the server; the
+// command that makes it, and the lines of Python that compute the same.
 
 import { tell } from "../page/bus.js"
 import { linkTo } from "../page/embedding.js"
@@ -10,6 +10,7 @@ const FORMATS = [
   ["csv", "CSV: data, every digit"], ["json", "JSON: data, every digit"],
   ["png", "PNG, 300 dots an inch"], ["svg", "SVG"], ["pdf", "PDF"],
   ["webm", "WebM: a film of the motion"], ["mp4", "MP4: a film of the motion"],
+  ["html", "HTML: all pictures, plays without a server"],
 ]
 const FILMS = ["webm", "mp4"]
 const DRAWN = ["png", "svg", "pdf", ...FILMS]
@@ -61,23 +62,29 @@ export function exportDialog() {
   const close = element("button", { type: "button", className: "button", textContent: "Close" })
   const figure = element("div", { className: "figure" },
     element("label", {}, "Width, mm ", width), element("label", {}, black, " Black on white"))
+  const one = element("label", {}, "Picture ", picture)
   const film = element("div", { className: "figure" }, element("label", {}, "Seconds for all of the motion ", seconds))
   const dialog = element("dialog", { className: "menu-of-scenes share export", "aria-label": "Export" },
     element("div", { className: "head" }, element("h2", { textContent: "Export" }), close),
     element("div", { className: "parts" },
       element("section", { "aria-label": "File" }, element("h3", { textContent: "What a picture shows, as a file" }),
-        element("label", {}, "Picture ", picture), element("label", {}, "Format ", format), figure, film,
+        one, element("label", {}, "Format ", format), figure, film,
         element("span", {}, save, stop), frames, said),
       element("section", { "aria-label": "Command" }, element("h3", { textContent: "The same at the command line" }),
         command),
       element("section", { "aria-label": "Python" }, element("h3", { textContent: "The same numbers in Python" }),
         python, element("span", {}, copy, book))))
 
+  const openOnes = () => gallery.shown.cells.filter((cell) => !cell.classList.contains("folded"))
+  const nameOf = (cell) => cell.dataset.name
+  const isAll = () => format.value === "html"
+  const fileName = ({ picture: name, format: kind }) => `${scene.name}${kind === "html" ? "" : `-${name}`}.${kind}`
+
   // What is asked for besides the state: the width and the look are those of a figure.
   function wanted() {
     const drawn = DRAWN.includes(format.value)
     return {
-      picture: picture.value, format: format.value,
+      picture: isAll() ? openOnes().map(nameOf).join(",") : picture.value, format: format.value,
       ...(drawn ? { width: width.value } : {}), ...(drawn && black.checked ? { black: "1" } : {}),
       ...(FILMS.includes(format.value) ? { seconds: seconds.value } : {}),
     }
@@ -88,10 +95,11 @@ export function exportDialog() {
 
   function write() {
     figure.hidden = !DRAWN.includes(format.value)
+    one.hidden = isAll()
     film.hidden = !FILMS.includes(format.value)
     const { picture: name, format: kind, width: wide, black: isBlack, seconds: long } = wanted()
     command.value = `hess-explorer export --state '${state().replaceAll("'", "%27")}' --picture ${name} --format ${kind}` +
-      `${wide ? ` --width ${wide}` : ""}${isBlack ? " --black" : ""}${long ? ` --seconds ${long}` : ""} --out ${scene.name}-${name}.${kind}`
+      `${wide ? ` --width ${wide}` : ""}${isBlack ? " --black" : ""}${long ? ` --seconds ${long}` : ""} --out ${fileName(wanted())}`
   }
 
   // The lines of Python, one picture after the other: the newest is the one that stays.
@@ -126,8 +134,7 @@ export function exportDialog() {
   }
 
   async function make(what) {
-    const { picture: name, format: kind } = what
-    const file = `${scene.name}-${name}.${kind}`
+    const file = fileName(what)
     running = new AbortController()
     busy(true)
     said.textContent = "Being made…"
@@ -167,10 +174,10 @@ export function exportDialog() {
     open() {
       // Of what is on the screen, not of what the address bar has come to.
       tell("address")
-      const open = gallery.shown.cells.filter((cell) => !cell.classList.contains("folded"))
+      const open = openOnes()
       const before = picture.value
       picture.replaceChildren(...options(
-        open.map((cell) => [cell.dataset.name, cell.querySelector(".title").textContent])))
+        open.map((cell) => [nameOf(cell), cell.querySelector(".title").textContent])))
       if (open.some((cell) => cell.dataset.name === before)) picture.value = before
       said.textContent = ""
       write()

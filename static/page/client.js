@@ -12,13 +12,12 @@ import { createHandout } from "./handout.js"
 import { createHistory } from "./history.js"
 import { joinOther } from "./linked.js"
 import { lifetime } from "./mount.js"
-import { paint } from "./painting.js"
+import { fill, paint } from "./painting.js"
 import { createPage } from "./panel_page.js"
 import { present } from "./presenting.js"
 import { answering } from "./reconnect.js"
 import { createRequests } from "./requests.js"
 import { createSight } from "./sight.js"
-import { unpack } from "./unpack.js"
 import { grantWishes } from "./wishes.js"
 
 // The next pieces are asked for after a pause as long as the last ones took: half of the time is the user's.
@@ -89,16 +88,8 @@ export function render({ model, view }) {
   }
 
   // Put a state into the pictures, texts and controls.
-  const fill = ({ tree, answers }, block) => {
-    for (const [name, [x0, x1, y0, y1]] of Object.entries(tree.ranges)) {
-      const plot = scene.plots.find((one) => one.model.name === name)
-      if (plot === undefined) continue
-      const { x_range: x, y_range: y } = plot.model
-      x.setv({ start: x0, end: x1 })
-      y.setv({ start: y0, end: y1 })
-    }
-    scene.painted = true
-    for (const [name, columns] of unpack(tree.sources, block)) scene.sources.get(name)?.put(columns)
+  const fillAll = ({ tree, answers }, block) => {
+    fill(scene, tree, block)
     Object.assign(latest.texts, tree.texts)
     Object.assign(latest.controls, tree.controls)
     tell("texts", tree.texts)
@@ -121,7 +112,7 @@ export function render({ model, view }) {
     const since = performance.now()
     state = next
     if (scene?.name !== state.scene) enter(state.scene)
-    await paint(touchedPlots(state.tree), () => fill(state, block))
+    await paint(touchedPlots(state.tree), () => fillAll(state, block))
     address.write()
     root.dataset.state = String(state.number)
     requests.settled()

@@ -1,4 +1,4 @@
-"""`hess-explorer export`: what a picture of the page shows, as a table, as a figure for paper, or as a film."""
+"""`hess-explorer export`: what a picture of the page shows, as a table, a figure for paper or a film; or all of it."""
 
 from __future__ import annotations
 
@@ -14,24 +14,26 @@ from .shot import state_of
 
 __all__ = ["add"]
 
-_TEXTS = ("csv", "json", "svg")
+_TEXTS = ("csv", "json", "svg", "html")
 _KINDS = (*_TEXTS, "png", "pdf", "webm", "mp4")
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
     parser = commands.add_parser(
-        "export", help="what a picture of the page shows, as CSV, JSON, PNG, SVG, PDF or a film",
+        "export", help="what a picture of the page shows, as CSV, JSON, PNG, SVG, PDF or a film; HTML of all",
         description="Compute the state that a link describes and write what one of its pictures shows: its data, every "
                     "digit, as CSV or JSON, or a square figure as PNG, SVG or PDF, with bodies and clouds at the "
-                    "link's time, without the moving point, or a film of its motion as WebM or MP4. Every file "
-                    "says link, parameters, accuracy, errors and version. Figures and films need the extra: "
+                    "link's time, without the moving point, or a film of its motion as WebM or MP4. HTML has all "
+                    "pictures of the state in one file that plays and turns without a server. Every file says link, "
+                    "parameters, accuracy, errors and version. Figures and films need the extra: "
                     "pip install '.[export]'.",
         epilog="Example: hess-explorer export --state 'h=1.2&f=0.3' --picture circle --format csv --out circle.csv")
     parser.add_argument("--state", type=state_of, default={}, metavar="QUERY",
                         help="what follows ? in a link to the page (default: its first view)")
     parser.add_argument("--picture", default="", metavar="NAME",
-                        help="the name of the picture, as in pictures=… of a link that embeds (default: the first)")
+                        help="the name of the picture, as in pictures=… of a link that embeds (default: the first; "
+                             "of HTML some with commas between, by default those that are open at first)")
     parser.add_argument("--format", choices=_KINDS, default="csv", help="default: csv")
     parser.add_argument("--width", type=float, default=85.0, metavar="MM",
                         help="of a figure, 20 to 400 millimetres (default 85, a column of a journal); of a film 60 to "
@@ -59,16 +61,26 @@ def _teller(lines: bool) -> Callable[[int, int], None]:
     return tell
 
 
+def _page(options: argparse.Namespace) -> bytes:
+    from hess_explorer.page.offline import as_html
+
+    return as_html(urlencode(options.state), options.picture.split(",") if options.picture else ())[1]
+
+
+def _picture(options: argparse.Namespace) -> bytes:
+    from hess_explorer.export.file import Wish, content
+    from hess_explorer.export.shown import shown
+
+    found = shown(urlencode(options.state), options.picture)
+    wish = Wish(options.format, options.width, options.black, options.seconds)
+    return content(found, wish, _teller(options.progress))
+
+
 def _run(options: argparse.Namespace) -> None:
     if options.out is None and options.format not in _TEXTS:
         raise CommandError(f"A {options.format.upper()} is no text: name a file with --out FILE.")
     with computing():
-        from hess_explorer.export.file import Wish, content
-        from hess_explorer.export.shown import shown
-
-        found = shown(urlencode(options.state), options.picture)
-        wish = Wish(options.format, options.width, options.black, options.seconds)
-        data = content(found, wish, _teller(options.progress))
+        data = _page(options) if options.format == "html" else _picture(options)
     if options.out is not None:
         write_file(options.out, data)
     else:

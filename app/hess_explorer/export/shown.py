@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from importlib.metadata import version
-from typing import Any
+from typing import Any, TypeVar
 
-from hess_explorer.protocol.parameters import CLIENT, Choice, Value, decode, encode
+from hess_explorer.protocol.parameters import CLIENT, Choice, Value, Values, decode, encode
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.views.layers import Axes, Columns
 from hess_explorer.views.picture import Picture
 from hess_mechanics.errors import InvalidParameter
 
-__all__ = ["CLIENT_KEPT", "Address", "Shown", "address", "picture_of", "show", "shown"]
+__all__ = ["CLIENT_KEPT", "Address", "Shown", "address", "complete", "picture_of", "show", "shown"]
+
+T = TypeVar("T")
 
 _ROUNDS = 4
 """What is found may ask for more: so often at most."""
@@ -125,23 +127,29 @@ def picture_of(scene: Scene[Any], name: str) -> Picture[Any]:
 def show(address: Address) -> Shown:
     """The picture, with all that it shows computed to the end.  Raises `ModelError`."""
     scene, view = address.scene, address.picture
-    state, columns, axes, title, caption, status, said = _complete(scene, view, address.values)
-    return Shown(scene, view, address.values, address.client, state, columns, axes, title, caption, status,
-                 tuple(dict.fromkeys([*address.notes, *said])))
+    state, (columns, axes, title, caption, status, said) = complete(
+        scene, address.values, [view.name], lambda state: _said(view, state))
+    return Shown(scene, view, address.values, address.client, state, columns, axes, title, caption,
+                 (f"accuracy: {state.work.chosen}", *status), tuple(dict.fromkeys([*address.notes, *said])))
 
 
-def _complete(scene: Scene[Any], view: Picture[Any], values: Mapping[str, Value]) -> tuple[Any, ...]:
-    """The state with all that the picture asks for, and what is said of it."""
+def complete(scene: Scene[Any], values: Values, pictures: Collection[str], made: Callable[[Any], T]) -> tuple[Any, T]:
+    """The state with all that these pictures ask for, and what is `made` of it.  Raises `ModelError`."""
     for _ in range(_ROUNDS):
-        state = scene.compute(values, {view.name}, False)
-        title, _, caption = view.said(state).partition("\n")
-        axes = view.ranges(state) or view.first_axes
-        columns = dict(state.drawn)
-        for source, more in view.framed(state, axes).items():
-            columns[source] = {**columns.get(source, {}), **more}
-        status, notes = tuple(state.status()), tuple(state.notes())
+        state = scene.compute(values, pictures, False)
+        found = made(state)
         if not state.work.todo:
             break
         for task in state.work.todo:
             state.work.get(task.function, *task.arguments)
-    return state, columns, axes, title, caption, (f"accuracy: {state.work.chosen}", *status), notes
+    return state, found
+
+
+def _said(view: Picture[Any], state: Any) -> tuple[Any, ...]:
+    """What a picture shows of a state, and what is said of it."""
+    title, _, caption = view.said(state).partition("\n")
+    axes = view.ranges(state) or view.first_axes
+    columns = dict(state.drawn)
+    for source, more in view.framed(state, axes).items():
+        columns[source] = {**columns.get(source, {}), **more}
+    return columns, axes, title, caption, tuple(state.status()), tuple(state.notes())

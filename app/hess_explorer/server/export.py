@@ -1,4 +1,4 @@
-"""What a picture shows, as a file to take away: for the dialog *Export*."""
+"""What a picture shows, or all of a state, as a file to take away: for the dialog *Export*."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from hess_explorer.export.file import Wish, content
 from hess_explorer.export.film import FILMS
 from hess_explorer.export.notebook import PROGRAMS
 from hess_explorer.export.shown import address, show
+from hess_explorer.page.offline import as_html
 from hess_explorer.protocol.parameters import MAX_QUERY, Choice, Number, decode
 from hess_explorer.scenes import scenes
 from hess_explorer.server.film import Film
@@ -25,8 +26,9 @@ from hess_mechanics.errors import ModelError
 __all__ = ["Export"]
 
 _TYPES = {"csv": "text/csv; charset=utf-8", "json": "application/json", "png": "image/png",
-          "svg": "image/svg+xml; charset=utf-8", "pdf": "application/pdf", "webm": "video/webm", "mp4": "video/mp4",
-          "py": "text/x-python; charset=utf-8", "ipynb": "application/x-ipynb+json"}
+          "svg": "image/svg+xml; charset=utf-8", "pdf": "application/pdf", "html": "text/html; charset=utf-8",
+          "webm": "video/webm", "mp4": "video/mp4", "py": "text/x-python; charset=utf-8",
+          "ipynb": "application/x-ipynb+json"}
 _SPECS = (Choice("format", "Format", tuple(_TYPES), "csv"), Choice("black", "Black", ("0", "1"), "0"),
           Number("width", "width", "Width", 85.0, (20.0, 400.0), 5.0, (20.0, 400.0)),
           Number("seconds", "seconds", "Seconds", 10.0, (1.0, 30.0), 1.0, (1.0, 30.0)),
@@ -44,10 +46,9 @@ _SECONDS = 10.0
 class Export(RequestHandler):
     """GET /export?<state>&picture=NAME&format=…&width=MM&black=1&seconds=S: the file, or a sentence why there is none.
 
-    The formats py and ipynb are the lines of Python that compute the picture, and a notebook of them.
-
-    A film with progress=1 comes after lines that say how far it is: "queued", "3/250" after the third frame, at last
-    "file 12345", the number of bytes that follow, or "why" and a sentence.
+    The formats py and ipynb are the lines of Python that compute the picture, and a notebook of them.  Of HTML several
+    pictures are named with commas between.  A film with progress=1 comes after lines that say how far it is: "queued",
+    "3/250" after the third frame, at last "file 12345", the number of bytes that follow, or "why" and a sentence.
     """
 
     waiting = 0
@@ -92,6 +93,10 @@ class Export(RequestHandler):
 
     def _file(self, state: dict[str, str], picture: str, wish: Wish) -> tuple[str, bytes]:
         """Name and bytes of what is asked for.  Raises `ModelError`, `Abandoned`."""
+        if wish.kind == "html":
+            home = self.request.full_url().partition("?")[0].removesuffix("export")
+            with limited(self._left, _SECONDS), np.errstate(all="ignore"):
+                return as_html(urlencode(state), picture.split(",") if picture else (), home)
         where = address(urlencode(state), picture)
         name = f"{where.scene.name}-{where.picture.name}"
         if wish.kind in PROGRAMS:

@@ -1,0 +1,146 @@
+"""A state as one HTML file that plays and turns without a server: the page's own modules, with the data inside."""
+
+from __future__ import annotations
+
+import base64
+import json
+import posixpath
+import re
+from collections.abc import Sequence
+from html import escape
+from importlib.metadata import version
+from typing import Any
+
+from bokeh.resources import Resources
+
+from hess_explorer.assets import STATIC
+from hess_explorer.export.shown import address, complete, picture_of
+from hess_explorer.page.controls import show_controls
+from hess_explorer.page.description import describe
+from hess_explorer.protocol.wire import Wire
+from hess_explorer.scenes.framework.stage import Stage
+
+__all__ = ["HOME", "as_html", "bundled"]
+
+HOME = "http://localhost:5006/"
+"""Where `hess-explorer` opens the page."""
+
+_ENTRY = "page/offline.js"
+_IMPORT = re.compile(r'(?<=from )"(\.{1,2}/[\w./]+\.js)"')
+_STYLES = {"pictures": ("pictures/pictures.css",), "player": ("controls/controls.css", "controls/player.css"),
+           "text": ("page/page.css",)}
+_POLICY = "default-src 'none'; script-src 'unsafe-inline' data:; style-src 'unsafe-inline'; img-src data: blob:"
+"""The browser itself refuses whatever would ask another host."""
+
+_PAGE = """<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta http-equiv="Content-Security-Policy" content="{policy}">
+<meta name="generator" content="{program}">
+<meta name="description" content="{said}">
+<title>{title} · Hess Explorer</title>
+<link rel="icon" href="data:,">
+<style>{style}</style>
+<script type="importmap">{modules}</script>
+<script type="application/json" id="facts">{facts}</script>
+<script type="application/json" id="state">{state}</script>
+<script type="application/octet-stream" id="block">{block}</script>
+<script>{bokeh}</script>
+</head>
+<body>
+<header><h1>{title}</h1><a href="{link}">{link}</a></header>
+<main id="pictures"></main>
+<div id="player"></div>
+<aside>
+<div id="derived"></div>
+<fieldset disabled id="controls"><legend>Parameters</legend>
+<p>This file holds one state, so they are fixed; the link above opens the explorer, where they move.</p></fieldset>
+<div id="status" class="status-line"></div>
+<div id="notes"></div>
+<div id="legend"></div>
+<div id="words"></div>
+<p>{program}</p>
+</aside>
+<script type="module">import "{entry}"</script>
+</body>
+</html>
+"""
+
+
+def as_html(query: str, pictures: Sequence[str] = (), home: str = HOME) -> tuple[str, bytes]:
+    """The name of the scene of a query, and the file of its state with these pictures, or those open at first.
+
+    home : the address of the explorer that the link in it leads to.
+
+    Raises
+    ------
+    InvalidParameter : the scene has no such picture.
+    ModelError : the state cannot be computed.
+    """
+    found = address(query)
+    scene, values, link = found.scene, found.values, found.link
+    wanted = [picture_of(scene, name).name for name in pictures] or scene.open_pictures
+    chosen = [name for name in scene.pictures if name in wanted]
+    wire = Wire()
+    stage = Stage(scene, wire)
+    state, report = complete(scene, values, chosen, lambda state: stage.show(state, False))
+    for key, text in (("summary", report.summary), ("status", report.status), ("derived", "\n".join(report.derived)),
+                      ("notes", "\n".join([*found.notes, *report.notes]))):
+        wire.say(key, text)
+    show_controls(scene, values, wire)
+    tree, block = wire.pack()
+    description = json.loads(describe(scene.name))
+    # What would ask a server is not offered.
+    description["handle"] = None
+    description["pictures"] = [{**one, "folded": None, "hands": "", **({"picks": []} if "picks" in one else {})}
+                               for one in description["pictures"] if one["name"] in chosen]
+    base = (STATIC / "page/base.css").read_text(encoding="utf-8")
+    styles = {part: [base, *((STATIC / name).read_text(encoding="utf-8") for name in names)]
+              for part, names in _STYLES.items()}
+    program = f"hess-explorer {version('hess-explorer')}"
+    facts: dict[str, Any] = {
+        "link": link, "scene": scene.name, "title": scene.title, "pictures": chosen, "parameters": dict(values),
+        "status": [f"accuracy: {state.work.chosen}", *state.status()], "notes": [*found.notes, *report.notes],
+        "program": program}
+    parameters = ", ".join(f"{name} = {value}" for name, value in values.items())
+    looks = {"speed": "1", **{name: repr(value) for name, value in found.client.items()}}
+    page = _PAGE.format(
+        policy=escape(_POLICY), program=escape(program), title=escape(scene.title), entry=_ENTRY,
+        said=escape(f"{program}, ?{link} | {parameters} | {'; '.join(facts['status'])}"),
+        link=escape(f"{home}?{link}"), style=(STATIC / "page/offline.css").read_text(encoding="utf-8"),
+        modules=json.dumps({"imports": bundled(_ENTRY)}), facts=_json(facts), block=base64.b64encode(block).decode(),
+        state=_json({"description": description, "tree": tree, "client": looks, "styles": styles}),
+        bokeh="\n".join(Resources(mode="inline", components=["bokeh"]).js_raw).replace("</script", "<\\/script"))
+    return scene.name, page.encode()
+
+
+def bundled(entry: str) -> dict[str, str]:
+    """The modules that one needs, itself included, by their path: each as a URL that has the module in it.
+
+    They name each other by path, for the import map: from such a URL no other path leads anywhere.
+    """
+    found: dict[str, str] = {}
+
+    def add(path: str) -> None:
+        if path in found:
+            return
+        found[path] = ""
+        code = (STATIC / path).read_text(encoding="utf-8")
+
+        def named(match: re.Match[str]) -> str:
+            other = posixpath.normpath(posixpath.join(posixpath.dirname(path), match[1]))
+            add(other)
+            return f'"{other}"'
+
+        code = _IMPORT.sub(named, code)
+        found[path] = f"data:text/javascript;base64,{base64.b64encode(code.encode()).decode()}"
+
+    add(entry)
+    return found
+
+
+def _json(value: Any) -> str:
+    """JSON that may stand in a script of HTML."""
+    return json.dumps(value, ensure_ascii=False, allow_nan=False).replace("<", "\\u003c")

@@ -1,0 +1,55 @@
+// One state in one file, without a server ("offline.py" writes it): the pictures and the player of the page, with the data
+// beside them.  What would need a server is disabled.
+
+import { render as renderPlayer } from "../controls/player.js"
+import { gallery, render as renderPictures } from "../pictures/gallery.js"
+import { listen, tell } from "./bus.js"
+import { element } from "./mount.js"
+import { fill, paint } from "./painting.js"
+import { render as renderProse } from "./prose.js"
+import { render as renderStatus } from "./status.js"
+import { render as renderText } from "./text.js"
+
+const text = (id) => document.getElementById(id).textContent
+
+// A component of the page, in a shadow of its own as there; nothing removes it.
+function mount(id, render, styles, properties = {}) {
+  const el = element("div")
+  const shadow = document.getElementById(id).attachShadow({ mode: "open" })
+  shadow.append(...styles.map((textContent) => element("style", { textContent })), el)
+  render({ model: { on() {}, ...properties }, view: {}, el })
+}
+
+// What a control of the page shows, not to be changed here.
+function controlOf({ name, label, kind }, shown) {
+  if (kind !== "number") return element("label", {}, `${label} `, element("select", {}, new Option(shown)))
+  const [value, min, max, step] = shown
+  const slider = element("input", { type: "range", min, max, step: step || "any", value })
+  slider.className = `param-${name}`
+  const number = String(Number(value.toPrecision(6))).replace("-", "−")
+  return element("label", {}, `${label} `, slider, element("output", { textContent: number }))
+}
+
+async function start() {
+  const { description, tree, client, styles } = JSON.parse(text("state"))
+  const block = Uint8Array.from(atob(text("block")), (letter) => letter.charCodeAt(0)).buffer
+  listen("mounted", ({ kind, show }) => { if (kind === "client") show(client) })
+  mount("pictures", renderPictures, styles.pictures)
+  mount("player", renderPlayer, styles.player)
+  for (const part of ["legend", "words"]) mount(part, renderProse, styles.text, { part })
+  for (const key of ["derived", "notes"]) mount(key, renderText, styles.text, { key, look: key, tag: "div", live: false })
+  mount("status", renderStatus, styles.text)
+  document.getElementById("controls").append(...description.controls.filter(({ name }) => name in tree.controls)
+    .map((control) => controlOf(control, tree.controls[control.name])))
+  const scene = await gallery.build(description)
+  gallery.enter(description.name)
+  tell("enter", description)
+  await paint(scene.plots, () => {
+    fill(scene, tree, block)
+    tell("texts", tree.texts)
+  })
+  tell("painted")
+  document.documentElement.dataset.ready = "true"
+}
+
+start()
