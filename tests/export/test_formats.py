@@ -11,6 +11,7 @@ from html import escape
 import matplotlib as mpl
 import numpy as np
 import pytest
+from matplotlib.font_manager import findfont, get_font
 from PIL import Image
 
 from hess_explorer.export.figure import FORMATS, STYLE, draw, saved
@@ -23,6 +24,8 @@ from support.exported import read
 PICTURES = [(name, picture) for name, scene in scenes().items() if scene.origin is None for picture in scene.pictures]
 ELSEWHERE = {("suslov", "conformal"): "On a principal axis"}
 """Pictures that are empty at first, and the examples that fill them."""
+GLYPHS = get_font(findfont("DejaVu Sans")).get_charmap().keys()
+"""What the font of figures can write; of other letters in a figure Matplotlib warns."""
 
 
 @pytest.mark.parametrize(("scene", "picture"), PICTURES)
@@ -32,6 +35,8 @@ def test_every_picture_is_there_in_every_format(scene, picture):
     values = {**scenes()[scene].defaults(), **example, "accuracy": "draft"}
     found = shown(encode(scene, values), picture)
     assert_numbers(found, values)
+    # Over a film stands its title.
+    assert set(map(ord, found.title)) <= GLYPHS
     # Small, laid out once, and with outlines of letters in the PDF: embedding a font takes three times as long as all
     # of this; "test_figure" has the whole files.
     with mpl.rc_context({**STYLE, "pdf.fonttype": 3}):

@@ -37,7 +37,7 @@ _SPECS = (Choice("format", "Format", tuple(_TYPES), "csv"), Choice("black", "Bla
 # One file at a time, and one film: those who look at pages come first.
 _files = ThreadPoolExecutor(max_workers=1, thread_name_prefix="export")
 _films = ThreadPoolExecutor(max_workers=1, thread_name_prefix="film")
-_MOST = 20
+_MOST, _MOST_FILMS = 20, 5
 """So many may wait."""
 _SECONDS = 10.0
 """Of the processor for a file: nobody looks at a page that waits for it."""
@@ -51,7 +51,7 @@ class Export(RequestHandler):
     "3/250" after the third frame, at last "file 12345", the number of bytes that follow, or "why" and a sentence.
     """
 
-    waiting = 0
+    waiting = filming = 0
 
     def initialize(self) -> None:
         """Nobody has left yet."""
@@ -69,16 +69,18 @@ class Export(RequestHandler):
         if len(self.request.query) > MAX_QUERY:
             self._refuse(400, f"The link is longer than {MAX_QUERY} characters: export from a state of fewer clicks.")
             return
-        if Export.waiting >= _MOST:
-            self._refuse(503, "Too many files are being made at the moment: try again in a minute.")
-            return
         given = {name: self.get_query_argument(name) for name in self.request.query_arguments}
         read, _ = decode(self.request.query, _SPECS)
         own = {spec.name for spec in _SPECS} | {"picture"}
         state, picture = {name: value for name, value in given.items() if name not in own}, given.get("picture", "")
-        Export.waiting += 1
+        is_film = read["format"] in FILMS
+        if (Export.filming >= _MOST_FILMS) if is_film else (Export.waiting >= _MOST):
+            self._refuse(503, "Too many files are being made at the moment: try again in a minute.")
+            return
+        Export.filming += is_film
+        Export.waiting += not is_film
         try:
-            if read["format"] in FILMS:
+            if is_film:
                 await self._answer_film(state, picture, read)
             else:
                 wish = Wish(str(read["format"]), float(read["width"]), read["black"] == "1")
@@ -89,7 +91,8 @@ class Export(RequestHandler):
         except ModelError as error:
             self._refuse(400, str(error))
         finally:
-            Export.waiting -= 1
+            Export.filming -= is_film
+            Export.waiting -= not is_film
 
     def _file(self, state: dict[str, str], picture: str, wish: Wish) -> tuple[str, bytes]:
         """Name and bytes of what is asked for.  Raises `ModelError`, `Abandoned`."""
