@@ -2,7 +2,8 @@
 
 >>> import hess_explorer as hess
 >>> state = hess.state("suslov-hess", h=1.2, f=0.3, accuracy="draft")
->>> state.data("circle").layer("stable")["y"].round(3)
+>>> state.data("circle").layer("stable")["phi"].round(3)
+array([-2.283])
 
 The mechanics are the package `hess_mechanics`.
 """

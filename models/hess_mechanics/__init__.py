@@ -11,6 +11,20 @@ models/README.md lists them with the paper's equations.
 from hess_mechanics.chaplygin_ball.energy_surface import Strip
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.scattering import BallScattering, ball_scattering
+from hess_mechanics.computations import (
+    Basins,
+    PlanePoints,
+    andoyer_section,
+    ball_section,
+    basins,
+    cloud,
+    lyapunov_exponent,
+    orbit,
+    period,
+    rotation_along_line,
+    rotation_numbers,
+    suslov_section,
+)
 from hess_mechanics.dynamics.ensemble import ensemble
 from hess_mechanics.dynamics.lyapunov import Exponent, Spectrum, largest_exponent, spectrum
 from hess_mechanics.dynamics.orbit import solve
@@ -42,6 +56,9 @@ from hess_mechanics.suslov_hess.mode_locking import (
 )
 
 __all__ = [  # noqa: RUF022 (by subject)
+    # By a body and words
+    "orbit", "lyapunov_exponent", "andoyer_section", "suslov_section", "ball_section", "PlanePoints", "basins",
+    "Basins", "cloud", "period", "rotation_numbers", "rotation_along_line",
     # Any system
     "System", "systems", "solve", "Orbit", "ensemble", "Ensemble",
     "section", "sections", "section_points", "Plane", "Section", "Points", "largest_exponent", "Exponent", "spectrum",

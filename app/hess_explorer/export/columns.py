@@ -27,8 +27,9 @@ class Table(Labelled):
     >>> import hess_explorer as hess
     >>> data = hess.state("suslov-hess", accuracy="draft").data("circle")
     >>> data.layers
-    ('diagonal', 'iterates', 'map', 'stable', 'unstable')
-    >>> data.layer("stable")["x"]
+    ('cobweb', 'diagonal', 'map', 'stable', 'unstable', 'orbit')
+    >>> data.layer("stable").keys()
+    ('layer', 'phi', 'theta')
     """
 
     columns: Mapping[str, NDArray[Any]]

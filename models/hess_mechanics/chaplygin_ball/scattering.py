@@ -28,6 +28,7 @@ from hess_mechanics.dynamics.ensemble import ensemble
 from hess_mechanics.dynamics.orbit import status_of
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import REFERENCE, STANDARD, Level, Status
+from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, Complex, Cost, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov.equations import SuslovBody
@@ -46,7 +47,7 @@ _STEPS = 2.0
 
 
 @dataclass(frozen=True)
-class BallScattering:
+class BallScattering(Result):
     """The circles θ⁺ that motions from the circle θ⁻ of N^u approach.
 
     phis : (n,), phases of γ at the start; theta_plus : (n,), in [0, π]; errors : (n,), their error estimates.
@@ -59,6 +60,13 @@ class BallScattering:
     level: str
     status: Status
     cost: Cost
+
+    def labels(self) -> Labels:
+        """θ⁺ and its error over φ."""
+        return Labels({"φ": (("φ",), self.phis)}, {"θ⁺": (("φ",), self.theta_plus), "error": (("φ",), self.errors)},
+                      {"φ": "rad", "θ⁺": "rad", "error": "rad"},
+                      {"θ⁻": self.theta_minus, "level": self.level, "status": str(self.status),
+                       "steps": self.cost.steps})
 
     @property
     def curve(self) -> Array:
@@ -166,6 +174,11 @@ def ball_scattering(body: BallBody, theta_minus: float, phis: Sequence[float] | 
     θ⁺(φ) along φ, by the turns γ makes in between, up to an error of order `distance`², which the estimates include.
     most_steps : limit for the steps, which are estimated beforehand.
     Raises `InvalidParameter`, `WorkLimit`.
+
+    >>> from hess_mechanics import BallBody, ball_scattering, level
+    >>> body = BallBody(3.56, 1.0, 0.0, 0.8, 1.0)
+    >>> ball_scattering(body, 1.0, [0.0, 1.0], 1.0, 1e-6, level("standard")).theta_plus.shape
+    (2,)
     """
     start = time.perf_counter()
     strip = Strip(body, h)

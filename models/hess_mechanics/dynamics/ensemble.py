@@ -49,6 +49,12 @@ def ensemble(system: System, states: Sequence[Sequence[float]] | Array, paramete
     Errors are measured as in `solve`, orbit by orbit; orbits that miss the level's promise are recomputed with
     smaller tolerances, down to the floor of double precision.
     Raises `InvalidParameter`, `WorkLimit`.
+
+    >>> from hess_mechanics import ensemble, level, systems
+    >>> suslov = systems()["suslov"]
+    >>> state, parameters = suslov.example
+    >>> ensemble(suslov, [state, state], parameters, [0.0, 1.0, 2.0], level("precise")).states.shape
+    (2, 3, 5)
     """
     start = time.perf_counter()
     t = checked_times(times)
@@ -82,4 +88,4 @@ def ensemble(system: System, states: Sequence[Sequence[float]] | Array, paramete
     drift = drift_of(system, np.array(states, float, ndmin=2), out, np.asarray(parameters, float))
     wall_ms = (time.perf_counter() - start) * 1e3
     return Ensemble(system.name, level.name, frozen(t), frozen(out), status_of(float(scaled_errors.max()), level),
-                    frozen(errors), drift, Cost(total, wall_ms))
+                    frozen(errors), drift, Cost(total, wall_ms), system.variables)

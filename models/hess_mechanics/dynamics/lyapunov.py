@@ -17,6 +17,7 @@ from hess_mechanics.dynamics.orbit import MAX_STEPS
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import PLANS, STANDARD, Kind, Level
+from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
@@ -31,7 +32,7 @@ _INTERVAL = 2.0
 
 
 @dataclass(frozen=True)
-class Exponent:
+class Exponent(Result):
     """The mean growth rate up to each time: times (n,), rates (n,), the last of which is the estimate.
 
     spread : range of the rates in the second half.
@@ -45,6 +46,11 @@ class Exponent:
     def value(self) -> float:
         """The estimate, per unit of time."""
         return float(self.rates[-1])
+
+    def labels(self) -> Labels:
+        """The mean growth rate over the time up to which it is taken."""
+        return Labels({"t": (("t",), self.times)}, {"rate": (("t",), self.rates)}, {"t": "T", "rate": "1/T"},
+                      {"exponent": self.value, "spread": self.spread})
 
     @property
     def is_regular(self) -> bool:
@@ -81,6 +87,11 @@ def largest_exponent(system: System, state: Sequence[float], parameters: Sequenc
 
     level : of a `Plan` for exponents; those of orbits are too coarse for a neighbour at 1e-7.
     Raises `InvalidParameter`, `WorkLimit`.
+
+    >>> from hess_mechanics import largest_exponent, systems
+    >>> suslov = systems()["suslov"]
+    >>> float(largest_exponent(suslov, *suslov.example, 50.0).times[-1])
+    50.0
     """
     problem, count = _checked(system, state, parameters, span)
     interval = np.array([span * problem.nu / count])

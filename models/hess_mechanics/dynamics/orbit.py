@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Sequence
 
@@ -22,7 +23,10 @@ MAX_SAMPLES = 200_000
 
 def checked_times(times: Sequence[float] | Array) -> Array:
     """A copy of the times (n,), checked.  Raises `InvalidParameter`, `WorkLimit`."""
-    t = np.array(times, dtype=float, ndmin=1)
+    try:
+        t = np.array(times, dtype=float, ndmin=1)
+    except (TypeError, ValueError):
+        t = np.array([math.nan])
     if t.ndim != 1 or t.size == 0 or not np.all(np.isfinite(t)):
         raise InvalidParameter("The times must be one or more finite numbers.")
     if t.size > MAX_SAMPLES:
@@ -81,10 +85,15 @@ def solve(system: System, state: Sequence[float] | Array, parameters: Sequence[f
     estimate of the first run.  If that exceeds the level's promise, the second run takes its place and is measured in
     turn, down to the floor of double precision.
     Raises `InvalidParameter` (not finite, times out of order), `WorkLimit`.
+
+    >>> from hess_mechanics import level, solve, systems
+    >>> suslov = systems()["suslov"]
+    >>> solve(suslov, *suslov.example, [0.0, 1.0, 2.0], level("precise")).states.shape
+    (3, 5)
     """
     start = time.perf_counter()
     t = checked_times(times)
-    problem = Problem.of(system, np.array(state, float)[None], parameters)
+    problem = Problem.of(system, [state], parameters)
     scaled_times = problem.times(t)
 
     current = level
@@ -107,4 +116,4 @@ def solve(system: System, state: Sequence[float] | Array, parameters: Sequence[f
     wall_ms = (time.perf_counter() - start) * 1e3
     absolute = safety * float((difference * problem.scale).max()) + 2e-16 * max(1.0, problem.nu)
     return Orbit(system.name, level.name, frozen(t), frozen(states), status_of(error, level), absolute, drift,
-                 Cost(total, wall_ms))
+                 Cost(total, wall_ms), variables=system.variables)

@@ -14,9 +14,10 @@ from hess_mechanics.dynamics.orbit import drift_of, require_finite_states, statu
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.parallel import THREADS, share
 from hess_mechanics.numerics.patience import go_on
-from hess_mechanics.numerics.results import Array, Cost, Section, frozen
+from hess_mechanics.numerics.results import Array, Cost, Section, frozen, unit_of
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
 __all__ = ["MAX_CROSSINGS", "Plane", "Points", "Surface", "occupied_cells", "section", "section_points", "sections"]
@@ -143,7 +144,7 @@ class _Search:
         absolute = float((found.difference * scale).max(initial=0.0)) + 2e-16 * max(1.0, nu)
         drift = drift_of(self.system, start, states, parameters)
         return Section(self.system.name, self.level.name, frozen(found.times / nu), frozen(states),
-                       status_of(found.error, self.level), absolute, drift, found.cost)
+                       status_of(found.error, self.level), absolute, drift, found.cost, self.system.variables)
 
 
 @dataclass(frozen=True)
@@ -164,13 +165,26 @@ def section(system: System, state: Sequence[float] | Array, parameters: Sequence
     Crossings are roots of the orbit's own Taylor polynomials.  The error is measured as in `solve`, crossing by
     crossing; a run whose crossings are not those of the more accurate run is replaced by it.
     Raises `InvalidParameter`, `WorkLimit`.
+
+    >>> from hess_mechanics import Plane, level, section, systems
+    >>> suslov = systems()["suslov"]
+    >>> found = section(suslov, *suslov.example, Plane((0.0, 0.0, 0.0, 0.0, 1.0)), 50.0, level("precise"), 5)
+    >>> bool(abs(found.states[:, 4]).max() < 1e-9)
+    True
     """
     return sections(system, np.array(state, float)[None], parameters, plane, end, level, crossings, threads=1)[0]
 
 
 def sections(system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float], plane: Surface,
              end: float, level: Level, crossings: int = MAX_CROSSINGS, threads: int = THREADS) -> list[Section]:
-    """`section` for each row of `states` (n, d), on all cores; the fastest orbit sets the unit of time for all."""
+    """`section` for each row of `states` (n, d), on all cores; the fastest orbit sets the unit of time for all.
+
+    >>> from hess_mechanics import Plane, level, sections, systems
+    >>> suslov = systems()["suslov"]
+    >>> state, parameters = suslov.example
+    >>> len(sections(suslov, [state], parameters, Plane((0.0, 0.0, 0.0, 0.0, 1.0)), 50.0, level("precise"), 5))
+    1
+    """
     search = _Search.of(system, states, parameters, plane, end, level, crossings)
     found: dict[int, _Found] = {}
 
@@ -184,7 +198,7 @@ def sections(system: System, states: Sequence[Sequence[float]] | Array, paramete
 
 
 @dataclass(frozen=True)
-class Points:
+class Points(Result):
     """Crossings of many orbits, each computed once.
 
     states : a list of (n, d), one per orbit; drift : for each integral the largest.
@@ -195,6 +209,17 @@ class Points:
     states: list[Array]
     drift: Mapping[str, float]
     cost: Cost
+    variables: tuple[str, ...] = ()
+
+    def labels(self) -> Labels:
+        """The variables of the system at all crossings, with the number of the orbit."""
+        orbit = np.repeat(np.arange(len(self.states)), [len(one) for one in self.states])
+        points = np.concatenate([np.empty((0, len(self.variables))), *self.states])
+        return Labels(
+            {"orbit": (("crossing",), orbit)},
+            {name: (("crossing",), points[:, i]) for i, name in enumerate(self.variables)},
+            {name: unit_of(name) for name in self.variables},
+            {**{f"drift of {name}": value for name, value in self.drift.items()}, "steps": self.cost.steps})
 
 
 def section_points(system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float],
@@ -204,6 +229,13 @@ def section_points(system: System, states: Sequence[Sequence[float]] | Array, pa
 
     An orbit that falls behind the average rate of crossings in one part of the time span ends there.
     most_steps : per orbit.  Raises `InvalidParameter`, `WorkLimit`.
+
+    >>> from hess_mechanics import Plane, level, section_points, systems
+    >>> suslov = systems()["suslov"]
+    >>> state, parameters = suslov.example
+    >>> plane = Plane((0.0, 0.0, 0.0, 0.0, 1.0))
+    >>> section_points(suslov, [state], parameters, plane, 100.0, level("standard"), 5).states[0].shape
+    (5, 5)
     """
     begun = time.perf_counter()
     search = _Search.of(system, states, parameters, plane, end, level, crossings)
@@ -244,7 +276,7 @@ def section_points(system: System, states: Sequence[Sequence[float]] | Array, pa
     drift = {name: max(one[name] for one in drifts) for name in (drifts[0] if drifts else ())}
     wall_ms = (time.perf_counter() - begun) * 1e3
     return Points([frozen(found[i][0]) for i in range(count)], drift,
-                  Cost(sum(steps for _, steps in found.values()), wall_ms))
+                  Cost(sum(steps for _, steps in found.values()), wall_ms), system.variables)
 
 
 def occupied_cells(points: Array, across: int = 32) -> int:

@@ -148,9 +148,13 @@ class Problem:
     scale: Array
 
     @classmethod
-    def of(cls, system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float]) -> Problem:
+    def of(cls, system: System, states: Sequence[Sequence[float] | Array] | Array, parameters: Sequence[float]) -> Problem:
         """Check states (n, d) and parameters and scale them.  Raises `InvalidParameter`."""
-        given, p = np.array(states, float, ndmin=2), np.asarray(parameters, float)
+        try:
+            given, p = np.array(states, float, ndmin=2), np.asarray(parameters, float)
+        except (TypeError, ValueError):
+            raise InvalidParameter(f"{system.title}: a state is {len(system.variables)} numbers, "
+                                   f"{', '.join(system.variables)}; write them like 1.5 or -2e-3.") from None
         for shape, names in ((given.shape[1:], system.variables), (p.shape, system.parameters)):
             if shape != (len(names),):
                 raise InvalidParameter(f"{system.title} takes {len(names)} numbers here: {', '.join(names)}.")

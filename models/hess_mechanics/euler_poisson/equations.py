@@ -34,6 +34,12 @@ class HeavyBody:
     """Inverse moments A = diag(a1, a2, a3), centre of mass r, weight μ.
 
     Raises `InvalidParameter`, `NotPositiveDefinite`.
+
+    >>> from hess_mechanics import HeavyBody
+    >>> HeavyBody.hess(moments=(1.0, 1.5, 2.0), strength=3.0).is_hess  # from moments and μ|r|
+    True
+    >>> HeavyBody(a=(1.0, 0.8, 0.5), r=(0.6, 0.0, 0.8), mu=3.0).strength  # from A = I⁻¹, r and μ
+    3.0
     """
 
     a: tuple[float, float, float]
@@ -42,6 +48,9 @@ class HeavyBody:
 
     def __post_init__(self) -> None:
         names = ("a1", "a2", "a3", "r1", "r2", "r3", "μ")
+        for name, value in (("a", self.a), ("r", self.r)):
+            if not isinstance(value, tuple) or len(value) != 3:
+                raise InvalidParameter(f"{name} = {value!r} are not three numbers; write them like (1.0, 1.6, 2.7).")
         require_finite(**dict(zip(names, self.parameters, strict=True)))
         _require_positive(self.a)
 

@@ -180,6 +180,11 @@ def loxodromic_motion(pendulum: LoxodromicPendulum, span: float, level: Level) -
     """The motion over `span` of the body's time from the lowest point, sampled for pictures of `PIXELS`.
 
     Raises `InvalidParameter`, `WorkLimit`.
+
+    >>> from hess_mechanics import HeavyBody, LoxodromicPendulum, level, loxodromic_motion
+    >>> pendulum = LoxodromicPendulum(HeavyBody.hess((1.0, 1.5, 2.0), 1.0), 0.5, 0.3)
+    >>> float(loxodromic_motion(pendulum, 4.0, level("standard")).times[-1])
+    4.0
     """
     require_finite(span=span)
     radius = 0.5 * PIXELS

@@ -14,6 +14,7 @@ import numpy as np
 
 from hess_mechanics.dynamics.birkhoff import rotation_number
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
+from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["RESOLVED", "Rotation", "on_line", "rotation_along"]
@@ -26,7 +27,7 @@ Ends = tuple[tuple[float, float], tuple[float, float]]
 
 
 @dataclass(frozen=True)
-class Rotation:
+class Rotation(Result):
     """Rotation numbers `rho` (n,) of orbits that start at `along` (n,) on a line, each in parts without a gap.
 
     They lie in (−½, ½]; or, where all are within half a turn of one another, side by side, about a number that does.
@@ -38,6 +39,14 @@ class Rotation:
     rho: tuple[Array, ...]
     standing: Array
     sea: Array
+
+    def labels(self) -> Labels:
+        """ρ over the place on the line, with NaN where there is a gap."""
+        gap = np.full(1, np.nan)
+        along, rho = ([piece for part in parts for piece in (part, gap)][:-1] for parts in (self.along, self.rho))
+        empty = [np.empty(0)]
+        return Labels({"place": (("place",), np.concatenate(along or empty))},
+                      {"ρ": (("place",), np.concatenate(rho or empty))}, {"ρ": "turns"})
 
     @property
     def places(self) -> Array:

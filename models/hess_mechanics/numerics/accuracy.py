@@ -71,10 +71,15 @@ LEVELS: dict[str, Level] = {each.name: each for each in (DRAFT, STANDARD, PRECIS
 
 
 def level(name: str) -> Level:
-    """The level of this name.  Raises `InvalidParameter`, which lists the names."""
+    """The level of this name.  Raises `InvalidParameter`, which lists the names.
+
+    >>> from hess_mechanics import level
+    >>> level("standard").promise
+    1e-06
+    """
     try:
         return LEVELS[name]
-    except KeyError:
+    except (KeyError, TypeError):
         raise InvalidParameter(
             f"There is no accuracy level of that name; choose one of {', '.join(LEVELS)}."
         ) from None

@@ -59,7 +59,9 @@ class Labelled(ABC):
         """
         known = self.labels()
         both = {**known.coords, **known.variables}
-        dims = tuple(dict.fromkeys(name for names, _ in both.values() for name in names))
+        # Rows run as the numbers of the variables do.
+        dims = tuple(dict.fromkeys(
+            name for names, _ in [*known.variables.values(), *known.coords.values()] for name in names))
         sides = {name: size for names, values in both.values() for name, size in zip(names, values.shape, strict=True)}
         grid = dict(zip(dims, np.indices([sides[name] for name in dims]), strict=True))
         columns = {name: values[tuple(grid[one].ravel() for one in names)] for name, (names, values) in both.items()}

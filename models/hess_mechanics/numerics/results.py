@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hess_mechanics.numerics.accuracy import Status
+from hess_mechanics.numerics.labelled import Labels, Result
 
-__all__ = ["Array", "Complex", "Cost", "Ensemble", "Mask", "Orbit", "Section", "frozen"]
+__all__ = ["Array", "Complex", "Cost", "Ensemble", "Mask", "Orbit", "Section", "frozen", "unit_of"]
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -34,13 +35,28 @@ class Cost:
     wall_ms: float
 
 
+def unit_of(variable: str) -> str:
+    """The unit of a variable of a system, T the unit of time and I that of moments of inertia."""
+    return {"ω": "rad/T", "w": "rad/T", "M": "I/T"}.get(variable[0], "1")
+
+
+def _labels(result: Orbit | Ensemble | Section, dims: tuple[str, ...], **facts: Any) -> Labels:
+    """Times along the last of the dimensions, and a variable for each component of the state."""
+    names = result.variables or tuple(f"y{i + 1}" for i in range(result.states.shape[-1]))
+    variables = {name: (dims, result.states[..., i]) for i, name in enumerate(names)}
+    units = {"t": "T", **{name: unit_of(name) for name in names}}
+    return Labels({"t": (dims[-1:], result.times)}, variables, units, {
+        "system": result.system, "level": result.level, "status": str(result.status), **facts,
+        **{f"drift of {name}": value for name, value in result.drift.items()}, "steps": result.cost.steps})
+
+
 @dataclass(frozen=True)
-class Orbit:
+class Orbit(Result):
     """A trajectory sampled at given times.
 
     times : (n,); states : (n, d), in the order of the system's `variables`.
     error_estimate : largest estimated error of any component at any sample, absolute.
-    drift : for each integral, max |F(t) − F(0)|, relative to |F(0)| where that exceeds 1.
+    drift : for each integral, max |F(t) − F(0)|, relative to |F(0)| where that exceeds 1; variables : names.
     """
 
     system: str
@@ -52,10 +68,15 @@ class Orbit:
     drift: Mapping[str, float]
     cost: Cost
     notes: tuple[str, ...] = field(default=())
+    variables: tuple[str, ...] = ()
+
+    def labels(self) -> Labels:
+        """The variables of the system over t."""
+        return _labels(self, ("t",), error_estimate=self.error_estimate)
 
 
 @dataclass(frozen=True)
-class Ensemble:
+class Ensemble(Result):
     """Many trajectories sampled at the same times.
 
     times : (m,); states : (n, m, d); errors : (n,), largest estimated error of each orbit;
@@ -70,10 +91,15 @@ class Ensemble:
     errors: Array
     drift: Mapping[str, float]
     cost: Cost
+    variables: tuple[str, ...] = ()
+
+    def labels(self) -> Labels:
+        """The variables of the system over orbit and t."""
+        return _labels(self, ("orbit", "t"), error_estimate=float(np.max(self.errors, initial=0.0)))
 
 
 @dataclass(frozen=True)
-class Section:
+class Section(Result):
     """Crossings of a surface by one orbit: times (n,), states (n, d), the rest as in `Orbit`."""
 
     system: str
@@ -84,3 +110,8 @@ class Section:
     error_estimate: float
     drift: Mapping[str, float]
     cost: Cost
+    variables: tuple[str, ...] = ()
+
+    def labels(self) -> Labels:
+        """The variables of the system at the crossings, and when these are."""
+        return _labels(self, ("crossing",), error_estimate=self.error_estimate)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from numbers import Real
 
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite
 
@@ -23,6 +24,8 @@ MAX_RATIO = 1e20
 def require_finite(**values: float) -> None:
     """Raise `InvalidParameter` naming the first value that is not a finite number."""
     for name, value in values.items():
+        if not isinstance(value, Real) or isinstance(value, bool):
+            raise InvalidParameter(f"{name} = {value!r} is not a number; write it like 1.5 or -2e-3.")
         if not math.isfinite(value):
             raise InvalidParameter(f"{name} is not a finite number: give {name} a finite value.")
 
@@ -72,6 +75,10 @@ def check_body(I11: float, I22: float, I13: float, I23: float) -> BodyCheck:
     With s = (I11+I22)/2, d = (I11−I22)/2, y = I33/2 ≥ |d| the condition is
     g(y) = s − y − I23²/(y+d) − I13²/(y−d) ≥ 0, and g is concave, so the solution is an interval.
     Raises `InvalidParameter`, `NotPositiveDefinite`.
+
+    >>> from hess_mechanics import check_body
+    >>> check_body(2.0, 1.0, 0.0, 0.0).I33  # the triangle inequality: from 2 − 1 to 2 + 1
+    (1.0, 3.0)
     """
     require_finite(I11=I11, I22=I22, I13=I13, I23=I23)
     require_positive_definite(I11, I22)

@@ -176,6 +176,10 @@ def additional_integral(k: int, body: SuslovBody) -> AdditionalIntegral:
     """F2 of degree k for a body with I13 = 0 or I23 = 0; I11 (in case 2: I22) is computed from k.
 
     Raises `InvalidParameter` (k even or too large, neither or both of I13, I23 zero).
+
+    >>> from hess_mechanics import SuslovBody, additional_integral
+    >>> additional_integral(3, SuslovBody(2.0, 1.0, 0.0, 0.5)).k
+    3
     """
     permuted = body.I23 == 0.0
     if permuted == (body.I13 == 0.0):

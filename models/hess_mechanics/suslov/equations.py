@@ -23,7 +23,12 @@ __all__ = ["SYSTEM", "SuslovBody", "unit_vector"]
 
 @dataclass(frozen=True)
 class SuslovBody:
-    """Inertia tensor (`Biz03`) and b = −mg r.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
+    """Inertia tensor (`Biz03`) and b = −mg r.  Raises `InvalidParameter`, `NotPositiveDefinite`.
+
+    >>> from hess_mechanics import SuslovBody
+    >>> SuslovBody(2.0, 1.0, 0.3, 0.5, b3=1.0).parameters
+    (2.0, 1.0, 0.3, 0.5, 0.0, 0.0, 1.0)
+    """
 
     I11: float
     I22: float
@@ -49,7 +54,12 @@ class SuslovBody:
 
 
 def unit_vector(gamma: Sequence[float]) -> tuple[tuple[float, float, float], str | None]:
-    """γ normalised, and a note where its length was not 1.  Raises `InvalidParameter` for γ = 0."""
+    """γ normalised, and a note where its length was not 1.  Raises `InvalidParameter` for γ = 0.
+
+    >>> from hess_mechanics import unit_vector
+    >>> unit_vector((0.6, 0.0, 0.8))
+    ((0.6, 0.0, 0.8), None)
+    """
     length = math.hypot(*gamma)
     if not (math.isfinite(length) and length > 0):
         raise InvalidParameter("γ must be a finite vector other than 0: it is the direction of the vertical.")

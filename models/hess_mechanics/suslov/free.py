@@ -418,6 +418,11 @@ def free_motion(body: SuslovBody, omega: Sequence[float], gamma: Sequence[float]
     """The motion from ω(0) (2,) and γ(0) (3,) at times as in `orbit.solve`.
 
     γ(0) is normalised, with a note where that changed it.  Raises as `rotation`.
+
+    >>> from hess_mechanics import SuslovBody, free_motion, level
+    >>> body = SuslovBody(2.0, 1.0, 0.3, 0.5)
+    >>> free_motion(body, (0.8, -0.4), (0.6, 0.0, 0.8), [0.0, 1.0], level("precise")).level
+    'precise'
     """
     begun = time.perf_counter()
     unit, note = unit_vector(gamma)

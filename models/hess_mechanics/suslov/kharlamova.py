@@ -45,7 +45,12 @@ _ON_EQUATOR = 1e-12
 
 @dataclass(frozen=True)
 class PlaneBody:
-    """A body with I13 = I23 = 0 and b3 = 0.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
+    """A body with I13 = I23 = 0 and b3 = 0.  Raises `InvalidParameter`, `NotPositiveDefinite`.
+
+    >>> from hess_mechanics import PlaneBody
+    >>> PlaneBody(1.3, 0.8, 0.5, -0.2).I11
+    1.3
+    """
 
     I11: float
     I22: float

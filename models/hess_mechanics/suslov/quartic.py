@@ -46,6 +46,10 @@ class QuarticBody:
     """A body with I13 = I23 = 0 and b = (0, 0, b3), at the energy h.
 
     Raises `NoField` (b3 = 0), `OutsideRegion` (h ≤ −|b3|), `InvalidParameter`, `NotPositiveDefinite`.
+
+    >>> from hess_mechanics import QuarticBody
+    >>> QuarticBody(1.3, 0.8, 1.0, h=2.0).b3
+    1.0
     """
 
     I11: float

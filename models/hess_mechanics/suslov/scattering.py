@@ -32,6 +32,7 @@ import numpy as np
 from hess_mechanics.dynamics.orbit import status_of
 from hess_mechanics.errors import InvalidParameter, ModelError
 from hess_mechanics.numerics.accuracy import Level, Status
+from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, Complex, Cost, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov.additional_integral import I11_at
@@ -42,7 +43,7 @@ __all__ = ["Scattering", "cos_chi", "cos_chi_over", "scattering", "start", "thet
 
 
 @dataclass(frozen=True)
-class Scattering:
+class Scattering(Result):
     """The rotation from the circles S₋ to the circles S₊ along one arc.
 
     A, B : its matrix ((A, −B̄), (B, Ā)) of SU(2), in the frame turned by Φ; arc : σ = ±1;
@@ -62,6 +63,15 @@ class Scattering:
     status: Status
     error_estimate: float
     cost: Cost
+
+    def labels(self) -> Labels:
+        """θ⁺ over θ⁻ and φ."""
+        theta, phi = np.linspace(0.0, math.pi, 91), np.linspace(-math.pi, math.pi, 181)
+        return Labels({"θ⁻": (("θ⁻",), theta), "φ": (("φ",), phi)},
+                      {"θ⁺": (("θ⁻", "φ"), self.theta_plus(theta[:, None], phi[None, :]))},
+                      {"θ⁻": "rad", "φ": "rad", "θ⁺": "rad"},
+                      {"cos χ": self.cos_chi, "φ*": self.phi_star, "level": self.level, "status": str(self.status),
+                       "error_estimate": self.error_estimate, "steps": self.cost.steps})
 
     def theta_plus(self, theta: Array | float, phi: Array | Sequence[float] | float) -> Array:
         """θ⁺ in [0, π]; the shape to which θ⁻ and φ broadcast."""
@@ -114,6 +124,11 @@ def scattering(body: SuslovBody, level: Level, arc: int = 1, distance: float | N
     distance : if given, phases and θ⁻ are those of a start where the part of ω across ξ is `distance` |ω⁻|; for
     I13 = 0 that is ω2(0) = ± distance |ω⁻|.  The error estimate is measured as in `orbit.solve`.
     Raises `InvalidParameter` (a field, I13 = I23 = 0, no such arc or distance), `WorkLimit` (see `shape`).
+
+    >>> from hess_mechanics import SuslovBody, level, scattering
+    >>> found = scattering(SuslovBody(4.0, 1.0, 0.0, 0.75), level("precise"))
+    >>> bool(0.0 <= found.theta_plus(1.0, 0.5) <= 3.15)
+    True
     """
     begun = time.perf_counter()
     _check_arc(arc)

@@ -69,7 +69,13 @@ def _check_h(h: float) -> None:
 
 
 def f_max(h: float) -> float:
-    """The largest |f| of motions with this h (`Geq3`).  Raises `OutsideRegion` for h ≤ −1."""
+    """The largest |f| of motions with this h (`Geq3`).  Raises `OutsideRegion` for h ≤ −1.
+
+    >>> from hess_mechanics import curve_point, f_max
+    >>> h, f = curve_point(0.5)
+    >>> abs(f_max(h) - f) < 1e-12
+    True
+    """
     _check_h(h)
     return float(largest_f(float(h)))
 
@@ -96,6 +102,10 @@ def turning_points(h: float, f: float) -> TurningPoints:
     """Roots, period and section of the torus (h, f).
 
     Raises `OutsideRegion` (h ≤ −1, |f| > f_max), `Separatrix` (f = 0, h = 1), `InvalidParameter`.
+
+    >>> from hess_mechanics import turning_points
+    >>> [round(float(n3), 9) for n3 in turning_points(1.5, 0.0).roots]  # 2(h + n3)(1 − n3²) = 0
+    [-1.5, -1.0, 1.0]
     """
     _check_h(h)
     require_finite(f=f)
@@ -117,6 +127,11 @@ def curve_point(n: float) -> tuple[float, float]:
     """The point (h, f ≥ 0) of the bifurcation curve (`Geq3`, corrected) at n3 = n.
 
     Raises `InvalidParameter` unless 0 < n ≤ 1.
+
+    >>> from hess_mechanics import curve_point
+    >>> h, f = curve_point(0.5)  # (1 − 3/4)/1, (1 − 1/4)/√½
+    >>> h, round(f * 2**-0.5, 12)
+    (0.25, 0.75)
     """
     if not 0.0 < n <= 1.0:
         raise InvalidParameter(f"n3 = {n:g} is not on the curve: choose 0 < n3 ≤ 1.")
@@ -124,7 +139,12 @@ def curve_point(n: float) -> tuple[float, float]:
 
 
 def curve(h_end: float, points: int = 200) -> Array:
-    """The branch f ≥ 0 of the bifurcation curve (`Geq3`) from (−1, 0) to h = h_end, shape (points, 2)."""
+    """The branch f ≥ 0 of the bifurcation curve (`Geq3`) from (−1, 0) to h = h_end, shape (points, 2).
+
+    >>> from hess_mechanics import curve
+    >>> curve(2.0, 100).shape[1]
+    2
+    """
     _check_h(h_end)
     n_end = 2.0 / (2.0 * h_end + 2.0 * math.sqrt(h_end * h_end + 3.0))
     n = 1.0 - (1.0 - n_end) * np.linspace(0.0, 1.0, points)

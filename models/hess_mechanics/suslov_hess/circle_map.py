@@ -27,6 +27,7 @@ import numpy as np
 
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Level, Status
+from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, Cost, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov_hess.bifurcation import turning_points
@@ -97,7 +98,7 @@ class FixedPoint:
 
 
 @dataclass(frozen=True)
-class CircleMap:
+class CircleMap(Result):
     """Θ for one torus (a, h, f), units b = 1, angles in radians.
 
     matrix : (Re α, Im α, Im β), each times e^{−log_scale}.
@@ -133,6 +134,14 @@ class CircleMap:
         for i in range(count):
             theta_of(*self.matrix, orbit[i : i + 1], orbit[i + 1 : i + 2])
         return frozen(orbit)
+
+    def labels(self) -> Labels:
+        """Θ over φ, continued without jumps."""
+        phi, theta = self.graph
+        return Labels({"φ": (("φ",), phi)}, {"Θ": (("φ",), theta)}, {"φ": "rad", "Θ": "rad"}, {
+            "a": self.a, "h": self.h, "f": self.f, "level": self.level, "kind": self.kind, "trace": self.trace,
+            "rotation number": self.rotation_number, "period": self.period, "status": str(self.status),
+            "error_estimate": self.error_estimate, "steps": self.cost.steps})
 
     @property
     def alpha_beta(self) -> tuple[complex, complex]:
@@ -226,6 +235,11 @@ def circle_map(a: float, h: float, f: float, level: Level) -> CircleMap:
     The error estimate is the difference, in Θ and in the trace (relative where that exceeds 1), from a second run with
     a hundredth of the tolerance and with h and f moved by one unit in the last place, the accuracy of the input.
     Raises `OutsideRegion`, `Separatrix`, `InvalidParameter`, `WorkLimit`.
+
+    >>> from hess_mechanics import circle_map, level
+    >>> found = circle_map(a=0.0, h=1.5, f=0.6, level=level("precise"))  # without coupling nothing locks
+    >>> found.kind, len(found.fixed_points)
+    ('elliptic', 0)
     """
     start = time.perf_counter()
     a, h, f = float(a), float(h), float(f) + 0.0  # f = −0.0 is f = 0

@@ -31,6 +31,10 @@ class HessBody:
 
     Raises `InvalidParameter` (not finite, or so large that I11 or a overflows),
     `NotPositiveDefinite` (I22 ≤ 0).
+
+    >>> from hess_mechanics import HessBody
+    >>> HessBody(I22=2.0, I23=0.5, b3=-1.0).a
+    0.25
     """
 
     I22: float

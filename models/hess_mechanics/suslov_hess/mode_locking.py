@@ -66,6 +66,10 @@ def rotation_number_grid(a: float, h: Sequence[float] | Array, f: Sequence[float
     So `np.isfinite` of the result is the mask of what is possible.  At the separatrix, (1, 0), which has no return, it
     is the limit f → 0 at h = 1.  ρ is odd in f, so only |f| is computed.  Two threads share the points.
     Raises `InvalidParameter`, `WorkLimit`.
+
+    >>> from hess_mechanics import level, rotation_number_grid
+    >>> rotation_number_grid(0.5, [0.0, 1.5], [0.2, 0.4, 0.6], level("standard")).shape
+    (3, 2)
     """
     hs, fs = np.asarray(h, float), np.asarray(f, float)
     filled = _filled_grid(a, hs, fs, level)
@@ -107,6 +111,10 @@ def trace_on_curve(a: float, n: float) -> float:
     """The trace t on the bifurcation curve at n3 = n: 2cos(π√(n²(1+a²)−a²)/√(1+3n²)), cosh if the root is imaginary.
 
     ∞ beyond double range.  Raises `InvalidParameter` (a or n not finite, |a| too large).
+
+    >>> from hess_mechanics import trace_on_curve
+    >>> trace_on_curve(0.0, 0.5) <= 2.0  # without coupling the map is a rotation
+    True
     """
     check_a(a)
     require_finite(n=n)
@@ -127,6 +135,11 @@ def lock_boundary(a: float, level: Level, points: int = 48) -> Array:
     """The curve |t| = 2 with f ≥ 0, from the bifurcation curve down to (1, 0); shape (n, 2), read-only.
 
     The map locks to its right.  Empty for a = 0, where no map locks.  Raises `InvalidParameter` (|a| > 1e5).
+
+    >>> from hess_mechanics import circle_map, level, lock_boundary
+    >>> h, f = lock_boundary(0.5, level("precise"))[20]
+    >>> abs(circle_map(0.5, h, f, level("precise")).trace - 2.0) < 1e-6
+    True
     """
     check_a(a)
     if abs(a) > _MAX_A_OF_BOUNDARY:
@@ -159,7 +172,13 @@ def _root(function: Callable[[float], float], low: float, high: float, what: str
 
 
 def lock_boundary_f(a: float, h: float, level: Level) -> float:
-    """The f > 0 with |t| = 2 at given a and h.  Raises `InvalidParameter` where there is none."""
+    """The f > 0 with |t| = 2 at given a and h.  Raises `InvalidParameter` where there is none.
+
+    >>> from hess_mechanics import circle_map, level, lock_boundary_f
+    >>> f = lock_boundary_f(0.5, 0.5, level("precise"))
+    >>> abs(circle_map(0.5, 0.5, f, level("precise")).trace - 2.0) < 1e-6
+    True
+    """
     check_a(a)
     top = turning_points(h, 0.0 if h != 1.0 else 0.5).f_max
     return _root(lambda f: _locked_at(h, f, a, level), 1e-9 * top, top * (1 - 1e-9), "f")
@@ -178,6 +197,11 @@ def critical_a(h: float, f: float, level: Level, high: float = 10.0) -> float:
     """The a in (0, high) at which the limit cycles of the torus (h, f) appear, |t| = 2.
 
     Raises `OutsideRegion`, `Separatrix`, `InvalidParameter` where there is none.
+
+    >>> from hess_mechanics import circle_map, critical_a, level
+    >>> a = critical_a(0.5, 0.6, level("precise"))
+    >>> [circle_map(factor * a, 0.5, 0.6, level("precise")).kind for factor in (0.99, 1.01)]
+    ['elliptic', 'hyperbolic']
     """
     check_a(high)
     turning_points(h, f)

@@ -1,0 +1,112 @@
+"""What is asked for by a body and words: points on their section, names and units, sentences for what cannot be."""
+
+from __future__ import annotations
+
+import math
+
+import holoviews as hv
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import hess_mechanics as hm
+from hess_mechanics.errors import InvalidParameter, ModelError
+from hess_mechanics.euler_poisson.andoyer import AndoyerSection
+
+SUSLOV = hm.SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0)
+HEAVY = hm.HeavyBody.hess((1.0, 1.5, 2.0), 1.0)
+BALL = hm.BallBody(1.0, 3.0, 0.0, 0.0, 5.0, 0.5, 0.0, 0.8)
+STATE = (0.8, -0.4, 0.6, 0.0, 0.8)
+
+
+def test_a_heavy_body_is_the_same_from_moments_and_from_their_inverses():
+    angle = math.atan2(math.sqrt(1 / 1.5 - 1 / 2.0), math.sqrt(1.0 - 1 / 1.5)) + 0.1
+    given = hm.HeavyBody((1.0, 1.0 / 1.5, 0.5), (math.cos(angle), 0.0, math.sin(angle)), 1.3)
+    assert hm.HeavyBody.hess((1.0, 1.5, 2.0), 1.3, 0.1).parameters == pytest.approx(given.parameters, rel=1e-15)
+
+
+def test_an_orbit_is_that_of_another_integrator_with_names_and_units():
+    found = hm.orbit(SUSLOV, STATE, t=5.0, accuracy="reference", samples=40)
+    run = solve_ivp(lambda _, y: SUSLOV.system.field(y, SUSLOV.parameters), (0.0, 5.0), STATE, method="DOP853",
+                    rtol=1e-12, atol=1e-13, t_eval=found.times)
+    whole = found.to_xarray()
+    assert np.array([whole[name] for name in ("ω1", "ω2", "γ1", "γ2", "γ3")]) == pytest.approx(run.y, abs=1e-10)
+    assert (whole["ω1"].attrs["units"], whole["t"].attrs["units"]) == ("rad/T", "T")
+    assert whole.attrs["error_estimate"] == found.error_estimate
+    frame = found.to_pandas()
+    assert list(frame) == ["t", *found.variables]
+    assert np.array_equal(frame["γ3"], found.states[:, 4])
+    assert "ω1" in found._repr_html_()
+    panels = found.plot()
+    assert len(panels) == 5
+    assert np.array_equal(panels.traverse(lambda one: one, [hv.Path])[0].dimension_values("ω1"), found.states[:, 0])
+
+
+def test_points_lie_on_their_sections_at_their_energies():
+    found = hm.andoyer_section(HEAVY, 2.0, 0.5, starts=[(0.3, 0.4)], crossings=40)
+    assert found.orbits[0].shape == (40, 2)
+    states, possible = AndoyerSection(HEAVY, 2.0, 0.5).states_at(*found.orbits[0].T)
+    # Each of the points is a state of that energy, whose angle and momentum are the point's.
+    assert possible.all()
+    G = np.linalg.norm(states[:, :3], axis=1)
+    assert states[:, 2] / G == pytest.approx(found.orbits[0][:, 1], abs=1e-9)
+    integrals = HEAVY.system.integrals(list(states.T), HEAVY.parameters)
+    assert integrals["H"] == pytest.approx(np.full(40, 2.0), abs=1e-8)
+    section = hm.suslov_section(SUSLOV, 1.842, starts=[(0.5, 1.0)], crossings=40)
+    psi, delta = section.orbits[0].T
+    assert np.all((delta >= 0.0) & (delta <= math.pi) & (np.abs(psi) <= math.pi))
+    frame = section.to_pandas()
+    assert list(frame) == ["orbit", "ψ", "δ"]
+    assert np.array_equal(frame["δ"], delta)
+    assert np.array_equal(section.plot().dimension_values("ψ"), psi)
+
+
+def test_basins_clouds_and_maps_have_coordinates():
+    basins = hm.basins(SUSLOV, 1.842, cells=(6, 4), accuracy="draft").to_xarray()
+    assert basins["group"].dims == ("δ", "ψ")
+    assert float(basins["ψ"][0]) == pytest.approx(-math.pi + math.pi / 6.0)
+    theta = hm.circle_map(0.5, 1.5, 0.6, hm.level("precise"))
+    curve = theta.to_xarray()["Θ"]
+    assert np.exp(1j * curve.values) == pytest.approx(np.exp(1j * theta.theta(curve["φ"].values)), abs=1e-12)
+    cloud = hm.cloud(hm.BallBody(2.0, 1.0, 0.5, 0.7, 0.0), 2.0, 2.0, count=5, accuracy="draft")
+    frame = cloud.to_pandas()
+    assert list(frame) == ["point", "t", "ω1", "ω2", "γ1", "γ2", "γ3", "ln|s|"]
+    assert len(frame) == 5 * cloud.times.size
+    assert frame["ω2"][cloud.times.size] == cloud.omega[1, 0, 1]
+    scattered = hm.scattering(hm.SuslovBody(3.56, 1.0, 0.0, 0.8), hm.level("draft"))
+    image = scattered.plot()
+    assert isinstance(image, hv.Image)
+    assert image[0.0, 1.0] == pytest.approx(float(scattered.theta_plus(1.0, 0.0)), abs=0.05)
+
+
+@pytest.mark.parametrize(("call", "sentence"), [
+    (lambda: hm.orbit(SUSLOV, (1.0, 2.0), 5.0), "takes 5 numbers here: ω1, ω2, γ1, γ2, γ3"),
+    (lambda: hm.orbit(SUSLOV, "abc", 5.0), "a state is 5 numbers"),
+    (lambda: hm.orbit(SUSLOV, STATE, "long"), "t = 'long' is not a number; write it like 1.5 or -2e-3."),
+    (lambda: hm.orbit(SUSLOV, STATE, ["a", "b"]), "one or more finite numbers"),
+    (lambda: hm.orbit(SUSLOV, STATE, 5.0, accuracy="best"), "choose one of draft, standard, precise, reference"),
+    (lambda: hm.orbit(SUSLOV, STATE, 5.0, accuracy=[]), "choose one of draft, standard, precise, reference"),
+    (lambda: hm.orbit(SUSLOV, STATE, 5.0, samples=1.5), "is not a whole number from 2 to 200000"),
+    (lambda: hm.SuslovBody("2", 1.0, 0.3, 0.5), "I11 = '2' is not a number"),
+    (lambda: hm.HeavyBody((1.0, 2.0), (1.0, 0.0, 0.0), 1.0), "a = (1.0, 2.0) are not three numbers"),
+    (lambda: hm.andoyer_section(SUSLOV, 2.0, 0.5), "is no HeavyBody: give the body as hess_mechanics.HeavyBody"),
+    (lambda: hm.andoyer_section(HEAVY, -5.0, 0.5), "choose a larger energy"),
+    (lambda: hm.suslov_section(SUSLOV, -5.0), "reaches γ3 = 0: choose E above"),
+    (lambda: hm.suslov_section(SUSLOV, 1.8, starts=[1.0, 2.0]), "are no places; write them like [(0.0, 0.5)"),
+    (lambda: hm.suslov_section(SUSLOV, 1.8, starts=[("x", 2.0)]), "starts = 'x' is not a number"),
+    (lambda: hm.basins(SUSLOV, 1.8, cells=(1000, 1000)), "at most 4096 are allowed"),
+    (lambda: hm.basins(SUSLOV, 1.8, window=((1.0, 0.0), (0.0, 1.0))), "ψ0 < ψ1"),
+    (lambda: hm.period(BALL, STATE), "set these to 0"),
+    (lambda: hm.rotation_along_line(HEAVY, -0.99, 0.0, ((0.0, 0.9), (0.1, 0.9))), "choose another line"),
+])
+def test_what_cannot_be_is_refused_with_a_sentence(call, sentence):
+    with pytest.raises(ModelError) as refused:
+        call()
+    assert sentence in str(refused.value)
+    assert str(refused.value).endswith(".")
+
+
+def test_without_pandas_a_sentence_names_the_extra(monkeypatch):
+    monkeypatch.setitem(__import__("sys").modules, "pandas", None)
+    with pytest.raises(InvalidParameter, match=r"pip install 'hess-explorer\[data\]'"):
+        hm.orbit(SUSLOV, STATE, 1.0).to_pandas()
