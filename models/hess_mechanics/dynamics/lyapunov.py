@@ -125,6 +125,11 @@ def spectrum(system: System, state: Sequence[float], parameters: Sequence[float]
 
     They are those of the equations in all d variables: each integral, and the direction of the motion, adds one that is
     0.  level : as in `largest_exponent`.  Raises `InvalidParameter`, `WorkLimit`.
+
+    >>> from hess_mechanics import spectrum, systems
+    >>> suslov = systems()["suslov"]
+    >>> spectrum(suslov, *suslov.example, 20.0).values.shape
+    (5,)
     """
     problem, count = _checked(system, state, parameters, span)
     interval = np.array([span * problem.nu / count])

@@ -148,7 +148,8 @@ class Problem:
     scale: Array
 
     @classmethod
-    def of(cls, system: System, states: Sequence[Sequence[float] | Array] | Array, parameters: Sequence[float]) -> Problem:
+    def of(cls, system: System, states: Sequence[Sequence[float] | Array] | Array, parameters: Sequence[float]
+           ) -> Problem:
         """Check states (n, d) and parameters and scale them.  Raises `InvalidParameter`."""
         try:
             given, p = np.array(states, float, ndmin=2), np.asarray(parameters, float)
