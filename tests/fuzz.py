@@ -7,13 +7,18 @@ in a sentence, and “could not be computed”.  The same seed sends the same.
 from __future__ import annotations
 
 import argparse
+import math
 import random
 import sys
+import time
 from pathlib import Path
 
 if __name__ == "__main__":
     sys.path[:0] = [str(Path(__file__).parent)]
 
+from hess_explorer.page.description import describe
+from hess_explorer.scenes import scenes
+from hess_explorer.server.warm import compute
 from support.fuzzing import Findings, fuzz_commands, fuzz_links, fuzz_messages
 
 WORKS = {"links": fuzz_links, "messages": fuzz_messages, "commands": fuzz_commands}
@@ -25,7 +30,13 @@ def main():
     parser.add_argument("work", choices=WORKS)
     parser.add_argument("count", type=int)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--seconds", type=float, default=math.inf, help="of the processor, after which it ends")
     options = parser.parse_args()
+    # As a server does while it is idle.
+    for scene in scenes().values():
+        compute(scene)
+        describe(scene.name)
+    Findings.ends = options.seconds + time.process_time()
     Findings.tell = staticmethod(lambda found: print(found, flush=True))
     findings = WORKS[options.work](random.Random(options.seed), options.count)
     print(f"{options.work}, seed {options.seed}: {findings}")

@@ -6,6 +6,7 @@ import argparse
 import io
 import json
 import logging
+import math
 import re
 import shlex
 import tempfile
@@ -40,6 +41,8 @@ class Findings:
 
     tell = None
     """Called with each finding as it is found."""
+    ends = math.inf
+    """Seconds of the processor, of this process, after which no more is sent."""
 
     def __init__(self):
         self.count, self.examples, self.done, self.seconds = Counter(), {}, 0, []
@@ -57,6 +60,10 @@ class Findings:
         self.seconds.append(seconds)
         if seconds > STALL:
             self.found("stall", given, f"{seconds:.1f} s")
+
+    @property
+    def over(self):
+        return time.process_time() > self.ends
 
     @property
     def total(self):
@@ -172,6 +179,8 @@ def fuzz_links(random, count, scene=None):
     """Open so many links, each in a session of its own."""
     findings, first = Findings(), next(iter(scenes()))
     for _ in range(count):
+        if findings.over:
+            break
         query = link(random)
         if scene is not None and f"scene={scene}&" not in f"{query}&":
             continue
@@ -232,6 +241,8 @@ def fuzz_messages(random, count, length=25):
     """Send so many messages, to sessions that are left after `length` of them."""
     findings, browser, story = Findings(), None, []
     for number in range(count):
+        if findings.over:
+            break
         if number % length == 0:
             if browser is not None:
                 browser.session.background.stop()
@@ -312,6 +323,8 @@ def _fuzz_commands(random, count):
     findings = Findings()
     examples = [one for one in _examples(_parser()) if one[0] not in ("bench", "shot")]
     for _ in range(count):
+        if findings.over:
+            break
         words = command_line(random, examples)
         given, out, err = shlex.join(words), io.TextIOWrapper(io.BytesIO(), encoding="utf-8"), io.StringIO()
         code = None

@@ -49,6 +49,9 @@ def policy(nonce: str, embedded: bool) -> str:
 class GuardedDocument(DocHandler):
     """The document of the page, with these headers."""
 
+    # Before it is chosen Tornado refuses what is no method of it.
+    _nonce = ""
+
     async def prepare(self) -> None:
         """Choose the nonce of this answer."""
         self._nonce = secrets.token_urlsafe(16)
