@@ -1,7 +1,8 @@
 """A class at once: `python tests/load.py 10 50 200` prints what so many sessions, over the websocket, take and cost.
 
 Each session opens a scene, the scenes in turn, and changes one of its numbers every 2 s.  Then the same with one more
-that asks for the dearest scene at `reference` without a pause.
+that asks for the dearest scene at `reference` without a pause.  `--leave 2000`: what is left of sessions that are gone.
+On a quiet machine: `python tests/load.py 10 50 200 500 --workers 1 2 --leave 2000 --write`.
 """
 
 from __future__ import annotations
@@ -21,6 +22,8 @@ from pathlib import Path
 if __name__ == "__main__":
     sys.path[:0] = [str(Path(__file__).parent)]
 
+from tornado.httpclient import AsyncHTTPClient
+
 from hess_explorer.protocol.parameters import Number
 from hess_explorer.scenes import scenes
 from support.processes import memory, worked
@@ -28,6 +31,7 @@ from support.serving import free_port
 from support.visitor import Visitor
 
 EVERY = 2.0
+README = Path(__file__).resolve().parents[1] / "app" / "hess_explorer" / "server" / "README.md"
 DEAREST = "scene=euler-poisson&accuracy=reference"
 
 
@@ -128,8 +132,8 @@ async def measure(base, pid, counts, seconds):
     await warm.open(len(warm.names))
     await warm.use(2.0 * EVERY, 99)
     await warm.leave()
-    print("| sessions | opened in | median | p95 | cores | memory each | beside one at reference | errors |")
-    print("|---|---|---|---|---|---|---|---|", flush=True)
+    yield "| sessions | opened in | median | p95 | cores | memory each | beside one at reference | errors |"
+    yield "|---|---|---|---|---|---|---|---|"
     for count in counts:
         before, crowd = memory(pid), Crowd(base)
         opening = await crowd.open(count)
@@ -144,23 +148,88 @@ async def measure(base, pid, counts, seconds):
         both = _row(crowd.answered)
         await crowd.leave()
         other.cancel()
-        print(f"| {count} | {opening:.1f} s | {1e3 * median:.0f} ms | {1e3 * late:.0f} ms | {share:.2f} | "
+        yield (f"| {count} | {opening:.1f} s | {1e3 * median:.0f} ms | {1e3 * late:.0f} ms | {share:.2f} | "
               f"{(held - before) / max(1, count) / 2**20:.2f} MB | {1e3 * both[0]:.0f}, {1e3 * both[1]:.0f} ms | "
-              f"{crowd.errors} |", flush=True)
+              f"{crowd.errors} |")
+
+
+async def counters(base):
+    """What `/metrics` says."""
+    answer = await AsyncHTTPClient().fetch(f"{base}/metrics")
+    pairs = (line.split() for line in answer.body.decode().splitlines())
+    return {name.removeprefix("hess_explorer_"): int(value) for name, value in pairs}
+
+
+async def leave(base, pid, count):
+    """Open and leave so many sessions, and what is left of them when they have expired."""
+    warm = Crowd(base)
+    await warm.open(len(warm.names))
+    await warm.leave()
+    yield "| opened and left | memory | sessions | websockets | threads | errors |"
+    yield "|---|---|---|---|---|---|"
+    done = errors = 0
+    for part in (0, *[count // 4] * 4):
+        crowd = Crowd(base)
+        while len(crowd.opened) + crowd.errors < part:
+            # No more at a time than find room, and each as short as it can be.
+            await crowd.open(min(50, part - len(crowd.opened) - crowd.errors))
+            await crowd.leave()
+            crowd.visitors.clear()
+        done, errors = done + len(crowd.opened), errors + crowd.errors
+        ends = time.monotonic() + 240.0
+        while (found := await counters(base))["sessions"] > 0 and time.monotonic() < ends:
+            await asyncio.sleep(2.0)
+        yield (f"| {done} | {memory(pid) / 2**20:.0f} MB | {found['sessions']} | {found['websockets']} | "
+               f"{found['threads']} | {errors} |")
+
+
+async def _printed(rows, kept):
+    async for row in rows:
+        print(row, flush=True)
+        kept.append(row)
+
+
+def _machine(before):
+    return (f"{os.cpu_count()} cores, on which the visitors ran too; load of the machine before {before:.1f}, "
+            f"after {os.getloadavg()[0]:.1f}; {time.strftime('%Y-%m-%d')}.")
+
+
+def _written(lines):
+    start, end = "<!-- measured by tests/load.py -->", "<!-- end of measured -->"
+    text = README.read_text(encoding="utf-8")
+    before, _, rest = text.partition(start)
+    measured = "\n".join(lines)
+    README.write_text(f"{before}{start}\n\n{measured}\n\n{end}{rest.partition(end)[2]}", encoding="utf-8")
 
 
 def main():
     """Serve and measure."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("counts", type=int, nargs="+")
+    parser.add_argument("counts", type=int, nargs="*")
     parser.add_argument("--seconds", type=float, default=20.0, help="of each of the two parts")
-    parser.add_argument("--serve", nargs=argparse.REMAINDER, default=[], help="options of `hess-explorer serve`")
+    parser.add_argument("--leave", type=int, default=0, metavar="N", help="also open and leave so many sessions")
+    parser.add_argument("--workers", type=int, nargs="+", default=[1], help="processes that serve, one table for each")
+    parser.add_argument("--write", action="store_true", help="keep what is printed in the README of the server")
     options = parser.parse_args()
-    with server(options.serve) as (base, pid):
-        time.sleep(2.0)
-        asyncio.run(_ready(base))
-        asyncio.run(measure(base, pid, options.counts, options.seconds))
-    print(f"load of the machine before and during: {os.getloadavg()}, {os.cpu_count()} cores")
+    kept, before = [], os.getloadavg()[0]
+    for workers in options.workers if options.counts else ():
+        kept += [f"Served by {workers} process{'es' * (workers > 1)}:", ""]
+        with server(["--workers", str(workers)]) as (base, pid):
+            time.sleep(2.0)
+            asyncio.run(_ready(base))
+            asyncio.run(_printed(measure(base, pid, options.counts, options.seconds), kept))
+        kept.append("")
+    if options.leave:
+        kept += [f"{options.leave} sessions opened and left, after each quarter has expired:", ""]
+        with server([]) as (base, pid):
+            time.sleep(2.0)
+            asyncio.run(_ready(base))
+            asyncio.run(_printed(leave(base, pid, options.leave), kept))
+        kept.append("")
+    kept.append(_machine(before))
+    print(kept[-1])
+    if options.write:
+        _written(kept)
 
 
 async def _ready(base):
@@ -168,7 +237,7 @@ async def _ready(base):
     ends = time.monotonic() + 120.0
     while True:
         try:
-            return await Visitor.open(base)
+            return await (await Visitor.open(base)).leave()
         except OSError:
             if time.monotonic() > ends:
                 raise

@@ -34,9 +34,9 @@ async def _scenes(base):
     from support.visitor import Visitor
 
     for name, scene in scenes().items():
-        visitor = await Visitor.open(base, f"scene={name}&accuracy=draft", timeout=300.0)
+        visitor = await Visitor.open(base, f"scene={name}&accuracy=draft", timeout=900.0)
         spec = next(spec for spec in scene.specs if isinstance(spec, Number))
-        state = await visitor.ask(timeout=300.0, values={spec.name: spec.default + spec.step})
+        state = await visitor.ask(timeout=900.0, values={spec.name: spec.default + spec.step})
         assert state["scene"] == name
         assert "could not be computed" not in json.dumps(state["tree"]["texts"]), (name, state["tree"]["texts"])
         await visitor.leave()

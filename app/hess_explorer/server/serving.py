@@ -26,7 +26,7 @@ from hess_explorer.server.export import Export
 from hess_explorer.server.headers import guard
 from hess_explorer.server.liveness import is_alive
 from hess_explorer.server.modules import module_routes
-from hess_explorer.server.page_socket import MESSAGE_LIMIT, use
+from hess_explorer.server.page_socket import MESSAGE_LIMIT, PageSocket, use
 from hess_explorer.server.qr_code import QrCode
 from hess_explorer.server.warm import warm
 
@@ -42,12 +42,18 @@ logger = logging.getLogger("hess_explorer")
 
 
 class Metrics(RequestHandler):
-    """GET /metrics: the counters of the cache, one `name value` in a line, as Prometheus reads them."""
+    """GET /metrics: the counters of this process, one `name value` in a line, as Prometheus reads them."""
+
+    def initialize(self, capacity: Capacity) -> None:
+        """Whose sessions are counted."""
+        self._capacity = capacity
 
     def get(self) -> None:
         """Answer with the counters as they are now."""
         self.set_header("Content-Type", "text/plain; version=0.0.4; charset=utf-8")
-        self.finish("".join(f"hess_explorer_{name} {value}\n" for name, value in CACHE.metrics().items()))
+        counters = {**CACHE.metrics(), "sessions": self._capacity.there, "websockets": len(PageSocket.there),
+                    "threads": threading.active_count()}
+        self.finish("".join(f"hess_explorer_{name} {value}\n" for name, value in counters.items()))
 
 
 def _is_news(record: logging.LogRecord) -> bool:
@@ -92,7 +98,8 @@ def options(port: int, address: str, origins: Sequence[str], lesson: Lesson | No
         "port": port,
         "address": address,
         "websocket_origin": [f"localhost:{port}", f"127.0.0.1:{port}", *origins],
-        "extra_patterns": [("/metrics", Metrics), ("/qr.svg", QrCode), ("/export", Export), *module_routes()],
+        "extra_patterns": [("/metrics", Metrics, {"capacity": capacity}), ("/qr.svg", QrCode), ("/export", Export),
+                           *module_routes()],
         "liveness": True,
         "verbose": False,
         # `PageSocket` says in a sentence what a frame may have; beyond this Tornado cuts the line with two words.
