@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import math
+import re
 import sys
 import tempfile
 
@@ -10,6 +12,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from hess_explorer.__main__ import main
 from hess_explorer.export.film import FILMS, as_film, moves, pictures_at, times_of
 from hess_explorer.export.shown import shown
 from hess_mechanics.errors import ModelError
@@ -110,6 +113,21 @@ def test_a_film_that_is_stopped_leaves_nothing_behind(found, tmp_path, monkeypat
     with pytest.raises(KeyboardInterrupt):
         as_film(found, "webm", 60.0, tell=stop)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_the_command_writes_films_and_pages_and_says_how_far_it_is(found, tmp_path, capsys):
+    film, page = tmp_path / "film.mp4", tmp_path / "page.html"
+    words = ["export", "--state", LINK, "--picture", "omega", "--format", "mp4", "--width", "60", "--seconds", "1"]
+    assert main([*words, "--progress", "--out", str(film)]) == 0
+    assert capsys.readouterr().err.splitlines() == [f"{i + 1}/25" for i in range(25)]
+    assert len(frames_of(film, SIDE)) == 25
+    assert main(words) == 2
+    assert "MP4 is no text: name a file with --out FILE." in capsys.readouterr().err
+    assert main(["export", "--state", LINK, "--picture", "omega,sphere", "--format", "html", "--out", str(page)]) == 0
+    text = page.read_text(encoding="utf-8")
+    assert text.startswith("<!DOCTYPE html>")
+    facts = json.loads(re.search('<script type="application/json" id="facts">(.*)</script>', text)[1])
+    assert (facts["link"], facts["pictures"]) == (found.link, ["omega", "sphere"])
 
 
 def test_what_cannot_be_filmed_is_refused_with_a_sentence(found, monkeypatch):

@@ -15,7 +15,7 @@ from matplotlib.font_manager import findfont, get_font
 from PIL import Image
 
 from hess_explorer.export.figure import FORMATS, STYLE, draw, saved
-from hess_explorer.export.shown import shown
+from hess_explorer.export.shown import address, shown
 from hess_explorer.export.table import as_csv, as_json
 from hess_explorer.protocol.parameters import encode
 from hess_explorer.scenes import scenes
@@ -62,7 +62,7 @@ def assert_numbers(found, values):
     whole = json.loads(as_json(found), parse_constant=pytest.fail)
     assert {"link", "parameters", "status", "program", "caption"} <= facts.keys() & whole.keys()
     assert facts["parameters"] == whole["parameters"] == values
-    assert shown(facts["link"], found.picture.name).values == values
+    assert address(facts["link"], found.picture.name).values == values
     assert facts["status"][0] == "accuracy: draft"
     numbers = [float(value) for row in table for name, value in row.items() if value and name not in ("layer", "text")]
     assert len(numbers) > 10 or whole["caption"]

@@ -78,7 +78,7 @@ def _picture(options: argparse.Namespace) -> bytes:
 
 def _run(options: argparse.Namespace) -> None:
     if options.out is None and options.format not in _TEXTS:
-        raise CommandError(f"A {options.format.upper()} is no text: name a file with --out FILE.")
+        raise CommandError(f"{options.format.upper()} is no text: name a file with --out FILE.")
     with computing():
         data = _page(options) if options.format == "html" else _picture(options)
     if options.out is not None:
