@@ -21,6 +21,7 @@ MEASURED = {
     "tests/benchmarks/README.md": "tests/benchmarks/benchmark_page.py",
     "app/README.md": "tests/benchmarks/benchmark_trade.py",
     "app/hess_explorer/benchmark/README.md": "tests/benchmarks/benchmark_peers.py",
+    "app/hess_explorer/sweep/README.md": "tests/benchmarks/benchmark_sweep.py",
 }
 
 
