@@ -25,7 +25,8 @@ def __getattr__(name: str) -> Any:
     # Only when they are asked for: the commands that compute do not load what draws.
     if name not in _PLACES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(importlib.import_module(f"{__name__}.library.{_PLACES[name]}"), name)
+    found = globals()[name] = getattr(importlib.import_module(f"{__name__}.library.{_PLACES[name]}"), name)
+    return found
 
 
 def __dir__() -> list[str]:

@@ -17,6 +17,7 @@ from hess_explorer.commands import (
     circle_map,
     cloud,
     code,
+    docs,
     export,
     lyapunov,
     orbit,
@@ -52,7 +53,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"hess-explorer {_version()}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     for command in (serve, circle_map, orbit, period, section, scattering, rotation_number, lyapunov, basins, cloud,
-                    export, code, sweep, shot, bench):
+                    export, code, docs, sweep, shot, bench):
         command.add(commands)
     return parser
 
