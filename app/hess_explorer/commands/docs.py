@@ -18,7 +18,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser = commands.add_parser(
         "docs", help="the pages of the Python packages, as HTML",
         description="Write the pages of what can be imported from hess_mechanics and hess_explorer, of the version "
-                    "that is installed, with search, and without a host to ask. Needs the extra: pip install '.[docs]'.",
+                    "that is installed, with search, and no host to ask. Needs the extra: pip install '.[docs]'.",
         epilog="Example: hess-explorer docs --out docs")
     parser.add_argument("--out", type=Path, required=True, metavar="FOLDER", help="where the pages go")
     parser.set_defaults(run=_run)
