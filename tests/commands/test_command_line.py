@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import json
 import math
 import os
 import signal
@@ -377,6 +378,13 @@ def test_without_a_browser_the_server_goes_on(served, free_port, monkeypatch, ca
     assert main(["--port", str(free_port)]) == 0
     assert [call["show"] for call in served] == [False]
     assert f"no browser to open here: open http://localhost:{free_port} in one" in capsys.readouterr().out
+
+
+def test_basins_of_a_body_beyond_double_range_end(capsys):
+    """No piece of a step was ever clear of roots: it took for ever."""
+    assert main(["basins", "--I", "1.5,1.07,4.4e+90,0", "--b=0.3,-0.5,1", "--E", "0.68", "--k", "2", "--cells", "8,6",
+                 "--accuracy", "draft"]) == 0
+    assert json.loads(capsys.readouterr().out)["counts"] == []
 
 
 def test_taken_port(refusal, served):

@@ -92,6 +92,9 @@ def roots_on_step(e, h, below, end, below_at_end, roots, pieces):
     bend = largest_bend(e, h)
     if below == below_at_end and min(abs(e[0]), abs(end)) > 0.125 * bend * h * h:
         return 0
+    # Coefficients beyond double range: no piece would ever be clear, and there are 2^_DEPTH.
+    if not bend * h * h < np.inf:
+        return 0
     # What is lower than this may be round-off: it is on the side on which the orbit was.
     noise = 0.0
     for k in range(e.size - 1, -1, -1):

@@ -54,6 +54,9 @@ def keep(dispatcher: Any, folder: Path) -> Callable[..., Any]:
 
     The attribute is what `njit(cache=True)` sets: Numba has no public way to choose another class.
     """
+    if not hasattr(dispatcher, "py_func"):
+        # NUMBA_DISABLE_JIT: it is the function itself.
+        return dispatcher  # type: ignore[no-any-return]
     try:
         files = KernelFiles(dispatcher.py_func)
     except (OSError, RuntimeError):
