@@ -24,10 +24,10 @@ if __name__ == "__main__":
 
 from tornado.httpclient import AsyncHTTPClient
 
+from hess_explorer.headless.screenshot import free_port
 from hess_explorer.protocol.parameters import Number
 from hess_explorer.scenes import scenes
 from support.processes import memory, worked
-from support.serving import free_port
 from support.visitor import Visitor
 
 EVERY = 2.0

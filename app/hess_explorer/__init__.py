@@ -14,11 +14,12 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from hess_explorer.library.exploring import explore
     from hess_explorer.library.state import State, from_link, state
 
-__all__ = ["State", "from_link", "state"]
+__all__ = ["State", "explore", "from_link", "state"]
 
-_PLACES = {"State": "state", "from_link": "state", "state": "state"}
+_PLACES = {"State": "state", "explore": "exploring", "from_link": "state", "state": "state"}
 
 
 def __getattr__(name: str) -> Any:

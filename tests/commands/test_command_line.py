@@ -313,9 +313,7 @@ def served(monkeypatch):
 
 @pytest.fixture
 def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
+    return hess_explorer.headless.screenshot.free_port()
 
 
 def test_serve(served, free_port, capsys):
@@ -463,7 +461,7 @@ def test_export(capsys, refusal, tmp_path):
 def test_a_server_that_does_not_start_says_why(monkeypatch, tmp_path):
     # Taken: the port is given away a second time.
     with socket.create_server(("127.0.0.1", 0)) as other:
-        monkeypatch.setattr(hess_explorer.headless.screenshot, "_free_port", lambda: other.getsockname()[1])
+        monkeypatch.setattr(hess_explorer.headless.screenshot, "free_port", lambda: other.getsockname()[1])
         monkeypatch.setattr(hess_explorer.headless.screenshot, "is_alive", lambda host, port: False)
         with (pytest.raises(hess_explorer.headless.screenshot.ServerError, match=r"did not start .*taken"),
               running_server(tmp_path / "log")):

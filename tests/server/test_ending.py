@@ -12,10 +12,10 @@ from pathlib import Path
 
 import pytest
 
-from hess_explorer.headless.screenshot import wait_alive
+from hess_explorer.headless.screenshot import free_port, wait_alive
 from support.asynchronous import finished
 from support.processes import below
-from support.serving import UNWARMED, free_port
+from support.serving import UNWARMED
 from support.visitor import Closed, Visitor
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -3,34 +3,29 @@
 from __future__ import annotations
 
 import logging
-import socket
 import time
 from contextlib import contextmanager
 
 import panel as pn
 
+from hess_explorer.headless.screenshot import free_port
 from hess_explorer.server import serving
 from hess_explorer.server.headers import guard
 from hess_explorer.server.liveness import is_alive
 from hess_explorer.server.page_socket import use
 
-__all__ = ["UNWARMED", "free_port", "served"]
+__all__ = ["UNWARMED", "served"]
 
 # It gets no scene ready before somebody enters it: that takes longer than the test of one or two.
 UNWARMED = ("-c", """
 from hess_explorer.__main__ import main
+from hess_explorer.headless.screenshot import free_port
 from hess_explorer.server import serving
 
 serving.warm = lambda first_is_ready: first_is_ready()
 main()
 """)
 """What Python is told to run as a server, for `running_server`."""
-
-
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
 
 
 @contextmanager

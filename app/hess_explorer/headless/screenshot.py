@@ -14,7 +14,7 @@ from pathlib import Path
 from hess_explorer.headless.browser import BrowserError, launched, wait_ready
 from hess_explorer.server.liveness import is_alive
 
-__all__ = ["ServerError", "running_server", "screenshot", "wait_alive"]
+__all__ = ["ServerError", "free_port", "running_server", "screenshot", "wait_alive"]
 
 _START_SECONDS = 60
 _LOAD_SECONDS = 120
@@ -25,7 +25,8 @@ class ServerError(RuntimeError):
     """The server or the page did not get ready; the message says why."""
 
 
-def _free_port() -> int:
+def free_port() -> int:
+    """One of this machine that nobody listens to."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port: int = probe.getsockname()[1]
@@ -48,7 +49,7 @@ def running_server(log: Path, program: Sequence[str] = ("-m", "hess_explorer")) 
 
     log : file for all its output; program : arguments of Python that start the command line.
     """
-    port = _free_port()
+    port = free_port()
     command = [sys.executable, *program, "serve", "--port", str(port), "--no-browser"]
     # `-m` looks in the current folder first: start in this package, where nothing can shadow it.
     with log.open("wb") as out, subprocess.Popen(command, cwd=Path(__file__).resolve().parents[1],

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import logging
+from collections.abc import Callable
 from typing import Any
 from urllib.parse import urlencode
 
@@ -50,13 +52,14 @@ BARE: dict[str, Any] = {
 """Of Panel's page neither the bar nor the room for it: its drawers would cover a phone."""
 
 
-def page(own: Lesson | None = None) -> Any:
-    """A new page for one session, in the state that its URL describes; own : a lesson besides those of the package.
+def page(own: Lesson | None = None, follow: Callable[[str], None] | None = None) -> Any:
+    """A new page for one session, in the state that its URL describes; own : a lesson besides those of the package;
+    follow : told the query of each state that it shows.
 
     An address that names neither a scene nor a lesson begins that one.
     """
     try:
-        return _page(_query(), own)
+        return _page(_query(), own, follow)
     # Whatever it is, a user sees a sentence and the log the rest.
     except Exception:
         logger.exception("the page could not be built")
@@ -70,7 +73,7 @@ def _query() -> str:
     return urlencode([(name, given[0].decode("utf-8", "replace")) for name, given in arguments.items() if given])
 
 
-def _page(query: str, own: Lesson | None) -> pmui.Page:
+def _page(query: str, own: Lesson | None, follow: Callable[[str], None] | None) -> pmui.Page:
     lessons = {own.name: own, **shipped()} if own else dict(shipped())
     link = Link(query)
     first = own.name if own and "scene" not in link.given else ""
@@ -101,6 +104,8 @@ def _page(query: str, own: Lesson | None) -> pmui.Page:
         client |= parts
 
     ready = Ready(client=client, lesson=describe_lesson(reading) if reading else "")
+    if follow is not None:
+        ready.param.watch(lambda event: follow(json.loads(event.new)["query"]), "state")
     shell = Shell(
         bar=Bar(scenes=[_entry(one) for one in scenes().values()]),
         controls=Controls(),

@@ -73,14 +73,14 @@ def _prepare(address: str, port: int, ready: Callable[[], None]) -> None:
     warm(first_is_ready)
 
 
-def _page(lesson: Lesson | None, capacity: Capacity) -> Any:
+def _page(lesson: Lesson | None, capacity: Capacity, follow: Callable[[str], None] | None) -> Any:
     """The page, with styles of this server: Panel sees to that only in the process that writes the HTML."""
     if not capacity.take():
         return pn.pane.Str(capacity.sentence)
     document = pn.state.curdoc
     if document is not None:
         document.add_next_tick_callback(lambda: _own_styles(document))
-    return page(lesson)
+    return page(lesson, follow)
 
 
 def _own_styles(document: Document) -> None:
@@ -89,11 +89,11 @@ def _own_styles(document: Document) -> None:
 
 
 def options(port: int, address: str, origins: Sequence[str], lesson: Lesson | None = None, *,
-            sessions: int) -> dict[str, Any]:
+            sessions: int, follow: Callable[[str], None] | None = None) -> dict[str, Any]:
     """What `panel.serve` is told; the arguments are those of `serve`."""
     capacity = Capacity(sessions)
     return {
-        "panels": {"/": lambda: _page(lesson, capacity)},
+        "panels": {"/": lambda: _page(lesson, capacity, follow)},
         "title": "Hess Explorer",
         "port": port,
         "address": address,
@@ -114,14 +114,14 @@ def options(port: int, address: str, origins: Sequence[str], lesson: Lesson | No
 
 def serve(port: int, address: str, show: bool, origins: Sequence[str], ready: Callable[[], None],
           lesson: Lesson | None = None, embedders: Sequence[str] = ("*",), workers: int = 1, *,
-          sessions: int) -> NoReturn:
+          sessions: int, follow: Callable[[str], None] | None = None) -> NoReturn:
     """Serve the explorer until Ctrl-C or SIGTERM, then end the process with exit code 0.
 
     address : to listen on; show : open the browser; origins : HOST:PORT pairs whose pages may open a websocket,
     besides this machine's own; ready : called from another thread when the page answers without compiling
     first; lesson : one besides those of the package; embedders : hosts whose pages may show parts of this one, "*" any;
     workers : processes that serve; a session stays with the one that its websocket comes to; sessions : as many as each
-    of them serves at a time.
+    of them serves at a time; follow : told the query of every state that a page shows.
     """
     logging.basicConfig(format="%(asctime)s %(name)s %(message)s")
     logger.setLevel(logging.INFO)
@@ -133,7 +133,7 @@ def serve(port: int, address: str, show: bool, origins: Sequence[str], ready: Ca
     guard(embedders)
     together = Workers() if workers > 1 else None
     # With several workers this comes back in each of them, and the process that began stays behind to watch over them.
-    told = options(port, address, origins, lesson, sessions=sessions)
+    told = options(port, address, origins, lesson, sessions=sessions, follow=follow)
     server = get_server(told.pop("panels"), start=False, show=show and workers == 1, num_procs=workers, **told)
     end_on_signals(server.io_loop)
     if together is not None:
