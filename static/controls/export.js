@@ -10,9 +10,10 @@ const FORMATS = [
   ["csv", "CSV: data, every digit"], ["json", "JSON: data, every digit"],
   ["png", "PNG, 300 dots an inch"], ["svg", "SVG"], ["pdf", "PDF"],
   ["webm", "WebM: a film of the motion"], ["mp4", "MP4: a film of the motion"],
+  ["gif", "GIF: a film of the motion, for slides"],
   ["html", "HTML: all pictures, plays without a server"],
 ]
-const FILMS = ["webm", "mp4"]
+const FILMS = ["webm", "mp4", "gif"]
 const DRAWN = ["png", "svg", "pdf", ...FILMS]
 
 const options = (pairs) => pairs.map(([value, textContent]) => element("option", { value, textContent }))

@@ -137,7 +137,7 @@ def test_what_cannot_be_filmed_is_refused_with_a_sentence(found, monkeypatch):
     for wrong in (0.5, 61.0, math.nan):
         with pytest.raises(ModelError, match="1 to 60 seconds long"):
             as_film(found, "webm", seconds=wrong)
-    with pytest.raises(ModelError, match="choose one of webm, mp4"):
+    with pytest.raises(ModelError, match="choose one of webm, mp4, gif"):
         as_film(found, "avi")
     with pytest.raises(ModelError, match="Nothing moves in “"):
         as_film(shown("scene=scattering&accuracy=draft", "map"), "webm")

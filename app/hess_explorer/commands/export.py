@@ -15,7 +15,7 @@ from .shot import state_of
 __all__ = ["add"]
 
 _TEXTS = ("csv", "json", "svg", "html")
-_KINDS = (*_TEXTS, "png", "pdf", "webm", "mp4")
+_KINDS = (*_TEXTS, "png", "pdf", "webm", "mp4", "gif")
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -24,7 +24,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
         "export", help="what a picture of the page shows, as CSV, JSON, PNG, SVG, PDF or a film; HTML of all",
         description="Compute the state that a link describes and write what one of its pictures shows: its data, every "
                     "digit, as CSV or JSON, or a square figure as PNG, SVG or PDF, with bodies and clouds at the "
-                    "link's time, without the moving point, or a film of its motion as WebM or MP4. HTML has all "
+                    "link's time, without the moving point, or a film of its motion as WebM, MP4 or GIF. HTML has all "
                     "pictures of the state in one file that plays and turns without a server. Every file says link, "
                     "parameters, accuracy, errors and version. Figures and films need the extra: "
                     "pip install '.[export]'.",

@@ -27,8 +27,12 @@ if TYPE_CHECKING:
 __all__ = ["FILMS", "RATE", "SECONDS", "WIDTHS", "as_film", "moves", "pictures_at", "times_of"]
 
 FILMS: Mapping[str, tuple[str, ...]] = {
-    "webm": ("-c:v", "libvpx-vp9", "-b:v", "0", "-crf", "30", "-deadline", "realtime", "-cpu-used", "6"),
-    "mp4": ("-c:v", "libx264", "-preset", "veryfast", "-crf", "20", "-movflags", "+faststart+use_metadata_tags")}
+    "webm": ("-c:v", "libvpx-vp9", "-b:v", "0", "-crf", "30", "-deadline", "realtime", "-cpu-used", "6",
+             "-pix_fmt", "yuv420p"),
+    "mp4": ("-c:v", "libx264", "-preset", "veryfast", "-crf", "20", "-movflags", "+faststart+use_metadata_tags",
+            "-pix_fmt", "yuv420p"),
+    # The colours of the film itself, which are few.
+    "gif": ("-filter_complex", "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=none")}
 """Formats, and what ffmpeg is told for each: thin lines stay clear, and a minute of them is some megabytes."""
 
 RATE = 25
@@ -98,7 +102,7 @@ def _title(title: str, width: float) -> str:
 
 def as_film(shown: Shown, kind: str, width: float = 85.0, black: bool = False, seconds: float = 10.0,
             tell: Callable[[int, int], None] = lambda done, of: None) -> bytes:
-    """The whole motion in so many seconds, as WebM or MP4, square, 8 pixels a millimetre; its tags say the facts.
+    """The whole motion in so many seconds, as WebM, MP4 or GIF, square, 8 pixels a millimetre; its tags say the facts.
 
     tell : is told after each frame how many there are, and of how many.
 
@@ -125,7 +129,7 @@ def as_film(shown: Shown, kind: str, width: float = 85.0, black: bool = False, s
         side = 2 * round(0.5 * _PIXELS * width)
         tags = {"title": shown.title, "comment": shown.said, "description": shown.caption}
         command = [imageio_ffmpeg.get_ffmpeg_exe(), "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24",
-                   "-s", f"{side}x{side}", "-r", str(RATE), "-i", "-", *FILMS[kind], "-pix_fmt", "yuv420p",
+                   "-s", f"{side}x{side}", "-r", str(RATE), "-i", "-", *FILMS[kind],
                    "-threads", "1", *(part for name, text in tags.items() for part in ("-metadata", f"{name}={text}")),
                    str(path)]
         with subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE) as encoder:
@@ -145,4 +149,12 @@ def as_film(shown: Shown, kind: str, width: float = 85.0, black: bool = False, s
                 raise
         if encoder.returncode or not path.exists():
             raise InvalidParameter(f"The film could not be encoded ({said.splitlines()[-1] if said else 'no reason'}).")
-        return path.read_bytes()
+        film = path.read_bytes()
+        return _commented(film, "\n".join(tags.values())) if kind == "gif" else film
+
+
+def _commented(gif: bytes, text: str) -> bytes:
+    """With a comment, which ffmpeg does not write, behind the header and the colours of all frames."""
+    head, data = 13 + (3 << (gif[10] % 8 + 1) if gif[10] & 0x80 else 0), text.encode()
+    parts = [data[i : i + 255] for i in range(0, len(data), 255)]
+    return gif[:head] + b"\x21\xfe" + b"".join(bytes([len(part)]) + part for part in parts) + b"\0" + gif[head:]

@@ -119,7 +119,7 @@ class State:
 
     def save(self, file: str | Path, picture: str = "", *, width: float = 85.0, black: bool = False,
              seconds: float = 10.0) -> Path:
-        """Write a picture as the file's ending says: csv and json, a figure as png, svg, pdf, a film as webm, mp4.
+        """Write a picture as the file's ending says: csv and json, a figure as png, svg, pdf, a film as webm, mp4, gif.
 
         width : millimetres of a figure or film; black : black on white; seconds : of a film.
         Raises `InvalidParameter`, `ModelError`, `OSError`.

@@ -27,7 +27,7 @@ __all__ = ["Export"]
 
 _TYPES = {"csv": "text/csv; charset=utf-8", "json": "application/json", "png": "image/png",
           "svg": "image/svg+xml; charset=utf-8", "pdf": "application/pdf", "html": "text/html; charset=utf-8",
-          "webm": "video/webm", "mp4": "video/mp4", "py": "text/x-python; charset=utf-8",
+          "webm": "video/webm", "mp4": "video/mp4", "gif": "image/gif", "py": "text/x-python; charset=utf-8",
           "ipynb": "application/x-ipynb+json"}
 _SPECS = (Choice("format", "Format", tuple(_TYPES), "csv"), Choice("black", "Black", ("0", "1"), "0"),
           Number("width", "width", "Width", 85.0, (20.0, 400.0), 5.0, (20.0, 400.0)),
