@@ -582,7 +582,7 @@ def test_an_example_is_the_one_of_the_equations_with_the_right_numbers_and_paint
 
 # [before, at the moment at which the page says that it is ready, some frames later]: what is on the canvases of plots
 # while a slider goes to another place.
-PAINTED = f"""async () => {{
+ON_CANVASES = f"""async () => {{
   const all = (root) => [...root.querySelectorAll("*")].flatMap((item) =>
     [item, ...(item.shadowRoot ? all(item.shadowRoot) : [])])
   const canvases = all(document).filter(
@@ -607,7 +607,7 @@ PAINTED = f"""async () => {{
 
 
 def test_what_is_called_painted_is_painted(explorer):
-    before, then, later = explorer.page.evaluate(PAINTED)
+    before, then, later = explorer.page.evaluate(ON_CANVASES)
     assert sum(old != new for old, new in zip(before, later, strict=True)) >= 3
     assert then == later
 
