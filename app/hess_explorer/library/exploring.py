@@ -82,6 +82,11 @@ def explore(scene: str = "suslov-hess", /, *, height: int = 640, **parameters: A
 
     `.state` of the result is the state that the hand has reached.  Raises `InvalidParameter` as `state` does, and
     `ServerError` where no server can be started.
+
+    >>> import hess_explorer as hess
+    >>> hess.explore("suslov-hess", energy=1.2)
+    Traceback (most recent call last):
+    hess_mechanics.errors.InvalidParameter: The scene suslov-hess has no parameter 'energy': choose one of I22, ...
     """
     return Exploration(state(scene, **parameters), height)
 
