@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import re
-from urllib.parse import parse_qs, urlencode, urljoin, urlsplit
+from urllib.parse import parse_qs, urlencode, urlsplit
 from xml.etree import ElementTree
 
 import numpy as np
@@ -98,12 +98,6 @@ def listeners(explorer):
         "includeCommandLineAPI": True, "returnByValue": True})
     session.detach()
     return json.loads(answer["result"]["value"])
-
-
-def kept(explorer):
-    """(hits, misses) of the server's cache."""
-    counted = explorer.page.request.get(urljoin(explorer.page.url, "/metrics")).text()
-    return tuple(int(re.search(rf"cache_{name} (\d+)", counted)[1]) for name in ("hits", "misses"))
 
 
 # --- The menu of scenes ------------------------------------------------------------------------------
@@ -427,19 +421,6 @@ def test_values_that_change_on_the_way_to_another_scene_arrive_there(explorer):
     assert explorer.scene == STUDY
     assert_drawn(explorer, STUDY, {**DEFAULTS, "h": 0.9, "phi0": 1.0})
     assert explorer.shown("h") == (0.9, 0.9)
-
-
-def test_a_state_that_was_seen_before_is_not_computed_again(tab):
-    for scene in (HESS, STUDY):
-        page = brought(tab, SCENES[scene])
-        page.change(lambda page=page: page.slide(phi0=2.34))
-        _, misses = kept(page)
-        page.change(lambda page=page: page.slide(phi0=2.36))
-        hits, more = kept(page)
-        assert more > misses
-        page.change(lambda page=page: page.slide(phi0=2.34))
-        assert kept(page)[0] > hits
-        assert kept(page)[1] == more
 
 
 def test_a_link_leads_into_a_scene(explorer):
