@@ -1,4 +1,4 @@
-"""Types of arguments: numbers, lists of numbers, ranges of times."""
+"""Types of arguments: numbers, lists of numbers, ranges of times, states."""
 
 from __future__ import annotations
 
@@ -6,10 +6,11 @@ import argparse
 import math
 from collections.abc import Callable
 from typing import NoReturn
+from urllib.parse import parse_qsl
 
-__all__ = ["integer", "number", "samples", "shown", "vector"]
+__all__ = ["integer", "number", "samples", "shown", "state_of", "vector"]
 
-_SHOWN = 60
+_SHOWN, _MAX_STATE = 60, 2000
 
 
 def shown(text: str) -> str:
@@ -55,6 +56,17 @@ def vector(names: str) -> Callable[[str], tuple[float, ...]]:
         return tuple(number(part) for part in parts)
 
     return parse
+
+
+def state_of(text: str) -> dict[str, str]:
+    """What a query says, by key.  Raises `argparse.ArgumentTypeError`."""
+    if len(text) > _MAX_STATE:
+        raise argparse.ArgumentTypeError(f"the state has {len(text)} characters; at most {_MAX_STATE} are allowed")
+    query = text.removeprefix("?")
+    try:
+        return dict(parse_qsl(query, keep_blank_values=True, strict_parsing=bool(query)))
+    except ValueError:
+        _refuse(text, "is not a state; write it like 'h=1.2&f=0.3'")
 
 
 def samples(text: str) -> list[float]:

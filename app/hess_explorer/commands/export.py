@@ -5,12 +5,10 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Callable
-from pathlib import Path
 from urllib.parse import urlencode
 
 from . import CommandError
-from .output import computing, show, write_file
-from .shot import state_of
+from .output import add_picture, computing, show
 
 __all__ = ["add"]
 
@@ -29,11 +27,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
                     "parameters, accuracy, errors and version. Figures and films need the extra: "
                     "pip install '.[export]'.",
         epilog="Example: hess-explorer export --state 'h=1.2&f=0.3' --picture circle --format csv --out circle.csv")
-    parser.add_argument("--state", type=state_of, default={}, metavar="QUERY",
-                        help="what follows ? in a link to the page (default: its first view)")
-    parser.add_argument("--picture", default="", metavar="NAME",
-                        help="the name of the picture, as in pictures=… of a link that embeds (default: the first; "
-                             "of HTML some with commas between, by default those that are open at first)")
+    add_picture(parser, "; of HTML some with commas between, by default those that are open at first")
     parser.add_argument("--format", choices=_KINDS, default="csv", help="default: csv")
     parser.add_argument("--width", type=float, default=85.0, metavar="MM",
                         help="of a figure, 20 to 400 millimetres (default 85, a column of a journal); of a film 60 to "
@@ -44,7 +38,6 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
                         help="a figure or a film in black on white instead of the page's colours")
     parser.add_argument("--progress", action="store_true",
                         help="say on standard error, a line each, how many frames of a film there are, of how many")
-    parser.add_argument("--out", type=Path, metavar="FILE", help="write to this file instead of standard output")
     parser.set_defaults(run=_run)
 
 
@@ -81,7 +74,4 @@ def _run(options: argparse.Namespace) -> None:
         raise CommandError(f"{options.format.upper()} is no text: name a file with --out FILE.")
     with computing():
         data = _page(options) if options.format == "html" else _picture(options)
-    if options.out is not None:
-        write_file(options.out, data)
-    else:
-        show(data)
+    show(data, options.out)

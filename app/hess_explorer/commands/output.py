@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import CommandError
+from .arguments import state_of
 
 if TYPE_CHECKING:
     from hess_mechanics import BodyCheck, CircleMap, Orbit, Section
@@ -20,7 +21,8 @@ if TYPE_CHECKING:
     from hess_mechanics.chaplygin_ball.phase_cloud import Cloud
     from hess_mechanics.suslov.scattering import Scattering
 
-__all__ = ["add_options", "computing", "quality", "show", "whether_body", "write", "write_file"]
+__all__ = ["add_options", "add_picture", "add_state", "computing", "quality", "show", "whether_body", "write",
+           "write_file"]
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -29,6 +31,24 @@ def add_options(parser: argparse.ArgumentParser) -> None:
                         help="draft, standard, precise (default) or reference")
     parser.add_argument("--format", choices=("json", "csv"), default="json",
                         help="json (default): strict, all digits; csv: a table, the other results as # comments")
+    _add_out(parser)
+
+
+def add_state(parser: argparse.ArgumentParser) -> None:
+    """The option --state, as a dictionary."""
+    parser.add_argument("--state", type=state_of, default={}, metavar="QUERY",
+                        help="what follows ? in a link to the page (default: its first view)")
+
+
+def add_picture(parser: argparse.ArgumentParser, more: str = "") -> None:
+    """The options --state, --picture and --out; more : on several pictures."""
+    add_state(parser)
+    parser.add_argument("--picture", default="", metavar="NAME", help="the name of the picture, as in pictures=… of a "
+                        f"link that embeds (default: the first{more})")
+    _add_out(parser)
+
+
+def _add_out(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--out", type=Path, metavar="FILE", help="write to this file instead of standard output")
 
 
@@ -94,10 +114,7 @@ def write(options: argparse.Namespace, series: Mapping[str, Sequence[Any]], colu
         rows = (_row(cells) for cells in zip(*series.values(), strict=True))
         comments = (f"# {key}: {_json(value)}" for key, value in strict.items())
         text = "\n".join([*comments, ",".join(columns), *rows]) + "\n"
-    if options.out is not None:
-        write_file(options.out, text.encode())
-    else:
-        show(text.encode())
+    show(text.encode(), options.out)
 
 
 def _json(value: Any) -> str:
@@ -110,8 +127,11 @@ def _row(cells: Sequence[Any]) -> str:
     return ",".join("" if one is None else one if isinstance(one, str) else repr(one) for one in flat)
 
 
-def show(data: bytes) -> None:
-    """Write to standard output, in UTF-8 whatever the encoding of the terminal: names like ω1 need it."""
+def show(data: bytes, out: Path | None = None) -> None:
+    """Write to that file, or else to standard output, in UTF-8 whatever its encoding: names like ω1 need it."""
+    if out is not None:
+        write_file(out, data)
+        return
     try:
         sys.stdout.buffer.write(data)
         sys.stdout.flush()

@@ -5,15 +5,14 @@ from __future__ import annotations
 import argparse
 import re
 from pathlib import Path
-from urllib.parse import parse_qsl, urlencode
+from urllib.parse import urlencode
 
 from . import CommandError
 from .arguments import shown
-from .output import write_file
+from .output import add_state, write_file
 
-__all__ = ["add", "state_of"]
+__all__ = ["add"]
 
-_MAX_STATE = 2000
 _SIDE = range(200, 8001)
 
 
@@ -22,24 +21,12 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser = commands.add_parser("shot", help="a picture of the page, as PNG",
                                  description="Draw the page in a headless Chromium and save it as PNG.",
                                  epilog="Example: hess-explorer shot --state 'h=1.2&f=0.3' --size 1600x950 out.png")
-    parser.add_argument("--state", type=state_of, default={}, metavar="QUERY",
-                        help="what follows ? in a link to the page (default: its first view)")
+    add_state(parser)
     parser.add_argument("--size", type=_size, default=(1600, 950), metavar="WxH",
                         help=f"pixels, each side {_SIDE[0]} to {_SIDE[-1]} (default 1600x950)")
     parser.add_argument("--dark", action="store_true", help="in dark colours")
     parser.add_argument("out", type=Path, metavar="FILE", help="the PNG file to write")
     parser.set_defaults(run=_run)
-
-
-def state_of(text: str) -> dict[str, str]:
-    """What a query says, by key.  Raises `argparse.ArgumentTypeError`."""
-    if len(text) > _MAX_STATE:
-        raise argparse.ArgumentTypeError(f"the state has {len(text)} characters; at most {_MAX_STATE} are allowed")
-    query = text.removeprefix("?")
-    try:
-        return dict(parse_qsl(query, keep_blank_values=True, strict_parsing=bool(query)))
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{shown(text)} is not a state; write it like 'h=1.2&f=0.3'") from None
 
 
 def _size(text: str) -> tuple[int, int]:
