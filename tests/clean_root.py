@@ -1,0 +1,158 @@
+"""The image's steps in a clean root: `sudo python tests/clean_root.py`, where no engine is at hand to build it.
+
+Each line of the Dockerfile is carried out by `chroot` in a system that `debootstrap` has just made: other users'
+rights, missing libraries and a read-only root are as in a container.  What differs from the image: Python is that of the
+Debian release, and processes and network are those of this machine.  Printed are the steps with their seconds, what the
+health check says, and how the command ends.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from contextlib import contextmanager
+from pathlib import Path
+
+if __name__ == "__main__":
+    sys.path[:0] = [str(Path(__file__).parent)]
+
+from support.dockerfile import instructions
+
+PROJECT = Path(__file__).resolve().parents[1]
+PACKAGES = "python3,python3-pip,python3-venv,python-is-python3,ca-certificates"
+# How packages are reached from here: pip's settings, certificates, names of hosts.
+REACHED = ("/etc/pip.conf", "/etc/resolv.conf", "/etc/hosts",
+           *{value for name, value in os.environ.items() if name in ("PIP_CERT", "SSL_CERT_FILE")})
+
+
+class CleanRoot:
+    """What the instructions of the Dockerfile make in the folder `root`."""
+
+    def __init__(self, root: Path) -> None:
+        self.root, self.user, self.workdir = root, "root", "/"
+        self.set = {name: value for name, value in os.environ.items() if name.startswith(("PIP_", "SSL_CERT_FILE"))}
+        # Debian's Python is for Debian's packages, that of the image for ours.
+        self.set |= {"PIP_BREAK_SYSTEM_PACKAGES": "1", "LANG": "C.UTF-8",
+                     "PATH": "/usr/local/bin:/usr/bin:/bin:/usr/sbin"}
+        self.health: list[str] = []
+        self.command: list[str] = []
+
+    def inside(self, words: list[str]) -> list[str]:
+        """These words as the image's user would run them at this point."""
+        home = "/root" if self.user == "root" else f"/home/{self.user}"
+        settings = [f"{name}={value}" for name, value in {"HOME": home, **self.set}.items()]
+        return ["chroot", f"--userspec={self.user}", str(self.root), "env", "-i", *settings,
+                f"--chdir={self.workdir}", *words]
+
+    def run(self, words: list[str]) -> str:
+        """Run them; RuntimeError with all the output if they fail."""
+        done = subprocess.run(self.inside(words), text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              check=False)
+        if done.returncode:
+            raise RuntimeError(f"{words}\n{done.stdout}")
+        return done.stdout
+
+    def carry_out(self, instruction: str, rest: str) -> None:
+        """One instruction; one that is not known here raises ValueError."""
+        match instruction:
+            case "FROM" | "EXPOSE":
+                pass
+            case "COPY":
+                source, into = rest.rsplit(" ", 1)
+                self.copy(source.split(), into)
+            case "RUN":
+                self.run(["sh", "-c", rest])
+            case "USER":
+                self.user = rest
+            case "WORKDIR":
+                self.workdir = rest
+                (self.root / rest.lstrip("/")).mkdir(parents=True, exist_ok=True)
+            case "ENV":
+                name, value = rest.split("=", 1)
+                self.set[name] = value
+            case "HEALTHCHECK":
+                self.health = json.loads(rest.partition("CMD ")[2])
+            case "CMD":
+                self.command = json.loads(rest)
+            case _:
+                raise ValueError(f"{instruction}: not known here")
+
+    def copy(self, sources: list[str], into: str) -> None:
+        """COPY: files into a folder that ends with a slash, a folder as the one that is named."""
+        for source in sources:
+            target = self.root / into.lstrip("/")
+            if (PROJECT / source).is_dir():
+                shutil.copytree(PROJECT / source, target, ignore=shutil.ignore_patterns("__pycache__"))
+            else:
+                target.mkdir(parents=True, exist_ok=True)
+                shutil.copy2(PROJECT / source, target)
+
+
+@contextmanager
+def mounted(root: Path):
+    """The root read-only but for /tmp, with /proc, as compose.yaml asks for it."""
+    places = [["--bind", root, root], ["-t", "tmpfs", "tmpfs", root / "tmp"], ["-t", "proc", "proc", root / "proc"]]
+    made = []
+    try:
+        for words in places:
+            subprocess.run(["mount", *map(str, words)], check=True)
+            made.append(words[-1])
+        subprocess.run(["mount", "-o", "remount,ro,bind", str(root)], check=True)
+        yield
+    finally:
+        for place in reversed(made):
+            subprocess.run(["umount", "-l", str(place)], check=True)
+
+
+def serve(image: CleanRoot, seconds: float) -> None:
+    """The command in a read-only root: until its health check passes, and how it ends."""
+    begun = time.monotonic()
+    with mounted(image.root), subprocess.Popen(image.inside(image.command), stdout=subprocess.PIPE, text=True,
+                                               stderr=subprocess.STDOUT, start_new_session=True) as process:
+        while subprocess.run(image.inside(image.health), capture_output=True, check=False).returncode:
+            if process.poll() is not None or time.monotonic() - begun > seconds:
+                process.kill()
+                raise RuntimeError(f"it does not serve\n{process.stdout.read()}")
+            time.sleep(0.5)
+        user = Path(f"/proc/{process.pid}").stat().st_uid
+        print(f"healthy after {time.monotonic() - begun:.1f} s, user {user}, root read-only", flush=True)
+        begun = time.monotonic()
+        process.send_signal(signal.SIGTERM)
+        said = process.communicate(timeout=30)[0]
+        print(f"SIGTERM: code {process.returncode} after {time.monotonic() - begun:.1f} s; it said\n{said}")
+
+
+def main() -> None:
+    """Make the root, carry out each line, serve."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--suite", default="trixie", help="the Debian release; its Python must be one that is allowed")
+    parser.add_argument("--mirror", default="", help="where debootstrap finds it, if not at its own default")
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        root = Path(folder) / "root"
+        begun = time.monotonic()
+        subprocess.run(["debootstrap", "--variant=minbase", f"--include={PACKAGES}", options.suite, str(root),
+                        *filter(None, [options.mirror])], check=True, stdout=subprocess.DEVNULL)
+        print(f"debootstrap {options.suite}: {time.monotonic() - begun:.0f} s", flush=True)
+        for file in REACHED:
+            if Path(file).is_file():
+                (root / file.lstrip("/")).parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy2(file, root / file.lstrip("/"))
+        image = CleanRoot(root)
+        print(image.run(["python", "--version"]).strip(), flush=True)
+        for instruction, rest in instructions((PROJECT / "Dockerfile").read_text("utf-8")):
+            begun = time.monotonic()
+            image.carry_out(instruction, rest)
+            print(f"{time.monotonic() - begun:6.1f} s  {instruction} {rest[:90]}", flush=True)
+        serve(image, 300.0)
+
+
+if __name__ == "__main__":
+    main()
