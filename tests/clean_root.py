@@ -1,7 +1,7 @@
 """The image's steps in a clean root: `sudo python tests/clean_root.py`, where no engine is at hand to build it.
 
-Each line of the Dockerfile is carried out by `chroot` in a system that `debootstrap` has just made: the rights of users,
-missing libraries and a read-only root are as in a container.  What differs from the image: Python is that of the
+Each line of the Dockerfile is carried out by `chroot` in a system that `debootstrap` has just made: the rights of
+users, missing libraries and a read-only root are as in a container.  What differs from the image: Python is that of the
 Debian release, and processes and network are those of this machine.  Printed are the steps with their seconds, what the
 health check says, and how the command ends.
 """
