@@ -26,7 +26,7 @@ if __name__ == "__main__":
 from support.dockerfile import instructions
 
 PROJECT = Path(__file__).resolve().parents[1]
-PACKAGES = "python3,python3-pip,python3-venv,python-is-python3,ca-certificates"
+PACKAGES = "python3,python3-venv,ca-certificates"
 # How packages are reached from here: pip's settings, certificates, names of hosts.
 REACHED = ("/etc/pip.conf", "/etc/resolv.conf", "/etc/hosts",
            *{value for name, value in os.environ.items() if name in ("PIP_CERT", "SSL_CERT_FILE")})
@@ -38,9 +38,8 @@ class CleanRoot:
     def __init__(self, root: Path) -> None:
         self.root, self.user, self.workdir = root, "root", "/"
         self.set = {name: value for name, value in os.environ.items() if name.startswith(("PIP_", "SSL_CERT_FILE"))}
-        # Debian's Python is for Debian's packages, that of the image for ours.
-        self.set |= {"PIP_BREAK_SYSTEM_PACKAGES": "1", "LANG": "C.UTF-8",
-                     "PATH": "/usr/local/bin:/usr/bin:/bin:/usr/sbin"}
+        # Debian's Python is for Debian's packages; that of the image, in which these are installed, has none of them.
+        self.set |= {"LANG": "C.UTF-8", "PATH": "/opt/python/bin:/usr/local/bin:/usr/bin:/bin:/usr/sbin"}
         self.health: list[str] = []
         self.command: list[str] = []
 
@@ -146,6 +145,7 @@ def main() -> None:
                 (root / file.lstrip("/")).parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy2(file, root / file.lstrip("/"))
         image = CleanRoot(root)
+        image.run(["python3", "-m", "venv", "/opt/python"])
         print(image.run(["python", "--version"]).strip(), flush=True)
         for instruction, rest in instructions((PROJECT / "Dockerfile").read_text("utf-8")):
             begun = time.monotonic()
