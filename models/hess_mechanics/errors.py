@@ -29,3 +29,11 @@ class NoField(ModelError):
 
 class WorkLimit(ModelError):
     """A request that takes more steps than one request may."""
+
+
+class NoReturn(ModelError):
+    """A motion that does not come back to its section in the time it is given."""
+
+
+class NotConverged(ModelError):
+    """An iteration, like Newton's, that finds nothing from where it was started."""

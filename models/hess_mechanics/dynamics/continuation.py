@@ -1,0 +1,343 @@
+"""Periodic orbits continued in a parameter by pseudo-arclength, through folds, with the bifurcations on the way.
+
+A branch is a curve of z = (x_0, …, x_(m−1), λ) with F = P_λ(x_i) − x_(i+1) = 0.  From a point of it one goes ahead
+along the tangent t, and Newton's method comes back to the curve in the plane across t (Keller 1977).  Between two
+points of a branch these change sign, and the place where they do is found:
+
+    fold                 t_λ, the branch turns back;
+    branch point         det (F_x F_λ; tᵀ), another branch crosses; a pitchfork where that breaks a symmetry;
+    flip                 det (M + 1), a multiplier −1: an orbit of twice the period is born;
+    Neimark–Sacker       det M − 1 with a pair of complex multipliers: an invariant curve is born.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from hess_mechanics.dynamics.periodic import Map, PeriodicOrbit, Shot, apart, kind_of, multipliers_of, shoot
+from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged, WorkLimit
+from hess_mechanics.numerics.labelled import Labels, Result
+from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.results import Array, Complex, frozen
+
+__all__ = ["MAX_POINTS", "Bifurcation", "Branch", "Family", "Symmetric", "continued"]
+
+MAX_POINTS = 2000
+_FIRST, _LONGEST, _SHORTEST = 0.01, 0.1, 1e-7
+"""Steps along the branch, in units of the coordinates and of the width of the parameter's range."""
+_TURN = 0.3
+"""Radians by which the tangent may turn in one step."""
+_CONSERVATIVE = 1e-6
+"""Where |det M − 1| is below this at both ends of a step, the map keeps an area, and no curve is born."""
+
+Family = Callable[[float], Map]
+"""λ → the map.  Raises a `ModelError` where there is none."""
+
+Symmetric = Callable[[Map, Array], Sequence[str]]
+"""(map, places (m, d)) → the names of the symmetries under which an orbit is its own image."""
+
+
+@dataclass(frozen=True)
+class Bifurcation:
+    """A point of a branch where orbits are born, merge or change their type.
+
+    kind : "fold", "flip", "Neimark–Sacker", "pitchfork", "branch point"; value : of the parameter, with its error;
+    places : (m, d); multipliers : (d,); after : the number of the point of the branch before it.
+    """
+
+    kind: str
+    value: float
+    error: float
+    places: Array
+    multipliers: Complex
+    after: int
+
+
+@dataclass(frozen=True)
+class Branch(Result):
+    """A branch of periodic orbits over a parameter.
+
+    values : (n,); places : (n, m, d); multipliers : (n, d); kinds : n words, as of a `PeriodicOrbit`; errors : (n,),
+    of the places; ended : why the branch ends.
+    """
+
+    parameter: str
+    names: tuple[str, ...]
+    values: Array
+    places: Array
+    multipliers: Complex
+    kinds: tuple[str, ...]
+    errors: Array
+    bifurcations: tuple[Bifurcation, ...]
+    ended: str
+    level: str
+
+    @property
+    def period(self) -> int:
+        """Of all its orbits."""
+        return int(self.places.shape[1])
+
+    @property
+    def error_estimate(self) -> float:
+        """The largest error of a place."""
+        return float(self.errors.max())
+
+    def labels(self) -> Labels:
+        """The first place, the multipliers and the type over the points of the branch."""
+        along = ("point",)
+        parts = {f"{part}{i + 1}": (along, getattr(self.multipliers[:, i], part).copy())
+                 for i in range(self.multipliers.shape[1]) for part in ("real", "imag")}
+        return Labels({self.parameter: (along, self.values)}, {
+            **{name: (along, self.places[:, 0, i]) for i, name in enumerate(self.names)},
+            **parts, "kind": (along, np.array(self.kinds)), "error": (along, self.errors),
+        }, {name: "1" if name == "L/G" else "rad" for name in self.names}, {
+            "period": self.period, "level": self.level, "error_estimate": self.error_estimate, "ended": self.ended,
+            "bifurcations": "; ".join(f"{one.kind} at {one.value:.12g} ± {one.error:.1g}"
+                                      for one in self.bifurcations)})
+
+
+@dataclass(frozen=True)
+class _Point:
+    """A point of the branch: z, the map there and what Newton's method knows of it."""
+
+    z: Array
+    shot: Shot
+    by_parameter: Array
+    iterations: int
+
+    @cached_property
+    def bordered(self) -> Array:
+        """(F_x F_λ), (m d, m d + 1)."""
+        return np.hstack([self.shot.jacobian, self.by_parameter[:, None]])
+
+    def tangent(self, like: Array) -> Array:
+        """The direction of the branch (m d + 1,), forwards as `like` is."""
+        t = np.linalg.svd(self.bordered)[2][-1]
+        return np.asarray(t if t @ like >= 0.0 else -t)
+
+
+@dataclass(frozen=True)
+class _Track:
+    """What it takes to stay on a branch: z holds the places over √m, and λ over the width of its range."""
+
+    family: Family
+    width: float
+    m: int
+    d: int
+    maps: dict[float, Map] = field(default_factory=dict)
+
+    def at(self, value: float) -> Map:
+        if len(self.maps) > 8:
+            self.maps.clear()
+        if value not in self.maps:
+            self.maps[value] = self.family(value)
+        return self.maps[value]
+
+    def split(self, z: Array) -> tuple[Array, float]:
+        return z[:-1].reshape(self.m, self.d) * math.sqrt(self.m), float(z[-1] * self.width)
+
+    def joined(self, places: Array, value: float) -> Array:
+        return np.append(places.ravel() / math.sqrt(self.m), value / self.width)
+
+    def point(self, z: Array, iterations: int = 0, better: bool = False) -> _Point:
+        """F and its derivatives at z.  Raises as the family."""
+        places, value = self.split(z)
+        map_ = self.at(value).tightened() if better else self.at(value)
+        shot = shoot(map_, places)
+        # Only Newton's steps and the tangent use this: its own error moves no orbit.
+        h = 1e-5 * self.width
+        sides = [np.array([self.at(value + sign * h).image(place) for place in places]) for sign in (1.0, -1.0)]
+        by_value = apart(map_.turns, *sides) / (2.0 * h)
+        root = math.sqrt(self.m)
+        # The equations are divided by √m as the places are.
+        return _Point(z, Shot(places, shot.left, shot.derivatives), by_value.ravel() * self.width / root, iterations)
+
+    def _step(self, point: _Point, across: Array, left: float) -> Array:
+        matrix = np.vstack([point.bordered, across])
+        return np.linalg.solve(matrix, -np.append(point.shot.left.ravel() / math.sqrt(self.m), left))
+
+    def corrected(self, guess: Array, across: Array) -> _Point:
+        """The point of the branch in the plane through `guess` across a direction.  Raises `NotConverged`."""
+        z, before = guess, math.inf
+        for iteration in range(1, 13):
+            go_on()
+            try:
+                point = self.point(z, iteration)
+                step = self._step(point, across, float(across @ (z - guess)))
+            except (ModelError, np.linalg.LinAlgError) as error:
+                raise NotConverged(str(error)) from error
+            length = float(np.abs(step).max())
+            promise = self.at(self.split(z)[1]).promise
+            if length <= 1e-14 or (length <= promise and length > 0.25 * before):
+                return point
+            if length > 4.0 * before and length > promise:
+                break
+            z, before = z + step, length
+        raise NotConverged("Newton's method does not come back to the branch.")
+
+    def error(self, point: _Point, across: Array) -> float:
+        """Of the places and λ over its width, as a more accurate map has it."""
+        better = self.point(point.z, better=True)
+        safety = 4.0 if self.at(self.split(point.z)[1]).is_floor else 1.25
+        return safety * math.sqrt(self.m) * float(np.abs(self._step(better, across, 0.0)).max()) + 1e-15
+
+
+def _signs(point: _Point, t: Array) -> dict[str, float]:
+    """What changes sign at a bifurcation, by its kind."""
+    values, trace, determinant = multipliers_of(point.shot.derivatives)
+    found = {"fold": float(t[-1]), "branch point": float(np.linalg.det(np.vstack([point.bordered, t])))}
+    if values.size == 1:
+        return {**found, "flip": 1.0 + trace}
+    return {**found, "flip": 1.0 + trace + determinant, "Neimark–Sacker": determinant - 1.0}
+
+
+def _happens(kind: str, before: _Point, after: _Point, values: tuple[float, float]) -> bool:
+    if not values[0] * values[1] < 0.0:
+        return False
+    if kind == "Neimark–Sacker":
+        return max(map(abs, values)) > _CONSERVATIVE and all(
+            bool(multipliers_of(one.shot.derivatives)[0][0].imag) for one in (before, after))
+    return True
+
+
+def continued(family: Family, orbit: PeriodicOrbit, parameter: str, start: float, end: float,
+              points: int = 200, symmetries: Symmetric | None = None) -> Branch:
+    """The branch of an orbit of the map at λ = `start`, towards λ = `end`.
+
+    It ends where it leaves the range between the two, or after so many points, or where the map ends.
+    Raises `InvalidParameter`, `WorkLimit`, `NotConverged`.
+    """
+    if not (math.isfinite(start) and math.isfinite(end) and start != end):
+        raise InvalidParameter(f"{parameter} runs from {start:g} to {end:g}: give two different finite numbers.")
+    if not 2 <= points <= MAX_POINTS:
+        raise WorkLimit(f"A branch has from 2 to {MAX_POINTS} points: choose a number between them.")
+    m, d = orbit.places.shape
+    track = _Track(family, abs(end - start), m, d)
+    along = np.zeros(m * d + 1)
+    along[-1] = math.copysign(1.0, end - start)
+    z = track.joined(orbit.places, start)
+    try:
+        point = track.corrected(z, along)
+    except NotConverged as error:
+        raise NotConverged(f"The branch cannot be begun at {parameter} = {start:g}: the orbit is at a bifurcation, or "
+                           "one of a family at this parameter. Begin a little aside.") from error
+    t = point.tangent(along)
+    found = [point]
+    errors = [track.error(point, t)]
+    bifurcations: list[Bifurcation] = []
+    low, high = sorted((start / track.width, end / track.width))
+    step, ended = _FIRST, f"After {points} points."
+    while len(found) < points:
+        last = found[-1]
+        room = _to_edge(last.z[-1], t[-1], low, high)
+        ahead = min(step, room)
+        try:
+            # The last point lies at the end of the range itself.
+            following = track.corrected(last.z + ahead * t, along if room <= step else t)
+            turned = following.tangent(t)
+            if math.acos(min(1.0, float(turned @ t))) > _TURN:
+                raise NotConverged("The branch turns too much.")
+        except NotConverged as error:
+            step = 0.5 * min(step, ahead)
+            if step < _SHORTEST:
+                ended = f"At {parameter} = {track.split(last.z)[1]:.9g} it cannot be followed further: {error}"
+                break
+            continue
+        before, after = _signs(last, t), _signs(following, turned)
+        for kind in before:
+            if _happens(kind, last, following, (before[kind], after[kind])):
+                bifurcations.append(_located(track, kind, last, t, ahead, len(found) - 1, symmetries))
+        found.append(following)
+        errors.append(track.error(following, turned))
+        t = turned
+        step = min(_LONGEST, step * (1.6 if following.iterations <= 4 else 1.0 if following.iterations <= 6 else 0.6))
+        if _to_edge(following.z[-1], t[-1], low, high) <= 1e-12:
+            ended = f"At {parameter} = {track.split(following.z)[1]:.9g}, the end of the range."
+            break
+    return _branch(track, parameter, orbit, found, errors, bifurcations, ended)
+
+
+def _to_edge(z: float, rate: float, low: float, high: float) -> float:
+    """How far it is along the tangent to the end of the range; 0 beyond it, ∞ along a line of the same parameter."""
+    if abs(rate) < 1e-12:
+        return math.inf
+    return max(0.0, (high - z) / rate if rate > 0.0 else (low - z) / rate)
+
+
+def _told_apart(found: Sequence[Bifurcation]) -> list[Bifurcation]:
+    """Without the fold where two branches cross at one: seen from the branch that is born in a pitchfork, it turns."""
+    crossings = [one for one in found if one.kind in ("branch point", "pitchfork")]
+    return [one for one in found if one.kind != "fold" or not any(
+        abs(one.value - other.value) <= one.error + other.error for other in crossings)]
+
+
+def _located(track: _Track, kind: str, last: _Point, t: Array, ahead: float, after: int, symmetries: Symmetric | None
+             ) -> Bifurcation:
+    """Where on the branch a sign changes: regula falsi (Illinois) in the distance along the tangent."""
+
+    def at(s: float) -> tuple[_Point, float]:
+        point = track.corrected(last.z + s * t, t)
+        return point, _signs(point, point.tangent(t))[kind]
+
+    low, high = 0.0, ahead
+    point, f_low = last, _signs(last, t)[kind]
+    values = [float(last.z[-1]), float(last.z[-1] + ahead * t[-1])]
+    f = f_high = -f_low
+    side = 0
+    try:
+        point, f_high = at(high)
+        if f_low * f_high > 0.0:
+            # The last point of a branch was corrected in another plane.
+            high *= 1.5
+            point, f_high = at(high)
+        for _ in range(60):
+            s = high - f_high * (high - low) / (f_high - f_low)
+            point, f = at(s)
+            values.append(float(point.z[-1]))
+            if f == 0.0 or high - low <= 1e-12 * ahead or abs(values[-1] - values[-2]) <= 1e-13:
+                break
+            if (f > 0.0) == (f_high > 0.0):
+                high, f_high = s, f
+                f_low, side = (0.5 * f_low if side > 0 else f_low), 1
+            else:
+                low, f_low = s, f
+                f_high, side = (0.5 * f_high if side < 0 else f_high), -1
+        # A better map's own zero lies where its sign function, here off by Δf, is brought back along the branch.
+        across = point.tangent(t)
+        better = track.point(point.z + track._step(track.point(point.z, better=True), t, 0.0), better=True)
+        along = abs((_signs(better, better.tangent(t))[kind] - f) * (high - low) / (f_high - f_low))
+        moved = abs(better.z[-1] - point.z[-1]) + along * abs(across[-1]) + 0.5 * along * along
+        off = 1.25 * float(moved) + abs(values[-1] - values[-2])
+    except (NotConverged, ModelError, np.linalg.LinAlgError):
+        # Where branches cross, the equations are singular: what is known is how far the search had come.
+        off = high - low
+    places, value = track.split(point.z)
+    name = kind
+    if kind == "branch point" and symmetries is not None:
+        name = _pitchfork(track.at(value), places, point, symmetries)
+    return Bifurcation(name, value, off * track.width + 4e-16 * max(1.0, abs(value)), frozen(places.copy()),
+                       frozen(multipliers_of(point.shot.derivatives)[0]), after)
+
+
+def _pitchfork(map_: Map, places: Array, point: _Point, symmetries: Symmetric) -> str:
+    """"pitchfork" where the orbit is symmetric and those of the other branch are not."""
+    own = set(symmetries(map_, places))
+    if not own:
+        return "branch point"
+    away = np.linalg.svd(point.shot.jacobian)[2][-1].reshape(places.shape)
+    aside = set(symmetries(map_, places + 1e-3 * away / np.abs(away).max()))
+    return "pitchfork" if own - aside else "branch point"
+
+
+def _branch(track: _Track, parameter: str, orbit: PeriodicOrbit, found: list[_Point], errors: list[float],
+            bifurcations: list[Bifurcation], ended: str) -> Branch:
+    places, values = zip(*(track.split(one.z) for one in found), strict=True)
+    multipliers = np.array([multipliers_of(one.shot.derivatives)[0] for one in found])
+    kinds = tuple(kind_of(one, max(1e-9, 10.0 * error)) for one, error in zip(multipliers, errors, strict=True))
+    return Branch(parameter, orbit.names, frozen(np.array(values)), frozen(np.array(places)), frozen(multipliers),
+                  kinds, frozen(np.array(errors)), tuple(_told_apart(bifurcations)), ended, orbit.level)

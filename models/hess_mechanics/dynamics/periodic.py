@@ -1,0 +1,363 @@
+"""Periodic orbits of maps of a line or a plane, by Newton's method; their multipliers, types and errors.
+
+An orbit of period m is found as all its m places at once, x_(i+1) = P(x_i) (multiple shooting): what an unstable
+orbit amplifies from one place to the next is never multiplied up.  With J the Jacobian of these equations, the error
+is J⁻¹ times what a more accurate map leaves of them.  Multipliers are the eigenvalues of M = DP(x_m−1) … DP(x_0).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged
+from hess_mechanics.numerics.accuracy import Status
+from hess_mechanics.numerics.labelled import Labels, Result
+from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.results import Array, Complex, frozen
+
+__all__ = [
+    "MAX_PERIOD", "Map", "PeriodicOrbit", "Shot", "apart", "find_periodic", "kind_of", "multipliers_of", "shoot",
+]
+
+MAX_PERIOD = 64
+_ITERATIONS = 40
+_TRIED = 6
+"""Of the periods at which an orbit comes back closest, how many Newton's method tries."""
+_FOLLOWED = 8
+"""Periods for which an orbit is followed in search of where it comes back closest."""
+_FAR = 1e6
+_ROUNDING = 2.3e-16
+_FAMILY = 1e-9
+"""Singular values of J below this, beside the largest, are directions in which periodic orbits form a family."""
+
+
+class Map(Protocol):
+    """A map of a line (d = 1) or plane (d = 2) to itself.  What it has no image for raises a `ModelError`."""
+
+    @property
+    def turns(self) -> tuple[float, ...]:
+        """The period of each coordinate, ∞ where it is no angle."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of the coordinates."""
+
+    @property
+    def promise(self) -> float:
+        """The error that a result is to have at most."""
+
+    @property
+    def level(self) -> str:
+        """The name of its accuracy level."""
+
+    @property
+    def is_floor(self) -> bool:
+        """Whether it cannot be computed more exactly."""
+
+    def image(self, place: Array) -> Array:
+        """P(x) (d,)."""
+
+    def with_derivative(self, place: Array) -> tuple[Array, Array]:
+        """P(x) (d,) and DP(x) (d, d)."""
+
+    def inverse(self) -> Map:
+        """P⁻¹."""
+
+    def tightened(self) -> Map:
+        """The same map, computed more exactly."""
+
+
+def apart(turns: Sequence[float], a: Array, b: Array) -> Array:
+    """a − b (..., d), angles by the shorter way round."""
+    difference: Array = np.asarray(a, float) - np.asarray(b, float)
+    for i, turn in enumerate(turns):
+        if math.isfinite(turn):
+            difference[..., i] -= turn * np.round(difference[..., i] / turn)
+    return difference
+
+
+@dataclass(frozen=True)
+class Shot:
+    """Places (m, d), what is left of P(x_i) − x_(i+1), (m, d), and the derivatives DP(x_i), (m, d, d)."""
+
+    places: Array
+    left: Array
+    derivatives: Array
+
+    @property
+    def jacobian(self) -> Array:
+        """J (m d, m d), of what is left by the places."""
+        m, d = self.places.shape
+        J = np.zeros((m, d, m, d))
+        for i in range(m):
+            J[i, :, i, :] += self.derivatives[i]
+            J[i, :, (i + 1) % m, :] -= np.eye(d)
+        return np.asarray(J.reshape(m * d, m * d))
+
+    @property
+    def step(self) -> Array:
+        """Newton's step −J⁻¹ left (m, d); where J is singular, as in a family of orbits, the shortest one."""
+        solution = np.linalg.lstsq(self.jacobian, -self.left.ravel(), rcond=_FAMILY)[0]
+        return np.asarray(solution.reshape(self.places.shape))
+
+    @property
+    def size(self) -> float:
+        """The largest component of what is left."""
+        return float(np.abs(self.left).max())
+
+
+def shoot(map_: Map, places: Array) -> Shot:
+    """The map at all places (m, d).  Raises as the map."""
+    both = [map_.with_derivative(place) for place in places]
+    images = np.array([image for image, _ in both])
+    return Shot(places, apart(map_.turns, images, np.roll(places, -1, axis=0)), np.array([one for _, one in both]))
+
+
+def multipliers_of(derivatives: Array) -> tuple[Complex, float, float]:
+    """The eigenvalues (d,) of the product M of the derivatives (m, d, d), the largest first, trace and determinant.
+
+    The smaller one is from the product of the determinants: in M itself it is lost where the larger is large.
+    """
+    M = np.eye(derivatives.shape[1])
+    for one in derivatives:
+        M = one @ M
+    trace, determinant = float(np.trace(M)), float(np.prod(np.linalg.det(derivatives)))
+    return _eigenvalues(M.shape[0], trace, determinant), trace, determinant
+
+
+def _eigenvalues(d: int, trace: float, determinant: float) -> Complex:
+    if d == 1:
+        return np.array([trace], complex)
+    half = 0.5 * trace
+    discriminant = half * half - determinant
+    if discriminant < 0.0:
+        root = math.sqrt(-discriminant)
+        return np.array([complex(half, root), complex(half, -root)])
+    large = half + math.copysign(math.sqrt(discriminant), half)
+    return np.array([large, determinant / large if large else 0.0], complex)
+
+
+def _multiplier_error(derivatives: Array, better: Array) -> float:
+    """How far the multipliers may be off, by the trace and determinant of a better run, and by round-off."""
+    values, trace, determinant = multipliers_of(derivatives)
+    _, other_trace, other_determinant = multipliers_of(better)
+    product = float(np.prod(np.linalg.norm(derivatives, axis=(1, 2))))
+    rounding = 8.0 * _ROUNDING * len(derivatives)
+    off_trace = 1.25 * abs(trace - other_trace) + rounding * product
+    off_determinant = 1.25 * abs(determinant - other_determinant) + rounding * abs(determinant)
+    worst = 0.0
+    for a in (-off_trace, off_trace):
+        for b in (-off_determinant, off_determinant):
+            worst = max(worst, float(np.abs(_eigenvalues(values.size, trace + a, determinant + b) - values).max()))
+    return worst
+
+
+def kind_of(multipliers: Complex, error: float) -> str:
+    """The type of an orbit with these multipliers, of which nothing closer than the error to a border is told apart."""
+    sizes = np.abs(multipliers)
+    if np.any(np.abs(multipliers - 1.0) <= error):
+        return "parabolic"
+    if np.any(np.abs(multipliers + 1.0) <= error):
+        return "parabolic with reflection"
+    if multipliers[0].imag:
+        if abs(sizes[0] - 1.0) <= error:
+            return "elliptic"
+        return "stable focus" if sizes[0] < 1.0 else "unstable focus"
+    if np.all(sizes < 1.0):
+        return "stable node"
+    if np.all(sizes > 1.0):
+        return "unstable node"
+    return "saddle" if multipliers[0].real > 0.0 else "saddle with reflection"
+
+
+@dataclass(frozen=True)
+class PeriodicOrbit(Result):
+    """A periodic orbit of a map.
+
+    places : (m, d), one after the other, m the least period; multipliers : (d,), the largest first;
+    kind : "saddle", "saddle with reflection" (a negative unstable multiplier), "stable" or "unstable node" or "focus",
+        "elliptic", "parabolic" (a multiplier 1: a fold, or one of a family), "parabolic with reflection" (−1).
+    error_estimate, multiplier_error : of the places and of the multipliers; condition : of Newton's equations;
+    iterations : of Newton's method; symmetric : under which symmetries of the map the orbit is its own image.
+    """
+
+    names: tuple[str, ...]
+    places: Array
+    multipliers: Complex
+    kind: str
+    error_estimate: float
+    multiplier_error: float
+    condition: float
+    iterations: int
+    level: str
+    status: Status
+    symmetric: tuple[str, ...] = ()
+
+    @property
+    def period(self) -> int:
+        """After how many returns it closes."""
+        return len(self.places)
+
+    def labels(self) -> Labels:
+        """The places, one after the other."""
+        multipliers = {f"multiplier {i + 1}": _shown(complex(one)) for i, one in enumerate(self.multipliers)}
+        return Labels({"return": (("return",), np.arange(self.period))},
+                      {name: (("return",), self.places[:, i]) for i, name in enumerate(self.names)},
+                      {name: "1" if name == "L/G" else "rad" for name in self.names}, {
+            "period": self.period, "kind": self.kind, **multipliers, "multiplier_error": self.multiplier_error,
+            "error_estimate": self.error_estimate, "condition": self.condition, "iterations": self.iterations,
+            "symmetric": ", ".join(self.symmetric), "level": self.level, "status": str(self.status)})
+
+
+def _shown(value: complex) -> float | str:
+    return value.real if value.imag == 0.0 else f"{value.real:.17g}{value.imag:+.17g}i"
+
+
+def _converged(map_: Map, places: Array) -> tuple[Shot, int]:
+    """Newton's method from places (m, d), with shorter steps where a whole one leads away.  Raises `NotConverged`."""
+    try:
+        shot = shoot(map_, places)
+    except ModelError as error:
+        raise NotConverged(f"Newton's method cannot start here: {error}") from error
+    before = math.inf
+    for iteration in range(1, _ITERATIONS + 1):
+        go_on()
+        step = shot.step
+        length = float(np.abs(step).max())
+        # Close by, each step squares the one before, until the map's own round-off takes over.
+        if length <= 1e-15 or (length <= map_.promise and length > 0.25 * before):
+            return shot, iteration
+        before = length
+        share = min(1.0, 0.5 / length)
+        while True:
+            try:
+                tried = shoot(map_, shot.places + share * step)
+                if tried.size < shot.size or length <= map_.promise:
+                    break
+            except ModelError:
+                pass
+            share *= 0.5
+            if share < 1e-4:
+                raise _not_converged(len(places))
+        shot = tried
+        before = length if share == 1.0 else math.inf
+    raise _not_converged(len(places))
+
+
+def _not_converged(m: int) -> NotConverged:
+    return NotConverged(f"Newton's method finds no orbit of period {m} from here: start closer to one, where an orbit "
+                        "comes back close to itself, or choose another period.")
+
+
+def find_periodic(map_: Map, start: Sequence[float] | Array, period: int | None = None, most: int = 12
+                  ) -> PeriodicOrbit:
+    """The periodic orbit that Newton's method finds from a place (d,), or from the places (m, d) of an orbit.
+
+    period : the least one; None: of the periods up to `most` those are tried at which
+    the orbit from the place comes back closest.
+    Raises `InvalidParameter`, `NotConverged`.
+    """
+    places = np.array(start, float, ndmin=2)
+    if places.ndim != 2 or places.shape[1] != len(map_.turns) or not np.all(np.isfinite(places)):
+        raise InvalidParameter(f"A place is {len(map_.turns)} finite numbers here: {', '.join(map_.names)}.")
+    if len(places) > 1:
+        return _measured(map_, *_converged(map_, places))
+    for name, value in (("period", period), ("most", most)):
+        if value is not None and not 1 <= value <= MAX_PERIOD:
+            raise InvalidParameter(f"{name} = {value} is no period from 1 to {MAX_PERIOD}: choose one of these.")
+    if period is not None:
+        return _of_period(map_, places[0], period)
+    orbit = _orbit_from(map_, places[0], most)
+    for back in np.argsort(_closeness(map_, orbit[1:], orbit[0]), kind="stable")[:_TRIED]:
+        try:
+            return _measured(map_, *_converged(map_, orbit[: back + 1]))
+        except NotConverged:
+            continue
+    raise NotConverged(f"Newton's method finds no periodic orbit up to period {most} from here: start closer to one, "
+                       "or give its period.")
+
+
+def _of_period(map_: Map, place: Array, m: int) -> PeriodicOrbit:
+    """The orbit whose least period is m, from the place or from where its orbit later comes back closest."""
+    orbit = _orbit_from(map_, place, _FOLLOWED * m + m)
+    if len(orbit) < m:
+        raise NotConverged(f"From here a motion returns {len(orbit) - 1} times only: start elsewhere for an orbit of "
+                           f"period {m}.")
+    later = np.argsort(_closeness(map_, orbit[m:], orbit[:-m]), kind="stable") if len(orbit) > m else np.empty(0, int)
+    others: set[int] = set()
+    for first in (0, *later[: _TRIED]):
+        try:
+            found = _measured(map_, *_converged(map_, orbit[first : first + m]))
+        except NotConverged:
+            continue
+        if found.period == m:
+            return found
+        others.add(found.period)
+    if others:
+        raise NotConverged(f"From here Newton's method comes to orbits of period {', '.join(map(str, sorted(others)))} "
+                           f"and to none of period {m}: start closer to one, or ask for such a period.")
+    raise _not_converged(m)
+
+
+def _closeness(map_: Map, a: Array, b: Array) -> Array:
+    return np.asarray(np.abs(apart(map_.turns, a, b)).max(axis=1))
+
+
+def _orbit_from(map_: Map, place: Array, count: int) -> Array:
+    """The place and its images, fewer where it does not return so often.  Raises `NotConverged` where it never does."""
+    orbit = [place]
+    try:
+        for _ in range(count):
+            go_on()
+            orbit.append(map_.image(orbit[-1]))
+            if not np.all(np.isfinite(orbit[-1])) or np.abs(orbit[-1]).max() > _FAR:
+                return np.array(orbit[:-1])
+    except ModelError as error:
+        if len(orbit) == 1:
+            raise NotConverged(f"From here there is no orbit to start from: {error}") from error
+    return np.array(orbit)
+
+
+def _least_period(map_: Map, places: Array, error: float) -> int:
+    """The least divisor of m after which the places (m, d) repeat."""
+    m = len(places)
+    near = max(1e3 * error, 1e-7)
+    return next(k for k in range(1, m + 1)
+                if m % k == 0 and np.abs(apart(map_.turns, places, np.roll(places, -k, axis=0))).max() <= near)
+
+
+def _measured(map_: Map, shot: Shot, iterations: int) -> PeriodicOrbit:
+    """The orbit, its error measured against a more accurate map, which takes its place where a promise is broken."""
+    current = map_
+    shot = shoot(current, shot.places[: _least_period(current, shot.places, map_.promise)])
+    while True:
+        better = current.tightened()
+        # Newton's equations as the better map has them: what they leave here is what this map did not see.
+        there = shoot(better, shot.places)
+        step = there.step
+        values = np.linalg.svd(there.jacobian, compute_uv=False)
+        kept = values[values > _FAMILY * values[0]]
+        condition = float(kept[0] / kept[-1]) if kept.size else 1.0
+        safety = 4.0 if current.is_floor else 1.25
+        size = max(1.0, float(np.abs(shot.places).max()))
+        # Relative to the smallest singular value, not the condition: 1/σ is what one unit of residual becomes.
+        error = safety * float(np.abs(step).max()) + 4.0 * _ROUNDING * size / float(kept[-1] if kept.size else 1.0)
+        if error <= map_.promise or current.is_floor:
+            break
+        current, shot = better, shoot(better, shot.places + step)
+    moved = shoot(better, shot.places + step)
+    off = safety / 1.25 * _multiplier_error(shot.derivatives, moved.derivatives)
+    multipliers = multipliers_of(shot.derivatives)[0]
+    places = shot.places.copy()
+    for i, turn in enumerate(map_.turns):
+        if math.isfinite(turn):
+            places[:, i] -= turn * np.ceil(places[:, i] / turn - 0.5)
+    status = (Status.OK if error <= map_.promise else
+              Status.FLOOR if map_.is_floor else Status.PROMISE_NOT_MET)
+    return PeriodicOrbit(map_.names, frozen(places), frozen(multipliers), kind_of(multipliers, off), error, off,
+                         condition, iterations, map_.level, status)

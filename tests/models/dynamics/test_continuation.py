@@ -1,0 +1,101 @@
+"""Branches of periodic orbits of known maps: folds, flips, pitchforks and invariant curves where they have to be."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from hess_mechanics.dynamics.continuation import continued
+from hess_mechanics.dynamics.periodic import find_periodic
+from hess_mechanics.errors import InvalidParameter, NotConverged, WorkLimit
+from support.maps import arnold, delayed_logistic, henon, pitchfork
+
+B = 0.3
+
+
+def branch(family, start, place, end, period=1, **options):
+    return continued(family, find_periodic(family(start), place, period), "λ", start, end, **options)
+
+
+def the(found, kind):
+    (one,) = [one for one in found.bifurcations if one.kind == kind]
+    return one
+
+
+def test_a_branch_goes_through_a_fold_and_comes_back():
+    # Fixed points φ = arcsin(ω/k) and π − arcsin(ω/k), which merge at ω = k = 0.8.
+    found = branch(arnold, 0.1, (0.3,), 1.0)
+    fold = the(found, "fold")
+    assert abs(fold.value - 0.8) <= fold.error < 1e-12
+    assert abs(fold.places[0, 0] - math.pi / 2) < 1e-6
+    assert np.abs(np.sin(found.places[:, 0, 0]) - found.values / 0.8).max() < 1e-13
+    assert found.values[-1] == pytest.approx(0.1, abs=1e-12)
+    assert found.places[-1, 0, 0] == pytest.approx(math.pi - math.asin(0.125), abs=1e-12)
+    assert np.abs(found.multipliers[:, 0].real - (1.0 - 0.8 * np.cos(found.places[:, 0, 0]))).max() < 1e-12
+    assert found.kinds[0] == "stable node"
+    assert found.kinds[-1] == "unstable node"
+    assert "end of the range" in found.ended
+    assert len(found.bifurcations) == 1
+
+
+@pytest.mark.parametrize(("kind", "start", "end", "period", "place", "exact"), [
+    ("fold", 0.1, -1.0, 1, (0.6, 0.2), -0.25 * (1 - B) ** 2),
+    ("flip", 0.1, 0.6, 1, (0.6, 0.2), 0.75 * (1 - B) ** 2),
+    ("flip", 0.5, 1.4, 2, (1.0, 0.0), (1 - B) ** 2 + 0.25 * (1 + B) ** 2),
+])
+def test_bifurcations_of_the_map_of_henon(kind, start, end, period, place, exact):
+    found = branch(henon, start, place, end, period, points=60)
+    one = the(found, kind)
+    assert abs(one.value - exact) <= one.error + 1e-15
+    assert one.error < 1e-8
+    low, high = found.values[one.after : one.after + 2]
+    assert kind == "fold" or low < exact < high
+    assert found.errors.max() < 1e-13
+    assert found.period == period
+
+
+def test_an_invariant_curve_is_born():
+    found = branch(delayed_logistic, 1.5, (0.3, 0.3), 2.5)
+    one = the(found, "Neimark–Sacker")
+    assert abs(one.value - 2.0) <= one.error < 1e-7
+    assert one.multipliers == pytest.approx(np.exp(1j * math.pi / 3 * np.array([1, -1])), abs=1e-8)
+    assert found.values[-1] == 2.5
+    assert np.abs(found.places[:, 0, 0] - (1.0 - 1.0 / found.values)).max() < 1e-13
+    assert (found.kinds[0], found.kinds[-1]) == ("stable focus", "unstable focus")
+
+
+def mirrored(_, places):
+    return ("x → −x",) if np.abs(places[:, 0]).max() < 1e-9 else ()
+
+
+def test_a_pitchfork_is_one_only_where_a_symmetry_is_broken():
+    found = branch(pitchfork, 0.5, (0.1, 0.1), 1.5, symmetries=mirrored)
+    assert [(one.kind, round(one.value, 9)) for one in found.bifurcations] == [("pitchfork", 1.0)]
+    unaware = branch(pitchfork, 0.5, (0.1, 0.1), 1.5)
+    assert [one.kind for one in unaware.bifurcations] == ["branch point"]
+    # The branch that is born there, x² = r − 1, turns back in it and goes on as its own mirror image.
+    other = branch(pitchfork, 1.5, (0.7, 0.1), 0.5, points=80, symmetries=mirrored)
+    (one,) = other.bifurcations
+    assert abs(one.value - 1.0) <= one.error < 1e-2
+    assert other.places[-1, 0, 0] == pytest.approx(-math.sqrt(0.5), abs=1e-9)
+    assert np.abs(other.places[:, 0, 0] ** 2 - (other.values - 1.0)).max() < 1e-12
+    # x → r x − x³ reflects at r = −1.
+    assert the(branch(pitchfork, 0.5, (0.1, 0.1), -1.5), "flip").value == pytest.approx(-1.0, abs=1e-12)
+
+
+def test_what_it_says_over_its_points():
+    found = branch(arnold, 0.1, (0.3,), 0.5).labels()
+    assert found.variables["φ"][1].shape == found.coords["λ"][1].shape
+    assert found.facts["bifurcations"] == ""
+    assert found.units["φ"] == "rad"
+
+
+def test_what_cannot_be_continued_is_refused():
+    with pytest.raises(InvalidParameter, match="two different finite"):
+        branch(arnold, 0.1, (0.3,), 0.1)
+    with pytest.raises(WorkLimit, match="from 2 to 2000"):
+        branch(arnold, 0.1, (0.3,), 0.5, points=10**6)
+    with pytest.raises(NotConverged, match="Begin a little aside"):
+        continued(arnold, find_periodic(arnold(0.1), (0.3,), 1), "λ", 0.9, 1.0)

@@ -1,0 +1,89 @@
+"""Periodic orbits of maps with known ones: places, multipliers, types, errors, and what is said where there is none."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from hess_mechanics.dynamics.periodic import find_periodic, kind_of
+from hess_mechanics.errors import InvalidParameter, NotConverged
+from support.maps import arnold, bent_saddle, delayed_logistic, henon
+
+
+@pytest.mark.parametrize("a", [0.1, 0.9, 1.4])
+def test_the_fixed_point_of_the_map_of_henon(a, b=0.3):
+    # a x² + (1 − b) x − 1 = 0, λ² + 2 a x λ − b = 0.
+    x = (-(1.0 - b) + math.sqrt((1.0 - b) ** 2 + 4.0 * a)) / (2.0 * a)
+    found = find_periodic(henon(a, b), (0.6, 0.2), 1)
+    exact = sorted((-a * x + sign * math.sqrt(a * a * x * x + b) for sign in (1, -1)), key=abs, reverse=True)
+    assert np.abs(found.places[0] - (x, b * x)).max() < 1e-14
+    assert np.abs(found.multipliers - exact).max() < 1e-13
+    assert np.abs(found.places[0] - (x, b * x)).max() <= found.error_estimate < 1e-14
+    assert found.kind == ("stable node" if a < 0.3675 else "saddle with reflection")
+    assert found.period == 1
+    assert not found.places.flags.writeable
+
+
+def test_an_orbit_of_period_two_is_known_too(a=0.8, b=0.3):
+    # The two places are the roots of a² x² − a(1 − b) x + (1 − b)² − a = 0, and tr M = 4 a² x₁x₂ + 2b.
+    found = find_periodic(henon(a, b), (1.0, 0.0), 2)
+    s, p = (1.0 - b) / a, ((1.0 - b) ** 2 - a) / a**2
+    half = math.sqrt(s * s / 4 - p)
+    assert sorted(found.places[:, 0]) == pytest.approx([s / 2 - half, s / 2 + half])
+    assert complex(found.multipliers.sum()).real == pytest.approx(4.0 * a * a * p + 2.0 * b, abs=1e-13)
+    assert complex(found.multipliers.prod()).real == pytest.approx(b * b, abs=1e-14)
+    assert found.period == 2
+    assert found.labels().facts["period"] == 2
+
+
+def test_the_multipliers_of_a_long_unstable_orbit_keep_the_small_one(a=1.4, b=0.3):
+    found = find_periodic(henon(a, b), (0.6, 0.2), 12)
+    assert found.period == 12
+    # The product of the multipliers is (−b)^12, beside which the trace is 10⁹ times as large.
+    assert abs(found.multipliers.prod() / b**12 - 1.0) < 1e-12
+    x, y = found.places.T
+    assert np.abs(np.roll(x, -1) - (1.0 - a * x * x + y)).max() < 1e-13
+    assert np.abs(np.roll(y, -1) - b * x).max() < 1e-13
+    assert found.kind.startswith("saddle")
+
+
+def test_the_period_is_found_where_none_is_given():
+    # At a = 0.95 the attractor of the map of Hénon with b = 0.3 has the period 4.
+    found = find_periodic(henon(0.95), (0.9, -0.1))
+    place = np.array([0.0, 0.0])
+    for _ in range(2000):
+        place = henon(0.95).image(place)
+    found = find_periodic(henon(0.95), place)
+    assert found.period == 4
+    assert np.abs(found.places - place).max(axis=1).min() < 1e-9
+    assert np.all(np.abs(found.multipliers) < 1.0)
+
+
+def test_types():
+    assert find_periodic(delayed_logistic(1.5), (0.3, 0.3), 1).kind == "stable focus"
+    assert find_periodic(delayed_logistic(2.1), (0.5, 0.5), 1).kind == "unstable focus"
+    assert find_periodic(delayed_logistic(2.0), (0.5, 0.4), 1).kind == "elliptic"
+    assert find_periodic(bent_saddle(), (0.1, 0.2), 1).kind == "saddle"
+    assert find_periodic(arnold(0.1), (0.3,), 1).kind == "stable node"
+    assert find_periodic(arnold(0.1), (2.9,), 1).kind == "unstable node"
+    assert kind_of(np.array([1.0 + 1e-9, 0.5], complex), 1e-8) == "parabolic"
+    assert kind_of(np.array([-1.0, 0.5], complex), 1e-8) == "parabolic with reflection"
+
+
+def test_an_angle_is_met_again_after_a_turn():
+    # φ′ = φ + 0.1 − 0.8 sin φ: the same place, whichever turn Newton's method starts on.
+    found = [find_periodic(arnold(0.1), (start,), 1).places[0, 0] for start in (0.2, 0.2 + 2.0 * math.pi, -6.0)]
+    assert found == pytest.approx([math.asin(0.125)] * 3, abs=1e-14)
+
+
+def test_what_is_not_there_is_refused_with_what_to_do():
+    with pytest.raises(NotConverged, match=r"period 2.*start closer"):
+        find_periodic(henon(0.1), (0.6, 0.2), 2)
+    with pytest.raises(NotConverged, match="start closer"):
+        find_periodic(arnold(1.5), (0.3,), 1)
+    with pytest.raises(InvalidParameter, match="from 1 to 64"):
+        find_periodic(henon(0.1), (0.6, 0.2), 65)
+    with pytest.raises(InvalidParameter, match="2 finite numbers here: x, y"):
+        find_periodic(henon(0.1), (0.6, math.nan))
