@@ -88,7 +88,8 @@ class CleanRoot:
         for source in sources:
             target = self.root / into.lstrip("/")
             if (PROJECT / source).is_dir():
-                shutil.copytree(PROJECT / source, target, ignore=shutil.ignore_patterns("__pycache__"))
+                shutil.copytree(PROJECT / source, target, dirs_exist_ok=True,
+                                ignore=shutil.ignore_patterns("__pycache__"))
             else:
                 target.mkdir(parents=True, exist_ok=True)
                 shutil.copy2(PROJECT / source, target)
