@@ -1,0 +1,351 @@
+"""Stable and unstable manifolds of saddles of a plane map, as dense as their curvature asks, and where they cross.
+
+Let F be the map after the period m of the saddle (after 2m where its multiplier λ is negative), v its unstable
+direction.  The manifold begins as x_0 + σ δ v + σ² q, which F takes to σ → λσ to second order where
+(λ² − DF) q = ½ D²F(δv, δv).  With δ so small that the third order is lost in round-off, the point of parameter
+τ = k + s, 0 ≤ s < 1, is
+
+    W(τ) = F^k(x_0 + λ^s δ v + λ^2s q),
+
+a smooth curve with W(τ + 1) = F(W(τ)).  A piece of it whose middle lies too far from its chord, or whose chord is too
+long, is halved (Hobson 1993, with the sagitta itself in place of an angle).  What is left of the error of the first
+piece across the curve shrinks from each return to the next.  Stable manifolds are the unstable ones of P⁻¹.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hess_mechanics.dynamics.periodic import Map, PeriodicOrbit, apart
+from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged, WorkLimit
+from hess_mechanics.numerics.labelled import Labels, Result
+from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.results import Array, frozen
+
+__all__ = ["MAX_POINTS", "Crossing", "Manifold", "crossings_of", "grown", "heights_at", "split"]
+
+MAX_POINTS = 20_000
+_FIRST = 4
+"""Pieces into which one return of the curve is cut at first."""
+_CURVED = 1e-3
+"""How far from the saddle its curvature is measured: third orders and round-off cancel to a millionth."""
+_CHECKED = 6
+"""Points that a more accurate map computes again."""
+
+
+@dataclass(frozen=True)
+class Manifold(Result):
+    """One branch of a manifold of a saddle, from the saddle on.
+
+    stable : else unstable; side : ±1, along or against the direction; multiplier : of F, on the manifold more than 1.
+    points : (n, 2), angles continued without jumps; parameters : (n,), τ; lengths : (n,), along the curve.
+    error_estimate : of the points, across the curve; ended : why it ends.
+    """
+
+    names: tuple[str, ...]
+    turns: tuple[float, ...]
+    stable: bool
+    side: int
+    multiplier: float
+    points: Array
+    parameters: Array
+    lengths: Array
+    sagitta: float
+    error_estimate: float
+    ended: str
+    level: str
+    at: Callable[[float], Array]
+    """τ → the point (2,), its angles in any turn.  Raises as the map."""
+
+    @property
+    def length(self) -> float:
+        """Along the curve."""
+        return float(self.lengths[-1])
+
+    def labels(self) -> Labels:
+        """The points over the length along the curve."""
+        return Labels({"length": (("length",), self.lengths)},
+                      {**{name: (("length",), self.points[:, i]) for i, name in enumerate(self.names)},
+                       "τ": (("length",), self.parameters)},
+                      {name: "1" if name == "L/G" else "rad" for name in self.names},
+                      {"manifold": "stable" if self.stable else "unstable", "side": self.side,
+                       "multiplier": self.multiplier, "sagitta": self.sagitta, "error_estimate": self.error_estimate,
+                       "ended": self.ended, "level": self.level})
+
+
+@dataclass(frozen=True)
+class _Curve:
+    """W: F is `returns` steps of the map; x_0 `saddle`, δ v `away`, q `bend`, λ of F `multiplier`."""
+
+    map_: Map
+    saddle: Array
+    away: Array
+    bend: Array
+    multiplier: float
+    returns: int
+
+    def at(self, tau: float) -> Array:
+        count = max(0, math.floor(tau))
+        return _after(self.map_, self._near(self.multiplier ** (tau - count)), count * self.returns)
+
+    def _near(self, sigma: float) -> Array:
+        return np.asarray(self.saddle + sigma * self.away + sigma * sigma * self.bend)
+
+    def first_error(self) -> float:
+        """How far the first piece is from the curve at its end, which grows as the third power of its length.
+
+        Measured where F takes what is λ⁻¹ times as far away as its beginning: λ³ times as small as at its end.
+        """
+        there = _after(self.map_, self._near(1.0 / self.multiplier), self.returns)
+        off = apart(self.map_.turns, there, self._near(1.0))
+        return float(np.linalg.norm(off)) * self.multiplier**3
+
+
+def _after(map_: Map, place: Array, returns: int) -> Array:
+    for _ in range(returns):
+        place = map_.image(place)
+    return place
+
+
+def _begun(map_: Map, orbit: PeriodicOrbit, side: int, place: int) -> _Curve:
+    """The curve with the longest first piece that is right to what the map promises.
+
+    Raises `InvalidParameter` where the orbit is no saddle.
+    """
+    saddle = orbit.places[place % orbit.period]
+    M, at = np.eye(2), saddle
+    for _ in range(orbit.period):
+        at, D = map_.with_derivative(at)
+        M = D @ M
+    values, vectors = np.linalg.eig(M)
+    big = int(np.argmax(np.abs(values)))
+    if values.imag.any() or not abs(values[big]) > 1.0 + 1e-6 or abs(values[1 - big]) >= 1.0:
+        raise InvalidParameter("Only a saddle has these manifolds: choose a periodic orbit with one multiplier inside "
+                               "and one outside of the unit circle.")
+    value, returns = float(values[big].real), orbit.period
+    v = np.asarray(vectors[:, big].real, float)
+    v = v * math.copysign(1.0 / math.hypot(*v), v[np.argmax(np.abs(v))])
+    if value < 0.0:
+        M, value, returns = M @ M, value * value, 2 * returns
+    size = _CURVED
+    q: Array = np.zeros(2)
+    try:
+        both = [apart(map_.turns, _after(map_, saddle + sign * size * v, returns), saddle) for sign in (1.0, -1.0)]
+        q = np.asarray(np.linalg.solve(value * value * np.eye(2) - M, 0.5 * (both[0] + both[1])) / size**2, float)
+    except ModelError:
+        # So close to an end of the section the manifold begins as a straight line.
+        pass
+    size = 0.05
+    while True:
+        curve = _Curve(map_, saddle, side * size * v, size * size * q, value, returns)
+        try:
+            error = curve.first_error()
+        except ModelError:
+            error = math.inf
+        if error <= 0.1 * map_.promise or size < 1e-6:
+            return curve
+        size *= 0.5
+
+
+def grown(map_: Map, orbit: PeriodicOrbit, length: float, stable: bool = False, side: int = 1, place: int = 0,
+          sagitta: float = 1e-3, longest: float = 0.1, most: int = 4000) -> Manifold:
+    """The branch of a manifold of a saddle up to a length along the curve.
+
+    place : from which of the places of the orbit; sagitta : the largest distance of the curve from its polyline;
+    longest : of its chords; most : points.
+    Raises `InvalidParameter`, `WorkLimit`, `NotConverged` where the map has no inverse or no image even close by.
+    """
+    if not (math.isfinite(length) and length > 0.0 and sagitta > 0.0 and longest > 0.0):
+        raise InvalidParameter("The length of a manifold, its sagitta and its chords are positive numbers.")
+    if side not in (-1, 1):
+        raise InvalidParameter("A branch leaves the saddle along its direction, side 1, or against it, side -1.")
+    if not _FIRST <= most <= MAX_POINTS:
+        raise WorkLimit(f"A manifold has from {_FIRST} to {MAX_POINTS} points: choose a number between them.")
+    if len(map_.turns) != 2:
+        raise InvalidParameter("Manifolds are curves in a plane: this is a map of a line.")
+    forwards = map_.inverse() if stable else map_
+    curve = _begun(forwards, orbit, side, place)
+    points, parameters, ended = _followed(curve, length, sagitta, longest, most)
+    lengths = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    return Manifold(map_.names, map_.turns, stable, side, curve.multiplier, frozen(points), frozen(parameters),
+                    frozen(lengths), sagitta, _error(curve, points, parameters), ended, map_.level, curve.at)
+
+
+def _followed(curve: _Curve, length: float, sagitta: float, longest: float, most: int) -> tuple[Array, Array, str]:
+    """Points and parameters, adaptively, from the saddle up to the length; and why the curve ends."""
+    turns = curve.map_.turns
+    points, parameters = [curve.saddle.copy(), curve.at(0.0)], [-math.inf, 0.0]
+    total = float(np.linalg.norm(curve.away))
+    # Right ends of pieces that are not yet done, the nearest last.
+    waiting: list[tuple[float, Array]] = []
+    ahead = 0.0
+    while total < length:
+        go_on()
+        if len(points) >= most:
+            return np.array(points), np.array(parameters), f"After {most} points."
+        tau, here = parameters[-1], points[-1]
+        try:
+            if not waiting:
+                ahead += 1.0 / _FIRST
+                waiting.append((ahead, here + apart(turns, curve.at(ahead), here)))
+            right, there = waiting[-1]
+            middle = curve.at(0.5 * (tau + right))
+        except ModelError as error:
+            return np.array(points), np.array(parameters), f"At the length {total:.6g}, for what follows: {error}"
+        middle = here + apart(turns, middle, here)
+        there = middle + apart(turns, there, middle)
+        chord = there - here
+        size = float(np.linalg.norm(chord))
+        off = float(np.linalg.norm(middle - 0.5 * (here + there)))
+        across = abs(chord[0] * (middle - here)[1] - chord[1] * (middle - here)[0]) / max(size, 1e-300)
+        # A middle that is far from the middle of the chord, though on its line, may hide a fold between.
+        if (across > sagitta or size > longest or off > 0.35 * size) and right - tau > 1e-12 * max(1.0, tau):
+            waiting.append((0.5 * (tau + right), middle))
+            continue
+        waiting.pop()
+        # The middle is known anyway, and halves the sagitta twice.
+        for parameter, point in ((0.5 * (tau + right), middle), (right, there)):
+            total += float(np.linalg.norm(point - points[-1]))
+            points.append(point)
+            parameters.append(parameter)
+            if total >= length:
+                break
+    return np.array(points), np.array(parameters), "At its length."
+
+
+def _error(curve: _Curve, points: Array, parameters: Array) -> float:
+    """The largest distance across the curve of some of its points from those of a more accurate map, from its own δ."""
+    better = replace(curve, map_=curve.map_.tightened())
+    off = 0.0
+    for i in np.unique(np.linspace(1, len(points) - 2, _CHECKED).astype(int)) if len(points) > 3 else ():
+        try:
+            there = better.at(float(parameters[i]))
+        except ModelError:
+            continue
+        along = points[i + 1] - points[i - 1]
+        along = along / max(float(np.linalg.norm(along)), 1e-300)
+        away = apart(curve.map_.turns, there, points[i])
+        off = max(off, abs(float(away[0] * along[1] - away[1] * along[0])))
+    return 1.25 * off + curve.first_error() + 4e-16
+
+
+# ---- where two of them cross ------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """Where a manifold crosses another: the place (2,), τ on both, the angle between them, error of the place."""
+
+    place: Array
+    parameters: tuple[float, float]
+    angle: float
+    error: float
+
+
+def crossings_of(one: Manifold, other: Manifold, most: int = 100) -> list[Crossing]:
+    """Homoclinic or heteroclinic points: where two manifolds cross, in the order of the first one, at most so many.
+
+    Segments of the polylines that meet are the beginning, Newton's method on W_1(τ_1) = W_2(τ_2) ends it.  The saddles
+    themselves do not count.
+    """
+    found: list[Crossing] = []
+    for i, j in _meeting(one, other):
+        crossing = _refined(one, other, (i, j))
+        if crossing is not None and all(
+                np.abs(apart(one.turns, crossing.place, known.place)).max() > 1e-9 for known in found):
+            found.append(crossing)
+            if len(found) == most:
+                break
+    return found
+
+
+def _meeting(one: Manifold, other: Manifold) -> list[tuple[int, int]]:
+    """The pairs of segments that meet, but for the first ones, at the saddles."""
+    a, b = one.points[1:], other.points[1:]
+    pairs = []
+    da, db = np.diff(a, axis=0), np.diff(b, axis=0)
+    for i in range(len(da)):
+        start = apart(one.turns, b[:-1], a[i])
+        cross = da[i, 0] * db[:, 1] - da[i, 1] * db[:, 0]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            s = (start[:, 0] * db[:, 1] - start[:, 1] * db[:, 0]) / cross
+            t = (start[:, 0] * da[i, 1] - start[:, 1] * da[i, 0]) / cross
+        pairs += [(i + 1, int(j) + 1) for j in np.flatnonzero((s >= 0.0) & (s < 1.0) & (t >= 0.0) & (t < 1.0))]
+    return pairs
+
+
+def _refined(one: Manifold, other: Manifold, pair: tuple[int, int]) -> Crossing | None:
+    ends = [np.array(curve.parameters[i : i + 2]) for curve, i in zip((one, other), pair, strict=True)]
+    tau: Array = np.array([float(end.mean()) for end in ends])
+    h = np.array([1e-4 * float(np.ptp(end)) for end in ends])
+    slopes = np.zeros((2, 2))
+    step = np.zeros(2)
+    try:
+        for _ in range(20):
+            go_on()
+            for k, (curve, sign) in enumerate(((one, 1.0), (other, -1.0))):
+                both = [curve.at(tau[k] + side * h[k]) for side in (1.0, -1.0)]
+                slopes[:, k] = sign * apart(one.turns, *both) / (2.0 * h[k])
+            left = apart(one.turns, one.at(tau[0]), other.at(tau[1]))
+            step = np.asarray(-np.linalg.solve(slopes, left), float)
+            room = np.array([float(np.ptp(end)) for end in ends])
+            tau = np.asarray(tau + np.clip(step, -room, room), float)
+            if np.abs(slopes * step).max() < 1e-13:
+                break
+        place = one.at(tau[0])
+        left = apart(one.turns, place, other.at(tau[1]))
+    except (ModelError, np.linalg.LinAlgError):
+        return None
+    if any(not end[0] - np.ptp(end) <= value <= end[1] + np.ptp(end) for value, end in zip(tau, ends, strict=True)):
+        return None
+    u, v = (slopes[:, k] / np.linalg.norm(slopes[:, k]) for k in (0, 1))
+    angle = math.atan2(abs(float(u[0] * v[1] - u[1] * v[0])), abs(float(u @ v)))
+    off = (one.error_estimate + other.error_estimate + float(np.abs(left).max())) / max(math.sin(angle), 1e-6)
+    return Crossing(frozen(place), (float(tau[0]), float(tau[1])), angle, off)
+
+
+def heights_at(curve: Manifold, axis: int, value: float) -> Array:
+    """The other coordinate (n,) wherever the manifold takes this value of the coordinate `axis`, in its order.
+
+    Raises `NotConverged` where it nowhere does.
+    """
+    along = curve.points[:, axis] - value
+    change = np.flatnonzero((along[1:-1] <= 0.0) != (along[2:] <= 0.0)) + 1
+    if not change.size:
+        raise NotConverged(f"This manifold does not come to {curve.names[axis]} = {value:g}: grow it to a greater "
+                           "length.")
+    return np.array([_height_on(curve, axis, value, int(i), along) for i in change])
+
+
+def _height_on(curve: Manifold, axis: int, value: float, i: int, along: Array) -> float:
+    """The other coordinate on the segment i: regula falsi (Illinois) in τ."""
+    reference = curve.points[i]
+    low, high = map(float, curve.parameters[i : i + 2])
+    f_low, f_high = map(float, along[i : i + 2])
+    point, side = reference, 0
+    for _ in range(60):
+        tau = high - f_high * (high - low) / (f_high - f_low)
+        point = reference + apart(curve.turns, curve.at(tau), reference)
+        f = float(point[axis]) - value
+        if abs(f) < 1e-15 or high - low < 1e-14:
+            break
+        if (f > 0.0) == (f_high > 0.0):
+            high, f_high, f_low, side = tau, f, (0.5 * f_low if side > 0 else f_low), 1
+        else:
+            low, f_low, f_high, side = tau, f, (0.5 * f_high if side < 0 else f_high), -1
+    return float(point[1 - axis])
+
+
+def split(unstable: Manifold, stable: Manifold, axis: int, value: float) -> tuple[float, float]:
+    """How far apart two manifolds pass where the coordinate `axis` has this value, and the error of that.
+
+    Where they come there more than once, the two passages that are closest together are compared.
+    Raises `NotConverged` where one of them does not come there.
+    """
+    gaps = heights_at(unstable, axis, value)[:, None] - heights_at(stable, axis, value)
+    closest = gaps.ravel()[int(np.argmin(np.abs(gaps)))]
+    return float(closest), unstable.error_estimate + stable.error_estimate

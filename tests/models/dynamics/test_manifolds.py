@@ -1,0 +1,124 @@
+"""Manifolds of saddles of maps with known ones, the points on them as dense as asked, and where they cross."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from hess_mechanics.dynamics.manifolds import crossings_of, grown, heights_at, split
+from hess_mechanics.dynamics.periodic import find_periodic
+from hess_mechanics.errors import InvalidParameter, NoReturn, NotConverged, WorkLimit
+from support.maps import arnold, bent_saddle, henon, pendulum, pitchfork
+
+
+def length_of_parabola(x):
+    return 0.5 * x * math.hypot(1.0, 2.0 * x) + 0.25 * math.asinh(2.0 * x)
+
+
+@pytest.mark.parametrize("side", [1, -1])
+@pytest.mark.parametrize("stretch", [2.5, -1.7])
+def test_the_manifolds_of_a_bent_saddle_are_its_parabola_and_its_axis(side, stretch):
+    m = bent_saddle(stretch)
+    saddle = find_periodic(m, (0.1, 0.2), 1)
+    unstable = grown(m, saddle, 4.0, side=side)
+    x, y = unstable.points.T
+    assert np.abs(y - x * x).max() <= unstable.error_estimate < 1e-12
+    assert side * x[-1] > 1.5
+    assert 4.0 <= length_of_parabola(abs(x[-1])) < 4.1
+    assert unstable.length == pytest.approx(length_of_parabola(abs(x[-1])), abs=4e-3)
+    assert unstable.multiplier == pytest.approx(2.5 if stretch > 0 else 1.7**2, abs=1e-12)
+    # W(τ + 1) = F(W(τ)): where x is multiplied.
+    assert unstable.at(3.3)[0] / unstable.at(2.3)[0] == pytest.approx(unstable.multiplier, abs=1e-12)
+    stable = grown(m, saddle, 2.0, stable=True, side=side)
+    assert np.abs(stable.points[:, 0]).max() <= stable.error_estimate < 1e-12
+    assert side * stable.points[-1, 1] >= 2.0
+
+
+def test_points_are_as_dense_as_the_curvature_asks():
+    m = henon(1.4)
+    saddle = find_periodic(m, (0.6, 0.2), 1)
+    counts = []
+    for sagitta in (1e-2, 1e-4):
+        curve = grown(m, saddle, 12.0, sagitta=sagitta, longest=1.0)
+        counts.append(len(curve.points))
+        # A finer curve tells how far the polyline is from what it stands for.
+        middles = [curve.at(0.5 * sum(curve.parameters[i : i + 2])) for i in range(1, len(curve.points) - 1)]
+        chords = np.diff(curve.points[1:], axis=0)
+        away = np.array(middles) - curve.points[1:-1]
+        off = np.abs(chords[:, 0] * away[:, 1] - chords[:, 1] * away[:, 0]) / np.linalg.norm(chords, axis=1)
+        assert off.max() <= sagitta
+    assert counts[0] < 0.6 * counts[1]
+    assert curve.ended == "At its length."
+
+
+def test_a_curve_that_is_the_attractor_stays_on_it():
+    # W^u of the fixed point of the map of Hénon is invariant: the images of its points lie on it.
+    m = henon(1.4)
+    saddle = find_periodic(m, (0.6, 0.2), 1)
+    # Its multiplier is negative: the image of one branch is the other.
+    one, other = (grown(m, saddle, 8.0, side=side, sagitta=1e-5, longest=0.02) for side in (1, -1))
+    images = np.array([m.image(point) for point in one.points[50:300:25]])
+    assert len(images) == 10
+    assert max(float(np.linalg.norm(other.points - image, axis=1).min()) for image in images) < 0.02
+
+
+def test_homoclinic_points_of_henon_are_homoclinic():
+    m = henon(1.4)
+    saddle = find_periodic(m, (0.6, 0.2), 1)
+    unstable = grown(m, saddle, 6.0)
+    stable = [grown(m, saddle, 6.0, stable=True, side=side) for side in (1, -1)]
+    found = [one for branch in stable for one in crossings_of(unstable, branch)]
+    assert len(found) >= 2
+    for one in found[:4]:
+        assert one.error < 1e-9
+        assert one.angle > 1e-3
+        # It comes from the saddle and goes there.
+        place = one.place
+        closest = min(float(np.abs((place := m.image(place)) - saddle.places[0]).max()) for _ in range(12))
+        assert closest < 1e-3
+        back = one.place
+        assert min(float(np.abs((back := m.inverse().image(back)) - saddle.places[0]).max()) for _ in range(14)) < 1e-3
+
+
+def test_separatrices_split_in_proportion_to_a_perturbation(mu=1.5):
+    gaps = []
+    for epsilon in (0.0, 1e-4, 2e-4):
+        m = pendulum(epsilon, mu)
+        saddle = find_periodic(m, (0.01, 0.01), 1)
+        unstable, stable = (grown(m, saddle, 3.0, stable=stable, sagitta=1e-4) for stable in (False, True))
+        if not epsilon:
+            x, y = unstable.points.T
+            assert np.abs(x * x + y * y + x * x * y * y - 2.0 * mu * x * y).max() < 1e-11
+        gaps.append(split(unstable, stable, 0, 0.5))
+    assert abs(gaps[0][0]) <= gaps[0][1] < 1e-11
+    assert abs(gaps[1][0]) > 1e3 * gaps[1][1]
+    assert gaps[2][0] / gaps[1][0] == pytest.approx(2.0, abs=1e-2)
+
+
+def test_where_a_manifold_comes_to():
+    m = bent_saddle()
+    curve = grown(m, find_periodic(m, (0.1, 0.2), 1), 3.0)
+    assert heights_at(curve, 0, 1.1) == pytest.approx([1.21], abs=1e-13)
+    assert heights_at(curve, 1, 1.21) == pytest.approx([1.1], abs=1e-13)
+    with pytest.raises(NotConverged, match="greater length"):
+        heights_at(curve, 0, 5.0)
+
+
+def test_what_has_no_manifolds_is_refused():
+    with pytest.raises(InvalidParameter, match="Only a saddle"):
+        grown(henon(0.1), find_periodic(henon(0.1), (0.6, 0.2), 1), 1.0)
+    with pytest.raises(InvalidParameter, match="map of a line"):
+        grown(arnold(0.1), find_periodic(arnold(0.1), (0.3,), 1), 1.0)
+    m = bent_saddle()
+    saddle = find_periodic(m, (0.1, 0.2), 1)
+    with pytest.raises(InvalidParameter, match="positive"):
+        grown(m, saddle, -1.0)
+    with pytest.raises(InvalidParameter, match="side 1"):
+        grown(m, saddle, 1.0, side=2)
+    with pytest.raises(WorkLimit, match="points"):
+        grown(m, saddle, 1.0, most=10**6)
+    assert grown(m, saddle, 1e9, most=40).ended == "After 40 points."
+    with pytest.raises(NoReturn):
+        grown(pitchfork(1.5), find_periodic(pitchfork(1.5), (0.01, 0.0), 1), 1.0, stable=True)
