@@ -58,7 +58,7 @@ export function render({ model, view, el }) {
   const signal = lifetime({ model, view })
   const menu = sceneMenu(model.scenes)
   const share = shareDialog(signal)
-  const taking = exportDialog()
+  const taking = exportDialog(model.files)
   const heading = element("h1", { className: "heading" })
   const open = element("button", {
     type: "button", className: "tool param-scenes", title: "Choose a scene", "aria-haspopup": "dialog",

@@ -6,16 +6,6 @@ import { linkTo } from "../page/embedding.js"
 import { element } from "../page/mount.js"
 import { gallery } from "../pictures/gallery.js"
 
-const FORMATS = [
-  ["csv", "CSV: data, every digit"], ["json", "JSON: data, every digit"],
-  ["png", "PNG, 300 dots an inch"], ["svg", "SVG"], ["pdf", "PDF"],
-  ["webm", "WebM: a film of the motion"], ["mp4", "MP4: a film of the motion"],
-  ["gif", "GIF: a film of the motion, for slides"],
-  ["html", "HTML: all pictures, plays without a server"],
-]
-const FILMS = ["webm", "mp4", "gif"]
-const DRAWN = ["png", "svg", "pdf", ...FILMS]
-
 const options = (pairs) => pairs.map(([value, textContent]) => element("option", { value, textContent }))
 
 // The film out of an answer that says in lines before it how far it is, see "server/export.py": {file} or {why}.
@@ -43,14 +33,20 @@ async function filmOf(answer, tell) {
   return begun && file.size === length ? { file } : { why: "The film broke off: there is no file." }
 }
 
+// files: {formats: [[kind, words, what it holds], …], width and seconds: [least, most, usual]}.
 // {dialog, open(), show(description of the scene on show)}.
-export function exportDialog() {
+export function exportDialog(files) {
+  const holds = Object.fromEntries(files.formats.map(([kind, , what]) => [kind, what]))
+  const isFilm = (kind) => holds[kind] === "film"
+  const isDrawn = (kind) => isFilm(kind) || holds[kind] === "figure"
   let scene = null
   let running = null
   const picture = element("select", { className: "param-picture" })
-  const format = element("select", { className: "param-format" }, ...options(FORMATS))
-  const width = element("input", { type: "number", className: "param-width", min: 20, max: 400, step: 5, value: 85 })
-  const seconds = element("input", { type: "number", className: "param-seconds", min: 1, max: 30, step: 1, value: 10 })
+  const format = element("select", { className: "param-format" }, ...options(files.formats))
+  const number = (name, step, [min, max, value]) => (
+    element("input", { type: "number", className: `param-${name}`, min, max, step, value }))
+  const width = number("width", 5, files.width)
+  const seconds = number("seconds", 1, files.seconds)
   const frames = element("progress", { "aria-label": "Frames of the film", hidden: true })
   const black = element("input", { type: "checkbox", className: "param-black" })
   const command = element("textarea", { className: "snippet", readOnly: true, rows: 4, "aria-label": "Command" })
@@ -83,11 +79,11 @@ export function exportDialog() {
 
   // What is asked for besides the state: the width and the look are those of a figure.
   function wanted() {
-    const drawn = DRAWN.includes(format.value)
+    const drawn = isDrawn(format.value)
     return {
       picture: isAll() ? openOnes().map(nameOf).join(",") : picture.value, format: format.value,
       ...(drawn ? { width: width.value } : {}), ...(drawn && black.checked ? { black: "1" } : {}),
-      ...(FILMS.includes(format.value) ? { seconds: seconds.value } : {}),
+      ...(isFilm(format.value) ? { seconds: seconds.value } : {}),
     }
   }
 
@@ -95,9 +91,9 @@ export function exportDialog() {
   const state = () => new URL(linkTo()).search.slice(1)
 
   function write() {
-    figure.hidden = !DRAWN.includes(format.value)
+    figure.hidden = !isDrawn(format.value)
     one.hidden = isAll()
-    film.hidden = !FILMS.includes(format.value)
+    film.hidden = !isFilm(format.value)
     const { picture: name, format: kind, width: wide, black: isBlack, seconds: long } = wanted()
     command.value = `hess-explorer export --state '${state().replaceAll("'", "%27")}' --picture ${name} --format ${kind}` +
       `${wide ? ` --width ${wide}` : ""}${isBlack ? " --black" : ""}${long ? ` --seconds ${long}` : ""} --out ${fileName(wanted())}`
@@ -112,12 +108,11 @@ export function exportDialog() {
   }
 
   async function fetched(what, signal) {
-    const isFilm = FILMS.includes(what.format)
-    const query = new URLSearchParams({ ...what, ...(isFilm ? { progress: "1" } : {}) })
+    const query = new URLSearchParams({ ...what, ...(isFilm(what.format) ? { progress: "1" } : {}) })
     try {
       const answer = await fetch(new URL(`export?${state()}&${query}`, document.baseURI), { signal })
       if (!answer.ok) return { why: await answer.text() }
-      return isFilm ? await filmOf(answer, count) : { file: await answer.blob() }
+      return isFilm(what.format) ? await filmOf(answer, count) : { file: await answer.blob() }
     } catch (error) {
       return { why: error.name === "AbortError" ? "Stopped." : "The server does not answer: there is no file." }
     }

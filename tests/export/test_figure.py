@@ -12,7 +12,6 @@ import pytest
 from PIL import Image
 from scipy.spatial.transform import Rotation
 
-from hess_explorer.export import figure as figures
 from hess_explorer.export.figure import as_file, draw
 from hess_explorer.export.sheet import seen
 from hess_explorer.export.shown import shown
@@ -89,4 +88,3 @@ def test_what_cannot_be_made_is_refused_with_a_sentence(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "matplotlib", None)
     with pytest.raises(ModelError, match=r"pip install 'hess-explorer\[export\]'"):
         as_file(circle, "svg")
-    assert figures.FORMATS == ("png", "svg", "pdf")

@@ -14,7 +14,8 @@ import pytest
 from matplotlib.font_manager import findfont, get_font
 from PIL import Image
 
-from hess_explorer.export.figure import FORMATS, STYLE, draw, saved
+from hess_explorer.export.figure import STYLE, draw, saved
+from hess_explorer.export.formats import holding
 from hess_explorer.export.shown import address, shown
 from hess_explorer.export.table import as_csv, as_json
 from hess_explorer.protocol.parameters import encode
@@ -42,7 +43,7 @@ def test_every_picture_is_there_in_every_format(scene, picture):
     with mpl.rc_context({**STYLE, "pdf.fonttype": 3}):
         figure = draw(found, 20.0)
         figure.set_layout_engine("none")
-        files = {kind: saved(figure, found, kind) for kind in FORMATS}
+        files = {kind: saved(figure, found, kind) for kind in holding("figure")}
     drawn = Image.open(io.BytesIO(files["png"]))
     assert found.said in drawn.info["Description"]
     ink = np.asarray(drawn.convert("L")) < 200

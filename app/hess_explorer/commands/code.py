@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 from urllib.parse import urlencode
 
+from hess_explorer.export.formats import holding
+
 from .output import add_picture, computing, show
 
 __all__ = ["add"]
@@ -19,7 +21,7 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
                     "`hess-explorer export` and equal to them bit for bit; or write a notebook of them.",
         epilog="Example: hess-explorer code --state 'h=1.2&f=0.3' --picture circle > circle.py")
     add_picture(parser)
-    parser.add_argument("--format", choices=("py", "ipynb"), default="py", help="py (default) or ipynb, a notebook")
+    parser.add_argument("--format", choices=holding("program"), default="py", help="py (default) or ipynb, a notebook")
     parser.set_defaults(run=_run)
 
 

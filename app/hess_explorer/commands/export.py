@@ -7,13 +7,14 @@ import sys
 from collections.abc import Callable
 from urllib.parse import urlencode
 
+from hess_explorer.export.formats import FILM_WIDTHS, SECONDS, WIDTHS, Wish, holding
+
 from . import CommandError
 from .output import add_picture, computing, show
 
 __all__ = ["add"]
 
 _TEXTS = ("csv", "json", "svg", "html")
-_KINDS = (*_TEXTS, "png", "pdf", "webm", "mp4", "gif")
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -28,12 +29,13 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
                     "pip install '.[export]'.",
         epilog="Example: hess-explorer export --state 'h=1.2&f=0.3' --picture circle --format csv --out circle.csv")
     add_picture(parser, "; of HTML some with commas between, by default those that are open at first")
-    parser.add_argument("--format", choices=_KINDS, default="csv", help="default: csv")
-    parser.add_argument("--width", type=float, default=85.0, metavar="MM",
-                        help="of a figure, 20 to 400 millimetres (default 85, a column of a journal); of a film 60 to "
-                             "160, at 8 pixels a millimetre")
-    parser.add_argument("--seconds", type=float, default=10.0, metavar="S",
-                        help="length of a film, all of the motion in so many: 1 to 60 (default 10), 25 frames a second")
+    parser.add_argument("--format", choices=holding("data", "figure", "film", "state"), default=Wish.kind,
+                        help="default: csv")
+    parser.add_argument("--width", type=float, default=Wish.width, metavar="MM",
+                        help=f"of a figure, {WIDTHS} millimetres (default 85, a column of a journal); of a film "
+                             f"{FILM_WIDTHS}, at 8 pixels a millimetre")
+    parser.add_argument("--seconds", type=float, default=Wish.seconds, metavar="S",
+                        help=f"length of a film, of all of the motion: {SECONDS} (default 10), 25 frames a second")
     parser.add_argument("--black", action="store_true",
                         help="a figure or a film in black on white instead of the page's colours")
     parser.add_argument("--progress", action="store_true",
@@ -61,7 +63,7 @@ def _page(options: argparse.Namespace) -> bytes:
 
 
 def _picture(options: argparse.Namespace) -> bytes:
-    from hess_explorer.export.file import Wish, content
+    from hess_explorer.export.file import content
     from hess_explorer.export.shown import shown
 
     found = shown(urlencode(options.state), options.picture)

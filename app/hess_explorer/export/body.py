@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
@@ -25,8 +23,6 @@ _BALL = 0.055
 _SHADES = 224
 """Pixels of the shading on a side."""
 _COLUMNS = ("g1", "g2", "g3", "e1", "e2", "e3")
-
-Place = Callable[[Any], Array]
 
 
 def placing(attitude: Columns, t: float) -> Array:

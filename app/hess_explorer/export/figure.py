@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from hess_explorer.export import clouds, plots, spheres
+from hess_explorer.export.formats import WIDTHS, holding
 from hess_explorer.export.sheet import Colour
 from hess_explorer.export.shown import Shown
 from hess_explorer.export.solid import EVEN, ODD
@@ -19,11 +20,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes as Frame
     from matplotlib.figure import Figure
 
-__all__ = ["FORMATS", "STYLE", "as_file", "as_it_is", "draw", "draw_moving", "draw_still", "in_black",
+__all__ = ["STYLE", "as_file", "as_it_is", "draw", "draw_moving", "draw_still", "in_black",
            "saved"]
 
-FORMATS = ("png", "svg", "pdf")
-_WIDTHS = (20.0, 400.0)
 _DOTS_PER_INCH = 300
 STYLE: Mapping[str, Any] = {
     "font.size": 9.0, "axes.linewidth": 0.6, "svg.fonttype": "none", "pdf.fonttype": 42,
@@ -39,10 +38,10 @@ def as_file(shown: Shown, kind: str, width: float = 85.0, black: bool = False) -
     ------
     InvalidParameter : no such format or width, or Matplotlib is not installed.
     """
-    if kind not in FORMATS:
-        raise InvalidParameter(f"{kind!r} is no format of a figure: choose one of {', '.join(FORMATS)}.")
-    if not _WIDTHS[0] <= width <= _WIDTHS[1]:
-        raise InvalidParameter(f"A figure is {_WIDTHS[0]:g} to {_WIDTHS[1]:g} mm wide, not {width:g}.")
+    if kind not in holding("figure"):
+        raise InvalidParameter(f"{kind!r} is no format of a figure: choose one of {', '.join(holding('figure'))}.")
+    if not WIDTHS.low <= width <= WIDTHS.high:
+        raise InvalidParameter(f"A figure is {WIDTHS} mm wide, not {width:g}.")
     try:
         import matplotlib as mpl
     except ImportError as error:

@@ -3,30 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
-from hess_explorer.export.figure import FORMATS, as_file
-from hess_explorer.export.film import FILMS, as_film
+from hess_explorer.export.figure import as_file
+from hess_explorer.export.film import as_film
+from hess_explorer.export.formats import FORMATS, Wish
 from hess_explorer.export.shown import Shown
 from hess_explorer.export.table import as_csv, as_json
 
-__all__ = ["Wish", "content"]
-
-
-@dataclass(frozen=True)
-class Wish:
-    """What a file is to be: its format; of figures and films millimetres and whether in black; of films the length."""
-
-    kind: str = "csv"
-    width: float = 85.0
-    black: bool = False
-    seconds: float = 10.0
+__all__ = ["content"]
 
 
 def content(found: Shown, wish: Wish, tell: Callable[[int, int], None] = lambda done, of: None) -> bytes:
     """The bytes of the file; tell : as of `as_film`.  Raises `InvalidParameter`."""
-    if wish.kind in FILMS:
+    holds = FORMATS[wish.kind].holds
+    if holds == "film":
         return as_film(found, wish.kind, wish.width, wish.black, wish.seconds, tell)
-    if wish.kind in FORMATS:
+    if holds == "figure":
         return as_file(found, wish.kind, wish.width, wish.black)
     return (as_csv if wish.kind == "csv" else as_json)(found).encode()

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hess_explorer.export.figure import STYLE, as_it_is, draw_moving, draw_still, in_black
+from hess_explorer.export.formats import FILM_WIDTHS, SECONDS
 from hess_explorer.export.moment import end
 from hess_explorer.export.plots import densities
 from hess_explorer.export.shown import Shown
@@ -24,22 +25,19 @@ from hess_mechanics.numerics.results import Array
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
 
-__all__ = ["FILMS", "RATE", "SECONDS", "WIDTHS", "as_film", "moves", "pictures_at", "times_of"]
+__all__ = ["RATE", "as_film", "moves", "pictures_at", "times_of"]
 
-FILMS: Mapping[str, tuple[str, ...]] = {
+_CODECS: Mapping[str, tuple[str, ...]] = {
     "webm": ("-c:v", "libvpx-vp9", "-b:v", "0", "-crf", "30", "-deadline", "realtime", "-cpu-used", "6",
              "-pix_fmt", "yuv420p"),
     "mp4": ("-c:v", "libx264", "-preset", "veryfast", "-crf", "20", "-movflags", "+faststart+use_metadata_tags",
             "-pix_fmt", "yuv420p"),
     # The colours of the film itself, which are few.
     "gif": ("-filter_complex", "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=none")}
-"""Formats, and what ffmpeg is told for each: thin lines stay clear, and a minute of them is some megabytes."""
+"""What ffmpeg is told for each format: thin lines stay clear, and a minute of them is some megabytes."""
 
 RATE = 25
 """Frames a second."""
-SECONDS = (1.0, 60.0)
-WIDTHS = (60.0, 160.0)
-"""Millimetres of a film, which fix how large its type is beside its lines."""
 _PIXELS = 8
 """For a millimetre."""
 _INCH = 25.4
@@ -66,7 +64,7 @@ def pictures_at(shown: Shown, times: Array, width: float = 85.0, black: bool = F
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    side = 2 * round(0.5 * _PIXELS * width) / (_PIXELS * _INCH)
+    side = _side(width) / (_PIXELS * _INCH)
     colour = in_black if black else as_it_is
     with mpl.rc_context(dict(STYLE)):
         figure = Figure(figsize=(side, side), dpi=_PIXELS * _INCH, layout="constrained")
@@ -94,6 +92,11 @@ def pictures_at(shown: Shown, times: Array, width: float = 85.0, black: bool = F
                 one.remove()
 
 
+def _side(width: float) -> int:
+    """Pixels, an even number."""
+    return 2 * round(0.5 * _PIXELS * width)
+
+
 def _title(title: str, width: float) -> str:
     """In lines beside the clock, or above it where there is no room for both."""
     room = int((width - _AXIS) / _LETTER)
@@ -110,11 +113,11 @@ def as_film(shown: Shown, kind: str, width: float = 85.0, black: bool = False, s
     ------
     InvalidParameter : no such format, width or length, nothing moves, or the libraries are not installed.
     """
-    if kind not in FILMS:
-        raise InvalidParameter(f"{kind!r} is no format of a film: choose one of {', '.join(FILMS)}.")
-    for value, (low, high), what in ((width, WIDTHS, "mm wide"), (seconds, SECONDS, "seconds long")):
-        if not low <= value <= high:
-            raise InvalidParameter(f"A film is {low:g} to {high:g} {what}, not {value:g}.")
+    if kind not in _CODECS:
+        raise InvalidParameter(f"{kind!r} is no format of a film: choose one of {', '.join(_CODECS)}.")
+    for value, bounds, what in ((width, FILM_WIDTHS, "mm wide"), (seconds, SECONDS, "seconds long")):
+        if not bounds.low <= value <= bounds.high:
+            raise InvalidParameter(f"A film is {bounds} {what}, not {value:g}.")
     if not moves(shown):
         raise InvalidParameter(f"Nothing moves in “{shown.title}” in this state: choose another picture, or a figure.")
     try:
@@ -126,10 +129,9 @@ def as_film(shown: Shown, kind: str, width: float = 85.0, black: bool = False, s
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / f"film.{kind}"
         times = times_of(shown, seconds)
-        side = 2 * round(0.5 * _PIXELS * width)
         tags = {"title": shown.title, "comment": shown.said, "description": shown.caption}
         command = [imageio_ffmpeg.get_ffmpeg_exe(), "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24",
-                   "-s", f"{side}x{side}", "-r", str(RATE), "-i", "-", *FILMS[kind],
+                   "-s", f"{_side(width)}x{_side(width)}", "-r", str(RATE), "-i", "-", *_CODECS[kind],
                    "-threads", "1", *(part for name, text in tags.items() for part in ("-metadata", f"{name}={text}")),
                    str(path)]
         with subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE) as encoder:

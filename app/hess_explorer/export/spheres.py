@@ -68,11 +68,10 @@ def _has_guest(shown: Shown) -> bool:
 def _half(sheet: Sheet, shown: Shown, near: bool, body: Body | None = None) -> None:
     picture = shown.picture
     own = shown.columns.get(picture.name, {})
-    in_space = isinstance(picture, BodyInSpace)
-    equator = circle(np.array([0.0, 0.0, 1.0]), 0.0)
-    for line in [equator] if isinstance(picture, BodyInSpace) and picture.bare else graticule():
+    in_space = picture if isinstance(picture, BodyInSpace) else None
+    for line in [circle(np.array([0.0, 0.0, 1.0]), 0.0)] if in_space and in_space.bare else graticule():
         sheet.stroke(line, (theme.INK, "-", 0.4), near, 0.25 if near else 0.1)
-    if not in_space:
+    if in_space is None:
         for axis, label in zip(np.eye(3), ("γ₁", "γ₂", "γ₃"), strict=True):
             _axis(sheet, axis, label, near)
         if len(own.get("axis", ())):

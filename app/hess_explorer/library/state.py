@@ -16,9 +16,8 @@ import numpy as np
 
 from hess_explorer.export.code import code
 from hess_explorer.export.columns import Table, columns_of
-from hess_explorer.export.figure import FORMATS
-from hess_explorer.export.file import Wish, content
-from hess_explorer.export.film import FILMS
+from hess_explorer.export.file import content
+from hess_explorer.export.formats import Wish, holding
 from hess_explorer.export.shown import CLIENT_KEPT, Address, Shown, address, picture_of, show
 from hess_explorer.protocol.parameters import Number, Places, Spec, Value, written
 from hess_explorer.scenes import scenes
@@ -26,7 +25,7 @@ from hess_mechanics.errors import InvalidParameter
 
 __all__ = ["State", "from_link", "state"]
 
-_ENDINGS = ("csv", "json", *FORMATS, *FILMS)
+_ENDINGS = holding("data", "figure", "film")
 
 
 @dataclass(frozen=True, eq=False)

@@ -64,6 +64,9 @@ class Bar(JSComponent):
 
     scenes = param.List(default=[], doc="{name, title, summary, picture, origin, group} of each.")
 
+    files: Any = param.Dict(default={}, doc="formats: [kind, words, what it holds] of each that Export offers; width, "
+                            "seconds: least, most and usual.")
+
     _esm = _module("controls/bar.js")
     _stylesheets = _css("controls/bar.css")
 

@@ -12,6 +12,7 @@ import panel as pn
 import panel_material_ui as pmui
 from panel.util import edit_readonly
 
+from hess_explorer.export.formats import FORMATS, SERVED_SECONDS, WIDTHS, Wish
 from hess_explorer.lessons import shipped
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.components import (
@@ -41,6 +42,9 @@ logger = logging.getLogger("hess_explorer")
 THEME = Choice("theme", "Theme", ("light", "dark"), "light")
 PRESENT = Choice("present", "Present mode", ("0", "1"), "0")
 EMBED = Choice("embed", "Embedding", ("0", "1"), "0")
+
+_FILES = {"formats": [[kind, one.words, one.holds] for kind, one in FORMATS.items() if one.words],
+          "width": [*WIDTHS, Wish.width], "seconds": [*SERVED_SECONDS, Wish.seconds]}
 
 # The system's font: the fourteen files of another one would come before the first picture.
 FONT = "system-ui, sans-serif"
@@ -107,7 +111,7 @@ def _page(query: str, own: Lesson | None, follow: Callable[[str], None] | None) 
     if follow is not None:
         ready.param.watch(lambda event: follow(json.loads(event.new)["query"]), "state")
     shell = Shell(
-        bar=Bar(scenes=[_entry(one) for one in scenes().values()]),
+        bar=Bar(scenes=[_entry(one) for one in scenes().values()], files=_FILES),
         controls=Controls(),
         derived=Text(key="derived", look="derived", tag="div"),
         pictures=Pictures(),

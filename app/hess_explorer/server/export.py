@@ -13,8 +13,8 @@ from tornado.iostream import StreamClosedError
 from tornado.web import RequestHandler
 
 from hess_explorer.compute.budget import Abandoned, limited
-from hess_explorer.export.file import Wish, content
-from hess_explorer.export.film import FILMS
+from hess_explorer.export.file import content
+from hess_explorer.export.formats import FORMATS, SERVED_SECONDS, WIDTHS, Wish, holding
 from hess_explorer.export.notebook import PROGRAMS
 from hess_explorer.export.shown import address, show
 from hess_explorer.page.offline import as_html
@@ -25,13 +25,9 @@ from hess_mechanics.errors import ModelError
 
 __all__ = ["Export"]
 
-_TYPES = {"csv": "text/csv; charset=utf-8", "json": "application/json", "png": "image/png",
-          "svg": "image/svg+xml; charset=utf-8", "pdf": "application/pdf", "html": "text/html; charset=utf-8",
-          "webm": "video/webm", "mp4": "video/mp4", "gif": "image/gif", "py": "text/x-python; charset=utf-8",
-          "ipynb": "application/x-ipynb+json"}
-_SPECS = (Choice("format", "Format", tuple(_TYPES), "csv"), Choice("black", "Black", ("0", "1"), "0"),
-          Number("width", "width", "Width", 85.0, (20.0, 400.0), 5.0, (20.0, 400.0)),
-          Number("seconds", "seconds", "Seconds", 10.0, (1.0, 30.0), 1.0, (1.0, 30.0)),
+_SPECS = (Choice("format", "Format", tuple(FORMATS), "csv"), Choice("black", "Black", ("0", "1"), "0"),
+          Number("width", "width", "Width", Wish.width, WIDTHS, 5.0, WIDTHS),
+          Number("seconds", "seconds", "Seconds", Wish.seconds, SERVED_SECONDS, 1.0, SERVED_SECONDS),
           Choice("progress", "Progress", ("0", "1"), "0"))
 
 # One file at a time, and one film: those who look at pages come first.
@@ -73,7 +69,7 @@ class Export(RequestHandler):
         read, _ = decode(self.request.query, _SPECS)
         own = {spec.name for spec in _SPECS} | {"picture"}
         state, picture = {name: value for name, value in given.items() if name not in own}, given.get("picture", "")
-        is_film = read["format"] in FILMS
+        is_film = read["format"] in holding("film")
         if (Export.filming >= _MOST_FILMS) if is_film else (Export.waiting >= _MOST):
             self._refuse(503, "Too many files are being made at the moment: try again in a minute.")
             return
@@ -141,7 +137,7 @@ class Export(RequestHandler):
             self._send(f"{scene if scene in scenes() else next(iter(scenes()))}-{picture or 'film'}", kind, data)
 
     def _send(self, name: str, kind: str, data: bytes) -> None:
-        self.set_header("Content-Type", _TYPES[kind])
+        self.set_header("Content-Type", FORMATS[kind].media)
         self.set_header("Content-Disposition", f'attachment; filename="{name}.{kind}"')
         self.finish(data)
 
