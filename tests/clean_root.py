@@ -96,12 +96,13 @@ class CleanRoot:
 
 
 @contextmanager
-def mounted(root: Path):
-    """The root read-only but for /tmp, with /proc, as compose.yaml asks for it."""
-    places = [["--bind", root, root], ["-t", "tmpfs", "tmpfs", root / "tmp"], ["-t", "proc", "proc", root / "proc"]]
+def mounted(image: CleanRoot):
+    """The root read-only but for /tmp and the kernels, with /proc, as compose.yaml asks for it."""
+    root, kernels = image.root, image.root / image.set["NUMBA_CACHE_DIR"].lstrip("/")
     made = []
     try:
-        for words in places:
+        for words in (["--bind", root, root], ["-t", "tmpfs", "tmpfs", root / "tmp"],
+                      ["-t", "proc", "proc", root / "proc"], ["--bind", kernels, kernels]):
             subprocess.run(["mount", *map(str, words)], check=True)
             made.append(words[-1])
         subprocess.run(["mount", "-o", "remount,ro,bind", str(root)], check=True)
@@ -112,21 +113,26 @@ def mounted(root: Path):
 
 
 def serve(image: CleanRoot, seconds: float) -> None:
-    """The command in a read-only root: until its health check passes, and how it ends."""
+    """The command: until its health check passes and it has said its address, and how it ends."""
     begun = time.monotonic()
-    with mounted(image.root), subprocess.Popen(image.inside(image.command), stdout=subprocess.PIPE, text=True,
-                                               stderr=subprocess.STDOUT, start_new_session=True) as process:
-        while subprocess.run(image.inside(image.health), capture_output=True, check=False).returncode:
+
+    def wait(until) -> None:
+        while not until():
             if process.poll() is not None or time.monotonic() - begun > seconds:
                 process.kill()
-                raise RuntimeError(f"it does not serve\n{process.stdout.read()}")
-            time.sleep(0.5)
-        user = Path(f"/proc/{process.pid}").stat().st_uid
-        print(f"healthy after {time.monotonic() - begun:.1f} s, user {user}, root read-only", flush=True)
-        begun = time.monotonic()
+                raise RuntimeError(f"it does not serve\n{log.read_text()}")
+            time.sleep(0.2)
+
+    log = image.root.parent / "log"
+    with log.open("wb") as out, mounted(image), subprocess.Popen(
+            image.inside(image.command), stdout=out, stderr=out, start_new_session=True) as process:
+        wait(lambda: not subprocess.run(image.inside(image.health), capture_output=True, check=False).returncode)
+        print(f"healthy after {time.monotonic() - begun:.1f} s, user {Path(f'/proc/{process.pid}').stat().st_uid}")
+        wait(lambda: "http" in log.read_text())
+        print(f"ready after {time.monotonic() - begun:.1f} s", flush=True)
+        ended = time.monotonic()
         process.send_signal(signal.SIGTERM)
-        said = process.communicate(timeout=30)[0]
-        print(f"SIGTERM: code {process.returncode} after {time.monotonic() - begun:.1f} s; it said\n{said}")
+        print(f"SIGTERM: code {process.wait(30)} after {time.monotonic() - ended:.1f} s; it said\n{log.read_text()}")
 
 
 def main() -> None:
