@@ -31,6 +31,7 @@ from hess_mechanics.dynamics.lyapunov import Exponent, Spectrum, largest_exponen
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.section import Plane, Points, section, section_points, sections
 from hess_mechanics.dynamics.system import System, systems
+from hess_mechanics.dynamics.variation import Return, Transition, return_matrix, transition_matrix
 from hess_mechanics.errors import ModelError
 from hess_mechanics.euler_poisson.andoyer import AndoyerPlane
 from hess_mechanics.euler_poisson.equations import HeavyBody
@@ -63,7 +64,7 @@ __all__ = [  # noqa: RUF022 (by subject)
     # Any system
     "System", "systems", "solve", "Orbit", "ensemble", "Ensemble",
     "section", "sections", "section_points", "Plane", "Section", "Points", "largest_exponent", "Exponent", "spectrum",
-    "Spectrum",
+    "Spectrum", "transition_matrix", "Transition", "return_matrix", "Return",
     # Accuracy, cost, errors
     "LEVELS", "Level", "level", "Status", "Cost", "ModelError",
     # Bodies

@@ -25,6 +25,7 @@ from hess_mechanics.numerics.jit import derived_kernel, inner
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.numerics.taylor_kernels import orbit_integrator
 from hess_mechanics.numerics.tracing import Field, Recursion, trace
+from hess_mechanics.numerics.variation_kernels import Variation, variation, variation_integrator
 
 __all__ = ["Problem", "System", "in_units_of_time", "systems"]
 
@@ -99,6 +100,25 @@ class System:
         """The kernel of the crossings of a plane by one orbit, see `events_kernels.crossing_finder`."""
         return self._kernel("cross", "y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states",
                             crossing_finder)
+
+    @cached_property
+    def variation(self) -> Variation:
+        """The field with its Jacobian.  Raises `NotTraceable`."""
+        return variation(self.field, len(self.variables), len(self.parameters))
+
+    @cached_property
+    def vary(self) -> Callable[..., int]:
+        """The kernel of one orbit and all its neighbours, see `variation_kernels.variation_integrator`."""
+        return self._vary("vary", len(self.variables))
+
+    @cached_property
+    def vary_one(self) -> Callable[..., int]:
+        """The kernel of one orbit and one neighbour."""
+        return self._vary("vary_one", 1)
+
+    def _vary(self, task: str, columns: int) -> Callable[..., int]:
+        return self._kernel(task, "y, frame, p, times, order, tolerance, max_steps, limit, states, frames, growth, "
+                            "divergence", lambda _: variation_integrator(self.variation, columns))
 
     def _kernel(self, task: str, arguments: str, make: Callable[[Recursion], Callable[..., Any]],
                 adjusts: bool = True) -> Callable[..., Any]:

@@ -40,6 +40,7 @@ def expansion(recursion: Recursion) -> Callable[..., Any]:
 
     expand(c, left, right, inverses, parameters): from the state in c[0] the Taylor coefficients c[1 … order, variable].
     left, right : those of the factors of the products once more, side by side; inverses : 1/(k+1) for k = 0 … order−1.
+    A field that returns more than its rates has one argument more, seen[0 … order−1, which], for these series.
     """
     convolve = compiled(convolution_source(columns_of(recursion)))
     return compiled(expansion_source(recursion), **parts(recursion), **convolve)["expand"]
@@ -49,6 +50,7 @@ def expansion_source(recursion: Recursion) -> str:
     """Python source of `expand`, which calls the functions of `recursion.source` and `convolve`."""
     pairs, known = recursion.pairs, recursion.known
     variables = range(recursion.variables)
+    observed = range(recursion.observed)
 
     def keep(order: str, y: str, since: int, count: int) -> str:
         """Of the `count` series known now, `since` of them before."""
@@ -71,21 +73,27 @@ def expansion_source(recursion: Recursion) -> str:
         {y} = {y} + stage{i}({y}, q, p, {one})
         {keep(order, y, known[i], known[i + 1])}""" for i in range(len(recursion.stages)))
 
+    def seen(order: str) -> str:
+        return "; ".join(f"seen[{order}, {i}] = found[{recursion.variables + i}]" for i in observed) or "pass"
+
     return f"""
-def expand(c, left, right, inverses, parameters):
+def expand(c, left, right, inverses, parameters{", seen" if observed else ""}):
     p = ({items(f"parameters[{i}]" for i in range(recursion.parameters))})
     y0 = ({items(f"c[0, {i}]" for i in variables)})
     {"p = p + constants(y0, p)" if recursion.constants else "pass"}
     {keep("0", "y0", 0, recursion.variables)}
     if True:{stages("0", "y0", "1.0", first_products) or " pass"}
-    y = rates(y0, ({first_products(known[-1])}), p, 1.0)
-    {"; ".join(f"c[1, {i}] = y[{i}]" for i in variables)}
+    found = rates(y0, ({first_products(known[-1])}), p, 1.0)
+    {"; ".join(f"c[1, {i}] = found[{i}]" for i in variables)}
+    {seen("0")}
+    y = ({items(f"found[{i}]" for i in variables)})
     for k in range(1, inverses.size):
         {keep("k", "y", 0, recursion.variables)}
         s = convolve(left, right, k){stages("k", "y", "0.0", products)}
         q = ({products(known[-1])})
-        y = rates(y, q, p, 0.0)
-        y = ({items(f"y[{i}] * inverses[k]" for i in variables)})
+        found = rates(y, q, p, 0.0)
+        {seen("k")}
+        y = ({items(f"found[{i}] * inverses[k]" for i in variables)})
         {"; ".join(f"c[k + 1, {i}] = y[{i}]" for i in variables)}
 """
 

@@ -13,8 +13,8 @@ the term d_0 z_k, which is not known by then.
 What depends on parameters only is computed once, and so is `constant(x)`, which says that x does not change along
 the motion.  The expressions keep the shape in which they were written, so that round-off in a common factor stays one.
 
-All this asks of a field is plain arithmetic.  Called with pairs (value, tangent) instead of numbers it is its own
-variational equation, and traced like any other.
+All this asks of a field is plain arithmetic.  What it computes can be differentiated (`derivative`), and a field may
+return more than its rates: the series of what it returns beyond them are found along with the motion.
 """
 
 from __future__ import annotations
@@ -27,7 +27,9 @@ from typing import Any, NoReturn
 
 import numpy as np
 
-__all__ = ["Field", "NotTraceable", "Recursion", "Symbol", "constant", "trace"]
+from hess_mechanics.numerics.unrolled import items
+
+__all__ = ["Field", "NotTraceable", "Recursion", "Symbol", "constant", "derivative", "trace"]
 
 Field = Callable[[Sequence[Any], Sequence[Any]], Sequence[Any]]
 """field(y, p) → ẏ in plain arithmetic."""
@@ -48,6 +50,7 @@ class Recursion:
     stages : how many auxiliary series each stage finds; they follow the variables in y.
     pairs : the indices into y of the two factors of each product.
     constants : how many numbers stay the same during a step; they follow the parameters in p.
+    observed : how many further series the field returns after its rates.
     source : Python source of `rates(y, q, p, one)`, `stage0(y, q, p, one)`, … and `constants(y, p)`, where there are
         any; each returns a tuple.  one : 1 at order 0 and 0 at all others, the series of the number 1.
     """
@@ -58,6 +61,7 @@ class Recursion:
     pairs: tuple[tuple[int, int], ...]
     constants: int
     source: str
+    observed: int = 0
 
     @property
     def known(self) -> list[int]:
@@ -78,10 +82,21 @@ def constant(x: Any) -> Any:
     return x.at_start() if isinstance(x, Symbol) else x
 
 
-def trace(field: Field, variables: int, parameters: int) -> Recursion:
+def derivative(x: Any, y: Symbol) -> Any:
+    """∂x/∂y of what a traced field has computed, y one of its variables: a symbol, or the number 0.
+
+    What is constant along a motion (`constant`) still depends on where the motion starts.
+    """
+    if not isinstance(x, Symbol):
+        return 0
+    found = x.tape.derivative(x.node, y.node)
+    return 0 if found is x.tape.number(0) else Symbol(x.tape, found)
+
+
+def trace(field: Field, variables: int, parameters: int, observed: int = 0) -> Recursion:
     """The Taylor recursion of a field of so many variables and parameters.
 
-    Raises `NotTraceable` where the field does anything but arithmetic.
+    observed : how much it returns after its rates.  Raises `NotTraceable` where the field does anything but arithmetic.
     """
     tape = _Tape()
     y = tuple(Symbol(tape, tape.leaf("variable", i)) for i in range(variables))
@@ -92,8 +107,9 @@ def trace(field: Field, variables: int, parameters: int) -> Recursion:
         raise
     except (TypeError, ValueError, AttributeError, ArithmeticError, LookupError) as error:
         raise NotTraceable(f"This field cannot be traced: {error}. {_ALLOWED}") from error
-    if len(rates) != variables:
-        raise NotTraceable(f"This field has {variables} variables and returns {len(rates)} rates: return one for each.")
+    if len(rates) != variables + observed:
+        raise NotTraceable(f"This field has {variables} variables and returns {len(rates) - observed} rates: return "
+                           "one for each.")
     plain = _Series(tape, variables, multiplies_out=True).recursion(rates, parameters)
     return _Series(tape, variables, multiplies_out=False).recursion(rates, parameters) if plain.stages else plain
 
@@ -122,6 +138,7 @@ class _Tape:
 
     def __init__(self) -> None:
         self._nodes: dict[tuple[Any, ...], _Node] = {}
+        self._derivatives: dict[tuple[_Node, _Node], _Node] = {}
 
     def _node(self, operation: str, arguments: tuple[_Node, ...], value: Any, moves: bool, started: bool) -> _Node:
         key = (operation, *map(id, arguments), value)
@@ -181,6 +198,27 @@ class _Tape:
         square = self.apply("*", half, half)
         return self.apply("*", square, a) if exponent % 2 else square
 
+    def derivative(self, x: _Node, y: _Node) -> _Node:
+        """∂x/∂y, y a variable."""
+        if (x, y) not in self._derivatives:
+            self._derivatives[x, y] = self._derive(x, y)
+        return self._derivatives[x, y]
+
+    def _derive(self, x: _Node, y: _Node) -> _Node:
+        if not x.arguments:
+            return self.number(1 if x is y else 0)
+        inner = [self.derivative(argument, y) for argument in x.arguments]
+        if x.operation == "start":
+            return inner[0]
+        if x.operation == "negative":
+            return self.negative(inner[0])
+        if x.operation in "+-":
+            return self.apply(x.operation, *inner)
+        (a, b), (da, db) = x.arguments, inner
+        if x.operation == "*":
+            return self.apply("+", self.apply("*", da, b), self.apply("*", a, db))
+        return self.apply("/", self.apply("-", da, self.apply("*", x, db)), b)
+
     def linear(self, operation: str, *arguments: _Node, signs: tuple[int, ...] = ()) -> _Node:
         """A node of the recursion: "one", "product", "scaled", or "sum" with a sign, 1 or −1, for each term."""
         return self._node(operation, arguments, signs, True, False)
@@ -233,6 +271,11 @@ class Symbol:
 
     def __pow__(self, exponent: Any) -> Symbol:
         return Symbol(self.tape, self.tape.power(self.node, exponent))
+
+    @property
+    def moves(self) -> bool:
+        """Whether it changes during a step."""
+        return self.node.moves
 
     def at_start(self) -> Symbol:
         """Its value at the start of a step, see `constant`."""
@@ -384,7 +427,8 @@ class _Series:
         if kept:
             functions.append(_function("constants(y, p)", kept, {}, {}))
         pairs = tuple((places[a.value], places[b.value]) for a, b in (node.arguments for node in products))
-        return Recursion(self._variables, parameters, tuple(map(len, stages)), pairs, len(kept), "\n\n".join(functions))
+        return Recursion(self._variables, parameters, tuple(map(len, stages)), pairs, len(kept),
+                         "\n\n".join(functions), len(rates) - self._variables)
 
     def _used(self, forms: Sequence[_Node]) -> list[int]:
         found: dict[int, None] = {}
@@ -456,7 +500,7 @@ def _function(head: str, results: Sequence[_Node], names: dict[_Node, str], late
         return texts[node]
 
     values = [text(result) for result in results]
-    return "\n".join([f"def {head}:", *lines, f"    return ({', '.join(values)},)"])
+    return "\n".join([f"def {head}:", *lines, f"    return ({items(values)})"])
 
 
 def _written(node: _Node, text: Callable[[_Node], str], when: Callable[[_Node], int]) -> str:

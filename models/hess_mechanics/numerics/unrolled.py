@@ -16,6 +16,10 @@ from hess_mechanics.numerics.jit import part
 __all__ = ["compiled", "evaluation", "items"]
 
 
+_LONGEST = 30
+"""Longer tuples Python itself makes of lists."""
+
+
 def compiled(source: str, **names: Callable[..., Any]) -> dict[str, Callable[..., Any]]:
     """The functions of this source by name, compiled; they may call each other and what `names` holds."""
     namespace: dict[str, Any] = dict(names)
@@ -27,8 +31,9 @@ def compiled(source: str, **names: Callable[..., Any]) -> dict[str, Callable[...
 
 
 def items(texts: Iterable[str]) -> str:
-    """What stands between the parentheses of a tuple."""
-    return "".join(f"{text}, " for text in texts).rstrip()
+    """What stands between the parentheses of a tuple; a long one is a sum of tuples, for Numba stumbles over others."""
+    each = [f"{text}, " for text in texts]
+    return ") + (".join("".join(each[i:i + _LONGEST]).rstrip() for i in range(0, len(each), _LONGEST))
 
 
 @cache

@@ -11,7 +11,8 @@ import sympy
 from hess_mechanics import System, ensemble, level, solve, systems
 from hess_mechanics.chaplygin_ball import phase_cloud_kernels
 from hess_mechanics.numerics.taylor_kernels import columns_of
-from hess_mechanics.numerics.tracing import NotTraceable, Symbol, constant, trace
+from hess_mechanics.numerics.tracing import NotTraceable, Symbol, constant, derivative, trace
+from hess_mechanics.numerics.variation_kernels import variation
 from hess_mechanics.suslov import free_kernels
 from hess_mechanics.suslov_hess import circle_map_kernels
 from hess_mechanics.suslov_hess.equations import WITH_ATTITUDE
@@ -275,3 +276,41 @@ def test_a_variational_equation_is_traced_like_any_field():
     found = coefficients(recursion, (*y, *v), p, 1, sympy.Rational)[1]
     for one, rate in zip(found[n:], system.field(y, p), strict=True):
         assert sympy.cancel(one - sum(sympy.diff(rate, x) * dx for x, dx in zip(y, v, strict=True))) == 0
+
+
+@pytest.mark.parametrize("name", FIELDS)
+def test_the_jacobian_that_is_observed_along_is_the_derivative_of_the_field(name):
+    field, n, parameters = FIELDS[name]
+    of = variation(field, n, parameters)
+    y, p = sympy.symbols(f"y:{n}"), sympy.symbols(f"p:{parameters}")
+    rates = [sympy.sympify(rate) for rate in field(y, p)]
+    draw = np.random.default_rng(7)
+    at = {symbol: sympy.Rational(int(draw.integers(1, 40)), int(draw.integers(1, 9))) for symbol in (*y, *p)}
+    numbers = [at[symbol] for symbol in y], [at[symbol] for symbol in p]
+    functions, zero = uncompiled(of.recursion, sympy.Rational), sympy.Rational(0)
+    columns = columns_of(of.recursion)
+    c, left, right = (np.full((2, size), zero, dtype=object) for size in (n, columns, columns))
+    c[0] = numbers[0]
+    seen = np.full((1, of.recursion.observed), zero, dtype=object)
+    functions["expand"](c, left, right, np.array([1], dtype=object), numbers[1], seen)
+    found = np.full((n, n), zero, dtype=object)
+    for place, value in zip((*of.moving, *of.fixed), seen[0], strict=False):
+        found[place] = value
+    exact = np.array([[sympy.diff(rate, symbol).subs(at) for symbol in y] for rate in rates])
+    assert (found == exact).all()
+    assert seen[0, -1] == sum(exact[i, i] for i in range(n))
+    assert list(c[1]) == [rate.subs(at) for rate in rates]
+    # Where an entry does not move, neither does its second derivative exist.
+    assert all(not sympy.diff(rates[i], y[j]).free_symbols & set(y) for i, j in of.fixed)
+
+
+def test_a_derivative_of_what_is_no_symbol_is_none():
+    def field(y, p):
+        assert derivative(3.0, y[0]) == 0
+        assert derivative(p[0] * y[1], y[0]) == 0
+        return y[1] / (1 + y[0] ** 2), -y[0] ** 3, derivative(y[0] ** 3, y[0])
+
+    found = trace(field, 2, 1, observed=1)
+    assert found.observed == 1
+    with pytest.raises(NotTraceable, match="2 variables and returns 1 rates"):
+        trace(lambda y, p: (y[0], 1.0), 2, 1, observed=1)

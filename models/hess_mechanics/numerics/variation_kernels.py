@@ -1,0 +1,258 @@
+# mypy: allow-untyped-defs
+"""Variational equations V̇ = J(y(t)) V along an orbit, by Taylor series with those of the orbit.
+
+The Jacobian J of a traced field is found by differentiating what was recorded.  Its entries that are not 0 are observed
+along with the motion, one series each, quotients included; then
+
+    (k+1) V_(k+1) = Σ_m J_m V_(k−m)
+
+takes all columns of V together, side by side, so that the processor does the same with each at once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from hess_mechanics.numerics.jit import inner, part
+from hess_mechanics.numerics.taylor_kernels import (
+    STEP_LIMIT_REACHED,
+    columns_of,
+    compensated,
+    expansion,
+    step_size,
+    workspace,
+)
+from hess_mechanics.numerics.tracing import Field, Recursion, Symbol, derivative, trace
+from hess_mechanics.numerics.unrolled import compiled, evaluation
+
+__all__ = ["Variation", "variation", "variation_integrator"]
+
+
+@dataclass(frozen=True)
+class Variation:
+    """A field with its Jacobian.
+
+    recursion : of the field, which also returns the entries of J that are not 0 and, last, the divergence tr J.
+    moving, fixed : row and column of the entries, in this order; those that are fixed depend on parameters only.
+    divergence_free : whether tr J is 0 whatever the parameters.
+    """
+
+    recursion: Recursion
+    moving: tuple[tuple[int, int], ...]
+    fixed: tuple[tuple[int, int], ...]
+    divergence_free: bool
+
+
+def variation(field: Field, variables: int, parameters: int) -> Variation:
+    """The field and its Jacobian, derived.  Raises `NotTraceable`."""
+    moving: list[tuple[int, int]] = []
+    fixed: list[tuple[int, int]] = []
+    free: list[bool] = []
+
+    def with_jacobian(y: Sequence[Any], p: Sequence[Any]) -> Sequence[Any]:
+        for found in (moving, fixed, free):
+            found.clear()
+        rates = tuple(field(y, p))
+        entries = {(i, j): derivative(rate, x) for i, rate in enumerate(rates) for j, x in enumerate(y)}
+        for place, entry in entries.items():
+            if isinstance(entry, Symbol):
+                (moving if entry.moves else fixed).append(place)
+        divergence = sum(entries[i, i] for i in range(len(rates)))
+        free.append(not isinstance(divergence, Symbol))
+        return *rates, *(entries[place] for place in (*moving, *fixed)), divergence
+
+    # Which entries there are is known only when the field has run.
+    trace(lambda y, p: with_jacobian(y, p)[: len(y)], variables, parameters)
+    recursion = trace(with_jacobian, variables, parameters, len(moving) + len(fixed) + 1)
+    return Variation(recursion, tuple(moving), tuple(fixed), free[0])
+
+
+def _lanes(columns: int) -> int:
+    """The numbers in a row of V: whole vectors of four, or one alone."""
+    return 1 if columns == 1 else columns + -columns % 4
+
+
+def carrying_source(of: Variation, lanes: int) -> str:
+    """Python source of carry(seen, v, inverses): the coefficients v[1 … order, row, lane] from v[0] and those of J."""
+    n = of.recursion.variables
+    entries = [*of.moving, *of.fixed]
+    each = range(lanes)
+
+    def sums(row: int) -> tuple[str, ...]:
+        """Two for a row with many terms: the processor need not wait for one sum."""
+        return ("s", "t") if sum(i == row for i, _ in of.moving) > 2 else ("s",)
+
+    beginnings, used = [], {j for _, j in of.moving}
+    for row in range(n):
+        for lane in each:
+            terms = [f"seen[0, {e}] * v[k, {j}, {lane}]" for e, (i, j) in enumerate(entries)
+                     if i == row and e >= len(of.moving)]
+            beginnings.append(f"s{row}_{lane} = {' + '.join(terms) or '0.0'}")
+            beginnings += [f"t{row}_{lane} = 0.0"] if len(sums(row)) > 1 else []
+    products, counted = [], dict.fromkeys(range(n), 0)
+    for e, (i, j) in enumerate(of.moving):
+        names = sums(i)
+        name = names[counted[i] % len(names)]
+        counted[i] += 1
+        products.append("; ".join(f"{name}{i}_{lane} += a{e} * x{j}_{lane}" for lane in each))
+    ends = [f"v[k + 1, {i}, {lane}] = ({' + '.join(f'{name}{i}_{lane}' for name in sums(i))}) * inverse"
+            for i in range(n) for lane in each]
+    newline = "\n        "
+    return f"""
+def carry(seen, v, inverses):
+    for k in range(inverses.size):
+        inverse = inverses[k]
+        {newline.join(beginnings)}
+        for m in range(k, -1, -1):
+            {"; ".join(f"a{e} = seen[m, {e}]" for e in range(len(of.moving))) or "pass"}
+            {"; ".join(f"x{j}_{lane} = v[k - m, {j}, {lane}]" for j in sorted(used) for lane in each) or "pass"}
+            {(newline + "    ").join(products) or "pass"}
+        {newline.join(ends)}
+"""
+
+
+@inner
+def largest_entry(v, rows, columns):
+    """max |v| of v[row, column]."""
+    largest = 0.0
+    for i in range(rows):
+        for j in range(columns):
+            largest = max(largest, abs(v[i, j]))
+    return largest
+
+
+@inner
+def orthonormalised(v, rows, columns, growth):
+    """Gram and Schmidt's method on the columns of v[row, column]; adds the logarithms of their lengths to growth."""
+    for j in range(columns):
+        for other in range(j):
+            along = 0.0
+            for i in range(rows):
+                along += v[i, other] * v[i, j]
+            for i in range(rows):
+                v[i, j] -= along * v[i, other]
+        square = 0.0
+        for i in range(rows):
+            square += v[i, j] * v[i, j]
+        length = np.sqrt(square)
+        growth[j] += np.log(length)
+        for i in range(rows):
+            v[i, j] /= length
+
+
+@inner
+def is_bent(v, rows, columns, volume, limit):
+    """Whether columns that began orthonormal have come so close to each other, or so far from length 1.
+
+    The condition number of a square v is at most 2 (|v|²/d)^(d/2)/det v (Guggenheimer, Edelman, Johnson 1995);
+    volume : ln det v.  Columns that are no basis are said to be bent always.
+    """
+    square = 0.0
+    for i in range(rows):
+        for j in range(columns):
+            square += v[i, j] * v[i, j]
+    if not 1e-6 < square / columns < 1e6:
+        return True
+    if columns == 1:
+        return False
+    return columns < rows or 0.5 * columns * np.log(square / columns) - volume > np.log(limit)
+
+
+def variation_integrator(of: Variation, columns: int) -> Callable[..., Any]:
+    """The compiled solver of ẏ = f(y, p), V̇ = J V for V of so many columns.
+
+    vary(state, frame, parameters, times, order, tolerance, max_steps, limit, states, frames, growth, divergence):
+    from t = 0, at the given times (n,), monotonic, all ≥ 0 or all ≤ 0, writes y into `states` (n, d), V into `frames`
+    (n, d, c), and ∫ tr J dt into `divergence` (n,).  Returns the number of steps, or `STEP_LIMIT_REACHED`.
+
+    limit : where finite, V is orthonormalised after the step at which its condition, or the length of its columns,
+    may have passed it; `growth` (n, c) holds the logarithms of the lengths taken away before each time.
+    """
+    recursion = of.recursion
+    n, width, lanes, last_seen = recursion.variables, columns_of(recursion), _lanes(columns), recursion.observed - 1
+    expand, evaluate = expansion(recursion), evaluation(n)
+    carry = compiled(carrying_source(of, lanes))["carry"]
+    evaluate_row = evaluation(lanes)
+
+    @part
+    def vary(state, frame, parameters, times, order, tolerance, max_steps, limit, states, frames, growth, divergence):
+        c, left, right, inverses = workspace(order, n, width)
+        seen = np.zeros((order, last_seen + 1))
+        v = np.zeros((order + 1, n, lanes))
+        moved = np.zeros((n, lanes))
+        grown = np.zeros(columns)
+        y = state.copy()
+        low = np.zeros(n)
+        increments = np.zeros(n)
+        for i in range(n):
+            for j in range(columns):
+                v[0, i, j] = frame[i, j]
+        t = 0.0
+        t_low = 0.0
+        volume = 0.0
+        volume_low = 0.0
+        since = 0.0
+        count = times.size
+        direction = 1.0 if times[count - 1] >= 0.0 else -1.0
+        sample = 0
+        steps = 0
+        while True:
+            for i in range(n):
+                c[0, i] = y[i]
+            expand(c, left, right, inverses, parameters, seen)
+            carry(seen, v, inverses)
+            size = largest_entry(v[0], n, columns)
+            last = largest_entry(v[order], n, columns) / size
+            previous = largest_entry(v[order - 1], n, columns) / size
+            for i in range(n):
+                last = max(last, abs(c[order, i]))
+                previous = max(previous, abs(c[order - 1, i]))
+            h = step_size(last, previous, order, tolerance)
+            while sample < count:
+                s = (times[sample] - t) - t_low
+                if direction * s > h:
+                    break
+                evaluate(c, s, increments)
+                for i in range(n):
+                    evaluate_row(v[:, i], s, moved[i])
+                    states[sample, i] = y[i] + (low[i] + increments[i])
+                    for j in range(columns):
+                        frames[sample, i, j] = v[0, i, j] + moved[i, j]
+                for j in range(columns):
+                    growth[sample, j] = grown[j]
+                divergence[sample] = volume + (volume_low + spread_over(seen, last_seen, inverses, s))
+                sample += 1
+            if sample == count:
+                return steps + 1
+            if steps >= max_steps or not (h > 0.0):
+                return STEP_LIMIT_REACHED
+            s = direction * h
+            evaluate(c, s, increments)
+            for i in range(n):
+                evaluate_row(v[:, i], s, moved[i])
+                y[i], low[i] = compensated(y[i], low[i], increments[i])
+                for j in range(columns):
+                    v[0, i, j] += moved[i, j]
+            added = spread_over(seen, last_seen, inverses, s)
+            volume, volume_low = compensated(volume, volume_low, added)
+            since += added
+            if limit < np.inf and is_bent(v[0], n, columns, since, limit):
+                orthonormalised(v[0], n, columns, grown)
+                since = 0.0
+            t, t_low = compensated(t, t_low, s)
+            steps += 1
+
+    return vary
+
+
+@inner
+def spread_over(seen, which, inverses, s):
+    """∫ of one of the observed series from 0 to s."""
+    total = 0.0
+    for k in range(inverses.size - 1, -1, -1):
+        total = (total + seen[k, which] * inverses[k]) * s
+    return total
