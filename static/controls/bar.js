@@ -3,6 +3,7 @@
 import { listen, tell } from "../page/bus.js"
 import { element, lifetime } from "../page/mount.js"
 import { isPresenting, wear } from "../page/presenting.js"
+import { chartPanel } from "./chart.js"
 import { exportDialog } from "./export.js"
 import { moreMenu } from "./more.js"
 import { sceneMenu } from "./scenes.js"
@@ -29,6 +30,8 @@ const TOOLS = [
   [
     { name: "pin", label: "Pin", title: "Keep this state, to compare others with it", isPin: true, isFar: true,
       icon: "M9 3h6v2l-1 1v5l3 3v2h-4v5h-2v-5H7v-2l3-3V6L9 5z" },
+    { name: "chart", label: "Chart", title: "A quantity over two parameters, computed while you go on", isFar: true,
+      icon: "M3 3h2v16h16v2H3zm4 2h4v4H7zm5 0h4v4h-4zm5 0h4v4h-4zM7 10h4v4H7zm5 0h4v4h-4zm0 5h4v3h-4zm5-5h4v4h-4z" },
     { name: "share", label: "Share", title: "Link to all that is on the screen, QR code, parts for another page",
       icon: "M4 12a4 4 0 0 1 4-4h3v2H8a2 2 0 0 0 0 4h3v2H8a4 4 0 0 1-4-4zm5-1h6v2H9zm4-3h3a4 4 0 0 1 0 8h-3v-2h3a2 2 0 0 0 0-4h-3z" },
     { name: "export", label: "Export", title: "Data and figures of a picture: CSV, JSON, PNG, SVG, PDF", isFar: true,
@@ -59,6 +62,7 @@ export function render({ model, view, el }) {
   const menu = sceneMenu(model.scenes)
   const share = shareDialog(signal)
   const taking = exportDialog(model.files)
+  const chart = chartPanel(model.palette, signal)
   const heading = element("h1", { className: "heading" })
   const open = element("button", {
     type: "button", className: "tool param-scenes", title: "Choose a scene", "aria-haspopup": "dialog",
@@ -76,13 +80,23 @@ export function render({ model, view, el }) {
     if (one.isFar) far.push(button)
     if (one.isStep) steps.set(one.name, [button, one])
     if (one.name === "present") sayPresenting(button)
+    if (one.name === "chart") sayCharting(button, one)
     if (one.isPin) listen("compared", (compared) => button.setAttribute("aria-pressed", String(compared !== null)), signal)
     return button
   })))
   const more = moreMenu(far, icon(MORE), signal)
   el.append(
     element("div", { className: "tools" }, open, heading, element("span", { className: "room" }), ...groups, ...more),
-    menu.dialog, share.dialog, taking.dialog)
+    menu.dialog, share.dialog, taking.dialog, chart.panel)
+
+  // How far a chart is whose panel may be closed.
+  function sayCharting(button, { label, title }) {
+    listen("charting", (share) => {
+      const said = share === null ? "" : ` ${Math.floor(100 * share)} %`
+      button.querySelector(".label").textContent = label + said
+      button.title = share === null ? title : `The chart on its way:${said}`
+    }, signal)
+  }
 
   function sayPresenting(button) {
     const say = (on) => button.setAttribute("aria-pressed", String(on))
@@ -96,6 +110,7 @@ export function render({ model, view, el }) {
     menu.show(scene.name)
     share.show(scene)
     taking.show(scene)
+    chart.show(scene)
   }
   const enable = (counts) => {
     for (const [name, [button, { title, without }]] of steps) {
@@ -109,5 +124,6 @@ export function render({ model, view, el }) {
   listen("enter", show, signal)
   listen("share", share.open, signal)
   listen("export", taking.open, signal)
+  listen("chart", chart.open, signal)
   tell("mounted", { kind: "scene", show })
 }

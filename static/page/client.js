@@ -47,6 +47,8 @@ export function render({ model, view }) {
   // Pictures of the scene that are not on this page.
   let absent = []
 
+  listen("ask-chart", (chart) => model.send_msg({ chart }), signal)
+
   const page = createPage(view)
   const address = createAddress({ query: () => state.query, isDark: page.isDark, own })
   const sight = createSight(() => requests.request(), signal)
@@ -189,6 +191,7 @@ export function render({ model, view }) {
     tell("client", own)
     // The first state is read when the page stands, even if the user was faster and it is no longer the first.
     model.on("state", onState)
+    model.on("chart", () => tell("charted", { head: JSON.parse(model.chart), cells: model.cells }))
     model.on("lesson", () => readLesson(null))
     if (model.lesson !== "") readLesson(Number(own.step) - 1)
     if (model.state !== "") onState()

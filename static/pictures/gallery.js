@@ -36,6 +36,8 @@ export const gallery = {
   has: (name) => built.has(name),
   source: (name) => shown?.sources.get(name),
   get shown() { return shown },
+  // The picture of the scene on show that was last under the mouse.
+  pointed: null,
   build, enter, takeGhost, showGhost, shoot,
 }
 
@@ -51,6 +53,7 @@ function cellOf({ name, folded, hands }) {
   cell.classList.toggle("folded", folded !== null)
   // Until it is unfolded the server does not draw it.
   if (folded !== null) cell.dataset.late = ""
+  cell.addEventListener("pointerenter", () => { gallery.pointed = name })
   cell.addEventListener("mouseleave", () => { under.hidden = true })
   return [cell, host]
 }
@@ -148,6 +151,7 @@ function shoot(side) {
 function enter(name) {
   shown?.grid.classList.add("away")
   shown = built.get(name)
+  gallery.pointed = null
   shown.grid.classList.remove("away")
   stage.enter(shown)
   return shown

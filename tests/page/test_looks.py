@@ -465,7 +465,7 @@ def test_on_a_phone_tools_without_room_in_the_bar_are_in_a_menu(look_at, size):
     page.locator(".param-print").wait_for()
     assert page.locator(".param-more").is_hidden()
     assert page.locator(".tools .label:visible").all_inner_texts() == [
-        "Undo", "Redo", "Reset", "Pin", "Share", "Export", "Print", "Present", "Full screen", "Theme"]
+        "Undo", "Redo", "Reset", "Pin", "Chart", "Share", "Export", "Print", "Present", "Full screen", "Theme"]
     page.set_viewport_size(dict(zip(("width", "height"), SIZES[size], strict=True)))
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import threading
 from collections import deque
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -14,11 +14,21 @@ from hess_explorer.compute.cache import CACHE, Task
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.parallel import THREADS
 
-__all__ = ["Background"]
+__all__ = ["Background", "in_turns"]
 
 logger = logging.getLogger("hess_explorer")
 
 _pool = ThreadPoolExecutor(max_workers=THREADS, thread_name_prefix="background")
+
+
+def in_turns(step: Callable[[], bool]) -> None:
+    """Call step() in the background until it is False, each time behind what others wait for: so all take turns."""
+
+    def one() -> None:
+        if step():
+            _pool.submit(one)
+
+    _pool.submit(one)
 
 
 class _Job:
@@ -28,11 +38,11 @@ class _Job:
         self._lock = threading.Lock()
         self._running = 0
 
-    def one(self) -> None:
-        """Do one task, then queue again: sessions take turns."""
+    def one(self) -> bool:
+        """Do one task; whether there may be more."""
         with self._lock:
             if not self.tasks:
-                return
+                return False
             task = self.tasks.popleft()
             self._running += 1
         try:
@@ -49,7 +59,7 @@ class _Job:
             self.tasks.clear()
         with self._lock:
             self._running -= 1
-        _pool.submit(self.one)
+        return True
 
     @property
     def left(self) -> int:
@@ -68,7 +78,7 @@ class Background:
         self.stop()
         self._job = _Job(tasks)
         for _ in range(THREADS):
-            _pool.submit(self._job.one)
+            in_turns(self._job.one)
 
     def stop(self) -> None:
         """Discard the tasks that have not begun."""

@@ -13,7 +13,7 @@ from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.jit import seconds_compiling
 from hess_mechanics.numerics.patience import limited_by
 
-__all__ = ["SECONDS", "WAIT", "Abandoned", "OverBudget", "check", "limited"]
+__all__ = ["SECONDS", "WAIT", "Abandoned", "Budget", "OverBudget", "check", "limited"]
 
 SECONDS = 4.0
 """Of the processor, all cores together, for one answer; what is compiled meanwhile is compiled once, and apart."""
@@ -30,7 +30,7 @@ class OverBudget(WorkLimit):
     """An answer has cost too much."""
 
 
-class _Budget:
+class Budget:
     """Of the thread that makes it; others work for it."""
 
     def __init__(self, left: threading.Event, seconds: float, wait: float) -> None:
@@ -53,17 +53,17 @@ class _Budget:
         return own + self._elsewhere
 
 
-_budget: ContextVar[_Budget | None] = ContextVar("budget", default=None)
+_budget: ContextVar[Budget | None] = ContextVar("budget", default=None)
 
 
 @contextmanager
-def limited(left: threading.Event, seconds: float = SECONDS, wait: float = WAIT) -> Iterator[None]:
+def limited(left: threading.Event, seconds: float = SECONDS, wait: float = WAIT) -> Iterator[Budget]:
     """What this thread computes inside is refused by `check` when that is used up, and abandoned once `left` is set."""
-    budget = _Budget(left, seconds, wait)
+    budget = Budget(left, seconds, wait)
     token = _budget.set(budget)
     try:
         with limited_by(check, budget.spend):
-            yield
+            yield budget
     finally:
         _budget.reset(token)
 

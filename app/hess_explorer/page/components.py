@@ -63,6 +63,7 @@ class Bar(JSComponent):
     """The menu of scenes, and what can be done with the page; a choice travels with the request for its first state."""
 
     scenes = param.List(default=[], doc="{name, title, summary, picture, origin, group} of each.")
+    palette = param.List(default=[], doc="The colours of a chart.")
 
     files: Any = param.Dict(default={}, doc="formats: [kind, words, what it holds] of each that Export offers; width, "
                             "seconds: least, most and usual.")
@@ -126,7 +127,9 @@ class Ready(JSComponent):
     - "near": a scene that may be chosen next;
     - "restore": the query of a state to go to, as in a link;
     - "reset", "clear", "stop": whether that was pressed; "held": whether a slider is held;
-    - "hidden": [the pictures out of sight, …].
+    - "hidden": [the pictures out of sight, …];
+
+    and others about a chart, "chart": …, see `Charts`.
     """
 
     scene = param.String(default="", doc="JSON: the description of the newest scene, see `description`.")
@@ -135,6 +138,8 @@ class Ready(JSComponent):
     block = param.Bytes(default=b"", doc="The numbers of the tree of the state.")
     state = param.String(default="", doc="JSON: number of the state, last request that it answers, URL query, "
                          "the tree of its data (see `wire`), name of its scene, progress [done, of] or null.")
+    cells = param.Bytes(default=b"", doc="Of a chart: numbers (double precision), where (32 bits), status (8 bits).")
+    chart = param.String(default="", doc="JSON: what is said of the chart, see `Charts`.")
     client = param.Dict(default={}, doc="URL keys that the browser itself keeps: t, speed, az, el, large, present, "
                         "embed, pictures, controls, lesson, step.")
 

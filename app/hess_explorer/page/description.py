@@ -18,7 +18,10 @@ from hess_explorer.lessons.markdown import to_html
 from hess_explorer.lessons.reading import without_tries
 from hess_explorer.protocol.parameters import GROUPS, Choice, Number
 from hess_explorer.scenes import scenes
+from hess_explorer.scenes.framework.charted import Charted
 from hess_explorer.scenes.framework.scene import Scene
+from hess_explorer.sweep.chart import swept
+from hess_explorer.sweep.quantities import quantity
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import with_formulas
 
@@ -48,6 +51,7 @@ def _describe(name: str) -> str:
         "moves": scene.moves,
         "groups": list(GROUPS),
         "drawn": not all(isinstance(spec, Number | Choice) for spec in scene.specs),
+        "charts": [_chart(scene, charted) for charted in scene.charts],
         "presets": [preset.name for preset in scene.presets],
         "legend": scene.legend,
         "words": _html(scene),
@@ -67,6 +71,13 @@ def _handle(scene: Scene[Any]) -> dict[str, Any] | None:
     view = next(view for view in scene.views if view.name == picture and isinstance(view, Plot))
     found = next(one for one in view.layers if one.name == layer)
     return {"picture": picture, "source": view.source_of(found), "columns": list(found.columns)}
+
+
+def _chart(scene: Scene[Any], charted: Charted[Any]) -> dict[str, Any]:
+    """What can be charted: over which of its parameters, those with open controls first; for which pictures."""
+    what = quantity(charted.quantity)
+    return {"quantity": what.name, "symbol": what.symbol, "title": what.title, "units": what.units, "help": what.doc,
+            "parts": list(what.parts), "over": list(swept(scene.name, what.name)), "pictures": list(charted.pictures)}
 
 
 def _html(scene: Scene[Any]) -> str:

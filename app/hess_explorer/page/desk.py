@@ -39,6 +39,7 @@ class Desk:
     """
 
     scene, lesson, state, block = _Told[str](), _Told[str](), _Told[str](), _Told[bytes]()
+    chart, cells = _Told[str](), _Told[bytes]()
 
     def __init__(self, ready: Ready) -> None:
         # One answer tells each thing once.
@@ -47,6 +48,7 @@ class Desk:
         document = pn.state.curdoc
         self._served = document if document is not None and document.session_context is not None else None
         self._turns = Turns()
+        self._handlers: list[Callable[[Any], object]] = []
         ready.on_msg(lambda event: self._receive(event.data))
 
     def begin(self, work: Callable[[], object]) -> None:
@@ -59,20 +61,24 @@ class Desk:
             self._tell_all()
 
     def on_msg(self, handle: Callable[[Any], object]) -> None:
-        """By this the session takes a message."""
-        self._handle = handle
+        """By this the session, and whoever else, takes a message."""
+        self._handlers.append(handle)
 
     def end(self) -> None:
         """The page is gone."""
         self._turns.end()
 
     def _receive(self, message: Any) -> None:
-        work = partial(self._handle, SimpleNamespace(data=message))
+        work = partial(self._handle, message)
         if self._served is not None:
             self._take(work)
         else:
             work()
             self._tell_all()
+
+    def _handle(self, message: Any) -> None:
+        for handle in self._handlers:
+            handle(SimpleNamespace(data=message))
 
     def _take(self, work: Callable[[], object]) -> None:
         self._turns.take(partial(self._work, work))

@@ -10,11 +10,13 @@ from urllib.parse import urlencode
 
 import panel as pn
 import panel_material_ui as pmui
+from bokeh.palettes import Viridis256
 from panel.util import edit_readonly
 
 from hess_explorer.export.formats import FORMATS, SERVED_SECONDS, WIDTHS, Wish
 from hess_explorer.lessons import shipped
 from hess_explorer.lessons.lesson import Lesson
+from hess_explorer.page.charts import Charts
 from hess_explorer.page.components import (
     Bar,
     Controls,
@@ -111,7 +113,7 @@ def _page(query: str, own: Lesson | None, follow: Callable[[str], None] | None) 
     if follow is not None:
         ready.param.watch(lambda event: follow(json.loads(event.new)["query"]), "state")
     shell = Shell(
-        bar=Bar(scenes=[_entry(one) for one in scenes().values()], files=_FILES),
+        bar=Bar(scenes=[_entry(one) for one in scenes().values()], files=_FILES, palette=[*Viridis256]),
         controls=Controls(),
         derived=Text(key="derived", look="derived", tag="div"),
         pictures=Pictures(),
@@ -139,7 +141,13 @@ def _page(query: str, own: Lesson | None, follow: Callable[[str], None] | None) 
     )
     desk, notes = Desk(ready), link.notes
     desk.begin(lambda: Session(desk, scene, state, notes, lessons, pictures))
-    pn.state.on_session_destroyed(lambda _: desk.end())
+    charts = Charts(desk)
+
+    def end(_: Any) -> None:
+        desk.end()
+        charts.end()
+
+    pn.state.on_session_destroyed(end)
     # The page's own busy flag is sent with every event and makes Panel walk through all models each
     # time (100 ms); `data-ready` says the same.  It follows Panel's global state, whose watcher would keep every page
     # alive: a reference to what lives as long as this page takes its place, for setting a value would leave it there.

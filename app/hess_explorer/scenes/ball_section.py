@@ -12,6 +12,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.ball import Ball
+from hess_explorer.scenes.framework.charted import exponents
 from hess_explorer.scenes.framework.crossings import SECTION, Crossings
 from hess_explorer.scenes.framework.inertia import CentreOfMass, Tensor
 from hess_explorer.scenes.framework.one_orbit import Start
@@ -26,7 +27,7 @@ from hess_explorer.views.poisson_sphere import along_the_orbit
 from hess_explorer.views.text import digits, vector
 from hess_explorer.views.velocity_plane import orbit_alone, orbit_columns, pixels_per_unit, room_for
 from hess_mechanics.chaplygin_ball.energy_surface import lowest_energy
-from hess_mechanics.chaplygin_ball.equations import BallBody
+from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.chaplygin_ball.integrable_cases import area_integral, has_area_integral, is_reversible
 from hess_mechanics.chaplygin_ball.section import (
     ball_section,
@@ -175,7 +176,7 @@ class BallSection(CentreOfMass, Ball, Crossings, ConstrainedBody):
 
 
 SCENE = Scene(
-    BallSection, __file__, place=10, presets=PRESETS, measures=(SECTION,),
+    BallSection, __file__, place=10, presets=PRESETS, measures=(SECTION,), charts=exponents(SYSTEM),
     group="Ball", essential=("h", "I13", "D", "psi"), handle="psi",
     title="Ball with a field",
     summary="The ball in a field: a section at one energy shows curves, seas and, with I₁₃ or I₂₃, attractors.",

@@ -9,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
+from hess_explorer.scenes.framework.charted import of_torus
 from hess_explorer.scenes.framework.hess_case import (
     BY_THE_UNSTABLE_CYCLE,
     OF_HEAVY,
@@ -266,6 +267,7 @@ class BothSides(HeavyMotion, SuslovBody, _Given):
 
 SCENE = Scene(
     BothSides, __file__, place=13, presets=PRESETS,
+    charts=of_torus(lambda s: (s.bridge.hess.a, s.turning.h, s.turning.f), trace=("circle",)),
     group="Euler–Poisson", essential=("h", "f", "phi0"),
     title="Bridge: Suslov and Euler–Poisson",
     summary="The Suslov–Hess case and the Hess case of Euler–Poisson are one system: two orbits and their difference.",

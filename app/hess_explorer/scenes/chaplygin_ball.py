@@ -11,6 +11,7 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.ball import FreeBall
+from hess_explorer.scenes.framework.charted import Charted, exponents, tensor_of
 from hess_explorer.scenes.framework.circle_left import CircleLeft, sphere
 from hess_explorer.scenes.framework.one_orbit import OneOrbit, Start
 from hess_explorer.scenes.framework.parameters import accuracy_level, time_span
@@ -28,6 +29,7 @@ from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits as in_digits
 from hess_explorer.views.text import vector
 from hess_mechanics.chaplygin_ball import scattering as model
+from hess_mechanics.chaplygin_ball.equations import SYSTEM
 from hess_mechanics.chaplygin_ball.strip_orbits import StripOrbit, largest_distance, strip_orbits
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.errors import WorkLimit
@@ -180,7 +182,10 @@ def _change(first: float, last: float) -> str:
 
 
 SCENE = Scene(
-    ChaplyginBall, __file__, place=9, presets=PRESETS, measures=_MEASURES,
+    ChaplyginBall, __file__, place=9, presets=PRESETS, measures=_MEASURES, charts=(
+        Charted("ball-theta-plus", lambda s: {**tensor_of(s.body), "D": s.D, "theta": s.theta, "phi": s.phi,
+                                              "distance": s.distance}),
+        *exponents(SYSTEM)),
     group="Ball", essential=("D", "h", "theta", "phi"), handle="phi",
     title="Chaplygin ball",
     summary="A ball rolls inside the body: every orbit crosses a strip between two ellipses, from Nᵘ to Nˢ.",

@@ -11,6 +11,7 @@ from typing import ClassVar
 import numpy as np
 
 from hess_explorer.protocol.parameters import Value, written
+from hess_explorer.scenes.framework.charted import exponents
 from hess_explorer.scenes.framework.exponent import exponent_picture
 from hess_explorer.scenes.framework.filled_window import EXPONENT, SECTION, TURN, filled_window
 from hess_explorer.scenes.framework.hess_case import HeavyMotion
@@ -36,7 +37,7 @@ from hess_explorer.views.poisson_sphere import Direction, along_the_orbit, gamma
 from hess_explorer.views.text import digits, vector
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, hess_curve
-from hess_mechanics.euler_poisson.equations import HeavyBody
+from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
 from hess_mechanics.numerics.results import Array
 
 _BOUNDS = ((-TURN, -1.0), (TURN, 1.0))
@@ -165,6 +166,7 @@ class EulerPoisson(Moments, RotationAcross, HeavySolid):
 
 SCENE = Scene(
     EulerPoisson, __file__, place=11, presets=PRESETS, measures=(SECTION, EXPONENT, ROTATION),
+    charts=exponents(SYSTEM, time=lambda s: s.long),
     group="Euler–Poisson", essential=("away", "h", "f"),
     title="Euler–Poisson: sections",
     summary="A heavy body near the Hess case: two stochastic layers with a barrier between them, a meandering torus.",

@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from hess_explorer.protocol.parameters import Values
+from hess_explorer.scenes.framework.charted import Charted, tensor_of
 from hess_explorer.scenes.framework.free_body import FreeBody
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number, time_span
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
@@ -227,7 +228,7 @@ class FreeSuslov(FreeBody, ConstrainedBody):
 
 
 SCENE = Scene(
-    FreeSuslov, __file__, place=2, presets=PRESETS,
+    FreeSuslov, __file__, place=2, presets=PRESETS, charts=(Charted("cos-chi", lambda s: tensor_of(s.body)),),
     group="Free body", essential=("k", "I23", "Gamma", "phi"),
     title="Free Suslov problem",
     summary="No field: ω passes from an unstable to a stable state; γ leaves one circle and joins another.",

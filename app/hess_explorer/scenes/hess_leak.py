@@ -9,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
+from hess_explorer.scenes.framework.charted import of_torus
 from hess_explorer.scenes.framework.hess_case import BY_THE_UNSTABLE_CYCLE, RIS, UNSURE, HeavyMotion, reduced_motion
 from hess_explorer.scenes.framework.parameters import accuracy_level, number
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
@@ -176,6 +177,7 @@ class HessLeak(HeavyMotion):
 
 SCENE = Scene(
     HessLeak, __file__, place=12, presets=PRESETS,
+    charts=of_torus(lambda s: (s.bridge.hess.a, s.turning.h, s.turning.f)),
     group="Euler–Poisson", essential=("h", "f", "phi0", "returns"),
     title="Leak off the Hess manifold",
     summary="An orbit on the Hess manifold of Euler–Poisson leaves it by round-off alone, at the rate of the cycle.",

@@ -9,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
+from hess_explorer.scenes.framework.charted import Charted
 from hess_explorer.scenes.framework.inertia import CentreOfMass, Tensor
 from hess_explorer.scenes.framework.parameters import (
     Slider,
@@ -256,7 +257,9 @@ _MIRROR: Layer[Kharlamova] = points("mirror", color=theme.MAP, edge=theme.INK, e
                                     label="its mirror image, t → −t")
 
 SCENE = Scene(
-    Kharlamova, __file__, place=6, presets=PRESETS,
+    Kharlamova, __file__, place=6, presets=PRESETS, charts=(Charted("period", lambda s: {
+        "I11": s.I11, "I22": s.I22, "b1": s.b1, "b2": s.b2,
+        **dict(zip(SYSTEM.arguments, s.start, strict=True))}),),
     group="Heavy body", essential=("q1", "q2", "p", "alpha"), handle="alpha",
     title="Principal axis, b₃ = 0",
     summary="Parabolas in an ellipse, run to and fro: every orbit closes but those that touch the equator from inside.",

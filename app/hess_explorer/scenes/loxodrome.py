@@ -9,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
+from hess_explorer.scenes.framework.charted import of_torus
 from hess_explorer.scenes.framework.inertia import Moments
 from hess_explorer.scenes.framework.parameters import accuracy_level, like, number, time_span
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
@@ -148,6 +149,7 @@ class Loxodrome(Moments):
 
 SCENE = Scene(
     Loxodrome, __file__, place=14, presets=PRESETS,
+    charts=of_torus(lambda s: (s.pendulum.a, s.pendulum.h, 0.0))[:-1],
     group="Euler–Poisson", essential=("energy", "l", "I2"),
     title="Loxodromic pendulum",
     summary="A heavy body whose centre of mass swings in a plane while its middle axis runs along a loxodrome.",

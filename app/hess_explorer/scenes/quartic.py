@@ -10,6 +10,7 @@ from typing import ClassVar
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values
+from hess_explorer.scenes.framework.charted import exponents
 from hess_explorer.scenes.framework.crossings import SECTION, Crossings
 from hess_explorer.scenes.framework.inertia import CentreOfMass, Tensor
 from hess_explorer.scenes.framework.one_orbit import Start
@@ -34,6 +35,7 @@ from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov import quartic as model
+from hess_mechanics.suslov.equations import SYSTEM
 
 _ORBITS = 20
 _MOST_STEPS = 40_000
@@ -169,7 +171,7 @@ class Quartic(Crossings, ConstrainedBody):
 
 
 SCENE = Scene(
-    Quartic, __file__, place=7, presets=PRESETS, measures=(SECTION,),
+    Quartic, __file__, place=7, presets=PRESETS, measures=(SECTION,), charts=exponents(SYSTEM),
     group="Heavy body", essential=("ratio", "h", "Q1", "Q2"),
     title="Principal axis, b₁ = b₂ = 0",
     summary="The body as a point in a quartic potential: integrable for I₁₁ = I₂₂, else curves and seas in a section.",

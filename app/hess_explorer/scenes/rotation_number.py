@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from hess_explorer.compute.cache import Task
+from hess_explorer.scenes.framework.charted import of_torus
 from hess_explorer.scenes.framework.hess_case import UNITS_OF_B, map_or_none, possible_f
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number, places
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
@@ -270,6 +271,7 @@ _MEASURES = (grid(_FINE, lambda s: s.frame), on_line(_ON_LINE),
 
 SCENE = Scene(
     RotationNumber, __file__, place=8, presets=PRESETS, measures=_MEASURES,
+    charts=of_torus(lambda s: (s.a, s.h, s.f), trace=("trace", "circle")),
     group="Heavy body", essential=("a", "h", "f"),
     title="Rotation number",
     summary="Is ρ of the Suslov–Hess torus a ladder, as the paper asks? One plateau, and a family that has many.",

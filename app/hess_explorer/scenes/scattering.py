@@ -9,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
+from hess_explorer.scenes.framework.charted import Charted, tensor_of
 from hess_explorer.scenes.framework.circle_left import CIRCLES, CircleLeft, sphere
 from hess_explorer.scenes.framework.free_body import FreeBody
 from hess_explorer.scenes.framework.parameters import accuracy_level, like
@@ -174,7 +175,9 @@ _MAP: Trial[Scattering] = Trial(
     lambda s, found: Curves(square.FRAME, (np.column_stack([_PHASES, found]),)))
 
 SCENE = Scene(
-    Scattering, __file__, place=4, presets=PRESETS, measures=(_MAP,),
+    Scattering, __file__, place=4, presets=PRESETS, measures=(_MAP,), charts=(
+        Charted("theta-plus", lambda s: {**tensor_of(s.body), "theta": s.theta, "phi": s.phi}),
+        Charted("cos-chi", lambda s: tensor_of(s.body), ("chi",))),
     group="Free body", essential=("k", "I23", "theta", "phi"), handle="phi",
     title="Scattering",
     summary="No field: from the circle γ leaves and its phase to the circle it joins, exact for all phases at once.",

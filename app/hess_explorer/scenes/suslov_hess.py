@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from hess_explorer.compute.cache import Task
+from hess_explorer.scenes.framework.charted import of_torus
 from hess_explorer.scenes.framework.hess_case import UNITS_OF_B, SuslovBody, limit_cycles, map_or_none, possible_f
 from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, number, slider_within
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
@@ -233,6 +234,7 @@ _MEASURES: tuple[Trial[SuslovHess], ...] = (
 
 SCENE = Scene(
     SuslovHess, __file__, place=1, presets=PRESETS, measures=_MEASURES,
+    charts=of_torus(lambda s: (s.body.a, s.h, s.f), trace=("circle",)),
     group="Heavy body", essential=("h", "f", "I23", "phi0"), handle="bifurcation/here",
     title="The Suslov–Hess case",
     summary="A heavy rigid body with ω₃ = 0 whose motions live on tori: rotation, locking, limit cycles.",

@@ -13,7 +13,7 @@ from hess_explorer.sweep.quantity import Cells, Parameter, Quantity
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["HARD_LIMIT", "MAX_NUMBERS", "Axis", "Box", "Grid", "expanded"]
+__all__ = ["HARD_LIMIT", "MAX_NUMBERS", "Axis", "Box", "Grid", "check", "expanded"]
 
 MAX_NUMBERS = 10_000_000
 """Of a sweep, unless more are allowed by name: 90 MB, in memory or on disk."""
@@ -115,7 +115,7 @@ def _axis(one: Parameter, values: Axis) -> Array:
     if _is_range(values):
         low, high, count = float(values[0]), float(values[1]), int(values[2])
         for end in (low, high):
-            _check(one, end)
+            check(one, end)
         found = np.linspace(low, high, count)
     else:
         try:
@@ -125,7 +125,7 @@ def _axis(one: Parameter, values: Axis) -> Array:
     if found.ndim != 1 or found.size == 0:
         raise InvalidParameter(f"The values of {one.name} are one or more numbers in a row.")
     for value in (float(found.min()), float(found.max())):
-        _check(one, value)
+        check(one, value)
     if one.whole and np.any(found != np.round(found)):
         raise InvalidParameter(f"{one.name} is a whole number: choose such values.")
     if np.unique(found).size < found.size:
@@ -140,13 +140,14 @@ def _value(one: Parameter, quantity: Quantity, fixed: Mapping[str, float]) -> fl
         value = float(fixed.get(one.name, one.default or 0.0))
     except (TypeError, ValueError):
         raise InvalidParameter(f"{one.name} is a number, not {fixed[one.name]!r}.") from None
-    _check(one, value)
+    check(one, value)
     if one.whole and value != round(value):
         raise InvalidParameter(f"{one.name} is a whole number, not {value:g}.")
     return value
 
 
-def _check(one: Parameter, value: float) -> None:
+def check(one: Parameter, value: float) -> None:
+    """Raise `InvalidParameter` where a parameter may not have this value."""
     if not one.low <= value <= one.high:
         raise InvalidParameter(f"{one.name} = {value:g}, but it lies between {one.low:g} and {one.high:g}: choose it "
                                "there.")

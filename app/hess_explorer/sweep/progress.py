@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-__all__ = ["Progress", "Report", "reporting"]
+__all__ = ["Clock", "Progress", "Report", "reporting"]
 
 
 @dataclass(frozen=True)
@@ -35,16 +35,19 @@ def reporting(progress: bool | Report | None, cells: int, done: int) -> Iterator
         with tqdm(total=cells, initial=done, unit="cell", unit_scale=True, disable=None, dynamic_ncols=True) as bar:
             yield lambda more: (bar.update(more), None)[1]
     else:
-        yield _Clock(progress, cells, done)
+        yield Clock(progress, cells, done)
 
 
-class _Clock:
+class Clock:
+    """Called with each number of cells that are done, it tells of all of them."""
+
     def __init__(self, report: Report, cells: int, done: int) -> None:
         self._report, self._cells, self._done, self._before = report, cells, done, done
         self._begun = time.monotonic()
         self(0)
 
     def __call__(self, more: int) -> None:
+        """So many more cells are done."""
         self._done += more
         seconds, now = time.monotonic() - self._begun, self._done - self._before
         left = seconds / now * (self._cells - self._done) if now else None

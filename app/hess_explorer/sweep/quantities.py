@@ -150,22 +150,18 @@ def _ball_theta_plus(level: Level, I11: float, I22: float, I13: float, I23: floa
 # ---- any system -------------------------------------------------------------------------------------------------
 
 
-def _ascii(name: str) -> str:
-    return name.replace("ω", "w").replace("γ", "g")
-
-
 def _motion(system: System) -> tuple[Parameter, ...]:
     """Parameters and initial state of a system; by default those of its example."""
     state, values = system.example
     return (*(_number(name, name, value, "parameter of the system") for name, value in
               zip(system.parameters, values, strict=True)),
-            *(_number(_ascii(name), name, value, f"{name} at t = 0" + ("; normalised" if i >= len(state) - 3 else ""))
-              for i, (name, value) in enumerate(zip(system.variables, state, strict=True))))
+            *(_number(argument, name, value, f"{name} at t = 0" + ("; normalised" if i >= len(state) - 3 else ""))
+              for i, (argument, name, value) in enumerate(zip(system.arguments, system.variables, state, strict=True))))
 
 
 def _start(system: System, values: Mapping[str, float]) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """State and parameters; the vertical, which every state ends with, is normalised."""
-    *first, g1, g2, g3 = (values[_ascii(name)] for name in system.variables)
+    *first, g1, g2, g3 = (values[name] for name in system.arguments)
     gamma, _ = unit_vector((g1, g2, g3))
     return (*first, *gamma), tuple(values[name] for name in system.parameters)
 

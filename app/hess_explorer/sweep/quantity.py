@@ -11,6 +11,7 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
+from hess_explorer.compute.budget import Abandoned, OverBudget
 from hess_explorer.sweep.errors import NoValue
 from hess_mechanics.errors import (
     InvalidParameter,
@@ -23,7 +24,8 @@ from hess_mechanics.errors import (
 from hess_mechanics.numerics.accuracy import Level, Status
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Cell", "Cells", "Found", "Outcome", "Outcomes", "Parameter", "Quantity", "evaluate", "one_by_one"]
+__all__ = ["Cell", "Cells", "Found", "Outcome", "Outcomes", "Parameter", "Quantity", "evaluate", "one_by_one",
+           "refused"]
 
 logger = logging.getLogger("hess_explorer")
 
@@ -160,8 +162,13 @@ class Quantity:
                                f"{', '.join(one.name for one in self.parameters)}.")
 
 
-def _refused(error: Exception, cell: Mapping[str, float]) -> tuple[Outcome, str]:
-    """How a cell ended that raised, and the sentence; what is not an error of the mechanics goes to the log."""
+def refused(error: Exception, cell: Mapping[str, float]) -> tuple[Outcome, str]:
+    """How a cell ended that raised, and the sentence; what is not an error of the mechanics goes to the log.
+
+    Raises `Abandoned`, `OverBudget` again: these are of no cell, and end them all.
+    """
+    if isinstance(error, (Abandoned, OverBudget)):
+        raise error
     for kind, outcome in _OF_ERROR:
         if isinstance(error, kind):
             return outcome, str(error)
@@ -184,7 +191,7 @@ def one_by_one(function: Callable[..., Cell], parts: int = 0) -> Compute:
                 values[i], errors[i], status[i] = found.value, found.error, _OF_STATUS[found.status]
             # Whatever one cell raises must not end the sweep of a night.
             except Exception as error:
-                status[i], why[i] = _refused(error, dict(zip(names, row, strict=True)))
+                status[i], why[i] = refused(error, dict(zip(names, row, strict=True)))
         return Found(values, errors, status, why)
 
     return compute
@@ -207,7 +214,7 @@ def _evaluated(quantity: Quantity, cells: Cells, level: Level) -> Found:
         return quantity.compute(cells, level)
     except Exception as error:
         if count == 1:
-            outcome, said = _refused(error, {name: column.item() for name, column in cells.items()})
+            outcome, said = refused(error, {name: column.item() for name, column in cells.items()})
             shape = (1, len(quantity.parts)) if quantity.parts else 1
             return Found(np.full(shape, np.nan), np.full(1, np.nan), np.full(1, outcome, np.uint8), {0: said})
     # One cell refuses all: find it by halves.

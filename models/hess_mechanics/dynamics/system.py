@@ -137,6 +137,11 @@ class System:
             return derived_kernel(name, source, self.field.__module__, **names)
 
     @property
+    def arguments(self) -> tuple[str, ...]:
+        """The variables by names that are easily typed, as commands and sweeps take them: ω1 is w1, γ1 is g1."""
+        return tuple(name.replace("ω", "w").replace("γ", "g") for name in self.variables)
+
+    @property
     def angular_velocities(self) -> int:
         """How many leading variables are angular velocities or momenta, and scale with 1/time."""
         return sum(name.startswith(("ω", "w", "M")) for name in self.variables)

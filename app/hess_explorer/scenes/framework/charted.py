@@ -1,0 +1,80 @@
+"""What can be charted in a scene: a quantity of the table of sweeps, by its name, and its arguments in a state."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, Generic, Protocol, TypeVar
+
+from hess_mechanics.dynamics.system import System
+
+__all__ = ["Charted", "exponents", "motion_of", "of_torus", "tensor_of"]
+
+S = TypeVar("S")
+Torus = tuple[float, float, float]
+
+
+class _Tensor(Protocol):
+    @property
+    def I11(self) -> float: ...
+
+    @property
+    def I22(self) -> float: ...
+
+    @property
+    def I13(self) -> float: ...
+
+    @property
+    def I23(self) -> float: ...
+
+
+@dataclass(frozen=True)
+class Charted(Generic[S]):
+    """One quantity.
+
+    quantity : its name in `hess_explorer.sweep.QUANTITIES`.
+    arguments(state) : its parameters there that are not the defaults.  Raises `ModelError`.
+    pictures : those that show it, for whom it is the first to be chosen.
+    """
+
+    quantity: str
+    arguments: Callable[[S], Mapping[str, float]]
+    pictures: tuple[str, ...] = ()
+
+
+def of_torus(torus: Callable[[Any], Torus], **pictures: tuple[str, ...]) -> tuple[Charted[Any], ...]:
+    """The quantities of a Suslov–Hess torus (a, h, f); pictures : by the quantity, its name with _ for -."""
+
+    def arguments(s: Any) -> Mapping[str, float]:
+        return dict(zip("ahf", torus(s), strict=True))
+
+    def without_a(s: Any) -> Mapping[str, float]:
+        return dict(zip("hf", torus(s)[1:], strict=True))
+
+    return tuple(
+        Charted(name, without_a if name == "critical-a" else arguments, pictures.get(name.replace("-", "_"), ()))
+        for name in ("rotation-number", "trace", "locked", "limit-cycles", "critical-a"))
+
+
+def tensor_of(body: _Tensor) -> Mapping[str, float]:
+    """Its inertia, as arguments."""
+    return {"I11": body.I11, "I22": body.I22, "I13": body.I13, "I23": body.I23}
+
+
+def motion_of(system: System, s: Any) -> Mapping[str, float]:
+    """The body of a state and the start of its orbit, as arguments."""
+    return dict(zip((*system.parameters, *system.arguments), (*s.body.parameters, *s.start), strict=True))
+
+
+def exponents(system: System, pictures: tuple[str, ...] = (), time: Callable[[Any], float] | None = None
+              ) -> tuple[Charted[Any], ...]:
+    """Lyapunov exponents, and crossings, of the orbit on show, which begins at `start`; time : to average over."""
+
+    def motion(s: Any) -> Mapping[str, float]:
+        return motion_of(system, s)
+
+    def averaged(s: Any) -> Mapping[str, float]:
+        return motion(s) if time is None else {**motion(s), "t": time(s)}
+
+    return (Charted(f"lyapunov-{system.name}", averaged, pictures), Charted(f"spectrum-{system.name}", averaged),
+            Charted(f"crossings-{system.name}", motion))

@@ -1,0 +1,206 @@
+"""A chart of the page: a quantity over two parameters of a scene, whose cells are states of that scene.
+
+What is asked for comes from a browser: names are looked up, numbers checked and clamped, and nothing else of it is
+computed with.  xarray and the other libraries of stores are not needed for it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hess_explorer.protocol.parameters import Link, Number, Value
+from hess_explorer.scenes import scenes
+from hess_explorer.scenes.framework.charted import Charted
+from hess_explorer.scenes.framework.scene import Scene
+from hess_explorer.sweep.grid import check
+from hess_explorer.sweep.quantities import quantity as named
+from hess_explorer.sweep.quantity import Found, Outcome, Outcomes, Quantity, evaluate, refused
+from hess_mechanics.errors import InvalidParameter, ModelError
+from hess_mechanics.numerics.accuracy import Level, level
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["MOST_SIDE", "Chart", "Side", "swept"]
+
+MOST_SIDE = 256
+"""Cells along a side: 65 536 at most."""
+_COARSE = 24
+"""Cells along a side that are known first."""
+_AUTO = "standard"
+"""A chart of a state whose accuracy is found by measurement."""
+
+Indices = NDArray[np.int32]
+
+
+@dataclass(frozen=True)
+class Side:
+    """One side of a chart: a parameter of the scene, at `count` even places from `low` to `high`, both among them."""
+
+    name: str
+    low: float
+    high: float
+    count: int
+
+    @property
+    def places(self) -> Array:
+        """Where the cells are, (count,); as a sweep has them."""
+        return np.linspace(self.low, self.high, self.count)
+
+
+@dataclass(frozen=True)
+class Chart:
+    """A quantity over two parameters of a scene; all others are those of one state.
+
+    values : that state; part : which of several numbers of the quantity; x, y : the sides.
+    """
+
+    scene: Scene[Any]
+    values: Mapping[str, Value]
+    charted: Charted[Any]
+    part: int
+    x: Side
+    y: Side
+
+    @classmethod
+    def read(cls, given: Mapping[Any, Any]) -> Chart:
+        """What a browser asks for: {"state": query, "quantity": name, "part": number, "x" and "y": [name, low, high,
+        count]}.  Raises `InvalidParameter`."""
+        query = given.get("state")
+        link = Link(query if isinstance(query, str) else "")
+        scene = scenes().get(link.given.get("scene", ""))
+        if scene is None:
+            raise InvalidParameter("A chart needs the link of a state, with the name of its scene: open the scene and "
+                                   "choose Chart again.")
+        charted = next((one for one in scene.charts if one.quantity == given.get("quantity")), None)
+        if charted is None:
+            can = ", ".join(one.quantity for one in scene.charts) or "nothing"
+            raise InvalidParameter(f"In the scene {scene.name} {can} can be charted: choose one of these.")
+        part, parts = given.get("part"), named(charted.quantity).numbers
+        if not (isinstance(part, int) and 0 <= part < parts):
+            raise InvalidParameter(f"{charted.quantity} has {parts} numbers, counted from 0: choose one of these.")
+        over = swept(scene.name, charted.quantity)
+        x, y = (_side(scene, over, given.get(side)) for side in ("x", "y"))
+        if x.name == y.name:
+            raise InvalidParameter(f"Both sides are {x.name}: choose two parameters.")
+        values, _ = scene.admit(link.values(scene.specs))
+        return cls(scene, values, charted, part, x, y)
+
+    @property
+    def quantity(self) -> Quantity:
+        """What is charted."""
+        return named(self.charted.quantity)
+
+    @property
+    def cells(self) -> int:
+        """How many there are."""
+        return self.x.count * self.y.count
+
+    @property
+    def level(self) -> Level:
+        """That of the state."""
+        chosen = str(self.values.get("accuracy", _AUTO))
+        return level(_AUTO if chosen == "auto" else chosen)
+
+    @property
+    def order(self) -> Indices:
+        """The cells, coarse first, each once: row × count along x + column, the lowest row first."""
+        step = 1
+        while max(self.x.count, self.y.count) > _COARSE * step:
+            step *= 2
+        numbers = np.arange(self.cells, dtype=np.int32).reshape(self.y.count, self.x.count)
+        known, parts = np.zeros(numbers.shape, bool), []
+        while step:
+            fresh = np.zeros(numbers.shape, bool)
+            fresh[::step, ::step] = True
+            parts.append(numbers[fresh & ~known])
+            known |= fresh
+            step //= 2
+        return np.concatenate(parts)
+
+    def compute(self, indices: Indices) -> Found:
+        """The quantity at these cells; one number for each."""
+        rows, columns = np.divmod(indices, self.x.count)
+        return self.at(self.x.places[columns], self.y.places[rows])
+
+    def at(self, xs: Array, ys: Array) -> Found:
+        """The quantity at places (n,), with a sentence for each that has none."""
+        values, errors = np.full(xs.size, np.nan), np.full(xs.size, np.nan)
+        status: Outcomes = np.zeros(xs.size, np.uint8)
+        why: dict[int, str] = {}
+        asked: list[tuple[int, Mapping[str, float]]] = []
+        for i, (x, y) in enumerate(zip(xs.tolist(), ys.tolist(), strict=True)):
+            try:
+                asked.append((i, _arguments(self.scene, self.charted, {**self.values, self.x.name: x, self.y.name: y})))
+            # Whatever one cell raises must not end the others.
+            except Exception as error:
+                status[i], why[i] = refused(error, {self.x.name: x, self.y.name: y})
+        if asked:
+            own = [i for i, _ in asked]
+            found = evaluate(self.quantity, {one.name: np.array([cell[one.name] for _, cell in asked])
+                                             for one in self.quantity.parameters}, self.level)
+            values[own] = found.values[:, self.part] if self.quantity.parts else found.values
+            errors[own], status[own] = found.errors, found.status
+            why |= {own[i]: said for i, said in found.why.items()}
+        return Found(np.where(status < Outcome.OUTSIDE_REGION, values, np.nan), errors, status, why)
+
+    def why(self, x: float, y: float) -> str:
+        """How the cell at a place ends, in a sentence."""
+        found = self.at(np.array([x]), np.array([y]))
+        return found.why.get(0, f"{Outcome(int(found.status[0])).words}.")
+
+
+def _arguments(scene: Scene[Any], charted: Charted[Any], values: Mapping[str, Value]) -> Mapping[str, float]:
+    """Those of the quantity in a state, each within its bounds.  Raises `ModelError`."""
+    found = charted.arguments(scene.of(values))
+    cell = {}
+    for one in named(charted.quantity).parameters:
+        value = found.get(one.name, one.default)
+        assert value is not None, (charted.quantity, one.name)
+        check(one, value)
+        cell[one.name] = value
+    return cell
+
+
+@cache
+def swept(scene: str, quantity: str) -> tuple[str, ...]:
+    """The parameters of a scene on which a quantity depends there, by trial; those with open controls first."""
+    found = scenes()[scene]
+    charted = next(one for one in found.charts if one.quantity == quantity)
+
+    def tried(values: Mapping[str, Value]) -> object:
+        try:
+            return _arguments(found, charted, values)
+        except ModelError as error:
+            return str(error)
+
+    defaults = found.defaults()
+    before = tried(defaults)
+    names = [spec.name for spec in found.specs if isinstance(spec, Number)
+             and any(tried({**defaults, spec.name: end}) != before for end in spec.softbounds)]
+    return tuple(sorted(names, key=lambda name: [*found.essential, name].index(name)))
+
+
+def _side(scene: Scene[Any], over: tuple[str, ...], given: Any) -> Side:
+    """A side that is possible, near what is given.  Raises `InvalidParameter`."""
+    match given:
+        case [str(name), int() | float() as low, int() | float() as high, int(count)] if name in over:
+            spec = next(spec for spec in scene.specs if spec.name == name)
+            assert isinstance(spec, Number)
+            try:
+                ends = float(low), float(high)
+            except OverflowError:
+                ends = math.nan, math.nan
+            if not all(map(math.isfinite, ends)):
+                raise InvalidParameter(f"The ends of {spec.symbol} are no numbers: give two.")
+            low, high = sorted(min(max(end, spec.bounds[0]), spec.bounds[1]) for end in ends)
+            if not high > low:
+                raise InvalidParameter(f"{spec.symbol} goes from {low:g} to {high:g}: give two different numbers "
+                                       f"between {spec.bounds[0]:g} and {spec.bounds[1]:g}.")
+            return Side(name, low, high, min(max(count, 2), MOST_SIDE))
+    raise InvalidParameter(f"A side is one of {', '.join(over)}, with two ends and a number of cells.")

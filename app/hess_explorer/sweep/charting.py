@@ -1,0 +1,101 @@
+"""A chart on its way: computed in the background, piece by piece, in turns with all that others wait for."""
+
+from __future__ import annotations
+
+import logging
+import threading
+import time
+
+import numpy as np
+
+from hess_explorer.compute.background import in_turns
+from hess_explorer.compute.budget import Abandoned, OverBudget, limited
+from hess_explorer.sweep.chart import Chart, Indices
+from hess_explorer.sweep.progress import Clock, Progress
+from hess_explorer.sweep.quantity import Outcomes
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["SECONDS", "Charting"]
+
+logger = logging.getLogger("hess_explorer")
+
+SECONDS = 60.0
+"""Of the processor, for one chart."""
+_PIECE = 0.2
+"""Seconds of a piece: then the others have their turn."""
+_MOST = 4096
+"""Cells of a piece."""
+
+STOPPED = "Stopped."
+USED_UP = (f"A chart may take {SECONDS:g} s of the processor, and this one has: choose fewer cells, a cheaper accuracy "
+           "or a shorter time.")
+FAILED = "This chart could not be computed. Please report the link."
+
+
+class Charting:
+    """One chart, from its start until it is done, stopped or has used up its time; it takes one core at a time.
+
+    progress : how far it is; running : whether more is to come; said : why it ended early, empty if it did not.
+    """
+
+    def __init__(self, chart: Chart, seconds: float = SECONDS) -> None:
+        self.chart, self.said, self.running = chart, "", True
+        self._order = chart.order
+        self._values, self._status = np.full(chart.cells, np.nan), np.zeros(chart.cells, np.uint8)
+        self._done, self._size, self._left_to_spend = 0, 1, seconds
+        self._stopped = threading.Event()
+        self._lock = threading.Lock()
+        self.progress = Progress(0, chart.cells, 0.0, None)
+        self._tell = Clock(self._hear, chart.cells, 0)
+        in_turns(self._step)
+
+    def stop(self) -> None:
+        """Leave it at what is known."""
+        self._stopped.set()
+        self._end(STOPPED)
+
+    def since(self, first: int) -> tuple[Indices, Array, Outcomes]:
+        """The cells known after the first ones, in the order in which they were computed: where, numbers, status."""
+        with self._lock:
+            own = self._order[min(max(first, 0), self._done):self._done]
+            return own, self._values[own], self._status[own]
+
+    def _hear(self, progress: Progress) -> None:
+        self.progress = progress
+
+    def _end(self, said: str) -> None:
+        with self._lock:
+            if self.running:
+                self.running, self.said = False, said
+
+    def _step(self) -> bool:
+        """Compute one piece; whether there are more."""
+        if not self.running:
+            return False
+        piece = self._order[self._done:self._done + self._size]
+        began = time.perf_counter()
+        try:
+            with limited(self._stopped, self._left_to_spend) as budget, np.errstate(all="ignore"):
+                found = self.chart.compute(piece)
+                self._left_to_spend -= budget.spent
+        except Abandoned:
+            return False
+        except OverBudget:
+            self._end(USED_UP)
+            return False
+        # A worker that died silently would leave the page waiting for ever: report here, details in the log.
+        except Exception:
+            logger.exception("a chart failed: %s", self.chart)
+            self._end(FAILED)
+            return False
+        cost = (time.perf_counter() - began) / piece.size
+        self._size = int(min(max(1.0, _PIECE / max(cost, 1e-9)), 4.0 * self._size, _MOST))
+        with self._lock:
+            self._values[piece], self._status[piece] = found.values, found.status
+            self._done += piece.size
+        self._tell(piece.size)
+        if self._done == self.chart.cells:
+            self._end("")
+        elif self._left_to_spend <= 0.0:
+            self._end(USED_UP)
+        return self.running
