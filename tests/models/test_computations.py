@@ -79,6 +79,30 @@ def test_basins_clouds_and_maps_have_coordinates():
     assert image[0.0, 1.0] == pytest.approx(float(scattered.theta_plus(1.0, 0.0)), abs=0.05)
 
 
+def test_free_motions_periods_and_tori_hand_on_their_arrays():
+    body = hm.SuslovBody(2.0, 1.0, 0.3, 0.5)
+    free = hm.free_motion(body, (0.8, -0.4), (0.6, 0.0, 0.8), [0.0, 1.0, 2.5], hm.level("precise"))
+    whole, frame = free.to_xarray(), free.to_pandas()
+    assert list(frame) == ["t", "ω1", "ω2", "γ1", "γ2", "γ3", "Γ", "φ"]
+    assert np.array_equal(frame.to_numpy(), np.column_stack([
+        free.times, free.omega, free.gamma, free.Gamma, free.phase]))
+    assert np.array_equal(whole["ω2"], free.omega[:, 1])
+    assert [whole[name].attrs["units"] for name in ("t", "ω2", "γ3", "Γ", "φ")] == ["T", "rad/T", "1", "1", "rad"]
+    assert [whole.attrs[name] for name in ("Γ⁻", "Γ⁺", "error_estimate")] == [*free.limits, free.error_estimate]
+    assert len(free.plot()) == 7
+    period = hm.period(hm.BallBody(1.3, 0.8, 0.0, 0.0, 0.0, 0.5, -0.2, 0.0), (1.0, -0.5, 0.0, 0.6, 0.8))
+    frame = period.to_pandas()
+    assert tuple(frame["t"]) == period.crossings
+    assert frame.attrs["period"] == pytest.approx(2.0 * (frame["t"][1] - frame["t"][0]), rel=1e-15)
+    assert period.to_xarray()["t"].attrs["units"] == "T"
+    tori = hm.rotation_numbers(0.5, np.array([0.2, 1.5, -2.0]), 0.6)
+    frame = tori.to_pandas()
+    for name, values in (("ρ", tori.rho), ("trace", tori.trace), ("locked", tori.locked), ("possible", tori.possible)):
+        assert np.array_equal(frame[name], values, equal_nan=name in ("ρ", "trace"))
+    assert list(frame["possible"]) == [True, True, False]
+    assert tori.to_xarray()["ρ"].attrs["units"] == "turns"
+
+
 @pytest.mark.parametrize(("call", "sentence"), [
     (lambda: hm.orbit(SUSLOV, (1.0, 2.0), 5.0), "takes 5 numbers here: ω1, ω2, γ1, γ2, γ3"),
     (lambda: hm.orbit(SUSLOV, "abc", 5.0), "a state is 5 numbers"),

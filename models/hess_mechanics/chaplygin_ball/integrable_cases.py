@@ -27,7 +27,8 @@ from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.dynamics.section import Plane, section
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Level, Status
-from hess_mechanics.numerics.results import Array, Cost
+from hess_mechanics.numerics.labelled import Labelled, Labels
+from hess_mechanics.numerics.results import Array, Cost, facts_of
 
 __all__ = ["Period", "area_integral", "has_area_integral", "is_reversible", "period"]
 
@@ -54,7 +55,7 @@ def area_integral(states: Array) -> Array:
 
 
 @dataclass(frozen=True)
-class Period:
+class Period(Labelled):
     """The period of one orbit, and how exact it is.
 
     crossings : the first two times at which it crosses the equator.
@@ -66,6 +67,11 @@ class Period:
     status: Status
     error_estimate: float
     cost: Cost
+
+    def labels(self) -> Labels:
+        """The times of both crossings."""
+        return Labels({}, {"t": (("crossing",), np.array(self.crossings))}, {"t": "T"},
+                      {"period": self.value, **facts_of(self)})
 
 
 def period(body: BallBody, state: Sequence[float], level: Level) -> Period:

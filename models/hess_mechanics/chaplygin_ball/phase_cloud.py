@@ -33,7 +33,7 @@ from hess_mechanics.numerics.accuracy import Level, Status
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.parallel import THREADS, share
 from hess_mechanics.numerics.patience import go_on
-from hess_mechanics.numerics.results import Array, Cost, frozen, unit_of
+from hess_mechanics.numerics.results import Array, Cost, facts_of, frozen, unit_of
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 from hess_mechanics.rigid_body.inertia import require_finite
 
@@ -95,8 +95,7 @@ class Cloud(Result):
                  **{f"γ{i + 1}": self.gamma[..., i] for i in range(3)}, "ln|s|": self.log_s}
         return Labels({"t": (("t",), self.times)}, {name: (dims, values) for name, values in named.items()},
                       {"t": "T", **{name: unit_of(name) for name in named}},
-                      {"level": self.level, "status": str(self.status), "error_estimate": self.error_estimate,
-                       "steps": self.cost.steps})
+                      facts_of(self))
 
     @property
     def log_growth(self) -> Array:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from hess_mechanics.numerics.accuracy import Status
 from hess_mechanics.numerics.labelled import Labels, Result
 
-__all__ = ["Array", "Complex", "Cost", "Ensemble", "Mask", "Orbit", "Section", "frozen", "unit_of"]
+__all__ = ["Array", "Complex", "Cost", "Ensemble", "Mask", "Orbit", "Section", "facts_of", "frozen", "unit_of"]
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -40,14 +40,19 @@ def unit_of(variable: str) -> str:
     return {"ω": "rad/T", "w": "rad/T", "M": "I/T"}.get(variable[0], "1")
 
 
-def _labels(result: Orbit | Ensemble | Section, dims: tuple[str, ...], **facts: Any) -> Labels:
+def facts_of(result: Any) -> dict[str, Any]:
+    """What every result says of its runs: level, status, error estimate, drifts where it has them, steps."""
+    return {"level": result.level, "status": str(result.status), "error_estimate": result.error_estimate,
+            **{f"drift of {name}": value for name, value in getattr(result, "drift", {}).items()},
+            "steps": result.cost.steps}
+
+
+def _labels(result: Orbit | Ensemble | Section, dims: tuple[str, ...]) -> Labels:
     """Times along the last of the dimensions, and a variable for each component of the state."""
     names = result.variables or tuple(f"y{i + 1}" for i in range(result.states.shape[-1]))
     variables = {name: (dims, result.states[..., i]) for i, name in enumerate(names)}
     units = {"t": "T", **{name: unit_of(name) for name in names}}
-    return Labels({"t": (dims[-1:], result.times)}, variables, units, {
-        "system": result.system, "level": result.level, "status": str(result.status), **facts,
-        **{f"drift of {name}": value for name, value in result.drift.items()}, "steps": result.cost.steps})
+    return Labels({"t": (dims[-1:], result.times)}, variables, units, {"system": result.system, **facts_of(result)})
 
 
 @dataclass(frozen=True)
@@ -72,7 +77,7 @@ class Orbit(Result):
 
     def labels(self) -> Labels:
         """The variables of the system over t."""
-        return _labels(self, ("t",), error_estimate=self.error_estimate)
+        return _labels(self, ("t",))
 
 
 @dataclass(frozen=True)
@@ -95,7 +100,12 @@ class Ensemble(Result):
 
     def labels(self) -> Labels:
         """The variables of the system over orbit and t."""
-        return _labels(self, ("orbit", "t"), error_estimate=float(np.max(self.errors, initial=0.0)))
+        return _labels(self, ("orbit", "t"))
+
+    @property
+    def error_estimate(self) -> float:
+        """Of any orbit."""
+        return float(np.max(self.errors, initial=0.0))
 
 
 @dataclass(frozen=True)
@@ -114,4 +124,4 @@ class Section(Result):
 
     def labels(self) -> Labels:
         """The variables of the system at the crossings, and when these are."""
-        return _labels(self, ("crossing",), error_estimate=self.error_estimate)
+        return _labels(self, ("crossing",))

@@ -31,7 +31,8 @@ from hess_mechanics.dynamics.orbit import checked_times, drift_of, require_finit
 from hess_mechanics.dynamics.sampling import MOST_SAMPLES, SAGITTA
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Level, Status
-from hess_mechanics.numerics.results import Array, Complex, Cost, frozen
+from hess_mechanics.numerics.labelled import Labels, Result
+from hess_mechanics.numerics.results import Array, Complex, Cost, facts_of, frozen, unit_of
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov import additional_integral
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody, unit_vector
@@ -389,7 +390,7 @@ def _matrices(A: Complex, B: Complex) -> Array:
 
 
 @dataclass(frozen=True)
-class FreeMotion:
+class FreeMotion(Result):
     """One motion of the free Suslov problem.
 
     times : (m,); omega : (m, 2); gamma : (m, 3); Gamma : (m,) = (ξ, γ);
@@ -411,6 +412,14 @@ class FreeMotion:
     drift: Mapping[str, float]
     cost: Cost
     notes: tuple[str, ...] = field(default=())
+
+    def labels(self) -> Labels:
+        """ω, γ, Γ and the phase φ over t."""
+        named = {name: (("t",), values) for name, values in zip(
+            (*SYSTEM.variables, "Γ", "φ"), (*self.omega.T, *self.gamma.T, self.Gamma, self.phase), strict=True)}
+        return Labels({"t": (("t",), self.times)}, named,
+                      {"t": "T", **{name: unit_of(name) for name in named}, "φ": "rad"},
+                      {"Γ⁻": self.limits[0], "Γ⁺": self.limits[1], **facts_of(self)})
 
 
 def free_motion(body: SuslovBody, omega: Sequence[float], gamma: Sequence[float], times: Sequence[float] | Array,

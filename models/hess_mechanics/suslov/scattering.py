@@ -33,7 +33,7 @@ from hess_mechanics.dynamics.orbit import status_of
 from hess_mechanics.errors import InvalidParameter, ModelError
 from hess_mechanics.numerics.accuracy import Level, Status
 from hess_mechanics.numerics.labelled import Labels, Result
-from hess_mechanics.numerics.results import Array, Complex, Cost, frozen
+from hess_mechanics.numerics.results import Array, Complex, Cost, facts_of, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov.additional_integral import I11_at
 from hess_mechanics.suslov.equations import SuslovBody
@@ -70,8 +70,7 @@ class Scattering(Result):
         return Labels({"θ⁻": (("θ⁻",), theta), "φ": (("φ",), phi)},
                       {"θ⁺": (("θ⁻", "φ"), self.theta_plus(theta[:, None], phi[None, :]))},
                       {"θ⁻": "rad", "φ": "rad", "θ⁺": "rad"},
-                      {"cos χ": self.cos_chi, "φ*": self.phi_star, "level": self.level, "status": str(self.status),
-                       "error_estimate": self.error_estimate, "steps": self.cost.steps})
+                      {"cos χ": self.cos_chi, "φ*": self.phi_star, **facts_of(self)})
 
     def theta_plus(self, theta: Array | float, phi: Array | Sequence[float] | float) -> Array:
         """θ⁺ in [0, π]; the shape to which θ⁻ and φ broadcast."""

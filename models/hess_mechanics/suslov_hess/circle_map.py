@@ -28,7 +28,7 @@ import numpy as np
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Level, Status
 from hess_mechanics.numerics.labelled import Labels, Result
-from hess_mechanics.numerics.results import Array, Cost, frozen
+from hess_mechanics.numerics.results import Array, Cost, facts_of, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov_hess.bifurcation import turning_points
 from hess_mechanics.suslov_hess.bifurcation_kernels import largest_f
@@ -139,9 +139,8 @@ class CircleMap(Result):
         """Θ over φ, continued without jumps."""
         phi, theta = self.graph
         return Labels({"φ": (("φ",), phi)}, {"Θ": (("φ",), theta)}, {"φ": "rad", "Θ": "rad"}, {
-            "a": self.a, "h": self.h, "f": self.f, "level": self.level, "kind": self.kind, "trace": self.trace,
-            "rotation number": self.rotation_number, "period": self.period, "status": str(self.status),
-            "error_estimate": self.error_estimate, "steps": self.cost.steps})
+            "a": self.a, "h": self.h, "f": self.f, "kind": self.kind, "trace": self.trace,
+            "rotation number": self.rotation_number, "period": self.period, **facts_of(self)})
 
     @property
     def alpha_beta(self) -> tuple[complex, complex]:

@@ -20,6 +20,7 @@ import numpy as np
 
 from hess_mechanics.errors import InvalidParameter, ModelError, WorkLimit
 from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.labelled import Labelled, Labels
 from hess_mechanics.numerics.results import Array, Mask, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov_hess.bifurcation import f_max, h_min
@@ -96,7 +97,7 @@ def possible_part(line: Line, margin: float = 0.03) -> Line:
 
 
 @dataclass(frozen=True)
-class TorusValues:
+class TorusValues(Labelled):
     """Values at tori (n,), NaN (of `locked` False) where no motion is possible.
 
     rho : rotation number; trace : |t|, ∞ beyond double range; locked : whether the map locks; possible : the mask.
@@ -106,6 +107,11 @@ class TorusValues:
     trace: Array
     locked: Mask
     possible: Mask
+
+    def labels(self) -> Labels:
+        """All of it over the number of the torus."""
+        named = {"ρ": self.rho, "trace": self.trace, "locked": self.locked, "possible": self.possible}
+        return Labels({}, {name: (("torus",), values) for name, values in named.items()}, {"ρ": "turns", "trace": "1"})
 
 
 @dataclass(frozen=True)
