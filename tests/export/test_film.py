@@ -10,6 +10,8 @@ import tempfile
 
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 from scipy.integrate import solve_ivp
 
 from hess_explorer.__main__ import main
@@ -45,6 +47,25 @@ def point_in(picture):
     return np.median(columns), np.median(rows)
 
 
+def clock_in(picture, among):
+    """Which of these texts stands in the corner over the plot, and how far the picture of it is from that, 0 to 1."""
+    _, right, top, _ = box_of(picture)
+    corner = 1.0 - picture[top - 50 : top - 2, right - 120 : right + 5].mean(axis=2) / 255.0
+
+    def distance(text):
+        figure = Figure(figsize=(2.0, 0.5), dpi=8 * 25.4)
+        figure.text(0.1, 0.4, text, fontsize=9.0)
+        canvas = FigureCanvasAgg(figure)
+        canvas.draw()
+        ink = 1.0 - np.asarray(canvas.buffer_rgba())[..., :3].mean(axis=2) / 255.0
+        (y0, *_, y1), (x0, *_, x1) = (np.flatnonzero(ink.max(axis=axis) > 0.1) for axis in (1, 0))
+        sign = ink[y0 : y1 + 1, x0 : x1 + 1]
+        places = np.lib.stride_tricks.sliding_window_view(corner, sign.shape)
+        return np.abs(places - sign).mean(axis=(2, 3)).min()
+
+    return min((distance(text), text) for text in among)[::-1]
+
+
 @pytest.mark.parametrize("kind", holding("film"))
 def test_the_moving_point_is_where_the_orbit_is_at_that_time(found, kind, tmp_path):
     told = []
@@ -72,6 +93,10 @@ def test_the_moving_point_is_where_the_orbit_is_at_that_time(found, kind, tmp_pa
         # The point is 13 pixels wide; it may be off by one, where the film has its colours for four pixels together.
         assert x == pytest.approx(left + (right - left) * (w1 - x0) / (x1 - x0), abs=1.2)
         assert y == pytest.approx(bottom - (bottom - top) * (w2 - y0) / (y1 - y0), abs=1.2)
+        # The clock says that time, and not that of a frame beside it.
+        said, far = clock_in(pictures[i], [f"t = {10.0 * k / 24.0:.2f}" for k in (i - 1, i, i + 1)])
+        assert said == f"t = {10.0 * i / 24.0:.2f}"
+        assert far < 0.09
     said = tags_of(path)
     for fact in (found.title, found.link, found.facts["program"], "f = 0.6", "accuracy: precise", "error"):
         assert fact in said
