@@ -57,11 +57,6 @@ class Outcome(IntEnum):
         """For people."""
         return _WORDS[self]
 
-    @property
-    def has_value(self) -> bool:
-        """Whether the cell has a number."""
-        return Outcome.NOT_COMPUTED < self < Outcome.OUTSIDE_REGION
-
 
 _WORDS = {
     Outcome.NOT_COMPUTED: "not computed",
