@@ -27,7 +27,7 @@ from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, andoyer_points
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.rotation import Ends, Rotation, on_line, rotation_along
-from hess_mechanics.numerics.accuracy import Kind, level, plan
+from hess_mechanics.numerics.accuracy import Kind, Level, level, plan
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.parallel import share
 from hess_mechanics.numerics.results import Array, Orbit, frozen
@@ -42,7 +42,7 @@ __all__ = [
 ]
 
 Window = tuple[tuple[float, float], tuple[float, float]]
-_MOST_ORBITS, _MOST_CROSSINGS, _MOST_CELLS = 1000, 10_000, 4096
+_MOST_ORBITS, _MOST_CROSSINGS, _MOST_CELLS = 1000, 10_000, 100_000
 _LONG = 1000.0
 """Time over which the divergence of one motion of each group is averaged."""
 
@@ -197,11 +197,12 @@ def ball_section(body: BallBody, h: float, *, starts: Sequence[tuple[float, floa
 
 
 def basins(body: SuslovBody, E: float, *, plane: int = 3, cells: tuple[int, int] = (16, 12),
-           window: Window = ((-math.pi, 0.0), (math.pi, math.pi)), crossings: int = 150, accuracy: str = "standard"
-           ) -> Basins:
+           window: Window = ((-math.pi, 0.0), (math.pi, math.pi)), crossings: int = 150,
+           accuracy: str | Level = "standard") -> Basins:
     """To which group of motions the cells of a section of the Suslov problem lead, and which groups attract.
 
     cells : across ψ and up δ; window : (ψ0, δ0), (ψ1, δ1); crossings : how far each orbit is followed.
+    accuracy : what a level of that name means here, coarser than elsewhere; or a level as it is.
     Raises `InvalidParameter`, `OutsideRegion`, `WorkLimit`.
 
     >>> from hess_mechanics import SuslovBody, basins
@@ -216,7 +217,8 @@ def basins(body: SuslovBody, E: float, *, plane: int = 3, cells: tuple[int, int]
     (x0, y0), (x1, y1) = window
     if not (x0 < x1 and 0.0 <= y0 < y1 <= math.pi):
         raise InvalidParameter("The window is ψ0 < ψ1 and 0 ≤ δ0 < δ1 ≤ π: choose such angles.")
-    ends, chosen = np.empty((n, m)), plan(Kind.BASINS, accuracy).level
+    ends, chosen = np.empty((n, m)), accuracy if isinstance(accuracy, Level) else plan(
+        Kind.BASINS, accuracy).level
 
     def row(i: int) -> None:
         ends[i] = section.ends(window, (m, n), i, crossings, level=chosen)
@@ -225,7 +227,7 @@ def basins(body: SuslovBody, E: float, *, plane: int = 3, cells: tuple[int, int]
     group = groups_of_cells(ends)
     on_each = tuple(contraction_at(section, window, (m, n), *cell, _LONG) for cell in middle_cells(ends, group))
     return Basins(frozen(x0 + (np.arange(m) + 0.5) * (x1 - x0) / m), frozen(y0 + (np.arange(n) + 0.5) * (y1 - y0) / n),
-                  frozen(np.where(np.isfinite(ends), ends, np.nan)), frozen(group), on_each, accuracy)
+                  frozen(np.where(np.isfinite(ends), ends, np.nan)), frozen(group), on_each, chosen.name)
 
 
 def cloud(body: BallBody, h: float, t: float, *, count: int = 1000, spread: float = 0.1, angle: float | None = None,

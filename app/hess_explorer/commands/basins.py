@@ -14,8 +14,6 @@ __all__ = ["add"]
 
 _MOST_CELLS = 100_000
 _FEWEST, _MOST = 100, 10_000
-_LONG = 1000.0
-"""Time over which a mean divergence is taken."""
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -46,46 +44,27 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 def _run(options: argparse.Namespace) -> None:
     m, n = _cells(options.cells)
     psi0, psi1, delta0, delta1 = options.window
-    if not (psi0 < psi1 and 0.0 <= delta0 < delta1 <= math.pi):
-        raise CommandError("The window is psi0 < psi1 and 0 ≤ delta0 < delta1 ≤ π: choose such angles.")
     with computing():
         import numpy as np
 
-        from hess_mechanics import SuslovBody, check_body, level
-        from hess_mechanics.numerics.parallel import share
-        from hess_mechanics.suslov.basins import contraction_at, groups_of_cells, middle_cells
-        from hess_mechanics.suslov.section import SuslovSection, lowest_energy
+        from hess_mechanics import SuslovBody, basins, check_body, level
 
-        accuracy = level(options.accuracy)
-        section = SuslovSection(SuslovBody(*options.I, *options.b), options.E, options.k)
-        lowest = lowest_energy(section.body, options.k)
-        if lowest >= options.E:
-            raise CommandError(
-                f"No motion with E = {options.E:g} reaches γ{options.k} = 0: choose E above {lowest:.6g}.")
-        window = ((psi0, delta0), (psi1, delta1))
-        ends = np.empty((n, m))
-
-        def row(i: int) -> None:
-            ends[i] = section.ends(window, (m, n), i, options.crossings, level=accuracy)
-
-        share(row, n)
-        cells = groups_of_cells(ends)
-        known = cells >= 0.0
-        on_each = [contraction_at(section, window, (m, n), *cell, _LONG) for cell in middle_cells(ends, cells)]
+        found = basins(SuslovBody(*options.I, *options.b), options.E, plane=options.k, cells=(m, n),
+                       window=((psi0, delta0), (psi1, delta1)), crossings=options.crossings,
+                       accuracy=level(options.accuracy))
         check = check_body(*options.I)
-    psi, delta = np.meshgrid(psi0 + (np.arange(m) + 0.5) * (psi1 - psi0) / m,
-                             delta0 + (np.arange(n) + 0.5) * (delta1 - delta0) / n)
+    cells, on_each, known = found.group, found.divergence, found.group >= 0.0
+    psi, delta = np.meshgrid(found.psi, found.delta)
     series = {"psi": psi.ravel().tolist(), "delta": delta.ravel().tolist(),
               **{name: [kind(value) if there else None
                         for value, there in zip(column.ravel().tolist(), known.ravel().tolist(), strict=True)]
-                 for name, kind, column in (("mean", float, ends), ("group", int, cells))}}
+                 for name, kind, column in (("mean", float, found.mean), ("group", int, cells))}}
     counts = np.bincount(cells[known].astype(int), minlength=len(on_each)).tolist()
-    attractors = sum(one.attracts for one in on_each)
     write(options, series, tuple(series), {
-        "cells": [m, n], "counts": counts, "level": accuracy.name,
+        "cells": [m, n], "counts": counts, "level": found.level,
         "divergence": [one.mean for one in on_each], "divergence error": [one.error for one in on_each],
-        "attractors": attractors, **whether_body(check)},
-        _notes(options.I[2] == 0.0 == options.I[3], attractors))
+        "attractors": found.attractors, **whether_body(check)},
+        _notes(options.I[2] == 0.0 == options.I[3], found.attractors))
 
 
 def _notes(kept: bool, attractors: int) -> list[str]:
