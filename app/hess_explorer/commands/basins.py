@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+from typing import Any
 
 from . import CommandError
 from .arguments import integer, number, vector
@@ -55,10 +56,10 @@ def _run(options: argparse.Namespace) -> None:
         check = check_body(*options.I)
     cells, on_each, known = found.group, found.divergence, found.group >= 0.0
     psi, delta = np.meshgrid(found.psi, found.delta)
-    series = {"psi": psi.ravel().tolist(), "delta": delta.ravel().tolist(),
-              **{name: [kind(value) if there else None
+    series: dict[str, list[Any]] = {"psi": psi.ravel().tolist(), "delta": delta.ravel().tolist()}
+    for name, kind, column in (("mean", float, found.mean), ("group", int, cells)):
+        series[name] = [kind(value) if there else None
                         for value, there in zip(column.ravel().tolist(), known.ravel().tolist(), strict=True)]
-                 for name, kind, column in (("mean", float, found.mean), ("group", int, cells))}}
     counts = np.bincount(cells[known].astype(int), minlength=len(on_each)).tolist()
     write(options, series, tuple(series), {
         "cells": [m, n], "counts": counts, "level": found.level,
