@@ -12,11 +12,8 @@ import asyncio
 import os
 import random
 import statistics
-import subprocess
 import sys
-import tempfile
 import time
-from contextlib import contextmanager
 from pathlib import Path
 
 if __name__ == "__main__":
@@ -24,28 +21,16 @@ if __name__ == "__main__":
 
 from tornado.httpclient import AsyncHTTPClient
 
-from hess_explorer.headless.screenshot import free_port
+from hess_explorer.headless.screenshot import server_process
 from hess_explorer.protocol.parameters import Number
 from hess_explorer.scenes import scenes
 from support.processes import memory, worked
 from support.visitor import Visitor
 
 EVERY = 2.0
+LOG = Path(os.devnull)
 README = Path(__file__).resolve().parents[1] / "app" / "hess_explorer" / "server" / "README.md"
 DEAREST = "scene=euler-poisson&accuracy=reference"
-
-
-@contextmanager
-def server(options):
-    """The command of the README in a process of its own: its URL and number."""
-    port = free_port()
-    command = [sys.executable, "-m", "hess_explorer", "serve", "--port", str(port), "--no-browser", *options]
-    with tempfile.TemporaryFile() as log, subprocess.Popen(command, stdout=log, stderr=log) as process:
-        try:
-            yield f"http://127.0.0.1:{port}", process.pid
-        finally:
-            process.terminate()
-            process.wait(30.0)
 
 
 class Crowd:
@@ -214,17 +199,17 @@ def main():
     kept, before = [], os.getloadavg()[0]
     for workers in options.workers if options.counts else ():
         kept += [f"Served by {workers} process{'es' * (workers > 1)}:", ""]
-        with server(["--workers", str(workers)]) as (base, pid):
+        with server_process(LOG, options=["--workers", str(workers)]) as (process, base):
             time.sleep(2.0)
             asyncio.run(_ready(base))
-            asyncio.run(_printed(measure(base, pid, options.counts, options.seconds), kept))
+            asyncio.run(_printed(measure(base, process.pid, options.counts, options.seconds), kept))
         kept.append("")
     if options.leave:
         kept += [f"{options.leave} sessions opened and left, after each quarter has expired:", ""]
-        with server([]) as (base, pid):
+        with server_process(LOG) as (process, base):
             time.sleep(2.0)
             asyncio.run(_ready(base))
-            asyncio.run(_printed(leave(base, pid, options.leave), kept))
+            asyncio.run(_printed(leave(base, process.pid, options.leave), kept))
         kept.append("")
     kept.append(_machine(before))
     print(kept[-1])

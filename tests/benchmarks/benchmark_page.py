@@ -29,6 +29,7 @@ import numpy as np
 from playwright.async_api import Browser, Page, async_playwright
 
 from hess_explorer.headless.browser import find_browser
+from hess_explorer.headless.screenshot import free_port
 from hess_explorer.protocol.parameters import Number
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
@@ -65,9 +66,7 @@ RECORD = """() => {
 @contextmanager
 def server(environment: dict[str, str]) -> Iterator[tuple[str, int]]:
     """The command of the README in a process of its own: its URL and number."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
+    port = free_port()
     command = [sys.executable, "-m", "hess_explorer", "serve", "--port", str(port), "--no-browser"]
     with subprocess.Popen(command, cwd=ROOT, env=environment, stdout=subprocess.DEVNULL,
                           stderr=subprocess.DEVNULL) as process:

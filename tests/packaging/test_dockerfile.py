@@ -1,7 +1,6 @@
 """The image can be built and serves: each line of the Dockerfile, carried out without Docker."""
 
 import signal
-import socket
 import subprocess
 import zipfile
 from pathlib import Path
@@ -9,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from hess_explorer.headless.browser import wait_ready
-from hess_explorer.headless.screenshot import wait_alive
+from hess_explorer.headless.screenshot import free_port, wait_alive
 from support.dockerfile import Image, instructions
 from support.kernels import copy_kernels
 from support.processes import interruptible
@@ -47,9 +46,7 @@ def test_its_user_has_the_kernels_compiled(image):
 
 
 def test_the_command_serves_the_page_is_healthy_and_ends(image, browser, tmp_path):
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
+    port = free_port()
 
     def here(command):
         return [word.replace(str(image.port), str(port)) for word in command]

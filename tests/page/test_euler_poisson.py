@@ -17,6 +17,7 @@ from support.euler_poisson import EP, EulerPoisson
 from support.page import ENTER, brought, flat, one_tab, said
 from support.painted import assert_captions_fit
 from support.pointer import at
+from support.serving import UNWARMED
 
 SMALL = {"orbits": 8.0, "count": 40.0, "long": 20.0, "span": 5.0}
 
@@ -161,9 +162,7 @@ HELD_BACK = """
 import functools, sys, time
 from collections import Counter
 from pathlib import Path
-from hess_explorer.__main__ import main
 from hess_explorer.scenes.framework import rotation_across
-from hess_explorer.server import serving
 
 gate, piece, begun = Path(sys.argv.pop(1)), rotation_across._piece, Counter()
 
@@ -175,9 +174,7 @@ def held(section, starts, crossings, level):
     return piece(section, starts, crossings, level)
 
 rotation_across._piece = held
-serving.warm = lambda first_is_ready: first_is_ready()
-main()
-"""
+""" + UNWARMED[1]
 """The server; a section of 4000 crossings at 20 < h < 21 stops growing after six pieces, while a file is there."""
 
 

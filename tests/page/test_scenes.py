@@ -31,6 +31,7 @@ from support.page import (
 )
 from support.painted import SOURCES
 from support.pointer import HOME, STEP, assert_turned, at, frame
+from support.serving import UNWARMED
 from support.suslov_hess import assert_defaults, assert_orbit, body_of, exact_states
 
 SCENES = scenes()
@@ -542,8 +543,6 @@ def test_a_click_on_the_cost_of_a_level_chooses_it(study):
 
 REFUSING = """
 from hess_explorer.scenes import speed_accuracy, suslov_hess
-from hess_explorer.__main__ import main
-from hess_explorer.server import serving
 from hess_mechanics.errors import WorkLimit
 
 
@@ -557,10 +556,8 @@ def refusing(function, span):
 
 speed_accuracy.mechanics.growth = refusing(speed_accuracy.mechanics.growth, 3)
 suslov_hess.track = refusing(suslov_hess.track, 4)
-# Nobody enters another scene than these two.
-serving.warm = lambda first_is_ready: first_is_ready()
-main()
-"""
+""" + UNWARMED[1]
+"""The server, of which nobody enters another scene than these two."""
 SENTENCE = "That would take too many steps: choose a shorter time span."
 
 

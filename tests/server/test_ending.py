@@ -2,35 +2,20 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
 import signal
-import subprocess
-import sys
 import time
 from pathlib import Path
 
 import pytest
 
-from hess_explorer.headless.screenshot import free_port, wait_alive
+from hess_explorer.headless.screenshot import server_process
 from support.asynchronous import finished
 from support.processes import below
 from support.serving import UNWARMED
 from support.visitor import Closed, Visitor
 
-ROOT = Path(__file__).resolve().parents[2]
-
-
-@contextlib.contextmanager
-def started(log, *options):
-    port = free_port()
-    command = [sys.executable, *UNWARMED, "serve", "--port", str(port), "--no-browser", *options]
-    with log.open("wb") as out, subprocess.Popen(command, cwd=ROOT / "app", stdout=out, stderr=out) as process:
-        try:
-            wait_alive(process, port, log)
-            yield process, f"http://127.0.0.1:{port}"
-        finally:
-            process.kill()
+WORKERS = ("--workers", "2")
 
 
 async def told(base, end, count):
@@ -55,7 +40,7 @@ def gone(processes):
 
 def test_of_several_workers_all_tell_their_pages_and_end_with_the_process_that_began(tmp_path):
     log = tmp_path / "log"
-    with started(log, "--workers", "2") as (process, base):
+    with server_process(log, UNWARMED, WORKERS) as (process, base):
         workers = below(process.pid)[1:]
         assert len(workers) == 2
         # One that was killed is replaced.
@@ -70,7 +55,7 @@ def test_of_several_workers_all_tell_their_pages_and_end_with_the_process_that_b
 
 
 def test_no_worker_outlives_the_process_that_began(tmp_path):
-    with started(tmp_path / "log", "--workers", "2") as (process, _):
+    with server_process(tmp_path / "log", UNWARMED, WORKERS) as (process, _):
         workers = below(process.pid)[1:]
         process.kill()
         process.wait()

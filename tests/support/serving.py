@@ -19,7 +19,6 @@ __all__ = ["UNWARMED", "served"]
 # It gets no scene ready before somebody enters it: that takes longer than the test of one or two.
 UNWARMED = ("-c", """
 from hess_explorer.__main__ import main
-from hess_explorer.headless.screenshot import free_port
 from hess_explorer.server import serving
 
 serving.warm = lambda first_is_ready: first_is_ready()

@@ -14,8 +14,9 @@ from pathlib import Path
 from hess_explorer.headless.browser import BrowserError, launched, wait_ready
 from hess_explorer.server.liveness import is_alive
 
-__all__ = ["ServerError", "free_port", "running_server", "screenshot", "wait_alive"]
+__all__ = ["ServerError", "free_port", "running_server", "screenshot", "server_process", "wait_alive"]
 
+_PROGRAM = ("-m", "hess_explorer")
 _START_SECONDS = 60
 _LOAD_SECONDS = 120
 """A first start compiles while the page loads, and a busy machine takes its time for that."""
@@ -44,19 +45,27 @@ def wait_alive(process: subprocess.Popen[bytes], port: int, log: Path) -> None:
 
 
 @contextmanager
-def running_server(log: Path, program: Sequence[str] = ("-m", "hess_explorer")) -> Iterator[str]:
-    """`hess-explorer serve` in a separate process on a free port; yields its base URL.  Raises `ServerError`.
+def running_server(log: Path, program: Sequence[str] = _PROGRAM) -> Iterator[str]:
+    """`server_process`; yields its base URL."""
+    with server_process(log, program) as (_, base):
+        yield base
 
-    log : file for all its output; program : arguments of Python that start the command line.
+
+@contextmanager
+def server_process(log: Path, program: Sequence[str] = _PROGRAM, options: Sequence[str] = ()
+                   ) -> Iterator[tuple[subprocess.Popen[bytes], str]]:
+    """`hess-explorer serve` in a separate process on a free port: the process and its base URL.  Raises `ServerError`.
+
+    log : file for all its output; program : arguments of Python that start the command line; options : of `serve`.
     """
     port = free_port()
-    command = [sys.executable, *program, "serve", "--port", str(port), "--no-browser"]
+    command = [sys.executable, *program, "serve", "--port", str(port), "--no-browser", *options]
     # `-m` looks in the current folder first: start in this package, where nothing can shadow it.
     with log.open("wb") as out, subprocess.Popen(command, cwd=Path(__file__).resolve().parents[1],
                                                  stdout=out, stderr=subprocess.STDOUT) as process:
         try:
             wait_alive(process, port, log)
-            yield f"http://127.0.0.1:{port}"
+            yield process, f"http://127.0.0.1:{port}"
         finally:
             process.terminate()
             try:
