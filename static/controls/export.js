@@ -5,6 +5,7 @@ import { tell } from "../page/bus.js"
 import { linkTo } from "../page/embedding.js"
 import { element } from "../page/mount.js"
 import { gallery } from "../pictures/gallery.js"
+import { dialogOf } from "./dialog.js"
 
 const options = (pairs) => pairs.map(([value, textContent]) => element("option", { value, textContent }))
 
@@ -56,13 +57,11 @@ export function exportDialog(files) {
   const save = element("button", { type: "button", className: "button param-save", textContent: "Save file" })
   const stop = element("button", { type: "button", className: "button param-cancel", textContent: "Stop", hidden: true })
   const said = element("p", { className: "why", role: "status" })
-  const close = element("button", { type: "button", className: "button", textContent: "Close" })
   const figure = element("div", { className: "figure" },
     element("label", {}, "Width, mm ", width), element("label", {}, black, " Black on white"))
   const one = element("label", {}, "Picture ", picture)
   const film = element("div", { className: "figure" }, element("label", {}, "Seconds for all of the motion ", seconds))
-  const dialog = element("dialog", { className: "menu-of-scenes share export", "aria-label": "Export" },
-    element("div", { className: "head" }, element("h2", { textContent: "Export" }), close),
+  const dialog = dialogOf("Export", "menu-of-scenes share export", [],
     element("div", { className: "parts" },
       element("section", { "aria-label": "File" }, element("h3", { textContent: "What a picture shows, as a file" }),
         one, element("label", {}, "Format ", format), figure, film,
@@ -156,12 +155,8 @@ export function exportDialog(files) {
   })
   picture.addEventListener("change", writePython)
   stop.addEventListener("click", () => running.abort())
-  close.addEventListener("click", () => dialog.close())
   dialog.addEventListener("close", () => running?.abort())
-  dialog.addEventListener("click", ({ target }) => { if (target === dialog) dialog.close() })
   dialog.addEventListener("input", write)
-  // Nothing of it is for the page beneath.
-  dialog.addEventListener("keydown", (event) => event.stopPropagation())
   command.addEventListener("focus", () => command.select())
 
   return {

@@ -3,6 +3,7 @@
 
 import { tell } from "../page/bus.js"
 import { element } from "../page/mount.js"
+import { dialogOf } from "./dialog.js"
 
 const REST = 60
 const SVG = "http://www.w3.org/2000/svg"
@@ -48,11 +49,9 @@ function neighbour(tiles, tile, key) {
 // scenes: {name, title, summary, picture, origin, group} of each.  {dialog, open(), show(name of the scene on show)}.
 export function sceneMenu(scenes) {
   const search = element("input", { type: "search", className: "search", "aria-label": "Search scenes", placeholder: "Search" })
-  const close = element("button", { type: "button", className: "button", textContent: "Close" })
   const list = element("div", { className: "scenes" })
   const none = element("p", { className: "none", textContent: "No scene has these words.", hidden: true, role: "status" })
-  const dialog = element("dialog", { className: "menu-of-scenes", "aria-label": "Scenes" },
-    element("div", { className: "head" }, element("h2", { textContent: "Scenes" }), search, close), list, none)
+  const dialog = dialogOf("Scenes", "menu-of-scenes", [search], list, none)
 
   const tiles = () => [...list.querySelectorAll(".scene")].filter((tile) => tile.checkVisibility())
   const choose = (tile) => {
@@ -73,15 +72,11 @@ export function sceneMenu(scenes) {
   }
 
   search.addEventListener("input", filter)
-  close.addEventListener("click", () => dialog.close())
   list.addEventListener("click", ({ target }) => {
     const tile = target.closest(".scene")
     if (tile !== null) choose(tile)
   })
-  dialog.addEventListener("click", ({ target }) => { if (target === dialog) dialog.close() })
   dialog.addEventListener("keydown", (event) => {
-    // Nothing of it is for the page beneath.
-    event.stopPropagation()
     const tile = event.target.closest(".scene")
     if (event.target === search) {
       if (!["Enter", "ArrowDown"].includes(event.key)) return

@@ -5,6 +5,7 @@ import { linkTo } from "../page/embedding.js"
 import { element } from "../page/mount.js"
 import { qrCode } from "../page/qr.js"
 import { gallery } from "../pictures/gallery.js"
+import { dialogOf } from "./dialog.js"
 
 const SAID_FOR = 2000
 const HEIGHT = 600
@@ -46,7 +47,6 @@ function choices(name, label, changed) {
 // {dialog, open(), show(description of the scene on show)}.
 export function shareDialog(signal) {
   let scene = null
-  const close = element("button", { type: "button", className: "button", textContent: "Close" })
   const link = element("input", { type: "text", className: "address", readOnly: true, "aria-label": "Link" })
   const code = element("div", { className: "code", role: "img", "aria-label": "QR code of the link" })
   const why = element("p", { className: "why", role: "status" })
@@ -61,18 +61,13 @@ export function shareDialog(signal) {
   const [copyLink, sayLink] = copyButton("link", "Copy link", () => tell("link"))
   const [copySnippet, saySnippet] = copyButton("snippet", "Copy HTML", () => tell("copy", snippet.value))
   listen("copied", ({ text, said }) => (text === null ? sayLink : saySnippet)(said), signal)
-  const dialog = element("dialog", { className: "menu-of-scenes share", "aria-label": "Share" },
-    element("div", { className: "head" }, element("h2", { textContent: "Share" }), close),
+  const dialog = dialogOf("Share", "menu-of-scenes share", [],
     element("div", { className: "parts" },
       element("section", { "aria-label": "Link" }, element("h3", { textContent: "All that is on the screen" }),
         link, copyLink, code, why),
       element("section", { "aria-label": "Embed" }, element("h3", { textContent: "Parts of it in a page of yours" }),
         pictures.frame, controls.frame, snippet, copySnippet)))
 
-  close.addEventListener("click", () => dialog.close())
-  dialog.addEventListener("click", ({ target }) => { if (target === dialog) dialog.close() })
-  // Nothing of it is for the page beneath.
-  dialog.addEventListener("keydown", (event) => event.stopPropagation())
   for (const text of [link, snippet]) text.addEventListener("focus", () => text.select())
 
   return {
