@@ -12,6 +12,8 @@ const RIGHT = 6.6
 const TOP = 0.8
 const BOTTOM = 3.6
 const BAR = 1.1
+// Cells along a side that come first, see "sweep/chart.py".
+const COARSE = 24
 // Of the numbers so many lie beyond each end of the colours: one that is far off would take all of them.
 const BEYOND = 0.01
 // Pixels that a click may slip.
@@ -42,15 +44,17 @@ function endsOf(values) {
   return { low, high, isBelow: sorted[0] < low, isAbove: sorted[sorted.length - 1] > high }
 }
 
-// Every cell that is not computed looks like the nearest one that is.
+// Every cell that is not computed looks like the nearest one that is, but no farther away than the coarse ones are.
 function filled({ values, status, x: { count: columns }, y: { count: rows } }) {
+  let coarse = 1
+  while (Math.max(rows, columns) > COARSE * coarse) coarse *= 2
   const out = new Float32Array(values.length)
   const nearest = (i, step, count) => Math.min(Math.round(i / step) * step, Math.floor((count - 1) / step) * step)
   for (let row = 0; row < rows; row++) {
     for (let column = 0; column < columns; column++) {
       let at = row * columns + column
       const own = at
-      for (let step = 2; status[at] === 0 && step < 2 * Math.max(rows, columns); step *= 2) {
+      for (let step = 2; status[at] === 0 && step <= coarse; step *= 2) {
         at = nearest(row, step, rows) * columns + nearest(column, step, columns)
       }
       out[own] = status[at] === 0 ? NaN : values[at]
