@@ -22,6 +22,7 @@ from hess_explorer.commands import (
     lyapunov,
     orbit,
     period,
+    prove,
     rotation_number,
     scattering,
     section,
@@ -53,7 +54,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"hess-explorer {_version()}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     for command in (serve, circle_map, orbit, period, section, scattering, rotation_number, lyapunov, basins, cloud,
-                    export, code, docs, sweep, shot, bench):
+                    prove, export, code, docs, sweep, shot, bench):
         command.add(commands)
     return parser
 

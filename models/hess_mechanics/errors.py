@@ -37,3 +37,7 @@ class NoReturn(ModelError):
 
 class NotConverged(ModelError):
     """An iteration, like Newton's, that finds nothing from where it was started."""
+
+
+class MissingLibrary(ModelError):
+    """A request that needs a library which is not installed; the message says what to install."""

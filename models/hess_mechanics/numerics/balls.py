@@ -1,0 +1,149 @@
+"""Balls: midpoint and radius, every operation of which encloses the true result, by Arb (python-flint).
+
+Numbers that go in are exact rationals, and so are the ends of intervals that come out: between them lies what is
+proved, given that Arb's operations enclose.
+"""
+
+from __future__ import annotations
+
+import importlib
+import math
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal, InvalidOperation, localcontext
+from fractions import Fraction
+from typing import Any
+
+from hess_mechanics.errors import InvalidParameter, MissingLibrary
+
+__all__ = ["Ball", "Enclosure", "enclosure", "exact", "flint", "rational", "working"]
+
+Ball = Any
+"""An `arb` of python-flint, which is imported only where it is needed."""
+
+_MOST_DIGITS, _MOST_EXPONENT = 100, 200
+_LOCK = threading.RLock()
+
+
+def flint() -> Any:
+    """The library python-flint.  Raises `MissingLibrary`, which says what to install."""
+    try:
+        return importlib.import_module("flint")
+    except ImportError as error:
+        raise MissingLibrary("Proofs need python-flint: pip install 'hess-explorer[prove]'.") from error
+
+
+@contextmanager
+def working(bits: int) -> Iterator[Any]:
+    """Compute with so many bits; yields the library.  One thread at a time: its precision is one for all threads."""
+    library = flint()
+    with _LOCK, library.ctx.workprec(bits):
+        before = library.ctx.cap
+        try:
+            yield library
+        finally:
+            library.ctx.cap = before
+
+
+def exact(name: str, value: str | float | Fraction | Decimal) -> Fraction:
+    """The rational that a text (1.5, -2e-3, 3/4) or number is; of a double its shortest decimal, as a box shows it.
+
+    Raises `InvalidParameter`.
+
+    >>> exact("a", "0.1"), exact("a", 0.1), exact("a", "1/3")
+    (Fraction(1, 10), Fraction(1, 10), Fraction(1, 3))
+    """
+    text = str(value).strip()
+    try:
+        parts = [_decimal(part) for part in text.split("/")]
+        if len(parts) > 2 or (len(parts) == 2 and parts[1] == 0):
+            raise ValueError
+    except (ValueError, InvalidOperation):
+        shown = text if len(text) <= 60 else text[:60] + "…"
+        raise InvalidParameter(f"{name} = {shown!r} is no number that can be taken as exact; write it like 1.5, -2e-3 "
+                               f"or 3/4, with at most {_MOST_DIGITS} digits and exponents within ±{_MOST_EXPONENT}."
+                               ) from None
+    return parts[0] / parts[1] if len(parts) == 2 else parts[0]
+
+
+def _decimal(text: str) -> Fraction:
+    """Raises `ValueError`, `InvalidOperation`.  The bounds come first: the rational 1e999999999 fills the memory."""
+    if len(text) > 3 * _MOST_DIGITS or not text.isascii() or "_" in text:
+        raise ValueError
+    found = Decimal(text)
+    if not found.is_finite() or len(found.as_tuple().digits) > _MOST_DIGITS or (
+            found and abs(found.adjusted()) > _MOST_EXPONENT):
+        raise ValueError
+    return Fraction(found)
+
+
+def rational(value: Fraction | int) -> Any:
+    """The same rational, as the library has it."""
+    return flint().fmpq(value.numerator, value.denominator)
+
+
+@dataclass(frozen=True)
+class Enclosure:
+    """An interval with rational ends in which a real number lies."""
+
+    low: Fraction
+    high: Fraction
+
+    @property
+    def width(self) -> Fraction:
+        """The difference of its ends."""
+        return self.high - self.low
+
+    @property
+    def precision(self) -> float:
+        """Its width, relative where the number exceeds 1."""
+        return float(self.width / max(Fraction(1), abs(self.low), abs(self.high)))
+
+    def __contains__(self, number: Fraction) -> bool:
+        return self.low <= number <= self.high
+
+    def decimals(self, digits: int | None = None) -> tuple[str, str]:
+        """Two decimals that enclose it: with so many digits, or so that they are hardly farther apart than its ends.
+
+        >>> Enclosure(Fraction(1, 3), Fraction(1, 3)).decimals(4)
+        ('0.3333', '0.3334')
+        """
+        if digits is None:
+            size = max(abs(self.low), abs(self.high))
+            share = self.width / size if size else Fraction(0)
+            # A digit beyond the first that differs.
+            digits = len(str(int(1 / share))) + 1 if share else max(30, len(str(self.low.denominator)) + 1)
+        return _rounded(self.low, digits, ROUND_FLOOR), _rounded(self.high, digits, ROUND_CEILING)
+
+    def outside_doubles(self) -> tuple[str, str]:
+        """Two decimals of at most 17 digits that enclose it also as doubles, if these reach so far."""
+        low, high = self.decimals(16)
+        if not math.isfinite(float(low)) or not math.isfinite(float(high)):
+            return low, high
+        for _ in range(2):
+            if Fraction(float(low)) <= self.low and self.high <= Fraction(float(high)):
+                break
+            unit = max(abs(self.low), abs(self.high), Fraction(1, 10**300)) / 10**15
+            low, high = Enclosure(self.low - unit, self.high + unit).decimals(16)
+        return low, high
+
+
+def _rounded(number: Fraction, digits: int, rounding: str) -> str:
+    with localcontext(prec=digits, rounding=rounding, Emax=10**9, Emin=-(10**9)):
+        found = (Decimal(number.numerator) / Decimal(number.denominator)).normalize()
+    return f"{found:f}" if -6 < found.adjusted() < digits + 6 else str(found)
+
+
+def enclosure(ball: Ball) -> Enclosure:
+    """The interval of a ball, exactly.  Raises `ArithmeticError` for one that is not finite."""
+    if not ball.is_finite():
+        raise ArithmeticError("a ball without end")
+    low, high = (end.man_exp() for end in (ball.lower(), ball.upper()))
+    return Enclosure(_dyadic(*low), _dyadic(*high))
+
+
+def _dyadic(mantissa: Any, exponent: Any) -> Fraction:
+    m, e = int(mantissa), int(exponent)
+    return Fraction(m << e) if e >= 0 else Fraction(m, 1 << -e)

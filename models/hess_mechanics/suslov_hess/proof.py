@@ -1,0 +1,340 @@
+"""Two limit cycles, none, or undecided: proved for one torus (a, h, f), three rationals taken as exact.
+
+Units b = 1.  With n3 = n1 + κ(1 − cos s), κ = (n2 − n1)/2, one half period of n3 is s from 0 to π, and the equation of
+φ (`eq0003`), φ' = −a|w| cos φ − f/|w|², |w|² = 2(h + n3), is that of φ = 2 arg(x + iy) along a linear system,
+
+    dx/ds = q(f/|w|² − a|w|) y,   dy/ds = −q(f/|w|² + a|w|) x,   q = 1/(2√(2(n3 − n0))),
+
+whose coefficients are analytic around the whole interval; nothing is singular where n3 turns.  Its matrix from s = 0 to
+π is P = ((A, B), (C, D)), AD − BC = 1.  The coefficients are even about π and the matrix has no diagonal, so the
+way back has the matrix σP⁻¹σ, σ = diag(1, −1), and the whole map is
+
+    ((AD + BC, 2BD), (2AC, AD + BC)),   t = 2 + 4BC = 4AD − 2.
+
+So t > 2 where BC > 0, t < −2 where AD < 0, |t| < 2 where BC < 0 < AD: signs, without cancellation.  The fixed points
+are tan(φ/2) = ±√(AC/BD) and the multipliers (√|AD| + √|BC|)^∓4.  The rotation number is an integer, or
+ρ = m + {β or 1 − β}, β = (2/π) arctan √(−BC/AD), m = ⌊2θ/π⌋ (β where m is even), θ the angle through which the way up
+turns (1, 0): by the reversor, the whole map turns it beyond kπ exactly where the half turns it beyond kπ/2.
+
+Proof by balls: each number below is a ball of Arb that contains the true one.  n0, n1, n2 are isolated exactly.  About
+s0 the series of n3 is majorized, |n3(s) − n3(s0)| ≤ Δ = κ(|cos s0|(cosh r − 1) + |sin s0| sinh r) for complex
+|s − s0| ≤ r; where Δ is less than h + n3(s0) and n3(s0) − n0 this bounds the coefficients of the system by some K,
+hence its solutions by e^{Kr} and, by Cauchy, the remainder of their Taylor series after N terms at a step δ by
+e^{Kr} τ^N/(1 − τ), τ = δ/r.  Steps and radii are chosen in doubles, which proves nothing and need not.
+This is not in the paper: see models/README.md.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from operator import mul
+from typing import Any
+
+from hess_mechanics.errors import InvalidParameter, OutsideRegion, Separatrix, WorkLimit
+from hess_mechanics.numerics.balls import Ball, Enclosure, enclosure, exact, rational, working
+from hess_mechanics.suslov_hess.bifurcation import f_max
+from hess_mechanics.suslov_hess.circle_map import MAX_A
+
+__all__ = ["FIRST_BITS", "MOST_BITS", "MOST_WORK", "NO_CYCLE", "TWO_CYCLES", "UNDECIDED", "Proof", "Step", "prove"]
+
+TWO_CYCLES, NO_CYCLE, UNDECIDED = "two cycles", "no cycle", "undecided"
+FIRST_BITS, MOST_BITS = 64, 512
+MOST_WORK = 2e7
+"""Steps times the square of their terms, of one proof at one precision: some 15 s."""
+_WIDE = 1e-6
+"""A trace wider than that, relatively, asks for more bits."""
+_SHARE = 0.8
+_GROWTH = 8.0
+"""At most, K r of a step: with δ = r/4 no direction then turns by more than 2, less than π."""
+_LEAST_F = Fraction(1, 10**100)
+
+Matrix = tuple[Ball, Ball, Ball, Ball]
+"""(A, B, C, D) by rows."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """One Taylor step: from `start` (the next one's start, or π, ends it), with what bounds its remainder.
+
+    radius : of the disc |s − start| ≤ r; bound : K there; terms : N; matrix : encloses (A, B, C, D) of the step.
+    """
+
+    start: Fraction
+    radius: Fraction
+    bound: Fraction
+    terms: int
+    matrix: tuple[Enclosure, ...]
+
+
+@dataclass(frozen=True)
+class Proof:
+    """What is proved of the torus (a, h, f), for the equations with exactly these rationals, if Arb's balls are right.
+
+    statement : `TWO_CYCLES` (|trace| > 2), `NO_CYCLE` (|trace| < 2) or `UNDECIDED`; trace : of |t|.
+    rotation_number : turns per return; None while undecided.  fixed_points, multipliers : the stable cycle first.
+    roots : n0 < n1 ≤ n2 (None for f = 0, h < 1, where the map is a limit in closed form); half : (A, B, C, D).
+    bits : of precision; seconds : that it took.
+    """
+
+    a: Fraction
+    h: Fraction
+    f: Fraction
+    statement: str
+    trace: Enclosure
+    rotation_number: Enclosure | None
+    fixed_points: tuple[Enclosure, ...]
+    multipliers: tuple[Enclosure, ...]
+    roots: tuple[Enclosure, ...] | None
+    half: tuple[Enclosure, ...] | None
+    steps: tuple[Step, ...]
+    bits: int
+    seconds: float
+
+    @property
+    def trace_decimals(self) -> tuple[str, str]:
+        """Two decimals that enclose |t|, with as many digits as show the statement, and as doubles if these do."""
+        low, high = self.trace.outside_doubles()
+        digits = 17
+        while (self.statement == TWO_CYCLES and Fraction(low) <= 2) or (
+                self.statement == NO_CYCLE and Fraction(high) >= 2):
+            digits *= 2
+            low, high = self.trace.decimals(digits)
+        return low, high
+
+
+def prove(a: str | float | Fraction, h: str | float | Fraction, f: str | float | Fraction,
+          most_bits: int = MOST_BITS, most_work: float = MOST_WORK) -> Proof:
+    """Prove that the torus (a, h, f) has exactly two limit cycles, or none; texts and doubles are exact decimals.
+
+    The precision doubles until this is decided and |t| known to six digits, or `most_bits` or `most_work` is reached.
+    Raises `MissingLibrary`, `InvalidParameter`, `OutsideRegion`, `Separatrix`, `WorkLimit`.
+
+    >>> from hess_mechanics import prove
+    >>> prove("0.5", "1.5", "0.6").statement
+    'two cycles'
+    """
+    begun = time.perf_counter()
+    at = exact("a", a), exact("h", h), exact("f", f)
+    _check(*at)
+    if at[2] == 0 and at[1] < 1:
+        with working(FIRST_BITS):
+            return _oscillation(*at, begun)
+    bits, found = FIRST_BITS, None
+    while True:
+        with working(bits):
+            turns = _turns(at[1], at[2], bits)
+            plan, work = [], 0.0
+            for step in _plan(at[0], at[2], turns, bits):
+                plan.append(step)
+                work += step[2] ** 2
+                if work > most_work:
+                    break
+            if work > most_work:
+                if found is None:
+                    raise WorkLimit(f"This proof needs more than {len(plan)} steps: choose smaller |a|, or (h, f) "
+                                    "farther from (1, 0).")
+                return found
+            found = _proof(at, turns, plan, bits, begun)
+        good = found.statement != UNDECIDED and found.trace.precision < _WIDE and found.rotation_number is not None
+        if good or 2 * bits > most_bits:
+            return found
+        bits *= 2
+
+
+def _check(a: Fraction, h: Fraction, f: Fraction) -> None:
+    """Raise unless the torus is possible: by the exact sign of the discriminant of 2(h + n)(1 − n²) − f²."""
+    if abs(a) > MAX_A or h > 10**12:
+        raise InvalidParameter(f"a = {float(a):g}, h = {float(h):g}: choose |a| ≤ {MAX_A:g} and h ≤ 1e12.")
+    if f and abs(f) < _LEAST_F:
+        raise InvalidParameter(f"f = {float(f):g} is too close to 0: choose f = 0 or |f| ≥ 1e-100.")
+    if h <= -1:
+        raise OutsideRegion(f"h = {float(h):.12g} is at or below the bottom: no motion. Choose h > −1.")
+    if f == 0 and h == 1:
+        raise Separatrix("h = 1, f = 0 is the separatrix: no return. Move h or f a little.")
+    if _discriminant(h, f) < 0:
+        largest = f_max(max(float(h), -1.0 + 1e-16))
+        raise OutsideRegion(f"No motion has exactly h = {float(h):.15g} and f = {float(f):.15g}: at this h choose "
+                            f"|f| ≤ {largest * (1 - 1e-11):.12g}, or a larger h.")
+
+
+def _discriminant(h: Fraction, f: Fraction) -> Fraction:
+    """Of −2n³ − 2hn² + 2n + (2h − f²), over 4: positive inside the region, 0 on its edge."""
+    A, B, C, D = -2, -2 * h, 2, 2 * h - f * f
+    return Fraction(18 * A * B * C * D - 4 * B**3 * D + B * B * C * C - 4 * A * C**3 - 27 * A * A * D * D) / 4
+
+
+@dataclass(frozen=True)
+class _Turns:
+    """n0, n1, n2; balls: w = h + n1 and gap = n1 − n0 with small relative radii; κ."""
+
+    roots: tuple[Enclosure, ...]
+    w: Ball
+    gap: Ball
+    kappa: Ball
+
+
+def _turns(h: Fraction, f: Fraction, bits: int) -> _Turns:
+    """Roots of 2W(1 − (W − h)²) − f², W = h + n, each isolated, with as many bits as the gaps between them need."""
+    precision = 2 * bits + 64
+    while True:
+        with working(precision) as library:
+            arb, H = library.arb, rational(h)
+            if _discriminant(h, f) == 0:
+                # The double root of the edge is rational, n1 = n2.
+                upper = _rational_root(h, f)
+                roots = [-h - 2 * upper, upper, upper]
+                W = [arb(rational(root + h)) for root in roots]
+                isolated = tuple(Enclosure(root, root) for root in roots)
+            else:
+                cubic = library.fmpq_poly([rational(c) for c in (-f * f, 2 * (1 - h * h), 4 * h, Fraction(-2))])
+                W = sorted((root.real for root, _ in cubic.numer().complex_roots()), key=lambda root: root.mid())
+                isolated = tuple(enclosure(root - arb(H)) for root in W)
+            w, gap = W[1], W[1] - W[0]
+            if w > 0 and gap > 0 and min(w.rel_accuracy_bits(), gap.rel_accuracy_bits()) > bits + 16:
+                return _Turns(isolated, w, gap, (W[2] - W[1]) / 2)
+        precision *= 2
+
+
+def _rational_root(h: Fraction, f: Fraction) -> Fraction:
+    """n1 = n2 on the edge: p − n p'/3 is linear in n modulo p', and its root is the double one."""
+    # p = −2n³ − 2hn² + 2n + c, p' = −6n² − 4hn + 2; p − p'(n/3 + h/9) = (4/3 + 4h²/9) n + c − 2h/9.
+    return -(2 * h - f * f - 2 * h / 9) / (Fraction(4, 3) + 4 * h * h / 9)
+
+
+def _plan(a: Fraction, f: Fraction, turns: _Turns, bits: int) -> Iterator[tuple[Fraction, Fraction, int]]:
+    """(start, radius, terms) of each step, in doubles."""
+    size, drift = abs(float(a)), abs(float(f))
+    w1, g1, kappa = (float(x) for x in (turns.w, turns.gap, turns.kappa))
+    s = 0.0
+    while s < math.pi:
+        rise = 2.0 * kappa * math.sin(0.5 * s) ** 2
+        w, g = w1 + rise, g1 + rise
+
+        def bound(r: float, s: float = s, w: float = w, g: float = g) -> float:
+            d = kappa * (abs(math.cos(s)) * 2.0 * math.sinh(0.5 * r) ** 2 + abs(math.sin(s)) * math.sinh(r))
+            if d > _SHARE * min(w, g):
+                return math.inf
+            return 0.5 / math.sqrt(2.0 * (g - d)) * (0.5 * drift / (w - d) + size * math.sqrt(2.0 * (w + d)))
+
+        r = 2.0
+        while not r * bound(r) <= _GROWTH * 0.999:
+            r *= 0.85
+        yield Fraction(s), Fraction(r), math.ceil(0.5 * (bits + r * bound(r) / math.log(2.0))) + 4
+        s += 0.25 * r
+
+
+def _proof(at: tuple[Fraction, Fraction, Fraction], turns: _Turns, plan: list[tuple[Fraction, Fraction, int]],
+           bits: int, begun: float) -> Proof:
+    from flint import arb
+
+    a, f = arb(rational(at[0])), arb(rational(at[2]))
+    A, B, C, D = arb(1), arb(0), arb(0), arb(1)
+    theta = arb(0)
+    steps = []
+    for i, (start, radius, terms) in enumerate(plan):
+        s = arb(rational(start))
+        delta = (arb(rational(plan[i + 1][0])) if i + 1 < len(plan) else arb.pi()) - s
+        K, matrix = _step(a, f, turns, s, arb(rational(radius)), delta, terms)
+        p, q, r, d = matrix
+        before = A, C
+        A, B, C, D = p * A + q * C, p * B + q * D, r * A + d * C, r * B + d * D
+        theta += arb.atan2(before[0] * C - before[1] * A, before[0] * A + before[1] * C)
+        steps.append(Step(start, radius, K, terms, tuple(map(enclosure, matrix))))
+    statement, trace = _decided(A, B, C, D)
+    fixed, multipliers = _cycles(A, B, C, D) if statement == TWO_CYCLES else ((), ())
+    return Proof(*at, statement, trace, _rotation(statement, A, B, C, D, theta), fixed, multipliers,
+                 turns.roots, tuple(map(enclosure, (A, B, C, D))), tuple(steps), bits,
+                 time.perf_counter() - begun)
+
+
+def _step(a: Ball, f: Ball, turns: _Turns, s: Ball, r: Ball, delta: Ball, terms: int) -> tuple[Fraction, Matrix]:
+    """K, and the matrix of the step δ from s, by its Taylor series about s and Cauchy's bound of the rest."""
+    from flint import arb, arb_series, ctx
+
+    rise = 2 * turns.kappa * (s / 2).sin() ** 2
+    w, gap = turns.w + rise, turns.gap + rise
+    change = abs(turns.kappa) * (abs(s.cos()) * 2 * (r / 2).sinh() ** 2 + abs(s.sin()) * r.sinh())
+    largest = (abs(f) / (2 * (w - change)) + abs(a) * (2 * (w + change)).sqrt()) / (8 * (gap - change)).sqrt()
+    K = Fraction(math.nextafter(float(largest) * (1.0 + 1e-12), math.inf))
+    # Comparisons of balls are true only where they are certain.
+    if not (change < w and change < gap and largest < arb(rational(K)) and delta < r):
+        raise ArithmeticError("a step whose disc is too large for its precision")
+    tau = delta / r
+    rest = (arb(rational(K)) * r).exp() * tau**terms / (1 - tau)
+
+    ctx.cap = terms
+    # Of h + n3 and n3 − n0 only the first coefficient differs: small near a singular point, it has all its digits.
+    change_of_n3 = (-turns.kappa * arb_series([s, 1]).cos()).coeffs()[1:]
+    w_squared = 2 * arb_series([w, *change_of_n3])
+    q = (8 * arb_series([gap, *change_of_n3])).rsqrt()
+    drift, drive = q * f / w_squared, q * a * w_squared.sqrt()
+    upper, lower = (_coefficients(series, terms) for series in (drift - drive, -drift - drive))
+    powers = [arb(1)]
+    for _ in range(terms - 1):
+        powers.append(powers[-1] * delta)
+    tail = arb(0, rest.abs_upper())
+    columns = []
+    for start in ((1, 0), (0, 1)):
+        x, y = [arb(start[0])], [arb(start[1])]
+        for k in range(terms - 1):
+            following = (sum(map(mul, upper, reversed(y)), arb(0)) / (k + 1),
+                         sum(map(mul, lower, reversed(x)), arb(0)) / (k + 1))
+            x.append(following[0])
+            y.append(following[1])
+        columns.append([sum(map(mul, series, powers), arb(0)) + tail for series in (x, y)])
+    (A, C), (B, D) = columns
+    return K, (A, B, C, D)
+
+
+def _coefficients(series: Any, terms: int) -> list[Ball]:
+    found = series.coeffs()
+    return [*found, *([0 * series[0]] * (terms - len(found)))]
+
+
+def _decided(A: Ball, B: Ball, C: Ball, D: Ball) -> tuple[str, Enclosure]:
+    """The statement, and |t|: both forms of t enclose it, the one with the smaller product more closely."""
+    small, large = enclosure(B * C), enclosure(A * D)
+    product = Enclosure(max(small.low, large.low - 1), min(small.high, large.high - 1))
+    t = Enclosure(2 + 4 * product.low, 2 + 4 * product.high)
+    if product.low > 0:
+        return TWO_CYCLES, t
+    if product.high < -1:
+        return TWO_CYCLES, Enclosure(-t.high, -t.low)
+    absolute = Enclosure(max(Fraction(0), t.low, -t.high), max(abs(t.low), abs(t.high)))
+    return (NO_CYCLE if product.low > -1 and product.high < 0 else UNDECIDED), absolute
+
+
+def _cycles(A: Ball, B: Ball, C: Ball, D: Ball) -> tuple[tuple[Enclosure, ...], tuple[Enclosure, ...]]:
+    """φ and the multiplier of the stable and of the unstable cycle."""
+    phi = 2 * (A * C / (B * D)).sqrt().atan()
+    # The eigenvalue of (1, κ), κ = tan(φ/2), is (AD + BC) + 2BDκ: of κ > 0 the larger one where both have one sign.
+    if (A * D > 0) != (B * D > 0):
+        phi = -phi
+    multiplier = (abs(A * D).sqrt() + abs(B * C).sqrt()) ** -4
+    return (enclosure(phi), enclosure(-phi)), (enclosure(multiplier), enclosure(1 / multiplier))
+
+
+def _rotation(statement: str, A: Ball, B: Ball, C: Ball, D: Ball, theta: Ball) -> Enclosure | None:
+    """ρ, or None where these balls do not tell."""
+    from flint import arb
+
+    quadrants = enclosure(2 * theta / arb.pi()) if theta.is_finite() else None
+    if statement == UNDECIDED or quadrants is None or math.floor(quadrants.low) != math.floor(quadrants.high):
+        return None
+    m = math.floor(quadrants.low)
+    if statement == TWO_CYCLES:
+        # Of m and m + 1 the even one for t > 2, the odd one for t < −2.
+        locked = Fraction(m + (m + int(not B * C > 0)) % 2)
+        return Enclosure(locked, locked)
+    share = 2 * (-(B * C) / (A * D)).sqrt().atan() / arb.pi()
+    return enclosure(m + (share if m % 2 == 0 else 1 - share))
+
+
+def _oscillation(a: Fraction, h: Fraction, f: Fraction, begun: float) -> Proof:
+    """f = 0, h < 1: a pendulum that swings; φ turns by −π where w = 0, in the limit f → 0+, so that Θ∘Θ = id, t = 0."""
+    zero, half = Enclosure(Fraction(0), Fraction(0)), Enclosure(Fraction(-1, 2), Fraction(-1, 2))
+    return Proof(a, h, f, NO_CYCLE, zero, half, (), (), None, None, (), FIRST_BITS, time.perf_counter() - begun)

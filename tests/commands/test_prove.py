@@ -1,0 +1,62 @@
+"""`hess-explorer prove`: words, a certificate that a checker accepts, and one sentence for whatever is wrong."""
+
+from __future__ import annotations
+
+import json
+import sys
+from fractions import Fraction
+
+import pytest
+
+from check_certificate import verify
+from hess_explorer.__main__ import main
+
+TORUS = ("--a", "-0.5", "--h", "1.5", "--f", "1.7")
+
+
+def test_the_certificate_proves_what_the_words_say(answer, capsys, tmp_path):
+    found = answer("prove", *TORUS, "--format", "json")
+    verify(found)
+    assert found["statement"] == "two cycles"
+    assert (found["a"], found["h"], found["f"]) == ("-1/2", "3/2", "17/10")
+    low, high = map(Fraction, found["trace"])
+    assert 2 < low < high < low + Fraction(1, 10**12)
+    assert set(found["versions"]) == {"hess-explorer", "python-flint", "flint", "python"}
+    assert main(["prove", *TORUS]) == 0
+    words, err = capsys.readouterr()
+    assert err == ""
+    assert words.startswith("Proved: the torus h = 1.5, f = 1.7 for a = -0.5 has exactly two limit cycles")
+    for end in (*found["trace"], *found["multipliers"][0], *found["fixed_points"][1]):
+        assert end in words
+    assert "for the equations with exactly these numbers, if the library's balls are right" in words
+    path = tmp_path / "proof.json"
+    assert main(["prove", *TORUS, "--format", "json", "--out", str(path)]) == 0
+    again = json.loads(path.read_text())
+    assert {**again, "seconds": 0} == {**found, "seconds": 0}
+
+
+def test_the_example_of_the_help_proves(example, answer):
+    words = example("prove")
+    assert answer(*words)["statement"] == "two cycles"
+
+
+def test_undecided_is_said_with_the_bits(capsys):
+    assert main(["prove", "--a", "0", "--h", "2", "--f", "0", "--bits", "64"]) == 0
+    assert capsys.readouterr().out.startswith("Undecided at 64 bits: whether the torus h = 2, f = 0 for a = 0 has")
+
+
+@pytest.mark.parametrize(("words", "said"), [
+    (("--f", "9"), "No motion has exactly h = 1.5 and f = 9"),
+    (("--f", "x"), "f = 'x' is no number that can be taken as exact; write it like 1.5, -2e-3 or 3/4"),
+    (("--a", "1e999999999"), "is no number that can be taken as exact"),
+    (("--h", "-2"), "at or below the bottom"),
+    (("--h", "1", "--f", "0"), "separatrix"),
+    (("--bits", "1"), "is not a whole number from 64 to 4096"),
+])
+def test_bad_numbers_are_refused_with_a_sentence(refusal, words, said):
+    assert said in refusal("prove", *TORUS, *words)
+
+
+def test_without_the_library_it_says_what_to_install(refusal, monkeypatch):
+    monkeypatch.setitem(sys.modules, "flint", None)
+    assert "pip install 'hess-explorer[prove]'" in refusal("prove", *TORUS)

@@ -1,0 +1,270 @@
+"""Proofs of two limit cycles, or none: held against values with many digits, and refused where anything is changed."""
+
+from __future__ import annotations
+
+import json
+import random
+import sys
+from fractions import Fraction
+
+import mpmath
+import pytest
+
+import oracle
+from check_certificate import Refused, verify
+from hess_mechanics import certificate, circle_map, curve_point, f_max, level, prove
+from hess_mechanics.errors import InvalidParameter, MissingLibrary, OutsideRegion, Separatrix, WorkLimit
+from hess_mechanics.numerics.balls import Enclosure, exact
+from hess_mechanics.suslov_hess.certificate import claim
+from oracle.kept import KEPT
+from support.mechanics import REFERENCE
+
+STATEMENTS = {True: "two cycles", False: "no cycle"}
+
+
+def rational(number):
+    """The rational that a number of mpmath is."""
+    mantissa, exponent = mpmath.mpf(number).man_exp
+    return Fraction(mantissa) * Fraction(2) ** exponent
+
+
+def kept_maps(most):
+    """Tori, as exact rationals, and the 40-digit maps that the oracle keeps of them."""
+    found = []
+    for question, (_, answer) in KEPT.items():
+        name, *arguments = json.loads(question)
+        if name == "maps_by_three_orbits" and isinstance(arguments[0], list):
+            maps = oracle.circle_maps.as_maps(answer)
+            found += [([Fraction(x) for x in torus], one) for torus, one in zip(arguments[0], maps, strict=True)]
+    return random.Random(17).sample(found, min(most, len(found)))
+
+
+def numbers_of(proof):
+    return [proof.trace, proof.rotation_number, *proof.fixed_points, *proof.multipliers]
+
+
+# ---- enclosures hold what is known ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("row", REFERENCE["hess_monodromy"], ids=lambda row: f"h={row['h']},f={row['f']},a={row['a']}")
+def test_the_trace_and_the_roots_of_the_reference_are_enclosed(row):
+    proof = prove(row["a"], row["h"], row["f"])
+    low, high = map(Fraction, certificate(proof)["trace"])
+    held = Fraction(row["abs_trace"])
+    # The reference has 22 digits.
+    assert low - held * Fraction(1, 10**20) <= held <= high + held * Fraction(1, 10**20)
+    assert high - low < Fraction(1, 10**6) * max(1, high)
+    assert proof.statement == STATEMENTS[held > 2]
+    for root, known in zip(proof.roots, row["n3_roots"], strict=True):
+        assert abs(root.low - Fraction(known)) < max(1, abs(root.low)) * Fraction(1, 10**19)
+        assert root.width < Fraction(1, 10**19)
+
+
+@pytest.mark.parametrize(("moved", "row"), [(name, row) for name, rows in (("f", "lock_boundary"), ("a", "a_critical"))
+                                            for row in REFERENCE[rows]], ids=str)
+def test_on_both_sides_of_the_held_boundary_the_statements_differ(moved, row):
+    """A boundary of 20 digits, moved by 1e-15 of itself either way."""
+    found = []
+    for sign in (-1, 1):
+        proof = prove(**row | {moved: Fraction(row[moved]) * (1 + sign * Fraction(1, 10**15))})
+        found.append(proof.statement)
+        assert abs(proof.trace.low - 2) < Fraction(1, 10**13)
+    assert sorted(found) == ["no cycle", "two cycles"]
+
+
+def test_traces_of_random_tori_to_forty_digits_are_inside():
+    """Random tori of other tests: |a| up to 50, down to 1e-14 from the separatrix and the edge, f down to 1e-20."""
+    decided = 0
+    for (a, h, f), known in kept_maps(100):
+        proof = prove(a, h, f)
+        with mpmath.workdps(60):
+            held = rational(abs(2 * mpmath.re(known.A)))
+        slack = Fraction(1, 10**17) * max(1, held)
+        assert proof.trace.low - slack <= held <= proof.trace.high + slack, (a, h, f)
+        decided += proof.statement == STATEMENTS[held > 2]
+        assert proof.statement in ("undecided", STATEMENTS[held > 2]), (a, h, f)
+    assert decided >= 99
+
+
+def test_cycles_and_rotation_numbers_are_those_of_the_map_to_forty_digits():
+    for (a, h, f), known in kept_maps(8):
+        proof = prove(a, h, f)
+        with mpmath.workdps(60):
+            for phi, multiplier in zip(proof.fixed_points, proof.multipliers, strict=True):
+                z = mpmath.expj(mpmath.mpf(phi.low.numerator) / phi.low.denominator)
+                image = (known.A * z + known.B) / (mpmath.conj(known.B) * z + mpmath.conj(known.A))
+                steep = rational(1 / abs(known.A * z + known.B) ** 2)
+                assert abs(image - z) < 1e-9 * max(1, steep)
+                assert steep == pytest.approx(float(multiplier.low), rel=1e-6)
+        approximate = circle_map(float(a), float(h), float(f), level("reference")).rotation_number
+        assert float(proof.rotation_number.low) == pytest.approx(approximate, abs=1e-7)
+        if proof.statement == "no cycle":
+            with mpmath.workdps(40):
+                share = mpmath.mpf(proof.rotation_number.low.numerator) / proof.rotation_number.low.denominator
+                assert abs(2 * mpmath.cospi(share)) == pytest.approx(float(proof.trace.low), abs=1e-14)
+
+
+@pytest.mark.parametrize("a", ["0", "0.3", "-2", "100"])
+def test_a_pendulum_that_goes_round_has_the_trace_of_its_closed_form(a):
+    """f = 0, h > 1: 2 cosh(πa), whatever h."""
+    proof = prove(a, "1.7", "0", 64)
+    with mpmath.workdps(60):
+        assert rational(2 * mpmath.cosh(mpmath.pi * mpmath.mpf(a))) in proof.trace
+    assert proof.statement == ("undecided" if a == "0" else "two cycles")
+
+
+@pytest.mark.parametrize(("n", "root"), [(Fraction(1, 4), Fraction(1, 2)), (Fraction(1, 9), Fraction(1, 3)),
+                                         (Fraction(64, 100), Fraction(8, 10))])
+@pytest.mark.parametrize("a", ["0.5", "1.5"])
+def test_on_the_edge_exactly_the_trace_is_that_of_its_closed_form(a, n, root):
+    """h = (1 − 3n²)/2n and f = (1 − n²)/√n are rational here; two equal roots, found as such."""
+    proof = prove(a, (1 - 3 * n * n) / (2 * n), (1 - n * n) / root, 128)
+    with mpmath.workdps(60):
+        held = oracle.circle_maps.map_on_the_curve(mpmath.mpf(a), mpmath.mpf(n.numerator) / n.denominator)
+        assert rational(abs(2 * mpmath.re(held.A))) in proof.trace
+    assert proof.roots[1] == proof.roots[2] == Enclosure(n, n)
+    if n == Fraction(1, 9):
+        verify(certificate(prove(a, proof.h, proof.f, 64)))
+
+
+def test_signs_of_a_and_f_change_nothing_but_senses():
+    one = prove("0.7", "1.2", "0.4")
+    for a, f, side, turn in (("-0.7", "0.4", -1, 1), ("0.7", "-0.4", 1, -1)):
+        other = prove(a, "1.2", f)
+        assert (other.statement, other.multipliers) == (one.statement, one.multipliers)
+        assert other.trace.low <= one.trace.high
+        assert one.trace.low <= other.trace.high
+        assert turn == 1 or other.fixed_points[0].low > -2
+        assert side == 1 or not (other.fixed_points[0].low - 4 > one.fixed_points[0].low)
+
+
+# ---- what is exact, and what is refused -------------------------------------------------------------------------
+
+
+def test_numbers_are_taken_as_exact_decimals():
+    assert exact("a", 0.1) == exact("a", "0.1") == exact("a", "1/10") == Fraction(1, 10)
+    for text in ("", "x", "nan", "inf", "1/0", "1/2/3", "1e999999999", "1/1e-999", "9" * 101, "1_0_", "１"):
+        with pytest.raises(InvalidParameter, match="no number that can be taken as exact"):
+            exact("a", text)
+
+
+@pytest.mark.parametrize("decimals", [None, 3, 12])
+def test_decimals_enclose_the_ends(decimals):
+    rng = random.Random(4)
+    for _ in range(200):
+        low = Fraction(rng.randint(-10**9, 10**9), rng.randint(1, 10**9)) * Fraction(10) ** rng.randint(-30, 30)
+        found = Enclosure(low, low + abs(low) * Fraction(rng.randint(1, 9), 10 ** rng.randint(1, 25)))
+        for pair in (found.decimals(decimals), found.outside_doubles()):
+            assert Fraction(pair[0]) <= found.low <= found.high <= Fraction(pair[1])
+        low, high = map(float, found.outside_doubles())
+        assert Fraction(low) <= found.low <= found.high <= Fraction(high)
+
+
+@pytest.mark.parametrize(("torus", "error", "words"), [
+    (("0.5", "1", "0"), Separatrix, "separatrix"),
+    (("0.5", "-1", "0"), OutsideRegion, "at or below the bottom"),
+    (("0.5", "0", "2"), OutsideRegion, "choose"),
+    (("2e6", "0", "0.1"), InvalidParameter, "choose"),
+    (("0.5", "2e12", "0.1"), InvalidParameter, "choose"),
+    (("0.5", "0", "1e-150"), InvalidParameter, "choose f = 0 or"),
+    (("1e5", "0.5", "0.3"), WorkLimit, "smaller"),
+])
+def test_what_cannot_be_proved_is_refused_with_a_sentence(torus, error, words):
+    with pytest.raises(error, match=words):
+        prove(*torus)
+
+
+def test_the_edge_is_decided_exactly():
+    """Beyond the edge by 1e-60, where no double can tell, nothing moves; before it, there is a torus."""
+    h, f = Fraction(13, 8), Fraction(15, 8)
+    assert (float(h), float(f)) == pytest.approx(curve_point(0.25), abs=1e-15)
+    assert f_max(float(h)) == pytest.approx(float(f), abs=1e-15)
+    tiny = Fraction(1, 10**60)
+    with pytest.raises(OutsideRegion, match="exactly"):
+        prove("0.5", h, f + tiny)
+    assert prove("0.5", h, f - tiny).statement == prove("0.5", h, f).statement == "two cycles"
+
+
+def test_where_the_trace_is_2_nothing_is_claimed():
+    """a = 0, f = 0: Θ is the identity, and the trace exactly 2."""
+    proof = prove("0", "1.5", "0", 64)
+    assert proof.statement == "undecided"
+    assert proof.bits == 64
+    assert 2 in proof.trace
+    assert "Undecided at 64 bits" in claim(proof)
+    verify(certificate(proof))
+
+
+def test_without_the_library_a_sentence_says_what_to_install(monkeypatch):
+    monkeypatch.setitem(sys.modules, "flint", None)
+    with pytest.raises(MissingLibrary, match=r"pip install 'hess-explorer\[prove\]'"):
+        prove("0.5", "1.5", "0.6")
+
+
+# ---- certificates -----------------------------------------------------------------------------------------------
+
+LOCKED, TURNING = ("-0.5", "1.5", "1.7"), ("0.5", "-0.3", "0.6")
+
+
+def certified(torus):
+    """Through JSON."""
+    return json.loads(json.dumps(certificate(prove(*torus))))
+
+
+@pytest.mark.parametrize("torus", [LOCKED, TURNING, ("0.3", "0.2", "0")])
+def test_a_certificate_holds_for_a_checker_that_shares_no_code(torus):
+    verify(certified(torus))
+
+
+def changed(found, path, change):
+    *before, last = path
+    place = found
+    for key in before:
+        place = place[key]
+    place[last] = change(place[last])
+
+
+def shifted(text):
+    return str(Fraction(text) + Fraction(1, 10**6))
+
+
+def pair(ends):
+    return [shifted(end) for end in ends]
+
+
+TAMPERED = [
+    ("statement", ["statement"], lambda _: "no cycle"),
+    ("another statement", ["statement"], lambda _: "chaos"),
+    ("a", ["a"], shifted), ("h", ["h"], shifted), ("f", ["f"], shifted),
+    ("trace", ["trace"], pair), ("trace ball", ["trace_ball"], pair),
+    ("rotation number", ["rotation_number"], lambda _: ["1", "1"]),
+    ("fixed point", ["fixed_points", 0], pair), ("cycles exchanged", ["fixed_points"], lambda both: both[::-1]),
+    ("multiplier", ["multipliers", 1], pair), ("multipliers exchanged", ["multipliers"], lambda both: both[::-1]),
+    ("root", ["roots", 1], pair), ("roots exchanged", ["roots"], lambda three: [three[0], three[2], three[1]]),
+    ("half", ["half", 2], pair),
+    ("step left out", ["steps"], lambda steps: steps[:2] + steps[3:]),
+    ("last step left out", ["steps"], lambda steps: steps[:-1]),
+    ("first step left out", ["steps"], lambda steps: steps[1:]),
+    ("matrix of a step", ["steps", 1, "matrix", 0], pair),
+    ("bound of a step", ["steps", 1, "bound"], lambda bound: str(Fraction(bound) / 2)),
+    ("radius of a step", ["steps", 1, "radius"], lambda radius: str(Fraction(radius) * 8)),
+    ("terms of a step", ["steps", 1, "terms"], lambda terms: terms // 2),
+    ("start of a step", ["steps", 1, "start"], shifted),
+]
+
+
+@pytest.mark.parametrize(("path", "change"), [row[1:] for row in TAMPERED], ids=[row[0] for row in TAMPERED])
+def test_a_certificate_with_a_change_is_refused(path, change):
+    found = certified(LOCKED)
+    changed(found, path, change)
+    with pytest.raises(Refused):
+        verify(found)
+
+
+def test_a_rotation_number_that_was_changed_is_refused():
+    found = certified(TURNING)
+    for change in (pair, lambda ends: [str(Fraction(end) + 1) for end in ends]):
+        other = json.loads(json.dumps(found))
+        changed(other, ["rotation_number"], change)
+        with pytest.raises(Refused):
+            verify(other)
