@@ -19,16 +19,24 @@ from hess_mechanics.computations import (
     ball_section,
     basins,
     cloud,
+    continued_orbit,
     lyapunov_exponent,
+    manifold,
     orbit,
     period,
+    periodic_orbit,
+    return_map,
     rotation_along_line,
     rotation_numbers,
     suslov_section,
 )
+from hess_mechanics.dynamics.continuation import Branch
 from hess_mechanics.dynamics.ensemble import ensemble
 from hess_mechanics.dynamics.lyapunov import Exponent, Spectrum, largest_exponent, spectrum
+from hess_mechanics.dynamics.manifolds import Manifold
 from hess_mechanics.dynamics.orbit import solve
+from hess_mechanics.dynamics.periodic import PeriodicOrbit
+from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.dynamics.section import Plane, Points, section, section_points, sections
 from hess_mechanics.dynamics.system import System, systems
 from hess_mechanics.dynamics.variation import Return, Transition, return_matrix, transition_matrix
@@ -63,6 +71,8 @@ __all__ = [  # noqa: RUF022 (by subject)
     # By a body and words
     "orbit", "lyapunov_exponent", "andoyer_section", "suslov_section", "ball_section", "PlanePoints", "basins",
     "Basins", "cloud", "period", "rotation_numbers", "rotation_along_line",
+    # Periodic orbits of sections
+    "return_map", "ReturnMap", "periodic_orbit", "PeriodicOrbit", "continued_orbit", "Branch", "manifold", "Manifold",
     # Any system
     "System", "systems", "solve", "Orbit", "ensemble", "Ensemble",
     "section", "sections", "section_points", "Plane", "Section", "Points", "largest_exponent", "Exponent", "spectrum",

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from numbers import Integral, Real
 from typing import Any, Protocol, TypeVar
 
@@ -19,8 +19,12 @@ from hess_mechanics.chaplygin_ball import integrable_cases, phase_cloud_density
 from hess_mechanics.chaplygin_ball import section as ball
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud import Cloud
+from hess_mechanics.dynamics.continuation import Branch, continued
 from hess_mechanics.dynamics.lyapunov import Exponent, largest_exponent
+from hess_mechanics.dynamics.manifolds import Manifold, grown
 from hess_mechanics.dynamics.orbit import solve
+from hess_mechanics.dynamics.periodic import PeriodicOrbit, find_periodic
+from hess_mechanics.dynamics.return_map import ReturnMap, Sheet
 from hess_mechanics.dynamics.section import Points
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
@@ -34,11 +38,14 @@ from hess_mechanics.numerics.results import Array, Orbit, frozen
 from hess_mechanics.suslov.basins import Contraction, contraction_at, groups_of_cells, middle_cells
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.section import SuslovSection, lowest_energy, suslov_points
+from hess_mechanics.suslov_hess.equations import HessBody
 from hess_mechanics.suslov_hess.rotation_number import TorusValues, values_at
+from hess_mechanics.suslov_hess.section import TorusSection
 
 __all__ = [
-    "Basins", "PlanePoints", "andoyer_section", "ball_section", "basins", "cloud", "lyapunov_exponent", "orbit",
-    "period", "rotation_along_line", "rotation_numbers", "suslov_section",
+    "Basins", "PlanePoints", "andoyer_section", "ball_section", "basins", "cloud", "continued_orbit",
+    "lyapunov_exponent", "manifold", "orbit", "period", "periodic_orbit", "return_map", "rotation_along_line",
+    "rotation_numbers", "suslov_section",
 ]
 
 Window = tuple[tuple[float, float], tuple[float, float]]
@@ -293,6 +300,97 @@ def rotation_along_line(body: HeavyBody, h: float, f: float, ends: Ends, *, coun
                            chosen.level)
     return rotation_along((first, last), [one for one, _ in started], [section.places_of(one) for one in found.states],
                           about_first, count, chosen.promise)
+
+
+def return_map(body: Body, *, E: float | None = None, h: float | None = None, f: float | None = None, plane: int = 3,
+               sheet: int = 0, accuracy: str = "precise") -> ReturnMap:
+    """The return map of a section of a body at fixed values of its integrals.
+
+    A `SuslovBody` takes E and the plane γ_k = 0, k = `plane`, places (ψ, δ); a `BallBody` h, places (ψ, δ); a
+    `HeavyBody` h, f and a sheet, places (l, L/G); a `HessBody` h and f of a torus, units b = 1, places (φ,).
+    Raises `InvalidParameter`.
+
+    >>> from hess_mechanics import SuslovBody, return_map
+    >>> P = return_map(SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), E=1.842)
+    >>> P.image((0.3, 1.2)).shape, P.names
+    ((2,), ('ψ', 'δ'))
+    """
+    asked: dict[str, float | None] = {"E": E, "h": h, "f": f}
+    found: Sheet
+    if isinstance(body, SuslovBody):
+        at = _given(asked, "E")
+        _require_energy(found := SuslovSection(body, at[0], _whole("plane", plane, 1, 3)))
+    elif isinstance(body, BallBody):
+        found = ball.BallSection(body, *_given(asked, "h"))
+    elif isinstance(body, HeavyBody):
+        at = _given(asked, "h", "f")
+        found = AndoyerSection(body, at[0], at[1], _whole("sheet", sheet, 0, 2))
+    else:
+        found = TorusSection(_a(HessBody, body).a, *_given(asked, "h", "f"))
+    return ReturnMap(found, level(accuracy))
+
+
+def periodic_orbit(section: ReturnMap, at: Sequence[float], period: int | None = None) -> PeriodicOrbit:
+    """The periodic orbit of a `return_map` that Newton's method finds from a place, with multipliers and type.
+
+    period : the least number of returns; None: found, up to 12.
+    Raises `InvalidParameter`, `NotConverged`.
+
+    >>> from hess_mechanics import HessBody, periodic_orbit, return_map
+    >>> P = return_map(HessBody(I22=2.0, I23=1.0, b3=-1.0), h=1.5, f=0.6)
+    >>> periodic_orbit(P, (-2.0,)).kind  # the stable limit cycle
+    'stable node'
+    """
+    found = find_periodic(section, at, None if period is None else _whole("period", period, 1, 64))
+    return replace(found, symmetric=tuple(section.symmetries_of(found.places)))
+
+
+def continued_orbit(section: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: float, points: int = 200) -> Branch:
+    """The branch of a periodic orbit of a `return_map` over a parameter of it, from its own value towards `to`.
+
+    parameter : one of `section.sheet.constants`.  Folds are passed; bifurcations are found and named.
+    Raises `InvalidParameter`, `NotConverged`, `WorkLimit`.
+
+    >>> from hess_mechanics import HessBody, continued_orbit, periodic_orbit, return_map
+    >>> P = return_map(HessBody(I22=2.0, I23=1.0, b3=-1.0), h=1.5, f=0.6)
+    >>> branch = continued_orbit(P, periodic_orbit(P, (-2.0,)), "h", 1.6, points=5)
+    >>> branch.kinds[0], len(branch.bifurcations)
+    ('stable node', 0)
+    """
+    if parameter not in section.sheet.constants:
+        raise InvalidParameter(f"There is no {parameter} here to change: choose one of "
+                               f"{', '.join(section.sheet.constants)}.")
+    return continued(lambda value: section.moved(parameter, value), orbit, parameter,
+                     section.sheet.constants[parameter], _number("to", to), _whole("points", points, 2, 2000),
+                     lambda map_, places: map_.symmetries_of(places) if isinstance(map_, ReturnMap) else ())
+
+
+def manifold(section: ReturnMap, saddle: PeriodicOrbit, length: float, *, stable: bool = False, side: int = 1,
+             place: int = 0, sagitta: float = 1e-3, longest: float = 0.1) -> Manifold:
+    """A branch of the unstable or stable manifold of a saddle of a `return_map`, up to a length.
+
+    side : 1 or −1, along its direction or against it; place : from which of the places of the saddle; sagitta : the
+    largest distance from the polyline; longest : of its chords.  Raises `InvalidParameter`, `WorkLimit`, `NoReturn`.
+
+    >>> from hess_mechanics import HeavyBody, manifold, periodic_orbit, return_map
+    >>> P = return_map(HeavyBody.hess((1.0, 1.6, 4.0), 1.0), h=1.5, f=-0.76)
+    >>> saddle = periodic_orbit(P, (-2.84, 0.288), 1)
+    >>> manifold(P, saddle, 0.5).length >= 0.5
+    True
+    """
+    return grown(section, saddle, _number("length", length), stable, side, place, _number("sagitta", sagitta),
+                 _number("longest", longest))
+
+
+def _given(asked: dict[str, float | None], *names: str) -> list[float]:
+    """The numbers of these names; those that the section does not have must not be given."""
+    lost = [name for name in names if asked[name] is None]
+    if lost:
+        raise InvalidParameter(f"The section of this body lies at given {' and '.join(names)}: give {lost[0]}.")
+    extra = [name for name, value in asked.items() if value is not None and name not in names]
+    if extra:
+        raise InvalidParameter(f"The section of this body takes {' and '.join(names)} and no {extra[0]}: leave it out.")
+    return [_number(name, asked[name]) for name in names]
 
 
 def _starts(section: AndoyerSection | SuslovSection, places: Sequence[tuple[float, float]], orbits: int,

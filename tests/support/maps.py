@@ -28,6 +28,11 @@ class Formula:
     def image(self, place):
         return np.array(self.of(*place), float)
 
+    def after(self, place, count):
+        for _ in range(count):
+            place = self.image(place)
+        return place
+
     def with_derivative(self, place):
         return self.image(place), np.array(self.derivative(*place), float)
 

@@ -7,7 +7,10 @@ Where γ3 grows through 0, γ = (cos ψ, sin ψ, 0) and ω is at an angle δ ∈
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 
@@ -15,14 +18,15 @@ from hess_mechanics.chaplygin_ball.energy_surface import omega_of_energy
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.section import MAX_STEPS, Plane, Points, section_points
-from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.dynamics.system import System
+from hess_mechanics.errors import InvalidParameter, ModelError, WorkLimit
 from hess_mechanics.numerics.accuracy import DRAFT, Level
-from hess_mechanics.numerics.results import Array
+from hess_mechanics.numerics.results import Array, Mask
 from hess_mechanics.rigid_body.inertia import require_finite
 
 __all__ = [
-    "EQUATOR", "ball_section", "coordinates", "fastest", "forbidden_band", "outside_band", "seeds", "spread_section",
-    "state_at",
+    "EQUATOR", "BallSection", "ball_section", "coordinates", "fastest", "forbidden_band", "outside_band", "seeds",
+    "spread_section", "state_at",
 ]
 
 EQUATOR = Plane((0.0, 0.0, 0.0, 0.0, 1.0))
@@ -110,3 +114,58 @@ def fastest(body: BallBody, start: tuple[float, ...], span: float) -> float:
     """The largest |ω| along the orbit from a state (5,), as far as a few samples show it.  Raises as `solve`."""
     coarse = solve(SYSTEM, start, body.parameters, np.linspace(0.0, span, _SAMPLES), DRAFT)
     return float(np.hypot(*coarse.states[:, :2].T).max())
+
+
+@dataclass(frozen=True)
+class BallSection:
+    """The section γ3 = 0 of a ball at the energy h.  Its methods raise `InvalidParameter`."""
+
+    body: BallBody
+    h: float
+
+    names: ClassVar[tuple[str, str]] = ("ψ", "δ")
+    turns: ClassVar[tuple[float, float]] = (2.0 * math.pi, math.inf)
+    window: ClassVar[tuple[tuple[float, float], ...]] = ((-math.pi, math.pi), (0.0, math.pi))
+    system: ClassVar[System] = SYSTEM
+    surface: ClassVar[Plane] = EQUATOR
+
+    @property
+    def parameters(self) -> tuple[float, ...]:
+        """Of the body."""
+        return self.body.parameters
+
+    @property
+    def slowness(self) -> float:
+        """√ of the ratio of the largest moment of inertia with 𝒟 to the least without."""
+        return math.sqrt((max(self.body.I11, self.body.I22) + self.body.D) / min(self.body.I11, self.body.I22))
+
+    @property
+    def constants(self) -> Mapping[str, float]:
+        """The parameters of the body, and h."""
+        return {**vars(self.body), "h": self.h}
+
+    def moved(self, name: str, value: float) -> BallSection:
+        """With another value of a constant."""
+        if name == "h":
+            return replace(self, h=value)
+        return replace(self, body=replace(self.body, **{name: value}))
+
+    def states_at(self, psi: Array, delta: Array) -> tuple[Array, Mask]:
+        """The states (n, 5) at (ψ, δ) (n,), and whether motions are possible there (n,)."""
+        states, there = np.full((len(psi), 5), np.nan), np.zeros(len(psi), bool)
+        for i, place in enumerate(zip(psi, delta, strict=True)):
+            with suppress(ModelError):
+                states[i], there[i] = state_at(self.body, self.h, *map(float, place)), True
+        return states, there
+
+    def places_of(self, states: Array) -> Array:
+        """(ψ, δ) (n, 2) of states (n, 5) of the section."""
+        return coordinates(states)
+
+    def is_on(self, states: Array) -> Mask:
+        """Whether states (n, 5) of γ3 = 0 are on the section (n,): all are."""
+        return np.ones(len(states), bool)
+
+    def gradient(self, state: Array) -> Array:
+        """Of γ3 (5,)."""
+        return np.array(EQUATOR.normal)

@@ -33,6 +33,10 @@ _FIRST = 4
 """Pieces into which one return of the curve is cut at first."""
 _CURVED = 1e-3
 """How far from the saddle its curvature is measured: third orders and round-off cancel to a millionth."""
+_SIZES = tuple(0.05 * 0.5**k for k in range(16))
+"""Lengths δ of the beginning of a manifold that are tried."""
+_STANDS = 1e-3
+"""A curve that grows by less than this share of the sagitta in a whole return has come to another saddle."""
 _CHECKED = 6
 """Points that a more accurate map computes again."""
 
@@ -87,28 +91,20 @@ class _Curve:
     bend: Array
     multiplier: float
     returns: int
+    first_error: float = 0.0
+    """Of the first piece, at its end."""
 
     def at(self, tau: float) -> Array:
         count = max(0, math.floor(tau))
-        return _after(self.map_, self._near(self.multiplier ** (tau - count)), count * self.returns)
+        return self.map_.after(self._near(self.multiplier ** (tau - count)), count * self.returns)
 
     def _near(self, sigma: float) -> Array:
         return np.asarray(self.saddle + sigma * self.away + sigma * sigma * self.bend)
 
-    def first_error(self) -> float:
-        """How far the first piece is from the curve at its end, which grows as the third power of its length.
-
-        Measured where F takes what is λ⁻¹ times as far away as its beginning: λ³ times as small as at its end.
-        """
-        there = _after(self.map_, self._near(1.0 / self.multiplier), self.returns)
-        off = apart(self.map_.turns, there, self._near(1.0))
-        return float(np.linalg.norm(off)) * self.multiplier**3
-
-
-def _after(map_: Map, place: Array, returns: int) -> Array:
-    for _ in range(returns):
-        place = map_.image(place)
-    return place
+    def third_order(self) -> float:
+        """How far F takes σ = 1/λ of the beginning from σ = 1 of it: what its third order leaves, and round-off."""
+        there = self.map_.after(self._near(1.0 / self.multiplier), self.returns)
+        return float(np.linalg.norm(apart(self.map_.turns, there, self._near(1.0))))
 
 
 def _begun(map_: Map, orbit: PeriodicOrbit, side: int, place: int) -> _Curve:
@@ -131,24 +127,28 @@ def _begun(map_: Map, orbit: PeriodicOrbit, side: int, place: int) -> _Curve:
     v = v * math.copysign(1.0 / math.hypot(*v), v[np.argmax(np.abs(v))])
     if value < 0.0:
         M, value, returns = M @ M, value * value, 2 * returns
-    size = _CURVED
+    size, error = _CURVED, math.inf
     q: Array = np.zeros(2)
     try:
-        both = [apart(map_.turns, _after(map_, saddle + sign * size * v, returns), saddle) for sign in (1.0, -1.0)]
+        both = [apart(map_.turns, map_.after(saddle + sign * size * v, returns), saddle) for sign in (1.0, -1.0)]
         q = np.asarray(np.linalg.solve(value * value * np.eye(2) - M, 0.5 * (both[0] + both[1])) / size**2, float)
     except ModelError:
         # So close to an end of the section the manifold begins as a straight line.
         pass
-    size = 0.05
-    while True:
-        curve = _Curve(map_, saddle, side * size * v, size * size * q, value, returns)
+    curve = _Curve(map_, saddle, side * _SIZES[0] * v, _SIZES[0] ** 2 * q, value, returns)
+    third = math.inf
+    for size in _SIZES:
+        curve = replace(curve, away=side * size * v, bend=size * size * q)
         try:
-            error = curve.first_error()
+            # δ³ times the least that was seen: in what is seen closer by there is more round-off than third order.
+            third = min(third, curve.third_order() / size**3)
         except ModelError:
-            error = math.inf
-        if error <= 0.1 * map_.promise or size < 1e-6:
-            return curve
-        size *= 0.5
+            continue
+        # The first piece ends at σ = λ.
+        error = third * (size * value) ** 3
+        if error <= 0.1 * map_.promise:
+            break
+    return replace(curve, first_error=error if math.isfinite(third) else math.inf)
 
 
 def grown(map_: Map, orbit: PeriodicOrbit, length: float, stable: bool = False, side: int = 1, place: int = 0,
@@ -182,7 +182,7 @@ def _followed(curve: _Curve, length: float, sagitta: float, longest: float, most
     total = float(np.linalg.norm(curve.away))
     # Right ends of pieces that are not yet done, the nearest last.
     waiting: list[tuple[float, Array]] = []
-    ahead = 0.0
+    ahead, before = 0.0, 0.0
     while total < length:
         go_on()
         if len(points) >= most:
@@ -190,6 +190,11 @@ def _followed(curve: _Curve, length: float, sagitta: float, longest: float, most
         tau, here = parameters[-1], points[-1]
         try:
             if not waiting:
+                if tau >= 1.0 and tau % 1.0 == 0.0:
+                    if total - before < _STANDS * sagitta and total > 10.0 * sagitta:
+                        where = ", ".join(f"{x:.9g}" for x in here)
+                        return np.array(points), np.array(parameters), f"It comes to a point, ({where})."
+                    before = total
                 ahead += 1.0 / _FIRST
                 waiting.append((ahead, here + apart(turns, curve.at(ahead), here)))
             right, there = waiting[-1]
@@ -230,7 +235,7 @@ def _error(curve: _Curve, points: Array, parameters: Array) -> float:
         along = along / max(float(np.linalg.norm(along)), 1e-300)
         away = apart(curve.map_.turns, there, points[i])
         off = max(off, abs(float(away[0] * along[1] - away[1] * along[0])))
-    return 1.25 * off + curve.first_error() + 4e-16
+    return 1.25 * off + curve.first_error + 4e-16
 
 
 # ---- where two of them cross ------------------------------------------------------------------------------------

@@ -32,6 +32,8 @@ _FOLLOWED = 8
 """Periods for which an orbit is followed in search of where it comes back closest."""
 _FAR = 1e6
 _ROUNDING = 2.3e-16
+_DIFFERENCES = 2e-13
+"""What derivatives of sections, partly by differences, may be off though two runs agree."""
 _FAMILY = 1e-9
 """Singular values of J below this, beside the largest, are directions in which periodic orbits form a family."""
 
@@ -61,6 +63,9 @@ class Map(Protocol):
 
     def image(self, place: Array) -> Array:
         """P(x) (d,)."""
+
+    def after(self, place: Array, count: int) -> Array:
+        """P^count(x) (d,)."""
 
     def with_derivative(self, place: Array) -> tuple[Array, Array]:
         """P(x) (d,) and DP(x) (d, d)."""
@@ -147,8 +152,8 @@ def _multiplier_error(derivatives: Array, better: Array) -> float:
     values, trace, determinant = multipliers_of(derivatives)
     _, other_trace, other_determinant = multipliers_of(better)
     product = float(np.prod(np.linalg.norm(derivatives, axis=(1, 2))))
-    rounding = 8.0 * _ROUNDING * len(derivatives)
-    off_trace = 1.25 * abs(trace - other_trace) + rounding * product
+    rounding = _DIFFERENCES * len(derivatives)
+    off_trace = 1.25 * abs(trace - other_trace) + rounding * max(1.0, product)
     off_determinant = 1.25 * abs(determinant - other_determinant) + rounding * abs(determinant)
     worst = 0.0
     for a in (-off_trace, off_trace):

@@ -18,8 +18,9 @@ The third needs f P < 0 and Q < 0; where there are only two, a state is on the s
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -277,6 +278,44 @@ class AndoyerSection:
     h: float
     f: float
     sheet: int = 0
+
+    names: ClassVar[tuple[str, str]] = ("l", "L/G")
+    turns: ClassVar[tuple[float, float]] = (2.0 * math.pi, math.inf)
+    window: ClassVar[tuple[tuple[float, float], ...]] = ((-math.pi, math.pi), (-1.0, 1.0))
+    system: ClassVar[System] = SYSTEM
+
+    @property
+    def parameters(self) -> tuple[float, ...]:
+        """Of the body."""
+        return self.body.parameters
+
+    @property
+    def surface(self) -> AndoyerPlane:
+        """g = π/2 at this area integral."""
+        return AndoyerPlane(self.f)
+
+    @property
+    def slowness(self) -> float:
+        """√ of the ratio of the moments of inertia."""
+        return math.sqrt(max(self.body.a) / min(self.body.a))
+
+    @property
+    def constants(self) -> Mapping[str, float]:
+        """The parameters of the body, h and f."""
+        return {**dict(zip(SYSTEM.parameters, self.parameters, strict=True)), "h": self.h, "f": self.f}
+
+    def moved(self, name: str, value: float) -> AndoyerSection:
+        """With another value of a constant."""
+        if name in ("h", "f"):
+            return replace(self, h=value) if name == "h" else replace(self, f=value)
+        p = tuple(value if one == name else other for one, other in zip(SYSTEM.parameters, self.parameters,
+                                                                       strict=True))
+        return replace(self, body=HeavyBody((p[0], p[1], p[2]), (p[3], p[4], p[5]), p[6]))
+
+    def gradient(self, state: Array) -> Array:
+        """Of G²γ3 − f M3 (6,)."""
+        M, g3 = state[:3], state[5]
+        return np.array([*(2.0 * g3 * M[:2]), 2.0 * g3 * M[2] - self.f, 0.0, 0.0, M @ M])
 
     def states_at(self, l: Array, x: Array) -> tuple[Array, Mask]:
         """The states (n, 6) at (l, L/G) (n,), and whether motions cross this sheet there (n,)."""

@@ -13,13 +13,15 @@ The energy gives |ω| wherever E > (b, γ).
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.section import MAX_STEPS, Plane, Points, section_points
+from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import DRAFT, Level
 from hess_mechanics.numerics.parallel import THREADS
@@ -215,6 +217,45 @@ class SuslovSection:
     body: SuslovBody
     E: float
     k: int
+
+    names: ClassVar[tuple[str, str]] = ("ψ", "δ")
+    turns: ClassVar[tuple[float, float]] = (2.0 * math.pi, math.inf)
+    window: ClassVar[tuple[tuple[float, float], ...]] = ((-math.pi, math.pi), (0.0, math.pi))
+    system: ClassVar[System] = SYSTEM
+
+    @property
+    def parameters(self) -> tuple[float, ...]:
+        """Of the body."""
+        return self.body.parameters
+
+    @property
+    def surface(self) -> Plane:
+        """γ_k = 0."""
+        return plane_of(self.k)
+
+    @property
+    def slowness(self) -> float:
+        """√ of the ratio of the moments of inertia."""
+        return math.sqrt(max(self.body.I11, self.body.I22) / min(self.body.I11, self.body.I22))
+
+    @property
+    def constants(self) -> Mapping[str, float]:
+        """The parameters of the body, and E."""
+        return {**vars(self.body), "E": self.E}
+
+    def moved(self, name: str, value: float) -> SuslovSection:
+        """With another value of a constant."""
+        if name == "E":
+            return replace(self, E=value)
+        return replace(self, body=replace(self.body, **{name: value}))
+
+    def is_on(self, states: Array) -> Mask:
+        """Whether states (n, 5) of γ_k = 0 are on the section (n,): all are."""
+        return np.ones(len(states), bool)
+
+    def gradient(self, state: Array) -> Array:
+        """Of γ_k (5,)."""
+        return np.array(self.surface.normal)
 
     def states_at(self, psi: Array, delta: Array) -> tuple[Array, Mask]:
         """The states (n, 5) at (ψ, δ) (n,), and whether motions are possible there (n,)."""

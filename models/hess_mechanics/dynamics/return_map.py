@@ -1,0 +1,271 @@
+"""The return map of a section in its own coordinates, with its derivative by the variational equations.
+
+A section of a system at fixed values of its integrals has one or two coordinates x, a state Y(x) at each, and x(Y)
+back.  The map is P(x) = x(Y′), Y′ the next crossing by the orbit from Y(x).  With V the transition matrix up to there,
+f the field and n the gradient of the surface at Y′,
+
+    DP = ∂x/∂Y (1 − f nᵀ/(n·f)) V ∂Y/∂x.
+
+∂Y/∂x lies in the levels of the integrals, which V keeps.  It and ∂x/∂Y are of closed formulas and are found by
+differences of sixth order, exact to some 1e-13.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Protocol
+
+import numpy as np
+
+from hess_mechanics.dynamics.orbit import MAX_STEPS, require_finite_states
+from hess_mechanics.dynamics.periodic import apart
+from hess_mechanics.dynamics.section import Surface
+from hess_mechanics.dynamics.symmetry import Mirror, sign_symmetries
+from hess_mechanics.dynamics.system import Problem, System
+from hess_mechanics.dynamics.variation import onto_surface
+from hess_mechanics.errors import InvalidParameter, NoReturn, OutsideRegion, WorkLimit
+from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.results import Array, Mask
+from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
+
+__all__ = ["ReturnMap", "Sheet"]
+
+_LONGEST = 400.0
+"""Time allowed for a return, in units of 1/ν times the slowness of the section."""
+_STEP = 2e-3
+_SHIFTS = np.array([-3.0, -2.0, -1.0, 1.0, 2.0, 3.0])
+_WEIGHTS = np.array([-1.0, 9.0, -45.0, 45.0, -9.0, 1.0]) / 60.0
+"""Of the differences of sixth order."""
+_TRIED = 100
+_AT_ONCE = 1e-8
+"""A crossing before this time, in units of 1/ν, is the start itself."""
+
+
+class Sheet(Protocol):
+    """A section of a system at fixed values of its integrals, in coordinates that cover it."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of the coordinates."""
+
+    @property
+    def turns(self) -> tuple[float, ...]:
+        """The period of each coordinate, ∞ where it is no angle."""
+
+    @property
+    def window(self) -> tuple[tuple[float, float], ...]:
+        """From where to where each coordinate goes."""
+
+    @property
+    def system(self) -> System:
+        """The equations of motion."""
+
+    @property
+    def parameters(self) -> tuple[float, ...]:
+        """Their parameters."""
+
+    @property
+    def surface(self) -> Surface:
+        """What is crossed."""
+
+    @property
+    def slowness(self) -> float:
+        """How much longer than 1/ν a motion with this tensor may take for a turn."""
+
+    @property
+    def constants(self) -> Mapping[str, float]:
+        """What may be changed: parameters and values of the integrals, by name."""
+
+    def moved(self, name: str, value: float) -> Sheet:
+        """The same section with another value of a constant.  Raises a `ModelError` where there is none."""
+
+    @property
+    def states_at(self) -> Callable[..., tuple[Array, Mask]]:
+        """The states (n, d) at coordinates (n,) each, and whether motions cross there (n,)."""
+
+    def places_of(self, states: Array) -> Array:
+        """The coordinates (n, k) of states (n, d)."""
+
+    def is_on(self, states: Array) -> Mask:
+        """Whether states (n, d) of the surface belong to this sheet (n,)."""
+
+    def gradient(self, state: Array) -> Array:
+        """Of the surface at a state (d,)."""
+
+
+@dataclass(frozen=True)
+class ReturnMap:
+    """The return map of a section, see `periodic.Map`; forward in time, or backward."""
+
+    sheet: Sheet
+    accuracy: Level
+    backward: bool = False
+
+    @property
+    def turns(self) -> tuple[float, ...]:
+        """The period of each coordinate, ∞ where it is no angle."""
+        return self.sheet.turns
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of the coordinates."""
+        return self.sheet.names
+
+    @property
+    def promise(self) -> float:
+        """Of the accuracy level."""
+        return self.accuracy.promise
+
+    @property
+    def level(self) -> str:
+        """The name of the accuracy level."""
+        return self.accuracy.name
+
+    @property
+    def is_floor(self) -> bool:
+        """Whether the level is the last one."""
+        return self.accuracy.is_floor
+
+    def tightened(self) -> ReturnMap:
+        """The same map with a hundredth of the tolerance."""
+        return replace(self, accuracy=self.accuracy.tightened())
+
+    def inverse(self) -> ReturnMap:
+        """The map backwards in time."""
+        return replace(self, backward=not self.backward)
+
+    def moved(self, name: str, value: float) -> ReturnMap:
+        """The same map at another value of a constant of the section.  Raises `InvalidParameter`."""
+        if name not in self.sheet.constants:
+            raise InvalidParameter(f"There is no {name} here to change: choose one of "
+                                   f"{', '.join(self.sheet.constants)}.")
+        return replace(self, sheet=self.sheet.moved(name, value))
+
+    def state_at(self, place: Array) -> Array:
+        """The state (d,) at a place of the section.  Raises `OutsideRegion`."""
+        states, there = self.sheet.states_at(*(np.array([x]) for x in place))
+        if not there[0]:
+            where = ", ".join(f"{name} = {x:.6g}" for name, x in zip(self.names, place, strict=True))
+            raise OutsideRegion(f"No motion crosses the section at {where}: choose another place, or a larger energy.")
+        return np.asarray(states[0])
+
+    def image(self, place: Array) -> Array:
+        """The next crossing (k,).  Raises `NoReturn`, `OutsideRegion`, `WorkLimit`."""
+        return self.after(place, 1)
+
+    def after(self, place: Array, count: int) -> Array:
+        """The crossing (k,) after so many returns, one after the other.  Raises as `image`."""
+        if count == 0:
+            return np.asarray(place, float)
+        problem, _, state = self._crossing(self.state_at(place), count)
+        return np.asarray(self.sheet.places_of((state * problem.scale)[None])[0])
+
+    def time_of(self, place: Array, count: int = 1) -> float:
+        """The time that so many returns from a place take.  Raises as `image`."""
+        problem, time, _ = self._crossing(self.state_at(place), count)
+        return time / problem.nu
+
+    def with_derivative(self, place: Array) -> tuple[Array, Array]:
+        """The next crossing (k,), and DP there (k, k).  Raises as `image`."""
+        start = self.state_at(place)
+        problem, time, scaled = self._crossing(start, 1)
+        system, d = self.sheet.system, start.size
+        states, frames = np.empty((1, d)), np.empty((1, d, d))
+        steps = system.vary(problem.states[0], np.eye(d), problem.parameters, np.array([time]), self.accuracy.order,
+                            self.accuracy.tolerance, MAX_STEPS, math.inf, states, frames, np.empty((1, d)), np.empty(1))
+        if steps == STEP_LIMIT_REACHED:
+            raise WorkLimit(f"This return needs more than {MAX_STEPS} steps: choose another place, or a cheaper level.")
+        require_finite_states(frames)
+        state = scaled * problem.scale
+        flow = problem.scale[:, None] * frames[0] / problem.scale
+        rate = np.array(system.field(state.tolist(), list(self.sheet.parameters)), float)
+        onto = onto_surface(flow, rate, self.sheet.gradient(state))
+        found = np.asarray(self.sheet.places_of(state[None])[0])
+        return found, self._in_plane(state, found, self._tangents(place) @ onto.T)
+
+    def _crossing(self, start: Array, count: int) -> tuple[Problem, float, Array]:
+        """The problem in its own units, time and state (d,) of the crossing of this number from a state."""
+        sheet = self.sheet
+        problem = Problem.of(sheet.system, [start], sheet.parameters)
+        cross, normal, offset = sheet.surface.scaled(sheet.system, problem)
+        end = _LONGEST * sheet.slowness * count * (-1.0 if self.backward else 1.0)
+        wanted = count
+        while True:
+            times, states = np.empty(wanted), np.empty((wanted, start.size))
+            found, _ = cross(problem.states[0], problem.parameters, normal, offset, sheet.surface.sense, end,
+                             self.accuracy.order, self.accuracy.tolerance, MAX_STEPS, times, states)
+            # A start that round-off puts a little before a curved surface crosses it at once.
+            if not (found and wanted == count and abs(times[0]) < _AT_ONCE):
+                break
+            wanted += 1
+        if found == STEP_LIMIT_REACHED:
+            raise WorkLimit(f"This return needs more than {MAX_STEPS} steps: choose another place, or a cheaper level.")
+        if found < wanted:
+            raise NoReturn(f"From here a motion does not return to the section {count} times: choose another place.")
+        require_finite_states(states)
+        if not sheet.is_on(states[-1:] * problem.scale)[0]:
+            raise NoReturn("From here a motion returns on another sheet of the section: choose another place.")
+        return problem, float(times[-1]), states[-1]
+
+    def _tangents(self, place: Array) -> Array:
+        """∂Y/∂x (k, d).  Raises `OutsideRegion` at the very edge of the section."""
+        k = len(place)
+        step = _STEP
+        while True:
+            shifts = (_SHIFTS[:, None, None] * step * np.eye(k)).reshape(-1, k)
+            states, there = self.sheet.states_at(*(np.asarray(place, float) + shifts).T)
+            if there.all():
+                return np.asarray(np.tensordot(_WEIGHTS, states.reshape(_SHIFTS.size, k, -1), 1) / step)
+            step *= 0.25
+            if step < 1e-6:
+                raise OutsideRegion("This place is too close to the edge of the section: choose another one.")
+
+    def _in_plane(self, state: Array, place: Array, away: Array) -> Array:
+        """∂x/∂Y at a state along directions (k, d); column j is that of direction j."""
+        # In units of the state: its components differ in size.
+        unit = max(1.0, float(np.abs(state).max()))
+        sizes = np.maximum(np.linalg.norm(away, axis=1), 1e-300)
+        shifts = _SHIFTS[:, None, None] * _STEP * unit * away / sizes[:, None]
+        places = self.sheet.places_of(state + shifts.reshape(-1, state.size))
+        moved = apart(self.turns, places, place).reshape(_SHIFTS.size, len(away), -1)
+        return np.asarray((np.tensordot(_WEIGHTS, moved, 1) / (_STEP * unit) * sizes[:, None]).T)
+
+    @cached_property
+    def mirrors(self) -> tuple[Mirror, ...]:
+        """The changes of sign of variables that map the motions, forward or backward in time, and this section."""
+        return tuple(one for one in sign_symmetries(self.sheet.system, self.sheet.parameters)
+                     if self._mirrored(one) is not None)
+
+    def mirrored(self, mirror: Mirror, place: Array) -> Array | None:
+        """The image (k,) of a place; None where it is not on the section."""
+        state = mirror.signs * self.state_at(place)
+        image = np.asarray(self.sheet.places_of(state[None])[0])
+        states, there = self.sheet.states_at(*(np.array([x]) for x in image))
+        size = max(1.0, float(np.abs(state).max()))
+        return image if there[0] and float(np.abs(states[0] - state).max()) < 1e-9 * size else None
+
+    def _mirrored(self, mirror: Mirror) -> Array | None:
+        """The image of the first place of a few where motions cross."""
+        for i in range(1, _TRIED):
+            shares = np.array([0.7548776662466927, 0.5698402909980532]) * i % 1.0
+            place = np.array([low + share * (high - low)
+                              for share, (low, high) in zip(shares, self.sheet.window, strict=False)])
+            try:
+                return self.mirrored(mirror, place)
+            except (OutsideRegion, InvalidParameter):
+                continue
+        return None
+
+    def symmetries_of(self, places: Array) -> Sequence[str]:
+        """The names of the mirrors under which an orbit with these places (m, k) is its own image."""
+        found = []
+        for mirror in self.mirrors:
+            images = [self.mirrored(mirror, place) for place in places]
+            if all(image is not None and
+                   np.abs(apart(self.turns, places, image)).max(axis=1).min() < max(1e-7, 1e3 * self.promise)
+                   for image in images):
+                found.append(mirror.name)
+        return tuple(found)

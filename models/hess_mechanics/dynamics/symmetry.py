@@ -1,0 +1,62 @@
+"""Symmetries and reversors that are changes of sign: S y with f(S y) = ±S f(y), found from the field itself.
+
+With the upper sign S maps motions to motions; with the lower one, to motions run backwards: S is a reversor.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from hess_mechanics.dynamics.system import System
+from hess_mechanics.numerics.results import Array, frozen
+
+__all__ = ["Mirror", "sign_symmetries"]
+
+_TRIED = 6
+
+
+@dataclass(frozen=True)
+class Mirror:
+    """A change of signs (d,) of the variables, and whether it reverses time."""
+
+    name: str
+    signs: Array
+    reverses: bool
+
+
+def sign_symmetries(system: System, parameters: Sequence[float]) -> tuple[Mirror, ...]:
+    """All changes of sign that map the motions of a system to motions, forward or backward in time.
+
+    They are tried on a few states in general position, which leaves nothing to chance for a field of such low degree.
+
+    >>> from hess_mechanics import systems
+    >>> from hess_mechanics.dynamics.symmetry import sign_symmetries
+    >>> suslov = systems()["suslov"]
+    >>> [one.name for one in sign_symmetries(suslov, suslov.example[1])]
+    ['ω1, ω2, t → −']
+    """
+    d = len(system.variables)
+    states = np.cos(1.0 + np.arange(d * _TRIED).reshape(d, _TRIED) ** 2)
+    p = list(parameters)
+    rates = _rates(system, states, p)
+    size = float(np.abs(rates).max()) or 1.0
+    found = []
+    for choice in itertools.product((1.0, -1.0), repeat=d):
+        signs = np.array(choice)
+        if np.all(signs > 0.0):
+            continue
+        there, here = _rates(system, signs[:, None] * states, p), signs[:, None] * rates
+        for reverses, image in ((False, here), (True, -here)):
+            if float(np.abs(there - image).max()) < 1e-13 * size:
+                changed = [name for name, sign in zip(system.variables, choice, strict=True) if sign < 0.0]
+                found.append(Mirror(f"{', '.join([*changed, *(['t'] if reverses else [])])} → −", frozen(signs),
+                                    reverses))
+    return tuple(found)
+
+
+def _rates(system: System, states: Array, p: list[float]) -> Array:
+    return np.array([np.broadcast_to(rate, states.shape[1:]) for rate in system.field(list(states), p)])

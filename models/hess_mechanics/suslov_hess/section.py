@@ -1,0 +1,100 @@
+"""A section of one torus of the Suslov–Hess case: n3 rises through the middle of its range, in the angle of w.
+
+At fixed (h, f), units b = 1, let w = ρ (sin φ, cos φ), ρ² = 2(h + n3), at n3 = (n3^(1) + n3^(2))/2.  Then
+
+    (n1, n2) = (f/ρ) w/ρ + √(1 − n3² − f²/ρ²) (cos φ, −sin φ),   as ṅ3 = n1 w2 − n2 w1 > 0.
+
+Its return map is conjugate to Θ of `circle_map`, which is seen from n3 = n3^(1), where n3 does not rise but turns: both
+have the same multipliers.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import ClassVar
+
+import numpy as np
+
+from hess_mechanics.dynamics.section import Plane
+from hess_mechanics.dynamics.system import System
+from hess_mechanics.numerics.results import Array, Mask
+from hess_mechanics.suslov_hess.bifurcation import TurningPoints, turning_points
+from hess_mechanics.suslov_hess.equations import SYSTEM
+
+__all__ = ["TorusSection"]
+
+
+@dataclass(frozen=True)
+class TorusSection:
+    """The section of the torus (h, f) of the reduced equations with this a, units b = 1, in φ.
+
+    Raises `OutsideRegion`, `Separatrix`, `InvalidParameter` where there is no torus.
+    """
+
+    a: float
+    h: float
+    f: float
+
+    names: ClassVar[tuple[str]] = ("φ",)
+    turns: ClassVar[tuple[float]] = (2.0 * math.pi,)
+    window: ClassVar[tuple[tuple[float, float], ...]] = ((-math.pi, math.pi),)
+    system: ClassVar[System] = SYSTEM
+
+    @cached_property
+    def turning(self) -> TurningPoints:
+        """Between which n3 moves."""
+        return turning_points(self.h, self.f)
+
+    @property
+    def n3(self) -> float:
+        """The middle of its range."""
+        return 0.5 * (self.turning.roots[1] + self.turning.roots[2])
+
+    @property
+    def parameters(self) -> tuple[float, ...]:
+        """a and b = 1."""
+        return (self.a, 1.0)
+
+    @property
+    def surface(self) -> Plane:
+        """n3 rises through the middle."""
+        return Plane((0.0, 0.0, 0.0, 0.0, 1.0), self.n3)
+
+    @property
+    def slowness(self) -> float:
+        """By the period of n3, in the time of the fastest motion."""
+        return max(1.0, 0.1 * self.turning.period * math.sqrt(2.0 * (self.h + 3.0)))
+
+    @property
+    def constants(self) -> Mapping[str, float]:
+        """a, h and f."""
+        return {"a": self.a, "h": self.h, "f": self.f}
+
+    def moved(self, name: str, value: float) -> TorusSection:
+        """With another value of a constant."""
+        return replace(self, **{name: value})
+
+    def states_at(self, phi: Array) -> tuple[Array, Mask]:
+        """The states (n, 5) at φ (n,), all of them possible."""
+        n3 = self.n3
+        rho = math.sqrt(2.0 * (self.h + n3))
+        along = self.f / rho
+        across = math.sqrt(max(0.0, 1.0 - n3 * n3 - along * along))
+        s, c = np.sin(phi), np.cos(phi)
+        gamma = along * s + across * c, along * c - across * s, np.full(s.size, n3)
+        return np.column_stack([rho * s, rho * c, *gamma]), np.isfinite(s)
+
+    def places_of(self, states: Array) -> Array:
+        """φ (n, 1) of states (n, 5)."""
+        return np.arctan2(states[:, :1], states[:, 1:2])
+
+    def is_on(self, states: Array) -> Mask:
+        """Whether states (n, 5) of the plane are on the section (n,): all are."""
+        return np.ones(len(states), bool)
+
+    def gradient(self, state: Array) -> Array:
+        """Of n3 (5,)."""
+        return np.array([0.0, 0.0, 0.0, 0.0, 1.0])

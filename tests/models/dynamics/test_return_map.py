@@ -1,0 +1,165 @@
+"""Return maps of the sections: derivative against differences, limit cycles against the Möbius matrix, separatrices."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from hess_mechanics import (
+    BallBody,
+    HeavyBody,
+    HessBody,
+    SuslovBody,
+    circle_map,
+    continued_orbit,
+    level,
+    manifold,
+    periodic_orbit,
+    return_map,
+)
+from hess_mechanics.dynamics.manifolds import split
+from hess_mechanics.errors import InvalidParameter, NotConverged, OutsideRegion
+from hess_mechanics.euler_poisson.andoyer import hess_curve
+from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
+from hess_mechanics.suslov.section import invariant_density
+from hess_mechanics.suslov_hess.mode_locking import critical_a, lock_boundary_f
+
+REFERENCE = level("reference")
+HEAVY = HeavyBody.hess((1.0, 1.6, 4.0), 1.0)
+CASES = [
+    (SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), {"E": 1.842}, (0.3, 1.2)),
+    (BallBody(1.0, 3.0, 0.2, -0.1, 5.0, 0.5, 0.2, 0.8), {"h": 2.0}, (0.3, 1.2)),
+    (HEAVY, {"h": 1.5, "f": -0.7}, (0.4, -0.2)),
+    (HessBody(2.0, 1.0, -1.0), {"h": 1.5, "f": 0.6}, (0.4,)),
+]
+
+
+def tori(a):
+    """The body of the Suslov–Hess case with b = 1 and this a."""
+    return HessBody(1.0, a, -math.hypot(1.0, a))
+
+
+@pytest.mark.parametrize(("body", "constants", "place"), CASES)
+def test_the_derivative_is_that_of_the_map_and_the_inverse_undoes_it(body, constants, place):
+    P = return_map(body, **constants)
+    image, DP = P.with_derivative(np.array(place))
+    h = 1e-4
+    sides = [[P.image(np.array(place) + sign * h * axis) for sign in (1, -1)] for axis in np.eye(len(place))]
+    assert np.abs(DP - np.column_stack([(a - b) / (2.0 * h) for a, b in sides])).max() < 1e-5 * np.abs(DP).max()
+    assert np.abs(image - P.image(place)).max() < 1e-12
+    assert np.abs(P.inverse().image(image) - place).max() < 1e-9
+    assert np.abs(P.after(place, 3) - P.image(P.image(image))).max() < 1e-9
+
+
+def test_where_an_area_is_kept_the_determinant_says_so():
+    body = SuslovBody(1.5, 1.0, 0.0, 0.0, 0.3, -0.5, 1.0)
+    P = return_map(body, E=1.842)
+    image, DP = P.with_derivative(np.array([0.3, 1.2]))
+    before, after = (invariant_density(body, 1.842, 3, *np.array(one)[:, None])[0] for one in ((0.3, 1.2), image))
+    assert np.linalg.det(DP) == pytest.approx(before / after, rel=1e-9)
+    # The Andoyer section is of a Hamiltonian system, in canonical coordinates (l, L) with dL = G dx + x dG.
+    P = return_map(HEAVY, h=1.5, f=-0.7)
+    orbit = periodic_orbit(P, (-2.84, 0.288), 1)
+    assert abs(complex(orbit.multipliers.prod()).real - 1.0) < 1e-9
+
+
+@pytest.mark.parametrize(("a", "h", "f"), [(0.5, 1.5, 0.6), (0.6, 0.8, 0.5), (1.3, 0.4, -0.7)])
+def test_the_limit_cycles_are_those_of_the_moebius_matrix(a, h, f):
+    exact = circle_map(a, h, f, REFERENCE)
+    assert exact.kind == "hyperbolic"
+    P = return_map(tori(a), h=h, f=f)
+    found = {}
+    for start in np.linspace(-3.0, 3.0, 7):
+        orbit = periodic_orbit(P, (start,), 1)
+        found[orbit.kind] = orbit
+    for kind, point in (("stable node", exact.fixed_points[0]), ("unstable node", exact.fixed_points[1])):
+        value = complex(found[kind].multipliers[0]).real
+        assert abs(value - point.multiplier) < 1e-9 * max(1.0, point.multiplier)
+        assert abs(value - point.multiplier) <= found[kind].multiplier_error + 1e-12 * point.multiplier
+        assert found[kind].error_estimate < 1e-9
+
+
+@pytest.mark.parametrize(("h", "f"), [(1.5, 0.6), (0.8, 0.5)])
+def test_on_the_real_flow_of_euler_poisson_they_are_saddles_with_the_same_multipliers(h, f):
+    # On the Hess manifold a cycle attracts as another one repels; the flow keeps an area, so across it is the inverse.
+    bridge = Bridge.of_heavy(HEAVY)
+    cycle = circle_map(bridge.hess.a, h, f, REFERENCE).fixed_points[1]
+    H, F1 = bridge.from_units_of_b(h, f)
+    P = return_map(HEAVY, h=H, f=F1)
+    found = [periodic_orbit(P, (l, float(hess_curve(HEAVY, np.array([l]))[0])), 1) for l in (-0.2, -2.5)]
+    assert np.abs(found[0].places - found[1].places).max() > 0.1
+    for orbit in found:
+        assert orbit.kind == "saddle"
+        assert abs(orbit.places[0, 1] - hess_curve(HEAVY, orbit.places[:1, 0])[0]) < 1e-10
+        assert orbit.multipliers.real / np.array([cycle.multiplier, 1.0 / cycle.multiplier]) == pytest.approx(
+            [1.0, 1.0], abs=1e-9)
+
+
+@pytest.mark.parametrize(("parameter", "a", "end"), [("a", 0.7, 0.3), ("f", 0.5, 1.5)])
+def test_cycles_are_born_in_a_fold_on_the_boundary_of_the_locks(parameter, a, end):
+    h, f = 0.5, 0.6 if parameter == "a" else lock_boundary_f(a, 0.5, REFERENCE) - 0.1
+    if circle_map(a, h, f, REFERENCE).kind != "hyperbolic":
+        f = lock_boundary_f(a, h, REFERENCE) + 0.1
+        end = 0.2
+    exact = critical_a(h, f, REFERENCE) if parameter == "a" else lock_boundary_f(a, h, REFERENCE)
+    P = return_map(tori(a), h=h, f=f)
+    start = circle_map(a, h, f, REFERENCE).fixed_points[0].phi
+    orbit = next(one for one in (periodic_orbit(P, (start + turn,), 1) for turn in np.linspace(0.0, 6.0, 7))
+                 if one.kind == "stable node")
+    branch = continued_orbit(P, orbit, parameter, end)
+    (fold,) = branch.bifurcations
+    assert fold.kind == "fold"
+    assert abs(fold.value - exact) < 1e-9
+    assert abs(fold.value - exact) <= fold.error + 2e-12
+    assert (branch.kinds[0], branch.kinds[-1]) == ("stable node", "unstable node")
+    # Beyond the fold it comes back, with the inverse multiplier.
+    assert branch.values[-1] == pytest.approx(branch.values[0], abs=1e-12)
+    assert float((branch.multipliers[0, 0] * branch.multipliers[-1, 0]).real) == pytest.approx(1.0, abs=1e-9)
+
+
+def test_the_separatrices_of_the_hess_manifold_split_in_proportion_to_what_is_off_the_condition():
+    h, f = Bridge.of_heavy(HEAVY).from_units_of_b(1.5, 0.6)
+    gaps = []
+    for epsilon in (0.0, 2e-4, 4e-4):
+        body = HeavyBody.hess((1.0, 1.6, 4.0), 1.0, away=epsilon)
+        P = return_map(body, h=h, f=f)
+        # Of the two saddles one repels along the Hess manifold, the other attracts along it.
+        repels, attracts = (periodic_orbit(P, place, 1) for place in ((-0.122, 0.1206), (-2.836, 0.2879)))
+        unstable = manifold(P, repels, 1.9, side=-1, sagitta=3e-3, longest=0.3)
+        stable = manifold(P, attracts, 1.9, side=1, stable=True, sagitta=3e-3, longest=0.3)
+        if not epsilon:
+            for curve in (unstable, stable):
+                assert np.abs(curve.points[:, 1] - hess_curve(body, curve.points[:, 0])).max() < 1e-8
+        gaps.append(split(unstable, stable, 0, -1.5))
+    assert abs(gaps[0][0]) <= gaps[0][1] < 1e-8
+    assert abs(gaps[1][0]) > 100.0 * gaps[1][1]
+    assert gaps[2][0] / gaps[1][0] == pytest.approx(2.0, abs=1e-2)
+
+
+def test_a_reversor_is_found_and_a_symmetric_orbit_known():
+    # I13 = 0 and b1 = 0: ω1, γ1, t → −; on γ1 = 0 it is δ → π − δ.
+    P = return_map(SuslovBody(1.5, 1.0, 0.0, 0.2, 0.0, -0.5, 1.0), E=3.0, plane=1)
+    (mirror,) = [one for one in P.mirrors if one.reverses]
+    assert P.mirrored(mirror, np.array([0.3, 1.2])) == pytest.approx([0.3, math.pi - 1.2], abs=1e-13)
+    back = P.mirrored(mirror, P.image(P.mirrored(mirror, np.array([2.0, 1.2]))))
+    assert back == pytest.approx(P.inverse().image(np.array([2.0, 1.2])), abs=1e-9)
+    assert return_map(SuslovBody(1.5, 1.0, 0.1, 0.2, 0.3, -0.5, 1.0), E=3.0, plane=1).mirrors == ()
+
+
+def test_what_a_body_does_not_have_is_refused():
+    body = CASES[0][0]
+    with pytest.raises(InvalidParameter, match="give E"):
+        return_map(body)
+    with pytest.raises(InvalidParameter, match="no h"):
+        return_map(body, E=1.8, h=1.0)
+    with pytest.raises(OutsideRegion, match="choose E above"):
+        return_map(body, E=-5.0)
+    P = return_map(body, E=1.842)
+    with pytest.raises(InvalidParameter, match="There is no mass"):
+        continued_orbit(P, periodic_orbit(return_map(tori(0.5), h=1.5, f=0.6), (-2.0,)), "mass", 2.0)
+    with pytest.raises(OutsideRegion, match=r"ψ = 0\.3, δ = 4"):
+        P.image((0.3, 4.0))
+    with pytest.raises(NotConverged):
+        periodic_orbit(P, (0.3, 4.0), 1)
