@@ -62,7 +62,7 @@ export function render({ model, view, el }) {
   const menu = sceneMenu(model.scenes)
   const share = shareDialog(signal)
   const taking = exportDialog(model.files)
-  const chart = chartPanel(model.palette, signal)
+  const chart = chartPanel(model.palettes, signal)
   const heading = element("h1", { className: "heading" })
   const open = element("button", {
     type: "button", className: "tool param-scenes", title: "Choose a scene", "aria-haspopup": "dialog",

@@ -59,7 +59,7 @@ function sideForm(label, ends, chosen) {
 }
 
 // {panel, open(), show(description of the scene on show)}.
-export function chartPanel(palette, signal) {
+export function chartPanel(palettes, signal) {
   let scene = null
   // Control → what it shows.
   let values = {}
@@ -93,7 +93,7 @@ export function chartPanel(palette, signal) {
   const reading = element("output", { className: "reading", "aria-live": "polite" })
   const heading = element("h2", { textContent: "Chart" })
   const form = element("div", { className: "form" }, element("div", { className: "side" }, quantity, part), x.frame, y.frame)
-  const map = chartCanvas(palette, { pointed: read, chosen: open, boxed: closer }, signal)
+  const map = chartCanvas(palettes, { pointed: read, chosen: open, boxed: closer }, signal)
   const picture = element("div", { className: "drawn", hidden: true }, map.canvas, reading)
   const panel = element("div", { className: "chart", popover: "manual", role: "dialog", "aria-label": "Chart" },
     element("div", { className: "head" }, heading, close), form,
@@ -144,9 +144,9 @@ export function chartPanel(palette, signal) {
 
   function wanted() {
     tell("address")
-    const { symbol, title, units, parts } = described()
+    const { symbol, title, units, turn, parts } = described()
     return {
-      scene: scene.name, state: state(), quantity: quantity.value, part: Number(part.value || 0), title, units,
+      scene: scene.name, state: state(), quantity: quantity.value, part: Number(part.value || 0), title, units, turn,
       symbol: parts.length > 0 ? `${symbol} ${part.selectedOptions[0].textContent}` : symbol, x: x.value(), y: y.value(),
     }
   }
@@ -164,10 +164,10 @@ export function chartPanel(palette, signal) {
 
   function closer(box) {
     if (!(box.x[1] > box.x[0] && box.y[1] > box.y[0])) return
-    const { scene: of, state: query, quantity: what, part: which, title, symbol, units } = chart
+    const { scene: of, state: query, quantity: what, part: which, title, symbol, units, turn } = chart
     const side = (one, [low, high]) => ({ name: one.name, symbol: one.symbol, count: one.count, low, high })
     before.push(chart)
-    begin({ scene: of, state: query, quantity: what, part: which, title, symbol, units, x: side(chart.x, box.x), y: side(chart.y, box.y) })
+    begin({ scene: of, state: query, quantity: what, part: which, title, symbol, units, turn, x: side(chart.x, box.x), y: side(chart.y, box.y) })
   }
 
   function zoomOut() {

@@ -68,7 +68,8 @@ const stepOf = ({ low, high, count }) => (high - low) / (count - 1)
 
 // hands: pointed([column, row] or null), chosen([column, row]), boxed({x: [low, high], y: [low, high]}).
 // {canvas, show(chart), mark([x, y] or null, whether all else is as in the chart), cursor, moveTo, request()}.
-export function chartCanvas(palette, hands, signal) {
+// palettes: {plain, round}, the second for numbers that come round, as those that differ by a turn are the same.
+export function chartCanvas(palettes, hands, signal) {
   const canvas = element("canvas", {
     className: "map", tabIndex: 0, role: "application", "aria-label": "Chart: arrow keys move, Enter opens the state, plus zooms, minus goes back",
   })
@@ -79,6 +80,7 @@ export function chartCanvas(palette, hands, signal) {
   let box = null
   let painter = null
   let colours = null
+  let palette = palettes.plain
   let data = null
   let frame = null
   let requested = false
@@ -91,7 +93,9 @@ export function chartCanvas(palette, hands, signal) {
 
   function renew() {
     if (chart?.values == null) return
-    colours = endsOf(chart.values)
+    const { turn } = chart
+    palette = turn > 0 ? palettes.round : palettes.plain
+    colours = turn > 0 ? { low: -turn / 2, high: turn / 2, isBelow: false, isAbove: false } : endsOf(chart.values)
     const numbers = filled(chart)
     const { x, y } = chart
     const [wide, high] = [stepOf(x), stepOf(y)]

@@ -63,7 +63,7 @@ class Bar(JSComponent):
     """The menu of scenes, and what can be done with the page; a choice travels with the request for its first state."""
 
     scenes = param.List(default=[], doc="{name, title, summary, picture, origin, group} of each.")
-    palette = param.List(default=[], doc="The colours of a chart.")
+    palettes = param.Dict(default={}, doc="Colours of a chart: of numbers, and of turns.")
 
     files: Any = param.Dict(default={}, doc="formats: [kind, words, what it holds] of each that Export offers; width, "
                             "seconds: least, most and usual.")

@@ -77,7 +77,8 @@ def _chart(scene: Scene[Any], charted: Charted[Any]) -> dict[str, Any]:
     """What can be charted: over which of its parameters, those with open controls first; for which pictures."""
     what = quantity(charted.quantity)
     return {"quantity": what.name, "symbol": what.symbol, "title": what.title, "units": what.units, "help": what.doc,
-            "parts": list(what.parts), "over": list(swept(scene.name, what.name)), "pictures": list(charted.pictures)}
+            "turn": what.turn, "parts": list(what.parts),
+            "over": list(swept(scene.name, what.name)), "pictures": list(charted.pictures)}
 
 
 def _html(scene: Scene[Any]) -> str:

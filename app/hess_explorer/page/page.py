@@ -10,7 +10,7 @@ from urllib.parse import urlencode
 
 import panel as pn
 import panel_material_ui as pmui
-from bokeh.palettes import Viridis256
+from bokeh.palettes import Cividis256
 from panel.util import edit_readonly
 
 from hess_explorer.export.formats import FORMATS, SERVED_SECONDS, WIDTHS, Wish
@@ -36,6 +36,7 @@ from hess_explorer.page.session import Session, linked
 from hess_explorer.protocol.parameters import CLIENT, Choice, Link, Names, Number
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
+from hess_explorer.views import theme
 
 __all__ = ["page"]
 
@@ -47,6 +48,8 @@ EMBED = Choice("embed", "Embedding", ("0", "1"), "0")
 
 _FILES = {"formats": [[kind, one.words, one.holds] for kind, one in FORMATS.items() if one.words],
           "width": [*WIDTHS, Wish.width], "seconds": [*SERVED_SECONDS, Wish.seconds]}
+# Of a chart, as of every map of numbers.
+_PALETTES = {"plain": [*Cividis256], "round": [*theme.TURN_MAP]}
 
 # The system's font: the fourteen files of another one would come before the first picture.
 FONT = "system-ui, sans-serif"
@@ -113,7 +116,7 @@ def _page(query: str, own: Lesson | None, follow: Callable[[str], None] | None) 
     if follow is not None:
         ready.param.watch(lambda event: follow(json.loads(event.new)["query"]), "state")
     shell = Shell(
-        bar=Bar(scenes=[_entry(one) for one in scenes().values()], files=_FILES, palette=[*Viridis256]),
+        bar=Bar(scenes=[_entry(one) for one in scenes().values()], files=_FILES, palettes=_PALETTES),
         controls=Controls(),
         derived=Text(key="derived", look="derived", tag="div"),
         pictures=Pictures(),

@@ -258,7 +258,7 @@ _DIVERGENCE = "Mean of div ẏ over the later two thirds of the time t: negative
 _TABLE: tuple[Quantity, ...] = (
     Quantity("rotation-number", "ρ", "Rotation number of Suslov–Hess tori", "turns per return",
              "Rotation number of the circle map of the torus (h, f).", (_A, _H, _F),
-             partial(_of_tori, lambda found: found.rho)),
+             partial(_of_tori, lambda found: found.rho), turn=1.0),
     Quantity("trace", "|t|", "Trace of the circle map of Suslov–Hess tori", "1",
              "|trace| of the circle map as a matrix of SU(1,1): above 2 it has two limit cycles.", (_A, _H, _F),
              partial(_of_tori, lambda found: found.trace)),

@@ -126,6 +126,7 @@ class Quantity:
         the cells has no value.
     parts : the names of the numbers at one cell; none for a scalar.
     error : what its error estimate is; empty where there is none.
+    turn : numbers that differ by it are the same, as rotation numbers by 1; 0 where all differ.
     """
 
     name: str
@@ -137,6 +138,7 @@ class Quantity:
     compute: Compute
     parts: tuple[str, ...] = ()
     error: str = ""
+    turn: float = 0.0
 
     @property
     def variable(self) -> str:
