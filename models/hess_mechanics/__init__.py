@@ -14,6 +14,7 @@ from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.scattering import BallScattering, ball_scattering
 from hess_mechanics.computations import (
     Basins,
+    MegnoMap,
     PlanePoints,
     andoyer_section,
     ball_section,
@@ -21,7 +22,9 @@ from hess_mechanics.computations import (
     cloud,
     continued_orbit,
     lyapunov_exponent,
+    lyapunov_spectrum,
     manifold,
+    megno_map,
     orbit,
     period,
     periodic_orbit,
@@ -32,12 +35,14 @@ from hess_mechanics.computations import (
 )
 from hess_mechanics.dynamics.continuation import Branch
 from hess_mechanics.dynamics.ensemble import ensemble
-from hess_mechanics.dynamics.lyapunov import Exponent, Spectrum, largest_exponent, spectrum
+from hess_mechanics.dynamics.lyapunov import Exponent, largest_exponent
 from hess_mechanics.dynamics.manifolds import Manifold
+from hess_mechanics.dynamics.megno import Megno, megno
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.periodic import PeriodicOrbit
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.dynamics.section import Plane, Points, section, section_points, sections
+from hess_mechanics.dynamics.spectrum import Spectrum, spectrum
 from hess_mechanics.dynamics.system import System, systems
 from hess_mechanics.dynamics.variation import Return, Transition, return_matrix, transition_matrix
 from hess_mechanics.errors import ModelError
@@ -69,14 +74,14 @@ from hess_mechanics.suslov_hess.proof import Proof, prove
 
 __all__ = [  # noqa: RUF022 (by subject)
     # By a body and words
-    "orbit", "lyapunov_exponent", "andoyer_section", "suslov_section", "ball_section", "PlanePoints", "basins",
-    "Basins", "cloud", "period", "rotation_numbers", "rotation_along_line",
+    "orbit", "lyapunov_exponent", "lyapunov_spectrum", "megno_map", "MegnoMap", "andoyer_section", "suslov_section",
+    "ball_section", "PlanePoints", "basins", "Basins", "cloud", "period", "rotation_numbers", "rotation_along_line",
     # Periodic orbits of sections
     "return_map", "ReturnMap", "periodic_orbit", "PeriodicOrbit", "continued_orbit", "Branch", "manifold", "Manifold",
     # Any system
     "System", "systems", "solve", "Orbit", "ensemble", "Ensemble",
     "section", "sections", "section_points", "Plane", "Section", "Points", "largest_exponent", "Exponent", "spectrum",
-    "Spectrum", "transition_matrix", "Transition", "return_matrix", "Return",
+    "Spectrum", "megno", "Megno", "transition_matrix", "Transition", "return_matrix", "Return",
     # Accuracy, cost, errors
     "LEVELS", "Level", "level", "Status", "Cost", "ModelError",
     # Bodies

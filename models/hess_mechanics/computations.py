@@ -22,10 +22,12 @@ from hess_mechanics.chaplygin_ball.phase_cloud import Cloud
 from hess_mechanics.dynamics.continuation import Branch, continued
 from hess_mechanics.dynamics.lyapunov import Exponent, largest_exponent
 from hess_mechanics.dynamics.manifolds import Manifold, grown
+from hess_mechanics.dynamics.megno import megno
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.periodic import PeriodicOrbit, find_periodic
 from hess_mechanics.dynamics.return_map import ReturnMap, Sheet
 from hess_mechanics.dynamics.section import Points
+from hess_mechanics.dynamics.spectrum import Spectrum, spectrum
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, andoyer_points
@@ -43,9 +45,9 @@ from hess_mechanics.suslov_hess.rotation_number import TorusValues, values_at
 from hess_mechanics.suslov_hess.section import TorusSection
 
 __all__ = [
-    "Basins", "PlanePoints", "andoyer_section", "ball_section", "basins", "cloud", "continued_orbit",
-    "lyapunov_exponent", "manifold", "orbit", "period", "periodic_orbit", "return_map", "rotation_along_line",
-    "rotation_numbers", "suslov_section",
+    "Basins", "MegnoMap", "PlanePoints", "andoyer_section", "ball_section", "basins", "cloud", "continued_orbit",
+    "lyapunov_exponent", "lyapunov_spectrum", "manifold", "megno_map", "orbit", "period", "periodic_orbit",
+    "return_map", "rotation_along_line", "rotation_numbers", "suslov_section",
 ]
 
 Window = tuple[tuple[float, float], tuple[float, float]]
@@ -114,6 +116,28 @@ class Basins(Result):
                       {"groups": len(self.divergence), "attractors": self.attractors, "level": self.level})
 
 
+@dataclass(frozen=True)
+class MegnoMap(Result):
+    """Regular, chaotic, attracted: MEGNO over the cells of a section.
+
+    psi (m,), delta (n,) : the middles of the cells; values (n, m) : Ȳ after the time t, NaN where no motion is;
+    kind (n, m) : 0 regular, 1 chaotic, and 2 more where volume shrinks beyond its error; −1 where no motion is.
+    """
+
+    psi: Array
+    delta: Array
+    values: Array
+    kind: Array
+    t: float
+    level: str
+
+    def labels(self) -> Labels:
+        """MEGNO and kind over δ and ψ."""
+        return Labels({"δ": (("δ",), self.delta), "ψ": (("ψ",), self.psi)},
+                      {"MEGNO": (("δ", "ψ"), self.values), "kind": (("δ", "ψ"), self.kind)},
+                      {"δ": "rad", "ψ": "rad", "MEGNO": "1"}, {"t": self.t, "level": self.level})
+
+
 def orbit(body: Body, state: Sequence[float], t: float | Sequence[float] | Array, accuracy: str = "precise",
           samples: int = 500) -> Orbit:
     """The orbit of a body from a state, at the times t, or at so many samples from 0 to the time t.
@@ -140,6 +164,19 @@ def lyapunov_exponent(body: Body, state: Sequence[float], t: float, accuracy: st
     True
     """
     return largest_exponent(body.system, state, body.parameters, _number("t", t), plan(Kind.EXPONENT, accuracy).level)
+
+
+def lyapunov_spectrum(body: Body, state: Sequence[float], t: float, accuracy: str = "standard") -> Spectrum:
+    """All Lyapunov exponents of the orbit from a state, with errors, over the time t; backwards for t < 0.
+
+    Raises `InvalidParameter`, `WorkLimit`.
+
+    >>> from hess_mechanics import SuslovBody, lyapunov_spectrum
+    >>> found = lyapunov_spectrum(SuslovBody(1.7, 3.0, 0.3, 0.1, -2.0, -2.1, 2.6), (0.8, 1.3, 0.6, 0.0, 0.8), t=2000.0)
+    >>> found.signs, bool(2.0 < found.dimension[0] < 3.0)
+    (('+', '0', '0', '0', '-'), True)
+    """
+    return spectrum(body.system, state, body.parameters, _number("t", t), level(accuracy))
 
 
 def andoyer_section(body: HeavyBody, h: float, f: float, *, starts: Sequence[tuple[float, float]] = (),
@@ -218,12 +255,8 @@ def basins(body: SuslovBody, E: float, *, plane: int = 3, cells: tuple[int, int]
     """
     section = SuslovSection(_a(SuslovBody, body), _number("E", E), _whole("plane", plane, 1, 3))
     _require_energy(section)
-    m, n = (_whole("cells", side, 1, _MOST_CELLS) for side in cells)
-    if m * n > _MOST_CELLS:
-        raise InvalidParameter(f"These are {m * n} cells; at most {_MOST_CELLS} are allowed: choose fewer.")
-    (x0, y0), (x1, y1) = window
-    if not (x0 < x1 and 0.0 <= y0 < y1 <= math.pi):
-        raise InvalidParameter("The window is ψ0 < ψ1 and 0 ≤ δ0 < δ1 ≤ π: choose such angles.")
+    m, n = _cells(cells)
+    (x0, y0), (x1, y1) = _window(window)
     ends, chosen = np.empty((n, m)), accuracy if isinstance(accuracy, Level) else plan(
         Kind.BASINS, accuracy).level
 
@@ -235,6 +268,32 @@ def basins(body: SuslovBody, E: float, *, plane: int = 3, cells: tuple[int, int]
     on_each = tuple(contraction_at(section, window, (m, n), *cell, _LONG) for cell in middle_cells(ends, group))
     return Basins(frozen(x0 + (np.arange(m) + 0.5) * (x1 - x0) / m), frozen(y0 + (np.arange(n) + 0.5) * (y1 - y0) / n),
                   frozen(np.where(np.isfinite(ends), ends, np.nan)), frozen(group), on_each, chosen.name)
+
+
+def megno_map(body: SuslovBody, E: float, *, plane: int = 3, cells: tuple[int, int] = (16, 12),
+              window: Window = ((-math.pi, 0.0), (math.pi, math.pi)), t: float = 200.0, accuracy: str = "standard"
+              ) -> MegnoMap:
+    """MEGNO of the motions from the cells of a section of the Suslov problem after the time t, on all cores.
+
+    cells : across ψ and up δ; window : (ψ0, δ0), (ψ1, δ1).  Raises `InvalidParameter`, `OutsideRegion`, `WorkLimit`.
+
+    >>> from hess_mechanics import SuslovBody, megno_map
+    >>> megno_map(SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), 1.842, cells=(6, 4), t=50.0).values.shape
+    (4, 6)
+    """
+    section = SuslovSection(_a(SuslovBody, body), _number("E", E), _whole("plane", plane, 1, 3))
+    _require_energy(section)
+    m, n = _cells(cells)
+    (x0, y0), (x1, y1) = _window(window)
+    middles = [section.cells_of_row(window, (m, n), i) for i in range(n)]
+    possible = np.array([there for _, there in middles])
+    found = megno(body.system, np.array([states for states, _ in middles])[possible], body.parameters,
+                  _number("t", t), level(accuracy))
+    values, kind = np.full((n, m), np.nan), np.full((n, m), -1)
+    values[possible] = found.values
+    kind[possible] = found.chaotic + 2 * found.attracted
+    psi, delta = x0 + (np.arange(m) + 0.5) * (x1 - x0) / m, y0 + (np.arange(n) + 0.5) * (y1 - y0) / n
+    return MegnoMap(frozen(psi), frozen(delta), frozen(values), frozen(kind), found.t, accuracy)
 
 
 def cloud(body: BallBody, h: float, t: float, *, count: int = 1000, spread: float = 0.1, angle: float | None = None,
@@ -391,6 +450,20 @@ def _given(asked: dict[str, float | None], *names: str) -> list[float]:
     if extra:
         raise InvalidParameter(f"The section of this body takes {' and '.join(names)} and no {extra[0]}: leave it out.")
     return [_number(name, asked[name]) for name in names]
+
+
+def _cells(cells: tuple[int, int]) -> tuple[int, int]:
+    m, n = (_whole("cells", side, 1, _MOST_CELLS) for side in cells)
+    if m * n > _MOST_CELLS:
+        raise InvalidParameter(f"These are {m * n} cells; at most {_MOST_CELLS} are allowed: choose fewer.")
+    return m, n
+
+
+def _window(window: Window) -> Window:
+    (x0, y0), (x1, y1) = window
+    if not (x0 < x1 and 0.0 <= y0 < y1 <= math.pi):
+        raise InvalidParameter("The window is ψ0 < ψ1 and 0 ≤ δ0 < δ1 ≤ π: choose such angles.")
+    return window
 
 
 def _starts(section: AndoyerSection | SuslovSection, places: Sequence[tuple[float, float]], orbits: int,

@@ -122,6 +122,22 @@ def test_a_free_body_about_a_fixed_point_has_no_exponent(answer):
     assert long < 0.05
 
 
+def test_all_exponents_with_errors_signs_and_a_dimension(answer, capsys):
+    words = ["lyapunov", "suslov", "--I", "1.7,3,0.3,0.1", "--b=-2,-2.1,2.6", "--omega", "0.8,1.3", "--gamma",
+             "0.6,0,0.8", "--t", "1500", "--spectrum"]
+    found = answer(*words)
+    assert found["signs"] == ["+", "0", "0", "0", "-"]
+    assert found["sum"] == pytest.approx(found["divergence"], abs=1e-7)
+    assert found["dimension"] == pytest.approx(2.0 + found["exponents"][0] / -found["exponents"][4], abs=1e-9)
+    assert found["pairs_forced"] is False
+    alone = answer(*words[:-1])["exponent"]
+    assert found["exponents"][0] == pytest.approx(alone, abs=4.0 * found["errors"][0])
+    assert main([*words, "--format", "csv"]) == 0
+    _, header, rows = table(capsys.readouterr().out)
+    assert header == ["t", *(f"average {i}" for i in range(1, 6))]
+    assert float(rows[-1][1]) == found["average 1"][-1]
+
+
 @pytest.mark.parametrize(("words", "said"), [
     (replaced(ROTATION, "--h", "2e12"), "1e12"),
     (replaced(ROTATION, "--a", "2e6"), "choose |a|"),

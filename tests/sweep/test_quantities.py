@@ -185,5 +185,6 @@ def test_every_quantity_says_what_it_is():
             assert each.low < each.high
             assert each.default is None or each.low <= each.default <= each.high
             assert not each.whole or each.default == round(each.default)
-    of_any_system = {f"{what}-{system}" for what in ("lyapunov", "spectrum", "crossings") for system in systems()}
+    of_any_system = {f"{what}-{system}" for what in ("lyapunov", "spectrum", "dimension", "megno", "crossings")
+                     for system in systems()}
     assert of_any_system <= set(QUANTITIES)

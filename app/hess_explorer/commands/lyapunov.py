@@ -1,11 +1,15 @@
-"""`hess-explorer lyapunov suslov|ball|euler-poisson`: the largest Lyapunov exponent of one motion."""
+"""`hess-explorer lyapunov suslov|ball|euler-poisson`: the largest Lyapunov exponent of one motion, or all of them."""
 
 from __future__ import annotations
 
 import argparse
+from typing import TYPE_CHECKING
 
 from .bodies import add_ball, add_end, add_heavy_body, add_start, add_suslov_body, ball_of
-from .output import add_options, computing, write
+from .output import add_options, computing, quality, write
+
+if TYPE_CHECKING:
+    from hess_mechanics import System
 
 __all__ = ["add"]
 
@@ -15,7 +19,7 @@ _SHOWN = 100
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
-    lyapunov = commands.add_parser("lyapunov", help="the largest Lyapunov exponent of one motion")
+    lyapunov = commands.add_parser("lyapunov", help="the largest Lyapunov exponent of one motion, or all")
     systems = lyapunov.add_subparsers(required=True, metavar="SYSTEM")
 
     suslov = systems.add_parser(
@@ -53,6 +57,9 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
 
 def _add_rest(parser: argparse.ArgumentParser) -> None:
     add_end(parser, "time over which to average")
+    parser.add_argument("--spectrum", action="store_true",
+                        help="all exponents by the variational equations, with errors, the mean divergence and the "
+                             "Kaplan–Yorke dimension")
     add_options(parser)
 
 
@@ -81,8 +88,27 @@ def _run(options: argparse.Namespace) -> None:
 
         name, first, parameters = options.prepare(options)
         gamma, note = unit_vector(options.gamma)
+        if options.spectrum:
+            return _spectrum(options, systems()[name], (*first, *gamma), parameters, [note] if note else [])
         found = largest_exponent(systems()[name], (*first, *gamma), parameters, options.t)
         kept = np.unique(np.linspace(0, found.times.size - 1, _SHOWN).astype(int))
     facts = {"exponent": found.value, "spread": found.spread}
     write(options, {"t": found.times[kept].tolist(), "average": found.rates[kept].tolist()}, ("t", "average"), facts,
           [note] if note else [])
+
+
+def _spectrum(options: argparse.Namespace, system: System, state: tuple[float, ...], parameters: tuple[float, ...],
+              notes: list[str]) -> None:
+    from hess_mechanics import level, spectrum
+
+    found = spectrum(system, state, parameters, options.t, level(options.accuracy))
+    dimension, error = found.dimension
+    forced = ("Volume is kept, and all but two exponents are those of integrals and the motion: they must be pairs."
+              if found.pairs_forced else "No measure that is known forces them to be pairs.")
+    columns = [f"average {i + 1}" for i in range(found.values.size)]
+    write(options, {"t": found.times.tolist(), **dict(zip(columns, found.rates.T.tolist(), strict=True))},
+          ("t", *columns),
+          {"exponents": found.values.tolist(), "errors": found.errors.tolist(), "signs": list(found.signs),
+           "sum": float(found.values.sum()), "divergence": found.divergence,
+           "divergence_error": found.divergence_error, "dimension": dimension, "dimension_error": error,
+           "paired": found.paired, "pairs_forced": found.pairs_forced, **quality(found)}, [*notes, forced])

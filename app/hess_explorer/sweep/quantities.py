@@ -17,8 +17,10 @@ from hess_explorer.sweep.quantity import Cell, Cells, Found, Outcome, Parameter,
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.integrable_cases import period
 from hess_mechanics.chaplygin_ball.scattering import ball_scattering
-from hess_mechanics.dynamics.lyapunov import largest_exponent, spectrum
+from hess_mechanics.dynamics.lyapunov import largest_exponent
+from hess_mechanics.dynamics.megno import megno
 from hess_mechanics.dynamics.section import Plane, section
+from hess_mechanics.dynamics.spectrum import spectrum
 from hess_mechanics.dynamics.system import System, systems
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import PLANS, Kind, Level
@@ -176,8 +178,17 @@ def _lyapunov(system: System, level: Level, t: float, **values: float) -> Cell:
 
 
 def _spectrum(system: System, level: Level, t: float, **values: float) -> Cell:
-    found = spectrum(system, *_start(system, values), t, _exponent_level(level))
-    return Cell(tuple(found.values.tolist()), found.spread)
+    found = spectrum(system, *_start(system, values), t, level)
+    return Cell(tuple(found.values.tolist()), found.error_estimate)
+
+
+def _dimension(system: System, level: Level, t: float, **values: float) -> Cell:
+    return Cell(*spectrum(system, *_start(system, values), t, level).dimension)
+
+
+def _megno(system: System, level: Level, t: float, **values: float) -> Cell:
+    state, p = _start(system, values)
+    return Cell(float(megno(system, [state], p, t, level, threads=1).values[0]))
 
 
 def _crossings(system: System, level: Level, variable: float, offset: float, sense: float, t: float,
@@ -188,7 +199,7 @@ def _crossings(system: System, level: Level, variable: float, offset: float, sen
 
 
 def _for_system(system: System) -> tuple[Quantity, ...]:
-    """λ, all exponents and the number of crossings, for a motion of this system."""
+    """λ, all exponents, D, MEGNO and the number of crossings, for a motion of this system."""
     motion = _motion(system)
     size = len(system.variables)
     return (
@@ -197,11 +208,18 @@ def _for_system(system: System) -> tuple[Quantity, ...]:
                  (*motion, _time(500.0, "time over which to average")),
                  one_by_one(partial(_lyapunov, system)), error="range of the running average in its second half"),
         Quantity(f"spectrum-{system.name}", "λᵢ", f"All Lyapunov exponents: {system.title}", "1/time",
-                 "Mean rates at which a frame of neighbours grows over the time t, the largest first (Benettin, "
-                 "Galgani, Giorgilli, Strelcyn 1980).",
+                 "Mean rates at which a frame of neighbours grows over the last four fifths of the time t, the largest "
+                 "first, by the variational equations.",
                  (*motion, _time(500.0, "time over which to average")),
                  one_by_one(partial(_spectrum, system), size), tuple(str(i + 1) for i in range(size)),
-                 error="largest change of one of them in the second half of the time"),
+                 error="largest of their errors, from 12 stretches of time"),
+        Quantity(f"dimension-{system.name}", "D", f"Kaplan–Yorke dimension: {system.title}", "1",
+                 "Of what the motion fills on its level of the integrals, from all exponents over the time t.",
+                 (*motion, _time(500.0, "time over which to average")), one_by_one(partial(_dimension, system)),
+                 error="from those of the exponents"),
+        Quantity(f"megno-{system.name}", "Ȳ", f"MEGNO: {system.title}", "1",
+                 "Mean exponential growth of nearby orbits: 2 at the most on regular motions, λt/2 on chaotic ones.",
+                 (*motion, _time(200.0, "time")), one_by_one(partial(_megno, system))),
         Quantity(f"crossings-{system.name}", "n", f"Crossings of a plane: {system.title}", "1",
                  "How often the motion crosses the plane y_variable = offset up to the time t.",
                  (*motion, _whole("variable", "i", size, 1, size, "which of the variables, counted from 1"),

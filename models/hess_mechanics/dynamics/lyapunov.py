@@ -1,8 +1,7 @@
-"""Lyapunov exponents of one orbit, from its distances to neighbours that are renormalised periodically.
+"""The largest Lyapunov exponent of one orbit, from its distance to a neighbour that is brought back periodically.
 
-The largest one is from one neighbour (Benettin, Galgani, Strelcyn 1976), all of them from as many neighbours as there
-are variables, made orthogonal each time (Benettin, Galgani, Giorgilli, Strelcyn 1980).  Neighbours start in fixed
-directions that no symmetry singles out.
+Benettin, Galgani, Strelcyn 1976.  The neighbour starts in a fixed direction that no symmetry singles out.  All
+exponents: `dynamics.spectrum`.
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
-__all__ = ["Exponent", "Spectrum", "largest_exponent", "spectrum"]
+__all__ = ["Exponent", "largest_exponent"]
 
 MAX_RETURNS = 200_000
 _DISTANCE = 1e-7
@@ -56,17 +55,6 @@ class Exponent(Result):
     def is_regular(self) -> bool:
         """Whether the mean is as small as a regular motion's, whose neighbour goes away no faster than t: ln(t)/t."""
         return self.value < 2.0 * math.log(max(math.e, self.times.size)) / float(self.times[-1])
-
-
-@dataclass(frozen=True)
-class Spectrum:
-    """All exponents (d,), the largest first, per unit of time; their sum is the mean divergence of the field.
-
-    spread : the largest change of one of them in the second half of the time.
-    """
-
-    values: Array
-    spread: float
 
 
 def _checked(system: System, state: Sequence[float], parameters: Sequence[float], span: float) -> tuple[Problem, int]:
@@ -117,44 +105,3 @@ def largest_exponent(system: System, state: Sequence[float], parameters: Sequenc
     rates = np.cumsum(growth) / times
     later = rates[count // 2 :]
     return Exponent(frozen(times), frozen(rates), float(later.max() - later.min()))
-
-
-def spectrum(system: System, state: Sequence[float], parameters: Sequence[float], span: float,
-             level: Level = _STANDARD) -> Spectrum:
-    """All exponents of the orbit from `state` (d,) over the time `span` (negative: backwards).
-
-    They are those of the equations in all d variables: each integral, and the direction of the motion, adds one that is
-    0.  level : as in `largest_exponent`.  Raises `InvalidParameter`, `WorkLimit`.
-
-    >>> from hess_mechanics import spectrum, systems
-    >>> suslov = systems()["suslov"]
-    >>> spectrum(suslov, *suslov.example, 20.0).values.shape
-    (5,)
-    """
-    problem, count = _checked(system, state, parameters, span)
-    interval = np.array([span * problem.nu / count])
-    y = problem.states[0].copy()
-    frame = np.linalg.qr(np.cos(1.0 + np.arange(y.size * y.size).reshape(y.size, y.size) ** 2))[0]
-    end = np.empty((1, y.size))
-    growth = np.empty((count, y.size))
-    steps = 0
-
-    def after(start: Array) -> Array:
-        nonlocal steps
-        taken = system.orbit(start, problem.parameters, interval, level.order, level.tolerance, MAX_STEPS - steps, end)
-        if taken == STEP_LIMIT_REACHED:
-            raise WorkLimit(f"These exponents need more than {MAX_STEPS} steps: choose a shorter time span.")
-        steps += taken
-        reached: Array = end[0].copy()
-        return reached
-
-    for i in range(count):
-        middle = after(y)
-        away = np.array([after(y + _DISTANCE * direction) - middle for direction in frame]) / _DISTANCE
-        columns, sizes = np.linalg.qr(away.T)
-        growth[i] = np.log(np.maximum(np.abs(np.diag(sizes)), 1e-300))
-        y, frame = middle, columns.T
-    times = abs(span) * np.arange(1, count + 1) / count
-    rates = np.cumsum(growth, axis=0) / times[:, None]
-    later = rates[count // 2 :]
-    return Spectrum(frozen(np.sort(rates[-1])[::-1].copy()), float(np.max(np.ptp(later, axis=0))))

@@ -9,13 +9,11 @@ import pytest
 
 from hess_mechanics import systems
 from hess_mechanics.dynamics.birkhoff import rotation_number
-from hess_mechanics.dynamics.lyapunov import MAX_RETURNS, Exponent, largest_exponent, spectrum
+from hess_mechanics.dynamics.lyapunov import MAX_RETURNS, Exponent, largest_exponent
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.euler_poisson.andoyer import andoyer_points, coordinates, state_at
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
 from hess_mechanics.numerics.accuracy import STANDARD
-from hess_mechanics.suslov.equations import SuslovBody
-from hess_mechanics.suslov.section import mean_divergence
 from support.andoyer import GESS1, RIS
 from support.lyapunov import finite_exponent
 
@@ -67,36 +65,6 @@ def test_of_a_chaotic_motion_it_is_the_same_after_a_long_time_and_after_twice_th
     assert one.value == pytest.approx(other.value, rel=0.05)
     assert one.value > 0.3
     assert one.spread < 0.1 * one.value
-
-
-def test_beside_an_equilibrium_all_exponents_are_the_eigenvalues():
-    # ω = 0, γ = e3: ω̇1 = γ2/I11, γ̇2 = ω1, and ω̇2 = −γ1/I22, γ̇1 = −ω2; γ3 stays.
-    early, late = (spectrum(systems()["suslov"], (0.0, 0.0, 0.0, 0.0, 1.0), (1.0, 4.0, 0.3, 0.2, 0.0, 0.0, 1.0), span)
-                   for span in (20.0, 40.0))
-    # How the frame lay at first is forgotten in the difference.
-    assert 2.0 * late.values - early.values == pytest.approx([1.0, 0.5, 0.0, -0.5, -1.0], abs=1e-3)
-    assert late.values == pytest.approx([1.0, 0.5, 0.0, -0.5, -1.0], abs=0.1)
-    assert not late.values.flags.writeable
-
-
-@pytest.mark.parametrize("span", [30.0, -30.0])
-def test_all_exponents_together_are_the_mean_divergence_and_the_first_is_the_largest(span):
-    system = systems()["suslov"]
-    state, p = system.example
-    found = spectrum(system, state, p, span)
-    # Volume grows by exp ∫ div, over any time: no limit is taken here.
-    course = mean_divergence(SuslovBody(*p), state, span)
-    assert found.values.sum() == pytest.approx(math.copysign(course.mean[-1], course.mean[-1] * span), abs=1e-4)
-    assert abs(course.mean[-1]) > 1e-2
-    assert np.all(np.diff(found.values) <= 0.0)
-    body, start = state_of(CHAOTIC)
-    many = spectrum(SYSTEM, start, body.parameters, math.copysign(300.0, span))
-    one = largest_exponent(SYSTEM, start, body.parameters, math.copysign(300.0, span))
-    assert many.values[0] == pytest.approx(one.value, rel=0.1)
-    # Volume is kept, and to each exponent there is its negative; integrals and the motion have those that are 0.
-    assert many.values.sum() == pytest.approx(0.0, abs=1e-5)
-    assert many.values + many.values[::-1] == pytest.approx(np.zeros(6), abs=0.05)
-    assert many.values[2:4] == pytest.approx([0.0, 0.0], abs=0.1)
 
 
 def test_beside_an_equilibrium_the_distance_grows_with_its_eigenvalue():

@@ -1,0 +1,122 @@
+"""MEGNO, the mean exponential growth of nearby orbits (Cincotta and Simó 2000): regular or chaotic after a short time.
+
+    Y(t) = (2/t) ∫₀ᵗ s d ln|δ(s)|,   Ȳ(t) = (1/t) ∫₀ᵗ Y ds,   δ by the variational equations.
+
+Ȳ tends to 2 on quasi-periodic motions and to at most 2 on those that come to rest or to a cycle; on chaotic ones it
+grows as λt/2.  It is chosen before SALI because these values are the same for every system and need one neighbour, not
+two; on a section's closed curves, where neighbours have one direction only, SALI falls to 0 as on chaotic motions.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from hess_mechanics.dynamics.orbit import MAX_STEPS, require_finite_states
+from hess_mechanics.dynamics.spectrum import batch_error
+from hess_mechanics.dynamics.system import Problem, System
+from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.numerics.accuracy import STANDARD, Level
+from hess_mechanics.numerics.labelled import Labels, Result
+from hess_mechanics.numerics.parallel import THREADS, share
+from hess_mechanics.numerics.results import Array, Cost, Mask, frozen
+from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
+
+__all__ = ["CHAOTIC", "Megno", "megno"]
+
+CHAOTIC = 3.0
+"""Ȳ beyond this is chaotic: regular motions come to 2 from either side within 0.5."""
+_SAMPLES = 2400
+"""Of ln|δ|; at least one per time 1/ν is needed."""
+_LIMIT = 1e6
+_ERRORS = 3.0
+_SHARE = 4
+
+
+@dataclass(frozen=True)
+class Megno(Result):
+    """Ȳ (n,) of many motions after the time t.
+
+    divergence, divergence_error (n,) : the mean of div ẏ over the last four fifths of the time.
+    """
+
+    t: float
+    values: Array
+    divergence: Array
+    divergence_error: Array
+    level: str
+    cost: Cost
+
+    @property
+    def chaotic(self) -> Mask:
+        """Whether neighbours part exponentially."""
+        return np.asarray(self.values > CHAOTIC)
+
+    @property
+    def attracted(self) -> Mask:
+        """Whether phase volume about the motion shrinks, beyond three times the error."""
+        return np.asarray(self.divergence < -_ERRORS * self.divergence_error - 1e-12)
+
+    def labels(self) -> Labels:
+        """Ȳ and the divergence of each motion."""
+        return Labels({}, {"MEGNO": (("motion",), self.values), "divergence": (("motion",), self.divergence),
+                           "divergence error": (("motion",), self.divergence_error)},
+                      {"MEGNO": "1", "divergence": "1/T", "divergence error": "1/T"},
+                      {"t": self.t, "level": self.level, "steps": self.cost.steps})
+
+
+def megno(system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float], span: float,
+          level: Level = STANDARD, threads: int = THREADS) -> Megno:
+    """Ȳ of the motions from the rows of `states` (n, d) after the time `span` (negative: backwards), on all cores.
+
+    Raises `InvalidParameter`, `WorkLimit`.
+
+    >>> from hess_mechanics import megno, systems
+    >>> suslov = systems()["suslov"]
+    >>> state, parameters = suslov.example
+    >>> megno(suslov, [state], parameters, 100.0).values.shape
+    (1,)
+    """
+    if not (math.isfinite(span) and span != 0.0):
+        raise InvalidParameter("The time span of an indicator must be a finite number other than 0.")
+    begun = time.perf_counter()
+    problem = Problem.of(system, states, parameters)
+    if abs(span) * problem.nu > _SAMPLES * 100:
+        raise WorkLimit(f"An indicator takes a time of at most {_SAMPLES * 100 / problem.nu:.4g} here: it is meant to "
+                        "be short.")
+    count, size = problem.states.shape
+    # As many samples as keep one per 1/ν, in twelve stretches after the first fifth.
+    samples = 60 * max(4, math.ceil(abs(span) * problem.nu / 60))
+    t = span * problem.nu * np.arange(1, samples + 1) / samples
+    first = samples // 5
+    direction = np.cos(1.0 + np.arange(size) ** 2)
+    frame = (direction / np.linalg.norm(direction))[:, None]
+    found, steps = np.empty((3, count)), np.zeros(count, int)
+
+    def one(i: int) -> None:
+        along, frames = np.empty((samples, size)), np.empty((samples, size, 1))
+        grown, volume = np.empty((samples, 1)), np.empty(samples)
+        steps[i] = system.vary_one(problem.states[i], frame, problem.parameters, t, level.order, level.tolerance,
+                                   MAX_STEPS, _LIMIT, along, frames, grown, volume)
+        if steps[i] == STEP_LIMIT_REACHED:
+            raise WorkLimit(f"This indicator needs more than {MAX_STEPS} steps: choose a shorter time span.")
+        require_finite_states(along)
+        length = np.concatenate([[0.0], grown[:, 0] + np.log(np.linalg.norm(frames[:, :, 0], axis=1))])
+        # ∫ s dL = tL − ∫ L ds, with sums for integrals, in units of the distance of samples.
+        number = np.arange(1, samples + 1)
+        below = np.cumsum(0.5 * (length[1:] + length[:-1]))
+        y = 2.0 * (length[1:] - below / number)
+        mean, error = batch_error(volume[first - 1:, None], np.abs(t[first - 1:]) / problem.nu)
+        found[:, i] = y.mean(), mean[0], error[0]
+
+    def part(i: int) -> None:
+        for j in range(i * _SHARE, min((i + 1) * _SHARE, count)):
+            one(j)
+
+    share(part, -(-count // _SHARE), threads)
+    return Megno(abs(span), frozen(found[0].copy()), frozen(found[1].copy()), frozen(found[2].copy()), level.name,
+                 Cost(int(steps.sum()), (time.perf_counter() - begun) * 1e3))

@@ -1,0 +1,218 @@
+"""All Lyapunov exponents of one orbit, by its variational equations (Benettin, Galgani, Giorgilli, Strelcyn 1980).
+
+A frame of neighbours moves by V̇ = J V in the orbit's own Taylor steps and is made orthogonal whenever its condition
+asks for it, so no distance need be a small number and nothing is lost to round-off.  ∫ tr J dt is found on the way; the
+sum of all exponents is its mean, whatever the frame.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from hess_mechanics.dynamics.orbit import MAX_STEPS, require_finite_states
+from hess_mechanics.dynamics.system import Problem, System
+from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.numerics.accuracy import PLANS, STANDARD, Kind, Level, Status
+from hess_mechanics.numerics.labelled import Labels, Result
+from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.results import Array, Cost, frozen
+from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
+
+__all__ = ["Spectrum", "batch_error", "kaplan_yorke", "spectrum"]
+
+_PARTS = 15
+"""Stretches of time; the frame settles in the first three and is measured in the other twelve."""
+_SETTLES = 3
+_SAMPLES = 16
+"""Per stretch."""
+_LIMIT = 1e4
+"""Of the condition of the frame: an exponent loses so many units of round-off at most."""
+_ERRORS = 3.0
+
+
+@dataclass(frozen=True)
+class Spectrum(Result):
+    """All exponents (d,), the largest first, per unit of time.
+
+    times (n,), rates (n, d) : the mean growth up to each time, which shows how it converges.
+    values, errors (d,) : the mean over the last four fifths of the time.  An error is the standard error from 12
+        stretches, and how much the mean differs from the rate beside a growth like a power of t, which is no exponent.
+    divergence, divergence_error : the mean of tr J over the same time.
+    integrals : how many the system has; volume_kept : whether the divergence is 0 wherever the motion went.
+    """
+
+    system: str
+    level: str
+    times: Array
+    rates: Array
+    values: Array
+    errors: Array
+    divergence: float
+    divergence_error: float
+    integrals: int
+    volume_kept: bool
+    status: Status
+    cost: Cost
+
+    @property
+    def error_estimate(self) -> float:
+        """The largest error of an exponent."""
+        return float(self.errors.max())
+
+    @property
+    def signs(self) -> tuple[str, ...]:
+        """"+", "0" or "-" for each exponent: 0 is what is 0 to three times its error."""
+        return tuple("0" if abs(value) <= _ERRORS * error else "+" if value > 0.0 else "-"
+                     for value, error in zip(self.values.tolist(), self.errors.tolist(), strict=True))
+
+    @property
+    def zeros(self) -> int:
+        """How many are 0.  Each integral has one and the direction of the motion has one, where it does not rest."""
+        return self.signs.count("0")
+
+    @property
+    def pairs(self) -> tuple[tuple[float, float], ...]:
+        """λ_i + λ_(d+1−i) and its error, the outermost pair first."""
+        half = self.values.size // 2
+        sums, errors = self.values + self.values[::-1], np.hypot(self.errors, self.errors[::-1])
+        return tuple(zip(sums[:half].tolist(), errors[:half].tolist(), strict=True))
+
+    @property
+    def paired(self) -> bool:
+        """Whether to each exponent there is its negative, to three times the error."""
+        return all(abs(total) <= _ERRORS * error for total, error in self.pairs)
+
+    @property
+    def pairs_forced(self) -> bool:
+        """Whether they must be pairs: volume is kept, and all but two exponents are those of integrals and the motion.
+
+        A reversor takes the exponents of an attractor to those of its repeller, with the other sign: it forces pairs
+        only where the two are one.
+        """
+        return self.volume_kept and self.values.size - self.integrals - 1 <= 2
+
+    @cached_property
+    def dimension(self) -> tuple[float, float]:
+        """Kaplan and Yorke's dimension of what the motion fills, on its level of the integrals, and its error.
+
+        An exponent 0 for each integral is left out, and what is 0 to its error counts as 0.
+        """
+        zero = [sign == "0" for sign in self.signs]
+        values, errors = np.where(zero, 0.0, self.values), np.where(zero, 0.0, self.errors)
+        order = np.argsort(-values, kind="stable")
+        kept = np.delete(order, np.flatnonzero(np.array(zero)[order])[:self.integrals])
+        return kaplan_yorke(values[kept], errors[kept])
+
+    def labels(self) -> Labels:
+        """The running means over the time, the exponents with their errors."""
+        number = np.arange(1, self.values.size + 1)
+        dimension, error = self.dimension
+        return Labels(
+            {"t": (("t",), self.times), "number": (("number",), number)},
+            {"rate": (("t", "number"), self.rates), "exponent": (("number",), self.values),
+             "error": (("number",), self.errors)},
+            {"t": "T", "rate": "1/T", "exponent": "1/T", "error": "1/T"},
+            {"system": self.system, "level": self.level, "status": str(self.status), "signs": " ".join(self.signs),
+             "divergence": self.divergence, "divergence error": self.divergence_error, "dimension": dimension,
+             "dimension error": error, "steps": self.cost.steps})
+
+
+def kaplan_yorke(values: Array, errors: Array) -> tuple[float, float]:
+    """The dimension k + Σ_(i≤k) λ_i/|λ_(k+1)| of exponents (m,), the largest first, and its error.
+
+    k is the largest number whose first k exponents have a sum ≥ 0; where that is all of them, to the error of their
+    sum, the dimension is m.
+
+    >>> import numpy as np
+    >>> from hess_mechanics.dynamics.spectrum import kaplan_yorke
+    >>> round(kaplan_yorke(np.array([0.9056, 0.0, -14.572]), np.zeros(3))[0], 3)  # Lorenz
+    2.062
+    """
+    if not values.size:
+        return 0.0, 0.0
+    sums = np.cumsum(values)
+    slack = _ERRORS * float(np.hypot.reduce(errors))
+    if sums[-1] >= -slack:
+        smallest = abs(float(values[-1]))
+        return float(values.size), abs(float(sums[-1])) / smallest if smallest > 0.0 else 0.0
+    k = int(np.argmax(sums < 0.0))
+    before, next_one = float(sums[k - 1]) if k else 0.0, abs(float(values[k]))
+    error = math.hypot(float(np.hypot.reduce(errors[:k])) if k else 0.0, before / next_one * float(errors[k]))
+    return k + before / next_one, error / next_one
+
+
+def batch_error(sums: Array, times: Array) -> tuple[Array, Array]:
+    """Mean rates (m,) of sums (n, m) over times (n,), and their errors, see `Spectrum`.
+
+    The first sample begins the first of 12 equally long stretches, the last ends the last.
+    """
+    length = float(times[-1] - times[0])
+    mean = (sums[-1] - sums[0]) / length
+    count = _PARTS - _SETTLES
+    ends = sums[:: (times.size - 1) // count]
+    scatter = np.std(np.diff(ends, axis=0), axis=0, ddof=1) * count / length / math.sqrt(count)
+    powers = np.column_stack([times, np.log(times), np.ones_like(times)])
+    powers[:, 0] -= times[0]
+    steady = np.linalg.lstsq(powers, sums, rcond=None)[0][0]
+    return mean, np.hypot(scatter, mean - steady)
+
+
+def spectrum(system: System, state: Sequence[float] | Array, parameters: Sequence[float], span: float,
+             level: Level = STANDARD) -> Spectrum:
+    """All exponents of the orbit from `state` (d,) over the time `span` (negative: backwards).
+
+    They are those of the equations in all d variables.  Raises `InvalidParameter`, `WorkLimit`.
+
+    >>> from hess_mechanics import spectrum, systems
+    >>> suslov = systems()["suslov"]
+    >>> spectrum(suslov, *suslov.example, 200.0).values.shape
+    (5,)
+    """
+    if not (math.isfinite(span) and span != 0.0):
+        raise InvalidParameter("The time span of Lyapunov exponents must be a finite number other than 0.")
+    begun = time.perf_counter()
+    problem = Problem.of(system, [state], parameters)
+    size = len(system.variables)
+    frame = np.linalg.qr(np.cos(1.0 + np.arange(size * size).reshape(size, size) ** 2))[0]
+    y = problem.states[0]
+    part = span * problem.nu / _PARTS * np.arange(1, _SAMPLES + 1) / _SAMPLES
+    count = _PARTS * _SAMPLES
+    growth, volume = np.zeros((count + 1, size)), np.zeros(count + 1)
+    steps = 0
+    for i in range(0, count, _SAMPLES):
+        go_on()
+        states, frames = np.empty((_SAMPLES, size)), np.empty((_SAMPLES, size, size))
+        logs, traces = np.empty((_SAMPLES, size)), np.empty(_SAMPLES)
+        taken = system.vary(y, frame, problem.parameters, part, level.order, level.tolerance, MAX_STEPS - steps, _LIMIT,
+                            states, frames, logs, traces)
+        if taken == STEP_LIMIT_REACHED:
+            raise WorkLimit(f"These exponents need more than {MAX_STEPS} steps: choose a shorter time span.")
+        steps += taken
+        require_finite_states(states)
+        columns, lengths = np.linalg.qr(frames)
+        diagonal = np.abs(np.diagonal(lengths, axis1=1, axis2=2))
+        now = slice(i + 1, i + _SAMPLES + 1)
+        growth[now] = growth[i] + logs + np.log(np.maximum(diagonal, 1e-300))
+        volume[now] = volume[i] + traces
+        y, frame = states[-1].copy(), np.ascontiguousarray(columns[-1])
+    times = abs(span) * np.arange(count + 1) / count
+    first = _SETTLES * _SAMPLES
+    together = np.column_stack([growth, volume])
+    mean, error = batch_error(together[first:], times[first:])
+    # What the steps themselves may have lost.
+    floor = (level.tolerance + 1e-15) * steps / abs(span)
+    order = np.argsort(-mean[:-1], kind="stable")
+    rates = growth[1:, order] / times[1:, None]
+    worst = float(error.max()) + floor
+    promise = PLANS[Kind.EXPONENT][level.name].promise * problem.nu if level.name in PLANS[Kind.EXPONENT] else worst
+    number = len(system.integrals(list(state), list(parameters)))
+    return Spectrum(
+        system.name, level.name, frozen(times[1:]), frozen(rates), frozen(mean[order]), frozen(error[order] + floor),
+        float(mean[-1]), float(error[-1]) + floor, number, not np.any(volume),
+        Status.OK if worst <= promise else Status.PROMISE_NOT_MET, Cost(steps, (time.perf_counter() - begun) * 1e3))

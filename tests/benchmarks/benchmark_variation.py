@@ -1,0 +1,82 @@
+"""The transition matrix beside heyoka's variational run: `python tests/benchmarks/benchmark_variation.py`.
+
+Both find y(T) and ∂y(T)/∂y(0); the error is the largest of the matrix beside its largest entry, against our reference
+level.  For each tolerance the least of many times, one after the other by turns.  Needs heyoka: pip install heyoka.
+
+2026-11-22, two shared cores, Suslov, T = 200: 0.54 ms for 9e-8, 0.80 for 8e-11, 1.08 for 8e-14; heyoka 7.13.2 1.21 ms
+for 4e-7, 1.96 for 6e-10, 2.72 for 9e-13: 2.4 to 2.8 times as long at equal error, on a busy machine.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+
+import heyoka
+import numpy as np
+
+from hess_mechanics import systems
+
+ROUNDS, T = 15, 200.0
+
+
+def ours(name):
+    """The run of one tolerance: (matrix, seconds)."""
+    system = systems()[name]
+    state, p = (np.array(one) for one in system.example)
+    d = state.size
+    unit, at = np.eye(d), np.array([T])
+    out = np.empty((1, d)), np.empty((1, d, d)), np.empty((1, d)), np.empty(1)
+
+    def run(tolerance, order):
+        begun = time.perf_counter()
+        system.vary(state, unit, p, at, order, tolerance, 10**6, math.inf, *out)
+        return out[1][0].copy(), time.perf_counter() - begun
+
+    return run
+
+
+def theirs(name, tolerance):
+    """The same by heyoka, with numbers in the place of parameters."""
+    system = systems()[name]
+    state, p = system.example
+    d = len(state)
+    variables = heyoka.make_vars(*(f"x{i}" for i in range(d)))
+    equations = list(zip(variables, system.field(variables, p), strict=True))
+    varied = heyoka.var_ode_sys(equations, heyoka.var_args.vars, order=1)
+    integrator = heyoka.taylor_adaptive(varied, state, tol=tolerance)
+    first = integrator.state.copy()
+
+    def run():
+        begun = time.perf_counter()
+        integrator.time = 0.0
+        integrator.state[:] = first
+        integrator.propagate_until(T)
+        return integrator.state[d:].reshape(d, d).copy(), time.perf_counter() - begun
+
+    return run
+
+
+def main() -> None:
+    """Measure and print a table."""
+    print(f"heyoka {heyoka.__version__}, T = {T}, least of {ROUNDS}")
+    for name in ("suslov", "ball", "euler-poisson"):
+        run = ours(name)
+        exact, _ = run(1e-17, 24)
+        size = np.abs(exact).max()
+        settings = ((1e-5, 12), (1e-8, 16), (1e-11, 20), (1e-14, 22))
+        peers = [(10.0**-n, theirs(name, 10.0**-n)) for n in (6, 9, 12, 15)]
+        rows = {}
+        for _ in range(ROUNDS):
+            for setting in settings:
+                found, seconds = run(*setting)
+                rows.setdefault(("here", *setting), []).append((seconds, np.abs(found - exact).max() / size))
+            for tolerance, peer in peers:
+                found, seconds = peer()
+                rows.setdefault(("heyoka", tolerance), []).append((seconds, np.abs(found - exact).max() / size))
+        for key, values in rows.items():
+            print(f"{name:14s} {key!s:24s} {min(values)[0] * 1e3:8.3f} ms  error {values[0][1]:.1e}", flush=True)
+
+
+if __name__ == "__main__":
+    main()

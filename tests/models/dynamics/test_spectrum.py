@@ -1,0 +1,211 @@
+"""All exponents and MEGNO: known spectra, the divergence of a hundred bodies, what is forced to be 0 or a pair."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+import pytest
+
+from hess_mechanics import System, largest_exponent, megno, megno_map, spectrum, systems
+from hess_mechanics.dynamics.spectrum import kaplan_yorke
+from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.euler_poisson.andoyer import state_at
+from hess_mechanics.euler_poisson.equations import HeavyBody
+from hess_mechanics.numerics.accuracy import DRAFT, PRECISE, REFERENCE
+from hess_mechanics.suslov.equations import SuslovBody
+from hess_mechanics.suslov.section import mean_divergence
+from hess_mechanics.suslov.section import state_at as suslov_state_at
+
+SUSLOV, HEAVY = systems()["suslov"], systems()["euler-poisson"]
+STRANGE = (0.8, 1.3, 0.6, 0.0, 0.8), (1.7, 3.0, 0.3, 0.1, -2.0, -2.1, 2.6)
+"""Found by tests/benchmarks/search_strange_attractors.py."""
+CHAOTIC = HeavyBody((1.0, 1.6, 2.1), (0.3, -0.5, 0.7), 6.0)
+CHAOTIC_START = state_at(CHAOTIC, 4.0, 1.0, 0.3, 0.2)
+
+
+def a_system(field, name, size, example, integrals: Mapping[str, float] | None = None):
+    """A system of its own, in units of time as given."""
+    return System(
+        name=name, title=name, source="", labels=(), variables=tuple(f"x{i}" for i in range(size)),
+        parameters=tuple(f"p{i}" for i in range(len(example[1]))), field=field, integrals=lambda y, p: integrals or {},
+        frequency=lambda y, p: np.ones_like(y[0]), rescale=lambda y, p, nu: (y, p), example=example)
+
+
+def lorenz(y, p):
+    x, u, z = y
+    sigma, rho, beta = p
+    return sigma * (u - x), x * (rho - z) - u, x * u - beta * z
+
+
+LORENZ = a_system(lorenz, "lorenz of a test", 3, ((1.0, 2.0, 20.0), (10.0, 28.0, 8.0 / 3.0)))
+"""The field of Lorenz 1963, whose exponents are 0.9056, 0, −14.572 (Sprott 2003)."""
+
+
+def test_of_lorenz_they_are_those_of_the_literature():
+    found = spectrum(LORENZ, *LORENZ.example, 4000.0)
+    assert found.values[0] == pytest.approx(0.9056, rel=0.01)
+    assert found.values[1] == pytest.approx(0.0, abs=0.01 * 0.9056)
+    assert found.values[2] == pytest.approx(-14.572, rel=0.01)
+    assert np.all(np.abs(found.values - [0.9056, 0.0, -14.572]) < 4.0 * found.errors)
+    assert found.error_estimate < 0.02
+    # The divergence is the same everywhere.
+    assert found.divergence == pytest.approx(-10.0 - 1.0 - 8.0 / 3.0, abs=1e-11)
+    assert found.values.sum() == pytest.approx(found.divergence, abs=1e-7)
+    assert found.signs == ("+", "0", "-")
+    dimension, error = found.dimension
+    assert dimension == pytest.approx(2.0621, abs=4.0 * error + 1e-4)
+    assert error < 2e-3
+    assert not found.paired
+
+
+def test_of_a_linear_system_they_are_its_eigenvalues():
+    def field(y, p):
+        a, b, c, d = p
+        return a * y[0] + y[1], b * y[1] + y[2], c * y[2] + d * y[0] * 0.0, -y[3]
+
+    linear = a_system(field, "linear of a test", 4, ((0.0, 0.0, 0.0, 0.0), (0.7, -0.3, 0.1, 0.0)))
+    found = spectrum(linear, *linear.example, 300.0, REFERENCE)
+    assert found.values == pytest.approx([0.7, 0.1, -0.3, -1.0], abs=1e-12)
+    assert found.error_estimate < 1e-11
+    assert found.divergence == pytest.approx(-0.5, abs=1e-13)
+    assert found.signs == ("+", "+", "-", "-")
+    # k = 3: 3 + 0.5/1.
+    assert found.dimension[0] == pytest.approx(3.5, abs=1e-10)
+
+
+def test_beside_an_equilibrium_they_are_the_eigenvalues():
+    # ω = 0, γ = e3: ω̇1 = γ2/I11, γ̇2 = ω1, and ω̇2 = −γ1/I22, γ̇1 = −ω2; γ3 stays.
+    found = spectrum(SUSLOV, (0.0, 0.0, 0.0, 0.0, 1.0), (1.0, 4.0, 0.3, 0.2, 0.0, 0.0, 1.0), 60.0)
+    assert found.values == pytest.approx([1.0, 0.5, 0.0, -0.5, -1.0], abs=1e-4)
+    assert np.all(np.abs(found.values - [1.0, 0.5, 0.0, -0.5, -1.0]) <= 3.0 * found.errors + 1e-12)
+    assert not found.values.flags.writeable
+
+
+def test_their_sum_is_the_mean_divergence_of_a_hundred_bodies():
+    draw = np.random.default_rng(16)
+    for _ in range(100):
+        p = (*draw.uniform(0.5, 3.0, 2), *draw.uniform(-0.7, 0.7, 2), *draw.uniform(-1.0, 1.0, 3))
+        gamma = draw.normal(size=3)
+        start = (*draw.uniform(-1.5, 1.5, 2), *(gamma / np.linalg.norm(gamma)))
+        found = spectrum(SUSLOV, start, p, 60.0, DRAFT)
+        # By SciPy-like sums of div ẏ = I23 ω1/I22 − I13 ω2/I11 along the orbit: no variational equation.
+        course = mean_divergence(SuslovBody(*map(float, p)), start, 60.0)
+        since = len(course.times) // 5
+        mean = (course.mean[-1] * 60.0 - course.mean[since - 1] * 12.0) / 48.0
+        assert found.values.sum() == pytest.approx(mean, abs=1e-3)
+        assert abs(found.values.sum() - mean) < 3.0 * (found.errors.sum() + found.divergence_error)
+        assert found.values.sum() == pytest.approx(found.divergence, abs=1e-4)  # a draft's steps
+
+
+def test_of_a_strange_attractor_three_are_0_and_it_has_a_dimension_between_two_and_three():
+    found = spectrum(SUSLOV, *STRANGE, 3000.0)
+    one = largest_exponent(SUSLOV, *STRANGE, 3000.0)
+    assert found.values[0] == pytest.approx(one.value, abs=4.0 * found.errors[0] + 2.0 * one.spread)
+    # Those of the motion, of E and of γ².
+    assert found.signs == ("+", "0", "0", "0", "-")
+    assert found.divergence < -3.0 * found.divergence_error
+    dimension, error = found.dimension
+    assert dimension == pytest.approx(2.0 + found.values[0] / -found.values[-1], abs=1e-12)
+    assert 2.0 < dimension < 3.0
+    assert error < 0.2
+    # Time runs the other way in the reversor's image, ω → −ω: the same numbers with the other sign.
+    image = spectrum(SUSLOV, (-0.8, -1.3, 0.6, 0.0, 0.8), STRANGE[1], -20.0, PRECISE)
+    same = spectrum(SUSLOV, *STRANGE, 20.0, PRECISE)
+    assert image.divergence == pytest.approx(same.divergence, abs=1e-7)
+    assert image.values.sum() == pytest.approx(same.values.sum(), abs=1e-7)
+
+
+def test_where_a_measure_forces_pairs_they_are_pairs_and_the_sum_is_0():
+    found = spectrum(HEAVY, CHAOTIC_START, CHAOTIC.parameters, 1000.0)
+    assert found.volume_kept
+    assert found.pairs_forced
+    assert found.divergence == 0.0
+    assert found.values.sum() == pytest.approx(0.0, abs=1e-9)
+    assert found.signs == ("+", "0", "0", "0", "0", "-")
+    assert found.paired
+    assert found.values[0] == pytest.approx(-found.values[-1], abs=3.0 * found.errors[0])
+    assert found.dimension[0] == 3.0
+    # I13 = I23 = 0 keeps the volume too, but says so by numbers only.
+    conservative = spectrum(SUSLOV, STRANGE[0], (1.7, 3.0, 0.0, 0.0, -2.0, -2.1, 2.6), 100.0, DRAFT)
+    assert conservative.volume_kept
+    assert conservative.divergence == 0.0
+
+
+def test_a_regular_motion_has_zeros_only_within_errors_that_know_its_growth_like_t():
+    start = (0.5, 1.2, 0.6, 0.0, 0.8), (1.5, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    found = spectrum(SUSLOV, *start, 500.0)
+    assert found.signs == ("0",) * 5
+    assert found.zeros == 5
+    assert found.error_estimate < 0.02
+
+
+def test_a_dimension_is_that_of_kaplan_and_yorke():
+    none = np.zeros(3)
+    assert kaplan_yorke(np.array([0.0, -1.0, -2.0]), none) == (1.0, 0.0)
+    assert kaplan_yorke(np.array([-1.0, -2.0]), none[:2])[0] == 0.0
+    assert kaplan_yorke(np.array([1.0, 0.0, -1.0]), none)[0] == 3.0
+    dimension, error = kaplan_yorke(np.array([1.0, 0.0, -4.0]), np.array([0.1, 0.0, 0.4]))
+    assert dimension == 2.25
+    assert error == pytest.approx(math.hypot(0.1, 0.25 * 0.4) / 4.0)
+    assert kaplan_yorke(np.array([]), np.array([])) == (0.0, 0.0)
+
+
+def test_results_know_names_and_say_what_they_cost():
+    found = spectrum(SUSLOV, *SUSLOV.example, 100.0, DRAFT)
+    data = found.to_xarray()
+    assert data.exponent.values.tolist() == found.values.tolist()
+    assert data.rate.sel(number=1).values[-1] == found.rates[-1, 0]
+    assert data.attrs["signs"] == " ".join(found.signs)
+    assert found.cost.steps > 100
+    assert len(found.to_pandas()) == found.rates.size
+
+
+@pytest.mark.parametrize("find", [spectrum, lambda system, state, p, span: megno(system, [state], p, span)])
+def test_a_span_that_is_none_or_too_long_is_refused(find):
+    with pytest.raises(InvalidParameter, match="must be a finite number other than 0"):
+        find(SUSLOV, *SUSLOV.example, math.nan)
+    with pytest.raises(WorkLimit, match="time"):
+        find(SUSLOV, *SUSLOV.example, 1e300)
+
+
+# ---- MEGNO ------------------------------------------------------------------------------------------------------
+
+
+def test_megno_tells_regular_motions_from_chaotic_ones_and_from_those_that_are_attracted():
+    chaotic = megno(HEAVY, [CHAOTIC_START], CHAOTIC.parameters, 200.0)
+    rate = largest_exponent(HEAVY, CHAOTIC_START, CHAOTIC.parameters, 1000.0).value
+    assert chaotic.values[0] == pytest.approx(rate * 200.0 / 2.0, rel=0.5)
+    assert chaotic.chaotic[0]
+    assert not chaotic.attracted[0]
+    # b = 0 and I13 = I23 = 0: ω is at rest in the limit, γ turns uniformly.
+    regular = megno(SUSLOV, [STRANGE[0]], (1.5, 1.0, 0.0, 0.0, 0.0, 0.0, 0.5), 300.0)
+    assert not regular.chaotic[0]
+    assert not regular.attracted[0]
+    strange = megno(SUSLOV, [STRANGE[0], STRANGE[0]], STRANGE[1], 400.0)
+    assert strange.chaotic.all()
+    assert strange.attracted.all()
+    assert strange.values[0] == strange.values[1]
+
+
+def test_over_a_section_each_cell_is_the_motion_from_its_middle():
+    body = SuslovBody(*STRANGE[1])
+    found = megno_map(body, 2.0, cells=(5, 3), t=60.0, accuracy="draft")
+    assert found.values.shape == (3, 5)
+    i, j = np.argwhere(np.isfinite(found.values))[-1]
+    start = suslov_state_at(body, 2.0, 3, float(found.psi[j]), float(found.delta[i]))
+    alone = megno(SUSLOV, [start], STRANGE[1], 60.0, DRAFT)
+    # Alone it has a unit of time of its own, and so other steps.
+    assert found.values[i, j] == pytest.approx(alone.values[0], rel=0.2)
+    assert found.kind[i, j] in (0, 1, 2, 3)
+    assert (found.kind[~np.isfinite(found.values)] == -1).all()
+    assert found.to_xarray()["MEGNO"].shape == (3, 5)
+
+
+def test_megno_of_uniform_growth_is_known():
+    # δ ∝ e^(λt): Y = λt, Ȳ = λt/2.  δ ∝ t: Y → 2.
+    grows = a_system(lambda y, p: (p[0] * y[0],), "growth of a test", 1, ((0.0,), (0.3,)))
+    assert megno(grows, [(0.0,)], (0.3,), 100.0).values[0] == pytest.approx(0.3 * 100.0 / 2.0, rel=1e-2)
+    shears = a_system(lambda y, p: (y[1] * p[0], 0.0 * y[0]), "shear of a test", 2, ((0.0, 1.0), (1.0,)))
+    assert megno(shears, [(0.0, 1.0)], (1.0,), 1000.0).values[0] == pytest.approx(2.0, abs=0.1)
