@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import math
+import re
+import sys
 
 import numpy as np
 import pytest
 
 from hess_explorer.scenes import scenes
+from hess_explorer.scenes.framework.hess_case import proved
 from hess_explorer.views.circle_map import EVENLY
-from hess_mechanics import circle_map, level, solve, systems, turning_points
+from hess_mechanics import circle_map, f_max, level, solve, systems, turning_points
 from hess_mechanics.numerics.accuracy import REFERENCE
 from hess_mechanics.suslov_hess.bifurcation import curve_point
 from support.view import View
@@ -110,3 +113,54 @@ def test_the_moving_point_is_in_the_ring_of_the_diagram_when_n3_turns_and_beyond
     assert turns.any()
     assert orbit["reach"][turns] == pytest.approx(f, rel=2e-3)
     assert np.max(np.abs(orbit["reach"])) > 1.5 * abs(f)
+
+
+# ---- what is proved ---------------------------------------------------------------------------------------------
+
+
+def ends(text):
+    """The ends of the intervals in a text."""
+    return [[float(end.replace("−", "-")) for end in pair] for pair in re.findall(r"\[([^],]+),\s([^]]+)\]", text)]
+
+
+@pytest.mark.parametrize(("I23", "h", "f"), [
+    (0.5, 1.5, 0.6), (0.1, 1.5, 0.6), (0.5, 0.5, 1.01563456028796105), (0.3, 0.2, 0.0)])
+def test_the_corner_of_the_circle_map_says_what_is_proved_when_it_is_found(I23, h, f):
+    values = {"I22": 1.0, "I23": I23, "h": h, "f": f}
+    view = View(SCENE, values, seen={"circle"})
+    assert any(task.function is proved for task in view.first.todo)
+    said, = view.data["circle-proof"]["text"]
+    sentence, = (line for line in view.report.derived if line.startswith("Proved"))
+    theta = circle_map(I23, h, f, REFERENCE)
+    for text, share in ((said, 2e-3), (sentence, 1e-8)):
+        if theta.kind == "hyperbolic":
+            assert "exactly two cycles" in text
+            known = sorted(point.multiplier for point in theta.fixed_points)
+        else:
+            assert "no cycle" in text
+            known = [theta.trace]
+            assert ends(text)[0][1] < 2.0
+        for (low, high), number in zip(ends(text), known, strict=True):
+            assert low - 1e-12 * low <= number <= high + 1e-12 * high
+            assert high - low <= share * high
+    # While a slider is held nothing is proved.
+    held = View(SCENE, values, seen={"circle"}, dragging=True)
+    assert not any(task.function is proved for task in held.report.todo)
+    assert not held.data.get("circle-proof")
+
+
+def test_what_is_not_proved_is_said():
+    """a = 0, f = 0 has trace 2; beyond the edge by 1e-16 no motion has exactly the numbers in the boxes."""
+    for values, words in (({"I22": 1.0, "I23": 0.0, "h": 2.0, "f": 0.0}, "Undecided at 256 bits: |trace| is too close"),
+                          ({"I22": 1.0, "I23": 0.5, "h": 0.5, "f": f_max(0.5)}, "Not proved: No motion has exactly")):
+        view = View(SCENE, values, seen={"circle"})
+        assert any(line.startswith(words) for line in view.report.derived), view.report.derived
+
+
+def test_without_the_library_one_quiet_sentence_says_so(monkeypatch):
+    monkeypatch.setitem(sys.modules, "flint", None)
+    view = View(SCENE, {"h": 1.45}, seen={"circle"})
+    assert view.first.todo == ()
+    assert [line for line in view.report.derived if "python-flint" in line] == [
+        "Proofs need python-flint: pip install 'hess-explorer[prove]'"]
+    assert not view.data.get("circle-proof")

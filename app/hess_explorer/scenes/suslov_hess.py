@@ -11,7 +11,15 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.charted import of_torus
-from hess_explorer.scenes.framework.hess_case import UNITS_OF_B, SuslovBody, limit_cycles, map_or_none, possible_f
+from hess_explorer.scenes.framework.hess_case import (
+    UNITS_OF_B,
+    Proved,
+    SuslovBody,
+    limit_cycles,
+    map_or_none,
+    possible_f,
+    proved,
+)
 from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, number, slider_within
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
 from hess_explorer.scenes.framework.solid_body import Hess, constrained_body
@@ -28,6 +36,7 @@ from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import nice_above, picture
 from hess_mechanics.errors import InvalidParameter, Separatrix
 from hess_mechanics.numerics.accuracy import DRAFT, Kind, Level
+from hess_mechanics.numerics.balls import has_flint
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, curve, curve_point, f_max, reach, turning_points
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
@@ -154,7 +163,20 @@ class SuslovHess(SuslovBody):
         weights = pixels_per_unit(self.body, self.half_width)
         return Motion(SYSTEM, tuple(state), (self.body.a, 1.0), length, tuple(weights), 1.0 / self.body.frequency_unit)
 
+    @cached_property
+    def proof(self) -> Proved | None:
+        """What is proved of this torus, as soon as it is known; not while a slider is dragged."""
+        if self.dragging or self.map is None:
+            return None
+        if not has_flint():
+            return Proved("", "Proofs need python-flint: pip install 'hess-explorer[prove]'")
+        return self.work.later(proved, self.I22, self.I23, self.h, self.f)
+
     # ---- what the pictures show --------------------------------------------------------------------------------
+
+    def badge(self) -> str:
+        """What is proved, for the corner of the circle map."""
+        return "" if self.proof is None else self.proof.badge
 
     def orbit_columns(self) -> Columns:
         """The orbit, and what the moving points of the other pictures follow."""
@@ -198,6 +220,8 @@ class SuslovHess(SuslovBody):
             yield f"I₃₃ from {digits(body.check.I33[0])} to {digits(body.check.I33[1])}"
         if self.map is not None:
             yield f"Period of n₃ = {digits(self.map.period / body.frequency_unit, 6)}"
+            if self.known("proof") and self.proof is not None:
+                yield self.proof.said
             if self.map.kind == "elliptic":
                 yield f"ζ of the invariant density = {digits(invariant_measure(self.map).zeta, 6)}"
 
@@ -257,7 +281,7 @@ SCENE = Scene(
                  rotation=lambda s: s.rotation, boundary=lambda s: s.locked, curve=lambda s: s.edge,
                  here=lambda s: [(s.h, s.f)], axes=lambda s: diagram.window(s.h))),
         circle.picture(map=lambda s: s.map, iterates=lambda s: s.iterates, caption=lambda s: circle.about(s.map),
-                       dot=("phi_start", "phi"), on_click=lambda s, x, y: {"phi0": x}),
+                       dot=("phi_start", "phi"), on_click=lambda s, x, y: {"phi0": x}, proof=SuslovHess.badge),
         torus_density.picture(lambda s: s.density),
     ),
 )

@@ -10,7 +10,7 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.comparison import Curves, Frame
-from hess_explorer.views.layers import Axes, Layer, curves, line, points
+from hess_explorer.views.layers import Axes, Layer, curves, line, points, text
 from hess_explorer.views.picture import Values
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
@@ -62,11 +62,15 @@ def _density(circle_map: CircleMap | None) -> list[Array]:
 
 
 def picture(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array | None], caption: Callable[[S], str],
-            title: str = "Circle map", dot: tuple[str, str] | None = None, on_click: Click[S] | None = None) -> Plot[S]:
-    """The map of a torus, None on the separatrix, with fixed points or density and the cobweb of the first iterates."""
+            title: str = "Circle map", dot: tuple[str, str] | None = None, on_click: Click[S] | None = None,
+            proof: Callable[[S], str] | None = None) -> Plot[S]:
+    """The map of a torus, None on the separatrix, with fixed points or density and the cobweb of the first iterates.
+
+    proof : what is proved of it, in a corner.
+    """
     return Plot(name="circle", title=title, caption=caption, axes=("φ", "Θ(φ)"), x=SIDE, y=SIDE, ticks=TICKS, dot=dot,
                 message=lambda s: "" if map(s) is not None else "Separatrix: no return", on_click=on_click,
-                layers=_layers(map, iterates))
+                layers=(*_layers(map, iterates), *(() if proof is None else (text("proof", proof),))))
 
 
 def look(phi: Array, theta: Array) -> Curves:

@@ -7,6 +7,7 @@ proved, given that Arb's operations enclose.
 from __future__ import annotations
 
 import importlib
+import importlib.util
 import math
 import threading
 from collections.abc import Iterator
@@ -18,7 +19,7 @@ from typing import Any
 
 from hess_mechanics.errors import InvalidParameter, MissingLibrary
 
-__all__ = ["Ball", "Enclosure", "enclosure", "exact", "flint", "rational", "working"]
+__all__ = ["Ball", "Enclosure", "enclosure", "exact", "flint", "has_flint", "rational", "working"]
 
 Ball = Any
 """An `arb` of python-flint, which is imported only where it is needed."""
@@ -33,6 +34,11 @@ def flint() -> Any:
         return importlib.import_module("flint")
     except ImportError as error:
         raise MissingLibrary("Proofs need python-flint: pip install 'hess-explorer[prove]'.") from error
+
+
+def has_flint() -> bool:
+    """Whether the library is there."""
+    return importlib.util.find_spec("flint") is not None
 
 
 @contextmanager

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import cached_property
 from typing import Self
 
@@ -14,21 +16,25 @@ from hess_explorer.scenes.framework.scene import Motion, State
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import pixels_per_unit
-from hess_mechanics.errors import NoField, Separatrix
+from hess_mechanics.errors import ModelError, NoField, Separatrix
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge, largest_area_integral
 from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.balls import Enclosure, exact
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, f_max, turning_points
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
 from hess_mechanics.suslov_hess.equations import SYSTEM, HessBody
+from hess_mechanics.suslov_hess.proof import NO_CYCLE, TWO_CYCLES, Proof, prove
 from hess_mechanics.suslov_hess.torus import Track, cycles
 
 __all__ = [
-    "BY_THE_UNSTABLE_CYCLE", "OF_HEAVY", "RIS", "UNITS_OF_B", "UNSURE", "HeavyMotion", "SuslovBody", "limit_cycles",
-    "map_or_none", "possible_f", "reduced_motion",
+    "BY_THE_UNSTABLE_CYCLE", "OF_HEAVY", "RIS", "UNITS_OF_B", "UNSURE", "HeavyMotion", "Proved", "SuslovBody",
+    "limit_cycles", "map_or_none", "possible_f", "proved", "reduced_motion",
 ]
 
 _MAX_A = 100.0
+_MOST_BITS, _MOST_WORK = 256, 1e6
+"""Of a proof in the background: less than a second."""
 
 _INSIDE = 1.0 - 1e-12
 """Room for the round-off of the translation at the edge of what is possible."""
@@ -73,6 +79,40 @@ def limit_cycles(work: Work, hess: HessBody, theta: CircleMap | None, level: Lev
     if theta is None or theta.kind != "hyperbolic":
         return None
     return work.get(cycles, hess, theta.h, theta.f, theta.fixed_points[0], level, half_width)
+
+
+@dataclass(frozen=True)
+class Proved:
+    """What is proved of a torus: short lines for a corner of its picture, and a sentence with more digits."""
+
+    badge: str
+    said: str
+
+
+def proved(I22: float, I23: float, h: float, f: float) -> Proved:
+    """What is proved of the torus of a body, whose doubles stand for exactly the decimals that its boxes show."""
+    try:
+        found = prove(exact("I23", I23) / exact("I22", I22), h, f, _MOST_BITS, _MOST_WORK)
+    except ModelError as error:
+        return Proved("not proved", f"Not proved: {error}")
+    if found.statement == NO_CYCLE:
+        # To as many digits as show that it is less than 2.
+        least = next(count for count in itertools.count(4) if Fraction(found.trace.decimals(count)[1]) < 2)
+        return Proved(f"proved: no cycle,\n|trace| in {_within(found.trace, least)}",
+                      f"Proved: no cycle, |trace| in {_within(found.trace, least + 7)}{_costs(found)}")
+    if found.statement != TWO_CYCLES:
+        return Proved(f"undecided at {found.bits} bits", f"Undecided at {found.bits} bits: |trace| is too close to 2")
+    less, more = found.multipliers
+    return Proved(f"proved: exactly two cycles,\nmultipliers in {_within(less, 4)},\n{_within(more, 4)}",
+                  f"Proved: exactly two cycles, multipliers in {_within(less, 11)}, {_within(more, 11)}{_costs(found)}")
+
+
+def _within(found: Enclosure, count: int) -> str:
+    return f"[{', '.join(found.decimals(count))}]".replace("E+", "e").replace("E-", "e−")
+
+
+def _costs(found: Proof) -> str:
+    return f" ({len(found.steps)} steps, {found.bits} bits)"
 
 
 @dataclass(frozen=True)
