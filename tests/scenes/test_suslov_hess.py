@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 import sys
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -119,8 +120,8 @@ def test_the_moving_point_is_in_the_ring_of_the_diagram_when_n3_turns_and_beyond
 
 
 def ends(text):
-    """The ends of the intervals in a text."""
-    return [[float(end.replace("−", "-")) for end in pair] for pair in re.findall(r"\[([^],]+),\s([^]]+)\]", text)]
+    """The ends of the intervals in a text, exactly: doubles do not tell 1.9999999999999999996 from 2."""
+    return [[Fraction(end.replace("−", "-")) for end in pair] for pair in re.findall(r"\[([^],]+),\s([^]]+)\]", text)]
 
 
 @pytest.mark.parametrize(("I23", "h", "f"), [

@@ -1,0 +1,101 @@
+"""Closed forms of the Suslov problem with proved bounds, by balls of Arb: cos χ of free motion, the period of b3 = 0.
+
+Numbers are exact, see `balls.exact`; the precision doubles until the enclosure has as many digits as are asked for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any
+
+from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, WorkLimit
+from hess_mechanics.numerics.balls import Ball, Enclosure, enclosure, exact, rational, working
+
+__all__ = ["proved_cos_chi", "proved_period"]
+
+Number = str | float | Fraction
+_MOST_BITS = 1 << 14
+
+
+def _to_digits(digits: int, compute: Callable[[Any], Ball]) -> Enclosure:
+    """What `compute` encloses, to so many digits.  Raises `WorkLimit`."""
+    bits = 128
+    while bits <= _MOST_BITS:
+        with working(bits) as library:
+            found = compute(library)
+            if found.is_finite() and enclosure(found).precision < 10.0 ** (-digits):
+                return enclosure(found)
+        bits *= 2
+    raise WorkLimit("These numbers need more precision than a closed form may take: choose less extreme ones.")
+
+
+def _positive(**moments: Fraction) -> None:
+    for name, value in moments.items():
+        if value <= 0:
+            raise NotPositiveDefinite(f"{name} = {float(value):g}: choose {name} > 0.")
+
+
+def proved_cos_chi(I11: Number, I22: Number, I13: Number, I23: Number, digits: int = 30) -> Enclosure:
+    """cos χ of the free problem for every tensor, see `scattering`: 2|A|² − 1,
+
+    |A|² = (Re C/cosh(πK/2))² + (Im C/sinh(πK/2))², C = cos(π/2 √(κ² − (K + ic)²)).
+    Raises `MissingLibrary`, `InvalidParameter` (I13 = I23 = 0), `NotPositiveDefinite`, `WorkLimit`.
+    """
+    one, two, q, r = exact("I11", I11), exact("I22", I22), exact("I13", I13), exact("I23", I23)
+    _positive(I11=one, I22=two)
+    J2 = q * q + r * r
+    if J2 == 0:
+        raise InvalidParameter("I13 = I23 = 0: there ω is constant and nothing is scattered. Choose one of them not 0.")
+    w = (two * q * q + one * r * r) / J2
+
+    def compute(library: Any) -> Ball:
+        arb, acb = library.arb, library.acb
+        J = arb(rational(J2)).sqrt()
+        K, kappa = rational(one * two / w) / J, arb(rational(one * two)).sqrt() / J
+        c = kappa * rational(q * r * (two - one) / (J2 * w))
+        C = (acb(kappa * kappa) - acb(K, c) ** 2).sqrt()
+        C = (C * arb.pi() / 2).cos()
+        half = K * arb.pi() / 2
+        return 2 * ((C.real / half.cosh()) ** 2 + (C.imag / half.sinh()) ** 2) - 1
+
+    return _to_digits(digits, compute)
+
+
+def proved_period(I11: Number, I22: Number, b1: Number, b2: Number, omega: tuple[Number, Number],
+                  gamma: tuple[Number, Number], digits: int = 30) -> Enclosure:
+    """The period T of an orbit of Kharlamova's case, b3 = 0, from (ω1, ω2) and (γ1, γ2) off the equator, |γ| = 1.
+
+    T = 2πs/AGM(√((A − C + √(R₊R₋))/2), (R₊R₋)^¼), see `kharlamova`.  An orbit that is asymptotic has none.
+    Raises `MissingLibrary`, `InvalidParameter` (γ1² + γ2² ≥ 1, no motion), `NotPositiveDefinite`, `WorkLimit`.
+    """
+    one, two = exact("I11", I11), exact("I22", I22)
+    _positive(I11=one, I22=two)
+    u = [exact(f"γ{i}", x) for i, x in enumerate(gamma, 1)]
+    v = [-exact("ω2", omega[1]), exact("ω1", omega[0])]
+    a = [-exact("b1", b1) / two, -exact("b2", b2) / one]
+    if u[0] ** 2 + u[1] ** 2 >= 1:
+        raise InvalidParameter("γ1² + γ2² ≥ 1: choose a state off the equator, with γ1² + γ2² < 1.")
+    if v == [0, 0] == a:
+        raise InvalidParameter("ω = 0 without a field is at rest: choose ω or b not 0.")
+    P = [1 - _dot(u, u), -2 * _dot(u, v), -_dot(v, v) - _dot(u, a), -_dot(v, a), -_dot(a, a) / 4]
+
+    def compute(library: Any) -> Ball:
+        arb = library.arb
+        quartic = library.fmpq_poly([rational(c) for c in P])
+        roots = [root.real for root, _ in quartic.numer().complex_roots() if root.imag.contains(0)]
+        low = max((x for x in roots if x < 0), key=lambda x: x.mid())
+        high = min((x for x in roots if x > 0), key=lambda x: x.mid())
+        s = (high - low) / 2
+        # In x, τ = m + sx, P = (1 − x²)(A + Bx + Cx²).
+        p = library.arb_poly([rational(c) for c in P])(library.arb_poly([(high + low) / 2, s])).coeffs()
+        p += [arb(0)] * (5 - len(p))
+        A, B, C = p[0], p[1], -p[4]
+        product = ((A + C) ** 2 - B * B).sqrt()
+        return 2 * arb.pi() * s / ((A - C + product) / 2).sqrt().agm(product.sqrt())
+
+    return _to_digits(digits, compute)
+
+
+def _dot(x: list[Fraction], y: list[Fraction]) -> Fraction:
+    return x[0] * y[0] + x[1] * y[1]
