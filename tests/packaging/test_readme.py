@@ -69,7 +69,7 @@ def test_the_python_of_the_readme_runs(capsys, tmp_path, monkeypatch):
 
 def test_there_are_commands():
     assert {words[0] for words in COMMANDS} == {
-        "circle-map", "orbit", "section", "scattering", "rotation-number", "lyapunov", "shot", "bench", "serve",
+        "circle-map", "orbit", "section", "scattering", "prove", "lyapunov", "shot", "bench", "serve",
         "period", "basins", "cloud", "export", "code", "sweep"}
 
 
