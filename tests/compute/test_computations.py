@@ -17,6 +17,7 @@ import scipy.integrate
 
 from hess_explorer.compute import background
 from hess_explorer.compute.cache import ResultCache
+from hess_explorer.scenes import suslov_hess
 from hess_explorer.server import warm
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from support.board import (
@@ -81,8 +82,12 @@ class Recorder(ResultCache):
 
 @pytest.fixture(autouse=True)
 def nothing_later(monkeypatch):
-    """What can wait is never begun: here it is asked what a state computes at once, and threads outlive their test."""
+    """What can wait is never begun: here it is asked what a state computes at once, and threads outlive their test.
+
+    Nor is anything proved: a state that waits for its proof asks the cache once more for all that it is of.
+    """
     monkeypatch.setattr(background, "_pool", types.SimpleNamespace(submit=lambda job: None))
+    monkeypatch.setattr(suslov_hess, "has_flint", lambda: False)
 
 
 @pytest.fixture
