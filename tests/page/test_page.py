@@ -69,7 +69,8 @@ def test_a_change_takes_the_flag_down_at_once_and_the_state_number_up(explorer):
         before = explorer.state
         assert explorer.slide(h=h) == "false"
         wait_ready(explorer.page, after=before)
-        assert explorer.state == before + 1
+        # Once more with what is proved, if that was not known.
+        assert explorer.state in (before + 1, before + 2)
         assert explorer.here() == (pytest.approx(h), 0.6)
 
 
@@ -88,21 +89,23 @@ def test_the_newest_of_fifty_changes_wins_and_none_arrives_later(explorer, pause
         }}""", [values.tolist(), pause_ms])
     wait_ready(explorer.page, after=at_the_end)
     painted = explorer.state
-    # Of what came while a state was on its way only the newest is asked for.
-    assert painted - at_the_end <= 2
-    assert pause_ms > 0 or painted - before <= 2
+    # Of what came while a state was on its way only the newest is asked for, and once more what is proved of it.
+    assert painted - at_the_end <= 3
+    assert pause_ms > 0 or painted - before <= 3
     assert_orbit(explorer, {**DEFAULTS, "h": 2.0})
     assert explorer.shown("h") == (2.0, 2.0)
     # Whatever were still under way would be painted before the answer to this.
     explorer.change(lambda: explorer.slide(f=0.5))
-    assert explorer.state == painted + 1
+    # The answer, and once more with what is proved.
+    assert explorer.state in (painted + 1, painted + 2)
 
 
 def test_changes_of_several_sliders_at_once_are_one_state(explorer):
     before = explorer.state
     values = {"I22": 1.2, "I23": -0.5, "b3": -2.0, "h": 0.7, "f": -0.3, "phi0": 2.0, "span": 11.0}
     explorer.change(lambda: explorer.slide(**values))
-    assert explorer.state - before <= 2
+    # One, perhaps two, and once more with what is proved.
+    assert explorer.state - before <= 3
     assert_orbit(explorer, {**DEFAULTS, **values})
 
 

@@ -43,7 +43,8 @@ def test_the_curve_over_the_bottom_is_where_iterates_are(I23, h, f):
 
 @pytest.mark.parametrize(("I23", "h", "f"), [(0.5, 0.5, 0.5), (0.9, -0.5, 0.3)])
 def test_the_shade_of_the_torus_is_where_a_long_motion_is(I23, h, f):
-    values = {"I22": 1.0, "I23": I23, "h": h, "f": f}
+    # A body of its own with this a, of which nothing is known yet.
+    values = {"I22": 2.0, "I23": 2.0 * I23, "h": h, "f": f}
     view = View(SCENE, values, seen={"torus"})
     shade, = view.data["torus-density"]["image"]
     least, most = view.numbers("torus", "The flow keeps it: # to # times an even one")
@@ -127,7 +128,8 @@ def ends(text):
 @pytest.mark.parametrize(("I23", "h", "f"), [
     (0.5, 1.5, 0.6), (0.1, 1.5, 0.6), (0.5, 0.5, 1.01563456028796105), (0.3, 0.2, 0.0)])
 def test_the_corner_of_the_circle_map_says_what_is_proved_when_it_is_found(I23, h, f):
-    values = {"I22": 1.0, "I23": I23, "h": h, "f": f}
+    # A body of its own with this a, of which nothing is known yet.
+    values = {"I22": 2.0, "I23": 2.0 * I23, "h": h, "f": f}
     view = View(SCENE, values, seen={"circle"})
     assert any(task.function is proved for task in view.first.todo)
     said, = view.data["circle-proof"]["text"]
