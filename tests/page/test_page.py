@@ -58,7 +58,8 @@ def test_an_address_without_a_link_opens_the_first_scene_and_says_it_is_ready_on
     assert record[0]["ready"] == "false"
     assert [entry["ready"] for entry in record].count("true") == 1
     assert record[-1]["ready"] == "true"
-    assert record[-1]["state"] == 1
+    # Once more with what is proved, if that was not known.
+    assert record[-1]["state"] in (1, 2)
     # Three planar pictures of two canvases each, the coloured cells of one, the sphere and the body.
     assert record[-1]["drawn"] == 9
     explorer.assert_quiet()
@@ -343,9 +344,11 @@ def test_a_link_of_very_many_keys_opens_the_page_and_a_speed_not_offered_is_put_
 
 def test_two_sessions_do_not_affect_each_other(explorer, open_page):
     other = Explorer(open_page("h=0.5&f=0.2&phi0=1"), explorer.base)
+    before = other.state
     explorer.change(lambda: explorer.slide(h=2.5, I22=1.5))
+    assert other.state == before
     other.change(lambda: other.slide(span=20.0))
-    assert other.state == 2
+    assert other.state == before + 1
     assert_orbit(other, {**DEFAULTS, "h": 0.5, "f": 0.2, "phi0": 1.0, "span": 20.0})
     assert_orbit(explorer, {**DEFAULTS, "h": 2.5, "I22": 1.5})
     other.change(lambda: other.slide(h=0.4))
