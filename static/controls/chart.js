@@ -69,10 +69,17 @@ export function chartPanel(palettes, signal) {
   let opener = null
   let resting = null
 
-  const button = (name, textContent, press, title = "") => {
+  const titles = new Map()
+  const button = (name, textContent, press, title) => {
     const item = element("button", { type: "button", className: `button param-${name}`, textContent, title })
+    titles.set(item, title)
     item.addEventListener("click", press)
     return item
+  }
+  // A button that can be pressed, or says why not.
+  const offerIf = (item, isUsable, without) => {
+    item.disabled = !isUsable
+    item.title = isUsable ? titles.get(item) : `Disabled: ${without}`
   }
   const controlOf = (name) => scene.controls.find((one) => one.name === name)
   const endsOf = (name) => values[name]?.slice(1, 3) ?? controlOf(name).range
@@ -81,13 +88,13 @@ export function chartPanel(palettes, signal) {
   const part = element("select", { className: "param-part", "aria-label": "Which of its numbers" })
   const x = sideForm("x", endsOf, () => keepApart(y, x))
   const y = sideForm("y", endsOf, () => keepApart(x, y))
-  const start = button("chart-start", "Start", () => begin(wanted()))
-  const stop = button("chart-stop", "Stop", () => job.stop())
+  const start = button("chart-start", "Start", () => begin(wanted()), "Compute the chart")
+  const stop = button("chart-stop", "Stop", () => job.stop(), "Leave the chart at what is computed")
   const out = button("chart-out", "Zoom out", zoomOut, "The chart before (minus key)")
   const save = button("chart-save", "Save", keep, "A file that Load shows again")
   const file = element("input", { type: "file", accept: ".json,application/json", hidden: true })
   const load = button("chart-load", "Load", () => file.click(), "A chart that was saved")
-  const close = button("chart-close", "Close", hide)
+  const close = button("chart-close", "Close", hide, "The chart goes on meanwhile")
   const bar = element("progress", { "aria-label": "Computed", max: 1 })
   const said = element("p", { className: "why", role: "status" })
   const reading = element("output", { className: "reading", "aria-live": "polite" })
@@ -133,7 +140,7 @@ export function chartPanel(palettes, signal) {
     part.replaceChildren(...options(parts.map((name, i) => [i, name.replaceAll("_", " ")])))
     part.hidden = parts.length === 0
     for (const side of [x, y]) side.offer(numbers)
-    start.disabled = numbers.length < 2
+    offerIf(start, numbers.length >= 2, "nothing of this scene can be charted over two of its numbers")
     if (start.disabled) return
     const sides = axesOf(picture) ?? numbers.slice(0, 2).map(({ name }) => [name, ...endsOf(name)])
     x.choose(...sides[0])
@@ -230,9 +237,9 @@ export function chartPanel(palettes, signal) {
   function follow() {
     const isRunning = job.running === chart && chart !== null
     picture.hidden = chart?.values == null
-    stop.disabled = !isRunning
-    out.disabled = before.length === 0
-    save.disabled = chart?.values == null
+    offerIf(stop, isRunning, "nothing is computed")
+    offerIf(out, before.length > 0, "this chart was not zoomed into")
+    offerIf(save, chart?.values != null, "there is no chart yet")
     bar.hidden = !isRunning
     if (chart === null) return
     bar.value = chart.share
@@ -308,7 +315,7 @@ export function chartPanel(palettes, signal) {
       const can = scene.charts
       quantity.replaceChildren(...options(can.map((one) => [one.quantity, `${one.symbol}  ${one.title}`])))
       form.hidden = can.length === 0
-      start.disabled = can.length === 0
+      offerIf(start, can.length > 0, "nothing of this scene can be charted")
       mark()
     },
     open() {
