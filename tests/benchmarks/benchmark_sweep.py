@@ -205,7 +205,7 @@ def span(seconds):
 
 def main():
     """Measure for some minutes."""
-    cases = [tori(250 if QUICK else 700), motions(8 if QUICK else 28)]
+    cases = [tori(250 if QUICK else 1400), motions(8 if QUICK else 70)]
     load = os.getloadavg()[0]
     single = [beside_a_loop(case) for case in cases]
     begun = time.perf_counter()
