@@ -65,6 +65,7 @@ class Charts:
             self._tell(said=str(refusal), running=False)
         except Abandoned:
             raise
+        # Whatever it is, the page waits for an answer and shows no traceback; the log says all.
         except Exception:
             logger.exception("a chart could not be begun")
             self._tell(said=FAILED, running=False)

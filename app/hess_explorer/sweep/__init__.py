@@ -9,7 +9,6 @@
 
 from hess_explorer.sweep.errors import (
     Interrupted,
-    MissingLibrary,
     NoValue,
     OtherSweep,
     StoreError,
@@ -20,6 +19,7 @@ from hess_explorer.sweep.quantities import QUANTITIES
 from hess_explorer.sweep.quantity import Outcome, Parameter, Quantity
 from hess_explorer.sweep.result import read
 from hess_explorer.sweep.run import explain, sweep
+from hess_mechanics.errors import MissingLibrary
 
 __all__ = [
     "QUANTITIES",

@@ -9,15 +9,11 @@ from hess_mechanics.errors import ModelError
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["Interrupted", "MissingLibrary", "NoValue", "OtherSweep", "StoreError", "WorkersLost"]
+__all__ = ["Interrupted", "NoValue", "OtherSweep", "StoreError", "WorkersLost"]
 
 
 class NoValue(ModelError):
     """A cell whose motion does not have the quantity, as the period of one that never returns."""
-
-
-class MissingLibrary(ModelError):
-    """A library of the extra "sweep" is not installed."""
 
 
 class OtherSweep(ModelError):

@@ -16,11 +16,12 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from hess_explorer.sweep.errors import MissingLibrary, OtherSweep, StoreError
+from hess_explorer.sweep.errors import OtherSweep, StoreError
 from hess_explorer.sweep.grid import MAX_NUMBERS, Box, Grid
 from hess_explorer.sweep.quantities import QUANTITIES
 from hess_explorer.sweep.quantity import Outcome, Outcomes, Quantity
 from hess_explorer.sweep.work import Done, version
+from hess_mechanics.errors import MissingLibrary
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hess_mechanics.dynamics.orbit import MAX_STEPS, require_finite_states
-from hess_mechanics.dynamics.spectrum import batch_error
+from hess_mechanics.dynamics.spectrum import batch_error, shrinks
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import STANDARD, Level
@@ -33,7 +33,6 @@ CHAOTIC = 3.0
 _SAMPLES = 2400
 """Of ln|δ|; at least one per time 1/ν is needed."""
 _LIMIT = 1e6
-_ERRORS = 3.0
 _SHARE = 4
 
 
@@ -59,7 +58,7 @@ class Megno(Result):
     @property
     def attracted(self) -> Mask:
         """Whether phase volume about the motion shrinks, beyond three times the error."""
-        return np.asarray(self.divergence < -_ERRORS * self.divergence_error - 1e-12)
+        return shrinks(self.divergence, self.divergence_error)
 
     def labels(self) -> Labels:
         """Ȳ and the divergence of each motion."""

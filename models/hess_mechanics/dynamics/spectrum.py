@@ -21,10 +21,10 @@ from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import PLANS, STANDARD, Kind, Level, Status
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.patience import go_on
-from hess_mechanics.numerics.results import Array, Cost, frozen
+from hess_mechanics.numerics.results import Array, Cost, Mask, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
-__all__ = ["Spectrum", "batch_error", "kaplan_yorke", "spectrum"]
+__all__ = ["Spectrum", "batch_error", "kaplan_yorke", "shrinks", "spectrum"]
 
 _PARTS = 15
 """Stretches of time; the frame settles in the first three and is measured in the other twelve."""
@@ -145,6 +145,11 @@ def kaplan_yorke(values: Array, errors: Array) -> tuple[float, float]:
     before, next_one = float(sums[k - 1]) if k else 0.0, abs(float(values[k]))
     error = math.hypot(float(np.hypot.reduce(errors[:k])) if k else 0.0, before / next_one * float(errors[k]))
     return k + before / next_one, error / next_one
+
+
+def shrinks(divergence: Array, error: Array) -> Mask:
+    """Whether phase volume shrinks at mean divergences, beyond three times their errors and the round-off of a 0."""
+    return np.asarray(divergence < -_ERRORS * error - 1e-12)
 
 
 def batch_error(sums: Array, times: Array) -> tuple[Array, Array]:

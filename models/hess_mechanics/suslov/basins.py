@@ -14,6 +14,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from hess_mechanics.dynamics.spectrum import shrinks
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov.equations import SuslovBody
@@ -31,7 +32,6 @@ _GAP = 0.1
 _FEWEST = 0.02
 """Of all orbits: the smallest group; fewer belong to the nearest one."""
 _BATCHES = 12
-_ERRORS = 3.0
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class Contraction:
     @property
     def attracts(self) -> bool:
         """Whether the mean is negative beyond its error."""
-        return self.mean < -_ERRORS * self.error - 1e-12
+        return bool(shrinks(np.array(self.mean), np.array(self.error)))
 
 
 def contraction(body: SuslovBody, start: Sequence[float], span: float) -> Contraction:
