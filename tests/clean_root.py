@@ -9,7 +9,6 @@ health check says, and how the command ends.
 from __future__ import annotations
 
 import argparse
-import json
 import os
 import shutil
 import signal
@@ -23,7 +22,7 @@ from pathlib import Path
 if __name__ == "__main__":
     sys.path[:0] = [str(Path(__file__).parent)]
 
-from support.dockerfile import instructions
+from support.dockerfile import Image, instructions
 
 PROJECT = Path(__file__).resolve().parents[1]
 PACKAGES = "python3,python3-venv,ca-certificates"
@@ -32,71 +31,22 @@ REACHED = ("/etc/pip.conf", "/etc/resolv.conf", "/etc/hosts",
            *{value for name, value in os.environ.items() if name in ("PIP_CERT", "SSL_CERT_FILE")})
 
 
-class CleanRoot:
-    """What the instructions of the Dockerfile make in the folder `root`."""
+class ImageInRoot(Image):
+    """A system of its own below `root`, entered by `chroot`."""
 
-    def __init__(self, root: Path) -> None:
-        self.root, self.user, self.workdir = root, "root", "/"
-        self.set = {name: value for name, value in os.environ.items() if name.startswith(("PIP_", "SSL_CERT_FILE"))}
+    @property
+    def environment(self):
+        """That of the image, with the Python that is made here."""
         # Debian's Python is for Debian's packages; that of the image, in which these are installed, has none of them.
-        self.set |= {"LANG": "C.UTF-8", "PATH": "/opt/python/bin:/usr/local/bin:/usr/bin:/bin:/usr/sbin"}
-        self.health: list[str] = []
-        self.command: list[str] = []
+        return {**super().environment, "PATH": "/opt/python/bin:/usr/local/bin:/usr/bin:/bin:/usr/sbin"}
 
-    def inside(self, words: list[str]) -> list[str]:
-        """These words as the image's user would run them at this point."""
-        home = "/root" if self.user == "root" else f"/home/{self.user}"
-        settings = [f"{name}={value}" for name, value in {"HOME": home, **self.set}.items()]
-        return ["chroot", f"--userspec={self.user}", str(self.root), "env", "-i", *settings,
-                f"--chdir={self.workdir}", *words]
-
-    def run(self, words: list[str]) -> str:
-        """Run them; RuntimeError with all the output if they fail."""
-        done = subprocess.run(self.inside(words), text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                              check=False)
-        if done.returncode:
-            raise RuntimeError(f"{words}\n{done.stdout}")
-        return done.stdout
-
-    def carry_out(self, instruction: str, rest: str) -> None:
-        """One instruction; one that is not known here raises ValueError."""
-        match instruction:
-            case "FROM" | "EXPOSE":
-                pass
-            case "COPY":
-                source, into = rest.rsplit(" ", 1)
-                self.copy(source.split(), into)
-            case "RUN":
-                self.run(["sh", "-c", rest])
-            case "USER":
-                self.user = rest
-            case "WORKDIR":
-                self.workdir = rest
-                (self.root / rest.lstrip("/")).mkdir(parents=True, exist_ok=True)
-            case "ENV":
-                name, value = rest.split("=", 1)
-                self.set[name] = value
-            case "HEALTHCHECK":
-                self.health = json.loads(rest.partition("CMD ")[2])
-            case "CMD":
-                self.command = json.loads(rest)
-            case _:
-                raise ValueError(f"{instruction}: not known here")
-
-    def copy(self, sources: list[str], into: str) -> None:
-        """COPY: files into a folder that ends with a slash, a folder as the one that is named."""
-        for source in sources:
-            target = self.root / into.lstrip("/")
-            if (PROJECT / source).is_dir():
-                shutil.copytree(PROJECT / source, target, dirs_exist_ok=True,
-                                ignore=shutil.ignore_patterns("__pycache__"))
-            else:
-                target.mkdir(parents=True, exist_ok=True)
-                shutil.copy2(PROJECT / source, target)
+    def here(self, command):
+        """As the image's user at this point, in its root."""
+        return ["chroot", f"--userspec={self.user}", str(self.root), "env", f"--chdir={self.workdir}", *command]
 
 
 @contextmanager
-def mounted(image: CleanRoot):
+def mounted(image: ImageInRoot):
     """The root read-only but for /tmp and the kernels, with /proc, as compose.yaml asks for it."""
     root, kernels = image.root, image.root / image.set["NUMBA_CACHE_DIR"].lstrip("/")
     made = []
@@ -112,7 +62,7 @@ def mounted(image: CleanRoot):
             subprocess.run(["umount", "-l", str(place)], check=True)
 
 
-def serve(image: CleanRoot, seconds: float) -> None:
+def serve(image: ImageInRoot, seconds: float) -> None:
     """The command: until its health check passes and it has said its address, and how it ends."""
     begun = time.monotonic()
 
@@ -125,14 +75,17 @@ def serve(image: CleanRoot, seconds: float) -> None:
 
     log = image.root.parent / "log"
     with log.open("wb") as out, mounted(image), subprocess.Popen(
-            image.inside(image.command), stdout=out, stderr=out, start_new_session=True) as process:
-        wait(lambda: not subprocess.run(image.inside(image.health), capture_output=True, check=False).returncode)
+            image.here(image.cmd), env=image.environment, stdout=out, stderr=out,
+            start_new_session=True) as process:
+        wait(lambda: not subprocess.run(image.here(image.health), env=image.environment, capture_output=True,
+                                        check=False).returncode)
         print(f"healthy after {time.monotonic() - begun:.1f} s, user {Path(f'/proc/{process.pid}').stat().st_uid}")
         wait(lambda: "http" in log.read_text())
         print(f"ready after {time.monotonic() - begun:.1f} s", flush=True)
         ended = time.monotonic()
-        process.send_signal(signal.SIGTERM)
-        print(f"SIGTERM: code {process.wait(30)} after {time.monotonic() - ended:.1f} s; it said\n{log.read_text()}")
+        process.send_signal(signal.Signals[image.stopsignal])
+        print(f"{image.stopsignal}: code {process.wait(30)} after {time.monotonic() - ended:.1f} s; it said\n"
+              f"{log.read_text()}")
 
 
 def main() -> None:
@@ -151,7 +104,7 @@ def main() -> None:
             if Path(file).is_file():
                 (root / file.lstrip("/")).parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy2(file, root / file.lstrip("/"))
-        image = CleanRoot(root)
+        image = ImageInRoot(PROJECT, root)
         image.run(["python3", "-m", "venv", "/opt/python"])
         print(image.run(["python", "--version"]).strip(), flush=True)
         for instruction, rest in instructions((PROJECT / "Dockerfile").read_text("utf-8")):

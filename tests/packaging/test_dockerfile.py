@@ -9,7 +9,7 @@ import pytest
 
 from hess_explorer.headless.browser import wait_ready
 from hess_explorer.headless.screenshot import free_port, wait_alive
-from support.dockerfile import Image, instructions
+from support.dockerfile import ImageInVenv, instructions
 from support.kernels import copy_kernels
 from support.processes import interruptible
 
@@ -18,7 +18,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 @pytest.fixture(scope="module")
 def image(tmp_path_factory):
-    made = Image(ROOT, tmp_path_factory.mktemp("image") / "root")
+    made = ImageInVenv(ROOT, tmp_path_factory.mktemp("image") / "root")
     for instruction, rest in instructions((ROOT / "Dockerfile").read_text()):
         made.carry_out(instruction, rest)
         if instruction == "ENV":

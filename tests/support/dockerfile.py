@@ -1,7 +1,6 @@
-"""A Dockerfile carried out without Docker: a folder stands for the image's root, a virtual environment for its Python.
+"""A Dockerfile carried out without Docker: a folder stands for the image's root.
 
-Every instruction is read from the file, so what runs is what it says.  Not covered: the base image, other users'
-rights, and the libraries the base image lacks.
+Every instruction is read from the file, so what runs is what it says.
 """
 
 import json
@@ -14,7 +13,7 @@ import sys
 import sysconfig
 from pathlib import Path
 
-__all__ = ["Image", "instructions"]
+__all__ = ["Image", "ImageInVenv", "instructions"]
 
 
 def instructions(text):
@@ -25,7 +24,7 @@ def instructions(text):
 
 
 class Image:
-    """What the instructions of `project`/Dockerfile make, below the folder `root`."""
+    """What the instructions of `project`/Dockerfile make below the folder `root`; a subclass says how commands run."""
 
     def __init__(self, project, root):
         self.project, self.root = project, root
@@ -33,34 +32,33 @@ class Image:
         # Docker sends it unless another one is named.
         self.stopsignal = "SIGTERM"
         self.cmd = self.health = None
-        (root / "root").mkdir(parents=True)
-        subprocess.run([sys.executable, "-m", "venv", root / "venv"], check=True)
-        # The libraries come from the environment of the tests; what the Dockerfile installs goes before them.
-        self.site = Path(sysconfig.get_path("purelib", vars={"base": str(root / "venv")}))
-        (self.site / "libraries.pth").write_text(f"{sysconfig.get_path('purelib')}\n{sysconfig.get_path('platlib')}\n")
 
     def at(self, path):
         """Where a path of the image is here."""
         return self.root / path.lstrip("/")
 
     def mapped(self, text):
-        """A command or value with the image's absolute paths replaced by where they are here."""
-        return re.sub(r"(?<![\w.:/])/(?=(src|home|root)\b)", lambda _: f"{self.root}/", text)
+        """A command or value as it is to be run or set here."""
+        return text
 
     @property
     def environment(self):
         """Nothing of the caller's: above all no PYTHONPATH and no home."""
         home = "/root" if self.user == "root" else f"/home/{self.user}"
-        proxies = {name: value for name, value in os.environ.items() if name.startswith(("PIP_", "SSL_"))}
-        return {**proxies, "PATH": f"{self.root / 'venv' / 'bin'}:/usr/local/bin:/usr/bin:/bin", "LANG": "C.UTF-8",
-                "HOME": str(self.at(home)), **self.set}
+        reached = {name: value for name, value in os.environ.items() if name.startswith(("PIP_", "SSL_"))}
+        return {**reached, "PATH": "/usr/local/bin:/usr/bin:/bin", "LANG": "C.UTF-8", "HOME": self.mapped(home),
+                **self.set}
 
     def run(self, command, **options):
         """Run as the image would at this point.  Fails with all the output if the command does."""
-        done = subprocess.run(command, cwd=self.at(self.workdir), env=self.environment, text=True, timeout=500,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False, **options)
+        done = subprocess.run(self.here(command), cwd=self.at(self.workdir), env=self.environment, text=True,
+                              timeout=900, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False, **options)
         assert done.returncode == 0, f"{command}\n{done.stdout}"
         return done.stdout
+
+    def here(self, command):
+        """The words that run `command` as the image's user, from `workdir` and with `environment`."""
+        return command
 
     def carry_out(self, instruction, rest):
         """One instruction.  Unknown ones fail: this class must learn them."""
@@ -88,11 +86,7 @@ class Image:
         return not any(source == rule[1:] or source.startswith(f"{rule[1:]}/") for rule in rules if rule[:1] == "!")
 
     def _run(self, rest):
-        useradd = re.fullmatch(r"useradd --create-home (\w+)", rest)
-        if useradd:
-            self.at(f"/home/{useradd[1]}").mkdir(parents=True)
-        else:
-            self.run(["sh", "-c", self.mapped(rest)])
+        self.run(["sh", "-c", self.mapped(rest)])
 
     def _user(self, rest):
         assert self.at(f"/home/{rest}").is_dir(), f"no such user: {rest}"
@@ -117,3 +111,35 @@ class Image:
 
     def _cmd(self, rest):
         self.cmd = json.loads(rest)
+
+
+class ImageInVenv(Image):
+    """A virtual environment stands for its Python.
+
+    Not covered: the base image, other users' rights, and the libraries the base image lacks.
+    """
+
+    def __init__(self, project, root):
+        super().__init__(project, root)
+        (root / "root").mkdir(parents=True)
+        subprocess.run([sys.executable, "-m", "venv", root / "venv"], check=True)
+        # The libraries come from the environment of the tests; what the Dockerfile installs goes before them.
+        self.site = Path(sysconfig.get_path("purelib", vars={"base": str(root / "venv")}))
+        (self.site / "libraries.pth").write_text(f"{sysconfig.get_path('purelib')}\n{sysconfig.get_path('platlib')}\n")
+
+    def mapped(self, text):
+        """The image's absolute paths replaced by where they are here."""
+        return re.sub(r"(?<![\w.:/])/(?=(src|home|root)\b)", lambda _: f"{self.root}/", text)
+
+    @property
+    def environment(self):
+        """That of the image, with the Python of the virtual environment."""
+        inherited = super().environment
+        return {**inherited, "PATH": f"{self.root / 'venv' / 'bin'}:{inherited['PATH']}"}
+
+    def _run(self, rest):
+        useradd = re.fullmatch(r"useradd --create-home (\w+)", rest)
+        if useradd:
+            self.at(f"/home/{useradd[1]}").mkdir(parents=True)
+        else:
+            super()._run(rest)
