@@ -8,10 +8,10 @@ const MOST_LINK = 2000
 
 // Numbers that are none as null, which JSON has.
 export function toFile(chart) {
-  const { scene, state, quantity, part, title, symbol, units, turn, level, x, y, values, status } = chart
+  const { scene, state, quantity, part, title, symbol, units, turn, level, error, version, x, y, values, status } = chart
   const link = linkTo().replace(/\?.*$/, `?${state}`)
   return JSON.stringify({
-    program: PROGRAM, title, link, scene, state, quantity, part, symbol, units, turn, level, x, y,
+    program: PROGRAM, title, link, scene, state, quantity, part, symbol, units, turn, level, error, version, x, y,
     values: Array.from(values, (value) => (Number.isFinite(value) ? value : null)), status: Array.from(status),
   })
 }
@@ -30,9 +30,10 @@ export function fromFile(text) {
     return { why: "This file is no JSON: choose one that Save has written." }
   }
   if (found?.program !== PROGRAM) return { why: "This file holds no chart: choose one that Save has written." }
-  const { scene, state, quantity, part, title, symbol, units, turn = 0, level, x, y, values, status } = found
-  const texts = [scene, quantity, title, symbol, units, level]
+  const { scene, state, quantity, part, title, symbol, units, turn = 0, level, error = null, version = "", x, y, values, status } = found
+  const texts = [scene, quantity, title, symbol, units, level, version]
   const isWhole = texts.every(isText(200)) && isText(MOST_LINK)(state) && Number.isInteger(part) && turn >= 0 && Number.isFinite(turn)
+    && (error === null || Number.isFinite(error))
     && isSide(x) && isSide(y)
   const cells = isWhole ? x.count * y.count : 0
   const isFull = isWhole && Array.isArray(values) && Array.isArray(status) && values.length === cells && status.length === cells
@@ -41,7 +42,7 @@ export function fromFile(text) {
   if (!isFull) return { why: "A part of this chart is missing or is no number: save it once more." }
   return {
     chart: {
-      scene, state, quantity, part, title, symbol, units, turn, level, said: "", left: null, known: status.filter(Boolean).length,
+      scene, state, quantity, part, title, symbol, units, turn, level, error, version, said: "", left: null, known: status.filter(Boolean).length,
       share: status.filter(Boolean).length / cells,
       x: { name: x.name, symbol: x.symbol, low: x.low, high: x.high, count: x.count },
       y: { name: y.name, symbol: y.symbol, low: y.low, high: y.high, count: y.count },

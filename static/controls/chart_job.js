@@ -18,13 +18,13 @@ export function chartJob(changed, explained, signal) {
   const ask = (what) => tell("ask-chart", what)
 
   // Cells that follow those which are known.
-  function take({ cells, first, done, of, left, level, x, y }, block) {
+  function take({ cells, first, done, of, left, level, error, version, x, y }, block) {
     if (chart.values === null) {
       // As they were clamped.
       for (const [side, [, low, high, count]] of [[chart.x, x], [chart.y, y]]) Object.assign(side, { low, high, count })
       Object.assign(chart, { level, values: new Float64Array(of).fill(NaN), status: new Uint8Array(of) })
     }
-    Object.assign(chart, { share: done / of, left })
+    Object.assign(chart, { share: done / of, left, error, version })
     if (first !== chart.known) return
     const numbers = new Float64Array(block.slice(0, 8 * cells))
     const places = new Int32Array(block.slice(8 * cells, 12 * cells))

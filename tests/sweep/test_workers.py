@@ -1,17 +1,20 @@
-"""Workers of a Dask cluster on this machine: the same numbers, and nothing lost where one dies."""
+"""Processes of this machine, and workers of a Dask cluster: the same numbers, and nothing lost where one dies."""
 
 from __future__ import annotations
 
 import os
 import signal
 import threading
-from contextlib import contextmanager
+import time
+from contextlib import suppress
 
+import psutil
 import pytest
 
 from hess_explorer.sweep import WorkersLost, sweep
 from hess_explorer.sweep import run as running
 from hess_explorer.sweep import workers as working
+from support.cluster import local_cluster
 from support.processes import interruptible
 
 MOTIONS = {"w1": (0.2, 1.4, 6), "I22": (1.0, 2.0, 5)}
@@ -21,7 +24,7 @@ TIME = 15.0
 @pytest.fixture(scope="module")
 def cluster():
     """The address of a cluster of two."""
-    with working.local_cluster(2) as address:
+    with local_cluster(2) as address:
         yield address
 
 
@@ -65,31 +68,67 @@ def test_workers_find_the_same_and_one_that_is_killed_is_no_loss(cluster, client
     assert set(client.run(os.getpid).values()) - set(before.values())
 
 
-def test_a_cluster_of_this_machine_listens_to_this_machine_alone(cluster, client):
-    import psutil
+def children():
+    """Those of this process that compute."""
+    found = []
+    for one in psutil.Process().children():
+        # One may end meanwhile.
+        with suppress(psutil.NoSuchProcess, psutil.ZombieProcess):
+            found += [one] if any("sweep" in word and "processes" in word for word in one.cmdline()) else []
+    return found
 
-    # The scheduler is in this process, the workers are below another one.
-    pids = [os.getpid(), *client.run(os.getpid).values()]
-    pids += [psutil.Process(pid).ppid() for pid in pids[1:]]
-    heard = {place.laddr.ip for pid in pids for place in psutil.Process(pid).net_connections("inet")
-             if place.status == psutil.CONN_LISTEN}
-    assert heard == {"127.0.0.1"}
 
-
-def test_all_cores_are_a_cluster_of_as_many(cluster, client, pairs, alone, monkeypatch):
-    asked = []
-
-    @contextmanager
-    def that_one(processes):
-        asked.append(processes)
-        yield cluster
-
-    monkeypatch.setattr(working, "local_cluster", that_one)
+def test_all_cores_find_the_same_one_that_is_killed_is_no_loss_and_none_is_left(pairs, alone, monkeypatch, tmp_path):
     monkeypatch.setattr(working, "_cores", lambda: 2)
-    assert sweep("lyapunov-suslov", MOTIONS, level="draft", t=TIME, workers="all").identical(alone)
-    assert sweep("lyapunov-suslov", {"w1": [0.2]}, level="draft", t=TIME, I22=1.0, workers=2).lyapunov_suslov.item() \
-        == alone.lyapunov_suslov.values[0, 0]
-    assert asked == [2, 2]
+    seen, killed = [], []
+
+    def kill_one(now):
+        seen.append(children())
+        if now.done and not killed:
+            killed.append(seen[-1][0])
+            killed[0].kill()
+
+    found = sweep("lyapunov-suslov", MOTIONS, level="draft", t=TIME, workers="all", progress=kill_one,
+                  store=tmp_path / "lambda.zarr")
+    assert found.identical(alone)
+    assert found.lyapunov_suslov.values.tobytes() == alone.lyapunov_suslov.values.tobytes()
+    assert [len(some) for some in seen[:1]] == [2]
+    # Another one has taken its place.
+    assert len({one.pid for some in seen for one in some}) == 3
+    assert children() == []
+
+
+def test_processes_are_ended_with_the_sweep_whatever_they_compute(monkeypatch):
+    monkeypatch.setattr(running, "_cells_of_a_piece", lambda *_: 1)
+    stop = threading.Event()
+    threading.Timer(1.5, stop.set).start()
+    begun = time.monotonic()
+    # Minutes.
+    found = sweep("lyapunov-suslov", {"w1": [0.2, 0.3, 0.4]}, t=1e5, workers=2, stop=stop)
+    assert time.monotonic() - begun < 20.0
+    assert found.status.values.tolist() == [0, 0, 0]
+    assert children() == []
+
+
+def test_a_piece_that_process_after_process_dies_of_is_said_and_the_others_are_kept(pairs, alone, monkeypatch):
+    from hess_explorer.sweep import processes
+
+    monkeypatch.setattr(processes, "_DEATHS", 2)
+    # One piece, whoever gets it.
+    monkeypatch.setattr(processes, "_PROGRAM", f"""
+import os
+from hess_explorer.sweep import processes
+compute = processes.compute
+def dies(piece):
+    if {MOTIONS["w1"][0]} in piece.axes["w1"] and 2.0 in piece.axes["I22"]:
+        os._exit(1)
+    return compute(piece)
+processes.compute = dies
+processes.serve()""")
+    seen = []
+    with pytest.raises(WorkersLost, match=r"1 pieces were given up, .*2 processes died of it\."):
+        sweep("lyapunov-suslov", MOTIONS, level="draft", t=TIME, workers=2, progress=seen.append)
+    assert 30 - seen[-1].done in (1, 2)
 
 
 def test_a_piece_that_no_worker_can_do_is_said_and_the_others_are_kept(cluster, client, pairs, alone, tmp_path,
@@ -128,12 +167,12 @@ def test_a_cluster_that_is_not_there_is_one_sentence(monkeypatch):
 
 
 def test_a_cluster_without_workers_is_waited_for_until_ctrl_c_or_not_for_ever(monkeypatch):
-    with working.local_cluster(0) as empty:
+    with local_cluster(0) as empty:
         timer = threading.Timer(0.7, os.kill, (os.getpid(), signal.SIGINT))
         timer.start()
         with interruptible(), pytest.raises(KeyboardInterrupt, match=r"stopped before anything was computed\."):
             sweep("rotation-number", {"h": [0.5]}, a=0.5, f=0.1, workers=empty)
         timer.join()
         monkeypatch.setattr(working, "_WAIT", 0.5)
-        with pytest.raises(WorkersLost, match="with 1 or more workers"):
+        with pytest.raises(WorkersLost, match="with a worker answers"):
             sweep("rotation-number", {"h": [0.5]}, a=0.5, f=0.1, workers=empty)

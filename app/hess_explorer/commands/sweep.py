@@ -41,7 +41,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser.add_argument("--set", action="append", type=_setting, default=[], metavar="NAME=NUMBER",
                         help="a parameter that stays, if not the default")
     parser.add_argument("--store", type=Path, metavar="FOLDER", help="keep what is done here (Zarr), and go on with it")
-    parser.add_argument("--read", type=Path, metavar="FOLDER", help="compute nothing: write the table of this store")
+    parser.add_argument("--read", type=Path, metavar="PLACE",
+                        help="compute nothing: write the table of this store, or of a chart that the page has saved")
     parser.add_argument("--workers", type=_workers, metavar="WHO",
                         help="all: a process for each core; a number of processes; or the address of a Dask scheduler, "
                              "tcp://host:8786 (default: one thread)")
@@ -160,6 +161,7 @@ def _write(options: argparse.Namespace, found: xr.Dataset, table: bool) -> None:
     facts = {"quantity": what.name, "title": what.title, "units": what.units,
              "parameters": json.loads(found.attrs["parameters"]), "level": found.attrs["level"],
              "version": found.attrs["version"], "cells": list(status.shape), "status_counts": counts,
+             **{name: found.attrs[name] for name in ("link", "largest_error") if name in found.attrs},
              **({} if options.store is None else {"store": str(options.store)})}
     series = _series(what, found) if table else {}
     write(options, series, tuple(series), facts, notes=())
@@ -178,9 +180,11 @@ def _series(what: Quantity, found: xr.Dataset) -> dict[str, list[Any]]:
     series: dict[str, list[Any]] = {str(name): axis.ravel().tolist()
                                     for name, axis in zip(found.status.dims, axes, strict=True)}
     values = found[what.variable].values
-    columns = {f"{what.variable}_{part}": values[..., i] for i, part in enumerate(what.parts)} if what.parts else \
-        {what.variable: values}
-    if what.error:
+    columns = {what.variable: values}
+    if what.parts:
+        # A chart has one of them.
+        columns = {f"{what.variable}_{part}": values[..., i] for i, part in enumerate(found.number.values.tolist())}
+    if "error" in found:
         columns["error"] = found["error"].values
     for name, column in columns.items():
         series[name] = [value if math.isfinite(value) else None for value in column.ravel().tolist()]

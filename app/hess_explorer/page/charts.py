@@ -14,6 +14,7 @@ from hess_explorer.compute.budget import Abandoned
 from hess_explorer.page.wanted import as_float
 from hess_explorer.sweep.chart import Chart
 from hess_explorer.sweep.charting import FAILED, Charting
+from hess_explorer.sweep.work import version
 from hess_mechanics.errors import ModelError
 
 __all__ = ["Charts"]
@@ -100,7 +101,8 @@ class Charts:
         self._page.cells = b"".join([values.astype("<f8").tobytes(), where.astype("<i4").tobytes(), status.tobytes()])
         self._tell(cells=int(where.size), first=min(max(known, 0), progress.cells), running=running,
                    said=charting.said, done=progress.done, of=progress.cells, left=progress.left,
-                   level=charting.chart.level.name, x=_side(charting.chart.x), y=_side(charting.chart.y))
+                   level=charting.chart.level.name, error=charting.error, version=version(),
+                   x=_side(charting.chart.x), y=_side(charting.chart.y))
         if not running and where.size == 0:
             # The browser has it all.
             self._charting = None

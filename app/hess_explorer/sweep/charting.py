@@ -35,6 +35,7 @@ FAILED = "This chart could not be computed. Please report the link."
 class Charting:
     """One chart, from its start until it is done, stopped or has used up its time; it takes one core at a time.
 
+    error : the largest estimated error so far, None where there is no estimate.
     progress : how far it is; running : whether more is to come; said : why it ended early, empty if it did not.
     """
 
@@ -42,6 +43,7 @@ class Charting:
         self.chart, self.said, self.running = chart, "", True
         self._order = chart.order
         self._values, self._status = np.full(chart.cells, np.nan), np.zeros(chart.cells, np.uint8)
+        self.error: float | None = None
         self._done, self._size, self._left_to_spend = 0, 1, seconds
         self._stopped = threading.Event()
         self._lock = threading.Lock()
@@ -93,6 +95,9 @@ class Charting:
         with self._lock:
             self._values[piece], self._status[piece] = found.values, found.status
             self._done += piece.size
+            known = found.errors[np.isfinite(found.errors)]
+            if known.size:
+                self.error = max(float(known.max()), self.error or 0.0)
         self._tell(piece.size)
         if self._done == self.chart.cells:
             self._end("")

@@ -24,8 +24,8 @@ from hess_mechanics.errors import (
 from hess_mechanics.numerics.accuracy import Level, Status
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Cell", "Cells", "Found", "Outcome", "Outcomes", "Parameter", "Quantity", "evaluate", "one_by_one",
-           "refused"]
+__all__ = ["Cell", "Cells", "Found", "Outcome", "Outcomes", "Parameter", "Quantity", "evaluate", "number", "one_by_one",
+           "refused", "time_of", "whole"]
 
 logger = logging.getLogger("hess_explorer")
 
@@ -94,6 +94,25 @@ class Parameter:
     doc: str
     units: str = "1"
     whole: bool = False
+
+
+_WIDE = 1e6
+
+
+def number(name: str, symbol: str, default: float | None, doc: str, low: float = -_WIDE, high: float = _WIDE,
+           units: str = "1") -> Parameter:
+    """A parameter between wide bounds."""
+    return Parameter(name, symbol, default, low, high, doc, units)
+
+
+def whole(name: str, symbol: str, default: float, low: float, high: float, doc: str) -> Parameter:
+    """A parameter that is a whole number."""
+    return Parameter(name, symbol, default, low, high, doc, whole=True)
+
+
+def time_of(default: float, doc: str) -> Parameter:
+    """A parameter t that is a time."""
+    return number("t", "t", default, doc, 1e-3)
 
 
 @dataclass(frozen=True)

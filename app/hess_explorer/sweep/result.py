@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
+from hess_explorer.sweep.dataset import described
 from hess_explorer.sweep.errors import OtherSweep, StoreError
 from hess_explorer.sweep.grid import MAX_NUMBERS, Box, Grid
 from hess_explorer.sweep.quantities import QUANTITIES
@@ -29,14 +30,12 @@ if TYPE_CHECKING:
 __all__ = ["Kept", "Memory", "Store", "opened", "read", "require_libraries"]
 
 _PROGRAM = "hess-explorer sweep"
-PART = "number"
-"""The dimension of several numbers at a cell."""
 
 
 def require_libraries() -> None:
     """Raise `MissingLibrary`, which says what to install."""
-    if any(find_spec(name) is None for name in ("xarray", "zarr", "dask", "distributed")):
-        raise MissingLibrary("Sweeps need xarray, Zarr and Dask: pip install 'hess-explorer[sweep]'.")
+    if any(find_spec(name) is None for name in ("xarray", "zarr")):
+        raise MissingLibrary("Sweeps need xarray and Zarr: pip install 'hess-explorer[sweep]'.")
 
 
 class Kept(Protocol):
@@ -65,28 +64,12 @@ def _slices(box: Box) -> tuple[slice, ...]:
 
 def _described(what: Quantity, grid: Grid, level: str, values: Any, errors: Any, status: Any) -> xr.Dataset:
     """A Dataset with names, units and words, around arrays of any kind."""
-    import xarray as xr
-
-    axes = tuple(grid.axes)
-    coordinates: dict[str, Any] = {}
-    for name, places in grid.axes.items():
-        one = what.parameter(name)
-        coordinates[name] = (name, places, {"long_name": one.doc, "symbol": one.symbol, "units": one.units})
-    dimensions = axes
-    if what.parts:
-        dimensions = (*axes, PART)
-        coordinates[PART] = (PART, np.array(what.parts, object), {"long_name": what.doc})
-    variables = {
-        what.variable: (dimensions, values, {"long_name": what.title, "symbol": what.symbol, "units": what.units,
-                                             "description": what.doc}),
-        "status": (axes, status, {
-            "long_name": "how each cell ended", "units": "1", "flag_values": [int(one) for one in Outcome],
-            "flag_meanings": " ".join(one.words.replace(" ", "_") for one in Outcome)})}
-    if what.error:
-        variables["error"] = (axes, errors, {"long_name": f"estimated error: {what.error}", "units": what.units})
-    return xr.Dataset(variables, coordinates, {
-        "title": what.title, "program": _PROGRAM, "version": version(), "quantity": what.name, "level": level,
-        "parameters": json.dumps(dict(grid.fixed), ensure_ascii=False, sort_keys=True)})
+    known = {one.name: one for one in what.parameters}
+    axes = {name: (places, {"long_name": known[name].doc, "symbol": known[name].symbol, "units": known[name].units})
+            for name, places in grid.axes.items()}
+    return described(what, axes, values, status, errors if what.error else None, parts=what.parts, program=_PROGRAM,
+                     version=version(), level=level,
+                     parameters=json.dumps(dict(grid.fixed), ensure_ascii=False, sort_keys=True))
 
 
 def _arrays(what: Quantity, grid: Grid) -> tuple[tuple[int, ...], tuple[int, ...]]:
@@ -113,7 +96,9 @@ class Memory:
     def write(self, box: Box, done: Done) -> None:
         """Keep a box."""
         own = _slices(box)
-        self._values[own], self._errors[own], self._status[own] = done.values, done.errors, done.status
+        self._values[own], self._status[own] = done.values, done.status
+        if done.errors is not None:
+            self._errors[own] = done.errors
 
     def dataset(self) -> xr.Dataset:
         """What there is."""
@@ -138,22 +123,24 @@ class Store:
     @classmethod
     def create(cls, path: Path, what: Quantity, grid: Grid, level: str, shape: tuple[int, ...]) -> Store:
         """Make a store with boxes of this shape, nothing in it.  Raises `StoreError`."""
-        import dask.array
-        from zarr.codecs import ZstdCodec
+        from zarr.codecs import Crc32cCodec, ZstdCodec
 
         of_values, of_status = _arrays(what, grid)
-        boxes = (*shape, *of_values[len(shape):])
-        template = _described(
-            what, grid, level, dask.array.full(of_values, np.nan, chunks=boxes),
-            dask.array.full(of_status, np.nan, chunks=shape), dask.array.zeros(of_status, dtype=np.uint8, chunks=shape))
-        # Checksums tell a file that is not whole.
-        packed = (ZstdCodec(level=1, checksum=True),)
-        encoding = {name: {"chunks": boxes if name == what.variable else shape, "compressors": packed}
-                    for name in template.data_vars}
+        empty = _described(what, grid, level, np.broadcast_to(np.nan, of_values),
+                           np.broadcast_to(np.nan, of_status), np.broadcast_to(np.uint8(0), of_status))
+        # Checksums tell a file that is not whole.  Doubles of a chart are as good as noise: packing them takes more
+        # than it saves; how cells ended is mostly one number.
+        packed = {"status": ZstdCodec(level=1, checksum=True)}
         begun = path.with_name(f"{path.name}.begun")
         try:
             shutil.rmtree(begun, ignore_errors=True)
-            template.to_zarr(begun, compute=False, encoding=encoding, zarr_format=3, consolidated=False)
+            empty.drop_vars(list(empty.data_vars)).to_zarr(begun, zarr_format=3, consolidated=False)
+            group = _group(begun, "r+")
+            for name, one in empty.data_vars.items():
+                group.create_array(
+                    name, shape=one.shape, dtype=one.dtype, chunks=(*shape, *one.shape[len(shape):]),
+                    compressors=(packed.get(str(name), Crc32cCodec()),), fill_value=one.values.flat[0],
+                    dimension_names=one.dims, attributes=one.attrs)
             # Whole or not at all.
             begun.rename(path)
         except OSError as error:
@@ -208,7 +195,7 @@ class Store:
         own = _slices(box)
         try:
             self._arrays[self._what.variable][own] = done.values
-            if self._what.error:
+            if done.errors is not None:
                 self._arrays["error"][own] = done.errors
             self._arrays["status"][own] = done.status
         except OSError as error:
@@ -229,11 +216,19 @@ def _group(path: Path, mode: Any) -> Any:
 
 
 def read(path: str | Path) -> xr.Dataset:
-    """The Dataset in the store of a sweep, finished or not; read at once up to `MAX_NUMBERS`.  Raises `StoreError`."""
+    """The Dataset in the store of a sweep, finished or not, or in the file of a chart that the page has saved.
+
+    It is read at once up to `MAX_NUMBERS`.  Raises `StoreError`.
+    """
     require_libraries()
     import xarray as xr
 
     path = Path(path)
+    if path.is_file():
+        # Charts are of scenes, which sweeps need not know.
+        from hess_explorer.sweep.chart_file import read_chart
+
+        return read_chart(path)
     if _group(path, "r").attrs.get("program") != _PROGRAM:
         raise StoreError(f"{str(path)!r} is no store of a sweep: choose another folder.")
     found: xr.Dataset = xr.open_zarr(path, consolidated=False, zarr_format=3, chunks=None)

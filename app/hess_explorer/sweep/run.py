@@ -159,14 +159,18 @@ def explain(found: xr.Dataset, **cell: float) -> str:
 
     Raises `InvalidParameter` where the sweep has no such cell, `StoreError` where `found` is none of `sweep`.
     """
-    try:
-        what, accuracy = named(found.attrs["quantity"]), level_named(found.attrs["level"])
-        fixed = json.loads(found.attrs["parameters"])
-    except KeyError as error:
-        raise StoreError("This Dataset is not of a sweep: give one that `sweep` or `read` has returned.") from error
+    if "quantity" not in found.attrs:
+        raise StoreError("This Dataset is not of a sweep: give one that `sweep` or `read` has returned.")
     axes = tuple(map(str, found.status.dims))
     if set(cell) != set(axes):
         raise InvalidParameter(f"A cell of this sweep has coordinates {', '.join(axes)}: give each.")
+    if "state" in found.attrs:
+        # Of a chart, whose cells are states of a scene.
+        from hess_explorer.sweep.chart_file import chart_of
+
+        return chart_of(found).why(*(cell[name] for name in axes))
+    what, accuracy = named(found.attrs["quantity"]), level_named(found.attrs["level"])
+    fixed = json.loads(found.attrs["parameters"])
     grid = Grid.of(what, {name: [cell[name]] for name in axes}, fixed, what.numbers)
     outcome = evaluate(what, expanded(grid.axes, grid.fixed), accuracy)
     return outcome.why.get(0, f"{Outcome(int(outcome.status[0])).words}.")

@@ -42,10 +42,13 @@ class Piece:
 
 @dataclass(frozen=True)
 class Done:
-    """The outcome at the cells of a box, in its shape; values with one more axis where there are several at a cell."""
+    """The outcome at the cells of a box, in its shape; values with one more axis where there are several at a cell.
+
+    errors : None where the quantity has no estimate.
+    """
 
     values: Array
-    errors: Array
+    errors: Array | None
     status: Outcomes
 
 
@@ -57,8 +60,8 @@ def compute(piece: Piece) -> Done:
     what = quantity(piece.quantity)
     found = evaluate(what, expanded(piece.axes, piece.fixed), level(piece.level))
     shape = tuple(part.size for part in piece.axes.values())
-    return Done(found.values.reshape(*shape, *found.values.shape[1:]), found.errors.reshape(shape),
-                found.status.reshape(shape))
+    return Done(found.values.reshape(*shape, *found.values.shape[1:]),
+                found.errors.reshape(shape) if what.error else None, found.status.reshape(shape))
 
 
 _LONG_ENOUGH = 0.05

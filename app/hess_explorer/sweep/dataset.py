@@ -1,0 +1,42 @@
+"""Numbers of a sweep or a chart as an xarray Dataset, with names, units, coordinates and words."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from hess_explorer.sweep.quantity import Outcome, Quantity
+from hess_mechanics.numerics.results import Array
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["PART", "described"]
+
+PART = "number"
+"""The dimension of several numbers at a cell."""
+
+
+def described(what: Quantity, axes: Mapping[str, tuple[Array, Mapping[str, str]]], values: Any, status: Any,
+              errors: Any = None, *, parts: Sequence[str] = (), **facts: Any) -> xr.Dataset:
+    """Arrays of any kind over the axes, places and attributes of each; facts : what is said of all of it.
+
+    parts : the names of the numbers at a cell; none for a scalar.
+    """
+    import xarray as xr
+
+    dimensions = tuple(axes)
+    coordinates: dict[str, Any] = {name: (name, places, said) for name, (places, said) in axes.items()}
+    if parts:
+        coordinates[PART] = (PART, np.array(parts, object), {"long_name": what.doc})
+    variables = {
+        what.variable: ((*dimensions, PART) if parts else dimensions, values, {
+            "long_name": what.title, "symbol": what.symbol, "units": what.units, "description": what.doc}),
+        "status": (dimensions, status, {
+            "long_name": "how each cell ended", "units": "1", "flag_values": [int(one) for one in Outcome],
+            "flag_meanings": " ".join(one.words.replace(" ", "_") for one in Outcome)})}
+    if errors is not None:
+        variables["error"] = (dimensions, errors, {"long_name": f"estimated error: {what.error}", "units": what.units})
+    return xr.Dataset(variables, coordinates, {"title": what.title, "quantity": what.name, **facts})

@@ -1,0 +1,220 @@
+"""Quantities of motions: exponents, dimension, MEGNO, crossings.
+
+Of any system, by the parameters of the body and the state at the start; and by the place of the start on a section,
+at values of the integrals, in the coordinates that the section has.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
+
+from hess_explorer.sweep.quantity import Cell, Parameter, Quantity, number, one_by_one, time_of, whole
+from hess_mechanics.chaplygin_ball import section as of_ball
+from hess_mechanics.chaplygin_ball.equations import SYSTEM as BALL
+from hess_mechanics.chaplygin_ball.equations import BallBody
+from hess_mechanics.dynamics.lyapunov import largest_exponent
+from hess_mechanics.dynamics.megno import megno
+from hess_mechanics.dynamics.section import Plane, Surface, section
+from hess_mechanics.dynamics.spectrum import spectrum
+from hess_mechanics.dynamics.system import System, systems
+from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.euler_poisson import andoyer
+from hess_mechanics.euler_poisson.equations import SYSTEM as HEAVY
+from hess_mechanics.euler_poisson.equations import HeavyBody
+from hess_mechanics.numerics.accuracy import PLANS, Kind, Level
+from hess_mechanics.suslov import section as of_suslov
+from hess_mechanics.suslov.basins import contraction
+from hess_mechanics.suslov.equations import SYSTEM as SUSLOV
+from hess_mechanics.suslov.equations import SuslovBody, unit_vector
+
+__all__ = ["MOTIONS", "SUSLOV_ENERGY", "suslov_section"]
+
+Start = tuple[float, ...]
+Values = Mapping[str, float]
+
+
+@dataclass(frozen=True)
+class _Motions:
+    """Motions of a system by parameters of their own.
+
+    name : that of the system, and by what; parameters : of the body and the start; start : the state and the
+    parameters of the system that values of these mean.  Raises `ModelError`.
+    surface : the section on which all of them start; none where they start anywhere.
+    """
+
+    name: str
+    title: str
+    system: System
+    parameters: tuple[Parameter, ...]
+    start: Callable[[Values], tuple[Start, Start]]
+    surface: Callable[[Values], Surface] | None = None
+
+
+# ---- where motions start ----------------------------------------------------------------------------------------
+
+
+def _anywhere(system: System) -> _Motions:
+    """By default that of its example."""
+    state, _ = system.example
+    last = len(state) - 3
+    parameters = (
+        *_body(system),
+        *(number(argument, name, value, f"{name} at t = 0" + ("; normalised" if i >= last else ""))
+          for i, (argument, name, value) in enumerate(zip(system.arguments, system.variables, state, strict=True))))
+    return _Motions(system.name, system.title, system, parameters, partial(_given, system))
+
+
+def _given(system: System, values: Values) -> tuple[Start, Start]:
+    """State and parameters; the vertical, which every state ends with, is normalised."""
+    *first, g1, g2, g3 = (values[name] for name in system.arguments)
+    gamma, _ = unit_vector((g1, g2, g3))
+    return (*first, *gamma), tuple(values[name] for name in system.parameters)
+
+
+def _body(system: System) -> tuple[Parameter, ...]:
+    """Its parameters, by default those of its example."""
+    return tuple(number(name, name, value, "parameter of the system")
+                 for name, value in zip(system.parameters, system.example[1], strict=True))
+
+
+_PLACE = (number("psi", "ψ", 1.0, "angle of γ in the plane of the section, at t = 0", units="rad"),
+          number("delta", "δ", 1.0, "angle of ω from the direction that keeps γ_k, at t = 0", 0.0, math.pi, "rad"))
+
+SUSLOV_ENERGY = (*_body(SUSLOV), number("h", "h", 1.0, "energy above the bottom, E + |b|", 0.0),
+                 whole("k", "k", 3, 1, 3, "the section is γ_k = 0, γ_k growing"))
+"""The parameters of a section of the Suslov problem."""
+
+
+def suslov_section(values: Values) -> of_suslov.SuslovSection:
+    """That of a body at this energy above the bottom.  Raises `InvalidParameter` where no motion reaches it."""
+    body = SuslovBody(*(values[name] for name in SUSLOV.parameters))
+    made = of_suslov.SuslovSection(body, values["h"] - math.hypot(body.b1, body.b2, body.b3), int(values["k"]))
+    if of_suslov.lowest_energy(body, made.k) >= made.E:
+        raise InvalidParameter(f"No motion with h = {values['h']:g} reaches γ{made.k} = 0: choose a larger h.")
+    return made
+
+
+def _on_suslov(values: Values) -> tuple[Start, Start]:
+    of = suslov_section(values)
+    return of_suslov.state_at(of.body, of.E, of.k, values["psi"], values["delta"]), of.parameters
+
+
+def _on_ball(values: Values) -> tuple[Start, Start]:
+    body = BallBody(*(values[name] for name in BALL.parameters))
+    E = values["h"] - math.hypot(body.b1, body.b2)
+    return of_ball.state_at(body, E, values["psi"], values["delta"]), body.parameters
+
+
+def _on_heavy(values: Values) -> tuple[Start, Start]:
+    a1, a2, a3, r1, r2, r3, mu = (values[name] for name in HEAVY.parameters)
+    body = HeavyBody((a1, a2, a3), (r1, r2, r3), mu)
+    return andoyer.state_at(body, values["h"], values["f"], values["l"], values["x"], int(values["sheet"])), \
+        body.parameters
+
+
+_ON_SECTIONS = (
+    _Motions("suslov-section", "Suslov problem, a place of a section", SUSLOV, (*SUSLOV_ENERGY, *_PLACE), _on_suslov,
+             lambda values: of_suslov.plane_of(int(values["k"]))),
+    _Motions("ball-section", "Chaplygin ball, a place of a section", BALL,
+             (*_body(BALL), number("h", "h", 2.0, "energy above the lowest on γ₃ = 0, E + √(b₁² + b₂²)", 0.0), *_PLACE),
+             _on_ball, lambda values: of_ball.EQUATOR),
+    _Motions("euler-poisson-section", "Euler–Poisson, a place of the Andoyer–Deprit section", HEAVY,
+             (*_body(HEAVY), number("h", "h", 2.0, "energy"), number("f", "f", 0.5, "area integral (M, γ)"),
+              number("l", "l", 0.0, "Andoyer–Deprit angle of M about axis 3, at t = 0", units="rad"),
+              number("x", "L/G", 0.2, "M₃/|M| at t = 0", -1.0, 1.0),
+              whole("sheet", "sheet", 0, 0, andoyer.SHEETS - 1, "which momentum G of this energy, the largest is 0")),
+             _on_heavy, lambda values: andoyer.AndoyerPlane(values["f"])),
+)
+
+# ---- what is computed of them -----------------------------------------------------------------------------------
+
+
+def _lyapunov(of: _Motions, level: Level, t: float, **values: float) -> Cell:
+    found = largest_exponent(of.system, *of.start(values), t, PLANS[Kind.EXPONENT][level.name].level)
+    return Cell(found.value, found.spread)
+
+
+def _spectrum(of: _Motions, level: Level, t: float, **values: float) -> Cell:
+    found = spectrum(of.system, *of.start(values), t, level)
+    return Cell(tuple(found.values.tolist()), found.error_estimate)
+
+
+def _dimension(of: _Motions, level: Level, t: float, **values: float) -> Cell:
+    return Cell(*spectrum(of.system, *of.start(values), t, level).dimension)
+
+
+def _megno(of: _Motions, level: Level, t: float, **values: float) -> Cell:
+    state, p = of.start(values)
+    return Cell(float(megno(of.system, [state], p, t, level, threads=1).values[0]))
+
+
+def _crossings(of: _Motions, level: Level, variable: float, offset: float, sense: float, t: float,
+               **values: float) -> Cell:
+    plane = Plane(tuple(float(i + 1 == variable) for i in range(len(of.system.variables))), offset, int(sense))
+    found = section(of.system, *of.start(values), plane, t, level)
+    return Cell(float(len(found.times)), found.error_estimate, found.status)
+
+
+def _returns(of: _Motions, level: Level, t: float, **values: float) -> Cell:
+    assert of.surface is not None
+    found = section(of.system, *of.start(values), of.surface(values), t, level)
+    return Cell(float(len(found.times)), found.error_estimate, found.status)
+
+
+def _divergence(of: _Motions, level: Level, t: float, **values: float) -> Cell:
+    state, p = of.start(values)
+    found = contraction(SuslovBody(*p), state, t)
+    return Cell(found.mean, found.error)
+
+
+def _quantities(of: _Motions) -> tuple[Quantity, ...]:
+    size = len(of.system.variables)
+    long = time_of(500.0, "time over which to average")
+    counted = time_of(100.0, "time up to which crossings are counted")
+
+    def one(name: str, symbol: str, title: str, units: str, doc: str, function: Callable[..., Cell],
+            *parameters: Parameter, parts: tuple[str, ...] = (), error: str = "") -> Quantity:
+        return Quantity(f"{name}-{of.name}", symbol, f"{title}: {of.title}", units, doc, (*of.parameters, *parameters),
+                        one_by_one(partial(function, of), len(parts)), parts, error)
+
+    found = [
+        one("lyapunov", "λ", "Largest Lyapunov exponent", "1/time",
+            "Mean rate at which neighbours part over the time t (Benettin, Galgani, Strelcyn 1976).", _lyapunov, long,
+            error="range of the running average in its second half"),
+        one("spectrum", "λᵢ", "All Lyapunov exponents", "1/time",
+            "Mean rates at which a frame of neighbours grows over the last four fifths of the time t, the largest "
+            "first, by the variational equations.", _spectrum, long, parts=tuple(str(i + 1) for i in range(size)),
+            error="largest of their errors, from 12 stretches of time"),
+        one("dimension", "D", "Kaplan–Yorke dimension", "1",
+            "Of what the motion fills on its level of the integrals, from all exponents over the time t.", _dimension,
+            long, error="from those of the exponents"),
+        one("megno", "Ȳ", "MEGNO", "1",
+            "Mean exponential growth of nearby orbits: 2 at the most on regular motions, λt/2 on chaotic ones.", _megno,
+            time_of(200.0, "time")),
+    ]
+    if of.surface is None:
+        found.append(one(
+            "crossings", "n", "Crossings of a plane", "1",
+            "How often the motion crosses the plane y_variable = offset up to the time t.", _crossings,
+            whole("variable", "i", size, 1, size, "which of the variables, counted from 1"),
+            number("offset", "c", 0.0, "its value on the plane"),
+            whole("sense", "s", 1, -1, 1, "1: crossed from below, −1: from above, 0: both"), counted,
+            error="of the states at the crossings"))
+    else:
+        found.append(one("crossings", "n", "Returns to the section", "1",
+                         "How often the motion comes back to the section up to the time t.", _returns, counted,
+                         error="of the states at the crossings"))
+    if of.system is SUSLOV:
+        found.append(one(
+            "divergence", "⟨div ẏ⟩", "Mean divergence", "1/time",
+            "Mean of div ẏ over the later two thirds of the time t: negative where phase volume shrinks.", _divergence,
+            time_of(1000.0, "time"), error="standard error of the mean, from 12 stretches of time"))
+    return tuple(found)
+
+
+MOTIONS: tuple[Quantity, ...] = tuple(
+    one for of in (*map(_anywhere, systems().values()), *_ON_SECTIONS) for one in _quantities(of))
+"""Of every system, then of every section."""

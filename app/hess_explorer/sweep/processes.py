@@ -1,0 +1,138 @@
+"""Processes of this machine that compute pieces, each one after the other; one that dies is replaced.
+
+They are programs of their own, to which pieces go by standard input, and come back by standard output.  Those of
+`multiprocessing` would import the main script again, which must be written for that; and a `ProcessPoolExecutor` ends
+with the first of its processes that dies.
+"""
+
+from __future__ import annotations
+
+import os
+import pickle
+import queue
+import subprocess
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from concurrent.futures import CancelledError, Future, ThreadPoolExecutor
+from contextlib import contextmanager, suppress
+
+from hess_explorer.sweep.errors import WorkersLost
+from hess_explorer.sweep.work import Done, Piece, compute
+
+__all__ = ["processes", "serve"]
+
+_DEATHS = 4
+"""Processes that may die of one piece: another one was perhaps killed."""
+_PROTOCOL = 5
+_PROGRAM = "from hess_explorer.sweep.processes import serve; serve()"
+
+
+def serve() -> None:
+    """Compute what comes by standard input until it ends, as it does when who asks is gone."""
+    asked, told = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
+    # What is printed meanwhile does not come between.
+    os.dup2(2, 1)
+    while True:
+        try:
+            piece = pickle.load(asked)
+        except EOFError:
+            return
+        found: Done | Exception
+        try:
+            found = compute(piece)
+        except WorkersLost as error:
+            found = error
+        except Exception as error:
+            # As words: who asks may not be able to read it.
+            found = RuntimeError(f"{type(error).__name__}: {error}")
+        try:
+            pickle.dump(found, told, _PROTOCOL)
+            told.flush()
+        except BrokenPipeError:
+            return
+
+
+class _Process:
+    """One of them; begun again when it has died, until `end`."""
+
+    def __init__(self) -> None:
+        self._lock, self._ended = threading.Lock(), False
+        self._child = self._begun()
+
+    def _begun(self) -> subprocess.Popen[bytes]:
+        environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path)),
+                       # One thread each, in their libraries too.
+                       **dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")}
+        # In a session of its own Ctrl-C does not reach it.
+        return subprocess.Popen([sys.executable, "-c", _PROGRAM], env=environment, stdin=subprocess.PIPE,
+                                stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, start_new_session=True)
+
+    def compute(self, piece: Piece) -> Done:
+        """One piece.  Raises `WorkersLost` where process after process dies of it."""
+        for _ in range(_DEATHS):
+            child = self._child
+            assert child.stdin is not None and child.stdout is not None
+            try:
+                pickle.dump(piece, child.stdin, _PROTOCOL)
+                child.stdin.flush()
+                found = pickle.load(child.stdout)
+            except (EOFError, OSError, ValueError, pickle.UnpicklingError):
+                self._again(child)
+                continue
+            if isinstance(found, Exception):
+                raise found
+            assert isinstance(found, Done)
+            return found
+        raise RuntimeError(f"{_DEATHS} processes died of it")
+
+    def _again(self, child: subprocess.Popen[bytes]) -> None:
+        _kill(child)
+        with self._lock:
+            if self._ended:
+                raise CancelledError
+            self._child = self._begun()
+
+    def end(self) -> None:
+        """Whatever it computes."""
+        with self._lock:
+            self._ended = True
+        _kill(self._child)
+
+
+def _kill(child: subprocess.Popen[bytes]) -> None:
+    child.kill()
+    child.wait()
+    for stream in (child.stdin, child.stdout):
+        if stream is not None:
+            # Of what it was not told any more.
+            with suppress(OSError):
+                stream.close()
+
+
+@contextmanager
+def processes(count: int) -> Iterator[Callable[[Piece], Future[Done]]]:
+    """A function that has a piece computed by one of so many processes, which have begun to load meanwhile.
+
+    Where it is left they are ended, whatever they compute.
+    """
+    idle: queue.SimpleQueue[_Process] = queue.SimpleQueue()
+    own = [_Process() for _ in range(count)]
+    for one in own:
+        idle.put(one)
+
+    def computed(piece: Piece) -> Done:
+        one = idle.get()
+        try:
+            return one.compute(piece)
+        finally:
+            idle.put(one)
+
+    # Each of these threads sleeps while its process computes.
+    with ThreadPoolExecutor(count, "sweep") as waiting:
+        try:
+            yield lambda piece: waiting.submit(computed, piece)
+        finally:
+            waiting.shutdown(wait=False, cancel_futures=True)
+            for one in own:
+                one.end()
