@@ -144,7 +144,7 @@ def test_what_is_no_store_is_refused(tmp_path):
     for place in ("file", "folder"):
         with pytest.raises(StoreError, match="no store of a sweep: choose another folder"):
             sweep("rotation-number", TORI, a=0.5, store=tmp_path / place)
-        said = "no store of a sweep: choose another folder" if place == "folder" else "holds no whole chart: choose a file"
+        said = {"folder": "no store of a sweep: choose another folder", "file": "holds no whole chart"}[place]
         with pytest.raises(StoreError, match=said):
             read(tmp_path / place)
     assert (tmp_path / "folder" / "letter").read_text() == "a letter"
