@@ -7,15 +7,18 @@ import math
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from hess_explorer.sweep import QUANTITIES, Outcome, sweep
-from hess_mechanics import Plane, SuslovBody, circle_map, level, scattering, section, solve, systems
+from hess_mechanics import BallBody, Plane, SuslovBody, circle_map, level, scattering, section, solve, systems
+from hess_mechanics.chaplygin_ball.section import EQUATOR, BallSection
 from hess_mechanics.dynamics.lyapunov import largest_exponent
+from hess_mechanics.euler_poisson.andoyer import AndoyerPlane
 from hess_mechanics.numerics.accuracy import PLANS, Kind
 from hess_mechanics.suslov.kharlamova import PlaneBody, arc
 from hess_mechanics.suslov_hess.rotation_number import values_at
 
-SUSLOV = systems()["suslov"]
+SUSLOV, HEAVY = systems()["suslov"], systems()["euler-poisson"]
 
 
 def rotation(h, f):
@@ -43,11 +46,48 @@ def plane_period(w1, b1):
     return found.period
 
 
+def ball_returns(psi, delta, t=30.0):
+    body = BallBody(*systems()["ball"].example[1])
+    states, _ = BallSection(body, 2.0 - math.hypot(body.b1, body.b2)).states_at([psi], [delta])
+    return float(section(systems()["ball"], states[0], body.parameters, EQUATOR, t, level("standard")).times.size)
+
+
+def heavy_returns(l, x, t=20.0):
+    state = heavy_state(l, x)
+    found = section(HEAVY, state, HEAVY.example[1], AndoyerPlane(0.5), t, level("standard"))
+    return float(found.times.size)
+
+
+def heavy_state(l, x):
+    """By a search for the momentum G: M = G(s sin l, s cos l, x), γ as Andoyer and Deprit have it, H = 2, f = 0.5."""
+    a, r, mu = (np.array(HEAVY.example[1][i:j]) for i, j in ((0, 3), (3, 6), (6, 7)))
+    s = math.sqrt(1.0 - x * x)
+    m = np.array([s * math.sin(l), s * math.cos(l), x])
+    u = np.array([-x * math.sin(l), -x * math.cos(l), s])
+    v = np.array([math.cos(l), -math.sin(l), 0.0])
+    assert abs(m @ u) < 1e-12 and abs(m @ v) < 1e-12
+
+    def state(G):
+        return np.array([*(G * m), *(0.5 / G * m + math.sqrt(1.0 - 0.25 / G**2) * v)])
+
+    def excess(G):
+        y = state(G)
+        return 0.5 * float(a @ y[:3] ** 2) - float(mu[0] * (r @ y[3:])) - 2.0
+
+    return state(brentq(excess, 0.6, 10.0, xtol=1e-14))
+
+
+def heavy_exponent(l, x, t=10.0):
+    return largest_exponent(HEAVY, heavy_state(l, x), HEAVY.example[1], t, PLANS[Kind.EXPONENT]["draft"].level).value
+
+
 LOOPS = {
     "rotation-number": ({"h": (-1.2, 2.0, 9), "f": (0.0, 1.2, 7)}, {"a": 0.5}, "precise", rotation),
     "theta-plus": ({"I11": (1.5, 3.0, 3), "phi": (-3.0, 3.0, 5)}, {"theta": 0.7}, "precise", theta_plus),
     "lyapunov-suslov": ({"w1": [0.8, -0.3], "I22": [1.0, 1.7]}, {"t": 20.0}, "draft", exponent),
     "crossings-suslov": ({"b3": [0.5, 1.0, 2.0]}, {"t": 40.0}, "standard", crossings),
+    "crossings-ball-section": ({"psi": [0.3, 2.0], "delta": [0.5, 1.5]}, {"t": 30.0}, "standard", ball_returns),
+    "crossings-euler-poisson-section": ({"l": [-2.0, 0.5], "x": [0.1, 0.4]}, {"t": 20.0}, "standard", heavy_returns),
     "period": ({"w1": (0.5, 2.0, 4), "b1": (0.1, 0.7, 3)}, {}, "precise", plane_period),
 }
 
@@ -131,8 +171,8 @@ def test_where_volume_is_kept_nothing_attracts():
     over = {"I13": [0.0, 0.4]}
     body = {"I11": 1.5, "I22": 1.0, "I23": 0.0, "b1": 0.3, "b2": -0.5, "b3": 1.0,
             "h": round(1.842 + math.hypot(0.3, 0.5, 1.0), 6)}
-    divergence = sweep("divergence-at-energy", over, **body, t=100.0)
-    assert divergence.divergence_at_energy.values[0] == 0.0
+    divergence = sweep("divergence-suslov-section", over, **body, t=100.0)
+    assert divergence.divergence_suslov_section.values[0] == 0.0
     assert divergence.error.values[0] == 0.0
     assert divergence.error.values[1] > 0.0
     # The example "Two attractors" of the scene.
@@ -149,7 +189,7 @@ def test_the_ball_without_a_ball_scatters_as_the_free_body_does():
 
 
 def test_exponents_at_an_energy_are_those_of_the_state_there():
-    found = sweep("lyapunov-at-energy", {"h": [0.0, 0.05, 2.5]}, level="draft", t=20.0, k=3)
+    found = sweep("lyapunov-suslov-section", {"h": [0.0, 0.05, 2.5]}, level="draft", t=20.0, k=3)
     assert found.status.values.tolist() == [Outcome.INVALID_PARAMETER, Outcome.INVALID_PARAMETER, Outcome.OK]
     E = 2.5 - math.hypot(0.3, 0.5, 1.0)
     # By hand: γ = (cos ψ, sin ψ, 0), ω = |ω|(cos(ψ + δ), sin(ψ + δ)) with the energy E.
@@ -157,7 +197,15 @@ def test_exponents_at_an_energy_are_those_of_the_state_there():
     speed = math.sqrt(2.0 * (E - 0.3 * gamma[0] + 0.5 * gamma[1]) / (2.0 * turn[0] ** 2 + turn[1] ** 2))
     state = (speed * turn[0], speed * turn[1], *gamma)
     by_hand = largest_exponent(SUSLOV, state, SUSLOV.example[1], 20.0, PLANS[Kind.EXPONENT]["draft"].level)
-    assert found.lyapunov_at_energy.values[2] == pytest.approx(by_hand.value, abs=1e-4)
+    assert found.lyapunov_suslov_section.values[2] == pytest.approx(by_hand.value, abs=1e-4)
+
+
+def test_exponents_on_the_section_of_a_heavy_body_are_those_of_the_state_there():
+    found = sweep("lyapunov-euler-poisson-section", {"l": [-2.0, 0.5], "x": [0.1]}, level="draft", t=10.0)
+    assert found.status.values[:, 0].tolist() == [Outcome.OK, Outcome.OK]
+    for i, l in enumerate((-2.0, 0.5)):
+        assert found.lyapunov_euler_poisson_section.values[i, 0] == pytest.approx(heavy_exponent(l, 0.1), abs=1e-6)
+    assert sweep("crossings-euler-poisson-section", {"l": [0.5]}, h=-9.0).status.item() == Outcome.INVALID_PARAMETER
 
 
 def test_all_exponents_of_a_cell_stand_side_by_side():
@@ -187,4 +235,6 @@ def test_every_quantity_says_what_it_is():
             assert not each.whole or each.default == round(each.default)
     of_any_system = {f"{what}-{system}" for what in ("lyapunov", "spectrum", "dimension", "megno", "crossings")
                      for system in systems()}
-    assert of_any_system <= set(QUANTITIES)
+    of_any_section = {f"{what}-{system}-section" for what in ("lyapunov", "spectrum", "dimension", "megno", "crossings")
+                      for system in ("suslov", "ball", "euler-poisson")}
+    assert of_any_system | of_any_section <= set(QUANTITIES)
