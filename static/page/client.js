@@ -20,7 +20,8 @@ import { createRequests } from "./requests.js"
 import { createSight } from "./sight.js"
 import { grantWishes } from "./wishes.js"
 
-// The next pieces are asked for after a pause as long as the last ones took: half of the time is the user's.
+// The next pieces are asked for after a pause as long as the last ones took: half of the time is the user's, and a
+// server that is slow is asked less often.
 const PAUSE_BETWEEN_PIECES = 80
 const LOST = "The connection to the server is lost. As soon as it answers, this page goes on in the same state."
 
@@ -111,7 +112,6 @@ export function render({ model, view }) {
   }
 
   const show = async (next, block) => {
-    const since = performance.now()
     state = next
     if (scene?.name !== state.scene) enter(state.scene)
     await paint(touchedPlots(state.tree), () => fillAll(state, block))
@@ -129,7 +129,7 @@ export function render({ model, view }) {
       // What hears that may have asked for another state.
       if (requests.isBehind(state.answers)) return
       if (state.progress === null) root.dataset.ready = "true"
-      else more = setTimeout(requests.ask, Math.max(PAUSE_BETWEEN_PIECES, performance.now() - since))
+      else more = setTimeout(requests.ask, Math.max(PAUSE_BETWEEN_PIECES, requests.took))
     }
   }
 

@@ -28,6 +28,9 @@ export function createRequests({ send, changed, hidden, known }, signal) {
   let chosen = null
   let target = null
   let late = null
+  // When it was asked last, and how long the answer took to be painted.
+  let sent = 0
+  let took = 0
   // Control → the request by which it was changed last.
   const moved = new Map()
 
@@ -45,6 +48,7 @@ export function createRequests({ send, changed, hidden, known }, signal) {
     queueMicrotask(() => {
       asking = false
       asked = requested
+      sent = performance.now()
       const entering = chosen !== null && chosen !== shown
       send({
         requested, held: grasped || animated, values, ...wish, scene: entering ? chosen : null, hidden: entering ? null : hidden(),
@@ -150,8 +154,11 @@ export function createRequests({ send, changed, hidden, known }, signal) {
     // A state was painted, or failed to be: the next request may go.
     settled() {
       clearTimeout(late)
+      if (asked !== null) took = performance.now() - sent
       asked = null
     },
+    // Milliseconds from the last request until its answer was painted.
+    get took() { return took },
     // Whether the user has changed something since the request with this number.
     isBehind: (answers) => answers < requested,
     // Whether a control has been moved since the request with this number.

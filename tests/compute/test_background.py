@@ -348,6 +348,22 @@ def test_a_section_fills_while_one_asks_for_more(gate):
     assert other.texts["section"] == browser.texts["section"]
 
 
+def test_where_no_piece_has_come_nothing_is_drawn_again(gate):
+    browser = Browser(EP, SMALL)
+    stage, drawn = browser.session.stage, []
+    show = stage.show
+    stage.show = lambda *given, **named: (drawn.append(1), show(*given, **named))[1]
+    for requested in (1, 2):
+        state = browser.ask(requested)
+        assert (state["answers"], state["progress"]) == (requested, [0, PIECES])
+        assert not any(state["tree"].values())
+    assert not drawn
+    gate.let()
+    wait_until(lambda: browser.session.background.left == PIECES - 1)
+    assert browser.ask(3)["progress"] == [1, PIECES]
+    assert drawn == [1]
+
+
 def test_stop_leaves_what_is_drawn_and_says_how_much(gate):
     browser = Browser(EP, SMALL)
     wait_until(lambda: len(gate.calls) == THREADS)
@@ -428,10 +444,10 @@ def test_the_last_piece_may_come_while_its_picture_is_drawn(gate):
     total = browser.state["progress"][1]
     gate.let(total - 1)
     wait_until(lambda: browser.session.background.left == 1)
-    browser.ask(1)
-    show = browser.session.stage.show
+    show, drawn = browser.session.stage.show, []
 
     def slowly(result, hold_axes):
+        drawn.append(result)
         gate.let(1000)
         wait_until(lambda: browser.session.background.left == 0)
         return show(result, hold_axes)
@@ -439,6 +455,7 @@ def test_the_last_piece_may_come_while_its_picture_is_drawn(gate):
     browser.session.stage.show = slowly
     browser.ask(1)
     browser.session.stage.show = show
+    assert len(drawn) == 1
     assert browser.texts["notes"] == ""
     completed(browser)
     assert browser.texts["notes"] == ""

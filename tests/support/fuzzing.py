@@ -14,14 +14,23 @@ import time
 import warnings
 from collections import Counter
 from contextlib import chdir, contextmanager, nullcontext, redirect_stderr, redirect_stdout
-from threading import Event
+from threading import Barrier, Event
+from types import SimpleNamespace
 from urllib.parse import quote, urlencode
 
+import numpy as np
+
 from hess_explorer.__main__ import _parser, main
+from hess_explorer.compute.background import in_turns
 from hess_explorer.compute.budget import limited
+from hess_explorer.page.charts import Charts
 from hess_explorer.page.session import linked
 from hess_explorer.protocol.parameters import CLIENT, Choice, Link, Number, Places, written
 from hess_explorer.scenes import scenes
+from hess_explorer.sweep.chart import swept
+from hess_explorer.sweep.charting import FAILED
+from hess_explorer.sweep.quantity import Outcome
+from hess_mechanics.numerics.parallel import THREADS
 from support.board import Browser
 
 __all__ = ["Findings", "fuzz_commands", "fuzz_links", "fuzz_messages"]
@@ -237,9 +246,98 @@ def message(random, scene):
     return given
 
 
+def _side(random, scene, names):
+    """One side of a chart, as a page asks for it or as nobody would."""
+    if not names or random.random() < 0.05:
+        return random.choice([None, [], 3, "h", ["h", 0.0, 1.0], ["nobody", 0.0, 1.0, 5], [None] * 4])
+    spec = next(spec for spec in scene.specs if spec.name == random.choice(names))
+    low, high = sorted(_number(random, spec) for _ in range(2))
+    if random.random() < 0.08:
+        low, high = random.choice([(high, low), (low, low), (-1e308, 1e308), (0.0, 1e-300), (low, "x"), (low, 10**400),
+                                   (float("nan"), high), (True, None)])
+    return [spec.name, low, high, random.choice([2, 3, 5, 8, 16, 48, 256, -1, 10**9, 2.5, None, True])]
+
+
+def chart_message(random, scene):
+    """What a page asks of its chart: start or a box that looks closer, a cell clicked, more, stop."""
+    charted = random.choice([*scene.charts] or [None])
+    names = [] if charted is None else swept(scene.name, charted.quantity)
+    given = {
+        "state": random.choice([link(random), urlencode({"scene": scene.name, **_some(random, scene.specs)})]),
+        "quantity": "nobody" if charted is None or random.random() < 0.03 else charted.quantity,
+        "part": random.choice([0, 0, 0, 0, 1, -1, 10**9, None, "0", True]),
+        "x": _side(random, scene, names), "y": _side(random, scene, names)}
+    if random.random() < 0.03:
+        given = random.choice([None, 3, [], {}, {"state": 3}, {**given, "state": "x" * 3000}])
+    kind = random.random()
+    if kind < 0.6:
+        return {"start": given, "id": random.choice([1, 1, 1, 1, -1, 10**30, "1", None])}
+    if kind < 0.8:
+        x, y = (random.choice([random.uniform(-4.0, 4.0), random.uniform(-4.0, 4.0), 1e300, -1e300, 0.0, float("inf"),
+                               None, "x", 10**400]) for _ in range(2))
+        return {"why": given, "at": random.choice([[x, y], [x, y], [x, y], [x], None, x])}
+    if kind < 0.9:
+        return {"more": random.choice([0, 1, -5, 10**30, None, "0", 2.5]), "id": random.choice([1, 1, 2, None])}
+    return random.choice([{"stop": True}, {"stop": 1}, {}, {"start": {}}, [], None, 3, {"nobody": 1}])
+
+
+class _Chart:
+    """The page's end of its chart."""
+
+    def __init__(self):
+        self.cells, self.told = b"", []
+        self.charts = Charts(self)
+
+    def on_msg(self, handle):
+        self._handle = handle
+
+    def __setattr__(self, name, value):
+        if name == "chart":
+            # JSON.parse in a browser refuses NaN and Infinity.
+            self.told.append(json.loads(value, parse_constant=lambda name: float("nan")))
+        else:
+            super().__setattr__(name, value)
+
+    def ask(self, asked):
+        """What is said to this message, and whatever the chart says until it is stopped after some pieces."""
+        self.told.clear()
+        self._handle(SimpleNamespace(data={"chart": asked}))
+        for pause in (0.01, 0.05, 0.1):
+            if not (self.told and self.told[-1].get("running")):
+                break
+            time.sleep(pause)
+            self._handle(SimpleNamespace(data={"chart": {"more": 0, "id": self.told[-1]["id"]}}))
+            yield self.told[-1], self.cells
+        self._handle(SimpleNamespace(data={"chart": {"stop": True}}))
+        # A piece that has begun comes to its end, or is cut off between two parts.
+        all_here = Barrier(THREADS + 1)
+        for _ in range(THREADS):
+            in_turns(lambda: all_here.wait() < 0)
+        all_here.wait()
+        for one in self.told:
+            yield one, b""
+
+
+def _checked_chart(head, cells, findings, given):
+    if head.get("said") == FAILED:
+        findings.found("could not be computed", given, FAILED)
+    if _NO_NUMBER.search(f"{head.get('said', '')} {head.get('why', '')}") or "NaN" in json.dumps(head):
+        findings.found("no number in a sentence", given, json.dumps(head)[:300])
+    if cells:
+        count = head["cells"]
+        if len(cells) != 13 * count:
+            findings.found("cells", given, f"{len(cells)} bytes for {count}")
+            return
+        values, status = np.frombuffer(cells, "<f8", count), np.frombuffer(cells, np.uint8, count, 12 * count)
+        if not np.array_equal(np.isfinite(values), status < Outcome.OUTSIDE_REGION):
+            findings.found("cells", given, "a number that is none, or one where there is none")
+        if (status == Outcome.FAILED).any():
+            findings.found("could not be computed", given, Outcome.FAILED.words)
+
+
 def fuzz_messages(random, count, length=25):
     """Send so many messages, to sessions that are left after `length` of them."""
-    findings, browser, story = Findings(), None, []
+    findings, browser, chart, story = Findings(), None, None, []
     for number in range(count):
         if findings.over:
             break
@@ -247,7 +345,13 @@ def fuzz_messages(random, count, length=25):
             if browser is not None:
                 browser.session.background.stop()
             scene = random.choice([*scenes().values()])
-            browser, story = Browser(scene), [scene.name]
+            browser, chart, story = Browser(scene), _Chart(), [scene.name]
+        if random.random() < 0.1:
+            story = [*story, {"chart": chart_message(random, browser.scene)}]
+            with _watched(findings, _Story(story), budget=False):
+                for head, cells in chart.ask(story[-1]["chart"]):
+                    _checked_chart(head, cells, findings, _Story(story))
+            continue
         given = message(random, browser.scene)
         story = [*story, given]
         with _watched(findings, _Story(story)):
@@ -255,6 +359,8 @@ def fuzz_messages(random, count, length=25):
             if state["answers"] != number + 1:
                 findings.found("no answer", _Story(story))
             _checked(browser, findings, _Story(story))
+    if browser is not None:
+        browser.session.background.stop()
     return findings
 
 

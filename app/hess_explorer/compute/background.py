@@ -11,6 +11,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from hess_explorer.compute.cache import CACHE, Task
+from hess_explorer.compute.cores import CORES, go_on
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.parallel import THREADS
 
@@ -25,8 +26,10 @@ def in_turns(step: Callable[[], bool]) -> None:
     """Call step() in the background until it is False, each time behind what others wait for: so all take turns."""
 
     def one() -> None:
-        if step():
-            _pool.submit(one)
+        with CORES.fill():
+            more = step()
+        if more:
+            go_on(_pool, one)
 
     _pool.submit(one)
 

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 
 from hess_explorer.compute.budget import Abandoned, limited
+from hess_explorer.compute.cores import CORES, go_on
 from hess_mechanics.numerics.parallel import THREADS
 
 __all__ = ["MOST", "Turns"]
@@ -41,6 +42,7 @@ class Turns:
             self._waiting.append(work)
             idle, self._working = not self._working, True
         if idle:
+            CORES.answer(True)
             _pool.submit(self._one)
         return room
 
@@ -55,6 +57,7 @@ class Turns:
         with self._lock:
             if not self._waiting:
                 self._working = False
+                CORES.answer(False)
                 return
             work = self._waiting.popleft()
         try:
@@ -65,4 +68,4 @@ class Turns:
         # Whatever it is, what waits behind it in the session has its turn; the log says all.
         except Exception:
             logger.exception("a message could not be handled")
-        _pool.submit(self._one)
+        go_on(_pool, self._one)

@@ -19,6 +19,7 @@ class Pieces:
         self.background = Background()
         self.progress: tuple[int, int] | None = None
         self._followed: set[Task] = set()
+        self._left = 0
         self._stopped = False
 
     def stop(self) -> None:
@@ -41,7 +42,13 @@ class Pieces:
 
         To be asked before pieces are looked for: the last one may come meanwhile.
         """
-        return self.background.left == 0 if more else self._stopped
+        self._left = self.background.left
+        return self._left == 0 if more else self._stopped
+
+    @property
+    def news(self) -> bool:
+        """Whether a piece has come since they were looked for, or none is on its way."""
+        return not 0 < self.background.left == self._left
 
     def follow(self, report: Report, more: bool, ended: bool) -> list[str]:
         """Compute in the background what the report lacks; a note where that had ended before its end."""
@@ -53,6 +60,7 @@ class Pieces:
         # Once stopped, a picture that comes into sight begins nothing again.
         if not self._stopped and (not more or (ended and fresh and not self.background.error)):
             self._followed.update(fresh)
+            self._left = len(fresh)
             self.background.follow(fresh)
             ended = False
         elif not more:

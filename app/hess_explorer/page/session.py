@@ -275,7 +275,7 @@ class Session:
             self._held = held
             if self._dirty:
                 self._draw()
-            elif self._pieces.progress is not None:
+            elif self._pieces.progress is not None and self._pieces.news:
                 self._draw(more=True)
             self._send(requested)
 
