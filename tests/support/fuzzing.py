@@ -199,6 +199,7 @@ def fuzz_links(random, count, scene=None):
             browser = Browser(found, values, there.notes)
             browser.session.background.stop()
             _checked(browser, findings, query)
+            _left(browser)
     return findings
 
 
@@ -250,7 +251,8 @@ def _side(random, scene, names):
     """One side of a chart, as a page asks for it or as nobody would."""
     if not names or random.random() < 0.05:
         return random.choice([None, [], 3, "h", ["h", 0.0, 1.0], ["nobody", 0.0, 1.0, 5], [None] * 4])
-    spec = next(spec for spec in scene.specs if spec.name == random.choice(names))
+    name = random.choice(names)
+    spec = next(spec for spec in scene.specs if spec.name == name)
     low, high = sorted(_number(random, spec) for _ in range(2))
     if random.random() < 0.08:
         low, high = random.choice([(high, low), (low, low), (-1e308, 1e308), (0.0, 1e-300), (low, "x"), (low, 10**400),
@@ -342,8 +344,7 @@ def fuzz_messages(random, count, length=25):
         if findings.over:
             break
         if number % length == 0:
-            if browser is not None:
-                browser.session.background.stop()
+            _left(browser)
             scene = random.choice([*scenes().values()])
             browser, chart, story = Browser(scene), _Chart(), [scene.name]
         if random.random() < 0.1:
@@ -359,9 +360,16 @@ def fuzz_messages(random, count, length=25):
             if state["answers"] != number + 1:
                 findings.found("no answer", _Story(story))
             _checked(browser, findings, _Story(story))
+    _left(browser)
+    return findings
+
+
+def _left(browser):
+    """The page is gone; what has begun comes to its end, before the program does too."""
     if browser is not None:
         browser.session.background.stop()
-    return findings
+        while browser.session.background.left:
+            time.sleep(0.005)
 
 
 class _Story:

@@ -164,10 +164,13 @@ def test_why_a_cell_has_no_number_is_said():
     page = Page()
     head = page.send({"chart": {"why": wish(), "at": [0.5, 1.5]}})
     assert head["why"] == "no such motion." and head["at"] == [0.5, 1.5]
-    given = wish("scene=kharlamova", "period", ("q1", -1, 1, 3), ("q2", -1, 1, 3))
+    given = wish("scene=kharlamova", "period", ("q1", -1, 9, 3), ("q2", -1, 1, 3))
     head = page.send({"chart": {"why": given, "at": [9, 0]}})
     assert "is outside the ellipse" in head["why"]
     assert "choose a start inside it" in head["why"]
+    # Nobody can click beyond the sides: there the nearest cell answers, and no number of the sentence is infinite.
+    far, edge = (page.send({"chart": {"why": given, "at": [x, 0.0]}})["why"] for x in (1e300, given["x"][2]))
+    assert far == edge
 
 
 @pytest.mark.parametrize(("given", "said"), [
@@ -180,6 +183,7 @@ def test_why_a_cell_has_no_number_is_said():
     (wish(state="scene=singular-measures"), "nothing can be charted"),
     (wish(part=1), "has 1 numbers"),
     (wish(part="0"), "has 1 numbers"),
+    (wish(quantity="limit-cycles", part=True), "has 3 numbers"),
     (wish(x=("b3", -2.0, -1.0, 9)), "A side is one of h, f, I23, I22"),
     (wish(x=("h", 0.0, "1", 9)), "A side is one of"),
     (wish(x=("h", 0.0, 1.0)), "A side is one of"),

@@ -1,4 +1,4 @@
-"""Who waits for an answer goes first: what is filled in behind it has the cores that are left, and never none for ever."""
+"""Who waits for an answer goes first: what is filled in behind it has the cores that are left, and never stops."""
 
 from __future__ import annotations
 

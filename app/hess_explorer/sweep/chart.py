@@ -82,7 +82,8 @@ class Chart:
             can = ", ".join(one.quantity for one in scene.charts) or "nothing"
             raise InvalidParameter(f"In the scene {scene.name} {can} can be charted: choose one of these.")
         part, parts = given.get("part"), named(charted.quantity).numbers
-        if not (isinstance(part, int) and 0 <= part < parts):
+        # A truth value counts as a number in Python, and picks no part of an array.
+        if not (type(part) is int and 0 <= part < parts):
             raise InvalidParameter(f"{charted.quantity} has {parts} numbers, counted from 0: choose one of these.")
         over = swept(scene.name, charted.quantity)
         x, y = (_side(scene, over, given.get(side)) for side in ("x", "y"))
@@ -150,8 +151,8 @@ class Chart:
         return Found(np.where(status < Outcome.OUTSIDE_REGION, values, np.nan), errors, status, why)
 
     def why(self, x: float, y: float) -> str:
-        """How the cell at a place ends, in a sentence."""
-        found = self.at(np.array([x]), np.array([y]))
+        """How the cell at a place ends, in a sentence; beyond the sides: the one at their end."""
+        found = self.at(*(np.clip([place], side.low, side.high) for place, side in ((x, self.x), (y, self.y))))
         return found.why.get(0, f"{Outcome(int(found.status[0])).words}.")
 
 
