@@ -22,6 +22,7 @@ from hess_explorer.commands import (
     lyapunov,
     orbit,
     period,
+    periodic,
     prove,
     rotation_number,
     scattering,
@@ -53,8 +54,8 @@ def _parser() -> argparse.ArgumentParser:
                      "and their relatives.  Without a command: serve.", allow_abbrev=False)
     parser.add_argument("--version", action="version", version=f"hess-explorer {_version()}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    for command in (serve, circle_map, orbit, period, section, scattering, rotation_number, lyapunov, basins, cloud,
-                    prove, export, code, docs, sweep, shot, bench):
+    for command in (serve, circle_map, orbit, period, periodic, section, scattering, rotation_number, lyapunov, basins,
+                    cloud, prove, export, code, docs, sweep, shot, bench):
         command.add(commands)
     return parser
 

@@ -39,6 +39,7 @@ from hess_mechanics.numerics.parallel import share
 from hess_mechanics.numerics.results import Array, Orbit, frozen
 from hess_mechanics.suslov.basins import Contraction, contraction_at, groups_of_cells, middle_cells
 from hess_mechanics.suslov.equations import SuslovBody
+from hess_mechanics.suslov.quartic import QuarticBody, QuarticSection
 from hess_mechanics.suslov.section import SuslovSection, lowest_energy, suslov_points
 from hess_mechanics.suslov_hess.equations import HessBody
 from hess_mechanics.suslov_hess.rotation_number import TorusValues, values_at
@@ -361,12 +362,13 @@ def rotation_along_line(body: HeavyBody, h: float, f: float, ends: Ends, *, coun
                           about_first, count, chosen.promise)
 
 
-def return_map(body: Body, *, E: float | None = None, h: float | None = None, f: float | None = None, plane: int = 3,
-               sheet: int = 0, accuracy: str = "precise") -> ReturnMap:
+def return_map(body: Body | HessBody, *, E: float | None = None, h: float | None = None, f: float | None = None,
+               plane: int = 3, sheet: int = 0, accuracy: str = "precise") -> ReturnMap:
     """The return map of a section of a body at fixed values of its integrals.
 
     A `SuslovBody` takes E and the plane γ_k = 0, k = `plane`, places (ψ, δ); a `BallBody` h, places (ψ, δ); a
-    `HeavyBody` h, f and a sheet, places (l, L/G); a `HessBody` h and f of a torus, units b = 1, places (φ,).
+    `HeavyBody` h, f and a sheet, places (l, L/G); a `HessBody` h and f of a torus, units b = 1, places (φ,); a
+    `QuarticBody` has its energy already, places (q, p).
     Raises `InvalidParameter`.
 
     >>> from hess_mechanics import SuslovBody, return_map
@@ -384,6 +386,9 @@ def return_map(body: Body, *, E: float | None = None, h: float | None = None, f:
     elif isinstance(body, HeavyBody):
         at = _given(asked, "h", "f")
         found = AndoyerSection(body, at[0], at[1], _whole("sheet", sheet, 0, 2))
+    elif isinstance(body, QuarticBody):
+        _given(asked)
+        found = QuarticSection(body)
     else:
         found = TorusSection(_a(HessBody, body).a, *_given(asked, "h", "f"))
     return ReturnMap(found, level(accuracy))
@@ -448,7 +453,8 @@ def _given(asked: dict[str, float | None], *names: str) -> list[float]:
         raise InvalidParameter(f"The section of this body lies at given {' and '.join(names)}: give {lost[0]}.")
     extra = [name for name, value in asked.items() if value is not None and name not in names]
     if extra:
-        raise InvalidParameter(f"The section of this body takes {' and '.join(names)} and no {extra[0]}: leave it out.")
+        raise InvalidParameter(f"The section of this body takes {' and '.join(names) or 'its own energy'} and no "
+                               f"{extra[0]}: leave it out.")
     return [_number(name, asked[name]) for name in names]
 
 

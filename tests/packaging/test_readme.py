@@ -70,7 +70,7 @@ def test_the_python_of_the_readme_runs(capsys, tmp_path, monkeypatch):
 def test_there_are_commands():
     assert {words[0] for words in COMMANDS} == {
         "circle-map", "orbit", "section", "scattering", "prove", "lyapunov", "shot", "bench", "serve",
-        "period", "basins", "cloud", "export", "code", "sweep"}
+        "periodic", "basins", "cloud", "export", "code", "sweep"}
 
 
 @pytest.mark.parametrize("words", COMMANDS, ids=lambda words: words[0])

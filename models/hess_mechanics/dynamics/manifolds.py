@@ -26,9 +26,10 @@ from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, frozen
 
-__all__ = ["MAX_POINTS", "Crossing", "Manifold", "crossings_of", "grown", "heights_at", "split"]
+__all__ = ["MAX_POINTS", "MAX_RETURNS", "Crossing", "Manifold", "crossings_of", "grown", "heights_at", "split"]
 
 MAX_POINTS = 20_000
+MAX_RETURNS = 2_000_000
 _FIRST = 4
 """Pieces into which one return of the curve is cut at first."""
 _CURVED = 1e-3
@@ -152,11 +153,11 @@ def _begun(map_: Map, orbit: PeriodicOrbit, side: int, place: int) -> _Curve:
 
 
 def grown(map_: Map, orbit: PeriodicOrbit, length: float, stable: bool = False, side: int = 1, place: int = 0,
-          sagitta: float = 1e-3, longest: float = 0.1, most: int = 4000) -> Manifold:
+          sagitta: float = 1e-3, longest: float = 0.1, most: int = 4000, returns: int = MAX_RETURNS) -> Manifold:
     """The branch of a manifold of a saddle up to a length along the curve.
 
     place : from which of the places of the orbit; sagitta : the largest distance of the curve from its polyline;
-    longest : of its chords; most : points.
+    longest : of its chords; most : points; returns : of the map, in all.
     Raises `InvalidParameter`, `WorkLimit`, `NotConverged` where the map has no inverse or no image even close by.
     """
     if not (math.isfinite(length) and length > 0.0 and sagitta > 0.0 and longest > 0.0):
@@ -169,22 +170,25 @@ def grown(map_: Map, orbit: PeriodicOrbit, length: float, stable: bool = False, 
         raise InvalidParameter("Manifolds are curves in a plane: this is a map of a line.")
     forwards = map_.inverse() if stable else map_
     curve = _begun(forwards, orbit, side, place)
-    points, parameters, ended = _followed(curve, length, sagitta, longest, most)
+    points, parameters, ended = _followed(curve, length, sagitta, longest, most, returns)
     lengths = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
     return Manifold(map_.names, map_.turns, stable, side, curve.multiplier, frozen(points), frozen(parameters),
                     frozen(lengths), sagitta, _error(curve, points, parameters), ended, map_.level, curve.at)
 
 
-def _followed(curve: _Curve, length: float, sagitta: float, longest: float, most: int) -> tuple[Array, Array, str]:
+def _followed(curve: _Curve, length: float, sagitta: float, longest: float, most: int, returns: int
+              ) -> tuple[Array, Array, str]:
     """Points and parameters, adaptively, from the saddle up to the length; and why the curve ends."""
     turns = curve.map_.turns
     points, parameters = [curve.saddle.copy(), curve.at(0.0)], [-math.inf, 0.0]
     total = float(np.linalg.norm(curve.away))
     # Right ends of pieces that are not yet done, the nearest last.
     waiting: list[tuple[float, Array]] = []
-    ahead, before = 0.0, 0.0
+    ahead, before, spent = 0.0, 0.0, 0
     while total < length:
         go_on()
+        if spent > returns:
+            return np.array(points), np.array(parameters), f"After {returns} returns of the map."
         if len(points) >= most:
             return np.array(points), np.array(parameters), f"After {most} points."
         tau, here = parameters[-1], points[-1]
@@ -199,6 +203,7 @@ def _followed(curve: _Curve, length: float, sagitta: float, longest: float, most
                 waiting.append((ahead, here + apart(turns, curve.at(ahead), here)))
             right, there = waiting[-1]
             middle = curve.at(0.5 * (tau + right))
+            spent += max(1, math.floor(right)) * curve.returns
         except ModelError as error:
             return np.array(points), np.array(parameters), f"At the length {total:.6g}, for what follows: {error}"
         middle = here + apart(turns, middle, here)

@@ -35,7 +35,7 @@ _ROUNDING = 2.3e-16
 _DIFFERENCES = 2e-13
 """What derivatives of sections, partly by differences, may be off though two runs agree."""
 _FAMILY = 1e-9
-"""Singular values of J below this, beside the largest, are directions in which periodic orbits form a family."""
+"""Singular values of J below this, beside the largest or 1, are directions in which periodic orbits form a family."""
 
 
 class Map(Protocol):
@@ -104,10 +104,14 @@ class Shot:
             J[i, :, (i + 1) % m, :] -= np.eye(d)
         return np.asarray(J.reshape(m * d, m * d))
 
-    @property
-    def step(self) -> Array:
-        """Newton's step −J⁻¹ left (m, d); where J is singular, as in a family of orbits, the shortest one."""
-        solution = np.linalg.lstsq(self.jacobian, -self.left.ravel(), rcond=_FAMILY)[0]
+    def step(self, family: float = _FAMILY) -> Array:
+        """Newton's step −J⁻¹ left (m, d); where J is singular, as in a family of orbits, the shortest one.
+
+        family : singular values below it, beside the largest or 1, are taken for 0.
+        """
+        u, values, v = np.linalg.svd(self.jacobian)
+        kept = values > family * max(1.0, float(values[0]))
+        solution = -(v[kept].T / values[kept]) @ (u.T[kept] @ self.left.ravel())
         return np.asarray(solution.reshape(self.places.shape))
 
     @property
@@ -230,9 +234,11 @@ def _converged(map_: Map, places: Array) -> tuple[Shot, int]:
     except ModelError as error:
         raise NotConverged(f"Newton's method cannot start here: {error}") from error
     before = math.inf
+    # Where every place is periodic, J is what the map is off.
+    family = max(_FAMILY, map_.promise)
     for iteration in range(1, _ITERATIONS + 1):
         go_on()
-        step = shot.step
+        step = shot.step(family)
         length = float(np.abs(step).max())
         # Close by, each step squares the one before, until the map's own round-off takes over.
         if length <= 1e-15 or (length <= map_.promise and length > 0.25 * before):
@@ -259,12 +265,12 @@ def _not_converged(m: int) -> NotConverged:
                         "comes back close to itself, or choose another period.")
 
 
-def find_periodic(map_: Map, start: Sequence[float] | Array, period: int | None = None, most: int = 12
-                  ) -> PeriodicOrbit:
+def find_periodic(map_: Map, start: Sequence[float] | Array, period: int | None = None, most: int = 12,
+                  near: bool = False) -> PeriodicOrbit:
     """The periodic orbit that Newton's method finds from a place (d,), or from the places (m, d) of an orbit.
 
     period : the least one; None: of the periods up to `most` those are tried at which
-    the orbit from the place comes back closest.
+    the orbit from the place comes back closest; near : only where it begins, not from where it later comes back closer.
     Raises `InvalidParameter`, `NotConverged`.
     """
     places = np.array(start, float, ndmin=2)
@@ -276,9 +282,9 @@ def find_periodic(map_: Map, start: Sequence[float] | Array, period: int | None 
         if value is not None and not 1 <= value <= MAX_PERIOD:
             raise InvalidParameter(f"{name} = {value} is no period from 1 to {MAX_PERIOD}: choose one of these.")
     if period is not None:
-        return _of_period(map_, places[0], period)
+        return _of_period(map_, places[0], period, near)
     orbit = _orbit_from(map_, places[0], most)
-    for back in np.argsort(_closeness(map_, orbit[1:], orbit[0]), kind="stable")[:_TRIED]:
+    for back in np.argsort(_closeness(map_, orbit[1:], orbit[0]), kind="stable")[:1 if near else _TRIED]:
         try:
             return _measured(map_, *_converged(map_, orbit[: back + 1]))
         except NotConverged:
@@ -287,9 +293,9 @@ def find_periodic(map_: Map, start: Sequence[float] | Array, period: int | None 
                        "or give its period.")
 
 
-def _of_period(map_: Map, place: Array, m: int) -> PeriodicOrbit:
+def _of_period(map_: Map, place: Array, m: int, near: bool) -> PeriodicOrbit:
     """The orbit whose least period is m, from the place or from where its orbit later comes back closest."""
-    orbit = _orbit_from(map_, place, _FOLLOWED * m + m)
+    orbit = _orbit_from(map_, place, m - 1 if near else _FOLLOWED * m + m)
     if len(orbit) < m:
         raise NotConverged(f"From here a motion returns {len(orbit) - 1} times only: start elsewhere for an orbit of "
                            f"period {m}.")
@@ -344,14 +350,18 @@ def _measured(map_: Map, shot: Shot, iterations: int) -> PeriodicOrbit:
         better = current.tightened()
         # Newton's equations as the better map has them: what they leave here is what this map did not see.
         there = shoot(better, shot.places)
-        step = there.step
+        family = max(_FAMILY, current.promise)
+        step = there.step(family)
         values = np.linalg.svd(there.jacobian, compute_uv=False)
-        kept = values[values > _FAMILY * values[0]]
+        kept = values[values > family * max(1.0, float(values[0]))]
         condition = float(kept[0] / kept[-1]) if kept.size else 1.0
         safety = 4.0 if current.is_floor else 1.25
         size = max(1.0, float(np.abs(shot.places).max()))
         # Relative to the smallest singular value, not the condition: 1/σ is what one unit of residual becomes.
         error = safety * float(np.abs(step).max()) + 4.0 * _ROUNDING * size / float(kept[-1] if kept.size else 1.0)
+        if kept.size < values.size:
+            # Along a family no place is the right one: how far it is from closing is known.
+            error = max(error, safety * there.size)
         if error <= map_.promise or current.is_floor:
             break
         current, shot = better, shoot(better, shot.places + step)

@@ -12,8 +12,9 @@ I11(ω1γ1 + ω2γ2)/b3 is an integral.  Time is not rescaled.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 
@@ -22,13 +23,13 @@ from hess_mechanics.dynamics.section import Plane, Points, occupied_cells, secti
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, NoField, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import Level
-from hess_mechanics.numerics.results import Array
+from hess_mechanics.numerics.results import Array, Mask
 from hess_mechanics.rigid_body.inertia import require_finite, require_positive_definite
 from hess_mechanics.suslov.equations import SYSTEM
 
 __all__ = [
-    "QuarticBody", "angular_momentum", "level_error", "quartic_section", "seeds", "spread_section", "start_on_section",
-    "state_at", "state_on_section", "visited",
+    "QuarticBody", "QuarticSection", "angular_momentum", "level_error", "quartic_section", "seeds", "spread_section",
+    "start_on_section", "state_at", "state_on_section", "visited",
 ]
 
 _TURNS = 120.0
@@ -279,3 +280,70 @@ def quartic_section(body: QuarticBody, starts: Sequence[Sequence[float]], crossi
 def spread_section(body: QuarticBody, orbits: int, crossings: int, level: Level, most_steps: int) -> Points:
     """The section of so many orbits, spread over what is possible of it: `quartic_section` from `seeds`."""
     return quartic_section(body, seeds(body, orbits), crossings, level, most_steps)
+
+
+@dataclass(frozen=True)
+class QuarticSection:
+    """The section of a body at its energy, in (q, p) along the longer axis: canonical coordinates.
+
+    Its methods raise as `QuarticBody`.
+    """
+
+    body: QuarticBody
+
+    names: ClassVar[tuple[str, str]] = ("q", "p")
+    turns: ClassVar[tuple[float, float]] = (math.inf, math.inf)
+    system: ClassVar[System] = SYSTEM
+
+    @property
+    def window(self) -> tuple[tuple[float, float], ...]:
+        """The rectangle about it."""
+        return (-self.body.longest, self.body.longest), (-1.0, 1.0)
+
+    @property
+    def parameters(self) -> tuple[float, ...]:
+        """Of the body."""
+        return self.body.parameters
+
+    @property
+    def surface(self) -> Plane:
+        """The other q = 0."""
+        return self.body.plane
+
+    @property
+    def slowness(self) -> float:
+        """√ of the ratio of the moments of inertia."""
+        return math.sqrt(max(self.body.I11, self.body.I22) / min(self.body.I11, self.body.I22))
+
+    @property
+    def constants(self) -> Mapping[str, float]:
+        """Moments of inertia, b3 and h."""
+        return vars(self.body)
+
+    def moved(self, name: str, value: float) -> QuarticSection:
+        """With another value of a constant."""
+        return QuarticSection(replace(self.body, **{name: value}))
+
+    def is_on(self, states: Array) -> Mask:
+        """Whether states (n, 5) of the plane are on the section (n,): all are."""
+        return np.ones(len(states), bool)
+
+    def gradient(self, state: Array) -> Array:
+        """Of the surface (5,)."""
+        return np.array(self.surface.normal)
+
+    def states_at(self, q: Array, p: Array) -> tuple[Array, Mask]:
+        """The states (n, 5) at (q, p) (n,), and whether motions cross there (n,): p² + γ3² < 1."""
+        q, p = np.array(q, float, ndmin=1), np.array(p, float, ndmin=1)
+        body, along, zero = self.body, 1 - self.body.across, np.zeros(q.shape)
+        place, momentum = np.stack([zero, q] if along else [q, zero]), np.empty((2, q.size))
+        g3 = body.height(place.T)
+        left = (1.0 - g3) * (1.0 + g3) - p * p
+        # The q that is 0 grows where its p is negative.
+        momentum[along], momentum[1 - along] = p, -np.sqrt(np.maximum(0.0, left))
+        omega = -body.b3 * place[1] / body.I11, body.b3 * place[0] / body.I22
+        return np.stack([*omega, *momentum, g3], axis=1), left > 0.0
+
+    def places_of(self, states: Array) -> Array:
+        """(q, p) (n, 2) of states (n, 5) of the section."""
+        return self.body.on_section(states)

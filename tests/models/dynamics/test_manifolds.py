@@ -53,6 +53,15 @@ def test_points_are_as_dense_as_the_curvature_asks():
     assert curve.ended == "At its length."
 
 
+def test_it_ends_after_so_many_returns():
+    m = henon(1.4)
+    saddle = find_periodic(m, (0.6, 0.2), 1)
+    whole, cut = (grown(m, saddle, 12.0, returns=returns) for returns in (1_000_000, 400))
+    assert cut.ended == "After 400 returns of the map."
+    assert 0.0 < cut.length < 12.0 <= whole.length
+    assert np.array_equal(cut.points, whole.points[: len(cut.points)])
+
+
 def test_a_curve_that_is_the_attractor_stays_on_it():
     # W^u of the fixed point of the map of Hénon is invariant: the images of its points lie on it.
     m = henon(1.4)

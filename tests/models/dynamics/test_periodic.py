@@ -61,6 +61,17 @@ def test_the_period_is_found_where_none_is_given():
     assert np.all(np.abs(found.multipliers) < 1.0)
 
 
+def test_near_looks_from_the_place_alone():
+    # From there Newton's method comes to the fixed point; later the orbit comes close to one of period 4.
+    m, place = henon(0.95), (0.3, 0.05)
+    found = find_periodic(m, place, 4)
+    assert found.period == 4
+    with pytest.raises(NotConverged, match="period 1 and to none of period 4"):
+        find_periodic(m, place, 4, near=True)
+    again = find_periodic(m, found.places[0] + 1e-3, 4, near=True)
+    assert np.abs(again.places - found.places).max() < 1e-12
+
+
 def test_types():
     assert find_periodic(delayed_logistic(1.5), (0.3, 0.3), 1).kind == "stable focus"
     assert find_periodic(delayed_logistic(2.1), (0.5, 0.5), 1).kind == "unstable focus"

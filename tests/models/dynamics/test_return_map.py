@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from hess_mechanics import (
     BallBody,
     HeavyBody,
     HessBody,
+    QuarticBody,
     SuslovBody,
     circle_map,
     continued_orbit,
@@ -20,9 +22,11 @@ from hess_mechanics import (
     return_map,
 )
 from hess_mechanics.dynamics.manifolds import split
+from hess_mechanics.dynamics.periodic import find_periodic
 from hess_mechanics.errors import InvalidParameter, NotConverged, OutsideRegion
 from hess_mechanics.euler_poisson.andoyer import hess_curve
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
+from hess_mechanics.suslov.quartic import state_on_section
 from hess_mechanics.suslov.section import invariant_density
 from hess_mechanics.suslov_hess.mode_locking import critical_a, lock_boundary_f
 
@@ -33,6 +37,8 @@ CASES = [
     (BallBody(1.0, 3.0, 0.2, -0.1, 5.0, 0.5, 0.2, 0.8), {"h": 2.0}, (0.3, 1.2)),
     (HEAVY, {"h": 1.5, "f": -0.7}, (0.4, -0.2)),
     (HessBody(2.0, 1.0, -1.0), {"h": 1.5, "f": 0.6}, (0.4,)),
+    (QuarticBody(2.0, 1.0, -1.2, 0.8), {}, (0.4, -0.3)),
+    (QuarticBody(0.7, 1.0, 1.0, 1.5), {}, (1.9, 0.3)),
 ]
 
 
@@ -139,6 +145,27 @@ def test_the_separatrices_of_the_hess_manifold_split_in_proportion_to_what_is_of
     assert gaps[2][0] / gaps[1][0] == pytest.approx(2.0, abs=1e-2)
 
 
+@pytest.mark.parametrize(("body", "place"), [(QuarticBody(2.0, 1.0, -1.2, 0.8), (0.4, -0.3)),
+                                             (QuarticBody(0.7, 1.0, 1.0, 1.5), (1.9, 0.3))])
+def test_places_of_the_quartic_section_are_canonical_and_their_states_those_of_clicks(body, place):
+    P = return_map(body)
+    assert P.state_at(place) == pytest.approx(state_on_section(body, *place), abs=1e-13)
+    assert np.linalg.det(P.with_derivative(np.array(place))[1]) == pytest.approx(1.0, abs=1e-9)
+    for name, value in (("h", 1.3), ("b3", 0.9), ("I11", 1.7)):
+        moved = P.moved(name, value)
+        assert (moved.sheet.constants[name], moved.sheet.body) == (value, replace(body, **{name: value}))
+
+
+def test_where_every_orbit_closes_each_place_is_one_of_a_family():
+    # b3 = 0, I13 = I23 = 0: γ3, t → − brings every motion back, and the return map is the identity.
+    P = return_map(BallBody(1.0, 2.0, 0.0, 0.0, 1.0, 1.0, 0.5, 0.0), h=1.5)
+    for near in (False, True):
+        orbit = find_periodic(P, (0.5, 1.5), 1, near=near)
+        assert orbit.kind == "parabolic"
+        assert orbit.places[0] == pytest.approx([0.5, 1.5], abs=1e-8)
+        assert 0.0 < orbit.error_estimate < 1e-9
+
+
 def test_a_reversor_is_found_and_a_symmetric_orbit_known():
     # I13 = 0 and b1 = 0: ω1, γ1, t → −; on γ1 = 0 it is δ → π − δ.
     P = return_map(SuslovBody(1.5, 1.0, 0.0, 0.2, 0.0, -0.5, 1.0), E=3.0, plane=1)
@@ -155,6 +182,8 @@ def test_what_a_body_does_not_have_is_refused():
         return_map(body)
     with pytest.raises(InvalidParameter, match="no h"):
         return_map(body, E=1.8, h=1.0)
+    with pytest.raises(InvalidParameter, match="its own energy and no h"):
+        return_map(QuarticBody(2.0, 1.0, 1.0, 0.8), h=1.0)
     with pytest.raises(OutsideRegion, match="choose E above"):
         return_map(body, E=-5.0)
     P = return_map(body, E=1.842)
