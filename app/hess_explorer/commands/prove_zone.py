@@ -1,0 +1,100 @@
+"""`hess-explorer prove-zone`: where over (h, f) tori have two limit cycles, and where none, proved for cells."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from .arguments import integer, number
+from .output import computing, show, write_file
+
+if TYPE_CHECKING:
+    from hess_mechanics import LockZone
+
+__all__ = ["add"]
+
+_ROUND = 100
+"""Proofs between two looks at the share decided."""
+_MEANS = ("alpha = (1 - n1^2)/(n1 + n2)^2, beta = (1 - n2^2)/(n1 + n2)^2 with n1 <= n2 between which n3 swings; "
+          "h = (alpha + beta - 1) s/2, f = sqrt(2 alpha beta) s^(3/2), s = 2/sqrt((1 + alpha + beta)^2 - 4 alpha beta)")
+
+
+def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = commands.add_parser(
+        "prove-zone", help="proves where over (h, f) tori have two limit cycles, and where none",
+        description="Proves by ball arithmetic for cells of the bifurcation diagram (h, f), units b = 1, f > 0, that "
+                    "every torus of a cell has exactly two limit cycles, or none.  The largest undecided cell always "
+                    "comes first, so the share decided grows, and undecided cells close in on the boundary.  A cell "
+                    "is a rectangle of two numbers α, β that name a torus (the JSON says how); its ends are doubles, "
+                    "meant exactly.  Areas are computed, not proved.  "
+                    "Needs the extra: pip install 'hess-explorer[prove]'.",
+        epilog="Example: hess-explorer prove-zone --a 0.5 --cells 50 --format json")
+    parser.add_argument("--a", required=True, metavar="NUMBER",
+                        help="inertia parameter a = I23/I22, |a| ≤ 3; exact: 0.1, -2e-3 or 1/3")
+    parser.add_argument("--h-end", type=number, default=4.0, metavar="H", help="up to this energy h (default: 4)")
+    parser.add_argument("--cells", type=integer(1, 100_000), default=400, metavar="N",
+                        help="at most so many proofs, of some 15 ms each (default: 400)")
+    parser.add_argument("--share", type=number, default=1.0, metavar="S",
+                        help="stop when this share of the area is decided, looked at after each 100 proofs")
+    parser.add_argument("--format", choices=("text", "json", "csv"), default="text",
+                        help="text (default): the shares; json: all cells and the share over time; csv: all cells")
+    parser.add_argument("--out", type=Path, metavar="FILE", help="write to this file instead of standard output")
+    parser.set_defaults(run=_run)
+
+
+def _run(options: argparse.Namespace) -> None:
+    with computing():
+        from hess_mechanics import lock_zone
+        from hess_mechanics.suslov_hess.lock_zone import refined
+
+        zone = lock_zone(options.a, options.h_end, 0)
+        begun, progress = time.perf_counter(), []
+        while zone.tried < options.cells and zone.decided < options.share:
+            before = zone.tried
+            zone = refined(zone, min(_ROUND, options.cells - zone.tried))
+            if zone.tried == before:
+                break
+            progress.append({"cells": zone.tried, "seconds": round(time.perf_counter() - begun, 2),
+                             "decided": round(zone.decided, 6)})
+        lines = {"text": _words, "json": _json, "csv": _csv}[options.format](zone, progress)
+        data = "".join(f"{line}\n" for line in lines).encode()
+    if options.out is not None:
+        write_file(options.out, data)
+    else:
+        show(data)
+
+
+def _words(zone: LockZone, progress: list[dict[str, Any]]) -> Iterator[str]:
+    from hess_mechanics.suslov_hess.lock_zone import region_area
+
+    area = region_area(zone.h_end)
+    shares = {statement: 100.0 * part / area for statement, part in zone.areas.items()}
+    yield f"Proved for a = {float(zone.a):g}, of the area of possible (h, f) up to h = {zone.h_end:g}:"
+    yield f"exactly two limit cycles on {shares['two cycles']:.2f} %, none on {shares['no cycle']:.2f} %;"
+    yield f"undecided: {shares['undecided']:.2f} %, where the boundary is."
+    for row in progress:
+        yield f"after {row['cells']} proofs, {row['seconds']:.1f} s: {100.0 * row['decided']:.2f} % decided"
+    yield "This holds for the equations with exactly this a, if the library's balls are right; areas are only computed."
+
+
+def _json(zone: LockZone, progress: list[dict[str, Any]]) -> Iterator[str]:
+    from hess_mechanics.numerics.balls import flint
+
+    library = flint()
+    cells = [{"alpha": list(cell.alpha), "beta": list(cell.beta), "statement": cell.statement} for cell in zone.cells]
+    yield json.dumps({
+        "format": "Suslov–Hess lock zone, 1", "a": str(zone.a), "h_end": zone.h_end, "means": _MEANS,
+        "decided": zone.decided, "areas": zone.areas, "progress": progress, "cells": cells,
+        "versions": {"python-flint": library.__version__, "flint": library.__FLINT_VERSION__},
+    }, ensure_ascii=False, allow_nan=False)
+
+
+def _csv(zone: LockZone, progress: list[dict[str, Any]]) -> Iterator[str]:
+    yield "alpha_low,alpha_high,beta_low,beta_high,statement"
+    for cell in zone.cells:
+        yield ",".join([*(repr(x) for x in (*cell.alpha, *cell.beta)), cell.statement])

@@ -1,0 +1,52 @@
+"""`hess-explorer prove-zone`: cells, their share over time, in words, JSON and CSV."""
+
+from __future__ import annotations
+
+import pytest
+from scipy.integrate import quad
+
+from hess_explorer.__main__ import main
+from hess_mechanics import f_max, prove
+
+WORDS = ("prove-zone", "--a", "1/2", "--h-end", "2", "--cells", "25")
+
+
+def test_cells_in_json_csv_and_words_are_the_same(answer, capsys):
+    found = answer(*WORDS, "--format", "json")
+    assert found["a"] == "1/2"
+    assert found["progress"][-1]["cells"] == 25
+    assert found["progress"][-1]["decided"] == pytest.approx(found["decided"], abs=1e-6)
+    area = quad(f_max, -1 + 1e-12, 2)[0]
+    assert sum(found["areas"].values()) == pytest.approx(area, rel=1e-6)
+    assert found["decided"] == pytest.approx(1 - found["areas"]["undecided"] / area, rel=1e-6)
+    proved = next(cell for cell in found["cells"] if cell["statement"] == "two cycles")
+    # As the JSON says what α and β mean.
+    (a0, a1), (b0, b1) = proved["alpha"], proved["beta"]
+    alpha, beta = (a0 * a1) ** 0.5, (b0 * b1) ** 0.5
+    alpha, beta = max(alpha, beta), min(alpha, beta)
+    s = 2 / ((1 + alpha + beta) ** 2 - 4 * alpha * beta) ** 0.5
+    h, f = (alpha + beta - 1) * s / 2, (2 * alpha * beta) ** 0.5 * s**1.5
+    assert 0 < f <= f_max(h)
+    assert prove("1/2", repr(h), repr(f)).statement == "two cycles"
+    assert main([*WORDS, "--format", "csv"]) == 0
+    names, *rows = capsys.readouterr().out.splitlines()
+    assert names == "alpha_low,alpha_high,beta_low,beta_high,statement"
+    assert rows == [",".join([*map(repr, (*cell["alpha"], *cell["beta"])), cell["statement"]])
+                    for cell in found["cells"]]
+    assert main([*WORDS]) == 0
+    said = capsys.readouterr().out
+    assert f"two limit cycles on {100 * found['areas']['two cycles'] / sum(found['areas'].values()):.2f} %" in said
+    assert "if the library's balls are right" in said
+
+
+def test_it_stops_at_a_share(answer, example):
+    found = answer(*example("prove-zone"), "--share", "0.01")
+    assert found["decided"] >= 0.01
+    assert found["cells"]
+
+
+@pytest.mark.parametrize(("words", "said"), [
+    (("--a", "9"), "|a| ≤ 3"), (("--h-end", "-2"), "h > −1"), (("--cells", "0"), "is not a whole number"),
+])
+def test_bad_numbers_are_refused_with_a_sentence(refusal, words, said):
+    assert said in refusal(*WORDS, *words)

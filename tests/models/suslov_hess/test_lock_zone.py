@@ -1,0 +1,187 @@
+"""Cells of the lock zone: what is proved of all their tori holds for tori inside, and not across the boundary."""
+
+from __future__ import annotations
+
+import math
+import random
+from fractions import Fraction
+
+import mpmath
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+import oracle
+from hess_mechanics import circle_map, curve_point, f_max, level, lock_boundary, prove, turning_points
+from hess_mechanics.errors import InvalidParameter, OutsideRegion
+from hess_mechanics.suslov_hess.lock_zone import (
+    ZoneCell,
+    alpha_beta,
+    cell_area,
+    cell_outline,
+    half_over,
+    lock_zone,
+    places,
+    refined,
+    region_area,
+)
+
+REFERENCE = level("reference")
+
+
+@pytest.fixture(scope="module")
+def zones():
+    return {a: lock_zone(a, h_end, cells) for a, h_end, cells in (("0.5", 4.0, 150), ("-0.9", 1.5, 60))}
+
+
+def around(h, f, radius):
+    """The cell with a torus in its middle."""
+    grow = math.exp(radius)
+    return ZoneCell(*((x / grow, x * grow) for x in alpha_beta(turning_points(h, f).roots)))
+
+
+def tori(rng, h_end, count):
+    """Random tori (h, f), f > 0, even over the region."""
+    found = []
+    while len(found) < count:
+        h, f = rng.uniform(-1, h_end), rng.uniform(0, f_max(h_end))
+        if 0.01 < f < f_max(h):
+            found.append((h, f))
+    return found
+
+
+def statement_at(zone, h, f):
+    """Of the cells with this torus; None beyond them all."""
+    place = alpha_beta(turning_points(h, f).roots)
+    found = {cell.statement for cell in zone.cells if place in cell}
+    return found.pop() if len(found) == 1 else None
+
+
+def test_alpha_and_beta_name_a_torus_and_lead_back():
+    for h, f in tori(random.Random(1), 5.0, 100):
+        alpha, beta = alpha_beta(turning_points(h, f).roots)
+        _, n1, n2 = turning_points(h, f).roots
+        assert alpha == pytest.approx((1 - n1 * n1) / (n1 + n2) ** 2, rel=1e-9)
+        assert beta == pytest.approx((1 - n2 * n2) / (n1 + n2) ** 2, rel=1e-9)
+        assert alpha >= beta > 0
+        assert places(np.array([alpha]), np.array([beta]))[0] == pytest.approx([h, f], rel=1e-9, abs=1e-12)
+    h, f = curve_point(0.4)
+    alpha, beta = alpha_beta(turning_points(h, f * (1 - 1e-15)).roots)
+    assert alpha == pytest.approx(beta, rel=1e-6)
+
+
+@pytest.mark.parametrize(("a", "h", "f", "radius"), [
+    ("0.5", 1.5, 0.6, 0.2), ("0.5", 0.2, 0.5, 0.2), ("-1.3", 1.0, 1.2, 0.1), ("0.3", -0.5, 0.05, 0.25),
+    ("2", 0.6, 1.0, 0.05), ("0.5", 1.0, 1.5, 1e-6),
+])
+def test_the_half_map_of_any_torus_of_a_cell_is_enclosed(a, h, f, radius):
+    """Against proofs of single tori, by other variables and other bounds; all four signs of two directions."""
+    cell = around(h, f, radius)
+    found = half_over(a, cell)
+    rng = random.Random(5)
+    assert max(enclosed.width for enclosed in found) < 70 * radius
+    reached = 0.0
+    for i in range(8):
+        shares = (i & 1, i >> 1 & 1) if i < 4 else (rng.random(), rng.random())
+        alpha, beta = (low * (high / low) ** (0.001 + 0.998 * share)
+                       for (low, high), share in zip((cell.alpha, cell.beta), shares, strict=True))
+        if alpha < beta:
+            continue
+        here, there = places(np.array([alpha]), np.array([beta]))[0]
+        # The zone depends on |a| only: φ → φ + π changes its sign.
+        half = prove(a.lstrip("-"), Fraction(here), Fraction(there), 64).half
+        for known, enclosed in zip(half, found, strict=True):
+            assert enclosed.low < known.low <= known.high < enclosed.high
+            middle = (enclosed.low + enclosed.high) / 2
+            reached = max(reached, float(2 * abs(known.low - middle) / enclosed.width))
+    # Nor is it so wide that anything would be inside.
+    assert reached > 0.02
+
+
+def test_on_the_edge_the_half_map_is_that_of_its_closed_form():
+    """There α = β and the coefficients are constant: t = 2 + 4BC = 2 cos(π √(…)) in closed form."""
+    a, n = 0.5, 0.3
+    alpha = (1 - n * n) / (4 * n * n)
+    ends = alpha * (1 - 1e-9), alpha * (1 + 1e-9)
+    found = half_over(str(a), ZoneCell(ends, ends))
+    with mpmath.workdps(40):
+        held = oracle.circle_maps.map_on_the_curve(mpmath.mpf(a), mpmath.mpf(n))
+        trace = abs(2 * mpmath.re(held.A))
+    assert abs(2 + 4 * float(found[1].low) * float(found[2].low)) == pytest.approx(float(trace), abs=1e-4)
+    assert found[1].width < Fraction(1, 10**4)
+
+
+def test_what_is_proved_of_cells_holds_for_tori_in_them(zones):
+    rng = random.Random(2)
+    for a, zone in zones.items():
+        seen = {"two cycles": 0, "no cycle": 0, "undecided": 0}
+        for h, f in tori(rng, zone.h_end, 200):
+            said = statement_at(zone, h, f)
+            if said is None:
+                continue
+            seen[said] += 1
+            if said != "undecided":
+                assert (circle_map(float(a), h, f, REFERENCE).trace > 2) == (said == "two cycles"), (a, h, f)
+        # So often does the area say that a random torus is decided.
+        shares = [zone.areas[name] / region_area(zone.h_end) for name in seen]
+        assert [count / 200 for count in seen.values()] == pytest.approx(shares, abs=0.13)
+
+
+def test_what_is_proved_of_cells_holds_to_forty_digits(zones):
+    rng = random.Random(3)
+    zone = zones["0.5"]
+    chosen = [torus for torus in tori(rng, 1.5, 60) if statement_at(zone, *torus) in ("two cycles", "no cycle")][:12]
+    maps = oracle.circle_maps.maps_by_three_orbits([("0.5", repr(h), repr(f)) for h, f in chosen], 40)
+    assert len({statement_at(zone, *torus) for torus in chosen}) == 2
+    for torus, held in zip(chosen, maps, strict=True):
+        assert (abs(2 * mpmath.re(held.A)) > 2) == (statement_at(zone, *torus) == "two cycles"), torus
+
+
+def test_the_boundary_lies_in_undecided_cells_only(zones):
+    for a, zone in zones.items():
+        points = [(h, f) for h, f in lock_boundary(float(a), REFERENCE)[1:-1] if h < zone.h_end and f > 0.01]
+        assert len(points) > 20
+        assert {statement_at(zone, h, f) for h, f in points} <= {"undecided", None}
+        assert sum(statement_at(zone, h, f) == "undecided" for h, f in points) > 0.8 * len(points)
+
+
+@pytest.mark.parametrize("a", ["0.5", "2"])
+def test_next_to_the_boundary_small_cells_are_decided_and_none_across_it(a):
+    h, f = lock_boundary(float(a), REFERENCE)[20]
+    for radius in (1e-3, 1e-6):
+        found = [half_over(a, around(h + shift * radius, f, radius)) for shift in (-20, 0, 20)]
+        below = [(b.low * c.high, b.high * c.high) for _, b, c, _ in found]
+        signs = [1 if min(ends) > 0 else -1 if max(ends) < 0 else 0 for ends in below]
+        assert signs == [-1, 0, 1]
+
+
+def test_the_decided_share_grows_and_cells_cover_the_region(zones):
+    zone = zones["0.5"]
+    later = refined(zone, 60)
+    assert lock_zone("0.5", 4.0, 10).decided < zone.decided < later.decided
+    assert zone.decided > 0.7
+    assert later.tried == zone.tried + 60
+    for one in (zone, later):
+        covered = sum(cell_area(cell, one.h_end) for cell in one.cells)
+        assert covered == pytest.approx(region_area(4.0), rel=0.02)
+    assert region_area(4.0) == pytest.approx(quad(f_max, -1 + 1e-12, 4.0)[0], rel=1e-6)
+
+
+def test_outlines_lie_in_the_region():
+    cell = ZoneCell((2.0, 3.0), (1.5, 2.5))
+    outline = cell_outline(cell, 4.0)
+    for h, f in outline:
+        assert 0 < f <= f_max(h) * (1 + 1e-9)
+    assert np.max(outline[:, 1] / [f_max(h) for h in outline[:, 0]]) > 1 - 1e-9
+    assert np.all(cell_outline(cell, 0.6)[:, 0] <= 0.6 + 1e-12)
+    assert cell_outline(ZoneCell((1.0, 2.0), (3.0, 4.0)), 4.0).shape == (0, 2)
+
+
+@pytest.mark.parametrize(("words", "error", "said"), [
+    (("6",), InvalidParameter, "≤ 3"), (("x",), InvalidParameter, "exact"), (("0.5", -1.0), OutsideRegion, "h > −1"),
+    (("0.5", math.nan), OutsideRegion, "h > −1"), (("0.5", 1e9), InvalidParameter, "at most"),
+    (("0.5", 4.0, -1), InvalidParameter, "choose at most"),
+])
+def test_what_no_zone_is_proved_of_is_refused(words, error, said):
+    with pytest.raises(error, match=said):
+        lock_zone(*words)
