@@ -24,6 +24,7 @@ class Formula:
     promise: float = 1e-12
     level: str = "reference"
     is_floor: bool = True
+    volume_kept: bool = False
 
     def image(self, place):
         return np.array(self.of(*place), float)
@@ -32,6 +33,15 @@ class Formula:
         for _ in range(count):
             place = self.image(place)
         return place
+
+    def orbit(self, place, count):
+        found = []
+        for _ in range(count):
+            place = self.image(place)
+            if not np.abs(place).max() < 1e6:
+                break
+            found.append(place)
+        return np.array(found).reshape(-1, len(self.turns))
 
     def with_derivative(self, place):
         return self.image(place), np.array(self.derivative(*place), float)

@@ -28,6 +28,7 @@ from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.dynamics.variation import onto_surface
 from hess_mechanics.errors import InvalidParameter, NoReturn, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Mask
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
@@ -35,6 +36,10 @@ __all__ = ["ReturnMap", "Sheet"]
 
 _LONGEST = 400.0
 """Time allowed for a return, in units of 1/ν times the slowness of the section."""
+_PER_CROSSING = 40.0
+"""The same for a crossing of a long orbit, of which few take longer."""
+_PIECE = 250
+"""Crossings that are followed at once."""
 _STEP = 2e-3
 _SHIFTS = np.array([-3.0, -2.0, -1.0, 1.0, 2.0, 3.0])
 _WEIGHTS = np.array([-1.0, 9.0, -45.0, 45.0, -9.0, 1.0]) / 60.0
@@ -163,6 +168,39 @@ class ReturnMap:
         problem, _, state = self._crossing(self.state_at(place), count)
         return np.asarray(self.sheet.places_of((state * problem.scale)[None])[0])
 
+    def orbit(self, place: Array, count: int) -> Array:
+        """The next `count` crossings (n, k) of this sheet, one after the other; fewer where the motion stays away.
+
+        The orbit is brought back to its levels of the integrals after every 250 of them, so it may be as long as one
+        likes.  Raises `OutsideRegion`, `WorkLimit`.
+        """
+        sheet = self.sheet
+        parts = [np.empty((0, len(self.turns)))]
+        left, place = count, np.asarray(place, float)
+        while left > 0:
+            go_on()
+            problem = Problem.of(sheet.system, [self.state_at(place)], sheet.parameters)
+            cross, normal, offset = sheet.surface.scaled(sheet.system, problem)
+            wanted = min(left, _PIECE)
+            end = _PER_CROSSING * sheet.slowness * wanted * (-1.0 if self.backward else 1.0)
+            times, states = np.empty(wanted + 1), np.empty((wanted + 1, problem.scale.size))
+            found, _ = cross(problem.states[0], problem.parameters, normal, offset, sheet.surface.sense, end,
+                             self.accuracy.order, self.accuracy.tolerance, MAX_STEPS, times, states)
+            if found == STEP_LIMIT_REACHED:
+                raise WorkLimit(f"{wanted} returns need more than {MAX_STEPS} steps here: choose another place, or a "
+                                "cheaper level.")
+            first = int(found > 0 and abs(times[0]) < _AT_ONCE)
+            states = states[first : min(found, first + wanted)] * problem.scale
+            require_finite_states(states)
+            on = np.flatnonzero(sheet.is_on(states))
+            parts.append(np.asarray(sheet.places_of(states[on])))
+            if len(states) < wanted or not on.size:
+                break
+            # Where the last crossings are on another sheet, they are passed once more.
+            left -= int(on[-1]) + 1
+            place = parts[-1][-1]
+        return np.concatenate(parts)
+
     def time_of(self, place: Array, count: int = 1) -> float:
         """The time that so many returns from a place take.  Raises as `image`."""
         problem, time, _ = self._crossing(self.state_at(place), count)
@@ -232,6 +270,20 @@ class ReturnMap:
         places = self.sheet.places_of(state + shifts.reshape(-1, state.size))
         moved = apart(self.turns, places, place).reshape(_SHIFTS.size, len(away), -1)
         return np.asarray((np.tensordot(_WEIGHTS, moved, 1) / (_STEP * unit) * sizes[:, None]).T)
+
+    @cached_property
+    def volume_kept(self) -> bool:
+        """Whether the divergence of the field is 0 everywhere: then nothing attracts where motions are bounded.
+
+        It is found by differences at a few states in general position, which are exact for fields of such low degree.
+        """
+        system, p = self.sheet.system, list(self.sheet.parameters)
+        d = len(system.variables)
+        states = np.cos(1.0 + np.arange(3 * d).reshape(3, d) ** 2)
+        total = sum(np.array(system.field(list((states + e).T), p)[i])
+                    - np.array(system.field(list((states - e).T), p)[i]) for i, e in enumerate(np.eye(d)))
+        size = max(1.0, *(float(np.abs(one).max()) for one in system.field(list(states.T), p)))
+        return bool(np.abs(total).max() <= 1e-12 * size)
 
     @cached_property
     def mirrors(self) -> tuple[Mirror, ...]:

@@ -1,0 +1,51 @@
+"""Reversal: the moments at which a body of the Suslov problem begins to turn the other way round about the vertical.
+
+Its rate about the vertical is w = (ω, γ), as γ is of length 1; it reverses where w passes through 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from hess_mechanics.dynamics.section import section
+from hess_mechanics.dynamics.system import Problem, System
+from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.results import Array, Section
+from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
+from hess_mechanics.suslov.reversal_kernels import cross
+
+__all__ = ["Reversal", "rate", "reversals"]
+
+MOST = 5000
+"""Moments of one motion."""
+
+
+@dataclass(frozen=True)
+class Reversal:
+    """The surface (ω, γ) = 0, crossed either way."""
+
+    sense: ClassVar[int] = 0
+
+    def scaled(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
+        """See `section.Surface`.  Raises `InvalidParameter` for systems other than the Suslov problem."""
+        if system is not SYSTEM:
+            raise InvalidParameter("These moments are found for the Suslov problem with gravity only.")
+        return cross, np.zeros(1), 0.0
+
+
+def rate(states: Array) -> Array:
+    """(ω, γ) (n,) of states (n, 5), in rad/T."""
+    return np.asarray(states[:, 0] * states[:, 2] + states[:, 1] * states[:, 3])
+
+
+def reversals(body: SuslovBody, start: Sequence[float], span: float, level: Level) -> Section:
+    """The moments from 0 to `span` at which (ω, γ) is 0, and the states there, none lost; see `section`.
+
+    Raises `InvalidParameter`, `WorkLimit`.
+    """
+    return section(SYSTEM, start, body.parameters, Reversal(), span, level, MOST)

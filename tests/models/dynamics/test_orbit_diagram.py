@@ -1,0 +1,130 @@
+"""Orbit diagrams of maps whose periods, doublings and hysteresis are known, and of sections."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from hess_mechanics import BallBody, HeavyBody, HessBody, SuslovBody, circle_map, level, return_map
+from hess_mechanics.dynamics.orbit_diagram import cascade, hysteresis, orbit_diagram, period_of
+from hess_mechanics.dynamics.periodic import find_periodic
+from hess_mechanics.errors import InvalidParameter, WorkLimit
+from support.maps import Formula, henon
+
+PLANE = (math.inf, math.inf)
+B = 0.3
+
+
+def bistable(r):
+    """x′ = x + (r + x − x³)/5, y′ = y/2: two stable points between the folds at r = ±2/(3√3)."""
+    return Formula(lambda x, y: (x + 0.2 * (r + x - x**3), 0.5 * y),
+                   lambda x, y: [[1.2 - 0.6 * x * x, 0.0], [0.0, 0.5]])
+
+
+def test_the_doublings_of_the_map_of_henon_are_its_own_and_their_ratios_tend_to_feigenbaums():
+    found = cascade(henon, "a", find_periodic(henon(0.2), (0.6, 0.2), 1), 0.2, 1.3, 5)
+    exact = [0.75 * (1 - B) ** 2, (1 - B) ** 2 + 0.25 * (1 + B) ** 2]
+    assert found.periods.tolist() == [1, 2, 4, 8, 16]
+    assert np.abs(found.values[:2] - exact).max() < 1e-13
+    for value, places in zip(found.values, found.places, strict=True):
+        M = np.eye(2)
+        for x in places[:, 0]:
+            M = np.array([[-2.0 * value * x, 1.0], [B, 0.0]]) @ M
+        images = np.column_stack([1.0 - value * places[:, 0] ** 2 + places[:, 1], B * places[:, 0]])
+        assert np.abs(images - np.roll(places, -1, axis=0)).max() < 1e-12
+        assert np.linalg.eigvals(M).min() == pytest.approx(-1.0, abs=1e-8)
+    assert np.all(found.ratio_errors < 1e-9)
+    assert abs(found.ratios[-1] - 4.669201609) < abs(found.ratios[-2] - 4.669201609) < 0.2
+    # Where it ends is known: 1.058 (Derrida, Gervois and Pomeau 1979).
+    assert found.limit == pytest.approx(1.058, abs=5e-4)
+
+
+def test_a_cascade_says_why_it_ends():
+    found = cascade(henon, "a", find_periodic(henon(0.2), (0.6, 0.2), 1), 0.2, 0.9, 5)
+    assert found.periods.tolist() == [1]
+    assert found.ended.startswith("The orbit of period 2 keeps its period")
+    assert math.isnan(found.limit)
+
+
+def test_a_diagram_of_the_map_of_henon_has_its_periods():
+    values = np.array([0.2, 0.36, 0.5, 0.9, 0.95, 1.02, 1.04, 1.4])
+    found = orbit_diagram(henon, "a", values, (0.5, 0.1), transient=600)
+    assert found.periods.tolist() == [1, 0, 2, 2, 4, 4, 8, 0]
+    # Shortly before its doubling at a = 0.3675 the fixed point is still being come to, in turns from either side.
+    assert found.settled.tolist() == [True, False, *[True] * 6]
+    # The fixed point: a x² + (1 − b) x − 1 = 0.
+    x = (math.sqrt((1 - B) ** 2 + 4 * 0.2) - (1 - B)) / 0.4
+    assert np.abs(found.places[0] - (x, B * x)).max() < 1e-12
+    assert np.array_equal(found.ends, [one[-1] for one in found.places])
+    # Beyond its last attractor places run away: a gap.
+    assert [len(one) for one in orbit_diagram(henon, "a", [1.4, 3.0, 0.2], (0.5, 0.1)).places] == [64, 0, 64]
+
+
+def test_an_orbit_that_has_not_settled_says_so():
+    spiral = 0.99 ** np.arange(60)[:, None] * np.column_stack([np.cos(np.arange(60)), np.sin(np.arange(60))])
+    assert period_of(PLANE, spiral) == (0, False)
+    turn = np.column_stack([np.cos(np.arange(60)), np.sin(np.arange(60))])
+    assert period_of(PLANE, turn) == (0, True)
+    assert period_of(PLANE, np.tile([[0.0, 1.0], [1.0, 0.0], [2.0, 0.0]], (20, 1))) == (3, True)
+
+
+def test_the_way_back_is_another_one_between_the_folds():
+    values = np.linspace(-0.6, 0.6, 61)
+    there = orbit_diagram(bistable, "r", values, (-1.0, 0.0))
+    back = orbit_diagram(bistable, "r", values[::-1], there.ends[-1])
+    fold = 2.0 / (3.0 * math.sqrt(3.0))
+    inside = np.abs(values) < fold
+    ((low, high),) = hysteresis(PLANE, there, back)
+    assert (low, high) == pytest.approx((values[inside][0], values[inside][-1]))
+    # From the same place each time there is no memory.
+    anew = [orbit_diagram(bistable, "r", some, (-1.0, 0.0), follow=False) for some in (values, values[::-1])]
+    assert hysteresis(PLANE, *anew) == ()
+
+
+@pytest.mark.parametrize(("body", "constants", "place"), [
+    (SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), {"E": 1.842}, (0.3, 1.2)),
+    (SuslovBody(1.3, 0.8, 0.0, 0.0, 0.0, 0.0, 1.0), {"E": 0.4}, (0.3, 1.2)),
+    (BallBody(1.0, 3.0, 0.2, -0.1, 5.0, 0.5, 0.2, 0.8), {"h": 2.0}, (0.3, 1.2)),
+    (HeavyBody.hess((1.0, 1.6, 4.0), 1.0), {"h": 1.5, "f": -0.7}, (0.4, -0.2)),
+])
+def test_an_orbit_is_the_images_one_after_the_other_forward_and_backward(body, constants, place):
+    P = return_map(body, **constants)
+    orbit = P.orbit(place, 12)
+    image = np.array(place)
+    for found in orbit[:6]:
+        image = P.image(image)
+        assert np.abs(found - image).max() < 1e-8
+    back = P.inverse().orbit(orbit[5], 6)
+    assert np.abs(back - [*orbit[4::-1], place]).max() < 1e-6
+
+
+def test_the_section_of_a_torus_comes_to_the_limit_cycle_of_the_moebius_matrix_and_backward_to_the_other():
+    a, values = 0.5, np.linspace(1.3, 1.7, 5)
+    P = return_map(HessBody(1.0, a, -math.hypot(1.0, a)), h=1.3, f=0.6)
+    forward = orbit_diagram(lambda h: P.moved("h", h), "h", values, (0.3,), 60, 16)
+    backward = orbit_diagram(lambda h: P.moved("h", h).inverse(), "h", values, (0.3,), 60, 16)
+    for h, attractor, repeller in zip(values, forward.places, backward.places, strict=True):
+        for places, point in zip((attractor, repeller), circle_map(a, h, 0.6, level("reference")).fixed_points,
+                                 strict=True):
+            assert np.ptp(places) < 1e-8
+            slope = P.moved("h", h).with_derivative(places[-1])[1]
+            assert slope[0, 0] == pytest.approx(point.multiplier, rel=1e-7)
+    assert forward.periods.tolist() == backward.periods.tolist() == [1] * 5
+
+
+def test_what_keeps_volume_says_that_nothing_attracts_there():
+    P = return_map(SuslovBody(1.5, 1.0, 0.1, 0.0, 0.3, -0.5, 1.0), E=1.842, accuracy="draft")
+    found = orbit_diagram(lambda value: P.moved("I13", value), "I13", [0.1, 0.0], (0.3, 1.2), 10, 16)
+    assert found.conservative.tolist() == [False, True]
+    assert return_map(HeavyBody.hess((1.0, 1.6, 4.0), 1.0), h=1.5, f=-0.7).volume_kept
+    assert return_map(BallBody(1.0, 3.0, 0.0, 0.0, 5.0, 0.5, 0.2, 0.8), h=2.0).volume_kept
+    assert not return_map(BallBody(1.0, 3.0, 0.2, -0.1, 5.0, 0.5, 0.2, 0.8), h=2.0).volume_kept
+
+
+def test_what_is_too_much_is_refused():
+    with pytest.raises(InvalidParameter, match="from 1 to 2000"):
+        orbit_diagram(henon, "a", [math.nan], (0.5, 0.1))
+    with pytest.raises(WorkLimit, match="choose fewer"):
+        orbit_diagram(henon, "a", [1.0], (0.5, 0.1), transient=20_000)

@@ -1,0 +1,66 @@
+"""Distances of sets of places that are known: circles, intervals, one set twice."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from hess_mechanics.dynamics.point_sets import distance, how_far_apart, nearest
+from hess_mechanics.errors import InvalidParameter
+
+PLANE = (math.inf, math.inf)
+RNG = np.random.default_rng(5)
+
+
+def circle(radius, count=4000):
+    angle = RNG.uniform(0.0, 2.0 * math.pi, count)
+    return radius * np.column_stack([np.cos(angle), np.sin(angle)])
+
+
+def test_the_nearest_is_the_nearest_of_all_also_across_half_a_turn():
+    turns = (2.0 * math.pi, math.inf)
+    a, b = RNG.uniform(-math.pi, math.pi, (50, 2)), RNG.uniform(-math.pi, math.pi, (60, 2))
+    away = a[:, None] - b[None]
+    away[..., 0] = np.arctan2(np.sin(away[..., 0]), np.cos(away[..., 0]))
+    assert np.abs(nearest(turns, a, b) - np.linalg.norm(away, axis=2).min(axis=1)).max() < 1e-12
+
+
+@pytest.mark.parametrize(("r", "R"), [(1.0, 1.5), (2.0, 1.9)])
+def test_circles_are_as_far_apart_as_their_radii(r, R):
+    found = how_far_apart(PLANE, circle(r), circle(R))
+    assert abs(found.distance - abs(R - r)) <= found.error + 1e-4
+    assert abs(found.distance - abs(R - r)) < 1e-3
+    assert found.apart
+    assert found.shared == 0.0
+    assert not found.equal
+
+
+def test_one_set_twice_is_no_distance_apart_but_its_grain():
+    found = how_far_apart(PLANE, circle(1.0), circle(1.0))
+    assert found.distance <= found.grain + found.error
+    assert found.equal
+    assert not found.apart
+    # Two sets of n random places on a circle are about 2π/n · ln 20/2 apart, nineteen in twenty.
+    assert found.distance == pytest.approx(math.pi * math.log(20.0) / 4000, rel=0.3)
+
+
+def test_sets_that_overlap_are_neither_equal_nor_apart_and_share_what_they_share():
+    a = np.column_stack([RNG.uniform(0.0, 1.0, 4000), np.zeros(4000)])
+    b = np.column_stack([RNG.uniform(0.7, 1.7, 4000), np.zeros(4000)])
+    found = how_far_apart(PLANE, a, b)
+    assert not found.equal
+    assert not found.apart
+    assert found.shared == pytest.approx(0.3, abs=0.03)
+    # 95 of 100 places of either are within 0.7 − 0.05 of the other.
+    assert found.distance == pytest.approx(0.65, abs=0.02)
+
+
+def test_places_of_periodic_orbits_have_no_grain_but_what_is_resolved():
+    a, b = np.tile([[0.0, 0.0], [1.0, 0.0]], (8, 1)), np.tile([[0.0, 2.0], [1.0, 2.0]], (8, 1))
+    found = how_far_apart(PLANE, a, b)
+    assert (found.distance, found.error, found.grain, found.apart) == (2.0, 0.0, 1e-6, True)
+    assert distance(PLANE, a, a) == 0.0
+    with pytest.raises(InvalidParameter, match="from 8 places on"):
+        how_far_apart(PLANE, a[:7], b)

@@ -1,0 +1,39 @@
+"""Moments of reversal against SciPy's events; a permanent rotation has none."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from hess_mechanics import BallBody, SuslovBody, level, section
+from hess_mechanics.chaplygin_ball.equations import SYSTEM as BALL
+from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.suslov.reversal import Reversal, rate, reversals
+from support.suslov import field, permanent_rotations
+
+BODY = SuslovBody(2.0, 1.0, 0.0, 0.1, 0.3, -0.5, 1.0)
+START = (0.5, 1.2, 0.6, 0.0, 0.8)
+
+
+@pytest.mark.parametrize("span", [120.0, -100.0])
+def test_the_moments_are_those_of_another_integrator_and_none_is_lost(span):
+    found = reversals(BODY, START, span, level("precise"))
+    other = solve_ivp(lambda t, y: field(BODY, y), (0.0, span), START, method="DOP853", rtol=1e-12, atol=1e-13,
+                      events=lambda t, y: y[0] * y[2] + y[1] * y[3])
+    assert len(found.times) == len(other.t_events[0]) > 5
+    assert np.abs(found.times - other.t_events[0]).max() < 1e-7
+    assert np.abs(rate(found.states)).max() < 1e-9
+    assert found.error_estimate < 1e-8
+
+
+def test_a_permanent_rotation_never_reverses():
+    body = SuslovBody(1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3)
+    for state in permanent_rotations(body, 1.743):
+        assert len(reversals(body, state, 5.0, level("precise")).times) == 0
+        assert abs(rate(state[None])[0]) == pytest.approx(np.hypot(*state[:2]), abs=1e-12)
+
+
+def test_moments_are_those_of_one_system():
+    with pytest.raises(InvalidParameter, match="Suslov problem"):
+        section(BALL, START, BallBody(1.0, 3.0, 0.0, 0.0, 5.0).parameters, Reversal(), 1.0, level("draft"))
