@@ -81,7 +81,8 @@ export function chartPanel(palettes, signal) {
     item.disabled = !isUsable
     item.title = isUsable ? titles.get(item) : `Disabled: ${without}`
   }
-  const controlOf = (name) => scene.controls.find((one) => one.name === name)
+  const numbers = () => [...scene.controls, ...scene.sides]
+  const controlOf = (name) => numbers().find((one) => one.name === name)
   const endsOf = (name) => values[name]?.slice(1, 3) ?? controlOf(name).range
 
   const quantity = element("select", { className: "param-quantity", "aria-label": "Quantity" })
@@ -129,25 +130,30 @@ export function chartPanel(palettes, signal) {
     const plot = gallery.shown.plots.find(({ model }) => model.name === picture)?.model
     if (plot === undefined) return null
     const found = [[plot.below[0], plot.x_range], [plot.left[0], plot.y_range]].map(([axis, range]) => [
-      scene.controls.find(({ name, symbol }) => [name, symbol].includes(axis?.axis_label))?.name, range.start, range.end])
+      numbers().find(({ name, symbol }) => [name, symbol].includes(axis?.axis_label))?.name, range.start, range.end])
     return found.every(([name]) => described().over.includes(name)) && found[0][0] !== found[1][0] ? found : null
   }
 
   // The sides that are in sight: the axes of this picture, else what has open controls.
   function offer(picture) {
     const { over, parts } = described()
-    const numbers = over.filter((name) => values[name]?.[4] !== true).map(controlOf).filter(Boolean)
+    const offered = over.filter((name) => values[name]?.[4] !== true).map(controlOf).filter(Boolean)
     part.replaceChildren(...options(parts.map((name, i) => [i, name.replaceAll("_", " ")])))
     part.hidden = parts.length === 0
-    for (const side of [x, y]) side.offer(numbers)
-    offerIf(start, numbers.length >= 2, "nothing of this scene can be charted over two of its numbers")
+    for (const side of [x, y]) side.offer(offered)
+    offerIf(start, offered.length >= 2, "nothing of this scene can be charted over two of its numbers")
     if (start.disabled) return
-    const sides = axesOf(picture) ?? numbers.slice(0, 2).map(({ name }) => [name, ...endsOf(name)])
+    const sides = axesOf(picture) ?? offered.slice(0, 2).map(({ name }) => [name, ...endsOf(name)])
     x.choose(...sides[0])
     y.choose(...sides[1])
   }
 
-  const state = () => new URL(linkTo()).search.slice(1)
+  // With the places that it has at first, where the link says nothing of them.
+  function state() {
+    const query = new URL(linkTo()).searchParams
+    for (const { name, place } of scene.sides) if (!query.get(name.split(":")[0])) query.set(name.split(":")[0], place)
+    return query.toString()
+  }
 
   function wanted() {
     tell("address")
@@ -216,17 +222,30 @@ export function chartPanel(palettes, signal) {
     }
   }
 
+  const placeIn = (query, name) => query.get(name.split(":")[0]).split(";").at(-1).split(",")
+
+  // A number in a link; or a coordinate of its last place, which alone is left.
+  function put(query, name, value) {
+    const [key, coordinate] = name.split(":")
+    if (coordinate === undefined) return query.set(name, value)
+    const place = placeIn(query, name)
+    place[coordinate] = value
+    query.set(key, place.join(","))
+  }
+
   // The state of a cell, in its scene.
   function open([column, row]) {
     const query = new URLSearchParams(chart.state)
-    query.set(chart.x.name, placesOf(chart.x, column))
-    query.set(chart.y.name, placesOf(chart.y, row))
+    put(query, chart.x.name, placesOf(chart.x, column))
+    put(query, chart.y.name, placesOf(chart.y, row))
     tell("restore", query.toString())
   }
 
+  const numberOf = (name) => (name.includes(":") ? Number(placeIn(new URLSearchParams(state()), name)[name.split(":")[1]]) : values[name]?.[0])
+
   // The ring at the state on show: broken where another parameter is not the chart's.
   function mark() {
-    const own = chart !== null && chart.scene === scene?.name ? [chart.x, chart.y].map(({ name }) => values[name]?.[0]) : []
+    const own = chart !== null && chart.scene === scene?.name ? [chart.x, chart.y].map(({ name }) => numberOf(name)) : []
     if (!own.every(Number.isFinite) || own.length < 2) return map.mark(null, false)
     const base = new URLSearchParams(chart.state)
     const isSame = scene.controls.every(({ name, kind }) => (

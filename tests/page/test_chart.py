@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 from urllib.parse import parse_qsl, urlsplit
 
@@ -10,6 +11,8 @@ import numpy as np
 import pytest
 from playwright.sync_api import expect
 
+from hess_explorer.sweep import read
+from hess_explorer.sweep.work import version
 from hess_mechanics.numerics.accuracy import level
 from hess_mechanics.suslov_hess.rotation_number import values_at
 from support.accessible import assert_accessible
@@ -130,4 +133,31 @@ def test_a_chart_from_its_start_to_its_file(explorer, tmp_path):
         panel.locator("input[type=file]").set_input_files(tmp_path / "other.json")
         expect(said).to_contain_text(why)
     assert numbers(saved(page, panel)[0])[0] == file
+    page.keyboard.press("Escape")
+    # Python reads it as it reads sweeps.
+    found = read(path)
+    assert np.array_equal(found.rotation_number.values.T, values, equal_nan=True)
+    assert np.array_equal(found.h.values, h) and found.attrs["version"] == version()
+    # Over a section: where the motion starts, of which a click leaves one.
+    explorer.change(lambda: page.evaluate("hess.tell('restore', 'scene=suslov&accuracy=draft&starts=0.5,0.5;1,1')"))
+    explorer.picture("section").hover()
+    page.get_by_role("button", name="Chart").click()
+    assert panel.locator(".param-quantity").input_value() == "megno-suslov"
+    assert panel.locator(".param-x option:checked").text_content() == "ψ"
+    assert panel.locator(".param-y option:checked").text_content() == "δ"
+    for side in "xy":
+        panel.locator(f".param-{side}-cells").fill("7")
+    panel.locator(".param-chart-start").click()
+    expect(said).to_have_text("7 × 7, draft accuracy. ")
+    found = read(saved(page, panel)[0])
+    psi, delta = (found[name].values for name in found.megno_suslov.dims)
+    assert (psi[0], delta[-1]) == pytest.approx((-math.pi, math.pi), abs=1e-4)
+    canvas.focus()
+    page.keyboard.press("ArrowRight")
+    explorer.change(lambda: page.keyboard.press("Enter"))
+    start, = dict(parse_qsl(urlsplit(explorer.link()).query))["starts"].split(";")
+    place = [*map(float, start.split(","))]
+    i, j = (int(np.abs(axis - x).argmin()) for axis, x in zip((psi, delta), place, strict=True))
+    assert place == pytest.approx([psi[i], delta[j]], abs=1e-9)
+    expect(reading).to_contain_text(f"Ȳ = {found.megno_suslov.values[i, j]:.6g}".replace("-", "−"))
     page.keyboard.press("Escape")

@@ -20,7 +20,7 @@ from hess_explorer.protocol.parameters import GROUPS, Choice, Number
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.charted import Charted
 from hess_explorer.scenes.framework.scene import Scene
-from hess_explorer.sweep.chart import swept
+from hess_explorer.sweep.chart import sides_of_places, swept
 from hess_explorer.sweep.quantities import quantity
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import with_formulas
@@ -52,6 +52,7 @@ def _describe(name: str) -> str:
         "groups": list(GROUPS),
         "drawn": not all(isinstance(spec, Number | Choice) for spec in scene.specs),
         "charts": [_chart(scene, charted) for charted in scene.charts],
+        "sides": sides_of_places(scene),
         "presets": [preset.name for preset in scene.presets],
         "legend": scene.legend,
         "words": _html(scene),

@@ -176,7 +176,7 @@ class BallSection(CentreOfMass, Ball, Crossings, ConstrainedBody):
 
 
 SCENE = Scene(
-    BallSection, __file__, place=10, presets=PRESETS, measures=(SECTION,), charts=exponents(SYSTEM),
+    BallSection, __file__, place=10, presets=PRESETS, measures=(SECTION,), charts=exponents(SYSTEM, ("section",)),
     group="Ball", essential=("h", "I13", "D", "psi"), handle="psi",
     title="Ball with a field",
     summary="The ball in a field: a section at one energy shows curves, seas and, with I₁₃ or I₂₃, attractors.",

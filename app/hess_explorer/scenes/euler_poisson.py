@@ -11,7 +11,7 @@ from typing import ClassVar
 import numpy as np
 
 from hess_explorer.protocol.parameters import Value, written
-from hess_explorer.scenes.framework.charted import exponents
+from hess_explorer.scenes.framework.charted import Placed, exponents
 from hess_explorer.scenes.framework.exponent import exponent_picture
 from hess_explorer.scenes.framework.filled_window import EXPONENT, SECTION, TURN, filled_window
 from hess_explorer.scenes.framework.hess_case import HeavyMotion
@@ -166,7 +166,7 @@ class EulerPoisson(Moments, RotationAcross, HeavySolid):
 
 SCENE = Scene(
     EulerPoisson, __file__, place=11, presets=PRESETS, measures=(SECTION, EXPONENT, ROTATION),
-    charts=exponents(SYSTEM, time=lambda s: s.long),
+    charts=exponents(SYSTEM, ("section",), time=lambda s: s.long), placed=Placed("starts", EulerPoisson.names),
     group="Euler–Poisson", essential=("away", "h", "f"),
     title="Euler–Poisson: sections",
     summary="A heavy body near the Hess case: two stochastic layers with a barrier between them, a meandering torus.",

@@ -13,7 +13,7 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Value
 from hess_explorer.scenes.framework.basins import BASINS, Basins
-from hess_explorer.scenes.framework.charted import Charted, exponents, motion_of
+from hess_explorer.scenes.framework.charted import Charted, Placed, exponents, motion_of
 from hess_explorer.scenes.framework.filled_window import EXPONENT, SECTION, TURN, Piece, filled_window
 from hess_explorer.scenes.framework.inertia import CentreOfMass, Tensor
 from hess_explorer.scenes.framework.one_orbit import Start
@@ -243,10 +243,11 @@ def _piece(section: SuslovSection, starts: tuple[Start, ...], crossings: int, fo
 
 SCENE = Scene(
     Suslov, __file__, place=5, presets=PRESETS, measures=(SECTION, EXPONENT, BASINS), charts=(
-        *exponents(SYSTEM, time=lambda s: s.long),
+        *exponents(SYSTEM, ("section",), time=lambda s: s.long),
         Charted("divergence-suslov", lambda s: {**motion_of(SYSTEM, s), "t": s.long}),
         Charted("attractors", lambda s: {
             **dict(zip(SYSTEM.parameters, s.body.parameters, strict=True)), "h": s.h, "k": s.section.k})),
+    placed=Placed("starts", Suslov.names),
     group="Heavy body", essential=("h", "I13", "I23", "b3"),
     title="Suslov problem with gravity",
     summary="Regular orbits, seas, strange attractors: sections forward and backward in time.",

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hess_explorer.protocol.parameters import Link, Number, Value
+from hess_explorer.protocol.parameters import Link, Number, Places, Value, places, written
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.charted import Charted
 from hess_explorer.scenes.framework.scene import Scene
@@ -26,7 +26,7 @@ from hess_mechanics.errors import InvalidParameter, ModelError
 from hess_mechanics.numerics.accuracy import Level, level
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["MOST_SIDE", "Chart", "Side", "swept"]
+__all__ = ["MOST_SIDE", "Chart", "Side", "sides_of_places", "swept"]
 
 MOST_SIDE = 256
 """Cells along a side: 65 536 at most."""
@@ -36,11 +36,15 @@ _AUTO = "standard"
 """A chart of a state whose accuracy is found by measurement."""
 
 Indices = NDArray[np.int32]
+Ends = tuple[float, float]
 
 
 @dataclass(frozen=True)
 class Side:
-    """One side of a chart: a parameter of the scene, at `count` even places from `low` to `high`, both among them."""
+    """One side of a chart: a parameter of the scene, or a coordinate of its places.
+
+    It is at `count` even places from `low` to `high`, both among them.
+    """
 
     name: str
     low: float
@@ -137,7 +141,8 @@ class Chart:
         asked: list[tuple[int, Mapping[str, float]]] = []
         for i, (x, y) in enumerate(zip(xs.tolist(), ys.tolist(), strict=True)):
             try:
-                asked.append((i, _arguments(self.scene, self.charted, {**self.values, self.x.name: x, self.y.name: y})))
+                cell = _put(self.scene, self.values, {self.x.name: x, self.y.name: y})
+                asked.append((i, _arguments(self.scene, self.charted, cell)))
             # Whatever one cell raises must not end the others.
             except Exception as error:
                 status[i], why[i] = refused(error, {self.x.name: x, self.y.name: y})
@@ -156,6 +161,31 @@ class Chart:
         return found.why.get(0, f"{Outcome(int(found.status[0])).words}.")
 
 
+def _put(scene: Scene[Any], values: Mapping[str, Value], sides: Mapping[str, float]) -> dict[str, Value]:
+    """The values with those of some sides; of places the last one is left, as a link has it."""
+    found, placed = dict(values), scene.placed
+    for name, value in sides.items():
+        if placed is None or name not in placed.names:
+            found[name] = value
+            continue
+        place = list(places(found[placed.places])[-1])
+        place[placed.names.index(name)] = value
+        found[placed.places] = written([tuple(place)])
+    return found
+
+
+def _numbers(scene: Scene[Any]) -> dict[str, tuple[str, Ends, Ends]]:
+    """What may be a side: name → symbol, ends to begin with, bounds."""
+    found = {spec.name: (spec.symbol, spec.softbounds, spec.bounds) for spec in scene.specs if isinstance(spec, Number)}
+    if scene.placed is not None:
+        spec = next(spec for spec in scene.specs if spec.name == scene.placed.places)
+        assert isinstance(spec, Places)
+        ends = zip(spec.low, spec.high, strict=True)
+        found |= {name: (symbol, each, each)
+                  for name, symbol, each in zip(scene.placed.names, scene.placed.symbols, ends, strict=True)}
+    return found
+
+
 def _arguments(scene: Scene[Any], charted: Charted[Any], values: Mapping[str, Value]) -> Mapping[str, float]:
     """Those of the quantity in a state, each within its bounds.  Raises `ModelError`."""
     found = charted.arguments(scene.of(values))
@@ -166,6 +196,15 @@ def _arguments(scene: Scene[Any], charted: Charted[Any], values: Mapping[str, Va
         check(one, value)
         cell[one.name] = value
     return cell
+
+
+def sides_of_places(scene: Scene[Any]) -> list[dict[str, Any]]:
+    """The sides that have no control, for the browser: name, symbol, range, and the place where nothing is said."""
+    if scene.placed is None:
+        return []
+    numbers = _numbers(scene)
+    return [{"name": name, "symbol": numbers[name][0], "range": list(numbers[name][1]),
+             "place": scene.defaults()[scene.placed.places]} for name in scene.placed.names]
 
 
 @cache
@@ -182,8 +221,8 @@ def swept(scene: str, quantity: str) -> tuple[str, ...]:
 
     defaults = found.defaults()
     before = tried(defaults)
-    names = [spec.name for spec in found.specs if isinstance(spec, Number)
-             and any(tried({**defaults, spec.name: end}) != before for end in spec.softbounds)]
+    names = [name for name, (_, ends, _) in _numbers(found).items()
+             if any(tried(_put(found, defaults, {name: end})) != before for end in ends)]
     return tuple(sorted(names, key=lambda name: [*found.essential, name].index(name)))
 
 
@@ -191,17 +230,16 @@ def _side(scene: Scene[Any], over: tuple[str, ...], given: Any) -> Side:
     """A side that is possible, near what is given.  Raises `InvalidParameter`."""
     match given:
         case [str(name), int() | float() as low, int() | float() as high, int(count)] if name in over:
-            spec = next(spec for spec in scene.specs if spec.name == name)
-            assert isinstance(spec, Number)
+            symbol, _, (least, most) = _numbers(scene)[name]
             try:
                 ends = float(low), float(high)
             except OverflowError:
                 ends = math.nan, math.nan
             if not all(map(math.isfinite, ends)):
-                raise InvalidParameter(f"The ends of {spec.symbol} are no numbers: give two.")
-            low, high = sorted(min(max(end, spec.bounds[0]), spec.bounds[1]) for end in ends)
+                raise InvalidParameter(f"The ends of {symbol} are no numbers: give two.")
+            low, high = sorted(min(max(end, least), most) for end in ends)
             if not high > low:
-                raise InvalidParameter(f"{spec.symbol} goes from {low:g} to {high:g}: give two different numbers "
-                                       f"between {spec.bounds[0]:g} and {spec.bounds[1]:g}.")
+                raise InvalidParameter(f"{symbol} goes from {low:g} to {high:g}: give two different numbers "
+                                       f"between {least:g} and {most:g}.")
             return Side(name, low, high, min(max(count, 2), MOST_SIDE))
     raise InvalidParameter(f"A side is one of {', '.join(over)}, with two ends and a number of cells.")

@@ -14,6 +14,8 @@ from hess_explorer.sweep.dataset import described
 from hess_explorer.sweep.errors import StoreError
 from hess_explorer.sweep.quantities import QUANTITIES
 from hess_explorer.sweep.quantity import Outcome
+from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.accuracy import level as level_named
 from hess_mechanics.numerics.results import Array
 
 if TYPE_CHECKING:
@@ -32,13 +34,15 @@ def read_chart(path: Path) -> xr.Dataset:
         if path.stat().st_size > _MOST_BYTES:
             raise ValueError
         found: Any = json.loads(path.read_text(encoding="utf-8"))
+        if found["program"] != PROGRAM or not isinstance(found["state"], str):
+            raise ValueError
         what = QUANTITIES[found["quantity"]]
         part, sides = int(found["part"]), (found["x"], found["y"])
         places = {str(side["name"]): _places(side) for side in sides}
         columns, rows = (axis.size for axis in places.values())
         values = np.array(found["values"], float).reshape(rows, columns).T
         status = np.array(found["status"], np.uint8).reshape(rows, columns).T
-        state, level, link = (str(found[name]) for name in ("state", "level", "link"))
+        state, level, link = found["state"], level_named(found["level"]).name, str(found["link"])
         error, version = found.get("error"), str(found.get("version") or "unknown")
         own = [what.parts[part]] if what.parts else []
         has_number = (status >= Outcome.OK) & (status < Outcome.OUTSIDE_REGION)
@@ -46,7 +50,7 @@ def read_chart(path: Path) -> xr.Dataset:
             raise ValueError
     except OSError as failure:
         raise StoreError(f"{str(path)!r} cannot be read ({failure.strerror}): choose another file.") from failure
-    except (ValueError, TypeError, KeyError, IndexError, AttributeError, OverflowError) as failure:
+    except (ValueError, TypeError, KeyError, IndexError, AttributeError, OverflowError, InvalidParameter) as failure:
         raise StoreError(f"{str(path)!r} holds no whole chart: choose a file that Save in the page has written, or the "
                          "folder of a sweep.") from failure
     given = {name: value for name, value in Link(state).given.items() if name not in places}

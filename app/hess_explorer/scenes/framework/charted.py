@@ -8,7 +8,7 @@ from typing import Any, Generic, Protocol, TypeVar
 
 from hess_mechanics.dynamics.system import System
 
-__all__ = ["Charted", "exponents", "motion_of", "of_torus", "tensor_of"]
+__all__ = ["Charted", "Placed", "exponents", "motion_of", "of_torus", "tensor_of"]
 
 S = TypeVar("S")
 Torus = tuple[float, float, float]
@@ -42,6 +42,22 @@ class Charted(Generic[S]):
     pictures: tuple[str, ...] = ()
 
 
+@dataclass(frozen=True)
+class Placed:
+    """The coordinates of the last of some places, which are sides of a chart as numbers are.
+
+    places : the name of the parameter; symbols : of its coordinates, as the axes of the picture have them.
+    """
+
+    places: str
+    symbols: tuple[str, str]
+
+    @property
+    def names(self) -> tuple[str, str]:
+        """Of the sides."""
+        return f"{self.places}:0", f"{self.places}:1"
+
+
 def of_torus(torus: Callable[[Any], Torus], **pictures: tuple[str, ...]) -> tuple[Charted[Any], ...]:
     """The quantities of a Suslov–Hess torus (a, h, f); pictures : by the quantity, its name with _ for -."""
 
@@ -62,13 +78,16 @@ def tensor_of(body: _Tensor) -> Mapping[str, float]:
 
 
 def motion_of(system: System, s: Any) -> Mapping[str, float]:
-    """The body of a state and the start of its orbit, as arguments."""
-    return dict(zip((*system.parameters, *system.arguments), (*s.body.parameters, *s.start), strict=True))
+    """The body of a state and the start of its orbit, as arguments.  Raises `OutsideRegion` where none is possible."""
+    return dict(zip((*system.parameters, *system.arguments), (*s.body.parameters, *s.start_asked_for), strict=True))
 
 
 def exponents(system: System, pictures: tuple[str, ...] = (), time: Callable[[Any], float] | None = None
               ) -> tuple[Charted[Any], ...]:
-    """Lyapunov exponents, and crossings, of the orbit on show, which begins at `start`; time : to average over."""
+    """Lyapunov exponents, MEGNO and crossings of the orbit on show; time : to average over.
+
+    pictures : those that ask for MEGNO first, which tells regular from chaotic motions soonest.
+    """
 
     def motion(s: Any) -> Mapping[str, float]:
         return motion_of(system, s)
@@ -76,5 +95,5 @@ def exponents(system: System, pictures: tuple[str, ...] = (), time: Callable[[An
     def averaged(s: Any) -> Mapping[str, float]:
         return motion(s) if time is None else {**motion(s), "t": time(s)}
 
-    return (Charted(f"lyapunov-{system.name}", averaged, pictures), Charted(f"spectrum-{system.name}", averaged),
-            Charted(f"crossings-{system.name}", motion))
+    return (Charted(f"lyapunov-{system.name}", averaged), Charted(f"megno-{system.name}", motion, pictures),
+            Charted(f"spectrum-{system.name}", averaged), Charted(f"crossings-{system.name}", motion))

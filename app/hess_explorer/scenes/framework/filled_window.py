@@ -27,7 +27,7 @@ from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.lyapunov import Exponent, largest_exponent
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.shadowing import right_crossings, typical
-from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.numerics.accuracy import Kind, Level, Plan
 from hess_mechanics.numerics.results import Array, Mask
 
@@ -182,6 +182,15 @@ class FilledWindow(OneOrbit):
     def start(self) -> Start:
         """Where the orbit on show starts."""
         return self.picked.states[-1]
+
+    @property
+    def start_asked_for(self) -> Start:
+        """The last chosen place.  Raises `OutsideRegion` where no motion is possible there."""
+        place = places(self.starts)[-1]
+        states, possible = self.section.states_at(*np.array([place]).T)
+        if not possible[0]:
+            raise OutsideRegion(f"At {self.at(place)} {self.excuse}: choose another point.")
+        return tuple(map(float, states[0]))
 
     def _spread(self, count: int) -> tuple[Start, ...]:
         return self.work.get(_seeds, self.section, self.frame, count)

@@ -45,6 +45,11 @@ class OneOrbit(State, ABC):
         """Where the orbit starts.  Raises `ModelError`."""
 
     @property
+    def start_asked_for(self) -> Start:
+        """Where it was asked to start.  Raises `OutsideRegion` where no motion does and another place was taken."""
+        return self.start
+
+    @property
     @abstractmethod
     def weights(self) -> tuple[float, ...]:
         """From the variables to the scene's pictures, in pixels for a unit."""

@@ -12,7 +12,7 @@ from typing import Any, Generic, Self, TypeVar, cast
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Choice, Number, Spec, Value, Values
-from hess_explorer.scenes.framework.charted import Charted
+from hess_explorer.scenes.framework.charted import Charted, Placed
 from hess_explorer.scenes.framework.parameters import Slider, specs_of
 from hess_explorer.scenes.framework.trial import Trial, bare, needed, orbit_trial
 from hess_explorer.scenes.framework.work import Work
@@ -165,7 +165,7 @@ class Scene(Generic[S]):
     tracks : columns that several pictures and the player share; the player follows "orbit", by its column t.
     angles : those of its columns that are angles.
     measures : what it computes besides the motion, to be measured at each level.
-    charts : what can be charted over its parameters.
+    charts : what can be charted over its parameters; placed : and over the coordinates of which places.
     place : its place in the menu; the first one opens the page; group : under which heading it stands there.
     essential : the parameters whose controls are open; the others are folded by their groups.
     handle : what a newcomer should drag: one of those, or "picture/layer"; the first of them where nothing is said.
@@ -181,6 +181,7 @@ class Scene(Generic[S]):
     angles: tuple[str, ...] = ()
     measures: tuple[Trial[S], ...] = ()
     charts: tuple[Charted[S], ...] = ()
+    placed: Placed | None = None
     place: int = 0
     group: str = ""
     essential: tuple[str, ...] = ()
