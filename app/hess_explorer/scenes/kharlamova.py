@@ -72,12 +72,10 @@ class Kharlamova(ConstrainedBody):
     p: float = number("|p|", 1.0, (0.0, 4.0), 0.01, bounds=(0.0, 1e3), label="Start |p|",
                       doc="p = (√I₁₁ ω₁, √I₂₂ ω₂), at the start.")
     alpha: float = number("α", 0.5, (-3.14, 3.14), 0.01, bounds=(-math.pi, math.pi), label="Start: direction α",
-                          doc="p = |p| (cos α, sin α): where the point runs at first. A click in the graph of T "
-                              "chooses it.")
+                          doc="p = |p| (cos α, sin α), the first direction; a click in the graph of T chooses it.")
     span: float = time_span(20.0, 100.0)
     potential: str = choice("Another potential", tuple(POTENTIALS), "Hénon–Heiles",
-                            doc="Of the last picture, shown by its button, where b₁ and b₂ mean nothing. Quadratic: "
-                                "integrable.")
+                            doc="Of the last picture, shown by its button; it has no b₁, b₂. Quadratic: integrable.")
     accuracy: str = accuracy_level()
 
     def admitted(self, notes: list[str]) -> Kharlamova:
@@ -249,8 +247,7 @@ class Kharlamova(ConstrainedBody):
     def notes(self) -> Iterator[str]:
         """An orbit too long for its curves to be drawn."""
         if self.known("sampled") and self.orbit.times.size >= MOST_SAMPLES:
-            yield (f"So long a motion is drawn with {MOST_SAMPLES} points: choose a shorter time span to see its "
-                   "curves.")
+            yield f"So long a motion is drawn with {MOST_SAMPLES} points: choose a shorter time span to see its curves."
 
 
 _MIRROR: Layer[Kharlamova] = points("mirror", color=theme.MAP, edge=theme.INK, edge_width=1.5, size=11,

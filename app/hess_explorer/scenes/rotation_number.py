@@ -37,7 +37,6 @@ _RATIONALS = ("−1/2", "−1/3", "−1/4", "−2/5", "−1/5", "−3/7", "−1/
 _FULL = {"h": (-1.0, 4.0), "f": (-3.0, 3.0), "a": (0.0, 2.0)}
 _AT_MOST = {"h": (-1.0, 1e6), "f": (-1e4, 1e4), "a": (-100.0, 100.0)}
 _ITERATES = 40
-_BOTTOM = -1.0 + 1e-9
 
 
 def _corners(plane: str, ranges: Mapping[str, tuple[float, float]]) -> Window:
@@ -65,9 +64,8 @@ class RotationNumber(State):
     """One torus, a map of ρ over two parameters, and a line through the torus along one."""
 
     a: float = number("a", 0.5, (0.0, 2.0), 0.005, bounds=(-100.0, 100.0), group="Body", label="Inertia parameter a",
-                      doc="a = I₂₃/I₂₂ in the Suslov problem, √((a₃−a₂)(a₂−a₁))/a₂ in Euler–Poisson; a body has "
-                          "|a| < 1.")
-    h: float = number("h", 0.5, (-0.99, 4.0), 0.005, bounds=(_BOTTOM, 1e6), label="Energy h",
+                      doc="a = I₂₃/I₂₂ (Suslov) or √((a₃−a₂)(a₂−a₁))/a₂ (Euler–Poisson); a body has |a| < 1.")
+    h: float = number("h", 0.5, (-0.99, 4.0), 0.005, bounds=(-1.0 + 1e-9, 1e6), label="Energy h",
                       doc="Energy integral in units b = 1.", means=UNITS_OF_B)
     f: float = number("f", 0.8, (-3.0, 3.0), 0.005, bounds=(-1e4, 1e4), label="Area integral f",
                       doc="Area integral in units b = 1.", means=UNITS_OF_B)
@@ -95,19 +93,21 @@ class RotationNumber(State):
         return Torus(self.a, self.h, self.f)
 
     @property
-    def across(self) -> str:
-        """The parameter on the horizontal axis of the map."""
-        return self.over.split(", ")[0]
+    def sides(self) -> tuple[str, str]:
+        """The parameters on the axes of the map, the horizontal one first."""
+        across, up = self.over.split(", ")
+        return across, up
 
     @property
-    def up(self) -> str:
-        """That on the vertical one."""
-        return self.over.split(", ")[1]
+    def place(self) -> tuple[float, float]:
+        """The torus in the plane of the map."""
+        across, up = (vars(self.torus)[name] for name in self.sides)
+        return across, up
 
     @property
     def part(self) -> str:
         """The parameter that holds the window of this map."""
-        return f"part_{self.across}{self.up}"
+        return "part_" + "".join(self.sides)
 
     @cached_property
     def window(self) -> Window:
@@ -118,7 +118,7 @@ class RotationNumber(State):
     @property
     def beside(self) -> Torus:
         """Only what the map depends on: it stays while the torus moves in its plane."""
-        return self.torus.at(**{self.across: 0.0, self.up: 0.0})
+        return self.torus.at(**dict.fromkeys(self.sides, 0.0))
 
     @cached_property
     def grid(self) -> tuple[TorusValues, tuple[int, int]]:
@@ -147,7 +147,7 @@ class RotationNumber(State):
     @property
     def frame(self) -> Frame:
         """The map with its axes."""
-        return Frame(Axes(*self.window), (self.across, self.up))
+        return Frame(Axes(*self.window), self.sides)
 
     @cached_property
     def boundary(self) -> list[Array]:
@@ -158,13 +158,12 @@ class RotationNumber(State):
         found: Array | None = self.work.later(task.function, *task.arguments)
         if found is None or not len(found):
             return []
-        return [found, found * np.array([1.0, -1.0])] if self.up == "f" else [found]
+        return [found, found * np.array([1.0, -1.0])] if self.sides[1] == "f" else [found]
 
     @cached_property
     def on_line(self) -> Line:
         """The tori on the line; as far as the map is seen, where the line lies in its plane."""
-        names = (self.across, self.up)
-        low, high = self.window[names.index(self.line)] if self.line in names else _FULL[self.line]
+        low, high = dict(zip(self.sides, self.window, strict=True)).get(self.line, _FULL[self.line])
         # Only what the line depends on: it stays while the torus moves along it.
         return possible_part(Line(self.line, self.torus.at(**{self.line: 0.0}), low, high))
 
@@ -208,15 +207,14 @@ class RotationNumber(State):
 
     def here(self) -> list[tuple[float, float]]:
         """The torus on show, in the map if that shows it."""
-        x, y = vars(self.torus)[self.across], vars(self.torus)[self.up]
         (x0, x1), (y0, y1) = self.window
-        return inside([(x, y)], ((x0, y0), (x1, y1)))
+        return inside([self.place], ((x0, y0), (x1, y1)))
 
     def line_in_map(self) -> list[Array]:
         """The line through the torus, as far as the map shows it."""
-        x, y = vars(self.torus)[self.across], vars(self.torus)[self.up]
-        return rotation_plane.across(*self.window, y=y if self.line == self.across else None,
-                                     x=x if self.line == self.up else None)
+        (x, y), (across, up) = self.place, self.sides
+        return rotation_plane.across(*self.window, y=y if self.line == across else None,
+                                     x=x if self.line == up else None)
 
     # ---- words --------------------------------------------------------------------------------------------------
 
@@ -276,9 +274,9 @@ SCENE = Scene(
     title="Rotation number",
     summary="Is ρ of the Suslov–Hess torus a ladder, as the paper asks? One plateau, and a family that has many.",
     views=(
-        Plot(name="map", title=lambda s: f"Rotation number ρ over ({s.over})", axes=lambda s: (s.across, s.up),
+        Plot(name="map", title=lambda s: f"Rotation number ρ over ({s.over})", axes=lambda s: s.sides,
              caption=lambda s: "One plateau, ρ = 0, where it locks; else ρ changes everywhere.",
-             x=lambda s: s.window[0], y=lambda s: s.window[1], on_click=lambda s, x, y: {s.across: x, s.up: y},
+             x=lambda s: s.window[0], y=lambda s: s.window[1], on_click=lambda s, x, y: {s.sides[0]: x, s.sides[1]: y},
              on_box=lambda s, corners: boxed(corners, _corners(s.over, _AT_MOST), s.part),
              layers=rotation_plane.layers(
                  grids=lambda s: s.grids, boundary=lambda s: s.boundary, across=RotationNumber.line_in_map,
