@@ -9,8 +9,11 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from scipy.integrate import quad
 
+from hess_explorer.compute.cache import CACHE
 from hess_explorer.scenes import scenes
+from hess_explorer.scenes.framework import proved_zone
 from hess_explorer.scenes.framework.hess_case import proved
 from hess_explorer.views.circle_map import EVENLY
 from hess_mechanics import circle_map, f_max, level, solve, systems, turning_points
@@ -127,12 +130,12 @@ def ends(text):
 
 @pytest.mark.parametrize(("I23", "h", "f"), [
     (0.5, 1.5, 0.6), (0.1, 1.5, 0.6), (0.5, 0.5, 1.01563456028796105), (0.3, 0.2, 0.0)])
-def test_the_corner_of_the_circle_map_says_what_is_proved_when_it_is_found(I23, h, f):
+def test_the_caption_of_the_circle_map_says_what_is_proved_when_it_is_found(I23, h, f):
     # A body of its own with this a, of which nothing is known yet.
     values = {"I22": 2.0, "I23": 2.0 * I23, "h": h, "f": f}
     view = View(SCENE, values, seen={"circle"})
     assert any(task.function is proved for task in view.first.todo)
-    said, = view.data["circle-proof"]["text"]
+    said = view.text["circle"]
     sentence, = (line for line in view.report.derived if line.startswith("Proved"))
     theta = circle_map(I23, h, f, REFERENCE)
     for text, share in ((said, 2e-3), (sentence, 1e-8)):
@@ -149,7 +152,7 @@ def test_the_corner_of_the_circle_map_says_what_is_proved_when_it_is_found(I23, 
     # While a slider is held nothing is proved.
     held = View(SCENE, values, seen={"circle"}, dragging=True)
     assert not any(task.function is proved for task in held.report.todo)
-    assert not held.data.get("circle-proof")
+    assert "Proved" not in held.text["circle"]
 
 
 def test_what_is_not_proved_is_said():
@@ -166,4 +169,48 @@ def test_without_the_library_one_quiet_sentence_says_so(monkeypatch):
     assert view.first.todo == ()
     assert [line for line in view.report.derived if "python-flint" in line] == [
         "Proofs need python-flint: pip install 'hess-explorer[prove]'"]
-    assert not view.data.get("circle-proof")
+    assert "roved" not in view.text["circle"]
+
+
+def test_proved_cells_grow_and_their_outlines_lie_on_one_side_of_the_boundary(monkeypatch):
+    monkeypatch.setattr(proved_zone, "ROUNDS", (30, 60))
+    values = {"I22": 2.0, "I23": 0.9, "h": 1.5, "f": 0.6, "cells": "shown"}
+    shares = []
+    for _ in range(2):
+        view = View(SCENE, values, seen={"bifurcation"}, whole=False)
+        assert ("growing" in view.text["bifurcation"]) == (len(shares) == 1)
+        assert ("No cell is proved yet." in view.text["bifurcation"]) == (not shares)
+        task, = (task for task in view.report.todo if task.function is proved_zone.outlined)
+        CACHE.get(task.function, *task.arguments)
+        shares.append(task.arguments[2])
+    view = View(SCENE, values, seen={"bifurcation"}, whole=False)
+    assert shares == [30, 60]
+    assert not any(task.function is proved_zone.outlined for task in view.report.todo)
+    said, = view.numbers("bifurcation", "Proved cells: # % of the area.")
+    outlines = [*zip(*view.data["bifurcation-proved"].values(), strict=True)]
+    # Above f = 0 and below it; each on one side of |t| = 2, inside the region.
+    assert len(outlines) % 2 == 0
+    for h, signed in outlines:
+        f = np.abs(np.asarray(signed, float))
+        assert np.all(f <= [f_max(max(x, -1 + 1e-9)) * (1 + 1e-6) for x in h])
+        inner = f < [0.999 * f_max(max(x, -1 + 1e-9)) for x in h]
+        kinds = {circle_map(0.45, float(x), float(y), REFERENCE).trace > 2
+                 for x, y in zip(np.asarray(h)[inner][::3], f[inner][::3], strict=True)}
+        assert len(kinds) <= 1
+    area = sum(0.5 * abs(np.sum(np.asarray(h)[:-1] * np.diff(f) - np.asarray(f)[:-1] * np.diff(h)))
+               for h, f in outlines) / 2
+    assert 100 * area / quad(f_max, -1 + 1e-9, 4)[0] == pytest.approx(said, abs=0.5)
+    # During a drag what is known stays, and nothing is begun; of another body nothing is known.
+    held = View(SCENE, {**values, "h": 1.45}, seen={"bifurcation"}, dragging=True, whole=False)
+    assert len(held.data["bifurcation-proved"]["xs"]) == len(outlines)
+    other = View(SCENE, {**values, "I23": 0.8}, seen={"bifurcation"}, dragging=True, whole=False)
+    assert not any(task.function is proved_zone.outlined for task in other.report.todo)
+    assert not other.data.get("bifurcation-proved")
+
+
+def test_where_no_cell_is_proved_the_caption_says_why():
+    strong = View(SCENE, {"I22": 0.5, "I23": 1.6, "cells": "shown"}, seen={"bifurcation"}, whole=False)
+    assert "Cells are proved for |a| ≤ 3 only." in strong.text["bifurcation"]
+    hidden = View(SCENE, {"I23": 0.81}, seen={"bifurcation"}, whole=False)
+    assert "ells" not in hidden.text["bifurcation"]
+    assert not hidden.data.get("bifurcation-proved")

@@ -59,10 +59,12 @@ def _locked(boundary: Array, axes: Axes) -> list[list[Array]]:
 
 
 def layers(rotation: Callable[[S], Grid], boundary: Callable[[S], Array], curve: Callable[[S], Array],
-           here: Callable[[S], Sequence[tuple[float, float]]], axes: Callable[[S], Axes]) -> tuple[Layer[S], ...]:
+           here: Callable[[S], Sequence[tuple[float, float]]], axes: Callable[[S], Axes],
+           proved: Callable[[S], Sequence[Array]]) -> tuple[Layer[S], ...]:
     """Colours: rotation number ρ.  One tone where it is locked.  Grey: no motion.  A ring: the torus on show.
 
-    rotation : over the window; boundary : |t| = 2, (n, 2) with f ≥ 0; curve : upper branch of the edge, (n, 2).
+    rotation : over the window; boundary : |t| = 2, (n, 2) with f ≥ 0; curve : upper branch of the edge, (n, 2);
+    proved : outlines of the proved cells with f > 0, (n, 2).
     """
     corners = ("h", "f")
 
@@ -74,6 +76,8 @@ def layers(rotation: Callable[[S], Grid], boundary: Callable[[S], Array], curve:
         image("rotation", rotation, palette=theme.TURN_MAP, low=-0.5, high=0.5, cyclic=True,
               legend=(TURNS,)),
         region("locked", lambda s: _locked(boundary(s), axes(s)), color=theme.LOCKED, label="locked"),
+        curves("proved", lambda s: [one for outline in proved(s) for one in _mirrored(outline)], moving=False,
+               color=theme.INK, width=0.75, alpha=0.5, label="proved cell"),
         curves("boundary", lock, moving=False, color=theme.INK),
         region("forbidden", lambda s: impossible(curve(s), axes(s)), label="impossible"),
         curves("curve", lambda s: _mirrored(curve(s)), moving=False, color=theme.INK),

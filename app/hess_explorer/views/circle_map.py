@@ -10,7 +10,7 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.comparison import Curves, Frame
-from hess_explorer.views.layers import Axes, Layer, curves, line, points, text
+from hess_explorer.views.layers import Axes, Layer, curves, line, points
 from hess_explorer.views.picture import Values
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
@@ -62,15 +62,11 @@ def _density(circle_map: CircleMap | None) -> list[Array]:
 
 
 def picture(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array | None], caption: Callable[[S], str],
-            title: str = "Circle map", dot: tuple[str, str] | None = None, on_click: Click[S] | None = None,
-            proof: Callable[[S], str] | None = None) -> Plot[S]:
-    """The map of a torus, None on the separatrix, with fixed points or density and the cobweb of the first iterates.
-
-    proof : what is proved of it, in a corner.
-    """
+            title: str = "Circle map", dot: tuple[str, str] | None = None, on_click: Click[S] | None = None) -> Plot[S]:
+    """The map of a torus, None on the separatrix, with fixed points or density and the cobweb of the first iterates."""
     return Plot(name="circle", title=title, caption=caption, axes=("φ", "Θ(φ)"), x=SIDE, y=SIDE, ticks=TICKS, dot=dot,
                 message=lambda s: "" if map(s) is not None else "Separatrix: no return", on_click=on_click,
-                layers=(*_layers(map, iterates), *(() if proof is None else (text("proof", proof),))))
+                layers=_layers(map, iterates))
 
 
 def look(phi: Array, theta: Array) -> Curves:
@@ -101,13 +97,20 @@ def _layers(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array 
     )
 
 
-def about(theta: CircleMap | None) -> str:
-    """The kind of a map, its trace and rotation number, and what its cycles are, None on the separatrix."""
+def about(theta: CircleMap | None, proof: str = "") -> str:
+    """The kind of a map, its trace and rotation number, and what its cycles are, None on the separatrix.
+
+    proof : what is proved of it, where that is known: it takes the place of the numbers that it encloses.
+    """
     if theta is None:
         return "Separatrix: no return."
+    if "cycle" in proof:
+        enclosed = "" if theta.kind == "elliptic" else f"|trace| {digits(theta.trace, 5)}, "
+        return f"{theta.kind}, {enclosed}ρ = {digits(theta.rotation_number)}. {proof}"
     points = {"hyperbolic": f"multipliers {', '.join(digits(point.multiplier) for point in theta.fixed_points)}",
               "parabolic": "multiplier 1"}.get(theta.kind, "no fixed point")
-    return f"{theta.kind}, |trace| {digits(theta.trace, 5)}, ρ = {digits(theta.rotation_number)}; {points}."
+    said = f"{theta.kind}, |trace| {digits(theta.trace, 5)}, ρ = {digits(theta.rotation_number)}; {points}."
+    return f"{said} {proof}" if proof else said
 
 
 def riccati_matrix(theta: CircleMap) -> str:

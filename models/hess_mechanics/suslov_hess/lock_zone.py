@@ -60,8 +60,8 @@ _PARTS = 2
 _ENDS = 2.0**-20, 2.0**20
 """Of α and β: beyond them all is left undecided, f < 0.003 for most h."""
 _SHARE, _GROWTH, _STEP = 0.8, 8.0, 0.25
-_SIDE = 6
-"""Points along each side of an outline."""
+_BEND = 12.0
+"""Points along each side of an outline, for a side of which the logarithm of its ends differs by 2."""
 
 
 @dataclass(frozen=True)
@@ -197,7 +197,8 @@ def cell_outline(cell: ZoneCell, h_end: float) -> Array:
     corners = _cut(np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]]), np.array([1.0, -1.0]), 0.0)
     if len(corners) < 3:
         return np.empty((0, 2))
-    share = np.arange(_SIDE)[:, None] / _SIDE
+    count = max(1, math.ceil(_BEND * max(_radii(cell))))
+    share = np.arange(min(count, 6))[:, None] / min(count, 6)
     sides = np.vstack([p + share * (q - p) for p, q in zip(corners, np.roll(corners, -1, axis=0), strict=True)])
     return _cut(places(*np.exp(sides).T), np.array([-1.0, 0.0]), -h_end)
 

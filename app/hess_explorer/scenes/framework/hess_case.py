@@ -83,7 +83,7 @@ def limit_cycles(work: Work, hess: HessBody, theta: CircleMap | None, level: Lev
 
 @dataclass(frozen=True)
 class Proved:
-    """What is proved of a torus: short lines for a corner of its picture, and a sentence with more digits."""
+    """What is proved of a torus: a short sentence for the caption of its map, and one with more digits."""
 
     badge: str
     said: str
@@ -94,16 +94,16 @@ def proved(I22: float, I23: float, h: float, f: float) -> Proved:
     try:
         found = prove(exact("I23", I23) / exact("I22", I22), h, f, _MOST_BITS, _MOST_WORK)
     except ModelError as error:
-        return Proved("not proved", f"Not proved: {error}")
+        return Proved("Not proved.", f"Not proved: {error}")
     if found.statement == NO_CYCLE:
         # To as many digits as show that it is less than 2.
         least = next(count for count in itertools.count(4) if Fraction(found.trace.decimals(count)[1]) < 2)
-        return Proved(f"proved: no cycle,\n|trace| in {_within(found.trace, least)}",
+        return Proved(f"Proved: no cycle, |trace| in {_within(found.trace, least)}.",
                       f"Proved: no cycle, |trace| in {_within(found.trace, least + 7)}{_costs(found)}")
     if found.statement != TWO_CYCLES:
-        return Proved(f"undecided at {found.bits} bits", f"Undecided at {found.bits} bits: |trace| is too close to 2")
+        return Proved(f"Undecided at {found.bits} bits.", f"Undecided at {found.bits} bits: |trace| is too close to 2")
     less, more = found.multipliers
-    return Proved(f"proved: exactly two cycles,\nmultipliers in {_within(less, 4)},\n{_within(more, 4)}",
+    return Proved(f"Proved: exactly two cycles, multipliers in {_within(less, 4)}, {_within(more, 4)}.",
                   f"Proved: exactly two cycles, multipliers in {_within(less, 11)}, {_within(more, 11)}{_costs(found)}")
 
 

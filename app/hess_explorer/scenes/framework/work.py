@@ -76,6 +76,10 @@ class Work:
             self.todo.append(Task(function, arguments))
         return cast("T | None", value)
 
+    def known(self, function: Callable[P, T], *arguments: P.args, **none: P.kwargs) -> T | None:
+        """The same if it is known already; nothing is left to do."""
+        return cast("T | None", CACHE.peek(function, *arguments))
+
     def soon(self, function: Callable[P, T], *arguments: P.args, **none: P.kwargs) -> T | None:
         """At once while a slider is held, when little is asked for; else later."""
         get = self.get if self.dragging else self.later

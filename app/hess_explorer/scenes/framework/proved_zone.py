@@ -1,0 +1,60 @@
+"""The cells of the bifurcation diagram that are proved, more and more while one looks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+
+from hess_explorer.compute.cache import CACHE
+from hess_explorer.scenes.framework.work import Work
+from hess_explorer.views.text import digits
+from hess_mechanics.numerics.results import Array
+from hess_mechanics.suslov_hess.lock_zone import LockZone, cell_outline, lock_zone, refined
+from hess_mechanics.suslov_hess.proof import UNDECIDED
+
+__all__ = ["ROUNDS", "ProvedZone", "known_zone", "zone_after"]
+
+ROUNDS = (30, 50, 75, 110, 160, 230, 320, 450, 600, 800, 1000)
+"""Proofs of cells after which the picture grows; the last takes some 20 s."""
+
+
+@dataclass(frozen=True)
+class ProvedZone:
+    """What is known at a moment: the decided share, outlines (n, 2) of proved cells for f > 0, whether more comes."""
+
+    decided: float
+    outlines: tuple[Array, ...]
+    growing: bool
+
+    @property
+    def said(self) -> str:
+        """A sentence for a caption."""
+        return f"Proved cells: {digits(100.0 * self.decided, 3)} % of the area{', growing' if self.growing else ''}."
+
+
+def zone_after(a: Fraction, h_end: float, count: int) -> LockZone:
+    """The zone after so many proofs, one of `ROUNDS`."""
+    done = ROUNDS.index(count)
+    before: LockZone = lock_zone(a, h_end, 0) if done == 0 else CACHE.get(zone_after, a, h_end, ROUNDS[done - 1])[0]
+    return refined(before, count - before.tried)
+
+
+def outlined(a: Fraction, h_end: float, count: int) -> tuple[float, tuple[Array, ...]]:
+    """The decided share of that zone, and closed outlines of its proved cells."""
+    zone: LockZone = CACHE.get(zone_after, a, h_end, count)[0]
+    found = (cell_outline(cell, h_end) for cell in zone.cells if cell.statement != UNDECIDED)
+    return zone.decided, tuple(np.vstack([outline, outline[:1]]) for outline in found if len(outline) > 2)
+
+
+def known_zone(work: Work, a: Fraction, h_end: float) -> ProvedZone | None:
+    """What is known of the zone; the next round is left to be computed, unless a slider is held."""
+    ask = work.known if work.dragging else work.later
+    found = None
+    for count in ROUNDS:
+        following = ask(outlined, a, h_end, count)
+        if following is None:
+            return None if found is None else ProvedZone(*found, growing=True)
+        found = following
+    return None if found is None else ProvedZone(*found, growing=False)
