@@ -5,7 +5,8 @@
 >>> state.data("circle").layer("stable")["phi"].round(3)
 array([-2.283])
 
-The mechanics are the package `hess_mechanics`.
+The mechanics are the package `hess_mechanics`, sweeps `hess_explorer.sweep`.  `hess-explorer docs` opens the pages of
+all of it, with search.
 """
 
 from __future__ import annotations

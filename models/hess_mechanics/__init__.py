@@ -5,7 +5,7 @@
 'hyperbolic'
 
 What is used most can be imported from here; subjects have modules of their own, such as `suslov.quartic`.
-`hess-explorer docs --out FOLDER` writes all of it as pages with search.
+`hess-explorer docs` opens the pages of all of it, with search.
 models/README.md lists them with the paper's equations.
 """
 

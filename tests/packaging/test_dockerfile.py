@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from hess_explorer.api_pages import MODULES
 from hess_explorer.headless.browser import wait_ready
 from hess_explorer.headless.screenshot import free_port, wait_alive
 from support.dockerfile import ImageInVenv, instructions
@@ -84,7 +85,7 @@ def wheel(image, tmp_path_factory):
     image.run(["pip", "wheel", "--no-deps", "--no-build-isolation", "-w", str(folder), str(ROOT)])
     file, = folder.glob("*.whl")
     with zipfile.ZipFile(file) as opened:
-        return opened.namelist()
+        return {one.filename: one.compress_size for one in opened.infolist()}
 
 
 def test_the_wheel_holds_distinctive_names_only(wheel):
@@ -101,6 +102,12 @@ def test_the_wheel_is_typed_and_holds_all_that_the_page_needs(wheel):
     for name in filter(None, listed):
         folder = name.split("/")[0] + "/"
         assert places[folder] + name.removeprefix(folder) in wheel, f"{name} is not in the wheel"
+
+
+def test_the_wheel_has_the_pages_of_the_packages(wheel):
+    names = {f"hess_explorer/pages/{name}.html" for name in ("index", *MODULES)}
+    assert {name for name in wheel if name.startswith("hess_explorer/pages/")} == names
+    assert sum(wheel[name] for name in names) < 200_000
 
 
 # The lock file

@@ -1,49 +1,61 @@
-"""`hess-explorer docs`: the pages of the Python packages, written from their docstrings."""
+"""`hess-explorer docs`: the pages of the Python packages, which the wheel has."""
 
 from __future__ import annotations
 
 import argparse
+import tempfile
+import webbrowser
+from importlib.resources import files
 from pathlib import Path
 
+from hess_explorer.api_pages import pages
+
 from . import CommandError
-from .output import write_file
+from .output import show, write_file
 
 __all__ = ["add"]
 
-_PACKAGES = ("hess_mechanics", "hess_explorer", "hess_explorer.library.state", "hess_explorer.export.columns")
+_PACKED = Path(str(files("hess_explorer"))) / "pages"
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
     parser = commands.add_parser(
-        "docs", help="the pages of the Python packages, as HTML",
-        description="Write the pages of what can be imported from hess_mechanics and hess_explorer, of the version "
-                    "that is installed, with search, and no host to ask. Needs the extra: pip install '.[docs]'.",
+        "docs", help="the pages of the Python packages",
+        description="Open the pages of what can be imported from hess_mechanics and hess_explorer, of the version that "
+                    "is installed, with search, and no host to ask. Where the packages are installed to be edited, the "
+                    "pages are made from the sources, which needs the extra: pip install '.[docs]'.",
         epilog="Example: hess-explorer docs --out docs")
-    parser.add_argument("--out", type=Path, required=True, metavar="FOLDER", help="where the pages go")
+    parser.add_argument("--out", type=Path, metavar="FOLDER", help="write them there, and open none")
     parser.set_defaults(run=_run)
 
 
 def _run(options: argparse.Namespace) -> None:
+    if options.out is None and _PACKED.is_dir():
+        _open(_PACKED)
+        return
+    folder: Path = options.out or Path(tempfile.mkdtemp(prefix="hess-explorer-docs-"))
     try:
-        import pdoc
-    except ImportError as error:
-        raise CommandError("The pages need pdoc: pip install 'hess-explorer[docs]'.") from error
-    import importlib
-
-    try:
-        for name in _PACKAGES:
-            (options.out / name.replace(".", "/")).parent.mkdir(parents=True, exist_ok=True)
+        folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise CommandError(f"{str(options.out)!r} is no folder ({error.strerror}); choose another one.") from error
-    found = {name: importlib.import_module(name) for name in _PACKAGES}
-    for module in found.values():
-        for name in module.__all__:
-            # What is imported only when it is asked for.
-            getattr(module, name)
-    modules = {name: pdoc.doc.Module(module) for name, module in found.items()}
-    pages = {f"{name.replace('.', '/')}.html": pdoc.render.html_module(module, modules)
-             for name, module in modules.items()}
-    pages |= {"index.html": pdoc.render.html_index(modules), "search.js": pdoc.render.search_index(modules)}
-    for name, text in pages.items():
-        write_file(options.out / name, text.encode())
+        raise CommandError(f"{str(folder)!r} is no folder ({error.strerror}); choose another one.") from error
+    for name, text in _pages().items():
+        write_file(folder / name, text.encode())
+    if options.out is None:
+        _open(folder)
+
+
+def _open(folder: Path) -> None:
+    index = folder / "index.html"
+    show(f"{index}\n".encode())
+    webbrowser.open(index.as_uri())
+
+
+def _pages() -> dict[str, str]:
+    """Those in the wheel, else made from the sources.  Raises `CommandError`."""
+    if _PACKED.is_dir():
+        return {file.name: file.read_text(encoding="utf-8") for file in sorted(_PACKED.iterdir())}
+    try:
+        return pages([Path(str(files(package))).parent for package in ("hess_explorer", "hess_mechanics")])
+    except ImportError as error:
+        raise CommandError("The pages need griffelib: pip install 'hess-explorer[docs]'.") from error
