@@ -27,7 +27,7 @@ class Table(Labelled):
     >>> import hess_explorer as hess
     >>> data = hess.state("suslov-hess", accuracy="draft").data("circle")
     >>> data.layers
-    ('cobweb', 'diagonal', 'map', 'proof', 'stable', 'unstable', 'orbit')
+    ('cobweb', 'diagonal', 'map', 'stable', 'unstable', 'orbit')
     >>> data.layer("stable").keys()
     ('layer', 'phi', 'theta')
     """
