@@ -19,9 +19,11 @@ from hess_explorer.page.charts import Charts
 from hess_explorer.protocol.parameters import MAX_QUERY, Number
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.charted import Charted
+from hess_explorer.server import warm
 from hess_explorer.sweep import StoreError, explain, read
+from hess_explorer.sweep import chart as charts
 from hess_explorer.sweep import charting as running
-from hess_explorer.sweep.chart import MOST_SIDE, Chart, sides_of_places, swept
+from hess_explorer.sweep.chart import MOST_SIDE, Chart, at_first, sides_of_places, swept
 from hess_explorer.sweep.charting import Charting
 from hess_explorer.sweep.quantities import QUANTITIES
 from hess_explorer.sweep.quantity import Outcome
@@ -165,6 +167,23 @@ def test_the_place_of_a_start_on_a_section_is_a_place_of_a_chart():
                           **dict(zip((*EULER_POISSON.parameters, *EULER_POISSON.arguments),
                                      (*there.body.parameters, *there.start), strict=True)))
             assert values[i, j] == found.crossings_euler_poisson.item()
+
+
+def test_a_server_prepares_every_quantity_of_a_scene_for_a_chart(monkeypatch):
+    asked = []
+    plain = charts.evaluate
+    monkeypatch.setattr(charts, "evaluate", lambda what, *rest: asked.append(what.name) or plain(what, *rest))
+    found = [one for scene in scenes().values() for one in at_first(scene)]
+    assert asked == [quantity for _, quantity in CHARTED]
+    # Each is computed, and a number but for a torus without limit cycles.
+    assert {int(one.status[0]) for one in found} <= {
+        Outcome.OK, Outcome.FLOOR, Outcome.PROMISE_NOT_MET, Outcome.NO_VALUE}
+    prepared = []
+    monkeypatch.setattr(warm, "at_first", lambda scene: prepared.append(scene.name) or [])
+    warm.compute(scenes()["loxodrome"], folded=False)
+    assert prepared == []
+    warm.compute(scenes()["loxodrome"])
+    assert prepared == ["loxodrome"]
 
 
 @pytest.mark.parametrize("sides", [(192, 192), (100, 7), (2, 2), (25, 24)])

@@ -18,6 +18,7 @@ from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.scenes.framework.stage import Stage
 from hess_explorer.server.compiled import KEEPS_KERNELS, all_compiled, mark_all_compiled
+from hess_explorer.sweep.chart import at_first
 from hess_mechanics.errors import ModelError
 
 __all__ = ["compile_all", "warm"]
@@ -30,13 +31,16 @@ QUIET_SECONDS = 0.3
 def compute(scene: Scene[Any], folded: bool = True) -> None:
     """Compile or load the kernels of a scene by computing its default state once.
 
-    folded : also for the pictures that are folded away at first.  Of its background work one task of each kind is done.
+    folded : also for the pictures that are folded away at first, and for charts.  Of its background work one task of
+        each kind is done.
     """
     try:
         state = scene.compute(scene.defaults(), scene.pictures if folded else scene.open_pictures, False)
         todo = Stage(scene, Wire()).show(state, hold_axes=False).todo
         for task in {task.function: task for task in todo}.values():
             CACHE.get(task.function, *task.arguments)
+        if folded:
+            list(at_first(scene))
     except ModelError as error:
         # A scene that fails must not stop the others.
         logger.warning("%s: %s", scene.name, error)

@@ -7,7 +7,7 @@ computed with.  xarray and the other libraries of stores are not needed for it.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -23,15 +23,16 @@ from hess_explorer.sweep.grid import check
 from hess_explorer.sweep.quantities import quantity as named
 from hess_explorer.sweep.quantity import Found, Outcome, Outcomes, Quantity, evaluate, refused
 from hess_mechanics.errors import InvalidParameter, ModelError
-from hess_mechanics.numerics.accuracy import Level, level
+from hess_mechanics.numerics.accuracy import DRAFT, Level, level
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["MOST_SIDE", "Chart", "Side", "sides_of_places", "swept"]
+__all__ = ["MOST_SIDE", "Chart", "Side", "at_first", "sides_of_places", "swept"]
 
 MOST_SIDE = 256
 """Cells along a side: 65 536 at most."""
 _COARSE = 24
 """Cells along a side that are known first."""
+_SHORT = 20.0
 _AUTO = "standard"
 """A chart of a state whose accuracy is found by measurement."""
 
@@ -205,6 +206,19 @@ def sides_of_places(scene: Scene[Any]) -> list[dict[str, Any]]:
     numbers = _numbers(scene)
     return [{"name": name, "symbol": numbers[name][0], "range": list(numbers[name][1]),
              "place": scene.defaults()[scene.placed.places]} for name in scene.placed.names]
+
+
+def at_first(scene: Scene[Any]) -> Iterator[Found]:
+    """One cell of every quantity that can be charted, over a short time, in the state of a newcomer.
+
+    It compiles or loads what a chart needs.  Raises `ModelError`.
+    """
+    values = scene.defaults()
+    for charted in scene.charts:
+        cell = dict(_arguments(scene, charted, values))
+        if "t" in cell:
+            cell["t"] = min(cell["t"], _SHORT)
+        yield evaluate(named(charted.quantity), {name: np.array([value]) for name, value in cell.items()}, DRAFT)
 
 
 @cache
