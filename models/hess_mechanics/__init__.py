@@ -44,6 +44,7 @@ from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.dynamics.section import Plane, Points, section, section_points, sections
 from hess_mechanics.dynamics.spectrum import Spectrum, spectrum
 from hess_mechanics.dynamics.system import System, systems
+from hess_mechanics.dynamics.tube import Tube, proved_error, right_until, tube
 from hess_mechanics.dynamics.variation import Return, Transition, return_matrix, transition_matrix
 from hess_mechanics.errors import ModelError
 from hess_mechanics.euler_poisson.andoyer import AndoyerPlane
@@ -82,6 +83,7 @@ __all__ = [  # noqa: RUF022 (by subject)
     # Any system
     "System", "systems", "solve", "Orbit", "ensemble", "Ensemble",
     "section", "sections", "section_points", "Plane", "Section", "Points", "largest_exponent", "Exponent", "spectrum",
+    "tube", "Tube", "proved_error", "right_until",
     "Spectrum", "megno", "Megno", "transition_matrix", "Transition", "return_matrix", "Return",
     # Accuracy, cost, errors
     "LEVELS", "Level", "level", "Status", "Cost", "ModelError",

@@ -1,0 +1,88 @@
+"""Tubes: the motion to many digits lies inside, of every system; orbits are judged by them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+
+import mpmath
+import numpy as np
+import pytest
+
+from hess_mechanics import level, proved_error, right_until, solve, systems, tube
+from hess_mechanics.errors import InvalidParameter
+
+TIMES = [0.0, 0.3, 1.0]
+
+
+@pytest.mark.parametrize("name", sorted(systems()))
+@pytest.mark.parametrize("sign", [1, -1])
+def test_the_motion_to_thirty_digits_lies_in_its_tube(name, sign):
+    """By mpmath's own Taylor series of the plain field."""
+    system = systems()[name]
+    state, parameters = system.example
+    found = tube(system, state, parameters, [sign * t for t in TIMES], digits=20)
+    assert found.complete
+    assert found.width < 1e-20
+    assert [one.low for one in found.states[0]] == [Fraction(x) for x in state]
+    with mpmath.workdps(30):
+        start, p = ([mpmath.mpf(x) for x in some] for some in (state, parameters))
+        solution = mpmath.odefun(lambda _, y: [sign * rate for rate in system.field(y, p)], 0, start)
+        for t, intervals in zip(TIMES, found.states, strict=True):
+            for x, one in zip(solution(mpmath.mpf(t)), intervals, strict=True):
+                value = Fraction(mpmath.nstr(x, 30))
+                slack = Fraction(1, 10**25)
+                assert one.low - slack <= value <= one.high + slack
+                # So narrow that one wrong digit of twenty would be seen.
+                assert one.width < Fraction(5, 10**20)
+
+
+def test_integrals_keep_their_values_in_the_tube():
+    system = systems()["suslov"]
+    state, parameters = system.example
+    found = tube(system, state, parameters, [4.0], digits=15)
+    held = system.integrals([Fraction(x) for x in state], [Fraction(x) for x in parameters])
+    end = [(one.low + one.high) / 2 for one in found.states[0]]
+    for name, value in system.integrals(end, [Fraction(x) for x in parameters]).items():
+        assert abs(value - held[name]) < Fraction(1, 10**14)
+
+
+def test_an_orbit_is_judged():
+    system = systems()["suslov"]
+    state, parameters = system.example
+    times = np.linspace(0.0, 3.0, 7)
+    found = tube(system, state, parameters, times)
+    fine, rough = (solve(system, state, parameters, times, level(name)) for name in ("reference", "draft"))
+    truth = np.array([[float((one.low + one.high) / 2) for one in row] for row in found.states])
+    for orbit in (fine, rough):
+        low, high = proved_error(orbit, found)
+        known = np.max(np.abs(orbit.states - truth))
+        assert low <= known + 1e-15
+        assert known <= high + 1e-15
+        assert low <= orbit.error_estimate
+    assert right_until(fine, found, 1e-12) == 3.0
+    # A sample moved by 1e-6: right before it, and not after.
+    moved = fine.states.copy()
+    moved[4, 2] += 1e-6
+    wrong = replace(fine, states=moved)
+    assert right_until(wrong, found, 1e-7) == times[3]
+    assert proved_error(wrong, found) == pytest.approx((1e-6, 1e-6), rel=1e-6)
+
+
+def test_a_tube_ends_where_the_work_does():
+    system = systems()["hess"]
+    found = tube(system, *system.example, [0.1, 0.5, 50.0], most_work=2e5)
+    assert not found.complete
+    assert found.times.tolist() == [0.1, 0.5]
+    assert len(found.states) == 2
+
+
+def test_what_has_no_tube_is_refused():
+    system = systems()["hess"]
+    for words, said in ((([0.1, -0.1],), "away from 0"), (([1.0], 0), "choose 1 to 100")):
+        with pytest.raises(InvalidParameter, match=said):
+            tube(system, *system.example, *words)
+    other = systems()["suslov"]
+    orbit = solve(other, *other.example, [0.1], level("draft"))
+    with pytest.raises(InvalidParameter, match="same system"):
+        proved_error(orbit, tube(system, *system.example, [0.1]))
