@@ -151,7 +151,8 @@ def orbit(body: Body, state: Sequence[float], t: float | Sequence[float] | Array
     ((500, 5), 'ok', ('ω1', 'ω2', 'γ1', 'γ2', 'γ3'))
     """
     times: Any = np.linspace(0.0, _number("t", t), _whole("samples", samples, 2, 200_000)) if np.ndim(t) == 0 else t
-    return solve(body.system, state, body.parameters, times, level(accuracy))
+    moving = _moving(body)
+    return solve(moving.system, state, moving.parameters, times, level(accuracy))
 
 
 def lyapunov_exponent(body: Body, state: Sequence[float], t: float, accuracy: str = "standard") -> Exponent:
@@ -164,7 +165,9 @@ def lyapunov_exponent(body: Body, state: Sequence[float], t: float, accuracy: st
     >>> found.is_regular
     True
     """
-    return largest_exponent(body.system, state, body.parameters, _number("t", t), plan(Kind.EXPONENT, accuracy).level)
+    moving = _moving(body)
+    return largest_exponent(moving.system, state, moving.parameters, _number("t", t),
+                            plan(Kind.EXPONENT, accuracy).level)
 
 
 def lyapunov_spectrum(body: Body, state: Sequence[float], t: float, accuracy: str = "standard") -> Spectrum:
@@ -177,7 +180,8 @@ def lyapunov_spectrum(body: Body, state: Sequence[float], t: float, accuracy: st
     >>> found.signs, bool(2.0 < found.dimension[0] < 3.0)
     (('+', '0', '0', '0', '-'), True)
     """
-    return spectrum(body.system, state, body.parameters, _number("t", t), level(accuracy))
+    moving = _moving(body)
+    return spectrum(moving.system, state, moving.parameters, _number("t", t), level(accuracy))
 
 
 def andoyer_section(body: HeavyBody, h: float, f: float, *, starts: Sequence[tuple[float, float]] = (),
@@ -335,6 +339,12 @@ def rotation_numbers(a: float | Array, h: float | Array, f: float | Array, accur
     >>> rotation_numbers(0.5, np.array([0.2, 1.5]), 0.6).locked.tolist()
     [False, True]
     """
+    for name, values in (("a", a), ("h", h), ("f", f)):
+        try:
+            np.asarray(values, float)
+        except (TypeError, ValueError):
+            raise InvalidParameter(f"{name} = {values!r} is not a number, nor several; write it like 1.5 or "
+                                   "[1.5, 2.0].") from None
     return values_at(a, h, f, level(accuracy))
 
 
@@ -505,6 +515,14 @@ def _facts(found: Points, accuracy: str) -> dict[str, float | str]:
 
 
 T = TypeVar("T")
+
+
+def _moving(body: Body) -> Body:
+    """What was given, if it moves.  Raises `InvalidParameter`."""
+    if not (isinstance(getattr(body, "system", None), System) and hasattr(body, "parameters")):
+        raise InvalidParameter(f"{body!r} is no body that moves: give a SuslovBody, a PlaneBody, a QuarticBody, "
+                               "a BallBody or a HeavyBody.")
+    return body
 
 
 def _a(kind: type[T], body: object) -> T:

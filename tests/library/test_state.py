@@ -6,6 +6,8 @@ import io
 import math
 import subprocess
 import sys
+import xml.etree.ElementTree as ET
+from html import escape
 
 import holoviews as hv
 import numpy as np
@@ -36,8 +38,17 @@ def test_a_link_and_its_parameters_are_the_same_state():
     assert noted.notes[0].startswith("h lies between -1 and")
 
 
+def test_a_notebook_shows_a_state_by_its_parameters_and_link():
+    found = hess.state("suslov-hess", h=1.25, f=0.3)
+    said = found._repr_html_()
+    ET.fromstring(f"<div>{said}</div>")
+    assert "<th>h</th><td>1.25</td>" in said and escape(found.link) in said
+    assert said.count("<tr>") == len(found.parameters)
+
+
 @pytest.mark.parametrize(("given", "sentence"), [
-    ({"height": 1.0}, "has no parameter 'height': choose one of I22, I23, b3, h, f, phi0, span, accuracy, t, az, el."),
+    ({"height": 1.0},
+     "has no parameter 'height': choose one of I22, I23, b3, h, f, phi0, span, cells, accuracy, t, az, el."),
     ({"h": "high"}, "'high' is not a number: h (Energy h) is one from -1 to 1e+06."),
     ({"h": True}, "True is not a number"), ({"h": None}, "None is not a number"),
     ({"h": math.nan}, "h (Energy h) must be a finite number."), ({"h": -2.0}, "h lies between -1 and 1e+06."),

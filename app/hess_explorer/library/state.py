@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from html import escape
 from numbers import Real
 from pathlib import Path
 from types import MappingProxyType
@@ -157,6 +158,13 @@ class State:
             with np.errstate(all="ignore"):
                 self._known[found.picture.name] = show(found)
         return self._known[found.picture.name]
+
+    def _repr_html_(self) -> str:
+        rows = "".join(f"<tr><th>{escape(spec.symbol if isinstance(spec, Number) else spec.label)}</th>"
+                       f"<td>{escape(str(self.parameters[spec.name]))}</td></tr>"
+                       for spec in self._address.scene.specs if spec.name in self.parameters)
+        said = f"<code>{escape(self.link)}</code><p>Pictures: {escape(', '.join(self.pictures))}.</p>"
+        return f"<b>{escape(self._address.scene.title)}</b><table>{rows}</table>{said}"
 
     def __repr__(self) -> str:
         given = ", ".join(f"{name}={value!r}" for name, value in self.parameters.items())

@@ -241,7 +241,11 @@ def circle_map(a: float, h: float, f: float, level: Level) -> CircleMap:
     ('elliptic', 0)
     """
     start = time.perf_counter()
-    a, h, f = float(a), float(h), float(f) + 0.0  # f = −0.0 is f = 0
+    try:
+        a, h, f = float(a), float(h), float(f) + 0.0  # f = −0.0 is f = 0
+    except (TypeError, ValueError):
+        require_finite(a=a, h=h, f=f)
+        raise
     check_a(a)
     turning = turning_points(h, f)
     neighbour = _neighbour(h, f)
