@@ -79,9 +79,10 @@ class Background:
     def follow(self, tasks: Iterable[Task]) -> None:
         """Compute these into the cache, and discard all earlier tasks."""
         self.stop()
-        self._job = _Job(tasks)
-        for _ in range(THREADS):
-            in_turns(self._job.one)
+        self._job = job = _Job(tasks)
+        # No thread is woken for nothing.
+        for _ in range(min(THREADS, job.left)):
+            in_turns(job.one)
 
     def stop(self) -> None:
         """Discard the tasks that have not begun."""

@@ -24,6 +24,10 @@ MOST = 20
 _pool = ThreadPoolExecutor(max_workers=THREADS + 1, thread_name_prefix="turn")
 
 
+def _nothing() -> None:
+    """What waited has been forgotten."""
+
+
 class Turns:
     """What one session has to do, in the order in which it was asked for."""
 
@@ -53,13 +57,9 @@ class Turns:
             self._waiting.clear()
 
     def _one(self) -> None:
-        """Do one thing, then queue again."""
+        """Do one thing, then queue again where more waits."""
         with self._lock:
-            if not self._waiting:
-                self._working = False
-                CORES.answer(False)
-                return
-            work = self._waiting.popleft()
+            work = self._waiting.popleft() if self._waiting else _nothing
         try:
             with limited(self._left):
                 work()
@@ -68,4 +68,9 @@ class Turns:
         # Whatever it is, what waits behind it in the session has its turn; the log says all.
         except Exception:
             logger.exception("a message could not be handled")
+        with self._lock:
+            self._working = bool(self._waiting)
+            if not self._working:
+                CORES.answer(False)
+                return
         go_on(_pool, self._one)
