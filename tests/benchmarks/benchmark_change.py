@@ -89,6 +89,8 @@ def crowd(scenes):
     spent = time.process_time() - begun
     for page in pages:
         page.session.background.stop()
+    for page in pages:
+        page.rest()
     return 1e3 * spent / (SESSIONS * CHANGES)
 
 
