@@ -31,6 +31,7 @@ from hess_explorer.commands import (
     serve,
     shot,
     sweep,
+    tube,
 )
 
 __all__ = ["main"]
@@ -56,7 +57,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"hess-explorer {_version()}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     for command in (serve, circle_map, orbit, period, periodic, section, scattering, rotation_number, lyapunov, basins,
-                    cloud, prove, prove_zone, export, code, docs, sweep, shot, bench):
+                    cloud, prove, prove_zone, tube, export, code, docs, sweep, shot, bench):
         command.add(commands)
     return parser
 

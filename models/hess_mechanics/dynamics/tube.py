@@ -263,7 +263,14 @@ def _errors(orbit: Orbit, found: Tube) -> list[tuple[Fraction, Fraction]]:
 
 
 def proved_error(orbit: Orbit, found: Tube) -> tuple[float, float]:
-    """Two bounds of the largest true error of an orbit at the times of its tube.  Raises `InvalidParameter`."""
+    """Two bounds of the largest true error of an orbit at the times of its tube.  Raises `InvalidParameter`.
+
+    >>> from hess_mechanics import level, proved_error, solve, systems, tube
+    >>> hess, motion = systems()["hess"], ((0.3, 0.9, 0.6, 0.0, 0.8), (0.75, 1.0), [0.5])
+    >>> low, high = proved_error(solve(hess, *motion, level("draft")), tube(hess, *motion))
+    >>> 0.0 <= low <= high < 1e-3
+    True
+    """
     bounds = _errors(orbit, found)
     return (math.nextafter(float(max(least for least, _ in bounds)), 0.0),
             math.nextafter(float(max(most for _, most in bounds)), math.inf))
@@ -273,6 +280,11 @@ def right_until(orbit: Orbit, found: Tube, error: float) -> float:
     """The last of the times up to which every sample is certainly right to that error; 0 where the first is not.
 
     Raises `InvalidParameter`.
+
+    >>> from hess_mechanics import level, right_until, solve, systems, tube
+    >>> hess, motion = systems()["hess"], ((0.3, 0.9, 0.6, 0.0, 0.8), (0.75, 1.0), [0.25, 0.5])
+    >>> right_until(solve(hess, *motion, level("reference")), tube(hess, *motion), 1e-12)
+    0.5
     """
     last = 0.0
     for t, (_, most) in zip(found.times, _errors(orbit, found), strict=True):
