@@ -17,8 +17,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser = commands.add_parser(
         "tube", help="intervals that contain one motion, as a theorem",
         description="Encloses one motion of any system by ball arithmetic: at each time intervals that contain the "
-                    "true state, if the balls of the library Arb enclose what they say; start and parameters are taken as "
-                    "exactly these doubles.  Says up to which of the times the orbit of `hess-explorer orbit` is "
+                    "true state, if the balls of the library Arb enclose what they say; start and parameters are taken "
+                    "as exactly these doubles.  Says up to which of the times the orbit of `hess-explorer orbit` is "
                     "certainly right.  Needs the extra: pip install 'hess-explorer[prove]'.",
         epilog="Example: hess-explorer tube hess --start 0.3,0.9,0.6,0,0.8 --parameters 0.75,1 --t 0:2:5")
     parser.add_argument("system", metavar="SYSTEM", help="suslov, ball, hess, euler-poisson or plane-potential")

@@ -10,21 +10,22 @@ import importlib
 import importlib.util
 import math
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal, InvalidOperation, localcontext
 from fractions import Fraction
 from typing import Any
 
-from hess_mechanics.errors import InvalidParameter, MissingLibrary
+from hess_mechanics.errors import InvalidParameter, MissingLibrary, WorkLimit
 
-__all__ = ["Ball", "Enclosure", "enclosure", "exact", "flint", "has_flint", "rational", "working"]
+__all__ = ["Ball", "Enclosure", "enclosure", "exact", "flint", "has_flint", "rational", "to_digits", "working"]
 
 Ball = Any
 """An `arb` of python-flint, which is imported only where it is needed."""
 
 _MOST_DIGITS, _MOST_EXPONENT = 100, 200
+_MOST_BITS = 1 << 14
 _LOCK = threading.RLock()
 
 
@@ -153,3 +154,15 @@ def enclosure(ball: Ball) -> Enclosure:
 def _dyadic(mantissa: Any, exponent: Any) -> Fraction:
     m, e = int(mantissa), int(exponent)
     return Fraction(m << e) if e >= 0 else Fraction(m, 1 << -e)
+
+
+def to_digits(digits: int, compute: Callable[[Any], Ball]) -> Enclosure:
+    """What `compute` encloses, to so many digits.  Raises `WorkLimit`."""
+    bits = 128
+    while bits <= _MOST_BITS:
+        with working(bits) as library:
+            found = compute(library)
+            if found.is_finite() and enclosure(found).precision < 10.0 ** (-digits):
+                return enclosure(found)
+        bits *= 2
+    raise WorkLimit("These numbers need more precision than a closed form may take: choose less extreme ones.")

@@ -5,29 +5,15 @@ Numbers are exact, see `balls.exact`; the precision doubles until the enclosure 
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
-from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, WorkLimit
-from hess_mechanics.numerics.balls import Ball, Enclosure, enclosure, exact, rational, working
+from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite
+from hess_mechanics.numerics.balls import Ball, Enclosure, exact, rational, to_digits
 
 __all__ = ["proved_cos_chi", "proved_period"]
 
 Number = str | float | Fraction
-_MOST_BITS = 1 << 14
-
-
-def _to_digits(digits: int, compute: Callable[[Any], Ball]) -> Enclosure:
-    """What `compute` encloses, to so many digits.  Raises `WorkLimit`."""
-    bits = 128
-    while bits <= _MOST_BITS:
-        with working(bits) as library:
-            found = compute(library)
-            if found.is_finite() and enclosure(found).precision < 10.0 ** (-digits):
-                return enclosure(found)
-        bits *= 2
-    raise WorkLimit("These numbers need more precision than a closed form may take: choose less extreme ones.")
 
 
 def _positive(**moments: Fraction) -> None:
@@ -59,7 +45,7 @@ def proved_cos_chi(I11: Number, I22: Number, I13: Number, I23: Number, digits: i
         half = K * arb.pi() / 2
         return 2 * ((C.real / half.cosh()) ** 2 + (C.imag / half.sinh()) ** 2) - 1
 
-    return _to_digits(digits, compute)
+    return to_digits(digits, compute)
 
 
 def proved_period(I11: Number, I22: Number, b1: Number, b2: Number, omega: tuple[Number, Number],
@@ -94,7 +80,7 @@ def proved_period(I11: Number, I22: Number, b1: Number, b2: Number, omega: tuple
         product = ((A + C) ** 2 - B * B).sqrt()
         return 2 * arb.pi() * s / ((A - C + product) / 2).sqrt().agm(product.sqrt())
 
-    return _to_digits(digits, compute)
+    return to_digits(digits, compute)
 
 
 def _dot(x: list[Fraction], y: list[Fraction]) -> Fraction:

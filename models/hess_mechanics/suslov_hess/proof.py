@@ -39,7 +39,8 @@ from hess_mechanics.numerics.balls import Ball, Enclosure, enclosure, exact, rat
 from hess_mechanics.suslov_hess.bifurcation import f_max
 from hess_mechanics.suslov_hess.circle_map import MAX_A
 
-__all__ = ["FIRST_BITS", "MOST_BITS", "MOST_WORK", "NO_CYCLE", "TWO_CYCLES", "UNDECIDED", "Proof", "Step", "prove"]
+__all__ = ["FIRST_BITS", "MOST_BITS", "MOST_WORK", "NO_CYCLE", "TWO_CYCLES", "UNDECIDED", "Proof", "Step",
+           "check_torus", "prove"]
 
 TWO_CYCLES, NO_CYCLE, UNDECIDED = "two cycles", "no cycle", "undecided"
 FIRST_BITS, MOST_BITS = 64, 512
@@ -119,7 +120,7 @@ def prove(a: str | float | Fraction, h: str | float | Fraction, f: str | float |
     """
     begun = time.perf_counter()
     at = exact("a", a), exact("h", h), exact("f", f)
-    _check(*at)
+    check_torus(*at)
     if at[2] == 0 and at[1] < 1:
         with working(FIRST_BITS):
             return _oscillation(*at, begun)
@@ -145,7 +146,7 @@ def prove(a: str | float | Fraction, h: str | float | Fraction, f: str | float |
         bits *= 2
 
 
-def _check(a: Fraction, h: Fraction, f: Fraction) -> None:
+def check_torus(a: Fraction, h: Fraction, f: Fraction) -> None:
     """Raise unless the torus is possible: by the exact sign of the discriminant of 2(h + n)(1 − n²) − f²."""
     if abs(a) > MAX_A or h > 10**12:
         raise InvalidParameter(f"a = {float(a):g}, h = {float(h):g}: choose |a| ≤ {MAX_A:g} and h ≤ 1e12.")

@@ -1,0 +1,56 @@
+"""Closed forms of the Suslov–Hess case to thirty digits, against the reference and against proofs by Taylor steps."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import mpmath
+import pytest
+
+from hess_mechanics import prove
+from hess_mechanics.errors import InvalidParameter, OutsideRegion, Separatrix
+from hess_mechanics.suslov_hess.proved_forms import proved_torus_period, proved_trace_on_curve
+from support.mechanics import REFERENCE
+
+
+@pytest.mark.parametrize("row", REFERENCE["hess_monodromy"], ids=lambda row: f"h={row['h']},f={row['f']}")
+def test_the_period_of_the_reference_is_enclosed(row):
+    found = proved_torus_period(row["h"], row["f"])
+    known = Fraction(row["period"])
+    slack = known / 10**20
+    assert found.low - slack <= known <= found.high + slack
+    assert found.width < Fraction(1, 10**29)
+
+
+def test_the_period_is_that_of_a_quadrature():
+    """T = 2∫dn/√p between the turning points, to 25 digits; n = m − d cos x takes the roots out of the ends."""
+    found = proved_torus_period("0.3", "0.7")
+    with mpmath.workdps(40):
+        h, f = mpmath.mpf("0.3"), mpmath.mpf("0.7")
+        n0, n1, n2 = sorted(map(mpmath.re, mpmath.polyroots([-2, -2 * h, 2, 2 * h - f * f], maxsteps=200,
+                                                            extraprec=200)))
+        m, d = (n1 + n2) / 2, (n2 - n1) / 2
+        known = 2 * mpmath.quad(lambda x: 1 / mpmath.sqrt(2 * (m - d * mpmath.cos(x) - n0)), [0, mpmath.pi])
+        assert abs(mpmath.mpf(found.low.numerator) / found.low.denominator - known) < mpmath.mpf(10) ** -25
+
+
+@pytest.mark.parametrize(("n", "root"), [(Fraction(1, 4), Fraction(1, 2)), (Fraction(1, 9), Fraction(1, 3)),
+                                         (Fraction(81, 100), Fraction(9, 10))])
+@pytest.mark.parametrize("a", ["0.5", "-1.5"])
+def test_the_trace_on_the_edge_is_that_of_taylor_steps(a, n, root):
+    """Where h and f of the edge are rational both are proved, by different means: so the intervals meet."""
+    found = proved_trace_on_curve(a, n)
+    proof = prove(a, (1 - 3 * n * n) / (2 * n), (1 - n * n) / root, 256)
+    size = (min(abs(found.low), abs(found.high)), max(abs(found.low), abs(found.high)))
+    assert size[0] <= proof.trace.high
+    assert proof.trace.low <= size[1]
+    assert found.precision < 1e-29
+
+
+def test_what_has_no_closed_form_is_refused():
+    for torus, error in ((("1", "0"), Separatrix), (("0", "2"), OutsideRegion), (("-1", "0"), OutsideRegion)):
+        with pytest.raises(error):
+            proved_torus_period(*torus)
+    for n in ("0", "1.5"):
+        with pytest.raises(InvalidParameter, match="not on the curve"):
+            proved_trace_on_curve("0.5", n)
