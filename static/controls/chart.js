@@ -274,7 +274,9 @@ export function chartPanel(palettes, signal) {
   function keep() {
     const content = new Blob([toFile(chart)], { type: "application/json" })
     const address = URL.createObjectURL(content)
-    element("a", { href: address, download: `${chart.scene}-${chart.quantity}-${chart.x.name}-${chart.y.name}.json` }).click()
+    // Coordinates of places by their symbols, which files may have but for the stroke of L/G.
+    const [across, up] = [chart.x, chart.y].map(({ name, symbol }) => (name.includes(":") ? symbol.replaceAll("/", "") : name))
+    element("a", { href: address, download: `${chart.scene}-${chart.quantity}-${across}-${up}.json` }).click()
     URL.revokeObjectURL(address)
   }
 

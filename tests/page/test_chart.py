@@ -149,7 +149,9 @@ def test_a_chart_from_its_start_to_its_file(explorer, tmp_path):
         panel.locator(f".param-{side}-cells").fill("7")
     panel.locator(".param-chart-start").click()
     expect(said).to_have_text("7 × 7, draft accuracy. ")
-    found = read(saved(page, panel)[0])
+    path, name = saved(page, panel)
+    assert name == "suslov-megno-suslov-ψ-δ.json"
+    found = read(path)
     psi, delta = (found[name].values for name in found.megno_suslov.dims)
     assert (psi[0], delta[-1]) == pytest.approx((-math.pi, math.pi), abs=1e-4)
     canvas.focus()
