@@ -33,9 +33,11 @@ _SAME = 1e-5
 """Places closer than this are one of a periodic orbit."""
 _SETTLING = 0.8
 """An orbit whose distances from closing fall below this share from its first half to its second is on its way."""
-_AMPLITUDES = 0.4 * 0.5 ** np.arange(10)
-"""How far from a flip the orbit of twice the period is looked for."""
-_AHEAD = (0.4, 0.2, 0.08, 0.03)
+_AMPLITUDES = 0.4 * 0.4 ** np.arange(6, -1, -1)
+"""How far from a flip the orbit of twice the period is looked for, the nearest first."""
+_NEAR = 3.0
+"""What is found farther away than so many times that is another orbit."""
+_AHEAD = (0.25, 0.05, 0.01)
 """And how far beyond it, in units of the distance to where the next one is expected."""
 _GROWTH = 4.669
 """Feigenbaum's δ: it only says where to look."""
@@ -299,7 +301,7 @@ def _doubled(family: Callable[[float], Map], flip: Bifurcation, step: float) -> 
                 orbit = find_periodic(map_, twice + amplitude * away)
             except ModelError:
                 continue
-            if orbit.period == len(twice):
+            if orbit.period == len(twice) and np.abs(apart(map_.turns, orbit.places, twice)).max() < _NEAR * amplitude:
                 if orbit.kind.startswith("stable"):
                     return value, orbit
                 other = other or (value, orbit)

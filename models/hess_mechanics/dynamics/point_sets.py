@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hess_mechanics.dynamics.periodic import apart
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.results import Array
 
@@ -20,6 +21,7 @@ __all__ = ["Apart", "distance", "how_far_apart", "nearest"]
 _QUANTILE = 0.95
 _RESOLVED = 1e-6
 """Places closer than this are the same."""
+_SETTLED = 0.2
 _LEAST = 8
 _BATCHES = 4
 
@@ -54,22 +56,25 @@ class Apart:
     grain : the distance between the two halves of one set, the larger of the two; less than this cannot be told.
     shared : the share of the places of either set, the smaller one, that lie as close to the other set as halves of
         one set lie to each other.
+    settled : whether halves of one set are closer to each other than a fifth of its size: else the orbit that passed
+        it was still on its way, or too short.
     """
 
     distance: float
     error: float
     grain: float
     shared: float
+    settled: bool
 
     @property
     def equal(self) -> bool:
         """Whether nothing tells the sets apart."""
-        return self.distance <= self.grain + self.error and self.shared > 0.9
+        return self.settled and self.distance <= self.grain + self.error and self.shared > 0.9
 
     @property
     def apart(self) -> bool:
         """Whether no place of one is close to the other set, in so far as the grain tells."""
-        return self.shared < 0.005 and self.distance > self.grain + self.error
+        return self.settled and self.shared < 0.005 and self.distance > self.grain + self.error
 
 
 def how_far_apart(turns: Sequence[float], a: Array, b: Array) -> Apart:
@@ -80,7 +85,9 @@ def how_far_apart(turns: Sequence[float], a: Array, b: Array) -> Apart:
     if min(len(a), len(b)) < _LEAST:
         raise InvalidParameter(f"Two sets of places are compared from {_LEAST} places on: follow the orbits longer.")
     halves = [(one[: len(one) // 2], one[len(one) // 2 :]) for one in (a, b)]
-    grain = max(_RESOLVED, *(distance(turns, *both) for both in halves))
+    grains = [max(_RESOLVED, distance(turns, *both)) for both in halves]
+    sizes = [float(np.abs(apart(turns, one, one[0])).max()) for one in (a, b)]
+    settled = all(grain < _SETTLED * size or grain == _RESOLVED for grain, size in zip(grains, sizes, strict=True))
     whole = distance(turns, a, b)
     parts = [distance(turns, p, q) for p, q in zip(np.array_split(a, _BATCHES), np.array_split(b, _BATCHES),
                                                   strict=True)]
@@ -90,4 +97,4 @@ def how_far_apart(turns: Sequence[float], a: Array, b: Array) -> Apart:
         close = max(_RESOLVED, float(np.quantile(nearest(turns, first, second), _QUANTILE)))
         own = np.concatenate([first, second])
         shared.append(float(np.mean(nearest(turns, own, other) <= close)))
-    return Apart(whole, max(abs(one - whole) for one in parts), grain, min(shared))
+    return Apart(whole, max(abs(one - whole) for one in parts), max(grains), min(shared), settled)

@@ -158,6 +158,8 @@ class Dynamics(Result):
     def verdict(self) -> str:
         """"conservative", "dissipative", "mixed" or "undecided"."""
         volume = _sign(self.divergence, self.divergence_error)
+        if not self.apart.settled:
+            return "undecided"
         if self.apart.apart:
             # On sets of no volume, apart: volume must shrink on the one.
             return "dissipative" if volume < 0 else "undecided"

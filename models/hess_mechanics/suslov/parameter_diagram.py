@@ -42,9 +42,8 @@ def diagram(section: SuslovSection, name: str, values: tuple[float, ...], start:
                          transient, kept, follow, again)
 
 
-def doubling_seen(seen: Diagram) -> int | None:
-    """After which of its values (an index) a diagram shows the least period to double first; None where it does not."""
-    m = seen.periods
+def doubling_seen(m: Sequence[int]) -> int | None:
+    """After which of them (an index) periods, 0 where none is seen, first double, the least first; None: nowhere."""
     steps = [k for k in range(len(m) - 1) if m[k] and m[k + 1] == 2 * m[k]]
     return min(steps, key=lambda k: (m[k], k), default=None)
 
@@ -103,14 +102,13 @@ def at_state(section: SuslovSection, start: Place, transient: int, kept: int, t:
 
 def nearest_place(diagrams: Sequence[Diagram], i: int, value: float, y: float) -> tuple[float, Place] | None:
     """Of the places over the value nearest to `value` that whose coordinate i is nearest to y; None if none is."""
-    found: list[tuple[float, float, Place]] = []
+    found: list[tuple[float, float, float, Place]] = []
     for one in diagrams:
         there = [k for k in range(len(one.values)) if len(one.places[k])]
         if there:
             k = min(there, key=lambda k: abs(one.values[k] - value))
             place = one.places[k][np.argmin(np.abs(one.places[k][:, i] - y))]
-            found.append((abs(float(place[i]) - y), float(one.values[k]), tuple(map(float, place))))
-    if not found:
-        return None
-    _, at, best = min(found)
-    return at, best
+            at = float(one.values[k])
+            # Diagrams of one range have the same values but for round-off.
+            found.append((round(abs(at - value), 12), abs(float(place[i]) - y), at, tuple(map(float, place))))
+    return min(found)[2:] if found else None

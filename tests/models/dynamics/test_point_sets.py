@@ -62,5 +62,9 @@ def test_places_of_periodic_orbits_have_no_grain_but_what_is_resolved():
     found = how_far_apart(PLANE, a, b)
     assert (found.distance, found.error, found.grain, found.apart) == (2.0, 0.0, 1e-6, True)
     assert distance(PLANE, a, a) == 0.0
+    assert found.settled
+    # An orbit that leaves one place for another has not settled.
+    left = np.repeat([[0.0, 0.0], [1.0, 0.0]], 8, axis=0)
+    assert not how_far_apart(PLANE, left, left).settled
     with pytest.raises(InvalidParameter, match="from 8 places on"):
         how_far_apart(PLANE, a[:7], b)
