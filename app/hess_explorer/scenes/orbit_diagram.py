@@ -13,12 +13,11 @@ from hess_explorer.protocol.parameters import Value, Values, places, written
 from hess_explorer.scenes.framework.inertia import CentreOfMass, Tensor
 from hess_explorer.scenes.framework.one_orbit import OneOrbit, Start
 from hess_explorer.scenes.framework.over_parameter import BOUNDS, OverParameter, picture
-from hess_explorer.scenes.framework.parameters import accuracy_level, exponent_time, like, time_span
+from hess_explorer.scenes.framework.parameters import accuracy_level, exponent_time, like, number, time_span
 from hess_explorer.scenes.framework.parameters import places as chosen_places
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.solid_body import ConstrainedBody, constrained_body
 from hess_explorer.scenes.framework.windows import tidy_window, window_of
-from hess_explorer.scenes.suslov import Suslov
 from hess_explorer.views import layered_section, theme
 from hess_explorer.views.graph import about_0, over_time
 from hess_explorer.views.layers import Axes, levels, points
@@ -74,7 +73,8 @@ class OrbitDiagram(OverParameter, CentreOfMass, Tensor, OneOrbit, ConstrainedBod
     I13: float = like(Tensor, "I13", 0.6)
     I23: float = like(Tensor, "I23", 0.6)
     b1: float = like(CentreOfMass, "b1", -1.0)
-    h: float = like(Suslov, "h", 2.0)
+    h: float = number("h", 2.0, (0.01, 6.0), 0.01, bounds=(1e-6, 1e6), label="Energy above the bottom, h",
+                      doc="E + |b|, the energy above its smallest possible value.")
     span: float = time_span(60.0, 400.0, what="the chosen orbit")
     long: float = exponent_time(4000.0, 5000.0, 2e4, "the mean divergence is")
     accuracy: str = accuracy_level()
