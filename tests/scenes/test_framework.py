@@ -47,7 +47,7 @@ def test_a_parameter_that_is_declared_again_keeps_its_place_and_what_is_not_chan
 
 
 @pytest.mark.parametrize(("base", "missing"), [
-    (Crossings, ["body", "crossing", "places_of", "section_axes", "start", "weights"]),
+    (Crossings, ["body", "crossing", "given", "section", "section_axes", "weights"]),
     (FilledWindow, ["body", "piece", "impossible_here", "section", "weights"])])
 def test_a_section_that_lacks_a_member_cannot_be_made(base, missing):
     incomplete = dataclass(frozen=True)(type("Incomplete", (base,), {}))

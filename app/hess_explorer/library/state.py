@@ -68,6 +68,18 @@ class State:
         return _first(self._state, ("section",))
 
     @property
+    def periodic(self) -> Any:
+        """The `PeriodicOrbit` on show in a section; None without one.  Raises `ModelError`.
+
+        >>> import hess_explorer as hess
+        >>> state = hess.state("quartic", Q1=0.0, Q2=0.1, periodic="period 1", accuracy="draft")
+        >>> state.periodic.kind, state.periodic.period
+        ('elliptic', 1)
+        """
+        closed = _first(self._shown("section").state, ("closed",)) if "section" in self.pictures else None
+        return None if closed is None else closed.orbit
+
+    @property
     def scene(self) -> str:
         """The name of the scene, as in a link."""
         return self._address.scene.name

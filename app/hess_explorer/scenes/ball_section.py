@@ -17,6 +17,7 @@ from hess_explorer.scenes.framework.crossings import SECTION, Crossings
 from hess_explorer.scenes.framework.inertia import CentreOfMass, Tensor
 from hess_explorer.scenes.framework.one_orbit import Start
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, crossings_of_each, like, number, time_span
+from hess_explorer.scenes.framework.periodic import layers, length_of_manifolds, plain, which
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.solid_body import ConstrainedBody, constrained_body
 from hess_explorer.views import scattering_map as square
@@ -30,8 +31,10 @@ from hess_mechanics.chaplygin_ball.energy_surface import lowest_energy
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.chaplygin_ball.integrable_cases import area_integral, has_area_integral, is_reversible
 from hess_mechanics.chaplygin_ball.section import (
+    BallSection as Section,
+)
+from hess_mechanics.chaplygin_ball.section import (
     ball_section,
-    coordinates,
     fastest,
     forbidden_band,
     outside_band,
@@ -47,7 +50,7 @@ _CELLS = 32
 _MOST_STEPS = 15_000
 
 _PLAIN = {"I13": 0.0, "I23": 0.0}
-PRESETS = (
+PRESETS = (*map(plain, (
     Preset("Mixed: curves and a sea, I₁₃ = I₂₃ = 0"),
     Preset("Regular: I₁₁ = I₂₂, b ∥ e₃", **_PLAIN, I11=1.0, I22=1.0, D=3.0, b1=0.0, b3=1.0, h=1.5),
     Preset("Every orbit closes: b₃ = 0", **_PLAIN, I11=1.0, I22=2.0, D=1.0, b1=1.0, b2=0.5, b3=0.0, h=2.618, psi=0.5),
@@ -56,7 +59,7 @@ PRESETS = (
            psi=2.5, count=600.0, drop="the later half"),
     Preset("A wider one, I₁₃I₂₃ ≠ 0", I11=1.5, I22=3.0, I13=-0.1, I23=0.4, D=4.0, b1=-0.8, b2=-0.3, b3=-0.7, h=1.0,
            psi=0.4, count=600.0, drop="the later half"),
-)
+)),)
 
 
 @dataclass(frozen=True)
@@ -81,13 +84,15 @@ class BallSection(CentreOfMass, Ball, Crossings, ConstrainedBody):
                         doc="On the section γ = (cos ψ, sin ψ, 0). A click in the section chooses ψ and δ.")
     delta: float = number("δ", 1.5, (0.01, 3.13), 0.01, bounds=(1e-6, math.pi - 1e-6), label="Start: δ, from γ to ω",
                           doc="On the section ω points at the angle δ from γ.")
+    periodic: str = which()
     count: float = crossings_of_each()
+    reach: float = length_of_manifolds()
     span: float = time_span(40.0, 200.0, what="the chosen orbit")
     drop: str = choice("Points shown", ("all", "the later half"), "all", doc="The later half shows what attracts.")
     accuracy: str = accuracy_level()
 
     section_axes: ClassVar[Axes] = Axes(square.AZIMUTH, square.POLAR)
-    section_names: ClassVar[tuple[str, str]] = ("ψ", "δ")
+    names: ClassVar[tuple[str, str]] = ("ψ", "δ")
 
     def admitted(self, notes: list[str]) -> BallSection:
         """ψ outside the band that the energy forbids."""
@@ -113,23 +118,24 @@ class BallSection(CentreOfMass, Ball, Crossings, ConstrainedBody):
         return forbidden_band(self.body, self.E)
 
     @cached_property
-    def start(self) -> Start:
+    def section(self) -> Section:
+        """The section γ3 = 0."""
+        return Section(self.body, self.E)
+
+    @cached_property
+    def given(self) -> Start:
         """The state at (ψ, δ) of the section."""
         return state_at(self.body, self.E, self.psi, self.delta)
 
     @cached_property
     def weights(self) -> tuple[float, ...]:
         """From the variables to the pictures, as large as the orbit will be drawn."""
-        return pixels_per_unit(room_for(self.work.get(fastest, self.body, self.start, self.span)))
+        return pixels_per_unit(room_for(self.work.get(fastest, self.body, self.start, self.lasts)))
 
     def crossing(self, crossings: int, level: Level) -> tuple[Task, Task]:
         """What finds so many crossings of the orbit on show, and of the others."""
-        return (Task(ball_section, (self.body, self.E, (self.start,), crossings, level, _MOST_STEPS)),
+        return (Task(ball_section, (self.body, self.E, (self.given,), crossings, level, _MOST_STEPS)),
                 Task(spread_section, (self.body, self.E, _ORBITS, crossings, level, _MOST_STEPS)))
-
-    def places_of(self, states: Array) -> Array:
-        """(ψ, δ)."""
-        return coordinates(states)
 
     def first_shown(self, crossings: int) -> int:
         """The first one, or the middle one."""
@@ -145,11 +151,16 @@ class BallSection(CentreOfMass, Ball, Crossings, ConstrainedBody):
 
     def returns(self) -> Array | None:
         """ψ and the next ψ: which returns belong together only the chosen orbit tells."""
-        return None if self.own is None else np.column_stack([self.own[:-1, 0], self.own[1:, 0]])
+        if self.own is None:
+            return None
+        psi = self.own[:, 0]
+        return np.column_stack([psi[:-1], psi[1:]] if self.closed is None else [psi, np.roll(psi, -1)])
 
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_section(self) -> str:
+        if self.about_closed:
+            return self.about_closed
         if self.own is None:
             return "Left out: it would take too many steps."
         volume = "the flow keeps volume" if self.I13 == self.I23 == 0.0 else "volume is not kept"
@@ -168,6 +179,7 @@ class BallSection(CentreOfMass, Ball, Crossings, ConstrainedBody):
     def derived(self) -> Iterator[str]:
         """Energies, and where the orbit starts."""
         yield f"E = {digits(self.E, 6)}"
+        yield from super().derived()
         yield f"lowest energy −|b| = {digits(lowest_energy(self.body), 6)}"
         yield f"ω(0) = {vector(self.start[:2])}"
         yield f"γ(0) = {vector(self.start[2:])}"
@@ -184,12 +196,12 @@ SCENE = Scene(
     views=(
         constrained_body(ball=True),
         Plot(name="section", title="Section: γ₃ grows through 0", caption=BallSection._about_section,
-             axes=BallSection.section_names, x=square.AZIMUTH, y=square.POLAR, ticks=square.AZIMUTH_TICKS,
+             axes=BallSection.names, x=square.AZIMUTH, y=square.POLAR, ticks=square.AZIMUTH_TICKS,
              y_ticks=square.POLAR_TICKS, message=lambda s: s.reason,
              on_click=lambda s, x, y: {"psi": x, "delta": y},
              layers=section_plane.layers(
-                 lambda s: s.own, others=lambda s: s.others, forbidden=BallSection.forbidden,
-                 start=lambda s: [] if s.own is None else [(s.psi, s.delta)])),
+                 BallSection.points, others=lambda s: s.others, forbidden=BallSection.forbidden,
+                 start=lambda s: [] if s.points() is None else [(s.psi, s.delta)]) + layers()),
         orbit_alone(BallSection.half_width, energy=lambda s: s.E, label="chosen orbit"),
         along_the_orbit(lambda s: s.r),
         Plot(name="returns", title="First return", folded="Show the first return", caption=BallSection._about_returns,

@@ -27,6 +27,7 @@ from hess_explorer.scenes.framework.parameters import (
     points_of_each,
     time_span,
 )
+from hess_explorer.scenes.framework.periodic import length_of_manifolds, plain, which
 from hess_explorer.scenes.framework.rotation_across import ROTATION, RotationAcross, rotation_picture
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.solid_body import HeavySolid, heavy_solid
@@ -53,7 +54,7 @@ _BELOW, _AT, _ABOVE = "a curve in a regular leaf", "the separatrix", "two layers
 _LS = np.array([-2.9, -2.7, -2.5, -2.2, 2.2, 2.5, 2.7, 2.9])
 _ON_HESS = written([*zip(_LS, hess_curve(HeavyBody.hess((1.0, 1.5, 2.0), -math.sqrt(0.5)), _LS), strict=True)])
 _NONE, _STABLE, _UNSTABLE = "no Hess motion yet", "the Hess motion is stable", "it is unstable, two layers part"
-PRESETS = (
+PRESETS = (*map(plain, (
     Preset("Two layers that never mix (figure 11)", turns=_ALONG, sheet=_LARGEST),
     Preset("Meandering torus (figure 12)", sheet=_LARGEST, window="-2.25,-0.27;-1.45,0.33", turns=_ABOUT,
            starts="-1.558,0.03", orbits=40.0, count=600.0),
@@ -70,7 +71,7 @@ PRESETS = (
            starts="0,0.5"),
     Preset("The second sheet of figure 14 a: a smaller G", **_RIS, h=0.0, f=1.0, starts="2.5,-0.92",
            window="2,-0.97;2.6,-0.86", count=600.0),
-)
+)),)
 
 
 @dataclass(frozen=True)
@@ -83,8 +84,10 @@ class EulerPoisson(Moments, RotationAcross, HeavySolid):
     m: float = like(HeavyMotion, "m")
     h: float = like(HeavyMotion, "h", softbounds=(-1.0, 60.0), doc="H = h.")
     f: float = like(HeavyMotion, "f", doc="(M, γ) = f; the section needs G ≥ |f|.")
+    periodic: str = which()
     orbits: float = orbits_spread(60.0, 200.0, 400.0)
     count: float = points_of_each(300.0)
+    reach: float = length_of_manifolds()
     span: float = time_span(20.0, 200.0, what="the chosen orbit")
     long: float = exponent_time(200.0, 1000.0, 1e4, "the Lyapunov exponent is")
     turns: str = choice("Rotation number", (_ALONG, _ABOUT), _ALONG,
@@ -149,6 +152,8 @@ class EulerPoisson(Moments, RotationAcross, HeavySolid):
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_section(self) -> str:
+        if self.about_closed:
+            return self.about_closed
         kept = [one for piece in self.pieces for one in piece.kept]
         mixed = ": the layers never mix." if self.away == 0.0 else "."
         other = len(inside([(float(l), float(x)) for l, x in self.elsewhere], self.frame))
@@ -158,7 +163,8 @@ class EulerPoisson(Moments, RotationAcross, HeavySolid):
     def derived(self) -> Iterator[str]:
         """a and r, the start of the orbit on show, whether this is a rigid body."""
         yield f"a = {digits(self.body.hess_a)}, r = {vector(self.body.r)}"
-        yield f"chosen: {self.at(self.picked.places[-1])}"
+        yield f"chosen: {self.at(self.chosen)}"
+        yield from super().derived()
         if self.known("_known") and len(self.elsewhere):
             yield f"on another sheet: {len(self.elsewhere)} points"
         yield self.body.check.sentence

@@ -8,6 +8,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import ClassVar
 
+import numpy as np
+
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values
 from hess_explorer.scenes.framework.charted import exponents
@@ -23,6 +25,7 @@ from hess_explorer.scenes.framework.parameters import (
     slider_within,
     time_span,
 )
+from hess_explorer.scenes.framework.periodic import layers, length_of_manifolds, plain, which
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.solid_body import ConstrainedBody, constrained_body
 from hess_explorer.views import plane_domain, section_plane
@@ -44,7 +47,7 @@ _P_AXIS = centred(1.05)
 _HEIGHTS = (-0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75)
 """Values of γ3 on the equipotentials."""
 
-PRESETS = (
+PRESETS = (*map(plain, (
     Preset("Mixed: in the sea"),
     Preset("Mixed: on a curve", Q1=0.2, Q2=1.9, beta=0.0),
     Preset("Integrable: I₁₁ = I₂₂", ratio=1.0, h=0.6),
@@ -52,7 +55,7 @@ PRESETS = (
     Preset("Regular: nearly round", ratio=1.05, h=0.6),
     Preset("A sea nearly everywhere", ratio=3.0, h=1.2, Q1=0.9, Q2=1.2),
     Preset("In a ring: bouncing at its far end", ratio=1.5, h=3.0, Q1=0.3, Q2=3.0, beta=1.571, span=60.0),
-)
+)),)
 
 
 @dataclass(frozen=True)
@@ -72,7 +75,9 @@ class Quartic(Crossings, ConstrainedBody):
     beta: float = number("β", 1.0, (-3.14, 3.14), 0.01, bounds=(-math.pi, math.pi), label="Start: direction β",
                          doc="Where the point runs at first: q̇ = −p, |p| = √(1 − γ₃²). A click in the section chooses "
                              "all three.")
+    periodic: str = which()
     count: float = crossings_of_each()
+    reach: float = length_of_manifolds()
     span: float = time_span(40.0, 200.0, most=1e3, what="the chosen orbit")
     accuracy: str = accuracy_level()
 
@@ -95,7 +100,12 @@ class Quartic(Crossings, ConstrainedBody):
         return model.QuarticBody(self.ratio * self.I22, self.I22, self.b3, self.h)
 
     @cached_property
-    def start(self) -> Start:
+    def section(self) -> model.QuarticSection:
+        """The section, along the longer axis of the region."""
+        return model.QuarticSection(self.body)
+
+    @cached_property
+    def given(self) -> Start:
         """The state at q with the direction β."""
         return model.state_at(self.body, (self.Q1, self.Q2), self.beta)
 
@@ -111,14 +121,10 @@ class Quartic(Crossings, ConstrainedBody):
 
     def crossing(self, crossings: int, level: Level) -> tuple[Task, Task]:
         """What finds so many crossings of the orbit on show, and of the others."""
-        return (Task(model.quartic_section, (self.body, (self.start,), crossings, level, _MOST_STEPS)),
+        return (Task(model.quartic_section, (self.body, (self.given,), crossings, level, _MOST_STEPS)),
                 Task(model.spread_section, (self.body, _ORBITS, crossings, level, _MOST_STEPS)))
 
-    def places_of(self, states: Array) -> Array:
-        """The q along the section and its p."""
-        return self.body.on_section(states)
-
-    section_names: ClassVar[tuple[str, str]] = ("q", "p")
+    names: ClassVar[tuple[str, str]] = ("q", "p")
 
     @property
     def section_axes(self) -> Axes:
@@ -129,6 +135,13 @@ class Quartic(Crossings, ConstrainedBody):
     def momentum(self) -> Array:
         """q1p2 − q2p1 along the orbit (n,)."""
         return model.angular_momentum(self.body, self.orbit.states)
+
+    def first(self) -> tuple[float, float]:
+        """The q from which the orbit on show starts."""
+        if self.closed is None:
+            return self.Q1, self.Q2
+        (q,), _ = self.body.to_plane(np.array([self.start]))
+        return float(q[0]), float(q[1])
 
     def impossible(self, axes: Axes) -> list[list[Array]]:
         """All of the section but the inside of its boundary."""
@@ -150,6 +163,8 @@ class Quartic(Crossings, ConstrainedBody):
         return f"Level ½, half axes {first} and {second}, {ring}."
 
     def _about_section(self) -> str:
+        if self.about_closed:
+            return self.about_closed
         if self.own is None:
             return self.reason
         visited = model.visited(self.body, self.own, _CELLS)
@@ -161,6 +176,7 @@ class Quartic(Crossings, ConstrainedBody):
     def derived(self) -> Iterator[str]:
         """Moment of inertia, energy, start; how well the point stays on its level."""
         yield f"I₁₁ = {digits(self.body.I11, 6)}"
+        yield from super().derived()
         yield f"h/|b₃| = {digits(self.h / abs(self.b3), 6)}"
         yield f"Start: γ₃ = {digits(self.start[4], 6)}"
         yield f"ω(0) = {vector(self.start[:2])}"
@@ -183,12 +199,13 @@ SCENE = Scene(
             "Point in the potential γ₃²/2", Quartic._about_domain, lambda s: s.half_width, names=("Q1", "Q2"),
             layers=(*plane_domain.ground(lambda s: s.body.ellipse(), lambda s: s.body.holes(),
                                          lambda s: s.body.equipotentials(_HEIGHTS)),
-                    *plane_domain.orbit(lambda s: (s.Q1, s.Q2), label="where it starts"))),
-        Plot(name="section", caption=Quartic._about_section, axes=Quartic.section_names,
+                    *plane_domain.orbit(Quartic.first, label="where it starts"))),
+        Plot(name="section", caption=Quartic._about_section, axes=Quartic.names,
              on_click=Quartic.start_on_section,
              title=lambda s: "Section {0} = 0, {0} growing".format("q₂" if s.body.across else "q₁"),
              x=lambda s: s.section_axes.x, y=_P_AXIS, message=lambda s: s.reason,
-             layers=section_plane.layers(lambda s: s.own, others=lambda s: s.others, forbidden=Quartic.impossible)),
+             layers=section_plane.layers(Quartic.points, others=lambda s: s.others, forbidden=Quartic.impossible)
+             + layers()),
         Sphere(caption=Quartic._about_sphere, looks={"orbit": "orbit"}, axis=lambda s: centre_of_mass((0.0, 0.0, s.b3)),
                circles=lambda s: parallels((0.0, 0.0, 1.0), [s.body.h / s.body.b3])),
         plane_domain.momentum_picture(lambda s: (s.orbit.times, s.momentum), least=lambda s: 1e-3 * max(s.body.axes),

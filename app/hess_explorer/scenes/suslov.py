@@ -28,6 +28,7 @@ from hess_explorer.scenes.framework.parameters import (
     points_of_each,
     time_span,
 )
+from hess_explorer.scenes.framework.periodic import length_of_manifolds, plain, which
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.solid_body import ConstrainedBody, constrained_body
 from hess_explorer.scenes.framework.windows import Window
@@ -62,7 +63,7 @@ def _body(I11: float, I22: float, I13: float, I23: float, b1: float, b2: float, 
             "h": round(E + math.hypot(b1, b2, b3), 6), "plane": "γ₃ = 0"}
 
 
-PRESETS = (
+PRESETS = (*map(plain, (
     Preset("A chaotic sea", plane="γ₃ = 0", colours=_BOTH, drop="all"),
     Preset("Regular orbits", **_body(1.5, 4.0, 0.0, 0.8, 0.0, 1.0, 0.7, -0.521), colours=_BOTH, drop="all",
            starts="-1.5,1"),
@@ -74,7 +75,7 @@ PRESETS = (
            colours=_BOTH, count=100.0, drop="all"),
     Preset("On a principal axis, I₁₃ = I₂₃ = 0: volume is kept", **_body(1.5, 1.0, 0.0, 0.0, 0.4, -0.3, 0.8, 0.7),
            colours="forward only", drop="all", starts="0,1.5"),
-)
+)),)
 
 
 @dataclass(frozen=True)
@@ -89,8 +90,10 @@ class Suslov(CentreOfMass, Tensor, Basins, ConstrainedBody):
     colours: str = choice("Show", (_BOTH, "forward only", "basins"), _BOTH,
                           doc="Basins: to which group of motions, or attractor, each point of the section leads.")
     drop: str = choice("Points shown", ("all", "the later half"), "all", doc="The later half shows what attracts.")
+    periodic: str = which()
     orbits: float = orbits_spread(40.0, 120.0, 300.0)
     count: float = points_of_each(200.0)
+    reach: float = length_of_manifolds()
     span: float = time_span(60.0, 400.0, what="the chosen orbit")
     long: float = exponent_time(1000.0, 5000.0, 2e4, "the Lyapunov exponent and the divergence are")
     accuracy: str = accuracy_level()
@@ -178,14 +181,19 @@ class Suslov(CentreOfMass, Tensor, Basins, ConstrainedBody):
     @cached_property
     def course(self) -> Course | None:
         """The mean divergence along the orbit on show, when it is known; not while a slider is held."""
-        return None if self.dragging else self.work.later(
+        return None if self.dragging or self.looking or self.closed is not None else self.work.later(
             mean_divergence, self.body, self.start, self.plan(Kind.EXPONENT).share * self.long)
 
     # ---- the other pictures -------------------------------------------------------------------------------------
 
     @property
     def rates(self) -> tuple[tuple[Array, Array], ...]:
-        """Times and values of the exponent and of the mean divergence, when both are known."""
+        """Times and values of the exponent and of the mean divergence, when both are known.
+
+        Those of a periodic orbit are its own.
+        """
+        if self.growth is not None:
+            return tuple((np.array([0.0, self.long]), np.full(2, rate)) for rate in self.growth)
         exponent, course = self.exponent, self.course
         return () if exponent is None or course is None else (
             (exponent.times, exponent.rates), (course.times, course.mean))
@@ -200,7 +208,7 @@ class Suslov(CentreOfMass, Tensor, Basins, ConstrainedBody):
         if self.I13 != 0.0 or self.I23 != 0.0:
             return None, "Only for I₁₃ = I₂₃ = 0, as in the example “On a principal axis”."
         try:
-            return self.work.get(conformal, self.body, self.start, self.span, self.orbit_level), ""
+            return self.work.get(conformal, self.body, self.start, self.lasts, self.orbit_level), ""
         except WorkLimit as error:
             return None, str(error)
 
@@ -210,6 +218,8 @@ class Suslov(CentreOfMass, Tensor, Basins, ConstrainedBody):
         return f"Section {self.plane}, growing" if self.basin is None else f"Section {self.plane}: basins"
 
     def _about_section(self) -> str:
+        if self.about_closed:
+            return self.about_closed
         if self.basin is not None:
             return self.about_basins(self.basin)
         backward = f", {len(self.second)} backward" if len(self.second) else ""
@@ -217,6 +227,9 @@ class Suslov(CentreOfMass, Tensor, Basins, ConstrainedBody):
                 f"{occupied_cells(self.later, _CELLS)} of {_CELLS**2} cells.")
 
     def _about_rates(self) -> str:
+        if self.growth is not None:
+            across, divergence = map(digits, self.growth)
+            return f"Next to the periodic orbit: ln|μ₁|/T = {across}, div = ln|μ₁μ₂|/T = {divergence}."
         exponent, course = self.exponent, self.course
         if exponent is None or course is None:
             return self.awaited("They are")
@@ -226,7 +239,8 @@ class Suslov(CentreOfMass, Tensor, Basins, ConstrainedBody):
     def derived(self) -> Iterator[str]:
         """The energy, the start of the orbit on show, whether this is a rigid body."""
         yield f"E = {digits(self.E, 6)}"
-        yield f"chosen: {self.at(self.picked.places[-1])}"
+        yield f"chosen: {self.at(self.chosen)}"
+        yield from super().derived()
         yield check_body(self.I11, self.I22, self.I13, self.I23).sentence
 
 
@@ -266,6 +280,6 @@ SCENE = Scene(
                      over_time("lambda", lambda s: s.rate(0), color=theme.ORBIT, label="exponent λ"))),
         along_the_orbit(lambda s: s.r),
         replace(orbit_alone(lambda s: s.half_width, energy=lambda s: s.E), folded="Show the angular velocity"),
-        conformal_time.picture(lambda s: s._conformal[0], lambda s: s._conformal[1], lambda s: s.span),
+        conformal_time.picture(lambda s: s._conformal[0], lambda s: s._conformal[1], lambda s: s.lasts),
     ),
 )

@@ -32,7 +32,7 @@ _FOLLOWED = 8
 """Periods for which an orbit is followed in search of where it comes back closest."""
 _FAR = 1e6
 _ROUNDING = 2.3e-16
-_DIFFERENCES = 2e-13
+_DIFFERENCES = 5e-12
 """What derivatives of sections, partly by differences, may be off though two runs agree."""
 _FAMILY = 1e-9
 """Singular values of J below this, beside the largest or 1, are directions in which periodic orbits form a family."""

@@ -9,8 +9,10 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, ClassVar
 
+import numpy as np
+
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.one_orbit import OneOrbit
+from hess_explorer.scenes.framework.periodic import PeriodicOrbits
 from hess_explorer.scenes.framework.trial import Trial, section_error
 from hess_explorer.scenes.framework.work import drift_status, kept_status
 from hess_explorer.views.comparison import Frame, Marks
@@ -27,6 +29,8 @@ __all__ = ["SECTION", "Crossings"]
 
 _FEW = 30
 """Crossings of each orbit, while a slider is dragged and until all are known."""
+_ON = 1e-9
+"""A start that is so close to the section, beside its size, is on it."""
 
 
 @dataclass(frozen=True)
@@ -38,7 +42,7 @@ class _Crossed:
     reason: str
 
 
-class Crossings(OneOrbit):
+class Crossings(PeriodicOrbits):
     """A section with the orbit on show, and others; of the others a few crossings come first.
 
     The scene declares the parameters that stand here without a value.
@@ -46,17 +50,12 @@ class Crossings(OneOrbit):
 
     most: ClassVar[int] = 6000
     periods: ClassVar[tuple[float, float]] = (math.inf, math.inf)
-    section_names: ClassVar[tuple[str, str]]
 
     count: float
 
     @abstractmethod
     def crossing(self, crossings: int, level: Level) -> tuple[Task, Task]:
         """What finds so many crossings of the orbit on show, and of the others."""
-
-    @abstractmethod
-    def places_of(self, states: Array) -> Array:
-        """The places (n, 2) on the section of states (n, d) of one orbit."""
 
     @property
     @abstractmethod
@@ -96,7 +95,23 @@ class Crossings(OneOrbit):
     @cached_property
     def own(self) -> Array | None:
         """Places (n, 2) of the orbit on show; None where the section is left out."""
-        return self._places(self._crossed.own)
+        return self._places(self._crossed.own) if self.closed is None else self.closed.orbit.places
+
+    def points(self) -> Array | None:
+        """The same where it is no periodic one, which has signs of its own."""
+        return self.own if self.closed is None else None
+
+    @cached_property
+    def aim(self) -> tuple[float, ...] | None:
+        """Where the chosen orbit starts, or else first crosses the section."""
+        given, points = np.array([self.given]), self._crossed.own
+        place = self.section.places_of(given)
+        states, there = self.section.states_at(*place.T)
+        if not (there[0] and np.abs(states - given).max() < _ON * max(1.0, float(np.abs(given).max()))):
+            if points is None or not len(points.states[0]):
+                return None
+            place = self.section.places_of(points.states[0])
+        return tuple(map(float, place[0]))
 
     @cached_property
     def others(self) -> Array | None:
@@ -107,12 +122,12 @@ class Crossings(OneOrbit):
         if points is None:
             return None
         first = self.first_shown(max(map(len, points.states), default=0))
-        return joined(self.places_of(states[first:]) for states in points.states)
+        return joined(self.section.places_of(states[first:]) for states in points.states)
 
     def orbits_at(self, plan: Plan) -> list[Array]:
         """All orbits of the section (n, 2), that on show first, computed here and now."""
         tasks = self.crossing(plan.part(self.count, _FEW), plan.level)
-        return [self.places_of(states) for task in tasks for states in task.now().states]
+        return [self.section.places_of(states) for task in tasks for states in task.now().states]
 
     @cached_property
     def kept(self) -> tuple[int, int | None] | None:
@@ -121,16 +136,16 @@ class Crossings(OneOrbit):
         From a second run, with a hundredth of the tolerance; None until it is known, and while a slider is held.
         """
         crossed = self._crossed
-        if self.dragging or crossed.own is None or crossed.others is None:
+        if self.dragging or self.closed is not None or crossed.own is None or crossed.others is None:
             return None
         tight: list[Any] = [self.work.later(task.function, *task.arguments) for task in self.crossing(
             self.wanted, self.plan(Kind.SECTION).level.tightened())]
         if None in tight or self.work.todo:
             # Of the others a few crossings are shown so far.
             return None
+        at = self.section.places_of
         own, others = (
-            right_crossings([*map(self.places_of, coarse.states)], [*map(self.places_of, fine.states)],
-                            self.pixels, self.periods)
+            right_crossings([*map(at, coarse.states)], [*map(at, fine.states)], self.pixels, self.periods)
             for coarse, fine in zip((crossed.own, crossed.others), tight, strict=True))
         return own[0], typical(others)
 
@@ -142,12 +157,14 @@ class Crossings(OneOrbit):
             yield f"section {len(self.own) + len(self.others)} points, {steps} Taylor steps"
             yield from drift_status((found.own.drift, found.others.drift))
             yield from kept_status(self.kept, self.wanted)
+        yield from super().status()
         yield from self._orbit_status()
 
     def notes(self) -> Iterator[str]:
         """A section that is left out."""
         if self.known("_crossed") and self.reason:
             yield self.reason
+        yield from super().notes()
 
 
 _MOST_COMPARED = 400.0
@@ -163,5 +180,5 @@ def _small(s: Crossings) -> Crossings:
 SECTION: Trial[Any] = Trial(
     Kind.SECTION, ("section",), lambda s, plan: s.orbits_at(plan),
     lambda s, orbits, truth: section_error(orbits, truth, s.pixels, s.periods),
-    lambda s, orbits: Marks(Frame(s.section_axes, s.section_names), tuple(orbits), s.periods, crossings=True),
+    lambda s, orbits: Marks(Frame(s.section_axes, s.names), tuple(orbits), s.periods, crossings=True),
     small=_small)

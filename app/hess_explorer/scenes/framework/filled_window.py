@@ -13,7 +13,9 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values, places, written
-from hess_explorer.scenes.framework.one_orbit import OneOrbit, Start
+from hess_explorer.scenes.framework import periodic
+from hess_explorer.scenes.framework.one_orbit import Start
+from hess_explorer.scenes.framework.periodic import PeriodicOrbits
 from hess_explorer.scenes.framework.trial import Trial, section_error
 from hess_explorer.scenes.framework.windows import Window, boxed, inside, tidy_window, window_of
 from hess_explorer.scenes.framework.work import drift_status, kept_status
@@ -25,11 +27,12 @@ from hess_explorer.views.plot import Plot
 from hess_explorer.views.section_plane import joined
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.lyapunov import Exponent, largest_exponent
+from hess_mechanics.dynamics.return_map import Sheet
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.shadowing import right_crossings, typical
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.numerics.accuracy import Kind, Level, Plan
-from hess_mechanics.numerics.results import Array, Mask
+from hess_mechanics.numerics.results import Array
 
 __all__ = ["EXPONENT", "SECTION", "TURN", "FilledWindow", "Piece", "filled_window", "in_pieces"]
 
@@ -47,13 +50,7 @@ T = TypeVar("T")
 Place = tuple[float, float]
 
 
-class _Section(Protocol):
-    def states_at(self, x: Array, y: Array, /) -> tuple[Array, Mask]:
-        """The states (n, d) at places (n,), and whether motions are possible there (n,)."""
-
-    def places_of(self, states: Array) -> Array:
-        """The places (n, 2) of states (n, d)."""
-
+class _Section(Sheet, Protocol):
     def spread(self, window: Window, count: int) -> tuple[Start, ...]:
         """At most `count` states, spread over what is possible of the window."""
 
@@ -88,11 +85,11 @@ class _Chosen:
     refused: Place | None = None
 
 
-class FilledWindow(OneOrbit):
+class FilledWindow(PeriodicOrbits):
     """A section whose window is filled with orbits, besides those started by clicks; all come piece by piece.
 
     The scene declares the parameters that stand here without a value.
-    names : of its axes; excuse : why at some places no orbit starts.
+    excuse : why at some places no orbit starts.
     full : the whole section; bounds : the same, as places in a link are written; held : how many orbits and crossings
     there are at most while a slider is held.
     """
@@ -103,7 +100,6 @@ class FilledWindow(OneOrbit):
     starts: str
     window: str
 
-    names: ClassVar[tuple[str, str]]
     excuse: ClassVar[str]
     full: ClassVar[Window]
     bounds: ClassVar[Window]
@@ -179,8 +175,8 @@ class FilledWindow(OneOrbit):
         return _Chosen([(float(x), float(y))], [others[0]], wanted[-1])
 
     @property
-    def start(self) -> Start:
-        """Where the orbit on show starts."""
+    def given(self) -> Start:
+        """The last of them."""
         return self.picked.states[-1]
 
     @property
@@ -191,6 +187,16 @@ class FilledWindow(OneOrbit):
         if not possible[0]:
             raise OutsideRegion(f"At {self.at(place)} {self.excuse}: choose another point.")
         return tuple(map(float, states[0]))
+
+    @property
+    def aim(self) -> Place:
+        """Its place."""
+        return self.picked.places[-1]
+
+    @property
+    def chosen(self) -> Place:
+        """The place where the orbit on show starts."""
+        return self.aim if self.places is None else self.places[0]
 
     def _spread(self, count: int) -> tuple[Start, ...]:
         return self.work.get(_seeds, self.section, self.frame, count)
@@ -204,7 +210,8 @@ class FilledWindow(OneOrbit):
     def _followed(self) -> tuple[list[Piece | None], list[Piece | None]]:
         """Pieces of the chosen orbits, which come first, and of those all over the window; None where not known yet."""
         seeds = self._spread(self.wanted[0])
-        return ([self.follow((state,), True) for state in self.picked.states],
+        own = self.picked.states if self.closed is None else self.picked.states[:-1]
+        return ([self.follow((state,), True) for state in own],
                 [self.follow(starts, forward) for starts in in_pieces(seeds) for forward in self.ways])
 
     @cached_property
@@ -246,8 +253,11 @@ class FilledWindow(OneOrbit):
 
     @cached_property
     def exponent(self) -> Exponent | None:
-        """The largest Lyapunov exponent of the orbit on show, when it is known; not while a slider is held."""
-        if self.dragging:
+        """The largest Lyapunov exponent of the orbit on show, when it is known; not while a slider is held.
+
+        That of a periodic orbit is known from its multipliers, see `growth`.
+        """
+        if self.dragging or self.looking or self.closed is not None:
             return None
         plan = self.plan(Kind.EXPONENT)
         return self.work.later(largest_exponent, self.body.system, self.start, self.body.parameters,
@@ -275,7 +285,7 @@ class FilledWindow(OneOrbit):
 
         From a second run, with a hundredth of the tolerance; None until it is known, and while a slider is held.
         """
-        if self.dragging:
+        if self.dragging or self.looking or self.closed is not None:
             return None
         own, around = self._followed
         level = self.plan(Kind.SECTION).level.tightened()
@@ -294,7 +304,7 @@ class FilledWindow(OneOrbit):
 
     def rings(self) -> list[Place]:
         """Where the chosen orbits start, as far as that is seen."""
-        return inside(self.picked.places, self.frame)
+        return inside([*self.picked.places[:-1], self.chosen], self.frame)
 
     def nothing_seen(self) -> str:
         """What is said in the frame where no point lies in it and no more are to come."""
@@ -323,6 +333,7 @@ class FilledWindow(OneOrbit):
         if self.picked.refused is not None:
             yield (f"At {self.at(self.picked.refused)} {self.excuse}: the chosen orbit starts at "
                    f"{self.at(self.picked.places[0])}.")
+        yield from super().notes()
 
     def status(self) -> Iterator[str]:
         """Size and drift of the section, the orbit on show."""
@@ -330,6 +341,7 @@ class FilledWindow(OneOrbit):
             yield f"section {len(self.first) + len(self.second) + len(self.own)} points"
             yield from drift_status(piece.drift for piece in self.pieces)
             yield from kept_status(self.kept, self.wanted[1])
+        yield from super().status()
         yield from self._orbit_status()
 
 
@@ -391,7 +403,8 @@ def filled_window(title: str | Callable[[W], str], caption: Callable[[W], str], 
         on_click=lambda s, x, y: s.start_here(x, y), on_box=lambda s, corners: s.look_closer(corners),
         layers=(*under, *layered_section.layers(
             lambda s: s.first, lambda s: s.second, lambda s: s.own, chosen=lambda s: s.rings(),
-            impossible=lambda s: s.impossible, window=lambda s: s.frame, labels=labels, between=between)))
+            impossible=lambda s: s.impossible, window=lambda s: s.frame, labels=labels, between=between),
+            *periodic.layers()))
 
 
 def _seeds(section: _Section, window: Window, count: int) -> tuple[Start, ...]:

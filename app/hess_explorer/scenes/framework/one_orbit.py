@@ -54,11 +54,16 @@ class OneOrbit(State, ABC):
     def weights(self) -> tuple[float, ...]:
         """From the variables to the scene's pictures, in pixels for a unit."""
 
+    @property
+    def lasts(self) -> float:
+        """How long the orbit is followed."""
+        return self.span
+
     @cached_property
     def orbit(self) -> Orbit:
         """The orbit on show."""
-        return self.work.get(sampled_orbit, self.body.system, self.start, self.body.parameters, self.span, self.weights,
-                             self.orbit_level, self.most)
+        return self.work.get(sampled_orbit, self.body.system, self.start, self.body.parameters, self.lasts,
+                             self.weights, self.orbit_level, self.most)
 
     @property
     def orbit_level(self) -> Level:
@@ -67,7 +72,7 @@ class OneOrbit(State, ABC):
 
     def motion(self) -> Motion:
         """The orbit on show."""
-        return Motion(self.body.system, self.start, self.body.parameters, self.span, self.weights)
+        return Motion(self.body.system, self.start, self.body.parameters, self.lasts, self.weights)
 
     def _orbit_status(self) -> Iterator[str]:
         if self.known("orbit"):

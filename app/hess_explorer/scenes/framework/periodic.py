@@ -1,0 +1,298 @@
+"""A section in which the chosen orbit may be the periodic one that Newton's method finds from there."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any, ClassVar
+
+import numpy as np
+
+from hess_explorer.compute.cache import CACHE
+from hess_explorer.protocol.parameters import Value
+from hess_explorer.scenes.framework.one_orbit import OneOrbit, Start
+from hess_explorer.scenes.framework.parameters import choice, number
+from hess_explorer.scenes.framework.scene import Preset
+from hess_explorer.views import periodic as view
+from hess_explorer.views.layers import Layer
+from hess_explorer.views.text import digits, power
+from hess_mechanics.dynamics.manifolds import Manifold, grown
+from hess_mechanics.dynamics.periodic import PeriodicOrbit, find_periodic
+from hess_mechanics.dynamics.return_map import ReturnMap, Sheet
+from hess_mechanics.errors import ModelError
+from hess_mechanics.numerics.accuracy import PRECISE
+from hess_mechanics.numerics.patience import go_on
+
+__all__ = ["NONE", "Closed", "PeriodicOrbits", "layers", "length_of_manifolds", "plain", "which"]
+
+Place = tuple[float, ...]
+Search = tuple[ReturnMap, Place, int | None, bool]
+"""The map, where it is begun, the period where one is given, and whether that is all that is tried."""
+
+NONE, ANY = "none", "any period"
+_MOST = 12
+_PERIODS: Mapping[str, int | None] = {ANY: None, **{f"period {m}": m for m in range(1, _MOST + 1)}}
+_WHOLE = 3
+"""Periods up to which the manifolds of all places are drawn: those of one are images of those of another."""
+_POINTS, _RETURNS = 2000, 20_000
+"""Of each branch, at most: returns of the map, for all of its points together."""
+_SAGITTA, _CHORD = 0.25, 10.0
+"""Of the curves drawn, in pixels."""
+_PARTS = (1.0, 0.5, 0.25)
+"""Of the length wanted, where the whole is not known to half a pixel."""
+_AT_ITS_LENGTH = "At its length."
+_UNKNOWN = "What follows is not known to half a pixel: a more exact level may show it."
+
+
+def which() -> Any:
+    """Whether the periodic orbit next to the chosen place takes its place, and of which period."""
+    return choice("Periodic orbit", (NONE, *_PERIODS), NONE, group="State",
+                  doc="In place of the chosen orbit: the periodic one that Newton's method finds from there, with so "
+                      "many points in the section, and the manifolds of a saddle.")
+
+
+def length_of_manifolds() -> Any:
+    """How long the manifolds of a saddle are drawn."""
+    return number("s", 5.0, (0.0, 20.0), 0.5, bounds=(0.0, 100.0), label="Length of manifolds", group="Computation",
+                  doc=f"Of each branch, in units of the axes of the section; at most {_POINTS} points.")
+
+
+def plain(preset: Preset) -> Preset:
+    """An example without a periodic orbit, whatever was chosen before."""
+    values: dict[str, Value] = {"periodic": NONE, **preset.values}
+    return Preset(preset.name, **values)
+
+
+@dataclass(frozen=True)
+class Closed:
+    """A periodic orbit, the state at its first place, and the time after which it closes."""
+
+    orbit: PeriodicOrbit
+    state: Start
+    time: float
+
+
+@dataclass(frozen=True)
+class Missed:
+    """Why none was found."""
+
+    reason: str
+
+
+class PeriodicOrbits(OneOrbit):
+    """A section with an orbit on show, or in its place a periodic one.
+
+    The scene declares the parameters that stand here without a value.
+    names : of the axes of the section.
+    """
+
+    periodic: str
+    reach: float
+
+    names: ClassVar[tuple[str, str]]
+
+    @property
+    @abstractmethod
+    def section(self) -> Sheet:
+        """The section.  Raises `ModelError`."""
+
+    @property
+    @abstractmethod
+    def given(self) -> Start:
+        """Where the chosen orbit starts, from where a periodic one is looked for.  Raises `ModelError`."""
+
+    @property
+    @abstractmethod
+    def aim(self) -> Place | None:
+        """The first place of the chosen orbit in the section; None where that is not known."""
+
+    @property
+    @abstractmethod
+    def pixels(self) -> tuple[float, ...]:
+        """Pixels of the picture for a unit of each coordinate."""
+
+    # ---- the orbit ----------------------------------------------------------------------------------------------
+
+    @property
+    def closing(self) -> bool:
+        """Whether a periodic orbit is asked for."""
+        return self.periodic != NONE
+
+    @property
+    def _search(self) -> Search | None:
+        """What `_sought` is asked for."""
+        if not self.closing or self.aim is None:
+            return None
+        # What an unstable orbit is off grows while it is drawn.
+        level = self.level if self.dragging else max(self.level, PRECISE, key=lambda rung: rung.order)
+        return ReturnMap(self.section, level), self.aim, _PERIODS[self.periodic], self.dragging
+
+    @cached_property
+    def _result(self) -> Closed | Missed | None:
+        return None if self._search is None else self.work.soon(_sought, *self._search)
+
+    @property
+    def looking(self) -> bool:
+        """Whether a periodic orbit is asked for and not known yet."""
+        return self._search is not None and self._result is None
+
+    @property
+    def closed(self) -> Closed | None:
+        """The periodic orbit; None where none is asked for, or known."""
+        return self._result if isinstance(self._result, Closed) else None
+
+    @property
+    def start(self) -> Start:
+        """Where the orbit on show starts.  Raises `ModelError`."""
+        return self.given if self.closed is None else self.closed.state
+
+    @property
+    def start_asked_for(self) -> Start:
+        """Where the chosen orbit starts, whatever is shown in its place.  Raises `ModelError`."""
+        return self.given
+
+    @property
+    def lasts(self) -> float:
+        """How long it is followed: a periodic one once round."""
+        return self.span if self.closed is None else self.closed.time
+
+    @property
+    def places(self) -> list[tuple[float, float]] | None:
+        """The places of the periodic orbit; None without one."""
+        return None if self.closed is None else [(float(x), float(y)) for x, y in self.closed.orbit.places]
+
+    @cached_property
+    def _branches(self) -> tuple[Manifold | Missed, ...] | None:
+        """Of the manifolds of a saddle, when all are known; of no other orbit."""
+        orbit = self._saddle
+        if orbit is None or self._search is None:
+            return ()
+        if self.dragging:
+            return None
+        pixel = 1.0 / max(self.pixels)
+        found = [self.work.later(_branch, self._search, place, stable, side, self.reach, pixel)
+                 for place in range(orbit.period if orbit.period <= _WHOLE else 1)
+                 for stable in (True, False) for side in (1, -1)]
+        known = [one for one in found if one is not None]
+        return tuple(known) if len(known) == len(found) else None
+
+    @property
+    def manifolds(self) -> list[Manifold]:
+        """Those branches of a saddle that are drawn."""
+        return [one for one in self._branches or () if isinstance(one, Manifold)]
+
+    @property
+    def _saddle(self) -> PeriodicOrbit | None:
+        """The orbit, where manifolds of it are to be drawn."""
+        wanted = self.closed is not None and self.closed.orbit.kind.startswith("saddle") and self.reach > 0.0
+        return self.closed.orbit if self.closed is not None and wanted else None
+
+    @property
+    def growth(self) -> tuple[float, float] | None:
+        """ln|μ₁|/T and ln|μ₁μ₂|/T of the periodic orbit: the growth next to it, and its mean divergence; else None."""
+        if self.closed is None:
+            return None
+        sizes = np.abs(self.closed.orbit.multipliers)
+        with np.errstate(divide="ignore"):
+            logarithms = np.log(sizes) / self.closed.time
+        # Where volume is kept, their sum is what round-off leaves.
+        return float(logarithms[0]), round(float(logarithms.sum()), 9) + 0.0
+
+    # ---- words --------------------------------------------------------------------------------------------------
+
+    def idle(self) -> Mapping[str, float]:
+        """The length of manifolds that nobody asks for."""
+        return {**super().idle(), **({} if self.closing else {"reach": self.reach})}
+
+    @property
+    def about_closed(self) -> str:
+        """The caption of the section where a periodic orbit is asked for; else empty."""
+        if not self.closing or self.aim is None:
+            return ""
+        if self.looking:
+            return "A periodic orbit is being looked for."
+        if self.closed is None:
+            which = "No periodic orbit" if self.periodic == ANY else f"No orbit of {self.periodic}"
+            return f"{which} found from here: the chosen one is shown."
+        orbit = self.closed.orbit
+        multipliers = ", ".join(_multiplier(complex(one)) for one in orbit.multipliers)
+        if orbit.multipliers[0].imag:
+            multipliers = _multiplier(complex(orbit.multipliers[0]))
+        return f"Period {orbit.period}, {orbit.kind}: μ = {multipliers} to {power(orbit.multiplier_error)}."
+
+
+    def derived(self) -> Iterator[str]:
+        """Period in time, how exact its places are, symmetries; what is drawn of its manifolds."""
+        if self.closed is None:
+            return
+        orbit = self.closed.orbit
+        yield f"T = {digits(self.closed.time, 6)}, periodic; places to {power(orbit.error_estimate)}"
+        yield from (f"its own image: {name}" for name in orbit.symmetric)
+        if self._saddle is not None and self._branches is None:
+            yield self.awaited("Its manifolds are")
+        elif self._branches:
+            whole = sum(_ended(one) == _AT_ITS_LENGTH for one in self._branches)
+            yield f"{whole} of {len(self._branches)} branches of its manifolds, {digits(self.reach)} long"
+
+    def status(self) -> Iterator[str]:
+        """What Newton's method took, and how exact the manifolds are."""
+        if self.closed is not None:
+            orbit = self.closed.orbit
+            yield (f"Newton's method: {orbit.iterations} steps, condition {orbit.condition:.2g} ({orbit.status})")
+        if self.manifolds:
+            yield (f"manifolds {sum(len(one.points) for one in self.manifolds)} points, error across ≤ "
+                   f"{max(one.error_estimate for one in self.manifolds):.1e}")
+
+    def notes(self) -> Iterator[str]:
+        """Why there is no periodic orbit, or why its manifolds end."""
+        if isinstance(self._result, Missed):
+            yield self._result.reason
+        reasons = {_ended(one) for one in self._branches or ()} - {_AT_ITS_LENGTH}
+        yield from (f"A branch of a manifold ends early. {reason}" for reason in sorted(reasons))
+        orbit = self._saddle
+        if orbit is not None and orbit.period > _WHOLE:
+            yield f"Of its {orbit.period} places, one has its manifolds drawn: those of the others are their images."
+
+
+def _ended(branch: Manifold | Missed) -> str:
+    return branch.ended if isinstance(branch, Manifold) else branch.reason
+
+
+def _multiplier(value: complex) -> str:
+    if not value.imag:
+        return digits(value.real)
+    return f"{digits(value.real)} ± {digits(abs(value.imag))}i"
+
+
+def _sought(map_: ReturnMap, aim: Place, period: int | None, near: bool) -> Closed | Missed:
+    try:
+        orbit = find_periodic(map_, aim, period, _MOST, near)
+        first = orbit.places[0]
+        return Closed(replace(orbit, symmetric=tuple(map_.symmetries_of(orbit.places))),
+                      tuple(map(float, map_.state_at(first))), map_.time_of(first, orbit.period))
+    except ModelError as error:
+        # Where time is up nothing is known of the orbit.
+        go_on()
+        return Missed(str(error))
+
+
+def _branch(search: Search, place: int, stable: bool, side: int, length: float, pixel: float) -> Manifold | Missed:
+    """One branch of a manifold, from one place of the orbit, as far as it is right to half a pixel."""
+    found, _ = CACHE.get(_sought, *search)
+    for part in _PARTS:
+        try:
+            curve = grown(search[0], found.orbit, part * length, stable, side, place, _SAGITTA * pixel, _CHORD * pixel,
+                          _POINTS, _RETURNS)
+        except ModelError as error:
+            go_on()
+            return Missed(str(error))
+        if curve.error_estimate < 0.5 * pixel:
+            return curve if part == _PARTS[0] else replace(curve, ended=_UNKNOWN)
+    return Missed(_UNKNOWN)
+
+
+def layers() -> tuple[Layer[Any], ...]:
+    """What of a periodic orbit is drawn in a section."""
+    return view.layers(lambda s: None if s.closed is None else s.closed.orbit, lambda s: s.manifolds)

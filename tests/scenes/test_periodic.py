@@ -1,0 +1,265 @@
+"""Periodic orbits in the four scenes with a section: against SciPy and closed forms, what is drawn and what is said."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from hess_explorer.scenes import scenes
+from hess_explorer.scenes.framework.periodic import NONE
+from hess_explorer.views.layers import Axes
+from hess_explorer.views.periodic import within
+from hess_mechanics import circle_map, level
+from hess_mechanics.euler_poisson.andoyer import hess_curve
+from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
+from support.board import Browser
+from support.suslov import field
+from support.view import View
+
+NAMES = ("suslov", "quartic", "ball-section", "euler-poisson")
+LIGHT = {"suslov": {"orbits": 4.0, "count": 20.0, "long": 20.0}, "quartic": {"count": 20.0},
+         "ball-section": {"count": 20.0}, "euler-poisson": {"orbits": 4.0, "count": 20.0, "long": 20.0}}
+LAYERS = ("attracts", "neither", "repels", "stable-manifold", "unstable-manifold")
+PICTURES = {"suslov": ["section", "exponent", "sphere"], "quartic": ["section", "domain", "sphere"],
+            "ball-section": ["section", "omega", "returns"], "euler-poisson": ["section", "exponent", "sphere"]}
+
+
+def preset(name, beginning):
+    return next(one.values for one in scenes()[name].presets if one.name.startswith(beginning))
+
+
+@cache
+def shown(name, periodic, *given, dragging=False):
+    values = {**LIGHT[name], **dict(given), "periodic": periodic}
+    return View(scenes()[name], values, seen=PICTURES[name], dragging=dragging)
+
+
+def drawn(view):
+    """Of which layers of a periodic orbit there is something."""
+    return {name for name in LAYERS if any(map(len, view.data.get(f"section-{name}", {}).values()))}
+
+
+def returned(body, E, place, count, sense=1.0):
+    """(ψ, δ) of γ3 = 0 after so many returns, by SciPy, and the time."""
+    psi, delta = place
+    gamma, u = np.array([math.cos(psi), math.sin(psi), 0.0]), np.array([math.cos(psi + delta), math.sin(psi + delta)])
+    kinetic = E - np.dot((body.b1, body.b2, body.b3), gamma)
+    start = [*(u * math.sqrt(2.0 * kinetic / (body.I11 * u[0] ** 2 + body.I22 * u[1] ** 2))), *gamma]
+
+    def height(t, y):
+        return y[4]
+
+    height.direction = sense
+    found = solve_ivp(lambda _, y: sense * field(body, y), (0.0, 60.0 * count), start, "DOP853", rtol=1e-12, atol=1e-13,
+                      events=height)
+    later = np.flatnonzero(found.t_events[0] > 1e-6)[count - 1]
+    w1, w2, g1, g2, _ = found.y_events[0][later]
+    psi = math.atan2(g2, g1)
+    return np.array([psi, abs(math.remainder(math.atan2(w2, w1) - psi, 2.0 * math.pi))]), found.t_events[0][later]
+
+
+@pytest.mark.parametrize(("periodic", "start", "kind", "example"), [
+    ("period 1", "1,1", "saddle with reflection", "A chaotic"),
+    ("period 2", "1,1", "saddle with reflection", "Strange"),
+    ("any period", "0.245,2.399", "stable focus", "Two"),
+])
+def test_a_periodic_orbit_of_the_suslov_problem_is_one_and_has_its_multipliers(periodic, start, kind, example):
+    given = {**preset("suslov", example), **LIGHT["suslov"], "colours": "forward only", "starts": start}
+    view = shown("suslov", periodic, *given.items())
+    state = view.result
+    orbit, m = state.closed.orbit, state.closed.orbit.period
+    assert orbit.kind == kind
+    for i, place in enumerate(orbit.places):
+        there, _ = returned(state.body, state.E, place, 1)
+        assert there == pytest.approx(orbit.places[(i + 1) % m], abs=1e-8)
+    h = 1e-5
+    sides = [[returned(state.body, state.E, orbit.places[0] + sign * h * axis, m)[0] for sign in (1, -1)]
+             for axis in np.eye(2)]
+    M = np.column_stack([(a - b) / (2.0 * h) for a, b in sides])
+    exact = sorted(np.linalg.eigvals(M), key=abs, reverse=True)
+    assert np.abs(orbit.multipliers - exact).max() < 1e-5 * max(1.0, abs(exact[0]))
+    # The caption has period, kind, multipliers and what they may be off.
+    if exact[0].imag:
+        assert view.numbers("section", f"\nPeriod #, {kind}: μ = # ± #i to") == pytest.approx(
+            [m, exact[0].real, abs(exact[0].imag)], rel=1e-3)
+    else:
+        assert view.numbers("section", f"\nPeriod #, {kind}: μ = #, # to") == pytest.approx(
+            [m, *np.real(exact)], rel=1e-3)
+    assert orbit.multiplier_error < 1e-6
+    time = returned(state.body, state.E, orbit.places[0], m)[1]
+    assert view.derived("T = #, periodic") == pytest.approx([time], rel=1e-5)
+    across, divergence = view.numbers("exponent", "\nNext to the periodic orbit: ln|μ₁|/T = #, div = ln|μ₁μ₂|/T = #.")
+    assert across == pytest.approx(math.log(abs(exact[0])) / time, abs=1e-3)
+    assert divergence == pytest.approx(math.log(abs(np.linalg.det(M))) / time, abs=1e-3)
+    assert np.unique(view.curve("exponent-lambda")[1]) == pytest.approx([across], abs=1e-4)
+    # Its points have the sign of its kind, and the linked pictures show it, once round.
+    assert drawn(view) == ({"attracts"} if kind.startswith("stable") else {
+        "repels", "stable-manifold", "unstable-manifold"})
+    sign = "attracts" if kind.startswith("stable") else "repels"
+    assert view.points(sign) == pytest.approx(orbit.places)
+    track = view.data["data-orbit"]
+    assert track["t"][-1] == pytest.approx(time, rel=1e-5)
+    for name in ("g1", "g2", "g3"):
+        assert track[name][-1] == pytest.approx(track[name][0], abs=2e-4)
+    assert view.points("chosen")[-1] == pytest.approx(orbit.places[0])
+    assert len(view.text["section"].split("\n")[1]) <= 75
+
+
+def test_points_of_the_manifolds_are_taken_along_them():
+    view = shown("suslov", "period 1", *{**preset("suslov", "A chaotic"), **LIGHT["suslov"]}.items())
+    state = view.result
+    for curve in state.manifolds:
+        sense = -1.0 if curve.stable else 1.0
+        others = [one.points for one in state.manifolds if one.stable is curve.stable and one.side != curve.side]
+        # Of a saddle with reflection one branch is taken to the other.
+        # An image is five times as far.
+        some = curve.points[(curve.lengths > 0.01) & (curve.lengths < 0.2)]
+        assert len(some) > 3
+        for point in some[:: len(some) // 3]:
+            there, _ = returned(state.body, state.E, point, 1, sense)
+            assert min(_distance(one, there) for one in others) < 0.5 / max(state.pixels), (curve.stable, point)
+    columns = view.data["section-unstable-manifold"]
+    assert sum(map(len, columns["xs"])) >= sum(len(one.points) for one in state.manifolds if not one.stable)
+
+
+def _distance(curve, point):
+    a, b = curve[:-1], curve[1:]
+    along = b - a
+    share = np.clip(np.sum((point - a) * along, axis=1) / np.maximum(np.sum(along**2, axis=1), 1e-300), 0.0, 1.0)
+    return float(np.linalg.norm(a + share[:, None] * along - point, axis=1).min())
+
+
+def test_in_the_hess_case_the_saddle_has_the_multipliers_of_the_moebius_matrix_and_lies_on_the_hess_manifold():
+    view = shown("euler-poisson", "period 1")
+    state, body = view.result, view.result.body
+    bridge = Bridge.of_heavy(body)
+    h, f = bridge.in_units_of_b(state.h, state.f)
+    exact = max(one.multiplier for one in circle_map(bridge.hess.a, h, f, level("reference")).fixed_points)
+    assert np.abs(state.closed.orbit.multipliers - (exact, 1.0 / exact)).max() < 1e-9 * exact
+    assert view.numbers("section", "\nPeriod #, saddle: μ = #, # to") == pytest.approx([1, exact, 1.0 / exact], rel=1e-3)
+    # One of its manifolds is the Hess manifold itself.
+    off = {stable: max(float(np.abs(one.points[:, 1] - hess_curve(body, one.points[:, 0])).max())
+                       for one in state.manifolds if one.stable is stable) for stable in (True, False)}
+    assert min(off.values()) < 0.5 / max(state.pixels) < 0.1 < max(off.values())
+    assert view.numbers("exponent", "\nNext to the periodic orbit: ln|μ₁|/T = #,") == pytest.approx(
+        [math.log(exact) / state.closed.time], rel=1e-3)
+
+
+def test_where_every_orbit_of_the_ball_closes_the_chosen_one_is_parabolic():
+    given = {**preset("ball-section", "Every orbit"), **LIGHT["ball-section"]}
+    view = shown("ball-section", "period 1", *given.items())
+    assert view.text["section"].split("\n")[1].startswith("Period 1, parabolic: μ = 1, 1 to ")
+    assert drawn(view) == {"neither"}
+    assert view.points("neither") == pytest.approx(np.array([[view.values["psi"], view.values["delta"]]]), abs=1e-6)
+    # It is followed by itself.
+    returns = view.data["returns-own"]
+    assert (np.asarray(returns["x"]), np.asarray(returns["y"])) == (pytest.approx([0.5]), pytest.approx([0.5]))
+
+
+def test_a_point_in_the_quartic_potential_goes_round():
+    view = shown("quartic", "period 3")
+    orbit = view.result.closed.orbit
+    assert (orbit.period, orbit.kind, drawn(view)) == (3, "saddle", {"repels", "stable-manifold", "unstable-manifold"})
+    assert complex(orbit.multipliers.prod()).real == pytest.approx(1.0, abs=1e-8)
+    track = view.data["data-orbit"]
+    # q1 grows through 0 at its places, the first of which has the ring of the start.
+    assert (track["q1"][0], track["q2"][0]) == pytest.approx((0.0, orbit.places[0, 0]), abs=1e-5)
+    assert (track["q1"][-1], track["q2"][-1]) == pytest.approx((0.0, orbit.places[0, 0]), abs=1e-3)
+    ring = view.data["domain-start"]
+    assert (ring["x"][0], ring["y"][0]) == pytest.approx((0.0, orbit.places[0, 0]), abs=1e-6)
+    assert len(view.result.manifolds) == 12
+    assert [line for line in view.report.derived if line.startswith("its own image")] == [
+        "its own image: ω1, ω2, t → −"]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_without_one_nothing_is_said_or_drawn_of_it(name):
+    scene = scenes()[name]
+    view = shown(name, NONE)
+    assert drawn(view) == set()
+    said = [*view.text.values(), *view.report.derived, *view.report.notes, view.report.status]
+    assert not any(word in text for text in said for word in ("Period ", "periodic orbit", "manifold:", "Newton"))
+    assert scene.idle({**scene.defaults(), **LIGHT[name]})["reach"] == 5.0
+    assert "reach" not in scene.idle({**scene.defaults(), "periodic": "period 1"})
+    # An example has none, whatever was chosen before.
+    assert all("periodic" in one.values for one in scene.presets)
+
+
+def test_where_none_is_found_the_chosen_orbit_is_shown_and_why():
+    view = shown("suslov", "period 3")
+    assert view.text["section"].split("\n")[1] == "No orbit of period 3 found from here: the chosen one is shown."
+    assert view.report.notes == [
+        "Newton's method finds no orbit of period 3 from here: start closer to one, where an orbit comes back close to "
+        "itself, or choose another period."]
+    assert drawn(view) == set()
+    assert len(view.points("own")) == 20
+    assert view.data["data-orbit"]["t"][-1] == pytest.approx(view.values["span"])
+    assert view.text["exponent"].split("\n")[1].startswith("λ = ")
+    found = shown("suslov", "period 1")
+    assert "No orbit" not in found.text["section"]
+    assert found.report.notes == [] or all("branch" in note for note in found.report.notes)
+
+
+def test_before_it_is_known_the_caption_says_so_and_the_chosen_orbit_is_shown():
+    values = {**LIGHT["suslov"], "periodic": "period 1", "h": 1.0123}
+    view = View(scenes()["suslov"], values, seen=["section", "exponent"], whole=False)
+    assert view.text["section"].split("\n")[1] == "A periodic orbit is being looked for."
+    assert drawn(view) == set()
+    assert view.text["exponent"].split("\n")[1] == "They are being computed."
+    known = View(scenes()["suslov"], values, seen=["section", "exponent"])
+    assert "looked for" not in known.text["section"]
+    assert drawn(known)
+
+
+def test_while_a_slider_is_held_it_follows_and_its_manifolds_come_later():
+    view = shown("ball-section", "period 1", dragging=True)
+    assert view.text["section"].split("\n")[1].startswith("Period 1, saddle: μ = 2.19, 0.4566 to ")
+    assert drawn(view) == {"repels"}
+    assert "Its manifolds are found when a slider is let go." in view.report.derived
+    let_go = shown("ball-section", "period 1")
+    assert not any("let go" in line for line in let_go.report.derived)
+    assert "4 of 4 branches of its manifolds, 5 long" in let_go.report.derived
+
+
+def test_a_branch_that_ends_early_says_why():
+    view = shown("ball-section", "period 1", ("reach", 100.0))
+    assert view.report.notes == ["A branch of a manifold ends early. After 20000 returns of the map."]
+    assert "0 of 4 branches of its manifolds, 100 long" in view.report.derived
+    assert max(len(one.points) for one in view.result.manifolds) <= 2002
+    assert not any("early" in note for note in shown("ball-section", "period 1").report.notes)
+    assert drawn(shown("ball-section", "period 1", ("reach", 0.0))) == {"repels"}
+
+
+def test_a_click_looks_for_one_there_and_undo_is_a_link():
+    browser = Browser(scenes()["ball-section"])
+    browser.ask(1, values={**LIGHT["ball-section"], "periodic": "period 2"})
+    browser.ask(2, picked=["section", -0.25, 1.5])
+    assert (browser.session.values["psi"], browser.session.values["delta"]) == (-0.25, 1.5)
+    browser.session.background.follow(())
+    values = dict(browser.session.values)
+    view = View(scenes()["ball-section"], values, seen=["section"])
+    assert view.text["section"].split("\n")[1].startswith("Period 2, elliptic: μ = ")
+    assert drawn(view) == {"neither"}
+
+
+def test_a_curve_goes_round_an_angle():
+    turn = 2.0 * math.pi
+    x = np.linspace(2.0, 2.0 + 1.5 * turn, 400)
+    curve = np.column_stack([x, np.sin(x)])
+    axes = Axes((-math.pi, math.pi), (-1.0, 1.0))
+    parts = within(curve, turn, axes)
+    # From 2 on, once round, and a half turn to 2 + π.
+    assert len(parts) == 3
+    for part in parts:
+        assert part[:, 1] == pytest.approx(np.sin(part[:, 0]), abs=1e-12)
+        inner = part[1:-1, 0]
+        assert np.all((inner >= -math.pi) & (inner <= math.pi))
+    assert sum(map(len, parts)) >= len(curve)
+    # What is no angle is only cut.
+    (part,) = within(curve, math.inf, axes)
+    assert part[-1, 0] > math.pi > part[-2, 0]
+    assert within(curve + (100.0, 0.0), math.inf, axes) == []
