@@ -222,13 +222,13 @@ def test_while_a_slider_is_held_it_follows_and_its_manifolds_come_later():
     assert "Its manifolds are found when a slider is let go." in view.report.derived
     let_go = shown("ball-section", "period 1")
     assert not any("let go" in line for line in let_go.report.derived)
-    assert "4 of 4 branches of its manifolds, 5 long" in let_go.report.derived
+    assert "4 of 4 branches of its manifolds are 5 long" in let_go.report.derived
 
 
 def test_a_branch_that_ends_early_says_why():
     view = shown("ball-section", "period 1", ("reach", 100.0))
     assert view.report.notes == ["A branch of a manifold ends early. After 20000 returns of the map."]
-    assert "0 of 4 branches of its manifolds, 100 long" in view.report.derived
+    assert "0 of 4 branches of its manifolds are 100 long" in view.report.derived
     assert max(len(one.points) for one in view.result.manifolds) <= 2002
     assert not any("early" in note for note in shown("ball-section", "period 1").report.notes)
     assert drawn(shown("ball-section", "period 1", ("reach", 0.0))) == {"repels"}

@@ -234,7 +234,7 @@ class PeriodicOrbits(OneOrbit):
             yield self.awaited("Its manifolds are")
         elif self._branches:
             whole = sum(_ended(one) == _AT_ITS_LENGTH for one in self._branches)
-            yield f"{whole} of {len(self._branches)} branches of its manifolds, {digits(self.reach)} long"
+            yield f"{whole} of {len(self._branches)} branches of its manifolds are {digits(self.reach)} long"
 
     def status(self) -> Iterator[str]:
         """What Newton's method took, and how exact the manifolds are."""
