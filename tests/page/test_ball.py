@@ -138,6 +138,34 @@ def test_a_click_in_the_section_starts_the_orbit_there(field):
     assert field.state == before
 
 
+def test_a_click_finds_the_periodic_orbit_next_to_it_and_undo_brings_the_one_before(field):
+    page = field.page
+
+    def found(source):
+        page.wait_for_function(f"(hess.source('section-{source}')?.data.x ?? []).length > 0")
+        return points(field, f"section-{source}")
+
+    field.change(field.choose, "periodic", "period 1")
+    saddle = found("repels")
+    page.wait_for_function("(hess.source('section-stable-manifold')?.data.xs ?? []).length > 1")
+    assert "\nPeriod 1, saddle: μ = 2.19, 0.4566 to " in field.caption("section")
+    assert "4 of 4 branches of its manifolds are 5 long" in field.text("derived")
+    # Its orbit is that in the other pictures, and closes.
+    values = {**SECTION.defaults(), "psi": float(saddle[0, 0]), "delta": float(saddle[0, 1])}
+    assert angles(first_returns(values, start_of(values), 1)) == pytest.approx(saddle, abs=1e-4)
+    assert track(field)[-1] == pytest.approx(track(field)[0], abs=1e-4)
+    field.change(field.choose, "periodic", "period 2")
+    click_on(field, "section", -0.25, 1.5)
+    elliptic = found("neither")
+    assert len(elliptic) == 2
+    assert np.abs(elliptic - (-0.25, 1.5)).max(axis=1).min() < 0.3
+    assert not len(field.data("section-repels")["x"])
+    field.wait_url(periodic="period 2")
+    field.change(page.locator(".param-undo").click)
+    field.change(page.locator(".param-undo").click)
+    assert found("repels") == pytest.approx(saddle, abs=1e-6)
+
+
 def test_a_click_into_what_is_forbidden_moves_to_its_edge_and_says_so(field):
     field.change(field.type, "h", "0.3")
     click_on(field, "section", 0.5, 1.0)
