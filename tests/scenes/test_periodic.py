@@ -140,7 +140,8 @@ def test_in_the_hess_case_the_saddle_has_the_multipliers_of_the_moebius_matrix_a
     h, f = bridge.in_units_of_b(state.h, state.f)
     exact = max(one.multiplier for one in circle_map(bridge.hess.a, h, f, level("reference")).fixed_points)
     assert np.abs(state.closed.orbit.multipliers - (exact, 1.0 / exact)).max() < 1e-9 * exact
-    assert view.numbers("section", "\nPeriod #, saddle: μ = #, # to") == pytest.approx([1, exact, 1.0 / exact], rel=1e-3)
+    said = view.numbers("section", "\nPeriod #, saddle: μ = #, # to")
+    assert said == pytest.approx([1, exact, 1.0 / exact], rel=1e-3)
     # One of its manifolds is the Hess manifold itself.
     off = {stable: max(float(np.abs(one.points[:, 1] - hess_curve(body, one.points[:, 0])).max())
                        for one in state.manifolds if one.stable is stable) for stable in (True, False)}
@@ -262,4 +263,4 @@ def test_a_curve_goes_round_an_angle():
     # What is no angle is only cut.
     (part,) = within(curve, math.inf, axes)
     assert part[-1, 0] > math.pi > part[-2, 0]
-    assert within(curve + (100.0, 0.0), math.inf, axes) == []
+    assert within(curve + np.array([100.0, 0.0]), math.inf, axes) == []
