@@ -238,3 +238,18 @@ def test_every_quantity_says_what_it_is():
     of_any_section = {f"{what}-{system}-section" for what in ("lyapunov", "spectrum", "dimension", "megno", "crossings")
                       for system in ("suslov", "ball", "euler-poisson")}
     assert of_any_system | of_any_section <= set(QUANTITIES)
+
+
+def test_kinds_of_motions_are_those_that_are_known():
+    found = QUANTITIES["regime-suslov-section"]
+    names = [one.name for one in found.parameters]
+    # A permanent rotation attracts; a sea of chaos on an attractor; closed curves where I11 = I22 and b is along e.
+    bodies = [(1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3, 3.0), (1.5, 2.9, -0.6, 1.0, 1.0, -0.6, 0.6, 2.600488),
+              (1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.4)]
+    rows = [(*body, 3, psi, delta, 300, 200, 300.0) for body, psi, delta in zip(
+        bodies, (1.0, -0.7446, 0.3), (1.0, 1.5603, 1.2), strict=True)]
+    cells = {name: np.array(column, float) for name, column in zip(names, zip(*rows, strict=True), strict=True)}
+    values = found.compute(cells, level("standard")).values
+    assert values[:, 0].tolist() == [1.0, 4.0, 3.0]
+    assert values[:, 1].tolist() == [1.0, 0.0, 0.0]
+    assert values[[0, 2], 2].tolist() == [-1.0, 0.0]

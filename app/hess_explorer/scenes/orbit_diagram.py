@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from hess_explorer.protocol.parameters import Value, Values, places, written
+from hess_explorer.scenes.framework.charted import Charted
 from hess_explorer.scenes.framework.inertia import CentreOfMass, Tensor
 from hess_explorer.scenes.framework.one_orbit import OneOrbit, Start
 from hess_explorer.scenes.framework.over_parameter import BOUNDS, OverParameter, picture
@@ -30,7 +31,7 @@ from hess_mechanics.errors import OutsideRegion
 from hess_mechanics.numerics.accuracy import Kind
 from hess_mechanics.numerics.results import Array, Section, frozen
 from hess_mechanics.rigid_body.inertia import check_body
-from hess_mechanics.suslov.equations import SuslovBody
+from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 from hess_mechanics.suslov.parameter_diagram import (
     AtState,
     Sets,
@@ -209,6 +210,9 @@ def _few(found: Array) -> Array | None:
 
 SCENE = Scene(
     OrbitDiagram, __file__, place=15, presets=PRESETS, group="Heavy body",
+    charts=(Charted("regime-suslov-section", lambda s: {
+        **dict(zip(SYSTEM.parameters, s.body.parameters, strict=True)), "h": s.h, "k": s.section.k, "psi": s.place[0],
+        "delta": s.place[1]}, pictures=("diagram", "section")),),
     essential=("h", "first", "last", "I13"), handle="h",
     title="Orbit diagram",
     summary="Attractors and repellers over a parameter: doublings, hysteresis, reversal.",
