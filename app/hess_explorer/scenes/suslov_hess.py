@@ -21,7 +21,7 @@ from hess_explorer.scenes.framework.hess_case import (
     proved,
 )
 from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, choice, number, slider_within
-from hess_explorer.scenes.framework.proved_zone import ProvedZone, known_zone
+from hess_explorer.scenes.framework.proved_zone import HIDDEN, SHOWN, ProvedZone, known_zone
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
 from hess_explorer.scenes.framework.solid_body import Hess, constrained_body
 from hess_explorer.scenes.framework.torus_trials import boundary, colours
@@ -37,13 +37,12 @@ from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import nice_above, picture
 from hess_mechanics.errors import InvalidParameter, Separatrix
 from hess_mechanics.numerics.accuracy import DRAFT, Kind, Level
-from hess_mechanics.numerics.balls import exact, has_flint
+from hess_mechanics.numerics.balls import has_flint
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, curve, curve_point, f_max, reach, turning_points
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
 from hess_mechanics.suslov_hess.equations import SYSTEM
 from hess_mechanics.suslov_hess.invariant_measure import density_on_torus, invariant_measure
-from hess_mechanics.suslov_hess.lock_zone import MOST_A
 from hess_mechanics.suslov_hess.mode_locking import CELLS, affordable_cells, lock_boundary, rotation_number_window
 from hess_mechanics.suslov_hess.torus import (
     MAX_RETURNS,
@@ -56,7 +55,6 @@ from hess_mechanics.suslov_hess.torus import (
 
 _ON_BOUNDARY = 48
 """Points of the boundary of the lock zone."""
-_HIDDEN, _SHOWN = "not shown", "shown"
 _PHASES = np.linspace(-math.pi, math.pi, 181)
 
 PRESETS = (
@@ -84,7 +82,7 @@ class SuslovHess(SuslovBody):
                          doc="Phase of the orbit on the section n₃ = n₃⁽¹⁾, in radians.")
     span: float = number("t", 40.0, (1.0, 200.0), 1.0, bounds=(0.01, 1e5), group="Computation", label="Time span",
                          doc="How long the orbit is followed, in the time of the body (at most 100 returns).")
-    cells: str = choice("Proved cells", (_HIDDEN, _SHOWN), _HIDDEN,
+    cells: str = choice("Proved cells", (HIDDEN, SHOWN), HIDDEN,
                         doc="Cells of the bifurcation diagram of which it is proved that all their tori have two limit "
                             "cycles, or that none has: their number grows while you look.")
     accuracy: str = accuracy_level()
@@ -180,27 +178,15 @@ class SuslovHess(SuslovBody):
 
     @cached_property
     def zone(self) -> ProvedZone | None:
-        """What is proved of the diagram, as far as it is known; None where it is not asked for, or cannot be."""
-        if self.cells != _SHOWN or not has_flint() or abs(self.body.a) > MOST_A:
-            return None
-        return known_zone(self.work, exact("I23", self.I23) / exact("I22", self.I22), diagram.window(self.h).x[1])
+        """What is proved of the diagram, as far as it is known; None where it is not asked for."""
+        return known_zone(self.work, self.I22, self.I23, diagram.window(self.h).x[1]) if self.cells == SHOWN else None
 
     # ---- what the pictures show --------------------------------------------------------------------------------
-
-    def badge(self) -> str:
-        """What is proved, for the caption of the circle map."""
-        return "" if self.proof is None else self.proof.badge
 
     def about_diagram(self) -> str:
         """The caption of the bifurcation diagram."""
         said = diagram.about(self.h, self.f, self.map)
-        if self.cells != _SHOWN:
-            return said
-        if not has_flint():
-            return f"{said} Proofs need python-flint."
-        if abs(self.body.a) > MOST_A:
-            return f"{said} Cells are proved for |a| ≤ {MOST_A:g} only."
-        return f"{said} {'No cell is proved yet.' if self.zone is None else self.zone.said}"
+        return said if self.zone is None else f"{said} {self.zone.said}"
 
     def orbit_columns(self) -> Columns:
         """The orbit, and what the moving points of the other pictures follow."""
@@ -306,7 +292,7 @@ SCENE = Scene(
                  here=lambda s: [(s.h, s.f)], axes=lambda s: diagram.window(s.h),
                  proved=lambda s: () if s.zone is None else s.zone.outlines)),
         circle.picture(map=lambda s: s.map, iterates=lambda s: s.iterates,
-                       caption=lambda s: circle.about(s.map, s.badge()),
+                       caption=lambda s: circle.about(s.map, "" if s.proof is None else s.proof.badge),
                        dot=("phi_start", "phi"), on_click=lambda s, x, y: {"phi0": x}),
         torus_density.picture(lambda s: s.density),
     ),

@@ -10,28 +10,24 @@ import numpy as np
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.text import digits
+from hess_mechanics.numerics.balls import exact, has_flint
 from hess_mechanics.numerics.results import Array
-from hess_mechanics.suslov_hess.lock_zone import LockZone, cell_outline, lock_zone, refined
+from hess_mechanics.suslov_hess.lock_zone import MOST_A, LockZone, cell_outline, lock_zone, refined
 from hess_mechanics.suslov_hess.proof import UNDECIDED
 
-__all__ = ["ROUNDS", "ProvedZone", "known_zone", "zone_after"]
+__all__ = ["HIDDEN", "ROUNDS", "SHOWN", "ProvedZone", "known_zone", "zone_after"]
 
+HIDDEN, SHOWN = "not shown", "shown"
 ROUNDS = (30, 50, 75, 110, 160, 230, 320, 450, 600, 800, 1000)
 """Proofs of cells after which the picture grows; the last takes some 20 s."""
 
 
 @dataclass(frozen=True)
 class ProvedZone:
-    """What is known at a moment: the decided share, outlines (n, 2) of proved cells for f > 0, whether more comes."""
+    """What is known at a moment: a sentence for a caption, and outlines (n, 2) of proved cells for f > 0."""
 
-    decided: float
-    outlines: tuple[Array, ...]
-    growing: bool
-
-    @property
-    def said(self) -> str:
-        """A sentence for a caption."""
-        return f"Proved cells: {digits(100.0 * self.decided, 3)} % of the area{', growing' if self.growing else ''}."
+    said: str
+    outlines: tuple[Array, ...] = ()
 
 
 def zone_after(a: Fraction, h_end: float, count: int) -> LockZone:
@@ -48,13 +44,20 @@ def outlined(a: Fraction, h_end: float, count: int) -> tuple[float, tuple[Array,
     return zone.decided, tuple(np.vstack([outline, outline[:1]]) for outline in found if len(outline) > 2)
 
 
-def known_zone(work: Work, a: Fraction, h_end: float) -> ProvedZone | None:
-    """What is known of the zone; the next round is left to be computed, unless a slider is held."""
+def known_zone(work: Work, I22: float, I23: float, h_end: float) -> ProvedZone:
+    """What is known of the zone, or why nothing can be; unless a slider is held, the next round is to be computed."""
+    if not has_flint():
+        return ProvedZone("Proofs need python-flint.")
+    a = exact("I23", I23) / exact("I22", I22)
+    if abs(a) > MOST_A:
+        return ProvedZone(f"Cells are proved for |a| ≤ {MOST_A:g} only.")
     ask = work.known if work.dragging else work.later
-    found = None
+    known = ProvedZone("No cell is proved yet.")
     for count in ROUNDS:
         following = ask(outlined, a, h_end, count)
         if following is None:
-            return None if found is None else ProvedZone(*found, growing=True)
-        found = following
-    return None if found is None else ProvedZone(*found, growing=False)
+            break
+        decided, outlines = following
+        growing = "" if count == ROUNDS[-1] else ", growing"
+        known = ProvedZone(f"Proved cells: {digits(100.0 * decided, 3)} % of the area{growing}.", outlines)
+    return known
