@@ -8,6 +8,7 @@ from urllib.parse import urlencode
 import numpy as np
 import pytest
 
+from hess_explorer.protocol.parameters import Number
 from support.ball import BALL, SECTION, angles, circle_of, energy_of, first_returns, integrate, occupied, shown, xi_of
 from support.page import brought, chosen, flat, said, wait_frames
 from support.painted import SOURCES, assert_painted, track, yellow
@@ -266,7 +267,7 @@ def test_an_extreme_ball_with_a_field_is_drawn(field, typed):
         assert "δ lies between" in field.text("notes")
     if "b1" in typed:
         assert "no field" in field.caption("sphere")
-    values = {spec.name: field.shown(spec.name)[0] for spec in SECTION.specs if spec.name not in ("drop", "accuracy")}
+    values = {spec.name: field.shown(spec.name)[0] for spec in SECTION.specs if isinstance(spec, Number)}
     E = values["h"] - math.hypot(values["b1"], values["b2"])
     assert np.max(np.abs(energy_of(values, track(field)) - E)) < 1e-4 * (1.0 + abs(E))
     assert_painted(field, SECTION)
@@ -279,7 +280,7 @@ LINKED = {
                        "phi": -2.0, "digits": 4.5, "span": 33.0, "accuracy": "precise"},
     "ball-section": {"I11": 1.25, "I22": 0.75, "I13": 0.25, "I23": -0.5, "D": 1.5, "b1": 0.25, "b2": -0.5, "b3": 0.75,
                      "h": 2.5, "psi": -1.0, "delta": 0.75, "count": 100.0, "span": 33.0, "drop": "the later half",
-                     "accuracy": "draft"},
+                     "periodic": "none", "reach": 7.5, "accuracy": "draft"},
 }
 
 

@@ -18,8 +18,8 @@ __all__ = ["CLIENT_KEPT", "Address", "Shown", "address", "complete", "picture_of
 
 T = TypeVar("T")
 
-_ROUNDS = 4
-"""What is found may ask for more: so often at most."""
+_ROUNDS = 100
+"""What is found may ask for more: an orbit diagram there and back comes in 40 parts, each from the one before."""
 CLIENT_KEPT = tuple(spec for spec in CLIENT if spec.name != "speed")
 """What the browser keeps of a state and a file shows: the time, and how the spheres are turned."""
 _DEFAULTS = {spec.name: spec.default for spec in CLIENT_KEPT}
