@@ -49,7 +49,7 @@ def test_where_periods_double_another_integrator_finds_the_multiplier_minus_one(
     state, captions = complete("Period doubling")
     found = state.cascade
     assert found.periods.tolist() == [1, 2, 4, 8]
-    assert "4 doublings located, of period 1 at I₂₂ = 2.12605" in captions["diagram"]
+    assert "4 doublings located, the first of period 1 at I₂₂ = 2.12605" in captions["diagram"]
     E = state.section.E
     for value, places in zip(found.values[:2], found.places[:2], strict=True):
         body = type(state.body)(1.0, float(value), 0.6, 0.6, -1.0, -0.5, 0.7)

@@ -219,6 +219,7 @@ SCENE = Scene(
     tracks={"orbit": lambda s: orbit_columns(s.orbit, turning=s.turning)},
     views=(
         picture(),
+        constrained_body(),
         Plot(name="section", title="Its section γ₃ = 0, growing", caption=OrbitDiagram._about_section,
              axes=("ψ", "δ"), x=(-math.pi, math.pi), y=(0.0, math.pi), on_click=OrbitDiagram.start_here,
              layers=(*layered_section.layers(
@@ -228,7 +229,6 @@ SCENE = Scene(
                  labels=("attractor", "repeller")),
                  points("few", lambda s: _few(_of(s.sets, "attractor")), color=theme.ORBIT, size=9),
                  points("few-repelling", lambda s: _few(_of(s.sets, "repeller")), color=theme.UNSTABLE, size=9))),
-        constrained_body(),
         Plot(name="reversal", title="Turning about the vertical, (ω, γ)", caption=OrbitDiagram._about_turning,
              axes=("t", "(ω, γ)"), dot=("t", "turning"), first=Axes((0.0, 60.0), (-2.0, 2.0)),
              x=lambda s: (0.0, s.span), y=lambda s: about_0(s.turning, 1e-6),

@@ -187,8 +187,8 @@ class OverParameter(State):
             ratios = self.cascade.ratios
             said = "" if not ratios.size else (
                 f"; ratio {digits(ratios[-1], 4)} ± {digits(self.cascade.ratio_errors[-1], 1)}")
-            many = f"{self.flips.size} doublings" if self.flips.size > 1 else "One doubling"
-            return (f"{many} located, of period {self.cascade.periods[0]} at {self.along} = "
+            many = f"{self.flips.size} doublings located, the first" if self.flips.size > 1 else "One doubling located,"
+            return (f"{many} of period {self.cascade.periods[0]} at {self.along} = "
                     f"{digits(self.flips[0], 6)}{said}.")
         periods = sorted({int(m) for one in self.branches[_RISING] for m in one.periods if m})
         return f"Periods seen: {', '.join(map(str, periods[:8])) or 'none'}."
