@@ -308,8 +308,7 @@ def test_ten_changes_in_quick_succession_leave_one_scene_and_nothing_of_the_othe
     assert explorer.here() == (pytest.approx(0.5, abs=wide), pytest.approx(0.4, abs=high))
 
 
-SPHERES = [name for name, scene in SCENES.items()
-           if scene.origin is None and any(one.kind == one.name == "sphere" for one in scene.views)]
+SPHERES = [name for name, scene in SCENES.items() if scene.origin is None and "sphere" in scene.open_pictures]
 
 
 def test_the_spheres_of_all_scenes_are_seen_from_the_same_side_as_the_link_says(explorer):
