@@ -14,6 +14,7 @@ from hess_explorer.scenes.framework.periodic import NONE
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.periodic import within
 from hess_mechanics import circle_map, level
+from hess_mechanics.dynamics.periodic import apart
 from hess_mechanics.euler_poisson.andoyer import hess_curve
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
 from support.board import Browser
@@ -124,6 +125,21 @@ def test_points_of_the_manifolds_are_taken_along_them():
             assert min(_distance(one, there) for one in others) < 0.5 / max(state.pixels), (curve.stable, point)
     columns = view.data["section-unstable-manifold"]
     assert sum(map(len, columns["xs"])) >= sum(len(one.points) for one in state.manifolds if not one.stable)
+
+
+def test_a_manifold_ends_where_the_map_jumps_and_no_line_is_drawn_across():
+    view = shown("suslov", "any period")
+    ends = [one for one in view.result.manifolds if "the map jumps" in one.ended]
+    assert len(ends) == 4
+    assert any("the map jumps: an orbit touches the plane of the section" in note for note in view.report.notes)
+    for curve in view.result.manifolds:
+        # Chords of ten pixels at most: before, one of 1.7 led from the edge δ = π through the middle of the section.
+        assert np.hypot(*np.diff(curve.points, axis=0).T).max() <= 10.0 / max(view.result.pixels) * (1.0 + 1e-9)
+    for curve in ends:
+        # Further on by a hundredth of the return it is somewhere else.
+        before, after = curve.at(curve.parameters[-1]), curve.at(curve.parameters[-1] + 0.01)
+        assert apart(curve.turns, before, curve.points[-1]) == pytest.approx([0.0, 0.0], abs=1e-6)
+        assert np.hypot(*apart(curve.turns, after, before)) > 0.2
 
 
 def _distance(curve, point):

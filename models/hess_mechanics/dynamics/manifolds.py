@@ -216,6 +216,14 @@ def _followed(curve: _Curve, length: float, sagitta: float, longest: float, most
         if (across > sagitta or size > longest or off > 0.35 * size) and right - tau > 1e-12 * max(1.0, tau):
             waiting.append((0.5 * (tau + right), middle))
             continue
+        # Beyond it the images of the first piece go on elsewhere: they are not joined.  Where exactly it is, a more
+        # accurate map knows better: what is closer to it than the sagitta is left out.
+        if size > longest:
+            while len(points) > 2 and float(np.linalg.norm(points[-2] - here)) < sagitta:
+                points.pop()
+                parameters.pop()
+            return np.array(points), np.array(parameters), (
+                f"At the length {total:.6g} the map jumps: an orbit touches the plane of the section.")
         waiting.pop()
         # The middle is known anyway, and halves the sagitta twice.
         for parameter, point in ((0.5 * (tau + right), middle), (right, there)):
