@@ -24,7 +24,7 @@ from hess_mechanics.dynamics.lyapunov import Exponent, largest_exponent
 from hess_mechanics.dynamics.manifolds import Manifold, grown
 from hess_mechanics.dynamics.megno import megno
 from hess_mechanics.dynamics.orbit import solve
-from hess_mechanics.dynamics.periodic import PeriodicOrbit, find_periodic
+from hess_mechanics.dynamics.periodic import PeriodicOrbit, find_periodic, place_units
 from hess_mechanics.dynamics.return_map import ReturnMap, Sheet
 from hess_mechanics.dynamics.section import Points
 from hess_mechanics.dynamics.spectrum import Spectrum, spectrum
@@ -86,7 +86,7 @@ class PlanePoints(Result):
         points = np.concatenate([np.empty((0, 2)), *self.orbits])
         return Labels({"orbit": (("point",), number)},
                       {name: (("point",), points[:, i]) for i, name in enumerate(self.names)},
-                      {name: "1" if name == "L/G" else "rad" for name in self.names}, self.facts)
+                      place_units(self.names), self.facts)
 
 
 @dataclass(frozen=True)

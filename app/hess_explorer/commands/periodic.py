@@ -109,7 +109,8 @@ def _suslov(options: argparse.Namespace) -> ReturnMap:
 def _quartic(options: argparse.Namespace) -> ReturnMap:
     from hess_mechanics import QuarticBody, return_map
 
-    return return_map(QuarticBody(*(*options.I, options.b3, options.h)), accuracy=options.accuracy)
+    I11, I22 = options.I
+    return return_map(QuarticBody(I11, I22, options.b3, options.h), accuracy=options.accuracy)
 
 
 def _ball(options: argparse.Namespace) -> ReturnMap:

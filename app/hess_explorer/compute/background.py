@@ -11,7 +11,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from hess_explorer.compute.cache import CACHE, Task
-from hess_explorer.compute.cores import CORES, go_on
+from hess_explorer.compute.cores import CORES, queue_again
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.parallel import THREADS
 
@@ -29,7 +29,7 @@ def in_turns(step: Callable[[], bool]) -> None:
         with CORES.fill():
             more = step()
         if more:
-            go_on(_pool, one)
+            queue_again(_pool, one)
 
     _pool.submit(one)
 

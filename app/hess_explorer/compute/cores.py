@@ -9,7 +9,7 @@ from contextlib import contextmanager, suppress
 
 from hess_mechanics.numerics.parallel import THREADS
 
-__all__ = ["CORES", "PATIENCE", "Cores", "go_on"]
+__all__ = ["CORES", "PATIENCE", "Cores", "queue_again"]
 
 PATIENCE = 1.0
 """Seconds after which a piece is computed though others wait for answers: under any load it goes on."""
@@ -46,7 +46,7 @@ class Cores:
 CORES = Cores(THREADS)
 
 
-def go_on(pool: ThreadPoolExecutor, work: Callable[[], None]) -> None:
+def queue_again(pool: ThreadPoolExecutor, work: Callable[[], None]) -> None:
     """In a thread of the pool: do this behind what waits there; not at all where the interpreter ends meanwhile."""
     with suppress(RuntimeError):
         pool.submit(work)

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 
 from hess_explorer.compute.budget import Abandoned, limited
-from hess_explorer.compute.cores import CORES, go_on
+from hess_explorer.compute.cores import CORES, queue_again
 from hess_mechanics.numerics.parallel import THREADS
 
 __all__ = ["MOST", "Turns"]
@@ -73,4 +73,4 @@ class Turns:
             if not self._working:
                 CORES.answer(False)
                 return
-        go_on(_pool, self._one)
+        queue_again(_pool, self._one)

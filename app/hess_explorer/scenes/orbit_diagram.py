@@ -9,8 +9,10 @@ from functools import cached_property
 
 import numpy as np
 
+from hess_explorer.compute.cache import CACHE
 from hess_explorer.protocol.parameters import Value, Values, places, written
 from hess_explorer.scenes.framework.charted import Charted
+from hess_explorer.scenes.framework.heavy_suslov import HeavySuslov
 from hess_explorer.scenes.framework.inertia import CentreOfMass, Tensor
 from hess_explorer.scenes.framework.one_orbit import OneOrbit, Start
 from hess_explorer.scenes.framework.over_parameter import BOUNDS, OverParameter, picture
@@ -25,13 +27,13 @@ from hess_explorer.views.layers import Axes, levels, points
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import along_the_orbit
 from hess_explorer.views.text import digits
-from hess_explorer.views.velocity_plane import nice_above, orbit_columns, pixels_per_unit
+from hess_explorer.views.velocity_plane import orbit_columns
 from hess_mechanics.dynamics.orbit_diagram import Cascade
 from hess_mechanics.errors import OutsideRegion
-from hess_mechanics.numerics.accuracy import Kind
+from hess_mechanics.numerics.accuracy import Kind, Level
 from hess_mechanics.numerics.results import Array, Section, frozen
 from hess_mechanics.rigid_body.inertia import check_body
-from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
+from hess_mechanics.suslov.equations import SYSTEM
 from hess_mechanics.suslov.parameter_diagram import (
     AtState,
     Sets,
@@ -66,7 +68,7 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class OrbitDiagram(OverParameter, CentreOfMass, Tensor, OneOrbit, ConstrainedBody):
+class OrbitDiagram(OverParameter, HeavySuslov, OneOrbit, ConstrainedBody):
     """Where orbits of a section settle over one parameter, and the orbit on show at the value that this one has."""
 
     I11: float = like(Tensor, "I11", 1.0)
@@ -92,14 +94,9 @@ class OrbitDiagram(OverParameter, CentreOfMass, Tensor, OneOrbit, ConstrainedBod
         return state if x0 < last and x1 > first else replace(state, window="")
 
     @cached_property
-    def body(self) -> SuslovBody:
-        """The body.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
-        return SuslovBody(self.I11, self.I22, self.I13, self.I23, self.b1, self.b2, self.b3)
-
-    @cached_property
     def section(self) -> SuslovSection:
         """The section γ3 = 0."""
-        return SuslovSection(self.body, self.h - math.hypot(self.b1, self.b2, self.b3), 3)
+        return SuslovSection(self.body, self.E, 3)
 
     @cached_property
     def place(self) -> tuple[float, float]:
@@ -121,16 +118,6 @@ class OrbitDiagram(OverParameter, CentreOfMass, Tensor, OneOrbit, ConstrainedBod
         """Its state."""
         return tuple(map(float, self.section.states_at(*np.array(self.place)[:, None])[0][0]))
 
-    @property
-    def half_width(self) -> float:
-        """Room for |ω|."""
-        return nice_above(1.05 * math.sqrt(2.0 * self.h / min(self.I11, self.I22)))
-
-    @property
-    def weights(self) -> tuple[float, ...]:
-        """From the variables to the pictures, in pixels for a unit."""
-        return pixels_per_unit(self.half_width)
-
     # ---- the state ----------------------------------------------------------------------------------------------
 
     @cached_property
@@ -145,7 +132,7 @@ class OrbitDiagram(OverParameter, CentreOfMass, Tensor, OneOrbit, ConstrainedBod
         if self.dragging:
             return None
         t = self.plan(Kind.EXPONENT).share * self.long
-        return self.work.later(at_state, self.section, self.place, 500, 1500, t, self.plan(Kind.SECTION).level)
+        return self.work.later(_at_state, self.section, self.place, 500, 1500, t, self.plan(Kind.SECTION).level)
 
     @cached_property
     def turned(self) -> Section:
@@ -167,7 +154,7 @@ class OrbitDiagram(OverParameter, CentreOfMass, Tensor, OneOrbit, ConstrainedBod
 
     def _about_section(self) -> str:
         found = self.kind
-        if found is None or found.regime is None:
+        if found is None:
             return self.awaited()
         kind = found.regime.kind.words if not found.regime.period else f"period {found.regime.period}"
         if found.dynamics is None:
@@ -187,8 +174,9 @@ class OrbitDiagram(OverParameter, CentreOfMass, Tensor, OneOrbit, ConstrainedBod
 
     def status(self) -> Iterator[str]:
         """The orbit, the doublings."""
-        if isinstance(self.known("cascade"), Cascade) and self.flips.size:
-            yield f"doublings to {digits(float(self.cascade.error_estimate), 1)}"  # type: ignore[union-attr]
+        found = self.known("cascade")
+        if isinstance(found, Cascade) and found.values.size:
+            yield f"doublings to {digits(found.error_estimate, 1)}"
         yield from self._orbit_status()
 
     def derived(self) -> Iterator[str]:
@@ -196,6 +184,13 @@ class OrbitDiagram(OverParameter, CentreOfMass, Tensor, OneOrbit, ConstrainedBod
         yield f"E = {digits(self.section.E, 6)}"
         yield f"chosen: ψ = {digits(self.place[0])}, δ = {digits(self.place[1])}"
         yield check_body(self.I11, self.I22, self.I13, self.I23).sentence
+
+
+def _at_state(section: SuslovSection, place: tuple[float, float], transient: int, kept: int, t: float, level: Level
+              ) -> AtState:
+    """`at_state` of the sets that the picture shows, which are computed once."""
+    sets = CACHE.get(sets_of, section, place, transient, kept, level)[0]
+    return at_state(section, place, sets, transient, kept, t, level)
 
 
 def _of(sets: Sets | None, which: str) -> Array:

@@ -15,7 +15,8 @@ from hess_explorer.protocol.parameters import Value
 from hess_explorer.scenes.framework.basins import BASINS, Basins
 from hess_explorer.scenes.framework.charted import Charted, Placed, exponents, motion_of
 from hess_explorer.scenes.framework.filled_window import EXPONENT, SECTION, TURN, Piece, filled_window
-from hess_explorer.scenes.framework.inertia import CentreOfMass, Tensor
+from hess_explorer.scenes.framework.heavy_suslov import HeavySuslov
+from hess_explorer.scenes.framework.inertia import Tensor
 from hess_explorer.scenes.framework.one_orbit import Start
 from hess_explorer.scenes.framework.parameters import (
     accuracy_level,
@@ -39,14 +40,14 @@ from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import along_the_orbit
 from hess_explorer.views.section_plane import joined
 from hess_explorer.views.text import digits
-from hess_explorer.views.velocity_plane import nice_above, orbit_alone, orbit_columns, pixels_per_unit
+from hess_explorer.views.velocity_plane import orbit_alone, orbit_columns
 from hess_mechanics.dynamics.sampling import HALF_A_PIXEL
 from hess_mechanics.dynamics.section import occupied_cells
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import Kind, Level, cheapest
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.rigid_body.inertia import check_body
-from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
+from hess_mechanics.suslov.equations import SYSTEM
 from hess_mechanics.suslov.principal_axis import Conformal, conformal
 from hess_mechanics.suslov.section import Course, SuslovSection, lowest_energy, mean_divergence, suslov_points
 
@@ -79,7 +80,7 @@ PRESETS = (*map(plain, (
 
 
 @dataclass(frozen=True)
-class Suslov(CentreOfMass, Tensor, Basins, ConstrainedBody):
+class Suslov(HeavySuslov, Basins, ConstrainedBody):
     """A section of one body at one energy, filled with orbits forward and backward in time."""
 
     I22: float = like(Tensor, "I22", 3.0)
@@ -116,16 +117,6 @@ class Suslov(CentreOfMass, Tensor, Basins, ConstrainedBody):
                 f"Motions reach {self.plane} only for h > {digits(bottom)}: h is {digits(state.h)} now.")
         return state
 
-    @cached_property
-    def body(self) -> SuslovBody:
-        """The body.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
-        return SuslovBody(self.I11, self.I22, self.I13, self.I23, self.b1, self.b2, self.b3)
-
-    @property
-    def E(self) -> float:
-        """The energy."""
-        return self.h - math.hypot(self.b1, self.b2, self.b3)
-
     @property
     def asked(self) -> bool:
         """Whether basins are to be shown."""
@@ -135,16 +126,6 @@ class Suslov(CentreOfMass, Tensor, Basins, ConstrainedBody):
     def section(self) -> SuslovSection:
         """The section."""
         return SuslovSection(self.body, self.E, _PLANES[self.plane])
-
-    @property
-    def half_width(self) -> float:
-        """Of the (ω1, ω2)-plane: room for all motions of this energy."""
-        return nice_above(1.05 * math.sqrt(2.0 * self.h / min(self.I11, self.I22)))
-
-    @property
-    def weights(self) -> tuple[float, ...]:
-        """From the variables to the pictures, in pixels for a unit."""
-        return pixels_per_unit(self.half_width)
 
     @property
     def orbit_level(self) -> Level:

@@ -19,7 +19,16 @@ from functools import cached_property
 
 import numpy as np
 
-from hess_mechanics.dynamics.periodic import Map, PeriodicOrbit, Shot, apart, kind_of, multipliers_of, shoot
+from hess_mechanics.dynamics.periodic import (
+    Map,
+    PeriodicOrbit,
+    Shot,
+    apart,
+    kind_of,
+    multipliers_of,
+    place_units,
+    shoot,
+)
 from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged, WorkLimit
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.patience import go_on
@@ -95,7 +104,7 @@ class Branch(Result):
         return Labels({self.parameter: (along, self.values)}, {
             **{name: (along, self.places[:, 0, i]) for i, name in enumerate(self.names)},
             **parts, "kind": (along, np.array(self.kinds)), "error": (along, self.errors),
-        }, {name: "1" if name == "L/G" else "rad" for name in self.names}, {
+        }, place_units(self.names), {
             "period": self.period, "level": self.level, "error_estimate": self.error_estimate, "ended": self.ended,
             "bifurcations": "; ".join(f"{one.kind} at {one.value:.12g} ± {one.error:.1g}"
                                       for one in self.bifurcations)})

@@ -20,7 +20,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from hess_mechanics.dynamics.periodic import Map, PeriodicOrbit, apart
+from hess_mechanics.dynamics.periodic import Map, PeriodicOrbit, apart, place_units
 from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged, WorkLimit
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.patience import go_on
@@ -76,7 +76,7 @@ class Manifold(Result):
         return Labels({"length": (("length",), self.lengths)},
                       {**{name: (("length",), self.points[:, i]) for i, name in enumerate(self.names)},
                        "τ": (("length",), self.parameters)},
-                      {name: "1" if name == "L/G" else "rad" for name in self.names},
+                      place_units(self.names),
                       {"manifold": "stable" if self.stable else "unstable", "side": self.side,
                        "multiplier": self.multiplier, "sagitta": self.sagitta, "error_estimate": self.error_estimate,
                        "ended": self.ended, "level": self.level})

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hess_mechanics.dynamics.continuation import Bifurcation, continued
-from hess_mechanics.dynamics.periodic import MAX_PERIOD, Map, PeriodicOrbit, apart, find_periodic, shoot
+from hess_mechanics.dynamics.periodic import MAX_PERIOD, Map, PeriodicOrbit, apart, find_periodic, place_units, shoot
 from hess_mechanics.dynamics.point_sets import how_far_apart
 from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.labelled import Labels, Result
@@ -85,7 +85,7 @@ class Diagram(Result):
         along = ("point",)
         return Labels({self.parameter: (along, value)},
                       {name: (along, points[:, i]) for i, name in enumerate(self.names)},
-                      {name: "1" if name == "L/G" else "rad" for name in self.names}, {"level": self.level})
+                      place_units(self.names), {"level": self.level})
 
 
 def period_of(turns: Sequence[float], places: Array) -> tuple[int, bool]:

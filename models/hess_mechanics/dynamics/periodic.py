@@ -21,7 +21,8 @@ from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Complex, frozen
 
 __all__ = [
-    "MAX_PERIOD", "Map", "PeriodicOrbit", "Shot", "apart", "find_periodic", "kind_of", "multipliers_of", "shoot",
+    "MAX_PERIOD", "Map", "PeriodicOrbit", "Shot", "apart", "find_periodic", "kind_of", "multipliers_of", "place_units",
+    "shoot",
 ]
 
 MAX_PERIOD = 64
@@ -75,6 +76,12 @@ class Map(Protocol):
 
     def tightened(self) -> Map:
         """The same map, computed more exactly."""
+
+
+def place_units(names: Sequence[str]) -> dict[str, str]:
+    """The units of the coordinates of a section, by name; the canonical ones of the quartic potential have none."""
+    units = {"l": "rad", "L/G": "1", "ψ": "rad", "δ": "rad", "φ": "rad"}
+    return {name: units[name] for name in names if name in units}
 
 
 def apart(turns: Sequence[float], a: Array, b: Array) -> Array:
@@ -217,7 +224,7 @@ class PeriodicOrbit(Result):
         multipliers = {f"multiplier {i + 1}": _shown(complex(one)) for i, one in enumerate(self.multipliers)}
         return Labels({"return": (("return",), np.arange(self.period))},
                       {name: (("return",), self.places[:, i]) for i, name in enumerate(self.names)},
-                      {name: "1" if name == "L/G" else "rad" for name in self.names}, {
+                      place_units(self.names), {
             "period": self.period, "kind": self.kind, **multipliers, "multiplier_error": self.multiplier_error,
             "error_estimate": self.error_estimate, "condition": self.condition, "iterations": self.iterations,
             "symmetric": ", ".join(self.symmetric), "level": self.level, "status": str(self.status)})

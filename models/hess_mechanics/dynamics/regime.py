@@ -18,6 +18,7 @@ import numpy as np
 
 from hess_mechanics.dynamics.megno import CHAOTIC, Megno, megno
 from hess_mechanics.dynamics.orbit_diagram import period_of
+from hess_mechanics.dynamics.periodic import place_units
 from hess_mechanics.dynamics.point_sets import Apart, how_far_apart
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.errors import InvalidParameter, NoReturn
@@ -25,7 +26,7 @@ from hess_mechanics.numerics.accuracy import DRAFT, Level
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, frozen
 
-__all__ = ["Dynamics", "Kind", "Regime", "dynamics_of", "regime"]
+__all__ = ["Dynamics", "Kind", "Regime", "compared", "dynamics_of", "regime"]
 
 _REGULAR = 2.5
 """Ȳ below this is regular; between it and `megno.CHAOTIC` nothing is said."""
@@ -98,7 +99,7 @@ class Regime(Result):
     def labels(self) -> Labels:
         """The places, and what was found of them."""
         return Labels({}, {name: (("crossing",), self.places[:, i].copy()) for i, name in enumerate(self.names)},
-                      {name: "1" if name == "L/G" else "rad" for name in self.names}, {
+                      place_units(self.names), {
             "kind": self.kind.words, "period": self.period, "MEGNO": self.megno, "t": self.t,
             "divergence": self.divergence, "divergence error": self.divergence_error, "level": self.level})
 
@@ -174,7 +175,7 @@ class Dynamics(Result):
         along = ("crossing",)
         return Labels({"set": (along, which)},
                       {name: (along, points[:, i].copy()) for i, name in enumerate(self.names)},
-                      {name: "1" if name == "L/G" else "rad" for name in self.names}, {
+                      place_units(self.names), {
             "verdict": self.verdict, "distance": self.apart.distance, "distance error": self.apart.error,
             "grain": self.apart.grain, "shared": self.apart.shared, "divergence": self.divergence,
             "divergence error": self.divergence_error, "level": self.level})
@@ -195,6 +196,11 @@ def dynamics_of(map_: ReturnMap, start: Sequence[float] | Array, transient: int 
             way = "backward" if one.backward else "forward"
             raise NoReturn(f"Followed {way} in time, the motion returns {len(orbit)} times only: choose another place.")
         sets.append(frozen(orbit[transient:].copy()))
-    found = _indicated(map_, sets[0][-1], t, DRAFT)
-    return Dynamics(map_.names, sets[0], sets[1], how_far_apart(map_.turns, *sets), t, float(found.divergence[0]),
-                    float(found.divergence_error[0]), map_.level)
+    return compared(map_, sets[0], sets[1], t)
+
+
+def compared(map_: ReturnMap, attractor: Array, repeller: Array, t: float) -> Dynamics:
+    """The same of two sets of places (n, d) and (m, d) that are known, in the order in which they are passed."""
+    found = _indicated(map_, attractor[-1], t, DRAFT)
+    return Dynamics(map_.names, attractor, repeller, how_far_apart(map_.turns, attractor, repeller), t,
+                    float(found.divergence[0]), float(found.divergence_error[0]), map_.level)

@@ -13,7 +13,7 @@ import numpy as np
 
 from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, cascade, orbit_diagram
 from hess_mechanics.dynamics.periodic import find_periodic
-from hess_mechanics.dynamics.regime import Dynamics, Regime, dynamics_of, regime
+from hess_mechanics.dynamics.regime import Dynamics, Regime, compared, regime
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.errors import InvalidParameter, ModelError, WorkLimit
 from hess_mechanics.numerics.accuracy import PRECISE, Level
@@ -81,23 +81,28 @@ def sets_of(section: SuslovSection, start: Place, transient: int, kept: int, lev
 
 @dataclass(frozen=True)
 class AtState:
-    """What kind of motion this is, and of what kind the dynamics are; a sentence where that cannot be told."""
+    """What kind of motion this is, and of what kind the dynamics are; None where that cannot be told."""
 
-    regime: Regime | None
+    regime: Regime
     dynamics: Dynamics | None
-    why: str
 
 
-def at_state(section: SuslovSection, start: Place, transient: int, kept: int, t: float, level: Level) -> AtState:
-    """Of the orbit from a place, t : the time of the averages.  Raises `OutsideRegion`, `WorkLimit`."""
+def at_state(section: SuslovSection, start: Place, sets: Sets, transient: int, kept: int, t: float, level: Level
+             ) -> AtState:
+    """Of the orbit from a place, whose `sets_of` are known; t : the time of the averages.
+
+    Raises `OutsideRegion`, `WorkLimit`.
+    """
     map_ = ReturnMap(section, level)
     found = regime(map_, start, transient, min(kept, 400), t)
+    if min(len(sets.attractor), len(sets.repeller)) < kept:
+        return AtState(found, None)
     try:
-        return AtState(found, dynamics_of(map_, start, transient, kept, t), "")
+        return AtState(found, compared(map_, sets.attractor, sets.repeller, t))
     except InvalidParameter:
         raise
-    except ModelError as error:
-        return AtState(found, None, str(error))
+    except ModelError:
+        return AtState(found, None)
 
 
 def nearest_place(diagrams: Sequence[Diagram], i: int, value: float, y: float) -> tuple[float, Place] | None:
