@@ -40,9 +40,10 @@ class View:
         self.refused, self._left_out = [], []
         self.begun = self.result = scene.compute(self.values, seen, dragging)
         self.first = self.report = self.stage.show(self.result, False)
-        # What is found may ask for more, once.
-        for _ in range(2 if whole else 0):
-            self._complete(scene, seen, dragging, refusing)
+        # What is found may ask for more; an orbit diagram comes in twenty parts, one after the other.
+        for _ in range(30 if whole else 0):
+            if not self._complete(scene, seen, dragging, refusing):
+                break
         assert not whole or len(self.report.todo) == len(self.refused)
         tree, block = self.wire.pack()
         self.data = {name: {key: read(column, block) for key, column in columns.items()}
@@ -50,7 +51,7 @@ class View:
         self.axes, self.text = tree["ranges"], tree["texts"]
 
     def _complete(self, scene, seen, dragging, refusing):
-        """Find what is left to be computed, and show it."""
+        """Find what is left to be computed, and show it; whether anything was."""
         left = [task for task in self.report.todo if task not in self._left_out]
         for task in left:
             try:
@@ -62,6 +63,7 @@ class View:
         if left:
             self.result = scene.compute(self.values, seen, dragging)
             self.report = self.stage.show(self.result, False)
+        return bool(left)
 
     def numbers(self, picture, pattern):
         """The numbers in a caption that stand where the pattern has #."""
