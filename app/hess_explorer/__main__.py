@@ -21,10 +21,12 @@ from hess_explorer.commands import (
     export,
     lyapunov,
     orbit,
+    orbit_diagram,
     period,
     periodic,
     prove,
     prove_zone,
+    regime,
     rotation_number,
     scattering,
     section,
@@ -56,8 +58,9 @@ def _parser() -> argparse.ArgumentParser:
                      "and their relatives.  Without a command: serve.", allow_abbrev=False)
     parser.add_argument("--version", action="version", version=f"hess-explorer {_version()}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    for command in (serve, circle_map, orbit, period, periodic, section, scattering, rotation_number, lyapunov, basins,
-                    cloud, prove, prove_zone, tube, export, code, docs, sweep, shot, bench):
+    for command in (serve, circle_map, orbit, period, periodic, section, orbit_diagram, regime, scattering,
+                    rotation_number, lyapunov, basins, cloud, prove, prove_zone, tube, export, code, docs, sweep, shot,
+                    bench):
         command.add(commands)
     return parser
 

@@ -14,21 +14,15 @@ from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.scattering import BallScattering, ball_scattering
 from hess_mechanics.computations import (
     Basins,
-    MegnoMap,
     PlanePoints,
     andoyer_section,
     ball_section,
     basins,
     cloud,
-    continued_orbit,
     lyapunov_exponent,
     lyapunov_spectrum,
-    manifold,
-    megno_map,
     orbit,
     period,
-    periodic_orbit,
-    return_map,
     rotation_along_line,
     rotation_numbers,
     suslov_section,
@@ -38,8 +32,11 @@ from hess_mechanics.dynamics.ensemble import ensemble
 from hess_mechanics.dynamics.lyapunov import Exponent, largest_exponent
 from hess_mechanics.dynamics.manifolds import Manifold
 from hess_mechanics.dynamics.megno import Megno, megno
+from hess_mechanics.dynamics.megno_map import MegnoMap
 from hess_mechanics.dynamics.orbit import solve
+from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram
 from hess_mechanics.dynamics.periodic import PeriodicOrbit
+from hess_mechanics.dynamics.regime import Dynamics, Regime
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.dynamics.section import Plane, Points, section, section_points, sections
 from hess_mechanics.dynamics.spectrum import Spectrum, spectrum
@@ -53,6 +50,17 @@ from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
 from hess_mechanics.euler_poisson.loxodromic_pendulum import LoxodromicMotion, LoxodromicPendulum, loxodromic_motion
 from hess_mechanics.numerics.accuracy import LEVELS, Level, Status, level
 from hess_mechanics.numerics.results import Cost, Ensemble, Orbit, Section
+from hess_mechanics.return_maps import (
+    continued_orbit,
+    dynamics_of,
+    manifold,
+    megno_map,
+    orbit_diagram,
+    period_doublings,
+    periodic_orbit,
+    regime,
+    return_map,
+)
 from hess_mechanics.rigid_body.inertia import BodyCheck, check_body
 from hess_mechanics.suslov.additional_integral import AdditionalIntegral, additional_integral
 from hess_mechanics.suslov.equations import SuslovBody, unit_vector
@@ -76,10 +84,12 @@ from hess_mechanics.suslov_hess.proof import Proof, prove
 
 __all__ = [  # noqa: RUF022 (by subject)
     # By a body and words
-    "orbit", "lyapunov_exponent", "lyapunov_spectrum", "megno_map", "MegnoMap", "andoyer_section", "suslov_section",
-    "ball_section", "PlanePoints", "basins", "Basins", "cloud", "period", "rotation_numbers", "rotation_along_line",
-    # Periodic orbits of sections
+    "orbit", "lyapunov_exponent", "lyapunov_spectrum", "andoyer_section", "suslov_section", "ball_section",
+    "PlanePoints", "basins", "Basins", "cloud", "period", "rotation_numbers", "rotation_along_line",
+    # By the return map of a section
     "return_map", "ReturnMap", "periodic_orbit", "PeriodicOrbit", "continued_orbit", "Branch", "manifold", "Manifold",
+    "megno_map", "MegnoMap", "orbit_diagram", "Diagram", "period_doublings", "Cascade", "regime", "Regime",
+    "dynamics_of", "Dynamics",
     # Any system
     "System", "systems", "solve", "Orbit", "ensemble", "Ensemble",
     "section", "sections", "section_points", "Plane", "Section", "Points", "largest_exponent", "Exponent", "spectrum",

@@ -9,9 +9,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from numbers import Integral, Real
-from typing import Any, Protocol, TypeVar
+from dataclasses import dataclass
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -19,13 +18,9 @@ from hess_mechanics.chaplygin_ball import integrable_cases, phase_cloud_density
 from hess_mechanics.chaplygin_ball import section as ball
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud import Cloud
-from hess_mechanics.dynamics.continuation import Branch, continued
 from hess_mechanics.dynamics.lyapunov import Exponent, largest_exponent
-from hess_mechanics.dynamics.manifolds import Manifold, grown
-from hess_mechanics.dynamics.megno import megno
 from hess_mechanics.dynamics.orbit import solve
-from hess_mechanics.dynamics.periodic import PeriodicOrbit, find_periodic, place_units
-from hess_mechanics.dynamics.return_map import ReturnMap, Sheet
+from hess_mechanics.dynamics.periodic import place_units
 from hess_mechanics.dynamics.section import Points
 from hess_mechanics.dynamics.spectrum import Spectrum, spectrum
 from hess_mechanics.dynamics.system import System
@@ -34,25 +29,22 @@ from hess_mechanics.euler_poisson.andoyer import AndoyerSection, andoyer_points
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.rotation import Ends, Rotation, on_line, rotation_along
 from hess_mechanics.numerics.accuracy import Kind, Level, level, plan
+from hess_mechanics.numerics.arguments import as_a, as_cells, as_number, as_pairs, as_whole
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.parallel import share
 from hess_mechanics.numerics.results import Array, Orbit, frozen
 from hess_mechanics.suslov.basins import Contraction, contraction_at, groups_of_cells, middle_cells
 from hess_mechanics.suslov.equations import SuslovBody
-from hess_mechanics.suslov.quartic import QuarticBody, QuarticSection
-from hess_mechanics.suslov.section import SuslovSection, lowest_energy, suslov_points
-from hess_mechanics.suslov_hess.equations import HessBody
+from hess_mechanics.suslov.section import SuslovSection, require_reached, suslov_points
 from hess_mechanics.suslov_hess.rotation_number import TorusValues, values_at
-from hess_mechanics.suslov_hess.section import TorusSection
 
 __all__ = [
-    "Basins", "MegnoMap", "PlanePoints", "andoyer_section", "ball_section", "basins", "cloud", "continued_orbit",
-    "lyapunov_exponent", "lyapunov_spectrum", "manifold", "megno_map", "orbit", "period", "periodic_orbit",
-    "return_map", "rotation_along_line", "rotation_numbers", "suslov_section",
+    "Basins", "PlanePoints", "andoyer_section", "ball_section", "basins", "cloud", "lyapunov_exponent",
+    "lyapunov_spectrum", "orbit", "period", "rotation_along_line", "rotation_numbers", "suslov_section",
 ]
 
 Window = tuple[tuple[float, float], tuple[float, float]]
-_MOST_ORBITS, _MOST_CROSSINGS, _MOST_CELLS = 1000, 10_000, 100_000
+_MOST_ORBITS, _MOST_CROSSINGS = 1000, 10_000
 _LONG = 1000.0
 """Time over which the divergence of one motion of each group is averaged."""
 
@@ -117,28 +109,6 @@ class Basins(Result):
                       {"groups": len(self.divergence), "attractors": self.attractors, "level": self.level})
 
 
-@dataclass(frozen=True)
-class MegnoMap(Result):
-    """Regular, chaotic, attracted: MEGNO over the cells of a section.
-
-    psi (m,), delta (n,) : the middles of the cells; values (n, m) : Ȳ after the time t, NaN where no motion is;
-    kind (n, m) : 0 regular, 1 chaotic, and 2 more where volume shrinks beyond its error; −1 where no motion is.
-    """
-
-    psi: Array
-    delta: Array
-    values: Array
-    kind: Array
-    t: float
-    level: str
-
-    def labels(self) -> Labels:
-        """MEGNO and kind over δ and ψ."""
-        return Labels({"δ": (("δ",), self.delta), "ψ": (("ψ",), self.psi)},
-                      {"MEGNO": (("δ", "ψ"), self.values), "kind": (("δ", "ψ"), self.kind)},
-                      {"δ": "rad", "ψ": "rad", "MEGNO": "1"}, {"t": self.t, "level": self.level})
-
-
 def orbit(body: Body, state: Sequence[float], t: float | Sequence[float] | Array, accuracy: str = "precise",
           samples: int = 500) -> Orbit:
     """The orbit of a body from a state, at the times t, or at so many samples from 0 to the time t.
@@ -150,7 +120,7 @@ def orbit(body: Body, state: Sequence[float], t: float | Sequence[float] | Array
     >>> found.states.shape, str(found.status), found.variables
     ((500, 5), 'ok', ('ω1', 'ω2', 'γ1', 'γ2', 'γ3'))
     """
-    times: Any = np.linspace(0.0, _number("t", t), _whole("samples", samples, 2, 200_000)) if np.ndim(t) == 0 else t
+    times: Any = np.linspace(0.0, as_number("t", t), as_whole("samples", samples, 2, 200_000)) if np.ndim(t) == 0 else t
     moving = _moving(body)
     return solve(moving.system, state, moving.parameters, times, level(accuracy))
 
@@ -166,7 +136,7 @@ def lyapunov_exponent(body: Body, state: Sequence[float], t: float, accuracy: st
     True
     """
     moving = _moving(body)
-    return largest_exponent(moving.system, state, moving.parameters, _number("t", t),
+    return largest_exponent(moving.system, state, moving.parameters, as_number("t", t),
                             plan(Kind.EXPONENT, accuracy).level)
 
 
@@ -181,7 +151,7 @@ def lyapunov_spectrum(body: Body, state: Sequence[float], t: float, accuracy: st
     (('+', '0', '0', '0', '-'), True)
     """
     moving = _moving(body)
-    return spectrum(moving.system, state, moving.parameters, _number("t", t), level(accuracy))
+    return spectrum(moving.system, state, moving.parameters, as_number("t", t), level(accuracy))
 
 
 def andoyer_section(body: HeavyBody, h: float, f: float, *, starts: Sequence[tuple[float, float]] = (),
@@ -196,9 +166,10 @@ def andoyer_section(body: HeavyBody, h: float, f: float, *, starts: Sequence[tup
     >>> len(found.orbits), found.names
     (3, ('l', 'L/G'))
     """
-    section = AndoyerSection(_a(HeavyBody, body), _number("h", h), _number("f", f), _whole("sheet", sheet, 0, 2))
+    section = AndoyerSection(as_a(HeavyBody, body), as_number("h", h), as_number("f", f),
+                             as_whole("sheet", sheet, 0, 2))
     states = _starts(section, starts, orbits, ((-math.pi, -1.0), (math.pi, 1.0)), "this energy and area integral")
-    found = andoyer_points(body, h, f, states, _whole("crossings", crossings, 1, _MOST_CROSSINGS),
+    found = andoyer_points(body, h, f, states, as_whole("crossings", crossings, 1, _MOST_CROSSINGS),
                            plan(Kind.SECTION, accuracy).level)
     return _in_plane(found, section, ("l", "L/G"), accuracy)
 
@@ -216,10 +187,10 @@ def suslov_section(body: SuslovBody, E: float, *, plane: int = 3, starts: Sequen
     >>> suslov_section(body, 1.842, orbits=4, crossings=30).to_xarray().sizes["point"]
     120
     """
-    section = SuslovSection(_a(SuslovBody, body), _number("E", E), _whole("plane", plane, 1, 3))
-    _require_energy(section)
+    section = SuslovSection(as_a(SuslovBody, body), as_number("E", E), as_whole("plane", plane, 1, 3))
+    require_reached(section)
     states = _starts(section, starts, orbits, ((-math.pi, 0.0), (math.pi, math.pi)), "this energy")
-    found = suslov_points(body, plane, states, _whole("crossings", crossings, 1, _MOST_CROSSINGS), forward,
+    found = suslov_points(body, plane, states, as_whole("crossings", crossings, 1, _MOST_CROSSINGS), forward,
                           plan(Kind.SECTION, accuracy).level)
     return _in_plane(found, section, ("ψ", "δ"), accuracy)
 
@@ -236,11 +207,11 @@ def ball_section(body: BallBody, h: float, *, starts: Sequence[tuple[float, floa
     >>> found.to_pandas().shape
     (60, 3)
     """
-    _a(BallBody, body)
-    _number("h", h)
-    states = ([ball.state_at(body, h, *place) for place in _pairs("starts", starts)] if len(starts) else
-              ball.seeds(body, h, _whole("orbits", orbits, 1, _MOST_ORBITS)))
-    found = ball.ball_section(body, h, states, _whole("crossings", crossings, 1, _MOST_CROSSINGS),
+    as_a(BallBody, body)
+    as_number("h", h)
+    states = ([ball.state_at(body, h, *place) for place in as_pairs("starts", starts)] if len(starts) else
+              ball.seeds(body, h, as_whole("orbits", orbits, 1, _MOST_ORBITS)))
+    found = ball.ball_section(body, h, states, as_whole("crossings", crossings, 1, _MOST_CROSSINGS),
                               plan(Kind.SECTION, accuracy).level)
     return PlanePoints(("ψ", "δ"), tuple(map(ball.coordinates, found.states)), _facts(found, accuracy))
 
@@ -258,9 +229,9 @@ def basins(body: SuslovBody, E: float, *, plane: int = 3, cells: tuple[int, int]
     >>> basins(SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), 1.842, cells=(6, 4), accuracy="draft").group.shape
     (4, 6)
     """
-    section = SuslovSection(_a(SuslovBody, body), _number("E", E), _whole("plane", plane, 1, 3))
-    _require_energy(section)
-    m, n = _cells(cells)
+    section = SuslovSection(as_a(SuslovBody, body), as_number("E", E), as_whole("plane", plane, 1, 3))
+    require_reached(section)
+    m, n = as_cells(cells)
     (x0, y0), (x1, y1) = _window(window)
     ends, chosen = np.empty((n, m)), accuracy if isinstance(accuracy, Level) else plan(
         Kind.BASINS, accuracy).level
@@ -275,32 +246,6 @@ def basins(body: SuslovBody, E: float, *, plane: int = 3, cells: tuple[int, int]
                   frozen(np.where(np.isfinite(ends), ends, np.nan)), frozen(group), on_each, chosen.name)
 
 
-def megno_map(body: SuslovBody, E: float, *, plane: int = 3, cells: tuple[int, int] = (16, 12),
-              window: Window = ((-math.pi, 0.0), (math.pi, math.pi)), t: float = 200.0, accuracy: str = "standard"
-              ) -> MegnoMap:
-    """MEGNO of the motions from the cells of a section of the Suslov problem after the time t, on all cores.
-
-    cells : across ψ and up δ; window : (ψ0, δ0), (ψ1, δ1).  Raises `InvalidParameter`, `OutsideRegion`, `WorkLimit`.
-
-    >>> from hess_mechanics import SuslovBody, megno_map
-    >>> megno_map(SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), 1.842, cells=(6, 4), t=50.0).values.shape
-    (4, 6)
-    """
-    section = SuslovSection(_a(SuslovBody, body), _number("E", E), _whole("plane", plane, 1, 3))
-    _require_energy(section)
-    m, n = _cells(cells)
-    (x0, y0), (x1, y1) = _window(window)
-    middles = [section.cells_of_row(window, (m, n), i) for i in range(n)]
-    possible = np.array([there for _, there in middles])
-    found = megno(body.system, np.array([states for states, _ in middles])[possible], body.parameters,
-                  _number("t", t), level(accuracy))
-    values, kind = np.full((n, m), np.nan), np.full((n, m), -1)
-    values[possible] = found.values
-    kind[possible] = found.chaotic + 2 * found.attracted
-    psi, delta = x0 + (np.arange(m) + 0.5) * (x1 - x0) / m, y0 + (np.arange(n) + 0.5) * (y1 - y0) / n
-    return MegnoMap(frozen(psi), frozen(delta), frozen(values), frozen(kind), found.t, accuracy)
-
-
 def cloud(body: BallBody, h: float, t: float, *, count: int = 1000, spread: float = 0.1, angle: float | None = None,
           accuracy: str = "standard") -> Cloud:
     """A cloud of phase points of the ball without a field, about the energy h, followed to the time t.
@@ -312,8 +257,8 @@ def cloud(body: BallBody, h: float, t: float, *, count: int = 1000, spread: floa
     >>> cloud(BallBody(2.0, 1.0, 0.5, 0.7, 0.0), 2.0, 5.0, count=50, accuracy="draft").omega.shape[0]
     50
     """
-    found = phase_cloud_density.clouds(_a(BallBody, body), _number("h", h), angle, _number("spread", spread),
-                                       _whole("count", count, 1, 20_000), _number("t", t), None, level(accuracy))
+    found = phase_cloud_density.clouds(as_a(BallBody, body), as_number("h", h), angle, as_number("spread", spread),
+                                       as_whole("count", count, 1, 20_000), as_number("t", t), None, level(accuracy))
     return found.cloud
 
 
@@ -326,7 +271,7 @@ def period(body: BallBody, state: Sequence[float], accuracy: str = "precise") ->
     >>> period(BallBody(1.3, 0.8, 0.0, 0.0, 0.0, 0.5, -0.2, 0.0), (1.0, -0.5, 0.0, 0.6, 0.8)).value > 0
     True
     """
-    return integrable_cases.period(_a(BallBody, body), state, level(accuracy))
+    return integrable_cases.period(as_a(BallBody, body), state, level(accuracy))
 
 
 def rotation_numbers(a: float | Array, h: float | Array, f: float | Array, accuracy: str = "precise") -> TorusValues:
@@ -360,119 +305,16 @@ def rotation_along_line(body: HeavyBody, h: float, f: float, ends: Ends, *, coun
     >>> rotation_along_line(body, 2.0, 0.5, ((0.0, 0.85), (0.0, 0.95)), count=4).to_xarray()["ρ"].attrs["units"]
     'turns'
     """
-    section = AndoyerSection(_a(HeavyBody, body), _number("h", h), _number("f", f))
-    first, last = _pairs("ends", ends)
-    started = on_line(section, (first, last), _whole("count", count, 1, _MOST_ORBITS))
+    section = AndoyerSection(as_a(HeavyBody, body), as_number("h", h), as_number("f", f))
+    first, last = as_pairs("ends", ends)
+    started = on_line(section, (first, last), as_whole("count", count, 1, _MOST_ORBITS))
     if not started:
         raise OutsideRegion("Nowhere on this line does a motion cross the section: choose another line, or a larger h.")
     chosen = plan(Kind.ROTATION, accuracy)
-    found = andoyer_points(body, h, f, [state for _, state in started], _whole("crossings", crossings, 20, 10_000),
+    found = andoyer_points(body, h, f, [state for _, state in started], as_whole("crossings", crossings, 20, 10_000),
                            chosen.level)
     return rotation_along((first, last), [one for one, _ in started], [section.places_of(one) for one in found.states],
                           about_first, count, chosen.promise)
-
-
-def return_map(body: Body | HessBody, *, E: float | None = None, h: float | None = None, f: float | None = None,
-               plane: int = 3, sheet: int = 0, accuracy: str = "precise") -> ReturnMap:
-    """The return map of a section of a body at fixed values of its integrals.
-
-    A `SuslovBody` takes E and the plane γ_k = 0, k = `plane`, places (ψ, δ); a `BallBody` h, places (ψ, δ); a
-    `HeavyBody` h, f and a sheet, places (l, L/G); a `HessBody` h and f of a torus, units b = 1, places (φ,); a
-    `QuarticBody` has its energy already, places (q, p).
-    Raises `InvalidParameter`.
-
-    >>> from hess_mechanics import SuslovBody, return_map
-    >>> P = return_map(SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), E=1.842)
-    >>> P.image((0.3, 1.2)).shape, P.names
-    ((2,), ('ψ', 'δ'))
-    """
-    asked: dict[str, float | None] = {"E": E, "h": h, "f": f}
-    found: Sheet
-    if isinstance(body, SuslovBody):
-        at = _given(asked, "E")
-        _require_energy(found := SuslovSection(body, at[0], _whole("plane", plane, 1, 3)))
-    elif isinstance(body, BallBody):
-        found = ball.BallSection(body, *_given(asked, "h"))
-    elif isinstance(body, HeavyBody):
-        at = _given(asked, "h", "f")
-        found = AndoyerSection(body, at[0], at[1], _whole("sheet", sheet, 0, 2))
-    elif isinstance(body, QuarticBody):
-        _given(asked)
-        found = QuarticSection(body)
-    else:
-        found = TorusSection(_a(HessBody, body).a, *_given(asked, "h", "f"))
-    return ReturnMap(found, level(accuracy))
-
-
-def periodic_orbit(section: ReturnMap, at: Sequence[float], period: int | None = None) -> PeriodicOrbit:
-    """The periodic orbit of a `return_map` that Newton's method finds from a place, with multipliers and type.
-
-    period : the least number of returns; None: found, up to 12.
-    Raises `InvalidParameter`, `NotConverged`.
-
-    >>> from hess_mechanics import HessBody, periodic_orbit, return_map
-    >>> P = return_map(HessBody(I22=2.0, I23=1.0, b3=-1.0), h=1.5, f=0.6)
-    >>> periodic_orbit(P, (-2.0,)).kind  # the stable limit cycle
-    'stable node'
-    """
-    found = find_periodic(section, at, None if period is None else _whole("period", period, 1, 64))
-    return replace(found, symmetric=tuple(section.symmetries_of(found.places)))
-
-
-def continued_orbit(section: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: float, points: int = 200) -> Branch:
-    """The branch of a periodic orbit of a `return_map` over a parameter of it, from its own value towards `to`.
-
-    parameter : one of `section.sheet.constants`.  Folds are passed; bifurcations are found and named.
-    Raises `InvalidParameter`, `NotConverged`, `WorkLimit`.
-
-    >>> from hess_mechanics import HessBody, continued_orbit, periodic_orbit, return_map
-    >>> P = return_map(HessBody(I22=2.0, I23=1.0, b3=-1.0), h=1.5, f=0.6)
-    >>> branch = continued_orbit(P, periodic_orbit(P, (-2.0,)), "h", 1.6, points=5)
-    >>> branch.kinds[0], len(branch.bifurcations)
-    ('stable node', 0)
-    """
-    if parameter not in section.sheet.constants:
-        raise InvalidParameter(f"There is no {parameter} here to change: choose one of "
-                               f"{', '.join(section.sheet.constants)}.")
-    return continued(lambda value: section.moved(parameter, value), orbit, parameter,
-                     section.sheet.constants[parameter], _number("to", to), _whole("points", points, 2, 2000),
-                     lambda map_, places: map_.symmetries_of(places) if isinstance(map_, ReturnMap) else ())
-
-
-def manifold(section: ReturnMap, saddle: PeriodicOrbit, length: float, *, stable: bool = False, side: int = 1,
-             place: int = 0, sagitta: float = 1e-3, longest: float = 0.1) -> Manifold:
-    """A branch of the unstable or stable manifold of a saddle of a `return_map`, up to a length.
-
-    side : 1 or −1, along its direction or against it; place : from which of the places of the saddle; sagitta : the
-    largest distance from the polyline; longest : of its chords.  Raises `InvalidParameter`, `WorkLimit`, `NoReturn`.
-
-    >>> from hess_mechanics import HeavyBody, manifold, periodic_orbit, return_map
-    >>> P = return_map(HeavyBody.hess((1.0, 1.6, 4.0), 1.0), h=1.5, f=-0.76)
-    >>> saddle = periodic_orbit(P, (-2.84, 0.288), 1)
-    >>> manifold(P, saddle, 0.5).length >= 0.5
-    True
-    """
-    return grown(section, saddle, _number("length", length), stable, side, place, _number("sagitta", sagitta),
-                 _number("longest", longest))
-
-
-def _given(asked: dict[str, float | None], *names: str) -> list[float]:
-    """The numbers of these names; those that the section does not have must not be given."""
-    lost = [name for name in names if asked[name] is None]
-    if lost:
-        raise InvalidParameter(f"The section of this body lies at given {' and '.join(names)}: give {lost[0]}.")
-    extra = [name for name, value in asked.items() if value is not None and name not in names]
-    if extra:
-        raise InvalidParameter(f"The section of this body takes {' and '.join(names) or 'its own energy'} and no "
-                               f"{extra[0]}: leave it out.")
-    return [_number(name, asked[name]) for name in names]
-
-
-def _cells(cells: tuple[int, int]) -> tuple[int, int]:
-    m, n = (_whole("cells", side, 1, _MOST_CELLS) for side in cells)
-    if m * n > _MOST_CELLS:
-        raise InvalidParameter(f"These are {m * n} cells; at most {_MOST_CELLS} are allowed: choose fewer.")
-    return m, n
 
 
 def _window(window: Window) -> Window:
@@ -486,22 +328,16 @@ def _starts(section: AndoyerSection | SuslovSection, places: Sequence[tuple[floa
             window: Window, there: str) -> Sequence[Sequence[float]]:
     """The states at these places of a section, or of so many orbits spread over it."""
     if not len(places):
-        states = section.spread(window, _whole("orbits", orbits, 1, _MOST_ORBITS))
+        states = section.spread(window, as_whole("orbits", orbits, 1, _MOST_ORBITS))
         if not states:
             raise OutsideRegion(f"No motion with {there} crosses the section: choose a larger energy.")
         return states
-    pairs = np.array(_pairs("starts", places))
+    pairs = np.array(as_pairs("starts", places))
     found, possible = section.states_at(pairs[:, 0], pairs[:, 1])
     if not possible.all():
         x, y = pairs[np.flatnonzero(~possible)[0]]
         raise OutsideRegion(f"No motion with {there} crosses the section at ({x:g}, {y:g}): choose another place.")
     return [tuple(map(float, state)) for state in found]
-
-
-def _require_energy(section: SuslovSection) -> None:
-    lowest = lowest_energy(section.body, section.k)
-    if lowest >= section.E:
-        raise OutsideRegion(f"No motion with E = {section.E:g} reaches γ{section.k} = 0: choose E above {lowest:.6g}.")
 
 
 def _in_plane(found: Points, section: AndoyerSection | SuslovSection, names: tuple[str, str], accuracy: str
@@ -514,42 +350,9 @@ def _facts(found: Points, accuracy: str) -> dict[str, float | str]:
     return {"level": accuracy, **drifts, "steps": found.cost.steps}
 
 
-T = TypeVar("T")
-
-
 def _moving(body: Body) -> Body:
     """What was given, if it moves.  Raises `InvalidParameter`."""
     if not (isinstance(getattr(body, "system", None), System) and hasattr(body, "parameters")):
         raise InvalidParameter(f"{body!r} is no body that moves: give a SuslovBody, a PlaneBody, a QuarticBody, "
                                "a BallBody or a HeavyBody.")
     return body
-
-
-def _a(kind: type[T], body: object) -> T:
-    if not isinstance(body, kind):
-        raise InvalidParameter(f"{body!r} is no {kind.__name__}: give the body as hess_mechanics.{kind.__name__}(…).")
-    return body
-
-
-def _number(name: str, value: Any) -> float:
-    if isinstance(value, bool) or not isinstance(value, Real):
-        raise InvalidParameter(f"{name} = {value!r} is not a number; write it like 1.5 or -2e-3.")
-    if not math.isfinite(value):
-        raise InvalidParameter(f"{name} is not a finite number; write one like 1.5 or -2e-3.")
-    return float(value)
-
-
-def _whole(name: str, value: Any, low: int, high: int) -> int:
-    if isinstance(value, bool) or not isinstance(value, Integral) or not low <= int(value) <= high:
-        raise InvalidParameter(f"{name} = {value!r} is not a whole number from {low} to {high}.")
-    return int(value)
-
-
-def _pairs(name: str, places: Any) -> list[tuple[float, float]]:
-    try:
-        return [(_number(name, x), _number(name, y)) for x, y in places]
-    except (TypeError, ValueError) as error:
-        if isinstance(error, InvalidParameter):
-            raise
-        raise InvalidParameter(
-            f"{name} = {places!r} are no places; write them like [(0.0, 0.5), (1.0, 0.2)].") from None

@@ -25,10 +25,13 @@ from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Mask, frozen
 
 __all__ = [
-    "MAX_VALUES", "Cascade", "Diagram", "Followed", "cascade", "hysteresis", "orbit_diagram", "period_of",
+    "COMPARED", "MAX_VALUES", "Cascade", "Diagram", "Followed", "cascade", "doubling_seen", "hysteresis",
+    "orbit_diagram", "period_of",
 ]
 
 MAX_VALUES, MAX_CROSSINGS = 2000, 20_000
+COMPARED = 16
+"""Places of two sets from which on they are told apart."""
 _SAME = 1e-5
 """Places closer than this are one of a periodic orbit."""
 _SETTLING = 0.8
@@ -163,15 +166,21 @@ def orbit_diagram(family: Callable[[float], Followed], parameter: str, values: S
                    frozen(conservative), level)
 
 
+def doubling_seen(m: Sequence[int]) -> int | None:
+    """After which of them (an index) periods, 0 where none is seen, first double, the least first; None: nowhere."""
+    steps = [k for k in range(len(m) - 1) if m[k] and m[k + 1] == 2 * m[k]]
+    return min(steps, key=lambda k: (m[k], k), default=None)
+
+
 def hysteresis(turns: Sequence[float], there: Diagram, back: Diagram) -> tuple[tuple[float, float], ...]:
     """The intervals of values (low, high) over which a diagram and the one of the same values backwards differ.
 
     They differ where the two sets of places are farther apart than their halves are from each other, by three times
-    the error; an interval ends at the outermost values where they do.
+    the error; an interval ends at the outermost values where they do.  Of fewer than 16 places nothing is said.
     """
     differ: list[tuple[float, bool]] = []
     for value, one, other in zip(there.values, there.places, reversed(back.places), strict=True):
-        if min(len(one), len(other)) < 16:
+        if min(len(one), len(other)) < COMPARED:
             continue
         found = how_far_apart(turns, one, other)
         differ.append((float(value), found.distance > 3.0 * (found.grain + found.error) + 1e-3))

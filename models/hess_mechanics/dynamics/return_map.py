@@ -146,10 +146,15 @@ class ReturnMap:
 
     def moved(self, name: str, value: float) -> ReturnMap:
         """The same map at another value of a constant of the section.  Raises `InvalidParameter`."""
+        self.constant(name)
+        return replace(self, sheet=self.sheet.moved(name, value))
+
+    def constant(self, name: str) -> float:
+        """A constant of the section.  Raises `InvalidParameter`, which lists them."""
         if name not in self.sheet.constants:
             raise InvalidParameter(f"There is no {name} here to change: choose one of "
                                    f"{', '.join(self.sheet.constants)}.")
-        return replace(self, sheet=self.sheet.moved(name, value))
+        return self.sheet.constants[name]
 
     def state_at(self, place: Array) -> Array:
         """The state (d,) at a place of the section.  Raises `OutsideRegion`."""

@@ -20,7 +20,7 @@ from hess_mechanics.numerics.accuracy import PRECISE, Level
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.suslov.section import SuslovSection
 
-__all__ = ["AtState", "Sets", "at_state", "diagram", "doubling_seen", "doublings", "moved", "sets_of"]
+__all__ = ["AtState", "Sets", "at_state", "diagram", "doublings", "moved", "sets_of"]
 
 Place = tuple[float, ...]
 
@@ -40,12 +40,6 @@ def diagram(section: SuslovSection, name: str, values: tuple[float, ...], start:
     """`orbit_diagram` of the section along a parameter."""
     return orbit_diagram(lambda value: ReturnMap(moved(section, name, value), level, backward), name, values, start,
                          transient, kept, follow, again)
-
-
-def doubling_seen(m: Sequence[int]) -> int | None:
-    """After which of them (an index) periods, 0 where none is seen, first double, the least first; None: nowhere."""
-    steps = [k for k in range(len(m) - 1) if m[k] and m[k + 1] == 2 * m[k]]
-    return min(steps, key=lambda k: (m[k], k), default=None)
 
 
 def doublings(section: SuslovSection, name: str, at: float, places: tuple[Place, ...], end: float, most: int

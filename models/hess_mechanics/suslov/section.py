@@ -22,7 +22,7 @@ import numpy as np
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.section import MAX_STEPS, Plane, Points, section_points
 from hess_mechanics.dynamics.system import System
-from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.numerics.accuracy import DRAFT, Level
 from hess_mechanics.numerics.parallel import THREADS
 from hess_mechanics.numerics.results import Array, Mask, frozen
@@ -32,7 +32,7 @@ from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 
 __all__ = [
     "Course", "SuslovSection", "coordinates", "divergence", "invariant_density", "lowest_energy", "mean_divergence",
-    "plane_of", "possible", "seeds", "state_at", "states_at", "suslov_points",
+    "plane_of", "possible", "require_reached", "seeds", "state_at", "states_at", "suslov_points",
 ]
 
 _TURNS = 40.0
@@ -296,3 +296,10 @@ class SuslovSection:
             out[ok] = [float(orbit[2 * len(orbit) // 3 :, 0].mean()) if len(orbit) > 30 else math.inf
                        for orbit in found.states]
         return frozen(out)
+
+
+def require_reached(section: SuslovSection) -> None:
+    """Raise `OutsideRegion` where no motion of this energy reaches the plane."""
+    lowest = lowest_energy(section.body, section.k)
+    if lowest >= section.E:
+        raise OutsideRegion(f"No motion with E = {section.E:g} reaches γ{section.k} = 0: choose E above {lowest:.6g}.")

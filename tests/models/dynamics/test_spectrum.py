@@ -8,7 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 
-from hess_mechanics import System, largest_exponent, megno, megno_map, spectrum, systems
+from hess_mechanics import System, largest_exponent, megno, spectrum, systems
 from hess_mechanics.dynamics.spectrum import kaplan_yorke
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.euler_poisson.andoyer import state_at
@@ -16,7 +16,6 @@ from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.numerics.accuracy import DRAFT, PRECISE, REFERENCE
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.section import mean_divergence
-from hess_mechanics.suslov.section import state_at as suslov_state_at
 
 SUSLOV, HEAVY = systems()["suslov"], systems()["euler-poisson"]
 STRANGE = (0.8, 1.3, 0.6, 0.0, 0.8), (1.7, 3.0, 0.3, 0.1, -2.0, -2.1, 2.6)
@@ -187,20 +186,6 @@ def test_megno_tells_regular_motions_from_chaotic_ones_and_from_those_that_are_a
     assert strange.chaotic.all()
     assert strange.attracted.all()
     assert strange.values[0] == strange.values[1]
-
-
-def test_over_a_section_each_cell_is_the_motion_from_its_middle():
-    body = SuslovBody(*STRANGE[1])
-    found = megno_map(body, 2.0, cells=(5, 3), t=60.0, accuracy="draft")
-    assert found.values.shape == (3, 5)
-    i, j = np.argwhere(np.isfinite(found.values))[-1]
-    start = suslov_state_at(body, 2.0, 3, float(found.psi[j]), float(found.delta[i]))
-    alone = megno(SUSLOV, [start], STRANGE[1], 60.0, DRAFT)
-    # Alone it has a unit of time of its own, and so other steps.
-    assert found.values[i, j] == pytest.approx(alone.values[0], rel=0.2)
-    assert found.kind[i, j] in (0, 1, 2, 3)
-    assert (found.kind[~np.isfinite(found.values)] == -1).all()
-    assert found.to_xarray()["MEGNO"].shape == (3, 5)
 
 
 def test_megno_of_uniform_growth_is_known():

@@ -22,10 +22,10 @@ from hess_explorer.views.layers import Axes, curves, dots
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.section_plane import joined
 from hess_explorer.views.text import digits
-from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram
+from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, doubling_seen
 from hess_mechanics.numerics.accuracy import Kind
 from hess_mechanics.numerics.results import Array
-from hess_mechanics.suslov.parameter_diagram import diagram, doubling_seen, doublings, moved, nearest_place
+from hess_mechanics.suslov.parameter_diagram import diagram, doublings, moved, nearest_place
 from hess_mechanics.suslov.section import SuslovSection
 
 __all__ = ["BOUNDS", "OverParameter", "picture"]
