@@ -17,6 +17,7 @@ from hess_mechanics import circle_map, level
 from hess_mechanics.dynamics.periodic import apart
 from hess_mechanics.euler_poisson.andoyer import hess_curve
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
+from support.ball import rates
 from support.board import Browser
 from support.suslov import field
 from support.view import View
@@ -24,7 +25,8 @@ from support.view import View
 NAMES = ("suslov", "quartic", "ball-section", "euler-poisson")
 LIGHT = {"suslov": {"orbits": 4.0, "count": 20.0, "long": 20.0}, "quartic": {"count": 20.0},
          "ball-section": {"count": 20.0}, "euler-poisson": {"orbits": 4.0, "count": 20.0, "long": 20.0}}
-LAYERS = ("attracts", "neither", "repels", "stable-manifold", "unstable-manifold")
+LAYERS = ("attracts", "neither", "repels", "stable-manifold", "unstable-manifold", "homoclinic")
+SADDLE = {"repels", "stable-manifold", "unstable-manifold"}
 PICTURES = {"suslov": ["section", "exponent", "sphere"], "quartic": ["section", "domain", "sphere"],
             "ball-section": ["section", "omega", "returns"], "euler-poisson": ["section", "exponent", "sphere"]}
 
@@ -99,7 +101,7 @@ def test_a_periodic_orbit_of_the_suslov_problem_is_one_and_has_its_multipliers(p
     assert np.unique(view.curve("exponent-lambda")[1]) == pytest.approx([across], abs=1e-4)
     # Its points have the sign of its kind, and the linked pictures show it, once round.
     assert drawn(view) == ({"attracts"} if kind.startswith("stable") else {
-        "repels", "stable-manifold", "unstable-manifold"})
+        *SADDLE, *({"homoclinic"} if state.homoclinic else ())})
     sign = "attracts" if kind.startswith("stable") else "repels"
     assert view.points(sign) == pytest.approx(orbit.places)
     track = view.data["data-orbit"]
@@ -142,6 +144,50 @@ def test_a_manifold_ends_where_the_map_jumps_and_no_line_is_drawn_across():
         assert np.hypot(*apart(curve.turns, after, before)) > 0.2
 
 
+def meetings(one, other):
+    """How many segments of two polylines meet, by the sides on which their ends lie."""
+    a, b, c, d = one[1:-1, None], one[2:, None], other[None, 1:-1], other[None, 2:]
+
+    def side(p, q, r):
+        return np.sign((q[..., 0] - p[..., 0]) * (r[..., 1] - p[..., 1])
+                       - (q[..., 1] - p[..., 1]) * (r[..., 0] - p[..., 0]))
+
+    return int(np.count_nonzero((side(a, b, c) != side(a, b, d)) & (side(c, d, a) != side(c, d, b))))
+
+
+def test_homoclinic_points_come_from_the_saddle_and_go_to_it():
+    view = shown("ball-section", "period 1")
+    state = view.result
+    found = state.homoclinic
+    said, error = view.derived("# homoclinic points on what is drawn of them, to #; longer ones cross more often")
+    assert said == len(found) == len(view.points("homoclinic")) > 20
+    assert error == pytest.approx(max(one.error for one in found), rel=0.5)
+    # As many as the curves have that are drawn, with those that are not certain.
+    stable, unstable = ([one.points for one in state.manifolds if one.stable is kind] for kind in (True, False))
+    shifts = 2.0 * math.pi * np.arange(-2, 3)
+    drawn_ = sum(meetings(one, other + np.array([shift, 0.0]))
+                 for one in unstable for other in stable for shift in shifts)
+    assert sum(map(len, state._met)) == drawn_
+    (unsure,) = (int(note.split()[1]) for note in view.report.notes if "within their error" in note)
+    assert said + unsure == drawn_
+    saddle = state.closed.orbit.places[0]
+    for one in (found[0], found[-1]):
+        # The wire has single precision.
+        assert np.abs(view.points("homoclinic") - one.place).max(axis=1).min() < 1e-6
+        start = state.section.states_at(*one.place[:, None])[0][0]
+        for sense in (1.0, -1.0):
+            run = solve_ivp(lambda t, y, sense=sense: sense * np.array(rates(view.values)(t, y)), (0.0, 100.0), start,
+                            "DOP853", rtol=1e-9, atol=1e-11, events=height)
+            places = np.array([[math.atan2(y[3], y[2]), math.acos(y[:2] @ y[2:4] / math.hypot(*y[:2]))]
+                               for y in run.y_events[0] if y[2] * y[1] > y[3] * y[0]])
+            away = np.hypot(*apart((2.0 * math.pi, math.inf), places, saddle).T)
+            assert away.min() < 0.02
+
+
+def height(_, y):
+    return y[4]
+
+
 def _distance(curve, point):
     a, b = curve[:-1], curve[1:]
     along = b - a
@@ -180,7 +226,7 @@ def test_where_every_orbit_of_the_ball_closes_the_chosen_one_is_parabolic():
 def test_a_point_in_the_quartic_potential_goes_round():
     view = shown("quartic", "period 3")
     orbit = view.result.closed.orbit
-    assert (orbit.period, orbit.kind, drawn(view)) == (3, "saddle", {"repels", "stable-manifold", "unstable-manifold"})
+    assert (orbit.period, orbit.kind, drawn(view)) == (3, "saddle", SADDLE | {"homoclinic"})
     assert complex(orbit.multipliers.prod()).real == pytest.approx(1.0, abs=1e-8)
     track = view.data["data-orbit"]
     # q1 grows through 0 at its places, the first of which has the ring of the start.
@@ -243,9 +289,10 @@ def test_while_a_slider_is_held_it_follows_and_its_manifolds_come_later():
 
 
 def test_a_branch_that_ends_early_says_why():
-    view = shown("ball-section", "period 1", ("reach", 100.0))
-    assert view.report.notes == ["A branch of a manifold ends early. After 20000 returns of the map."]
-    assert "0 of 4 branches of its manifolds are 100 long" in view.report.derived
+    view = shown("ball-section", "period 1", ("reach", 30.0))
+    assert view.report.notes[0] == "A branch of a manifold ends early. After 20000 returns of the map."
+    assert "0 of 4 branches of its manifolds are 30 long" in view.report.derived
+    assert view.derived("at least # homoclinic points on what is drawn of them, to")[0] > 60
     assert max(len(one.points) for one in view.result.manifolds) <= 2002
     assert not any("early" in note for note in shown("ball-section", "period 1").report.notes)
     assert drawn(shown("ball-section", "period 1", ("reach", 0.0))) == {"repels"}

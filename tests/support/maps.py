@@ -94,18 +94,19 @@ def bent_saddle(stretch=2.5, shrink=0.3, bend=1.0):
     return Formula(there, slope(stretch, shrink), back, slope(1.0 / stretch, 1.0 / shrink))
 
 
-def pendulum(epsilon, mu=1.5):
+def pendulum(epsilon, mu=1.5, ripple=0.0):
     """McMillan's map x′ = y, y′ = −(1 − ε)x + 2μy/(1 + y²), which keeps x² + y² + x²y² − 2μxy for ε = 0; a saddle at 0.
 
-    For ε = 0 the zero level is a separatrix, a loop; for others friction parts its two sides.
+    For ε = 0 the zero level is a separatrix, a loop; for others friction parts its two sides.  A ripple, δ y³ added to
+    y′, keeps areas, and (x, y) → (y, x) goes on to be a reversor.
     """
     rest = 1.0 - epsilon
 
     def kick(y):
-        return 2.0 * mu * y / (1.0 + y * y)
+        return 2.0 * mu * y / (1.0 + y * y) + ripple * y**3
 
     def slope(y):
-        return 2.0 * mu * (1.0 - y * y) / (1.0 + y * y) ** 2
+        return 2.0 * mu * (1.0 - y * y) / (1.0 + y * y) ** 2 + 3.0 * ripple * y * y
 
     return Formula(lambda x, y: (y, -rest * x + kick(y)), lambda x, y: [[0.0, 1.0], [-rest, slope(y)]],
                    lambda x, y: ((kick(x) - y) / rest, x), lambda x, y: [[slope(x) / rest, -1.0 / rest], [1.0, 0.0]])

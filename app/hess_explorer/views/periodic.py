@@ -10,11 +10,11 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.layers import Axes, Layer, curves, points
-from hess_mechanics.dynamics.manifolds import Manifold
+from hess_mechanics.dynamics.manifolds import Crossing, Manifold
 from hess_mechanics.dynamics.periodic import PeriodicOrbit
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["layers", "within"]
+__all__ = ["layers", "places", "seen", "sign_of", "within"]
 
 S = TypeVar("S")
 
@@ -37,35 +37,58 @@ def within(curve: Array, turn: float, axes: Axes) -> list[Array]:
     return parts
 
 
-def layers(orbit: Callable[[S], PeriodicOrbit | None], manifolds: Callable[[S], Sequence[Manifold]]
-           ) -> tuple[Layer[S], ...]:
-    """The places of an orbit, over the manifolds of a saddle."""
+def seen(places: Array, turn: float, axes: Axes) -> Array:
+    """Those of the places (n, 2) that lie between the ends of the horizontal axis, an angle with this turn, or ∞."""
+    low, high = axes.x
+    x, y = places.T
+    x = x if math.isinf(turn) else low + np.mod(x - low, turn)
+    there = (x >= low) & (x <= high)
+    return np.column_stack([x[there], y[there]])
+
+
+def layers(orbit: Callable[[S], PeriodicOrbit | None], manifolds: Callable[[S], Sequence[Manifold]],
+           homoclinic: Callable[[S], Sequence[Crossing]]) -> tuple[Layer[S], ...]:
+    """The places of an orbit, over the manifolds of a saddle and where they cross."""
 
     def parts(stable: bool) -> Callable[[S, Axes], list[Array]]:
         return lambda s, axes: [part for one in manifolds(s) if one.stable is stable
                                 for part in within(one.points, one.turns[0], axes)]
 
-    def places(sign: str) -> Callable[[S], Array | None]:
-        def of(state: S) -> Array | None:
-            found = orbit(state)
-            return None if found is None or _sign(found.kind) != sign else found.places.T
-
-        return of
+    def crossed(state: S, axes: Axes) -> Array | None:
+        found = [one.place for one in homoclinic(state)]
+        return seen(np.array(found), manifolds(state)[0].turns[0], axes).T if found else None
 
     return (
         curves("stable-manifold", within=parts(True), color=theme.STABLE, width=3.0, label="stable manifold"),
         curves("unstable-manifold", within=parts(False), color=theme.UNSTABLE, width=3.0,
                dash="dashed", label="unstable manifold"),
-        points("attracts", places("attracts"), size=12, color=theme.STABLE, edge=theme.INK, edge_width=1.5,
+        points("homoclinic", within=crossed, size=7, color=theme.POINT, edge=theme.INK, label="homoclinic point"),
+        *places(orbit),
+    )
+
+
+def places(orbit: Callable[[S], PeriodicOrbit | None]) -> tuple[Layer[S], ...]:
+    """The places of an orbit, by whether it attracts."""
+
+    def of_sign(sign: str) -> Callable[[S], Array | None]:
+        def of(state: S) -> Array | None:
+            found = orbit(state)
+            return None if found is None or sign_of(found.kind) != sign else found.places.T
+
+        return of
+
+    return (
+        points("attracts", of_sign("attracts"), size=12, color=theme.STABLE, edge=theme.INK, edge_width=1.5,
                label="periodic orbit that attracts"),
-        points("neither", places("neither"), size=14, marker="diamond", color=theme.SHEET, edge=theme.INK,
+        points("neither", of_sign("neither"), size=14, marker="diamond", color=theme.SHEET, edge=theme.INK,
                edge_width=1.5, label="elliptic or parabolic periodic orbit"),
-        points("repels", places("repels"), size=12, color=theme.UNSTABLE, hollow=True, edge_width=2.5,
+        points("repels", of_sign("repels"), size=12, color=theme.UNSTABLE, hollow=True, edge_width=2.5,
                label="unstable periodic orbit"),
     )
 
 
-def _sign(kind: str) -> str:
+def sign_of(kind: str) -> str:
+    """Whether an orbit of this kind "attracts", "repels", or "neither"."""
     if kind in ("stable node", "stable focus"):
         return "attracts"
     return "neither" if kind == "elliptic" or kind.startswith("parabolic") else "repels"

@@ -40,6 +40,8 @@ _STANDS = 1e-3
 """A curve that grows by less than this share of the sagitta in a whole return has come to another saddle."""
 _CHECKED = 6
 """Points that a more accurate map computes again."""
+_FEET = 8
+"""Steps to the foot of a perpendicular."""
 
 
 @dataclass(frozen=True)
@@ -256,25 +258,31 @@ def _error(curve: _Curve, points: Array, parameters: Array) -> float:
 
 @dataclass(frozen=True)
 class Crossing:
-    """Where a manifold crosses another: the place (2,), τ on both, the angle between them, error of the place."""
+    """Where a manifold crosses another: the place (2,), τ on both, the angle between them, error of the place.
+
+    certain : whether a chord before and a chord after it they are on other sides of each other, by more than their
+    errors; where they run together they meet nowhere for certain.
+    """
 
     place: Array
     parameters: tuple[float, float]
     angle: float
     error: float
+    certain: bool
 
 
 def crossings_of(one: Manifold, other: Manifold, most: int = 100) -> list[Crossing]:
     """Homoclinic or heteroclinic points: where two manifolds cross, in the order of the first one, at most so many.
 
     Segments of the polylines that meet are the beginning, Newton's method on W_1(τ_1) = W_2(τ_2) ends it.  The saddles
-    themselves do not count.
+    themselves do not count; places closer together than their errors are one.
     """
     found: list[Crossing] = []
     for i, j in _meeting(one, other):
         crossing = _refined(one, other, (i, j))
         if crossing is not None and all(
-                np.abs(apart(one.turns, crossing.place, known.place)).max() > 1e-9 for known in found):
+                np.abs(apart(one.turns, crossing.place, known.place)).max() > 1e-9 + crossing.error + known.error
+                for known in found):
             found.append(crossing)
             if len(found) == most:
                 break
@@ -303,9 +311,10 @@ def _refined(one: Manifold, other: Manifold, pair: tuple[int, int]) -> Crossing 
     slopes = np.zeros((2, 2))
     step = np.zeros(2)
     try:
-        for _ in range(20):
+        for iteration in range(20):
             go_on()
-            for k, (curve, sign) in enumerate(((one, 1.0), (other, -1.0))):
+            # After two steps slopes are right to a percent, which costs fewer points than to know them anew.
+            for k, (curve, sign) in enumerate(((one, 1.0), (other, -1.0)) if iteration < 2 else ()):
                 both = [curve.at(tau[k] + side * h[k]) for side in (1.0, -1.0)]
                 slopes[:, k] = sign * apart(one.turns, *both) / (2.0 * h[k])
             left = apart(one.turns, one.at(tau[0]), other.at(tau[1]))
@@ -323,7 +332,30 @@ def _refined(one: Manifold, other: Manifold, pair: tuple[int, int]) -> Crossing 
     u, v = (slopes[:, k] / np.linalg.norm(slopes[:, k]) for k in (0, 1))
     angle = math.atan2(abs(float(u[0] * v[1] - u[1] * v[0])), abs(float(u @ v)))
     off = (one.error_estimate + other.error_estimate + float(np.abs(left).max())) / max(math.sin(angle), 1e-6)
-    return Crossing(frozen(place), (float(tau[0]), float(tau[1])), angle, off)
+    return Crossing(frozen(place), (float(tau[0]), float(tau[1])), angle, off,
+                    _changes_sides(one, other, tau, float(np.ptp(ends[0])), -slopes[:, 1]))
+
+
+def _changes_sides(one: Manifold, other: Manifold, tau: Array, chord: float, along: Array) -> bool:
+    """Whether the first curve is on other sides of the second, by more than the errors, a chord before and after."""
+    speed = float(np.linalg.norm(along))
+    u = along / speed
+    gaps = []
+    for side in (-1.0, 1.0):
+        try:
+            point, t = one.at(tau[0] + side * chord), float(tau[1])
+            for _ in range(_FEET):
+                away = apart(one.turns, point, other.at(t))
+                # What is left along it changes the distance across it by its square.
+                if abs(float(away @ u)) <= 1e-3 * float(np.linalg.norm(away)):
+                    break
+                t += float(away @ u) / speed
+            else:
+                return False
+        except ModelError:
+            return False
+        gaps.append(float(away[1] * u[0] - away[0] * u[1]))
+    return gaps[0] * gaps[1] < 0.0 and min(map(abs, gaps)) > one.error_estimate + other.error_estimate
 
 
 def heights_at(curve: Manifold, axis: int, value: float) -> Array:

@@ -83,12 +83,27 @@ def test_homoclinic_points_of_henon_are_homoclinic():
     for one in found[:4]:
         assert one.error < 1e-9
         assert one.angle > 1e-3
+        assert one.certain
         # It comes from the saddle and goes there.
         place = one.place
         closest = min(float(np.abs((place := m.image(place)) - saddle.places[0]).max()) for _ in range(12))
         assert closest < 1e-3
         back = one.place
         assert min(float(np.abs((back := m.inverse().image(back)) - saddle.places[0]).max()) for _ in range(14)) < 1e-3
+
+
+@pytest.mark.parametrize(("ripple", "there"), [(0.0, False), (0.1, True)])
+def test_curves_that_run_together_do_not_cross_for_certain(ripple, there):
+    m = pendulum(0.0, 1.5, ripple)
+    saddle = find_periodic(m, (0.01, 0.01), 1)
+    unstable, stable = (grown(m, saddle, 2.0, stable=stable, sagitta=1e-3) for stable in (False, True))
+    found = [one for one in crossings_of(unstable, stable) if one.certain]
+    assert bool(found) is there
+    # (x, y) → (y, x) takes one curve to the other: of a homoclinic point that is its own image the places are equal.
+    own = [one for one in found if abs(one.place[0] - one.place[1]) < 0.02]
+    assert len(own) == there
+    for one in own:
+        assert abs(one.place[0] - one.place[1]) <= 2.0 * one.error < 1e-8
 
 
 def test_separatrices_split_in_proportion_to_a_perturbation(mu=1.5):

@@ -4,51 +4,48 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
 
-from hess_explorer.compute.cache import CACHE
 from hess_explorer.protocol.parameters import Value
 from hess_explorer.scenes.framework.one_orbit import OneOrbit, Start
 from hess_explorer.scenes.framework.parameters import choice, number
+from hess_explorer.scenes.framework.periodic_search import (
+    ANY,
+    AT_ITS_LENGTH,
+    MOST_CROSSINGS,
+    MOST_POINTS,
+    NONE,
+    PERIODS,
+    Branch,
+    Closed,
+    Missed,
+    Place,
+    Search,
+    branch_of,
+    crossings_between,
+    sought,
+)
 from hess_explorer.scenes.framework.scene import Preset
 from hess_explorer.views import periodic as view
 from hess_explorer.views.layers import Layer
 from hess_explorer.views.text import digits, power
-from hess_mechanics.dynamics.manifolds import Manifold, grown
-from hess_mechanics.dynamics.periodic import PeriodicOrbit, find_periodic
+from hess_mechanics.dynamics.manifolds import Crossing, Manifold
+from hess_mechanics.dynamics.periodic import PeriodicOrbit
 from hess_mechanics.dynamics.return_map import ReturnMap, Sheet
-from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.accuracy import PRECISE
-from hess_mechanics.numerics.patience import go_on
 
-__all__ = ["NONE", "Closed", "PeriodicOrbits", "layers", "length_of_manifolds", "plain", "which"]
+__all__ = ["NONE", "PeriodicOrbits", "layers", "length_of_manifolds", "plain", "which"]
 
-Place = tuple[float, ...]
-Search = tuple[ReturnMap, Place, int | None, bool]
-"""The map, where it is begun, the period where one is given, and whether that is all that is tried."""
-
-NONE, ANY = "none", "any period"
-_MOST = 12
-_PERIODS: Mapping[str, int | None] = {ANY: None, **{f"period {m}": m for m in range(1, _MOST + 1)}}
 _WHOLE = 3
 """Periods up to which the manifolds of all places are drawn: those of one are images of those of another."""
-_POINTS, _RETURNS = 2000, 20_000
-"""Of each branch, at most: returns of the map, for all of its points together."""
-_SAGITTA, _CHORD = 0.25, 10.0
-"""Of the curves drawn, in pixels."""
-_PARTS = (1.0, 0.5, 0.25)
-"""Of the length wanted, where the whole is not known to half a pixel."""
-_AT_ITS_LENGTH = "At its length."
-_UNKNOWN = "What follows is not known to half a pixel: a more exact level may show it."
 
 
 def which() -> Any:
     """Whether the periodic orbit next to the chosen place takes its place, and of which period."""
-    return choice("Periodic orbit", (NONE, *_PERIODS), NONE, group="State",
+    return choice("Periodic orbit", (NONE, *PERIODS), NONE, group="State",
                   doc="In place of the chosen orbit: the periodic one that Newton's method finds from there, with so "
                       "many points in the section, and the manifolds of a saddle.")
 
@@ -56,29 +53,13 @@ def which() -> Any:
 def length_of_manifolds() -> Any:
     """How long the manifolds of a saddle are drawn."""
     return number("s", 5.0, (0.0, 20.0), 0.5, bounds=(0.0, 100.0), label="Length of manifolds", group="Computation",
-                  doc=f"Of each branch, in units of the axes of the section; at most {_POINTS} points.")
+                  doc=f"Of each branch, in units of the axes of the section; at most {MOST_POINTS} points.")
 
 
 def plain(preset: Preset) -> Preset:
     """An example without a periodic orbit, whatever was chosen before."""
     values: dict[str, Value] = {"periodic": NONE, **preset.values}
     return Preset(preset.name, **values)
-
-
-@dataclass(frozen=True)
-class Closed:
-    """A periodic orbit, the state at its first place, and the time after which it closes."""
-
-    orbit: PeriodicOrbit
-    state: Start
-    time: float
-
-
-@dataclass(frozen=True)
-class Missed:
-    """Why none was found."""
-
-    reason: str
 
 
 class PeriodicOrbits(OneOrbit):
@@ -122,16 +103,16 @@ class PeriodicOrbits(OneOrbit):
 
     @property
     def _search(self) -> Search | None:
-        """What `_sought` is asked for."""
+        """What `sought` is asked for."""
         if not self.closing or self.aim is None:
             return None
         # What an unstable orbit is off grows while it is drawn.
         level = self.level if self.dragging else max(self.level, PRECISE, key=lambda rung: rung.order)
-        return ReturnMap(self.section, level), self.aim, _PERIODS[self.periodic], self.dragging
+        return ReturnMap(self.section, level), self.aim, PERIODS[self.periodic], self.dragging
 
     @cached_property
     def _result(self) -> Closed | Missed | None:
-        return None if self._search is None else self.work.soon(_sought, *self._search)
+        return None if self._search is None else self.work.soon(sought, *self._search)
 
     @property
     def looking(self) -> bool:
@@ -163,18 +144,25 @@ class PeriodicOrbits(OneOrbit):
         """The places of the periodic orbit; None without one."""
         return None if self.closed is None else [(float(x), float(y)) for x, y in self.closed.orbit.places]
 
+    @property
+    def _drawn(self) -> tuple[Search, list[Branch], float] | None:
+        """What the manifolds of a saddle are asked for by: the search, which branches, a pixel; None of no other."""
+        orbit = self._saddle
+        if orbit is None or self._search is None:
+            return None
+        places = range(orbit.period if orbit.period <= _WHOLE else 1)
+        return (self._search, [(place, stable, side) for place in places for stable in (True, False)
+                               for side in (1, -1)], 1.0 / max(self.pixels))
+
     @cached_property
     def _branches(self) -> tuple[Manifold | Missed, ...] | None:
         """Of the manifolds of a saddle, when all are known; of no other orbit."""
-        orbit = self._saddle
-        if orbit is None or self._search is None:
+        if self._drawn is None:
             return ()
         if self.dragging:
             return None
-        pixel = 1.0 / max(self.pixels)
-        found = [self.work.later(_branch, self._search, place, stable, side, self.reach, pixel)
-                 for place in range(orbit.period if orbit.period <= _WHOLE else 1)
-                 for stable in (True, False) for side in (1, -1)]
+        search, branches, pixel = self._drawn
+        found = [self.work.later(branch_of, search, one, self.reach, pixel) for one in branches]
         known = [one for one in found if one is not None]
         return tuple(known) if len(known) == len(found) else None
 
@@ -182,6 +170,22 @@ class PeriodicOrbits(OneOrbit):
     def manifolds(self) -> list[Manifold]:
         """Those branches of a saddle that are drawn."""
         return [one for one in self._branches or () if isinstance(one, Manifold)]
+
+    @cached_property
+    def _met(self) -> list[tuple[Crossing, ...]] | None:
+        """Where each unstable branch meets each stable one, when that is known of all."""
+        if self._drawn is None or not self._branches:
+            return None
+        search, branches, pixel = self._drawn
+        found = [self.work.later(crossings_between, search, one, other, self.reach, pixel)
+                 for one in branches if not one[1] for other in branches if other[1]]
+        known = [one for one in found if one is not None]
+        return known if len(known) == len(found) else None
+
+    @property
+    def homoclinic(self) -> list[Crossing]:
+        """Where the drawn manifolds of a saddle cross for certain."""
+        return [one for some in self._met or () for one in some if one.certain]
 
     @property
     def _saddle(self) -> PeriodicOrbit | None:
@@ -233,8 +237,9 @@ class PeriodicOrbits(OneOrbit):
         if self._saddle is not None and self._branches is None:
             yield self.awaited("Its manifolds are")
         elif self._branches:
-            whole = sum(_ended(one) == _AT_ITS_LENGTH for one in self._branches)
+            whole = sum(_ended(one) == AT_ITS_LENGTH for one in self._branches)
             yield f"{whole} of {len(self._branches)} branches of its manifolds are {digits(self.reach)} long"
+            yield self._about_crossings()
 
     def status(self) -> Iterator[str]:
         """What Newton's method took, and how exact the manifolds are."""
@@ -249,11 +254,27 @@ class PeriodicOrbits(OneOrbit):
         """Why there is no periodic orbit, or why its manifolds end."""
         if isinstance(self._result, Missed):
             yield self._result.reason
-        reasons = {_ended(one) for one in self._branches or ()} - {_AT_ITS_LENGTH}
+        reasons = {_ended(one) for one in self._branches or ()} - {AT_ITS_LENGTH}
         yield from (f"A branch of a manifold ends early. {reason}" for reason in sorted(reasons))
+        apart = sum(not one.certain for some in self._met or () for one in some)
+        if apart:
+            yield (f"At {apart} more place{'s' * (apart > 1)} the manifolds meet within their error: whether they "
+                   "cross there is not known.")
         orbit = self._saddle
         if orbit is not None and orbit.period > _WHOLE:
             yield f"Of its {orbit.period} places, one has its manifolds drawn: those of the others are their images."
+
+
+    def _about_crossings(self) -> str:
+        """How many homoclinic points there are, and how exact."""
+        if self._met is None:
+            return self.awaited("Where they cross is")
+        found = self.homoclinic
+        if not found:
+            return "No homoclinic point is seen on what is drawn of them"
+        least = "at least " if any(len(some) == MOST_CROSSINGS for some in self._met) else ""
+        return (f"{least}{len(found)} homoclinic point{'s' * (len(found) > 1)} on what is drawn of them, to "
+                f"{power(max(one.error for one in found))}; longer ones cross more often")
 
 
 def _ended(branch: Manifold | Missed) -> str:
@@ -266,33 +287,7 @@ def _multiplier(value: complex) -> str:
     return f"{digits(value.real)} ± {digits(abs(value.imag))}i"
 
 
-def _sought(map_: ReturnMap, aim: Place, period: int | None, near: bool) -> Closed | Missed:
-    try:
-        orbit = find_periodic(map_, aim, period, _MOST, near)
-        first = orbit.places[0]
-        return Closed(replace(orbit, symmetric=tuple(map_.symmetries_of(orbit.places))),
-                      tuple(map(float, map_.state_at(first))), map_.time_of(first, orbit.period))
-    except ModelError as error:
-        # Where time is up nothing is known of the orbit.
-        go_on()
-        return Missed(str(error))
-
-
-def _branch(search: Search, place: int, stable: bool, side: int, length: float, pixel: float) -> Manifold | Missed:
-    """One branch of a manifold, from one place of the orbit, as far as it is right to half a pixel."""
-    found, _ = CACHE.get(_sought, *search)
-    for part in _PARTS:
-        try:
-            curve = grown(search[0], found.orbit, part * length, stable, side, place, _SAGITTA * pixel, _CHORD * pixel,
-                          _POINTS, _RETURNS)
-        except ModelError as error:
-            go_on()
-            return Missed(str(error))
-        if curve.error_estimate < 0.5 * pixel:
-            return curve if part == _PARTS[0] else replace(curve, ended=_UNKNOWN)
-    return Missed(_UNKNOWN)
-
-
 def layers() -> tuple[Layer[Any], ...]:
     """What of a periodic orbit is drawn in a section."""
-    return view.layers(lambda s: None if s.closed is None else s.closed.orbit, lambda s: s.manifolds)
+    return view.layers(lambda s: None if s.closed is None else s.closed.orbit, lambda s: s.manifolds,
+                       lambda s: s.homoclinic)
