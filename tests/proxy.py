@@ -28,7 +28,7 @@ from tornado.httpclient import AsyncHTTPClient, HTTPRequest
 from hess_explorer.headless.screenshot import wait_alive
 from support.processes import below
 from support.serving import UNWARMED, free_port
-from support.visitor import Closed, Visitor
+from support.visitor import Visitor
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -75,10 +75,7 @@ async def _main(base, trusted, replicas):
     serving, other = sorted((process for process, _ in replicas), key=connections, reverse=True)
     begun = time.monotonic()
     serving.send_signal(signal.SIGTERM)
-    try:
-        await visitor._next("nothing of this kind", 20.0)
-    except Closed as why:
-        heard = str(why)
+    heard = (await visitor.end(20.0))[0]
     print(f"the replica ends with {serving.wait(20)} after {time.monotonic() - begun:.1f} s; the page hears “{heard}”")
     assert other.poll() is None
     begun = time.monotonic()

@@ -10,6 +10,7 @@ import { createCompare } from "./compare.js"
 import { embed, embedded } from "./embedding.js"
 import { createHandout } from "./handout.js"
 import { createHistory } from "./history.js"
+import { createLine } from "./line.js"
 import { joinOther } from "./linked.js"
 import { lifetime } from "./mount.js"
 import { fill, paint } from "./painting.js"
@@ -48,13 +49,14 @@ export function render({ model, view }) {
   // Pictures of the scene that are not on this page.
   let absent = []
 
-  listen("ask-chart", (chart) => model.send_msg({ chart }), signal)
+  let line = null
+  listen("ask-chart", (chart) => line.send({ chart }), signal)
 
   const page = createPage(view)
   const address = createAddress({ query: () => state.query, isDark: page.isDark, own })
   const sight = createSight(() => requests.request(), signal)
   const requests = createRequests({
-    send: (message) => model.send_msg(message),
+    send: (message) => line.send(message),
     changed: () => { root.dataset.ready = "false" },
     hidden: () => [...sight.hidden(), ...absent],
     known: (name) => descriptions.has(name),
@@ -138,14 +140,10 @@ export function render({ model, view }) {
   }
   // States come one by one; the pictures of a scene that may be chosen next are built behind those on show.
   let arriving = Promise.resolve()
-  let described = ""
-  const onState = () => {
-    const { state: text, block } = model
-    const next = JSON.parse(text)
-    let description = null
-    if (model.scene !== described) {
-      described = model.scene
-      description = JSON.parse(described)
+  // The newest description comes with a state of its scene, or of one that may be chosen before it.
+  const onState = (next, described, block) => {
+    let description = described
+    if (description !== null) {
       if (isPart) {
         const whole = description
         description = embedded(whole, own)
@@ -165,23 +163,30 @@ export function render({ model, view }) {
   }
 
   // A lesson that was asked for; at first the one that the link names, with its step.
-  const readLesson = (step) => {
-    unread = { lesson: JSON.parse(model.lesson), step }
+  const readLesson = (lesson, step) => {
+    unread = { lesson, step }
     tell("lesson-read", unread)
+  }
+
+  const onAnswer = ({ state: next = null, scene: described = null, lesson = null, chart = null }, block, cells) => {
+    if (lesson !== null) readLesson(lesson, null)
+    if (next !== null) onState(next, described, block)
+    if (chart !== null) tell("charted", { head: chart, cells })
+  }
+
+  const onLost = async (why) => {
+    if (requests.lost) return
+    requests.lose()
+    tell("texts", { busy: why || LOST })
+    await answering()
+    // Its own link is all that it needs; a page that has never shown anything would only come here again.
+    if (state === null) return
+    address.writeNow()
+    window.location.reload()
   }
 
   const start = async () => {
     await Promise.all([gallery.standing, page.standing()])
-    page.onConnectionLost(async () => {
-      if (requests.lost) return
-      requests.lose()
-      tell("texts", { busy: LOST })
-      await answering()
-      // Its own link is all that it needs; a page that has never shown anything would only come here again.
-      if (state === null) return
-      address.writeNow()
-      window.location.reload()
-    })
     const followTheme = () => { root.style.colorScheme = page.isDark() ? "dark" : "light" }
     followTheme()
     page.onThemeChange(() => {
@@ -190,12 +195,9 @@ export function render({ model, view }) {
     })
     tell("client", own)
     // The first state is read when the page stands, even if the user was faster and it is no longer the first.
-    model.on("state", onState)
-    model.on("chart", () => tell("charted", { head: JSON.parse(model.chart), cells: model.cells }))
-    model.on("lesson", () => readLesson(null))
-    if (model.lesson !== "") readLesson(Number(own.step) - 1)
-    if (model.state !== "") onState()
-    else requests.begin()
+    if (model.lesson !== "") readLesson(JSON.parse(model.lesson), Number(own.step) - 1)
+    line = createLine({ take: onAnswer, lost: onLost }, signal)
+    requests.begin()
   }
   start()
 }

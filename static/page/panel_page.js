@@ -1,4 +1,4 @@
-// What of Panel's page the client needs: its theme, whether it stands, whether the server answers.
+// What of Panel's page the client needs: its theme, and whether it stands.
 
 // `document` is Bokeh's document of the page.
 export function createPage(view) {
@@ -13,6 +13,5 @@ export function createPage(view) {
       while (bokeh() == null || !bokeh().is_idle) await nextFrame()
     },
     onThemeChange(hear) { bokeh().on_change((event) => { if (event.attr === "dark_theme") hear() }) },
-    onConnectionLost(hear) { bokeh().on_event("connection_lost", hear) },
   }
 }

@@ -10,7 +10,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from mpmath import mp, mpf
 
-from hess_explorer.page.page import THEME
+from hess_explorer.page.opening import THEME
 from hess_explorer.protocol.parameters import (
     CLIENT,
     MAX_QUERY,

@@ -7,27 +7,23 @@ import signal
 import time
 from pathlib import Path
 
-import pytest
-
 from hess_explorer.headless.screenshot import server_process
 from support.asynchronous import finished
 from support.processes import below
 from support.serving import UNWARMED
-from support.visitor import Closed, Visitor
+from support.visitor import Visitor
 
 WORKERS = ("--workers", "2")
 
 
 async def told(base, end, count):
-    """What so many pages hear when the server ends."""
+    """What so many pages hear when the server ends, by both of their websockets."""
     visitors = [await Visitor.open(base, "scene=kharlamova&accuracy=draft") for _ in range(count)]
     end()
     heard = []
     for visitor in visitors:
-        with pytest.raises(Closed) as why:
-            await visitor._next("nothing of this kind", 60.0)
+        heard += await visitor.end()
         await visitor.leave()
-        heard.append(str(why.value))
     return heard
 
 
@@ -48,7 +44,7 @@ def test_of_several_workers_all_tell_their_pages_and_end_with_the_process_that_b
         heard = finished(told(base, process.terminate, 4))
         assert process.wait(20) == 0
         gone(workers)
-    assert heard == ["1001: The server ends or is started anew: open the page again in a moment."] * 4
+    assert heard == ["1001: The server ends or is started anew: open the page again in a moment."] * 8
     said = log.read_text()
     assert "Traceback" not in said
     assert "ERROR" not in said

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import asyncio
+
 import pytest
 from tornado.httpclient import AsyncHTTPClient, HTTPClientError
 
 from hess_explorer.protocol.parameters import MAX_QUERY
-from hess_explorer.server import page_socket
+from hess_explorer.server import limits
 from hess_explorer.server.export import Export
 from hess_explorer.server.headers import QUERY_LIMIT
-from hess_explorer.server.page_socket import MESSAGE_LIMIT
+from hess_explorer.server.limits import MESSAGE_LIMIT
+from hess_explorer.server.line import Line
 from support.asynchronous import finished
 from support.serving import served
 from support.visitor import Closed, Visitor
@@ -22,31 +25,59 @@ def base():
 
 
 async def cut_off(visitor):
-    """Why the server ends the connection, which it does while it is spoken to."""
+    """Why the server ends the line, which it does while it is spoken to."""
     with pytest.raises(Closed) as why:
-        await visitor._next("nothing of this kind", 60.0)
+        while True:
+            await visitor.hear()
     await visitor.leave()
     return str(why.value)
 
 
+LARGE = "1009: A message may have 256 KB: send a smaller one."
+FAST = "1008: More than 150 messages in a second: wait for each answer before you ask again."
+
+
 def test_who_sends_too_much_reads_why_and_others_are_served(base, monkeypatch):
     # However slow the machine is that sends.
-    monkeypatch.setattr(page_socket, "RATE", 1.0)
-    monkeypatch.setattr(page_socket, "BURST", 150.0)
+    monkeypatch.setattr(limits, "RATE", 1.0)
+    monkeypatch.setattr(limits, "BURST", 50.0)
 
     async def visits():
-        large, fast, other = [await Visitor.open(base) for _ in range(3)]
+        large, fast, panel, other = [await Visitor.open(base) for _ in range(4)]
         await large.say("x" * MESSAGE_LIMIT)
         for _ in range(100):
             await fast.say(17)
+            await panel.say_to_panel("PULL-DOC-REQ", {})
         whys = [await cut_off(one) for one in (large, fast)]
+        with pytest.raises(Closed) as why:
+            await panel._next("nothing of this kind", 60.0)
+        await panel.leave()
         state = await other.ask(values={"h": 1.25})
         await other.leave()
+        return [*whys, str(why.value)], state["query"]
+
+    whys, query = finished(visits())
+    assert whys == [LARGE, FAST, FAST]
+    assert "h=1.25" in query
+
+
+def test_what_is_no_json_ends_the_line_with_a_sentence_and_whatever_is_json_is_answered(base):
+    async def visits():
+        whys = []
+        # The last one is JSON, but of no depth that Python reads.
+        for frame in ("{", b"\xff\xfe", "[" * 100_000 + "]" * 100_000):
+            visitor = await Visitor.open(base)
+            await visitor._line.write_message(frame, binary=isinstance(frame, bytes))
+            whys.append(await cut_off(visitor))
+        visitor = await Visitor.open(base)
+        for data in (17, None, [], "x", {"requested": "no number"}, {"chart": {"start": 3, "id": 1}}):
+            await visitor.say(data)
+        state = await visitor.ask(values={"h": 1.25})
+        await visitor.leave()
         return whys, state["query"]
 
-    (large, fast), query = finished(visits())
-    assert large == "1009: A message may have 256 KB: send a smaller one."
-    assert fast == "1008: More than 150 messages in a second: wait for each answer before you ask again."
+    whys, query = finished(visits())
+    assert whys == ["1007: A message must be a text that is JSON."] * 3
     assert "h=1.25" in query
 
 
@@ -104,3 +135,31 @@ def test_of_too_many_files_at_once_the_last_are_refused_with_a_sentence(base, mo
     code, table = answer(base, "export?picture=circle&accuracy=draft")
     assert (code, table[:1]) == (200, "#")
     assert answer(base, "export?picture=" + "x" * MAX_QUERY)[0] == 400
+
+
+def test_of_who_reads_no_answers_nothing_more_is_taken(base, monkeypatch):
+    """Else they would be kept until there is no memory left."""
+    unread = []
+
+    def write(line, frame, binary, send=Line.write_message):
+        send(line, frame, binary)
+        # Done once the system has taken it all.
+        unread.append((asyncio.get_running_loop(), asyncio.Future()))
+        return unread[-1][1]
+
+    monkeypatch.setattr(Line, "write_message", write)
+
+    async def visit():
+        visitor = await Visitor.open(base)
+        await visitor.say({"requested": 1, "values": {"h": 1.25}})
+        with pytest.raises(TimeoutError):
+            await visitor.hear(1.0)
+        loop, taken = unread[0]
+        loop.call_soon_threadsafe(taken.set_result, None)
+        while visitor.state["answers"] != 1:
+            await visitor.hear()
+        await visitor.leave()
+        return visitor.state["query"]
+
+    assert "h=1.25" in finished(visit())
+    assert len(unread) == 2

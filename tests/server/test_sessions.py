@@ -10,8 +10,9 @@ import weakref
 import panel as pn
 import pytest
 from tornado.httpclient import AsyncHTTPClient
+from tornado.websocket import websocket_connect
 
-from hess_explorer.page import page
+from hess_explorer.page import desk
 from support.asynchronous import finished
 from support.serving import served
 from support.visitor import Closed, Visitor
@@ -21,12 +22,12 @@ def test_a_session_that_is_left_is_freed_and_nothing_watches_for_it(monkeypatch)
     """Panel's pages follow its global state: that must not hold them."""
     opened = []
 
-    class Recorded(page.Session):
+    class Recorded(desk.Session):
         def __init__(self, *arguments):
             super().__init__(*arguments)
             opened.append(weakref.ref(self))
 
-    monkeypatch.setattr(page, "Session", Recorded)
+    monkeypatch.setattr(desk, "Session", Recorded)
     watchers = pn.state.param.watchers
     before = len(watchers.get("busy", {}).get("value", ()))
 
@@ -55,6 +56,11 @@ def test_who_finds_no_room_reads_why_and_finds_it_when_another_has_left():
         inside = [await Visitor.open(base) for _ in range(2)]
         with pytest.raises(Closed, match=r"as many pages are open as this server has room for \(2\)"):
             await Visitor.open(base)
+        # Nor is there a line without a page.
+        stray = await websocket_connect(f"ws{base.removeprefix('http')}/line")
+        assert await stray.read_message() is None
+        assert (stray.close_code, stray.close_reason) == (1013, "The explorer is full: try again in a minute.")
+        stray.close()
         # Who is inside is served as before.
         await inside[1].ask(values={"h": 1.25})
         await inside[0].leave()

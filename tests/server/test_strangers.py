@@ -6,7 +6,8 @@ import json
 import re
 
 import pytest
-from tornado.httpclient import AsyncHTTPClient, HTTPClientError
+from tornado.httpclient import AsyncHTTPClient, HTTPClientError, HTTPRequest
+from tornado.websocket import websocket_connect
 
 from hess_explorer.server.headers import guard, policy
 from support.asynchronous import finished
@@ -21,11 +22,25 @@ def fetched(base, *paths):
     return finished(fetch())
 
 
+async def lined(base, origin):
+    """The first frame of a line that a page of this origin opens, without a page of ours."""
+    request = HTTPRequest(f"ws{base.removeprefix('http')}/line", headers={"Origin": origin})
+    socket = await websocket_connect(request)
+    first = await socket.read_message()
+    socket.close()
+    while await socket.read_message() is not None:
+        pass
+    return first
+
+
 def test_the_page_runs_its_own_scripts_and_only_its_parts_are_shown_elsewhere():
     with served(embedders=("example.org",)) as base:
         whole, part, again = fetched(base, "", "?embed=1", "")
         with pytest.raises(HTTPClientError, match="403"):
             finished(Visitor.open(base, origin="http://example.org"))
+        with pytest.raises(HTTPClientError, match="403"):
+            finished(lined(base, "http://example.org"))
+        assert finished(lined(base, base)) is not None
     policies = [dict(one.split(" ", 1) for one in answer.headers["Content-Security-Policy"].split("; "))
                 for answer in (whole, part, again)]
     for answer, given in zip((whole, part, again), policies, strict=True):

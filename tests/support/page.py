@@ -405,7 +405,7 @@ class Line:
 
     def __init__(self, page):
         self._socket, self._held, self._holding = None, [], False
-        page.route_web_socket(re.compile(r"/ws"), self._connect)
+        page.route_web_socket(re.compile(r"/line(\?|$)"), self._connect)
 
     def _connect(self, socket):
         self._socket = socket

@@ -7,6 +7,7 @@ import html
 import itertools
 import json
 import re
+import struct
 
 from bokeh.protocol import Protocol
 from bokeh.protocol.receiver import Receiver
@@ -35,13 +36,17 @@ def _nodes(item):
 
 
 class Visitor:
-    """One page: `await Visitor.open(base, query)`, then `await visitor.ask(values={…})`."""
+    """One page: `await Visitor.open(base, query)`, then `await visitor.ask(values={…})`.
+
+    It has two websockets, as in a browser: Panel's, by which it gets the document, and the line.
+    """
 
     def __init__(self, socket, origin):
         self._socket, self.origin = socket, origin
         self._receiver = Receiver(Protocol())
+        self._line = None
+        self._ended = []
         self._asked = 0
-        self._ended = False
         self.state = None
         self.bytes = 0
 
@@ -58,66 +63,82 @@ class Visitor:
         assert token is not None, answer.body[:500]
         await asyncio.sleep(pause)
         headers = {"Origin": origin or base, **(headers or {})}
-        request = HTTPRequest(f"ws{base.removeprefix('http')}/ws", headers=headers,
-                              connect_timeout=timeout, ssl_options=trusted)
-        socket = await websocket_connect(request, subprotocols=["bokeh", token[1]], max_message_size=2**28)
-        found = cls(socket, origin or base)
-        await found._next("ACK", timeout)
-        await found._send("PULL-DOC-REQ", {})
-        reply = await found._next("PULL-DOC-REPLY", timeout)
-        found.document = reply.content
+
+        async def connect(path, **given):
+            request = HTTPRequest(f"ws{base.removeprefix('http')}/{path}", headers=headers,
+                                  connect_timeout=timeout, ssl_options=trusted)
+            return await websocket_connect(request, max_message_size=2**28, **given)
+
+        found = cls(await connect("ws", subprotocols=["bokeh", token[1]]), origin or base)
         try:
-            found._read(reply)
-        except Closed:
+            await found._next("ACK", timeout)
+            await found.say_to_panel("PULL-DOC-REQ", {})
+            found.document = (await found._next("PULL-DOC-REPLY", timeout)).content
+            found._look()
+            # As a browser says when it stands.
+            ready = {"type": "event", "name": "document_ready", "values": {"type": "map", "entries": []}}
+            await found.say_to_panel("PATCH-DOC", {"events": [
+                {"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": ready}]})
+            found._line = await connect(f"line?{query}")
+            while found.state is None:
+                await found.hear(timeout)
+        except BaseException:
             await found.leave()
             raise
-        # Panel sends nothing before.
-        await found._trigger("document_ready", {})
-        while found.state is None:
-            found._take(await found._next("PATCH-DOC", timeout))
         return found
 
-    def _read(self, message):
-        for node in _nodes(message.content["doc"]):
+    def _look(self):
+        """Whether this is a page, with a client that asks for states."""
+        for node in _nodes(self.document["doc"]):
             data = node.get("attributes", {}).get("data")
             if isinstance(data, dict) and "client" in data.get("attributes", {}):
-                self._model, self._data = node["id"], data["id"]
-                if data["attributes"].get("state"):
-                    self.state = json.loads(data["attributes"]["state"])
                 return
-        raise Closed(f"nothing here asks for states: {message.content['doc']}")
+        raise Closed(f"nothing here asks for states: {self.document['doc']}")
 
-    async def _send(self, kind, content):
+    async def say_to_panel(self, kind, content):
+        """A message of Bokeh's protocol."""
         header = {"msgid": f"visitor-{next(_numbers)}", "msgtype": kind}
         for part in (header, {}, content):
             await self._socket.write_message(json.dumps(part))
 
+    async def _read(self, socket, timeout):
+        fragment = await asyncio.wait_for(socket.read_message(), timeout)
+        if fragment is None:
+            self._ended.append(socket)
+            raise Closed(f"{socket.close_code}: {socket.close_reason}")
+        self.bytes += len(fragment)
+        return fragment
+
+    async def end(self, timeout=60.0):
+        """What both websockets hear last."""
+        heard = []
+        for socket in (self._line, self._socket):
+            try:
+                while True:
+                    await self._read(socket, timeout)
+            except Closed as why:
+                heard.append(str(why))
+        return heard
+
     async def _next(self, kind, timeout):
         while True:
-            fragment = await asyncio.wait_for(self._socket.read_message(), timeout)
-            if fragment is None:
-                self._ended = True
-                raise Closed(f"{self._socket.close_code}: {self._socket.close_reason}")
-            self.bytes += len(fragment)
-            message = await self._receiver.consume(fragment)
+            message = await self._receiver.consume(await self._read(self._socket, timeout))
             if message is not None and message.msgtype == "ERROR":
                 raise Closed(message.content.get("text", ""))
             if message is not None and message.msgtype == kind:
                 return message
 
-    def _take(self, message):
-        for event in message.content["events"]:
-            if event.get("attr") == "state" and event.get("model", {}).get("id") == self._data:
-                self.state = json.loads(event["new"])
-
-    async def _trigger(self, name, values):
-        event = {"type": "event", "name": name, "values": {"type": "map", "entries": [*values.items()]}}
-        await self._send("PATCH-DOC", {"events": [{"kind": "MessageSent", "msg_type": "bokeh_event",
-                                                   "msg_data": event}]})
+    async def hear(self, timeout=60.0):
+        """The next answer: what is told, by name."""
+        frame = await self._read(self._line, timeout)
+        head, _ = struct.unpack_from("<II", frame)
+        told = json.loads(frame[8:8 + head])
+        self.state = told.get("state", self.state)
+        return told
 
     async def say(self, data):
         """Send a message, whatever it is."""
-        await self._trigger("data_event", {"model": {"id": self._model}, "data": data})
+        await self._line.write_message(json.dumps(data))
 
     async def ask(self, timeout=60.0, **message):
         """The state that answers this message."""
@@ -125,7 +146,7 @@ class Visitor:
         asked = self._asked
         await self.say({"requested": asked, "held": False, "values": {}, **message})
         while self.state["answers"] != asked:
-            self._take(await self._next("PATCH-DOC", timeout))
+            await self.hear(timeout)
         return self.state
 
     async def whole(self, timeout=60.0):
@@ -135,8 +156,11 @@ class Visitor:
         return self.state
 
     async def leave(self):
-        """Close the websocket, as a tab that is closed does."""
-        self._socket.close()
-        # That something has ended is read once.
-        while not self._ended and await self._socket.read_message() is not None:
-            pass
+        """Close both websockets, as a tab that is closed does."""
+        both = [socket for socket in (self._line, self._socket) if socket is not None]
+        for socket in both:
+            socket.close()
+        for socket in both:
+            # That something has ended is read once.
+            while socket not in self._ended and await socket.read_message() is not None:
+                pass

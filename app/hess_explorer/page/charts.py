@@ -23,7 +23,7 @@ logger = logging.getLogger("hess_explorer")
 
 
 class Page(Protocol):
-    """What it speaks to: see `components.Ready`, whose attributes these are."""
+    """What it speaks to: see `Desk`, whose attributes these are."""
 
     cells: bytes
     chart: str

@@ -118,28 +118,10 @@ class Prose(JSComponent):
 class Ready(JSComponent):
     """Keeps `<html data-ready data-state>` and the address bar.
 
-    It sends messages, for `on_msg`, that ask for the state after the user's n-th change, "requested": n, with
-
-    - "values": {name: number or option, …}; "preset": the example chosen; "scene": the scene chosen;
-    - "expressions": {name: text, …}, numbers as they were typed, pi/3;
-    - "picked": [picture, x, y] or [picture, x0, y0, x1, y1]; "hover": [picture, x, y], where the mouse is;
-    - "lesson": the lesson wanted; "step": [lesson or scene, number of the step from 0, whether its guess is revealed];
-    - "near": a scene that may be chosen next;
-    - "restore": the query of a state to go to, as in a link;
-    - "reset", "clear", "stop": whether that was pressed; "held": whether a slider is held;
-    - "hidden": [the pictures out of sight, …];
-
-    and others about a chart, "chart": …, see `Charts`.
+    What it asks for and gets goes by a line of its own, see `Desk`, and not by Panel.
     """
 
-    scene = param.String(default="", doc="JSON: the description of the newest scene, see `description`.")
-    lesson = param.String(default="", doc="JSON: the lesson that was wanted last, see `description`.")
-    # What is set together arrives in this order, and the state says how to read the rest.
-    block = param.Bytes(default=b"", doc="The numbers of the tree of the state.")
-    state = param.String(default="", doc="JSON: number of the state, last request that it answers, URL query, "
-                         "the tree of its data (see `wire`), name of its scene, progress [done, of] or null.")
-    cells = param.Bytes(default=b"", doc="Of a chart: numbers (double precision), where (32 bits), status (8 bits).")
-    chart = param.String(default="", doc="JSON: what is said of the chart, see `Charts`.")
+    lesson = param.String(default="", doc="JSON: the lesson that the link names, see `description`.")
     client = param.Dict(default={}, doc="URL keys that the browser itself keeps: t, speed, az, el, large, present, "
                         "embed, pictures, controls, lesson, step.")
 

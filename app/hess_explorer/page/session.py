@@ -42,7 +42,7 @@ def linked(link: Link, here: str) -> tuple[Scene[Any], dict[str, Value]]:
 
 
 class Page(Protocol):
-    """What a session speaks to: see `components.Ready`, whose attributes these are."""
+    """What a session speaks to: see `Desk`, whose attributes these are."""
 
     scene: str
     lesson: str

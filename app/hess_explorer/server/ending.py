@@ -13,7 +13,7 @@ from typing import NoReturn
 from bokeh.server.server import Server
 from tornado.ioloop import IOLoop
 
-from hess_explorer.server.page_socket import say_goodbye
+from hess_explorer.server.limits import say_goodbye
 
 __all__ = ["Workers", "end_on_signals", "leave"]
 

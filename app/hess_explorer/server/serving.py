@@ -24,9 +24,11 @@ from hess_explorer.server.capacity import Capacity
 from hess_explorer.server.ending import Workers, end_on_signals, leave
 from hess_explorer.server.export import Export
 from hess_explorer.server.headers import guard
+from hess_explorer.server.limits import MESSAGE_LIMIT, THERE
+from hess_explorer.server.line import Line
 from hess_explorer.server.liveness import is_alive
 from hess_explorer.server.modules import module_routes
-from hess_explorer.server.page_socket import MESSAGE_LIMIT, PageSocket, use
+from hess_explorer.server.page_socket import use
 from hess_explorer.server.qr_code import QrCode
 from hess_explorer.server.warm import warm
 
@@ -51,7 +53,7 @@ class Metrics(RequestHandler):
     def get(self) -> None:
         """Answer with the counters as they are now."""
         self.set_header("Content-Type", "text/plain; version=0.0.4; charset=utf-8")
-        counters = {**CACHE.metrics(), "sessions": self._capacity.there, "websockets": len(PageSocket.there),
+        counters = {**CACHE.metrics(), "sessions": self._capacity.there, "websockets": len(THERE),
                     "threads": threading.active_count()}
         self.finish("".join(f"hess_explorer_{name} {value}\n" for name, value in counters.items()))
 
@@ -73,14 +75,14 @@ def _prepare(address: str, port: int, ready: Callable[[], None]) -> None:
     warm(first_is_ready)
 
 
-def _page(lesson: Lesson | None, capacity: Capacity, follow: Callable[[str], None] | None) -> Any:
+def _page(lesson: Lesson | None, capacity: Capacity) -> Any:
     """The page, with styles of this server: Panel sees to that only in the process that writes the HTML."""
     if not capacity.take():
         return pn.pane.Str(capacity.sentence)
     document = pn.state.curdoc
     if document is not None:
         document.add_next_tick_callback(lambda: _own_styles(document))
-    return page(lesson, follow)
+    return page(lesson)
 
 
 def _own_styles(document: Document) -> None:
@@ -93,16 +95,17 @@ def options(port: int, address: str, origins: Sequence[str], lesson: Lesson | No
     """What `panel.serve` is told; the arguments are those of `serve`."""
     capacity = Capacity(sessions)
     return {
-        "panels": {"/": lambda: _page(lesson, capacity, follow)},
+        "panels": {"/": lambda: _page(lesson, capacity)},
         "title": "Hess Explorer",
         "port": port,
         "address": address,
         "websocket_origin": [f"localhost:{port}", f"127.0.0.1:{port}", *origins],
-        "extra_patterns": [("/metrics", Metrics, {"capacity": capacity}), ("/qr.svg", QrCode), ("/export", Export),
+        "extra_patterns": [("/line", Line, {"capacity": capacity, "lesson": lesson, "follow": follow}),
+                           ("/metrics", Metrics, {"capacity": capacity}), ("/qr.svg", QrCode), ("/export", Export),
                            *module_routes()],
         "liveness": True,
         "verbose": False,
-        # `PageSocket` says in a sentence what a frame may have; beyond this Tornado cuts the line with two words.
+        # `Meter` says in a sentence what a frame may have; beyond this Tornado cuts the line with two words.
         "websocket_max_message_size": 4 * MESSAGE_LIMIT,
         # Who is slow to say what is wanted holds a connection for so many seconds.
         "http_server_kwargs": {"max_body_size": BODY_LIMIT, "body_timeout": 20.0, "idle_connection_timeout": 300.0},
@@ -120,7 +123,7 @@ def serve(port: int, address: str, show: bool, origins: Sequence[str], ready: Ca
     address : to listen on; show : open the browser; origins : HOST:PORT pairs whose pages may open a websocket,
     besides this machine's own; ready : called from another thread when the page answers without compiling
     first; lesson : one besides those of the package; embedders : hosts whose pages may show parts of this one, "*" any;
-    workers : processes that serve; a session stays with the one that its websocket comes to; sessions : as many as each
+    workers : processes that serve; a session stays with the one that its line comes to; sessions : as many as each
     of them serves at a time; follow : told the query of every state that a page shows.
     """
     logging.basicConfig(format="%(asctime)s %(name)s %(message)s")
