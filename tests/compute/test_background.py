@@ -19,6 +19,7 @@ from hess_explorer.scenes.framework import rotation_across
 from hess_explorer.scenes.framework.work import Work
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.parallel import THREADS
+from hess_mechanics.numerics.patience import go_on
 from support.board import SCENES, Browser, modules_of_scenes
 
 # With the exponent in sight, which is folded at first.
@@ -132,7 +133,7 @@ def test_a_newer_choice_ends_the_older_work(gate):
     work.follow(tasks(20))
     wait_until(lambda: len(gate.calls) == THREADS)
     work.follow(tasks(3, first=100))
-    # What runs is brought to its end, and nothing else of the older work is begun.
+    # Nothing else of the older work is begun.
     gate.let(THREADS + 3)
     wait_until(lambda: work.left == 0)
     time.sleep(0.02)
@@ -155,6 +156,50 @@ def test_stop_begins_nothing_more(gate):
     gate.let(2)
     wait_until(lambda: work.left == 0)
     assert gate.peek(square, 51) == 2601
+
+
+@pytest.fixture
+def endless():
+    """A piece that would go on for ever, and that says when it has begun and when it has ended."""
+    begun, ended = threading.Event(), threading.Event()
+
+    def goes_on(n):
+        begun.set()
+        try:
+            while n:
+                go_on()
+                time.sleep(0.001)
+        finally:
+            ended.set()
+
+    return Task(goes_on, (1,)), begun, ended
+
+
+def test_a_piece_that_has_begun_ends_when_nobody_wants_it_any_more(endless):
+    piece, begun, ended = endless
+    work = Background()
+    work.follow([piece])
+    assert begun.wait(60.0)
+    # It goes on for a choice that wants it too, and for the next.
+    for _ in range(2):
+        work.follow([piece])
+        time.sleep(0.05)
+        assert not ended.is_set()
+    work.follow(tasks(1, first=60))
+    assert ended.wait(60.0)
+    wait_until(lambda: work.left == 0)
+    assert work.error == ""
+
+
+def test_a_piece_that_takes_too_long_ends_with_a_sentence(endless, monkeypatch):
+    monkeypatch.setattr(background, "SECONDS", 0.02)
+    piece, _, ended = endless
+    work = Background()
+    work.follow([piece])
+    assert ended.wait(60.0)
+    wait_until(lambda: work.left == 0)
+    assert work.error.startswith("A part of this state takes more than 0.02 s to compute")
+    assert "choose a shorter time span" in work.error
 
 
 def test_what_is_refused_ends_the_work_with_its_sentence(free_gate):
@@ -375,7 +420,8 @@ def test_stop_leaves_what_is_drawn_and_says_how_much(gate):
     wait_until(lambda: browser.session.background.left == 0)
     browser.ask(1)
     state = browser.ask(1)
-    drawn = 3 + THREADS
+    # What had begun has ended too.
+    drawn = 3
     assert state["progress"] is None
     assert browser.texts["notes"] == (
         f"Stopped: {drawn} of {PIECES} parts are drawn. Change a value to compute again.")
@@ -404,7 +450,7 @@ def test_what_was_stopped_is_not_begun_again_by_a_picture_that_comes_into_sight(
     assert state["progress"] is None
     assert browser.session.background.left == 0
     assert len(gate.calls) == begun
-    assert browser.texts["notes"].startswith(f"Stopped: {THREADS} of {PIECES} parts are drawn.")
+    assert browser.texts["notes"].startswith(f"Stopped: 0 of {PIECES} parts are drawn.")
     # What is stopped while a new value is on its way is that value's work.
     browser.ask(4, values={"h": 45.0})
     browser.ask(5, values={"h": 46.0}, stop=True)

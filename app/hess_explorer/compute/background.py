@@ -5,17 +5,24 @@ from __future__ import annotations
 import logging
 import threading
 from collections import deque
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
+from hess_explorer.compute.budget import Abandoned, limited
 from hess_explorer.compute.cache import CACHE, Task
 from hess_explorer.compute.cores import CORES, queue_again
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.parallel import THREADS
 
-__all__ = ["Background", "in_turns"]
+__all__ = ["SECONDS", "Background", "in_turns"]
+
+SECONDS = 30.0
+"""Of the processor, all cores together, for one piece."""
+
+WAIT = 600.0
+"""Seconds by the clock for one, on a machine that has much else to do."""
 
 logger = logging.getLogger("hess_explorer")
 
@@ -34,10 +41,39 @@ def in_turns(step: Callable[[], bool]) -> None:
     _pool.submit(one)
 
 
+class _Running:
+    """The pieces of a session that have begun, each with what ends it."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._all: list[tuple[Task, threading.Event]] = []
+
+    def compute(self, task: Task) -> None:
+        """The result of this task for the cache.  Raises as the task and `budget.check`."""
+        one = (task, threading.Event())
+        with self._lock:
+            self._all.append(one)
+        try:
+            # The mechanics check their results for overflow themselves.
+            with np.errstate(all="ignore"), limited(one[1], SECONDS, WAIT, "A part of this state"):
+                CACHE.get(task.function, *task.arguments)
+        finally:
+            with self._lock:
+                self._all.remove(one)
+
+    def abandon(self, but: Collection[Task]) -> None:
+        """End all but these, each between two parts of its computation."""
+        with self._lock:
+            for task, left in self._all:
+                if task not in but:
+                    left.set()
+
+
 class _Job:
-    def __init__(self, tasks: Iterable[Task]) -> None:
+    def __init__(self, tasks: Iterable[Task], running: _Running) -> None:
         self.tasks = deque(tasks)
         self.error = ""
+        self._all_running = running
         self._lock = threading.Lock()
         self._running = 0
 
@@ -49,9 +85,9 @@ class _Job:
             task = self.tasks.popleft()
             self._running += 1
         try:
-            # The mechanics check their results for overflow themselves.
-            with np.errstate(all="ignore"):
-                CACHE.get(task.function, *task.arguments)
+            self._all_running.compute(task)
+        except Abandoned:
+            pass
         except ModelError as error:
             self.error = str(error)
             self.tasks.clear()
@@ -74,19 +110,25 @@ class Background:
     """The background work of one session: a new state discards what is left of the previous one."""
 
     def __init__(self) -> None:
-        self._job = _Job(())
+        self._running = _Running()
+        self._job = _Job((), self._running)
 
     def follow(self, tasks: Iterable[Task]) -> None:
-        """Compute these into the cache, and discard all earlier tasks."""
-        self.stop()
-        self._job = job = _Job(tasks)
+        """Compute these into the cache, and discard all earlier tasks but those of them that have begun."""
+        wanted = list(tasks)
+        self._discard(wanted)
+        self._job = job = _Job(wanted, self._running)
         # No thread is woken for nothing.
         for _ in range(min(THREADS, job.left)):
             in_turns(job.one)
 
     def stop(self) -> None:
-        """Discard the tasks that have not begun."""
+        """Discard all tasks; those that have begun end between two parts of their computations."""
+        self._discard(())
+
+    def _discard(self, but: Collection[Task]) -> None:
         self._job.tasks.clear()
+        self._running.abandon(but)
 
     @property
     def left(self) -> int:

@@ -1,5 +1,5 @@
-"""How much one answer may cost: what takes longer is refused with a sentence, between two computations of it, and
-between two parts of a long one."""
+"""How much an answer, or a piece behind it, may cost: what takes longer is refused with a sentence, between two
+computations of it, and between two parts of a long one."""
 
 from __future__ import annotations
 
@@ -33,8 +33,8 @@ class OverBudget(WorkLimit):
 class Budget:
     """Of the thread that makes it; others work for it."""
 
-    def __init__(self, left: threading.Event, seconds: float, wait: float) -> None:
-        self.left, self.seconds, self.wait = left, seconds, wait
+    def __init__(self, left: threading.Event, seconds: float, wait: float, what: str) -> None:
+        self.left, self.seconds, self.wait, self.what = left, seconds, wait, what
         self._thread, self._began, self._compiled = threading.get_ident(), time.thread_time(), seconds_compiling()
         self.clock_ends = time.monotonic() + wait
         self._elsewhere, self._lock = 0.0, threading.Lock()
@@ -57,9 +57,13 @@ _budget: ContextVar[Budget | None] = ContextVar("budget", default=None)
 
 
 @contextmanager
-def limited(left: threading.Event, seconds: float = SECONDS, wait: float = WAIT) -> Iterator[Budget]:
-    """What this thread computes inside is refused by `check` when that is used up, and abandoned once `left` is set."""
-    budget = Budget(left, seconds, wait)
+def limited(left: threading.Event, seconds: float = SECONDS, wait: float = WAIT, what: str = "This state"
+            ) -> Iterator[Budget]:
+    """What this thread computes inside is refused by `check` when that is used up, and abandoned once `left` is set.
+
+    what : is computed, as the refusal says.
+    """
+    budget = Budget(left, seconds, wait, what)
     token = _budget.set(budget)
     try:
         with limited_by(check, budget.spend):
@@ -76,7 +80,7 @@ def check() -> None:
     if budget.left.is_set():
         raise Abandoned
     if budget.spent > budget.seconds:
-        raise OverBudget(f"This state takes more than {budget.seconds:g} s to compute, and no more is given to one: "
+        raise OverBudget(f"{budget.what} takes more than {budget.seconds:g} s to compute, and no more is given to one: "
                         "choose a shorter time span, fewer orbits or a cheaper accuracy.")
     if time.monotonic() > budget.clock_ends:
         raise OverBudget(f"The server is too busy to compute this state within {budget.wait:g} s: try again later, or "

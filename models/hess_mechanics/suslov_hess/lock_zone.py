@@ -39,6 +39,7 @@ import numpy as np
 
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.numerics.balls import Ball, Enclosure, enclosure, exact, rational, working
+from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.proof import NO_CYCLE, TWO_CYCLES, UNDECIDED
 
@@ -141,6 +142,7 @@ def refined(zone: LockZone, cells: int) -> LockZone:
     heapq.heapify(open_)
     count, tried = len(zone.cells), 0
     while open_ and tried < cells:
+        go_on()
         area, _, cell = heapq.heappop(open_)
         if area == 0.0:
             # All of them lie beyond the part that is asked for.
