@@ -15,6 +15,7 @@ from hess_mechanics import largest_exponent, level, solve, spectrum, systems
 from hess_mechanics.numerics.accuracy import PLANS, Kind
 from hess_mechanics.suslov.section import coordinates, state_at
 from support.suslov import divergence, field
+from support.view import View
 
 SCENE = scenes()["orbit-diagram"]
 SUSLOV = systems()["suslov"]
@@ -95,6 +96,90 @@ def test_attractors_and_repellers_are_what_their_examples_say(name, verdict, dim
     pairs = np.linalg.norm(away, axis=2)
     distance = max(np.quantile(pairs.min(axis=1), 0.95), np.quantile(pairs.min(axis=0), 0.95))
     assert abs(distance - known.apart.distance) <= known.apart.error + known.apart.grain + 0.05
+
+
+LIGHT = {"steps": 30.0, "ways": "there and back", "transient": 50.0, "count": 10.0}
+
+
+def multipliers(body, E, place):
+    """Of the return map at a place, by SciPy, the largest first; and where it takes the place."""
+    h = 1e-4
+    sides = [[returns(body, state_at(body, E, 3, *(place + sign * h * axis)), 1)[0] for sign in (1, -1)]
+             for axis in np.eye(2)]
+    M = np.column_stack([(a - b).ravel() / (2.0 * h) for a, b in sides])
+    there = returns(body, state_at(body, E, 3, *place), 1)[0].ravel()
+    return sorted(np.linalg.eigvals(M), key=abs, reverse=True), there
+
+
+def test_the_branch_of_a_periodic_orbit_goes_on_as_a_saddle_where_the_diagram_doubles():
+    view = View(SCENE, {**LIGHT, "branch": "period 1"}, seen=["diagram", "section"])
+    state = view.result
+    (flip,) = (one for part in state.continued for one in part.bifurcations)
+    (said, value) = view.derived("flip of period # at I₂₂ = # ± ")
+    assert (said, value) == (1.0, pytest.approx(flip.value, abs=1e-7))
+    assert view.text["diagram"].split("\n")[1] == "Period 1, saddle with reflection here; its branch has 1 bifurcation."
+    attracts, repels = (view.curve(f"diagram-branch-{sign}") for sign in ("attracts", "repels"))
+    assert attracts[0].min() == pytest.approx(2.1, abs=1e-6)
+    assert attracts[0].max() == pytest.approx(flip.value, abs=1e-6) == pytest.approx(repels[0].min(), abs=1e-6)
+    assert repels[0].max() == pytest.approx(2.4, abs=1e-6)
+    assert (view.data["diagram-bifurcations"]["x"][0], view.data["diagram-bifurcation-names"]["text"]) == (
+        pytest.approx(flip.value, abs=1e-6), ["flip"])
+    # SciPy: the orbits close, and the multiplier passes −1 at the mark.
+    E = state.section.E
+    orbits = [(float(value), places[0]) for part in state.continued
+              for value, places in zip(part.values, part.places, strict=True)]
+    ends = (choose(orbits, key=lambda one: one[0]) for choose in (min, max))
+    for value, place in (*ends, (flip.value, flip.places[0])):
+        body = type(state.body)(1.0, value, 0.6, 0.6, -1.0, -0.5, 0.7)
+        found, there = multipliers(body, E, place)
+        assert there == pytest.approx(place, abs=1e-8)
+        assert found[0].real == pytest.approx(-1.0, abs=1e-5) if value == flip.value else (
+            (found[0].real > -1.0) == (value < flip.value))
+    # The diagram shows it as long as it attracts.
+    drawn = state.points("rising")
+    for x in np.unique(drawn[0][drawn[0] < 2.11]):
+        assert np.interp(x, *np.array(sorted((v, p[0]) for v, p in orbits)).T) == pytest.approx(
+            drawn[1][drawn[0] == x][-1], abs=2e-3)
+
+
+def test_a_click_on_a_branch_shows_that_orbit_and_the_mouse_is_told_what_it_is_over():
+    values = {**LIGHT, "branch": "period 1"}
+    view = View(SCENE, values, seen=["diagram", "section"])
+    x, y = 2.2801, 0.868
+    chosen = view.result.choose(x, y)
+    assert chosen["I22"] == pytest.approx(x, abs=2e-3)
+    body = type(view.result.body)(1.0, chosen["I22"], 0.6, 0.6, -1.0, -0.5, 0.7)
+    place = np.array([float(part) for part in chosen["chosen"].split(",")])
+    found, there = multipliers(body, view.result.section.E, place)
+    assert there == pytest.approx(place, abs=1e-7)
+    hover = view.result.about(x, y)
+    assert re.match(r"I₂₂ = 2\.2[78]\d*: period 1, saddle with reflection, μ = −[\d.]+, −[\d.]+$", hover)
+    assert float(hover.split("μ = −")[1].split(",")[0]) == pytest.approx(-found[0].real, rel=0.03)
+    assert view.result.about(2.126, 0.69).startswith("flip of period 1 at I₂₂ = 2.1260498 ± ")
+    assert view.result.about(2.3, -2.0) == ""
+    # The state that it chooses shows the orbit itself, though nothing stays there.
+    after = View(SCENE, {**values, **chosen}, seen=["diagram", "section"])
+    assert after.result.closed.orbit.places[0] == pytest.approx(place, abs=1e-7)
+    assert after.points("repels") == pytest.approx(place[None], abs=1e-5)
+    # Away from the branch a click means the diagram.
+    assert view.result.choose(2.2801, 2.5)["chosen"] != chosen["chosen"]
+
+
+def test_a_branch_folds_and_where_there_is_none_that_is_said():
+    view = View(SCENE, {**LIGHT, "along": "h", "I22": 2.5, "h": 2.0, "first": 1.7, "last": 2.4, "chosen": "1,1",
+                        "branch": "any period"}, seen=["diagram"])
+    m, fold = view.derived("fold of period # at h = # ± ")
+    assert m == view.numbers("diagram", "\nPeriod #, saddle")[0] > 1
+    # No orbit of the branch is beyond the fold, and there are two of each value before it.
+    values = np.concatenate([part.values for part in view.result.continued])
+    near = fold + 1e-3 * (1.0 if values.mean() > fold else -1.0)
+    assert (values.min() if values.mean() > fold else -values.max()) >= (fold if values.mean() > fold else -fold) - 1e-7
+    crossed = sum(int(np.count_nonzero(np.diff(np.sign(part.values - near)))) for part in view.result.continued)
+    assert crossed == 2
+    none = View(SCENE, {**LIGHT, **dict(next(one for one in SCENE.presets if one.name.startswith("Equal: v")).values),
+                        **LIGHT, "branch": "period 1", "steps": 2.0}, seen=["diagram"])
+    assert none.text["diagram"].split("\n")[1] == "No periodic orbit is found from here: no branch."
+    assert any("Newton's method finds no orbit of period 1" in note for note in none.report.notes)
 
 
 def test_volume_that_is_kept_is_said():

@@ -12,16 +12,17 @@ import numpy as np
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.protocol.parameters import Value, Values, places, written
 from hess_explorer.scenes.framework.charted import Charted
+from hess_explorer.scenes.framework.continued import Continued
 from hess_explorer.scenes.framework.heavy_suslov import HeavySuslov
 from hess_explorer.scenes.framework.inertia import CentreOfMass, Tensor
 from hess_explorer.scenes.framework.one_orbit import OneOrbit, Start
-from hess_explorer.scenes.framework.over_parameter import BOUNDS, OverParameter, picture
+from hess_explorer.scenes.framework.over_parameter import BOUNDS, picture
 from hess_explorer.scenes.framework.parameters import accuracy_level, exponent_time, like, number, time_span
 from hess_explorer.scenes.framework.parameters import places as chosen_places
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.solid_body import ConstrainedBody, constrained_body
 from hess_explorer.scenes.framework.windows import tidy_window, window_of
-from hess_explorer.views import layered_section, theme
+from hess_explorer.views import branch, layered_section, periodic, theme
 from hess_explorer.views.graph import about_0, over_time
 from hess_explorer.views.layers import Axes, levels, points
 from hess_explorer.views.plot import Plot
@@ -68,7 +69,7 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class OrbitDiagram(OverParameter, HeavySuslov, OneOrbit, ConstrainedBody):
+class OrbitDiagram(Continued, HeavySuslov, OneOrbit, ConstrainedBody):
     """Where orbits of a section settle over one parameter, and the orbit on show at the value that this one has."""
 
     I11: float = like(Tensor, "I11", 1.0)
@@ -115,7 +116,9 @@ class OrbitDiagram(OverParameter, HeavySuslov, OneOrbit, ConstrainedBody):
 
     @cached_property
     def start(self) -> Start:
-        """Its state."""
+        """Its state; that of the periodic orbit, where its branch is shown."""
+        if self.closed is not None:
+            return self.closed.state
         return tuple(map(float, self.section.states_at(*np.array(self.place)[:, None])[0][0]))
 
     # ---- the state ----------------------------------------------------------------------------------------------
@@ -177,12 +180,14 @@ class OrbitDiagram(OverParameter, HeavySuslov, OneOrbit, ConstrainedBody):
         found = self.known("cascade")
         if isinstance(found, Cascade) and found.values.size:
             yield f"doublings to {digits(found.error_estimate, 1)}"
+        yield from super().status()
         yield from self._orbit_status()
 
     def derived(self) -> Iterator[str]:
-        """The value on show, the energy, the doublings."""
+        """The energy, the place on show, the bifurcations of the branch."""
         yield f"E = {digits(self.section.E, 6)}"
         yield f"chosen: ψ = {digits(self.place[0])}, δ = {digits(self.place[1])}"
+        yield from super().derived()
         yield check_body(self.I11, self.I22, self.I13, self.I23).sentence
 
 
@@ -213,7 +218,8 @@ SCENE = Scene(
     summary="Attractors and repellers over a parameter: doublings, hysteresis, reversal.",
     tracks={"orbit": lambda s: orbit_columns(s.orbit, turning=s.turning)},
     views=(
-        picture(),
+        picture(OrbitDiagram, branch.layers(lambda s: s.continued, lambda s: s.side, lambda s: s.turn),
+                OrbitDiagram.about),
         constrained_body(),
         Plot(name="section", title="Its section γ₃ = 0, growing", caption=OrbitDiagram._about_section,
              axes=("ψ", "δ"), x=(-math.pi, math.pi), y=(0.0, math.pi), on_click=OrbitDiagram.start_here,
@@ -223,6 +229,7 @@ SCENE = Scene(
                  impossible=lambda s: s.section.impossible(((-math.pi, 0.0), (math.pi, math.pi))),
                  labels=("attractor", "repeller")),
                  points("few", lambda s: _few(_of(s.sets, "attractor")), color=theme.ORBIT, size=9),
+                 *periodic.places(lambda s: None if s.closed is None else s.closed.orbit),
                  points("few-repelling", lambda s: _few(_of(s.sets, "repeller")), color=theme.UNSTABLE, size=9))),
         Plot(name="reversal", title="Turning about the vertical, (ω, γ)", caption=OrbitDiagram._about_turning,
              axes=("t", "(ω, γ)"), dot=("t", "turning"), first=Axes((0.0, 60.0), (-2.0, 2.0)),

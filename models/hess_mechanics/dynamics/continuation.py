@@ -34,7 +34,7 @@ from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Complex, frozen
 
-__all__ = ["MAX_POINTS", "Bifurcation", "Branch", "Family", "Symmetric", "continued"]
+__all__ = ["MAX_POINTS", "Bifurcation", "Branch", "Family", "Symmetric", "continued", "gone_on"]
 
 MAX_POINTS = 2000
 _FIRST, _LONGEST, _SHORTEST = 0.01, 0.1, 1e-7
@@ -73,6 +73,8 @@ class Branch(Result):
 
     values : (n,); places : (n, m, d); multipliers : (n, d); kinds : n words, as of a `PeriodicOrbit`; errors : (n,),
     of the places; ended : why the branch ends.
+    heading : the direction in which it goes on from the last point, and the length of the next step; None where it
+    does not.
     """
 
     parameter: str
@@ -85,6 +87,7 @@ class Branch(Result):
     bifurcations: tuple[Bifurcation, ...]
     ended: str
     level: str
+    heading: tuple[Array, float] | None = None
 
     @property
     def period(self) -> int:
@@ -215,19 +218,21 @@ def _happens(kind: str, before: _Point, after: _Point, values: tuple[float, floa
 
 
 def continued(family: Family, orbit: PeriodicOrbit, parameter: str, start: float, end: float,
-              points: int = 200, symmetries: Symmetric | None = None) -> Branch:
+              points: int = 200, symmetries: Symmetric | None = None, edge: float | None = None,
+              longest: float = _LONGEST) -> Branch:
     """The branch of an orbit of the map at λ = `start`, towards λ = `end`.
 
-    It ends where it leaves the range between the two, or after so many points, or where the map ends.
+    It ends where it leaves the range, or after so many points, or where the map ends.
+    edge : the other end of the range, beyond the start; `start` where none is given.
+    longest : of the steps along the branch, in units of the coordinates and of the width of the range.
     Raises `InvalidParameter`, `WorkLimit`, `NotConverged`.
     """
-    if not (math.isfinite(start) and math.isfinite(end) and start != end):
+    edge = start if edge is None else edge
+    if not (all(map(math.isfinite, (start, end, edge))) and min(edge, end) <= start <= max(edge, end) and start != end):
         raise InvalidParameter(f"{parameter} runs from {start:g} to {end:g}: give two different finite numbers.")
-    if not 2 <= points <= MAX_POINTS:
-        raise WorkLimit(f"A branch has from 2 to {MAX_POINTS} points: choose a number between them.")
-    m, d = orbit.places.shape
-    track = _Track(family, abs(end - start), m, d)
-    along = np.zeros(m * d + 1)
+    _check(points)
+    track = _Track(family, abs(end - edge), *orbit.places.shape)
+    along = np.zeros(orbit.places.size + 1)
     along[-1] = math.copysign(1.0, end - start)
     z = track.joined(orbit.places, start)
     try:
@@ -235,12 +240,44 @@ def continued(family: Family, orbit: PeriodicOrbit, parameter: str, start: float
     except NotConverged as error:
         raise NotConverged(f"The branch cannot be begun at {parameter} = {start:g}: the orbit is at a bifurcation, or "
                            "one of a family at this parameter. Begin a little aside.") from error
-    t = point.tangent(along)
+    return _followed(track, parameter, orbit.names, orbit.level, point, point.tangent(along), (edge, end), points,
+                     symmetries, (min(_FIRST, longest), longest))
+
+
+def gone_on(family: Family, branch: Branch, end: float, edge: float, points: int = 200,
+            symmetries: Symmetric | None = None, longest: float = _LONGEST) -> Branch:
+    """What follows a branch that has a `heading`, between the same ends of the range; its first point is the last one
+    of that.
+
+    Raises as `continued`.
+    """
+    _check(points)
+    if branch.heading is None:
+        raise InvalidParameter(f"This branch does not go on: {branch.ended}")
+    track = _Track(family, abs(end - edge), *branch.places.shape[1:])
+    along, step = branch.heading
+    point = track.corrected(track.joined(branch.places[-1], float(branch.values[-1])), along)
+    return _followed(track, branch.parameter, branch.names, branch.level, point, point.tangent(along), (edge, end),
+                     points, symmetries, (step, longest))
+
+
+def _check(points: int) -> None:
+    if not 2 <= points <= MAX_POINTS:
+        raise WorkLimit(f"A branch has from 2 to {MAX_POINTS} points: choose a number between them.")
+
+
+def _followed(track: _Track, parameter: str, names: tuple[str, ...], level: str, point: _Point, t: Array,
+              ends: tuple[float, float], points: int, symmetries: Symmetric | None, steps: tuple[float, float]
+              ) -> Branch:
+    """The branch from a point of it along t, with a first and a longest step."""
     found = [point]
     errors = [track.error(point, t)]
     bifurcations: list[Bifurcation] = []
-    low, high = sorted((start / track.width, end / track.width))
-    step, ended = _FIRST, f"After {points} points."
+    low, high = sorted(one / track.width for one in ends)
+    step, longest = steps
+    along = np.zeros(t.size)
+    along[-1] = 1.0
+    ended, is_over = f"After {points} points.", False
     while len(found) < points:
         last = found[-1]
         room = _to_edge(last.z[-1], t[-1], low, high)
@@ -255,6 +292,7 @@ def continued(family: Family, orbit: PeriodicOrbit, parameter: str, start: float
             step = 0.5 * min(step, ahead)
             if step < _SHORTEST:
                 ended = f"At {parameter} = {track.split(last.z)[1]:.9g} it cannot be followed further: {error}"
+                is_over = True
                 break
             continue
         before, after = _signs(last, t), _signs(following, turned)
@@ -264,11 +302,13 @@ def continued(family: Family, orbit: PeriodicOrbit, parameter: str, start: float
         found.append(following)
         errors.append(track.error(following, turned))
         t = turned
-        step = min(_LONGEST, step * (1.6 if following.iterations <= 4 else 1.0 if following.iterations <= 6 else 0.6))
+        step = min(longest, step * (1.6 if following.iterations <= 4 else 1.0 if following.iterations <= 6 else 0.6))
         if _to_edge(following.z[-1], t[-1], low, high) <= 1e-12:
             ended = f"At {parameter} = {track.split(following.z)[1]:.9g}, the end of the range."
+            is_over = True
             break
-    return _branch(track, parameter, orbit, found, errors, bifurcations, ended)
+    return _branch(track, parameter, names, level, found, errors, bifurcations, ended,
+                   None if is_over else (frozen(t.copy()), step))
 
 
 def _to_edge(z: float, rate: float, low: float, high: float) -> float:
@@ -343,10 +383,11 @@ def _pitchfork(map_: Map, places: Array, point: _Point, symmetries: Symmetric) -
     return "pitchfork" if own - aside else "branch point"
 
 
-def _branch(track: _Track, parameter: str, orbit: PeriodicOrbit, found: list[_Point], errors: list[float],
-            bifurcations: list[Bifurcation], ended: str) -> Branch:
+def _branch(track: _Track, parameter: str, names: tuple[str, ...], level: str, found: list[_Point],
+            errors: list[float], bifurcations: list[Bifurcation], ended: str, heading: tuple[Array, float] | None
+            ) -> Branch:
     places, values = zip(*(track.split(one.z) for one in found), strict=True)
     multipliers = np.array([multipliers_of(one.shot.derivatives)[0] for one in found])
     kinds = tuple(kind_of(one, max(1e-9, 10.0 * error)) for one, error in zip(multipliers, errors, strict=True))
-    return Branch(parameter, orbit.names, frozen(np.array(values)), frozen(np.array(places)), frozen(multipliers),
-                  kinds, frozen(np.array(errors)), tuple(_told_apart(bifurcations)), ended, orbit.level)
+    return Branch(parameter, names, frozen(np.array(values)), frozen(np.array(places)), frozen(multipliers), kinds,
+                  frozen(np.array(errors)), tuple(_told_apart(bifurcations)), ended, level, heading)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
 
-from hess_mechanics.dynamics.continuation import continued
+from hess_mechanics.dynamics.continuation import continued, gone_on
 from hess_mechanics.dynamics.periodic import find_periodic
 from hess_mechanics.errors import InvalidParameter, NotConverged, WorkLimit
 from support.maps import arnold, delayed_logistic, henon, pitchfork
@@ -38,6 +39,29 @@ def test_a_branch_goes_through_a_fold_and_comes_back():
     assert found.kinds[-1] == "unstable node"
     assert "end of the range" in found.ended
     assert len(found.bifurcations) == 1
+
+
+def test_a_branch_comes_in_parts_and_goes_on_past_where_it_began():
+    # sin φ = ω/0.8 again, from ω = 0.1 up to the fold at 0.8, and back beyond the beginning.
+    parts = [branch(arnold, 0.1, (0.3,), 1.0, points=6, edge=-0.5, longest=0.05)]
+    while parts[-1].heading is not None:
+        parts.append(gone_on(arnold, parts[-1], 1.0, -0.5, points=6, longest=0.05))
+    for before, after in pairwise(parts):
+        assert after.values[0] == pytest.approx(before.values[-1], abs=1e-12)
+        assert after.places[0] == pytest.approx(before.places[-1], abs=1e-12)
+    values, phi = (np.concatenate([getattr(one, name).reshape(-1) for one in parts]) for name in ("values", "places"))
+    assert len(parts) > 5
+    assert np.abs(np.sin(phi) - values / 0.8).max() < 1e-12
+    # Never more than a step, λ in units of 1.5, the width of the range.
+    assert np.hypot(np.diff(values) / 1.5, np.diff(phi)).max() < 0.06
+    (fold,) = (one for part in parts for one in part.bifurcations)
+    assert (fold.kind, abs(fold.value - 0.8) <= fold.error) == ("fold", True)
+    assert values[-1] == pytest.approx(-0.5, abs=1e-12)
+    assert phi[-1] == pytest.approx(math.pi + math.asin(0.625), abs=1e-12)
+    with pytest.raises(InvalidParameter, match=r"does not go on: At λ = -0\.5"):
+        gone_on(arnold, parts[-1], 1.0, -0.5)
+    with pytest.raises(InvalidParameter, match="runs from"):
+        branch(arnold, 0.1, (0.3,), 1.0, edge=0.5)
 
 
 @pytest.mark.parametrize(("kind", "start", "end", "period", "place", "exact"), [

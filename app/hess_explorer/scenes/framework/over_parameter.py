@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -18,7 +18,7 @@ from hess_explorer.scenes.framework.parameters import places as chosen_places
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.windows import Window, boxed, window_of
 from hess_explorer.views import theme
-from hess_explorer.views.layers import Axes, curves, dots
+from hess_explorer.views.layers import Axes, Layer, curves, dots
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.section_plane import joined
 from hess_explorer.views.text import digits
@@ -205,12 +205,13 @@ def _end(parts: list[Diagram]) -> tuple[float, ...] | None:
     return tuple(ends[-1].tolist()) if ends else None
 
 
-def picture() -> Plot[Any]:
-    """The diagram."""
-    return Plot(name="diagram", title="Orbit diagram", caption=OverParameter._about_diagram,
+def picture(state: type[OverParameter], over: tuple[Layer[Any], ...] = (),
+            on_hover: Callable[[Any, float, float], str] | None = None) -> Plot[Any]:
+    """The diagram of such states, and what is drawn over it."""
+    return Plot(name="diagram", title="Orbit diagram", caption=state._about_diagram, on_hover=on_hover,
          axes=lambda s: (s.along, s.shown), first=Axes((2.1, 2.4), (-math.pi, math.pi)),
          x=lambda s: (s.frame[0][0], s.frame[1][0]), y=lambda s: (s.frame[0][1], s.frame[1][1]),
-         on_click=OverParameter.choose, on_box=lambda s, corners: boxed(corners, BOUNDS),
+         on_click=state.choose, on_box=lambda s, corners: boxed(corners, BOUNDS),
          layers=(
              curves("flips", within=lambda s, axes: [np.array([[x, axes.y[0]], [x, axes.y[1]]]) for x in s.flips],
                     color=theme.STABLE, width=1.5, dash="dashed", label="the period doubles"),
@@ -221,4 +222,4 @@ def picture() -> Plot[Any]:
              dots("rising", lambda s: s.points(_RISING), color=theme.ORBIT, size=3,
                   label="forward, parameter rising"),
              curves("here", within=lambda s, axes: [np.array([[s.at, axes.y[0]], [s.at, axes.y[1]]])],
-                    color=theme.INK, width=1.5, label="the state on show")))
+                    color=theme.INK, width=1.5, label="the state on show"), *over))
