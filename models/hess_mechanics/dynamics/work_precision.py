@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import count
 
 import numpy as np
 
@@ -26,6 +27,8 @@ _LONGEST = 5000.0
 """Time spans, in units of 1/ν, that SciPy's methods and the levels integrate in about a second."""
 _LONG_RUN = 0.1
 """Seconds of a run beside which what disturbs it is short."""
+_EVALUATIONS = 1000
+"""Of the plain field, some 10 ms, after which SciPy's methods ask whether to go on."""
 _MOST_STEPS_FOR_OTHERS = 1500
 """Steps of the level `reference`; for each of them SciPy's methods take about 0.16 ms together."""
 
@@ -137,11 +140,18 @@ def measure_others(name: str, state: tuple[float, ...], parameters: tuple[float,
     from scipy.integrate import solve_ivp  # imported here because it takes 0.3 s
 
     system, times, truth, scale = _truth(name, state, parameters, span, samples)
+    evaluations = count(1)
+
+    def rates(_: float, y: Array) -> Array:
+        if next(evaluations) % _EVALUATIONS == 0:
+            go_on()
+        return system.field(y, parameters)
+
     points = []
     for method in SLOW_METHODS:
         for tolerance in _TOLERANCES:
             ms, states = _best_of(
-                lambda: solve_ivp(lambda _, y: system.field(y, parameters), (0.0, span), state, t_eval=times,
+                lambda: solve_ivp(rates, (0.0, span), state, t_eval=times,
                                   method=method, rtol=tolerance, atol=tolerance).y.T, 1)  # noqa: B023 (called at once)
             points.append(WorkPoint(method, f"{tolerance:.0e}", ms, float(np.max(np.abs(states - truth) / scale))))
     return tuple(points)

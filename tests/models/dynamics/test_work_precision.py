@@ -28,6 +28,7 @@ from hess_mechanics.dynamics.work_precision import (
 )
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, REFERENCE
+from hess_mechanics.numerics.patience import limited_by
 from hess_mechanics.suslov_hess.torus import track
 from support.board import ACCURACY, HESS, Board, flat, said
 
@@ -230,6 +231,28 @@ def test_over_the_longest_span_that_is_measured_scipy_takes_less_than_a_few_seco
     before = time.process_time()
     measure_others(*asked(motion)[:3], span, 400)
     assert time.process_time() - before < 5.0
+
+
+def test_a_method_of_scipy_asks_in_mid_run_whether_to_go_on():
+    motion = HESS.of({**HESS.defaults(), "span": 40.0}).motion()
+    asks = []
+    with limited_by(lambda: asks.append(time.monotonic()), lambda seconds: None):
+        measure_others(*asked(motion), SAMPLES)
+    evaluations = sum(
+        solve_ivp(lambda _, y: motion.system.field(y, motion.parameters), (0.0, motion.span), motion.state,
+                  method=method, rtol=tolerance, atol=tolerance).nfev
+        for method in ("DOP853", "LSODA") for tolerance in (1e-4, 1e-7, 1e-10))
+    # Each of the six runs asks when it begins.
+    assert len(asks) >= 6 + evaluations // 1000 > 10
+
+    def end():
+        if len(asks) == 0:
+            raise WorkLimit("enough")
+        asks.pop()
+
+    del asks[8:]
+    with limited_by(end, lambda seconds: None), pytest.raises(WorkLimit, match="enough"):
+        measure_others(*asked(motion), SAMPLES)
 
 
 # --- What the scene says ---------------------------------------------------------------------------------------
