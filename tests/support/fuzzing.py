@@ -252,12 +252,13 @@ def _side(random, scene, names):
     if not names or random.random() < 0.05:
         return random.choice([None, [], 3, "h", ["h", 0.0, 1.0], ["nobody", 0.0, 1.0, 5], [None] * 4])
     name = random.choice(names)
-    spec = next(spec for spec in scene.specs if spec.name == name)
-    low, high = sorted(_number(random, spec) for _ in range(2))
+    spec = next((spec for spec in scene.specs if spec.name == name), None)
+    # A coordinate of the section is no parameter of the scene.
+    low, high = sorted(random.uniform(-4.0, 4.0) if spec is None else _number(random, spec) for _ in range(2))
     if random.random() < 0.08:
         low, high = random.choice([(high, low), (low, low), (-1e308, 1e308), (0.0, 1e-300), (low, "x"), (low, 10**400),
                                    (float("nan"), high), (True, None)])
-    return [spec.name, low, high, random.choice([2, 3, 5, 8, 16, 48, 256, -1, 10**9, 2.5, None, True])]
+    return [name, low, high, random.choice([2, 3, 5, 8, 16, 48, 256, -1, 10**9, 2.5, None, True])]
 
 
 def chart_message(random, scene):
