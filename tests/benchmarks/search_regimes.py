@@ -1,8 +1,20 @@
-"""Cascades, hysteresis, attractors and repellers of the Suslov problem, found by looking.
+"""Cascades, hysteresis, attractors and repellers, tori and spirals of sections, found by looking.
 
-`python tests/benchmarks/search_regimes.py diagrams|sets --count 300 --seed 1` draws random bodies and a
-parameter, and prints what it sees: of a cascade the doublings that Newton's method then locates, of two sets how far
-apart they are.  The presets of the scene "Orbit diagram" were found so.  What it prints is seen, not proved.
+`python tests/benchmarks/search_regimes.py diagrams|sets|strange|reversal|tori --count 300 --seed 1` draws random
+bodies and a parameter, and prints what it sees: of a cascade the doublings that Newton's method then locates, of two
+sets how far apart they are.  What it prints is seen, not proved.
+
+The presets of the scene "Orbit diagram" were found so: by `strange --real --seed 1`, of whose first 34 strange
+attractors four are on a cascade that Newton's method locates to period 16, and by `reversal --real --seed 2`, where 80
+of 300 bodies turn round.
+
+--real : of the Suslov problem only what is a rigid body for some I33 (`check_body`).
+--ball : of the Chaplygin ball in a field in place of the Suslov problem.
+strange : strange attractors, with their Kaplan–Yorke dimension, whether their dynamics are mixed, the permanent
+    rotations that are saddle-foci with Shilnikov's inequality and how close the attractor comes to them, and cascades
+    over a parameter about them.
+reversal : motions that turn round on their way from a repeller to an attractor.
+tori : parameters along which a closed attracting curve gives way to a strange attractor.
 """
 
 from __future__ import annotations
@@ -10,25 +22,41 @@ from __future__ import annotations
 import argparse
 import math
 import time
+from collections import Counter
 
 import numpy as np
+from scipy.optimize import brentq
 
-from hess_mechanics import ModelError, SuslovBody, level
+from hess_mechanics import BallBody, ModelError, ReturnMap, SuslovBody, check_body, level, return_map, solve, spectrum
 from hess_mechanics.dynamics.orbit_diagram import cascade, hysteresis, orbit_diagram
 from hess_mechanics.dynamics.periodic import find_periodic
-from hess_mechanics.dynamics.regime import dynamics_of
-from hess_mechanics.dynamics.return_map import ReturnMap
+from hess_mechanics.dynamics.regime import Kind, dynamics_of, regime
 from hess_mechanics.errors import OutsideRegion
-from hess_mechanics.suslov.section import SuslovSection
+from hess_mechanics.suslov.reversal import reversals
 
 NAMES = ("I11", "I22", "I13", "I23", "E")
+_STEP = 1e-6
 
 
-def drawn(draw: np.random.Generator) -> ReturnMap:
+def drawn(draw: np.random.Generator, real: bool = False, ball: bool = False) -> ReturnMap:
     """The section γ3 = 0 of a random body at a random energy."""
-    p = np.round([*draw.uniform(0.5, 3.0, 2), *draw.uniform(-1.0, 1.0, 2), *draw.uniform(-2.0, 2.0, 3)], 1).tolist()
-    above = round(float(draw.uniform(0.5, 6.0)), 1)
-    return ReturnMap(SuslovSection(SuslovBody(*p), round(above - math.hypot(*p[4:]), 3), 3), level("draft"))
+    while True:
+        p = np.round([*draw.uniform(0.5, 3.0, 2), *draw.uniform(-1.0, 1.0, 2), *draw.uniform(-2.0, 2.0, 3)], 1).tolist()
+        above = round(float(draw.uniform(0.5, 6.0)), 1)
+        if not real or (check_body(*p[:4]).is_body and (p[2] or p[3])):
+            break
+    if ball:
+        D = round(float(draw.uniform(0.0, 5.0)), 1)
+        return return_map(BallBody(*p[:4], D, *p[4:]), h=round(above - math.hypot(*p[4:]), 3), accuracy="draft")
+    return return_map(SuslovBody(*p), E=round(above - math.hypot(*p[4:]), 3), accuracy="draft")
+
+
+def is_real(map_: ReturnMap) -> bool:
+    """Whether this is a rigid body for some I33."""
+    try:
+        return check_body(*(map_.sheet.constants[name] for name in ("I11", "I22", "I13", "I23"))).is_body
+    except ModelError:
+        return False
 
 
 def start_of(map_: ReturnMap, draw: np.random.Generator) -> np.ndarray:
@@ -40,11 +68,15 @@ def start_of(map_: ReturnMap, draw: np.random.Generator) -> np.ndarray:
     raise OutsideRegion("No motion of this energy reaches the section.")
 
 
-def looked_at(map_: ReturnMap, name: str, draw: np.random.Generator) -> None:
-    """Follow an orbit along a parameter there and back; print doublings and hysteresis."""
+def looked_at(map_: ReturnMap, name: str, draw: np.random.Generator, start: np.ndarray | None = None,
+              real: bool = False) -> None:
+    """Follow an orbit along a parameter there and back; print doublings and hysteresis, of real bodies only."""
     here, exact = map_.sheet.constants[name], ReturnMap(map_.sheet, level("precise"))
     values = here + np.linspace(-0.5, 0.5, 61)
-    start = start_of(map_, draw)
+    if real:
+        values = values[[name not in NAMES[:4] or is_real(map_.moved(name, value)) for value in values]]
+    if start is None:
+        start = start_of(map_, draw)
     there = orbit_diagram(lambda v: map_.moved(name, v), name, values, start, 300, 64)
     periods = there.periods.tolist()
     seen = [k for k in range(len(values) - 1) if periods[k] and periods[k + 1] == 2 * periods[k]] + [
@@ -71,30 +103,140 @@ def looked_at(map_: ReturnMap, name: str, draw: np.random.Generator) -> None:
               "chaotic values", chaos, flush=True)
 
 
+def saddle_foci(map_: ReturnMap, near: np.ndarray) -> list[str]:
+    """Permanent rotations with a real and two complex eigenvalues, and how close states `near` (n, 5) come to them.
+
+    They are γ3 = 0, ω = wγ with w²(I13γ1 + I23γ2) = b3.  Shilnikov's inequality: the real one is the larger in size.
+    """
+    body, E = map_.sheet.body, map_.sheet.E
+
+    def rotation(psi: float, sign: float) -> np.ndarray:
+        g1, g2 = math.cos(psi), math.sin(psi)
+        w = sign * math.sqrt(max(0.0, body.b3 / (body.I13 * g1 + body.I23 * g2)))
+        return np.array([w * g1, w * g2, g1, g2, 0.0])
+
+    def excess(psi: float) -> float:
+        w1, w2, g1, g2, _ = rotation(psi, 1.0)
+        return 0.5 * (body.I11 * w1**2 + body.I22 * w2**2) + body.b1 * g1 + body.b2 * g2 - E
+
+    def field(y: np.ndarray) -> np.ndarray:
+        return np.array(map_.sheet.system.field(list(y), list(map_.sheet.parameters)), float)
+
+    middle = math.atan2(body.I23, body.I13) + (0.0 if body.b3 > 0.0 else math.pi)
+    psi = middle + np.linspace(-1.56, 1.56, 1001)
+    values = np.array([excess(x) for x in psi])
+    found = []
+    for k in np.flatnonzero(values[1:] * values[:-1] < 0.0):
+        for sign in (1.0, -1.0):
+            root = rotation(brentq(excess, psi[k], psi[k + 1]), sign)
+            J = np.column_stack([(field(root + _STEP * e) - field(root - _STEP * e)) / (2.0 * _STEP)
+                                 for e in np.eye(root.size)])
+            eigenvalues = np.linalg.eigvals(J)
+            # Those of the integrals, along the family of rotations, are 0.
+            kept = eigenvalues[np.argsort(-np.abs(eigenvalues))[:3]]
+            spiral, plain = kept[np.abs(kept.imag) > 1e-6], kept[np.abs(kept.imag) <= 1e-6]
+            if len(spiral) == 2 and len(plain) == 1 and plain[0].real * spiral[0].real < 0.0:
+                away = float(np.linalg.norm(near - root, axis=1).min())
+                found.append(f"saddle-focus {np.round(root, 4)} eigenvalues {np.round(kept, 4)} Shilnikov "
+                             f"{abs(plain[0].real) > abs(spiral[0].real)} closest {away:.2g}")
+    return found
+
+
+def strange(map_: ReturnMap, draw: np.random.Generator, real: bool) -> str:
+    """What the motion from a random place is; of a strange attractor, all that is looked for about it."""
+    place = start_of(map_, draw)
+    kind = regime(map_, place, 300, 100, 200.0)
+    if not (kind.kind is Kind.CHAOTIC and kind.volume < 0):
+        return kind.kind.words
+    system, p = map_.sheet.system, map_.sheet.parameters
+    last = map_.state_at(kind.places[-1])
+    exponents = spectrum(system, last, p, 2000.0)
+    if exponents.signs[0] != "+":
+        return "chaotic at first"
+    dimension, error = exponents.dimension
+    found = dynamics_of(map_, place, 500, 1500)
+    print("STRANGE", map_.sheet.constants, np.round(place, 4), f"D = {dimension:.3f} ± {error:.3f}",
+          np.round(exponents.values, 4), found.verdict, f"distance {found.apart.distance:.3f} ± "
+          f"{max(found.apart.error, found.apart.grain):.2g} shared {found.apart.shared:.2g}", flush=True)
+    orbit = solve(system, last, p, np.linspace(0.0, 2000.0, 40_001), level("draft"))
+    for one in saddle_foci(map_, orbit.states) if system.name == "suslov" else ():
+        print("   ", one, flush=True)
+    for name in draw.permutation(list(map_.sheet.constants))[:3]:
+        looked_at(map_, str(name), draw, place, real)
+    return f"strange, {found.verdict}"
+
+
+def tori(map_: ReturnMap, draw: np.random.Generator) -> str:
+    """Kinds of motions along a parameter, where an attracting closed curve is among them."""
+    name = str(draw.choice(list(map_.sheet.constants)))
+    here, place = map_.sheet.constants[name], start_of(map_, draw)
+    first = regime(map_, place, 400, 120, 200.0)
+    if not (first.kind is Kind.QUASI_PERIODIC and first.volume <= 0 and not map_.volume_kept):
+        return first.kind.words
+    kinds = []
+    for value in here + np.linspace(-0.4, 0.4, 17):
+        try:
+            kinds.append(regime(map_.moved(name, value), place, 400, 120, 200.0))
+        except ModelError:
+            continue
+    words = Counter(f"{one.kind.words}{'' if one.volume else ', no volume lost'}" for one in kinds)
+    print("TORUS", map_.sheet.constants, np.round(place, 4), name, dict(words), flush=True)
+    both = any(one.kind is Kind.CHAOTIC and one.volume < 0 for one in kinds) and any(
+        one.kind is Kind.QUASI_PERIODIC and one.volume < 0 for one in kinds)
+    return "torus and strange attractor" if both else "torus"
+
+
+def reversal(map_: ReturnMap, draw: np.random.Generator) -> str:
+    """Whether a motion that is begun next to its repeller, a fixed point, turns the other way about the vertical."""
+    found = dynamics_of(map_, start_of(map_, draw), 200, 32, 200.0)
+    last = found.repeller[-1]
+    if found.verdict != "dissipative" or np.abs(found.repeller - last).max() > 1e-3:
+        return found.verdict
+    place = last + np.array([1e-2, 1e-2 if last[1] < 1.0 else -1e-2])
+    body = map_.sheet.body
+    times = reversals(body, map_.state_at(place), 200.0, level("draft")).times
+    if len(times) % 2 == 0:
+        return "dissipative, does not turn round in the end"
+    print("REVERSAL", map_.sheet.constants, np.round(place, 5), "attractor", np.round(found.attractor[-1], 5), "times",
+          np.round(times, 3), flush=True)
+    return "turns round"
+
+
 def main() -> None:
     """Search and print."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("what", choices=("diagrams", "sets"))
+    parser.add_argument("what", choices=("diagrams", "sets", "strange", "reversal", "tori"))
+    parser.add_argument("--real", action="store_true")
+    parser.add_argument("--ball", action="store_true")
     parser.add_argument("--count", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--seconds", type=float, default=600.0)
     options = parser.parse_args()
     draw = np.random.default_rng(options.seed)
-    begun = time.monotonic()
+    begun = time.process_time()
+    told: Counter[str] = Counter()
     for _ in range(options.count):
-        if time.monotonic() - begun > options.seconds:
+        if time.process_time() - begun > options.seconds:
             break
-        map_ = drawn(draw)
         try:
-            if options.what == "sets":
+            map_ = drawn(draw, options.real, options.ball)
+            if options.what == "strange":
+                told[strange(map_, draw, options.real)] += 1
+            elif options.what == "reversal":
+                told[reversal(map_, draw)] += 1
+            elif options.what == "tori":
+                told[tori(map_, draw)] += 1
+            elif options.what == "sets":
                 place = start_of(map_, draw)
                 found = dynamics_of(map_, place, 500, 2000)
                 print(found.verdict, found.apart, f"{found.divergence:.4f} ± {found.divergence_error:.4f}",
                       map_.sheet.constants, place, flush=True)
             else:
-                looked_at(map_, str(draw.choice(NAMES)), draw)
+                looked_at(map_, str(draw.choice(NAMES)), draw, real=options.real)
+                told["followed"] += 1
         except ModelError as error:
-            print("   ", error, flush=True)
+            told[f"refused: {type(error).__name__}"] += 1
+    print(f"{told.total()} bodies of seed {options.seed}:", dict(told), flush=True)
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.ball import Ball
 from hess_explorer.scenes.framework.charted import exponents
 from hess_explorer.scenes.framework.crossings import SECTION, Crossings
+from hess_explorer.scenes.framework.indicator import INDICATOR, colouring, indicator_layer
 from hess_explorer.scenes.framework.inertia import CentreOfMass, Tensor
 from hess_explorer.scenes.framework.one_orbit import Start
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, crossings_of_each, like, number, time_span
@@ -86,6 +87,7 @@ class BallSection(CentreOfMass, Ball, Crossings, ConstrainedBody):
                           doc="On the section ω points at the angle δ from γ.")
     periodic: str = which()
     count: float = crossings_of_each()
+    indicator: str = colouring()
     reach: float = length_of_manifolds()
     span: float = time_span(40.0, 200.0, what="the chosen orbit")
     drop: str = choice("Points shown", ("all", "the later half"), "all", doc="The later half shows what attracts.")
@@ -159,8 +161,8 @@ class BallSection(CentreOfMass, Ball, Crossings, ConstrainedBody):
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_section(self) -> str:
-        if self.about_closed:
-            return self.about_closed
+        if self.about_closed or self.about_indicator:
+            return self.about_closed or self.about_indicator
         if self.own is None:
             return "Left out: it would take too many steps."
         volume = "the flow keeps volume" if self.I13 == self.I23 == 0.0 else "volume is not kept"
@@ -188,8 +190,8 @@ class BallSection(CentreOfMass, Ball, Crossings, ConstrainedBody):
 
 
 SCENE = Scene(
-    BallSection, __file__, place=10, presets=PRESETS, measures=(SECTION,), charts=exponents(SYSTEM, ("section",)),
-    group="Ball", essential=("h", "I13", "D", "psi"), handle="psi",
+    BallSection, __file__, place=10, presets=PRESETS, measures=(SECTION, INDICATOR),
+    charts=exponents(SYSTEM, ("section",)), group="Ball", essential=("h", "I13", "D", "psi"), handle="psi",
     title="Ball with a field",
     summary="The ball in a field: a section at one energy shows curves, seas and, with I₁₃ or I₂₃, attractors.",
     tracks={"orbit": lambda s: orbit_columns(s.orbit)},
@@ -199,9 +201,9 @@ SCENE = Scene(
              axes=BallSection.names, x=square.AZIMUTH, y=square.POLAR, ticks=square.AZIMUTH_TICKS,
              y_ticks=square.POLAR_TICKS, message=lambda s: s.reason,
              on_click=lambda s, x, y: {"psi": x, "delta": y},
-             layers=section_plane.layers(
+             layers=(indicator_layer(), *section_plane.layers(
                  BallSection.points, others=lambda s: s.others, forbidden=BallSection.forbidden,
-                 start=lambda s: [] if s.points() is None else [(s.psi, s.delta)]) + layers()),
+                 start=lambda s: [] if s.points() is None else [(s.psi, s.delta)]), *layers())),
         orbit_alone(BallSection.half_width, energy=lambda s: s.E, label="chosen orbit"),
         along_the_orbit(lambda s: s.r),
         Plot(name="returns", title="First return", folded="Show the first return", caption=BallSection._about_returns,

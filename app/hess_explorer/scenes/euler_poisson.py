@@ -15,6 +15,7 @@ from hess_explorer.scenes.framework.charted import Placed, exponents
 from hess_explorer.scenes.framework.exponent import exponent_picture
 from hess_explorer.scenes.framework.filled_window import EXPONENT, SECTION, TURN, filled_window
 from hess_explorer.scenes.framework.hess_case import HeavyMotion
+from hess_explorer.scenes.framework.indicator import INDICATOR, colouring
 from hess_explorer.scenes.framework.inertia import Moments
 from hess_explorer.scenes.framework.parameters import (
     accuracy_level,
@@ -85,6 +86,7 @@ class EulerPoisson(Moments, RotationAcross, HeavySolid):
     h: float = like(HeavyMotion, "h", softbounds=(-1.0, 60.0), doc="H = h.")
     f: float = like(HeavyMotion, "f", doc="(M, γ) = f; the section needs G ≥ |f|.")
     periodic: str = which()
+    indicator: str = colouring()
     orbits: float = orbits_spread(60.0, 200.0, 400.0)
     count: float = points_of_each(300.0)
     reach: float = length_of_manifolds()
@@ -152,8 +154,8 @@ class EulerPoisson(Moments, RotationAcross, HeavySolid):
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_section(self) -> str:
-        if self.about_closed:
-            return self.about_closed
+        if self.about_closed or self.about_indicator:
+            return self.about_closed or self.about_indicator
         kept = [one for piece in self.pieces for one in piece.kept]
         mixed = ": the layers never mix." if self.away == 0.0 else "."
         other = len(inside([(float(l), float(x)) for l, x in self.elsewhere], self.frame))
@@ -171,7 +173,7 @@ class EulerPoisson(Moments, RotationAcross, HeavySolid):
 
 
 SCENE = Scene(
-    EulerPoisson, __file__, place=11, presets=PRESETS, measures=(SECTION, EXPONENT, ROTATION),
+    EulerPoisson, __file__, place=11, presets=PRESETS, measures=(SECTION, INDICATOR, EXPONENT, ROTATION),
     charts=exponents(SYSTEM, ("section",), time=lambda s: s.long), placed=Placed("starts", EulerPoisson.names),
     group="Euler–Poisson", essential=("away", "h", "f"),
     title="Euler–Poisson: sections",

@@ -14,6 +14,7 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values
 from hess_explorer.scenes.framework.charted import exponents
 from hess_explorer.scenes.framework.crossings import SECTION, Crossings
+from hess_explorer.scenes.framework.indicator import INDICATOR, colouring, indicator_layer
 from hess_explorer.scenes.framework.inertia import CentreOfMass, Tensor
 from hess_explorer.scenes.framework.one_orbit import Start
 from hess_explorer.scenes.framework.parameters import (
@@ -77,6 +78,7 @@ class Quartic(Crossings, ConstrainedBody):
                              "all three.")
     periodic: str = which()
     count: float = crossings_of_each()
+    indicator: str = colouring()
     reach: float = length_of_manifolds()
     span: float = time_span(40.0, 200.0, most=1e3, what="the chosen orbit")
     accuracy: str = accuracy_level()
@@ -163,8 +165,8 @@ class Quartic(Crossings, ConstrainedBody):
         return f"Level ½, half axes {first} and {second}, {ring}."
 
     def _about_section(self) -> str:
-        if self.about_closed:
-            return self.about_closed
+        if self.about_closed or self.about_indicator:
+            return self.about_closed or self.about_indicator
         if self.own is None:
             return self.reason
         visited = model.visited(self.body, self.own, _CELLS)
@@ -187,7 +189,7 @@ class Quartic(Crossings, ConstrainedBody):
 
 
 SCENE = Scene(
-    Quartic, __file__, place=7, presets=PRESETS, measures=(SECTION,), charts=exponents(SYSTEM),
+    Quartic, __file__, place=7, presets=PRESETS, measures=(SECTION, INDICATOR), charts=exponents(SYSTEM),
     group="Heavy body", essential=("ratio", "h", "Q1", "Q2"),
     title="Principal axis, b₁ = b₂ = 0",
     summary="The body as a point in a quartic potential: integrable for I₁₁ = I₂₂, else curves and seas in a section.",
@@ -204,8 +206,8 @@ SCENE = Scene(
              on_click=Quartic.start_on_section,
              title=lambda s: "Section {0} = 0, {0} growing".format("q₂" if s.body.across else "q₁"),
              x=lambda s: s.section_axes.x, y=_P_AXIS, message=lambda s: s.reason,
-             layers=section_plane.layers(Quartic.points, others=lambda s: s.others, forbidden=Quartic.impossible)
-             + layers()),
+             layers=(indicator_layer(), *section_plane.layers(
+                 Quartic.points, others=lambda s: s.others, forbidden=Quartic.impossible), *layers())),
         Sphere(caption=Quartic._about_sphere, looks={"orbit": "orbit"}, axis=lambda s: centre_of_mass((0.0, 0.0, s.b3)),
                circles=lambda s: parallels((0.0, 0.0, 1.0), [s.body.h / s.body.b3])),
         plane_domain.momentum_picture(lambda s: (s.orbit.times, s.momentum), least=lambda s: 1e-3 * max(s.body.axes),

@@ -16,6 +16,7 @@ from hess_explorer.scenes.framework.basins import BASINS, Basins
 from hess_explorer.scenes.framework.charted import Charted, Placed, exponents, motion_of
 from hess_explorer.scenes.framework.filled_window import EXPONENT, SECTION, TURN, Piece, filled_window
 from hess_explorer.scenes.framework.heavy_suslov import HeavySuslov
+from hess_explorer.scenes.framework.indicator import INDICATOR, colouring
 from hess_explorer.scenes.framework.inertia import Tensor
 from hess_explorer.scenes.framework.one_orbit import Start
 from hess_explorer.scenes.framework.parameters import (
@@ -92,6 +93,7 @@ class Suslov(HeavySuslov, Basins, ConstrainedBody):
                           doc="Basins: to which group of motions, or attractor, each point of the section leads.")
     drop: str = choice("Points shown", ("all", "the later half"), "all", doc="The later half shows what attracts.")
     periodic: str = which()
+    indicator: str = colouring()
     orbits: float = orbits_spread(40.0, 120.0, 300.0)
     count: float = points_of_each(200.0)
     reach: float = length_of_manifolds()
@@ -199,8 +201,8 @@ class Suslov(HeavySuslov, Basins, ConstrainedBody):
         return f"Section {self.plane}, growing" if self.basin is None else f"Section {self.plane}: basins"
 
     def _about_section(self) -> str:
-        if self.about_closed:
-            return self.about_closed
+        if self.about_closed or self.about_indicator:
+            return self.about_closed or self.about_indicator
         if self.basin is not None:
             return self.about_basins(self.basin)
         backward = f", {len(self.second)} backward" if len(self.second) else ""
@@ -237,7 +239,7 @@ def _piece(section: SuslovSection, starts: tuple[Start, ...], crossings: int, fo
 
 
 SCENE = Scene(
-    Suslov, __file__, place=5, presets=PRESETS, measures=(SECTION, EXPONENT, BASINS), charts=(
+    Suslov, __file__, place=5, presets=PRESETS, measures=(SECTION, INDICATOR, EXPONENT, BASINS), charts=(
         *exponents(SYSTEM, ("section",), time=lambda s: s.long),
         Charted("divergence-suslov", lambda s: {**motion_of(SYSTEM, s), "t": s.long}),
         Charted("attractors", lambda s: {

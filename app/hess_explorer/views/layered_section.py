@@ -11,7 +11,7 @@ from hess_explorer.views import theme
 from hess_explorer.views.layers import Grid, Layer, Sign, dots, image, ring
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["apart", "basins", "layers"]
+__all__ = ["apart", "basins", "indicator", "layers"]
 
 S = TypeVar("S")
 Window = tuple[tuple[float, float], tuple[float, float]]
@@ -44,18 +44,30 @@ def _grid(cells: Callable[[S], Array | None], window: Callable[[S], Window]) -> 
     return grid
 
 
-def basins(cells: Callable[[S], Array | None], window: Callable[[S], Window]) -> Layer[S]:
-    """Cells (m, n) over the window: 0, 1, … by the group of each; −1 where nothing moves."""
-    colors = (theme.POINT + "90", theme.STABLE + "70", theme.MAP + "70", theme.ORBIT + "60", theme.MUTED + "70")
+def _kinds(name: str, cells: Callable[[S], Array | None], window: Callable[[S], Window], colors: tuple[str, ...],
+           labels: tuple[str, ...]) -> Layer[S]:
+    """Cells (m, n) over the window: 0, 1, … by the kind of each, any others as the last; −1 where there is nothing."""
 
     def shifted(state: S) -> Array | None:
         found = cells(state)
         return None if found is None else np.minimum(found, len(colors) - 1) + 1.5
 
-    return image("basins", _grid(shifted, window), palette=(_CLEAR, *colors), low=0.0, high=len(colors) + 1.0,
-                 kinds=True, legend=tuple(
-                     Sign(f"basin of {name} group of motions", "box", f"background: {color}", i + 1.0)
-                     for i, (name, color) in enumerate(zip(_GROUPS, colors, strict=True))))
+    return image(name, _grid(shifted, window), palette=(_CLEAR, *colors), low=0.0, high=len(colors) + 1.0, kinds=True,
+                 legend=tuple(Sign(label, "box", f"background: {color}", i + 1.0)
+                              for i, (label, color) in enumerate(zip(labels, colors, strict=True))))
+
+
+def basins(cells: Callable[[S], Array | None], window: Callable[[S], Window]) -> Layer[S]:
+    """Cells (m, n) over the window: 0, 1, … by the group of each; −1 where nothing moves."""
+    colors = (theme.POINT + "90", theme.STABLE + "70", theme.MAP + "70", theme.ORBIT + "60", theme.MUTED + "70")
+    return _kinds("basins", cells, window, colors, tuple(f"basin of {name} group of motions" for name in _GROUPS))
+
+
+def indicator(cells: Callable[[S], Array | None], window: Callable[[S], Window]) -> Layer[S]:
+    """Cells (m, n) over the window by MEGNO: 0 regular, 1 chaotic, 2 more where volume shrinks; −1 where nothing is."""
+    colors = (theme.SHEET + "50", theme.UNSTABLE + "60", theme.STABLE + "70", theme.MAP + "80")
+    return _kinds("megno", cells, window, colors, (
+        "regular", "chaotic", "regular, volume shrinks", "chaotic, volume shrinks"))
 
 
 def layers(first: Callable[[S], Array], second: Callable[[S], Array], own: Callable[[S], Array],

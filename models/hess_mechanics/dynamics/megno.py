@@ -26,10 +26,12 @@ from hess_mechanics.numerics.parallel import THREADS, share
 from hess_mechanics.numerics.results import Array, Cost, Mask, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
-__all__ = ["CHAOTIC", "Megno", "megno"]
+__all__ = ["CHAOTIC", "REGULAR", "Megno", "megno"]
 
 CHAOTIC = 3.0
 """Ȳ beyond this is chaotic: regular motions come to 2 from either side within 0.5."""
+REGULAR = 2.5
+"""Ȳ below this is regular; between the two nothing is said."""
 _SAMPLES = 2400
 """Of ln|δ|; at least one per time 1/ν is needed."""
 _LIMIT = 1e6

@@ -16,7 +16,7 @@ from enum import IntEnum
 
 import numpy as np
 
-from hess_mechanics.dynamics.megno import CHAOTIC, Megno, megno
+from hess_mechanics.dynamics.megno import CHAOTIC, REGULAR, Megno, megno
 from hess_mechanics.dynamics.orbit_diagram import period_of
 from hess_mechanics.dynamics.periodic import place_units
 from hess_mechanics.dynamics.point_sets import Apart, how_far_apart
@@ -28,8 +28,6 @@ from hess_mechanics.numerics.results import Array, frozen
 
 __all__ = ["Dynamics", "Kind", "Regime", "compared", "dynamics_of", "regime"]
 
-_REGULAR = 2.5
-"""Ȳ below this is regular; between it and `megno.CHAOTIC` nothing is said."""
 _ERRORS = 3.0
 
 
@@ -125,7 +123,7 @@ def regime(map_: ReturnMap, start: Sequence[float] | Array, transient: int = 300
         kind, period = Kind.CHAOTIC, 0
     elif period:
         kind = Kind.FIXED_POINT if period == 1 else Kind.PERIODIC
-    elif value > _REGULAR or not settled:
+    elif value > REGULAR or not settled:
         kind = Kind.UNDECIDED
     else:
         kind = Kind.QUASI_PERIODIC

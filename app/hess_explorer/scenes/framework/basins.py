@@ -5,14 +5,12 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Iterator
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
+from hess_explorer.scenes.framework.cells import CELLS, COARSE, Arguments, changed, found_by_rows, look
 from hess_explorer.scenes.framework.filled_window import FilledWindow
 from hess_explorer.scenes.framework.trial import Trial
-from hess_explorer.views.comparison import Cells, Frame
-from hess_explorer.views.layers import Axes
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.basin_boundary import unsure
 from hess_mechanics.numerics.accuracy import Kind, Plan
@@ -22,9 +20,6 @@ from hess_mechanics.suslov.section import SuslovSection
 
 __all__ = ["BASINS", "Basins"]
 
-_CELLS = (36, 24)
-_COARSE = 3
-"""Cells along each side of one of those that are seen first: odd, so that its middle is that of one of them."""
 _CROSSINGS = 240
 _MOST_STEPS = 100_000
 _NUMBERS = {2: "Two", 3: "Three", 4: "Four"}
@@ -43,6 +38,11 @@ class Basins(FilledWindow):
     def asked(self) -> bool:
         """Whether basins are to be shown."""
 
+    @property
+    def indicated(self) -> bool:
+        """Basins are shown in place of MEGNO."""
+        return super().indicated and not self.asked
+
     @cached_property
     def _found(self) -> tuple[Array, int] | None:
         """`SuslovSection.ends` of all cells (n, m), ∞ where nothing moves, and how many of their rows are still coarse.
@@ -52,20 +52,7 @@ class Basins(FilledWindow):
         if not self.asked or self.dragging:
             return None
         plan = self.plan(Kind.BASINS)
-        coarse = [self.work.later(SuslovSection.ends, *row) for row in _rows(self, plan, _COARSE)]
-        _ = self.pieces  # come sooner than what is fine
-        rows = _rows(self, plan)
-        # Every third one first: all over the window it becomes finer.
-        fine = {i: self.work.later(SuslovSection.ends, *rows[i])
-                for first in range(_COARSE) for i in range(first, len(rows), _COARSE)}
-        known = [row for row in coarse if row is not None]
-        if len(known) < len(coarse):
-            return None
-        ends = np.asarray(np.kron(np.stack(known), np.ones((_COARSE, _COARSE))), float)
-        for i, row in fine.items():
-            if row is not None:
-                ends[i] = row
-        return ends, sum(row is None for row in fine.values())
+        return found_by_rows(self.work, SuslovSection.ends, _rows(self, plan, COARSE), _rows(self, plan), self.sooner)
 
     @property
     def ends(self) -> Array | None:
@@ -83,7 +70,7 @@ class Basins(FilledWindow):
         ends = self.ends
         if self.basin is None or ends is None:
             return None
-        grid, long = self.plan(Kind.BASINS).grid(_CELLS), self.plan(Kind.EXPONENT).share * self.long
+        grid, long = self.plan(Kind.BASINS).grid(CELLS), self.plan(Kind.EXPONENT).share * self.long
         found = [self.work.later(contraction_at, self.section, self.frame, grid, row, column, long)
                  for row, column in middle_cells(ends, self.basin)]
         known = [one for one in found if one is not None]
@@ -118,9 +105,9 @@ class Basins(FilledWindow):
             yield f"basins {m} × {n}, twice as many cells would change {digits(100.0 * unsure(self.basin), 2)} % of it"
 
 
-def _rows(s: Basins, plan: Plan, coarse: int = 1) -> list[tuple[Any, ...]]:
+def _rows(s: Basins, plan: Plan, coarse: int = 1) -> list[Arguments]:
     """What `SuslovSection.ends` is asked for, for each row of cells, of which one is as wide as `coarse` of them."""
-    m, n = plan.grid(_CELLS)
+    m, n = plan.grid(CELLS)
     cells = m // coarse, n // coarse
     return [(s.section, s.frame, cells, row, _CROSSINGS, _MOST_STEPS, plan.level) for row in range(cells[1])]
 
@@ -129,17 +116,7 @@ def _all_basins(s: Basins, plan: Plan) -> Array:
     return groups_of_cells(np.stack([SuslovSection.ends(*row) for row in _rows(s, plan)]))
 
 
-def _changed(s: Basins, cells: Array, truth: Array) -> float:
-    rows, columns = (np.arange(fine) * coarse // fine for coarse, fine in zip(cells.shape, truth.shape, strict=True))
-    return 100.0 * float(np.mean(cells[np.ix_(rows, columns)] != truth))
-
-
-def _look(s: Basins, cells: Array) -> Cells:
-    (x0, y0), (x1, y1) = s.frame
-    # Groups are names, not numbers: any other one is another colour.
-    return Cells(Frame(Axes((x0, x1), (y0, y1)), s.names), np.where(cells < 0.0, np.nan, cells), step=0.5)
-
-
 BASINS: Trial[Basins] = Trial(
-    Kind.BASINS, ("section",), _all_basins, _changed, _look, unit="% of the cells that change", seen=3.0,
+    Kind.BASINS, ("section",), _all_basins, lambda s, cells, truth: changed(cells, truth),
+    lambda s, cells: look(s.frame, s.names, cells), unit="% of the cells that change", seen=3.0,
     shown=lambda s: s.asked)

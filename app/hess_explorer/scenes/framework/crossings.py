@@ -12,8 +12,9 @@ from typing import Any, ClassVar
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.periodic import PeriodicOrbits
+from hess_explorer.scenes.framework.indicator import Indicated
 from hess_explorer.scenes.framework.trial import Trial, section_error
+from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.scenes.framework.work import drift_status, kept_status
 from hess_explorer.views.comparison import Frame, Marks
 from hess_explorer.views.layers import Axes
@@ -42,7 +43,7 @@ class _Crossed:
     reason: str
 
 
-class Crossings(PeriodicOrbits):
+class Crossings(Indicated):
     """A section with the orbit on show, and others; of the others a few crossings come first.
 
     The scene declares the parameters that stand here without a value.
@@ -61,6 +62,12 @@ class Crossings(PeriodicOrbits):
     @abstractmethod
     def section_axes(self) -> Axes:
         """The axes of the picture of the section."""
+
+    @property
+    def frame(self) -> Window:
+        """All of the picture."""
+        (x0, x1), (y0, y1) = self.section_axes.x, self.section_axes.y
+        return (x0, y0), (x1, y1)
 
     def first_shown(self, crossings: int) -> int:
         """Which crossing of an orbit is the first one that is drawn, where the longest orbit has so many."""

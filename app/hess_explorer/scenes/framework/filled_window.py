@@ -14,8 +14,8 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values, places, written
 from hess_explorer.scenes.framework import periodic
+from hess_explorer.scenes.framework.indicator import Indicated, indicator_layer
 from hess_explorer.scenes.framework.one_orbit import Start
-from hess_explorer.scenes.framework.periodic import PeriodicOrbits
 from hess_explorer.scenes.framework.trial import Trial, section_error
 from hess_explorer.scenes.framework.windows import Window, boxed, inside, tidy_window, window_of
 from hess_explorer.scenes.framework.work import drift_status, kept_status
@@ -85,7 +85,7 @@ class _Chosen:
     refused: Place | None = None
 
 
-class FilledWindow(PeriodicOrbits):
+class FilledWindow(Indicated):
     """A section whose window is filled with orbits, besides those started by clicks; all come piece by piece.
 
     The scene declares the parameters that stand here without a value.
@@ -219,6 +219,10 @@ class FilledWindow(PeriodicOrbits):
         """Those that are known."""
         own, others = ([piece for piece in some if piece is not None] for some in self._followed)
         return own, others
+
+    def sooner(self) -> object:
+        """The orbits come before cells are finer."""
+        return self.pieces
 
     @property
     def pieces(self) -> list[Piece]:
@@ -401,7 +405,7 @@ def filled_window(title: str | Callable[[W], str], caption: Callable[[W], str], 
         x=lambda s: (s.frame[0][0], s.frame[1][0]), y=lambda s: (s.frame[0][1], s.frame[1][1]),
         first=Axes((x0, x1), (y0, y1)),
         on_click=lambda s, x, y: s.start_here(x, y), on_box=lambda s, corners: s.look_closer(corners),
-        layers=(*under, *layered_section.layers(
+        layers=(*under, indicator_layer(), *layered_section.layers(
             lambda s: s.first, lambda s: s.second, lambda s: s.own, chosen=lambda s: s.rings(),
             impossible=lambda s: s.impossible, window=lambda s: s.frame, labels=labels, between=between),
             *periodic.layers()))

@@ -48,11 +48,11 @@ _DOUBLINGS = 4
 class OverParameter(State):
     """A state with a section, a place on it and an orbit diagram over one of its parameters."""
 
-    along: str = choice("Parameter of the diagram", tuple(ALONG), "I₂₂",
+    along: str = choice("Parameter of the diagram", tuple(ALONG), "I₂₃",
                         doc="What changes from left to right. All others are as they stand.")
-    first: float = number("from", 2.1, (-3.0, 6.0), 0.01, bounds=_FARTHEST, label="Diagram from",
+    first: float = number("from", -0.15, (-3.0, 6.0), 0.01, bounds=_FARTHEST, label="Diagram from",
                           doc="The value at its left edge.")
-    last: float = number("to", 2.4, (-3.0, 6.0), 0.01, bounds=_FARTHEST, label="Diagram to",
+    last: float = number("to", 0.3, (-3.0, 6.0), 0.01, bounds=_FARTHEST, label="Diagram to",
                          doc="The value at its right edge.")
     shown: str = choice("Coordinate of the section", ("ψ", "δ"), "ψ", doc="What the diagram shows, upwards.")
     ways: str = choice("Followed", tuple(_WAYS), next(iter(_WAYS)),
@@ -209,7 +209,7 @@ def picture(state: type[OverParameter], over: tuple[Layer[Any], ...] = (),
             on_hover: Callable[[Any, float, float], str] | None = None) -> Plot[Any]:
     """The diagram of such states, and what is drawn over it."""
     return Plot(name="diagram", title="Orbit diagram", caption=state._about_diagram, on_hover=on_hover,
-         axes=lambda s: (s.along, s.shown), first=Axes((2.1, 2.4), (-math.pi, math.pi)),
+         axes=lambda s: (s.along, s.shown), first=Axes((-0.15, 0.3), (-math.pi, math.pi)),
          x=lambda s: (s.frame[0][0], s.frame[1][0]), y=lambda s: (s.frame[0][1], s.frame[1][1]),
          on_click=state.choose, on_box=lambda s, corners: boxed(corners, BOUNDS),
          layers=(

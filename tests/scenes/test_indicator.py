@@ -1,0 +1,89 @@
+"""MEGNO under the points of the four sections: its numbers, by other means, and in what order cells come."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from hess_explorer.compute.cache import CACHE
+from hess_explorer.scenes import scenes
+from hess_mechanics import largest_exponent
+from hess_mechanics.dynamics.megno_map import row_of_cells
+from hess_mechanics.numerics.accuracy import PLANS, Kind
+from support.view import View
+
+SCENES = scenes()
+EXAMPLES = {"suslov": "Strange", "ball-section": "A sea", "quartic": "Mixed: in", "euler-poisson": "The barrier"}
+NAMES = tuple(EXAMPLES)
+FEW = {"accuracy": "draft", "indicator": "MEGNO"}
+
+
+def example(name, beginning):
+    """The values of the example of that name."""
+    return next(one for one in SCENES[name].presets if one.name.startswith(beginning)).values
+
+
+def shown(name, **values):
+    """The section of a scene alone."""
+    more = {"orbits": 2.0, "count": 20.0} if "orbits" in SCENES[name].defaults() else {"count": 30.0}
+    return View(SCENES[name], {**values, **FEW, **more}, seen=("section",))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_cells_that_are_called_chaotic_have_that_exponent_and_the_regular_ones_none(name):
+    view = shown(name, **example(name, EXAMPLES[name]))
+    kinds, values = view.result.kinds, view.result._cells[0][:, 0]
+    assert kinds.shape == (12, 18)
+    image = np.asarray(view.data["section-megno"]["image"][0]).reshape(12, 18)
+    assert image == pytest.approx(kinds + 1.5)
+    t, regular, chaotic, shrinks = view.numbers(
+        "section", "MEGNO after t = #: # % of the cells regular, # % chaotic; volume shrinks about # %.")
+    there = kinds[kinds >= 0.0]
+    assert chaotic == pytest.approx(100.0 * np.mean(there % 2.0 == 1.0), abs=0.51)
+    assert regular + chaotic == pytest.approx(100.0, abs=1.1)
+    assert shrinks == pytest.approx(100.0 * np.mean(there >= 2.0), abs=0.51)
+    # Two orbits side by side, by another algorithm: Ȳ comes to λt/2 on chaotic motions.
+    section, (low, high) = view.result.section, np.array(view.result.frame)
+    order = [(i, j) for i, j in np.column_stack(np.unravel_index(np.argsort(values, axis=None), values.shape))
+             if kinds[i, j] >= 0.0]
+    for i, j in (*order[:2], *order[-2:]):
+        states, _ = section.states_at(*(low + (np.array([j, i]) + 0.5) * (high - low) / (18, 12))[:, None])
+        rate = largest_exponent(section.system, states[0], section.parameters, t,
+                                PLANS[Kind.EXPONENT]["draft"].level).value
+        if kinds[i, j] % 2.0:
+            assert 0.4 < rate / (2.0 * values[i, j] / t) < 2.5
+        else:
+            assert rate < 6.0 / t
+
+
+def test_integrable_examples_are_regular_all_over():
+    for name, beginning in (("quartic", "Integrable: "), ("ball-section", "Regular")):
+        kinds = shown(name, **example(name, beginning)).result.kinds
+        assert set(np.unique(kinds)) <= {-1.0, 0.0}
+
+
+def test_coarse_cells_come_first_and_a_slider_that_is_held_has_none():
+    # Cells that nobody has asked for before.
+    values = {**FEW, "count": 30.0, "h": 0.8123}
+    tasks, captions = [], []
+    while True:
+        view = View(SCENES["quartic"], values, seen=("section",), whole=False)
+        captions.append(view.text["section"])
+        mine = [task for task in view.report.todo if task.function is row_of_cells]
+        if not mine:
+            break
+        tasks.append(mine[0].arguments[2])
+        CACHE.get(mine[0].function, *mine[0].arguments)
+    # Four rows of coarse cells, then twelve.
+    assert tasks == [(6, 4)] * 4 + [(18, 12)] * 12
+    assert all("coarse as yet" in one for one in captions[:-1])
+    assert "of the cells regular" in captions[-1]
+    held = View(SCENES["quartic"], values, dragging=True, seen=("section",))
+    assert "section-megno" not in held.data or not len(held.data["section-megno"]["image"])
+
+
+def test_basins_are_shown_in_place_of_it():
+    view = shown("suslov", colours="basins", long=300.0)
+    assert view.result.kinds is None
+    assert "MEGNO" not in view.text["section"]
+    assert view.result.basin is not None
