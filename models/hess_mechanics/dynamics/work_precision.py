@@ -142,7 +142,7 @@ def measure_others(name: str, state: tuple[float, ...], parameters: tuple[float,
     system, times, truth, scale = _truth(name, state, parameters, span, samples)
     evaluations = count(1)
 
-    def rates(_: float, y: Array) -> Array:
+    def rates(_: float, y: Sequence[float]) -> Sequence[float]:
         if next(evaluations) % _EVALUATIONS == 0:
             go_on()
         return system.field(y, parameters)
