@@ -21,10 +21,12 @@ from hess_mechanics.dynamics.lyapunov import largest_exponent
 from hess_mechanics.errors import ModelError
 from hess_mechanics.euler_poisson.andoyer import andoyer_points, coordinates, hess_curve, state_at
 from hess_mechanics.euler_poisson.equations import SYSTEM
+from hess_mechanics.euler_poisson.hess_split import HessTorus, split_at
 from hess_mechanics.numerics.accuracy import REFERENCE, STANDARD
 from support.andoyer import GESS1, angles, crossings_by_scipy, dense, energies_at
 from support.euler_poisson import EP, EulerPoisson
 from support.lyapunov import finite_exponent
+from support.view import View
 
 every_preset = pytest.mark.parametrize("preset", EP.presets, ids=lambda preset: preset.name)
 
@@ -491,3 +493,35 @@ def test_what_an_example_of_the_second_series_says_of_the_hess_motion_is_so(pres
         expected = {"elliptic": "the Hess motion is stable", "hyperbolic": "it is unstable, two layers part"}[
             circle_map(a, h, f, level("precise")).kind]
     assert preset.name.endswith(expected)
+
+
+@pytest.mark.parametrize("away", [0.0, 0.02])
+def test_the_split_of_the_separatrices_is_0_in_the_hess_case_and_begins_in_proportion_to_epsilon(away):
+    view = View(EP, {"orbits": 0.0, "count": 20.0, "long": 20.0, "away": away}, seen=["split"])
+    torus = HessTorus((1.0, 0.625, 0.375), 9.975, 50.0, 5.0)
+    exact = split_at(torus, away, level("reference"))
+    slope, off = view.derived("split/ε → # ± #")
+    if away:
+        value, error, l, shown = view.numbers("split", "\n# ± # at l = #; as ε → 0: # ε.")
+        assert abs(value - exact.value) <= error + exact.error + 1e-8
+        assert value == pytest.approx(slope * away, rel=0.02)
+        assert abs(value) > 1e3 * error
+    else:
+        error, l, shown = view.numbers("split", "\nNot split, to #, at l = #; as ε → 0: # ε.")
+        assert abs(exact.value) <= error < 1e-9
+    assert (l, shown) == (pytest.approx(exact.l, abs=1e-3), pytest.approx(slope, rel=1e-3))
+    assert off < 1e-6
+    drawn = view.data["split-splits"]
+    assert len(drawn["x"]) == 13
+    assert np.interp(0.01, drawn["x"], drawn["y"]) == pytest.approx(0.01 * slope, rel=0.02)
+    (x, y), = zip(*(view.data["split-here"][key] for key in "xy"), strict=True)
+    assert (x, y) == (pytest.approx(away), pytest.approx(exact.value, abs=1e-8))
+    line = np.array([view.data["split-slope"][key][0] for key in ("xs", "ys")])
+    assert line[1] / line[0] == pytest.approx([slope, slope], rel=1e-5)
+
+
+def test_where_there_are_no_separatrices_the_picture_says_why():
+    view = View(EP, {"orbits": 0.0, "count": 20.0, "h": 5.0, "f": 0.8}, seen=["split"])
+    assert view.text["split"].split("\n")[1] == "No separatrices are found here."
+    assert "no limit cycles here" in view.data["split-message"]["text"][0].replace("\n", " ")
+    assert "splits" not in " ".join(view.report.notes)

@@ -15,8 +15,8 @@ from hess_explorer.scenes.framework.charted import Placed, exponents
 from hess_explorer.scenes.framework.exponent import exponent_picture
 from hess_explorer.scenes.framework.filled_window import EXPONENT, SECTION, TURN, filled_window
 from hess_explorer.scenes.framework.hess_case import HeavyMotion
+from hess_explorer.scenes.framework.hess_split import SplitSeparatrices, split_picture
 from hess_explorer.scenes.framework.indicator import INDICATOR, colouring
-from hess_explorer.scenes.framework.inertia import Moments
 from hess_explorer.scenes.framework.parameters import (
     accuracy_level,
     choice,
@@ -76,7 +76,7 @@ PRESETS = (*map(plain, (
 
 
 @dataclass(frozen=True)
-class EulerPoisson(Moments, RotationAcross, HeavySolid):
+class EulerPoisson(SplitSeparatrices, RotationAcross, HeavySolid):
     """A section of one body at one energy and area integral, filled with orbits on both sides of the barrier."""
 
     away: float = number("ε", 0.0, (-0.5, 0.5), 0.005, bounds=(-math.pi, math.pi), label="Distance from Hess, ε",
@@ -191,5 +191,6 @@ SCENE = Scene(
         rotation_picture(),
         along_the_orbit(lambda s: Direction(math.copysign(1.0, s.m) * np.array(s.body.r), "r")),
         replace(exponent_picture(), folded="Show the Lyapunov exponent"),
+        split_picture(),
     ),
 )

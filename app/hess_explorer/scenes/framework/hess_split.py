@@ -1,0 +1,132 @@
+"""How far apart the separatrices of the Hess manifold are off the Hess case, over ε, in parts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from hess_explorer.scenes.framework.inertia import Moments
+from hess_explorer.scenes.framework.periodic_search import Missed
+from hess_explorer.views import theme
+from hess_explorer.views.graph import about_0
+from hess_explorer.views.layers import Axes, curves, levels, points, ring
+from hess_explorer.views.plot import Plot
+from hess_explorer.views.text import digits, power
+from hess_mechanics.errors import ModelError
+from hess_mechanics.euler_poisson.hess_split import HessTorus, Split, slope_of, split_at
+from hess_mechanics.numerics.accuracy import PRECISE
+from hess_mechanics.numerics.patience import go_on
+
+__all__ = ["SplitSeparatrices", "split_picture"]
+
+_QUARTERS = np.arange(-4, 5) / 4.0
+_WIDE = 0.02
+"""How far the graph goes where ε = 0."""
+_CLOSE = (1e-3, -1e-3, 2e-3, -2e-3)
+"""Where the slope at ε = 0 is taken from."""
+
+
+class SplitSeparatrices(Moments):
+    """A body near the Hess case: the separatrices of the Hess manifold at its h and f.
+
+    The scene declares the parameters that stand here without a value.
+    """
+
+    away: float
+    m: float
+    h: float
+    f: float
+
+    @property
+    def _reach(self) -> float:
+        """How far the graph goes."""
+        return abs(self.away) or _WIDE
+
+    @cached_property
+    def _splits(self) -> list[Split | Missed] | None:
+        """At the values of the graph and those for the slope; None until all are known."""
+        torus = HessTorus(self.moments, self.m, self.h, self.f)
+        asked = dict.fromkeys([*(self._reach * _QUARTERS).tolist(), *_CLOSE])
+        ask = self.work.known if self.dragging else self.work.later
+        # Where it fails at ε = 0 there is nothing to be split.
+        first = ask(_split, torus, 0.0)
+        if first is None or isinstance(first, Missed):
+            return None if first is None else [first]
+        found = [ask(_split, torus, value) for value in asked]
+        known = [one for one in found if one is not None]
+        return known if len(known) == len(found) else None
+
+    def splits(self) -> list[Split]:
+        """Those that are known and drawn, by ε."""
+        found = [one for one in self._splits or () if isinstance(one, Split) and abs(one.away) <= self._reach]
+        return sorted(found, key=lambda one: one.away)
+
+    @property
+    def split(self) -> Split | None:
+        """That of this state, where it is known."""
+        return next((one for one in self.splits() if one.away == self.away), None)
+
+    @property
+    def slope(self) -> tuple[float, float] | None:
+        """Of the split at ε = 0, and its error."""
+        close = {one.away: one for one in self._splits or () if isinstance(one, Split) and one.away in _CLOSE}
+        return slope_of([close[value] for value in _CLOSE]) if len(close) == len(_CLOSE) else None
+
+    def _about_split(self) -> str:
+        if self._splits is None:
+            return self.awaited("They are")
+        if self.split is None or self.slope is None:
+            return "No separatrices are found here."
+        value, error = self.split.value, self.split.error
+        near = f"as ε → 0: {digits(self.slope[0], 4)} ε"
+        if abs(value) <= error:
+            return f"Not split, to {power(error)}, at l = {digits(self.split.l)}; {near}."
+        return f"{digits(value, 5)} ± {power(error)} at l = {digits(self.split.l)}; {near}."
+
+    def _no_split(self) -> str:
+        """Why there is nothing to be seen."""
+        reasons = [one.reason for one in self._splits or () if isinstance(one, Missed)]
+        return reasons[0] if reasons and not self.splits() else ""
+
+    def derived(self) -> Iterator[str]:
+        """How fast the split begins."""
+        if self.known("_splits") and self.slope is not None:
+            yield f"split/ε → {digits(self.slope[0], 7)} ± {power(self.slope[1])}"
+        yield from super().derived()
+
+    def notes(self) -> Iterator[str]:
+        """Where on the graph nothing is known."""
+        reasons = {one.reason for one in self.known("_splits") or () if isinstance(one, Missed)}
+        if self.known("_splits") and self.splits():
+            yield from (f"Some splits are not known. {reason}" for reason in sorted(reasons))
+        yield from super().notes()
+
+
+def _split(torus: HessTorus, away: float) -> Split | Missed:
+    try:
+        return split_at(torus, away, PRECISE)
+    except ModelError as error:
+        go_on()
+        return Missed(str(error))
+
+
+def split_picture() -> Plot[Any]:
+    """The split over ε."""
+    return Plot(
+        name="split", title="Split of the separatrices", caption=SplitSeparatrices._about_split,
+        folded="Show the split of the separatrices", axes=("ε", "split in L/G"),
+        first=Axes((-_WIDE, _WIDE), (-1.0, 1.0)), message=SplitSeparatrices._no_split,
+        on_click=lambda s, x, y: {"away": x},
+        x=lambda s: (-1.1 * s._reach, 1.1 * s._reach),
+        y=lambda s: about_0(np.array([one.value for one in s.splits()]), 1e-12) if s.splits() else None,
+        layers=(levels("levels", lambda s: [0.0]),
+                curves("slope", within=lambda s, axes: [] if s.slope is None else [
+                    np.array([[x, s.slope[0] * x] for x in axes.x])], color=theme.MUTED, dash="dashed",
+                    label="in proportion to ε, as next to 0"),
+                points("splits", lambda s: (np.array([[one.away, one.value] for one in s.splits()]).T
+                                            if s.splits() else None), color=theme.UNSTABLE, size=10,
+                       label="how far apart the separatrices are"),
+                ring("here", lambda s: [] if s.split is None else [(s.away, s.split.value)], color=theme.INK)))

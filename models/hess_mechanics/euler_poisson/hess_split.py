@@ -1,0 +1,136 @@
+"""The separatrices of the Hess manifold: one curve in the Hess case, two that are apart off it, by how much.
+
+Where the torus of the Hess manifold at H = h, F1 = f has two limit cycles, both are saddles of the section: one repels
+along the manifold, the other attracts along it.  In the Hess case the unstable manifold of the one and the stable
+manifold of the other are the Hess curve x = x(l) between them.  Off it, by an angle ε of r, they pass at different
+heights x = L/G where l is half-way between the two saddles of the Hess case: their difference is the split.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hess_mechanics.dynamics.manifolds import Manifold, grown, split
+from hess_mechanics.dynamics.periodic import apart, find_periodic
+from hess_mechanics.dynamics.return_map import ReturnMap
+from hess_mechanics.errors import NotConverged, OutsideRegion
+from hess_mechanics.euler_poisson.andoyer import AndoyerSection, andoyer_points, hess_curve
+from hess_mechanics.euler_poisson.equations import HeavyBody
+from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
+from hess_mechanics.numerics.accuracy import REFERENCE, Level
+from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.suslov_hess.bifurcation import turning_points
+from hess_mechanics.suslov_hess.circle_map import circle_map
+
+__all__ = ["HessTorus", "Saddles", "Split", "saddles", "slope_of", "split_at"]
+
+_SAGITTA, _CHORD = 3e-3, 0.3
+"""Of the manifolds, whose points are found anew where they are compared."""
+_ROOM = 0.3
+"""Beyond the length of the Hess curve to where they are compared."""
+_ELSEWHERE = 0.3
+"""An orbit that is farther from its saddle of the Hess case is another one."""
+
+
+@dataclass(frozen=True)
+class HessTorus:
+    """A torus of the Hess manifold: the moments of inertia, μ|r|, H = h, F1 = f."""
+
+    moments: tuple[float, float, float]
+    strength: float
+    h: float
+    f: float
+
+    def map_at(self, away: float, level: Level) -> ReturnMap:
+        """The return map of g = π/2 where r is turned by that angle."""
+        return ReturnMap(AndoyerSection(HeavyBody.hess(self.moments, self.strength, away), self.h, self.f), level)
+
+
+@dataclass(frozen=True)
+class Saddles:
+    """In the Hess case: the places (m, 2) of the cycle that repels along the manifold, and of that which attracts along
+    it; l at their middle, the shorter way round."""
+
+    repels: Array
+    attracts: Array
+    l: float
+
+
+@dataclass(frozen=True)
+class Split:
+    """How far apart the two manifolds are at l, L/G of the unstable one minus that of the stable one, and its error."""
+
+    away: float
+    l: float
+    value: float
+    error: float
+
+
+def saddles(torus: HessTorus, level: Level) -> Saddles:
+    """The two limit cycles of the torus in the section.  Raises `OutsideRegion` where it has none, and as Newton."""
+    body = HeavyBody.hess(torus.moments, torus.strength)
+    bridge = Bridge.of_heavy(body)
+    h, f = bridge.in_units_of_b(torus.h, torus.f)
+    theta = circle_map(bridge.hess.a, h, f, REFERENCE)
+    if theta.kind != "hyperbolic":
+        raise OutsideRegion("The torus of the Hess manifold has no limit cycles here, so no separatrices: choose an h "
+                            "and f where |trace| of the circle map is larger than 2.")
+    turning, map_ = turning_points(h, f), torus.map_at(0.0, level)
+    found = []
+    for point in sorted(theta.fixed_points, key=lambda one: one.stable):
+        state = bridge.from_reduced(bridge.hess.from_units_of_b(turning.state_at_lower_turn(point.phi)[None]))[0]
+        crossing = andoyer_points(body, torus.h, torus.f, [tuple(map(float, state))], 1, REFERENCE, threads=1)
+        if not len(crossing.states[0]):
+            raise OutsideRegion("A limit cycle of the Hess manifold does not cross the section g = π/2 here: choose "
+                                "other h and f.")
+        found.append(find_periodic(map_, map_.sheet.places_of(crossing.states[0])[0], near=True).places)
+    repels, attracts = found
+    half = 0.5 * math.remainder(float(attracts[0, 0] - repels[0, 0]), 2.0 * math.pi)
+    return Saddles(repels, attracts, float(repels[0, 0]) + half)
+
+
+def split_at(torus: HessTorus, away: float, level: Level) -> Split:
+    """How far apart the separatrices are where r is turned by that angle.  Raises as `saddles` and `grown`."""
+    known, map_ = saddles(torus, level), torus.map_at(away, level)
+    unstable = _towards(map_, known.repels, known.l, stable=False)
+    stable = _towards(map_, known.attracts, known.l, stable=True)
+    try:
+        value, error = split(unstable, stable, 0, known.l)
+    except NotConverged as reason:
+        raise NotConverged("So far from the Hess case a separatrix ends before it is half-way to the other saddle: "
+                           "choose a smaller ε.") from reason
+    return Split(away, known.l, value, error)
+
+
+def _towards(map_: ReturnMap, places: Array, l: float, stable: bool) -> Manifold:
+    """The branch along the Hess manifold, from the saddle next to these places to l and beyond."""
+    orbit = find_periodic(map_, places if len(places) > 1 else places[0], None if len(places) > 1 else 1, near=True)
+    if (not orbit.kind.startswith("saddle") or orbit.period != len(places)
+            or np.abs(apart(map_.turns, orbit.places, places)).max() > _ELSEWHERE):
+        raise NotConverged("So far from the Hess case the saddles of the Hess manifold are not found: choose a smaller "
+                           "ε.")
+    sheet = map_.sheet
+    assert isinstance(sheet, AndoyerSection)
+    from_ = float(orbit.places[0, 0])
+    way = math.remainder(l - from_, 2.0 * math.pi)
+    along = np.linspace(from_, from_ + way, 200)
+    curve = np.column_stack([along, hess_curve(sheet.body, along)])
+    length = float(np.hypot(*np.diff(curve, axis=0).T).sum())
+    # `grown` takes the direction whose larger component is positive.
+    d = curve[1] - curve[0]
+    side = 1 if d[int(np.argmax(np.abs(d)))] > 0.0 else -1
+    found = grown(map_, orbit, length + _ROOM, stable, side, sagitta=_SAGITTA, longest=_CHORD)
+    # Its angles go on without jumps; l is that of the turn in which it begins.
+    shift = (l - from_) - way
+    return replace(found, points=frozen(found.points + np.array([shift, 0.0])))
+
+
+def slope_of(close: Sequence[Split]) -> tuple[float, float]:
+    """d split/dε at ε = 0 and its error, from the splits at e, −e, 2e, −2e: differences of fourth order."""
+    e = close[0].away
+    first, second = ((one.value - other.value) / (one.away - other.away) for one, other in (close[:2], close[2:]))
+    return (4.0 * first - second) / 3.0, abs(second - first) + sum(one.error for one in close) / abs(e)

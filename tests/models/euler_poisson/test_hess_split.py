@@ -1,0 +1,80 @@
+"""The separatrices of the Hess manifold: unsplit in the Hess case; how fast they part, against Melnikov's integral."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from hess_mechanics import HeavyBody, circle_map, level
+from hess_mechanics.errors import NotConverged, OutsideRegion
+from hess_mechanics.euler_poisson.andoyer import hess_curve, state_at
+from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
+from hess_mechanics.euler_poisson.hess_split import HessTorus, saddles, slope_of, split_at
+from hess_mechanics.numerics.accuracy import PRECISE
+
+TORI = [HessTorus((1.0, 0.625, 0.375), 9.975, 50.0, 5.0), HessTorus((1.0, 1.5, 2.0), -math.sqrt(0.5), 2.0, 1.0)]
+
+
+def melnikov(torus, l):
+    """d split/dε at ε = 0: ∫ of what drives (r, M) off 0 along the unsplit separatrix, with the growth off it.
+
+    With u = (r, M), |r| = 1, u' = (r, M × A r) u − μ γ2 ε to first order, as dr/dε = (−r3, 0, r1); u of the unstable
+    manifold is bounded in the past, that of the stable one in the future.
+    """
+    body = HeavyBody.hess(torus.moments, torus.strength)
+    A, r, mu = np.array(body.a), np.array(body.r), body.mu
+    x = float(hess_curve(body, np.array([l]))[0])
+    start = np.array(state_at(body, torus.h, torus.f, l, x))
+
+    def field(t, y, sense):
+        M, g = y[:3] - (y[:3] @ r) * r, y[3:6]
+        growth = r @ np.cross(M, A * r)
+        return [*(sense * (np.cross(M, A * M) + mu * np.cross(r, g))), *(sense * np.cross(g, A * M)), -sense * growth,
+                -mu * g[1] * math.exp(y[6])]
+
+    bridge = Bridge.of_heavy(body)
+    theta = circle_map(bridge.hess.a, *bridge.in_units_of_b(torus.h, torus.f), level("reference"))
+    end = 25.0 / theta.fixed_points[1].log_multiplier * theta.period / bridge.hess.frequency_unit
+    both = [solve_ivp(field, (0.0, end), [*start, 0.0, 0.0], "DOP853", rtol=1e-11, atol=1e-13, args=(sense,)).y[7, -1]
+            for sense in (1.0, -1.0)]
+    G = np.linalg.norm(start[:3])
+    return sum(both) / (G * (r[2] - r[0] * math.sin(l) * x / math.sqrt(1.0 - x * x)))
+
+
+@pytest.mark.parametrize("torus", TORI)
+def test_the_separatrices_part_as_melnikovs_integral_says(torus):
+    there = split_at(torus, 0.0, PRECISE)
+    assert abs(there.value) <= there.error < 1e-9
+    close = [split_at(torus, away, PRECISE) for away in (1e-3, -1e-3, 2e-3, -2e-3)]
+    slope, error = slope_of(close)
+    exact = melnikov(torus, there.l)
+    assert abs(slope - exact) <= error + 1e-8
+    assert error < 1e-3 * abs(exact)
+    for one in close:
+        assert one.value == pytest.approx(exact * one.away, rel=2e-2)
+        assert abs(one.value) > 1e3 * one.error
+
+
+def test_the_saddles_are_the_cycles_of_the_moebius_matrix():
+    torus = TORI[1]
+    body = HeavyBody.hess(torus.moments, torus.strength)
+    found = saddles(torus, PRECISE)
+    for places in (found.repels, found.attracts):
+        assert places[0, 1] == pytest.approx(hess_curve(body, places[:1, 0])[0], abs=1e-9)
+        assert torus.map_at(0.0, PRECISE).after(places[0], len(places)) == pytest.approx(places[0], abs=1e-7)
+    # Along the Hess curve one repels and the other attracts.
+    P = torus.map_at(0.0, PRECISE)
+    for places, repels in ((found.repels, True), (found.attracts, False)):
+        l = places[0, 0] + 1e-4
+        moved = P.image(np.array([l, hess_curve(body, np.array([l]))[0]]))
+        assert (abs(math.remainder(moved[0] - places[0, 0], 2.0 * math.pi)) > 1e-4) is repels
+
+
+def test_where_there_is_nothing_to_split_that_is_said():
+    with pytest.raises(OutsideRegion, match="no limit cycles"):
+        split_at(HessTorus((1.0, 1.5, 2.0), -math.sqrt(0.5), 0.2, 1.0), 0.0, PRECISE)
+    with pytest.raises(NotConverged):
+        split_at(HessTorus((1.0, 1.5, 2.0), -math.sqrt(0.5), 0.8, 1.0), 0.1, PRECISE)
