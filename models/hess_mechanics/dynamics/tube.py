@@ -1,13 +1,18 @@
 """An orbit's tube: intervals that contain the true states of one motion of any traced system, by balls of Arb.
 
-A step from the ball Y at time t: if the field is bounded by |f_i| ≤ F_i on the complex boxes |y_i − Y_i| ≤ R_i, all
-solutions from Y are analytic for |s − t| < r = min R_i/F_i and stay in these boxes; by Cauchy the terms of their Taylor
-series from the N-th on are at most R_i τ^N/(1 − τ) together, τ = |s − t|/r.  The terms before are found by the
-recursion of the traced field (`numerics.tracing`), in balls.
+At time t the state lies within |D⁻¹(y − c)| ≤ ρ of a centre c, D the sizes that components may have.  Let p(s) be any
+polynomials with p(0) = c, here of the centre's Taylor series; none of their digits has to be right.  For the true
+solution y of ẏ = f(y) from there e = D⁻¹(y − p) obeys
 
-Balls grow along the motion by at most a factor in unit time, even where the motion itself does not spread.  Other
-methods turn their boxes along (R. Lohner, 1987); here numbers have as many digits as that growth takes away: the bits
-are raised until the last state is known as exactly as was asked for.
+    |e|˙ ≤ μ|e| + Δ,   Δ ≥ |D⁻¹(ṗ − f(p))|,   μ ≥ the largest eigenvalue of the symmetric part of D⁻¹ f′ D,
+
+so |e(s)| ≤ (ρ + Δs) max(1, e^{μs}) as long as that is less than the R for which μ was found, over the box p ± DR.  The
+defect ṗ − f(p) is computed in polynomials, to all orders; where f divides, by a polynomial and a bound of what that is
+off.  f′ comes from dual numbers, μ from Gershgorin's circles where f′ is nearly diagonal.
+
+Along a motion ρ grows at that rate even where neighbours do not part.  Other methods turn boxes along (R. Lohner,
+1987); here numbers have as many digits as the growth takes away: the bits are raised until the last state is known as
+exactly as was asked for.
 
 What is proved: the true solution, from exactly these doubles as start and parameters, lies in the intervals, if Arb's
 operations enclose.  Nothing is proved of a body whose numbers are measured.
@@ -18,7 +23,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache
 from operator import mul
@@ -27,22 +32,25 @@ from typing import Any
 import numpy as np
 
 from hess_mechanics.dynamics.orbit import checked_times
+from hess_mechanics.dynamics.polynomials import Along, Slope
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.balls import Ball, Enclosure, enclosure, rational, working
-from hess_mechanics.numerics.results import Array, Orbit
+from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.results import Array, Orbit, frozen
 from hess_mechanics.numerics.tracing import Recursion
 
-__all__ = ["MOST_WORK", "Tube", "proved_error", "right_until", "tube"]
+__all__ = ["MOST_WORK", "Tube", "error_bounds", "proved_error", "right_until", "tube"]
 
-_FIRST_BITS, _MOST_BITS, _STEP_BITS = 96, 4096, 64
+_FIRST_BITS, _MOST_BITS, _STEP_BITS = 96, 4096, 32
 MOST_WORK = 1e7
-"""Steps times the square of their terms, at one precision: some 20 s."""
-_TAU = 0.125
-_BOXES = (0.03125, 0.0625, 0.125, 0.25, 0.5, 1.0)
-"""Half sides R of boxes that are tried, in units in which the state is O(1)."""
-_WIDER, _TRIED = 1.3, 4
-"""Then sides of that many times what the field needs there, so often."""
+"""Steps times the square of their terms, at all precisions together, three times that where a field divides: 15 s."""
+_TERMS = 0.5 * math.log(2.0)
+"""Of a bit: then steps are e⁻² of the radius of convergence, which is cheapest where the cost is that square."""
+_PARTS = 2
+"""Of a step, for each of which f′ is bounded."""
+_TRIED = 8
+_GUARD_BITS, _LOW_BITS = 32, 64
 
 
 @dataclass(frozen=True)
@@ -82,19 +90,45 @@ def tube(system: System, state: Sequence[float], parameters: Sequence[float], ti
     begun = time.perf_counter()
     asked = checked_times(times)
     problem = Problem.of(system, [state], parameters)
-    bits = _FIRST_BITS
+    length = abs(float(asked[-1]))
+    best: Tube | None = None
+    bits, left = _FIRST_BITS, most_work
     while True:
         with working(bits):
             walk = _Walk(system, [float(x) for x in state], [float(x) for x in parameters], problem.scale, bits)
-            found, width = walk.through(asked, 10.0 ** (-digits), most_work)
-        lost = walk.lost
-        if len(found) == asked.size or walk.spent or bits >= _MOST_BITS:
-            return Tube(system.name, asked[: len(found)], tuple(found), width, len(found) == asked.size, walk.steps,
-                        bits, time.perf_counter() - begun, system.variables)
-        # As many as the whole way will take at this rate, and some to spare.
-        share = max(abs(walk.t) / Fraction(abs(float(asked[-1]))), Fraction(1, 64))
-        needed = 3.33 * digits + 1.1 * float(lost / float(share)) + 32
-        bits = min(_MOST_BITS, max(bits + _STEP_BITS, math.ceil(needed / _STEP_BITS) * _STEP_BITS))
+            found, width = walk.through(asked, 10.0 ** (-digits), left)
+        left -= walk.work
+        if best is None or len(found) > len(best.states):
+            best = Tube(system.name, asked[: len(found)], tuple(found), width, len(found) == asked.size, walk.steps,
+                        bits, 0.0, system.variables)
+        following = _more_bits(walk, digits, length, left)
+        if best.complete or following <= bits:
+            return replace(best, seconds=time.perf_counter() - begun)
+        bits = following
+
+
+def _more_bits(walk: _Walk, digits: int, length: float, left: float) -> int:
+    """As many as the whole way will take at the rate of a walk, or as much of it as can be paid for."""
+    gone = float(abs(walk.t))
+    if walk.spent or gone == 0.0:
+        return 0
+    base, rate, pace = 3.33 * digits + _GUARD_BITS, 1.1 * walk.lost / gone, walk.steps / gone
+    bits = min(_MOST_BITS, math.ceil((base + rate * length) / _STEP_BITS) * _STEP_BITS)
+    bits = max(bits, walk.bits + _STEP_BITS)
+    while bits > walk.bits:
+        way = min(length, max(gone, (bits - base) / max(rate, 1e-9)))
+        if pace * way * _cost(walk.system, bits) <= left:
+            break
+        bits -= _STEP_BITS
+    return bits
+
+
+def _terms(bits: int) -> int:
+    return math.ceil(_TERMS * bits) + 4
+
+
+def _cost(system: System, bits: int) -> float:
+    return _terms(bits) ** 2 * (1.0 if system.recursion.is_quadratic else 3.0)
 
 
 @cache
@@ -105,14 +139,24 @@ def _functions(recursion: Recursion) -> dict[str, Callable[..., Any]]:
     return namespace
 
 
+@dataclass(frozen=True)
+class _Step:
+    """Polynomials along a step of that length, and a bound of |e| over all of it."""
+
+    series: list[Ball]
+    length: float
+    radius: Ball
+
+
 class _Walk:
     """The steps of one tube at one precision."""
 
     def __init__(self, system: System, state: list[float], parameters: list[float], scale: Array, bits: int) -> None:
         from flint import arb
 
-        self.system, self.bits = system, bits
-        self.y = [arb(x) for x in state]
+        self.system, self.bits, self.terms, self.cost = system, bits, _terms(bits), _cost(system, bits)
+        self.centre = [arb(x) for x in state]
+        self.radius = arb(0)
         self.p = [arb(x) for x in parameters]
         self.scale = [float(x) for x in scale]
         self.t = Fraction(0)
@@ -120,13 +164,8 @@ class _Walk:
 
     @property
     def lost(self) -> float:
-        """Bits that the widest ball has lost."""
-        return max(0.0, self.bits + math.log2(max(self._width(self.y), 2.0 ** -min(self.bits, 1000))))
-
-    def _width(self, y: Sequence[Ball]) -> float:
-        if not all(x.is_finite() for x in y):
-            return 1.0
-        return max(2.0 * float(x.rad()) / scale for x, scale in zip(y, self.scale, strict=True))
+        """Bits that the radius has lost."""
+        return max(0.0, self.bits + math.log2(max(2.0 * float(self.radius), 2.0 ** -min(self.bits, 1000))))
 
     def through(self, times: Array, tolerance: float, most_work: float) -> tuple[list[tuple[Enclosure, ...]], float]:
         """The states at these times while they are as narrow as that, and the largest width."""
@@ -136,80 +175,117 @@ class _Walk:
         widest = 0.0
         wanted = [Fraction(float(t)) for t in times]
         sign = -1 if wanted[-1] < 0 else 1
-        terms = math.ceil(self.bits / -math.log2(_TAU)) + 2
         while len(found) < len(wanted):
-            radius, room = self._disc()
-            if radius == 0.0:
+            go_on()
+            step = self._step(sign)
+            if step is None:
                 break
-            series = _series(self.system.recursion, self.y, self.p, terms)
-            end = self.t + sign * Fraction(radius * _TAU)
-
-            def at(when: Fraction, series: list[list[Ball]] = series, radius: float = radius,
-                   room: list[Ball] = room) -> list[Ball]:
-                step = arb(rational(when - self.t))
-                tau = abs(step) / arb(radius)
-                tail = tau**terms / (1 - tau)
-                return [_value(one, step) + arb(0, (tail * R).abs_upper()) for one, R in zip(series, room, strict=True)]
-
+            end = self.t + sign * Fraction(step.length)
             while len(found) < len(wanted) and sign * (wanted[len(found)] - end) <= 0:
-                y = at(wanted[len(found)])
-                if self._width(y) > tolerance:
+                gone = abs(wanted[len(found)] - self.t)
+                radius = step.radius if gone else self.radius
+                y = [one(arb(rational(gone))) + arb(0, (radius * size).abs_upper())
+                     for one, size in zip(step.series, self.scale, strict=True)]
+                width = max(2.0 * float(x.rad()) / size for x, size in zip(y, self.scale, strict=True))
+                if width > tolerance:
                     return found, widest
-                widest = max(widest, self._width(y))
+                widest = max(widest, width)
                 found.append(tuple(enclosure(x) for x in y))
-            self.y, self.t = at(end), end
-            self.steps += 1
-            self.work += terms**2
-            if self._width(self.y) > tolerance:
+            self._go_to(step, end)
+            self.work += self.cost
+            if 2.0 * float(self.radius) > tolerance:
                 break
             if self.work > most_work:
                 self.spent = True
                 break
         return found, widest
 
-    def _disc(self) -> tuple[float, list[Ball]]:
-        """r and R for a step from here; r = 0 where there is none."""
-        best, R, most = 0.0, [], []
-        for box in _BOXES:
-            sides = [box * scale for scale in self.scale]
-            r, rates = self._radius(sides)
-            if r > best:
-                best, R, most = r, sides, rates
-        # Where the field is small in a direction a shorter side will do, and then it is smaller in the others.
-        for _ in range(_TRIED if best else 0):
-            sides = [_WIDER * best * rate for rate in most]
-            r, rates = self._radius(sides)
-            if r <= best:
-                break
-            best, R, most = r, sides, rates
+    def _go_to(self, step: _Step, end: Fraction) -> None:
         from flint import arb
 
-        return best, [arb(side) for side in R]
+        there = [one(arb(step.length)) for one in step.series]
+        self.centre = [x.mid() for x in there]
+        self.radius = (step.radius + _norm([x.rad() / size for x, size in zip(there, self.scale, strict=True)])).upper()
+        self.t = end
+        self.steps += 1
 
-    def _radius(self, sides: list[float]) -> tuple[float, list[float]]:
-        """For half sides R of boxes: r, rounded down, and the bounds of the field; 0 where it has none."""
-        from flint import acb, arb
+    def _step(self, sign: int) -> _Step | None:
+        """The next one; None where there is none."""
+        from flint import arb_poly
 
-        around = [acb(y + arb(0, side), arb(0, side)) for y, side in zip(self.y, sides, strict=True)]
+        series = [[c.mid() * (sign if k % 2 else 1) for k, c in enumerate(one)]
+                  for one in _series(self.system.recursion, self.centre, self.p, self.terms)]
+        length = self._length(series)
+        along = [arb_poly(one) for one in series]
+        for _ in range(_TRIED):
+            radius = self._radius(along, length, sign)
+            if radius is not None:
+                return _Step(along, length, radius)
+            length *= 0.5
+        return None
+
+    def _length(self, series: list[list[Ball]]) -> float:
+        """At which the last terms are as small as a rounding; this proves nothing, and need not."""
+        shortest = 1e6
+        for k in (self.terms - 1, self.terms - 2):
+            for one, size in zip(series, self.scale, strict=True):
+                last = float(abs(one[k]).log()) if one[k] != 0 else -math.inf
+                if last > -math.inf:
+                    shortest = min(shortest, math.exp((-self.bits * math.log(2.0) - last + math.log(size)) / k))
+        return shortest
+
+    def _radius(self, along: list[Ball], length: float, sign: int) -> Ball | None:
+        """A bound of |e| over a step; None for one that is too long."""
+        from flint import arb, ctx
+
+        delta = arb(length)
+        rates = self.system.field([Along(one, delta, self.terms) for one in along], self.p)
+        defects = []
+        for one, rate, size in zip(along, rates, self.scale, strict=True):
+            known = rate if isinstance(rate, Along) else Along.number(rate, delta, self.terms)
+            defects.append(((known * sign).distance(one.derivative()) / size).abs_upper())
+        start = self.radius + _norm(defects) * delta
+        if not start.is_finite():
+            return None
+        R = 2 * start + arb(2.0 ** (-self.bits))
+        growth = arb(0)
+        with ctx.workprec(_LOW_BITS):
+            for j in range(_PARTS):
+                part = (delta * j / _PARTS).union(delta * (j + 1) / _PARTS)
+                box = [one(part) + arb(0, (R * size).abs_upper()) for one, size in zip(along, self.scale, strict=True)]
+                rate = self._rate(box, sign)
+                if rate is None:
+                    return None
+                growth += (rate * delta / _PARTS).max(arb(0))
+            most = (start * growth.exp()).upper()
+        return most if most < R else None
+
+    def _rate(self, box: list[Ball], sign: int) -> Ball | None:
+        """A bound of the eigenvalues of the symmetric part of ±D⁻¹ f′ D over a box."""
+        from flint import arb_mat
+
+        n = len(box)
         try:
-            rates = [acb(rate).abs_upper() for rate in self.system.field(around, self.p)]
+            rates = self.system.field([Slope.of(x, i, n) for i, x in enumerate(box)], self.p)
         except ZeroDivisionError:
-            return 0.0, []
-        if not all(rate.is_finite() for rate in rates):
-            return 0.0, []
-        most = [math.nextafter(float(rate), math.inf) for rate in rates]
-        r = min((side / rate for side, rate in zip(sides, most, strict=True) if rate > 1e-200), default=1.0)
-        r = math.ldexp(math.floor(math.ldexp(min(r, 1e6) * (1.0 - 1e-6), 20)), -20)
-        certain = all(rate * arb(r) < arb(side) for side, rate in zip(sides, rates, strict=True))
-        return (r, most) if certain else (0.0, [])
+            return None
+        J = [[rate.slopes[j] * (sign * self.scale[j] / self.scale[i]) if isinstance(rate, Slope) else 0 * box[0]
+              for j in range(n)] for i, rate in enumerate(rates)]
+        if not all(x.is_finite() for row in J for x in row):
+            return None
+        S = arb_mat([[(J[i][j] + J[j][i]) / 2 for j in range(n)] for i in range(n)])
+        _, Q = np.linalg.eigh([[float(S[i, j].mid()) for j in range(n)] for i in range(n)])
+        turn = arb_mat(Q.tolist())
+        near = turn.inv() * S * turn
+        most = [near[i, i] + sum((abs(near[i, j]) for j in range(n) if j != i), 0 * box[0]) for i in range(n)]
+        found = most[0].upper()
+        for one in most[1:]:
+            found = found.max(one.upper())
+        return found
 
 
-def _value(series: list[Ball], step: Ball) -> Ball:
-    """By Horner's rule."""
-    found = series[-1]
-    for c in reversed(series[:-1]):
-        found = found * step + c
-    return found
+def _norm(sizes: Sequence[Ball]) -> Ball:
+    return sum(map(mul, sizes, sizes), 0 * sizes[0]).sqrt().upper()
 
 
 def _series(recursion: Recursion, y: Sequence[Ball], parameters: Sequence[Ball], terms: int) -> list[list[Ball]]:
@@ -247,10 +323,14 @@ def _series(recursion: Recursion, y: Sequence[Ball], parameters: Sequence[Ball],
 # ---- an orbit judged by its tube ------------------------------------------------------------------------------------
 
 
-def _errors(orbit: Orbit, found: Tube) -> list[tuple[Fraction, Fraction]]:
-    """Of each sample, between which bounds its largest error lies."""
+def _check(orbit: Orbit, found: Tube) -> None:
     if orbit.system != found.system or not np.array_equal(orbit.times[: found.times.size], found.times):
         raise InvalidParameter("A tube judges the orbit of the same system at the same times.")
+
+
+def _errors(orbit: Orbit, found: Tube) -> list[tuple[Fraction, Fraction]]:
+    """Of each sample, between which bounds its largest error lies."""
+    _check(orbit, found)
     bounds = []
     for state, intervals in zip(orbit.states, found.states, strict=False):
         least = most = Fraction(0)
@@ -260,6 +340,15 @@ def _errors(orbit: Orbit, found: Tube) -> list[tuple[Fraction, Fraction]]:
             most = max(most, one.high - value, value - one.low)
         bounds.append((least, most))
     return bounds
+
+
+def error_bounds(orbit: Orbit, found: Tube) -> Array:
+    """Bounds (m, d) of the true error of each component at the times of the tube.  Raises `InvalidParameter`."""
+    _check(orbit, found)
+    bounds = [[math.nextafter(float(max(one.high - Fraction(float(x)), Fraction(float(x)) - one.low)), math.inf)
+               for x, one in zip(state, intervals, strict=True)]
+              for state, intervals in zip(orbit.states, found.states, strict=False)]
+    return frozen(np.array(bounds).reshape(len(bounds), -1))
 
 
 def proved_error(orbit: Orbit, found: Tube) -> tuple[float, float]:

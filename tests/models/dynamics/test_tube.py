@@ -9,7 +9,9 @@ import mpmath
 import numpy as np
 import pytest
 
+import oracle
 from hess_mechanics import level, proved_error, right_until, solve, systems, tube
+from hess_mechanics.dynamics.tube import error_bounds
 from hess_mechanics.errors import InvalidParameter
 
 TIMES = [0.0, 0.3, 1.0]
@@ -37,6 +39,29 @@ def test_the_motion_to_thirty_digits_lies_in_its_tube(name, sign):
                 assert one.width < Fraction(5, 10**20)
 
 
+@pytest.mark.parametrize("name", ["ball", "suslov"])
+def test_a_long_motion_lies_in_its_tube(name):
+    """Where radii have grown by more than the digits that are asked for; by decimals, backward in time."""
+    system = systems()[name]
+    state, parameters = system.example
+    found = tube(system, state, parameters, [-6.0, -12.0], digits=15)
+    assert found.complete
+    known = oracle.orbits.orbit_in_decimals(system, state, parameters, [-6.0, -12.0], 45)
+    for values, intervals in zip(known, found.states, strict=True):
+        for value, one in zip(values, intervals, strict=True):
+            assert one.low - Fraction(1, 10**30) <= Fraction(value) <= one.high + Fraction(1, 10**30)
+            assert one.width < Fraction(1, 10**15)
+
+
+def test_where_work_is_scarce_the_longest_tube_is_kept():
+    """More bits would make the whole way, which nobody pays for: the tube is as long as with few, or longer."""
+    system = systems()["suslov"]
+    times = np.linspace(0.0, 60.0, 61)
+    short = [tube(system, *system.example, times, digits=15, most_work=work) for work in (1e5, 3e5)]
+    reached = [one.times[-1] for one in short]
+    assert 5.0 < reached[0] < reached[1] < 60.0
+
+
 def test_integrals_keep_their_values_in_the_tube():
     system = systems()["suslov"]
     state, parameters = system.example
@@ -61,6 +86,9 @@ def test_an_orbit_is_judged():
         assert known <= high + 1e-15
         assert low <= orbit.error_estimate
     assert right_until(fine, found, 1e-12) == 3.0
+    bounds, away = error_bounds(rough, found), np.abs(rough.states - truth)
+    assert np.all(away <= bounds + 1e-15)
+    assert np.all(bounds <= away + 1e-15)
     # A sample moved by 1e-6: right before it, and not after.
     moved = fine.states.copy()
     moved[4, 2] += 1e-6

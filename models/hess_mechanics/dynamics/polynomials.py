@@ -1,0 +1,174 @@
+"""Numbers to run a plain field over, in balls: polynomials with a bound of what they are off, and dual numbers.
+
+Both are used by `tube`, and know just the operations that fields have.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from hess_mechanics.numerics.balls import Ball
+
+__all__ = ["Along", "Slope"]
+
+
+class Along:
+    """A function of s in [0, δ]: a polynomial, and a bound of how far it is off there.
+
+    Polynomials have up to twice `terms` coefficients; what goes beyond goes into the bound.
+    """
+
+    __slots__ = ("_most", "delta", "polynomial", "rest", "terms")
+
+    def __init__(self, polynomial: Ball, delta: Ball, terms: int, rest: Ball | None = None) -> None:
+        self.polynomial, self.delta, self.terms, self.rest = polynomial, delta, terms, rest
+        self._most: Ball | None = None
+
+    @classmethod
+    def number(cls, value: Any, delta: Ball, terms: int) -> Along:
+        """A constant."""
+        from flint import arb_poly
+
+        return cls(arb_poly([value]), delta, terms)
+
+    def _with(self, polynomial: Ball, rest: Ball | None) -> Along:
+        if len(polynomial) > 2 * self.terms:
+            from flint import arb_poly
+
+            coefficients = polynomial.coeffs()
+            beyond = _size(coefficients[2 * self.terms :], self.delta) * self.delta ** (2 * self.terms)
+            rest = beyond if rest is None else rest + beyond
+            polynomial = arb_poly(coefficients[: 2 * self.terms])
+        return Along(polynomial, self.delta, self.terms, rest)
+
+    @property
+    def most(self) -> Ball:
+        """A bound of the polynomial."""
+        if self._most is None:
+            self._most = _size(self.polynomial.coeffs(), self.delta)
+        return self._most
+
+    def distance(self, other: Ball) -> Ball:
+        """A bound of the distance from a polynomial."""
+        found = _size((self.polynomial - other).coeffs(), self.delta)
+        return found if self.rest is None else found + self.rest
+
+    def __neg__(self) -> Along:
+        return Along(-self.polynomial, self.delta, self.terms, self.rest)
+
+    def __add__(self, other: Any) -> Along:
+        if not isinstance(other, Along):
+            return Along(self.polynomial + other, self.delta, self.terms, self.rest)
+        rest = self.rest if other.rest is None else other.rest if self.rest is None else self.rest + other.rest
+        return Along(self.polynomial + other.polynomial, self.delta, self.terms, rest)
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Any) -> Along:
+        return self.__add__(-other)
+
+    def __rsub__(self, other: Any) -> Along:
+        return (-self).__add__(other)
+
+    def __mul__(self, other: Any) -> Along:
+        if not isinstance(other, Along):
+            return Along(self.polynomial * other, self.delta, self.terms,
+                         None if self.rest is None else self.rest * abs(other + 0 * self.delta))
+        rest = None
+        for one, two in ((self, other), (other, self)):
+            if one.rest is not None:
+                off = one.rest * two.most
+                rest = off if rest is None else rest + off
+        if self.rest is not None and other.rest is not None:
+            rest = rest + self.rest * other.rest
+        return self._with(self.polynomial * other.polynomial, rest)
+
+    __rmul__ = __mul__
+
+    def __pow__(self, exponent: int) -> Along:
+        found = self
+        for _ in range(exponent - 1):
+            found = found * self
+        return found
+
+    def inverse(self) -> Along:
+        """1/b: from a series q of it, 1/b = q/(1 − η), η = 1 − qb.  Raises `ZeroDivisionError`."""
+        from flint import arb, arb_poly, arb_series, ctx
+
+        before, ctx.cap = ctx.cap, self.terms
+        try:
+            q = arb_poly([c.mid() for c in (1 / arb_series(self.polynomial.coeffs()[: self.terms])).coeffs()])
+        finally:
+            ctx.cap = before
+        found = Along(q, self.delta, self.terms)
+        off = (found * self).distance(arb_poly([1]))
+        if not off < 1:
+            raise ZeroDivisionError("a divisor that may vanish along a step")
+        return Along(q, self.delta, self.terms, (found.most * off / (1 - off)).abs_upper() + arb(0))
+
+    def __truediv__(self, other: Any) -> Along:
+        return self.__mul__(other.inverse() if isinstance(other, Along) else 1 / (other + 0 * self.delta))
+
+    def __rtruediv__(self, other: Any) -> Along:
+        return self.inverse().__mul__(other)
+
+
+def _size(coefficients: list[Ball], delta: Ball) -> Ball:
+    """Σ|c_k| δ^k."""
+    from flint import arb_poly
+
+    return arb_poly([abs(c) for c in coefficients])(delta).abs_upper()
+
+
+class Slope:
+    """A dual number: a value and its partial derivatives."""
+
+    __slots__ = ("slopes", "value")
+
+    def __init__(self, value: Ball, slopes: list[Ball]) -> None:
+        self.value, self.slopes = value, slopes
+
+    @classmethod
+    def of(cls, value: Ball, i: int, count: int) -> Slope:
+        """The i-th of so many variables."""
+        return cls(value, [value * 0 + (1 if i == j else 0) for j in range(count)])
+
+    def __neg__(self) -> Slope:
+        return Slope(-self.value, [-x for x in self.slopes])
+
+    def __add__(self, other: Any) -> Slope:
+        if not isinstance(other, Slope):
+            return Slope(self.value + other, self.slopes)
+        return Slope(self.value + other.value, [x + y for x, y in zip(self.slopes, other.slopes, strict=True)])
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Any) -> Slope:
+        return self.__add__(-other)
+
+    def __rsub__(self, other: Any) -> Slope:
+        return (-self).__add__(other)
+
+    def __mul__(self, other: Any) -> Slope:
+        if not isinstance(other, Slope):
+            return Slope(self.value * other, [x * other for x in self.slopes])
+        return Slope(self.value * other.value, [
+            x * other.value + self.value * y for x, y in zip(self.slopes, other.slopes, strict=True)])
+
+    __rmul__ = __mul__
+
+    def __pow__(self, exponent: int) -> Slope:
+        slope = exponent * self.value ** (exponent - 1)
+        return Slope(self.value**exponent, [slope * x for x in self.slopes])
+
+    def __truediv__(self, other: Any) -> Slope:
+        if isinstance(other, Slope):
+            return self.__mul__(other.__rtruediv__(1))
+        return Slope(self.value / other, [x / other for x in self.slopes])
+
+    def __rtruediv__(self, other: Any) -> Slope:
+        if self.value.contains(0):
+            raise ZeroDivisionError("a divisor that may vanish in a box")
+        inverse = 1 / self.value
+        slope = -other * inverse * inverse
+        return Slope(other * inverse, [slope * x for x in self.slopes])

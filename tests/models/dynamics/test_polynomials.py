@@ -1,0 +1,64 @@
+"""Polynomials with bounds, and dual numbers, over rational functions: exact values lie inside."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+
+from hess_mechanics.dynamics.polynomials import Along, Slope
+from hess_mechanics.numerics.balls import enclosure, rational, working
+
+TERMS = 12
+
+
+def formula(x, y):
+    """With all operations that fields have."""
+    return (2 - x * y) / (3 + x**2) - 5 / (y + 1) + (-x) * (y - 1) / 7
+
+
+def value(coefficients, s):
+    return sum(c * s**k for k, c in enumerate(coefficients))
+
+
+@pytest.mark.parametrize("delta", [Fraction(1, 8), Fraction(1, 2)])
+def test_a_function_lies_within_the_bound_of_its_polynomial(delta):
+    x, y = [Fraction(1, 2), Fraction(1), Fraction(-2)], [Fraction(1), Fraction(1, 3), Fraction(1), Fraction(1, 4)]
+    with working(128) as library:
+        arb = library.arb
+        one, two = (Along(library.arb_poly([arb(rational(c)) for c in some]), arb(rational(delta)), TERMS)
+                    for some in (x, y))
+        found = formula(one, two)
+        assert found.rest > 0
+        # No wider than the terms that are left out, and so for the longer step.
+        assert float(found.rest) < 100 * float(delta) ** TERMS * 2.0**TERMS
+        for i in range(9):
+            s = delta * i / 8
+            away = found.polynomial(arb(rational(s))) - arb(rational(formula(value(x, s), value(y, s))))
+            assert away.abs_lower() <= found.rest
+        power = one**13
+        assert len(power.polynomial) == 2 * TERMS
+        away = power.polynomial(arb(rational(delta))) - arb(rational(value(x, delta) ** 13))
+        assert away.abs_lower() <= power.rest
+
+
+def test_a_divisor_that_may_vanish_is_refused():
+    with working(64) as library:
+        arb = library.arb
+        along = Along(library.arb_poly([arb(1), arb(-2)]), arb(1), TERMS)
+        with pytest.raises(ZeroDivisionError):
+            1 / along
+        with pytest.raises(ZeroDivisionError):
+            1 / Slope(arb(0, 1), [arb(1)])
+
+
+def test_partial_derivatives_are_enclosed():
+    """Against differences of exact rationals, which are off by O(ε)."""
+    x, y, tiny = Fraction(1, 3), Fraction(5, 4), Fraction(1, 10**20)
+    with working(160) as library:
+        found = formula(*(Slope.of(library.arb(rational(v)), i, 2) for i, v in enumerate((x, y))))
+        value, *slopes = map(enclosure, (found.value, *found.slopes))
+        assert formula(x, y) in value
+        for slope, (dx, dy) in zip(slopes, ((tiny, 0), (0, tiny)), strict=True):
+            known = (formula(x + dx, y + dy) - formula(x - dx, y - dy)) / (2 * tiny)
+            assert slope.low - Fraction(1, 10**30) <= known <= slope.high + Fraction(1, 10**30)
