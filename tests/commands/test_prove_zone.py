@@ -5,6 +5,8 @@ from __future__ import annotations
 import pytest
 from scipy.integrate import quad
 
+from check_certificate import Refused
+from check_zone import verify
 from hess_explorer.__main__ import main
 from hess_mechanics import f_max, prove
 
@@ -50,3 +52,29 @@ def test_it_stops_at_a_share(answer, example):
 ])
 def test_bad_numbers_are_refused_with_a_sentence(refusal, words, said):
     assert said in refusal(*WORDS, *words)
+
+
+def test_cells_hold_for_a_checker_that_shares_no_code_and_changed_ones_do_not(answer):
+    """Cells of a strong and of a weak tilt, on both sides of the boundary."""
+    kinds = set()
+    for a, h_end in (("0.5", "1.5"), ("-1.3", "3")):
+        zone = answer("prove-zone", "--a", a, "--h-end", h_end, "--cells", "90", "--format", "json")
+        proved = [cell for cell in zone["cells"] if cell["statement"] != "undecided"]
+        assert verify(zone) == len(proved) > 5
+        kinds |= {cell["statement"] for cell in proved}
+        other = {"two cycles": "no cycle", "no cycle": "two cycles"}
+        first = proved[0]
+        far = {**first, "alpha": [first["alpha"][0] * 1e-4, first["alpha"][1] * 1e4],
+               "beta": [first["beta"][0] * 1e-4, first["beta"][1] * 1e4]}
+        for cell in ({**first, "statement": other[first["statement"]]}, {**first, "statement": "chaos"}, far,
+                     {**first, "alpha": first["alpha"][::-1]}, {**first, "beta": [-1.0, 1.0]}):
+            with pytest.raises(Refused):
+                verify({**zone, "cells": [cell]}, halvings=2)
+    assert kinds == {"two cycles", "no cycle"}
+    # Of another body the same cell is no longer proved.
+    with pytest.raises(Refused):
+        verify({**zone, "a": "0.1", "cells": [cell for cell in proved if cell["statement"] == "two cycles"][:1]})
+    undecided = next(cell for cell in zone["cells"] if cell["statement"] == "undecided")
+    for statement in other:
+        with pytest.raises(Refused):
+            verify({**zone, "cells": [{**undecided, "statement": statement}]}, halvings=0)

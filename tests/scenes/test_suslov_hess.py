@@ -172,10 +172,16 @@ def test_without_the_library_one_quiet_sentence_says_so(monkeypatch):
     assert "roved" not in view.text["circle"]
 
 
+def cells_drawn(view):
+    """The outlines of proved cells, as a set."""
+    columns = view.data["bifurcation-proved"]
+    return {(tuple(h), tuple(f)) for h, f in zip(columns["xs"], columns["ys"], strict=True)}
+
+
 def test_proved_cells_grow_and_their_outlines_lie_on_one_side_of_the_boundary(monkeypatch):
     monkeypatch.setattr(proved_zone, "ROUNDS", (30, 60))
     values = {"I22": 2.0, "I23": 0.9, "h": 1.5, "f": 0.6, "cells": "shown"}
-    shares = []
+    shares, drawn, said_then = [], [], []
     for _ in range(2):
         view = View(SCENE, values, seen={"bifurcation"}, whole=False)
         assert ("growing" in view.text["bifurcation"]) == (len(shares) == 1)
@@ -183,6 +189,12 @@ def test_proved_cells_grow_and_their_outlines_lie_on_one_side_of_the_boundary(mo
         task, = (task for task in view.report.todo if task.function is proved_zone.outlined)
         CACHE.get(task.function, *task.arguments)
         shares.append(task.arguments[2])
+        then = View(SCENE, values, seen={"bifurcation"}, whole=False)
+        drawn.append(cells_drawn(then))
+        said_then += then.numbers("bifurcation", "Proved cells: # % of the area")
+    # More of the area each time, and what was proved stays as it was.
+    assert 0.0 < said_then[0] < said_then[1]
+    assert drawn[0] < drawn[1]
     view = View(SCENE, values, seen={"bifurcation"}, whole=False)
     assert shares == [30, 60]
     assert not any(task.function is proved_zone.outlined for task in view.report.todo)

@@ -19,6 +19,7 @@ from hess_explorer.scenes.framework.inertia import CentreOfMass, Tensor
 from hess_explorer.scenes.framework.one_orbit import Start
 from hess_explorer.scenes.framework.parameters import accuracy_level, choice, crossings_of_each, like, number, time_span
 from hess_explorer.scenes.framework.periodic import layers, length_of_manifolds, plain, which
+from hess_explorer.scenes.framework.proved_orbit import proved_error_shown
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.solid_body import ConstrainedBody, constrained_body
 from hess_explorer.views import scattering_map as square
@@ -91,6 +92,7 @@ class BallSection(CentreOfMass, Ball, Crossings, ConstrainedBody):
     reach: float = length_of_manifolds()
     span: float = time_span(40.0, 200.0, what="the chosen orbit")
     drop: str = choice("Points shown", ("all", "the later half"), "all", doc="The later half shows what attracts.")
+    certain: str = proved_error_shown()
     accuracy: str = accuracy_level()
 
     section_axes: ClassVar[Axes] = Axes(square.AZIMUTH, square.POLAR)
@@ -204,8 +206,9 @@ SCENE = Scene(
              layers=(indicator_layer(), *section_plane.layers(
                  BallSection.points, others=lambda s: s.others, forbidden=BallSection.forbidden,
                  start=lambda s: [] if s.points() is None else [(s.psi, s.delta)]), *layers())),
-        orbit_alone(BallSection.half_width, energy=lambda s: s.E, label="chosen orbit"),
-        along_the_orbit(lambda s: s.r),
+        orbit_alone(BallSection.half_width, energy=lambda s: s.E, label="chosen orbit",
+                    proved=lambda s: s.proved_band),
+        along_the_orbit(lambda s: s.r, lambda s: s.proved_around),
         Plot(name="returns", title="First return", folded="Show the first return", caption=BallSection._about_returns,
              axes=("ψ", "ψ at the next crossing"), x=square.AZIMUTH, y=square.AZIMUTH, ticks=square.AZIMUTH_TICKS,
              message=lambda s: s.reason, layers=section_plane.layers(BallSection.returns)),

@@ -15,6 +15,7 @@ from hess_explorer.scenes.framework.charted import Charted, exponents, tensor_of
 from hess_explorer.scenes.framework.circle_left import CircleLeft, sphere
 from hess_explorer.scenes.framework.one_orbit import OneOrbit, Start
 from hess_explorer.scenes.framework.parameters import accuracy_level, time_span
+from hess_explorer.scenes.framework.proved_orbit import proved_error_shown
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.solid_body import ConstrainedBody, constrained_body
 from hess_explorer.scenes.framework.trial import Trial, curve_error
@@ -57,6 +58,7 @@ class ChaplyginBall(CircleLeft, FreeBall, OneOrbit, ConstrainedBody):
     """The chosen orbit, many over the strip, and the map of the phases."""
 
     span: float = time_span(60.0, 400.0, what="the chosen orbit")
+    certain: str = proved_error_shown()
     accuracy: str = accuracy_level()
 
     @cached_property
@@ -153,6 +155,7 @@ class ChaplyginBall(CircleLeft, FreeBall, OneOrbit, ConstrainedBody):
         """The chosen orbit and the map."""
         if self.known("orbit"):
             yield from orbit_status(self.orbit)
+            yield from self.certainty()
         if self.known("map_or_reason") and self.map is not None:
             yield f"{self.map.phis.size} phases, error ≤ {float(self.map.errors.max()):.1e}"
 
@@ -201,6 +204,7 @@ SCENE = Scene(
                 plane.arcs(lambda s: [track for track, _ in s.crowd if len(track) > 1]),
                 *plane.halves(lambda s, _: s.strip.stable, lambda s, _: s.strip.unstable,
                               ("Nˢ, circle joined", "Nᵘ, circle left")),
+                plane.band(lambda s: s.proved_band),
                 plane.orbit("orbits; the chosen one bold"),
                 # Not in the middle of each, where all of them are slow, but where the strip is covered evenly.
                 arrows("arrows", lambda s: plane.arrows_at(s.crowd), color=theme.ORBIT, alpha=0.8))),

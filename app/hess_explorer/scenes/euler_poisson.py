@@ -29,6 +29,7 @@ from hess_explorer.scenes.framework.parameters import (
     time_span,
 )
 from hess_explorer.scenes.framework.periodic import length_of_manifolds, plain, which
+from hess_explorer.scenes.framework.proved_orbit import proved_error_shown
 from hess_explorer.scenes.framework.rotation_across import ROTATION, RotationAcross, rotation_picture
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.solid_body import HeavySolid, heavy_solid
@@ -98,6 +99,7 @@ class EulerPoisson(SplitSeparatrices, RotationAcross, HeavySolid):
     sheet: str = choice("Sheet", (_LARGEST, _SECOND), _LARGEST,
                         doc="Of the momenta G with this energy at one point of the section, where there are two: on "
                             "which orbits start.")
+    certain: str = proved_error_shown()
     accuracy: str = accuracy_level()
     starts: str = places("The places of the chosen orbits", 12, *_BOUNDS, "0,0.2")
     window: str = places("The window of the section", 2, *_BOUNDS)
@@ -189,7 +191,8 @@ SCENE = Scene(
                 across=lambda s: inside(s.ends, s.frame))),
         heavy_solid(),
         rotation_picture(),
-        along_the_orbit(lambda s: Direction(math.copysign(1.0, s.m) * np.array(s.body.r), "r")),
+        along_the_orbit(lambda s: Direction(math.copysign(1.0, s.m) * np.array(s.body.r), "r"),
+                        lambda s: s.proved_around),
         replace(exponent_picture(), folded="Show the Lyapunov exponent"),
         split_picture(),
     ),

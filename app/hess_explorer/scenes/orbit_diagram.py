@@ -19,6 +19,7 @@ from hess_explorer.scenes.framework.one_orbit import OneOrbit, Start
 from hess_explorer.scenes.framework.over_parameter import BOUNDS, picture
 from hess_explorer.scenes.framework.parameters import accuracy_level, exponent_time, like, number, time_span
 from hess_explorer.scenes.framework.parameters import places as chosen_places
+from hess_explorer.scenes.framework.proved_orbit import proved_error_shown
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.solid_body import ConstrainedBody, constrained_body
 from hess_explorer.scenes.framework.windows import tidy_window, window_of
@@ -83,6 +84,7 @@ class OrbitDiagram(Continued, HeavySuslov, OneOrbit, ConstrainedBody):
                       doc="E + |b|, the energy above its smallest possible value.")
     span: float = time_span(60.0, 400.0, what="the chosen orbit")
     long: float = exponent_time(4000.0, 5000.0, 2e4, "the mean divergence is")
+    certain: str = proved_error_shown()
     accuracy: str = accuracy_level()
     chosen: str = chosen_places("The place of the chosen orbit", 1, *BOUNDS, "0.7248,1.8925")
 
@@ -241,6 +243,6 @@ SCENE = Scene(
                                label="(ω, γ) of the chosen orbit"),
                      points("moments", lambda s: (s.turned.times, np.zeros(len(s.turned.times))), color=theme.UNSTABLE,
                             size=11, hollow=True, edge_width=2.5, label="moments of reversal"))),
-        replace(along_the_orbit(lambda s: s.r), folded="Show the Poisson sphere"),
+        replace(along_the_orbit(lambda s: s.r, lambda s: s.proved_around), folded="Show the Poisson sphere"),
     ),
 )

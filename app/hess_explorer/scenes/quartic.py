@@ -27,6 +27,7 @@ from hess_explorer.scenes.framework.parameters import (
     time_span,
 )
 from hess_explorer.scenes.framework.periodic import layers, length_of_manifolds, plain, which
+from hess_explorer.scenes.framework.proved_orbit import proved_error_shown
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.solid_body import ConstrainedBody, constrained_body
 from hess_explorer.views import plane_domain, section_plane
@@ -81,6 +82,7 @@ class Quartic(Crossings, ConstrainedBody):
     indicator: str = colouring()
     reach: float = length_of_manifolds()
     span: float = time_span(40.0, 200.0, most=1e3, what="the chosen orbit")
+    certain: str = proved_error_shown()
     accuracy: str = accuracy_level()
 
     def admitted(self, notes: list[str]) -> Quartic:
@@ -209,7 +211,7 @@ SCENE = Scene(
              layers=(indicator_layer(), *section_plane.layers(
                  Quartic.points, others=lambda s: s.others, forbidden=Quartic.impossible), *layers())),
         Sphere(caption=Quartic._about_sphere, looks={"orbit": "orbit"}, axis=lambda s: centre_of_mass((0.0, 0.0, s.b3)),
-               circles=lambda s: parallels((0.0, 0.0, 1.0), [s.body.h / s.body.b3])),
+               circles=lambda s: [*parallels((0.0, 0.0, 1.0), [s.body.h / s.body.b3]), *s.proved_around]),
         plane_domain.momentum_picture(lambda s: (s.orbit.times, s.momentum), least=lambda s: 1e-3 * max(s.body.axes),
                                       is_integral=lambda s: s.body.integrable),
     ),

@@ -31,6 +31,7 @@ from hess_explorer.scenes.framework.parameters import (
     time_span,
 )
 from hess_explorer.scenes.framework.periodic import length_of_manifolds, plain, which
+from hess_explorer.scenes.framework.proved_orbit import proved_error_shown
 from hess_explorer.scenes.framework.scene import Preset, Scene
 from hess_explorer.scenes.framework.solid_body import ConstrainedBody, constrained_body
 from hess_explorer.scenes.framework.windows import Window
@@ -99,6 +100,7 @@ class Suslov(HeavySuslov, Basins, ConstrainedBody):
     reach: float = length_of_manifolds()
     span: float = time_span(60.0, 400.0, what="the chosen orbit")
     long: float = exponent_time(1000.0, 5000.0, 2e4, "the Lyapunov exponent and the divergence are")
+    certain: str = proved_error_shown()
     accuracy: str = accuracy_level()
     starts: str = places("The places of the chosen orbits", 12, *_BOUNDS, "1,1")
     window: str = places("The window of the section", 2, *_BOUNDS)
@@ -261,8 +263,9 @@ SCENE = Scene(
                      over_time("divergence", lambda s: s.rate(1), color=theme.MAP, dash="dashed",
                                label="mean divergence"),
                      over_time("lambda", lambda s: s.rate(0), color=theme.ORBIT, label="exponent λ"))),
-        along_the_orbit(lambda s: s.r),
-        replace(orbit_alone(lambda s: s.half_width, energy=lambda s: s.E), folded="Show the angular velocity"),
+        along_the_orbit(lambda s: s.r, lambda s: s.proved_around),
+        replace(orbit_alone(lambda s: s.half_width, energy=lambda s: s.E, proved=lambda s: s.proved_band),
+                folded="Show the angular velocity"),
         conformal_time.picture(lambda s: s._conformal[0], lambda s: s._conformal[1], lambda s: s.lasts),
     ),
 )

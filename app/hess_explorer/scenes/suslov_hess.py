@@ -21,6 +21,7 @@ from hess_explorer.scenes.framework.hess_case import (
     proved,
 )
 from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, choice, number, slider_within
+from hess_explorer.scenes.framework.proved_orbit import ProvedOrbit, proved_error_shown
 from hess_explorer.scenes.framework.proved_zone import HIDDEN, SHOWN, ProvedZone, known_zone
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
 from hess_explorer.scenes.framework.solid_body import Hess, constrained_body
@@ -44,14 +45,7 @@ from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
 from hess_mechanics.suslov_hess.equations import SYSTEM
 from hess_mechanics.suslov_hess.invariant_measure import density_on_torus, invariant_measure
 from hess_mechanics.suslov_hess.mode_locking import CELLS, affordable_cells, lock_boundary, rotation_number_window
-from hess_mechanics.suslov_hess.torus import (
-    MAX_RETURNS,
-    Track,
-    annulus,
-    pixels_per_unit,
-    start_of_track,
-    track,
-)
+from hess_mechanics.suslov_hess.torus import MAX_RETURNS, Track, annulus, pixels_per_unit, start_of_track, track
 
 _ON_BOUNDARY = 48
 """Points of the boundary of the lock zone."""
@@ -71,7 +65,7 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class SuslovHess(SuslovBody):
+class SuslovHess(SuslovBody, ProvedOrbit):
     """One orbit on one torus M²(h, f), all tori beside it."""
 
     h: float = number("h", 1.5, (-0.99, 4.0), 0.01, bounds=(-1.0 + 1e-9, 1e6), label="Energy h",
@@ -85,6 +79,7 @@ class SuslovHess(SuslovBody):
     cells: str = choice("Proved cells", (HIDDEN, SHOWN), HIDDEN,
                         doc="Cells of the bifurcation diagram of which it is proved that all their tori have two limit "
                             "cycles, or that none has: their number grows while you look.")
+    certain: str = proved_error_shown()
     accuracy: str = accuracy_level()
 
     def admitted(self, notes: list[str]) -> SuslovHess:
@@ -130,7 +125,13 @@ class SuslovHess(SuslovBody):
     @cached_property
     def track(self) -> Track:
         """The orbit on show."""
-        return self.work.get(track, self.body, self.h, self.f, self.phi0, self.span, self.level, self.half_width)
+        found: Track = self.work.get(self.finding.function, *self.finding.arguments)
+        return found
+
+    @property
+    def finding(self) -> Task:
+        """What finds it."""
+        return Task(track, (self.body, self.h, self.f, self.phi0, self.span, self.level, self.half_width))
 
     @cached_property
     def cycles(self) -> tuple[Track, Track] | None:
@@ -198,9 +199,9 @@ class SuslovHess(SuslovBody):
             reach=math.copysign(1.0, self.f) * reach(self.h, found.n3))
 
     def heights(self) -> list[Circle]:
-        """The circles between which n3 swings."""
+        """The circles between which n3 swings; where the true γ is."""
         ends = (-1.0, 1.0) if self.turning is None else self.turning.roots[1:]
-        return parallels(self.body.n3, ends)
+        return [*parallels(self.body.n3, ends), *self.proved_around]
 
     def colours(self, cells: tuple[int, int], level: Level) -> Task:
         """What finds the rotation number over the diagram."""
@@ -239,6 +240,7 @@ class SuslovHess(SuslovBody):
         """The orbit, the circle map."""
         if self.known("track"):
             yield from orbit_status(self.track.orbit)
+            yield from self.certainty()
         if self.map is None:
             yield "circle map: separatrix, no return"
         else:
@@ -278,10 +280,9 @@ SCENE = Scene(
     views=(
         constrained_body(section=True),
         picture(lambda s: torus_plane.about(s.map, s.turning), lambda s: s.half_width, torus_plane.layers(
-            lambda s: annulus(s.body, s.h, s.turning), half_width=lambda s: s.half_width)),
+            lambda s: annulus(s.body, s.h, s.turning), lambda s: s.half_width, proved=lambda s: s.proved_band)),
         Sphere(caption=lambda s: torus_plane.about_heights(s.turning), circles=SuslovHess.heights,
-               axis=lambda s: Direction(s.body.n3, "n₃"),
-               looks={"orbit": "orbit", "stable": "stable", "unstable": "unstable"}),
+               axis=lambda s: Direction(s.body.n3, "n₃"), looks={one: one for one in ("orbit", "stable", "unstable")}),
         Plot(name="bifurcation", title="Bifurcation diagram", axes=("h", "f"),
              caption=SuslovHess.about_diagram, dot=("h", "reach"),
              x=lambda s: diagram.window(s.h).x, y=lambda s: diagram.window(s.h).y,

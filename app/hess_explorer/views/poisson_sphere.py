@@ -126,10 +126,11 @@ class Sphere(Picture[S]):
         return {self.name: _drawn(None, (), ())}
 
 
-def along_the_orbit(axis: Callable[[S], Direction | None]) -> Sphere[S]:
+def along_the_orbit(axis: Callable[[S], Direction | None], circles: Callable[[S], Sequence[Circle]]) -> Sphere[S]:
     """The vertical along the track "orbit", and the axis of the centre of mass, where there is a field."""
     return Sphere(
-        looks={"orbit": "orbit"}, axis=axis, caption=lambda s: "The vertical γ along the chosen orbit; " + (
+        looks={"orbit": "orbit"}, axis=axis, circles=circles,
+        caption=lambda s: "The vertical γ along the chosen orbit; " + (
             "no field, b = 0." if axis(s) is None else "r: the centre of mass."))
 
 

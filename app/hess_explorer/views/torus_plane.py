@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TypeVar
 
 import numpy as np
@@ -10,7 +10,7 @@ import numpy as np
 from hess_explorer.views import theme
 from hess_explorer.views.layers import Columns, Layer, line, region
 from hess_explorer.views.text import digits, ranging
-from hess_explorer.views.velocity_plane import ring_outside, velocity_columns
+from hess_explorer.views.velocity_plane import band, ring_outside, velocity_columns
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints
 from hess_mechanics.suslov_hess.circle_map import CircleMap
@@ -23,11 +23,13 @@ S = TypeVar("S")
 _PLANE = ("omega1", "omega2")
 
 
-def layers(ring: Callable[[S], tuple[Array, Array]], half_width: Callable[[S], float]) -> tuple[Layer[S], ...]:
-    """The tracks "orbit", "stable" and "unstable" in the ring between two ellipses (n, 2)."""
+def layers(ring: Callable[[S], tuple[Array, Array]], half_width: Callable[[S], float],
+           proved: Callable[[S], Sequence[Sequence[Array]]] = lambda s: ()) -> tuple[Layer[S], ...]:
+    """The tracks "orbit", "stable" and "unstable" in the ring between two ellipses (n, 2); a band about an orbit."""
     return (
         region("forbidden", lambda s: ring_outside(*ring(s), half_width(s)), edge=theme.MUTED, label="impossible",
                moving=True),
+        band(proved),
         line("orbit", track="orbit", columns=_PLANE, color=theme.ORBIT, width=1.3, label="orbit"),
         line("stable", track="stable", columns=_PLANE, color=theme.STABLE, width=3, label="stable cycle"),
         line("unstable", track="unstable", columns=_PLANE, color=theme.UNSTABLE, width=3, dash="dashed",

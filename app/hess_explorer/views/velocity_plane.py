@@ -9,7 +9,7 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.comparison import Frame
-from hess_explorer.views.layers import Axes, Columns, Layer, Range, arrows, column, curves, line, points
+from hess_explorer.views.layers import Axes, Columns, Layer, Range, arrows, column, curves, line, points, region
 from hess_explorer.views.picture import Values
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import gamma_columns
@@ -18,7 +18,7 @@ from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.numerics.results import Array, Orbit
 
 __all__ = [
-    "arcs", "arrows_at", "arrows_on", "beside", "centred", "energy_levels", "equilibria", "frame", "halves",
+    "arcs", "arrows_at", "arrows_on", "band", "beside", "centred", "energy_levels", "equilibria", "frame", "halves",
     "nice_above",
     "orbit", "orbit_alone", "orbit_columns", "outside", "picture", "pixels_per_unit", "ring_outside", "room_for",
     "square", "to_the_edge", "velocity_columns",
@@ -60,9 +60,16 @@ def orbit(label: str) -> Layer[S]:
     return line("orbit", track="orbit", columns=("omega1", "omega2"), color=theme.ORBIT, width=2.5, label=label)
 
 
-def orbit_alone(half_width: Callable[[S], float], energy: Callable[[S], float], label: str = "") -> Plot[S]:
-    """The plane with nothing but the track of the orbit, which has this energy."""
-    return picture(lambda s: f"The chosen orbit, E = {digits(energy(s))}.", half_width, (orbit(label),))
+def band(data: Callable[[S], Sequence[Sequence[Array]]]) -> Layer[S]:
+    """Polygons (n, 2) in which the true orbit is, where they are wider than a pixel."""
+    return region("band", data, color=theme.SHEET, label="the true orbit, as proved", moving=True)
+
+
+def orbit_alone(half_width: Callable[[S], float], energy: Callable[[S], float],
+                proved: Callable[[S], Sequence[Sequence[Array]]], label: str = "") -> Plot[S]:
+    """The plane with nothing but the track of the orbit, which has this energy, and where the true one is."""
+    return picture(lambda s: f"The chosen orbit, E = {digits(energy(s))}.", half_width,
+                   (band(proved), orbit(label)))
 
 
 def nice_above(value: float) -> float:

@@ -1,4 +1,4 @@
-"""Closed forms of the Suslov problem with proved bounds, by balls of Arb: cos χ of free motion, the period of b3 = 0.
+"""Closed forms of the Suslov problem with proved bounds, by balls of Arb: cos χ of free motion, periods.
 
 Numbers are exact, see `balls.exact`; the precision doubles until the enclosure has as many digits as are asked for.
 """
@@ -11,7 +11,7 @@ from typing import Any
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite
 from hess_mechanics.numerics.balls import Ball, Enclosure, exact, rational, to_digits
 
-__all__ = ["proved_cos_chi", "proved_period"]
+__all__ = ["proved_cos_chi", "proved_period", "proved_radial_period"]
 
 Number = str | float | Fraction
 
@@ -85,3 +85,42 @@ def proved_period(I11: Number, I22: Number, b1: Number, b2: Number, omega: tuple
 
 def _dot(x: list[Fraction], y: list[Fraction]) -> Fraction:
     return x[0] * y[0] + x[1] * y[1]
+
+
+def proved_radial_period(inertia: Number, b3: Number, omega: tuple[Number, Number],
+                         gamma: tuple[Number, Number], digits: int = 30) -> Enclosure:
+    """The time T in which |ω| and γ3 come back for b1 = b2 = 0, I11 = I22 = I, from ω and (γ1, γ2), γ3 > 0, |γ| = 1.
+
+    With h = E and ρ = |q|², q as in `quartic`, γ3 = e − kρ, e = h/b3, k = b3/(2I), and M = (ω1γ1 + ω2γ2) I/b3,
+
+        ρ̇² = 4(ρ − ρ(e − kρ)² − M²) = −4k²(ρ − ρ0)(ρ − ρ1)(ρ − ρ2),   T = π/(|k| AGM(√(ρ2 − ρ0), √(ρ1 − ρ0))).
+
+    Raises `MissingLibrary`, `InvalidParameter` (b3 = 0, no γ), `NotPositiveDefinite`, `WorkLimit` (on a circle).
+    """
+    own, field = exact("I", inertia), exact("b3", b3)
+    _positive(I=own)
+    if field == 0:
+        raise InvalidParameter("b3 = 0: without a field |ω| stays. Choose b3 other than 0.")
+    u, w = [exact(f"γ{i}", x) for i, x in enumerate(gamma, 1)], [exact(f"ω{i}", x) for i, x in enumerate(omega, 1)]
+    if _dot(u, u) >= 1:
+        raise InvalidParameter("γ1² + γ2² ≥ 1: choose a state off the equator, with γ1² + γ2² < 1.")
+    k, M2 = field / (2 * own), (_dot(u, w) * own / field) ** 2
+    # e = γ3 + kρ, and γ3 is a root.
+    rise, square = k * _dot(w, w) * (own / field) ** 2, 1 - _dot(u, u)
+
+    def compute(library: Any) -> Ball:
+        arb = library.arb
+        e = arb(rational(square)).sqrt() + rational(rise)
+        slope = arb(rational(k))
+        # ρ³ + aρ² + bρ + c by thirds of an angle: with irrational coefficients no root is isolated exactly.
+        a, b, c = -2 * e / slope, (e * e - 1) / (slope * slope), rational(M2) / (slope * slope)
+        p, q = b - a * a / 3, 2 * a * a * a / 27 - a * b / 3 + c
+        size = (-p / 3).sqrt()
+        angle = (-q / (2 * size * size * size)).acos() / 3
+        high, low, middle = (2 * size * (angle - 2 * arb.pi() * i / 3).cos() - a / 3 for i in (0, 2, 1))
+        low, middle = (low, middle) if low < middle else (middle, low)
+        if not low < middle or not middle < high:
+            return arb("nan")
+        return arb.pi() / (abs(slope) * (high - low).sqrt().agm((middle - low).sqrt()))
+
+    return to_digits(digits, compute)

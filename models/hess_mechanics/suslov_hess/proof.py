@@ -46,8 +46,6 @@ TWO_CYCLES, NO_CYCLE, UNDECIDED = "two cycles", "no cycle", "undecided"
 FIRST_BITS, MOST_BITS = 64, 512
 MOST_WORK = 2e7
 """Steps times the square of their terms, of one proof at one precision: some 15 s."""
-_WIDE = 1e-6
-"""A trace wider than that, relatively, asks for more bits."""
 _SHARE = 0.8
 _GROWTH = 8.0
 """At most, K r of a step: with δ = r/4 no direction then turns by more than 2, less than π."""
@@ -108,10 +106,11 @@ class Proof:
 
 
 def prove(a: str | float | Fraction, h: str | float | Fraction, f: str | float | Fraction,
-          most_bits: int = MOST_BITS, most_work: float = MOST_WORK) -> Proof:
+          most_bits: int = MOST_BITS, most_work: float = MOST_WORK, digits: int = 6) -> Proof:
     """Prove that the torus (a, h, f) has exactly two limit cycles, or none; texts and doubles are exact decimals.
 
-    The precision doubles until this is decided and |t| known to six digits, or `most_bits` or `most_work` is reached.
+    The precision doubles until this is decided and |t| known to so many digits, or `most_bits` or
+    `most_work` is reached.
     Raises `MissingLibrary`, `InvalidParameter`, `OutsideRegion`, `Separatrix`, `WorkLimit`.
 
     >>> from hess_mechanics import prove
@@ -140,8 +139,8 @@ def prove(a: str | float | Fraction, h: str | float | Fraction, f: str | float |
                                     "farther from (1, 0).")
                 return found
             found = _proof(at, turns, plan, bits, begun)
-        good = found.statement != UNDECIDED and found.trace.precision < _WIDE and found.rotation_number is not None
-        if good or 2 * bits > most_bits:
+        known = found.trace.precision < 10.0**-digits and found.rotation_number is not None
+        if (known and found.statement != UNDECIDED) or 2 * bits > most_bits:
             return found
         bits *= 2
 

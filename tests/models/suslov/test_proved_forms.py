@@ -7,9 +7,9 @@ from fractions import Fraction
 import mpmath
 import pytest
 
-from hess_mechanics import SuslovBody, level, scattering
+from hess_mechanics import SuslovBody, level, scattering, systems
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite
-from hess_mechanics.suslov.proved_forms import proved_cos_chi, proved_period
+from hess_mechanics.suslov.proved_forms import proved_cos_chi, proved_period, proved_radial_period
 from hess_mechanics.suslov.scattering import cos_chi
 
 # (I11, I22, I13, I23), cos χ: held values, from 40-digit Taylor series of the motion.
@@ -89,3 +89,34 @@ def test_what_has_no_closed_form_is_refused():
         proved_period("1", "2", "0.1", "0", ("1", "1"), ("1", "0"))
     with pytest.raises(InvalidParameter, match="at rest"):
         proved_period("1", "2", "0", "0", ("0", "0"), ("0.5", "0"))
+
+
+@pytest.mark.parametrize(("inertia", "b3", "omega", "gamma"), [
+    ("1", "1", ("0.4", "-0.3"), ("0.6", "0.1")), ("1.5", "-0.8", ("0.9", "0.5"), ("-0.2", "0.3")),
+    ("0.7", "2", ("1.5", "1"), ("0", "0.5")),
+])
+def test_after_the_radial_period_the_motion_is_as_high_and_as_fast(inertia, b3, omega, gamma):
+    """By Taylor series of mpmath of the general system: |ω|, γ3 and its rate, and not after half of it."""
+    found = proved_radial_period(inertia, b3, omega, gamma)
+    assert found.width < Fraction(1, 10**29)
+    with mpmath.workdps(40):
+        one, b = mpmath.mpf(inertia), mpmath.mpf(b3)
+        w, u = ([mpmath.mpf(x) for x in some] for some in (omega, gamma))
+        start = [*w, *u, mpmath.sqrt(1 - u[0] ** 2 - u[1] ** 2)]
+        solution = mpmath.odefun(lambda _, y: systems()["suslov"].field(y, [one, one, 0, 0, 0, 0, b]), 0, start)
+        period = mpmath.mpf(found.low.numerator) / found.low.denominator
+
+        def seen(y):
+            return [y[0] ** 2 + y[1] ** 2, y[4], y[2] * y[1] - y[3] * y[0]]
+
+        then, half = seen(solution(period)), seen(solution(period / 2))
+        assert max(abs(x - y) for x, y in zip(then, seen(start), strict=True)) < mpmath.mpf(10) ** -25
+        assert max(abs(x - y) for x, y in zip(half, seen(start), strict=True)) > 1e-3
+
+
+def test_what_has_no_radial_period_is_refused():
+    for words, error in ((("1", "0", ("1", "0"), ("0", "0")), InvalidParameter),
+                         (("-1", "1", ("1", "0"), ("0", "0")), NotPositiveDefinite),
+                         (("1", "1", ("1", "0"), ("1", "0")), InvalidParameter)):
+        with pytest.raises(error):
+            proved_radial_period(*words)

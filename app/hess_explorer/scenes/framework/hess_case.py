@@ -131,6 +131,11 @@ class SuslovBody(State):
         """The body."""
         return HessBody(self.I22, self.I23, self.b3)
 
+    @property
+    def units(self) -> tuple[float, float]:
+        """Of w1 and w2, in those of ω1 and ω2."""
+        return self.body.frequency_unit, self.body.frequency_unit * math.hypot(1.0, self.body.a)
+
     def possible_I23(self, notes: list[str]) -> float:
         """I23 with |a| ≤ 100; what was changed is said in the notes."""
         bound = _MAX_A * self.I22

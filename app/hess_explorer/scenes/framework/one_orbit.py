@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Iterator
 from functools import cached_property
 from typing import ClassVar, Protocol
 
-from hess_explorer.scenes.framework.scene import Motion, State
+from hess_explorer.compute.cache import Task
+from hess_explorer.scenes.framework.proved_orbit import ProvedOrbit
+from hess_explorer.scenes.framework.scene import Motion
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_mechanics.dynamics.sampling import sampled_orbit
 from hess_mechanics.dynamics.system import System
@@ -27,7 +29,7 @@ class _Body(Protocol):
     def parameters(self) -> tuple[float, ...]: ...
 
 
-class OneOrbit(State, ABC):
+class OneOrbit(ProvedOrbit):
     """A state with one orbit on show, of a body, from `start`; `most`: as many samples."""
 
     most: ClassVar[int] = 4000
@@ -62,8 +64,14 @@ class OneOrbit(State, ABC):
     @cached_property
     def orbit(self) -> Orbit:
         """The orbit on show."""
-        return self.work.get(sampled_orbit, self.body.system, self.start, self.body.parameters, self.lasts,
-                             self.weights, self.orbit_level, self.most)
+        found: Orbit = self.work.get(self.finding.function, *self.finding.arguments)
+        return found
+
+    @property
+    def finding(self) -> Task:
+        """What finds it."""
+        return Task(sampled_orbit, (self.body.system, self.start, self.body.parameters, self.lasts, self.weights,
+                                    self.orbit_level, self.most))
 
     @property
     def orbit_level(self) -> Level:
@@ -77,3 +85,4 @@ class OneOrbit(State, ABC):
     def _orbit_status(self) -> Iterator[str]:
         if self.known("orbit"):
             yield orbit_status(self.orbit)[0]
+            yield from self.certainty()

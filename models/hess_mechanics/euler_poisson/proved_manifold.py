@@ -1,0 +1,69 @@
+"""The Hess manifold r·M = 0 as a theorem: it is invariant, and where its tori have two cycles separatrices coincide.
+
+With r = (s, 0, t), a1 = a2 ∓ s², a3 = a2 ± t², which are all bodies with the Hess condition (`gess-*1`), whatever μ is,
+
+    (r·M)˙ = ±s t M2 (r·M):
+
+an identity of polynomials in s, t, a2, μ, M, γ, which `cofactor` finds from the field that the program integrates, in
+rationals.  So r·M = 0 is invariant.  In the section it is one closed curve for each torus (h, f), on which the return
+map is Θ, that of `eq0003`.  Where Θ is proved to have exactly two fixed points, of which one attracts and one repels,
+every other orbit of the curve goes from the one to the other: each arc between them is a branch of the unstable
+manifold of the one and of the stable manifold of the other.  As the section keeps an area, both are saddles with the
+multipliers of Θ, μ and 1/μ.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from hess_mechanics.errors import WorkLimit
+from hess_mechanics.euler_poisson.equations import SYSTEM
+from hess_mechanics.numerics.balls import Enclosure, flint
+from hess_mechanics.suslov_hess.proof import TWO_CYCLES, Proof, prove
+
+__all__ = ["Unsplit", "cofactor", "unsplit_separatrices"]
+
+
+def cofactor(sign: int) -> tuple[Any, Any]:
+    """(r·M)˙ for every body with the Hess condition, and ±s t M2 (r·M): polynomials with rational coefficients.
+
+    sign : of a3 − a2.
+
+    Raises `MissingLibrary`.
+    """
+    library = flint()
+    ring = library.fmpq_mpoly_ctx.get(("s", "t", "a2", "mu", "M1", "M2", "M3", "g1", "g2", "g3"),
+                                      library.Ordering.lex)
+    s, t, a2, mu, M1, M2, M3, *gamma = ring.gens()
+    rates = SYSTEM.field([M1, M2, M3, *gamma], [a2 - sign * s**2, a2, a2 + sign * t**2, s, 0 * s, t, mu])
+    return s * rates[0] + t * rates[2], sign * s * t * M2 * (s * M1 + t * M3)
+
+
+@dataclass(frozen=True)
+class Unsplit:
+    """The two saddles of a torus on the Hess manifold, the separatrices of which coincide there.
+
+    proof : that Θ has exactly two cycles; multipliers : of either saddle, the smaller one first.
+    """
+
+    proof: Proof
+    multipliers: tuple[Enclosure, Enclosure]
+
+
+def unsplit_separatrices(a: str | float | Fraction, h: str | float | Fraction, f: str | float | Fraction,
+                         digits: int = 30) -> Unsplit | None:
+    """The theorem for the tori (h, f), units b = 1, of all bodies with this a = s t/a2; None where it is not proved.
+
+    Raises as `prove`, and `WorkLimit` where so many digits are too many.
+    """
+    if not all(found == claimed for found, claimed in map(cofactor, (1, -1))):
+        return None
+    proof = prove(a, h, f, digits=digits + 4)
+    if proof.statement != TWO_CYCLES:
+        return None
+    less, more = sorted(proof.multipliers, key=lambda one: one.low)
+    if max(one.width / one.high for one in (less, more)) > Fraction(1, 10**digits):
+        raise WorkLimit("These multipliers need more precision than a proof may take: choose fewer digits.")
+    return Unsplit(proof, (less, more))

@@ -1,0 +1,121 @@
+"""What is proved of the orbit on show: said beside its estimate, drawn where it is wider than a pixel."""
+
+from __future__ import annotations
+
+import math
+import sys
+
+import numpy as np
+import pytest
+
+import oracle
+from hess_explorer.scenes import scenes
+from hess_explorer.scenes.framework.proved_orbit import ProvedOrbit, hull, judged
+from hess_mechanics import circle_map, level
+from hess_mechanics.suslov_hess.equations import SYSTEM
+from support.view import View
+
+SEEN = frozenset({"omega", "sphere"})
+SCENES = {scene.name: scene for scene in scenes().values()}
+HESS = SCENES["suslov-hess"]
+PROVING = [name for name, scene in SCENES.items() if issubclass(scene.state, ProvedOrbit)]
+STRONG = {"I22": 0.5, "I23": 1.5, "h": 0.5, "f": 0.3}
+UNSTABLE = {**STRONG, "phi0": circle_map(3.0, 0.5, 0.3, level("reference")).fixed_points[1].phi, "span": 20.0}
+"""An orbit that starts on an unstable cycle, as well as a double can: neighbours part by e^12 in each turn."""
+
+
+def shown(scene, values, **more):
+    return View(scene, {**values, "certain": "shown"}, seen=SEEN & set(scene.pictures), **more)
+
+
+def sentence(view):
+    said, = (part for part in view.report.status.split(" · ") if part.startswith("proved error"))
+    return said
+
+
+def tasks(view):
+    return [task for task in view.first.todo if task.function is judged]
+
+
+def test_every_scene_with_one_orbit_of_a_body_proves_its_error():
+    assert {"suslov", "ball-section", "quartic", "euler-poisson", "chaplygin-ball", "orbit-diagram",
+            "suslov-hess"} == set(PROVING)
+
+
+@pytest.mark.parametrize("name", PROVING)
+def test_a_short_orbit_is_right_to_its_end_and_nothing_is_drawn(name):
+    scene = SCENES[name]
+    view = shown(scene, {"span": 1.0}, whole=False)
+    task, = tasks(view)
+    found = task.now()
+    assert found.said.startswith("proved error ≤ ")
+    assert found.said.endswith("certainly right to ½ pixel to its end")
+    assert (found.band, found.around) == ((), ())
+    # So small as the level promises, in units in which the state is O(1), and not nothing.
+    assert 0.0 < float(found.said.split("≤ ")[1].split(",")[0].replace("−", "-")) < 1e-4
+
+
+def test_a_band_holds_the_true_orbit_where_it_is_wider_than_a_pixel():
+    view = shown(HESS, UNSTABLE)
+    said, (state, motion) = sentence(view), (view.result, view.result.motion())
+    until = float(said.split("t = ")[1].split(";")[0].replace("−", "-"))
+    assert 8.0 < until < 20.0
+    band = [np.column_stack(part) for part in zip(*(
+        [np.asarray(one[0][0], float) for one in view.data["omega-band"][key]] for key in ("xs", "ys")), strict=True)]
+    # The true orbit by other means: 60 decimals.
+    orbit, times = state.track.orbit, state.track.times
+    truth = true_states(motion, orbit.times)
+    errors = np.abs(orbit.states - truth) * motion.weights
+    sizes = np.maximum(*(np.linalg.norm(part, axis=1) for part in (errors[:, :2], errors[:, 2:])))
+    assert np.all(sizes[times <= until * (1 - 1e-9)] <= 0.5)
+    assert sizes[np.searchsorted(times, until * 1.001)] > 0.4
+    # Of the true states there, each lies in a polygon of the band.
+    late = (np.linalg.norm(errors[:, :2], axis=1) > 0.6) & (np.linalg.norm(errors[:, :2], axis=1) < 100.0)
+    assert np.any(late)
+    unit = np.array([1.0, math.hypot(1.0, 3.0)]) * state.body.frequency_unit
+    for place in truth[late, :2] * unit:
+        assert any(inside(place, polygon) for polygon in band)
+    assert max(np.ptp(polygon, axis=0).max() for polygon in band) > 2.0 * state.half_width / 600.0
+    circles = [circle for circle in view.data["sphere"]["circles"] if circle[4] == "muted"]
+    assert 0 < len(circles) <= 16
+    assert all(0.5 / 300 < math.acos(circle[3]) < 0.6 for circle in circles)
+
+
+def true_states(motion, times):
+    """By decimals, from exactly these doubles."""
+    return np.array(oracle.orbits.orbit_in_decimals(SYSTEM, motion.state, motion.parameters, times.tolist(), 60),
+                    dtype=float)
+
+
+def inside(place, polygon):
+    """Left of every side of a convex polygon, to round-off of single precision."""
+    sides = np.diff(polygon, axis=0)
+    away = place - polygon[:-1]
+    return np.all(sides[:, 0] * away[:, 1] - sides[:, 1] * away[:, 0] >= -1e-5)
+
+
+def test_an_estimate_that_is_too_small_is_given_away():
+    """At draft two runs agree that leave the unstable cycle together: by decimals, whether they are right."""
+    view = shown(HESS, {**UNSTABLE, "accuracy": "draft"})
+    motion, orbit = view.result.motion(), view.result.track.orbit
+    fine = true_states(motion, orbit.times)
+    too_small = np.abs(orbit.states - fine).max() > orbit.error_estimate
+    assert ("the estimate is too small, as the error reaches" in sentence(view)) == too_small
+
+
+def test_nothing_is_proved_in_a_drag_or_unasked(monkeypatch):
+    assert not tasks(shown(HESS, {}, dragging=True))
+    assert not tasks(View(HESS, {}, seen=SEEN, whole=False))
+    monkeypatch.setitem(sys.modules, "flint", None)
+    view = shown(HESS, {"h": 1.43})
+    assert "proofs need python-flint: pip install 'hess-explorer[prove]'" in view.report.status
+    assert not tasks(view)
+
+
+def test_a_hull_is_convex_closed_and_holds_its_points():
+    rng = np.random.default_rng(1)
+    points = rng.normal(size=(50, 2))
+    found = hull(points)
+    assert found[0].tolist() == found[-1].tolist()
+    assert all(inside(point, found) for point in points)
+    assert {tuple(corner) for corner in found} <= {tuple(point) for point in points}
