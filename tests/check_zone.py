@@ -1,6 +1,6 @@
-"""Checks the cells of `hess-explorer prove-zone --format json` with intervals of mpmath, by code and bounds of its own.
+"""Checks the cells of `hess-explorer prove-zone --format json` with intervals of mpmath, by code of its own.
 
-`python tests/check_zone.py FILE`, or "-" for standard input.  No step of the proof is repeated.  With the angle ψ,
+`python tests/check_zone.py FILE`, or "-" for standard input.  With the angle ψ,
 tan ψ = √(α/β) tan(s/2), the direction θ of a solution of the linear system (`hess_mechanics.suslov_hess.lock_zone`)
 obeys one equation, ψ from 0 to π/2,
 

@@ -20,7 +20,8 @@ is P at the centre, Y1 is linear, found there with the variational equations (Ta
 
 logarithmic derivatives of u and v are sums of shares between 0 and 1, hence small wherever the cell lies.  So the
 error is of second order in the size of the cell, and only cells on the boundary |t| = 2 are left over; these are
-halved, across the side that leaves more doubt.
+halved, across the side that leaves more doubt.  As that needs small cells, and for large |a| very small ones, each is
+first tried as in `zone_directions`.
 This is not in the paper: see models/README.md.
 """
 
@@ -42,6 +43,7 @@ from hess_mechanics.numerics.balls import Ball, Enclosure, enclosure, exact, rat
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.proof import NO_CYCLE, TWO_CYCLES, UNDECIDED
+from hess_mechanics.suslov_hess.zone_directions import proved_by_directions
 
 __all__ = [
     "MOST_A", "LockZone", "ZoneCell", "alpha_beta", "cell_area", "cell_outline", "half_over", "lock_zone", "places",
@@ -54,8 +56,10 @@ _TAIL_BITS = 18
 """Of the remainder of a Taylor step: far below what a cell leaves open."""
 _STEPS = 120
 """More than these would cost more than halving the cell is worth."""
-_LARGEST = 0.5
-"""Half the logarithm of α1/α0 or β1/β0 up to which a cell is tried at all, for a = 0; for others less."""
+_LARGEST, _LARGEST_LINEAR, _SMALL = 1.2, 0.5, 0.15
+"""Half the logarithm of α1/α0 or β1/β0 up to which a cell is tried at all; by its matrix, for a = 0, for others less;
+by lines of four times as many pieces."""
+_PIECES = 48
 _PARTS = 2
 """Of each step, in which bounds over the cell are constants."""
 _ENDS = 2.0**-20, 2.0**20
@@ -147,7 +151,7 @@ def refined(zone: LockZone, cells: int) -> LockZone:
         if area == 0.0:
             # All of them lie beyond the part that is asked for.
             break
-        if cell.across is None and max(_radii(cell)) <= _LARGEST / (1.0 + 0.5 * float(zone.a) ** 2):
+        if cell.across is None and max(_radii(cell)) <= _LARGEST:
             cell = _proved(zone.a, cell)
             tried += 1
             if cell.statement != UNDECIDED:
@@ -253,8 +257,14 @@ def half_over(a: str | float | Fraction, cell: ZoneCell) -> tuple[Enclosure, ...
 
 def _proved(a: Fraction, cell: ZoneCell) -> ZoneCell:
     """What can be proved of all tori of a cell, as large as it is; of an undecided one, across which side to halve."""
-    with working(_BITS):
-        found = _half_over(a, cell)
+    with working(_BITS) as library:
+        size, radius = abs(library.arb(rational(a))), max(_radii(cell))
+        linear = radius <= _LARGEST_LINEAR / (1.0 + 0.5 * float(a) ** 2)
+        pieces = math.ceil(_PIECES * max(1.0, 0.5 * abs(float(a))) * (4 if radius < _SMALL and not linear else 1))
+        statement = proved_by_directions(size, cell.alpha, cell.beta, pieces)
+        if statement is not None:
+            return replace(cell, statement=statement)
+        found = _half_over(a, cell) if linear else None
         if found is None:
             return replace(cell, across=int(np.argmax(_radii(cell))))
         (A, B, C, D), across = found

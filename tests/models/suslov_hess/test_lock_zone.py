@@ -14,6 +14,7 @@ from scipy.integrate import quad
 import oracle
 from hess_mechanics import circle_map, curve_point, f_max, level, lock_boundary, prove, turning_points
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
+from hess_mechanics.numerics.balls import working
 from hess_mechanics.suslov_hess.lock_zone import (
     ZoneCell,
     alpha_beta,
@@ -25,13 +26,14 @@ from hess_mechanics.suslov_hess.lock_zone import (
     refined,
     region_area,
 )
+from hess_mechanics.suslov_hess.zone_directions import proved_by_directions
 
 REFERENCE = level("reference")
 
 
 @pytest.fixture(scope="module")
 def zones():
-    return {a: lock_zone(a, h_end, cells) for a, h_end, cells in (("0.5", 4.0, 150), ("-0.9", 1.5, 60))}
+    return {a: lock_zone(a, h_end, cells) for a, h_end, cells in (("0.5", 4.0, 150), ("-0.9", 1.5, 60), ("2.5", 3.0, 80))}
 
 
 def around(h, f, radius):
@@ -153,6 +155,24 @@ def test_next_to_the_boundary_small_cells_are_decided_and_none_across_it(a):
         below = [(b.low * c.high, b.high * c.high) for _, b, c, _ in found]
         signs = [1 if min(ends) > 0 else -1 if max(ends) < 0 else 0 for ends in below]
         assert signs == [-1, 0, 1]
+
+
+def test_of_a_strong_tilt_most_is_decided_at_once(zones):
+    """By matrices alone 60 cells decided nothing for a = 2."""
+    assert zones["2.5"].decided > 0.85
+    assert set(zones["2.5"].areas) == {"two cycles", "no cycle", "undecided"}
+    assert min(zones["2.5"].areas.values()) > 0.0
+
+
+@pytest.mark.parametrize(("a", "h", "f"), [(0.5, 1.5, 0.6), (0.5, 0.2, 0.5), (2.0, 0.6, 1.0), (0.0, 0.5, 0.3)])
+def test_lines_next_to_one_torus_decide_what_its_map_does(a, h, f):
+    theta, cell = circle_map(a, h, f, REFERENCE), around(h, f, 1e-4)
+    with working(64) as library:
+        said = [proved_by_directions(library.arb(a), cell.alpha, cell.beta, pieces) for pieces in (4, 400)]
+        wide = proved_by_directions(library.arb(a), (1e-6, 1e6), (1e-6, 1e6), 50)
+    assert said[1] == ("two cycles" if theta.trace > 2 else "no cycle")
+    assert said[0] in (None, said[1])
+    assert wide is None
 
 
 def test_the_decided_share_grows_and_cells_cover_the_region(zones):
