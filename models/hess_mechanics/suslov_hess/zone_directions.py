@@ -5,8 +5,8 @@ With the angle ψ, tan ψ = √(α/β) tan(s/2), the direction θ of a solution 
     dθ/dψ = −½√(1 − ζ) − a√ζ q cos 2θ,   ζ = z/(1 + z),   1/z = cos²ψ/β + sin²ψ/α,   q = 1/(ρ cos²ψ + sin²ψ/ρ),
 
 ρ = √(α/β), 0 ≤ ψ ≤ π/2.  A broken line that is everywhere steeper than the right-hand side on it, for all α and β of
-the cell, stays above all solutions; likewise below.  From θ = 0 they lead to the quadrant of (A, C), from π/2 to that of
-(B, D), and these signs decide.  The error is of first order in the size of the cell, but it does not grow with e^{πa}:
+the cell, stays above all solutions; likewise below.  From θ = 0 they lead to the quadrant of (A, C), from π/2 to that
+of (B, D), and these signs decide.  The error is of first order in the size of the cell, but does not grow with e^{πa}:
 where solutions run together, the lines do too.
 """
 

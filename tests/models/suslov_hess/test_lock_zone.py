@@ -33,7 +33,8 @@ REFERENCE = level("reference")
 
 @pytest.fixture(scope="module")
 def zones():
-    return {a: lock_zone(a, h_end, cells) for a, h_end, cells in (("0.5", 4.0, 150), ("-0.9", 1.5, 60), ("2.5", 3.0, 80))}
+    asked = ("0.5", 4.0, 150), ("-0.9", 1.5, 60), ("2.5", 3.0, 80)
+    return {a: lock_zone(a, h_end, cells) for a, h_end, cells in asked}
 
 
 def around(h, f, radius):
