@@ -161,8 +161,7 @@ def test_next_to_the_boundary_small_cells_are_decided_and_none_across_it(a):
 def test_of_a_strong_tilt_most_is_decided_at_once(zones):
     """By matrices alone 60 cells decided nothing for a = 2."""
     assert zones["2.5"].decided > 0.85
-    assert set(zones["2.5"].areas) == {"two cycles", "no cycle", "undecided"}
-    assert min(zones["2.5"].areas.values()) > 0.0
+    assert lock_zone("3", 4.0, 60).decided > 0.85
 
 
 @pytest.mark.parametrize(("a", "h", "f"), [(0.5, 1.5, 0.6), (0.5, 0.2, 0.5), (2.0, 0.6, 1.0), (0.0, 0.5, 0.3)])
