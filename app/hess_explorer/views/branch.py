@@ -69,8 +69,10 @@ def layers(branches: Callable[[S], Sequence[Branch]], side: Callable[[S], int], 
         for one in bifurcations(branches(state)):
             y = one.places[:, side(state)]
             there = seen(np.column_stack([y, np.full(len(y), one.value)]), turn(state), up)
-            found += [(float(x), float(height), _SHORT.get(one.kind, one.kind)) for height, x in there
-                      if axes.x[0] <= x <= axes.x[1]]
+            inside = [(float(x), float(height)) for height, x in there if axes.x[0] <= x <= axes.x[1]]
+            # One of its places, the highest, has its name: names beside all of them would cover each other.
+            found += [(x, y, _SHORT.get(one.kind, one.kind) if y == max(inside, key=lambda at: at[1])[1] else "")
+                      for x, y in inside]
         return found
 
     def places(state: S, axes: Axes) -> Array | None:
