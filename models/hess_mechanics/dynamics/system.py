@@ -112,6 +112,11 @@ class System:
         return self._vary("vary", len(self.variables))
 
     @cached_property
+    def vary_others(self) -> Callable[..., int]:
+        """The kernel of one orbit and all its neighbours but the one ahead of it, whose way is known."""
+        return self._vary("vary_others", len(self.variables) - 1)
+
+    @cached_property
     def vary_one(self) -> Callable[..., int]:
         """The kernel of one orbit and one neighbour."""
         return self._vary("vary_one", 1)

@@ -8,12 +8,24 @@ import mpmath
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from scipy.linalg import expm
 
-from hess_mechanics import Plane, circle_map, level, return_matrix, systems, transition_matrix, turning_points
+from hess_mechanics import (
+    Plane,
+    SuslovBody,
+    circle_map,
+    level,
+    return_matrix,
+    systems,
+    transition_matrix,
+    turning_points,
+)
 from hess_mechanics.dynamics.section import section
+from hess_mechanics.dynamics.system import Problem
 from hess_mechanics.dynamics.variation import onto_surface
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from oracle.orbits import taylor
+from support.suslov import permanent_rotations
 
 PRECISE, REFERENCE = level("precise"), level("reference")
 SUSLOV = systems()["suslov"]
@@ -147,3 +159,22 @@ def test_multipliers_of_limit_cycles_are_those_of_the_moebius_map():
         assert returned.time == pytest.approx(turning.period, abs=1e-11)
         # On the section the motion itself has none.
         assert np.trace(returned.matrix) - 3.0 == pytest.approx(point.multiplier, rel=1e-9)
+
+
+def test_the_neighbour_ahead_goes_where_the_motion_goes_and_at_rest_nothing_is_left_out():
+    p = (1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3)
+    system = SUSLOV
+    # Five columns, all of them integrated.
+    state, times = (0.8, 1.3, 0.6, 0.0, 0.8), np.array([0.5, 3.0])
+    problem = Problem.of(system, [state], p)
+    frames = np.empty((2, 5, 5))
+    system.vary(problem.states[0], np.eye(5), problem.parameters, problem.times(times), 24, 1e-17, 10_000, math.inf,
+                np.empty((2, 5)), frames, np.empty((2, 5)), np.empty(2))
+    found = transition_matrix(system, state, p, times, REFERENCE).matrices
+    assert np.abs(found - problem.scale[:, None] * frames / problem.scale).max() < 1e-12
+    # A permanent rotation, where f = 0: V = e^{Jt}, with J by differences.
+    start = next(permanent_rotations(SuslovBody(*p), 1.743))
+    columns = [(np.array(system.field(start + h, p)) - np.array(system.field(start - h, p))) / 2e-6
+               for h in 1e-6 * np.eye(5)]
+    found = transition_matrix(system, start, p, 2.0, PRECISE).matrices[0]
+    assert np.abs(found - expm(2.0 * np.column_stack(columns))).max() < 1e-8
