@@ -3,8 +3,9 @@
 Both find y(T) and ∂y(T)/∂y(0); the error is the largest of the matrix beside its largest entry, against our reference
 level.  For each tolerance the least of many times, one after the other by turns.  Needs heyoka: pip install heyoka.
 
-2026-11-22, two shared cores, Suslov, T = 200: 0.54 ms for 9e-8, 0.80 for 8e-11, 1.08 for 8e-14; heyoka 7.13.2 1.21 ms
-for 4e-7, 1.96 for 6e-10, 2.72 for 9e-13: 2.4 to 2.8 times as long at equal error, on a busy machine.
+2026-11-23, two shared cores, Suslov, T = 200: 0.33 ms for 9e-8, 0.47 for 9e-11; heyoka 7.13.2 0.96 ms for 4e-7, 1.61
+for 6e-10, 2.28 for 9e-13: 3.4 and 3.8 times as long at equal error, on a busy machine.  With all five columns, as the
+spectrum has them, it was 0.43 and 0.62 ms in the same run: 2.6 and 3.0 times.
 """
 
 from __future__ import annotations

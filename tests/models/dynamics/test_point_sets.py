@@ -68,3 +68,11 @@ def test_places_of_periodic_orbits_have_no_grain_but_what_is_resolved():
     assert not how_far_apart(PLANE, left, left).settled
     with pytest.raises(InvalidParameter, match="from 8 places on"):
         how_far_apart(PLANE, a[:7], b)
+
+
+def test_where_one_set_is_a_part_of_the_other_the_distance_is_that_of_what_is_left():
+    whole = np.column_stack([np.linspace(0.0, 1.0, 201), np.zeros(201)])
+    part = whole[:101]
+    # From the part to the whole it is 0; of the places of the whole 95 of 100 have x up to 0.95.
+    for one, other in ((part, whole), (whole, part)):
+        assert distance((math.inf, math.inf), one, other) == pytest.approx(0.45, abs=1e-9)
