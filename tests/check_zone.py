@@ -106,7 +106,7 @@ def holds(a, alpha, beta, statement, halvings, pieces=PIECES):
 def verify(zone, halvings=HALVINGS):
     """Raise `Refused`, `KeyError`, `ValueError` or `TypeError` unless every cell is what it is said to be; their count.
 
-    Cells may touch, not overlap: two of them never say of one torus that it has cycles and that it has none.
+    What is refused is what is not proved of a cell; whether cells overlap, and how much they cover, is not looked at.
     """
     iv.prec = PRECISION
     a, count = Fraction(zone["a"]), 0

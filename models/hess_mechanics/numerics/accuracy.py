@@ -57,7 +57,9 @@ class Level:
         if self.is_floor:
             return Level(self.name, self.promise, self.tolerance / 30.0, self.order - 3)
         order = self.order + 4 if self.tolerance > 1e-11 else REFERENCE.order
-        return Level(self.name, self.promise, max(self.tolerance * 1e-2, FLOOR_TOLERANCE), order)
+        # A hundredth of 1e-15 is a little more than 1e-17: the floor would be compared with itself.
+        tolerance = self.tolerance * 1e-2 if self.tolerance > 200.0 * FLOOR_TOLERANCE else FLOOR_TOLERANCE
+        return Level(self.name, self.promise, tolerance, order)
 
 
 FLOOR_TOLERANCE = 1e-17

@@ -66,3 +66,16 @@ def test_a_level_that_is_none_is_refused():
     (0.9e-9, "reference"), (1e-15, "reference")])
 def test_the_cheapest_level_is_the_first_that_promises_an_error(error, name):
     assert cheapest(error).name == name
+
+
+@pytest.mark.parametrize("name", [*LEVELS])
+def test_no_run_is_measured_by_one_that_takes_the_same_steps(name):
+    """Down to the floor and against what measures that: another order, or a third of the tolerance at most."""
+    rung = LEVELS[name]
+    for _ in range(12):
+        finer = rung.tightened()
+        assert finer.order != rung.order or finer.tolerance < rung.tolerance / 3.0
+        if rung.is_floor:
+            return
+        rung = finer
+    raise AssertionError("the floor is not reached")
