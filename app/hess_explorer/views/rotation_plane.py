@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 from typing import TypeVar
 
 import numpy as np
@@ -10,7 +11,7 @@ import numpy as np
 from hess_explorer.views import theme
 from hess_explorer.views.bifurcation_diagram import impossible
 from hess_explorer.views.layers import TURNS, Axes, Grid, Layer, Range, Sign, curves, image, region, target
-from hess_mechanics.numerics.results import Array, Mask
+from hess_mechanics.numerics.results import Array, Mask, frozen
 from hess_mechanics.suslov_hess.bifurcation import f_max, h_min
 from hess_mechanics.suslov_hess.rotation_number import Torus, TorusValues
 
@@ -51,10 +52,11 @@ def grids(values: TorusValues, cells: tuple[int, int], x: Range, y: Range) -> tu
     return rho, zones
 
 
+@lru_cache(64)
 def _upper(x: Range) -> Array:
-    """The bifurcation curve (n, 2) with f ≥ 0, as far as it is in a window."""
+    """The bifurcation curve (n, 2) with f ≥ 0, as far as it is in a window, which stays while a changes."""
     energies = np.linspace(max(x[0], -1.0), x[1], _ON_EDGE)
-    return np.array([[h, f_max(h) if h > -1.0 else 0.0] for h in energies.tolist()])
+    return frozen(np.array([[h, f_max(h) if h > -1.0 else 0.0] for h in energies.tolist()]))
 
 
 def edges(plane: str, torus: Torus, x: Range, y: Range) -> list[Array]:
