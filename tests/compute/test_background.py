@@ -439,13 +439,13 @@ def test_stop_leaves_what_is_drawn_and_says_how_much(gate):
 def test_what_was_stopped_is_not_begun_again_by_a_picture_that_comes_into_sight(gate):
     browser = Browser(EP, SMALL)
     wait_until(lambda: len(gate.calls) == THREADS)
-    browser.ask(1, hidden=["sphere", "exponent", "split"])
+    browser.ask(1, hidden=["sphere", "split"])
     browser.ask(2, stop=True)
     gate.let(1000)
     completed(browser, 2)
     begun = len(gate.calls)
     assert begun == THREADS
-    state = browser.ask(3, hidden=["exponent", "split"])
+    state = browser.ask(3, hidden=["split"])
     time.sleep(0.03)
     assert state["progress"] is None
     assert browser.session.background.left == 0

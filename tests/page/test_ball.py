@@ -280,7 +280,8 @@ LINKED = {
                        "phi": -2.0, "digits": 4.5, "span": 33.0, "certain": "not shown", "accuracy": "precise"},
     "ball-section": {"I11": 1.25, "I22": 0.75, "I13": 0.25, "I23": -0.5, "D": 1.5, "b1": 0.25, "b2": -0.5, "b3": 0.75,
                      "h": 2.5, "psi": -1.0, "delta": 0.75, "count": 100.0, "span": 33.0, "drop": "the later half",
-                     "periodic": "none", "reach": 7.5, "certain": "not shown", "indicator": "MEGNO", "accuracy": "draft"},
+                     "periodic": "none", "reach": 7.5, "certain": "not shown", "indicator": "MEGNO",
+                     "accuracy": "draft"},
 }
 
 
