@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 import numba
 import pytest
@@ -70,6 +71,31 @@ def test_sessions_take_turns_and_an_error_ends_none(caplog):
     for _ in sessions:
         assert ended.acquire(timeout=PATIENCE)
     assert [record.exc_info[0] for record in caplog.records] == [ZeroDivisionError] * 3
+
+
+def test_turns_are_fair_in_seconds_and_not_in_number(monkeypatch):
+    monkeypatch.setattr(turns, "_pool", ThreadPoolExecutor(1, "turn"))
+    began, done, everything = threading.Event(), [], threading.Semaphore(0)
+    dear, cheap = Turns(), [Turns() for _ in range(4)]
+
+    def work(name, seconds):
+        busy(seconds)
+        done.append(name)
+        everything.release()
+
+    dear.take(began.wait)
+    for _ in range(3):
+        dear.take(lambda: work("dear", 0.1))
+    for session in cheap:
+        for _ in range(5):
+            session.take(lambda: work("cheap", 0.001))
+    began.set()
+    for _ in range(23):
+        assert everything.acquire(timeout=PATIENCE)
+    # One of the dear things may come before the cheap ones: until then it has cost nothing.
+    assert done[-2:] == ["dear", "dear"]
+    # Who comes later has no more claim than who waits, and the dear one is served where nobody else asks.
+    assert done.count("cheap") == 20
 
 
 def test_what_nobody_waits_for_is_not_begun_and_what_runs_ends_at_its_next_computation():

@@ -1,7 +1,14 @@
-"""What sessions ask for, handled outside the thread that serves: one thing of a session at a time, sessions in turn."""
+"""What sessions ask for, handled outside the thread that serves: one thing of a session at a time, sessions in turn.
+
+Turns are fair in seconds of the processor, not in number: start-time fair queueing (Goyal, Vin and Cheng, 1996).  What
+a session asks for is tagged with the time at which its last thing would have ended, had it had its share and no more;
+the least tag comes first.  So who asks for what takes long waits for the others, and they hardly wait for that one.
+"""
 
 from __future__ import annotations
 
+import heapq
+import itertools
 import logging
 import threading
 from collections import deque
@@ -24,6 +31,32 @@ MOST = 20
 _pool = ThreadPoolExecutor(max_workers=THREADS + 1, thread_name_prefix="turn")
 
 
+class _Order:
+    """Whose turn is next.  Times are seconds of the processor that a session with its share has had."""
+
+    def __init__(self) -> None:
+        self._waiting: list[tuple[float, int, Callable[[float], None]]] = []
+        self._number = itertools.count()
+        self._now = 0.0
+        self._lock = threading.Lock()
+
+    def enter(self, ended: float, one: Callable[[float], None]) -> None:
+        """Call one(begins) in its turn; ended : of the same session's last thing."""
+        with self._lock:
+            # Of things that begin at the same time the first comes first.
+            heapq.heappush(self._waiting, (max(ended, self._now), next(self._number), one))
+        queue_again(_pool, self._next)
+
+    def _next(self) -> None:
+        with self._lock:
+            begins, _, one = heapq.heappop(self._waiting)
+            self._now = max(self._now, begins)
+        one(begins)
+
+
+_order = _Order()
+
+
 def _nothing() -> None:
     """What waited has been forgotten."""
 
@@ -35,6 +68,7 @@ class Turns:
         self._waiting: deque[Callable[[], None]] = deque(maxlen=MOST)
         self._lock = threading.Lock()
         self._working = False
+        self._ended = 0.0
         self._left = threading.Event()
 
     def take(self, work: Callable[[], None]) -> bool:
@@ -47,7 +81,7 @@ class Turns:
             idle, self._working = not self._working, True
         if idle:
             CORES.answer(True)
-            _pool.submit(self._one)
+            _order.enter(self._ended, self._one)
         return room
 
     def end(self) -> None:
@@ -56,21 +90,22 @@ class Turns:
             self._left.set()
             self._waiting.clear()
 
-    def _one(self) -> None:
-        """Do one thing, then queue again where more waits."""
+    def _one(self, begins: float) -> None:
+        """Do one thing, then wait for another turn where more waits."""
         with self._lock:
             work = self._waiting.popleft() if self._waiting else _nothing
-        try:
-            with limited(self._left):
+        with limited(self._left) as budget:
+            try:
                 work()
-        except Abandoned:
-            pass
-        # Whatever it is, what waits behind it in the session has its turn; the log says all.
-        except Exception:
-            logger.exception("a message could not be handled")
+            except Abandoned:
+                pass
+            # Whatever it is, what waits behind it in the session has its turn; the log says all.
+            except Exception:
+                logger.exception("a message could not be handled")
         with self._lock:
+            self._ended = begins + budget.spent
             self._working = bool(self._waiting)
             if not self._working:
                 CORES.answer(False)
                 return
-        queue_again(_pool, self._one)
+        _order.enter(self._ended, self._one)
