@@ -48,7 +48,7 @@ def test_a_notebook_shows_a_state_by_its_parameters_and_link():
 
 @pytest.mark.parametrize(("given", "sentence"), [
     ({"height": 1.0},
-     "has no parameter 'height': choose one of I22, I23, b3, h, f, phi0, span, cells, accuracy, t, az, el."),
+     "has no parameter 'height': choose one of I22, I23, b3, h, f, phi0, span, cells, certain, accuracy, t, az, el."),
     ({"h": "high"}, "'high' is not a number: h (Energy h) is one from -1 to 1e+06."),
     ({"h": True}, "True is not a number"), ({"h": None}, "None is not a number"),
     ({"h": math.nan}, "h (Energy h) must be a finite number."), ({"h": -2.0}, "h lies between -1 and 1e+06."),
