@@ -1085,7 +1085,8 @@ def test_whatever_is_raised_while_a_message_is_handled_the_page_gets_a_state(whe
     browser = Browser(scene)
     broken.append(True)
     choice = next(spec for spec in scene.specs if not isinstance(spec, Number))
-    state = browser.ask(1, values={choice.name: choice.options[0], "h": 7.0})
+    other = next(option for option in choice.options if option != choice.default)
+    state = browser.ask(1, values={choice.name: other, "h": 7.0})
     assert state["answers"] == 1
     assert browser.texts["status"] == session.FAILED
     assert "ZeroDivisionError" in caplog.text

@@ -75,7 +75,12 @@ def saddles(torus: HessTorus, level: Level) -> Saddles:
     body = HeavyBody.hess(torus.moments, torus.strength)
     bridge = Bridge.of_heavy(body)
     h, f = bridge.in_units_of_b(torus.h, torus.f)
-    theta = circle_map(bridge.hess.a, h, f, REFERENCE)
+    try:
+        theta = circle_map(bridge.hess.a, h, f, REFERENCE)
+    except OutsideRegion as reason:
+        # Its numbers are those of other units.
+        raise OutsideRegion("The Hess manifold has no motion with these h and f, so no separatrices: choose a larger h "
+                            "or a smaller |f|.") from reason
     if theta.kind != "hyperbolic":
         raise OutsideRegion("The torus of the Hess manifold has no limit cycles here, so no separatrices: choose an h "
                             "and f where |trace| of the circle map is larger than 2.")
@@ -111,8 +116,8 @@ def _towards(map_: ReturnMap, places: Array, l: float, stable: bool) -> Manifold
     orbit = find_periodic(map_, places if len(places) > 1 else places[0], None if len(places) > 1 else 1, near=True)
     if (not orbit.kind.startswith("saddle") or orbit.period != len(places)
             or np.abs(apart(map_.turns, orbit.places, places)).max() > _ELSEWHERE):
-        raise NotConverged("So far from the Hess case the saddles of the Hess manifold are not found: choose a smaller "
-                           "ε.")
+        raise NotConverged("The limit cycles of the Hess manifold are not found as saddles of the section: choose a "
+                           "smaller ε, or other h and f.")
     sheet = map_.sheet
     assert isinstance(sheet, AndoyerSection)
     from_ = float(orbit.places[0, 0])

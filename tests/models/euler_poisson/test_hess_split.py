@@ -76,5 +76,7 @@ def test_the_saddles_are_the_cycles_of_the_moebius_matrix():
 def test_where_there_is_nothing_to_split_that_is_said():
     with pytest.raises(OutsideRegion, match="no limit cycles"):
         split_at(HessTorus((1.0, 1.5, 2.0), -math.sqrt(0.5), 0.2, 1.0), 0.0, PRECISE)
+    with pytest.raises(OutsideRegion, match="no motion with these h and f"):
+        split_at(HessTorus((1.0, 1.5, 2.0), -math.sqrt(0.5), 0.0, 1.0), 0.0, PRECISE)
     with pytest.raises(NotConverged):
         split_at(HessTorus((1.0, 1.5, 2.0), -math.sqrt(0.5), 0.8, 1.0), 0.1, PRECISE)
