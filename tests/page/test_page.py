@@ -188,7 +188,7 @@ def test_a_page_that_has_lost_its_server_says_so_and_goes_on_in_the_same_state_w
 
 # --- The link ----------------------------------------------------------------------------------------
 
-OTHER_KEYS = ("v", "scene", "cells", "accuracy", "theme", "large")
+OTHER_KEYS = ("v", "scene", "cells", "certain", "accuracy", "theme", "large")
 """Those of the keys of a link that hold no numbers."""
 LINKED = {"I22": 1.25, "I23": -0.5, "b3": -2.5, "h": 0.75, "f": -0.4, "phi0": -2.0, "span": 15.0}
 

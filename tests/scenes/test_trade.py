@@ -313,8 +313,8 @@ def test_what_is_compared_is_one_of_the_kinds_the_costliest_at_first():
     assert scenes()["suslov-accuracy"].defaults()["difference"] == "section"
     values, notes = decode("v=1&difference=everything", scene.specs)
     assert values["difference"] == "rotation number"
-    assert notes == ["What is compared was not one of orbit, section, exponent, rotation number: it is rotation "
-                     "number now."]
+    assert notes == ["What is compared was not one of orbit, section, indicator, exponent, rotation number: it is "
+                     "rotation number now."]
     admitted, notes = scene.admit({**scene.defaults(), "difference": "<b>"})
     assert admitted == scene.defaults()
     assert len(notes) == 1

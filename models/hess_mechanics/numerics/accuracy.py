@@ -107,6 +107,7 @@ class Kind(StrEnum):
     MAP = "map"
     CURVE = "curve"
     BASINS = "basins"
+    INDICATOR = "indicator"
     EXPONENT = "exponent"
     CLOUD = "cloud"
 
@@ -126,6 +127,7 @@ _UNITS = {
     Kind.MAP: "error of θ⁺, in radians",
     Kind.CURVE: "distance from the curve, in pixels, for |a| ≤ 1",
     Kind.BASINS: "share of the cells that twice as many along each side change, where the boundary is a curve",
+    Kind.INDICATOR: "share of the cells that twice as many along each side change, where the boundary is a curve",
     Kind.EXPONENT: "error of λ beside the fastest angular velocity ν, for a time of 2000/ν",
     Kind.CLOUD: "error of ln|s|, of γ, and of ω beside its largest size",
 }
@@ -170,6 +172,10 @@ def _plans(*rows: tuple[Level, float, float, float]) -> dict[str, Plan]:
     return {row[0].name: Plan(*row) for row in rows}
 
 
+_CELLS = _plans((_CROSSED, 1.0, 0.5, 0.05), (replace(_CROSSED, name="standard"), 1.0, 1.0, 0.03),
+                (replace(STANDARD, name="precise"), 1.0, 1.0, 0.03),
+                (replace(PRECISE, name="reference"), 1.0, 1.5, 0.02))
+
 PLANS: Mapping[Kind, Mapping[str, Plan]] = {
     Kind.ORBIT: _plans(*((each, 1.0, 1.0, each.promise) for each in LEVELS.values())),
     # A tolerance above 1e-6 loses crossings.
@@ -189,10 +195,9 @@ PLANS: Mapping[Kind, Mapping[str, Plan]] = {
                      (REFERENCE, 1.0, 1.0, 1e-11)),
     Kind.CURVE: _plans((DRAFT, 1.0, 0.5, 0.75), (STANDARD, 1.0, 1.0, 0.25), (PRECISE, 1.0, 1.0, 0.25),
                        (REFERENCE, 1.0, 2.0, 0.1)),
-    # To which attractor an orbit comes needs no digits: more cells tell more.
-    Kind.BASINS: _plans((_CROSSED, 1.0, 0.5, 0.05), (replace(_CROSSED, name="standard"), 1.0, 1.0, 0.03),
-                        (replace(STANDARD, name="precise"), 1.0, 1.0, 0.03),
-                        (replace(PRECISE, name="reference"), 1.0, 1.5, 0.02)),
+    # To which attractor an orbit comes, and whether it is chaotic, needs no digits: more cells tell more.
+    Kind.BASINS: _CELLS,
+    Kind.INDICATOR: _CELLS,
     # The neighbour is 1e-7 away, and steps must be exact beside that; the time decides how well λ is known.
     Kind.EXPONENT: _plans((replace(DRAFT, tolerance=1e-10, order=16), 0.2, 1.0, 0.05),
                           (replace(STANDARD, tolerance=1e-14, order=24), 1.0, 1.0, 0.02),

@@ -74,7 +74,7 @@ class Indicated(PeriodicOrbits):
         """Ȳ and kind of the cells, (n, 2, m), and how many of their rows are still coarse; None before any is known."""
         if not self.indicated or self.dragging:
             return None
-        plan = self.plan(Kind.BASINS)
+        plan = self.plan(Kind.INDICATOR)
         return found_by_rows(self.work, row_of_cells, self.indicator_rows(plan, COARSE), self.indicator_rows(plan),
                              self.sooner)
 
@@ -119,6 +119,6 @@ def _all(s: Indicated, plan: Plan) -> Array:
 
 
 INDICATOR: Trial[Any] = Trial(
-    Kind.BASINS, ("section",), _all, lambda s, cells, truth: changed(cells, truth),
+    Kind.INDICATOR, ("section",), _all, lambda s, cells, truth: changed(cells, truth),
     lambda s, cells: look(s.frame, s.names, cells), unit="% of the cells that change", seen=3.0,
     shown=lambda s: s.indicated)

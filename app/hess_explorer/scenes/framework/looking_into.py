@@ -21,8 +21,8 @@ I = TypeVar("I", bound="Insight")
 
 COMPARED = "difference"
 """The parameter that says what is compared."""
-_COSTLIEST = (Kind.ROTATION, Kind.BASINS, Kind.SECTION, Kind.GRID, Kind.CLOUD, Kind.COLOURS, Kind.MAP, Kind.CURVE,
-              Kind.LINE, Kind.EXPONENT, Kind.ORBIT)
+_COSTLIEST = (Kind.ROTATION, Kind.BASINS, Kind.INDICATOR, Kind.SECTION, Kind.GRID, Kind.CLOUD, Kind.COLOURS,
+              Kind.MAP, Kind.CURVE, Kind.LINE, Kind.EXPONENT, Kind.ORBIT)
 """From what takes longest on: as `hess-explorer bench --trade` measures it."""
 
 
