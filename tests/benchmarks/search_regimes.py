@@ -15,7 +15,7 @@ strange : strange attractors, with their Kaplan–Yorke dimension, whether their
     over a parameter about them.
 reversal : motions that turn round on their way from a repeller to an attractor.
 tori : parameters along which a closed attracting curve gives way to a strange attractor: so with `--count 40 --seed 1`
-    four bodies of 40, first I = (1.2, 1.2, 0.6, 0.5), b = (-1.5, 1.2, 1.3), E = -0.819 along I11.
+    four bodies of 40, among them I = (1.2, 1.2, 0.6, 0.5), b = (-1.5, 1.2, 1.3), E = -0.819 along I11.
 """
 
 from __future__ import annotations
