@@ -8,7 +8,7 @@ from typing import Any
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 
-class PagesHook(BuildHookInterface):  # type: ignore[type-arg]
+class PagesHook(BuildHookInterface[Any]):
     """An installation that is edited has none: `hess-explorer docs` makes them anew there."""
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:

@@ -18,6 +18,7 @@ from hess_mechanics.chaplygin_ball import integrable_cases, phase_cloud_density
 from hess_mechanics.chaplygin_ball import section as ball
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud import Cloud
+from hess_mechanics.dynamics.cells import Window, centres
 from hess_mechanics.dynamics.lyapunov import Exponent, largest_exponent
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.periodic import place_units
@@ -43,7 +44,6 @@ __all__ = [
     "lyapunov_spectrum", "orbit", "period", "rotation_along_line", "rotation_numbers", "suslov_section",
 ]
 
-Window = tuple[tuple[float, float], tuple[float, float]]
 _MOST_ORBITS, _MOST_CROSSINGS = 1000, 10_000
 _LONG = 1000.0
 """Time over which the divergence of one motion of each group is averaged."""
@@ -242,7 +242,7 @@ def basins(body: SuslovBody, E: float, *, plane: int = 3, cells: tuple[int, int]
     share(row, n)
     group = groups_of_cells(ends)
     on_each = tuple(contraction_at(section, window, (m, n), *cell, _LONG) for cell in middle_cells(ends, group))
-    return Basins(frozen(x0 + (np.arange(m) + 0.5) * (x1 - x0) / m), frozen(y0 + (np.arange(n) + 0.5) * (y1 - y0) / n),
+    return Basins(frozen(centres(x0, x1, m)), frozen(centres(y0, y1, n)),
                   frozen(np.where(np.isfinite(ends), ends, np.nan)), frozen(group), on_each, chosen.name)
 
 

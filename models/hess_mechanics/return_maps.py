@@ -17,6 +17,7 @@ from hess_mechanics.chaplygin_ball.section import BallSection
 from hess_mechanics.dynamics import megno_map as cells_of
 from hess_mechanics.dynamics import orbit_diagram as diagrams
 from hess_mechanics.dynamics import regime as regimes
+from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.dynamics.continuation import Branch, continued
 from hess_mechanics.dynamics.manifolds import Manifold, grown
 from hess_mechanics.dynamics.megno_map import MegnoMap
@@ -42,7 +43,6 @@ __all__ = [
 ]
 
 Body = SuslovBody | QuarticBody | BallBody | HeavyBody | HessBody
-Window = tuple[tuple[float, float], tuple[float, float]]
 _MOST_PLACES = 1_000_000
 
 

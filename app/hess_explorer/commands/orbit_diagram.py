@@ -91,18 +91,16 @@ def _located(section: ReturnMap, there: Diagram, most: int) -> Cascade | str | N
     from hess_mechanics import ModelError, period_doublings, periodic_orbit
     from hess_mechanics.dynamics.orbit_diagram import doubling_seen
 
-    known = list(zip(there.values.tolist(), there.periods.tolist(), there.places, strict=True))
-    for way in (known, known[::-1]):
-        k = doubling_seen([m for _, m, _ in way])
-        if k is None:
-            continue
-        value, m, places = way[k]
-        at = section.moved(there.parameter, value)
-        try:
-            return period_doublings(at, periodic_orbit(at, places[-1].tolist(), m), there.parameter, way[-1][0], most)
-        except ModelError as error:
-            return str(error)
-    return None
+    seen = doubling_seen([there])
+    if seen is None:
+        return None
+    value, places, end = seen
+    at = section.moved(there.parameter, value)
+    try:
+        orbit = periodic_orbit(at, places[-1].tolist(), len(places))
+        return period_doublings(at, orbit, there.parameter, end, most)
+    except ModelError as error:
+        return str(error)
 
 
 def _doublings(found: Cascade | str) -> dict[str, Any]:

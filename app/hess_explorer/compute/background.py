@@ -41,7 +41,7 @@ def in_turns(step: Callable[[], bool]) -> None:
     _pool.submit(one)
 
 
-class _Running:
+class _Begun:
     """The pieces of a session that have begun, each with what ends it."""
 
     def __init__(self) -> None:
@@ -70,10 +70,10 @@ class _Running:
 
 
 class _Job:
-    def __init__(self, tasks: Iterable[Task], running: _Running) -> None:
+    def __init__(self, tasks: Iterable[Task], begun: _Begun) -> None:
         self.tasks = deque(tasks)
         self.error = ""
-        self._all_running = running
+        self._begun = begun
         self._lock = threading.Lock()
         self._running = 0
 
@@ -85,7 +85,7 @@ class _Job:
             task = self.tasks.popleft()
             self._running += 1
         try:
-            self._all_running.compute(task)
+            self._begun.compute(task)
         except Abandoned:
             pass
         except ModelError as error:
@@ -110,14 +110,14 @@ class Background:
     """The background work of one session: a new state discards what is left of the previous one."""
 
     def __init__(self) -> None:
-        self._running = _Running()
-        self._job = _Job((), self._running)
+        self._begun = _Begun()
+        self._job = _Job((), self._begun)
 
     def follow(self, tasks: Iterable[Task]) -> None:
         """Compute these into the cache, and discard all earlier tasks but those of them that have begun."""
         wanted = list(tasks)
         self._discard(wanted)
-        self._job = job = _Job(wanted, self._running)
+        self._job = job = _Job(wanted, self._begun)
         # No thread is woken for nothing.
         for _ in range(min(THREADS, job.left)):
             in_turns(job.one)
@@ -128,7 +128,7 @@ class Background:
 
     def _discard(self, but: Collection[Task]) -> None:
         self._job.tasks.clear()
-        self._running.abandon(but)
+        self._begun.abandon(but)
 
     @property
     def left(self) -> int:

@@ -9,12 +9,12 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.layers import Grid, Layer, Sign, dots, image, ring
+from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["apart", "basins", "indicator", "layers"]
 
 S = TypeVar("S")
-Window = tuple[tuple[float, float], tuple[float, float]]
 
 _MANY = 50_000
 _ACROSS = 384

@@ -10,7 +10,7 @@ from latex2mathml.converter import convert
 
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["digits", "power", "ranging", "staying", "vector", "with_formulas"]
+__all__ = ["conjugates", "digits", "power", "ranging", "staying", "vector", "with_formulas"]
 
 
 def digits(value: float, count: int = 4) -> str:
@@ -30,6 +30,11 @@ def staying(values: Array) -> str:
     """Between which numbers values (n,) lie, or where they stay."""
     low, high = digits(float(values.min())), digits(float(values.max()))
     return f"stays {low}" if low == high else f"between {low} and {high}"
+
+
+def conjugates(value: complex) -> str:
+    """A real number, or a complex one and its conjugate together, a ± bi."""
+    return digits(value.real) if not value.imag else f"{digits(value.real)} ± {digits(abs(value.imag))}i"
 
 
 def vector(components: Iterable[float], count: int = 4) -> str:

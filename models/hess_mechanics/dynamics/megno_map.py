@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hess_mechanics.dynamics.cells import Window, centres
 from hess_mechanics.dynamics.megno import megno
 from hess_mechanics.dynamics.periodic import place_units
 from hess_mechanics.dynamics.return_map import Sheet
@@ -15,10 +16,7 @@ from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.parallel import share
 from hess_mechanics.numerics.results import Array, frozen
 
-__all__ = ["NOWHERE", "MegnoMap", "middles", "over_section", "row_of_cells", "time_of"]
-
-Window = tuple[tuple[float, float], tuple[float, float]]
-"""(x0, y0), (x1, y1)."""
+__all__ = ["NOWHERE", "MegnoMap", "over_section", "row_of_cells", "time_of"]
 
 NOWHERE = -1
 """The kind of a cell from whose middle no motion starts."""
@@ -50,11 +48,6 @@ class MegnoMap(Result):
                       {**place_units(self.names), "MEGNO": "1"}, {"t": self.t, "level": self.level})
 
 
-def middles(low: float, high: float, count: int) -> Array:
-    """Of so many cells, (n,)."""
-    return low + (np.arange(count) + 0.5) * (high - low) / count
-
-
 def row_of_cells(sheet: Sheet, window: Window, cells: tuple[int, int], row: int, t: float, level: Level) -> Array:
     """Ȳ and kind, (2, m), of the motions from the middles of the cells of a row.
 
@@ -62,7 +55,7 @@ def row_of_cells(sheet: Sheet, window: Window, cells: tuple[int, int], row: int,
     """
     (x0, y0), (x1, y1) = window
     m, n = cells
-    states, there = sheet.states_at(middles(x0, x1, m), np.full(m, middles(y0, y1, n)[row]))
+    states, there = sheet.states_at(centres(x0, x1, m), np.full(m, centres(y0, y1, n)[row]))
     out = np.stack([np.full(m, np.nan), np.full(m, float(NOWHERE))])
     if there.any():
         found = megno(sheet.system, states[there], sheet.parameters, t, level, threads=1)
@@ -81,7 +74,7 @@ def over_section(sheet: Sheet, window: Window, cells: tuple[int, int], t: float,
 
     share(row, n)
     across, up = sheet.names
-    return MegnoMap((across, up), frozen(middles(x0, x1, m)), frozen(middles(y0, y1, n)), frozen(rows[:, 0].copy()),
+    return MegnoMap((across, up), frozen(centres(x0, x1, m)), frozen(centres(y0, y1, n)), frozen(rows[:, 0].copy()),
                     frozen(rows[:, 1].astype(int)), abs(t), level.name)
 
 
@@ -91,7 +84,7 @@ def time_of(sheet: Sheet, turns: float) -> float:
     Raises `OutsideRegion` where none of them is possible.
     """
     (x0, x1), (y0, y1) = sheet.window
-    x, y = np.meshgrid(middles(x0, x1, _TRIED), middles(y0, y1, _TRIED))
+    x, y = np.meshgrid(centres(x0, x1, _TRIED), centres(y0, y1, _TRIED))
     states, there = sheet.states_at(x.ravel(), y.ravel())
     if not there.any():
         raise OutsideRegion("No motion of this energy crosses the section: choose a larger one.")

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Protocol
 
 import numpy as np
@@ -166,10 +167,20 @@ def orbit_diagram(family: Callable[[float], Followed], parameter: str, values: S
                    frozen(conservative), level)
 
 
-def doubling_seen(m: Sequence[int]) -> int | None:
-    """After which of them (an index) periods, 0 where none is seen, first double, the least first; None: nowhere."""
-    steps = [k for k in range(len(m) - 1) if m[k] and m[k + 1] == 2 * m[k]]
-    return min(steps, key=lambda k: (m[k], k), default=None)
+def doubling_seen(parts: Sequence[Diagram]) -> tuple[float, Array, float] | None:
+    """After which value of a diagram periods first double, the least first, going over it or, if there is none, back.
+
+    parts : of the diagram, in their order.  The value, the places (m, d) there, and the value at the end of that way;
+    None where no period doubles between neighbours.
+    """
+    known = [one for part in parts
+             for one in zip(part.values.tolist(), part.periods.tolist(), part.places, strict=True)]
+    for way in (known, known[::-1]):
+        steps = [(m, k) for k, ((_, m, _), (_, following, _)) in enumerate(pairwise(way)) if m and following == 2 * m]
+        if steps:
+            m, k = min(steps)
+            return way[k][0], way[k][2][-m:], way[-1][0]
+    return None
 
 
 def hysteresis(turns: Sequence[float], there: Diagram, back: Diagram) -> tuple[tuple[float, float], ...]:

@@ -5,14 +5,42 @@ Both are used by `tube`, and know just the operations that fields have.
 
 from __future__ import annotations
 
-from typing import Any
+from abc import ABC, abstractmethod
+from typing import Any, Self
 
 from hess_mechanics.numerics.balls import Ball
 
 __all__ = ["Along", "Slope"]
 
 
-class Along:
+class _Number(ABC):
+    """What follows from sums and products."""
+
+    __slots__ = ()
+
+    @abstractmethod
+    def __neg__(self) -> Self: ...
+
+    @abstractmethod
+    def __add__(self, other: Any) -> Self: ...
+
+    @abstractmethod
+    def __mul__(self, other: Any) -> Self: ...
+
+    def __radd__(self, other: Any) -> Self:
+        return self.__add__(other)
+
+    def __sub__(self, other: Any) -> Self:
+        return self.__add__(-other)
+
+    def __rsub__(self, other: Any) -> Self:
+        return (-self).__add__(other)
+
+    def __rmul__(self, other: Any) -> Self:
+        return self.__mul__(other)
+
+
+class Along(_Number):
     """A function of s in [0, δ]: a polynomial, and a bound of how far it is off there.
 
     Polynomials have up to twice `terms` coefficients; what goes beyond goes into the bound.
@@ -62,14 +90,6 @@ class Along:
         rest = self.rest if other.rest is None else other.rest if self.rest is None else self.rest + other.rest
         return Along(self.polynomial + other.polynomial, self.delta, self.terms, rest)
 
-    __radd__ = __add__
-
-    def __sub__(self, other: Any) -> Along:
-        return self.__add__(-other)
-
-    def __rsub__(self, other: Any) -> Along:
-        return (-self).__add__(other)
-
     def __mul__(self, other: Any) -> Along:
         if not isinstance(other, Along):
             return Along(self.polynomial * other, self.delta, self.terms,
@@ -82,8 +102,6 @@ class Along:
         if self.rest is not None and other.rest is not None:
             rest = rest + self.rest * other.rest
         return self._with(self.polynomial * other.polynomial, rest)
-
-    __rmul__ = __mul__
 
     def __pow__(self, exponent: int) -> Along:
         found = self
@@ -120,7 +138,7 @@ def _size(coefficients: list[Ball], delta: Ball) -> Ball:
     return arb_poly([abs(c) for c in coefficients])(delta).abs_upper()
 
 
-class Slope:
+class Slope(_Number):
     """A dual number: a value and its partial derivatives."""
 
     __slots__ = ("slopes", "value")
@@ -141,21 +159,11 @@ class Slope:
             return Slope(self.value + other, self.slopes)
         return Slope(self.value + other.value, [x + y for x, y in zip(self.slopes, other.slopes, strict=True)])
 
-    __radd__ = __add__
-
-    def __sub__(self, other: Any) -> Slope:
-        return self.__add__(-other)
-
-    def __rsub__(self, other: Any) -> Slope:
-        return (-self).__add__(other)
-
     def __mul__(self, other: Any) -> Slope:
         if not isinstance(other, Slope):
             return Slope(self.value * other, [x * other for x in self.slopes])
         return Slope(self.value * other.value, [
             x * other.value + self.value * y for x, y in zip(self.slopes, other.slopes, strict=True)])
-
-    __rmul__ = __mul__
 
     def __pow__(self, exponent: int) -> Slope:
         slope = exponent * self.value ** (exponent - 1)

@@ -25,6 +25,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from hess_mechanics.dynamics.cells import Window, centres
 from hess_mechanics.dynamics.section import MAX_STEPS, Points, section_points
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter
@@ -266,10 +267,6 @@ def andoyer_points(body: HeavyBody, h: float, f: float, starts: Sequence[Sequenc
                           crossings, threads, most_steps)
 
 
-Window = tuple[tuple[float, float], tuple[float, float]]
-"""(l0, x0), (l1, x1)."""
-
-
 @dataclass(frozen=True)
 class AndoyerSection:
     """One sheet of the section g = π/2 of a body at H = h, F1 = f.  Its methods raise `InvalidParameter`."""
@@ -339,7 +336,7 @@ class AndoyerSection:
         """Cells (m, n) over the window: 1 where this sheet has no motion of this energy."""
         (l0, x0), (l1, x1) = window
         m, n = _CELLS
-        grid = np.meshgrid(l0 + (np.arange(m) + 0.5) * (l1 - l0) / m, x0 + (np.arange(n) + 0.5) * (x1 - x0) / n)
+        grid = np.meshgrid(centres(l0, l1, m), centres(x0, x1, n))
         l, x = grid[0].ravel(), np.clip(grid[1].ravel(), -1.0, 1.0)
         inside = self.states_at(l, x)[1] if self.sheet else possible(self.body, self.h, self.f, l, x)
         return frozen(1.0 - inside.reshape(n, m).astype(float))

@@ -14,11 +14,12 @@ from itertools import pairwise
 
 import numpy as np
 
+from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.dynamics.spectrum import shrinks
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov.equations import SuslovBody
-from hess_mechanics.suslov.section import SuslovSection, Window, mean_divergence
+from hess_mechanics.suslov.section import SuslovSection, mean_divergence
 
 __all__ = [
     "Contraction", "contraction", "contraction_at", "count_attractors", "groups", "groups_of_cells", "middle_cells",

@@ -19,6 +19,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from hess_mechanics.dynamics.cells import Window, centres
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.section import MAX_STEPS, Plane, Points, section_points
 from hess_mechanics.dynamics.system import System
@@ -206,10 +207,6 @@ def mean_divergence(body: SuslovBody, start: Sequence[float], span: float, count
     return Course(frozen(times[1:]), frozen(np.cumsum(steps) / times[1:]))
 
 
-Window = tuple[tuple[float, float], tuple[float, float]]
-"""(ψ0, δ0), (ψ1, δ1)."""
-
-
 @dataclass(frozen=True)
 class SuslovSection:
     """The section γ_k = 0 of a body at E = h.  Its methods raise `InvalidParameter`."""
@@ -279,8 +276,7 @@ class SuslovSection:
         """The states (m, 5) in the middles of the cells of a row, and whether motions are possible there (m,)."""
         (x0, y0), (x1, y1) = window
         m, n = cells
-        psi = x0 + (np.arange(m) + 0.5) * (x1 - x0) / m
-        return self.states_at(psi, np.full(m, y0 + (row + 0.5) * (y1 - y0) / n))
+        return self.states_at(centres(x0, x1, m), np.full(m, centres(y0, y1, n)[row]))
 
     def ends(self, window: Window, cells: tuple[int, int], row: int, crossings: int, most_steps: int = MAX_STEPS,
              level: Level = DRAFT) -> Array:

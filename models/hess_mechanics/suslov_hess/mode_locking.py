@@ -11,6 +11,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from hess_mechanics.dynamics.cells import centres
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.parallel import share
@@ -227,6 +228,4 @@ def rotation_number_window(a: float, h: tuple[float, float], f: tuple[float, flo
     bifurcation curve.  Raises as `rotation_number_grid`.
     """
     m, n = cells
-    hs = h[0] + (np.arange(m) + 0.5) * (h[1] - h[0]) / m
-    fs = f[0] + (np.arange(n) + 0.5) * (f[1] - f[0]) / n
-    return frozen(_filled_grid(a, np.maximum(hs, -1.0 + 1e-6), fs, level))
+    return frozen(_filled_grid(a, np.maximum(centres(*h, m), -1.0 + 1e-6), centres(*f, n), level))

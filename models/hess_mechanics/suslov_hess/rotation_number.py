@@ -18,6 +18,7 @@ from fractions import Fraction
 
 import numpy as np
 
+from hess_mechanics.dynamics.cells import centres
 from hess_mechanics.errors import InvalidParameter, ModelError, WorkLimit
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.labelled import Labelled, Labels
@@ -254,10 +255,6 @@ def closed_after(torus: Torus, q: int, level: Level) -> float:
     return float(np.max(np.abs(np.angle(np.exp(1j * (image - phi))))))
 
 
-def _centres(low: float, high: float, count: int) -> Array:
-    return low + (np.arange(count) + 0.5) * (high - low) / count
-
-
 def rows(plane: str, torus: Torus, window: tuple[tuple[float, float], tuple[float, float]], cells: tuple[int, int],
          first: int, last: int, level: Level) -> TorusValues:
     """`values_at` the centres of cells (m, n) that fill the window of a plane, from the row `first` to before `last`.
@@ -265,7 +262,7 @@ def rows(plane: str, torus: Torus, window: tuple[tuple[float, float], tuple[floa
     The rows (last − first) × m stand one after the other.
     """
     names = plane.split(", ")
-    x, y = (_centres(*window[i], cells[i]) for i in (0, 1))
+    x, y = (centres(*window[i], cells[i]) for i in (0, 1))
     X, Y = np.meshgrid(x, y[first:last])
     return values_at(**{**vars(torus), names[0]: X.ravel(), names[1]: Y.ravel()}, level=level)
 
@@ -274,7 +271,7 @@ def rows_error(plane: str, torus: Torus, window: tuple[tuple[float, float], tupl
                ) -> float:
     """The estimated error of ρ that 99 of 100 cells of a window have at most, from 30 × 20 of them; 0 where none is."""
     names = plane.split(", ")
-    X, Y = np.meshgrid(*(_centres(*window[i], count) for i, count in enumerate((30, 20))))
+    X, Y = np.meshgrid(*(centres(*window[i], count) for i, count in enumerate((30, 20))))
     errors = rotation_errors(**{**vars(torus), names[0]: X.ravel(), names[1]: Y.ravel()}, level=level)
     known = errors[np.isfinite(errors)]
     return float(np.quantile(known, 0.99)) if known.size else 0.0

@@ -47,7 +47,7 @@ class Basins(FilledWindow):
     def _found(self) -> tuple[Array, int] | None:
         """`SuslovSection.ends` of all cells (n, m), ∞ where nothing moves, and how many of their rows are still coarse.
 
-        None before the coarse ones are known, of which each is the middle one of `_COARSE`² cells.
+        None before the coarse ones are known, of which each is the middle one of `COARSE`² cells.
         """
         if not self.asked or self.dragging:
             return None

@@ -15,7 +15,7 @@ from hess_explorer.scenes.framework.over_parameter import OverParameter
 from hess_explorer.scenes.framework.parameters import choice
 from hess_explorer.scenes.framework.periodic_search import NONE, PERIODS, Closed, Missed, Place, sought
 from hess_explorer.views.branch import bifurcations
-from hess_explorer.views.text import digits, power
+from hess_explorer.views.text import conjugates, digits, power
 from hess_mechanics.dynamics.continuation import Bifurcation, Branch, continued, gone_on
 from hess_mechanics.dynamics.periodic import Map, apart, find_periodic
 from hess_mechanics.dynamics.return_map import ReturnMap
@@ -192,7 +192,7 @@ class Continued(OverParameter):
         if near is None:
             return ""
         i = near.i + round(near.share)
-        multipliers = ", ".join(_number(complex(one)) for one in near.branch.multipliers[i])
+        multipliers = ", ".join(conjugates(complex(one)) for one in near.branch.multipliers[i])
         return (f"{self.along} = {digits(float(near.branch.values[i]), 6)}: period {near.branch.period}, "
                 f"{near.branch.kinds[i]}, μ = {multipliers}")
 
@@ -242,10 +242,6 @@ class Continued(OverParameter):
             yield "The branch goes on: no more of it is computed."
         ended = [one.ended for one in found if one.heading is None and "the end of the range" not in one.ended]
         yield from (f"The branch ends. {why}" for why in ended)
-
-
-def _number(value: complex) -> str:
-    return digits(value.real) if not value.imag else f"{digits(value.real)} ± {digits(abs(value.imag))}i"
 
 
 def _symmetries(map_: Map, places: Array) -> tuple[str, ...]:

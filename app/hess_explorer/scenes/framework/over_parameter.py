@@ -153,15 +153,12 @@ class OverParameter(State):
         missing = sum(len(one.values) for one in known) < self.along_values.size
         if missing or self.dragging or self.level.name == "draft":
             return None
-        for sign in (1, -1):
-            way = [(value, m, some) for one in known for value, m, some in zip(
-                one.values.tolist(), one.periods.tolist(), one.places, strict=True)][::sign]
-            k = doubling_seen([m for _, m, _ in way])
-            if k is not None:
-                value, m, some = way[k]
-                return self.work.later(doublings, moved(self.section, self.name, self.first), self.name, value,
-                                       tuple(map(tuple, some[-m:].tolist())), way[-1][0], _DOUBLINGS)
-        return None
+        seen = doubling_seen(known)
+        if seen is None:
+            return None
+        value, places, end = seen
+        return self.work.later(doublings, moved(self.section, self.name, self.first), self.name, value,
+                               tuple(map(tuple, places.tolist())), end, _DOUBLINGS)
 
     @property
     def flips(self) -> Array:

@@ -31,7 +31,7 @@ from hess_explorer.scenes.framework.periodic_search import (
 from hess_explorer.scenes.framework.scene import Preset
 from hess_explorer.views import periodic as view
 from hess_explorer.views.layers import Layer
-from hess_explorer.views.text import digits, power
+from hess_explorer.views.text import conjugates, digits, power
 from hess_mechanics.dynamics.manifolds import Crossing, Manifold
 from hess_mechanics.dynamics.periodic import PeriodicOrbit
 from hess_mechanics.dynamics.return_map import ReturnMap, Sheet
@@ -221,9 +221,9 @@ class PeriodicOrbits(OneOrbit):
             which = "No periodic orbit" if self.periodic == ANY else f"No orbit of {self.periodic}"
             return f"{which} found from here: the chosen one is shown."
         orbit = self.closed.orbit
-        multipliers = ", ".join(_multiplier(complex(one)) for one in orbit.multipliers)
+        multipliers = ", ".join(conjugates(complex(one)) for one in orbit.multipliers)
         if orbit.multipliers[0].imag:
-            multipliers = _multiplier(complex(orbit.multipliers[0]))
+            multipliers = conjugates(complex(orbit.multipliers[0]))
         return f"Period {orbit.period}, {orbit.kind}: μ = {multipliers} to {power(orbit.multiplier_error)}."
 
 
@@ -279,12 +279,6 @@ class PeriodicOrbits(OneOrbit):
 
 def _ended(branch: Manifold | Missed) -> str:
     return branch.ended if isinstance(branch, Manifold) else branch.reason
-
-
-def _multiplier(value: complex) -> str:
-    if not value.imag:
-        return digits(value.real)
-    return f"{digits(value.real)} ± {digits(abs(value.imag))}i"
 
 
 def layers() -> tuple[Layer[Any], ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -156,16 +156,8 @@ def _band(omega: Array, errors: Array, sizes: Array) -> list[Array]:
 
 def hull(points: Array) -> Array:
     """The convex hull (m, 2) of points (n, 2), closed."""
-    ordered = sorted(set(map(tuple, points.tolist())))
+    from scipy.spatial import ConvexHull  # a band is drawn in few states
 
-    def side(along: Sequence[tuple[float, ...]]) -> list[tuple[float, ...]]:
-        kept: list[tuple[float, ...]] = []
-        for x, y in along:
-            while len(kept) > 1 and ((kept[-1][0] - kept[-2][0]) * (y - kept[-2][1])
-                                     <= (kept[-1][1] - kept[-2][1]) * (x - kept[-2][0])):
-                kept.pop()
-            kept.append((x, y))
-        return kept[:-1]
-
-    found = [*side(ordered), *side(ordered[::-1])]
-    return np.array([*found, found[0]])
+    # Joggled in the last digits (QJ), so that points on a line are no error.
+    corners = ConvexHull(points, qhull_options="QJ").vertices
+    return np.asarray(points[[*corners, corners[0]]])

@@ -5,11 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from hess_explorer.protocol.parameters import Value, Values, places, written
+from hess_mechanics.dynamics.cells import Window
 
 __all__ = ["Window", "boxed", "inside", "tidy_window", "window_of"]
-
-Window = tuple[tuple[float, float], tuple[float, float]]
-"""Two opposite corners of what is seen, the lower left one first."""
 
 
 def tidy_window(text: Value) -> str:
