@@ -57,6 +57,12 @@ def faults(words: list[str]) -> list[Fault]:
     return [one for one in every if not words or any(word in one.name for word in words)]
 
 
+def not_found_once(chosen: list[Fault]) -> list[str]:
+    """Names of those that cannot be seeded: their file is gone, or their text does not stand in it just once."""
+    return [one.name for one in chosen if not (ROOT / one.file).is_file()
+            or (ROOT / one.file).read_text("utf-8").count(one.old) != 1]
+
+
 def copied(folder: Path) -> Path:
     """A copy of all that git knows or would add."""
     listed = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=ROOT,
@@ -128,8 +134,7 @@ def main() -> int:
     given = parser.parse_args()
     chosen = faults(given.words)
     if given.anchors:
-        missing = [one.name for one in chosen if not (ROOT / one.file).is_file()
-                   or (ROOT / one.file).read_text("utf-8").count(one.old) != 1]
+        missing = not_found_once(chosen)
         print("\n".join(f"NOT FOUND ONCE: {name}" for name in missing) or f"All {len(chosen)} are found.")
         return len(missing)
     outcomes = []
