@@ -1,11 +1,13 @@
-"""The transition matrix beside heyoka's variational run: `python tests/benchmarks/benchmark_variation.py`.
+"""Exponents and transition matrix beside heyoka's variational run: `python tests/benchmarks/benchmark_variation.py`.
 
-Both find y(T) and ∂y(T)/∂y(0); the error is the largest of the matrix beside its largest entry, against our reference
-level.  For each tolerance the least of many times, one after the other by turns.  Needs heyoka: pip install heyoka.
+All exponents: `spectrum` as it is called, samples and errors of exponents included, beside a run of heyoka that begins
+with the same neighbours and makes them orthogonal at the ends of the same stretches of time, or more often where two
+directions of the frame would be 1e4 times as long as each other.  The error is the largest of the growth of all
+directions until the end.  Transition matrix: y(T) and ∂y(T)/∂y(0); the error is that of the matrix beside its largest
+entry.  Both against the mean of the most exact runs of both, which also says how exact these are.
 
-2026-11-23, two shared cores, Suslov, T = 200: 0.33 ms for 9e-8, 0.47 for 9e-11; heyoka 7.13.2 0.96 ms for 4e-7, 1.61
-for 6e-10, 2.28 for 9e-13: 3.4 and 3.8 times as long at equal error, on a busy machine.  With all five columns, as the
-spectrum has them, it was 0.43 and 0.62 ms in the same run: 2.6 and 3.0 times.
+For each level the least of many times, one run after the other by turns; heyoka's time at our error is read off the
+line through its own points, both axes logarithmic.  Needs heyoka: pip install heyoka.
 """
 
 from __future__ import annotations
@@ -15,68 +17,111 @@ import time
 import heyoka
 import numpy as np
 
-from hess_mechanics import systems
+from hess_mechanics import LEVELS, level, spectrum, systems
+from hess_mechanics.dynamics.spectrum import first_frame
 from hess_mechanics.dynamics.system import Problem
 from hess_mechanics.dynamics.variation import followed
 
-ROUNDS, T = 15, 200.0
+ROUNDS, T, LONG, PARTS, LIMIT = 15, 200.0, 2000.0, 15, 1e4
+TOLERANCES = tuple(10.0**-n for n in (5, 7, 9, 11, 13, 15))
 
 
-def ours(name):
-    """The run of one tolerance: (matrix, seconds)."""
-    system = systems()[name]
-    state, p = system.example
-    problem = Problem(np.array([state]), np.array(p), 1.0, np.ones(len(state)))
-    at = np.array([T])
-
-    def run(tolerance, order):
-        begun = time.perf_counter()
-        found = followed(system, problem, at, order, tolerance, 10**6)
-        return found[2][0], time.perf_counter() - begun
-
-    return run
-
-
-def theirs(name, tolerance):
-    """The same by heyoka, with numbers in the place of parameters."""
-    system = systems()[name]
-    state, p = system.example
-    d = len(state)
+def integrator(system, problem, tolerance):
+    """heyoka's, with numbers in the place of parameters."""
+    d = len(system.variables)
     variables = heyoka.make_vars(*(f"x{i}" for i in range(d)))
-    equations = list(zip(variables, system.field(variables, p), strict=True))
-    varied = heyoka.var_ode_sys(equations, heyoka.var_args.vars, order=1)
-    integrator = heyoka.taylor_adaptive(varied, state, tol=tolerance)
-    first = integrator.state.copy()
+    equations = list(zip(variables, system.field(variables, problem.parameters.tolist()), strict=True))
+    return heyoka.taylor_adaptive(heyoka.var_ode_sys(equations, heyoka.var_args.vars, order=1),
+                                  problem.states[0].tolist(), tol=tolerance)
 
-    def run():
-        begun = time.perf_counter()
-        integrator.time = 0.0
-        integrator.state[:] = first
-        integrator.propagate_until(T)
-        return integrator.state[d:].reshape(d, d).copy(), time.perf_counter() - begun
 
-    return run
+def their_growth(run, start, frame, end, parts):
+    """The growth (d,) of the directions of a frame, and the largest condition before it is made orthogonal."""
+    d = start.size
+    run.time = 0.0
+    run.state[:d], run.state[d:] = start, frame.ravel()
+    grown, worst = np.zeros(d), 1.0
+    for i in range(1, parts + 1):
+        run.propagate_until(end * i / parts)
+        moved = run.state[d:].reshape(d, d)
+        frame, lengths = np.linalg.qr(moved)
+        grown += np.log(np.abs(np.diagonal(lengths)))
+        run.state[d:] = frame.ravel()
+        worst = max(worst, np.abs(np.diagonal(lengths)).max() / np.abs(np.diagonal(lengths)).min())
+    return grown, worst
+
+
+def exponents(system):
+    """The runs of both, by name, each returning its growths in order; and how often heyoka's frame is renewed."""
+    state, p = system.example
+    problem = Problem.of(system, [state], p)
+    frame, end = first_frame(system, problem)[0], LONG * problem.nu
+    parts, run = PARTS, integrator(system, problem, 1e-9)
+    while their_growth(run, problem.states[0], frame, end, parts)[1] > LIMIT:
+        parts *= 2
+
+    def here(name):
+        return lambda: np.sort(spectrum(system, state, p, LONG, level(name)).rates[-1] * LONG)
+
+    def there(tolerance):
+        run = integrator(system, problem, tolerance)
+        return lambda: np.sort(their_growth(run, problem.states[0], frame, end, parts)[0])
+
+    return {name: here(name) for name in LEVELS}, {t: there(t) for t in TOLERANCES}, f"; {parts} times orthogonal"
+
+
+def matrices(system):
+    """The same of the transition matrix."""
+    state, p = system.example
+    problem = Problem.of(system, [state], p)
+    end, d = T * problem.nu, len(state)
+
+    def here(name):
+        asked = level(name)
+        return lambda: followed(system, problem, np.array([end]), asked.order, asked.tolerance, 10**6)[2][0]
+
+    def there(tolerance):
+        run = integrator(system, problem, tolerance)
+
+        def moved():
+            run.time = 0.0
+            run.state[:d], run.state[d:] = problem.states[0], np.eye(d).ravel()
+            run.propagate_until(end)
+            return run.state[d:].reshape(d, d).copy()
+
+        return moved
+
+    return {name: here(name) for name in LEVELS}, {t: there(t) for t in TOLERANCES}, ""
+
+
+def measured(what, ours, theirs, remark, beside):
+    """Print a table of times and errors; beside : what errors are divided by."""
+    runs, times = {**ours, **theirs}, {}
+    found = {key: run() for key, run in runs.items()}
+    best = found["reference"], found[TOLERANCES[-1]]
+    exact, apart = sum(best) / 2.0, np.abs(best[0] - best[1]).max() / beside(best[0])
+    errors = {key: np.abs(one - exact).max() / beside(exact) for key, one in found.items()}
+    for _ in range(ROUNDS):
+        for key, run in runs.items():
+            begun = time.perf_counter()
+            run()
+            times[key] = min(times.get(key, np.inf), time.perf_counter() - begun)
+    print(f"{what}: the most exact of both differ by {apart:.1e}{remark}")
+    line = sorted((np.log(errors[key]), np.log(times[key])) for key in theirs)
+    for key in theirs:
+        print(f"  heyoka {key:.0e}: {times[key] * 1e3:8.3f} ms, error {errors[key]:.1e}")
+    for key in ours:
+        same = np.exp(np.interp(np.log(errors[key]), *zip(*line, strict=True)))
+        print(f"  {key:10s} {times[key] * 1e3:8.3f} ms, error {errors[key]:.1e}: heyoka {same * 1e3:.3f} ms, "
+              f"{same / times[key]:.2f} ×", flush=True)
 
 
 def main() -> None:
-    """Measure and print a table."""
-    print(f"heyoka {heyoka.__version__}, T = {T}, least of {ROUNDS}")
+    """Measure and print all tables."""
+    print(f"heyoka {heyoka.__version__}, least of {ROUNDS}, exponents over T = {LONG:g}, matrices over {T:g}")
     for name in ("suslov", "ball", "euler-poisson"):
-        run = ours(name)
-        exact, _ = run(1e-17, 24)
-        size = np.abs(exact).max()
-        settings = ((1e-5, 12), (1e-8, 16), (1e-11, 20), (1e-14, 22))
-        peers = [(10.0**-n, theirs(name, 10.0**-n)) for n in (6, 9, 12, 15)]
-        rows = {}
-        for _ in range(ROUNDS):
-            for setting in settings:
-                found, seconds = run(*setting)
-                rows.setdefault(("here", *setting), []).append((seconds, np.abs(found - exact).max() / size))
-            for tolerance, peer in peers:
-                found, seconds = peer()
-                rows.setdefault(("heyoka", tolerance), []).append((seconds, np.abs(found - exact).max() / size))
-        for key, values in rows.items():
-            print(f"{name:14s} {key!s:24s} {min(values)[0] * 1e3:8.3f} ms  error {values[0][1]:.1e}", flush=True)
+        measured(f"{name}, exponents", *exponents(systems()[name]), lambda exact: 1.0)
+        measured(f"{name}, matrix", *matrices(systems()[name]), lambda exact: np.abs(exact).max())
 
 
 if __name__ == "__main__":

@@ -17,6 +17,7 @@ import numpy as np
 from hess_mechanics.chaplygin_ball.energy_surface import omega_of_energy
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.dynamics.orbit import solve
+from hess_mechanics.dynamics.return_map import Sheet
 from hess_mechanics.dynamics.section import MAX_STEPS, Plane, Points, section_points
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, ModelError, WorkLimit
@@ -117,7 +118,7 @@ def fastest(body: BallBody, start: tuple[float, ...], span: float) -> float:
 
 
 @dataclass(frozen=True)
-class BallSection:
+class BallSection(Sheet):
     """The section γ3 = 0 of a ball at the energy h.  Its methods raise `InvalidParameter`."""
 
     body: BallBody
@@ -161,11 +162,3 @@ class BallSection:
     def places_of(self, states: Array) -> Array:
         """(ψ, δ) (n, 2) of states (n, 5) of the section."""
         return coordinates(states)
-
-    def is_on(self, states: Array) -> Mask:
-        """Whether states (n, 5) of γ3 = 0 are on the section (n,): all are."""
-        return np.ones(len(states), bool)
-
-    def gradient(self, state: Array) -> Array:
-        """Of γ3 (5,)."""
-        return np.array(EQUATOR.normal)

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hess_mechanics.dynamics.orbit import MAX_STEPS, require_finite_states
-from hess_mechanics.dynamics.spectrum import batch_error, shrinks
+from hess_mechanics.dynamics.spectrum import batch_error, volume_sign
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import STANDARD, Level
@@ -60,7 +60,7 @@ class Megno(Result):
     @property
     def attracted(self) -> Mask:
         """Whether phase volume about the motion shrinks, beyond three times the error."""
-        return shrinks(self.divergence, self.divergence_error)
+        return volume_sign(self.divergence, self.divergence_error) < 0
 
     def labels(self) -> Labels:
         """Ȳ and the divergence of each motion."""

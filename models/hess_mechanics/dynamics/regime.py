@@ -21,14 +21,13 @@ from hess_mechanics.dynamics.orbit_diagram import period_of
 from hess_mechanics.dynamics.periodic import place_units
 from hess_mechanics.dynamics.point_sets import Apart, how_far_apart
 from hess_mechanics.dynamics.return_map import ReturnMap
+from hess_mechanics.dynamics.spectrum import volume_sign
 from hess_mechanics.errors import InvalidParameter, NoReturn
 from hess_mechanics.numerics.accuracy import DRAFT, Level
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, frozen
 
 __all__ = ["Dynamics", "Kind", "Regime", "compared", "dynamics_of", "regime"]
-
-_ERRORS = 3.0
 
 
 class Kind(IntEnum):
@@ -57,10 +56,6 @@ _WORDS = {
 }
 
 
-def _sign(mean: float, error: float) -> int:
-    return 0 if abs(mean) <= _ERRORS * error + 1e-9 else 1 if mean > 0.0 else -1
-
-
 @dataclass(frozen=True)
 class Regime(Result):
     """The kind of one motion after its transient.
@@ -82,7 +77,7 @@ class Regime(Result):
     @property
     def volume(self) -> int:
         """−1: phase volume about it shrinks, beyond three times the error; 1: it grows; 0: neither is seen."""
-        return _sign(self.divergence, self.divergence_error)
+        return int(volume_sign(self.divergence, self.divergence_error))
 
     @property
     def sentence(self) -> str:
@@ -156,7 +151,7 @@ class Dynamics(Result):
     @property
     def verdict(self) -> str:
         """"conservative", "dissipative", "mixed" or "undecided"."""
-        volume = _sign(self.divergence, self.divergence_error)
+        volume = int(volume_sign(self.divergence, self.divergence_error))
         if not self.apart.settled:
             return "undecided"
         if self.apart.apart:

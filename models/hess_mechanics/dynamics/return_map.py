@@ -12,7 +12,6 @@ differences of sixth order, exact to some 1e-13.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -25,7 +24,7 @@ from hess_mechanics.dynamics.periodic import apart
 from hess_mechanics.dynamics.section import Surface
 from hess_mechanics.dynamics.symmetry import Mirror, sign_symmetries
 from hess_mechanics.dynamics.system import Problem, System
-from hess_mechanics.dynamics.variation import onto_surface
+from hess_mechanics.dynamics.variation import followed, onto_surface
 from hess_mechanics.errors import InvalidParameter, NoReturn, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.patience import go_on
@@ -97,10 +96,8 @@ class Sheet(Protocol):
         """The coordinates (n, k) of states (n, d)."""
 
     def is_on(self, states: Array) -> Mask:
-        """Whether states (n, d) of the surface belong to this sheet (n,)."""
-
-    def gradient(self, state: Array) -> Array:
-        """Of the surface at a state (d,)."""
+        """Whether states (n, d) of the surface belong to this sheet (n,): all do, unless it has others."""
+        return np.ones(len(states), bool)
 
 
 @dataclass(frozen=True)
@@ -217,17 +214,16 @@ class ReturnMap:
         """The next crossing (k,), and DP there (k, k).  Raises as `image`."""
         start = self.state_at(place)
         problem, time, scaled = self._crossing(start, 1)
-        system, d = self.sheet.system, start.size
-        states, frames = np.empty((1, d)), np.empty((1, d, d))
-        steps = system.vary(problem.states[0], np.eye(d), problem.parameters, np.array([time]), self.accuracy.order,
-                            self.accuracy.tolerance, MAX_STEPS, math.inf, states, frames, np.empty((1, d)), np.empty(1))
+        system = self.sheet.system
+        steps, _, frames, _ = followed(system, problem, np.array([time]), self.accuracy.order, self.accuracy.tolerance,
+                                       MAX_STEPS)
         if steps == STEP_LIMIT_REACHED:
             raise WorkLimit(f"This return needs more than {MAX_STEPS} steps: choose another place, or a cheaper level.")
         require_finite_states(frames)
         state = scaled * problem.scale
         flow = problem.scale[:, None] * frames[0] / problem.scale
         rate = np.array(system.field(state.tolist(), list(self.sheet.parameters)), float)
-        onto = onto_surface(flow, rate, self.sheet.gradient(state))
+        onto = onto_surface(flow, rate, self.sheet.surface.gradient(state))
         found = np.asarray(self.sheet.places_of(state[None])[0])
         return found, self._in_plane(state, found, self._tangents(place) @ onto.T)
 

@@ -46,6 +46,10 @@ class Plane:
         if self.sense not in (-1, 0, 1):
             raise InvalidParameter("The sense of a crossing is 1 (from below), −1 (from above) or 0 (both).")
 
+    def gradient(self, state: Array) -> Array:
+        """The normal."""
+        return np.array(self.normal)
+
     def scaled(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
         """See `Surface.scaled`; the normal has length 1.  Raises `InvalidParameter`."""
         if len(self.normal) != len(system.variables):
@@ -61,6 +65,9 @@ class Plane:
 
 class Surface(Protocol):
     """A surface in state space."""
+
+    def gradient(self, state: Array) -> Array:
+        """Of what is 0 on it, at a state (d,) of it."""
 
     @property
     def sense(self) -> int:

@@ -3,6 +3,9 @@
 A frame of neighbours moves by V̇ = J V in the orbit's own Taylor steps and is made orthogonal whenever its condition
 asks for it, so no distance need be a small number and nothing is lost to round-off.  ∫ tr J dt is found on the way; the
 sum of all exponents is its mean, whatever the frame.
+
+The first of the frame is along the motion, so it is f(y) at any time and grows as ln |f(y)|: until the motion comes to
+rest, it is not integrated.
 """
 
 from __future__ import annotations
@@ -14,25 +17,29 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hess_mechanics.dynamics.orbit import MAX_STEPS, require_finite_states
 from hess_mechanics.dynamics.system import Problem, System
+from hess_mechanics.dynamics.variation import neighbours
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import PLANS, STANDARD, Kind, Level, Status
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.patience import go_on
-from hess_mechanics.numerics.results import Array, Cost, Mask, frozen
+from hess_mechanics.numerics.results import Array, Cost, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
-__all__ = ["Spectrum", "batch_error", "kaplan_yorke", "shrinks", "spectrum"]
+__all__ = ["Spectrum", "batch_error", "first_frame", "kaplan_yorke", "spectrum", "volume_sign"]
 
 _PARTS = 15
 """Stretches of time; the frame settles in the first three and is measured in the other twelve."""
 _SETTLES = 3
 _SAMPLES = 16
 """Per stretch."""
-_LIMIT = 1e4
-"""Of the condition of the frame: an exponent loses so many units of round-off at most."""
+_LIMIT = 1e2
+"""Of the condition of the frame: what a step leaves out, most of all of f, is multiplied by it at most."""
+_SLOW = 1e-2
+"""Of |f| in units in which states are O(1): what f(y) is off is divided by it."""
 _ERRORS = 3.0
 
 
@@ -147,9 +154,13 @@ def kaplan_yorke(values: Array, errors: Array) -> tuple[float, float]:
     return k + before / next_one, error / next_one
 
 
-def shrinks(divergence: Array, error: Array) -> Mask:
-    """Whether phase volume shrinks at mean divergences, beyond three times their errors and the round-off of a 0."""
-    return np.asarray(divergence < -_ERRORS * error - 1e-12)
+def volume_sign(divergence: Array | float, error: Array | float) -> NDArray[np.int_]:
+    """−1 where phase volume shrinks at mean divergences, 1 where it grows, 0 where neither is seen.
+
+    Seen is what is beyond three times its error and the round-off of a 0.
+    """
+    seen = np.abs(divergence) > _ERRORS * np.asarray(error) + 1e-9
+    return np.where(seen, np.sign(divergence), 0.0).astype(int)
 
 
 def batch_error(sums: Array, times: Array) -> tuple[Array, Array]:
@@ -168,6 +179,18 @@ def batch_error(sums: Array, times: Array) -> tuple[Array, Array]:
     return mean, np.hypot(scatter, mean - steady)
 
 
+def first_frame(system: System, problem: Problem) -> tuple[Array, float]:
+    """Orthonormal columns (d, d), of no special direction but the first, which is along the motion; and its speed.
+
+    A motion that is slow has no special direction either.
+    """
+    size = problem.states.shape[1]
+    rate = np.array(system.field(problem.states[0].tolist(), problem.parameters.tolist()), float)
+    speed = float(np.linalg.norm(rate))
+    frame = np.cos(1.0 + np.arange(size * size).reshape(size, size) ** 2)
+    return np.linalg.qr(np.column_stack([rate, frame]) if speed > _SLOW else frame)[0], speed
+
+
 def spectrum(system: System, state: Sequence[float] | Array, parameters: Sequence[float], span: float,
              level: Level = STANDARD) -> Spectrum:
     """All exponents of the orbit from `state` (d,) over the time `span` (negative: backwards).
@@ -183,29 +206,39 @@ def spectrum(system: System, state: Sequence[float] | Array, parameters: Sequenc
         raise InvalidParameter("The time span of Lyapunov exponents must be a finite number other than 0.")
     begun = time.perf_counter()
     problem = Problem.of(system, [state], parameters)
-    size = len(system.variables)
-    frame = np.linalg.qr(np.cos(1.0 + np.arange(size * size).reshape(size, size) ** 2))[0]
-    y = problem.states[0]
+    y, (frame, speed) = problem.states[0], first_frame(system, problem)
+    ahead = speed > _SLOW
     part = span * problem.nu / _PARTS * np.arange(1, _SAMPLES + 1) / _SAMPLES
     count = _PARTS * _SAMPLES
-    growth, volume = np.zeros((count + 1, size)), np.zeros(count + 1)
+    growth, volume = np.zeros((count + 1, y.size)), np.zeros(count + 1)
     steps = 0
-    for i in range(0, count, _SAMPLES):
-        go_on()
-        states, frames = np.empty((_SAMPLES, size)), np.empty((_SAMPLES, size, size))
-        logs, traces = np.empty((_SAMPLES, size)), np.empty(_SAMPLES)
-        taken = system.vary(y, frame, problem.parameters, part, level.order, level.tolerance, MAX_STEPS - steps, _LIMIT,
-                            states, frames, logs, traces)
+
+    def stretch(ahead: bool) -> tuple[Array, Array, Array, Array]:
+        nonlocal steps
+        taken, states, frames, logs, traces = neighbours(system, y, frame, problem.parameters, part, level.order,
+                                                         level.tolerance, MAX_STEPS - steps, _LIMIT, ahead)
         if taken == STEP_LIMIT_REACHED:
             raise WorkLimit(f"These exponents need more than {MAX_STEPS} steps: choose a shorter time span.")
         steps += taken
         require_finite_states(states)
+        return states, frames, logs, traces
+
+    for i in range(0, count, _SAMPLES):
+        go_on()
+        states, frames, logs, traces = stretch(ahead)
+        if ahead:
+            speeds = speed * np.linalg.norm(frames[:, :, 0], axis=1)
+            speed = float(speeds[-1])
+            if not speeds.min() > _SLOW:
+                # From here on f is a neighbour like all others.
+                ahead = False
+                states, frames, logs, traces = stretch(ahead)
         columns, lengths = np.linalg.qr(frames)
         diagonal = np.abs(np.diagonal(lengths, axis1=1, axis2=2))
         now = slice(i + 1, i + _SAMPLES + 1)
         growth[now] = growth[i] + logs + np.log(np.maximum(diagonal, 1e-300))
         volume[now] = volume[i] + traces
-        y, frame = states[-1].copy(), np.ascontiguousarray(columns[-1])
+        y, frame = states[-1].copy(), columns[-1]
     times = abs(span) * np.arange(count + 1) / count
     first = _SETTLES * _SAMPLES
     together = np.column_stack([growth, volume])

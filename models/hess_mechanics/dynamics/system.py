@@ -114,16 +114,16 @@ class System:
     @cached_property
     def vary_others(self) -> Callable[..., int]:
         """The kernel of one orbit and all its neighbours but the one ahead of it, whose way is known."""
-        return self._vary("vary_others", len(self.variables) - 1)
+        return self._vary("vary_others", len(self.variables) - 1, ahead=True)
 
     @cached_property
     def vary_one(self) -> Callable[..., int]:
         """The kernel of one orbit and one neighbour."""
         return self._vary("vary_one", 1)
 
-    def _vary(self, task: str, columns: int) -> Callable[..., int]:
+    def _vary(self, task: str, columns: int, ahead: bool = False) -> Callable[..., int]:
         return self._kernel(task, "y, frame, p, times, order, tolerance, max_steps, limit, states, frames, growth, "
-                            "divergence", lambda _: variation_integrator(self.variation, columns))
+                            "divergence", lambda _: variation_integrator(self.variation, columns, ahead))
 
     def _kernel(self, task: str, arguments: str, make: Callable[[Recursion], Callable[..., Any]],
                 adjusts: bool = True) -> Callable[..., Any]:

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hess_mechanics.dynamics.orbit import MAX_STEPS, checked_times, require_finite_states, status_of
-from hess_mechanics.dynamics.section import Plane, Surface, section
+from hess_mechanics.dynamics.section import Surface, section
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Level, Status
@@ -26,7 +26,7 @@ from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Cost, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
-__all__ = ["Return", "Transition", "followed", "onto_surface", "return_matrix", "transition_matrix"]
+__all__ = ["Return", "Transition", "followed", "neighbours", "onto_surface", "return_matrix", "transition_matrix"]
 
 _MOVES = 0.1
 """Of |f| in units in which states are O(1): what f(y(t)) is off is divided by it."""
@@ -122,23 +122,36 @@ def followed(system: System, problem: Problem, times: Array, order: int, toleran
 
     The number of steps is `STEP_LIMIT_REACHED` where they do not suffice.
     """
-    size, p = len(system.variables), problem.parameters.tolist()
-    rate = np.array(system.field(problem.states[0].tolist(), p), float)
-    speed = float(np.linalg.norm(rate))
-    others = speed > _MOVES
-    # Orthonormal, the first column along the motion or against it.
-    basis = np.linalg.qr(np.column_stack([rate, np.eye(size)]))[0] if others else np.eye(size)
-    columns = np.ascontiguousarray(basis[:, int(others):])
-    states, frames = np.empty((times.size, size)), np.empty((times.size, size, size - int(others)))
-    volume = np.empty(times.size)
-    steps = (system.vary_others if others else system.vary)(
-        problem.states[0], columns, problem.parameters, times, order, tolerance, most_steps, math.inf, states, frames,
-        np.empty((times.size, size - int(others))), volume)
-    if not others or steps == STEP_LIMIT_REACHED:
-        return steps, states, frames, volume
-    ahead = np.stack(np.broadcast_arrays(*system.field(list(states.T), p)), axis=1) / speed
-    matrices = ahead[:, :, None] * (rate / speed) + frames @ columns.T
-    return steps, states, matrices, volume
+    size = len(system.variables)
+    rate = np.array(system.field(problem.states[0].tolist(), problem.parameters.tolist()), float)
+    ahead = float(np.linalg.norm(rate)) > _MOVES
+    basis = np.linalg.qr(np.column_stack([rate, np.eye(size)]))[0] if ahead else np.eye(size)
+    steps, states, frames, _, volume = neighbours(system, problem.states[0], basis, problem.parameters, times, order,
+                                                  tolerance, most_steps, math.inf, ahead)
+    return steps, states, frames @ basis.T, volume
+
+
+def neighbours(system: System, state: Array, frame: Array, parameters: Array, times: Array, order: int,
+               tolerance: float, most_steps: int, limit: float, ahead: bool) -> tuple[int, Array, Array, Array, Array]:
+    """Steps, states (n, d), V (n, d, d), ln of the lengths taken from V's columns (n, d) and ∫ tr J dt (n,).
+
+    state (d,), frame (d, d), orthonormal : y and V at the time 0.  All as `variation_integrator` has them.
+    ahead : whether the first column is along f(y) or against it, not 0, and so known; it is kept as it is, and at the
+        `limit` the others are orthonormalised beside it.
+    """
+    size = len(system.variables)
+    known = int(ahead and size > 1)
+    states, volume = np.tile(state, (times.size, 1)), np.empty(times.size)
+    frames, growth = np.empty((times.size, size, size - known)), np.empty((times.size, size - known))
+    steps = (system.vary_others if known else system.vary)(
+        state, np.ascontiguousarray(frame[:, known:]), parameters, times, order, tolerance, most_steps, limit, states,
+        frames, growth, volume)
+    if known:
+        rates = np.stack(np.broadcast_arrays(*system.field(list(states.T), parameters.tolist())), axis=1)
+        at_first = float(frame[:, 0] @ system.field(state.tolist(), parameters.tolist()))
+        frames = np.concatenate([(rates / at_first)[:, :, None], frames], axis=2)
+        growth = np.concatenate([np.zeros((times.size, 1)), growth], axis=1)
+    return steps, states, frames, growth, volume
 
 
 def onto_surface(matrix: Array, rate: Array, gradient: Array) -> Array:
@@ -168,11 +181,9 @@ class Return:
 
 
 def return_matrix(system: System, state: Sequence[float] | Array, parameters: Sequence[float], surface: Surface,
-                  end: float, level: Level, returns: int = 1, gradient: Sequence[float] | Array | None = None
-                  ) -> Return | None:
+                  end: float, level: Level, returns: int = 1) -> Return | None:
     """The return of this number to the surface before the time `end`, which may be negative; None if there is none.
 
-    gradient : of the surface at the crossing; that of a `Plane` is its normal.
     Raises `InvalidParameter`, `WorkLimit`.
 
     >>> from hess_mechanics import Plane, level, return_matrix, systems
@@ -181,15 +192,12 @@ def return_matrix(system: System, state: Sequence[float] | Array, parameters: Se
     >>> bool(abs(found.matrix[4]).max() < 1e-9)  # where it returns to, γ3 is 0
     True
     """
-    if gradient is None:
-        if not isinstance(surface, Plane):
-            raise InvalidParameter("Give the gradient of this surface at the crossing: only that of a plane is known.")
-        gradient = surface.normal
     crossings = section(system, state, parameters, surface, end, level, returns)
     if len(crossings.times) < returns:
         return None
     moment = float(crossings.times[-1])
     found = transition_matrix(system, state, parameters, moment, level)
-    rate = np.array(system.field(crossings.states[-1].tolist(), list(parameters)), float)
-    return Return(moment, crossings.states[-1], frozen(onto_surface(found.matrices[0], rate, np.asarray(gradient))),
-                  found)
+    end_state = crossings.states[-1]
+    rate = np.array(system.field(end_state.tolist(), list(parameters)), float)
+    matrix = onto_surface(found.matrices[0], rate, surface.gradient(end_state))
+    return Return(moment, end_state, frozen(matrix), found)

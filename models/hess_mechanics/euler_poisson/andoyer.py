@@ -26,6 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hess_mechanics.dynamics.cells import Window, centres
+from hess_mechanics.dynamics.return_map import Sheet
 from hess_mechanics.dynamics.section import MAX_STEPS, Points, section_points
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter
@@ -51,6 +52,11 @@ class AndoyerPlane:
 
     f: float
     sense: int = 1
+
+    def gradient(self, state: Array) -> Array:
+        """Of G²γ3 − f M3 (6,)."""
+        M, g3 = state[:3], state[5]
+        return np.array([*(2.0 * g3 * M[:2]), 2.0 * g3 * M[2] - self.f, 0.0, 0.0, M @ M])
 
     def scaled(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
         """See `section.Surface`.  Raises `InvalidParameter` for systems other than Euler–Poisson."""
@@ -268,7 +274,7 @@ def andoyer_points(body: HeavyBody, h: float, f: float, starts: Sequence[Sequenc
 
 
 @dataclass(frozen=True)
-class AndoyerSection:
+class AndoyerSection(Sheet):
     """One sheet of the section g = π/2 of a body at H = h, F1 = f.  Its methods raise `InvalidParameter`."""
 
     body: HeavyBody
@@ -308,11 +314,6 @@ class AndoyerSection:
         p = tuple(value if one == name else other for one, other in zip(SYSTEM.parameters, self.parameters,
                                                                        strict=True))
         return replace(self, body=HeavyBody((p[0], p[1], p[2]), (p[3], p[4], p[5]), p[6]))
-
-    def gradient(self, state: Array) -> Array:
-        """Of G²γ3 − f M3 (6,)."""
-        M, g3 = state[:3], state[5]
-        return np.array([*(2.0 * g3 * M[:2]), 2.0 * g3 * M[2] - self.f, 0.0, 0.0, M @ M])
 
     def states_at(self, l: Array, x: Array) -> tuple[Array, Mask]:
         """The states (n, 6) at (l, L/G) (n,), and whether motions cross this sheet there (n,)."""

@@ -126,9 +126,28 @@ def largest_entry(v, rows, columns):
 
 
 @inner
-def orthonormalised(v, rows, columns, growth):
-    """Gram and Schmidt's method on the columns of v[row, column]; adds the logarithms of their lengths to growth."""
+def length_of(rates, rows):
+    """|f|."""
+    square = 0.0
+    for i in range(rows):
+        square += rates[i] * rates[i]
+    return np.sqrt(square)
+
+
+@inner
+def orthonormalised(v, rates, speed, rows, columns, growth):
+    """Gram and Schmidt's method on the columns of v[row, column]; adds the logarithms of their lengths to growth.
+
+    rates : where their length `speed` is not 0, they come before all columns.
+    """
     for j in range(columns):
+        if speed > 0.0:
+            along = 0.0
+            for i in range(rows):
+                along += rates[i] * v[i, j]
+            along /= speed * speed
+            for i in range(rows):
+                v[i, j] -= along * rates[i]
         for other in range(j):
             along = 0.0
             for i in range(rows):
@@ -145,38 +164,42 @@ def orthonormalised(v, rows, columns, growth):
 
 
 @inner
-def is_bent(v, rows, columns, volume, limit):
+def is_bent(v, rows, columns, known, volume, limit):
     """Whether columns that began orthonormal have come so close to each other, or so far from length 1.
 
-    The condition number of a square v is at most 2 (|v|²/d)^(d/2)/det v (Guggenheimer, Edelman, Johnson 1995);
-    volume : ln det v.  Columns that are no basis are said to be bent always.
+    known : 1 where there is a column of length 1 before them, else 0.
+    The condition number of a square matrix of d columns is at most 2 (|v|²/d)^(d/2)/det v (Guggenheimer, Edelman,
+    Johnson 1995); volume : ln det v.  Where they are no basis, only their length is looked at.
     """
-    square = 0.0
+    square = float(known)
     for i in range(rows):
         for j in range(columns):
             square += v[i, j] * v[i, j]
-    if not 1e-6 < square / columns < 1e6:
+    d = columns + known
+    if not 1e-6 < square / d < 1e6:
         return True
-    if columns == 1:
-        return False
-    return columns < rows or 0.5 * columns * np.log(square / columns) - volume > np.log(limit)
+    return d == rows and 0.5 * d * np.log(square / d) - volume > np.log(limit)
 
 
-def variation_integrator(of: Variation, columns: int) -> Callable[..., Any]:
+def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Callable[..., Any]:
     """The compiled solver of ẏ = f(y, p), V̇ = J V for V of so many columns.
+
+    ahead : whether the column before them is that along the motion, f(y), which is known and not followed.
 
     vary(state, frame, parameters, times, order, tolerance, max_steps, limit, states, frames, growth, divergence):
     from t = 0, at the given times (n,), monotonic, all ≥ 0 or all ≤ 0, writes y into `states` (n, d), V into `frames`
     (n, d, c), and ∫ tr J dt into `divergence` (n,).  Returns the number of steps, or `STEP_LIMIT_REACHED`.
 
     limit : where finite, V is orthonormalised after the step at which its condition, or the length of its columns,
-    may have passed it; `growth` (n, c) holds the logarithms of the lengths taken away before each time.
+    may have passed it, and made orthogonal to a column ahead; `growth` (n, c) holds the logarithms of the lengths
+    taken away before each time.
     """
     recursion = of.recursion
     n, width, lanes, last_seen = recursion.variables, columns_of(recursion), _lanes(columns), recursion.observed - 1
     expand, evaluate = expansion(recursion), evaluation(n)
     carry = compiled(carrying_source(of, lanes))["carry"]
     evaluate_row = evaluation(lanes)
+    known = int(ahead)
 
     @part
     def vary(state, frame, parameters, times, order, tolerance, max_steps, limit, states, frames, growth, divergence):
@@ -195,7 +218,9 @@ def variation_integrator(of: Variation, columns: int) -> Callable[..., Any]:
         t_low = 0.0
         volume = 0.0
         volume_low = 0.0
-        since = 0.0
+        # ln |f| and ∫ tr J dt at the last time at which V was orthonormal.
+        speed_then = 0.0
+        volume_then = 0.0
         count = times.size
         direction = 1.0 if times[count - 1] >= 0.0 else -1.0
         sample = 0
@@ -204,6 +229,15 @@ def variation_integrator(of: Variation, columns: int) -> Callable[..., Any]:
             for i in range(n):
                 c[0, i] = y[i]
             expand(c, left, right, inverses, parameters, seen)
+            if limit < np.inf:
+                speed = length_of(c[1], n) if ahead else 0.0
+                rise = np.log(speed) if ahead else 0.0
+                if steps == 0:
+                    speed_then = rise
+                # As if the column ahead had length 1.
+                if is_bent(v[0], n, columns, known, (volume - volume_then) - (rise - speed_then), limit):
+                    orthonormalised(v[0], c[1], speed, n, columns, grown)
+                    speed_then, volume_then = rise, volume
             carry(seen, v, inverses)
             size = largest_entry(v[0], n, columns)
             last = largest_entry(v[order], n, columns) / size
@@ -237,12 +271,7 @@ def variation_integrator(of: Variation, columns: int) -> Callable[..., Any]:
                 y[i], low[i] = compensated(y[i], low[i], increments[i])
                 for j in range(columns):
                     v[0, i, j] += moved[i, j]
-            added = spread_over(seen, last_seen, inverses, s)
-            volume, volume_low = compensated(volume, volume_low, added)
-            since += added
-            if limit < np.inf and is_bent(v[0], n, columns, since, limit):
-                orthonormalised(v[0], n, columns, grown)
-                since = 0.0
+            volume, volume_low = compensated(volume, volume_low, spread_over(seen, last_seen, inverses, s))
             t, t_low = compensated(t, t_low, s)
             steps += 1
 

@@ -15,7 +15,7 @@ from itertools import pairwise
 import numpy as np
 
 from hess_mechanics.dynamics.cells import Window
-from hess_mechanics.dynamics.spectrum import shrinks
+from hess_mechanics.dynamics.spectrum import volume_sign
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov.equations import SuslovBody
@@ -45,7 +45,7 @@ class Contraction:
     @property
     def attracts(self) -> bool:
         """Whether the mean is negative beyond its error."""
-        return bool(shrinks(np.array(self.mean), np.array(self.error)))
+        return bool(volume_sign(self.mean, self.error) < 0)
 
 
 def contraction(body: SuslovBody, start: Sequence[float], span: float) -> Contraction:

@@ -18,6 +18,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from hess_mechanics.dynamics.return_map import Sheet
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.section import Plane, Points, occupied_cells, section_points
 from hess_mechanics.dynamics.system import System
@@ -283,7 +284,7 @@ def spread_section(body: QuarticBody, orbits: int, crossings: int, level: Level,
 
 
 @dataclass(frozen=True)
-class QuarticSection:
+class QuarticSection(Sheet):
     """The section of a body at its energy, in (q, p) along the longer axis: canonical coordinates.
 
     Its methods raise as `QuarticBody`.
@@ -323,14 +324,6 @@ class QuarticSection:
     def moved(self, name: str, value: float) -> QuarticSection:
         """With another value of a constant."""
         return QuarticSection(replace(self.body, **{name: value}))
-
-    def is_on(self, states: Array) -> Mask:
-        """Whether states (n, 5) of the plane are on the section (n,): all are."""
-        return np.ones(len(states), bool)
-
-    def gradient(self, state: Array) -> Array:
-        """Of the surface (5,)."""
-        return np.array(self.surface.normal)
 
     def states_at(self, q: Array, p: Array) -> tuple[Array, Mask]:
         """The states (n, 5) at (q, p) (n,), and whether motions cross there (n,): p² + γ3² < 1."""

@@ -31,6 +31,10 @@ class Reversal:
 
     sense: ClassVar[int] = 0
 
+    def gradient(self, state: Array) -> Array:
+        """Of (ω, γ) (5,)."""
+        return np.array([*state[2:4], *state[:2], 0.0])
+
     def scaled(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
         """See `section.Surface`.  Raises `InvalidParameter` for systems other than the Suslov problem."""
         if system is not SYSTEM:

@@ -21,6 +21,7 @@ import numpy as np
 
 from hess_mechanics.dynamics.cells import Window, centres
 from hess_mechanics.dynamics.orbit import solve
+from hess_mechanics.dynamics.return_map import Sheet
 from hess_mechanics.dynamics.section import MAX_STEPS, Plane, Points, section_points
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
@@ -208,7 +209,7 @@ def mean_divergence(body: SuslovBody, start: Sequence[float], span: float, count
 
 
 @dataclass(frozen=True)
-class SuslovSection:
+class SuslovSection(Sheet):
     """The section γ_k = 0 of a body at E = h.  Its methods raise `InvalidParameter`."""
 
     body: SuslovBody
@@ -245,14 +246,6 @@ class SuslovSection:
         if name == "E":
             return replace(self, E=value)
         return replace(self, body=replace(self.body, **{name: value}))
-
-    def is_on(self, states: Array) -> Mask:
-        """Whether states (n, 5) of γ_k = 0 are on the section (n,): all are."""
-        return np.ones(len(states), bool)
-
-    def gradient(self, state: Array) -> Array:
-        """Of γ_k (5,)."""
-        return np.array(self.surface.normal)
 
     def states_at(self, psi: Array, delta: Array) -> tuple[Array, Mask]:
         """The states (n, 5) at (ψ, δ) (n,), and whether motions are possible there (n,)."""

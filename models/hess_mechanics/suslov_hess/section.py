@@ -18,6 +18,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from hess_mechanics.dynamics.return_map import Sheet
 from hess_mechanics.dynamics.section import Plane
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.numerics.results import Array, Mask
@@ -28,7 +29,7 @@ __all__ = ["TorusSection"]
 
 
 @dataclass(frozen=True)
-class TorusSection:
+class TorusSection(Sheet):
     """The section of the torus (h, f) of the reduced equations with this a, units b = 1, in φ.
 
     Raises `OutsideRegion`, `Separatrix`, `InvalidParameter` where there is no torus.
@@ -90,11 +91,3 @@ class TorusSection:
     def places_of(self, states: Array) -> Array:
         """φ (n, 1) of states (n, 5)."""
         return np.arctan2(states[:, :1], states[:, 1:2])
-
-    def is_on(self, states: Array) -> Mask:
-        """Whether states (n, 5) of the plane are on the section (n,): all are."""
-        return np.ones(len(states), bool)
-
-    def gradient(self, state: Array) -> Array:
-        """Of n3 (5,)."""
-        return np.array([0.0, 0.0, 0.0, 0.0, 1.0])

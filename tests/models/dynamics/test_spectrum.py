@@ -82,6 +82,18 @@ def test_beside_an_equilibrium_they_are_the_eigenvalues():
     assert not found.values.flags.writeable
 
 
+def test_of_a_motion_that_comes_to_rest_they_are_the_eigenvalues_there():
+    # Near rest at (1, 3, 2) the rate is lost in round-off, and long before the end it is 0.
+    comes = a_system(lambda y, p: (p[0] * (1.0 - y[0]), p[1] * (2.0 + y[0] - y[1]), p[2] * (y[1] - 1.0 - y[2])),
+                     "rest of a test", 3, ((4.0, -2.0, 1.0), (0.2, 0.5, 0.9)))
+    found = spectrum(comes, *comes.example, 500.0, REFERENCE)
+    assert found.values == pytest.approx([-0.2, -0.5, -0.9], abs=1e-9)
+    assert found.values.sum() == pytest.approx(found.divergence, abs=1e-10)
+    assert found.signs == ("-", "-", "-")
+    alone = a_system(lambda y, p: (p[0] - p[1] * y[0],), "rest of one variable of a test", 1, ((4.0,), (0.3, 0.7)))
+    assert spectrum(alone, *alone.example, 100.0).values == pytest.approx([-0.7], abs=1e-9)
+
+
 def test_their_sum_is_the_mean_divergence_of_a_hundred_bodies():
     draw = np.random.default_rng(16)
     for _ in range(100):

@@ -24,6 +24,7 @@ from hess_mechanics.dynamics.section import section
 from hess_mechanics.dynamics.system import Problem
 from hess_mechanics.dynamics.variation import onto_surface
 from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.suslov.reversal import Reversal
 from oracle.orbits import taylor
 from support.suslov import permanent_rotations
 
@@ -121,13 +122,14 @@ def test_what_cannot_be_is_refused_in_a_sentence():
 # ---- return maps ------------------------------------------------------------------------------------------------
 
 
-def test_the_derivative_of_a_return_is_that_of_differences():
+@pytest.mark.parametrize("surface", [GAMMA3, Reversal()], ids=["a plane", "a curved surface"])
+def test_the_derivative_of_a_return_is_that_of_differences(surface):
     state, p = SUSLOV.example
-    found = return_matrix(SUSLOV, state, p, GAMMA3, 60.0, REFERENCE, returns=2)
+    found = return_matrix(SUSLOV, state, p, surface, 60.0, REFERENCE, returns=2)
     step = 1e-5
 
     def end(start):
-        return section(SUSLOV, start, p, GAMMA3, 60.0, REFERENCE, 2).states[1]
+        return section(SUSLOV, start, p, surface, 60.0, REFERENCE, 2).states[1]
 
     for j in range(5):
         shift = step * np.eye(5)[j]
