@@ -34,7 +34,8 @@ def test_a_strange_attractor_is_chaotic_and_shrinks_as_its_exponents_say():
     P = return_map(STRANGE, E=STRANGE_E, accuracy="standard")
     found = regime(P, (1.0, 1.0), t=2000.0)
     assert (found.kind, found.volume) == (Kind.CHAOTIC, -1)
-    exponents = spectrum(SUSLOV, P.state_at(found.places[-1]), STRANGE.parameters, 2000.0)
+    # The motion is now and then regular for long: after t = 2000 λ is 0 to three errors on every second one.
+    exponents = spectrum(SUSLOV, P.state_at(found.places[-1]), STRANGE.parameters, 16_000.0)
     assert exponents.signs[0] == "+"
     assert abs(found.divergence - exponents.values.sum()) <= 3.0 * (
         found.divergence_error + math.hypot(*exponents.errors))
