@@ -12,7 +12,10 @@ from scipy.integrate import solve_ivp
 
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.scenes import scenes
-from hess_mechanics import check_body, largest_exponent, level, solve, spectrum, systems
+from hess_mechanics import ReturnMap, check_body, largest_exponent, level, solve, spectrum, systems
+from hess_mechanics.dynamics.birkhoff import rotation_number
+from hess_mechanics.dynamics.continuation import continued
+from hess_mechanics.dynamics.periodic import find_periodic
 from hess_mechanics.numerics.accuracy import PLANS, Kind
 from hess_mechanics.suslov.parameter_diagram import moved
 from hess_mechanics.suslov.section import coordinates, state_at
@@ -126,14 +129,19 @@ LIGHT = {"steps": 30.0, "ways": "there and back", "transient": 50.0, "count": 10
 """Few points, of a body whose doublings along I22 are wide apart."""
 
 
+def product(body, E, places):
+    """Multipliers of the orbit with these places, by SciPy, the largest first."""
+    M, h = np.eye(2), 1e-4
+    for place in places:
+        sides = [[returns(body, state_at(body, E, 3, *(place + sign * h * axis)), 1)[0] for sign in (1, -1)]
+                 for axis in np.eye(2)]
+        M = np.column_stack([(a - b).ravel() / (2.0 * h) for a, b in sides]) @ M
+    return sorted(np.linalg.eigvals(M), key=abs, reverse=True)
+
+
 def multipliers(body, E, place):
     """Of the return map at a place, by SciPy, the largest first; and where it takes the place."""
-    h = 1e-4
-    sides = [[returns(body, state_at(body, E, 3, *(place + sign * h * axis)), 1)[0] for sign in (1, -1)]
-             for axis in np.eye(2)]
-    M = np.column_stack([(a - b).ravel() / (2.0 * h) for a, b in sides])
-    there = returns(body, state_at(body, E, 3, *place), 1)[0].ravel()
-    return sorted(np.linalg.eigvals(M), key=abs, reverse=True), there
+    return product(body, E, [place]), returns(body, state_at(body, E, 3, *place), 1)[0].ravel()
 
 
 def test_the_branch_of_a_periodic_orbit_goes_on_as_a_saddle_where_the_diagram_doubles():
@@ -165,6 +173,80 @@ def test_the_branch_of_a_periodic_orbit_goes_on_as_a_saddle_where_the_diagram_do
     for x in np.unique(drawn[0][drawn[0] < 2.11]):
         assert np.interp(x, *np.array(sorted((v, p[0]) for v, p in orbits)).T) == pytest.approx(
             drawn[1][drawn[0] == x][-1], abs=2e-3)
+
+
+def turns_between(angles):
+    """Bounds of the rotation number of a map of a circle that keeps the order, of an orbit's angles, unwrapped."""
+    turned = np.subtract.outer(angles, angles).T / math.tau
+    later = np.triu_indices(len(angles), 1)
+    whole, steps = np.floor(turned[later]), later[1] - later[0]
+    # What has gone more than p times round in q steps has a rotation number of p/q at least.
+    return (whole / steps).max(), ((whole + 1.0) / steps).min()
+
+
+def test_a_torus_is_born_where_multipliers_leave_the_unit_circle_and_locks_and_breaks_up():
+    state, captions = complete("A torus")
+    E = state.section.E
+
+    def at(value):
+        return moved(state.section, "I13", value)
+
+    # Where it is born: SciPy's multipliers have the size 1 there, and the orbit closes.
+    (born,) = (one for part in state.continued for one in part.bifurcations)
+    assert (born.kind, born.value) == ("Neimark–Sacker", pytest.approx(-0.24899620, abs=5e-9))
+    found, there = multipliers(at(born.value).body, E, born.places[0])
+    assert there == pytest.approx(born.places[0], abs=1e-8)
+    assert np.abs(found) == pytest.approx(1.0, abs=1e-6)
+    assert found[0].imag != 0.0
+    for part in state.continued:
+        for value, kind in zip(part.values, part.kinds, strict=True):
+            assert abs(value - born.value) < 1e-6 or kind == (
+                "unstable focus" if value < born.value else "stable focus")
+    # The band of the diagram: narrow where the focus attracts, wider and wider beyond.
+    x, y = state.points("falling")
+    wide = [np.ptp(y[np.abs(x - value) < 6e-5]) for value in (-0.2475, -0.252, -0.256, -0.26)]
+    assert wide[0] < 0.01
+    assert 0.1 < wide[1] < wide[2] - 0.1 < wide[3] - 0.2
+    # The torus: exponents, and the rotation number, by an average and by the order of SciPy's places on the curve.
+    curve = ReturnMap(at(-0.256), level("standard"))
+    focus = find_periodic(curve, born.places, 1).places[0]
+    places = curve.orbit(np.array(state.place), 4000)[1000:]
+    exponents = spectrum(SUSLOV, curve.state_at(places[-1]), curve.sheet.parameters, 4000.0)
+    assert exponents.signs == ("0", "0", "0", "0", "-")
+    turns, error = rotation_number(places, tuple(focus))
+    assert turns == pytest.approx(0.1066355, abs=6e-8)
+    assert error < 5e-8
+    away = returns(curve.sheet.body, curve.state_at(places[-1]), 80) - focus
+    low, high = turns_between(np.unwrap(np.arctan2(away[:, 1], away[:, 0])))
+    assert low <= turns <= high < low + 1e-3
+    # Locked: SciPy's product of ten derivatives has complex eigenvalues, and 1 at the folds.
+    locked = ReturnMap(at(-0.257), level("precise"))
+    orbit = find_periodic(locked, locked.orbit(np.array(state.place), 2000)[-10:], 10)
+    assert orbit.kind == "stable focus"
+    for end, fold in ((-0.258, -0.2574134), (-0.256, -0.2569055)):
+        branch = continued(lambda v: ReturnMap(at(v), level("precise")), orbit, "I13", -0.257, end, 30)
+        one = next(one for one in branch.bifurcations if one.kind == "fold")
+        assert one.value == pytest.approx(fold, abs=6e-8)
+        assert product(at(one.value).body, E, one.places)[0].real == pytest.approx(1.0, abs=1e-4)
+    found = product(at(-0.257).body, E, orbit.places)
+    assert found[0].imag != 0.0
+    assert np.abs(found) == pytest.approx(np.abs(orbit.multipliers), abs=1e-4)
+    # The strange attractor: two orbits side by side part as fast.
+    assert captions["section"].split("\n")[-1].startswith("Motion: chaotic, div = −0.")
+    last = state_at(state.body, E, 3, *state.sets.attractor[-1])
+    exponents = spectrum(SUSLOV, last, state.body.parameters, 20_000.0)
+    twin = largest_exponent(SUSLOV, last, state.body.parameters, 8000.0, PLANS[Kind.EXPONENT]["standard"].level)
+    value, error = exponents.values[0], exponents.errors[0]
+    assert value == pytest.approx(0.033, abs=0.003)
+    assert value > 8.0 * error
+    assert abs(twin.value - value) < 0.01
+    dimension, error = exponents.dimension
+    assert abs(dimension - 2.25) < 0.02
+    assert error < 0.03
+    # Motions stay there, and later leave it.
+    stays, leaves = (ReturnMap(at(value), level("draft")).orbit(np.array(state.place), 10_000)[:, 0]
+                     for value in (-0.261, -0.2612))
+    assert 0.6 < stays.min() < stays.max() < 2.2 < leaves.max()
 
 
 def test_a_click_on_a_branch_shows_that_orbit_and_the_mouse_is_told_what_it_is_over():
