@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import ClassVar
@@ -11,7 +11,15 @@ from typing import ClassVar
 import numpy as np
 
 from hess_explorer.compute.cache import Task
+from hess_explorer.protocol.parameters import Values
 from hess_explorer.scenes.framework.ball import Ball
+from hess_explorer.scenes.framework.branched import (
+    Branched,
+    branch_picture,
+    coordinate_of_branch,
+    end_of_branch,
+    parameter_of_branch,
+)
 from hess_explorer.scenes.framework.charted import exponents
 from hess_explorer.scenes.framework.crossings import SECTION, Crossings
 from hess_explorer.scenes.framework.indicator import INDICATOR, colouring, indicator_layer
@@ -50,6 +58,8 @@ from hess_mechanics.numerics.results import Array
 _ORBITS = 20
 _CELLS = 32
 _MOST_STEPS = 15_000
+_ALONG = {"h": "h", "I₁₁": "I11", "I₂₂": "I22", "I₁₃": "I13", "I₂₃": "I23", "𝒟": "D", "b₁": "b1", "b₂": "b2",
+          "b₃": "b3"}
 
 _PLAIN = {"I13": 0.0, "I23": 0.0}
 PRESETS = (*map(plain, (
@@ -65,7 +75,7 @@ PRESETS = (*map(plain, (
 
 
 @dataclass(frozen=True)
-class BallSection(CentreOfMass, Ball, Crossings, ConstrainedBody):
+class BallSection(CentreOfMass, Ball, Branched, Crossings, ConstrainedBody):
     """The orbit from one place of the section, among others of its energy."""
 
     I11: float = like(Tensor, "I11", 1.0, bounds=(1e-2, 1e2))
@@ -90,6 +100,10 @@ class BallSection(CentreOfMass, Ball, Crossings, ConstrainedBody):
     count: float = crossings_of_each()
     indicator: str = colouring()
     reach: float = length_of_manifolds()
+    over: str = parameter_of_branch(tuple(_ALONG))
+    low: float = end_of_branch("from")
+    high: float = end_of_branch("to")
+    upwards: str = coordinate_of_branch(("ψ", "δ"))
     span: float = time_span(40.0, 200.0, what="the chosen orbit")
     drop: str = choice("Points shown", ("all", "the later half"), "all", doc="The later half shows what attracts.")
     certain: str = proved_error_shown()
@@ -97,6 +111,7 @@ class BallSection(CentreOfMass, Ball, Crossings, ConstrainedBody):
 
     section_axes: ClassVar[Axes] = Axes(square.AZIMUTH, square.POLAR)
     names: ClassVar[tuple[str, str]] = ("ψ", "δ")
+    along: ClassVar[Mapping[str, str]] = _ALONG
 
     def admitted(self, notes: list[str]) -> BallSection:
         """ψ outside the band that the energy forbids."""
@@ -144,6 +159,10 @@ class BallSection(CentreOfMass, Ball, Crossings, ConstrainedBody):
     def first_shown(self, crossings: int) -> int:
         """The first one, or the middle one."""
         return 0 if self.drop == "all" else crossings // 2
+
+    def start_at(self, x: float, y: float) -> Values:
+        """A click in the section."""
+        return {"psi": x, "delta": y}
 
     def half_width(self) -> float:
         """Of the (ω1, ω2)-plane."""
@@ -202,7 +221,7 @@ SCENE = Scene(
         Plot(name="section", title="Section: γ₃ grows through 0", caption=BallSection._about_section,
              axes=BallSection.names, x=square.AZIMUTH, y=square.POLAR, ticks=square.AZIMUTH_TICKS,
              y_ticks=square.POLAR_TICKS, message=lambda s: s.reason,
-             on_click=lambda s, x, y: {"psi": x, "delta": y},
+             on_click=BallSection.start_at,
              layers=(indicator_layer(), *section_plane.layers(
                  BallSection.points, others=lambda s: s.others, forbidden=BallSection.forbidden,
                  start=lambda s: [] if s.points() is None else [(s.psi, s.delta)]), *layers())),
@@ -212,5 +231,6 @@ SCENE = Scene(
         Plot(name="returns", title="First return", folded="Show the first return", caption=BallSection._about_returns,
              axes=("ψ", "ψ at the next crossing"), x=square.AZIMUTH, y=square.AZIMUTH, ticks=square.AZIMUTH_TICKS,
              message=lambda s: s.reason, layers=section_plane.layers(BallSection.returns)),
+        branch_picture(BallSection),
     ),
 )

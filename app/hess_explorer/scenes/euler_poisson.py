@@ -11,6 +11,13 @@ from typing import ClassVar
 import numpy as np
 
 from hess_explorer.protocol.parameters import Value, written
+from hess_explorer.scenes.framework.branched import (
+    Branched,
+    branch_picture,
+    coordinate_of_branch,
+    end_of_branch,
+    parameter_of_branch,
+)
 from hess_explorer.scenes.framework.charted import Placed, exponents
 from hess_explorer.scenes.framework.exponent import exponent_picture
 from hess_explorer.scenes.framework.filled_window import EXPONENT, SECTION, TURN, filled_window
@@ -44,6 +51,7 @@ from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
 from hess_mechanics.numerics.results import Array
 
 _BOUNDS = ((-TURN, -1.0), (TURN, 1.0))
+_OVER = {"ε": "away", "h": "h", "f": "f", "μ|r|": "m", "I₁": "I1", "I₂": "I2", "I₃": "I3"}
 _ALONG, _ABOUT = "along l", "about the middle"
 _LARGEST, _SECOND = "largest G", "second G"
 
@@ -77,7 +85,7 @@ PRESETS = (*map(plain, (
 
 
 @dataclass(frozen=True)
-class EulerPoisson(SplitSeparatrices, RotationAcross, HeavySolid):
+class EulerPoisson(Branched, SplitSeparatrices, RotationAcross, HeavySolid):
     """A section of one body at one energy and area integral, filled with orbits on both sides of the barrier."""
 
     away: float = number("ε", 0.0, (-0.5, 0.5), 0.005, bounds=(-math.pi, math.pi), label="Distance from Hess, ε",
@@ -91,6 +99,10 @@ class EulerPoisson(SplitSeparatrices, RotationAcross, HeavySolid):
     orbits: float = orbits_spread(60.0, 200.0, 400.0)
     count: float = points_of_each(300.0)
     reach: float = length_of_manifolds()
+    over: str = parameter_of_branch(tuple(_OVER))
+    low: float = end_of_branch("from")
+    high: float = end_of_branch("to")
+    upwards: str = coordinate_of_branch(("l", "L/G"))
     span: float = time_span(20.0, 200.0, what="the chosen orbit")
     long: float = exponent_time(200.0, 1000.0, 1e4, "the Lyapunov exponent is")
     turns: str = choice("Rotation number", (_ALONG, _ABOUT), _ALONG,
@@ -105,6 +117,8 @@ class EulerPoisson(SplitSeparatrices, RotationAcross, HeavySolid):
     window: str = places("The window of the section", 2, *_BOUNDS)
 
     names: ClassVar[tuple[str, str]] = ("l", "L/G")
+    along: ClassVar[Mapping[str, str]] = _OVER
+    besides: ClassVar[tuple[str, ...]] = ("sheet",)
     excuse: ClassVar[str] = "no motion with this h and f crosses the section"
     full: ClassVar[Window] = ((-math.pi, -1.0), (math.pi, 1.0))
     bounds: ClassVar[Window] = _BOUNDS
@@ -195,5 +209,6 @@ SCENE = Scene(
                         lambda s: s.proved_around),
         replace(exponent_picture(), folded="Show the Lyapunov exponent"),
         split_picture(),
+        branch_picture(EulerPoisson),
     ),
 )

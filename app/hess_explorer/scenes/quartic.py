@@ -12,6 +12,13 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values
+from hess_explorer.scenes.framework.branched import (
+    Branched,
+    branch_picture,
+    coordinate_of_branch,
+    end_of_branch,
+    parameter_of_branch,
+)
 from hess_explorer.scenes.framework.charted import exponents
 from hess_explorer.scenes.framework.crossings import SECTION, Crossings
 from hess_explorer.scenes.framework.indicator import INDICATOR, colouring, indicator_layer
@@ -45,6 +52,7 @@ from hess_mechanics.suslov.equations import SYSTEM
 _ORBITS = 20
 _MOST_STEPS = 40_000
 _CELLS = 32
+_ALONG = {"h": "h", "I₁₁/I₂₂": "ratio", "b₃": "b3"}
 _P_AXIS = centred(1.05)
 _HEIGHTS = (-0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75)
 """Values of γ3 on the equipotentials."""
@@ -61,7 +69,7 @@ PRESETS = (*map(plain, (
 
 
 @dataclass(frozen=True)
-class Quartic(Crossings, ConstrainedBody):
+class Quartic(Branched, Crossings, ConstrainedBody):
     """The orbit of one point in the potential, among others of its energy."""
 
     I22: float = like(Tensor, "I22", 1.0, softbounds=(0.2, 3.0), bounds=(1e-2, 1e2))
@@ -81,6 +89,10 @@ class Quartic(Crossings, ConstrainedBody):
     count: float = crossings_of_each()
     indicator: str = colouring()
     reach: float = length_of_manifolds()
+    over: str = parameter_of_branch(tuple(_ALONG))
+    low: float = end_of_branch("from")
+    high: float = end_of_branch("to")
+    upwards: str = coordinate_of_branch(("q", "p"))
     span: float = time_span(40.0, 200.0, most=1e3, what="the chosen orbit")
     certain: str = proved_error_shown()
     accuracy: str = accuracy_level()
@@ -129,6 +141,8 @@ class Quartic(Crossings, ConstrainedBody):
                 Task(model.spread_section, (self.body, _ORBITS, crossings, level, _MOST_STEPS)))
 
     names: ClassVar[tuple[str, str]] = ("q", "p")
+    along: ClassVar[Mapping[str, str]] = _ALONG
+    besides: ClassVar[tuple[str, ...]] = ("I22",)
 
     @property
     def section_axes(self) -> Axes:
@@ -152,7 +166,7 @@ class Quartic(Crossings, ConstrainedBody):
         reach = 4.0 * max(axes.x[1], self.body.longest)
         return [] if self.own is None else section_plane.outside(self.body.section_boundaries(), reach, 4.0)
 
-    def start_on_section(self, x: float, y: float) -> Values:
+    def start_at(self, x: float, y: float) -> Values:
         """A click in the section: the start and its direction; nothing where that is impossible."""
         try:
             return dict(zip(("Q1", "Q2", "beta"), model.start_on_section(self.body, x, y), strict=True))
@@ -205,7 +219,7 @@ SCENE = Scene(
                                          lambda s: s.body.equipotentials(_HEIGHTS)),
                     *plane_domain.orbit(Quartic.first, label="where it starts"))),
         Plot(name="section", caption=Quartic._about_section, axes=Quartic.names,
-             on_click=Quartic.start_on_section,
+             on_click=Quartic.start_at,
              title=lambda s: "Section {0} = 0, {0} growing".format("q₂" if s.body.across else "q₁"),
              x=lambda s: s.section_axes.x, y=_P_AXIS, message=lambda s: s.reason,
              layers=(indicator_layer(), *section_plane.layers(
@@ -214,5 +228,6 @@ SCENE = Scene(
                circles=lambda s: [*parallels((0.0, 0.0, 1.0), [s.body.h / s.body.b3]), *s.proved_around]),
         plane_domain.momentum_picture(lambda s: (s.orbit.times, s.momentum), least=lambda s: 1e-3 * max(s.body.axes),
                                       is_integral=lambda s: s.body.integrable),
+        branch_picture(Quartic),
     ),
 )

@@ -321,8 +321,15 @@ class FilledWindow(Indicated):
 
     def start_here(self, x: float, y: float) -> Values:
         """A click: an orbit at (x, y), besides those that there are."""
+        return {"starts": written([*self.picked.places, self._inside(x, y)])}
+
+    def start_at(self, x: float, y: float) -> Values:
+        """The orbit on show at (x, y), in place of the one there was."""
+        return {"starts": written([*places(self.starts)[:-1], self._inside(x, y)])}
+
+    def _inside(self, x: float, y: float) -> Place:
         (x0, y0), (x1, y1) = self.bounds
-        return {"starts": written([*self.picked.places, (min(max(x, x0), x1), min(max(y, y0), y1))])}
+        return min(max(x, x0), x1), min(max(y, y0), y1)
 
     def look_closer(self, corners: tuple[float, float, float, float]) -> Values:
         """A box: the new window."""

@@ -28,7 +28,7 @@ from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov.parameter_diagram import diagram, doublings, moved, nearest_place
 from hess_mechanics.suslov.section import SuslovSection
 
-__all__ = ["BOUNDS", "OverParameter", "picture"]
+__all__ = ["ALONG", "BOUNDS", "OverParameter", "picture"]
 
 ALONG = {"h": "h", "I₁₁": "I11", "I₂₂": "I22", "I₁₃": "I13", "I₂₃": "I23", "b₁": "b1", "b₂": "b2", "b₃": "b3"}
 _RISING, _FALLING, _BACKWARD = "rising", "falling", "backward"
