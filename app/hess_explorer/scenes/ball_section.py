@@ -71,11 +71,14 @@ PRESETS = (*map(plain, (
            psi=2.5, count=600.0, drop="the later half"),
     Preset("A wider one, I₁₃I₂₃ ≠ 0", I11=1.5, I22=3.0, I13=-0.1, I23=0.4, D=4.0, b1=-0.8, b2=-0.3, b3=-0.7, h=1.0,
            psi=0.4, count=600.0, drop="the later half"),
+    Preset("The orbit that doubles, over I₁₃", I11=1.5, I22=3.0, I13=-0.3, I23=0.0, D=1.0, b1=1.0, b2=-0.7, b3=0.7,
+           h=2.72, psi=-2.7834, delta=1.0275, reach=2.0, drop="the later half", periodic="period 1", over="I₁₃",
+           low=-0.55, high=-0.05),
 )),)
 
 
 @dataclass(frozen=True)
-class BallSection(CentreOfMass, Ball, Branched, Crossings, ConstrainedBody):
+class BallSection(CentreOfMass, Ball, Crossings, Branched, ConstrainedBody):
     """The orbit from one place of the section, among others of its energy."""
 
     I11: float = like(Tensor, "I11", 1.0, bounds=(1e-2, 1e2))

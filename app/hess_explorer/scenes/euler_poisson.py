@@ -81,11 +81,13 @@ PRESETS = (*map(plain, (
            starts="0,0.5"),
     Preset("The second sheet of figure 14 a: a smaller G", **_RIS, h=0.0, f=1.0, starts="2.5,-0.92",
            window="2,-0.97;2.6,-0.86", count=600.0),
+    Preset("Where the two Hess cycles meet, over h", **_RIS, h=2.0, f=1.0, starts="-0.1497,0.2064", reach=2.0,
+           periodic="period 1", over="h", low=0.6, high=2.2),
 )),)
 
 
 @dataclass(frozen=True)
-class EulerPoisson(Branched, SplitSeparatrices, RotationAcross, HeavySolid):
+class EulerPoisson(SplitSeparatrices, RotationAcross, Branched, HeavySolid):
     """A section of one body at one energy and area integral, filled with orbits on both sides of the barrier."""
 
     away: float = number("ε", 0.0, (-0.5, 0.5), 0.005, bounds=(-math.pi, math.pi), label="Distance from Hess, ε",

@@ -65,11 +65,12 @@ PRESETS = (*map(plain, (
     Preset("Regular: nearly round", ratio=1.05, h=0.6),
     Preset("A sea nearly everywhere", ratio=3.0, h=1.2, Q1=0.9, Q2=1.2),
     Preset("In a ring: bouncing at its far end", ratio=1.5, h=3.0, Q1=0.3, Q2=3.0, beta=1.571, span=60.0),
+    Preset("A pitchfork, over h", Q1=0.0, Q2=0.266, beta=0.0, periodic="period 1", over="h", low=0.6, high=0.95),
 )),)
 
 
 @dataclass(frozen=True)
-class Quartic(Branched, Crossings, ConstrainedBody):
+class Quartic(Crossings, Branched, ConstrainedBody):
     """The orbit of one point in the potential, among others of its energy."""
 
     I22: float = like(Tensor, "I22", 1.0, softbounds=(0.2, 3.0), bounds=(1e-2, 1e2))

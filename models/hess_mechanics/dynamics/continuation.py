@@ -44,6 +44,11 @@ _TURN = 0.3
 _CONSERVATIVE = 1e-6
 """Where |det M − 1| is below this at both ends of a step, the map keeps an area, and no curve is born."""
 
+_SINGULAR = (NotConverged, ModelError, np.linalg.LinAlgError)
+"""What is raised where two branches cross."""
+_CLOSER = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
+"""Of what a search had come to, how close from both sides it is tried where it does not get further."""
+
 Family = Callable[[float], Map]
 """λ → the map.  Raises a `ModelError` where there is none."""
 
@@ -333,7 +338,7 @@ def _located(track: _Track, kind: str, last: _Point, t: Array, ahead: float, aft
         point = track.corrected(last.z + s * t, t)
         return point, _signs(point, point.tangent(t))[kind]
 
-    low, high = 0.0, ahead
+    low, s, high = 0.0, ahead, ahead
     point, f_low = last, _signs(last, t)[kind]
     values = [float(last.z[-1]), float(last.z[-1] + ahead * t[-1])]
     f = f_high = -f_low
@@ -362,8 +367,9 @@ def _located(track: _Track, kind: str, last: _Point, t: Array, ahead: float, aft
         along = abs((_signs(better, better.tangent(t))[kind] - f) * (high - low) / (f_high - f_low))
         moved = abs(better.z[-1] - point.z[-1]) + along * abs(across[-1]) + 0.5 * along * along
         off = 1.25 * float(moved) + abs(values[-1] - values[-2])
-    except (NotConverged, ModelError, np.linalg.LinAlgError):
-        # Where branches cross, the equations are singular: what is known is how far the search had come.
+    except _SINGULAR:
+        # Where branches cross, the equations are singular: what is known is how close to it on both sides they are not.
+        low, high, point = _closed_in(track, at, s, (low, high), f_high, point)
         off = high - low
     places, value = track.split(point.z)
     name = kind
@@ -371,6 +377,26 @@ def _located(track: _Track, kind: str, last: _Point, t: Array, ahead: float, aft
         name = _pitchfork(track.at(value), places, point, symmetries)
     return Bifurcation(name, value, off * track.width + 4e-16 * max(1.0, abs(value)), frozen(places.copy()),
                        frozen(multipliers_of(point.shot.derivatives)[0]), after)
+
+
+def _closed_in(track: _Track, at: Callable[[float], tuple[_Point, float]], s: float, bracket: tuple[float, float],
+               f_high: float, point: _Point) -> tuple[float, float, _Point]:
+    """A narrower bracket of a zero, at about s where the equations are singular, and the branch there, by the secant.
+
+    at : the point and the sign at a distance; f_high : the sign at the upper end.
+    """
+    low, high = bracket
+    for share in _CLOSER:
+        away = share * (bracket[1] - bracket[0])
+        try:
+            (before, f_before), (after, f_after) = at(s - away), at(s + away)
+            if f_before * f_after >= 0.0 or f_after * f_high < 0.0:
+                break
+            between = track.point(before.z + (after.z - before.z) * f_before / (f_before - f_after))
+        except _SINGULAR:
+            break
+        low, high, point = s - away, s + away, between
+    return low, high, point
 
 
 def _pitchfork(map_: Map, places: Array, point: _Point, symmetries: Symmetric) -> str:

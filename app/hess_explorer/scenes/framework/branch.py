@@ -35,6 +35,8 @@ _PARTS = 16
 """Of a branch in each direction, at most."""
 _STEP = 0.02
 """Of the width of the range, at most: lines between points are then half a pixel off, as directions differ by 0.3."""
+_CREEPING = 1e-4
+"""Of the width of the range, and of the coordinates: with parts that are shorter nobody sees a branch go on."""
 _NEAR = 12.0
 """Pixels from a branch within which the mouse means it."""
 _SAID = 8
@@ -45,22 +47,23 @@ _SAID = 8
 class Family:
     """The return maps of a scene's section over one of its parameters.
 
-    state : of the scene; name : of the parameter; others : what else the section depends on, by name.
+    state : of the scene; name, symbol : of the parameter; others : what else the section depends on, by name.
     """
 
     state: type[State]
     name: str
+    symbol: str
     others: tuple[tuple[str, Value], ...]
 
     @classmethod
-    def of(cls, state: State, name: str, names: tuple[str, ...]) -> Family:
+    def of(cls, state: State, name: str, symbol: str, names: tuple[str, ...]) -> Family:
         """About a state; names : of all that the section depends on."""
-        return cls(type(state), name, tuple((one, getattr(state, one)) for one in names if one != name))
+        return cls(type(state), name, symbol, tuple((one, getattr(state, one)) for one in names if one != name))
 
     def map_at(self, value: float) -> ReturnMap:
         """The return map at a value of the parameter.  Raises `ModelError`."""
-        state: Any = self.state(**dict(self.others), **{self.name: value})
-        return ReturnMap(state.section, PRECISE)
+        state: Any = self.state  # its fields are known only where the scene declares its parameters
+        return ReturnMap(state(**dict(self.others), **{self.name: value}).section, PRECISE)
 
 
 @dataclass(frozen=True)
@@ -100,13 +103,17 @@ class _Nearest:
 class Continuation:
     """What is known of a branch; while a slider is held, nothing more is asked for.
 
-    symbol : of the parameter; side : which coordinate of the section is drawn, upwards.
+    side : which coordinate of the section is drawn, upwards.
     """
 
     work: Work
     begin: Begin
-    symbol: str
     side: int
+
+    @property
+    def symbol(self) -> str:
+        """Of the parameter."""
+        return self.begin.family.symbol
 
     @cached_property
     def turns(self) -> tuple[float, ...]:
@@ -122,7 +129,8 @@ class Continuation:
     def _found(self) -> Closed | Missed | None:
         """The orbit from which it is continued; None while that is not known."""
         search = (self.begin.family.map_at(self.begin.value), self.begin.place, self.begin.period, False)
-        return self._ask(sought, *search)
+        found: Closed | Missed | None = self._ask(sought, *search)
+        return found
 
     @property
     def closed(self) -> Closed | None:
@@ -150,9 +158,14 @@ class Continuation:
                     whole = whole and one is not None
                     break
                 found.append(one)
-                if one.heading is None:
+                if one.heading is None or self._creeps(one):
                     break
         return found, failed, whole
+
+    def _creeps(self, part: Branch) -> bool:
+        """Whether it hardly gets on, as where orbits begin to touch the section and the map has no derivative."""
+        low, high = self.begin.ends
+        return max(float(np.ptp(part.values)) / (high - low), float(np.ptp(part.places, axis=0).max())) < _CREEPING
 
     @property
     def branches(self) -> list[Branch]:
@@ -272,7 +285,7 @@ def _part(begin: Begin, upwards: bool, k: int) -> Branch | Missed:
     points = max(6, _TOGETHER // found.orbit.period)
     try:
         if k == 0:
-            return continued(family.map_at, found.orbit, family.name, begin.value, end, points, _symmetries, edge,
+            return continued(family.map_at, found.orbit, family.symbol, begin.value, end, points, _symmetries, edge,
                              _STEP)
         before, _ = CACHE.get(_part, begin, upwards, k - 1)
         return gone_on(family.map_at, before, end, edge, points, _symmetries, _STEP)

@@ -87,7 +87,7 @@ class Branched(PeriodicOrbits):
         return self.names.index(self.upwards)
 
     @cached_property
-    def ends(self) -> tuple[float, float]:
+    def branch_ends(self) -> tuple[float, float]:
         """From where to where the parameter goes, within its bounds."""
         spec = next(one for one in specs_of(type(self)) if one.name == self._name)
         assert isinstance(spec, Number)
@@ -107,10 +107,10 @@ class Branched(PeriodicOrbits):
         """The branch of the periodic orbit, where there is one."""
         if self.aim is None or self.closed is None:
             return None
-        low, high = self.ends
-        begin = Begin(Family.of(self, self._name, (*self.along.values(), *self.besides)), self._at, self.aim,
+        low, high = self.branch_ends
+        begin = Begin(Family.of(self, self._name, self.over, (*self.along.values(), *self.besides)), self._at, self.aim,
                       PERIODS[self.periodic], (min(low, self._at), max(high, self._at)))
-        return Continuation(self.work, begin, self.over, self._side)
+        return Continuation(self.work, begin, self._side)
 
     @property
     def continued(self) -> list[Branch]:
@@ -147,7 +147,7 @@ class Branched(PeriodicOrbits):
     def _seen(self) -> Window | None:
         if self.upwards_range is None:
             return None
-        return (self.ends[0], self.upwards_range[0]), (self.ends[1], self.upwards_range[1])
+        return (self.branch_ends[0], self.upwards_range[0]), (self.branch_ends[1], self.upwards_range[1])
 
     def on_branch(self, x: float, y: float) -> Values:
         """A click on the branch: the parameter and the orbit that is there, in the range that is seen."""
@@ -157,7 +157,7 @@ class Branched(PeriodicOrbits):
         value, place, period = found
         state: Any = self  # a dataclass only where the scene declares its parameters
         there: Branched = replace(state, **{self._name: value})
-        low, high = self.ends
+        low, high = self.branch_ends
         return {self._name: value, **there.start_at(place[0], place[1]), "periodic": f"period {period}", "low": low,
                 "high": high}
 
@@ -232,7 +232,7 @@ def branch_picture(scene: type[Branched]) -> Plot[Any]:
         folded="Show the branch of the periodic orbit", axes=lambda s: (s.over, s.upwards),
         message=lambda s: s._nothing(), on_click=lambda s, x, y: s.on_branch(x, y), on_box=boxed,
         on_hover=lambda s, x, y: s.about_branch(x, y),
-        x=lambda s: s.ends, y=lambda s: s.upwards_range,
+        x=lambda s: s.branch_ends, y=lambda s: s.upwards_range,
         layers=(curves("value", within=at_the_value, color=theme.INK, width=1.5, label="the state on show"),
                 *view.layers(lambda s: s.continued, lambda s: s._side, lambda s: s.turn),
                 points("shown", within=shown, size=15, color=theme.INK, hollow=True, edge_width=2.0,

@@ -30,9 +30,9 @@ class Continued(OverParameter):
         if self.branch == NONE:
             return None
         (low, _), (high, _) = self.frame
-        begin = Begin(Family.of(self, self.name, tuple(ALONG.values())), self.at, self.place, PERIODS[self.branch],
-                      (min(low, self.at), max(high, self.at)))
-        return Continuation(self.work, begin, self.along, self.side)
+        family = Family.of(self, self.name, self.along, tuple(ALONG.values()))
+        begin = Begin(family, self.at, self.place, PERIODS[self.branch], (min(low, self.at), max(high, self.at)))
+        return Continuation(self.work, begin, self.side)
 
     @property
     def closed(self) -> Closed | None:

@@ -1,0 +1,285 @@
+"""The branch of a periodic orbit beside a section: against SciPy, closed forms, the Möbius matrix; clicks, words."""
+
+from __future__ import annotations
+
+import math
+import re
+from functools import cache
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+
+from hess_explorer.protocol.parameters import places
+from hess_explorer.scenes import scenes
+from hess_mechanics import circle_map, level
+from hess_mechanics.dynamics.periodic import apart
+from hess_mechanics.euler_poisson.andoyer import hess_curve
+from hess_mechanics.euler_poisson.equations import HeavyBody
+from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
+from support.ball import energy_of, rates
+from support.view import View
+
+SCENES = scenes()
+NAMES = ("quartic", "ball-section", "euler-poisson")
+EXAMPLES = {"quartic": "A pitchfork", "ball-section": "The orbit that doubles", "euler-poisson": "Where the two Hess"}
+every = pytest.mark.parametrize("name", NAMES)
+
+
+def example(name):
+    """The values of the example that has a branch, without manifolds."""
+    (preset,) = [one for one in SCENES[name].presets if one.name.startswith(EXAMPLES[name])]
+    return {**preset.values, "reach": 0.0}
+
+
+@cache
+def shown(name, *given):
+    """Only its branch is in sight."""
+    return View(SCENES[name], {**example(name), **dict(given)}, seen=["branch"])
+
+
+def marks(view):
+    """The bifurcations that are listed: kind, value, error."""
+    found = [re.fullmatch(r"(.+) of period (\d+) at (\S+) = (\S+) ± (\S+)", line) for line in view.report.derived]
+    return [(one[1], *(float(one[i].replace("−", "-")) for i in (4, 5))) for one in found if one]
+
+
+def points_of(view):
+    """Of all points of the branch: the parameter, the places (m, 2), the multipliers."""
+    return [point for part in view.result.continued
+            for point in zip(part.values.tolist(), part.places, part.multipliers, strict=True)]
+
+
+def half_trace(h, share):
+    """Of half a turn of the motion to and fro through the middle along the shorter axis, of what is next to it.
+
+    There q̈ = γ3 q and ü = share γ3 u with γ3 = h − q²/2, in units I = 1, b3 = 1, share the ratio of the moments of
+    inertia.  By the symmetry q → −q the second half is like the first.
+    """
+    def motion(_, y):
+        q, v, u, du, w, dw = y
+        g3 = h - 0.5 * q * q
+        return [v, g3 * q, du, share * g3 * u, dw, share * g3 * w]
+
+    def back(_, y):
+        return y[0]
+
+    back.direction, back.terminal = -1.0, True
+    run = solve_ivp(motion, (0.0, 100.0), [0.0, math.sqrt(1.0 - h * h), 1.0, 0.0, 0.0, 1.0], "DOP853", rtol=1e-12,
+                    atol=1e-14, events=back, first_step=1e-3)
+    y = run.y_events[0][0]
+    return y[2] + y[5]
+
+
+def test_the_orbit_through_the_middle_loses_its_stability_where_hills_equation_does():
+    ratio = 2.0
+    view = shown("quartic", ("Q2", 0.0), ("low", 0.0), ("high", 0.9), ("ratio", ratio))
+    ((kind, value, error),) = marks(view)
+    exact = brentq(lambda h: half_trace(h, 1.0 / ratio) - 2.0, 0.6, 0.9, xtol=1e-13)
+    assert kind == "pitchfork"
+    assert value == pytest.approx(exact, abs=1e-8)
+    assert error < 1e-9
+    # Along the branch: the trace of the whole turn is T² − 2.
+    for h, there, multipliers in points_of(view)[::6]:
+        assert np.abs(there).max() < 1e-10
+        assert multipliers.sum() == pytest.approx(half_trace(h, 1.0 / ratio) ** 2 - 2.0, abs=1e-7)
+    # At h = 0 the potential is homogeneous of degree 4, and the trace is known in closed form (Yoshida 1987).
+    ((_, _, multipliers),) = (one for one in points_of(view) if one[0] == 0.0)
+    T = 2.0 * math.sqrt(2.0) * math.cos(0.25 * math.pi * math.sqrt(1.0 + 8.0 / ratio))
+    assert multipliers.sum() == pytest.approx(T * T - 2.0, abs=1e-8)
+
+
+def test_the_branch_of_an_orbit_born_there_turns_at_the_pitchfork():
+    view = shown("quartic")
+    ((kind, value, error),) = marks(view)
+    exact = brentq(lambda h: half_trace(h, 0.5) - 2.0, 0.6, 0.9, xtol=1e-13)
+    assert (kind, value) == ("pitchfork", pytest.approx(exact, abs=1e-8))
+    assert error < 1e-4
+    found = np.array([(h, *there[0]) for h, there, _ in points_of(view)])
+    # It lies on one side of it, with an orbit and its mirror image at each h; next to it q² grows in proportion.
+    assert found[:, 0].min() >= exact - 1e-9
+    for sign in (1.0, -1.0):
+        arm = found[sign * found[:, 1] > 0.0]
+        assert arm[:, 0].max() == pytest.approx(0.95, abs=1e-9)
+        near = arm[arm[:, 0] < exact + 0.02]
+        slopes = near[:, 1] ** 2 / (near[:, 0] - exact)
+        assert len(near) > 3
+        assert np.ptp(slopes[near[:, 0] > exact + 1e-3]) < 0.1 * slopes.mean()
+    drawn = view.curve("branch-branch-neither")
+    assert drawn[0].min() == pytest.approx(exact, abs=1e-4)
+    assert view.data["branch-bifurcation-names"]["text"] == ["pitchfork"]
+    assert view.text["branch"] == (
+        "Branch of the periodic orbit\nPeriod 1, elliptic here; its branch has 1 bifurcation.")
+
+
+HEAVY = HeavyBody.hess((1.0, 1.5, 2.0), -math.sqrt(0.5))
+"""The body of that example, in the Hess case."""
+
+
+def moebius(h, f):
+    """Its circle map."""
+    bridge = Bridge.of_heavy(HEAVY)
+    return circle_map(bridge.hess.a, *bridge.in_units_of_b(h, f), level("reference"))
+
+
+def test_the_two_cycles_of_the_hess_case_meet_where_the_moebius_matrix_has_the_trace_two():
+    view = shown("euler-poisson")
+    (value, error), = ((value, error) for kind, value, error in marks(view) if kind in ("fold", "branch point"))
+    exact = brentq(lambda h: abs(moebius(h, 1.0).trace) - 2.0, value - 0.01, value + 0.01, xtol=1e-13)
+    assert abs(value - exact) <= error + 1e-8
+    assert error < 1e-4
+    found = points_of(view)
+    assert min(h for h, _, _ in found) >= exact - error
+    signs = set()
+    for h, there, multipliers in found[::8]:
+        # On the Hess curve: the one cycle before the turn, the other behind it.
+        assert there[0, 1] == pytest.approx(float(hess_curve(HEAVY, there[:1, 0])[0]), abs=1e-6)
+        larger = max(one.multiplier for one in moebius(h, 1.0).fixed_points)
+        if h > exact + 0.01:
+            assert np.abs(multipliers - (larger, 1.0 / larger)).max() < 1e-8 * larger
+            signs.add(np.sign(there[0, 0] - np.median([p[0, 0] for _, p, _ in found])))
+    assert signs == {-1.0, 1.0}
+
+
+def returned(values, place):
+    """(ψ, δ) where SciPy's motion of the ball next comes through γ3 = 0 upwards."""
+    psi, delta = place
+    gamma, u = [math.cos(psi), math.sin(psi), 0.0], np.array([math.cos(psi + delta), math.sin(psi + delta)])
+    unit, rest = (energy_of(values, [*(size * u), *gamma]) for size in (1.0, 0.0))
+    E = values["h"] - math.hypot(values["b1"], values["b2"])
+    start = [*(math.sqrt((E - rest) / (unit - rest)) * u), *gamma]
+
+    def height(_, y):
+        return y[4]
+
+    height.direction = 1.0
+    run = solve_ivp(rates(values), (0.0, 80.0), start, "DOP853", rtol=1e-12, atol=1e-13, events=height)
+    there = next(y for t, y in zip(run.t_events[0], run.y_events[0], strict=True) if t > 1e-6)
+    psi = math.atan2(there[3], there[2])
+    return np.array([psi, abs(math.remainder(math.atan2(there[1], there[0]) - psi, 2.0 * math.pi))])
+
+
+def derivative(values, place, step=2e-4):
+    """Of the return map of the ball, by differences of fourth order."""
+    columns = []
+    for axis in np.eye(2):
+        far, near = ([returned(values, place + sign * size * axis) for sign in (1.0, -1.0)]
+                     for size in (step, 0.5 * step))
+        columns.append((8.0 * (near[0] - near[1]) - (far[0] - far[1])) / (6.0 * step))
+    return np.column_stack(columns)
+
+
+def test_an_orbit_of_the_ball_doubles_where_another_integrator_finds_the_multiplier_minus_one():
+    view = shown("ball-section")
+    ((kind, value, error),) = marks(view)
+    assert kind == "flip"
+    assert error < 1e-8
+    (flip,) = (one for part in view.result.continued for one in part.bifurcations)
+    values = {**view.values, "I13": flip.value}
+    assert returned(values, flip.places[0]) == pytest.approx(flip.places[0], abs=1e-8)
+    assert np.linalg.eigvals(derivative(values, flip.places[0])).real.min() == pytest.approx(-1.0, abs=1e-5)
+    # It attracts on one side, and is a saddle on the other: other colours.
+    found = points_of(view)
+    for h, there, multipliers in (found[len(found) // 3], found[-1]):
+        values = {**view.values, "I13": h}
+        exact = sorted(np.linalg.eigvals(derivative(values, there[0])), key=abs, reverse=True)
+        assert np.abs(multipliers[0] - exact[0]) < 1e-4 * max(1.0, abs(exact[0])) or (
+            np.abs(multipliers[0] - np.conj(exact[0])) < 1e-4)
+    attracts, repels = (view.curve(f"branch-branch-{sign}")[0] for sign in ("attracts", "repels"))
+    assert attracts.max() == pytest.approx(value, abs=1e-5) == pytest.approx(repels.min(), abs=1e-5)
+
+
+@every
+def test_a_click_on_the_branch_shows_that_orbit_and_away_from_it_nothing_happens(name):
+    view = shown(name)
+    state = view.result
+    picture = next(one for one in SCENES[name].views if one.name == "branch")
+    side = state.names.index(state.upwards)
+    value, there, _ = max(points_of(view), key=lambda one: one[0] < 0.9 * view.values["high"] and one[0])
+    place = there[0]
+    chosen = picture.on_click(state, value, place[side])
+    parameter = state.along[state.over]
+    assert chosen[parameter] == pytest.approx(value, abs=1e-3)
+    after = View(SCENES[name], {**view.values, **chosen}, seen=["branch"])
+    orbit = after.result.closed.orbit
+    assert np.abs(apart(state.section.turns, orbit.places, place)).max(axis=1).min() < 0.02
+    # The range stays as it was, and the orbit is marked.
+    assert after.result.branch_ends == state.branch_ends
+    assert after.data["branch-shown"]["x"][0] == pytest.approx(chosen[parameter], abs=1e-6)
+    assert after.data["branch-shown"]["y"] == pytest.approx(orbit.places[:, side], abs=1e-6)
+    # What stands in the way of clicks: other chosen orbits stay.
+    if "starts" in chosen:
+        assert len(places(chosen["starts"])) == len(places(view.values["starts"]))
+    low, high = state.upwards_range
+    assert picture.on_click(state, *state.branch_ends[:1], high + (high - low)) == {}
+    assert picture.on_hover(state, *state.branch_ends[:1], high + (high - low)) == ""
+    assert picture.on_hover(state, value, place[side]).startswith(f"{state.over} = ")
+    kind, at, _ = marks(view)[0]
+    mark = view.data["branch-bifurcations"]
+    assert picture.on_hover(state, mark["x"][0], mark["y"][0]).startswith(f"{kind} of period 1 at {state.over} = ")
+    # A box looks closer.
+    assert picture.on_box(state, (at + 0.1, 0.0, at - 0.1, 1.0)) == {"low": at - 0.1, "high": at + 0.1}
+
+
+@every
+def test_without_a_periodic_orbit_the_picture_says_what_to_do(name):
+    scene = SCENES[name]
+    view = View(scene, {"orbits": 0.0} if name == "euler-poisson" else {}, seen=["branch"])
+    assert view.text["branch"].split("\n")[1].startswith("None is asked for: choose a Periodic orbit")
+    assert "Choose a Periodic orbit" in " ".join(view.data["branch-message"]["text"][0].split())
+    assert "branch-bifurcations" not in view.data or len(view.data["branch-bifurcations"]["x"]) == 0
+    assert not any("branch" in line for line in (*view.report.derived, *view.report.notes, view.report.status))
+    assert {"low", "high"} <= set(scene.idle(view.values))
+    assert not {"low", "high"} & set(scene.idle({**view.values, "periodic": "period 1"}))
+    # Out of sight it is not computed.
+    hidden = View(scene, example(name), seen=["section"], whole=False)
+    assert not any("branch" in task.function.__module__ for task in hidden.report.todo)
+
+
+@every
+def test_the_range_is_within_what_is_possible_and_about_the_value_where_none_is_chosen(name):
+    scene = SCENES[name]
+    defaults = scene.defaults()
+    for over, parameter in scene.state.along.items():
+        low, high = scene.of({**defaults, "over": over}).branch_ends
+        assert low < defaults[parameter] < high
+        spec = next(one for one in scene.specs if one.name == parameter)
+        # Ends in the wrong order, and beyond the bounds of the parameter.
+        ends = scene.of({**defaults, "over": over, "low": 1e5, "high": -1e5}).branch_ends
+        assert ends == (max(spec.bounds[0], -1e5), min(spec.bounds[1], 1e5))
+    values, notes = scene.admit({**defaults, "low": math.inf, "high": 1e9})
+    assert (values["low"], values["high"], len(notes)) == (0.0, 1e5, 2)
+    # Over another parameter the range is about that one.
+    other = [*scene.state.along][1]
+    assert scene.carried({**defaults, "low": 1.0, "high": 2.0}, {**defaults, "over": other}) == {
+        "low": 0.0, "high": 0.0}
+    assert scene.carried(defaults, {**defaults, "low": 1.0}) == {}
+    # None of it means anything in another scene.
+    for before in NAMES:
+        if before != name:
+            left = {**SCENES[before].defaults(), "periodic": "period 1", "over": "h", "low": 1.0, "high": 2.0}
+            taken = scene.taken_over(defaults, SCENES[before], left)
+            assert (taken["over"], taken["low"], taken["high"]) == (defaults["over"], 0.0, 0.0)
+
+
+def test_while_a_slider_is_held_only_what_is_known_is_drawn():
+    values = example("ball-section")
+    known = View(SCENES["ball-section"], values, seen=["branch"])
+    same = View(SCENES["ball-section"], values, seen=["branch"], dragging=True)
+    for one, other in zip(*(view.curve("branch-branch-attracts") for view in (same, known)), strict=True):
+        assert len(one) == len(other) > 20
+        assert one == pytest.approx(other)
+    moved = View(SCENES["ball-section"], {**values, "b3": 0.71}, seen=["branch"], dragging=True, whole=False)
+    assert moved.text["branch"].split("\n")[1] == "A periodic orbit is found when a slider is let go."
+    assert moved.result.continued == []
+    assert moved.report.todo == ()
+
+
+def test_where_a_branch_hardly_gets_on_no_more_of_it_is_computed():
+    # At h = 1.4435 an orbit begins to touch the section: steps are of 1e-10, and sixteen parts were asked for.
+    view = View(SCENES["ball-section"], {"periodic": "period 1", "reach": 0.0}, seen=["branch"])
+    downwards = [part for part in view.result.continued if part.values[-1] < 2.0]
+    assert len(downwards) == 2
+    assert downwards[-1].values[-1] == pytest.approx(1.44351, abs=1e-5)
+    assert "The branch goes on: no more of it is computed." in view.report.notes
