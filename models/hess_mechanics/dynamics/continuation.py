@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -46,8 +47,8 @@ _CONSERVATIVE = 1e-6
 
 _SINGULAR = (NotConverged, ModelError, np.linalg.LinAlgError)
 """What is raised where two branches cross."""
-_CLOSER = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
-"""Of what a search had come to, how close from both sides it is tried where it does not get further."""
+_SHARES, _HALVINGS = (0.5, 0.35, 0.65, 0.2, 0.8, 0.05, 0.95), 24
+"""Of a bracket, where it is divided, the first that can be; and how often."""
 
 Family = Callable[[float], Map]
 """λ → the map.  Raises a `ModelError` where there is none."""
@@ -336,9 +337,12 @@ def _located(track: _Track, kind: str, last: _Point, t: Array, ahead: float, aft
 
     def at(s: float) -> tuple[_Point, float]:
         point = track.corrected(last.z + s * t, t)
-        return point, _signs(point, point.tangent(t))[kind]
+        turned = point.tangent(t)
+        if math.acos(min(1.0, float(turned @ t))) > _TURN:
+            raise NotConverged("This is a point of another branch, which crosses here.")
+        return point, _signs(point, turned)[kind]
 
-    low, s, high = 0.0, ahead, ahead
+    low, high = 0.0, ahead
     point, f_low = last, _signs(last, t)[kind]
     values = [float(last.z[-1]), float(last.z[-1] + ahead * t[-1])]
     f = f_high = -f_low
@@ -369,7 +373,7 @@ def _located(track: _Track, kind: str, last: _Point, t: Array, ahead: float, aft
         off = 1.25 * float(moved) + abs(values[-1] - values[-2])
     except _SINGULAR:
         # Where branches cross, the equations are singular: what is known is how close to it on both sides they are not.
-        low, high, point = _closed_in(track, at, s, (low, high), f_high, point)
+        low, high, point = _closed_in(track, at, (low, high), point)
         off = high - low
     places, value = track.split(point.z)
     name = kind
@@ -379,24 +383,36 @@ def _located(track: _Track, kind: str, last: _Point, t: Array, ahead: float, aft
                        frozen(multipliers_of(point.shot.derivatives)[0]), after)
 
 
-def _closed_in(track: _Track, at: Callable[[float], tuple[_Point, float]], s: float, bracket: tuple[float, float],
-               f_high: float, point: _Point) -> tuple[float, float, _Point]:
-    """A narrower bracket of a zero, at about s where the equations are singular, and the branch there, by the secant.
+def _closed_in(track: _Track, at: Callable[[float], tuple[_Point, float]], bracket: tuple[float, float], point: _Point
+               ) -> tuple[float, float, _Point]:
+    """A narrower bracket of a zero next to which the equations are singular, and the branch there, by the secant.
 
-    at : the point and the sign at a distance; f_high : the sign at the upper end.
+    at : the point and the sign at a distance; point : what is known of the branch there.
     """
     low, high = bracket
-    for share in _CLOSER:
-        away = share * (bracket[1] - bracket[0])
-        try:
-            (before, f_before), (after, f_after) = at(s - away), at(s + away)
-            if f_before * f_after >= 0.0 or f_after * f_high < 0.0:
+    with suppress(*_SINGULAR):
+        (before, f_before), (after, f_after) = at(low), at(high)
+        for _ in range(_HALVINGS):
+            found = _first_of(at, [low + share * (high - low) for share in _SHARES])
+            if found is None:
                 break
-            between = track.point(before.z + (after.z - before.z) * f_before / (f_before - f_after))
-        except _SINGULAR:
-            break
-        low, high, point = s - away, s + away, between
+            s, between, f = found
+            if (f > 0.0) == (f_after > 0.0):
+                high, after, f_after = s, between, f
+            else:
+                low, before, f_before = s, between, f
+        if f_before * f_after < 0.0:
+            point = track.point(before.z + (after.z - before.z) * f_before / (f_before - f_after))
     return low, high, point
+
+
+def _first_of(at: Callable[[float], tuple[_Point, float]], distances: Sequence[float]
+              ) -> tuple[float, _Point, float] | None:
+    """The first of some distances at which the equations are not singular."""
+    for s in distances:
+        with suppress(*_SINGULAR):
+            return s, *at(s)
+    return None
 
 
 def _pitchfork(map_: Map, places: Array, point: _Point, symmetries: Symmetric) -> str:
