@@ -1,8 +1,8 @@
 """Cascades, hysteresis, attractors and repellers, tori and spirals of sections, found by looking.
 
-`python tests/benchmarks/search_regimes.py diagrams|sets|strange|reversal|tori --count 300 --seed 1` draws random
-bodies and a parameter, and prints what it sees: of a cascade the doublings that Newton's method then locates, of two
-sets how far apart they are.  What it prints is seen, not proved.
+`python tests/benchmarks/search_regimes.py diagrams|sets|strange|spirals|reversal|tori --count 300 --seed 1` draws
+random bodies and a parameter, and prints what it sees: of a cascade the doublings that Newton's method then locates, of
+two sets how far apart they are.  What it prints is seen, not proved.
 
 The presets of the scene "Orbit diagram" were found so: by `strange --real --seed 1`, of whose first 34 strange
 attractors four are on a cascade that Newton's method locates to period 16, and by `reversal --real --seed 2`, where 80
@@ -13,6 +13,11 @@ of 300 bodies turn round.
 strange : strange attractors, with their Kaplan–Yorke dimension, whether their dynamics are mixed, the permanent
     rotations that are saddle-foci with Shilnikov's inequality and how close the attractor comes to them, and cascades
     over a parameter about them.
+spirals : strange attractors to which motions from next to saddle-foci come, of the Suslov problem.  Of the first 17124
+    bodies of `--real --seed 1`, with 8753 saddle-foci that have Shilnikov's inequality and a stable real eigenvalue,
+    eleven come within 0.3 of one, the closest within 0.084: I = (0.7, 2.8, 0.2, 0.2), b = (1.0, -1.8, -1.2), E = 2.717,
+    eigenvalues 0.287 ± 2.025i, -0.744.  Of 31 strange attractors to which 4000 bodies came from random places (`strange
+    --real`, seeds 1 to 4), none comes closer than 0.39.  No homoclinic orbit was looked for: none is claimed.
 reversal : motions that turn round on their way from a repeller to an attractor.
 tori : parameters along which an attracting focus bears an invariant curve (Neimark–Sacker), and what attracts beyond.
     The example "A torus breaks up" of the scene was found so, with `--real --seed 1`.  What an earlier search took for
@@ -109,12 +114,15 @@ def looked_at(map_: ReturnMap, name: str, draw: np.random.Generator, start: np.n
               "chaotic values", chaos, flush=True)
 
 
-def saddle_foci(map_: ReturnMap, near: np.ndarray) -> list[str]:
-    """Permanent rotations with a real and two complex eigenvalues, and how close states `near` (n, 5) come to them.
+def saddle_foci(map_: ReturnMap) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+    """Permanent rotations (5,) with two complex and a real eigenvalue of the other sign, these (3,), a direction (5,).
 
-    They are γ3 = 0, ω = wγ with w²(I13γ1 + I23γ2) = b3.  Shilnikov's inequality: the real one is the larger in size.
+    They are γ3 = 0, ω = wγ with w²(I13γ1 + I23γ2) = b3.  The real eigenvalue is the last; the direction is in the plane
+    of the complex ones.
     """
     body, E = map_.sheet.body, map_.sheet.E
+    if body.b3 == 0.0 or body.I13 == body.I23 == 0.0:
+        return []
 
     def rotation(psi: float, sign: float) -> np.ndarray:
         g1, g2 = math.cos(psi), math.sin(psi)
@@ -129,7 +137,7 @@ def saddle_foci(map_: ReturnMap, near: np.ndarray) -> list[str]:
         return np.array(map_.sheet.system.field(list(y), list(map_.sheet.parameters)), float)
 
     middle = math.atan2(body.I23, body.I13) + (0.0 if body.b3 > 0.0 else math.pi)
-    psi = middle + np.linspace(-1.56, 1.56, 1001)
+    psi = middle + np.linspace(-1.56, 1.56, 401)
     values = np.array([excess(x) for x in psi])
     found = []
     for k in np.flatnonzero(values[1:] * values[:-1] < 0.0):
@@ -137,15 +145,46 @@ def saddle_foci(map_: ReturnMap, near: np.ndarray) -> list[str]:
             root = rotation(brentq(excess, psi[k], psi[k + 1]), sign)
             J = np.column_stack([(field(root + _STEP * e) - field(root - _STEP * e)) / (2.0 * _STEP)
                                  for e in np.eye(root.size)])
-            eigenvalues = np.linalg.eigvals(J)
+            eigenvalues, vectors = np.linalg.eig(J)
             # Those of the integrals, along the family of rotations, are 0.
-            kept = eigenvalues[np.argsort(-np.abs(eigenvalues))[:3]]
-            spiral, plain = kept[np.abs(kept.imag) > 1e-6], kept[np.abs(kept.imag) <= 1e-6]
-            if len(spiral) == 2 and len(plain) == 1 and plain[0].real * spiral[0].real < 0.0:
-                away = float(np.linalg.norm(near - root, axis=1).min())
-                found.append(f"saddle-focus {np.round(root, 4)} eigenvalues {np.round(kept, 4)} Shilnikov "
-                             f"{abs(plain[0].real) > abs(spiral[0].real)} closest {away:.2g}")
+            order = np.argsort(-np.abs(eigenvalues))[:3]
+            spiral, plain = (order[(np.abs(eigenvalues[order].imag) > 1e-6) == turns] for turns in (True, False))
+            if len(spiral) == 2 and eigenvalues[plain[0]].real * eigenvalues[spiral[0]].real < 0.0:
+                found.append((root, eigenvalues[[*spiral, *plain]], vectors[:, spiral[0]].real))
     return found
+
+
+def beside(root: np.ndarray, eigenvalues: np.ndarray, states: np.ndarray) -> str:
+    """How close states (n, 5) come to a saddle-focus.  Shilnikov's inequality: the real eigenvalue is the larger."""
+    return (f"saddle-focus {np.round(root, 4)} eigenvalues {np.round(eigenvalues, 4)} Shilnikov "
+            f"{abs(eigenvalues[2].real) > abs(eigenvalues[0].real)} closest "
+            f"{np.linalg.norm(states - root, axis=1).min():.2g}")
+
+
+def spirals(map_: ReturnMap) -> str:
+    """Strange attractors to which the motions from next to a saddle-focus come that has Shilnikov's inequality.
+
+    Motions leave it in a spiral and may come back along a line; those within 0.3 of it are printed.
+    """
+    told = "no such saddle-focus"
+    system, p = map_.sheet.system, map_.sheet.parameters
+    for root, eigenvalues, direction in saddle_foci(map_):
+        if not 0.0 < eigenvalues[0].real < -eigenvalues[2].real:
+            continue
+        told = "not close to a saddle-focus" if told == "no such saddle-focus" else told
+        start = root + 1e-2 * direction / np.linalg.norm(direction)
+        start[2:] /= np.linalg.norm(start[2:])
+        states = solve(system, start, p, np.linspace(0.0, 1500.0, 30_001), level("draft")).states[15_000:]
+        if np.linalg.norm(states - root, axis=1).min() > 0.3 or np.ptp(states, axis=0).max() < 0.1:
+            continue
+        exponents = spectrum(system, states[-1], p, 1500.0, level("draft"))
+        if exponents.signs[0] == "+" and exponents.values[0] > 0.01 and exponents.divergence < (
+                -3.0 * exponents.divergence_error):
+            told = "strange, close to a saddle-focus"
+            dimension, error = exponents.dimension
+            print("SPIRAL", map_.sheet.constants, beside(root, eigenvalues, states), np.round(exponents.values, 4),
+                  f"D = {dimension:.3f} ± {error:.3f}", flush=True)
+    return told
 
 
 def strange(map_: ReturnMap, draw: np.random.Generator, real: bool) -> str:
@@ -164,9 +203,10 @@ def strange(map_: ReturnMap, draw: np.random.Generator, real: bool) -> str:
     print("STRANGE", map_.sheet.constants, np.round(place, 4), f"D = {dimension:.3f} ± {error:.3f}",
           np.round(exponents.values, 4), found.verdict, f"distance {found.apart.distance:.3f} ± "
           f"{max(found.apart.error, found.apart.grain):.2g} shared {found.apart.shared:.2g}", flush=True)
-    orbit = solve(system, last, p, np.linspace(0.0, 2000.0, 40_001), level("draft"))
-    for one in saddle_foci(map_, orbit.states) if system.name == "suslov" else ():
-        print("   ", one, flush=True)
+    if system.name == "suslov":
+        states = solve(system, last, p, np.linspace(0.0, 2000.0, 40_001), level("draft")).states
+        for root, eigenvalues, _ in saddle_foci(map_):
+            print("   ", beside(root, eigenvalues, states), flush=True)
     for name in draw.permutation(list(map_.sheet.constants))[:3]:
         looked_at(map_, str(name), draw, place, real)
     return f"strange, {found.verdict}"
@@ -254,7 +294,7 @@ def reversal(map_: ReturnMap, draw: np.random.Generator) -> str:
 def main() -> None:
     """Search and print."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("what", choices=("diagrams", "sets", "strange", "reversal", "tori"))
+    parser.add_argument("what", choices=("diagrams", "sets", "strange", "spirals", "reversal", "tori"))
     parser.add_argument("--real", action="store_true")
     parser.add_argument("--ball", action="store_true")
     parser.add_argument("--count", type=int, default=200)
@@ -271,6 +311,8 @@ def main() -> None:
             map_ = drawn(draw, options.real, options.ball)
             if options.what == "strange":
                 told[strange(map_, draw, options.real)] += 1
+            elif options.what == "spirals":
+                told[spirals(map_)] += 1
             elif options.what == "reversal":
                 told[reversal(map_, draw)] += 1
             elif options.what == "tori":
