@@ -20,6 +20,7 @@ __all__ = ["BrowserError", "find_browser", "install_browser", "launched", "wait_
 VARIABLE = "HESS_EXPLORER_BROWSER"
 _COMMANDS = ("chromium", "chromium-headless-shell", "google-chrome")
 _INSTALL_SECONDS = 900
+_POLLING_MS = 10
 # No third-party requests by the browser itself.  Most are Playwright's defaults; here they are a promise.
 _QUIET = ("--disable-background-networking", "--disable-component-update", "--disable-domain-reliability",
           "--no-pings")
@@ -121,5 +122,6 @@ def wait_ready(page: Page, after: int = -1, seconds: float = 120) -> None:
     page.wait_for_function(
         "after => { const d = document.documentElement.dataset;"
         " return d.ready === 'true' && Number(d.state ?? 0) > after; }",
-        arg=after, timeout=1000 * seconds,
+        # Asked with every frame, as is usual, the browser would make frames for as long as the server computes.
+        arg=after, timeout=1000 * seconds, polling=_POLLING_MS,
     )
