@@ -29,14 +29,14 @@ from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Cost, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
-__all__ = ["Spectrum", "batch_error", "first_frame", "kaplan_yorke", "spectrum", "volume_sign"]
+__all__ = ["LIMIT", "Spectrum", "batch_error", "first_frame", "kaplan_yorke", "spectrum", "volume_sign"]
 
 _PARTS = 15
 """Stretches of time; the frame settles in the first three and is measured in the other twelve."""
 _SETTLES = 3
 _SAMPLES = 16
 """Per stretch."""
-_LIMIT = 1e2
+LIMIT = 1e2
 """Of the condition of the frame: what a step leaves out, most of all of f, is multiplied by it at most."""
 _SLOW = 1e-2
 """Of |f| in units in which states are O(1): what f(y) is off is divided by it."""
@@ -216,7 +216,7 @@ def spectrum(system: System, state: Sequence[float] | Array, parameters: Sequenc
     def stretch(ahead: bool) -> tuple[Array, Array, Array, Array]:
         nonlocal steps
         taken, states, frames, logs, traces = neighbours(system, y, frame, problem.parameters, part, level.order,
-                                                         level.tolerance, MAX_STEPS - steps, _LIMIT, ahead)
+                                                         level.tolerance, MAX_STEPS - steps, LIMIT, ahead)
         if taken == STEP_LIMIT_REACHED:
             raise WorkLimit(f"These exponents need more than {MAX_STEPS} steps: choose a shorter time span.")
         steps += taken
