@@ -9,6 +9,21 @@ runs of both, which also says how exact these are.
 
 For each level the least of many times, one run after the other by turns; heyoka's time at our error is read off the
 line through its own points, both axes logarithmic.  Needs heyoka: pip install heyoka.
+
+2026-11-23, heyoka 7.13.2, two shared cores with other work on them, at draft, standard, precise, reference:
+
+    Suslov, exponents, T = 2000        2.46, 3.55, 4.92, 8.63 ms; heyoka takes 3.4, 4.8, 4.5, 3.9 times as long
+        `spectrum` as it is called     4.54, 5.39, 7.23, 11.0 ms; 1.8, 3.1, 3.1, 3.1 times
+    Suslov, matrix, T = 200            0.57, 0.40, 0.53, 0.89 ms; 1.5, 3.0, 3.5, 3.9 times
+    Euler–Poisson, exponents, T = 200  0.59, 0.71, 1.00, 1.81 ms; 3.1, 3.0, 3.5, 3.4 times
+        `spectrum` as it is called     2.92, 3.09, 3.20, 4.30 ms; 0.6, 0.7, 1.8, 1.4 times
+    Euler–Poisson, matrix, T = 20      0.19, 0.15, 0.17, 0.23 ms; 1.0, 1.6, 2.1, 2.6 times
+    ball, exponents, T = 2000          15, 24, 40, 77 ms; 4.9, 6.4, 7.8, 4.2 times
+        `spectrum` as it is called     22, 38, 53, 98 ms; 3.3, 3.9, 6.8, 3.3 times
+    ball, matrix, T = 200              1.2, 1.5, 2.4, 9.3 ms; 9, 9, 11, 10 times
+
+Those of Euler–Poisson and of the ball with four tolerances of heyoka only, and on the busiest machine.  Around the run,
+`spectrum` itself takes 2 ms for its samples and errors: over a short time that is most of it.
 """
 
 from __future__ import annotations
