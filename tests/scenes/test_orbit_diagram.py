@@ -19,7 +19,7 @@ from hess_mechanics.dynamics.periodic import find_periodic
 from hess_mechanics.numerics.accuracy import PLANS, Kind
 from hess_mechanics.suslov.parameter_diagram import moved
 from hess_mechanics.suslov.section import coordinates, state_at
-from support.suslov import divergence, field
+from support.suslov import divergence, field, permanent_rotations
 from support.view import View
 
 SCENE = scenes()["orbit-diagram"]
@@ -247,6 +247,44 @@ def test_a_torus_is_born_where_multipliers_leave_the_unit_circle_and_locks_and_b
     stays, leaves = (ReturnMap(at(value), level("draft")).orbit(np.array(state.place), 10_000)[:, 0]
                      for value in (-0.261, -0.2612))
     assert 0.6 < stays.min() < stays.max() < 2.2 < leaves.max()
+
+
+def way_back(body, E, like):
+    """Eigenvalues of the permanent rotation next to a state; and of each of the two motions that come to it, backward
+    in time by SciPy: how close it comes again, and on which side of the plane of the spiral it goes away then."""
+    root = min(permanent_rotations(body, E), key=lambda y: np.linalg.norm(y - like))
+    J = np.column_stack([(field(body, root + e) - field(body, root - e)) / 2.0 for e in np.eye(5)])
+    values, V = np.linalg.eig(J)
+    k = int(np.argmin(values.real))
+    # An eigenvector has no sense of its own.
+    sense, found = np.sign(V[0, k].real), []
+    along, across = sense * V[:, k].real, sense * np.linalg.inv(V)[k].real
+    for sign in (1.0, -1.0):
+        orbit = solve_ivp(lambda t, y: field(body, y), (0.0, -45.0), root + sign * 1e-5 * along, method="DOP853",
+                          rtol=1e-11, atol=1e-13, t_eval=-np.arange(0.0, 45.0, 0.02)).y.T
+        away = np.linalg.norm(orbit - root, axis=1)
+        gone = int(np.argmax(away > 0.3))
+        back = gone + int(np.argmin(away[gone:]))
+        beyond = (orbit[back:] - root) @ across
+        found.append((away[back], np.sign(beyond[np.abs(beyond) > 0.15][:1]).sum()))
+    return values, found
+
+
+def test_a_motion_that_comes_to_a_saddle_focus_has_left_it_before():
+    state, captions = complete("A spiral", ("section",))
+    body, like = state.body, np.array([1.8373, 1.0187, -0.8746, -0.4849, 0.0])
+    # On either side of the value in the words it misses the rotation on another side.
+    (values, low), (_, high) = (way_back(body, moved(state.section, "h", 5.015931 + off).E, like)
+                                for off in (-1e-6, 1e-6))
+    assert sorted(values.real)[0] == pytest.approx(-0.723, abs=5e-4)
+    assert max(values, key=lambda one: one.imag) == pytest.approx(0.282 + 2.035j, abs=1e-3)
+    (one,) = (k for k in range(2) if low[k][0] < 0.05 and high[k][0] < 0.05)
+    assert low[one][1] * high[one][1] == -1.0
+    assert "Motion: chaotic, div = −0." in captions["section"]
+    last = state_at(body, state.section.E, 3, *state.sets.attractor[-1])
+    # Its return to the rotation.
+    orbit = solve(SUSLOV, last, body.parameters, np.linspace(0.0, 4000.0, 80_001), level("draft")).states
+    assert np.linalg.norm(orbit - like, axis=1).min() < 0.1
 
 
 def test_a_click_on_a_branch_shows_that_orbit_and_the_mouse_is_told_what_it_is_over():

@@ -62,6 +62,8 @@ PRESETS = (
     Preset("A torus breaks up: an invariant curve, then chaos", **_body(1.5, 1.0, -0.2605, 0.4, 1.1, -1.6, 1.8, 4.2),
            along="I₁₃", first=-0.261, last=-0.247, window="-0.261,0.5;-0.247,2.2", chosen="1.2,1.45",
            branch="period 1"),
+    Preset("A spiral: back to a saddle-focus", **_body(0.7, 2.8, 0.2, 0.2, 1.0, -1.8, -1.2, 5.015931), along="h",
+           first=4.9, last=5.1, chosen="-2.62543193,3.13213405"),
     Preset("Apart: permanent rotations, and reversal", **_body(1.0, 2.5, 0.4, -0.1, -0.9, 0.8, -0.1, 2.2),
            along="I₁₃", first=0.2, last=0.6, chosen="-2.01067,0.01001", span=60.0),
     Preset("Equal: a sea that keeps no volume", **_body(1.5, 1.7, 0.1, -0.3, -1.7, 1.0, 2.0, 1.9), along="h",
