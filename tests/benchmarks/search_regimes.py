@@ -17,7 +17,7 @@ spirals : strange attractors to which motions from next to saddle-foci come, of 
     bodies of `--real --seed 1`, with 8753 saddle-foci that have Shilnikov's inequality and a stable real eigenvalue,
     eleven come within 0.3 of one, the closest within 0.084: I = (0.7, 2.8, 0.2, 0.2), b = (1.0, -1.8, -1.2), E = 2.717,
     eigenvalues 0.287 ± 2.025i, -0.744.  Of 31 strange attractors to which 4000 bodies came from random places (`strange
-    --real`, seeds 1 to 4), none comes closer than 0.39.  Of six of the eleven, the motions that come to the saddle-focus
+    --real`, seeds 1 to 4), none comes closer than 0.39.  Of six of the eleven, motions that come to the saddle-focus
     were followed backward in time along h, I11, I22, I13, I23: of that body alone a homoclinic orbit was found, at
     h = 5.015931, which the example "A spiral" shows.
 reversal : motions that turn round on their way from a repeller to an attractor.
