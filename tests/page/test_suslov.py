@@ -2,24 +2,30 @@
 
 from __future__ import annotations
 
+import io
 import math
 import re
 from urllib.parse import urlencode
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from hess_explorer.protocol.parameters import places
 from hess_explorer.scenes import scenes
 from hess_mechanics import circle_map
+from hess_mechanics.dynamics.cells import centres
 from hess_mechanics.numerics.accuracy import REFERENCE
 from support.free_suslov import shown
 from support.page import brought, chosen, flat, said, values_of
 from support.painted import SOURCES, assert_painted
-from support.pointer import at
+from support.pointer import at, frame
 from support.view import View
 
 SUSLOV, ROTATION = scenes()["suslov"], scenes()["rotation-number"]
+KINDS = (((86, 180, 233), 0x50 / 255), ((213, 94, 0), 0x60 / 255), ((0, 158, 115), 0x70 / 255),
+         ((191, 102, 153), 0x80 / 255))
+"""Colours of MEGNO and how much of them is seen: regular, chaotic, and both where volume shrinks."""
 FEW = {"orbits": 8, "count": 40, "long": 50}
 
 
@@ -44,6 +50,15 @@ def opened(tab, scene, **values):
 def points(explorer, layer):
     data = explorer.data(f"section-{layer}")
     return np.column_stack([data["x"], data["y"]])
+
+
+def colours_of_cells(explorer, picture, shape):
+    """(n, m, 3), of the pixels in the middles of the cells of a planar picture."""
+    left, top, right, bottom = frame(explorer, picture)
+    n, m = shape
+    shot = np.asarray(Image.open(io.BytesIO(explorer.page.screenshot())).convert("RGB"), float)
+    x, y = np.meshgrid(centres(left, right, m), centres(bottom, top, n))
+    return shot[y.astype(int), x.astype(int)]
 
 
 def drag(explorer, picture, first, last):
@@ -108,6 +123,26 @@ def test_every_plane_and_all_that_can_be_shown(suslov):
         suslov.change(suslov.choose, "plane", plane)
         assert plane in suslov.caption("section")
         assert len(points(suslov, "first")) > 10
+    assert_painted(suslov, SUSLOV)
+    # MEGNO: the caption counts the cells, and each is seen in its colour under the points.
+    suslov.change(lambda: suslov.page.evaluate(
+        "detail => hess.tell('change', detail)", {"I13": 0.0, "I23": 0.0, "h": 4.0, "accuracy": "draft"}))
+    before = colours_of_cells(suslov, "section", (12, 18))
+    suslov.change(suslov.choose, "indicator", "MEGNO")
+    kinds = np.array(suslov.data("section-megno")["image"][0]).reshape(12, 18) - 1.5
+    _, regular, chaotic, shrinks = said(
+        suslov, "section", "MEGNO after t = #: # % of the cells regular, # % chaotic; volume shrinks about # %.")
+    there = kinds[kinds >= 0.0]
+    assert chaotic == pytest.approx(100.0 * np.mean(there % 2.0 == 1.0), abs=0.51)
+    assert shrinks == pytest.approx(100.0 * np.mean(there >= 2.0), abs=0.51)
+    assert regular + chaotic == pytest.approx(100.0, abs=1.1)
+    assert set(there) == {0.0, 1.0}
+    after = colours_of_cells(suslov, "section", (12, 18))
+    for kind in np.unique(there):
+        colour, share = KINDS[int(kind)]
+        mixed = (1.0 - share) * before[kinds == kind] + share * np.array(colour)
+        # All but the cells over whose middles a point stands.
+        assert np.mean(np.abs(after[kinds == kind] - mixed).max(axis=1) < 4.0) > 0.8
     assert_painted(suslov, SUSLOV)
 
 
