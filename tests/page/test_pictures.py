@@ -599,8 +599,8 @@ def test_an_example_is_the_one_of_the_equations_with_the_right_numbers_and_paint
     assert_every_picture_painted(explorer, name, artefacts)
 
 
-# [before, [[at the moment at which the page says that a state is painted, two frames later], …], at last]: what is on the
-# canvases of plots while a slider goes to another place, of states that no other one follows so soon.
+# [before, [[at the moment at which the page says that a state is painted, two frames later], …], at last]: what is on
+# the canvases of plots while a slider goes to another place, of states that no other one follows so soon.
 ON_CANVASES = f"""async () => {{
   const all = (root) => [...root.querySelectorAll("*")].flatMap((item) =>
     [item, ...(item.shadowRoot ? all(item.shadowRoot) : [])])
