@@ -19,11 +19,14 @@ __all__ = ["CACHE", "ResultCache", "Task", "size_of"]
 
 logger = logging.getLogger("hess_explorer")
 
-_OVERHEAD = 512
+_OVERHEAD, _NUMBER = 512, 64
 
 
 def size_of(value: Any) -> int:
     """Bytes held by a result: its arrays, nested in dataclasses, mappings and tuples, and an overhead for each."""
+    # First what there is most of.
+    if type(value) is float:
+        return _NUMBER
     if isinstance(value, np.ndarray):
         return value.nbytes + _OVERHEAD
     if isinstance(value, (tuple, list)):
@@ -32,7 +35,7 @@ def size_of(value: Any) -> int:
         return _OVERHEAD + sum(size_of(item) for item in value.values())
     if dataclasses.is_dataclass(value):
         return _OVERHEAD + sum(size_of(getattr(value, field.name)) for field in dataclasses.fields(value))
-    return 64
+    return _NUMBER
 
 
 @dataclass(frozen=True)

@@ -94,7 +94,7 @@ class ChaplyginBall(CircleLeft, FreeBall, OneOrbit, ConstrainedBody):
         """Orbits over the strip."""
         plan = self.plan(Kind.CURVE)
         found: tuple[StripOrbit, ...] = self.work.sooner(
-            self.strip_orbits(plan.side(_ORBITS), plan.level), self.strip_orbits(_FEW_ORBITS, plan.level))
+            self.strip_orbits(plan.side(_ORBITS), plan.level), self.strip_orbits(_FEW_ORBITS, DRAFT))
         return tuple((math.sqrt(self.h) * track, place) for track, place in found)
 
     @cached_property

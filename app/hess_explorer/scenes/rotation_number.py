@@ -249,12 +249,9 @@ class RotationNumber(State):
         """The map and the circle map."""
         if self.known("grid"):
             m, n = self.grid[1]
-            said = f"map {m} × {n}"
-            if not self.dragging:
-                error = self.work.get(
-                    mechanics.rows_error, self.over, self.beside, self.window, self.plan(Kind.GRID).level)
-                said += f", ρ to {error:.1e} (99 of 100 cells)"
-            yield said
+            error = None if self.dragging else self.work.later(
+                mechanics.rows_error, self.over, self.beside, self.window, self.plan(Kind.GRID).level)
+            yield f"map {m} × {n}" + (f", ρ to {error:.1e} (99 of 100 cells)" if error is not None else "")
         if self.map is not None:
             yield f"{self.map.level}: circle map error ≤ {self.map.error_estimate:.1e} ({self.map.status})"
 

@@ -30,7 +30,7 @@ from hess_mechanics.dynamics.return_map import Sheet
 from hess_mechanics.dynamics.section import MAX_STEPS, Points, section_points
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.euler_poisson.andoyer_kernels import cross
+from hess_mechanics.euler_poisson.andoyer_kernels import cross, least_excess, roots_into
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody, field
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.parallel import THREADS
@@ -79,25 +79,6 @@ _ROUGH = 24
 _CELLS = (96, 64)
 
 
-def _scan(body: HeavyBody, h: float, f: float, l: Array, x: Array, count: int = _SCAN) -> tuple[Array, Array, Array]:
-    """G (n, m) from the largest possible down to |f|, the energy minus h there, and K, P, Q (3, n)."""
-    factors = np.stack(_factors(body, l, x))
-    K, P, Q = factors[:, :, None]
-    # The potential is at least −|m|, so above this G the energy exceeds h.
-    top = np.sqrt(np.maximum(0.0, 2.0 * (h + body.strength) / K))
-    smallest = abs(f) if f else 0.0
-    share = np.linspace(0.0, 1.0, count) ** 2
-    top = np.maximum(top, smallest)
-    G = np.maximum(smallest, top + (smallest - top) * share)
-    return G, _energy(G, f, K, P, Q) - h, factors
-
-
-def _energy(G: Array, f: float, K: Array, P: Array, Q: Array) -> Array:
-    ratio = f / G if f != 0.0 else np.zeros_like(G)
-    energy: Array = 0.5 * K * G * G - ratio * P - np.sqrt(np.maximum(0.0, 1.0 - ratio * ratio)) * Q
-    return energy
-
-
 SHEETS = 3
 """More there cannot be: as a function of α, see the module, the energy turns round twice at most."""
 _ORDINALS = ("largest", "second", "third")
@@ -122,27 +103,7 @@ def roots(body: HeavyBody, h: float, f: float, l: Array, x: Array) -> Array:
         K, _, Q = _factors(body, l, x)
         out[:, 0] = np.sqrt(np.where(h + Q >= 0.0, 2.0 * (h + Q) / K, np.nan))
         return out
-    G, _, (K, P, Q) = _scan(body, h, f, l, x)
-    # Even steps of α besides: those of G are too long near |f|, where the energy changes as the root of G − |f|.
-    steepest = np.arccos(np.minimum(1.0, abs(f) / G[:, :1]))
-    with np.errstate(divide="ignore"):
-        by_angle = abs(f) / np.cos(steepest * np.linspace(1.0, 0.0, _SCAN // 2))
-    G = -np.sort(-np.hstack([G, np.clip(by_angle, abs(f), G[:, :1])]), axis=1)
-    excess = _energy(G, f, K[:, None], P[:, None], Q[:, None]) - h
-    above = excess > 0.0
-    above[:, 0] = excess[:, 0] >= -1e-12 * (abs(h) + body.strength)
-    rows, columns = np.nonzero(above[:, 1:] != above[:, :-1])
-    places = np.arange(rows.size) - np.searchsorted(rows, rows)
-    falling = above[rows, columns]
-    high, low = G[rows, columns], G[rows, columns + 1]
-    own = (K[rows], P[rows], Q[rows])
-    for _ in range(60):
-        middle = 0.5 * (high + low)
-        beyond = (_energy(middle, f, *own) > h) == falling
-        high, low = np.where(beyond, middle, high), np.where(beyond, low, middle)
-    # Where round-off finds more roots than there are, those of the least G go.
-    kept = places < SHEETS
-    out[rows[kept], places[kept]] = 0.5 * (high + low)[kept]
+    roots_into(float(h), float(f), body.strength, *_factors(body, l, x), _SCAN, out)
     return out
 
 
@@ -176,7 +137,9 @@ def sheet_of(body: HeavyBody, h: float, f: float, states: Array) -> Sheets:
 
 def possible(body: HeavyBody, h: float, f: float, l: Array, x: Array) -> Mask:
     """Whether some G ≥ |f| has an energy of at most h at l, x (n,), accurate enough for a picture."""
-    return np.asarray(np.min(_scan(body, h, f, l, x, _ROUGH)[1], axis=1) <= 0.0)
+    least = np.empty(l.size)
+    least_excess(float(h), float(f), body.strength, *_factors(body, l, x), _ROUGH, least)
+    return np.asarray(least <= 0.0)
 
 
 def states_at(body: HeavyBody, h: float, f: float, l: Array, x: Array, sheet: int = 0) -> tuple[Array, Array, Mask]:

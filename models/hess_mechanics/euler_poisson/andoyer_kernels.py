@@ -1,13 +1,17 @@
 # mypy: allow-untyped-defs
-"""Kernel of `andoyer`: crossings of the surface g = π/2, G²γ3 − f M3 = 0 with (γ, v) > 0."""
+"""Kernels of `andoyer`: crossings of the surface g = π/2, G²γ3 − f M3 = 0 with (γ, v) > 0, and its roots G."""
 
 from __future__ import annotations
 
+import math
+
+import numpy as np
+
 from hess_mechanics.euler_poisson.equations import SYSTEM
 from hess_mechanics.numerics.events_kernels import Surface, crossing_finder
-from hess_mechanics.numerics.jit import kernel, part
+from hess_mechanics.numerics.jit import inner, kernel, part
 
-__all__ = ["cross"]
+__all__ = ["cross", "least_excess", "roots_into"]
 
 
 @part
@@ -44,3 +48,64 @@ _cross = crossing_finder(SYSTEM.recursion, Surface(_along, _height, _on_this_sid
 def cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states):
     """Crossings of g = π/2 by one orbit of `hh01`, see `crossing_finder`; normal = (f,)."""
     return _cross(y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states)
+
+
+@inner
+def _energy(G, f, K, P, Q):
+    """h at G on the plane g = π/2."""
+    cos = f / G if f != 0.0 else 0.0
+    return 0.5 * K * G * G - cos * P - math.sqrt(max(0.0, 1.0 - cos * cos)) * Q
+
+
+@inner
+def _largest(h, f, strength, K):
+    """Above this G the energy exceeds h, as the potential is at least −`strength`; at least |f|."""
+    return max(abs(f), math.sqrt(max(0.0, 2.0 * (h + strength) / K)))
+
+
+@kernel
+def least_excess(h, f, strength, K, P, Q, count, out):
+    """The least energy on the plane minus h, of `count` values of G from the largest possible down to |f|."""
+    for i in range(K.size):
+        top = _largest(h, f, strength, K[i])
+        least = math.inf
+        for k in range(count):
+            share = k / (count - 1)
+            G = max(abs(f), top + (abs(f) - top) * share * share)
+            least = min(least, _energy(G, f, K[i], P[i], Q[i]) - h)
+        out[i] = least
+
+
+@kernel
+def roots_into(h, f, strength, K, P, Q, count, out):
+    """All G ≥ |f| > 0 with the energy h, falling, as many as out[i] has room for, by bisection between `count` values
+    of G and half as many of α = arccos |f|/G."""
+    G = np.empty(count + count // 2)
+    for i in range(K.size):
+        top = _largest(h, f, strength, K[i])
+        for k in range(count):
+            share = k / (count - 1)
+            G[k] = max(abs(f), top + (abs(f) - top) * share * share)
+        # Even steps of α besides: those of G are too long near |f|, where the energy changes as the root of G − |f|.
+        steepest = math.acos(min(1.0, abs(f) / top))
+        for k in range(count // 2):
+            cos = math.cos(steepest * (1.0 - k / (count // 2 - 1)))
+            G[count + k] = min(top, max(abs(f), abs(f) / cos)) if cos > 0.0 else top
+        G.sort()
+        found = 0
+        # Where round-off finds more roots than there are, those of the least G go.
+        above = _energy(top, f, K[i], P[i], Q[i]) - h >= -1e-12 * (abs(h) + strength)
+        for k in range(G.size - 2, -1, -1):
+            before = above
+            above = _energy(G[k], f, K[i], P[i], Q[i]) > h
+            if above == before or found == out.shape[1]:
+                continue
+            low, high = G[k], G[k + 1]
+            for _ in range(60):
+                middle = 0.5 * (high + low)
+                if (_energy(middle, f, K[i], P[i], Q[i]) > h) == before:
+                    high = middle
+                else:
+                    low = middle
+            out[i, found] = 0.5 * (high + low)
+            found += 1

@@ -15,9 +15,12 @@ import numpy as np
 from hess_mechanics.errors import InvalidParameter, OutsideRegion, Separatrix
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
-from hess_mechanics.suslov_hess.bifurcation_kernels import f_max_and_roots, largest_f
+from hess_mechanics.suslov_hess.bifurcation_kernels import f_max_and_roots, largest_f, largest_f_into
 
-__all__ = ["SPECIAL_POINTS", "TurningPoints", "curve", "curve_point", "f_max", "h_min", "reach", "turning_points"]
+__all__ = [
+    "SPECIAL_POINTS", "TurningPoints", "curve", "curve_point", "f_max", "f_max_each", "h_min", "reach",
+    "turning_points",
+]
 
 SPECIAL_POINTS: tuple[tuple[float, float], ...] = ((1.0, 0.0), (-1.0, 0.0))
 """(h, f) of the upper and the lower equilibrium (`Geq4`)."""
@@ -78,6 +81,13 @@ def f_max(h: float) -> float:
     """
     _check_h(h)
     return float(largest_f(float(h)))
+
+
+def f_max_each(h: Array) -> Array:
+    """`f_max` of each h (n,) from −1 to 1e12, where it is 0 at the bottom."""
+    out = np.empty(h.size)
+    largest_f_into(h, out)
+    return out
 
 
 def h_min(f: float) -> float:

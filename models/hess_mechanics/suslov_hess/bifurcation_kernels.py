@@ -12,7 +12,7 @@ import math
 
 from hess_mechanics.numerics.jit import inner, kernel
 
-__all__ = ["f_max_and_roots", "largest_f", "period_from_gaps", "roots", "upper_extremum"]
+__all__ = ["f_max_and_roots", "largest_f", "largest_f_into", "period_from_gaps", "roots", "upper_extremum"]
 
 
 @inner
@@ -28,6 +28,13 @@ def largest_f(h):
     """f_max(h) = √(2(h+n_c)(1−n_c²))."""
     _, k, d = upper_extremum(h)
     return math.sqrt(2.0 * k * d * (2.0 - d))
+
+
+@kernel
+def largest_f_into(h, out):
+    """f_max of each h[i] ≥ −1 into out[i]."""
+    for i in range(h.size):
+        out[i] = largest_f(h[i])
 
 
 @inner

@@ -17,7 +17,7 @@ from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.parallel import share
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
-from hess_mechanics.suslov_hess.bifurcation import f_max, turning_points
+from hess_mechanics.suslov_hess.bifurcation import f_max, f_max_each, turning_points
 from hess_mechanics.suslov_hess.bifurcation_kernels import largest_f
 from hess_mechanics.suslov_hess.circle_map import check_a, matrices, rotation_numbers
 
@@ -28,11 +28,6 @@ __all__ = [
 
 
 _MAX_A_OF_BOUNDARY = 1e5
-
-
-def _f_max(h: Array) -> Array:
-    """`f_max` of each component."""
-    return np.array([largest_f(x) for x in h])
 
 
 def _locked(h: Array, f: Array, a: float, level: Level) -> Array:
@@ -74,7 +69,7 @@ def rotation_number_grid(a: float, h: Sequence[float] | Array, f: Sequence[float
     """
     hs, fs = np.asarray(h, float), np.asarray(f, float)
     filled = _filled_grid(a, hs, fs, level)
-    return frozen(np.where(np.abs(fs)[:, None] <= _f_max(hs), filled, np.nan))
+    return frozen(np.where(np.abs(fs)[:, None] <= f_max_each(hs), filled, np.nan))
 
 
 def _filled_grid(a: float, hs: Array, fs: Array, level: Level) -> Array:
@@ -88,7 +83,7 @@ def _filled_grid(a: float, hs: Array, fs: Array, level: Level) -> Array:
     mantissas, exponents = np.frexp(np.abs(fs))
     magnitudes, back = np.unique(np.ldexp(np.round(mantissas, 13), exponents), return_inverse=True)
     H, F = (x.ravel() for x in np.meshgrid(hs, magnitudes))
-    F = np.minimum(F, _f_max(H))
+    F = np.minimum(F, f_max_each(H))
     F[(F == 0.0) & (H == 1.0)] = 1e-12
     out = np.empty(H.size)
 
@@ -151,12 +146,12 @@ def lock_boundary(a: float, level: Level, points: int = 48) -> Array:
     s = np.cos(np.linspace(0.0, 0.5 * math.pi, points))[1:-1]
 
     def locked(e: Array) -> Array:
-        return _locked(e - 1.0, s * _f_max(e - 1.0), abs(float(a)), level)
+        return _locked(e - 1.0, s * f_max_each(e - 1.0), abs(float(a)), level)
 
     # In e = h + 1 the boundary lies between half the smaller and twice the larger of its end values.
     ends = (end + 1.0, 2.0)
     e = _rising_roots(locked, np.full(s.size, 0.5 * min(ends)), np.full(s.size, 2.0 * max(ends)))
-    inside = np.column_stack([e - 1.0, s * _f_max(e - 1.0)])
+    inside = np.column_stack([e - 1.0, s * f_max_each(e - 1.0)])
     return frozen(np.vstack([[end, largest_f(end)], inside, [1.0, 0.0]]))
 
 

@@ -24,7 +24,7 @@ from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.labelled import Labelled, Labels
 from hess_mechanics.numerics.results import Array, Mask, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
-from hess_mechanics.suslov_hess.bifurcation import f_max, h_min
+from hess_mechanics.suslov_hess.bifurcation import f_max, f_max_each, h_min
 from hess_mechanics.suslov_hess.circle_map import MAX_A, check_a, circle_map, discriminants, matrices, rotation_numbers
 from hess_mechanics.suslov_hess.mode_locking import critical_a, lock_boundary
 
@@ -141,7 +141,7 @@ def values_at(a: Array | float, h: Array | float, f: Array | float, level: Level
         raise InvalidParameter("The rotation number needs finite h and f, and |h| ≤ 1e12.")
     check_a(float(np.max(np.abs(a), initial=0.0)))
     energies, back = np.unique(h, return_inverse=True)
-    edge = np.array([f_max(x) if x > -1.0 else -1.0 for x in energies.tolist()])[back]
+    edge = np.where(energies > -1.0, f_max_each(np.maximum(energies, -1.0)), -1.0)[back]
     possible = (np.abs(f) <= edge) & (np.hypot(h - 1.0, f) > _NEAR_SEPARATRIX)
     rows = np.zeros((a.size, 6))
     rows[possible] = _matrices(a[possible], h[possible], f[possible], level)
