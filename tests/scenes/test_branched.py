@@ -95,7 +95,7 @@ def test_the_branch_of_an_orbit_born_there_turns_at_the_pitchfork():
     ((kind, value, error),) = marks(view)
     exact = brentq(lambda h: half_trace(h, 0.5) - 2.0, 0.6, 0.9, xtol=1e-13)
     assert (kind, value) == ("pitchfork", pytest.approx(exact, abs=1e-8))
-    assert error < 1e-4
+    assert error < 1e-7
     found = np.array([(h, *there[0]) for h, there, _ in points_of(view)])
     # It lies on one side of it, with an orbit and its mirror image at each h; next to it q² grows in proportion.
     assert found[:, 0].min() >= exact - 1e-9
@@ -128,7 +128,7 @@ def test_the_two_cycles_of_the_hess_case_meet_where_the_moebius_matrix_has_the_t
     (value, error), = ((value, error) for kind, value, error in marks(view) if kind in ("fold", "branch point"))
     exact = brentq(lambda h: abs(moebius(h, 1.0).trace) - 2.0, value - 0.01, value + 0.01, xtol=1e-13)
     assert abs(value - exact) <= error + 1e-8
-    assert error < 1e-4
+    assert error < 1e-6
     found = points_of(view)
     assert min(h for h, _, _ in found) >= exact - error
     signs = set()

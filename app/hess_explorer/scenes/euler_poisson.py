@@ -82,7 +82,7 @@ PRESETS = (*map(plain, (
     Preset("The second sheet of figure 14 a: a smaller G", **_RIS, h=0.0, f=1.0, starts="2.5,-0.92",
            window="2,-0.97;2.6,-0.86", count=600.0),
     Preset("Where the two Hess cycles meet, over h", **_RIS, h=2.0, f=1.0, starts="-0.1497,0.2064", reach=2.0,
-           periodic="period 1", over="h", low=0.6, high=2.2),
+           periodic="period 1", over="h", low=0.4, high=2.2),
 )),)
 
 

@@ -373,8 +373,7 @@ def _located(track: _Track, kind: str, last: _Point, t: Array, ahead: float, aft
         off = 1.25 * float(moved) + abs(values[-1] - values[-2])
     except _SINGULAR:
         # Where branches cross, the equations are singular: what is known is how close to it on both sides they are not.
-        low, high, point = _closed_in(track, at, (low, high), point)
-        off = high - low
+        off, point = _closed_in(track, at, (low, high), point, t)
     places, value = track.split(point.z)
     name = kind
     if kind == "branch point" and symmetries is not None:
@@ -383,13 +382,15 @@ def _located(track: _Track, kind: str, last: _Point, t: Array, ahead: float, aft
                        frozen(multipliers_of(point.shot.derivatives)[0]), after)
 
 
-def _closed_in(track: _Track, at: Callable[[float], tuple[_Point, float]], bracket: tuple[float, float], point: _Point
-               ) -> tuple[float, float, _Point]:
-    """A narrower bracket of a zero next to which the equations are singular, and the branch there, by the secant.
+def _closed_in(track: _Track, at: Callable[[float], tuple[_Point, float]], bracket: tuple[float, float], point: _Point,
+               t: Array) -> tuple[float, _Point]:
+    """How far off λ over its width is at a zero next to which the equations are singular, and the branch there.
 
-    at : the point and the sign at a distance; point : what is known of the branch there.
+    From a narrower bracket, within which λ changes no faster than at its ends; the zero by the secant.
+    at : the point and the sign at a distance along t; point : what is known of the branch there.
     """
     low, high = bracket
+    rate = 1.0
     with suppress(*_SINGULAR):
         (before, f_before), (after, f_after) = at(low), at(high)
         for _ in range(_HALVINGS):
@@ -403,7 +404,9 @@ def _closed_in(track: _Track, at: Callable[[float], tuple[_Point, float]], brack
                 low, before, f_before = s, between, f
         if f_before * f_after < 0.0:
             point = track.point(before.z + (after.z - before.z) * f_before / (f_before - f_after))
-    return low, high, point
+            rate = 1.25 * max(abs(float(one.tangent(t)[-1])) for one in (before, after))
+    # Of the map itself nothing more is known than its promise.
+    return rate * (high - low) + track.at(track.split(point.z)[1]).promise, point
 
 
 def _first_of(at: Callable[[float], tuple[_Point, float]], distances: Sequence[float]
