@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from hess_explorer.protocol.parameters import Number
+from hess_explorer.scenes.framework.periodic_search import NONE
 from support.ball import BALL, SECTION, angles, circle_of, energy_of, first_returns, integrate, occupied, shown, xi_of
 from support.page import brought, chosen, flat, said, wait_frames
 from support.painted import SOURCES, assert_painted, track, yellow
@@ -85,15 +86,35 @@ def test_an_example_with_a_field_is_drawn_with_the_numbers_of_its_captions(field
     E = values["h"] - math.hypot(values["b1"], values["b2"])
     assert said(field, "omega", "E = #.") == [shown(E)]
     assert np.max(np.abs(energy_of(values, track(field)) - E)) < 1e-5
+    assert_follows(field, values, np.array([1.0, 4.0]))
+    if values["periodic"] != NONE:
+        place = points(field, "section-repels")[0]
+        assert returned(values, place) == pytest.approx(place, abs=1e-5)
+        assert said(field, "section", "Period 1, saddle with reflection: μ = #, # to #")[:2] == pytest.approx(
+            multipliers(values, place), abs=1e-3)
+        return
     own = points(field, "section-own")
     count, cells, of = said(field, "section", "The chosen orbit: # points in # of # cells")
     assert (count, of) == (len(own), 1024)
     assert cells == pytest.approx(len(occupied(own)), abs=2)
-    assert_follows(field, values, np.array([1.0, 4.0]))
     if values["drop"] == "all":
         assert own[:2] == pytest.approx(angles(first_returns(values, start_of(values), 2)), abs=1e-4)
     assert points(field, "section-chosen")[0] == pytest.approx((values["psi"], values["delta"]))
     assert_painted(field, SECTION)
+
+
+def returned(values, place):
+    """Where SciPy's orbit from a place of the section comes back."""
+    start = start_of({**values, "psi": place[0], "delta": place[1], "periodic": NONE})
+    return angles(first_returns(values, start, 1))[0]
+
+
+def multipliers(values, place):
+    """Of the return map there, by differences, the larger one first."""
+    away = 1e-5 * np.eye(2)
+    columns = [(returned(values, place + one) - returned(values, place - one)) / 2e-5 for one in away]
+    found = np.linalg.eigvals(np.column_stack(columns))
+    return found[np.argsort(-np.abs(found))]
 
 
 # --- Clicks and sliders ------------------------------------------------------------------------------
@@ -280,8 +301,8 @@ LINKED = {
                        "phi": -2.0, "digits": 4.5, "span": 33.0, "certain": "not shown", "accuracy": "precise"},
     "ball-section": {"I11": 1.25, "I22": 0.75, "I13": 0.25, "I23": -0.5, "D": 1.5, "b1": 0.25, "b2": -0.5, "b3": 0.75,
                      "h": 2.5, "psi": -1.0, "delta": 0.75, "count": 100.0, "span": 33.0, "drop": "the later half",
-                     "periodic": "none", "reach": 7.5, "certain": "not shown", "indicator": "MEGNO",
-                     "accuracy": "draft"},
+                     "periodic": "none", "reach": 7.5, "over": "I₁₃", "low": 0.25, "high": 0.5, "upwards": "δ",
+                     "certain": "not shown", "indicator": "MEGNO", "accuracy": "draft"},
 }
 
 

@@ -228,7 +228,7 @@ def test_a_click_on_the_branch_shows_that_orbit_and_away_from_it_nothing_happens
 def test_without_a_periodic_orbit_the_picture_says_what_to_do(name):
     scene = SCENES[name]
     view = View(scene, {"orbits": 0.0} if name == "euler-poisson" else {}, seen=["branch"])
-    assert view.text["branch"].split("\n")[1].startswith("None is asked for: choose a Periodic orbit")
+    assert view.text["branch"].split("\n")[1].startswith("No periodic orbit is chosen: choose one")
     assert "Choose a Periodic orbit" in " ".join(view.data["branch-message"]["text"][0].split())
     assert "branch-bifurcations" not in view.data or len(view.data["branch-bifurcations"]["x"]) == 0
     assert not any("branch" in line for line in (*view.report.derived, *view.report.notes, view.report.status))

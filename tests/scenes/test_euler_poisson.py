@@ -15,6 +15,7 @@ from scipy.integrate import quad
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.protocol.parameters import places
 from hess_explorer.scenes.framework import filled_window
+from hess_explorer.scenes.framework.periodic_search import NONE
 from hess_mechanics import circle_map, f_max, level, solve
 from hess_mechanics.dynamics.birkhoff import rotation_number
 from hess_mechanics.dynamics.lyapunov import largest_exponent
@@ -28,7 +29,6 @@ from support.euler_poisson import EP, EulerPoisson
 from support.lyapunov import finite_exponent
 from support.view import View
 
-every_preset = pytest.mark.parametrize("preset", EP.presets, ids=lambda preset: preset.name)
 
 
 def on_which_side(view, points):
@@ -41,7 +41,8 @@ def on_which_side(view, points):
 # ---- Examples ---------------------------------------------------------------------------------------------------
 
 
-@every_preset
+@pytest.mark.parametrize("preset", [one for one in EP.presets if one.values["periodic"] == NONE],
+                         ids=lambda preset: preset.name)
 def test_an_example_shows_what_its_name_and_its_captions_promise(preset):
     view = EulerPoisson(preset.values, seen={"section", "exponent", "sphere"})
     assert view.report.notes == []
@@ -92,6 +93,19 @@ def test_an_example_shows_what_its_name_and_its_captions_promise(preset):
         title, second_line = view.text[name].split("\n")
         assert title
         assert len(second_line) <= 110
+
+
+def test_the_example_of_a_periodic_orbit_closes_and_says_how_fast_its_neighbours_leave():
+    (preset,) = (one for one in EP.presets if one.values["periodic"] != NONE)
+    view = EulerPoisson(preset.values, seen={"section", "exponent"})
+    closed = view.result.closed
+    slow = math.sqrt(2.0 * max(view.body.a) * (view.h + view.body.strength))
+    times, states = crossings_by_scipy(view.body, closed.state, 30.0 / slow)
+    assert coordinates(states)[0] == pytest.approx(closed.orbit.places[0], abs=1e-6)
+    m1, m2, _ = view.numbers("section", "Period 1, saddle: μ = #, # to #")
+    # The return map keeps an area.
+    assert m1 * m2 == pytest.approx(1.0, rel=1e-3)
+    assert view.numbers("exponent", "ln|μ₁|/T = #") == [pytest.approx(math.log(m1) / times[0], rel=1e-3)]
 
 
 @pytest.mark.parametrize("preset", EP.presets[1:2] + EP.presets[5:6] + EP.presets[10:16:5], ids=lambda p: p.name)
@@ -272,8 +286,7 @@ def test_points_on_another_sheet_are_drawn_apart():
 
 
 def test_the_example_of_the_second_sheet_shows_points_of_the_smaller_momentum():
-    preset = EP.presets[-1]
-    assert "second sheet" in preset.name
+    preset = next(one for one in EP.presets if "second sheet" in one.name)
     view = EulerPoisson(preset.values, seen={"section"})
     apart, (l0, l1, x0, x1) = view.points("elsewhere"), view.axes["section"]
     seen = apart[(apart[:, 0] >= l0) & (apart[:, 0] <= l1) & (apart[:, 1] >= x0) & (apart[:, 1] <= x1)]

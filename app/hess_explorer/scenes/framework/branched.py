@@ -169,7 +169,7 @@ class Branched(PeriodicOrbits):
 
     def _caption(self) -> str:
         if not self.closing:
-            return "None is asked for: choose a Periodic orbit, and a click on its branch shows that orbit."
+            return "No periodic orbit is chosen: choose one, and a click on its branch shows that orbit."
         if self.looking or (self.continuation is not None and not self.continuation.caption):
             return self.awaited("A periodic orbit is")
         if self.continuation is None:
