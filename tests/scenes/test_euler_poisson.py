@@ -30,7 +30,6 @@ from support.lyapunov import finite_exponent
 from support.view import View
 
 
-
 def on_which_side(view, points):
     """The sign of r·M at (l, L/G), from the place alone."""
     l, x = points.T
