@@ -18,7 +18,7 @@ from hess_mechanics.dynamics.periodic import apart
 from hess_mechanics.euler_poisson.andoyer import hess_curve
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
-from support.ball import energy_of, rates
+from support.ball import derivative, returned
 from support.view import View
 
 SCENES = scenes()
@@ -140,34 +140,6 @@ def test_the_two_cycles_of_the_hess_case_meet_where_the_moebius_matrix_has_the_t
             assert np.abs(multipliers - (larger, 1.0 / larger)).max() < 1e-8 * larger
             signs.add(np.sign(there[0, 0] - np.median([p[0, 0] for _, p, _ in found])))
     assert signs == {-1.0, 1.0}
-
-
-def returned(values, place):
-    """(ψ, δ) where SciPy's motion of the ball next comes through γ3 = 0 upwards."""
-    psi, delta = place
-    gamma, u = [math.cos(psi), math.sin(psi), 0.0], np.array([math.cos(psi + delta), math.sin(psi + delta)])
-    unit, rest = (energy_of(values, [*(size * u), *gamma]) for size in (1.0, 0.0))
-    E = values["h"] - math.hypot(values["b1"], values["b2"])
-    start = [*(math.sqrt((E - rest) / (unit - rest)) * u), *gamma]
-
-    def height(_, y):
-        return y[4]
-
-    height.direction = 1.0
-    run = solve_ivp(rates(values), (0.0, 80.0), start, "DOP853", rtol=1e-12, atol=1e-13, events=height)
-    there = next(y for t, y in zip(run.t_events[0], run.y_events[0], strict=True) if t > 1e-6)
-    psi = math.atan2(there[3], there[2])
-    return np.array([psi, abs(math.remainder(math.atan2(there[1], there[0]) - psi, 2.0 * math.pi))])
-
-
-def derivative(values, place, step=2e-4):
-    """Of the return map of the ball, by differences of fourth order."""
-    columns = []
-    for axis in np.eye(2):
-        far, near = ([returned(values, place + sign * size * axis) for sign in (1.0, -1.0)]
-                     for size in (step, 0.5 * step))
-        columns.append((8.0 * (near[0] - near[1]) - (far[0] - far[1])) / (6.0 * step))
-    return np.column_stack(columns)
 
 
 def test_an_orbit_of_the_ball_doubles_where_another_integrator_finds_the_multiplier_minus_one():

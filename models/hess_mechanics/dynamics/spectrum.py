@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from hess_mechanics.dynamics.orbit import MAX_STEPS, require_finite_states
 from hess_mechanics.dynamics.system import Problem, System
-from hess_mechanics.dynamics.variation import neighbours
+from hess_mechanics.dynamics.variation import frame_ahead, neighbours
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import PLANS, STANDARD, Kind, Level, Status
 from hess_mechanics.numerics.labelled import Labels, Result
@@ -185,10 +185,7 @@ def first_frame(system: System, problem: Problem) -> tuple[Array, float]:
     A motion that is slow has no special direction either.
     """
     size = problem.states.shape[1]
-    rate = np.array(system.field(problem.states[0].tolist(), problem.parameters.tolist()), float)
-    speed = float(np.linalg.norm(rate))
-    frame = np.cos(1.0 + np.arange(size * size).reshape(size, size) ** 2)
-    return np.linalg.qr(np.column_stack([rate, frame]) if speed > _SLOW else frame)[0], speed
+    return frame_ahead(system, problem, np.cos(1.0 + np.arange(size * size).reshape(size, size) ** 2), _SLOW)
 
 
 def spectrum(system: System, state: Sequence[float] | Array, parameters: Sequence[float], span: float,

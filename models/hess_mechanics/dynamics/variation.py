@@ -26,7 +26,10 @@ from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Cost, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
-__all__ = ["Return", "Transition", "followed", "neighbours", "onto_surface", "return_matrix", "transition_matrix"]
+__all__ = [
+    "Return", "Transition", "followed", "frame_ahead", "neighbours", "onto_surface", "return_matrix",
+    "transition_matrix",
+]
 
 _MOVES = 0.1
 """Of |f| in units in which states are O(1): what f(y(t)) is off is divided by it."""
@@ -122,13 +125,20 @@ def followed(system: System, problem: Problem, times: Array, order: int, toleran
 
     The number of steps is `STEP_LIMIT_REACHED` where they do not suffice.
     """
-    size = len(system.variables)
-    rate = np.array(system.field(problem.states[0].tolist(), problem.parameters.tolist()), float)
-    ahead = float(np.linalg.norm(rate)) > _MOVES
-    basis = np.linalg.qr(np.column_stack([rate, np.eye(size)]))[0] if ahead else np.eye(size)
+    basis, speed = frame_ahead(system, problem, np.eye(len(system.variables)), _MOVES)
     steps, states, frames, _, volume = neighbours(system, problem.states[0], basis, problem.parameters, times, order,
-                                                  tolerance, most_steps, math.inf, ahead)
+                                                  tolerance, most_steps, math.inf, speed > _MOVES)
     return steps, states, frames @ basis.T, volume
+
+
+def frame_ahead(system: System, problem: Problem, frame: Array, slow: float) -> tuple[Array, float]:
+    """Orthonormal columns (d, d), the first along the first motion, f(y), or against it, the others from a frame; |f|.
+
+    Where |f| is at most `slow`: only from the frame.
+    """
+    rate = np.array(system.field(problem.states[0].tolist(), problem.parameters.tolist()), float)
+    speed = float(np.linalg.norm(rate))
+    return np.linalg.qr(np.column_stack([rate, frame]) if speed > slow else frame)[0], speed
 
 
 def neighbours(system: System, state: Array, frame: Array, parameters: Array, times: Array, order: int,

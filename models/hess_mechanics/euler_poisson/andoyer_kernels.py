@@ -63,6 +63,12 @@ def _largest(h, f, strength, K):
     return max(abs(f), math.sqrt(max(0.0, 2.0 * (h + strength) / K)))
 
 
+@inner
+def _falling(top, f, share):
+    """From the largest G to |f|, in steps that grow."""
+    return max(abs(f), top + (abs(f) - top) * share * share)
+
+
 @kernel
 def least_excess(h, f, strength, K, P, Q, count, out):
     """The least energy on the plane minus h, of `count` values of G from the largest possible down to |f|."""
@@ -70,8 +76,7 @@ def least_excess(h, f, strength, K, P, Q, count, out):
         top = _largest(h, f, strength, K[i])
         least = math.inf
         for k in range(count):
-            share = k / (count - 1)
-            G = max(abs(f), top + (abs(f) - top) * share * share)
+            G = _falling(top, f, k / (count - 1))
             least = min(least, _energy(G, f, K[i], P[i], Q[i]) - h)
         out[i] = least
 
@@ -84,8 +89,7 @@ def roots_into(h, f, strength, K, P, Q, count, out):
     for i in range(K.size):
         top = _largest(h, f, strength, K[i])
         for k in range(count):
-            share = k / (count - 1)
-            G[k] = max(abs(f), top + (abs(f) - top) * share * share)
+            G[k] = _falling(top, f, k / (count - 1))
         # Even steps of α besides: those of G are too long near |f|, where the energy changes as the root of G − |f|.
         steepest = math.acos(min(1.0, abs(f) / top))
         for k in range(count // 2):

@@ -29,6 +29,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hess_mechanics.dynamics.cells import centres
 from hess_mechanics.dynamics.orbit import status_of
 from hess_mechanics.errors import InvalidParameter, ModelError
 from hess_mechanics.numerics.accuracy import Level, Status
@@ -179,8 +180,7 @@ def cos_chi_over(low: int, high: int, I22: float, I13: float, I23: float) -> Arr
 
 def theta_plus_grid(found: Scattering, m: int, n: int) -> Array:
     """θ⁺ at the centres of m × n cells of −π < φ < π, 0 < θ⁻ < π; (n, m), rows of equal θ⁻."""
-    phi = -math.pi + (np.arange(m, dtype=float) + 0.5) * (2 * math.pi / m)
-    theta = (np.arange(n, dtype=float) + 0.5) * (math.pi / n)
+    phi, theta = centres(-math.pi, math.pi, m), centres(0.0, math.pi, n)
     return frozen(found.theta_plus(theta[:, None], phi[None, :]))
 
 
