@@ -44,7 +44,7 @@ from hess_mechanics.dynamics.orbit_diagram import cascade, hysteresis, orbit_dia
 from hess_mechanics.dynamics.periodic import apart, find_periodic
 from hess_mechanics.dynamics.regime import Kind, dynamics_of, regime
 from hess_mechanics.errors import NotConverged, OutsideRegion
-from hess_mechanics.suslov.reversal import reversals
+from hess_mechanics.rigid_body.reversal import reversals
 
 NAMES = ("I11", "I22", "I13", "I23", "E")
 _STEP = 1e-6

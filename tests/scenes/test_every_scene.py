@@ -905,9 +905,9 @@ def with_extra(**defaults):
 # Scenes in which a number of the same name is the same number, read off the equations in their words.
 SAME = {
     "h": [{"suslov-hess", "rotation-number"}, {"euler-poisson", "hess-leak", "bridge"},
-          {"chaplygin-ball", "singular-measures"}, {"suslov", "orbit-diagram"}],
+          {"chaplygin-ball", "singular-measures"}, {"suslov", "orbit-diagram"}, {"ball-section", "ball-diagram"}],
     "f": [{"suslov-hess", "rotation-number"}, {"euler-poisson", "hess-leak", "bridge"}],
-    "b3": [{"suslov-hess", "suslov", "orbit-diagram", "quartic", "ball-section"}],
+    "b3": [{"suslov-hess", "suslov", "orbit-diagram", "quartic", "ball-section", "ball-diagram"}],
     "theta": [{"scattering", "chaplygin-ball"}],
     "phi": [],
     "a": [],

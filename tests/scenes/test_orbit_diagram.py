@@ -17,7 +17,6 @@ from hess_mechanics.dynamics.birkhoff import rotation_number
 from hess_mechanics.dynamics.continuation import continued
 from hess_mechanics.dynamics.periodic import find_periodic
 from hess_mechanics.numerics.accuracy import PLANS, Kind
-from hess_mechanics.suslov.parameter_diagram import moved
 from hess_mechanics.suslov.section import coordinates, state_at
 from support.suslov import divergence, field, permanent_rotations
 from support.view import View
@@ -39,6 +38,11 @@ def complete(beginning, seen=("diagram", "section"), **changes):
             CACHE.get(task.function, *task.arguments)
 
 
+def moved(state, name, value):
+    """The section of the same state at another value of a parameter."""
+    return replace(state, **{name: value}).section
+
+
 def returns(body, state, times):
     """Where SciPy's orbit crosses γ3 = 0 upwards so many times (n, 2), and its last state."""
     def height(t, y):
@@ -55,7 +59,7 @@ def returns(body, state, times):
 def test_all_examples_are_rigid_bodies_from_one_edge_of_their_diagram_to_the_other(preset):
     state = SCENE.compute({**SCENE.defaults(), **preset.values}, (), True)
     for value in (state.first, state.at, state.last):
-        b = moved(state.section, state.name, value).body
+        b = moved(state, state.name, value).body
         I33 = check_body(b.I11, b.I22, b.I13, b.I23).I33
         assert I33 is not None
         # The principal moments of the whole tensor, by their eigenvalues, and the triangle inequality.
@@ -189,7 +193,7 @@ def test_a_torus_is_born_where_multipliers_leave_the_unit_circle_and_locks_and_b
     E = state.section.E
 
     def at(value):
-        return moved(state.section, "I13", value)
+        return moved(state, "I13", value)
 
     # Where it is born: SciPy's multipliers have the size 1 there, and the orbit closes.
     (born,) = (one for part in state.continued for one in part.bifurcations)
@@ -274,7 +278,7 @@ def test_a_motion_that_comes_to_a_saddle_focus_has_left_it_before():
     state, captions = complete("A spiral", ("section",))
     body, like = state.body, np.array([1.8373, 1.0187, -0.8746, -0.4849, 0.0])
     # On either side of the value in the words it misses the rotation on another side.
-    (values, low), (_, high) = (way_back(body, moved(state.section, "h", 5.015931 + off).E, like)
+    (values, low), (_, high) = (way_back(body, moved(state, "h", 5.015931 + off).E, like)
                                 for off in (-1e-6, 1e-6))
     assert sorted(values.real)[0] == pytest.approx(-0.723, abs=5e-4)
     assert max(values, key=lambda one: one.imag) == pytest.approx(0.282 + 2.035j, abs=1e-3)

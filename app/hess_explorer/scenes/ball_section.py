@@ -12,7 +12,6 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values
-from hess_explorer.scenes.framework.ball import Ball
 from hess_explorer.scenes.framework.branched import (
     Branched,
     branch_picture,
@@ -22,10 +21,10 @@ from hess_explorer.scenes.framework.branched import (
 )
 from hess_explorer.scenes.framework.charted import exponents
 from hess_explorer.scenes.framework.crossings import SECTION, Crossings
+from hess_explorer.scenes.framework.heavy_ball import PARAMETERS, HeavyBall
 from hess_explorer.scenes.framework.indicator import INDICATOR, colouring, indicator_layer
-from hess_explorer.scenes.framework.inertia import CentreOfMass, Tensor
 from hess_explorer.scenes.framework.one_orbit import Start
-from hess_explorer.scenes.framework.parameters import accuracy_level, choice, crossings_of_each, like, number, time_span
+from hess_explorer.scenes.framework.parameters import accuracy_level, choice, crossings_of_each, number, time_span
 from hess_explorer.scenes.framework.periodic import layers, length_of_manifolds, plain, which
 from hess_explorer.scenes.framework.proved_orbit import proved_error_shown
 from hess_explorer.scenes.framework.scene import Preset, Scene
@@ -38,7 +37,7 @@ from hess_explorer.views.poisson_sphere import along_the_orbit
 from hess_explorer.views.text import digits, vector
 from hess_explorer.views.velocity_plane import orbit_alone, orbit_columns, pixels_per_unit, room_for
 from hess_mechanics.chaplygin_ball.energy_surface import lowest_energy
-from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
+from hess_mechanics.chaplygin_ball.equations import SYSTEM
 from hess_mechanics.chaplygin_ball.integrable_cases import area_integral, has_area_integral, is_reversible
 from hess_mechanics.chaplygin_ball.section import (
     BallSection as Section,
@@ -58,8 +57,6 @@ from hess_mechanics.numerics.results import Array
 _ORBITS = 20
 _CELLS = 32
 _MOST_STEPS = 15_000
-_ALONG = {"h": "h", "I₁₁": "I11", "I₂₂": "I22", "I₁₃": "I13", "I₂₃": "I23", "𝒟": "D", "b₁": "b1", "b₂": "b2",
-          "b₃": "b3"}
 
 _PLAIN = {"I13": 0.0, "I23": 0.0}
 PRESETS = (*map(plain, (
@@ -78,23 +75,9 @@ PRESETS = (*map(plain, (
 
 
 @dataclass(frozen=True)
-class BallSection(CentreOfMass, Ball, Crossings, Branched, ConstrainedBody):
+class BallSection(HeavyBall, Crossings, Branched, ConstrainedBody):
     """The orbit from one place of the section, among others of its energy."""
 
-    I11: float = like(Tensor, "I11", 1.0, bounds=(1e-2, 1e2))
-    I22: float = like(Tensor, "I22", 3.0, bounds=(1e-2, 1e2))
-    I13: float = like(Tensor, "I13", 0.0, softbounds=(-1.0, 1.0), bounds=(-20.0, 20.0),
-                      doc="Product of inertia; with I₁₃ = I₂₃ = 0 the flow keeps volume.")
-    I23: float = like(Tensor, "I23", 0.0, softbounds=(-1.0, 1.0), bounds=(-20.0, 20.0))
-    D: float = like(Ball, "D", 5.0, softbounds=(0.0, 10.0), bounds=(0.0, 1e2),
-                    doc="𝒟 = (R/Rₛ)² Iₛ of the ball that rolls inside.")
-    b1: float = like(CentreOfMass, "b1", 0.5, softbounds=(-1.0, 1.0), bounds=(-1e2, 1e2),
-                     doc="b = −mg r, r the centre of mass.")
-    b2: float = like(CentreOfMass, "b2", 0.0, softbounds=(-1.0, 1.0), bounds=(-1e2, 1e2), doc="b = −mg r.")
-    b3: float = like(CentreOfMass, "b3", 0.8, softbounds=(-1.0, 1.0), bounds=(-1e2, 1e2),
-                     doc="b = −mg r; with I₁₃ = I₂₃ = 0 and b₃ = 0 every orbit closes.")
-    h: float = number("h", 2.0, (0.05, 5.0), 0.01, bounds=(1e-3, 1e3), label="Energy above the plane's lowest",
-                      doc="E = h − √(b₁²+b₂²): every h > 0 has motions through γ₃ = 0.")
     psi: float = number("ψ", 1.0, (-3.14, 3.14), 0.01, bounds=(-math.pi, math.pi), label="Start: ψ, direction of γ",
                         doc="On the section γ = (cos ψ, sin ψ, 0). A click in the section chooses ψ and δ.")
     delta: float = number("δ", 1.5, (0.01, 3.13), 0.01, bounds=(1e-6, math.pi - 1e-6), label="Start: δ, from γ to ω",
@@ -103,7 +86,7 @@ class BallSection(CentreOfMass, Ball, Crossings, Branched, ConstrainedBody):
     count: float = crossings_of_each()
     indicator: str = colouring()
     reach: float = length_of_manifolds()
-    over: str = parameter_of_branch(tuple(_ALONG))
+    over: str = parameter_of_branch(tuple(PARAMETERS))
     low: float = end_of_branch("from")
     high: float = end_of_branch("to")
     upwards: str = coordinate_of_branch(("ψ", "δ"))
@@ -114,7 +97,7 @@ class BallSection(CentreOfMass, Ball, Crossings, Branched, ConstrainedBody):
 
     section_axes: ClassVar[Axes] = Axes(square.AZIMUTH, square.POLAR)
     names: ClassVar[tuple[str, str]] = ("ψ", "δ")
-    along: ClassVar[Mapping[str, str]] = _ALONG
+    along: ClassVar[Mapping[str, str]] = PARAMETERS
 
     def admitted(self, notes: list[str]) -> BallSection:
         """ψ outside the band that the energy forbids."""
@@ -123,16 +106,6 @@ class BallSection(CentreOfMass, Ball, Crossings, Branched, ConstrainedBody):
             notes.append(f"With this energy γ cannot point at ψ = {digits(self.psi)} on the plane: ψ is {digits(psi)} "
                          "now.")
         return replace(self, psi=psi)
-
-    @cached_property
-    def body(self) -> BallBody:
-        """The ball.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
-        return BallBody(self.I11, self.I22, self.I13, self.I23, self.D, self.b1, self.b2, self.b3)
-
-    @property
-    def E(self) -> float:
-        """The energy."""
-        return self.h - math.hypot(self.b1, self.b2)
 
     @cached_property
     def band(self) -> tuple[float, float] | None:

@@ -16,13 +16,14 @@ import numpy as np
 
 from hess_mechanics.chaplygin_ball.energy_surface import omega_of_energy
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
+from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.return_map import Sheet
 from hess_mechanics.dynamics.section import MAX_STEPS, Plane, Points, section_points
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, ModelError, WorkLimit
 from hess_mechanics.numerics.accuracy import DRAFT, Level
-from hess_mechanics.numerics.results import Array, Mask
+from hess_mechanics.numerics.results import Array, Mask, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 
 __all__ = [
@@ -33,6 +34,7 @@ __all__ = [
 EQUATOR = Plane((0.0, 0.0, 0.0, 0.0, 1.0))
 _EDGE = 1e-3
 _SAMPLES = 129
+_COLUMNS = 240
 _TURNS = 30.0
 """Time allowed per crossing, in units of 1/ν; few orbits take longer."""
 
@@ -162,3 +164,15 @@ class BallSection(Sheet):
     def places_of(self, states: Array) -> Array:
         """(ψ, δ) (n, 2) of states (n, 5) of the section."""
         return coordinates(states)
+
+    def somewhere(self) -> tuple[float, ...] | None:
+        """A state of it; None where no motion crosses."""
+        with suppress(ModelError):
+            return seeds(self.body, self.h, 1)[0]
+        return None
+
+    def impossible(self, window: Window) -> Array:
+        """Cells (1, n) over the window: 1 where the energy does not allow ψ."""
+        psi = np.linspace(window[0][0], window[1][0], _COLUMNS + 1)
+        psi = 0.5 * (psi[1:] + psi[:-1])
+        return frozen((self.body.b1 * np.cos(psi) + self.body.b2 * np.sin(psi) >= self.h)[None, :].astype(float))

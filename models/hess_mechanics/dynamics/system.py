@@ -20,7 +20,7 @@ import numpy as np
 
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.batch_kernels import ensemble_integrator, one_by_one
-from hess_mechanics.numerics.events_kernels import crossing_finder
+from hess_mechanics.numerics.events_kernels import PLANE, Surface, crossing_finder
 from hess_mechanics.numerics.jit import derived_kernel, inner
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.numerics.taylor_kernels import orbit_integrator
@@ -98,8 +98,12 @@ class System:
     @cached_property
     def cross(self) -> Callable[..., tuple[int, int]]:
         """The kernel of the crossings of a plane by one orbit, see `events_kernels.crossing_finder`."""
-        return self._kernel("cross", "y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states",
-                            crossing_finder)
+        return self.crosses("cross", PLANE)
+
+    def crosses(self, task: str, surface: Surface) -> Callable[..., tuple[int, int]]:
+        """The same of another surface, made anew by each call; task : its name among the kernels of the system."""
+        return self._kernel(task, "y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states",
+                            lambda recursion: crossing_finder(recursion, surface))
 
     @cached_property
     def variation(self) -> Variation:

@@ -260,6 +260,10 @@ class SuslovSection(Sheet):
         (x0, y0), (x1, y1) = window
         return seeds(self.body, self.E, self.k, (x0, x1, y0, y1), count) if count else ()
 
+    def somewhere(self) -> tuple[float, ...] | None:
+        """A state of it; None where no motion crosses."""
+        return next(iter(self.spread(((-math.pi, 0.0), (math.pi, math.pi)), 1)), None)
+
     def impossible(self, window: Window) -> Array:
         """Cells (1, n) over the window: 1 where the energy does not allow ψ."""
         psi = np.linspace(window[0][0], window[1][0], _COLUMNS + 1)

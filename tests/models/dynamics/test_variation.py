@@ -24,7 +24,7 @@ from hess_mechanics.dynamics.section import section
 from hess_mechanics.dynamics.system import Problem
 from hess_mechanics.dynamics.variation import onto_surface
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.suslov.reversal import Reversal
+from hess_mechanics.rigid_body.reversal import Reversal
 from oracle.orbits import taylor
 from support.suslov import permanent_rotations
 

@@ -20,7 +20,7 @@ from hess_explorer.views.branch import bifurcations
 from hess_explorer.views.text import conjugates, digits, power
 from hess_mechanics.dynamics.continuation import Bifurcation, Branch, continued, gone_on
 from hess_mechanics.dynamics.periodic import Map, apart, find_periodic
-from hess_mechanics.dynamics.return_map import ReturnMap
+from hess_mechanics.dynamics.return_map import ReturnMap, Sheet
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.accuracy import PRECISE
@@ -45,7 +45,7 @@ _SAID = 8
 
 @dataclass(frozen=True)
 class Family:
-    """The return maps of a scene's section over one of its parameters.
+    """A scene's section, and its return map, over one of its parameters.
 
     state : of the scene; name, symbol : of the parameter; others : what else the section depends on, by name.
     """
@@ -60,10 +60,15 @@ class Family:
         """About a state; names : of all that the section depends on."""
         return cls(type(state), name, symbol, tuple((one, getattr(state, one)) for one in names if one != name))
 
-    def map_at(self, value: float) -> ReturnMap:
-        """The return map at a value of the parameter.  Raises `ModelError`."""
+    def __call__(self, value: float) -> Sheet:
+        """The section at a value of the parameter.  Raises `ModelError`."""
         state: Any = self.state  # its fields are known only where the scene declares its parameters
-        return ReturnMap(state(**dict(self.others), **{self.name: value}).section, PRECISE)
+        found: Sheet = state(**dict(self.others), **{self.name: value}).section
+        return found
+
+    def map_at(self, value: float) -> ReturnMap:
+        """The return map there.  Raises `ModelError`."""
+        return ReturnMap(self(value), PRECISE)
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from hess_explorer.protocol.parameters import Values, written
-from hess_explorer.scenes.framework.branch import Begin, Continuation, Family
-from hess_explorer.scenes.framework.over_parameter import ALONG, OverParameter
+from hess_explorer.scenes.framework.branch import Begin, Continuation
+from hess_explorer.scenes.framework.over_parameter import OverParameter
 from hess_explorer.scenes.framework.parameters import choice
 from hess_explorer.scenes.framework.periodic_search import NONE, PERIODS, Closed
 from hess_mechanics.dynamics.continuation import Branch
@@ -30,8 +30,7 @@ class Continued(OverParameter):
         if self.branch == NONE:
             return None
         (low, _), (high, _) = self.frame
-        family = Family.of(self, self.name, self.along, tuple(ALONG.values()))
-        begin = Begin(family, self.at, self.place, PERIODS[self.branch], (min(low, self.at), max(high, self.at)))
+        begin = Begin(self.family, self.at, self.place, PERIODS[self.branch], (min(low, self.at), max(high, self.at)))
         return Continuation(self.work, begin, self.side)
 
     @property

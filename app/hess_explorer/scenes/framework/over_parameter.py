@@ -1,17 +1,18 @@
-"""An orbit diagram of the Suslov problem over one parameter of a state, computed in parts, one after the other."""
+"""An orbit diagram of a section over one parameter of a state, computed in parts, one after the other."""
 
 from __future__ import annotations
 
 import math
 from abc import abstractmethod
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from hess_explorer.protocol.parameters import Values, written
+from hess_explorer.scenes.framework.branch import Family
 from hess_explorer.scenes.framework.filled_window import TURN
 from hess_explorer.scenes.framework.parameters import choice, number
 from hess_explorer.scenes.framework.parameters import places as chosen_places
@@ -23,14 +24,13 @@ from hess_explorer.views.plot import Plot
 from hess_explorer.views.section_plane import joined
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, doubling_seen
+from hess_mechanics.dynamics.parameter_diagram import diagram, doublings, nearest_place
+from hess_mechanics.dynamics.return_map import Sheet
 from hess_mechanics.numerics.accuracy import Kind
 from hess_mechanics.numerics.results import Array
-from hess_mechanics.suslov.parameter_diagram import diagram, doublings, moved, nearest_place
-from hess_mechanics.suslov.section import SuslovSection
 
-__all__ = ["ALONG", "BOUNDS", "OverParameter", "picture"]
+__all__ = ["BOUNDS", "OverParameter", "parameter_of_diagram", "picture"]
 
-ALONG = {"h": "h", "I₁₁": "I11", "I₂₂": "I22", "I₁₃": "I13", "I₂₃": "I23", "b₁": "b1", "b₂": "b2", "b₃": "b3"}
 _RISING, _FALLING, _BACKWARD = "rising", "falling", "backward"
 _WAYS = {"there and back, and backward in time": (_RISING, _FALLING, _BACKWARD),
          "there and back": (_RISING, _FALLING), "there, and backward in time": (_RISING, _BACKWARD)}
@@ -44,12 +44,22 @@ _FEW = 30
 _DOUBLINGS = 4
 
 
+def parameter_of_diagram(symbols: tuple[str, ...], default: str) -> Any:
+    """Over what the diagram is."""
+    return choice("Parameter of the diagram", symbols, default,
+                  doc="What changes from left to right. All others are as they stand.")
+
+
 @dataclass(frozen=True)
 class OverParameter(State):
-    """A state with a section, a place on it and an orbit diagram over one of its parameters."""
+    """A state with a section, a place on it and an orbit diagram over one of its parameters.
 
-    along: str = choice("Parameter of the diagram", tuple(ALONG), "I₂₃",
-                        doc="What changes from left to right. All others are as they stand.")
+    parameters_of_section : symbols of all on which the section depends → their names.
+    """
+
+    parameters_of_section: ClassVar[Mapping[str, str]]
+
+    along: str = parameter_of_diagram(("h",), "h")
     first: float = number("from", -0.15, (-3.0, 6.0), 0.01, bounds=_FARTHEST, label="Diagram from",
                           doc="The value at its left edge.")
     last: float = number("to", 0.3, (-3.0, 6.0), 0.01, bounds=_FARTHEST, label="Diagram to",
@@ -69,7 +79,7 @@ class OverParameter(State):
 
     @property
     @abstractmethod
-    def section(self) -> SuslovSection:
+    def section(self) -> Sheet:
         """The section.  Raises `ModelError`."""
 
     @property
@@ -91,12 +101,17 @@ class OverParameter(State):
     @property
     def name(self) -> str:
         """The parameter of the diagram."""
-        return ALONG[self.along]
+        return self.parameters_of_section[self.along]
 
     @property
     def at(self) -> float:
         """Its value in this state."""
         return float(getattr(self, self.name))
+
+    @property
+    def family(self) -> Family:
+        """The sections over it: what the parameter itself is in this state does not matter."""
+        return Family.of(self, self.name, self.along, tuple(self.parameters_of_section.values()))
 
     @property
     def side(self) -> int:
@@ -126,13 +141,11 @@ class OverParameter(State):
         return found
 
     def _followed(self, values: Array, place: tuple[float, ...], backward: bool) -> list[Diagram]:
-        # What the parameter itself is in this state does not matter.
-        section = moved(self.section, self.name, self.first)
         left, shown = (40, 20) if self.dragging else (int(self.transient), int(self.count))
         found: list[Diagram] = []
         for i in range(0, len(values), _TOGETHER):
             one = self.work.soon(
-                diagram, section, self.name, tuple(values[i : i + _TOGETHER].tolist()), _end(found) or place,
+                diagram, self.family, self.name, tuple(values[i : i + _TOGETHER].tolist()), _end(found) or place,
                 self.place, left, shown, self.begins == _FOLLOWED, backward, self.plan(Kind.SECTION).level)
             if one is None:
                 break
@@ -157,8 +170,8 @@ class OverParameter(State):
         if seen is None:
             return None
         value, places, end = seen
-        return self.work.later(doublings, moved(self.section, self.name, self.first), self.name, value,
-                               tuple(map(tuple, places.tolist())), end, _DOUBLINGS)
+        return self.work.later(doublings, self.family, self.name, value, tuple(map(tuple, places.tolist())), end,
+                               _DOUBLINGS)
 
     @property
     def flips(self) -> Array:
@@ -206,7 +219,7 @@ def picture(state: type[OverParameter], over: tuple[Layer[Any], ...] = (),
             on_hover: Callable[[Any, float, float], str] | None = None) -> Plot[Any]:
     """The diagram of such states, and what is drawn over it."""
     return Plot(name="diagram", title="Orbit diagram", caption=state._about_diagram, on_hover=on_hover,
-         axes=lambda s: (s.along, s.shown), first=Axes((-0.15, 0.3), (-math.pi, math.pi)),
+         axes=lambda s: (s.along, s.shown), first=Axes((state.first, state.last), (-math.pi, math.pi)),
          x=lambda s: (s.frame[0][0], s.frame[1][0]), y=lambda s: (s.frame[0][1], s.frame[1][1]),
          on_click=state.choose, on_box=lambda s, corners: boxed(corners, BOUNDS),
          layers=(

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from hess_mechanics import BallBody, SuslovBody, level, section
-from hess_mechanics.chaplygin_ball.equations import SYSTEM as BALL
+from hess_mechanics import BallBody, SuslovBody, level, section, systems
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.suslov.reversal import Reversal, rate, reversals
+from hess_mechanics.rigid_body.reversal import Reversal, rate, reversals
+from support.ball import rates
 from support.suslov import field, permanent_rotations
 
 BODY = SuslovBody(2.0, 1.0, 0.0, 0.1, 0.3, -0.5, 1.0)
@@ -34,6 +34,17 @@ def test_a_permanent_rotation_never_reverses():
         assert abs(rate(state[None])[0]) == pytest.approx(np.hypot(*state[:2]), abs=1e-12)
 
 
-def test_moments_are_those_of_one_system():
-    with pytest.raises(InvalidParameter, match="Suslov problem"):
-        section(BALL, START, BallBody(1.0, 3.0, 0.0, 0.0, 5.0).parameters, Reversal(), 1.0, level("draft"))
+def test_the_moments_of_the_ball_are_those_of_another_integrator():
+    body = BallBody(1.9, 2.9, 0.7, -0.5, 5.0, 1.7, -0.4, 0.1)
+    found = reversals(body, START, 40.0, level("precise"))
+    turns = solve_ivp(rates(vars(body)), (0.0, 40.0), START, method="DOP853", rtol=1e-11, atol=1e-13,
+                      events=lambda t, y: y[0] * y[2] + y[1] * y[3]).t_events[0]
+    assert len(found.times) == len(turns) > 2
+    assert np.abs(found.times - turns).max() < 1e-7
+
+
+def test_there_are_none_of_a_body_that_may_turn_about_all_axes():
+    system = systems()["euler-poisson"]
+    state, p = system.example
+    with pytest.raises(InvalidParameter, match="ω1, ω2, γ1, γ2, γ3"):
+        section(system, state, p, Reversal(), 1.0, level("draft"))

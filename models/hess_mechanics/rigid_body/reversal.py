@@ -1,4 +1,4 @@
-"""Reversal: the moments at which a body of the Suslov problem begins to turn the other way round about the vertical.
+"""Reversal: the moments at which a body with ω3 = 0 begins to turn the other way round about the vertical.
 
 Its rate about the vertical is w = (ω, γ), as γ is of length 1; it reverses where w passes through 0.
 """
@@ -7,7 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import ClassVar
+from functools import cache
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
@@ -16,11 +17,11 @@ from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array, Section
-from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
-from hess_mechanics.suslov.reversal_kernels import cross
+from hess_mechanics.rigid_body.reversal_kernels import NO_TURN
 
 __all__ = ["Reversal", "rate", "reversals"]
 
+_VARIABLES = ("ω1", "ω2", "γ1", "γ2", "γ3")
 MOST = 5000
 """Moments of one motion."""
 
@@ -36,10 +37,23 @@ class Reversal:
         return np.array([*state[2:4], *state[:2], 0.0])
 
     def scaled(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
-        """See `section.Surface`.  Raises `InvalidParameter` for systems other than the Suslov problem."""
-        if system is not SYSTEM:
-            raise InvalidParameter("These moments are found for the Suslov problem with gravity only.")
-        return cross, np.zeros(1), 0.0
+        """See `section.Surface`.  Raises `InvalidParameter` for systems with other variables."""
+        if system.variables != _VARIABLES:
+            raise InvalidParameter(f"These moments are found for systems with the variables {', '.join(_VARIABLES)}.")
+        return _cross(system), np.zeros(1), 0.0
+
+
+@cache
+def _cross(system: System) -> Callable[..., Any]:
+    return system.crosses("turn", NO_TURN)
+
+
+class _Body(Protocol):
+    @property
+    def system(self) -> System: ...
+
+    @property
+    def parameters(self) -> tuple[float, ...]: ...
 
 
 def rate(states: Array) -> Array:
@@ -47,9 +61,9 @@ def rate(states: Array) -> Array:
     return np.asarray(states[:, 0] * states[:, 2] + states[:, 1] * states[:, 3])
 
 
-def reversals(body: SuslovBody, start: Sequence[float], span: float, level: Level) -> Section:
+def reversals(body: _Body, start: Sequence[float], span: float, level: Level) -> Section:
     """The moments from 0 to `span` at which (ω, γ) is 0, and the states there, none lost; see `section`.
 
     Raises `InvalidParameter`, `WorkLimit`.
     """
-    return section(SYSTEM, start, body.parameters, Reversal(), span, level, MOST)
+    return section(body.system, start, body.parameters, Reversal(), span, level, MOST)

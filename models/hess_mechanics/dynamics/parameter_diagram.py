@@ -1,57 +1,45 @@
-"""Orbit diagrams of the Suslov problem over a parameter of the body or its energy above the bottom, h = E + |b|.
+"""Orbit diagrams of a section over a parameter, with their doublings, and what there is at one value of it.
 
-Along a component of b it is h that stays, as where motions begin to be possible moves with |b|.
+A family gives the section at each value: what stays beside the parameter, an energy or its height above the lowest, is
+for the family to say.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, cascade, orbit_diagram
 from hess_mechanics.dynamics.periodic import find_periodic
 from hess_mechanics.dynamics.regime import Dynamics, Regime, compared, regime
-from hess_mechanics.dynamics.return_map import ReturnMap
+from hess_mechanics.dynamics.return_map import ReturnMap, Sheet
 from hess_mechanics.errors import InvalidParameter, ModelError, WorkLimit
 from hess_mechanics.numerics.accuracy import PRECISE, Level
 from hess_mechanics.numerics.results import Array, frozen
-from hess_mechanics.suslov.section import SuslovSection
 
-__all__ = ["AtState", "Sets", "at_state", "diagram", "doublings", "moved", "sets_of"]
+__all__ = ["AtState", "Sets", "at_state", "diagram", "doublings", "nearest_place", "sets_of"]
 
 Place = tuple[float, ...]
+Family = Callable[[float], Sheet]
 
 
-def moved(section: SuslovSection, name: str, value: float) -> SuslovSection:
-    """The section with another value of h, or of a parameter of the body at the same h.  Raises as the body."""
-    b = section.body
-    h = section.E + math.hypot(b.b1, b.b2, b.b3)
-    if name == "h":
-        return replace(section, E=section.E + value - h)
-    b = replace(b, **{name: value})
-    return replace(section, body=b, E=h - math.hypot(b.b1, b.b2, b.b3))
-
-
-def diagram(section: SuslovSection, name: str, values: tuple[float, ...], start: Place, again: Place, transient: int,
+def diagram(family: Family, name: str, values: tuple[float, ...], start: Place, again: Place, transient: int,
             kept: int, follow: bool, backward: bool, level: Level) -> Diagram:
-    """`orbit_diagram` of the section along a parameter."""
-    return orbit_diagram(lambda value: ReturnMap(moved(section, name, value), level, backward), name, values, start,
-                         transient, kept, follow, again)
+    """`orbit_diagram` of the sections of a family."""
+    return orbit_diagram(lambda value: ReturnMap(family(value), level, backward), name, values, start, transient, kept,
+                         follow, again)
 
 
-def doublings(section: SuslovSection, name: str, at: float, places: tuple[Place, ...], end: float, most: int
+def doublings(family: Family, name: str, at: float, places: tuple[Place, ...], end: float, most: int
               ) -> Cascade | str:
     """The cascade of the orbit with these places at a value of the parameter, towards another; or why there is none."""
-    map_ = ReturnMap(section, PRECISE)
-
-    def family(value: float) -> ReturnMap:
-        return replace(map_, sheet=moved(section, name, value))
+    def map_at(value: float) -> ReturnMap:
+        return ReturnMap(family(value), PRECISE)
 
     try:
-        return cascade(family, name, find_periodic(family(at), np.array(places), len(places)), at, end, most)
+        return cascade(map_at, name, find_periodic(map_at(at), np.array(places), len(places)), at, end, most)
     except WorkLimit:
         raise
     except ModelError as error:
@@ -66,7 +54,7 @@ class Sets:
     repeller: Array
 
 
-def sets_of(section: SuslovSection, start: Place, transient: int, kept: int, level: Level) -> Sets:
+def sets_of(section: Sheet, start: Place, transient: int, kept: int, level: Level) -> Sets:
     """Of the orbit from a place.  Raises `OutsideRegion`, `WorkLimit`."""
     found = (ReturnMap(section, level, backward).orbit(np.array(start), transient + kept)[transient:]
              for backward in (False, True))
@@ -81,7 +69,7 @@ class AtState:
     dynamics: Dynamics | None
 
 
-def at_state(section: SuslovSection, start: Place, sets: Sets, transient: int, kept: int, t: float, level: Level
+def at_state(section: Sheet, start: Place, sets: Sets, transient: int, kept: int, t: float, level: Level
              ) -> AtState:
     """Of the orbit from a place, whose `sets_of` are known; t : the time of the averages.
 

@@ -1,0 +1,89 @@
+"""Orbit diagrams of the Chaplygin ball in a field: attractors and repellers over a parameter, and reversal."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import ClassVar
+
+from hess_explorer.protocol.parameters import Value
+from hess_explorer.scenes.framework.attracted import Attracted, pictures
+from hess_explorer.scenes.framework.charted import Charted
+from hess_explorer.scenes.framework.heavy_ball import PARAMETERS, HeavyBall
+from hess_explorer.scenes.framework.one_orbit import OneOrbit
+from hess_explorer.scenes.framework.over_parameter import BOUNDS, parameter_of_diagram
+from hess_explorer.scenes.framework.parameters import accuracy_level, exponent_time, like, time_span
+from hess_explorer.scenes.framework.parameters import places as chosen_places
+from hess_explorer.scenes.framework.proved_orbit import proved_error_shown
+from hess_explorer.scenes.framework.scene import Preset, Scene
+from hess_explorer.scenes.framework.solid_body import ConstrainedBody
+from hess_explorer.views.velocity_plane import orbit_columns, pixels_per_unit, room_for
+from hess_mechanics.chaplygin_ball.equations import SYSTEM
+from hess_mechanics.chaplygin_ball.section import BallSection
+
+
+def _ball(I11: float, I22: float, I13: float, I23: float, D: float, b1: float, b2: float, b3: float, h: float
+          ) -> dict[str, Value]:
+    return {"I11": I11, "I22": I22, "I13": I13, "I23": I23, "D": D, "b1": b1, "b2": b2, "b3": b3, "h": h}
+
+
+PRESETS = (
+    Preset("Period doubling along 𝒟"),
+    Preset("Apart: a strange attractor and its repeller", D=1.0, along="h", first=2.4, last=3.0, window="",
+           chosen="2.5,1.5"),
+    Preset("Apart: permanent rotations, and reversal", **_ball(0.9, 1.3, -0.3, 0.2, 2.3, -1.5, -1.3, 1.1, 4.116),
+           first=1.5, last=3.0, window="", chosen="1.62191,0.01002", span=150.0),
+    Preset("Equal: volume is kept", **_ball(1.0, 3.0, 0.0, 0.0, 5.0, 0.5, 0.0, 0.8, 2.0), along="h", first=1.0,
+           last=3.0, window="", chosen="1,1.5"),
+)
+"""All of them are rigid bodies for some I₃₃; the third was found by `tests/benchmarks/search_regimes.py --ball`."""
+
+
+@dataclass(frozen=True)
+class BallDiagram(Attracted, HeavyBall, OneOrbit, ConstrainedBody):
+    """Where orbits of a section settle over one parameter, and the orbit on show at the value that this one has."""
+
+    I11: float = like(HeavyBall, "I11", 1.5)
+    I13: float = like(HeavyBall, "I13", -0.3)
+    D: float = like(HeavyBall, "D", 1.5)
+    b1: float = like(HeavyBall, "b1", 1.0)
+    b2: float = like(HeavyBall, "b2", -0.7)
+    b3: float = like(HeavyBall, "b3", 0.7)
+    h: float = like(HeavyBall, "h", 2.72)
+    along: str = parameter_of_diagram(tuple(PARAMETERS), "𝒟")
+    first: float = like(Attracted, "first", 1.34)
+    last: float = like(Attracted, "last", 1.75)
+    window: str = like(Attracted, "window", "1.34,-2.9;1.75,-2.65")
+    span: float = time_span(60.0, 400.0, what="the chosen orbit")
+    long: float = exponent_time(4000.0, 5000.0, 2e4, "the mean divergence is")
+    certain: str = proved_error_shown()
+    accuracy: str = accuracy_level()
+    chosen: str = chosen_places("The place of the chosen orbit", 1, *BOUNDS, "-2.6813,0.9923")
+
+    parameters_of_section: ClassVar[Mapping[str, str]] = PARAMETERS
+
+    @cached_property
+    def section(self) -> BallSection:
+        """The section γ3 = 0."""
+        return BallSection(self.body, self.E)
+
+    @property
+    def weights(self) -> tuple[float, ...]:
+        """From the variables to the pictures, in pixels for a unit: with room for all motions of this energy."""
+        highest = self.E + math.hypot(self.b1, self.b2, self.b3)
+        return pixels_per_unit(room_for(math.sqrt(2.0 * highest / min(self.I11, self.I22))))
+
+
+SCENE = Scene(
+    BallDiagram, __file__, place=17, presets=PRESETS, group="Ball",
+    charts=(Charted("regime-ball-section", lambda s: {
+        **dict(zip(SYSTEM.parameters, s.body.parameters, strict=True)), "h": s.h, "psi": s.place[0],
+        "delta": s.place[1]}, pictures=("diagram", "section")),),
+    essential=("D", "first", "last", "I13"), handle="D",
+    title="Orbit diagram of the ball",
+    summary="The ball in a field over a parameter: doublings along 𝒟, a strange attractor and its repeller, reversal.",
+    tracks={"orbit": lambda s: orbit_columns(s.orbit, turning=s.turning)},
+    views=pictures(BallDiagram, ball=True),
+)

@@ -1,0 +1,184 @@
+"""The orbit diagrams of the ball in a field: the numbers of its examples by another integrator and other algorithms."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import asdict, replace
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from hess_explorer.compute.cache import CACHE
+from hess_explorer.scenes import scenes
+from hess_mechanics import check_body, largest_exponent, level, solve, spectrum, systems
+from hess_mechanics.chaplygin_ball.section import coordinates, state_at
+from hess_mechanics.numerics.accuracy import PLANS, Kind
+from support.ball import energy_of, integrate, rates
+from support.view import View
+
+SCENE = scenes()["ball-diagram"]
+BALL = systems()["ball"]
+
+
+def complete(beginning, seen, **changes):
+    """The state of the example of that name, when all that takes long is known, and its captions."""
+    (preset,) = [one for one in SCENE.presets if one.name.startswith(beginning)]
+    while True:
+        state = SCENE.compute({**SCENE.defaults(), **preset.values, **changes}, seen, False)
+        captions = {view.name: view.said(state) for view in SCENE.views if view.name in seen}
+        if not state.work.todo:
+            return state, captions
+        for task in state.work.todo:
+            CACHE.get(task.function, *task.arguments)
+
+
+def at(state, name, value):
+    """The body and the energy with another value of a parameter, h held over the lowest energy of the plane."""
+    values = {**asdict(state.body), "h": state.h, name: value}
+    h = values.pop("h")
+    return values, type(state.body)(**values), h - math.hypot(values["b1"], values["b2"])
+
+
+def returned(values, body, E, place):
+    """Where SciPy's orbit from a place crosses γ3 = 0 next; its equations are a 2 × 2 system solved at every call."""
+    def height(_, y):
+        return y[4]
+
+    height.direction, height.terminal = 1.0, 2
+    found = solve_ivp(rates(values), (0.0, 60.0), state_at(body, E, *place), method="DOP853", rtol=1e-11, atol=1e-13,
+                      events=height, first_step=1e-3)
+    return coordinates(found.y_events[0][found.t_events[0] > 1e-6][:1])[0]
+
+
+def multipliers(values, body, E, places):
+    """Of the orbit with these places, which must close, by differences of SciPy's returns."""
+    M, step = np.eye(2), 2e-5
+    for i, place in enumerate(places):
+        assert np.abs(returned(values, body, E, place) - places[(i + 1) % len(places)]).max() < 1e-8
+        sides = [[returned(values, body, E, place + sign * step * axis) for sign in (1, -1)] for axis in np.eye(2)]
+        M = np.column_stack([(a - b) / (2.0 * step) for a, b in sides]) @ M
+    return np.linalg.eigvals(M)
+
+
+@pytest.mark.parametrize("preset", SCENE.presets, ids=lambda preset: preset.name)
+def test_all_examples_are_rigid_bodies_from_one_edge_of_their_diagram_to_the_other(preset):
+    state = SCENE.of({**SCENE.defaults(), **preset.values}, (), True)
+    for value in (state.first, state.at, state.last):
+        there = replace(state, **{state.name: value})
+        I33 = check_body(there.I11, there.I22, there.I13, there.I23).I33
+        # The principal moments of the whole tensor, by their eigenvalues, and the triangle inequality.
+        first, second, third = np.linalg.eigvalsh([[there.I11, 0.0, there.I13], [0.0, there.I22, there.I23],
+                                                   [there.I13, there.I23, 0.5 * (I33[0] + I33[1])]])
+        assert first > 0.0
+        assert third < first + second
+        assert there.D > 0.0
+
+
+def test_where_periods_double_along_the_ball_inside_another_integrator_finds_the_multiplier_minus_one():
+    state, captions = complete("Period doubling", ("diagram", "section"))
+    found = state.cascade
+    assert found.periods.tolist() == [2, 4, 8, 16]
+    assert "4 doublings located, the first of period 2 at 𝒟 = 1.58721; ratio 4.676 ±" in captions["diagram"]
+    # The numbers of the words beside the pictures.
+    assert found.values == pytest.approx([1.5872085, 1.4256035, 1.3934895, 1.3866210], abs=6e-8)
+    assert found.ratios == pytest.approx([5.032, 4.676], abs=6e-4)
+    for value, places in zip(found.values[:2], found.places[:2], strict=True):
+        assert multipliers(*at(state, "D", float(value)), places).real.min() == pytest.approx(-1.0, abs=1e-5)
+    drawn = state.points("rising")
+    for low, high, count in ((1.6, 1.75, 2), (1.44, 1.57, 4)):
+        values = np.unique(drawn[0][(drawn[0] > low) & (drawn[0] < high)])
+        assert len(values) > 30
+        for x in values:
+            assert 1 + np.count_nonzero(np.diff(np.sort(drawn[1][drawn[0] == x])) > 2e-3) == count
+    # With 𝒟 = 1.5 it is of period 4: a small drift of the energy does not hide that.
+    assert captions["section"].split("\n")[-1].startswith("Motion: period 4, div = −0.07")
+
+
+def test_the_orbit_of_period_one_doubles_first_and_goes_on_as_a_saddle():
+    view = View(SCENE, {"branch": "period 1", "chosen": "-2.7743,1.0236", "last": 3.0, "window": "", "steps": 2.0,
+                        "ways": "there and back"}, seen=["diagram"])
+    (flip,) = (one for part in view.result.continued for one in part.bifurcations)
+    assert (flip.kind, flip.value) == ("flip", pytest.approx(2.7347985, abs=6e-8))
+    assert multipliers(*at(view.result, "D", flip.value), flip.places).real.min() == pytest.approx(-1.0, abs=1e-5)
+    for part in view.result.continued:
+        for value, kind in zip(part.values, part.kinds, strict=True):
+            assert abs(value - flip.value) < 1e-6 or kind.startswith("stable" if value > flip.value else "saddle")
+
+
+def test_the_strange_attractor_is_what_its_example_says():
+    state, captions = complete("Apart: a strange", ("section",))
+    said = re.search(r"Motion: chaotic, div = −([\d.]+) ± ([\d.]+)\. Seen: dissipative,", captions["section"])
+    assert float(said[1]) == pytest.approx(0.0925, abs=1e-3)
+    assert float(said[2]) < 1e-3
+    values, body, E = at(state, "D", state.D)
+    last = state_at(body, E, *state.sets.attractor[-1])
+    exponents = spectrum(BALL, last, body.parameters, 4000.0)
+    assert exponents.signs == ("+", "0", "0", "0", "-")
+    assert exponents.values[0] == pytest.approx(0.036, abs=0.006)
+    # Two orbits side by side, by another algorithm, part as fast.
+    twin = largest_exponent(BALL, last, body.parameters, 2000.0, PLANS[Kind.EXPONENT]["standard"].level)
+    assert abs(twin.value - exponents.values[0]) < 4.0 * exponents.errors[0] + 0.01
+    assert abs(exponents.dimension[0] - 2.28) < 0.04
+    # The mean divergence by a 2 × 2 system solved at every state: ω̇ is quadratic in ω, so differences are derivatives.
+    field = rates(values)
+    states = solve(BALL, last, body.parameters, np.linspace(0.0, 500.0, 2001), level("draft")).states
+    shrinks = [sum(field(0.0, y + e)[i] - field(0.0, y - e)[i] for i, e in enumerate(np.eye(5)[:2])) / 2.0
+               for y in states]
+    assert np.mean(shrinks) == pytest.approx(-0.0925, abs=0.02)
+    # The distance, all pairs compared.
+    a, b = state.sets.attractor[::3], state.sets.repeller[::3]
+    away = a[:, None] - b[None]
+    away[..., 0] = np.arctan2(np.sin(away[..., 0]), np.cos(away[..., 0]))
+    pairs = np.linalg.norm(away, axis=2)
+    distance = max(np.quantile(pairs.min(axis=1), 0.95), np.quantile(pairs.min(axis=0), 0.95))
+    known = state.kind.dynamics.apart
+    assert abs(distance - known.distance) <= known.error + known.grain + 0.05
+    assert pairs.min() > 0.1
+
+
+def test_a_ball_that_turns_the_wrong_way_turns_round_to_a_permanent_rotation():
+    state, captions = complete("Apart: permanent", ("section", "reversal"))
+    assert "It turns round once, at first at t = 80.7" in captions["reversal"]
+    values, body, E = at(state, "D", state.D)
+    moment, orbit = float(state.turned.times[0]), state.orbit
+    assert state.turning[0] > 0.0 > state.turning[-1]
+    # SciPy, from a little before: (ω, γ) changes its sign then.
+    before = int(np.searchsorted(orbit.times, moment - 2.0))
+    times = np.linspace(0.0, 4.0, 401)
+    turning = np.array([y[:2] @ y[2:4] for y in integrate(values, orbit.states[before], times)])
+    (crossing,) = np.flatnonzero(turning[1:] * turning[:-1] < 0.0)
+    assert times[crossing] - 1e-6 <= moment - orbit.times[before] <= times[crossing + 1] + 1e-6
+    # What it comes to, and what it comes from: γ3 = 0, ω = wγ, w²(I13γ1 + I23γ2) = b3, of this energy.
+    for places, sense in ((state.sets.attractor, -1.0), (state.sets.repeller, 1.0)):
+        psi = float(places[-1, 0])
+        g = np.array([math.cos(psi), math.sin(psi)])
+        w = sense * math.sqrt(body.b3 / (body.I13 * g[0] + body.I23 * g[1]))
+        y = np.array([*(w * g), *g, 0.0])
+        assert np.abs(rates(values)(0.0, y)).max() < 1e-3
+        assert energy_of(values, y) == pytest.approx(E, abs=1e-3)
+        assert abs(places[-1, 1] - (math.pi if sense < 0.0 else 0.0)) < 1e-3
+
+
+def test_volume_that_is_kept_is_said():
+    state, captions = complete("Equal: volume", ("diagram", "section"), steps=30.0)
+    assert captions["diagram"].endswith("Volume is kept: each value shows one orbit, and nothing attracts.")
+    assert state.kind.dynamics.divergence == 0.0
+    assert re.search(r"Motion: chaotic, div = 0 ± 0\. Seen: conservative", captions["section"])
+
+
+def test_where_no_motion_crosses_at_the_chosen_place_another_one_is_taken_and_that_is_grey():
+    state = SCENE.compute({**SCENE.defaults(), "h": 0.3, "chosen": "-0.61,1"}, (), True)
+    body, E = state.body, state.section.h
+
+    def height(psi):
+        return body.b1 * math.cos(psi) + body.b2 * math.sin(psi)
+
+    assert height(-0.61) > E > height(state.place[0])
+    window = ((-math.pi, 0.0), (math.pi, math.pi))
+    grey, = state.section.impossible(window)
+    middles = (np.arange(grey.size) + 0.5) * 2.0 * math.pi / grey.size - math.pi
+    assert grey.tolist() == [float(height(psi) >= E) for psi in middles]
+    assert 0 < grey.sum() < grey.size
+    assert replace(state.section, h=-2.0).somewhere() is None
