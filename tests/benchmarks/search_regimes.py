@@ -265,7 +265,7 @@ def beyond(map_: ReturnMap, name: str, born: Bifurcation, sign: float) -> str:
             return letters
         wide, still = (np.hypot(*apart(map_.turns, part, focus).T).max() for part in (places[3000:6000], places[9000:]))
         turns, error = rotation_number(apart(map_.turns, places[8000:], focus), (0.0, 0.0))
-        period, _ = period_of(map_.turns, places[-1000:])
+        period, _ = period_of(map_.turns, places[-1000:], map_.promise)
         if found.values[0] > max(0.005, 4.0 * found.errors[0]) and found.signs[0] == "+":
             letters += "C"
         elif period:

@@ -35,6 +35,9 @@ COMPARED = 16
 """Places of two sets from which on they are told apart."""
 _SAME = 1e-5
 """Places closer than this are one of a periodic orbit."""
+_PROMISES = 3.0
+"""Nor can those be told apart that differ by so many errors of the map: a long orbit is brought back to its integrals
+now and then, and moves by some errors then."""
 _SETTLING = 0.8
 """An orbit whose distances from closing fall below this share from its first half to its second is on its way."""
 _AMPLITUDES = 0.4 * 0.4 ** np.arange(6, -1, -1)
@@ -92,10 +95,11 @@ class Diagram(Result):
                       place_units(self.names), {"level": self.level})
 
 
-def period_of(turns: Sequence[float], places: Array) -> tuple[int, bool]:
+def period_of(turns: Sequence[float], places: Array, promise: float = 0.0) -> tuple[int, bool]:
     """The least period with which the places (n, d) of an orbit repeat, 0 where none is seen, and whether it stays so.
 
     Seen is a period of which the orbit shows at least three; it is on its way to one where its halves say so.
+    promise : the error of the map that the places have.
     """
     most = min(MAX_PERIOD, len(places) // 3)
     ways = np.array([[np.abs(apart(turns, one[m:], one[:-m])).max()
@@ -104,7 +108,7 @@ def period_of(turns: Sequence[float], places: Array) -> tuple[int, bool]:
     if not len(ways):
         return 0, False
     first, second = ways.T
-    closed = np.flatnonzero(np.maximum(first, second) <= _SAME)
+    closed = np.flatnonzero(np.maximum(first, second) <= max(_SAME, _PROMISES * promise))
     if closed.size:
         m = int(closed[0]) + 1
         # A multiplier near −1 makes an orbit look twice as long while it is still coming.
@@ -159,7 +163,7 @@ def orbit_diagram(family: Callable[[float], Followed], parameter: str, values: S
             pass
         places.append(frozen(found.copy()))
         if len(found):
-            periods[i], settled[i] = period_of(turns, found)
+            periods[i], settled[i] = period_of(turns, found, map_.promise)
             ends[i] = place = found[-1]
         else:
             place = anew

@@ -29,6 +29,9 @@ from hess_mechanics.numerics.results import Array, frozen
 
 __all__ = ["Dynamics", "Kind", "Regime", "compared", "dynamics_of", "regime"]
 
+_TOUCHING = 0.01
+"""Of the places.  Of 1500 places of sets that touch it was 0.015 to 0.2 from orbit to orbit, of sets apart 0."""
+
 
 class Kind(IntEnum):
     """Kinds of motions on a section, numbered as in charts."""
@@ -112,7 +115,7 @@ def regime(map_: ReturnMap, start: Sequence[float] | Array, transient: int = 300
         return Regime(Kind.NO_RETURN, 0, map_.names, frozen(orbit), 0.0, 0.0, 0.0, 0.0, map_.level)
     places = orbit[transient:]
     found = _indicated(map_, places[-1], t, map_.accuracy)
-    period, settled = period_of(map_.turns, places)
+    period, settled = period_of(map_.turns, places, map_.promise)
     value = float(found.values[0])
     if value > CHAOTIC:
         kind, period = Kind.CHAOTIC, 0
@@ -159,7 +162,7 @@ class Dynamics(Result):
             return "dissipative" if volume < 0 else "undecided"
         if self.apart.equal:
             return "conservative" if volume == 0 else "mixed"
-        return "mixed" if self.apart.shared >= 0.02 and volume < 0 else "undecided"
+        return "mixed" if self.apart.shared >= _TOUCHING and volume < 0 else "undecided"
 
     def labels(self) -> Labels:
         """The places of both."""

@@ -37,7 +37,7 @@ _LONGEST = 400.0
 """Time allowed for a return, in units of 1/ν times the slowness of the section."""
 _PER_CROSSING = 40.0
 """The same for a crossing of a long orbit, of which few take longer."""
-_PIECE = 250
+_PIECE = 50
 """Crossings that are followed at once."""
 _STEP = 2e-3
 _SHIFTS = np.array([-3.0, -2.0, -1.0, 1.0, 2.0, 3.0])
@@ -175,7 +175,7 @@ class ReturnMap:
     def orbit(self, place: Array, count: int) -> Array:
         """The next `count` crossings (n, k) of this sheet, one after the other; fewer where the motion stays away.
 
-        The orbit is brought back to its levels of the integrals after every 250 of them, so it may be as long as one
+        The orbit is brought back to its levels of the integrals after every 50 of them, so it may be as long as one
         likes.  Raises `OutsideRegion`, `WorkLimit`.
         """
         sheet = self.sheet

@@ -15,7 +15,7 @@ from hess_explorer.compute.cache import CACHE
 from hess_explorer.protocol.parameters import Values, places, written
 from hess_explorer.scenes.framework.continued import Continued
 from hess_explorer.scenes.framework.one_orbit import Start
-from hess_explorer.scenes.framework.over_parameter import picture
+from hess_explorer.scenes.framework.over_parameter import edges, picture
 from hess_explorer.scenes.framework.solid_body import constrained_body
 from hess_explorer.scenes.framework.windows import Window, tidy_window, window_of
 from hess_explorer.views import branch, layered_section, periodic, theme
@@ -69,9 +69,7 @@ class Attracted(Continued):
 
     def admitted(self, notes: list[str]) -> Any:
         """A window that is one and lies in the diagram, a place, edges in their order."""
-        first, last = sorted((self.first, self.last))
-        if first == last:
-            last = first + 1.0
+        first, last = edges(self.first, self.last)
         state = replace(self._scene, first=first, last=last, chosen=self.chosen or type(self).chosen,
                         window=tidy_window(self.window))
         (x0, _), (x1, _) = window_of(state.window, state.full)

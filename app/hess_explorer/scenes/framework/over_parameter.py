@@ -29,7 +29,7 @@ from hess_mechanics.dynamics.return_map import Sheet
 from hess_mechanics.numerics.accuracy import Kind
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["BOUNDS", "OverParameter", "parameter_of_diagram", "picture"]
+__all__ = ["BOUNDS", "OverParameter", "edges", "parameter_of_diagram", "picture"]
 
 _RISING, _FALLING, _BACKWARD = "rising", "falling", "backward"
 _WAYS = {"there and back, and backward in time": (_RISING, _FALLING, _BACKWARD),
@@ -48,6 +48,15 @@ def parameter_of_diagram(symbols: tuple[str, ...], default: str) -> Any:
     """Over what the diagram is."""
     return choice("Parameter of the diagram", symbols, default,
                   doc="What changes from left to right. All others are as they stand.")
+
+
+def edges(one: float, other: float) -> tuple[float, float]:
+    """Of a diagram, the left one first; where both are one value, within their bounds a diagram of length 1."""
+    first, last = sorted((one, other))
+    if first == last:
+        first = min(first, _FARTHEST[1] - 1.0)
+        last = first + 1.0
+    return first, last
 
 
 @dataclass(frozen=True)
