@@ -348,11 +348,13 @@ def error_bounds(orbit: Orbit, found: Tube) -> Array:
     bounds = [[math.nextafter(float(max(one.high - Fraction(float(x)), Fraction(float(x)) - one.low)), math.inf)
                for x, one in zip(state, intervals, strict=True)]
               for state, intervals in zip(orbit.states, found.states, strict=False)]
-    return frozen(np.array(bounds).reshape(len(bounds), -1))
+    return frozen(np.array(bounds, float).reshape(len(bounds), orbit.states.shape[1]))
 
 
 def proved_error(orbit: Orbit, found: Tube) -> tuple[float, float]:
-    """Two bounds of the largest true error of an orbit at the times of its tube.  Raises `InvalidParameter`.
+    """Two bounds of the largest true error of an orbit at the times of its tube.
+
+    Raises `InvalidParameter`, also where the tube ends before the first of them.
 
     >>> from hess_mechanics import level, proved_error, solve, systems, tube
     >>> hess, motion = systems()["hess"], ((0.3, 0.9, 0.6, 0.0, 0.8), (0.75, 1.0), [0.5])
@@ -361,6 +363,8 @@ def proved_error(orbit: Orbit, found: Tube) -> tuple[float, float]:
     True
     """
     bounds = _errors(orbit, found)
+    if not bounds:
+        raise InvalidParameter("The tube ends before the first of its times: allow more work, or begin earlier.")
     return (math.nextafter(float(max(least for least, _ in bounds)), 0.0),
             math.nextafter(float(max(most for _, most in bounds)), math.inf))
 

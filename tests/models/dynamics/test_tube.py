@@ -103,6 +103,13 @@ def test_a_tube_ends_where_the_work_does():
     assert not found.complete
     assert found.times.tolist() == [0.1, 0.5]
     assert len(found.states) == 2
+    # Before the first of its times: nothing is proved.
+    none = tube(system, *system.example, [50.0], most_work=1e3)
+    orbit = solve(system, *system.example, [50.0], level("draft"))
+    assert error_bounds(orbit, none).shape == (0, 5)
+    assert right_until(orbit, none, 1.0) == 0.0
+    with pytest.raises(InvalidParameter, match="allow more work"):
+        proved_error(orbit, none)
 
 
 def test_what_has_no_tube_is_refused():
