@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
+from argparse import Namespace
 
 import numpy as np
 import pytest
 
 from hess_explorer.__main__ import main
+from hess_explorer.commands import CommandError
+from hess_explorer.commands.output import write
 from hess_mechanics import f_max
 from support.command_line import replaced, strict_json, table
 from support.rotation_number import iterated
@@ -158,6 +161,22 @@ def test_all_exponents_with_errors_signs_and_a_dimension(answer, capsys):
 ])
 def test_what_is_wrong_is_one_sentence(refusal, words, said):
     assert said in refusal(*words)
+
+
+@pytest.mark.parametrize("words", [
+    ["ball", "--I", "1,4,1.37e+179,0", "--D", "2", "--b", "0.3,0,1", "--t", "500"],
+    ["suslov", "--I", "1,2.5,0.6,8.23e+230", "--b=-1,-0.5,0.7", "--t", "2000", "--format", "csv"]])
+def test_no_exponent_of_a_motion_beyond_double_range_is_written(refusal, words):
+    assert "The motion left the range of double precision: choose less extreme parameters" in refusal(
+        "lyapunov", *words, "--omega", "0.5,0.9", "--gamma", "0.6,0,0.8")
+
+
+@pytest.mark.parametrize("form", ["json", "csv"])
+@pytest.mark.parametrize("column", [[1.0, math.nan], [[1.0, -math.inf], [0.0, 1.0]]])
+def test_no_column_has_a_number_that_is_none(form, column, capsys):
+    with pytest.raises(CommandError, match="rate: a number leaves the range of double precision; choose"):
+        write(Namespace(format=form, out=None), {"t": [0.0, None], "rate": column}, ("t", "rate"), {}, ())
+    assert capsys.readouterr().out == ""
 
 
 @pytest.mark.parametrize("words", [["rotation-number"], ["lyapunov"], ["lyapunov", "suslov"], ["lyapunov", "hess"]])

@@ -94,14 +94,25 @@ def _strict(value: Any) -> Any:
     return value
 
 
+def _is_number(value: Any) -> bool:
+    """Whether it is finite, or no float; of a list all that is in it."""
+    if isinstance(value, list):
+        return all(map(_is_number, value))
+    return not isinstance(value, float) or math.isfinite(value)
+
+
 def write(options: argparse.Namespace, series: Mapping[str, Sequence[Any]], columns: Sequence[str],
           facts: Mapping[str, Any], notes: Sequence[str]) -> None:
     """Write the answer in the chosen format, to the chosen place.
 
     series : columns of equal length, one row for each sample (in CSV the table, with the heading `columns`), None where
-    there is no value (null, in CSV an empty field);
-    facts : everything else.  Raises `CommandError` if the file cannot be written.
+    there is no value (null, in CSV an empty field), and no number that is none;
+    facts : everything else.  Raises `CommandError`, also if the file cannot be written.
     """
+    for name, column in series.items():
+        if not all(map(_is_number, column)):
+            raise CommandError(f"{name}: a number leaves the range of double precision; choose less extreme parameters "
+                               "or another time span.")
     strict = {key: _strict(value) for key, value in facts.items()}
     lost = [f"{key}: null stands for a number beyond the range of double precision."
             for key, value in facts.items() if strict[key] != value]

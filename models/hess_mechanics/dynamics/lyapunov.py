@@ -12,7 +12,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import MAX_STEPS
+from hess_mechanics.dynamics.orbit import (
+    MAX_STEPS,
+    checked_span,
+    require_finite_neighbours,
+    require_finite_rates,
+    require_finite_states,
+)
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import PLANS, STANDARD, Kind, Level
@@ -59,8 +65,7 @@ class Exponent(Result):
 
 def _checked(system: System, state: Sequence[float], parameters: Sequence[float], span: float) -> tuple[Problem, int]:
     """The problem, and how often neighbours return.  Raises `InvalidParameter`, `WorkLimit`."""
-    if not (math.isfinite(span) and span != 0.0):
-        raise InvalidParameter("The time span of a Lyapunov exponent must be a finite number other than 0.")
+    checked_span(span, "a Lyapunov exponent")
     problem = Problem.of(system, [state], parameters)
     returns = abs(span) / _INTERVAL * problem.nu
     if not returns <= MAX_RETURNS:
@@ -96,12 +101,20 @@ def largest_exponent(system: System, state: Sequence[float], parameters: Sequenc
             if taken == STEP_LIMIT_REACHED:
                 raise WorkLimit(f"This exponent needs more than {MAX_STEPS} steps: choose a shorter time span.")
             steps += taken
+        require_finite_states(ends[0])
         y = ends[0, 0].copy()
         away = ends[1, 0] - y
-        distance = float(np.linalg.norm(away))
+        # Unlike NumPy's norm this neither overflows nor becomes 0 on the way.
+        distance = math.hypot(*away.tolist())
+        require_finite_neighbours(np.array(distance))
+        if distance == 0.0:
+            raise InvalidParameter("A neighbour falls onto the motion, to the last digit of double precision, and has "
+                                   "no rate: choose less extreme parameters, or take all exponents, which need no "
+                                   "distance.")
         growth[i] = math.log(distance / _DISTANCE)
         neighbour = y + away * (_DISTANCE / distance)
     times = np.abs(span) * np.arange(1, count + 1) / count
     rates = np.cumsum(growth) / times
+    require_finite_rates(rates)
     later = rates[count // 2 :]
     return Exponent(frozen(times), frozen(rates), float(later.max() - later.min()))

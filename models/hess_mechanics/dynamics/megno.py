@@ -16,10 +16,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import MAX_STEPS, require_finite_states
+from hess_mechanics.dynamics.orbit import (
+    MAX_STEPS,
+    checked_span,
+    require_finite_neighbours,
+    require_finite_rates,
+    require_finite_states,
+)
 from hess_mechanics.dynamics.spectrum import batch_error, volume_sign
 from hess_mechanics.dynamics.system import Problem, System
-from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import STANDARD, Level
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.parallel import THREADS, share
@@ -82,8 +88,7 @@ def megno(system: System, states: Sequence[Sequence[float]] | Array, parameters:
     >>> megno(suslov, [state], parameters, 100.0).values.shape
     (1,)
     """
-    if not (math.isfinite(span) and span != 0.0):
-        raise InvalidParameter("The time span of an indicator must be a finite number other than 0.")
+    checked_span(span, "an indicator")
     begun = time.perf_counter()
     problem = Problem.of(system, states, parameters)
     if abs(span) * problem.nu > _SAMPLES * 100:
@@ -106,6 +111,7 @@ def megno(system: System, states: Sequence[Sequence[float]] | Array, parameters:
         if steps[i] == STEP_LIMIT_REACHED:
             raise WorkLimit(f"This indicator needs more than {MAX_STEPS} steps: choose a shorter time span.")
         require_finite_states(along)
+        require_finite_neighbours(frames, grown, volume)
         length = np.concatenate([[0.0], grown[:, 0] + np.log(np.linalg.norm(frames[:, :, 0], axis=1))])
         # ∫ s dL = tL − ∫ L ds, with sums for integrals, in units of the distance of samples.
         number = np.arange(1, samples + 1)
@@ -113,6 +119,7 @@ def megno(system: System, states: Sequence[Sequence[float]] | Array, parameters:
         y = 2.0 * (length[1:] - below / number)
         mean, error = batch_error(volume[first - 1:, None], np.abs(t[first - 1:]) / problem.nu)
         found[:, i] = y.mean(), mean[0], error[0]
+        require_finite_rates(found[:, i])
 
     def part(i: int) -> None:
         for j in range(i * _SHARE, min((i + 1) * _SHARE, count)):

@@ -15,10 +15,13 @@ from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Cost, Orbit, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
-__all__ = ["MAX_SAMPLES", "MAX_STEPS", "checked_times", "drift_of", "require_finite_states", "solve", "status_of"]
+__all__ = ["MAX_SAMPLES", "MAX_STEPS", "checked_span", "checked_times", "drift_of", "require_finite_neighbours",
+           "require_finite_rates", "require_finite_states", "solve", "status_of"]
 
 MAX_STEPS = 1_000_000
 MAX_SAMPLES = 200_000
+_SHORTEST = 1e-290
+"""Of a time span over which rates are taken: beside one of 1e-320 the round-off of a 0 leaves double range."""
 
 
 def checked_times(times: Sequence[float] | Array) -> Array:
@@ -37,10 +40,32 @@ def checked_times(times: Sequence[float] | Array) -> Array:
     return t
 
 
+def checked_span(span: float, what: str) -> float:
+    """The time span over which `what` is taken, checked.  Raises `InvalidParameter`."""
+    if not _SHORTEST <= abs(span) < math.inf:
+        raise InvalidParameter(f"The time span of {what} must be a finite number other than 0, of {_SHORTEST:g} or "
+                               "more: choose one like 100, or -100 for backwards.")
+    return span
+
+
 def require_finite_states(states: Array) -> None:
     """Raise `InvalidParameter` where a state has left double range."""
     if not np.all(np.isfinite(states)):
         raise InvalidParameter("The motion left the range of double precision: choose less extreme parameters.")
+
+
+def require_finite_neighbours(*found: Array) -> None:
+    """Raise `WorkLimit` where what is known of an orbit's neighbours has left double range."""
+    if not all(np.all(np.isfinite(one)) for one in found):
+        raise WorkLimit("Neighbours part beyond the range of double precision: choose a shorter time span, or less "
+                        "extreme parameters.")
+
+
+def require_finite_rates(*rates: Array | float) -> None:
+    """Raise `InvalidParameter` where a rate per unit of time has left double range."""
+    if not all(np.all(np.isfinite(one)) for one in rates):
+        raise InvalidParameter("Rates over this time span leave the range of double precision: choose a longer one, or "
+                               "less extreme parameters.")
 
 
 def status_of(error: float, level: Level) -> Status:

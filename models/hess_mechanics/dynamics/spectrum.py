@@ -19,10 +19,16 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from hess_mechanics.dynamics.orbit import MAX_STEPS, require_finite_states
+from hess_mechanics.dynamics.orbit import (
+    MAX_STEPS,
+    checked_span,
+    require_finite_neighbours,
+    require_finite_rates,
+    require_finite_states,
+)
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.dynamics.variation import frame_ahead, neighbours
-from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import PLANS, STANDARD, Kind, Level, Status
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.patience import go_on
@@ -199,8 +205,7 @@ def spectrum(system: System, state: Sequence[float] | Array, parameters: Sequenc
     >>> spectrum(suslov, *suslov.example, 200.0).values.shape
     (5,)
     """
-    if not (math.isfinite(span) and span != 0.0):
-        raise InvalidParameter("The time span of Lyapunov exponents must be a finite number other than 0.")
+    checked_span(span, "Lyapunov exponents")
     begun = time.perf_counter()
     problem = Problem.of(system, [state], parameters)
     y, (frame, speed) = problem.states[0], first_frame(system, problem)
@@ -218,6 +223,7 @@ def spectrum(system: System, state: Sequence[float] | Array, parameters: Sequenc
             raise WorkLimit(f"These exponents need more than {MAX_STEPS} steps: choose a shorter time span.")
         steps += taken
         require_finite_states(states)
+        require_finite_neighbours(frames, logs, traces)
         return states, frames, logs, traces
 
     for i in range(0, count, _SAMPLES):
@@ -244,6 +250,7 @@ def spectrum(system: System, state: Sequence[float] | Array, parameters: Sequenc
     floor = (level.tolerance + 1e-15) * steps / abs(span)
     order = np.argsort(-mean[:-1], kind="stable")
     rates = growth[1:, order] / times[1:, None]
+    require_finite_rates(mean, error, rates)
     worst = float(error.max()) + floor
     promise = PLANS[Kind.EXPONENT][level.name].promise * problem.nu if level.name in PLANS[Kind.EXPONENT] else worst
     number = len(system.integrals(list(state), list(parameters)))

@@ -200,8 +200,13 @@ class Problem:
         if not np.isfinite(nu):
             raise InvalidParameter("The motion is too fast for double precision: choose less extreme parameters.")
         scale = np.ones(len(system.variables))
-        scale[: system.angular_velocities] = nu * system.unit(p)
-        scaled, p = system.rescale(given.T, p, nu)
+        with np.errstate(over="ignore"):
+            scale[: system.angular_velocities] = nu * system.unit(p)
+        with np.errstate(all="ignore"):
+            scaled, p = system.rescale(given.T, p, nu)
+        if not all(np.all(np.isfinite(one)) for one in (scaled, p, scale)):
+            raise InvalidParameter("In units in which the state is of size 1 these numbers leave the range of double "
+                                   "precision: choose less extreme parameters.")
         return cls(np.ascontiguousarray(scaled.T), p, nu, scale)
 
     def times(self, t: Array) -> Array:

@@ -16,7 +16,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit import MAX_STEPS, checked_times, require_finite_states, status_of
+from hess_mechanics.dynamics.orbit import (
+    MAX_STEPS,
+    checked_times,
+    require_finite_neighbours,
+    require_finite_states,
+    status_of,
+)
 from hess_mechanics.dynamics.section import Surface, section
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
@@ -94,8 +100,7 @@ def transition_matrix(system: System, state: Sequence[float] | Array, parameters
             raise WorkLimit(f"This time span needs more than {MAX_STEPS} steps: choose a shorter one, or a cheaper "
                             "level.")
         require_finite_states(states)
-        if not np.all(np.isfinite(frames)):
-            raise WorkLimit("Neighbours part beyond the range of double precision: choose a shorter time span.")
+        require_finite_neighbours(frames, volume)
         total += steps
         return states, frames, volume
 
@@ -113,7 +118,9 @@ def transition_matrix(system: System, state: Sequence[float] | Array, parameters
             break
         current, coarse = tighter, fine
     states, frames, volume = coarse
-    matrices = problem.scale[:, None] * frames / problem.scale
+    with np.errstate(over="ignore"):
+        matrices = problem.scale[:, None] * frames / problem.scale
+    require_finite_neighbours(matrices)
     return Transition(system.name, level.name, frozen(t), frozen(states * problem.scale), frozen(matrices),
                       frozen(volume), status_of(error, level), error,
                       Cost(total, (time.perf_counter() - begun) * 1e3), system.variables)
@@ -134,10 +141,14 @@ def followed(system: System, problem: Problem, times: Array, order: int, toleran
 def frame_ahead(system: System, problem: Problem, frame: Array, slow: float) -> tuple[Array, float]:
     """Orthonormal columns (d, d), the first along the first motion, f(y), or against it, the others from a frame; |f|.
 
-    Where |f| is at most `slow`: only from the frame.
+    Where |f| is at most `slow`: only from the frame.  Raises `InvalidParameter` where it is beyond double range.
     """
-    rate = np.array(system.field(problem.states[0].tolist(), problem.parameters.tolist()), float)
-    speed = float(np.linalg.norm(rate))
+    try:
+        rate = [float(x) for x in system.field(problem.states[0].tolist(), problem.parameters.tolist())]
+    except ArithmeticError:
+        rate = [math.inf]
+    speed = math.hypot(*rate)
+    require_finite_states(np.array(speed))
     return np.linalg.qr(np.column_stack([rate, frame]) if speed > slow else frame)[0], speed
 
 
@@ -157,7 +168,9 @@ def neighbours(system: System, state: Array, frame: Array, parameters: Array, ti
         state, np.ascontiguousarray(frame[:, known:]), parameters, times, order, tolerance, most_steps, limit, states,
         frames, growth, volume)
     if known:
-        rates = np.stack(np.broadcast_arrays(*system.field(list(states.T), parameters.tolist())), axis=1)
+        # Who asked for them looks whether they are numbers.
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            rates = np.stack(np.broadcast_arrays(*system.field(list(states.T), parameters.tolist())), axis=1)
         at_first = float(frame[:, 0] @ system.field(state.tolist(), parameters.tolist()))
         frames = np.concatenate([(rates / at_first)[:, :, None], frames], axis=2)
         growth = np.concatenate([np.zeros((times.size, 1)), growth], axis=1)

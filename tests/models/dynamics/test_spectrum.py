@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from hess_mechanics import System, largest_exponent, megno, spectrum, systems
+from hess_mechanics import System, largest_exponent, megno, spectrum, systems, transition_matrix
 from hess_mechanics.dynamics.spectrum import kaplan_yorke
+from hess_mechanics.dynamics.system import Problem
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.euler_poisson.andoyer import state_at
 from hess_mechanics.euler_poisson.equations import HeavyBody
@@ -181,6 +183,46 @@ def test_a_span_that_is_none_or_too_long_is_refused(find):
         find(SUSLOV, *SUSLOV.example, 1e300)
 
 
+@pytest.mark.parametrize("span", [1e-320, -5e-324])
+@pytest.mark.parametrize("find", [spectrum, largest_exponent, lambda system, y, p, span: megno(system, [y], p, span)])
+def test_beside_no_time_at_all_there_is_no_rate(find, span):
+    # A round-off of 1e-16 over 1e-320 is beyond double range.
+    with pytest.raises(InvalidParameter, match="of 1e-290 or more: choose one like 100"):
+        find(SUSLOV, *SUSLOV.example, span)
+
+
+EXTREME = [("ball", (1.0, 4.0, 1.37e179, 0.0, 2.0, 0.3, 0.0, 1.0), (0.5, 0.9, 0.6, 0.0, 0.8)),
+           ("suslov", (1.0, 2.5, 0.6, 8.23e230, -1.0, -0.5, 0.7), (0.5, 1.2, 0.6, 0.0, 0.8))]
+"""I13² or I23² is beyond double range: of the motion no digit is left."""
+
+
+@pytest.mark.parametrize(("name", "parameters", "state"), EXTREME, ids=[name for name, _, _ in EXTREME])
+@pytest.mark.parametrize("find", [
+    largest_exponent, lambda *given: spectrum(*given, DRAFT),
+    lambda system, y, p, t: megno(system, [y], p, t, DRAFT, 1), lambda *given: transition_matrix(*given, DRAFT)])
+def test_of_a_motion_beyond_double_range_there_is_a_sentence_and_no_number(find, name, parameters, state):
+    with pytest.raises(InvalidParameter, match="left the range of double precision: choose less extreme parameters"):
+        find(systems()[name], state, parameters, 50.0)
+
+
+GROWS = a_system(lambda y, p: (p[0] * y[0],), "growth of a test", 1, ((0.0,), (0.3,)))
+
+
+def test_a_neighbour_that_falls_onto_the_motion_is_refused():
+    # As e^(−1000 t): next to 1 nothing is left of it.
+    falls = a_system(lambda y, p: (p[0] * (y[0] - 1.0),), "fall of a test", 1, ((1.0,), (-1000.0,)))
+    with pytest.raises(InvalidParameter, match="take all exponents, which need no distance"):
+        largest_exponent(falls, *falls.example, 4.0, REFERENCE)
+    assert spectrum(falls, *falls.example, 4.0).values[0] == pytest.approx(-1000.0, rel=1e-6)
+
+
+def test_numbers_that_are_beyond_double_range_in_units_of_the_motion_are_refused():
+    # p/ν is infinite.
+    slow = replace(GROWS, rescale=lambda y, p, nu: (y, p / nu), frequency=lambda y, p: 1e-310)
+    with pytest.raises(InvalidParameter, match="leave the range of double precision: choose less extreme"):
+        Problem.of(slow, [(0.0,)], (0.3,))
+
+
 # ---- MEGNO ------------------------------------------------------------------------------------------------------
 
 
@@ -202,7 +244,6 @@ def test_megno_tells_regular_motions_from_chaotic_ones_and_from_those_that_are_a
 
 def test_megno_of_uniform_growth_is_known():
     # δ ∝ e^(λt): Y = λt, Ȳ = λt/2.  δ ∝ t: Y → 2.
-    grows = a_system(lambda y, p: (p[0] * y[0],), "growth of a test", 1, ((0.0,), (0.3,)))
-    assert megno(grows, [(0.0,)], (0.3,), 100.0).values[0] == pytest.approx(0.3 * 100.0 / 2.0, rel=1e-2)
+    assert megno(GROWS, [(0.0,)], (0.3,), 100.0).values[0] == pytest.approx(0.3 * 100.0 / 2.0, rel=1e-2)
     shears = a_system(lambda y, p: (y[1] * p[0], 0.0 * y[0]), "shear of a test", 2, ((0.0, 1.0), (1.0,)))
     assert megno(shears, [(0.0, 1.0)], (1.0,), 1000.0).values[0] == pytest.approx(2.0, abs=0.1)
