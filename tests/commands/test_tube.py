@@ -28,6 +28,18 @@ def test_a_motion_is_enclosed_and_its_orbit_judged(answer):
     assert found["orbit"]["right_until"] == (0.0 if high > 1e-12 else 1.0)
 
 
+def test_a_tube_that_takes_too_much_work_ends_early_and_says_what_to_do(answer, refusal):
+    # a = 187: neighbours part as e^(190 t), which takes hundreds of bits.
+    hard = ("tube", "hess", "--start", "0.3,1.42,-0.6,0,0.8", "--parameters", "187,1", "--seconds", "0.2", "--t")
+    found = answer(*hard, "0.1,2")
+    assert [row["t"] for row in found["tube"]] == [0.1]
+    assert not found["complete"]
+    assert found["notes"] == ["Enclosed up to t = 0.1 of 2: 0.2 s of work are allowed. Ask for fewer digits or a "
+                              "shorter time, or allow more with --seconds."]
+    assert "None of these times is enclosed: 0.2 s of work are allowed" in refusal(*hard, "2")
+    assert "--seconds 0: choose a number above 0" in refusal(*hard, "2", "--seconds", "0")
+
+
 def test_the_example_of_the_help_works(answer, example):
     found = answer(*example("tube"))
     assert found["orbit"]["right_until"] == 2.0

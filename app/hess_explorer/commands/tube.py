@@ -5,9 +5,13 @@ from __future__ import annotations
 import argparse
 import json
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from .arguments import integer, number, samples
 from .output import computing, show, write_file
+
+if TYPE_CHECKING:
+    from hess_mechanics import Tube
 
 __all__ = ["add"]
 
@@ -33,8 +37,22 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
                         help="of the orbit that is judged (default: standard)")
     parser.add_argument("--right-to", type=number, default=1e-6, metavar="ERROR",
                         help="the error up to which the orbit counts as right (default: 1e-6)")
+    parser.add_argument("--seconds", type=number, default=4.0, metavar="S",
+                        help="work allowed, in seconds of an ordinary core; it is counted, not timed, so the answer is "
+                             "the same everywhere (default: 4)")
     parser.add_argument("--out", type=Path, metavar="FILE", help="write to this file instead of standard output")
     parser.set_defaults(run=_run)
+
+
+def _shorter(found: Tube, end: float, seconds: float) -> str:
+    """Why a tube ends before its last time, and what to do."""
+    there = (f"Enclosed up to t = {found.times[-1]:g} of {end:g}" if found.times.size else
+             "None of these times is enclosed")
+    if found.spent:
+        return (f"{there}: {seconds:g} s of work are allowed. Ask for fewer digits or a shorter time, or allow more "
+                "with --seconds.")
+    return (f"{there}: from there on no step of it can be enclosed. Ask for fewer digits, a shorter time or less "
+            "extreme parameters.")
 
 
 def _numbers(text: str) -> tuple[float, ...]:
@@ -44,25 +62,31 @@ def _numbers(text: str) -> tuple[float, ...]:
 def _run(options: argparse.Namespace) -> None:
     with computing():
         from hess_mechanics import level, proved_error, right_until, solve, systems, tube
-        from hess_mechanics.errors import InvalidParameter
+        from hess_mechanics.dynamics.tube import WORK_PER_SECOND
+        from hess_mechanics.errors import InvalidParameter, WorkLimit
 
         known = systems()
         if options.system not in known:
             raise InvalidParameter(f"There is no system {options.system[:40]!r}: choose one of {', '.join(known)}.")
+        if not options.seconds > 0.0:
+            raise InvalidParameter(f"--seconds {options.seconds:g}: choose a number above 0.")
         system = known[options.system]
-        found = tube(system, options.start, options.parameters, options.t, options.digits)
-        judged = None
-        if found.times.size:
-            orbit = solve(system, options.start, options.parameters, found.times, level(options.accuracy))
-            judged = {"accuracy": options.accuracy, "error_estimate": orbit.error_estimate,
-                      "proved_error": list(proved_error(orbit, found)), "right_to": options.right_to,
-                      "right_until": right_until(orbit, found, options.right_to)}
+        found = tube(system, options.start, options.parameters, options.t, options.digits,
+                     options.seconds * WORK_PER_SECOND)
+        notes = [] if found.complete else [_shorter(found, options.t[-1], options.seconds)]
+        if not found.times.size:
+            raise WorkLimit(notes[0])
+        orbit = solve(system, options.start, options.parameters, found.times, level(options.accuracy))
+        judged = {"accuracy": options.accuracy, "error_estimate": orbit.error_estimate,
+                  "proved_error": list(proved_error(orbit, found)), "right_to": options.right_to,
+                  "right_until": right_until(orbit, found, options.right_to)}
     text = json.dumps({
         "system": system.name, "variables": list(system.variables), "start": list(options.start),
         "parameters": list(options.parameters), "complete": found.complete,
         "tube": [{"t": t, "state": [list(one.decimals(options.digits + 3)) for one in state]}
                  for t, state in zip(found.times.tolist(), found.states, strict=True)],
         "orbit": judged, "steps": found.steps, "bits": found.bits, "seconds": round(found.seconds, 3),
+        "notes": notes,
     }, ensure_ascii=False, allow_nan=False, indent=1)
     data = f"{text}\n".encode()
     if options.out is not None:

@@ -112,6 +112,35 @@ def test_a_tube_ends_where_the_work_does():
         proved_error(orbit, none)
 
 
+def test_work_is_counted_and_more_of_it_goes_farther():
+    system = systems()["hess"]
+    motion = system, (0.3, 1.42, -0.6, 0.0, 0.8), (187.0, 1.0), np.linspace(0.05, 2.0, 40)
+    short, again, longer = (tube(*motion, most_work=work) for work in (3e4, 3e4, 1e5))
+    assert short.spent
+    assert longer.spent
+    assert short.times.tolist() == again.times.tolist()
+    assert 0 < short.times.size < longer.times.size < 40
+    assert not tube(*motion[:3], [0.05]).spent
+    # Each of many times in one step costs something too.
+    many = tube(system, *system.example, np.linspace(0.0, 0.1, 2000), most_work=1e4)
+    assert many.spent
+    assert 100 < many.times.size < 1000
+
+
+@pytest.mark.parametrize("digits", [40, 100])
+def test_many_digits_are_found_within_the_first_step_too(digits):
+    system = systems()["hess"]
+    found = tube(system, *system.example, [0.01], digits)
+    assert found.complete
+    assert found.width < 10.0 ** -digits
+    with mpmath.workdps(digits + 10):
+        start, p = ([mpmath.mpf(x) for x in some] for some in system.example)
+        known = mpmath.odefun(lambda _, y: system.field(y, p), 0, start)(mpmath.mpf(0.01))
+        for x, one in zip(known, found.states[0], strict=True):
+            value, slack = Fraction(mpmath.nstr(x, digits + 8)), Fraction(1, 10 ** (digits + 3))
+            assert one.low - slack <= value <= one.high + slack
+
+
 def test_what_has_no_tube_is_refused():
     system = systems()["hess"]
     for words, said in ((([0.1, -0.1],), "away from 0"), (([1.0], 0), "choose 1 to 100")):
