@@ -50,5 +50,5 @@ def _value(spec: Spec, value: Value) -> str:
     if isinstance(spec, Number):
         return repr(float(value))
     if isinstance(spec, Places):
-        return repr(places(value)).replace(" ", "") if value else ""
+        return repr(places(value)).replace(" ", "") if value or spec.default else ""
     return f'"{value}"'

@@ -25,8 +25,9 @@ __all__ = ["STYLE", "as_file", "as_it_is", "draw", "draw_moving", "draw_still", 
 
 _DOTS_PER_INCH = 300
 STYLE: Mapping[str, Any] = {
-    "font.size": 9.0, "axes.linewidth": 0.6, "svg.fonttype": "none", "pdf.fonttype": 42,
-    "svg.hashsalt": "hess-explorer", "mathtext.fontset": "dejavusans"}
+    # The one without 𝒟 falls back on the other.
+    "font.family": ["DejaVu Sans", "STIXGeneral"], "font.size": 9.0, "axes.linewidth": 0.6,
+    "svg.fonttype": "none", "pdf.fonttype": 42, "svg.hashsalt": "hess-explorer", "mathtext.fontset": "dejavusans"}
 
 
 def as_file(shown: Shown, kind: str, width: float = 85.0, black: bool = False) -> bytes:

@@ -185,8 +185,8 @@ def _of(sets: Sets | None, which: str) -> Array:
 
 def _few(found: Array) -> Array | None:
     """Places (2, m) that would hardly be seen as dots; None of more."""
-    kept = np.unique(np.round(found, 4), axis=0)
-    return kept.T if 0 < len(kept) <= _MANY else None
+    _, first = np.unique(np.round(found, 4), axis=0, return_index=True)
+    return found[first].T if 0 < len(first) <= _MANY else None
 
 
 def pictures(state: type[Attracted], ball: bool = False) -> tuple[Any, ...]:
