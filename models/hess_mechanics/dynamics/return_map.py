@@ -229,6 +229,7 @@ class ReturnMap:
 
     def _crossing(self, start: Array, count: int) -> tuple[Problem, float, Array]:
         """The problem in its own units, time and state (d,) of the crossing of this number from a state."""
+        go_on()
         sheet = self.sheet
         problem = Problem.of(sheet.system, [start], sheet.parameters)
         cross, normal, offset = sheet.surface.scaled(sheet.system, problem)

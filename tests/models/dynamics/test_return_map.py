@@ -22,10 +22,11 @@ from hess_mechanics import (
     return_map,
 )
 from hess_mechanics.dynamics.manifolds import split
-from hess_mechanics.dynamics.periodic import find_periodic
+from hess_mechanics.dynamics.periodic import find_periodic, shoot
 from hess_mechanics.errors import InvalidParameter, NotConverged, OutsideRegion
 from hess_mechanics.euler_poisson.andoyer import hess_curve
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
+from hess_mechanics.numerics.patience import limited_by
 from hess_mechanics.suslov.quartic import state_on_section
 from hess_mechanics.suslov.section import invariant_density
 from hess_mechanics.suslov_hess.mode_locking import critical_a, lock_boundary_f
@@ -193,3 +194,14 @@ def test_what_a_body_does_not_have_is_refused():
         P.image((0.3, 4.0))
     with pytest.raises(NotConverged):
         periodic_orbit(P, (0.3, 4.0), 1)
+
+
+def test_who_asks_is_asked_at_every_crossing_whether_to_go_on():
+    body, fixed, place = CASES[0]
+    map_ = return_map(body, **fixed)
+    orbit = np.concatenate([[place], map_.orbit(np.array(place), 5)])
+    asked = []
+    # At an extreme body one crossing may take a second, and Newton's method takes as many as the period at each step.
+    with limited_by(lambda: asked.append(1), lambda seconds: None):
+        shoot(map_, orbit)
+    assert len(asked) >= 6
