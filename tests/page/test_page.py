@@ -90,9 +90,9 @@ def test_the_newest_of_fifty_changes_wins_and_none_arrives_later(explorer, pause
         }}""", [values.tolist(), pause_ms])
     wait_ready(explorer.page, after=at_the_end)
     painted = explorer.state
-    # Of what came while a state was on its way only the newest is asked for, and once more what is proved of it.
-    assert painted - at_the_end <= 3
-    assert pause_ms > 0 or painted - before <= 3
+    # Of what came while a state was on its way only the newest is asked for; what is computed later comes in pieces.
+    assert painted - at_the_end <= 6
+    assert pause_ms > 0 or painted - before <= 6
     assert_orbit(explorer, {**DEFAULTS, "h": 2.0})
     assert explorer.shown("h") == (2.0, 2.0)
     # Whatever were still under way would be painted before the answer to this.
