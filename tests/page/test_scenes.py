@@ -303,7 +303,7 @@ def test_ten_changes_in_quick_succession_leave_one_scene_and_nothing_of_the_othe
     (x, y), (wide, high) = at(explorer, "bifurcation", 0.5, 0.4)
     before = explorer.state
     explorer.change(explorer.page.mouse.click, x, y)
-    # On its way the mouse asks what is under it, and what is computed later comes in pieces: one by one on a busy machine.
+    # On its way the mouse asks what is under it; what is computed later comes in pieces, one by one on a busy machine.
     assert before < explorer.state <= before + 6
     assert explorer.here() == (pytest.approx(0.5, abs=wide), pytest.approx(0.4, abs=high))
 
