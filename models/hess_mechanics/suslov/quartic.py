@@ -69,9 +69,10 @@ class QuarticBody:
                 f"No motion has the energy h = {self.h:g}: choose h above −|b3| = {-abs(self.b3):.6g}.")
         smallest, largest = sorted(self.axes)
         if not 1.0 / _MOST_SIZE <= smallest <= largest <= _MOST_SIZE:
+            sizes = " and ".join(f"{one:.2g}" if math.isfinite(one) else "beyond 1e308" for one in self.axes)
             raise InvalidParameter(
-                f"The region in the plane has half axes {self.axes[0]:.2g} and {self.axes[1]:.2g}, which no "
-                "picture can show: choose h, b3 and the moments of inertia less different in size.")
+                f"The region in the plane has half axes {sizes}, which no picture can show: choose h, b3 and the "
+                "moments of inertia less different in size.")
 
     @property
     def system(self) -> System:

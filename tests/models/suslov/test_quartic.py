@@ -209,6 +209,8 @@ def test_what_is_no_motion_is_refused_in_words():
         QuarticBody(1.0, 1.0, 1.0, math.nan)
     with pytest.raises(InvalidParameter, match="no picture can show"):
         QuarticBody(1.0, 1.0, 1e-155, 1.0)
+    with pytest.raises(InvalidParameter, match="half axes beyond 1e308 and beyond 1e308, which no picture can show"):
+        QuarticBody(1.0, 1.0, 1e-320, 1000.0)
     body = QuarticBody(1.0, 1.0, 1.0, 2.0)
     with pytest.raises(OutsideRegion, match=r"above the level ½: .* Choose a start that is not grey"):
         state_at(body, (5.0, 0.0), 0.0)
