@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import argparse
 import asyncio
+import gc
 import os
 import random
 import statistics
@@ -198,6 +199,8 @@ def main():
     parser.add_argument("--workers", type=int, nargs="+", default=[1], help="processes that serve, one table for each")
     parser.add_argument("--write", action="store_true", help="keep what is printed in the README of the server")
     options = parser.parse_args()
+    # The visitors stand for two hundred browsers, which do not stop all at once to look for garbage.
+    gc.disable()
     kept, before = [], os.getloadavg()[0]
     for workers in options.workers if options.counts else ():
         kept += [f"Served by {workers} process{'es' * (workers > 1)}:", ""]

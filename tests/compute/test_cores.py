@@ -64,6 +64,20 @@ def test_under_any_load_it_goes_on():
     end.set()
 
 
+def test_processes_share_the_cores_and_fill_no_more_than_their_share():
+    cores = Cores(4)
+    cores.shared_by(3)
+    assert cores.count == 1
+    first, end_first, _ = filling(cores)
+    waited(first)
+    # However long it has waited.
+    second, end_second, _ = filling(cores, patience=0.01)
+    assert not second.wait(0.1)
+    end_first.set()
+    waited(second)
+    end_second.set()
+
+
 def test_pieces_of_one_session_wait_while_others_are_answered():
     go, computed = threading.Event(), threading.Event()
     busy = [threading.Event() for _ in range(THREADS)]

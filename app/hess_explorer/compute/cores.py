@@ -23,6 +23,12 @@ class Cores:
         self._answering, self._filling = 0, 0
         self._free = threading.Condition()
 
+    def shared_by(self, processes: int) -> None:
+        """Of the cores each of so many processes has its share, and at least one."""
+        with self._free:
+            self.count = max(1, self.count // processes)
+            self._free.notify_all()
+
     def answer(self, begins: bool) -> None:
         """A session that somebody waits for has something to do, or nothing any more."""
         with self._free:
@@ -31,9 +37,13 @@ class Cores:
 
     @contextmanager
     def fill(self, patience: float = PATIENCE) -> Iterator[None]:
-        """Inside, one core computes what nobody waits for; one that is left is waited for as long as that."""
+        """Inside, one core computes what nobody waits for; one that is left is waited for as long as that.
+
+        Never more than there are cores.
+        """
         with self._free:
             self._free.wait_for(lambda: self._answering + self._filling < self.count, patience)
+            self._free.wait_for(lambda: self._filling < self.count)
             self._filling += 1
         try:
             yield

@@ -18,11 +18,13 @@ from tornado.web import RequestHandler
 from tornado.websocket import WebSocketClosedError
 
 from hess_explorer.compute.cache import CACHE
+from hess_explorer.compute.cores import CORES
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.page import page
 from hess_explorer.server.capacity import Capacity
 from hess_explorer.server.ending import Workers, end_on_signals, leave
 from hess_explorer.server.export import Export
+from hess_explorer.server.garbage import GARBAGE
 from hess_explorer.server.headers import guard
 from hess_explorer.server.limits import MESSAGE_LIMIT, THERE
 from hess_explorer.server.line import Line
@@ -82,6 +84,7 @@ def _page(lesson: Lesson | None, capacity: Capacity) -> Any:
     document = pn.state.curdoc
     if document is not None:
         document.add_next_tick_callback(lambda: _own_styles(document))
+    pn.state.on_session_destroyed(GARBAGE.page_gone)
     return page(lesson)
 
 
@@ -143,8 +146,11 @@ def serve(port: int, address: str, show: bool, origins: Sequence[str], ready: Ca
         # One worker says that the explorer is ready, and none outlives the process that began.
         ready = ready if task_id() == 0 else lambda: None
         together.end_together(server.io_loop)
+        CORES.shared_by(workers)
     # Kernels are compiled while the browser loads the page.
     threading.Thread(target=_prepare, args=(address, port, ready), name="warm", daemon=True).start()
+    threading.Thread(target=GARBAGE.collect_when_quiet, args=(lambda: CACHE.asked, threading.Event()), name="garbage",
+                     daemon=True).start()
     server.start()
     server.io_loop.start()
     leave(server)
