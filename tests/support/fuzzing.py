@@ -104,11 +104,13 @@ def _watched(findings, given, budget=True):
     heard, logger = _Heard(), logging.getLogger("hess_explorer")
     logger.addHandler(heard)
     propagate, logger.propagate = logger.propagate, False
-    # What this process works: others may keep the machine busy.  A kernel is compiled once, and apart.
+    # What is worked: others may keep the machine busy.  A kernel is compiled once, and apart; so are pieces that are
+    # filled in behind an answer, and have limits of their own.
     start = time.process_time() - seconds_compiling()
+    spent = None
     try:
         # A session answers within this budget.
-        with warnings.catch_warnings(record=True) as caught, limited(Event()) if budget else nullcontext():
+        with warnings.catch_warnings(record=True) as caught, limited(Event()) if budget else nullcontext() as spent:
             warnings.simplefilter("always")
             # What an earlier test has left open is found by the collector at any time.
             warnings.simplefilter("ignore", ResourceWarning)
@@ -122,7 +124,8 @@ def _watched(findings, given, budget=True):
             at = at.tb_next
         findings.found("raised", given, f"{at.tb_frame.f_code.co_filename}:{at.tb_lineno} {error!r}"[:400])
     finally:
-        findings.timed(max(0.0, time.process_time() - seconds_compiling() - start), given)
+        whole = max(0.0, time.process_time() - seconds_compiling() - start)
+        findings.timed(whole if spent is None else spent.spent, given)
         logger.removeHandler(heard)
         logger.propagate = propagate
     for said in heard.said:
