@@ -12,8 +12,9 @@ from scipy.integrate import solve_ivp
 
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.scenes import scenes
-from hess_mechanics import check_body, largest_exponent, level, solve, spectrum, systems
+from hess_mechanics import ReturnMap, check_body, largest_exponent, level, solve, spectrum, systems
 from hess_mechanics.chaplygin_ball.section import coordinates, state_at
+from hess_mechanics.dynamics.orbit_diagram import period_of
 from hess_mechanics.numerics.accuracy import PLANS, Kind
 from support.ball import energy_of, integrate, rates
 from support.view import View
@@ -95,6 +96,14 @@ def test_where_periods_double_along_the_ball_inside_another_integrator_finds_the
     # With 𝒟 = 1.5 it is of period 4: a small drift of the energy does not hide that, not even a larger one.
     for said in (captions, complete("Period doubling", ("section",), accuracy="draft", steps=2.0)[1]):
         assert said["section"].split("\n")[-1].startswith("Motion: period 4, div = −0.07")
+
+
+@pytest.mark.parametrize(("D", "period"), [(1.4, 8), (1.43, 4), (1.44, 4), (1.45, 4), (1.59, 2), (1.6, 2), (1.7, 2)])
+def test_near_a_doubling_the_period_is_that_of_its_side(D, period):
+    # What disturbs an orbit dies out slowly there, in turns to either side, and made it look twice as long, or endless.
+    state = SCENE.compute({**SCENE.defaults(), "D": D}, (), True)
+    map_ = ReturnMap(state.section, level("standard"))
+    assert period_of(map_.turns, map_.orbit(np.array(state.place), 700)[500:], map_.promise) == (period, True)
 
 
 def test_the_orbit_of_period_one_doubles_first_and_goes_on_as_a_saddle():

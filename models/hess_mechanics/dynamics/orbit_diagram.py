@@ -33,8 +33,8 @@ __all__ = [
 MAX_VALUES, MAX_CROSSINGS = 2000, 20_000
 COMPARED = 16
 """Places of two sets from which on they are told apart."""
-_SAME = 1e-5
-"""Places closer than this are one of a periodic orbit."""
+_SAME = 1e-4
+"""Places closer than this are one of a periodic orbit: near a doubling, small errors die out slowly."""
 _PROMISES = 3.0
 """Nor can those be told apart that differ by so many errors of the map: a long orbit is brought back to its integrals
 now and then, and moves by some errors then."""
