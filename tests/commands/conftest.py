@@ -5,7 +5,14 @@ from __future__ import annotations
 import pytest
 
 from hess_explorer.__main__ import main
+from hess_explorer.commands import output
 from support.command_line import strict_json
+
+
+@pytest.fixture(autouse=True)
+def no_patience(monkeypatch):
+    """Nothing is said of how long it takes: kernels are compiled the first time."""
+    monkeypatch.setattr(output, "LONG", 1e6)
 
 
 @pytest.fixture

@@ -10,10 +10,12 @@ import signal
 import socket
 import subprocess
 import sys
+import threading
+import time
 import types
 import webbrowser
 from contextlib import nullcontext
-from io import BytesIO
+from io import BytesIO, StringIO
 from urllib.request import urlopen
 
 import numpy as np
@@ -23,11 +25,13 @@ from scipy.integrate import solve_ivp
 
 import hess_explorer.headless.screenshot
 from hess_explorer.__main__ import main
+from hess_explorer.commands import CommandError, output
 from hess_explorer.headless.browser import BrowserError
 from hess_explorer.headless.screenshot import running_server
 from hess_mechanics.dynamics.orbit import MAX_SAMPLES
+from hess_mechanics.errors import InvalidParameter
 from support.andoyer import GESS1, crossings_by_scipy, start_by_hand
-from support.command_line import replaced, run, strict_json, table
+from support.command_line import replaced, run, strict_json, table, without_patience
 from support.kernels import copy_kernels
 from support.mechanics import ROOT
 from support.processes import interruptible
@@ -251,6 +255,37 @@ def test_refusals(refusal, words, part):
     assert part in refusal(*words)
 
 
+@pytest.mark.parametrize("seconds", [0.0, 1000.0])
+def test_a_command_that_takes_long_says_so_and_how_it_is_ended(monkeypatch, capsys, seconds):
+    monkeypatch.setattr(output, "LONG", seconds)
+    with output.computing():
+        # As something that is computed; the sentence comes meanwhile, or not at all.
+        time.sleep(0.2)
+    said = capsys.readouterr()
+    assert (said.out, said.err) == ("", "" if seconds else "Still computing; Ctrl-C ends it.\n")
+    assert "patience" not in [thread.name for thread in threading.enumerate()]
+
+
+def test_in_a_terminal_it_counts_and_leaves_nothing(monkeypatch):
+    class Terminal(StringIO):
+        def isatty(self):
+            return True
+
+    monkeypatch.setattr(output, "LONG", 0.01)
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    with pytest.raises(CommandError), output.computing():
+        time.sleep(0.2)
+        raise InvalidParameter("Too large.")
+    said = sys.stderr.getvalue()
+    assert said.startswith("\rStill computing; Ctrl-C ends it. 0 s")
+    assert said.endswith("\r\x1b[K"), "the line is not cleared"
+
+
+def test_a_quick_command_says_nothing_else(capsys):
+    assert main(CIRCLE_MAP) == 0
+    assert capsys.readouterr().err == ""
+
+
 @pytest.mark.parametrize("where", ["missing/orbit.json", "."])
 def test_unwritable_file(refusal, tmp_path, where):
     assert "choose another file" in refusal(*HESS, "--out", str(tmp_path / where))
@@ -259,8 +294,9 @@ def test_unwritable_file(refusal, tmp_path, where):
 def test_process_ends_with_code_2_and_one_sentence():
     done = run(*replaced(CIRCLE_MAP, "--h", "-2"))
     assert (done.returncode, done.stdout) == (2, b"")
-    assert done.stderr.decode().startswith("hess-explorer: h = -2 ")
-    assert done.stderr.count(b"\n") == 1
+    said = without_patience(done.stderr)
+    assert said.decode().startswith("hess-explorer: h = -2 ")
+    assert said.count(b"\n") == 1
 
 
 def test_a_reader_that_has_seen_enough_is_no_error():
@@ -269,7 +305,7 @@ def test_a_reader_that_has_seen_enough_is_no_error():
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
         assert process.stdout.readline().startswith(b"# variables")
         process.stdout.close()
-        assert process.stderr.read() == b""
+        assert without_patience(process.stderr.read()) == b""
     assert process.returncode == 0
 
 
@@ -281,7 +317,7 @@ def test_commands_do_not_wait_for_what_they_do_not_use():
         "assert not {'panel', 'bokeh', 'holoviews', 'playwright'} & set(sys.modules)"
     )
     done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, timeout=120, check=False)
-    assert (done.returncode, done.stderr) == (0, b"")
+    assert (done.returncode, without_patience(done.stderr)) == (0, b"")
     assert strict_json(done.stdout)["theta"] == pytest.approx(THETA, abs=1e-12)
 
 

@@ -7,6 +7,7 @@ import json
 import subprocess
 import sys
 
+from hess_explorer.commands.output import PATIENCE
 from support.mechanics import ROOT
 
 
@@ -21,6 +22,11 @@ def strict_json(text):
 def run(*words):
     command = [sys.executable, "-m", "hess_explorer", *words]
     return subprocess.run(command, cwd=ROOT, capture_output=True, timeout=120, check=False)
+
+
+def without_patience(said):
+    """What a process says (bytes) but for the sentence that it takes long, as where kernels are compiled."""
+    return said.replace(f"{PATIENCE}\n".encode(), b"")
 
 
 def replaced(words, option, value):

@@ -21,6 +21,7 @@ from urllib.parse import quote, urlencode
 import numpy as np
 
 from hess_explorer.__main__ import _parser, main
+from hess_explorer.commands.output import PATIENCE
 from hess_explorer.compute.background import in_turns
 from hess_explorer.compute.budget import limited
 from hess_explorer.page.charts import Charts
@@ -38,6 +39,8 @@ __all__ = ["Findings", "fuzz_commands", "fuzz_links", "fuzz_messages"]
 
 STALL = 5.0
 """Seconds of the processor after which an answer counts as a stall."""
+LONGEST = 60.0
+"""The same for a command that has said that it goes on and how it is ended."""
 
 GARBAGE = (
     "", "nan", "inf", "-inf", "1e400", "-1e308", "1e-320", "-0", "0x10", "1_0", "٣", "NaN,1",
@@ -65,10 +68,10 @@ class Findings:
             if self.tell is not None:
                 self.tell(f"{self.done} {kind}: {given}\n        {detail}")
 
-    def timed(self, seconds, given):
+    def timed(self, seconds, given, told=False):
         self.done += 1
         self.seconds.append(seconds)
-        if seconds > STALL:
+        if seconds > (LONGEST if told else STALL):
             self.found("stall", given, f"{seconds:.1f} s")
 
     @property
@@ -99,8 +102,8 @@ class _Heard(logging.Handler):
 
 
 @contextmanager
-def _watched(findings, given, budget=True):
-    """Count what is raised, warned of and logged meanwhile, and the time it takes."""
+def _watched(findings, given, budget=True, told=lambda: False):
+    """Count what is raised, warned of and logged meanwhile, and the time it takes; told : whether it said so."""
     heard, logger = _Heard(), logging.getLogger("hess_explorer")
     logger.addHandler(heard)
     propagate, logger.propagate = logger.propagate, False
@@ -125,7 +128,7 @@ def _watched(findings, given, budget=True):
         findings.found("raised", given, f"{at.tb_frame.f_code.co_filename}:{at.tb_lineno} {error!r}"[:400])
     finally:
         whole = max(0.0, time.process_time() - seconds_compiling() - start)
-        findings.timed(whole if spent is None else spent.spent, given)
+        findings.timed(whole if spent is None else spent.spent, given, told())
         logger.removeHandler(heard)
         logger.propagate = propagate
     for said in heard.said:
@@ -449,12 +452,13 @@ def _fuzz_commands(random, count):
         words = command_line(random, examples)
         given, out, err = shlex.join(words), io.TextIOWrapper(io.BytesIO(), encoding="utf-8"), io.StringIO()
         code = None
-        with _watched(findings, given, budget=False), redirect_stdout(out), redirect_stderr(err):
+        with (_watched(findings, given, False, lambda err=err: PATIENCE in err.getvalue()), redirect_stdout(out),
+              redirect_stderr(err)):
             try:
                 code = main(words)
             except SystemExit as end:
                 code = end.code
-        said = err.getvalue()
+        said = err.getvalue().replace(f"{PATIENCE}\n", "")
         if code not in (0, 2) or "Traceback" in said or (code == 2) != said.startswith("hess-explorer: "):
             findings.found("exit", given, f"{code} {said[-300:]}")
         out.flush()

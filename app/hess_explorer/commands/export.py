@@ -74,6 +74,7 @@ def _picture(options: argparse.Namespace) -> bytes:
 def _run(options: argparse.Namespace) -> None:
     if options.out is None and options.format not in _TEXTS:
         raise CommandError(f"{options.format.upper()} is no text: name a file with --out FILE.")
-    with computing():
+    # A film shows its own progress.
+    with computing(told=options.format in holding("film")):
         data = _page(options) if options.format == "html" else _picture(options)
     show(data, options.out)

@@ -7,8 +7,10 @@ import json
 import math
 import os
 import sys
+import threading
+import time
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,8 +23,12 @@ if TYPE_CHECKING:
     from hess_mechanics.chaplygin_ball.phase_cloud import Cloud
     from hess_mechanics.suslov.scattering import Scattering
 
-__all__ = ["add_options", "add_picture", "add_state", "computing", "quality", "show", "whether_body", "write",
-           "write_file"]
+__all__ = ["LONG", "PATIENCE", "add_options", "add_picture", "add_state", "computing", "quality", "show",
+           "whether_body", "write", "write_file"]
+
+LONG = 2.0
+"""Seconds after which a command says that it goes on."""
+PATIENCE = "Still computing; Ctrl-C ends it."
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -53,21 +59,51 @@ def _add_out(parser: argparse.ArgumentParser) -> None:
 
 
 @contextmanager
-def computing() -> Iterator[None]:
-    """Turn an error of the mechanics into a `CommandError`."""
+def computing(told: bool = False) -> Iterator[None]:
+    """Turn an error of the mechanics into a `CommandError`, and say on standard error when it takes long.
+
+    told : how far it is is said already.
+    """
     import numpy as np
 
     from hess_mechanics import ModelError
 
     try:
         # The mechanics check their results for overflow themselves: NumPy's warnings would only be noise.
-        with np.errstate(all="ignore"):
+        with np.errstate(all="ignore"), nullcontext() if told else _patience():
             yield
     except ModelError as error:
         raise CommandError(str(error)) from error
     except ArithmeticError as error:
         # Plain Python arithmetic overflows with an exception where NumPy's gives ∞.
         raise CommandError("These numbers leave the range of double precision; choose less extreme ones.") from error
+
+
+@contextmanager
+def _patience() -> Iterator[None]:
+    """Say after a while that it goes on and how it is ended; in a terminal with the seconds, and not for good."""
+    done, seen, begun = threading.Event(), sys.stderr.isatty(), time.monotonic()
+
+    def tell() -> None:
+        if done.wait(LONG):
+            return
+        if not seen:
+            print(PATIENCE, file=sys.stderr, flush=True)
+            return
+        while True:
+            print(f"\r{PATIENCE} {time.monotonic() - begun:.0f} s", end="", file=sys.stderr, flush=True)
+            if done.wait(1.0):
+                break
+        # Back to the first column, and clear the line.
+        print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+
+    teller = threading.Thread(target=tell, name="patience", daemon=True)
+    teller.start()
+    try:
+        yield
+    finally:
+        done.set()
+        teller.join()
 
 
 def quality(result: CircleMap | Cloud | Orbit | Period | Scattering | Section | Spectrum) -> dict[str, Any]:

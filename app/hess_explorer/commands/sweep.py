@@ -92,7 +92,8 @@ def _once(pairs: list[tuple[str, Any]], option: str) -> dict[str, Any]:
 
 
 def _run(options: argparse.Namespace) -> None:
-    with computing():
+    # A sweep shows its own progress.
+    with computing(told=True):
         if options.list:
             show(_listed(options.quantity).encode())
             return

@@ -114,6 +114,8 @@ def roots_on_step(e, h, below, end, below_at_end, roots, pieces):
             below_right = at_right < 0.0 if abs(at_right) > noise else below
         width = right - left
         rise = at_right - at_left
+        # Its bound on [0, right] alone: where e is flat at first, what bends it at the end must not halve that away.
+        bend = largest_bend(e, right)
         same_side = below == below_right
         if same_side:
             clear = min(abs(at_left), abs(at_right)) > 0.125 * bend * width * width

@@ -116,6 +116,17 @@ def test_simple_roots_are_found_to_round_off(roots, others, h):
     assert agree(found_roots(e, h), e, np.multiply(roots, h), h)
 
 
+@pytest.mark.parametrize("height", [1e-6, 1e-10, 1e-14])
+def test_what_is_flat_at_first_is_not_halved_away(height):
+    """s²⁰ bends by 380 at the end and by nothing at first: pieces as short as that bend asks for would be 2e5."""
+    e = np.zeros(21)
+    e[0], e[20] = height, -1.0
+    found = found_roots(e, 1.0, enough=200)
+    assert found == pytest.approx([height ** 0.05], rel=1e-14)
+    e[20] = 1.0
+    assert len(found_roots(e, 1.0, enough=200)) == 0
+
+
 def test_the_root_of_a_line_is_found_wherever_it_is():
     for root in np.random.default_rng(1).uniform(0.0, 1.0, 200):
         assert found_roots([-root, 1.0], 1.0) == pytest.approx([root], abs=EPS)
