@@ -101,6 +101,19 @@ def test_a_scene_explains_itself_and_each_of_its_parameters(scene):
 
 
 # Of the sentence over the pictures: the scene, what is moved, and the pictures that are said to follow.
+@every_scene
+def test_sliders_have_ends_wherever_the_others_are(scene):
+    for spec in scene.specs:
+        for value in (*spec.bounds, 0.0, 1e-320, -1e-320) if isinstance(spec, Number) else ():
+            try:
+                values = scene.admit({**scene.defaults(), spec.name: value})[0]
+            except ModelError:
+                continue
+            for name, (low, high, step) in scene.limits(values).items():
+                assert -math.inf < low < high < math.inf, (spec.name, value, name)
+                assert step > 0
+
+
 FOLLOWS = [
     ("suslov-hess", "h", "body omega bifurcation circle"), ("free-suslov", "k", "omega body sphere gamma1"),
     ("scattering", "phi", "body sphere"), ("kharlamova", "alpha", "body domain sphere"),

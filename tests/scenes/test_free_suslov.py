@@ -306,7 +306,8 @@ def test_the_misprint_of_figure_3_d_is_one_digit():
     ({"w2": 0.0}, "on the line of equilibria.*Move ω off the line"),
     ({"I13": 0.25, "I23": 0.5, "w1": 2.0, "w2": -1.0}, "on the line of equilibria"),
     ({"k": -3.0}, "k = −3 would make I₁₁ = −1.25; a moment of inertia is positive. Choose a larger k"),
-    ({"I23": 1e-5}, "γ turns too often.*choose larger I13, I23"),
+    ({"I23": 1e-5}, r"γ turns too often.*\(about \de\+05 radians.*choose larger I13, I23"),
+    ({"I23": 1e-320}, r"γ turns too often.*\(more than 1e308 radians"),
     ({"w1": 1e-200, "w2": 1e-205}, "so small an ω.*choose a larger one"),
 ])
 def test_what_is_no_motion_is_refused_in_the_words_of_the_controls(values, words):
@@ -477,6 +478,7 @@ def test_a_click_chooses_what_its_axes_say(picture, picked):
     ({"I13": 0.0, "I23": 0.0}, "I₁₃ = I₂₃ = 0.*Choose one of them other than 0"),
     ({"k": -3.0}, "k = −3 would make I₁₁ = −4.76; a moment of inertia is positive. Choose a larger k"),
     ({"I23": 1e-5}, "γ turns too often.*choose larger I13, I23"),
+    ({"I23": 1e-320}, r"γ turns too often.*\(more than 1e308 radians"),
     ({"digits": 0.5, "k": -1.2, "I22": 0.5, "I23": 0.4}, "distance 0.316.*up to 0.28"),
 ])
 def test_what_is_no_scattering_is_refused_in_a_sentence(values, words):

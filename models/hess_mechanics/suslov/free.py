@@ -122,10 +122,12 @@ def shape(body: SuslovBody) -> Shape:
     mean = math.sqrt(I11) * math.sqrt(I22)
     kappa, K = mean / J, mean / J * (mean / w)
     c = kappa * n1 * n2 * ((I22 - I11) / w)
-    if not K + kappa + abs(c) <= _MAX_SHAPE:
+    angle = K + kappa + abs(c)
+    if not angle <= _MAX_SHAPE:
+        about = f"about {angle:.2g}" if math.isfinite(angle) else "more than 1e308"
         raise WorkLimit(
-            f"γ turns too often while ω passes from the unstable to the stable point (about {K + kappa + abs(c):.2g} "
-            f"radians; at most {_MAX_SHAPE:g} are computed): choose larger I13, I23, or I11 and I22 less different.")
+            f"γ turns too often while ω passes from the unstable to the stable point ({about} radians; at most "
+            f"{_MAX_SHAPE:g} are computed): choose larger I13, I23, or I11 and I22 less different.")
     return Shape(frozen(np.array([n2, -n1, 0.0])), frozen(np.array([n1, n2, 0.0])), J, w, K, kappa, c)
 
 

@@ -35,7 +35,8 @@ class FreeBody(State):
     def limits(self) -> Mapping[str, tuple[float, float, float]]:
         """The slider of k begins where I11 is still positive."""
         J = math.hypot(self.I13, self.I23)
-        lowest = -self.I22 / J if J > 0.0 else -2.0
+        # Below −2.2 it makes no difference; −I₂₂/J may be beyond double range.
+        lowest = max(-3.0, -self.I22 / J) if J > 0.0 else -3.0
         return {"k": (max(-2.0, math.ceil(lowest * 19.0) / 20.0), 7.0, 0.05)}
 
     @cached_property
