@@ -1085,6 +1085,25 @@ def test_values_of_another_scene_are_admitted_by_the_bounds_of_this_one(source, 
     assert browser.texts["status"] != session.FAILED
 
 
+@pytest.mark.parametrize("where", ["limits", "compute", "idle"])
+def test_whatever_is_raised_while_a_page_opens_it_gets_a_state(where, caplog):
+    broken = [True]
+
+    def fail(*arguments):
+        if broken:
+            raise ZeroDivisionError("secret")
+        return getattr(BALL, where)(*arguments)
+
+    browser = Browser(variant(BALL, **{where: fail}))
+    assert browser.texts["status"] == session.FAILED
+    assert "ZeroDivisionError" in caplog.text
+    assert "secret" not in json.dumps(browser.texts)
+    broken.clear()
+    state = browser.ask(1, values={"h": 8.0})
+    assert (state["answers"], browser.session.values["h"]) == (1, 8.0)
+    assert browser.texts["status"] != session.FAILED
+
+
 @pytest.mark.parametrize("where", ["admit", "carried", "limits", "compute"])
 def test_whatever_is_raised_while_a_message_is_handled_the_page_gets_a_state(where, caplog):
     broken = []

@@ -9,6 +9,7 @@ import json
 import logging
 import math
 from collections.abc import Callable, Collection, Mapping
+from functools import partial
 from typing import Any, Protocol
 
 import numpy as np
@@ -80,9 +81,7 @@ class Session:
         self._held = False
         self._number = 0
         self._enter(scene, values, notes, pictures)
-        # The mechanics check their results for overflow themselves: NumPy's warnings would only be noise.
-        with np.errstate(all="ignore"):
-            self._draw()
+        self._guarded(self._draw)
         self._send(0)
         ready.on_msg(lambda event: self._receive(event.data))
 
@@ -204,19 +203,26 @@ class Session:
         """A message of the browser: nothing in it is trusted, and who waits for an answer gets one."""
         if not isinstance(message, dict):
             return
+        requested = message.get("requested")
+        if not self._guarded(partial(self._handle, message)) and isinstance(requested, int):
+            self._send(requested)
+
+    def _guarded(self, work: Callable[[], object]) -> bool:
+        """Whether this could be done; else the page says that something failed."""
         try:
+            # The mechanics check their results for overflow themselves: NumPy's warnings would only be noise.
             with np.errstate(all="ignore"):
-                self._handle(message)
+                work()
         except Abandoned:
             raise
         # Whatever it is, no traceback and no older picture stays on the page; the log says all.
         except Exception:
-            logger.exception("a message failed at %s", encode(self.scene.name, self._wanted.values))
+            logger.exception("a state failed at %s", encode(self.scene.name, self._wanted.values))
             self._pieces.drop()
             self._dirty = True
             self._say(self._refuse(FAILED), [])
-            if isinstance(message.get("requested"), int):
-                self._send(message["requested"])
+            return False
+        return True
 
     def _handle(self, message: dict[Any, Any]) -> None:
         query, moved = message.get("restore"), False
