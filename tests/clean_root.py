@@ -26,6 +26,7 @@ from support.dockerfile import Image, instructions
 
 PROJECT = Path(__file__).resolve().parents[1]
 PACKAGES = "python3,python3-venv,ca-certificates"
+PATH = "/opt/python/bin:/usr/local/bin:/usr/bin:/bin:/usr/sbin"
 # How packages are reached from here: pip's settings, certificates, names of hosts.
 REACHED = ("/etc/pip.conf", "/etc/resolv.conf", "/etc/hosts",
            *{value for name, value in os.environ.items() if name in ("PIP_CERT", "SSL_CERT_FILE")})
@@ -38,11 +39,20 @@ class ImageInRoot(Image):
     def environment(self):
         """That of the image, with the Python that is made here."""
         # Debian's Python is for Debian's packages; that of the image, in which these are installed, has none of them.
-        return {**super().environment, "PATH": "/opt/python/bin:/usr/local/bin:/usr/bin:/bin:/usr/sbin"}
+        return {**super().environment, "PATH": PATH}
 
     def here(self, command):
         """As the image's user at this point, in its root."""
         return ["chroot", f"--userspec={self.user}", str(self.root), "env", f"--chdir={self.workdir}", *command]
+
+
+def debian(root: Path, suite: str, mirror: str = "") -> None:
+    """A system of this release below `root`, with a Python below /opt that has no packages of Debian's."""
+    begun = time.monotonic()
+    subprocess.run(["debootstrap", "--variant=minbase", f"--include={PACKAGES}", suite, str(root),
+                    *filter(None, [mirror])], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(["chroot", str(root), "python3", "-m", "venv", "/opt/python"], check=True)
+    print(f"debootstrap {suite}: {time.monotonic() - begun:.0f} s", flush=True)
 
 
 @contextmanager
@@ -96,16 +106,12 @@ def main() -> None:
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         root = Path(folder) / "root"
-        begun = time.monotonic()
-        subprocess.run(["debootstrap", "--variant=minbase", f"--include={PACKAGES}", options.suite, str(root),
-                        *filter(None, [options.mirror])], check=True, stdout=subprocess.DEVNULL)
-        print(f"debootstrap {options.suite}: {time.monotonic() - begun:.0f} s", flush=True)
+        debian(root, options.suite, options.mirror)
         for file in REACHED:
             if Path(file).is_file():
                 (root / file.lstrip("/")).parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy2(file, root / file.lstrip("/"))
         image = ImageInRoot(PROJECT, root)
-        image.run(["python3", "-m", "venv", "/opt/python"])
         print(image.run(["python", "--version"]).strip(), flush=True)
         for instruction, rest in instructions((PROJECT / "Dockerfile").read_text("utf-8")):
             begun = time.monotonic()
