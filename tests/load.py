@@ -177,9 +177,17 @@ async def _printed(rows, kept):
         kept.append(row)
 
 
-def _machine(before):
-    return (f"{os.cpu_count()} cores, on which the visitors ran too; load of the machine before {before:.1f}, "
-            f"after {os.getloadavg()[0]:.1f}; {time.strftime('%Y-%m-%d')}.")
+def _processor():
+    """Ticks of all cores until now: in all, and those that the host of a virtual machine gave to others."""
+    ticks = [*map(int, Path("/proc/stat").read_text().splitlines()[0].split()[1:9])]
+    return sum(ticks), ticks[7]
+
+
+def _machine(before, ticks):
+    total, stolen = (now - then for now, then in zip(_processor(), ticks, strict=True))
+    return (f"{os.cpu_count()} cores, on which the visitors ran too, {100.0 * stolen / total:.0f} % of them taken by "
+            f"the host; load of the machine before {before:.1f}, after {os.getloadavg()[0]:.1f}; "
+            f"{time.strftime('%Y-%m-%d')}.")
 
 
 def _written(lines):
@@ -201,7 +209,7 @@ def main():
     options = parser.parse_args()
     # The visitors stand for two hundred browsers, which do not stop all at once to look for garbage.
     gc.disable()
-    kept, before = [], os.getloadavg()[0]
+    kept, before, ticks = [], os.getloadavg()[0], _processor()
     for workers in options.workers if options.counts else ():
         kept += [f"Served by {workers} process{'es' * (workers > 1)}:", ""]
         with server_process(LOG, options=["--workers", str(workers)]) as (process, base):
@@ -216,7 +224,7 @@ def main():
             asyncio.run(_ready(base))
             asyncio.run(_printed(leave(base, process.pid, options.leave), kept))
         kept.append("")
-    kept.append(_machine(before))
+    kept.append(_machine(before, ticks))
     print(kept[-1])
     if options.write:
         _written(kept)

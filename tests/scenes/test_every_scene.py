@@ -19,6 +19,7 @@ from bokeh.models.glyphs import Line, Scatter
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from hess_explorer.compute.background import Background
 from hess_explorer.page import session
 from hess_explorer.page.description import describe
 from hess_explorer.protocol.parameters import Number, Places, decode, written
@@ -1083,6 +1084,26 @@ def test_values_of_another_scene_are_admitted_by_the_bounds_of_this_one(source, 
     assert browser.ask(2, scene=target)["scene"] == target
     browser.assert_admissible()
     assert browser.texts["status"] != session.FAILED
+
+
+def test_what_is_computed_behind_an_answer_begins_when_that_is_made(monkeypatch):
+    made, real = [], Background.follow
+
+    def follow(background, tasks):
+        wanted = list(tasks)
+        made.append((browser.state["number"], len(wanted)))
+        real(background, wanted)
+
+    scene = SCENES["suslov-hess"]
+    browser = Browser(scene)
+    monkeypatch.setattr(Background, "follow", follow)
+    for number in range(1, 4):
+        state = browser.ask(number, values={"I22": 0.9 + 0.01 * number})
+        assert state["progress"] is not None
+        assert made[-1][0] == state["number"]
+        assert made[-1][1] > 0
+    assert len(made) == 3
+    browser.session.background.stop()
 
 
 @pytest.mark.parametrize("where", ["limits", "compute", "idle"])

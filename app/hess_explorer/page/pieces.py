@@ -19,6 +19,7 @@ class Pieces:
         self.background = Background()
         self.progress: tuple[int, int] | None = None
         self._followed: set[Task] = set()
+        self._next: list[Task] | None = None
         self._left = 0
         self._stopped = False
 
@@ -31,6 +32,7 @@ class Pieces:
     def drop(self) -> None:
         """Nothing of the state on show is of use."""
         self.progress = None
+        self._next = None
         self.background.stop()
 
     def resume(self) -> None:
@@ -51,7 +53,7 @@ class Pieces:
         return not 0 < self.background.left == self._left
 
     def follow(self, report: Report, more: bool, ended: bool) -> list[str]:
-        """Compute in the background what the report lacks; a note where that had ended before its end."""
+        """What the report lacks is computed in the background from `begin` on; a note where that had ended early."""
         left = len(report.todo)
         if not more:
             self._followed = set()
@@ -61,12 +63,18 @@ class Pieces:
         if not self._stopped and (not more or (ended and fresh and not self.background.error)):
             self._followed.update(fresh)
             self._left = len(fresh)
-            self.background.follow(fresh)
+            self._next = fresh
             ended = False
         elif not more:
-            self.background.follow(())
+            self._next = []
         self.progress = (report.total - left, report.total) if left and not ended else None
         if not (left and ended):
             return []
         return [self.background.error or (
             f"Stopped: {report.total - left} of {report.total} parts are drawn. Change a value to compute again.")]
+
+    def begin(self) -> None:
+        """Once the answer is made: what is computed behind it would hold it up for as long as it has Python's lock."""
+        if self._next is not None:
+            self.background.follow(self._next)
+            self._next = None

@@ -293,6 +293,7 @@ class Session:
             "number": self._number, "answers": answers, "query": encode(self.scene.name, self.values), "tree": tree,
             "scene": self.scene.name, "progress": self._pieces.progress,
         })
+        self._pieces.begin()
 
     def _draw(self, more: bool = False) -> None:
         """The pictures of what is wanted; `more`: of the same, of which more may be known by now."""
