@@ -123,6 +123,8 @@ async def measure(base, pid, counts, seconds):
     yield "| sessions | opened in | median | p95 | cores | memory each | beside one at reference | errors |"
     yield "|---|---|---|---|---|---|---|---|"
     for count in counts:
+        # Nor is the end of those that were there before.
+        await _expired(base)
         before, crowd = memory(pid), Crowd(base)
         opening = await crowd.open(count)
         held, cpu, begun = memory(pid), worked(pid), time.monotonic()
@@ -148,6 +150,14 @@ async def counters(base):
     return {name.removeprefix("hess_explorer_"): int(value) for name, value in pairs}
 
 
+async def _expired(base):
+    """What is left when sessions that are gone have been forgotten: `counters`."""
+    ends = time.monotonic() + 240.0
+    while (found := await counters(base))["sessions"] > 0 and time.monotonic() < ends:
+        await asyncio.sleep(2.0)
+    return found
+
+
 async def leave(base, pid, count):
     """Open and leave so many sessions, and what is left of them when they have expired."""
     warm = Crowd(base)
@@ -164,9 +174,7 @@ async def leave(base, pid, count):
             await crowd.leave()
             crowd.visitors.clear()
         done, errors = done + len(crowd.opened), errors + crowd.errors
-        ends = time.monotonic() + 240.0
-        while (found := await counters(base))["sessions"] > 0 and time.monotonic() < ends:
-            await asyncio.sleep(2.0)
+        found = await _expired(base)
         yield (f"| {done} | {memory(pid) / 2**20:.0f} MB | {found['sessions']} | {found['websockets']} | "
                f"{found['threads']} | {errors} |")
 

@@ -1097,8 +1097,8 @@ def test_what_is_computed_behind_an_answer_begins_when_that_is_made(monkeypatch)
     scene = SCENES["suslov-hess"]
     browser = Browser(scene)
     monkeypatch.setattr(Background, "follow", follow)
-    for number in range(1, 4):
-        state = browser.ask(number, values={"I22": 0.9 + 0.01 * number})
+    for asked in range(1, 4):
+        state = browser.ask(asked, values={"I22": 0.9 + 0.01 * asked})
         assert state["progress"] is not None
         assert made[-1][0] == state["number"]
         assert made[-1][1] > 0
