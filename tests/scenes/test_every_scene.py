@@ -1123,6 +1123,8 @@ def test_whatever_is_raised_while_a_page_opens_it_gets_a_state(where, caplog):
     state = browser.ask(1, values={"h": 8.0})
     assert (state["answers"], browser.session.values["h"]) == (1, 8.0)
     assert browser.texts["status"] != session.FAILED
+    # What is filled in behind it would go on as the process ends.
+    browser.session.background.stop()
 
 
 @pytest.mark.parametrize("where", ["admit", "carried", "limits", "compute"])
