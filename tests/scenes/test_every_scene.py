@@ -101,7 +101,6 @@ def test_a_scene_explains_itself_and_each_of_its_parameters(scene):
         assert preset.name
 
 
-# Of the sentence over the pictures: the scene, what is moved, and the pictures that are said to follow.
 @every_scene
 def test_sliders_have_ends_wherever_the_others_are(scene):
     for spec in scene.specs:
@@ -115,6 +114,7 @@ def test_sliders_have_ends_wherever_the_others_are(scene):
                 assert step > 0
 
 
+# Of the sentence over the pictures: the scene, what is moved, and the pictures that are said to follow.
 FOLLOWS = [
     ("suslov-hess", "h", "body omega bifurcation circle"), ("free-suslov", "k", "omega body sphere gamma1"),
     ("scattering", "phi", "body sphere"), ("kharlamova", "alpha", "body domain sphere"),
@@ -1106,16 +1106,23 @@ def test_what_is_computed_behind_an_answer_begins_when_that_is_made(monkeypatch)
     browser.session.background.stop()
 
 
-@pytest.mark.parametrize("where", ["limits", "compute", "idle"])
-def test_whatever_is_raised_while_a_page_opens_it_gets_a_state(where, caplog):
-    broken = [True]
+def _failing(where):
+    """A scene that fails there, and a list: it does as long as there is anything in that."""
+    broken = []
 
     def fail(*arguments):
         if broken:
             raise ZeroDivisionError("secret")
         return getattr(BALL, where)(*arguments)
 
-    browser = Browser(variant(BALL, **{where: fail}))
+    return variant(BALL, **{where: fail}), broken
+
+
+@pytest.mark.parametrize("where", ["limits", "compute", "idle"])
+def test_whatever_is_raised_while_a_page_opens_it_gets_a_state(where, caplog):
+    scene, broken = _failing(where)
+    broken.append(True)
+    browser = Browser(scene)
     assert browser.texts["status"] == session.FAILED
     assert "ZeroDivisionError" in caplog.text
     assert "secret" not in json.dumps(browser.texts)
@@ -1129,14 +1136,7 @@ def test_whatever_is_raised_while_a_page_opens_it_gets_a_state(where, caplog):
 
 @pytest.mark.parametrize("where", ["admit", "carried", "limits", "compute"])
 def test_whatever_is_raised_while_a_message_is_handled_the_page_gets_a_state(where, caplog):
-    broken = []
-
-    def fail(*arguments):
-        if broken:
-            raise ZeroDivisionError("secret")
-        return getattr(BALL, where)(*arguments)
-
-    scene = variant(BALL, **{where: fail})
+    scene, broken = _failing(where)
     browser = Browser(scene)
     broken.append(True)
     choice = next(spec for spec in scene.specs if not isinstance(spec, Number))
@@ -1150,3 +1150,4 @@ def test_whatever_is_raised_while_a_message_is_handled_the_page_gets_a_state(whe
     state = browser.ask(2, values={"h": 8.0})
     assert (state["answers"], browser.session.values["h"]) == (2, 8.0)
     assert browser.texts["status"] != session.FAILED
+    browser.session.background.stop()

@@ -1,7 +1,7 @@
 # mypy: allow-untyped-defs
 """Crossings of a plane by one orbit: the roots of each step's own polynomial, none lost, none doubled.
 
-On a step the height e(s) over the plane is a polynomial, |e″| ≤ D on the whole of it.  A piece of width w
+On a step the height e(s) over the plane is a polynomial, |e″| ≤ D up to the end of a piece.  A piece of width w
 lies within D w²/8 of its chord, and its slope within D w/2 of the chord's.  So a piece that ends on the
 side where it began, farther away than that, holds no root; one that changes sides more steeply than that
 holds exactly one; any other is halved.  The side of the plane is carried from step to step, so that a
