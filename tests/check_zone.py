@@ -9,18 +9,19 @@ obeys one equation, ψ from 0 to π/2,
 ρ = √(α/β), so two broken lines above and below all right-hand sides of a cell hold all its solutions.  From θ = 0 they
 lead to the first column (A, C) of half a turn, from π/2 to the second, (B, D): their quadrants are the signs that
 decide.  A cell for which these lines are too far apart is halved across its longer side, and both halves are checked.
+
+A statement is one of the tori of a cell, α ≠ β.  Where α = β there is no torus but a circle of states, on which
+n3 = 1/√(1 + 4α) stays: see `models/hess_mechanics/proofs.md`.
 """
 
-import json
 import math
 import sys
-from fractions import Fraction
-from pathlib import Path
 
 from mpmath import iv
 
-from check_certificate import Refused, need
+from check_certificate import Refused, need, part, precision, rational, read
 
+FORMAT = "Suslov–Hess lock zone, 1"
 PRECISION, PIECES, HALVINGS = 53, 48, 7
 NAMES = ("two cycles", "no cycle", "undecided")
 
@@ -68,7 +69,10 @@ def edge(a, pieces, start, upper):
 
 def quadrant(low, high):
     """Of all angles between these; None where an axis is among them."""
-    first, last = (math.floor(float((2 * end / iv.pi).mid)) for end in (low, high))
+    ends = [float((2 * end / iv.pi).mid) for end in (low, high)]
+    if not all(map(math.isfinite, ends)):
+        return None
+    first, last = map(math.floor, ends)
     sure = first < (2 * low / iv.pi).a and (2 * high / iv.pi).b < last + 1
     return first if first == last and sure else None
 
@@ -103,30 +107,36 @@ def holds(a, alpha, beta, statement, halvings, pieces=PIECES):
     return True
 
 
+def sides(cell, name):
+    """Two doubles, 0 < low < high."""
+    found = part(cell, name, list)
+    need(len(found) == 2 and all(isinstance(x, float) and 0 < x < math.inf for x in found) and found[0] < found[1],
+         "this is no cell")
+    return found
+
+
 def verify(zone, halvings=HALVINGS):
-    """Raise `Refused`, `KeyError`, `ValueError` or `TypeError` unless every cell is what it is said to be; their count.
+    """Raise `Refused` unless every cell is what it is said to be; return how many of them are decided.
 
     What is refused is what is not proved of a cell; whether cells overlap, and how much they cover, is not looked at.
     """
-    iv.prec = PRECISION
-    a, count = Fraction(zone["a"]), 0
-    # The zone depends on |a| only: φ → φ + π changes its sign.
-    size = abs(iv.mpf(a.numerator) / a.denominator)
-    for cell in zone["cells"]:
-        alpha, beta, statement = cell["alpha"], cell["beta"], cell["statement"]
-        need(statement in NAMES, "this is no statement of a cell")
-        need(all(isinstance(x, float | int) and 0 < x < math.inf for x in (*alpha, *beta))
-             and alpha[0] < alpha[1] and beta[0] < beta[1], "this is no cell")
-        if statement == "undecided":
-            continue
-        need(holds(size, alpha, beta, statement, halvings), f"α in {alpha}, β in {beta}: {statement} is not proved")
-        count += 1
+    need(part(zone, "format", str) == FORMAT, f"the format is not “{FORMAT}”")
+    a, count = rational(part(zone, "a", str), "a"), 0
+    with precision(PRECISION):
+        # The zone depends on |a| only: φ → φ + π changes its sign.
+        size = abs(iv.mpf(a.numerator) / a.denominator)
+        for cell in part(zone, "cells", list):
+            alpha, beta, statement = sides(cell, "alpha"), sides(cell, "beta"), part(cell, "statement", str)
+            need(statement in NAMES, "this is no statement of a cell")
+            if statement == "undecided":
+                continue
+            need(holds(size, alpha, beta, statement, halvings), f"α in {alpha}, β in {beta}: {statement} is not proved")
+            count += 1
     return count
 
 
 if __name__ == "__main__":
-    text = sys.stdin.read() if sys.argv[1] == "-" else Path(sys.argv[1]).read_text()
     try:
-        print(f"{verify(json.loads(text))} cells hold")
-    except (Refused, KeyError, ValueError, TypeError) as error:
+        print(f"{verify(read(sys.argv[1:]))} cells hold")
+    except Refused as error:
         sys.exit(f"refused: {error}")

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 import re
 import subprocess
 import sys
@@ -37,7 +38,9 @@ class Engine:
         self.words = words.split()
 
     def __call__(self, *words: str, fails: bool = False) -> str:
-        done = subprocess.run([*self.words, *words], capture_output=True, text=True, check=False)
+        # Podman's own format has no health check; Docker does not know the option --format, and ignores the variable.
+        done = subprocess.run([*self.words, *words], capture_output=True, text=True, check=False,
+                              env={**os.environ, "BUILDAH_FORMAT": "docker"})
         if done.returncode and not fails:
             raise RuntimeError(f"{' '.join(words)}\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
         return done.stdout.strip()
@@ -101,7 +104,7 @@ def main() -> None:
     options = parser.parse_args()
     engine = Engine(options.engine)
     with ExitStack() as stack:
-        build = ["build", "--tag", NAME, "--format=docker"]
+        build = ["build", "--tag", NAME]
         if options.debian:
             root = Path(stack.enter_context(tempfile.TemporaryDirectory())) / "root"
             debian(root, options.debian)

@@ -71,6 +71,7 @@ from hess_mechanics.suslov.scattering import Scattering, scattering
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, curve, curve_point, f_max, turning_points
 from hess_mechanics.suslov_hess.certificate import certificate
 from hess_mechanics.suslov_hess.circle_map import CircleMap, FixedPoint, circle_map
+from hess_mechanics.suslov_hess.edge import EdgeProof
 from hess_mechanics.suslov_hess.equations import HessBody
 from hess_mechanics.suslov_hess.lock_zone import LockZone, lock_zone
 from hess_mechanics.suslov_hess.mode_locking import (
@@ -105,7 +106,7 @@ __all__ = [  # noqa: RUF022 (by subject)
     # Suslov–Hess case
     "circle_map", "CircleMap", "FixedPoint", "turning_points", "TurningPoints", "curve", "curve_point", "f_max",
     "critical_a", "lock_boundary", "lock_boundary_f", "rotation_number_grid", "trace_on_curve",
-    "prove", "Proof", "certificate", "lock_zone", "LockZone",
+    "prove", "Proof", "EdgeProof", "certificate", "lock_zone", "LockZone",
     # Chaplygin ball with Suslov's constraint
     "Strip", "ball_scattering", "BallScattering",
     # Euler–Poisson equations

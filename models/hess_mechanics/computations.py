@@ -1,8 +1,8 @@
 """What the scenes compute, asked for by a body and words: orbits, exponents, sections, basins, clouds, periods.
 
-A body is any of those of this package: `SuslovBody`, `HessBody`, `BallBody`, `HeavyBody`.  `accuracy` is the name of a
-level: "draft", "standard", "precise" or "reference".  Results can be handed on: `.to_pandas()`, `.to_xarray()`,
-`.plot()`.
+A body is any of those of this package: `SuslovBody`, `HessBody`, `BallBody`, `HeavyBody`.  `accuracy` is a
+level or its name: "draft", "standard", "precise" or "reference".  Results can be handed on: `.to_pandas()`,
+`.to_xarray()`, `.plot()`.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, andoyer_points
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.rotation import Ends, Rotation, on_line, rotation_along
-from hess_mechanics.numerics.accuracy import Kind, Level, level, plan
-from hess_mechanics.numerics.arguments import as_a, as_cells, as_number, as_pairs, as_whole
+from hess_mechanics.numerics.accuracy import Accuracy, Kind, plan
+from hess_mechanics.numerics.arguments import as_a, as_cells, as_level, as_number, as_pairs, as_whole
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.parallel import share
 from hess_mechanics.numerics.results import Array, Orbit, frozen
@@ -109,7 +109,7 @@ class Basins(Result):
                       {"groups": len(self.divergence), "attractors": self.attractors, "level": self.level})
 
 
-def orbit(body: Body, state: Sequence[float], t: float | Sequence[float] | Array, accuracy: str = "precise",
+def orbit(body: Body, state: Sequence[float], t: float | Sequence[float] | Array, accuracy: Accuracy = "precise",
           samples: int = 500) -> Orbit:
     """The orbit of a body from a state, at the times t, or at so many samples from 0 to the time t.
 
@@ -122,10 +122,10 @@ def orbit(body: Body, state: Sequence[float], t: float | Sequence[float] | Array
     """
     times: Any = np.linspace(0.0, as_number("t", t), as_whole("samples", samples, 2, 200_000)) if np.ndim(t) == 0 else t
     moving = _moving(body)
-    return solve(moving.system, state, moving.parameters, times, level(accuracy))
+    return solve(moving.system, state, moving.parameters, times, as_level(accuracy))
 
 
-def lyapunov_exponent(body: Body, state: Sequence[float], t: float, accuracy: str = "standard") -> Exponent:
+def lyapunov_exponent(body: Body, state: Sequence[float], t: float, accuracy: Accuracy = "standard") -> Exponent:
     """The largest Lyapunov exponent of the orbit from a state, averaged over the time t; backwards for t < 0.
 
     Raises `InvalidParameter`, `WorkLimit`.
@@ -136,11 +136,10 @@ def lyapunov_exponent(body: Body, state: Sequence[float], t: float, accuracy: st
     True
     """
     moving = _moving(body)
-    return largest_exponent(moving.system, state, moving.parameters, as_number("t", t),
-                            plan(Kind.EXPONENT, accuracy).level)
+    return largest_exponent(moving.system, state, moving.parameters, as_number("t", t), accuracy)
 
 
-def lyapunov_spectrum(body: Body, state: Sequence[float], t: float, accuracy: str = "standard") -> Spectrum:
+def lyapunov_spectrum(body: Body, state: Sequence[float], t: float, accuracy: Accuracy = "standard") -> Spectrum:
     """All Lyapunov exponents of the orbit from a state, with errors, over the time t; backwards for t < 0.
 
     Raises `InvalidParameter`, `WorkLimit`.
@@ -151,11 +150,12 @@ def lyapunov_spectrum(body: Body, state: Sequence[float], t: float, accuracy: st
     (('+', '0', '0', '0', '-'), True)
     """
     moving = _moving(body)
-    return spectrum(moving.system, state, moving.parameters, as_number("t", t), level(accuracy))
+    return spectrum(moving.system, state, moving.parameters, as_number("t", t), as_level(accuracy))
 
 
 def andoyer_section(body: HeavyBody, h: float, f: float, *, starts: Sequence[tuple[float, float]] = (),
-                    orbits: int = 20, crossings: int = 200, sheet: int = 0, accuracy: str = "standard") -> PlanePoints:
+                    orbits: int = 20, crossings: int = 200, sheet: int = 0, accuracy: Accuracy = "standard"
+                    ) -> PlanePoints:
     """The Andoyer–Deprit section g = π/2 of a heavy body at H = h, (M, γ) = f: points (l, L/G).
 
     starts : places (l, L/G) of orbits; else so many `orbits` are spread over the section.
@@ -175,7 +175,7 @@ def andoyer_section(body: HeavyBody, h: float, f: float, *, starts: Sequence[tup
 
 
 def suslov_section(body: SuslovBody, E: float, *, plane: int = 3, starts: Sequence[tuple[float, float]] = (),
-                   orbits: int = 20, crossings: int = 200, forward: bool = True, accuracy: str = "standard"
+                   orbits: int = 20, crossings: int = 200, forward: bool = True, accuracy: Accuracy = "standard"
                    ) -> PlanePoints:
     """The section γ_k = 0, k = `plane`, of the Suslov problem with gravity at the energy E: points (ψ, δ).
 
@@ -196,7 +196,7 @@ def suslov_section(body: SuslovBody, E: float, *, plane: int = 3, starts: Sequen
 
 
 def ball_section(body: BallBody, h: float, *, starts: Sequence[tuple[float, float]] = (), orbits: int = 20,
-                 crossings: int = 200, accuracy: str = "standard") -> PlanePoints:
+                 crossings: int = 200, accuracy: Accuracy = "standard") -> PlanePoints:
     """The section γ3 = 0 of the Chaplygin ball in a field, at the energy h: points (ψ, δ).
 
     starts : places (ψ, δ) of orbits; else so many `orbits` are spread over the section.
@@ -218,11 +218,11 @@ def ball_section(body: BallBody, h: float, *, starts: Sequence[tuple[float, floa
 
 def basins(body: SuslovBody, E: float, *, plane: int = 3, cells: tuple[int, int] = (16, 12),
            window: Window = ((-math.pi, 0.0), (math.pi, math.pi)), crossings: int = 150,
-           accuracy: str | Level = "standard") -> Basins:
+           accuracy: Accuracy = "standard") -> Basins:
     """To which group of motions the cells of a section of the Suslov problem lead, and which groups attract.
 
     cells : across ψ and up δ; window : (ψ0, δ0), (ψ1, δ1); crossings : how far each orbit is followed.
-    accuracy : what a level of that name means here, coarser than elsewhere; or a level as it is.
+    accuracy : the four levels are coarser here than elsewhere; any other level is used as it is.
     Raises `InvalidParameter`, `OutsideRegion`, `WorkLimit`.
 
     >>> from hess_mechanics import SuslovBody, basins
@@ -233,8 +233,7 @@ def basins(body: SuslovBody, E: float, *, plane: int = 3, cells: tuple[int, int]
     require_reached(section)
     m, n = as_cells(cells)
     (x0, y0), (x1, y1) = _window(window)
-    ends, chosen = np.empty((n, m)), accuracy if isinstance(accuracy, Level) else plan(
-        Kind.BASINS, accuracy).level
+    ends, chosen = np.empty((n, m)), plan(Kind.BASINS, accuracy).level
 
     def row(i: int) -> None:
         ends[i] = section.ends(window, (m, n), i, crossings, level=chosen)
@@ -247,7 +246,7 @@ def basins(body: SuslovBody, E: float, *, plane: int = 3, cells: tuple[int, int]
 
 
 def cloud(body: BallBody, h: float, t: float, *, count: int = 1000, spread: float = 0.1, angle: float | None = None,
-          accuracy: str = "standard") -> Cloud:
+          accuracy: Accuracy = "standard") -> Cloud:
     """A cloud of phase points of the ball without a field, about the energy h, followed to the time t.
 
     spread : of the energies, or the radius of a patch about the ω at an `angle` with γ = e3.
@@ -258,11 +257,11 @@ def cloud(body: BallBody, h: float, t: float, *, count: int = 1000, spread: floa
     50
     """
     found = phase_cloud_density.clouds(as_a(BallBody, body), as_number("h", h), angle, as_number("spread", spread),
-                                       as_whole("count", count, 1, 20_000), as_number("t", t), None, level(accuracy))
+                                       as_whole("count", count, 1, 20_000), as_number("t", t), None, as_level(accuracy))
     return found.cloud
 
 
-def period(body: BallBody, state: Sequence[float], accuracy: str = "precise") -> integrable_cases.Period:
+def period(body: BallBody, state: Sequence[float], accuracy: Accuracy = "precise") -> integrable_cases.Period:
     """The period of an orbit of the ball with I13 = I23 = 0, b3 = 0, where every orbit across the equator closes.
 
     Raises `InvalidParameter`, `WorkLimit`.
@@ -271,10 +270,11 @@ def period(body: BallBody, state: Sequence[float], accuracy: str = "precise") ->
     >>> period(BallBody(1.3, 0.8, 0.0, 0.0, 0.0, 0.5, -0.2, 0.0), (1.0, -0.5, 0.0, 0.6, 0.8)).value > 0
     True
     """
-    return integrable_cases.period(as_a(BallBody, body), state, level(accuracy))
+    return integrable_cases.period(as_a(BallBody, body), state, as_level(accuracy))
 
 
-def rotation_numbers(a: float | Array, h: float | Array, f: float | Array, accuracy: str = "precise") -> TorusValues:
+def rotation_numbers(a: float | Array, h: float | Array, f: float | Array, accuracy: Accuracy = "precise"
+                     ) -> TorusValues:
     """Rotation number, trace and locking of the tori (a, h, f) of the Suslov–Hess case, numbers or arrays (n,).
 
     Raises `InvalidParameter`, `WorkLimit`.
@@ -290,11 +290,11 @@ def rotation_numbers(a: float | Array, h: float | Array, f: float | Array, accur
         except (TypeError, ValueError):
             raise InvalidParameter(f"{name} = {values!r} is not a number, nor several; write it like 1.5 or "
                                    "[1.5, 2.0].") from None
-    return values_at(a, h, f, level(accuracy))
+    return values_at(a, h, f, as_level(accuracy))
 
 
 def rotation_along_line(body: HeavyBody, h: float, f: float, ends: Ends, *, count: int = 24, crossings: int = 300,
-                        about_first: bool = False, accuracy: str = "standard") -> Rotation:
+                        about_first: bool = False, accuracy: Accuracy = "standard") -> Rotation:
     """Rotation numbers of orbits that start on a line of the Andoyer–Deprit section, between places (l, L/G).
 
     about_first : turns are counted about the first end of the line; else by the angle l.
@@ -340,14 +340,14 @@ def _starts(section: AndoyerSection | SuslovSection, places: Sequence[tuple[floa
     return [tuple(map(float, state)) for state in found]
 
 
-def _in_plane(found: Points, section: AndoyerSection | SuslovSection, names: tuple[str, str], accuracy: str
+def _in_plane(found: Points, section: AndoyerSection | SuslovSection, names: tuple[str, str], accuracy: Accuracy
               ) -> PlanePoints:
     return PlanePoints(names, tuple(section.places_of(states) for states in found.states), _facts(found, accuracy))
 
 
-def _facts(found: Points, accuracy: str) -> dict[str, float | str]:
+def _facts(found: Points, accuracy: Accuracy) -> dict[str, float | str]:
     drifts: dict[str, float | str] = {f"drift of {name}": value for name, value in found.drift.items()}
-    return {"level": accuracy, **drifts, "steps": found.cost.steps}
+    return {"level": as_level(accuracy).name, **drifts, "steps": found.cost.steps}
 
 
 def _moving(body: Body) -> Body:

@@ -11,6 +11,10 @@ class InvalidParameter(ModelError):
     """A value that is not finite, or lies outside the domain of the equations."""
 
 
+class WrongScaling(ModelError):
+    """A system of equations that does not scale with the unit of time as its description says."""
+
+
 class NotPositiveDefinite(ModelError):
     """Moments of inertia whose kinetic energy is not positive: I11 and I22 must be."""
 

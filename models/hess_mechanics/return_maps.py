@@ -28,8 +28,8 @@ from hess_mechanics.dynamics.return_map import ReturnMap, Sheet
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import HeavyBody
-from hess_mechanics.numerics.accuracy import level
-from hess_mechanics.numerics.arguments import as_a, as_cells, as_number, as_place, as_whole
+from hess_mechanics.numerics.accuracy import Accuracy
+from hess_mechanics.numerics.arguments import as_a, as_cells, as_level, as_number, as_place, as_whole
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.quartic import QuarticBody, QuarticSection
@@ -47,7 +47,7 @@ _MOST_PLACES = 1_000_000
 
 
 def return_map(body: Body, *, E: float | None = None, h: float | None = None, f: float | None = None,
-               plane: int = 3, sheet: int = 0, accuracy: str = "precise") -> ReturnMap:
+               plane: int = 3, sheet: int = 0, accuracy: Accuracy = "precise") -> ReturnMap:
     """The return map of a section of a body at fixed values of its integrals.
 
     A `SuslovBody` takes E and the plane γ_k = 0, k = `plane`, places (ψ, δ); a `BallBody` h, places (ψ, δ); a
@@ -75,7 +75,7 @@ def return_map(body: Body, *, E: float | None = None, h: float | None = None, f:
         found = QuarticSection(body)
     else:
         found = TorusSection(as_a(HessBody, body).a, *_given(asked, "h", "f"))
-    return ReturnMap(found, level(accuracy))
+    return ReturnMap(found, as_level(accuracy))
 
 
 def periodic_orbit(section: ReturnMap, at: Sequence[float], period: int | None = None) -> PeriodicOrbit:

@@ -1,4 +1,8 @@
-"""`python tests/benchmarks/benchmark_trade.py`: what each level costs in all scenes; ten lines of it: app/README.md."""
+"""`python tests/benchmarks/benchmark_trade.py`: what each level costs in all scenes, as `hess-explorer bench --trade`.
+
+The table of all kinds of computation goes to app/README.md, with the ten scenes and kinds that take longest, and to the
+words of "Speed and accuracy".
+"""
 
 import sys
 from pathlib import Path
@@ -7,19 +11,28 @@ if __name__ == "__main__":
     sys.path[:0] = [str(Path(__file__).parents[1])]
 
 from hess_explorer.benchmark.machine import describe
-from hess_explorer.benchmark.trade import as_text, costliest, names, trade
+from hess_explorer.benchmark.trade import Failed, as_text, by_kind, costliest, heading, line_of, names, trade
 from support.measured import write_measured
 
 ROOT = Path(__file__).resolve().parents[2]
+WORDS = ROOT / "app" / "hess_explorer" / "scenes"
 
 
 def main():
-    """Measure for two minutes, print all, write ten lines."""
-    rows = [*trade(names(), 3, lambda text: print(f"{text} …", file=sys.stderr, flush=True))]
-    print(as_text(rows))
-    facts = describe()
+    """Measure for two minutes, print all, write the tables."""
+    print(heading(), end="", flush=True)
+    rows = []
+    for row in trade(names(), 3, lambda text: print(f"{text} …", file=sys.stderr, flush=True)):
+        print(line_of(row), end="", flush=True)
+        if isinstance(row, Failed):
+            sys.exit(f"{row.scene}, {row.kind}: {row.why}")
+        rows.append(row)
+    table, facts = by_kind(rows), describe()
+    print(f"\n{table}")
     head = f"{facts['date']}, {facts['processor']}, {facts['cores']} cores, Python {facts['python']}."
-    write_measured(ROOT / "app" / "README.md", f"{head}\n\n{as_text(costliest(rows, 10))}")
+    write_measured(ROOT / "app" / "README.md", f"{head}\n\n{table}\n{as_text(costliest(rows, 10))}")
+    for file in (WORDS / "speed_accuracy.md", WORDS / "speed_accuracy_of_maps.md"):
+        write_measured(file, f"{head}\n\n{table}")
 
 
 if __name__ == "__main__":

@@ -203,8 +203,8 @@ def strange(map_: ReturnMap, draw: np.random.Generator, real: bool) -> str:
     dimension, error = exponents.dimension
     found = dynamics_of(map_, place, 500, 1500)
     print("STRANGE", map_.sheet.constants, np.round(place, 4), f"D = {dimension:.3f} ± {error:.3f}",
-          np.round(exponents.values, 4), found.verdict, f"distance {found.apart.distance:.3f} ± "
-          f"{max(found.apart.error, found.apart.grain):.2g} shared {found.apart.shared:.2g}", flush=True)
+          np.round(exponents.values, 4), found.verdict, f"distance {found.distance:.3f} ± "
+          f"{found.distance_error:.2g} shared {found.shared:.2g}", flush=True)
     if system.name == "suslov":
         states = solve(system, last, p, np.linspace(0.0, 2000.0, 40_001), level("draft")).states
         for root, eigenvalues, _ in saddle_foci(map_):
@@ -322,7 +322,7 @@ def main() -> None:
             elif options.what == "sets":
                 place = start_of(map_, draw)
                 found = dynamics_of(map_, place, 500, 2000)
-                print(found.verdict, found.apart, f"{found.divergence:.4f} ± {found.divergence_error:.4f}",
+                print(found.sentence, f"{found.motion.divergence:.4f} ± {found.motion.divergence_error:.4f}",
                       map_.sheet.constants, place, flush=True)
             else:
                 looked_at(map_, str(draw.choice(NAMES)), draw, real=options.real)

@@ -31,7 +31,7 @@ from hess_explorer.benchmark.measure import (
     measure,
     race,
 )
-from hess_explorer.benchmark.method import OURS, Method, half_decades, named, version
+from hess_explorer.benchmark.method import OURS, Method, half_decades, named, short, version
 from hess_explorer.benchmark.peers import PEERS, load
 from hess_explorer.benchmark.peers.scipy_peer import METHOD as SCIPY
 from hess_explorer.benchmark.report import Report, as_json, as_text
@@ -327,6 +327,8 @@ def test_finer_settings_of_scipy_are_more_exact():
 def test_names_of_settings_and_versions():
     assert named((18, 1e-11)) == "18, 1e-11"
     assert named((3.2e-7, "high accuracy")) == "3.2e-7, high accuracy"
+    assert [short(x) for x in (3.04e-6, 2.96e-6, 9.96e-7, 4.97e-13, 1e-12, 1.0, 1234.0)] == [
+        "3e-6", "3e-6", "1e-6", "5e-13", "1e-12", "1e0", "1.2e3"]
     assert half_decades(2, 3) == (1e-2, 3.2e-3, 1e-3)
     assert version("no-such-distribution") == "from its source folder"
     assert re.match(r"\d+\.\d+", version("numpy"))

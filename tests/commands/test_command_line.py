@@ -24,12 +24,15 @@ from PIL import Image
 from scipy.integrate import solve_ivp
 
 import hess_explorer.headless.screenshot
+import oracle
 from hess_explorer.__main__ import main
 from hess_explorer.commands import CommandError, output
 from hess_explorer.headless.browser import BrowserError
 from hess_explorer.headless.screenshot import running_server
+from hess_mechanics import systems
 from hess_mechanics.dynamics.orbit import MAX_SAMPLES
 from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.suslov.equations import unit_vector
 from support.andoyer import GESS1, crossings_by_scipy, start_by_hand
 from support.command_line import replaced, run, strict_json, table, without_patience
 from support.kernels import copy_kernels
@@ -127,6 +130,20 @@ def test_orbit(answer, words, states, variables, integrals):
     assert found["body"].startswith("A rigid body")
     assert len(found["notes"]) == 1
     assert "normalised" in found["notes"][0]
+
+
+def test_an_orbit_that_rests_at_an_unstable_equilibrium_knows_how_wrong_it_is(answer):
+    """It said "error 1.1e-7, ok" and was wrong by 1.5e-2."""
+    gamma = (0.83, -0.97, 0.81)
+    text = ",".join(map(str, gamma))
+    found = answer("orbit", "suslov", "--I", "2,1,0.3,0.5", "--b", text, "--omega", "0,0", "--gamma", text, "--t",
+                   "33.18")
+    start, parameters = [0.0, 0.0, *unit_vector(gamma)[0]], [2.0, 1.0, 0.3, 0.5, *gamma]
+    exact = oracle.orbit_in_decimals(systems()["suslov"], start, parameters, [33.18], 30)
+    error = float(np.max(oracle.distances(np.array(found["y"]), exact)))
+    assert error > 1e-3
+    assert error <= found["error_estimate"]
+    assert found["status"] == "promise not met"
 
 
 def test_orbit_of_euler_poisson(answer):

@@ -131,7 +131,8 @@ def test_all_exponents_with_errors_signs_and_a_dimension(answer, capsys):
     found = answer(*words)
     assert found["signs"] == ["+", "0", "0", "0", "-"]
     assert found["sum"] == pytest.approx(found["divergence"], abs=1e-7)
-    assert found["dimension"] == pytest.approx(2.0 + found["exponents"][0] / -found["exponents"][4], abs=1e-9)
+    assert found["dimension"] == pytest.approx(
+        2.0 + (found["divergence"] - found["exponents"][4]) / -found["exponents"][4], abs=1e-9)
     assert found["pairs_forced"] is False
     alone = answer(*words[:-1])["exponent"]
     assert found["exponents"][0] == pytest.approx(alone, abs=4.0 * found["errors"][0])

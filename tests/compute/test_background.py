@@ -302,7 +302,8 @@ def test_what_names_no_places_is_replaced_and_not_repeated(text):
     assert inside
     if note is not None:
         assert value == STARTS.default
-        assert note == "The places of the chosen orbits could not be read: what it is at first is shown."
+        assert note == ("The places of the chosen orbits could not be read as points x,y;x,y from -3.14159,-1 to "
+                        "3.14159,1: what it is at first is shown.")
     else:
         assert STARTS.read(value) == (value, None)
     query = encode(EP.name, {**EP.defaults(), "starts": text})

@@ -25,6 +25,7 @@ from hess_mechanics import (
     check_body,
     circle_map,
     curve_point,
+    ensemble,
     f_max,
     level,
     lock_boundary,
@@ -50,6 +51,7 @@ from support.extremes import ball as extremes_ball
 from support.extremes import euler_poisson as extremes_euler_poisson
 from support.extremes import special_motions
 from support.extremes import suslov as extremes_suslov
+from support.extremes.unstable import unstable_starts
 from support.measured import write_measured
 
 HESS, SUSLOV = systems()["hess"], systems()["suslov"]
@@ -730,6 +732,36 @@ def test_kind_trace_cycles_and_rotation_number_of_an_extreme_map_agree_with_each
     assert (found.kind == "hyperbolic") == (found.trace > 2) == (len(found.fixed_points) == 2)
     turn = found.rotation_number * math.copysign(1.0, found.f)
     assert turn == 0.0 if found.kind == "hyperbolic" else -0.5 - PROMISE[name] <= turn <= 0.0
+
+
+@pytest.fixture(scope="module", params=systems())
+def unstable(request):
+    """A system with 30 starts at unstable equilibria and next to them, and where these motions truly are."""
+    system = systems()[request.param]
+    return system, [(*start, oracle.orbit_in_decimals(system, *map(list, start), 30))
+                    for start in unstable_starts(system, 30)]
+
+
+@pytest.mark.parametrize("name", PROMISE)
+def test_next_to_an_unstable_equilibrium_no_error_is_more_than_its_estimate_says(unstable, name):
+    """A run makes the same roundings as a more exact one there: with these as only difference 1e5 times too little."""
+    system, starts = unstable
+    found = [solve(system, *start, level(name)) for *start, _ in starts]
+    true = np.array([np.max(oracle.distances(orbit.states, exact))
+                     for orbit, (*_, exact) in zip(found, starts, strict=True)])
+    said = np.array([orbit.error_estimate for orbit in found])
+    assert np.max(true / said) < 10.0
+    assert np.quantile(true / said, 0.95) < 3.0
+    # Nor does it cry wolf, though roundings may be ten times as large as those that were made.
+    assert np.median(said / np.maximum(true, 1e-16)) < 100.0
+
+
+def test_of_many_orbits_each_estimate_next_to_an_equilibrium_is_that_of_one(unstable):
+    system, starts = unstable
+    for state, parameters, times, exact in starts[:6]:
+        found = ensemble(system, [state, state], parameters, times, level("standard"))
+        true = float(np.max(oracle.distances(found.states[1], exact)))
+        assert true < 3.0 * found.errors[1]
 
 
 def much_slower(ratio):

@@ -1,5 +1,6 @@
 """The image can be built and serves: each line of the Dockerfile, carried out without Docker."""
 
+import re
 import signal
 import subprocess
 import zipfile
@@ -25,6 +26,16 @@ def image(tmp_path_factory):
         if instruction == "ENV":
             copy_kernels(made.set["NUMBA_CACHE_DIR"], made.site / "hess_mechanics")
     return made
+
+
+def test_the_readme_builds_and_runs_it_at_the_port_and_address_that_it_serves():
+    """`docker build` of the root, and the page at the address that the server lets in."""
+    readme, dockerfile = ((ROOT / name).read_text("utf-8") for name in ("README.md", "Dockerfile"))
+    port, = re.findall(r"^EXPOSE (\d+)$", dockerfile, re.MULTILINE)
+    allowed, = re.findall(r'"--allow-origin", "([^"]+)"', dockerfile)
+    assert f"docker build -t hess-explorer . && docker run --rm -p {port}:{port} hess-explorer\n" in readme
+    assert f"<http://{allowed}>" in readme
+    assert allowed == f"localhost:{port}"
 
 
 def test_what_runs_is_the_installed_package(image):

@@ -20,6 +20,8 @@ MEASURED = {
     "tests/models/README.md": "tests/models/test_extremes.py",
     "tests/benchmarks/README.md": "tests/benchmarks/benchmark_page.py",
     "app/README.md": "tests/benchmarks/benchmark_trade.py",
+    "app/hess_explorer/scenes/speed_accuracy.md": "tests/benchmarks/benchmark_trade.py",
+    "app/hess_explorer/scenes/speed_accuracy_of_maps.md": "tests/benchmarks/benchmark_trade.py",
     "app/hess_explorer/benchmark/README.md": "tests/benchmarks/benchmark_peers.py",
     "app/hess_explorer/sweep/README.md": "tests/benchmarks/benchmark_sweep.py",
 }

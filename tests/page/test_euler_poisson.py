@@ -291,7 +291,7 @@ def test_a_link_brings_back_window_and_starts(page):
     {"starts": "nan,0", "window": "1,2,3"}, {"starts": "<script>alert(1)</script>"}], ids=["numbers", "script"])
 def test_bad_places_in_a_link_are_replaced_and_said(page, texts):
     page.open(urlencode({"scene": EP.name, **SMALL, **texts}))
-    assert page.text("notes").count("could not be read: what it is at first is shown") == len(texts)
+    assert page.text("notes").count("could not be read as points") == len(texts)
     body, values = page.page.locator("body").inner_text(), values_of(page)
     for name, text in texts.items():
         assert text not in body

@@ -134,7 +134,7 @@ def test_a_picture_that_is_folded_is_not_computed(explorer):
 def test_where_there_is_no_body_the_page_says_so_and_draws_none(tab):
     hess = brought(tab, HESS)
     assert hess.data("body")["semi"]
-    hess.change(hess.choose, "preset", "Strong contraction, a = 3 (not a body)")
+    hess.change(hess.choose, "preset", "Strong contraction, a = 3 (not a rigid body)")
     assert hess.data("body") == {}
     assert "Nothing is drawn" in hess.caption("body")
     hess.assert_quiet()

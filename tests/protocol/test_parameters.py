@@ -300,7 +300,8 @@ def test_every_slider_spans_values_that_may_be_typed_and_holds_the_default(scene
 
 @pytest.mark.parametrize(("text", "value", "noted"), [
     ("", "", False), ("omega", "omega", False), ("sphere,omega", "sphere,omega", False),
-    ("sphere,sphere,omega,circle", "sphere,omega", False), ("omega,nobody", "omega", True), ("<b>", "", True)])
+    ("sphere,sphere,omega", "sphere,omega", False),
+    ("sphere,sphere,omega,circle", "sphere,omega", True), ("omega,nobody", "omega", True), ("<b>", "", True)])
 def test_names_in_a_link_are_of_the_list_each_once_and_no_more_than_may_be(text, value, noted):
     spec = Names("large", "Enlarged pictures", SCENE.pictures, most=2)
     found, notes = decode(urlencode({"large": text}), (spec,))

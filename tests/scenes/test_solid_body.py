@@ -49,7 +49,7 @@ def test_every_example_of_a_constrained_body_is_drawn_as_it_lies(name):
     for preset in scenes()[name].presets:
         state, body, _ = body_of(name, preset)
         if "t" not in body:
-            assert preset.name.endswith("(not a body)")
+            assert preset.name.endswith("(not a rigid body)")
             continue
         g, e = (np.stack([body[f"{letter}{k}"] for k in (1, 2, 3)], axis=1) for letter in "ge")
         assert np.linalg.norm(g, axis=1) == pytest.approx(1.0, abs=1e-6)

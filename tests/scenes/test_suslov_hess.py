@@ -15,7 +15,7 @@ from hess_explorer.compute.cache import CACHE
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework import proved_zone
 from hess_explorer.scenes.framework.hess_case import proved
-from hess_explorer.views.circle_map import EVENLY
+from hess_explorer.views.circle_map import EVENLY, about
 from hess_mechanics import circle_map, f_max, level, solve, systems, turning_points
 from hess_mechanics.numerics.accuracy import REFERENCE
 from hess_mechanics.suslov_hess.bifurcation import curve_point
@@ -226,3 +226,14 @@ def test_where_no_cell_is_proved_the_caption_says_why():
     hidden = View(SCENE, {"I23": 0.81}, seen={"bifurcation"}, whole=False)
     assert "ells" not in hidden.text["bifurcation"]
     assert not hidden.data.get("bifurcation-proved")
+
+
+def test_on_the_edge_the_caption_says_that_there_is_no_torus_and_names_no_cycle():
+    """h = 13/8, f = 15/8 are decimals, and exactly on the edge; doubles alone find two fixed points of a map there."""
+    theta = circle_map(0.5, 1.625, 1.875, REFERENCE)
+    assert theta.kind == "hyperbolic"
+    found = proved(1.0, 0.5, 1.625, 1.875)
+    assert about(theta, found.badge) == found.badge
+    assert found.badge == "Proved: no torus, but a circle with n₃ constant: two equilibria."
+    assert "exactly two equilibria" in found.said
+    assert "one periodic orbit" in proved(1.0, 0.1, 1.625, 1.875).badge

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import signal
+import subprocess
+import sys
 import time
 from pathlib import Path
 
@@ -56,3 +58,27 @@ def test_no_worker_outlives_the_process_that_began(tmp_path):
         process.kill()
         process.wait()
         gone(workers)
+
+
+COMPILES = """
+from hess_explorer.server.warm import compile_beside
+
+print("begun", flush=True)
+compile_beside()
+"""
+
+
+def test_the_compiler_beside_a_server_holds_none_of_its_pipes_and_ends_with_it(tmp_path):
+    """Whoever reads the output of a server to its end waited for minutes while kernels were compiled."""
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
+    with subprocess.Popen([sys.executable, "-c", COMPILES], env=environment, stdout=subprocess.PIPE) as server:
+        assert server.stdout.readline() == b"begun\n"
+        ends = time.monotonic() + 60.0
+        while not (compilers := below(server.pid)[1:]) or not list(tmp_path.rglob("*.nbi")):
+            assert time.monotonic() < ends, "nothing is compiled"
+            time.sleep(0.1)
+        server.kill()
+        killed = time.monotonic()
+        assert server.stdout.read() == b""
+        assert time.monotonic() - killed < 2.0
+        gone(compilers)

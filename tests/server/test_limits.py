@@ -115,7 +115,7 @@ def test_a_link_that_is_too_long_is_refused_with_a_sentence(base):
     # Up to there the page opens.
     for length in (MAX_QUERY + 100, QUERY_LIMIT):
         state = finished(visit(length))
-        assert "longer than 2000 characters and was not read" in state["tree"]["texts"]["notes"]
+        assert "longer than 2000 characters: it was not read" in state["tree"]["texts"]["notes"]
 
 
 def test_what_nothing_here_takes_is_not_taken(base):

@@ -7,8 +7,6 @@ from dataclasses import dataclass, field
 from importlib import metadata
 from typing import Protocol
 
-import numpy as np
-
 from .works import Array, Work
 
 __all__ = [
@@ -51,8 +49,10 @@ class Method:
 
 
 def short(x: float) -> str:
-    """An error or a tolerance as a text: "3.2e-7"."""
-    return np.format_float_scientific(x, precision=1, trim="-", exp_digits=1)
+    """Return a finite error or tolerance to two digits, as "3.2e-7" or "3e-6"."""
+    # NumPy's own short form leaves the point of 3.04e-6 behind: "3.e-6".
+    mantissa, _, exponent = f"{x:.1e}".partition("e")
+    return f"{mantissa.removesuffix('.0')}e{int(exponent)}"
 
 
 def named(setting: Setting) -> str:

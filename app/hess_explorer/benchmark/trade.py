@@ -1,4 +1,4 @@
-"""Cost and error of every level, for every kind of computation of every scene."""
+"""Cost and error of every level, for every kind of computation of every scene, and for each kind in all of them."""
 
 from __future__ import annotations
 
@@ -6,14 +6,23 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from hess_explorer.protocol.parameters import Choice, Value
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.scenes.framework.trial import Trial, bare
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.trade import Sample, enough, measure
-from hess_mechanics.numerics.accuracy import LEVELS
+from hess_mechanics.errors import InvalidParameter, ModelError
+from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, PLANS, REFERENCE, Kind
 
-__all__ = ["Row", "as_json", "as_text", "costliest", "names", "trade"]
+__all__ = ["Failed", "Row", "as_json", "as_text", "by_kind", "costliest", "heading", "line_of", "names", "trade"]
+
+_COUNTED: dict[Kind, tuple[str, str]] = {
+    Kind.ORBIT: ("", ""), Kind.SECTION: ("crossings", ""), Kind.ROTATION: ("crossings", "orbits"),
+    Kind.GRID: ("", "cells along a side"), Kind.LINE: ("turns", "places"), Kind.COLOURS: ("", "cells along a side"),
+    Kind.MAP: ("", "phases"), Kind.CURVE: ("", "tori"), Kind.BASINS: ("", "cells along a side"),
+    Kind.INDICATOR: ("", "cells along a side"), Kind.EXPONENT: ("time", ""), Kind.CLOUD: ("points", "")}
+"""What `Plan.share` and `Plan.cells` are a part of."""
 
 
 @dataclass(frozen=True)
@@ -37,20 +46,46 @@ def names() -> tuple[str, ...]:
     return tuple(name for name, scene in scenes().items() if scene.origin is None and scene.trials)
 
 
+@dataclass(frozen=True)
+class Failed:
+    """A kind of computation that could not be measured, and why."""
+
+    scene: str
+    kind: str
+    why: str
+
+
+def _states(scene: Scene[Any]) -> Iterator[dict[str, Value]]:
+    """What a newcomer sees, the presets, and each of these with one choice made differently."""
+    shown = [{**scene.defaults(), **values} for values in ({}, *map(scene.example, scene.presets))]
+    yield from shown
+    for values in shown:
+        for spec in scene.specs:
+            if isinstance(spec, Choice) and spec.name != "accuracy":
+                yield from ({**values, spec.name: option} for option in spec.options)
+
+
 def _example(scene: Scene[Any], trial: Trial[Any]) -> Any:
-    """The first state that shows it: what a newcomer sees, or a preset."""
-    defaults = scene.defaults()
-    states = (bare(scene.of({**defaults, **values})) for values in ({}, *map(scene.example, scene.presets)))
-    return next(state for state in states if trial.shown(state))
+    """The first state that shows it.  Raises `InvalidParameter`."""
+    for values in _states(scene):
+        state = bare(scene.of(values))
+        if trial.shown(state):
+            return state
+    raise InvalidParameter(f"No example of the scene {scene.name} and no single choice in one shows {trial.kind}: give "
+                           "it an example that does.")
 
 
-def _row(name: str, scene: Scene[Any], trial: Trial[Any], repeats: int) -> Row:
-    state = _example(scene, trial)
-    samples = measure(trial.kind, lambda plan: trial.run(state, plan), lambda *both: trial.error(state, *both), repeats)
+def _row(name: str, scene: Scene[Any], trial: Trial[Any], repeats: int) -> Row | Failed:
+    try:
+        state = _example(scene, trial)
+        samples = measure(trial.kind, lambda plan: trial.run(state, plan), lambda *both: trial.error(state, *both),
+                          repeats)
+    except ModelError as error:
+        return Failed(name, str(trial.kind), str(error))
     return Row(name, str(trial.kind), trial.unit, samples, enough(samples, trial.seen))
 
 
-def trade(chosen: Sequence[str], repeats: int, progress: Callable[[str], None]) -> Iterator[Row]:
+def trade(chosen: Sequence[str], repeats: int, progress: Callable[[str], None]) -> Iterator[Row | Failed]:
     """A row for each kind of computation of the chosen scenes, in their first state that shows it."""
     for name in chosen:
         scene = scenes()[name]
@@ -68,14 +103,55 @@ def _round(value: float) -> str:
     return f"{value:.0f}" if value >= 10.0 else digits(value, 2)
 
 
+def _line(cells: Sequence[str]) -> str:
+    return f"| {' | '.join(cells)} |\n"
+
+
+def _heading(cells: Sequence[str]) -> str:
+    return _line(cells) + _line(["---"] * len(cells))
+
+
+def heading() -> str:
+    """The first lines of the table whose others are `line_of` each row."""
+    return _heading(["scene", "computation", *LEVELS, "ratio", "enough", "error in"])
+
+
+def line_of(row: Row | Failed) -> str:
+    """A line in Markdown: milliseconds and error of each level, and how many times as long the last one takes."""
+    if isinstance(row, Failed):
+        return _line([row.scene, row.kind, *["–"] * (len(LEVELS) + 2), row.why])
+    cells = (f"{_round(one.ms)} ms, {_round(one.error)}" for one in row.samples)
+    return _line([row.scene, row.kind, *cells, f"{_round(row.ratio)} ×", row.enough, row.unit])
+
+
 def as_text(rows: Sequence[Row]) -> str:
-    """A table in Markdown: milliseconds and error of each level, and how many times as long the last one takes."""
-    head = ["scene", "computation", *LEVELS, "ratio", "enough", "error in"]
-    lines = [head, ["---"] * len(head)]
-    for row in rows:
-        cells = (f"{_round(one.ms)} ms, {_round(one.error)}" for one in row.samples)
-        lines.append([row.scene, row.kind, *cells, f"{_round(row.ratio)} ×", row.enough, row.unit])
-    return "\n".join(f"| {' | '.join(line)} |" for line in lines) + "\n"
+    """The table of these rows."""
+    return heading() + "".join(map(line_of, rows))
+
+
+def by_kind(rows: Sequence[Row]) -> str:
+    """A table in Markdown, a line for each kind of computation.
+
+    It says what `draft` leaves out, how many times as long `reference` takes in the scenes (from the least to the
+    most), and the largest error of each level among them.
+    """
+    lines = [_heading(["computation", "draft computes", "reference takes", *LEVELS, "error in"])]
+    for kind in Kind:
+        own = [row for row in rows if row.kind == kind]
+        if own:
+            ratios = sorted(row.ratio for row in own)
+            least, most = _round(ratios[0]), _round(ratios[-1])
+            errors = (_round(max(row.samples[i].error for row in own)) for i in range(len(LEVELS)))
+            lines.append(_line([str(kind), _draft_computes(kind), f"{least} ×" if least == most else
+                                f"{least} to {most} ×", *errors, own[0].unit]))
+    return "".join(lines)
+
+
+def _draft_computes(kind: Kind) -> str:
+    draft, last = PLANS[kind][DRAFT.name], PLANS[kind][REFERENCE.name]
+    parts = zip((draft.share, draft.cells), (last.share, last.cells), _COUNTED[kind], strict=True)
+    return " and ".join(f"{100.0 * one / other:.0f} % of the {what}" for one, other, what in parts if one < other) \
+        or "as much"
 
 
 def as_json(rows: Sequence[Row]) -> list[dict[str, Any]]:

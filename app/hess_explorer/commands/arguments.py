@@ -6,7 +6,7 @@ import argparse
 import math
 from collections.abc import Callable
 from typing import NoReturn
-from urllib.parse import parse_qsl
+from urllib.parse import parse_qsl, urlencode
 
 __all__ = ["integer", "number", "samples", "shown", "state_of", "vector"]
 
@@ -58,13 +58,15 @@ def vector(names: str) -> Callable[[str], tuple[float, ...]]:
     return parse
 
 
-def state_of(text: str) -> dict[str, str]:
-    """What a query says, by key.  Raises `argparse.ArgumentTypeError`."""
+def state_of(text: str) -> str:
+    """Return the query of a link, or of what follows ? in one, encoded.  Raises `argparse.ArgumentTypeError`."""
+    from hess_explorer.protocol.parameters import query_in
+
     if len(text) > _MAX_STATE:
         raise argparse.ArgumentTypeError(f"the state has {len(text)} characters; at most {_MAX_STATE} are allowed")
-    query = text.removeprefix("?")
+    query = query_in(text)
     try:
-        return dict(parse_qsl(query, keep_blank_values=True, strict_parsing=bool(query)))
+        return urlencode(parse_qsl(query, keep_blank_values=True, strict_parsing=bool(query)))
     except ValueError:
         _refuse(text, "is not a state; write it like 'h=1.2&f=0.3'")
 

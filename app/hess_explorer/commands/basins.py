@@ -48,11 +48,11 @@ def _run(options: argparse.Namespace) -> None:
     with computing():
         import numpy as np
 
-        from hess_mechanics import SuslovBody, basins, check_body, level
+        from hess_mechanics import SuslovBody, basins, check_body
 
         found = basins(SuslovBody(*options.I, *options.b), options.E, plane=options.k, cells=(m, n),
                        window=((psi0, delta0), (psi1, delta1)), crossings=options.crossings,
-                       accuracy=level(options.accuracy))
+                       accuracy=options.accuracy)
         check = check_body(*options.I)
     cells, on_each, known = found.group, found.divergence, found.group >= 0.0
     psi, delta = np.meshgrid(found.psi, found.delta)

@@ -79,10 +79,24 @@ def _progress(text: str) -> None:
 
 
 def _run_trade(options: argparse.Namespace) -> None:
-    from hess_explorer.benchmark.trade import as_json, as_text, names, trade
+    from hess_explorer.benchmark.trade import Failed, Row, as_json, by_kind, heading, line_of, names, trade
 
-    rows = [*trade(options.scenes or names(), 1 if options.quick else 3, _progress)]
-    show((as_text(rows) if options.format == "text" else _json(as_json(rows))).encode())
+    in_text = options.format == "text"
+    if in_text:
+        show(heading().encode())
+    rows: list[Row] = []
+    failed: list[Failed] = []
+    for row in trade(options.scenes or names(), 1 if options.quick else 3, _progress):
+        if isinstance(row, Row):
+            rows.append(row)
+        else:
+            failed.append(row)
+        # At once: minutes of measuring are not lost with what fails later.
+        if in_text:
+            show(line_of(row).encode())
+    show((f"\n{by_kind(rows)}" if in_text else _json(as_json(rows))).encode())
+    if failed:
+        raise CommandError("; ".join(f"{one.scene}: {one.kind} could not be measured ({one.why})" for one in failed))
 
 
 def _json(value: object) -> str:

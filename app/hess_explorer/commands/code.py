@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from urllib.parse import urlencode
 
 from hess_explorer.export.formats import holding
 
@@ -30,5 +29,5 @@ def _run(options: argparse.Namespace) -> None:
         from hess_explorer.export.notebook import PROGRAMS
         from hess_explorer.export.shown import address
 
-        text = PROGRAMS[options.format](address(urlencode(options.state), options.picture))
+        text = PROGRAMS[options.format](address(options.state, options.picture, lenient=options.lenient))
     show(text.encode(), options.out)

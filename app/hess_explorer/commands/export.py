@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Callable
-from urllib.parse import urlencode
 
 from hess_explorer.export.formats import FILM_WIDTHS, SECONDS, WIDTHS, Wish, holding
 
@@ -59,14 +58,15 @@ def _teller(lines: bool) -> Callable[[int, int], None]:
 def _page(options: argparse.Namespace) -> bytes:
     from hess_explorer.page.offline import as_html
 
-    return as_html(urlencode(options.state), options.picture.split(",") if options.picture else ())[1]
+    pictures = options.picture.split(",") if options.picture else ()
+    return as_html(options.state, pictures, lenient=options.lenient)[1]
 
 
 def _picture(options: argparse.Namespace) -> bytes:
     from hess_explorer.export.file import content
     from hess_explorer.export.shown import shown
 
-    found = shown(urlencode(options.state), options.picture)
+    found = shown(options.state, options.picture, lenient=options.lenient)
     wish = Wish(options.format, options.width, options.black, options.seconds)
     return content(found, wish, _teller(options.progress))
 

@@ -41,13 +41,15 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def add_state(parser: argparse.ArgumentParser) -> None:
-    """The option --state, as a dictionary."""
-    parser.add_argument("--state", type=state_of, default={}, metavar="QUERY",
-                        help="what follows ? in a link to the page (default: its first view)")
+    """The options --state, a query, and --lenient."""
+    parser.add_argument("--state", type=state_of, default="", metavar="QUERY",
+                        help="a link to the page, or what follows ? in it (default: its first view)")
+    parser.add_argument("--lenient", action="store_true",
+                        help="put right what is wrong in the state, and say so in the notes, instead of refusing it")
 
 
 def add_picture(parser: argparse.ArgumentParser, more: str = "") -> None:
-    """The options --state, --picture and --out; more : on several pictures."""
+    """The options --state, --lenient, --picture and --out; more : on several pictures."""
     add_state(parser)
     parser.add_argument("--picture", default="", metavar="NAME", help="the name of the picture, as in pictures=… of a "
                         f"link that embeds (default: the first{more})")

@@ -103,4 +103,6 @@ def _write_manifolds(options: argparse.Namespace, orbit: PeriodicOrbit, curves: 
             for curve in curves for length, point in zip(curve.lengths, curve.points, strict=True)]
     write(options, dict(zip(names, map(list, zip(*rows, strict=True)), strict=True)), names, {
         **_facts(orbit), "saddle": orbit.places[0].tolist(), "errors": [float(one.error_estimate) for one in curves],
-        "ended": [one.ended for one in curves]}, notes=())
+        "ended": [one.ended for one in curves],
+        "status": next((status for status in (str(one.status) for one in curves) if status != "ok"), str(orbit.status)),
+    }, notes=())

@@ -20,7 +20,8 @@ __all__ = ["add"]
 _ROUND = 100
 """Proofs between two looks at the share decided."""
 _MEANS = ("alpha = (1 - n1^2)/(n1 + n2)^2, beta = (1 - n2^2)/(n1 + n2)^2 with n1 <= n2 between which n3 swings; "
-          "h = (alpha + beta - 1) s/2, f = sqrt(2 alpha beta) s^(3/2), s = 2/sqrt((1 + alpha + beta)^2 - 4 alpha beta)")
+          "h = (alpha + beta - 1) s/2, f = sqrt(2 alpha beta) s^(3/2), s = 2/sqrt((1 + alpha + beta)^2 - 4 alpha beta)"
+          "; a statement is about the tori of a cell, alpha > beta or exchanged; alpha = beta is the edge: no torus")
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -31,7 +32,8 @@ def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
                     "every torus of a cell has exactly two limit cycles, or none.  The largest undecided cell always "
                     "comes first, so the share decided grows, and undecided cells close in on the boundary.  A cell "
                     "is a rectangle of two numbers α, β that name a torus (the JSON says how); its ends are doubles, "
-                    "meant exactly.  Areas are computed, not proved.  "
+                    "meant exactly.  Where a cell meets the edge |f| = f_max(h), its statement is about its tori "
+                    "only: on the edge there is none.  Areas are computed, not proved.  "
                     "Needs the extra: pip install 'hess-explorer[prove]'.",
         epilog="Example: hess-explorer prove-zone --a 0.5 --cells 50 --format json")
     parser.add_argument("--a", required=True, metavar="NUMBER",

@@ -5,11 +5,11 @@ from __future__ import annotations
 import argparse
 import re
 from pathlib import Path
-from urllib.parse import urlencode
+from urllib.parse import parse_qsl, urlencode
 
 from . import CommandError
 from .arguments import shown
-from .output import add_state, write_file
+from .output import add_state, computing, write_file
 
 __all__ = ["add"]
 
@@ -37,13 +37,26 @@ def _size(text: str) -> tuple[int, int]:
     return int(match[1]), int(match[2])
 
 
+def _require_right(query: str) -> None:
+    """Refuse a query that the page would put right.  Raises `CommandError`."""
+    with computing():
+        from hess_explorer.export.shown import address
+        from hess_explorer.page.opening import opening
+
+        address(query)
+        opening(query, None, lenient=False)
+
+
 def _run(options: argparse.Namespace) -> None:
     from hess_explorer.headless.browser import BrowserError
     from hess_explorer.headless.screenshot import ServerError, screenshot
 
-    state = {**options.state, "theme": "dark"} if options.dark else options.state
+    if not options.lenient:
+        _require_right(options.state)
+    given = dict(parse_qsl(options.state, keep_blank_values=True))
+    query = urlencode({**given, "theme": "dark"} if options.dark else given)
     try:
-        picture = screenshot(urlencode(state), options.size, dark=options.dark)
+        picture = screenshot(query, options.size, dark=options.dark)
     except (BrowserError, ServerError) as error:
         raise CommandError(str(error)) from error
     write_file(options.out, picture)

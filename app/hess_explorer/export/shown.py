@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from importlib.metadata import version
 from typing import Any, TypeVar
 
-from hess_explorer.protocol.parameters import CLIENT, Choice, Value, Values, decode, encode
+from hess_explorer.protocol.parameters import CLIENT, Choice, Link, Value, Values, encode
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.views.layers import Axes, Columns
@@ -94,26 +94,37 @@ class Shown:
                 + "".join(f" | {note}" for note in self.notes))
 
 
-def shown(query: str, picture: str = "") -> Shown:
+def shown(query: str, picture: str = "", *, lenient: bool = False) -> Shown:
     """The picture of that name, else the first one, of the state that a query describes.
+
+    lenient : as in `address`.
 
     Raises
     ------
-    InvalidParameter : the scene has no such picture.
+    InvalidParameter : the scene has no such picture, or the query is wrong.
     ModelError : the state cannot be computed.
     """
-    return show(address(query, picture))
+    return show(address(query, picture, lenient=lenient))
 
 
-def address(query: str, picture: str = "") -> Address:
-    """What a query describes, put right.  Raises `InvalidParameter`: the scene has no such picture."""
+def address(query: str, picture: str = "", *, lenient: bool = False) -> Address:
+    """Return what a query describes.
+
+    lenient : whether what is wrong in the query is put right and noted; else it is refused.
+
+    Raises
+    ------
+    InvalidParameter : the scene has no such picture, or the query is wrong.
+    """
     known = scenes()
-    read, notes = decode(query, (Choice("scene", "Scene", tuple(known), next(iter(known))), *CLIENT_KEPT))
-    scene = known[str(read.pop("scene"))]
-    wanted, more = decode(query, scene.specs)
-    values, changed = scene.admit(wanted)
-    client = {name: float(value) for name, value in read.items()}
-    return Address(scene, picture_of(scene, picture), values, client, tuple(dict.fromkeys([*notes, *more, *changed])))
+    link = Link(query, lenient)
+    scene = known[str(link.value(Choice("scene", "Scene", tuple(known), next(iter(known)))))]
+    link.require(scene.name, [spec.name for spec in scene.specs])
+    client = {name: float(value) for name, value in link.values(CLIENT_KEPT).items()}
+    values, changed = scene.admit(link.values(scene.specs))
+    for note in changed:
+        link.note(note)
+    return Address(scene, picture_of(scene, picture), values, client, tuple(link.notes))
 
 
 def picture_of(scene: Scene[Any], name: str) -> Picture[Any]:

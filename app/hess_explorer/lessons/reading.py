@@ -38,7 +38,7 @@ from markdown_it.token import Token
 
 from hess_explorer.lessons.lesson import TIME, Animation, Lesson, LessonError, Place, Prediction, Step
 from hess_explorer.lessons.markdown import parser, to_html
-from hess_explorer.protocol.parameters import CLIENT, MAX_QUERY, Number, decode
+from hess_explorer.protocol.parameters import MAX_QUERY, PAGE_KEYS, Number, decode, refusal
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.views.plot import Plot
@@ -50,7 +50,6 @@ MAX_STEPS = 200
 TRY_THIS = "Try this"
 _MOST_MINUTES, _MOST_SECONDS, _MOST_TIME = 600.0, 600.0, 1e6
 _KEYS = ("state", "example", "look", "animate", "predict")
-_KEPT_BY_BROWSER = {"v", "scene", "theme", "large", "lesson", "step", *(spec.name for spec in CLIENT)}
 _CURVES, _POINTS = ("multi_line", "line"), ("scatter",)
 
 
@@ -257,13 +256,13 @@ def _place(link: object, line: int) -> Place:
     if len(query) > MAX_QUERY:
         raise LessonError(f"the link is longer than {MAX_QUERY} characters.", line)
     names = tuple(spec.name for spec in scene.specs)
-    unknown = [name for name in given if name not in names and name not in _KEPT_BY_BROWSER]
+    unknown = [name for name in given if name not in names and name not in PAGE_KEYS]
     if unknown:
         raise LessonError(f"the link has {unknown[0][:40]!r}, which the scene {scene.name} does not: allowed are "
                           f"{', '.join(names)}.", line)
     values, notes = decode(query, scene.specs)
     if notes:
-        raise LessonError(f"the link cannot be followed as it is. {notes[0]}", line)
+        raise LessonError(f"the link cannot be followed as it is. {refusal(notes[0])}", line)
     return Place(scene.name, values)
 
 

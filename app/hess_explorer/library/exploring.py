@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import signal
 import subprocess
 import sys
 import threading
@@ -14,6 +13,7 @@ from typing import Any
 
 from hess_explorer.headless.screenshot import ServerError, free_port
 from hess_explorer.library.state import State, from_link, state
+from hess_explorer.server.ending import end_with_stdin
 from hess_explorer.server.serving import serve
 
 __all__ = ["Exploration", "explore", "serve_alone"]
@@ -49,7 +49,7 @@ class Exploration:
     @property
     def state(self) -> State:
         """What the page shows now, as `from_link` gives it; the first state until it is looked at."""
-        return from_link(self._reached)
+        return from_link(self._reached, lenient=True)
 
     def close(self) -> None:
         """End its server: the page stays as it is, and nothing can be changed there any more."""
@@ -97,15 +97,9 @@ def serve_alone(port: int) -> None:
     def tell(word: str, text: str = "") -> None:
         print(json.dumps([word, text]), flush=True)
 
-    threading.Thread(target=_end_with_stdin, daemon=True).start()
+    threading.Thread(target=end_with_stdin, daemon=True).start()
     serve(port, "127.0.0.1", False, (), lambda: tell("ready"), sessions=_PAGES,
           follow=lambda query: tell("state", query))
-
-
-def _end_with_stdin() -> None:
-    """End when whoever began this process is gone."""
-    sys.stdin.read()
-    signal.raise_signal(signal.SIGTERM)
 
 
 def _listen(child: subprocess.Popen[str], of: weakref.ref[Exploration]) -> None:

@@ -11,7 +11,6 @@ from numbers import Real
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
-from urllib.parse import urlsplit
 
 import numpy as np
 
@@ -20,9 +19,11 @@ from hess_explorer.export.columns import Table, columns_of
 from hess_explorer.export.file import content
 from hess_explorer.export.formats import Wish, holding
 from hess_explorer.export.shown import CLIENT_KEPT, Address, Shown, address, picture_of, show
-from hess_explorer.protocol.parameters import Number, Places, Spec, Value, written
+from hess_explorer.protocol.parameters import Number, Places, Spec, Value, query_in, refusal, written
 from hess_explorer.scenes import scenes
 from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.arguments import as_level_name
 
 __all__ = ["State", "from_link", "state"]
 
@@ -210,12 +211,14 @@ def state(scene: str = "suslov-hess", /, **parameters: Any) -> State:
     client = {name: float(wanted.pop(name)) for name in looks}
     values, notes = found.admit(wanted)
     if notes:
-        raise InvalidParameter(" ".join(map(_refusal, notes)))
+        raise InvalidParameter(" ".join(map(refusal, notes)))
     return State(Address(found, found.views[0], values, client))
 
 
-def from_link(link: str) -> State:
-    """The state that a link describes, or what follows ? in it; what is wrong in it is put right, and noted.
+def from_link(link: str, *, lenient: bool = False) -> State:
+    """The state that a link describes, or what follows ? in it.
+
+    lenient : whether what is wrong in it is put right, and said in `notes`.  Raises `InvalidParameter` otherwise.
 
     >>> import hess_explorer as hess
     >>> state = hess.from_link("http://localhost:5006/?scene=scattering&theta=1.0")
@@ -224,8 +227,7 @@ def from_link(link: str) -> State:
     >>> state.notes
     ()
     """
-    parts = urlsplit(link)
-    return State(address(parts.query if parts.scheme or link.startswith("?") else link.lstrip("?")))
+    return State(address(query_in(link), lenient=lenient))
 
 
 def _checked(spec: Spec, value: Any) -> Value:
@@ -246,15 +248,10 @@ def _checked(spec: Spec, value: Any) -> Value:
             raise InvalidParameter(f"{spec.name} ({spec.label}) are pairs [(x, y), …].") from None
         found, note = spec.read(written(pairs))
     else:
-        found, note = spec.read(str(value))
+        found, note = spec.read(as_level_name(value) if isinstance(value, Level) else str(value))
     if note:
-        raise InvalidParameter(_refusal(note))
+        raise InvalidParameter(refusal(note))
     return found
-
-
-def _refusal(note: str) -> str:
-    """The sentence of a note, without what was put in the place of the value."""
-    return f"{note.partition(': ')[0].removesuffix('.')}."
 
 
 def _first(state: Any, names: tuple[str, ...]) -> Any:

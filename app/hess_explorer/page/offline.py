@@ -69,17 +69,18 @@ _PAGE = """<!DOCTYPE html>
 """
 
 
-def as_html(query: str, pictures: Sequence[str] = (), home: str = HOME) -> tuple[str, bytes]:
+def as_html(query: str, pictures: Sequence[str] = (), home: str = HOME, *, lenient: bool = False
+            ) -> tuple[str, bytes]:
     """The name of the scene of a query, and the file of its state with these pictures, or those open at first.
 
-    home : the address of the explorer that the link in it leads to.
+    home : the address of the explorer that the link in it leads to; lenient : as in `address`.
 
     Raises
     ------
-    InvalidParameter : the scene has no such picture.
+    InvalidParameter : the scene has no such picture, or the query is wrong.
     ModelError : the state cannot be computed.
     """
-    found = address(query)
+    found = address(query, lenient=lenient)
     scene, values, link = found.scene, found.values, found.link
     wanted = [picture_of(scene, name).name for name in pictures] or scene.open_pictures
     chosen = [name for name in scene.pictures if name in wanted]

@@ -47,13 +47,14 @@ def query_of(arguments: Mapping[str, Iterable[bytes]]) -> str:
     return urlencode([(name, first.decode("utf-8", "replace")) for name, first in pairs if first is not None])
 
 
-def opening(query: str, own: Lesson | None) -> Opening:
+def opening(query: str, own: Lesson | None, *, lenient: bool = True) -> Opening:
     """What the query of a link opens; own : a lesson besides those of the package.
 
-    An address that names neither a scene nor a lesson begins that one.
+    An address that names neither a scene nor a lesson begins that one.  What is wrong in the query is put right and
+    noted, unless it is not read leniently: then `InvalidParameter` is raised.
     """
     lessons = {own.name: own, **shipped()} if own else dict(shipped())
-    link = Link(query)
+    link = Link(query, lenient)
     first = own.name if own and "scene" not in link.given else ""
     reading = lessons.get(str(link.value(Choice("lesson", "Lesson", ("", *lessons), first))))
     most = len(reading.steps) if reading else 1

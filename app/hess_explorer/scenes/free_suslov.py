@@ -38,7 +38,7 @@ _ROOM_BELOW = (-1.25, 1.05)
 
 # The figure's caption: tan φ = 0.85/0.28 and 0.53/0.72.
 _ON_CIRCLE: Values = {"w1": 2.0, "w2": 1e-3, "Gamma": -0.44, "phi": 1.2526, "phi2": 0.6346}
-_SLANTING: Values = {"I13": 0.4, "I23": 0.6, "k": 1.2, "w1": 3.0, "w2": -2.001}
+_SLANTING: Values = {"I13": 0.2, "I23": 0.3, "k": 1.2, "w1": 3.0, "w2": -2.001}
 
 
 def _portrait(I13: float, I23: float) -> Values:
@@ -57,10 +57,10 @@ PRESETS = (
            phi2=math.pi / 2),
     Preset("Its second orbit as printed, γ₁ = −0.49: off that circle (figure 3)", **_SLANTING, Gamma=-0.5306,
            phi=1.6337, phi2=math.pi),
-    Preset("Portrait, I₁₃ > 0, I₂₃ < 0 (figure 1)", **_portrait(0.4, -0.5)),
-    Preset("Portrait, I₁₃ > 0, I₂₃ > 0", **_portrait(0.4, 0.5)),
-    Preset("Portrait, I₁₃ < 0, I₂₃ < 0", **_portrait(-0.4, -0.5)),
-    Preset("Portrait, I₁₃ < 0, I₂₃ > 0", **_portrait(-0.4, 0.5)),
+    Preset("Portrait, I₁₃ > 0, I₂₃ < 0 (figure 1)", **_portrait(0.2, -0.25)),
+    Preset("Portrait, I₁₃ > 0, I₂₃ > 0", **_portrait(0.2, 0.25)),
+    Preset("Portrait, I₁₃ < 0, I₂₃ < 0", **_portrait(-0.2, -0.25)),
+    Preset("Portrait, I₁₃ < 0, I₂₃ > 0", **_portrait(-0.2, 0.25)),
     Preset("Started 1e-300 from the line", w2=1e-300, span=750.0),
 )
 

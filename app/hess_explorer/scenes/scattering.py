@@ -41,7 +41,7 @@ PRESETS = (
     Preset("k = 1: complete reversal, the curve is flat", k=1.0, theta=1.0),
     Preset("k = 3: complete reversal again", k=3.0, I23=0.4, theta=1.0),
     Preset("k = 2, small θ⁻", theta=0.3),
-    Preset("k² < 0: I₁₁ below I₂₂", k=-0.9, I23=0.5, theta=1.2),
+    Preset("k² < 0: I₁₁ below I₂₂", k=-1.5, I23=0.3, theta=1.2),
     Preset("I₁₃ ≠ 0", I13=0.3, I23=0.5, k=1.7, theta=1.2),
 )
 

@@ -39,8 +39,8 @@ PRESETS = (
     Preset("A small patch and its volume", **_PATCH, beside="nothing"),
     Preset("Beside: on a principal axis volume is kept", **_PATCH, beside="principal axis"),
     Preset("A density that vanishes: |F₂|/|s| on F₂ = 0", **_CHOICES, I11=1.64, I22=1.0, I13=0.0, I23=0.8),
-    Preset("Chaplygin ball, 𝒟 = 3: γ gathers too", **_CHOICES, I11=1.0, I22=1.5, I13=0.7, I23=1.2, D=3.0, h=3.0,
-           span=11.0),
+    Preset("Chaplygin ball, 𝒟 = 3: γ gathers too (not a rigid body)", **_CHOICES, I11=1.0, I22=1.5, I13=0.7,
+           I23=1.2, D=3.0, h=3.0, span=11.0),
 )
 
 

@@ -60,7 +60,7 @@ PRESETS = (
     Preset("Oscillation, f → 0: Θ∘Θ = id", h=0.3, f=1e-8),
     Preset("Separatrix: no return", h=1.0, f=0.0),
     Preset("On the bifurcation curve", **dict(zip("hf", curve_point(0.5), strict=True))),
-    Preset("Strong contraction, a = 3 (not a body)", I22=0.5, I23=1.5),
+    Preset("Strong contraction, a = 3 (not a rigid body)", I22=0.5, I23=1.5),
 )
 
 

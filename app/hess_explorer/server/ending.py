@@ -15,7 +15,7 @@ from tornado.ioloop import IOLoop
 
 from hess_explorer.server.limits import say_goodbye
 
-__all__ = ["Workers", "end_on_signals", "leave"]
+__all__ = ["Workers", "end_on_signals", "end_with_stdin", "leave"]
 
 GOODBYE = 2.0
 """Seconds for the pages to hear of it."""
@@ -60,6 +60,17 @@ def end_on_signals(loop: IOLoop) -> None:
 
     for one in _SIGNALS:
         signal.signal(one, stop)
+
+
+def end_with_stdin() -> None:
+    """End this process when its standard input is closed, as it is when the process that holds the other end is gone.
+
+    To be run in a thread of its own.
+    """
+    # Not `sys.stdin`, whose lock an interpreter that ends would wait for.
+    while os.read(0, 4096):
+        pass
+    signal.raise_signal(signal.SIGTERM)
 
 
 def leave(server: Server) -> NoReturn:

@@ -95,8 +95,8 @@ class Export(RequestHandler):
         if wish.kind == "html":
             home = self.request.full_url().partition("?")[0].removesuffix("export")
             with limited(self._left, _SECONDS), np.errstate(all="ignore"):
-                return as_html(urlencode(state), picture.split(",") if picture else (), home)
-        where = address(urlencode(state), picture)
+                return as_html(urlencode(state), picture.split(",") if picture else (), home, lenient=True)
+        where = address(urlencode(state), picture, lenient=True)
         name = f"{where.scene.name}-{where.picture.name}"
         if wish.kind in PROGRAMS:
             return name, PROGRAMS[wish.kind](where).encode()
@@ -106,7 +106,7 @@ class Export(RequestHandler):
     async def _answer_film(self, state: dict[str, str], picture: str, read: dict[str, Any]) -> None:
         """The film, after lines about it where they are asked for.  Raises `ModelError`, `Abandoned`."""
         loop, kind, lines = asyncio.get_running_loop(), str(read["format"]), read["progress"] == "1"
-        words = [f"--state={urlencode(state)}", f"--picture={picture}", "--format", kind,
+        words = [f"--state={urlencode(state)}", "--lenient", f"--picture={picture}", "--format", kind,
                  "--width", f"{read['width']:g}", "--seconds", f"{read['seconds']:g}",
                  *(["--black"] if read["black"] == "1" else [])]
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import gc
 import logging
-import os
 import subprocess
 import sys
 import time
@@ -21,11 +20,25 @@ from hess_explorer.server.compiled import KEEPS_KERNELS, all_compiled, mark_all_
 from hess_explorer.sweep.chart import at_first
 from hess_mechanics.errors import ModelError
 
-__all__ = ["compile_all", "warm"]
+__all__ = ["compile_all", "compile_beside", "warm"]
 
 logger = logging.getLogger("hess_explorer")
 
 QUIET_SECONDS = 0.3
+_COMPILER = """
+import os
+import threading
+
+from hess_explorer.server.ending import end_with_stdin
+
+threading.Thread(target=end_with_stdin, daemon=True).start()
+if os.name == "posix":
+    os.nice(10)
+
+from hess_explorer.server.warm import compile_all
+
+compile_all()
+"""
 
 
 def compute(scene: Scene[Any], folded: bool = True) -> None:
@@ -47,18 +60,26 @@ def compute(scene: Scene[Any], folded: bool = True) -> None:
 
 
 def compile_all(backwards: bool = False) -> None:
-    """Leave the kernels of all scenes on disk; stops early when the parent process has ended.
+    """Leave the kernels of all scenes on disk.
 
     backwards : from the last scene on, beside another process that begins with the first: it takes half as long.
     """
-    parent = os.getppid()
     if all_compiled():
         return
     for scene in [*scenes().values()][:: -1 if backwards else 1]:
-        if os.getppid() != parent:
-            return
         compute(scene)
     mark_all_compiled()
+
+
+def compile_beside() -> None:
+    """Run `compile_all` in another process of low priority, and wait for it; it ends when this process does.
+
+    It shares no pipe with this process: whoever waits for the end of this one's output would wait for the compiler too.
+    """
+    # A session of its own: Ctrl-C in the terminal ends the server, which closes the compiler's standard input.
+    with subprocess.Popen([sys.executable, "-c", _COMPILER], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
+                          start_new_session=True) as compiler:
+        compiler.wait()
 
 
 def warm(first_is_ready: Callable[[], None] = lambda: None) -> None:
@@ -77,10 +98,7 @@ def warm(first_is_ready: Callable[[], None] = lambda: None) -> None:
         gc.enable()
         first_is_ready()
     if KEEPS_KERNELS and not all_compiled():
-        # A session of its own: Ctrl-C in the terminal ends the server, and this process then stops by itself.
-        subprocess.run([sys.executable, "-c", "import os; os.name == 'posix' and os.nice(10); "
-                        "from hess_explorer.server.warm import compile_all; compile_all()"],
-                       check=False, start_new_session=True)
+        compile_beside()
     _wait_until_quiet()
     compute(first)
     for scene in others:

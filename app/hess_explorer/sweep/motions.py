@@ -24,7 +24,7 @@ from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.euler_poisson import andoyer
 from hess_mechanics.euler_poisson.equations import SYSTEM as HEAVY
 from hess_mechanics.euler_poisson.equations import HeavyBody
-from hess_mechanics.numerics.accuracy import PLANS, Kind, Level
+from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.suslov import section as of_suslov
 from hess_mechanics.suslov.basins import contraction
 from hess_mechanics.suslov.equations import SYSTEM as SUSLOV
@@ -133,7 +133,7 @@ _ON_SECTIONS = (
 
 
 def _lyapunov(of: _Motions, level: Level, t: float, **values: float) -> Cell:
-    found = largest_exponent(of.system, *of.start(values), t, PLANS[Kind.EXPONENT][level.name].level)
+    found = largest_exponent(of.system, *of.start(values), t, level)
     return Cell(found.value, found.spread)
 
 

@@ -158,8 +158,8 @@ _MAPS = {"suslov-section": _suslov_map, "ball-section": _ball_map, "euler-poisso
 def _regime(of: str, level: Level, transient: float, kept: float, t: float, **values: float) -> Cell:
     map_, place = _MAPS[of](level, values)
     found = regime(map_, place, int(transient), int(kept), t)
-    if found.kind is Regimes.UNDECIDED:
-        raise NoValue(f"Undecided: MEGNO is {found.megno:.3g} after t = {t:g}, or the motion has not settled. Choose a "
+    if found.kind in (Regimes.UNDECIDED, Regimes.SETTLING):
+        raise NoValue(f"The motion is {found.kind.words}: MEGNO is {found.megno:.3g} after t = {found.t:.4g}. Choose a "
                       "longer time, or leave more crossings out.")
     return Cell((float(found.kind), float(found.period), float(found.volume)))
 
@@ -169,9 +169,9 @@ def _regimes(of: str) -> Quantity:
     megno = next(one for one in MOTIONS if one.name == f"megno-{of}")
     return Quantity(
         f"regime-{of}", "kind", megno.title.replace("MEGNO", "Kind of the motion"), "1",
-        "Kind: 0 does not return, 1 fixed point, 2 periodic, 3 quasi-periodic, 4 chaotic; period, 0 where none is seen "
-        "up to 64; volume: −1 shrinks about the motion, 1 grows, 0 neither to three times the error. What is undecided "
-        "has no value.",
+        "Kind: 0 not seen to return, 1 fixed point, 2 periodic, 3 quasi-periodic, 4 chaotic, 6 regular without a "
+        "period up to 64; period, 0 where none is seen; volume: −1 shrinks about the motion, 1 grows, 0 neither to "
+        "three times the error. What is undecided has no value.",
         (*megno.parameters[:-1], whole("transient", "N₀", 300, 0, 20_000, "crossings left out"),
          whole("kept", "N", 200, 8, 20_000, "crossings looked at"),
          time_of(200.0, "time of MEGNO and of the mean divergence")),

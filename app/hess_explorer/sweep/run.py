@@ -23,8 +23,8 @@ from hess_explorer.sweep.result import Kept, Memory, Store, opened, require_libr
 from hess_explorer.sweep.work import Piece, cost_of_a_cell, version
 from hess_explorer.sweep.workers import Workers, crew
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.numerics.accuracy import Level
-from hess_mechanics.numerics.accuracy import level as level_named
+from hess_mechanics.numerics.accuracy import Accuracy, Level
+from hess_mechanics.numerics.arguments import as_level, as_level_name
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -52,7 +52,7 @@ def _cells_of_a_piece(what: Quantity, grid: Grid, accuracy: Level, workers: int)
     return min(seconds_of_a_piece(cost * grid.cells, workers) / cost, _MOST_NUMBERS / what.numbers)
 
 
-def sweep(quantity: str, over: Mapping[str, Axis], *, level: str = "precise", store: str | Path | None = None,
+def sweep(quantity: str, over: Mapping[str, Axis], *, level: Accuracy = "precise", store: str | Path | None = None,
           workers: Workers = None, progress: bool | Report | None = None, most_cells: int = MAX_NUMBERS,
           stop: threading.Event | None = None, **fixed: float) -> xr.Dataset:
     """A quantity over one to three of its parameters.
@@ -66,7 +66,7 @@ def sweep(quantity: str, over: Mapping[str, Axis], *, level: str = "precise", st
     ----------
     quantity : a name in `QUANTITIES`, which has its parameters, their bounds and defaults.
     over : for each swept parameter (low, high, count), even places with both ends, or a list of values.
-    level : "draft", "standard", "precise" or "reference".
+    level : "draft", "standard", "precise" or "reference", or `hess_mechanics.level` of one of these names.
     store : a folder that keeps every finished piece (Zarr).  The same call goes on with what is there, however the run
         before it ended.  Two runs at once do the work twice, and no harm.
     workers : None, this thread; "all", a process for each core; a number of processes; or "tcp://…", a Dask cluster,
@@ -85,7 +85,8 @@ def sweep(quantity: str, over: Mapping[str, Axis], *, level: str = "precise", st
     Interrupted : Ctrl-C.  It has what is done, as `dataset`.
     """
     require_libraries()
-    what, accuracy = named(quantity), level_named(level)
+    what, level = named(quantity), as_level_name(level)
+    accuracy = as_level(level)
     grid = Grid.of(what, over, fixed, most_cells)
     path = None if store is None else Path(store)
     kept: Kept | None = None if path is None else opened(path, what, grid, level)
@@ -169,7 +170,7 @@ def explain(found: xr.Dataset, **cell: float) -> str:
         from hess_explorer.sweep.chart_file import chart_of
 
         return chart_of(found).why(*(cell[name] for name in axes))
-    what, accuracy = named(found.attrs["quantity"]), level_named(found.attrs["level"])
+    what, accuracy = named(found.attrs["quantity"]), as_level(found.attrs["level"])
     fixed = json.loads(found.attrs["parameters"])
     grid = Grid.of(what, {name: [cell[name]] for name in axes}, fixed, what.numbers)
     outcome = evaluate(what, expanded(grid.axes, grid.fixed), accuracy)

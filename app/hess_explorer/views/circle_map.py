@@ -100,10 +100,13 @@ def _layers(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array 
 def about(theta: CircleMap | None, proof: str = "") -> str:
     """The kind of a map, its trace and rotation number, and what its cycles are, None on the separatrix.
 
-    proof : what is proved of it, where that is known: it takes the place of the numbers that it encloses.
+    proof : what is proved of it, where that is known: it takes the place of the numbers that it encloses, and of all
+    where it says that there is no torus.
     """
     if theta is None:
         return "Separatrix: no return."
+    if "no torus" in proof:
+        return proof
     if "cycle" in proof:
         enclosed = "" if theta.kind == "elliptic" else f"|trace| {digits(theta.trace, 5)}, "
         return f"{theta.kind}, {enclosed}ρ = {digits(theta.rotation_number)}. {proof}"

@@ -170,6 +170,7 @@ SYSTEM = System(
     labels=("eq29", "eq30"),
     variables=("ω1", "ω2", "γ1", "γ2", "γ3"),
     parameters=("I11", "I22", "I13", "I23", "D", "b1", "b2", "b3"),
+    angular_velocities=2,
     field=field,
     integrals=integrals,
     frequency=frequency,

@@ -26,8 +26,10 @@ import numpy as np
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.dynamics.section import Plane, section
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.numerics.accuracy import Level, Status
+from hess_mechanics.numerics.accuracy import Accuracy, Status
+from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labelled, Labels
+from hess_mechanics.numerics.measured import nearby
 from hess_mechanics.numerics.results import Array, Cost, facts_of
 
 __all__ = ["Period", "area_integral", "has_area_integral", "is_reversible", "period"]
@@ -74,21 +76,22 @@ class Period(Labelled):
                       {"period": self.value, **facts_of(self)})
 
 
-def period(body: BallBody, state: Sequence[float], level: Level) -> Period:
+def period(body: BallBody, state: Sequence[float], level: Accuracy) -> Period:
     """The period of the orbit from `state` (5,): twice the time between its first two crossings of the equator.
 
-    The error is the difference from a second run with a hundredth of the tolerance.
+    The error is the difference from a second run with a hundredth of the tolerance, from a start `nearby`.
     Raises `InvalidParameter` unless the body `is_reversible` and the orbit crosses the equator twice, `WorkLimit`.
     """
+    level = as_level(level)
     if not is_reversible(body):
         raise InvalidParameter("Orbits close only with I13 = I23 = 0 and b3 = 0: set these to 0.")
-    p = np.array(body.parameters)
+    p, given = np.array(body.parameters), np.array(state, float)
     moment = max(body.I11, body.I22) + body.D
     least = min(body.I11, body.I22)
-    nu = float(SYSTEM.frequency(np.array(state, float), p)) or 1.0
+    nu = float(SYSTEM.frequency(given, p)) or 1.0
     end = _TURNS * math.sqrt(moment / least) / nu
-    coarse, fine = (section(SYSTEM, state, body.parameters, _EITHER_WAY, end, each, crossings=2)
-                    for each in (level, level.tightened()))
+    coarse, fine = (section(SYSTEM, start, body.parameters, _EITHER_WAY, end, each, crossings=2)
+                    for start, each in ((given, level), (nearby(given), level.tightened())))
     speeds = np.abs(SYSTEM.field(list(coarse.states.T), body.parameters)[4]) if len(coarse.times) else np.zeros(1)
     if min(len(coarse.times), len(fine.times)) < 2 or np.min(speeds) <= _TOUCHES * nu:
         raise InvalidParameter(

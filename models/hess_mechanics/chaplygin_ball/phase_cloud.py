@@ -29,8 +29,10 @@ from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud_kernels import integrate
 from hess_mechanics.dynamics.orbit import checked_times, require_finite_states, status_of
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.numerics.accuracy import Level, Status
+from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
+from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
+from hess_mechanics.numerics.measured import SAFETY, nearby
 from hess_mechanics.numerics.parallel import THREADS, share
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Cost, facts_of, frozen, unit_of
@@ -236,14 +238,15 @@ def _run(states: Array, p: Array, times: Array, level: Level, max_steps: int) ->
     return out, int(steps.sum())
 
 
-def carried(body: BallBody, states: Array, times: Array, level: Level) -> Cloud:
+def carried(body: BallBody, states: Array, times: Array, level: Accuracy) -> Cloud:
     """The cloud of the phase points `states` (n, 5) at `times` (m,), all ≥ 0 or all ≤ 0, with b = 0.
 
     The error of every sixteenth point, and of those that start closest to s = 0, is measured by a second run with a
-    hundredth of the tolerance; if it exceeds the level's promise all points are recomputed with that, down to the floor
-    of double precision.
+    hundredth of the tolerance from a start `nearby`; if it exceeds the level's promise all points are recomputed with
+    that tolerance, down to the floor of double precision.
     Raises `InvalidParameter` (a field; I13 = I23 = 0; a point with s = 0), `WorkLimit`.
     """
+    level = as_level(level)
     start = time.perf_counter()
     if any(body.parameters[5:]):
         raise InvalidParameter("1/|I13ω1 + I23ω2| is the density of b = 0: set b1 = b2 = b3 = 0.")
@@ -262,9 +265,9 @@ def carried(body: BallBody, states: Array, times: Array, level: Level) -> Cloud:
     while True:
         go_on()
         finer = current.tightened()
-        fine, steps = _run(first[checked], p, t * nu, finer, 2 * max_steps)
+        fine, steps = _run(nearby(first[checked]), p, t * nu, finer, 2 * max_steps)
         total += steps
-        error = (4.0 if current.is_floor else 1.25) * float(np.abs(out[checked] - fine).max()) + 2e-16
+        error = SAFETY * float(np.abs(out[checked] - fine).max()) + 2e-16
         if error <= level.promise or current.is_floor:
             break
         current = finer

@@ -16,7 +16,7 @@ import numpy as np
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud import Cloud, carried, frame_times, histogram, occupation, patch, shell
 from hess_mechanics.dynamics.ensemble import ensemble
-from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.results import Array, Ensemble, frozen
 from hess_mechanics.suslov.additional_integral import of_body
 from hess_mechanics.suslov.equations import SuslovBody
@@ -114,7 +114,7 @@ def density(cloud: Cloud) -> Density:
 
 
 def clouds(body: BallBody, h: float, angle: float | None, spread: float, count: int, span: float,
-           field: float | None, level: Level) -> Clouds:
+           field: float | None, level: Accuracy) -> Clouds:
     """`count` points of a `patch` at an angle, or of a `shell`; times reach to `span`, which may be negative.
 
     field : b3, in which half of them move with I13 = I23 = 0; None for no second cloud.

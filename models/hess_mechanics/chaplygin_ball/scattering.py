@@ -27,7 +27,8 @@ from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody, determinan
 from hess_mechanics.dynamics.ensemble import ensemble
 from hess_mechanics.dynamics.orbit import status_of
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.numerics.accuracy import REFERENCE, STANDARD, Level, Status
+from hess_mechanics.numerics.accuracy import REFERENCE, STANDARD, Accuracy, Level, Status
+from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, Complex, Cost, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
@@ -166,7 +167,7 @@ def _speed_and_rate(strip: Strip, theta: Array) -> tuple[Array, Array]:
 
 
 def ball_scattering(body: BallBody, theta_minus: float, phis: Sequence[float] | Array, h: float, distance: float,
-                    level: Level, most_steps: float = MOST_STEPS) -> BallScattering:
+                    level: Accuracy, most_steps: float = MOST_STEPS) -> BallScattering:
     """θ⁺ for each phase φ of γ(0) ≈ cos θ⁻ ξ + sin θ⁻ (cos φ η + sin φ e3), η = e3 × ξ; see `starts`.
 
     The motion starts with ω along ξ + distance·η and E = h, and is followed until γ has settled on a circle of N^s.
@@ -180,6 +181,7 @@ def ball_scattering(body: BallBody, theta_minus: float, phis: Sequence[float] | 
     >>> ball_scattering(body, 1.0, [0.0, 1.0], 1.0, 1e-6, level("standard")).theta_plus.shape
     (2,)
     """
+    level = as_level(level)
     start = time.perf_counter()
     strip = Strip(body, h)
     xi, eta = line_of_rest(body)
@@ -217,7 +219,7 @@ def ball_scattering(body: BallBody, theta_minus: float, phis: Sequence[float] | 
                           status_of(float(errors.max()), level), Cost(found.cost.steps, wall_ms))
 
 
-def all_phases(body: BallBody, theta_minus: float, count: int, distance: float, level: Level, most_steps: float
+def all_phases(body: BallBody, theta_minus: float, count: int, distance: float, level: Accuracy, most_steps: float
                ) -> BallScattering:
     """`ball_scattering` at so many even phases from −π to π; θ⁺ does not depend on the energy.
 

@@ -16,13 +16,14 @@ import numpy as np
 
 from hess_mechanics.chaplygin_ball.energy_surface import omega_of_energy
 from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
+from hess_mechanics.chaplygin_ball.integrable_cases import has_area_integral, is_reversible
 from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.return_map import Sheet
 from hess_mechanics.dynamics.section import MAX_STEPS, Plane, Points, section_points
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, ModelError, WorkLimit
-from hess_mechanics.numerics.accuracy import DRAFT, Level
+from hess_mechanics.numerics.accuracy import DRAFT, Accuracy
 from hess_mechanics.numerics.results import Array, Mask, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 
@@ -93,7 +94,7 @@ def seeds(body: BallBody, h: float, count: int) -> list[tuple[float, ...]]:
     return found
 
 
-def ball_section(body: BallBody, h: float, starts: Sequence[Sequence[float]], crossings: int, level: Level,
+def ball_section(body: BallBody, h: float, starts: Sequence[Sequence[float]], crossings: int, level: Accuracy,
                  most_steps: int = MAX_STEPS) -> Points:
     """The first `crossings` crossings of each orbit from `starts`, on all cores, as in `section_points`.
 
@@ -108,7 +109,7 @@ def ball_section(body: BallBody, h: float, starts: Sequence[Sequence[float]], cr
                         "or smaller I13 and I23.") from None
 
 
-def spread_section(body: BallBody, h: float, orbits: int, crossings: int, level: Level, most_steps: int) -> Points:
+def spread_section(body: BallBody, h: float, orbits: int, crossings: int, level: Accuracy, most_steps: int) -> Points:
     """The section of so many orbits, spread over what is possible of it: `ball_section` from `seeds`."""
     return ball_section(body, h, seeds(body, h, orbits), crossings, level, most_steps)
 
@@ -146,6 +147,13 @@ class BallSection(Sheet):
     def constants(self) -> Mapping[str, float]:
         """The parameters of the body, and h."""
         return {**vars(self.body), "h": self.h}
+
+    @property
+    def integrable(self) -> str:
+        """One of the two cases of `integrable_cases`."""
+        if is_reversible(self.body):
+            return "the case I₁₃ = I₂₃ = b₃ = 0, whose orbits are closed"
+        return "the integrable case I₁₁ = I₂₂, b along e₃" if has_area_integral(self.body) else ""
 
     def moved(self, name: str, value: float) -> BallSection:
         """With another value of a constant."""

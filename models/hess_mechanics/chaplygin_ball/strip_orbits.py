@@ -12,7 +12,7 @@ from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.dynamics.ensemble import ensemble
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.shadowing import away_from
-from hess_mechanics.numerics.accuracy import DRAFT, Level
+from hess_mechanics.numerics.accuracy import DRAFT, Accuracy
 from hess_mechanics.numerics.results import Array, frozen
 
 __all__ = ["StripOrbit", "largest_distance", "strip_orbits"]
@@ -21,7 +21,7 @@ StripOrbit = tuple[Array, int]
 """ω (m, 2), a point for each pixel of a picture of the strip, and the index of the state followed both ways."""
 
 
-def strip_orbits(body: BallBody, count: int, level: Level = DRAFT) -> tuple[StripOrbit, ...]:
+def strip_orbits(body: BallBody, count: int, level: Accuracy = DRAFT) -> tuple[StripOrbit, ...]:
     """Orbits of E = 1 through states spread evenly over the strip, until they have all but arrived; b = 0.
 
     Without a field the energy only sets the unit of time: those of E = h are √h times as large.

@@ -32,6 +32,7 @@ from hess_mechanics.dynamics.periodic import (
 )
 from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged, WorkLimit
 from hess_mechanics.numerics.labelled import Labels, Result
+from hess_mechanics.numerics.measured import SAFETY
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Complex, frozen
 
@@ -201,8 +202,7 @@ class _Track:
     def error(self, point: _Point, across: Array) -> float:
         """Of the places and λ over its width, as a more accurate map has it."""
         better = self.point(point.z, better=True)
-        safety = 4.0 if self.at(self.split(point.z)[1]).is_floor else 1.25
-        return safety * math.sqrt(self.m) * float(np.abs(self._step(better, across, 0.0)).max()) + 1e-15
+        return SAFETY * math.sqrt(self.m) * float(np.abs(self._step(better, across, 0.0)).max()) + 1e-15
 
 
 def _signs(point: _Point, t: Array) -> dict[str, float]:

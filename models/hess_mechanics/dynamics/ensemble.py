@@ -10,7 +10,9 @@ import numpy as np
 from hess_mechanics.dynamics.orbit import MAX_STEPS, checked_times, drift_of, require_finite_states, status_of
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.accuracy import Accuracy, Level
+from hess_mechanics.numerics.arguments import as_level
+from hess_mechanics.numerics.measured import safety_of
 from hess_mechanics.numerics.parallel import THREADS, share
 from hess_mechanics.numerics.results import Array, Cost, Ensemble, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
@@ -43,7 +45,7 @@ def _run(system: System, problem: Problem, states: Array, times: Array, level: L
 
 
 def ensemble(system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float],
-             times: Sequence[float] | Array, level: Level, threads: int = THREADS) -> Ensemble:
+             times: Sequence[float] | Array, level: Accuracy, threads: int = THREADS) -> Ensemble:
     """The orbits from the rows of `states` (n, d), sampled at the times (m,).
 
     Errors are measured as in `solve`, orbit by orbit; orbits that miss the level's promise are recomputed with
@@ -56,6 +58,7 @@ def ensemble(system: System, states: Sequence[Sequence[float]] | Array, paramete
     >>> ensemble(suslov, [state, state], parameters, [0.0, 1.0, 2.0], level("precise")).states.shape
     (2, 3, 5)
     """
+    level = as_level(level)
     start = time.perf_counter()
     t = checked_times(times)
     problem = Problem.of(system, states, parameters)
@@ -66,23 +69,27 @@ def ensemble(system: System, states: Sequence[Sequence[float]] | Array, paramete
         raise WorkLimit(f"{count} orbits at {t.size} times are too many: choose fewer of one or the other.")
     scaled_times = problem.times(t)
 
-    out, total = _run(system, problem, problem.states, scaled_times, level, threads)
-    errors = np.full(count, np.inf)
-    scaled_errors = np.full(count, np.inf)
-    todo = np.arange(count)
+    starts = (problem.states, problem.nearby().states)
+    out, total = _run(system, problem, starts[level.aside], scaled_times, level, threads)
+    errors, scaled_errors = np.zeros(count), np.zeros(count)
+    todo, before = np.arange(count), out
     current = level
+    # As `measured` does it, for those orbits that are left to do.
     while todo.size:
-        fine, steps = _run(system, problem, problem.states[todo], scaled_times, current.tightened(), threads)
+        tighter = current.tightened()
+        found, steps = _run(system, problem, starts[tighter.aside][todo], scaled_times, tighter, threads)
         total += steps
-        safety = 4.0 if current.is_floor else 1.25
-        difference = np.abs(out[todo] - fine)
-        scaled_errors[todo] = safety * difference.max(axis=(1, 2)) + 2e-16
+        difference = np.abs(before - found)
+        off = difference.max(axis=(1, 2))
+        safety = safety_of(off, scaled_errors[todo])
+        scaled_errors[todo] = safety * off + 2e-16
         errors[todo] = safety * (difference * problem.scale).max(axis=(1, 2)) + 2e-16 * max(1.0, problem.nu)
-        missed = scaled_errors[todo] > level.promise
+        if not tighter.aside:
+            out[todo] = found
         if current.is_floor:
             break
-        todo, current = todo[missed], current.tightened()
-        out[todo] = fine[missed]
+        missed = scaled_errors[todo] > level.promise
+        todo, before, current = todo[missed], found[missed], tighter
 
     out *= problem.scale
     drift = drift_of(system, np.array(states, float, ndmin=2), out, np.asarray(parameters, float))

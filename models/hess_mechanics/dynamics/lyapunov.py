@@ -21,7 +21,7 @@ from hess_mechanics.dynamics.orbit import (
 )
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.numerics.accuracy import PLANS, STANDARD, Kind, Level
+from hess_mechanics.numerics.accuracy import STANDARD, Accuracy, Kind, plan
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
@@ -31,7 +31,6 @@ __all__ = ["Exponent", "largest_exponent"]
 MAX_RETURNS = 200_000
 _DISTANCE = 1e-7
 """Distance of the neighbour, where the state is O(1): small enough to be linear, large compared with round-off."""
-_STANDARD = PLANS[Kind.EXPONENT][STANDARD.name].level
 _INTERVAL = 2.0
 """Time between renormalisations, in units of 1/ν."""
 
@@ -75,10 +74,11 @@ def _checked(system: System, state: Sequence[float], parameters: Sequence[float]
 
 
 def largest_exponent(system: System, state: Sequence[float], parameters: Sequence[float], span: float,
-                     level: Level = _STANDARD) -> Exponent:
+                     level: Accuracy = STANDARD) -> Exponent:
     """The exponent of the orbit from `state` (d,) over the time `span` (negative: backwards), per unit of time.
 
-    level : of a `Plan` for exponents; those of orbits are too coarse for a neighbour at 1e-7.
+    level : one of the four is that of its `Plan` for exponents, as those of orbits are too coarse for a neighbour at
+        1e-7; any other level is used as it is.
     Raises `InvalidParameter`, `WorkLimit`.
 
     >>> from hess_mechanics import largest_exponent, systems
@@ -86,6 +86,7 @@ def largest_exponent(system: System, state: Sequence[float], parameters: Sequenc
     >>> float(largest_exponent(suslov, *suslov.example, 50.0).times[-1])
     50.0
     """
+    level = plan(Kind.EXPONENT, level).level
     problem, count = _checked(system, state, parameters, span)
     interval = np.array([span * problem.nu / count])
     direction = np.cos(1.0 + np.arange(problem.scale.size) ** 2)

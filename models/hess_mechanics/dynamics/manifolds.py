@@ -22,7 +22,9 @@ import numpy as np
 
 from hess_mechanics.dynamics.periodic import Map, PeriodicOrbit, apart, place_units
 from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged, WorkLimit
+from hess_mechanics.numerics.accuracy import Status
 from hess_mechanics.numerics.labelled import Labels, Result
+from hess_mechanics.numerics.measured import SAFETY
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, frozen
 
@@ -73,6 +75,11 @@ class Manifold(Result):
         """Along the curve."""
         return float(self.lengths[-1])
 
+    @property
+    def status(self) -> Status:
+        """OK where the points are exact to the sagitta, which is as exact as the polyline can be."""
+        return Status.OK if self.error_estimate <= self.sagitta else Status.PROMISE_NOT_MET
+
     def labels(self) -> Labels:
         """The points over the length along the curve."""
         return Labels({"length": (("length",), self.lengths)},
@@ -81,6 +88,7 @@ class Manifold(Result):
                       place_units(self.names),
                       {"manifold": "stable" if self.stable else "unstable", "side": self.side,
                        "multiplier": self.multiplier, "sagitta": self.sagitta, "error_estimate": self.error_estimate,
+                       "status": str(self.status),
                        "ended": self.ended, "level": self.level})
 
 
@@ -250,7 +258,7 @@ def _error(curve: _Curve, points: Array, parameters: Array) -> float:
         along = along / max(float(np.linalg.norm(along)), 1e-300)
         away = apart(curve.map_.turns, there, points[i])
         off = max(off, abs(float(away[0] * along[1] - away[1] * along[0])))
-    return 1.25 * off + curve.first_error + 4e-16
+    return SAFETY * off + curve.first_error + 4e-16
 
 
 # ---- where two of them cross ------------------------------------------------------------------------------------

@@ -26,13 +26,14 @@ from hess_mechanics.dynamics.orbit import (
 from hess_mechanics.dynamics.spectrum import batch_error, volume_sign
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import WorkLimit
-from hess_mechanics.numerics.accuracy import STANDARD, Level
+from hess_mechanics.numerics.accuracy import STANDARD, Accuracy
+from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.parallel import THREADS, share
 from hess_mechanics.numerics.results import Array, Cost, Mask, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
-__all__ = ["CHAOTIC", "REGULAR", "Megno", "megno"]
+__all__ = ["CHAOTIC", "REGULAR", "Megno", "may_take", "megno"]
 
 CHAOTIC = 3.0
 """Ȳ beyond this is chaotic: regular motions come to 2 from either side within 0.5."""
@@ -40,6 +41,8 @@ REGULAR = 2.5
 """Ȳ below this is regular; between the two nothing is said."""
 _SAMPLES = 2400
 """Of ln|δ|; at least one per time 1/ν is needed."""
+_LONGEST = _SAMPLES * 100
+"""Time of an indicator at most, in units of 1/ν."""
 _LIMIT = 1e6
 _SHARE = 4
 
@@ -76,8 +79,16 @@ class Megno(Result):
                       {"t": self.t, "level": self.level, "steps": self.cost.steps})
 
 
+def may_take(system: System, state: Sequence[float] | Array, parameters: Sequence[float], span: float) -> bool:
+    """Return True if the indicator of a motion next to `state` may take the time `span`.
+
+    A third is left free, because ν of neighbouring states differs.
+    """
+    return abs(span) * Problem.of(system, [state], parameters).nu <= _LONGEST / 1.5
+
+
 def megno(system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float], span: float,
-          level: Level = STANDARD, threads: int = THREADS) -> Megno:
+          level: Accuracy = STANDARD, threads: int = THREADS) -> Megno:
     """Ȳ of the motions from the rows of `states` (n, d) after the time `span` (negative: backwards), on all cores.
 
     Raises `InvalidParameter`, `WorkLimit`.
@@ -88,11 +99,12 @@ def megno(system: System, states: Sequence[Sequence[float]] | Array, parameters:
     >>> megno(suslov, [state], parameters, 100.0).values.shape
     (1,)
     """
+    level = as_level(level)
     checked_span(span, "an indicator")
     begun = time.perf_counter()
     problem = Problem.of(system, states, parameters)
-    if abs(span) * problem.nu > _SAMPLES * 100:
-        raise WorkLimit(f"An indicator takes a time of at most {_SAMPLES * 100 / problem.nu:.4g} here: it is meant to "
+    if abs(span) * problem.nu > _LONGEST:
+        raise WorkLimit(f"An indicator takes a time of at most {_LONGEST / problem.nu:.4g} here: it is meant to "
                         "be short.")
     count, size = problem.states.shape
     # As many samples as keep one per 1/ν, in twelve stretches after the first fifth.

@@ -11,7 +11,8 @@ from hess_mechanics.dynamics.megno import megno
 from hess_mechanics.dynamics.periodic import place_units
 from hess_mechanics.dynamics.return_map import Sheet
 from hess_mechanics.errors import OutsideRegion
-from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.accuracy import Accuracy
+from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.parallel import share
 from hess_mechanics.numerics.results import Array, frozen
@@ -48,7 +49,7 @@ class MegnoMap(Result):
                       {**place_units(self.names), "MEGNO": "1"}, {"t": self.t, "level": self.level})
 
 
-def row_of_cells(sheet: Sheet, window: Window, cells: tuple[int, int], row: int, t: float, level: Level) -> Array:
+def row_of_cells(sheet: Sheet, window: Window, cells: tuple[int, int], row: int, t: float, level: Accuracy) -> Array:
     """Ȳ and kind, (2, m), of the motions from the middles of the cells of a row.
 
     cells : (m, n) across and up the window; the row is counted from below.  Raises `InvalidParameter`, `WorkLimit`.
@@ -63,8 +64,9 @@ def row_of_cells(sheet: Sheet, window: Window, cells: tuple[int, int], row: int,
     return frozen(out)
 
 
-def over_section(sheet: Sheet, window: Window, cells: tuple[int, int], t: float, level: Level) -> MegnoMap:
+def over_section(sheet: Sheet, window: Window, cells: tuple[int, int], t: float, level: Accuracy) -> MegnoMap:
     """Of all cells, on all cores.  Raises as `row_of_cells`."""
+    level = as_level(level)
     (x0, y0), (x1, y1) = window
     m, n = cells
     rows = np.empty((n, 2, m))

@@ -10,8 +10,9 @@ import numpy as np
 
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.numerics.accuracy import Level, Status
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
+from hess_mechanics.numerics.arguments import as_level
+from hess_mechanics.numerics.measured import measured
 from hess_mechanics.numerics.results import Array, Cost, Orbit, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
@@ -91,24 +92,13 @@ def drift_of(system: System, start: Array, states: Array, parameters: Array) -> 
     return drift
 
 
-def _run(system: System, problem: Problem, times: Array, level: Level, max_steps: int) -> tuple[Array, int]:
-    out = np.empty((times.size, problem.scale.size))
-    steps = system.orbit(problem.states[0], problem.parameters, times, level.order, level.tolerance, max_steps, out)
-    if steps == STEP_LIMIT_REACHED:
-        raise WorkLimit(
-            f"This time span needs more than {MAX_STEPS} steps: choose a shorter one, or a cheaper level."
-        )
-    require_finite_states(out)
-    return out, steps
-
-
 def solve(system: System, state: Sequence[float] | Array, parameters: Sequence[float],
-          times: Sequence[float] | Array, level: Level) -> Orbit:
+          times: Sequence[float] | Array, level: Accuracy) -> Orbit:
     """The orbit from `state` (d,) at the given times (n,), monotonic from 0, with a measured error.
 
-    The orbit is computed twice, the second time with a hundredth of the tolerance; the difference is the error
-    estimate of the first run.  If that exceeds the level's promise, the second run takes its place and is measured in
-    turn, down to the floor of double precision.
+    The orbit is computed twice, the second time with a hundredth of the tolerance and from a start that is moved by a
+    few units in the last place; the difference is the error estimate.  If that exceeds the level's promise, more exact
+    runs follow, down to the floor of double precision: see `numerics.measured`.
     Raises `InvalidParameter` (not finite, times out of order), `WorkLimit`.
 
     >>> from hess_mechanics import level, solve, systems
@@ -116,29 +106,31 @@ def solve(system: System, state: Sequence[float] | Array, parameters: Sequence[f
     >>> solve(suslov, *suslov.example, [0.0, 1.0, 2.0], level("precise")).states.shape
     (3, 5)
     """
+    level = as_level(level)
     start = time.perf_counter()
     t = checked_times(times)
     problem = Problem.of(system, [state], parameters)
     scaled_times = problem.times(t)
+    starts = (problem.states[0], problem.nearby().states[0])
+    total = 0
 
-    current = level
-    coarse, total = _run(system, problem, scaled_times, current, MAX_STEPS)
-    while True:
-        go_on()
-        tighter = current.tightened()
-        fine, steps = _run(system, problem, scaled_times, tighter, MAX_STEPS - total)
+    def run(at: Level) -> Array:
+        nonlocal total
+        out = np.empty((t.size, problem.scale.size))
+        steps = system.orbit(starts[at.aside], problem.parameters, scaled_times, at.order, at.tolerance,
+                             MAX_STEPS - total, out)
+        if steps == STEP_LIMIT_REACHED:
+            raise WorkLimit(f"This time span needs more than {MAX_STEPS} steps: choose a shorter one, or a cheaper "
+                            "level.")
+        require_finite_states(out)
         total += steps
-        # Two runs at the floor differ by round-off only, which underestimates the true error.
-        safety = 4.0 if current.is_floor else 1.25
-        difference = np.abs(coarse - fine)
-        error = safety * float(difference.max()) + 2e-16
-        if error <= level.promise or current.is_floor:
-            break
-        current, coarse = tighter, fine
+        return out
 
-    states = coarse * problem.scale
+    found = measured(level, run, lambda one, other: float(np.abs(one - other).max()))
+    states = found.result * problem.scale
     drift = drift_of(system, np.asarray(state, float), states, np.asarray(parameters, float))
     wall_ms = (time.perf_counter() - start) * 1e3
-    absolute = safety * float((difference * problem.scale).max()) + 2e-16 * max(1.0, problem.nu)
-    return Orbit(system.name, level.name, frozen(t), frozen(states), status_of(error, level), absolute, drift,
+    absolute = (found.safety * float((np.abs(found.result - found.other) * problem.scale).max())
+                + 2e-16 * max(1.0, problem.nu))
+    return Orbit(system.name, level.name, frozen(t), frozen(states), status_of(found.error, level), absolute, drift,
                  Cost(total, wall_ms), variables=system.variables)

@@ -95,13 +95,14 @@ class Diagram(Result):
                       place_units(self.names), {"level": self.level})
 
 
-def period_of(turns: Sequence[float], places: Array, promise: float = 0.0) -> tuple[int, bool]:
+def period_of(turns: Sequence[float], places: Array, promise: float = 0.0, most: int = MAX_PERIOD
+              ) -> tuple[int, bool]:
     """The least period with which the places (n, d) of an orbit repeat, 0 where none is seen, and whether it stays so.
 
     Seen is a period of which the orbit shows at least three; it is on its way to one where its halves say so.
-    promise : the error of the map that the places have.
+    promise : the error of the map that the places have; most : the longest period that is looked for.
     """
-    most = min(MAX_PERIOD, len(places) // 3)
+    most = min(most, len(places) // 3)
     ways = np.array([[np.abs(apart(turns, one[m:], one[:-m])).max()
                       for one in (places[: len(places) // 2 + m // 2], places[len(places) // 2 - m // 2 :])]
                      for m in range(1, most + 1)])

@@ -15,8 +15,9 @@ from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, cascade, orb
 from hess_mechanics.dynamics.periodic import find_periodic
 from hess_mechanics.dynamics.regime import Dynamics, Regime, compared, regime
 from hess_mechanics.dynamics.return_map import ReturnMap, Sheet
-from hess_mechanics.errors import InvalidParameter, ModelError, WorkLimit
-from hess_mechanics.numerics.accuracy import PRECISE, Level
+from hess_mechanics.errors import ModelError, NoReturn, WorkLimit
+from hess_mechanics.numerics.accuracy import PRECISE, Accuracy
+from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.results import Array, frozen
 
 __all__ = ["AtState", "Sets", "at_state", "diagram", "doublings", "nearest_place", "sets_of"]
@@ -26,8 +27,9 @@ Family = Callable[[float], Sheet]
 
 
 def diagram(family: Family, name: str, values: tuple[float, ...], start: Place, again: Place, transient: int,
-            kept: int, follow: bool, backward: bool, level: Level) -> Diagram:
+            kept: int, follow: bool, backward: bool, level: Accuracy) -> Diagram:
     """`orbit_diagram` of the sections of a family."""
+    level = as_level(level)
     return orbit_diagram(lambda value: ReturnMap(family(value), level, backward), name, values, start, transient, kept,
                          follow, again)
 
@@ -54,8 +56,9 @@ class Sets:
     repeller: Array
 
 
-def sets_of(section: Sheet, start: Place, transient: int, kept: int, level: Level) -> Sets:
+def sets_of(section: Sheet, start: Place, transient: int, kept: int, level: Accuracy) -> Sets:
     """Of the orbit from a place.  Raises `OutsideRegion`, `WorkLimit`."""
+    level = as_level(level)
     found = (ReturnMap(section, level, backward).orbit(np.array(start), transient + kept)[transient:]
              for backward in (False, True))
     return Sets(*(frozen(one.copy()) for one in found))
@@ -63,27 +66,23 @@ def sets_of(section: Sheet, start: Place, transient: int, kept: int, level: Leve
 
 @dataclass(frozen=True)
 class AtState:
-    """What kind of motion this is, and of what kind the dynamics are; None where that cannot be told."""
+    """The kind of a motion, and of the dynamics about it; None where an orbit is not seen to come back."""
 
     regime: Regime
     dynamics: Dynamics | None
 
 
-def at_state(section: Sheet, start: Place, sets: Sets, transient: int, kept: int, t: float, level: Level
-             ) -> AtState:
-    """Of the orbit from a place, whose `sets_of` are known; t : the time of the averages.
+def at_state(section: Sheet, start: Place, transient: int, kept: int, t: float, level: Accuracy) -> AtState:
+    """Return both for the orbit from a place; t : the time of the averages.
 
     Raises `OutsideRegion`, `WorkLimit`.
     """
+    level = as_level(level)
     map_ = ReturnMap(section, level)
     found = regime(map_, start, transient, min(kept, 400), t)
-    if min(len(sets.attractor), len(sets.repeller)) < kept:
-        return AtState(found, None)
     try:
-        return AtState(found, compared(map_, sets.attractor, sets.repeller, t))
-    except InvalidParameter:
-        raise
-    except ModelError:
+        return AtState(found, compared(map_, found, start, transient, kept))
+    except NoReturn:
         return AtState(found, None)
 
 

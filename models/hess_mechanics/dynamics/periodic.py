@@ -17,6 +17,7 @@ import numpy as np
 from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged
 from hess_mechanics.numerics.accuracy import Status
 from hess_mechanics.numerics.labelled import Labels, Result
+from hess_mechanics.numerics.measured import SAFETY
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Complex, frozen
 
@@ -75,7 +76,7 @@ class Map(Protocol):
         """P⁻¹."""
 
     def tightened(self) -> Map:
-        """The same map, computed more exactly."""
+        """The same map, computed more exactly and with other roundings."""
 
 
 def place_units(names: Sequence[str]) -> dict[str, str]:
@@ -164,8 +165,8 @@ def _multiplier_error(derivatives: Array, better: Array) -> float:
     _, other_trace, other_determinant = multipliers_of(better)
     product = float(np.prod(np.linalg.norm(derivatives, axis=(1, 2))))
     rounding = _DIFFERENCES * len(derivatives)
-    off_trace = 1.25 * abs(trace - other_trace) + rounding * max(1.0, product)
-    off_determinant = 1.25 * abs(determinant - other_determinant) + rounding * abs(determinant)
+    off_trace = SAFETY * abs(trace - other_trace) + rounding * max(1.0, product)
+    off_determinant = SAFETY * abs(determinant - other_determinant) + rounding * abs(determinant)
     worst = 0.0
     for a in (-off_trace, off_trace):
         for b in (-off_determinant, off_determinant):
@@ -362,18 +363,17 @@ def _measured(map_: Map, shot: Shot, iterations: int) -> PeriodicOrbit:
         values = np.linalg.svd(there.jacobian, compute_uv=False)
         kept = values[values > family * max(1.0, float(values[0]))]
         condition = float(kept[0] / kept[-1]) if kept.size else 1.0
-        safety = 4.0 if current.is_floor else 1.25
         size = max(1.0, float(np.abs(shot.places).max()))
         # Relative to the smallest singular value, not the condition: 1/σ is what one unit of residual becomes.
-        error = safety * float(np.abs(step).max()) + 4.0 * _ROUNDING * size / float(kept[-1] if kept.size else 1.0)
+        error = SAFETY * float(np.abs(step).max()) + 4.0 * _ROUNDING * size / float(kept[-1] if kept.size else 1.0)
         if kept.size < values.size:
             # Along a family no place is the right one: how far it is from closing is known.
-            error = max(error, safety * there.size)
+            error = max(error, SAFETY * there.size)
         if error <= map_.promise or current.is_floor:
             break
         current, shot = better, shoot(better, shot.places + step)
     moved = shoot(better, shot.places + step)
-    off = safety / 1.25 * _multiplier_error(shot.derivatives, moved.derivatives)
+    off = _multiplier_error(shot.derivatives, moved.derivatives)
     multipliers = multipliers_of(shot.derivatives)[0]
     places = shot.places.copy()
     for i, turn in enumerate(map_.turns):

@@ -104,9 +104,10 @@ class Along(_Number):
         return self._with(self.polynomial * other.polynomial, rest)
 
     def __pow__(self, exponent: int) -> Along:
-        found = self
-        for _ in range(exponent - 1):
-            found = found * self
+        found = Along.number(1, self.delta, self.terms)
+        factor = self if exponent >= 0 else self.inverse()
+        for _ in range(abs(exponent)):
+            found = found * factor
         return found
 
     def inverse(self) -> Along:
@@ -116,6 +117,9 @@ class Along(_Number):
         before, ctx.cap = ctx.cap, self.terms
         try:
             q = arb_poly([c.mid() for c in (1 / arb_series(self.polynomial.coeffs()[: self.terms])).coeffs()])
+        except ValueError:
+            # The first coefficient may be 0 or is not finite.
+            raise ZeroDivisionError("a divisor that may vanish where a step begins") from None
         finally:
             ctx.cap = before
         found = Along(q, self.delta, self.terms)
@@ -166,7 +170,7 @@ class Slope(_Number):
             x * other.value + self.value * y for x, y in zip(self.slopes, other.slopes, strict=True)])
 
     def __pow__(self, exponent: int) -> Slope:
-        slope = exponent * self.value ** (exponent - 1)
+        slope = exponent * self.value ** (exponent - 1) if exponent else 0 * self.value
         return Slope(self.value**exponent, [slope * x for x in self.slopes])
 
     def __truediv__(self, other: Any) -> Slope:

@@ -1,36 +1,65 @@
-"""What kind of motion this is, and of what kind the dynamics are: conservative, dissipative or mixed.
+"""The kind of a motion on a section, and of the dynamics about it: conservative, dissipative or mixed.
 
-A motion is told by MEGNO and by its places on a section: chaotic where neighbours part exponentially; else a fixed
-point or periodic where the places repeat; else quasi-periodic.  What lies between is undecided.
+A motion is called chaotic where two independent indicators agree and go on agreeing when the time is doubled: MEGNO,
+which follows neighbours by the variational equations, exceeds 3 and keeps growing, and the 0–1 test, which sees nothing
+but the crossings, is close to 1.  It is periodic where its crossings repeat, and quasi-periodic where they do not and
+averages along it converge as they do on a smooth curve.  Where none of this is clear the motion is followed four times
+as long, and again; what is still unclear then is undecided.
 
-Dynamics are told by the sets to which one orbit comes forward and backward in time (Gonchenko, Gonchenko, Kazakov
-2020): conservative where they are one, dissipative where an attractor and a repeller lie apart, mixed where these have
-places in common and are not the same.
+Dynamics are judged by the sets to which orbits come forward and backward in time, and by the mean divergence on the
+first (Gonchenko, Gonchenko, Kazakov 2020).  Both come from an ensemble of orbits.  A verdict is given only where the
+mean clears its confidence interval and all orbits agree about the sets; `conservative` only where the field keeps a
+volume, which makes it a fact.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 
 import numpy as np
 
-from hess_mechanics.dynamics.megno import CHAOTIC, REGULAR, Megno, megno
+from hess_mechanics.dynamics.birkhoff import agreeing_digits
+from hess_mechanics.dynamics.megno import CHAOTIC, REGULAR, Megno, may_take, megno
 from hess_mechanics.dynamics.orbit_diagram import period_of
-from hess_mechanics.dynamics.periodic import place_units
+from hess_mechanics.dynamics.periodic import MAX_PERIOD, place_units
 from hess_mechanics.dynamics.point_sets import Apart, how_far_apart
 from hess_mechanics.dynamics.return_map import ReturnMap
-from hess_mechanics.dynamics.spectrum import volume_sign
-from hess_mechanics.errors import InvalidParameter, NoReturn
-from hess_mechanics.numerics.accuracy import DRAFT, Level
+from hess_mechanics.dynamics.spectrum import ensemble_mean, spectrum, volume_sign
+from hess_mechanics.dynamics.zero_one import LEAST, zero_one_test
+from hess_mechanics.errors import InvalidParameter, NoReturn, OutsideRegion
 from hess_mechanics.numerics.labelled import Labels, Result
+from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, frozen
 
 __all__ = ["Dynamics", "Kind", "Regime", "compared", "dynamics_of", "regime"]
 
-_TOUCHING = 0.01
-"""Of the places.  Of 1500 places of sets that touch it was 0.015 to 0.2 from orbit to orbit, of sets apart 0."""
+_MEMBERS = 8
+"""Orbits of an ensemble: that all of them agree by chance has a probability of 1/2⁸."""
+_SHIFT = 1e-8
+"""How far apart the orbits of an ensemble start: less than a picture shows, enough to part chaotic ones."""
+_ROUNDS = 3
+_LONGER = 4
+"""How many times as long an undecided motion is followed in the next round."""
+_RETURNS = 30
+"""The indicator takes at least this many returns, so that it sees more than one passage of a slow motion."""
+_GROWS = 1.25
+"""Least ratio of MEGNO to MEGNO at half the time of a chaotic motion: 2 in the limit, at most 1 for regular ones."""
+_CHAOTIC_SERIES = 0.8
+"""K of the 0–1 test above which crossings are chaotic.  Below it nothing follows: K of slowly modulated quasi-periodic
+motions stays close to 1 for long, while averages along them agree to many digits."""
+_DIGITS = 4.0
+"""To which averages over halves of the crossings agree on quasi-periodic motions; on chaotic ones at most to two."""
+_FEWEST = 800
+"""Crossings without a period that a quasi-periodic motion has: a third of them is the longest period looked for."""
+_INDEPENDENT = 400
+"""Crossings after which orbits of an ensemble are taken for independent."""
+_MOST_CROSSINGS = 20_000
+_TOUCHING = 0.005
+"""Share of the places from which on two sets touch.  Of 1500 places of sets that touch it was 0.015 to 0.2 from orbit
+to orbit, of sets that are apart 0."""
 
 
 class Kind(IntEnum):
@@ -42,20 +71,24 @@ class Kind(IntEnum):
     QUASI_PERIODIC = 3
     CHAOTIC = 4
     UNDECIDED = 5
+    NO_PERIOD = 6
+    SETTLING = 7
 
     @property
     def words(self) -> str:
-        """For people."""
+        """The name of the kind in a sentence."""
         return _WORDS[self]
 
 
 _WORDS = {
-    Kind.NO_RETURN: "does not return to the section",
+    Kind.NO_RETURN: "not seen to return to the section",
     Kind.FIXED_POINT: "fixed point",
     Kind.PERIODIC: "periodic",
     Kind.QUASI_PERIODIC: "quasi-periodic",
     Kind.CHAOTIC: "chaotic",
-    Kind.UNDECIDED: "undecided",
+    Kind.UNDECIDED: "undecided so far",
+    Kind.NO_PERIOD: f"regular, no period up to {MAX_PERIOD}",
+    Kind.SETTLING: "still settling",
 }
 
 
@@ -63,8 +96,30 @@ _WORDS = {
 class Regime(Result):
     """The kind of one motion after its transient.
 
-    period : of the places on the section, 0 where they do not repeat; places : (n, d).
-    megno : Ȳ after the time t; divergence, divergence_error : the mean of div ẏ, over most of that time.
+    Attributes
+    ----------
+    kind : Kind
+        What the motion is.
+    period : int
+        Number of returns after which it repeats; 0 where it was not seen to.
+    names : tuple of str
+        The coordinates of the section.
+    places : Array, shape (n, d)
+        The crossings that were looked at.
+    t : float
+        Time of the indicator; of a motion that was not seen to return, the time waited for it.
+    megno : float
+        Ȳ after the time t, the median over the ensemble.
+    k : float
+        K of the 0–1 test of the crossings; NaN where there are too few.
+    divergence, divergence_error : float
+        Mean of div ẏ along the motion and its error, by an ensemble of orbits; three errors are a 99.7 % interval.
+    volume_kept : bool
+        Whether the divergence of the field is 0 everywhere.
+    integrable : str
+        The integrable case that the body belongs to; empty where none is known.
+    level : str
+        The accuracy level.
     """
 
     kind: Kind
@@ -73,130 +128,320 @@ class Regime(Result):
     places: Array
     t: float
     megno: float
+    k: float
     divergence: float
     divergence_error: float
+    volume_kept: bool
+    integrable: str
     level: str
 
     @property
     def volume(self) -> int:
-        """−1: phase volume about it shrinks, beyond three times the error; 1: it grows; 0: neither is seen."""
+        """−1 where phase volume about the motion shrinks beyond three errors, 1 where it grows, 0 where neither."""
         return int(volume_sign(self.divergence, self.divergence_error))
 
     @property
+    def bound(self) -> float:
+        """Upper bound of |mean divergence|: its value and three errors."""
+        return abs(self.divergence) + 3.0 * self.divergence_error
+
+    @property
     def sentence(self) -> str:
-        """For people."""
-        kind = f"periodic, period {self.period}" if self.kind is Kind.PERIODIC else self.kind.words
+        """The result in a sentence or two."""
         if self.kind is Kind.NO_RETURN:
-            return f"The motion {kind}."
-        volume = {-1: "phase volume about it shrinks", 0: "phase volume neither shrinks nor grows, to the error",
-                  1: "phase volume about it grows"}[self.volume]
-        return f"{kind[0].upper()}{kind[1:]}; {volume}: {self.divergence:.3g} ± {self.divergence_error:.1g}."
+            return f"The motion was not seen to return to the section within t = {self.t:.4g}."
+        kind = f"periodic, period {self.period}" if self.kind is Kind.PERIODIC else self.kind.words
+        case = f" ({self.integrable})" if self.integrable else ""
+        if self.volume_kept:
+            return f"{kind[0].upper()}{kind[1:]}{case}; phase volume is kept."
+        if self.volume:
+            volume = f"phase volume {'shrinks' if self.volume < 0 else 'grows'}"
+            return (f"{kind[0].upper()}{kind[1:]}{case}; {volume} about it: mean divergence {self.divergence:.3g} ± "
+                    f"{self.divergence_error:.1g}.")
+        return f"{kind[0].upper()}{kind[1:]}{case}; |mean divergence| < {self.bound:.1g}."
 
     def labels(self) -> Labels:
         """The places, and what was found of them."""
         return Labels({}, {name: (("crossing",), self.places[:, i].copy()) for i, name in enumerate(self.names)},
                       place_units(self.names), {
-            "kind": self.kind.words, "period": self.period, "MEGNO": self.megno, "t": self.t,
-            "divergence": self.divergence, "divergence error": self.divergence_error, "level": self.level})
+            "kind": self.kind.words, "period": self.period, "MEGNO": self.megno, "K": self.k, "t": self.t,
+            "divergence": self.divergence, "divergence error": self.divergence_error, "integrable": self.integrable,
+            "level": self.level})
+
+
+@dataclass(frozen=True)
+class _Evidence:
+    """The findings of one round; early and late are Ȳ at half the time and at all of it."""
+
+    crossings: int
+    period: int
+    settled: bool
+    early: float
+    late: float
+    k: float
+    digits: float
+    divergence: float
+    divergence_error: float
+
+    @property
+    def grows(self) -> bool:
+        """True if neighbours part exponentially, and go on doing so when the time is doubled."""
+        return min(self.early, self.late) > CHAOTIC and self.late > _GROWS * self.early
+
+    @property
+    def bounded(self) -> bool:
+        """True if neighbours do not part exponentially."""
+        return self.late < max(REGULAR, self.early)
+
+    def kind(self, integrable: bool) -> Kind:
+        """The kind of the motion, as far as this tells."""
+        if self.grows and self.k > _CHAOTIC_SERIES and not integrable:
+            return Kind.CHAOTIC
+        if not (self.bounded or integrable):
+            return Kind.UNDECIDED
+        if self.period:
+            return Kind.FIXED_POINT if self.period == 1 else Kind.PERIODIC
+        if not self.settled:
+            return Kind.SETTLING
+        if self.crossings >= _FEWEST and (integrable or self.digits > _DIGITS):
+            return Kind.QUASI_PERIODIC
+        return Kind.UNDECIDED
 
 
 def regime(map_: ReturnMap, start: Sequence[float] | Array, transient: int = 300, kept: int = 200, t: float = 200.0
            ) -> Regime:
-    """The kind of the motion from a place (d,) of a section, after so many crossings that are left out.
+    """Return the kind of the motion from a place of a section.
 
-    kept : crossings that are looked at; t : the time of the indicator, after them, in the direction of the map.
-    Longer periods than 64, and those of which `kept` has not three, count as quasi-periodic.  Raises as `megno`,
-    and `OutsideRegion` where no motion crosses at the place.
+    Parameters
+    ----------
+    map_ : ReturnMap
+        The return map of the section.
+    start : array_like, shape (d,)
+        The place where the motion starts.
+    transient : int, default 300
+        Crossings that are left out, 0 to 20 000.
+    kept : int, default 200
+        Crossings that are looked at, 1 to 20 000; up to sixteen times as many where they do not decide.
+    t : float, default 200
+        Time of the indicator, at least that of 30 returns; up to sixteen times as long where it does not decide.
+
+    Returns
+    -------
+    Regime
+        Its kind, with the numbers that decided it.
+
+    Raises
+    ------
+    InvalidParameter
+        For counts or times out of range.
+    OutsideRegion
+        Where no motion crosses at the place.
+    WorkLimit
+        Where this takes more steps than one request may.
     """
-    if not (1 <= kept <= 20_000 and 0 <= transient <= 20_000):
-        raise InvalidParameter("Up to 20000 crossings are left out, and from 1 to 20000 looked at.")
-    orbit = map_.orbit(np.array(start, float), transient + kept)
-    if len(orbit) < transient + kept:
-        return Regime(Kind.NO_RETURN, 0, map_.names, frozen(orbit), 0.0, 0.0, 0.0, 0.0, map_.level)
-    places = orbit[transient:]
-    found = _indicated(map_, places[-1], t, map_.accuracy)
-    period, settled = period_of(map_.turns, places, map_.promise)
-    value = float(found.values[0])
-    if value > CHAOTIC:
-        kind, period = Kind.CHAOTIC, 0
-    elif period:
-        kind = Kind.FIXED_POINT if period == 1 else Kind.PERIODIC
-    elif value > REGULAR or not settled:
-        kind = Kind.UNDECIDED
-    else:
-        kind = Kind.QUASI_PERIODIC
-    return Regime(kind, period, map_.names, frozen(places.copy()), t, value, float(found.divergence[0]),
-                  float(found.divergence_error[0]), map_.level)
+    if not (1 <= kept <= _MOST_CROSSINGS and 0 <= transient <= _MOST_CROSSINGS):
+        raise InvalidParameter(f"Up to {_MOST_CROSSINGS} crossings are left out, and from 1 to {_MOST_CROSSINGS} "
+                               "looked at.")
+    places = map_.orbit(np.array(start, float), transient + kept)
+    if len(places) < transient + kept:
+        return _not_seen(map_, places, start)
+    places, integrable = places[transient:], bool(map_.sheet.integrable)
+    # A time of 0, or none, is refused by the indicator itself.
+    span = max(t, _RETURNS * map_.time_of(places[-1])) if t > 0.0 else t
+    evidence = _evidence(map_, places, span)
+    kind = evidence.kind(integrable)
+    for _ in range(_ROUNDS - 1):
+        if kind not in (Kind.UNDECIDED, Kind.SETTLING) or _LONGER * len(places) > _MOST_CROSSINGS:
+            break
+        go_on()
+        if not may_take(map_.sheet.system, map_.state_at(places[-1]), map_.sheet.parameters, _LONGER * span):
+            break
+        following = map_.orbit(places[-1], _LONGER * len(places))
+        if len(following) < _LONGER * len(places):
+            return _not_seen(map_, following, places[-1])
+        places, span = following, _LONGER * span
+        evidence = _evidence(map_, places, span)
+        kind = evidence.kind(integrable)
+    changes = volume_sign(evidence.divergence, evidence.divergence_error) != 0
+    if kind is Kind.QUASI_PERIODIC and changes and not _has_a_curve(map_, places[-1], span):
+        kind = Kind.NO_PERIOD
+    period = evidence.period if kind in (Kind.FIXED_POINT, Kind.PERIODIC) else 0
+    return Regime(kind, period, map_.names, frozen(places.copy()), span, evidence.late, evidence.k,
+                  evidence.divergence, evidence.divergence_error, map_.volume_kept, map_.sheet.integrable,
+                  map_.level)
 
 
-def _indicated(map_: ReturnMap, place: Array, t: float, level: Level) -> Megno:
-    return megno(map_.sheet.system, map_.state_at(place)[None], map_.sheet.parameters, -t if map_.backward else t,
-                 level, threads=1)
+def _not_seen(map_: ReturnMap, places: Array, start: Sequence[float] | Array) -> Regime:
+    last = places[-1] if len(places) else np.array(start, float)
+    return Regime(Kind.NO_RETURN, 0, map_.names, frozen(places.copy()), map_.wait(last), 0.0, math.nan, 0.0, 0.0,
+                  map_.volume_kept, map_.sheet.integrable, map_.level)
+
+
+def _evidence(map_: ReturnMap, places: Array, span: float) -> _Evidence:
+    period, settled = period_of(map_.turns, places, map_.promise, len(places) // 3)
+    # A periodic orbit is one whatever its neighbours do; of others an ensemble tells.
+    found = [_indicated(map_, places[-1:] if period else _ensemble(map_, places), time) for time in (span / 2.0, span)]
+    late = found[1]
+    mean, error = ((float(late.divergence[0]), float(late.divergence_error[0])) if len(late.values) == 1
+                   else ensemble_mean(late.divergence))
+    series = _series(map_.turns, places)
+    enough = len(places) >= LEAST
+    return _Evidence(len(places), period, settled, float(np.median(found[0].values)), float(np.median(late.values)),
+                     zero_one_test(series.sum(axis=1)) if enough else math.nan,
+                     agreeing_digits(series) if enough else 0.0, mean, error)
+
+
+def _ensemble(map_: ReturnMap, places: Array) -> Array:
+    """Places (m, d) of orbits that started next to different places (n, d) of one, many crossings later."""
+    found, count = [], min(len(places), _INDEPENDENT)
+    for i in range(_MEMBERS):
+        start = places[i * len(places) // _MEMBERS]
+        try:
+            following = map_.orbit(start + _SHIFT * (i + 1), count)
+        except OutsideRegion:
+            following = map_.orbit(start, count)
+        if len(following):
+            found.append(following[-1])
+    return np.array(found)
+
+
+def _indicated(map_: ReturnMap, places: Array, t: float) -> Megno:
+    states = np.array([map_.state_at(place) for place in places])
+    return megno(map_.sheet.system, states, map_.sheet.parameters, -t if map_.backward else t, map_.accuracy,
+                 threads=1)
+
+
+def _series(turns: Sequence[float], places: Array) -> Array:
+    """Bounded functions along an orbit (n, m): cos and sin of angles, other coordinates in units of their range."""
+    away = places - places.mean(axis=0)
+    size = max(float(np.ptp(away, axis=0).max()), 1e-300)
+    return np.column_stack([one for i, turn in enumerate(turns) for one in (
+        (np.cos(2.0 * math.pi * places[:, i] / turn), np.sin(2.0 * math.pi * places[:, i] / turn))
+        if math.isfinite(turn) else (away[:, i] / size,))])
+
+
+def _has_a_curve(map_: ReturnMap, place: Array, t: float) -> bool:
+    """True if one more exponent is 0 than those of the integrals and of the direction of motion.
+
+    An attracting invariant curve has it; an attracting periodic orbit, however long, has not.
+    """
+    found = spectrum(map_.sheet.system, map_.state_at(place), map_.sheet.parameters, -t if map_.backward else t,
+                     map_.accuracy)
+    return found.zeros >= found.integrals + 2
 
 
 @dataclass(frozen=True)
 class Dynamics(Result):
-    """To what one orbit comes forward and backward in time, and how far apart that is.
+    """To what orbits come forward and backward in time, how far apart that is, and whether volume shrinks.
 
-    attractor, repeller : places (n, d) and (m, d), in the order in which they are passed.
-    divergence, divergence_error : the mean of div ẏ on the attractor, over the time t.
+    Attributes
+    ----------
+    motion : Regime
+        The kind of the motion forward in time, and the mean divergence that is judged.
+    attractor, repeller : Array, shape (n, d) and (m, d)
+        The crossings of the first orbit, in the order in which they are passed.
+    comparisons : tuple of Apart
+        How far apart the two sets are, for each orbit of the ensemble.
     """
 
-    names: tuple[str, ...]
+    motion: Regime
     attractor: Array
     repeller: Array
-    apart: Apart
-    t: float
-    divergence: float
-    divergence_error: float
-    level: str
+    comparisons: tuple[Apart, ...]
+
+    @property
+    def distance(self) -> float:
+        """Between the sets, the mean over the ensemble."""
+        return float(np.mean([one.distance for one in self.comparisons]))
+
+    @property
+    def distance_error(self) -> float:
+        """The largest error, grain or difference from the mean."""
+        return max(max(one.error, one.grain, abs(one.distance - self.distance)) for one in self.comparisons)
+
+    @property
+    def shared(self) -> float:
+        """Share of the places of one set that lie at the other, the mean over the ensemble."""
+        return float(np.mean([one.shared for one in self.comparisons]))
 
     @property
     def verdict(self) -> str:
-        """"conservative", "dissipative", "mixed" or "undecided"."""
-        volume = int(volume_sign(self.divergence, self.divergence_error))
-        if not self.apart.settled:
-            return "undecided"
-        if self.apart.apart:
-            # On sets of no volume, apart: volume must shrink on the one.
-            return "dissipative" if volume < 0 else "undecided"
-        if self.apart.equal:
-            return "conservative" if volume == 0 else "mixed"
-        return "mixed" if self.apart.shared >= _TOUCHING and volume < 0 else "undecided"
+        """"conservative", "dissipative", "mixed" or "not told apart"."""
+        if self.motion.volume_kept:
+            return "conservative"
+        settled = all(one.settled for one in self.comparisons)
+        if settled and self.motion.volume < 0:
+            if all(one.apart for one in self.comparisons):
+                return "dissipative"
+            if all(one.shared >= _TOUCHING for one in self.comparisons):
+                return "mixed"
+        return "not told apart"
+
+    @property
+    def sentence(self) -> str:
+        """The verdict with what it rests on."""
+        if self.motion.volume_kept:
+            return "Conservative: the field keeps the volume."
+        if self.verdict == "not told apart":
+            return f"Not told apart: |mean divergence| < {self.motion.bound:.1g}."
+        return (f"Looks {self.verdict}: attractor and repeller are {self.distance:.2g} ± {self.distance_error:.1g} "
+                f"apart and share {100.0 * self.shared:.2g} % of their places.")
 
     def labels(self) -> Labels:
-        """The places of both."""
+        """The places of both sets, and what was found of them."""
         which = np.repeat(["attractor", "repeller"], [len(self.attractor), len(self.repeller)])
         points = np.concatenate([self.attractor, self.repeller])
-        along = ("crossing",)
+        along, names = ("crossing",), self.motion.names
         return Labels({"set": (along, which)},
-                      {name: (along, points[:, i].copy()) for i, name in enumerate(self.names)},
-                      place_units(self.names), {
-            "verdict": self.verdict, "distance": self.apart.distance, "distance error": self.apart.error,
-            "grain": self.apart.grain, "shared": self.apart.shared, "divergence": self.divergence,
-            "divergence error": self.divergence_error, "level": self.level})
+                      {name: (along, points[:, i].copy()) for i, name in enumerate(names)},
+                      place_units(names), {
+            "verdict": self.verdict, "distance": self.distance, "distance error": self.distance_error,
+            "shared": self.shared, "divergence": self.motion.divergence,
+            "divergence error": self.motion.divergence_error, "level": self.motion.level})
 
 
 def dynamics_of(map_: ReturnMap, start: Sequence[float] | Array, transient: int = 500, kept: int = 2000,
                 t: float = 1000.0) -> Dynamics:
-    """The sets to which the orbit from a place (d,) comes forward and backward in time, and how far apart they are.
+    """Return to what the orbits from a place come forward and backward in time, and how far apart that is.
 
-    Raises `NoReturn` where it does not come back so often, and as `regime`.
+    Parameters
+    ----------
+    map_ : ReturnMap
+        The return map of the section.
+    start : array_like, shape (d,)
+        The place where the orbits start, 1e-8 from each other.
+    transient, kept : int
+        Crossings left out, 0 to 20 000, and looked at, 8 to 20 000, of each orbit.
+    t : float
+        The time over which the divergence of each orbit is averaged.
+
+    Raises
+    ------
+    InvalidParameter
+        For counts or times out of range.
+    NoReturn
+        Where the motion does not come back so often.
+    OutsideRegion, WorkLimit
+        As `regime`.
     """
-    if not (8 <= kept <= 50_000 and 0 <= transient <= 50_000):
-        raise InvalidParameter("Up to 50000 crossings are left out, and from 8 to 50000 looked at.")
-    sets = []
-    for one in (map_, map_.inverse()):
-        orbit = one.orbit(np.array(start, float), transient + kept)
-        if len(orbit) < transient + kept:
-            way = "backward" if one.backward else "forward"
-            raise NoReturn(f"Followed {way} in time, the motion returns {len(orbit)} times only: choose another place.")
-        sets.append(frozen(orbit[transient:].copy()))
-    return compared(map_, sets[0], sets[1], t)
+    if not 8 <= kept <= _MOST_CROSSINGS:
+        raise InvalidParameter(f"From 8 to {_MOST_CROSSINGS} crossings are looked at.")
+    return compared(map_, regime(map_, start, transient, min(kept, 400), t), start, transient, kept)
 
 
-def compared(map_: ReturnMap, attractor: Array, repeller: Array, t: float) -> Dynamics:
-    """The same of two sets of places (n, d) and (m, d) that are known, in the order in which they are passed."""
-    found = _indicated(map_, attractor[-1], t, DRAFT)
-    return Dynamics(map_.names, attractor, repeller, how_far_apart(map_.turns, attractor, repeller), t,
-                    float(found.divergence[0]), float(found.divergence_error[0]), map_.level)
+def compared(map_: ReturnMap, motion: Regime, start: Sequence[float] | Array, transient: int, kept: int) -> Dynamics:
+    """Return the same for a motion whose kind is known already."""
+    origin = np.array(start, float)
+    pairs: list[tuple[Array, Array]] = []
+    for i in range(_MEMBERS):
+        go_on()
+        pair: list[Array] = []
+        for one in (map_, map_.inverse()):
+            orbit = one.orbit(origin + _SHIFT * i, transient + kept)
+            if len(orbit) < transient + kept:
+                way = "backward" if one.backward else "forward"
+                raise NoReturn(f"Followed {way} in time, the motion was seen to return {len(orbit)} times only: choose "
+                               "another place.")
+            pair.append(frozen(orbit[transient:].copy()))
+        pairs.append((pair[0], pair[1]))
+    return Dynamics(motion, *pairs[0], tuple(how_far_apart(map_.turns, a, b) for a, b in pairs))

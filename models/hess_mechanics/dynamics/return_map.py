@@ -35,8 +35,8 @@ __all__ = ["ReturnMap", "Sheet"]
 
 _LONGEST = 400.0
 """Time allowed for a return, in units of 1/ν times the slowness of the section."""
-_PER_CROSSING = 40.0
-"""The same for a crossing of a long orbit, of which few take longer."""
+_WAIT = 2000.0
+"""Time for which a long orbit is followed in search of its next crossing, in the same units."""
 _PIECE = 50
 """Crossings that are followed at once."""
 _STEP = 2e-3
@@ -84,6 +84,11 @@ class Sheet(Protocol):
     @property
     def constants(self) -> Mapping[str, float]:
         """What may be changed: parameters and values of the integrals, by name."""
+
+    @property
+    def integrable(self) -> str:
+        """The name of the integrable case that this is, exactly; empty where none is known."""
+        return ""
 
     def moved(self, name: str, value: float) -> Sheet:
         """The same section with another value of a constant.  Raises a `ModelError` where there is none."""
@@ -134,7 +139,7 @@ class ReturnMap:
         return self.accuracy.is_floor
 
     def tightened(self) -> ReturnMap:
-        """The same map with a hundredth of the tolerance."""
+        """The same map with a hundredth of the tolerance, from starts that differ by roundings."""
         return replace(self, accuracy=self.accuracy.tightened())
 
     def inverse(self) -> ReturnMap:
@@ -173,20 +178,21 @@ class ReturnMap:
         return np.asarray(self.sheet.places_of((state * problem.scale)[None])[0])
 
     def orbit(self, place: Array, count: int) -> Array:
-        """The next `count` crossings (n, k) of this sheet, one after the other; fewer where the motion stays away.
+        """The next `count` crossings (n, k) of this sheet, one after the other; fewer where none is seen for `wait`.
 
         The orbit is brought back to its levels of the integrals after every 50 of them, so it may be as long as one
-        likes.  Raises `OutsideRegion`, `WorkLimit`.
+        likes.  A slow motion is followed as long as each stretch of the time `wait` has a crossing.
+        Raises `OutsideRegion`, `WorkLimit`.
         """
         sheet = self.sheet
         parts = [np.empty((0, len(self.turns)))]
         left, place = count, np.asarray(place, float)
         while left > 0:
             go_on()
-            problem = Problem.of(sheet.system, [self.state_at(place)], sheet.parameters)
+            problem = self._problem(self.state_at(place))
             cross, normal, offset = sheet.surface.scaled(sheet.system, problem)
             wanted = min(left, _PIECE)
-            end = _PER_CROSSING * sheet.slowness * wanted * (-1.0 if self.backward else 1.0)
+            end = _WAIT * sheet.slowness * (-1.0 if self.backward else 1.0)
             times, states = np.empty(wanted + 1), np.empty((wanted + 1, problem.scale.size))
             found, _ = cross(problem.states[0], problem.parameters, normal, offset, sheet.surface.sense, end,
                              self.accuracy.order, self.accuracy.tolerance, MAX_STEPS, times, states)
@@ -198,12 +204,17 @@ class ReturnMap:
             require_finite_states(states)
             on = np.flatnonzero(sheet.is_on(states))
             parts.append(np.asarray(sheet.places_of(states[on])))
-            if len(states) < wanted or not on.size:
+            if not on.size:
                 break
             # Where the last crossings are on another sheet, they are passed once more.
             left -= int(on[-1]) + 1
             place = parts[-1][-1]
         return np.concatenate(parts)
+
+    def wait(self, place: Array) -> float:
+        """The time for which `orbit` looks for the next crossing from a place.  Raises `OutsideRegion`."""
+        return _WAIT * self.sheet.slowness / Problem.of(self.sheet.system, [self.state_at(place)],
+                                                        self.sheet.parameters).nu
 
     def time_of(self, place: Array, count: int = 1) -> float:
         """The time that so many returns from a place take.  Raises as `image`."""
@@ -227,11 +238,15 @@ class ReturnMap:
         found = np.asarray(self.sheet.places_of(state[None])[0])
         return found, self._in_plane(state, found, self._tangents(place) @ onto.T)
 
+    def _problem(self, start: Array) -> Problem:
+        problem = Problem.of(self.sheet.system, [start], self.sheet.parameters)
+        return problem.nearby() if self.accuracy.aside else problem
+
     def _crossing(self, start: Array, count: int) -> tuple[Problem, float, Array]:
         """The problem in its own units, time and state (d,) of the crossing of this number from a state."""
         go_on()
         sheet = self.sheet
-        problem = Problem.of(sheet.system, [start], sheet.parameters)
+        problem = self._problem(start)
         cross, normal, offset = sheet.surface.scaled(sheet.system, problem)
         end = _LONGEST * sheet.slowness * count * (-1.0 if self.backward else 1.0)
         wanted = count
@@ -246,10 +261,11 @@ class ReturnMap:
         if found == STEP_LIMIT_REACHED:
             raise WorkLimit(f"This return needs more than {MAX_STEPS} steps: choose another place, or a cheaper level.")
         if found < wanted:
-            raise NoReturn(f"From here a motion does not return to the section {count} times: choose another place.")
+            raise NoReturn(f"From here the motion was not seen to return to the section {_times(count)} within t = "
+                           f"{abs(end) / problem.nu:.4g}: choose another place.")
         require_finite_states(states)
         if not sheet.is_on(states[-1:] * problem.scale)[0]:
-            raise NoReturn("From here a motion returns on another sheet of the section: choose another place.")
+            raise NoReturn("From here the motion returns on another sheet of the section: choose another place.")
         return problem, float(times[-1]), states[-1]
 
     def _tangents(self, place: Array) -> Array:
@@ -330,3 +346,7 @@ class ReturnMap:
                    for image in images):
                 found.append(mirror.name)
         return tuple(found)
+
+
+def _times(count: int) -> str:
+    return "once" if count == 1 else f"{count} times"

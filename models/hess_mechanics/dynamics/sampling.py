@@ -12,7 +12,7 @@ import numpy as np
 
 from hess_mechanics.dynamics.orbit import MAX_STEPS, solve
 from hess_mechanics.dynamics.system import Problem, System
-from hess_mechanics.numerics.accuracy import PRECISE, Level
+from hess_mechanics.numerics.accuracy import PRECISE, Accuracy
 from hess_mechanics.numerics.results import Array, Orbit
 
 __all__ = ["HALF_A_PIXEL", "MOST_SAMPLES", "PIXELS", "SAGITTA", "sample_times", "sampled_orbit"]
@@ -66,7 +66,7 @@ def sample_times(system: System, state: Array, parameters: Array, span: float, w
 
 
 def sampled_orbit(system: System, state: Sequence[float], parameters: Sequence[float], span: float,
-                  weights: Sequence[float], level: Level, most: int = MOST_SAMPLES) -> Orbit:
+                  weights: Sequence[float], level: Accuracy, most: int = MOST_SAMPLES) -> Orbit:
     """The orbit from `state` over `span`, sampled as `sample_times` says for pictures of these weights, in pixels.
 
     Raises as `solve`.

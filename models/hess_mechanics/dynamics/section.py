@@ -13,8 +13,10 @@ import numpy as np
 from hess_mechanics.dynamics.orbit import drift_of, require_finite_states, status_of
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.accuracy import Accuracy, Level
+from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
+from hess_mechanics.numerics.measured import measured
 from hess_mechanics.numerics.parallel import THREADS, share
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Cost, Section, frozen, unit_of
@@ -105,7 +107,8 @@ class _Search:
 
     def run(self, i: int, level: Level, max_steps: int, start: Array | None = None) -> tuple[Array, Array, int]:
         """Times, states and steps of the crossings of orbit i, or of the orbit from `start`, at one tolerance."""
-        start = self.problem.states[i] if start is None else start
+        if start is None:
+            start = (self.problem.nearby() if level.aside else self.problem).states[i]
         room, total = min(self.crossings, _ROOM), 0
         while True:
             times, states = np.empty(room), np.empty((room, self.problem.scale.size))
@@ -122,27 +125,31 @@ class _Search:
         return times[:found].copy(), states[:found].copy(), total
 
     def measured(self, i: int) -> _Found:
-        """The crossings of orbit i, with errors measured against a more accurate run."""
-        start = time.perf_counter()
-        current = self.level
-        coarse_times, coarse, total = self.run(i, current, MAX_STEPS)
-        while True:
-            go_on()
-            tighter = current.tightened()
-            fine_times, fine, steps = self.run(i, tighter, MAX_STEPS - total)
+        """The crossings of orbit i, with errors measured against a run that is more accurate and starts nearby."""
+        begun = time.perf_counter()
+        total = 0
+
+        def run(level: Level) -> tuple[Array, Array]:
+            nonlocal total
+            times, states, steps = self.run(i, level, MAX_STEPS - total)
             total += steps
-            both = min(len(coarse), len(fine))
-            safety = 4.0 if current.is_floor else 1.25
-            difference = safety * np.abs(coarse[:both] - fine[:both])
-            error = float(difference.max(initial=0.0)) + 2e-16
-            # One crossing may differ, at the very end of the time span.
-            extra = np.concatenate((coarse_times[both:], fine_times[both:]))
-            same = len(extra) == 0 or (len(extra) == 1 and abs(extra[0] - self.end) <= 10 * self.level.promise)
-            if (same and error <= self.level.promise) or current.is_floor:
-                break
-            current, coarse, coarse_times = tighter, fine, fine_times
-        wall_ms = (time.perf_counter() - start) * 1e3
-        return _Found(coarse_times, coarse, difference, error if same else math.inf, Cost(total, wall_ms))
+            return times, states
+
+        found = measured(self.level, run, self._apart)
+        times, states = found.result
+        both = min(len(states), len(found.other[1]))
+        difference = found.safety * np.abs(states[:both] - found.other[1][:both])
+        wall_ms = (time.perf_counter() - begun) * 1e3
+        return _Found(times, states, difference, found.error, Cost(total, wall_ms))
+
+    def _apart(self, one: tuple[Array, Array], other: tuple[Array, Array]) -> float:
+        """The difference of two runs' crossings, ∞ where these are not the same ones."""
+        (times, states), (other_times, others) = one, other
+        both = min(len(states), len(others))
+        # One crossing may differ, at the very end of the time span.
+        extra = np.concatenate((times[both:], other_times[both:]))
+        same = len(extra) == 0 or (len(extra) == 1 and abs(extra[0] - self.end) <= 10 * self.level.promise)
+        return float(np.abs(states[:both] - others[:both]).max(initial=0.0)) if same else math.inf
 
     def result(self, i: int, start: Array, parameters: Array, found: _Found) -> Section:
         """The crossings of orbit i, which starts at `start` (d,), in the user's units."""
@@ -166,7 +173,7 @@ class _Found:
 
 
 def section(system: System, state: Sequence[float] | Array, parameters: Sequence[float], plane: Surface,
-            end: float, level: Level, crossings: int = MAX_CROSSINGS) -> Section:
+            end: float, level: Accuracy, crossings: int = MAX_CROSSINGS) -> Section:
     """The first `crossings` crossings of the plane from t = 0 to t = `end`, which may be negative.
 
     Crossings are roots of the orbit's own Taylor polynomials.  The error is measured as in `solve`, crossing by
@@ -183,7 +190,7 @@ def section(system: System, state: Sequence[float] | Array, parameters: Sequence
 
 
 def sections(system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float], plane: Surface,
-             end: float, level: Level, crossings: int = MAX_CROSSINGS, threads: int = THREADS) -> list[Section]:
+             end: float, level: Accuracy, crossings: int = MAX_CROSSINGS, threads: int = THREADS) -> list[Section]:
     """`section` for each row of `states` (n, d), on all cores; the fastest orbit sets the unit of time for all.
 
     >>> from hess_mechanics import Plane, level, sections, systems
@@ -192,6 +199,7 @@ def sections(system: System, states: Sequence[Sequence[float]] | Array, paramete
     >>> len(sections(suslov, [state], parameters, Plane((0.0, 0.0, 0.0, 0.0, 1.0)), 50.0, level("precise"), 5))
     1
     """
+    level = as_level(level)
     search = _Search.of(system, states, parameters, plane, end, level, crossings)
     found: dict[int, _Found] = {}
 
@@ -230,7 +238,7 @@ class Points(Result):
 
 
 def section_points(system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float],
-                   plane: Surface, end: float, level: Level, crossings: int, threads: int = THREADS,
+                   plane: Surface, end: float, level: Accuracy, crossings: int, threads: int = THREADS,
                    most_steps: int = MAX_STEPS) -> Points:
     """The first `crossings` crossings of the orbits from the rows of `states` (n, d), in one run, for pictures.
 
@@ -244,6 +252,7 @@ def section_points(system: System, states: Sequence[Sequence[float]] | Array, pa
     >>> section_points(suslov, [state], parameters, plane, 100.0, level("standard"), 5).states[0].shape
     (5, 5)
     """
+    level = as_level(level)
     begun = time.perf_counter()
     search = _Search.of(system, states, parameters, plane, end, level, crossings)
     count = len(search.problem.states)

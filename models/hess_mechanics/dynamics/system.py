@@ -11,17 +11,19 @@ import importlib
 import pkgutil
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from threading import RLock
 from typing import Any
 
 import numpy as np
 
-from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.errors import InvalidParameter, ModelError, WrongScaling
 from hess_mechanics.numerics.batch_kernels import ensemble_integrator, one_by_one
+from hess_mechanics.numerics.doubled_kernels import doubled_integrator
 from hess_mechanics.numerics.events_kernels import PLANE, Surface, crossing_finder
 from hess_mechanics.numerics.jit import derived_kernel, inner
+from hess_mechanics.numerics.measured import nearby
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.numerics.taylor_kernels import orbit_integrator
 from hess_mechanics.numerics.tracing import Field, Recursion, trace
@@ -32,14 +34,16 @@ __all__ = ["Problem", "System", "in_units_of_time", "systems"]
 
 _DERIVING = RLock()
 """Threads that want the same kernel get the same one: it is compiled once."""
+_SEED, _CHECKS, _ROUNDING = 1, 4, 1e-9
+"""Of the check that a system scales: random parameters are drawn so many times, with some states each."""
 
 
-def in_units_of_time(first: int) -> Callable[[Array, Array, float], tuple[Array, Array]]:
-    """`System.rescale` where y begins with two angular velocities, and the parameters from `first` on are a field."""
+def in_units_of_time(first: int, velocities: int = 2) -> Callable[[Array, Array, float], tuple[Array, Array]]:
+    """`System.rescale` where y begins with so many velocities, and the parameters from `first` on are a field."""
 
     def rescale(y: Array, p: Array, nu: float) -> tuple[Array, Array]:
         y, p = y.copy(), p.copy()
-        y[:2] /= nu
+        y[:velocities] /= nu
         p[first:] /= nu * nu
         return y, p
 
@@ -53,13 +57,33 @@ class System:
     name, title : identifier and words.
     source, labels : the paper's equations: as numbered in print, and their labels in its LaTeX source.
     variables, parameters : the names of the components of y and p.
+    angular_velocities : how many of the leading variables scale with 1/time, as angular velocities and momenta do; 0
+        where none does.  Names say nothing about that.
     field(y, p), integrals(y, p) : plain arithmetic on sequences; the field is traced, see `numerics.tracing`.
     frequency(y, p) : a bound ν on every |ω|, of y (d,) or (d, n); time is measured in 1/ν when integrating.
-    rescale(y, p, ν) : states (d,) or (d, n) and parameters in units of time 1/ν.
+    rescale(y, p, ν) : states (d,) or (d, n) and parameters in units of time 1/ν.  It divides the angular velocities by
+        ν and `unit`, leaves the other variables, and scales the parameters so that the motion stays the same.
     example : a state and parameters to try.
     unit(p) : what the leading variables, angular velocities or momenta, are divided by besides ν.
     tolerance(y, p, order, asked) : the tolerance for an orbit from y, where its series needs a smaller one than was
         asked for.  It is compiled: numbers and arrays only.
+
+    Raises
+    ------
+    WrongScaling : `rescale`, `angular_velocities` and `unit` do not fit the field; this is checked at random points.
+
+    >>> from hess_mechanics import System, solve
+    >>> from hess_mechanics.dynamics.system import in_units_of_time
+    >>> pendulum = System(  # ẇ = −k sin θ, θ̇ = w, with s = sin θ, c = cos θ
+    ...     name="pendulum", title="A pendulum", source="", labels=(), variables=("w", "s", "c"), parameters=("k",),
+    ...     angular_velocities=1,
+    ...     field=lambda y, p: (-p[0] * y[1], y[0] * y[2], -y[0] * y[1]),
+    ...     integrals=lambda y, p: {"H": y[0] ** 2 / 2 - p[0] * y[2]},
+    ...     frequency=lambda y, p: (y[0] ** 2 + 4 * p[0]) ** 0.5,
+    ...     rescale=in_units_of_time(first=0, velocities=1),
+    ...     example=((0.5, 0.0, 1.0), (9.81,)))
+    >>> str(solve(pendulum, *pendulum.example, [1.0], "precise").status)
+    'ok'
     """
 
     name: str
@@ -68,6 +92,7 @@ class System:
     labels: tuple[str, ...]
     variables: tuple[str, ...]
     parameters: tuple[str, ...]
+    angular_velocities: int
     field: Field
     integrals: Callable[[Sequence[Any], Sequence[Any]], Mapping[str, Any]]
     frequency: Callable[[Array, Array], Array | float]
@@ -75,6 +100,56 @@ class System:
     example: tuple[tuple[float, ...], tuple[float, ...]]
     unit: Callable[[Array], float] = lambda p: 1.0
     tolerance: Callable[[Array, Array, int, float], float] | None = None
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.angular_velocities <= len(self.variables):
+            raise WrongScaling(f"{self.title}: angular_velocities counts the leading variables that scale with 1/time, "
+                               f"so it is from 0 to {len(self.variables)}.")
+        self._check_scaling()
+
+    def _check_scaling(self) -> None:
+        """Compare states and rates at random points with those that `rescale` leads to.  Raises `WrongScaling`."""
+        draw = np.random.default_rng(_SEED)
+        state, parameters = (np.array(values, float) for values in self.example)
+        for _ in range(_CHECKS):
+            # Near the example, where the equations are defined, but with no component left at 0; and not as many as
+            # there are variables, which a `rescale` of a single state would take for one.
+            shape = state.size + 1, state.size
+            states = state * draw.uniform(0.5, 2.0, shape) + draw.uniform(-0.5, 0.5, shape)
+            p = np.where(parameters == 0.0, 1.0, parameters) * draw.uniform(0.5, 2.0, parameters.size)
+            try:
+                problem = Problem.of(self, states, p.tolist())
+            except ModelError:
+                continue  # no motion there
+            except ValueError as error:
+                raise WrongScaling(f"{self.title}: `rescale` and `frequency` take states (d,) and (d, n): {error}."
+                                   ) from error
+            for y, scaled in zip(states, problem.states, strict=True):
+                self._compare(y, p, scaled, problem)
+
+    def _compare(self, y: Array, p: Array, scaled: Array, problem: Problem) -> None:
+        rates = self._rates(y, p), self._rates(scaled, problem.parameters)
+        if rates[0] is None or rates[1] is None:
+            return  # the trace of the field says what is wrong with it
+        expected = np.concatenate([y, rates[0]])
+        found = np.concatenate([problem.scale * scaled, problem.scale * problem.nu * rates[1]])
+        names = [*self.variables, *(f"d{name}/dt" for name in self.variables)]
+        for name, one, other in zip(names, expected, found, strict=True):
+            if abs(one - other) > _ROUNDING * float(np.max(np.abs(expected))):
+                leading = ", ".join(self.variables[: self.angular_velocities]) or "none"
+                raise WrongScaling(f"{self.title}: in units of time 1/ν, ν = {problem.nu:.4g}, {name} becomes "
+                                   f"{other:.4g} and should stay {one:.4g}. Correct `rescale`, or "
+                                   "`angular_velocities`, which counts the leading variables that scale with 1/time "
+                                   f"(now: {leading}).")
+
+    def _rates(self, y: Array, p: Array) -> Array | None:
+        """Return the field (d,) in floats; None where it has no d finite values."""
+        try:
+            with np.errstate(all="ignore"):
+                found = np.array(self.field(y.tolist(), p.tolist()), float)
+        except (TypeError, ValueError, ArithmeticError, LookupError):
+            return None
+        return found if found.shape == y.shape and np.all(np.isfinite(found)) else None
 
     @cached_property
     def recursion(self) -> Recursion:
@@ -104,6 +179,12 @@ class System:
         """The same of another surface, made anew by each call; task : its name among the kernels of the system."""
         return self._kernel(task, "y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states",
                             lambda recursion: crossing_finder(recursion, surface))
+
+    @cached_property
+    def doubled(self) -> Callable[..., int]:
+        """The kernel of one orbit with 31 digits, see `doubled_kernels.doubled_integrator`."""
+        return self._kernel("doubled", "state, start, p, scale, unit, times, max_steps, out", doubled_integrator,
+                            adjusts=False)
 
     @cached_property
     def variation(self) -> Variation:
@@ -149,11 +230,6 @@ class System:
     def arguments(self) -> tuple[str, ...]:
         """The variables by names that are easily typed, as commands and sweeps take them: ω1 is w1, γ1 is g1."""
         return tuple(name.replace("ω", "w").replace("γ", "g") for name in self.variables)
-
-    @property
-    def angular_velocities(self) -> int:
-        """How many leading variables are angular velocities or momenta, and scale with 1/time."""
-        return sum(name.startswith(("ω", "w", "M")) for name in self.variables)
 
 
 @cache
@@ -208,6 +284,10 @@ class Problem:
             raise InvalidParameter("In units in which the state is of size 1 these numbers leave the range of double "
                                    "precision: choose less extreme parameters.")
         return cls(np.ascontiguousarray(scaled.T), p, nu, scale)
+
+    def nearby(self) -> Problem:
+        """Return the same problem from starts that differ by roundings, see `measured.nearby`."""
+        return replace(self, states=nearby(self.states))
 
     def times(self, t: Array) -> Array:
         """The times (m,) in units of 1/ν; ∞ where that leaves double range, which no budget of steps reaches."""

@@ -186,7 +186,8 @@ class _Walk:
         sign = -1 if wanted[-1] < 0 else 1
         while len(found) < len(wanted):
             go_on()
-            step = self._step(sign)
+            left = math.nextafter(float(abs(wanted[-1] - self.t)), math.inf)
+            step = self._step(sign, left, most_work)
             if step is None:
                 break
             end = self.t + sign * Fraction(step.length)
@@ -205,7 +206,6 @@ class _Walk:
                     self.spent = True
                     return found, widest
             self._go_to(step, end)
-            self.work += self.cost
             if 2.0 * float(self.radius) > tolerance:
                 break
             if self.work > most_work:
@@ -222,18 +222,27 @@ class _Walk:
         self.t = end
         self.steps += 1
 
-    def _step(self, sign: int) -> _Step | None:
-        """The next one; None where there is none."""
+    def _step(self, sign: int, left: float, most_work: float) -> _Step | None:
+        """Return the next step, of the time that is left at most; None where there is none, or no work for it."""
         from flint import arb_poly
 
         series = [[c.mid() * (sign if k % 2 else 1) for k, c in enumerate(one)]
                   for one in _series(self.system.recursion, self.centre, self.p, self.terms)]
-        length = self._length(series)
+        length = min(left, self._length(series))
         along = [arb_poly(one) for one in series]
         for _ in range(_TRIED):
-            radius = self._radius(along, length, sign)
+            # A step that is refused has cost as much as one that is made.
+            self.work += self.cost
+            try:
+                radius = self._radius(along, length, sign)
+            except ZeroDivisionError:
+                # A divisor of the field may vanish on this step; a shorter one can avoid that.
+                radius = None
             if radius is not None:
                 return _Step(along, length, radius)
+            if self.work > most_work:
+                self.spent = True
+                return None
             length *= 0.5
         return None
 
@@ -274,15 +283,15 @@ class _Walk:
         return most if most < R else None
 
     def _rate(self, box: list[Ball], sign: int) -> Ball | None:
-        """A bound of the eigenvalues of the symmetric part of ±D⁻¹ f′ D over a box."""
-        from flint import arb_mat
+        """Return a bound of the eigenvalues of the symmetric part of ±D⁻¹ f′ D over a box; None without one.
 
-        n = len(box)
-        try:
-            rates = self.system.field([Slope.of(x, i, n) for i, x in enumerate(box)], self.p)
-        except ZeroDivisionError:
-            return None
-        J = [[rate.slopes[j] * (sign * self.scale[j] / self.scale[i]) if isinstance(rate, Slope) else 0 * box[0]
+        Raises `ZeroDivisionError` where a divisor may vanish.
+        """
+        from flint import arb, arb_mat
+
+        n, scale = len(box), [arb(size) for size in self.scale]
+        rates = self.system.field([Slope.of(x, i, n) for i, x in enumerate(box)], self.p)
+        J = [[rate.slopes[j] * sign * scale[j] / scale[i] if isinstance(rate, Slope) else 0 * box[0]
               for j in range(n)] for i, rate in enumerate(rates)]
         if not all(x.is_finite() for row in J for x in row):
             return None

@@ -26,9 +26,10 @@ from hess_mechanics.dynamics.orbit import (
 from hess_mechanics.dynamics.section import Surface, section
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.numerics.accuracy import Level, Status
+from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
+from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labelled, Labels
-from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.measured import measured
 from hess_mechanics.numerics.results import Array, Cost, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
@@ -73,7 +74,7 @@ class Transition(Labelled):
 
 
 def transition_matrix(system: System, state: Sequence[float] | Array, parameters: Sequence[float],
-                      times: float | Sequence[float] | Array, level: Level) -> Transition:
+                      times: float | Sequence[float] | Array, level: Accuracy) -> Transition:
     """∂y(t)/∂y(0) of the orbit from `state` (d,) at the given times (n,), monotonic from 0, or at one time.
 
     As in `solve`, all is computed twice, and again where the level's promise is not kept.
@@ -86,16 +87,18 @@ def transition_matrix(system: System, state: Sequence[float] | Array, parameters
     >>> bool(abs(np.log(np.linalg.det(found.matrices[-1])) - found.log_volume[-1]) < 1e-9)
     True
     """
+    level = as_level(level)
     begun = time.perf_counter()
     t = checked_times(np.atleast_1d(np.asarray(times, float)))
     problem = Problem.of(system, [state], parameters)
     scaled_times = problem.times(t)
+    problems = (problem, problem.nearby())
     total = 0
 
     def run(level: Level) -> tuple[Array, Array, Array]:
         nonlocal total
-        steps, states, frames, volume = followed(system, problem, scaled_times, level.order, level.tolerance,
-                                                 MAX_STEPS - total)
+        steps, states, frames, volume = followed(system, problems[level.aside], scaled_times, level.order,
+                                                 level.tolerance, MAX_STEPS - total)
         if steps == STEP_LIMIT_REACHED:
             raise WorkLimit(f"This time span needs more than {MAX_STEPS} steps: choose a shorter one, or a cheaper "
                             "level.")
@@ -104,25 +107,17 @@ def transition_matrix(system: System, state: Sequence[float] | Array, parameters
         total += steps
         return states, frames, volume
 
-    current = level
-    coarse = run(current)
-    while True:
-        go_on()
-        tighter = current.tightened()
-        fine = run(tighter)
-        safety = 4.0 if current.is_floor else 1.25
-        largest = np.abs(fine[1]).max(axis=(1, 2), keepdims=True)
-        error = safety * max(float(np.abs(coarse[0] - fine[0]).max()),
-                             float((np.abs(coarse[1] - fine[1]) / largest).max())) + 2e-16
-        if error <= level.promise or current.is_floor:
-            break
-        current, coarse = tighter, fine
-    states, frames, volume = coarse
+    def apart(one: tuple[Array, Array, Array], other: tuple[Array, Array, Array]) -> float:
+        largest = np.abs(other[1]).max(axis=(1, 2), keepdims=True)
+        return max(float(np.abs(one[0] - other[0]).max()), float((np.abs(one[1] - other[1]) / largest).max()))
+
+    found = measured(level, run, apart)
+    states, frames, volume = found.result
     with np.errstate(over="ignore"):
         matrices = problem.scale[:, None] * frames / problem.scale
     require_finite_neighbours(matrices)
     return Transition(system.name, level.name, frozen(t), frozen(states * problem.scale), frozen(matrices),
-                      frozen(volume), status_of(error, level), error,
+                      frozen(volume), status_of(found.error, level), found.error,
                       Cost(total, (time.perf_counter() - begun) * 1e3), system.variables)
 
 
@@ -204,7 +199,7 @@ class Return:
 
 
 def return_matrix(system: System, state: Sequence[float] | Array, parameters: Sequence[float], surface: Surface,
-                  end: float, level: Level, returns: int = 1) -> Return | None:
+                  end: float, level: Accuracy, returns: int = 1) -> Return | None:
     """The return of this number to the surface before the time `end`, which may be negative; None if there is none.
 
     Raises `InvalidParameter`, `WorkLimit`.

@@ -5,19 +5,21 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import count
 
 import numpy as np
 
+from hess_mechanics.dynamics.doubled import Doubled, doubled
 from hess_mechanics.dynamics.orbit import solve
-from hess_mechanics.dynamics.system import Problem, System, systems
+from hess_mechanics.dynamics.system import Problem, systems
 from hess_mechanics.numerics.accuracy import LEVELS, REFERENCE
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, frozen
 
 __all__ = [
     "SLOW_METHODS", "Growth", "WorkPoint", "growth", "longest_span", "measure_levels", "measure_others",
-    "others_take_long", "quickest_other",
+    "others_take_long", "quickest_other", "truth",
 ]
 
 SLOW_METHODS = ("DOP853", "LSODA")
@@ -57,16 +59,13 @@ class WorkPoint:
     error: float
 
 
-def _truth(name: str, state: Sequence[float], parameters: Sequence[float], span: float, samples: int
-           ) -> tuple[System, Array, Array, Array]:
-    """System, even times (n,), states (n, d) at those times, and the units (d,) in which the states are O(1).
+@lru_cache(maxsize=8)
+def truth(name: str, state: tuple[float, ...], parameters: tuple[float, ...], span: float, samples: int) -> Doubled:
+    """Return the motion with 31 digits at so many even times up to `span`; the last few are remembered.
 
-    Computed at the floor of double precision, with other steps than the level `reference` takes.
+    name : of the system.  Raises `InvalidParameter`, `WorkLimit`.
     """
-    system = systems()[name]
-    times = np.linspace(0.0, span, samples)
-    states = solve(system, state, parameters, times, REFERENCE.tightened()).states
-    return system, times, states, Problem.of(system, [state], parameters).scale
+    return doubled(systems()[name], state, parameters, np.linspace(0.0, span, samples))
 
 
 def growth(name: str, state: tuple[float, ...], parameters: tuple[float, ...], span: float,
@@ -76,14 +75,14 @@ def growth(name: str, state: tuple[float, ...], parameters: tuple[float, ...], s
     name : of the system; weights (d,) : pixels per unit of each variable.
     Raises `InvalidParameter`, `WorkLimit`.
     """
-    system, times, truth, scale = _truth(name, state, parameters, span, samples)
+    system, exact = systems()[name], truth(name, state, parameters, span, samples)
     first = system.angular_velocities
     errors, pixels, drifts = {}, {}, {}
     for level in LEVELS.values():
         go_on()
-        states = solve(system, state, parameters, times, level).states
-        difference = np.abs(states - truth)
-        errors[level.name] = frozen(np.max(difference / scale, axis=1))
+        states = solve(system, state, parameters, exact.times, level).states
+        difference = exact.away(states)
+        errors[level.name] = frozen(np.max(difference / exact.scale, axis=1))
         weighted = difference * np.asarray(weights)
         pixels[level.name] = frozen(np.maximum(np.linalg.norm(weighted[:, :first], axis=1),
                                                np.linalg.norm(weighted[:, first:], axis=1)))
@@ -92,7 +91,7 @@ def growth(name: str, state: tuple[float, ...], parameters: tuple[float, ...], s
             key: frozen(np.abs(value - initial[key]) / max(1.0, abs(float(initial[key]))))
             for key, value in system.integrals(list(states.T), parameters).items()
         }
-    return Growth(frozen(times), errors, pixels, drifts)
+    return Growth(exact.times, errors, pixels, drifts)
 
 
 def _best_of(run: Callable[[], Array], repeats: int) -> tuple[float, Array]:
@@ -111,11 +110,11 @@ def _best_of(run: Callable[[], Array], repeats: int) -> tuple[float, Array]:
 def measure_levels(name: str, state: tuple[float, ...], parameters: tuple[float, ...], span: float, samples: int
                    ) -> tuple[WorkPoint, ...]:
     """Cost and error of each level, measured now; the cost includes the error estimate.  Raises as `growth`."""
-    system, times, truth, scale = _truth(name, state, parameters, span, samples)
+    system, exact = systems()[name], truth(name, state, parameters, span, samples)
     points = []
     for level in LEVELS.values():
-        ms, states = _best_of(lambda: solve(system, state, parameters, times, level).states, 3)  # noqa: B023 (called at once)
-        points.append(WorkPoint("Taylor", level.name, ms, float(np.max(np.abs(states - truth) / scale))))
+        ms, states = _best_of(lambda: solve(system, state, parameters, exact.times, level).states, 3)  # noqa: B023 (called at once)
+        points.append(WorkPoint("Taylor", level.name, ms, float(np.max(exact.away(states) / exact.scale))))
     return tuple(points)
 
 
@@ -139,7 +138,7 @@ def measure_others(name: str, state: tuple[float, ...], parameters: tuple[float,
     """`measure_levels` for SciPy's methods on the plain field, at three tolerances each, without error estimates."""
     from scipy.integrate import solve_ivp  # imported here because it takes 0.3 s
 
-    system, times, truth, scale = _truth(name, state, parameters, span, samples)
+    system, exact = systems()[name], truth(name, state, parameters, span, samples)
     evaluations = count(1)
 
     def rates(_: float, y: Sequence[float]) -> Sequence[float]:
@@ -151,9 +150,9 @@ def measure_others(name: str, state: tuple[float, ...], parameters: tuple[float,
     for method in SLOW_METHODS:
         for tolerance in _TOLERANCES:
             ms, states = _best_of(
-                lambda: solve_ivp(rates, (0.0, span), state, t_eval=times,
+                lambda: solve_ivp(rates, (0.0, span), state, t_eval=exact.times,
                                   method=method, rtol=tolerance, atol=tolerance).y.T, 1)  # noqa: B023 (called at once)
-            points.append(WorkPoint(method, f"{tolerance:.0e}", ms, float(np.max(np.abs(states - truth) / scale))))
+            points.append(WorkPoint(method, f"{tolerance:.0e}", ms, float(np.max(exact.away(states) / exact.scale))))
     return tuple(points)
 
 

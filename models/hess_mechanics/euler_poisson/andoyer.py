@@ -32,7 +32,7 @@ from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.euler_poisson.andoyer_kernels import cross, least_excess, roots_into
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody, field
-from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.parallel import THREADS
 from hess_mechanics.numerics.results import Array, Mask, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
@@ -229,8 +229,8 @@ def time_for(body: HeavyBody, h: float, f: float, crossings: int) -> float:
     return crossings * _TURNS * math.sqrt(max(body.a) / min(body.a)) / speed
 
 
-def andoyer_points(body: HeavyBody, h: float, f: float, starts: Sequence[Sequence[float]], crossings: int, level: Level,
-                   threads: int = THREADS, most_steps: int = MAX_STEPS) -> Points:
+def andoyer_points(body: HeavyBody, h: float, f: float, starts: Sequence[Sequence[float]], crossings: int,
+                   level: Accuracy, threads: int = THREADS, most_steps: int = MAX_STEPS) -> Points:
     """The first crossings of g = π/2 by each orbit, as in `section_points`.  Raises `InvalidParameter`, `WorkLimit`."""
     return section_points(SYSTEM, starts, body.parameters, AndoyerPlane(f), time_for(body, h, f, crossings), level,
                           crossings, threads, most_steps)
@@ -269,6 +269,11 @@ class AndoyerSection(Sheet):
     def constants(self) -> Mapping[str, float]:
         """The parameters of the body, h and f."""
         return {**dict(zip(SYSTEM.parameters, self.parameters, strict=True)), "h": self.h, "f": self.f}
+
+    @property
+    def integrable(self) -> str:
+        """The integrable case of the body, see `HeavyBody.integrable_at`."""
+        return self.body.integrable_at(self.f)
 
     def moved(self, name: str, value: float) -> AndoyerSection:
         """With another value of a constant."""

@@ -104,6 +104,27 @@ class HeavyBody:
         left, right = abs(r1) * math.sqrt(abs(a3 - a2)), abs(r3) * math.sqrt(abs(a2 - a1))
         return r2 == 0.0 and abs(left - right) <= 1e-14 * (left + right)
 
+    def integrable_at(self, f: float) -> str:
+        """Return the name of the integrable case of the motions with the area integral f; empty where there is none.
+
+        The conditions hold for exactly these numbers: Euler's μr = 0; Lagrange's a_i = a_j, r along the third axis;
+        Kovalevskaya's a_i = a_j = a_k/2, r across it; that of Goryachev and Chaplygin a_i = a_j = a_k/4, r across it,
+        f = 0.
+        """
+        if self.strength == 0.0:
+            return "Euler's integrable case"
+        for k in range(3):
+            i, j = (axis for axis in range(3) if axis != k)
+            if self.a[i] != self.a[j]:
+                continue
+            if self.r[i] == self.r[j] == 0.0:
+                return "Lagrange's integrable case"
+            if self.r[k] == 0.0 and self.a[k] == 2.0 * self.a[i]:
+                return "Kovalevskaya's integrable case"
+            if self.r[k] == f == 0.0 and self.a[k] == 4.0 * self.a[i]:
+                return "the integrable case of Goryachev and Chaplygin"
+        return ""
+
     @property
     def check(self) -> BodyCheck:
         """Whether the moments satisfy the triangle inequality."""
@@ -174,6 +195,7 @@ SYSTEM = System(
     labels=("hh01", "hh001"),
     variables=("M1", "M2", "M3", "γ1", "γ2", "γ3"),
     parameters=("a1", "a2", "a3", "r1", "r2", "r3", "mu"),
+    angular_velocities=3,
     field=field,
     integrals=integrals,
     frequency=frequency,

@@ -20,7 +20,8 @@ from hess_mechanics.errors import WorkLimit
 from hess_mechanics.euler_poisson.andoyer import coordinates
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
-from hess_mechanics.numerics.accuracy import REFERENCE, Level
+from hess_mechanics.numerics.accuracy import REFERENCE, Accuracy, Level
+from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.results import Array, Orbit, frozen
 from hess_mechanics.suslov.equations import SYSTEM as SUSLOV
 from hess_mechanics.suslov_hess.circle_map import CircleMap
@@ -77,12 +78,13 @@ def _ended(body: HeavyBody, problem: Problem, times: Array, states: Array, level
     return FreeRun(level.name, times, frozen(states), frozen(_relative(body, states)), steps, drift)
 
 
-def run_free(body: HeavyBody, start: tuple[float, ...], end: float, count: int, level: Level) -> FreeRun:
+def run_free(body: HeavyBody, start: tuple[float, ...], end: float, count: int, level: Accuracy) -> FreeRun:
     """The Euler–Poisson orbit from a state on the Hess manifold, at `count` even times from 0 to `end`, unconstrained.
 
     It is computed once: `solve` would repeat it with smaller tolerances until the leak is that of round-off.
     Raises `InvalidParameter`, `WorkLimit`.
     """
+    level = as_level(level)
     times = frozen(np.linspace(0.0, end, count))
     problem = Problem.of(SYSTEM, [start], body.parameters)
     out = np.empty((count, 6))
@@ -95,12 +97,13 @@ _BEFORE_HELD = 3.0
 _HELD_SAMPLES = 32
 
 
-def on_manifold(body: HeavyBody, start: tuple[float, ...], end: float, count: int, level: Level) -> FreeRun:
+def on_manifold(body: HeavyBody, start: tuple[float, ...], end: float, count: int, level: Accuracy) -> FreeRun:
     """`run_free` with M projected onto the Hess manifold so often that the leak cannot grow.
 
     This integrates the restriction to the manifold (`gess05`) in the variables and with the kernel of Euler–Poisson.
     Raises `InvalidParameter`, `WorkLimit`.
     """
+    level = as_level(level)
     times = frozen(np.linspace(0.0, end, count))
     problem = Problem.of(SYSTEM, [start], body.parameters)
     scaled = problem.times(times)

@@ -21,7 +21,8 @@ from hess_mechanics.errors import NotConverged, OutsideRegion
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, andoyer_points, hess_curve
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
-from hess_mechanics.numerics.accuracy import REFERENCE, Level
+from hess_mechanics.numerics.accuracy import REFERENCE, Accuracy
+from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.suslov_hess.bifurcation import turning_points
 from hess_mechanics.suslov_hess.circle_map import circle_map
@@ -45,8 +46,9 @@ class HessTorus:
     h: float
     f: float
 
-    def map_at(self, away: float, level: Level) -> ReturnMap:
+    def map_at(self, away: float, level: Accuracy) -> ReturnMap:
         """The return map of g = π/2 where r is turned by that angle."""
+        level = as_level(level)
         return ReturnMap(AndoyerSection(HeavyBody.hess(self.moments, self.strength, away), self.h, self.f), level)
 
 
@@ -70,7 +72,7 @@ class Split:
     error: float
 
 
-def saddles(torus: HessTorus, level: Level) -> Saddles:
+def saddles(torus: HessTorus, level: Accuracy) -> Saddles:
     """The two limit cycles of the torus in the section.  Raises `OutsideRegion` where it has none, and as Newton."""
     body = HeavyBody.hess(torus.moments, torus.strength)
     bridge = Bridge.of_heavy(body)
@@ -98,7 +100,7 @@ def saddles(torus: HessTorus, level: Level) -> Saddles:
     return Saddles(repels, attracts, float(repels[0, 0]) + half)
 
 
-def split_at(torus: HessTorus, away: float, level: Level) -> Split:
+def split_at(torus: HessTorus, away: float, level: Accuracy) -> Split:
     """How far apart the separatrices are where r is turned by that angle.  Raises as `saddles` and `grown`."""
     known, map_ = saddles(torus, level), torus.map_at(away, level)
     unstable = _towards(map_, known.repels, known.l, stable=False)

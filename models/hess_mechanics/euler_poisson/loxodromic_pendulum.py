@@ -26,7 +26,7 @@ from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
-from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.rigid_body.attitude import Attitude, attitude
 from hess_mechanics.rigid_body.inertia import require_finite
@@ -176,7 +176,7 @@ class LoxodromicMotion:
         return frozen(times[good]), frozen(np.arctan2(apart, change)[good])
 
 
-def loxodromic_motion(pendulum: LoxodromicPendulum, span: float, level: Level) -> LoxodromicMotion:
+def loxodromic_motion(pendulum: LoxodromicPendulum, span: float, level: Accuracy) -> LoxodromicMotion:
     """The motion over `span` of the body's time from the lowest point, sampled for pictures of `PIXELS`.
 
     Raises `InvalidParameter`, `WorkLimit`.

@@ -18,9 +18,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from hess_mechanics.errors import WorkLimit
+from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.euler_poisson.equations import SYSTEM
 from hess_mechanics.numerics.balls import Enclosure, flint
+from hess_mechanics.suslov_hess.edge import EdgeProof
 from hess_mechanics.suslov_hess.proof import TWO_CYCLES, Proof, prove
 
 __all__ = ["Unsplit", "cofactor", "unsplit_separatrices"]
@@ -54,13 +55,33 @@ class Unsplit:
 
 def unsplit_separatrices(a: str | float | Fraction, h: str | float | Fraction, f: str | float | Fraction,
                          digits: int = 30) -> Unsplit | None:
-    """The theorem for the tori (h, f), units b = 1, of all bodies with this a = s t/a2; None where it is not proved.
+    """Prove that the separatrices of two saddles coincide on the torus (h, f), for all bodies with a = s t/a2.
 
-    Raises as `prove`, and `WorkLimit` where so many digits are too many.
+    Parameters
+    ----------
+    a, h, f : in units b = 1, taken as exact.
+    digits : of the multipliers.
+
+    Returns
+    -------
+    Unsplit | None
+        None where two limit cycles are not proved.
+
+    Raises
+    ------
+    InvalidParameter
+        On the edge of the possible (h, f), where there is no torus; and as `prove`.
+    MissingLibrary, OutsideRegion, Separatrix
+        As `prove`.
+    WorkLimit
+        If so many digits need more precision than a proof may take.
     """
     if not all(found == claimed for found, claimed in map(cofactor, (1, -1))):
         return None
     proof = prove(a, h, f, digits=digits + 4)
+    if isinstance(proof, EdgeProof):
+        raise InvalidParameter(f"h = {proof.h}, f = {proof.f} lies on the edge of the possible (h, f): there is no "
+                               "torus, and no separatrix on it. Choose a smaller |f|, or a larger h.")
     if proof.statement != TWO_CYCLES:
         return None
     less, more = sorted(proof.multipliers, key=lambda one: one.low)

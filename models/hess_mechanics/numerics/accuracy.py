@@ -1,7 +1,8 @@
 """Accuracy levels: four names, and what each of them means for each kind of computation.
 
-A Taylor series pays for digits by its order, so a smaller tolerance costs a factor of 2 or 3 from `draft` to
-`reference`.  What makes `draft` worth choosing is that it also follows orbits for a shorter time, or on a coarser grid.
+A Taylor series pays for digits by its order, so one orbit costs about the same at every level: `reference` takes at
+most two or three times as long as `draft`.  `draft` is cheaper where it also computes less, as fewer crossings, a
+shorter time or a coarser grid.
 """
 
 from __future__ import annotations
@@ -13,8 +14,20 @@ from enum import StrEnum
 from hess_mechanics.errors import InvalidParameter
 
 __all__ = [
-    "DRAFT", "LEVELS", "PLANS", "PRECISE", "REFERENCE", "STANDARD", "Kind", "Level", "Plan", "Status", "cheapest",
-    "level", "plan",
+    "DRAFT",
+    "LEVELS",
+    "PLANS",
+    "PRECISE",
+    "REFERENCE",
+    "STANDARD",
+    "Accuracy",
+    "Kind",
+    "Level",
+    "Plan",
+    "Status",
+    "cheapest",
+    "level",
+    "plan",
 ]
 
 
@@ -37,12 +50,14 @@ class Level:
         For `reference` it is nominal: that level goes to the floor of double precision, which depends on the motion.
     tolerance : local error of one Taylor step, first attempt.
     order : of the Taylor series.
+    aside : whether motions start a few units in the last place beside their start, see `measured.nearby`.
     """
 
     name: str
     promise: float
     tolerance: float
     order: int
+    aside: bool = False
 
     @property
     def is_floor(self) -> bool:
@@ -52,14 +67,15 @@ class Level:
     def tightened(self) -> Level:
         """The same level with a hundredth of the tolerance, against which its error is measured.
 
-        The order differs too, so that a motion that fits into one step is not compared with itself.
+        The order differs too, so that a motion that fits into one step is not compared with itself, and so does the
+        start, so that two runs do not make the same roundings.
         """
         if self.is_floor:
-            return Level(self.name, self.promise, self.tolerance / 30.0, self.order - 3)
+            return Level(self.name, self.promise, self.tolerance / 30.0, self.order - 3, not self.aside)
         order = self.order + 4 if self.tolerance > 1e-11 else REFERENCE.order
         # A hundredth of 1e-15 is a little more than 1e-17: the floor would be compared with itself.
         tolerance = self.tolerance * 1e-2 if self.tolerance > 200.0 * FLOOR_TOLERANCE else FLOOR_TOLERANCE
-        return Level(self.name, self.promise, tolerance, order)
+        return Level(self.name, self.promise, tolerance, order, not self.aside)
 
 
 FLOOR_TOLERANCE = 1e-17
@@ -70,6 +86,10 @@ PRECISE = Level("precise", 1e-9, 1e-11, 20)
 REFERENCE = Level("reference", 1e-12, FLOOR_TOLERANCE, 24)
 
 LEVELS: dict[str, Level] = {each.name: each for each in (DRAFT, STANDARD, PRECISE, REFERENCE)}
+
+
+Accuracy = Level | str
+"""What callers may give for an accuracy: a level, or the name of one; `numerics.arguments.as_level` reads it."""
 
 
 def level(name: str) -> Level:
@@ -207,6 +227,11 @@ PLANS: Mapping[Kind, Mapping[str, Plan]] = {
 }
 
 
-def plan(kind: Kind, name: str) -> Plan:
-    """What the level of this name means for a kind of computation.  Raises `InvalidParameter`."""
-    return PLANS[kind][level(name).name]
+def plan(kind: Kind, accuracy: Accuracy) -> Plan:
+    """What a level means for a kind of computation, all of it at a level that is none of the four.
+
+    Raises `InvalidParameter`.
+    """
+    if isinstance(accuracy, Level) and LEVELS.get(accuracy.name) != accuracy:
+        return Plan(accuracy, 1.0, 1.0, accuracy.promise)
+    return PLANS[kind][accuracy.name if isinstance(accuracy, Level) else level(accuracy).name]

@@ -7,8 +7,9 @@ from numbers import Integral, Real
 from typing import Any, TypeVar
 
 from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.accuracy import LEVELS, Accuracy, Level, level
 
-__all__ = ["as_a", "as_cells", "as_number", "as_pairs", "as_place", "as_whole"]
+__all__ = ["as_a", "as_cells", "as_level", "as_level_name", "as_number", "as_pairs", "as_place", "as_whole"]
 
 T = TypeVar("T")
 _MOST_CELLS = 100_000
@@ -19,6 +20,19 @@ def as_a(kind: type[T], body: object) -> T:
     if not isinstance(body, kind):
         raise InvalidParameter(f"{body!r} is no {kind.__name__}: give the body as hess_mechanics.{kind.__name__}(…).")
     return body
+
+
+def as_level(accuracy: Accuracy) -> Level:
+    """A level, given as it is or by its name."""
+    return accuracy if isinstance(accuracy, Level) else level(accuracy)
+
+
+def as_level_name(accuracy: Accuracy) -> str:
+    """The name of one of the four levels, given by it or as the level itself."""
+    found = as_level(accuracy)
+    if LEVELS.get(found.name) != found:
+        raise InvalidParameter(f"Only a level that has a name can be kept here: choose one of {', '.join(LEVELS)}.")
+    return found.name
 
 
 def as_number(name: str, value: Any) -> float:

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from hess_mechanics.numerics.jit import inner, part
-from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED, compensated, parts
+from hess_mechanics.numerics.taylor_kernels import FALL, STEP_LIMIT_REACHED, compensated, parts
 from hess_mechanics.numerics.tracing import Recursion
 from hess_mechanics.numerics.unrolled import compiled, items
 
@@ -24,6 +24,7 @@ LANES = 8
 
 _ONE = int(np.float64(1.0).view(np.int64))
 """The bits of 1.0, whose logarithm is 0."""
+_FALL = math.log2(FALL) * 2.0**52
 _TINY = 1e-280
 """In the place of the coefficients of a motion at rest."""
 
@@ -93,18 +94,20 @@ def convolve(c, q, k):
 
 
 @inner
-def steps_of_lanes(last, previous, order, tolerance, ratios, bits, h, h_bits):
-    """`step_size` of every lane into h, to 3 %, by arithmetic that the processor can do for all lanes at once.
+def steps_of_lanes(last, previous, middle, order, tolerance, ratios, bits, h, h_bits):
+    """`step_of` of every lane into h, to 3 %, by arithmetic that the processor can do for all lanes at once.
 
     The bits of a double, read as a whole number, are its binary logarithm to 0.09, times 2^52; the N-th root
-    divides that by N.  bits, h_bits : ratios (2, lanes) and h (lanes,) seen as whole numbers.
+    divides that by N.  bits, h_bits : ratios (3, lanes) and h (lanes,) seen as whole numbers.
     """
     for lane in range(LANES):
         ratios[0, lane] = tolerance / max(last[lane], _TINY)
         ratios[1, lane] = tolerance / max(previous[lane], _TINY)
+        ratios[2, lane] = middle[lane] / max(last[lane], _TINY) if middle[lane] > 0.0 else math.inf
     for lane in range(LANES):
         logarithm = min((bits[0, lane] - _ONE) / order, (bits[1, lane] - _ONE) / (order - 1.0))
-        h_bits[lane] = int(logarithm) + _ONE
+        falling = (bits[2, lane] - _ONE) / (order - order // 2) + _FALL
+        h_bits[lane] = int(min(logarithm, falling)) + _ONE
     for lane in range(LANES):
         h[lane] = math.inf if last[lane] + previous[lane] == 0.0 else 0.97 * h[lane]
 
@@ -151,7 +154,8 @@ def add(y, low, s, compensated):
         low = np.zeros((n, LANES))
         last = np.zeros(LANES)
         previous = np.zeros(LANES)
-        ratios = np.zeros((2, LANES))
+        middle = np.zeros(LANES)
+        ratios = np.zeros((3, LANES))
         bits = ratios.view(np.int64)
         h = np.zeros(LANES)
         h_bits = h.view(np.int64)
@@ -184,7 +188,8 @@ def add(y, low, s, compensated):
             expand(c, q, parameters, order)
             largest(c, order, last)
             largest(c, order - 1, previous)
-            steps_of_lanes(last, previous, order, tolerance, ratios, bits, h, h_bits)
+            largest(c, order // 2, middle)
+            steps_of_lanes(last, previous, middle, order, tolerance, ratios, bits, h, h_bits)
             for lane in range(LANES):
                 step[lane] = 0.0
                 if orbit[lane] < 0:

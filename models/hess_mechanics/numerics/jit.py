@@ -27,7 +27,9 @@ from numba.core import event
 
 from hess_mechanics.numerics.kernel_files import keep
 
-__all__ = ["CACHE_FOLDER", "derived_kernel", "inner", "kernel", "part", "seconds_compiling", "source_hash"]
+__all__ = [
+    "CACHE_FOLDER", "as_written", "derived_kernel", "inner", "kernel", "part", "seconds_compiling", "source_hash",
+]
 
 _OPTIONS: dict[str, Any] = {
     # NumPy's division lets LLVM vectorise; `contract` fuses a*b+c and nothing else, so
@@ -285,6 +287,11 @@ def part(function: Callable[..., Any]) -> Callable[..., Any]:
     It has no entry for Python, where a call would end the process, and is compiled a tenth sooner for that.
     """
     return _compiled(function, _ONLY_INLINED)
+
+
+def as_written(function: Callable[..., Any]) -> Callable[..., Any]:
+    """As `inner`, for arithmetic whose roundings are what counts: nothing is fused."""
+    return _compiled(function, {**_INLINED, "fastmath": False})
 
 
 def _compiled(function: Callable[..., Any], options: dict[str, Any]) -> Callable[..., Any]:

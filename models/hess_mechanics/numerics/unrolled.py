@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from functools import cache
-from types import FunctionType
+from types import CodeType, FunctionType
 from typing import Any
 
 from hess_mechanics.numerics.jit import part
@@ -20,7 +20,7 @@ _LONGEST = 30
 """Longer tuples Python itself makes of lists."""
 
 
-def compiled(source: str, **names: Callable[..., Any]) -> dict[str, Callable[..., Any]]:
+def compiled(source: str | CodeType, **names: Callable[..., Any]) -> dict[str, Callable[..., Any]]:
     """The functions of this source by name, compiled; they may call each other and what `names` holds."""
     namespace: dict[str, Any] = dict(names)
     exec(source, namespace)

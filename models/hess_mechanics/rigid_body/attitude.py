@@ -15,7 +15,7 @@ import numpy as np
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.sampling import sample_times
 from hess_mechanics.dynamics.system import System
-from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.results import Array, Orbit, frozen
 
 __all__ = ["Attitude", "Lying", "across", "attitude", "attitude_along", "with_attitude"]
@@ -153,7 +153,7 @@ def _turned(u: Array, v: Array, length: Array) -> Array:
     return np.asarray(u + np.sinc(length / np.pi) * first + 0.5 * np.sinc(0.5 * length / np.pi) ** 2 * _cross(first, v))
 
 
-def attitude(system: System, start: Sequence[float] | Array, parameters: Sequence[float], span: float, level: Level,
+def attitude(system: System, start: Sequence[float] | Array, parameters: Sequence[float], span: float, level: Accuracy,
              weights: Sequence[float], sagitta: float, most: int) -> Attitude:
     """The attitude along the orbit of an extended system from `start`, |γ| = |e| = 1, (e, γ) = 0.
 

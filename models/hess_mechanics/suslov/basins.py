@@ -16,7 +16,7 @@ import numpy as np
 
 from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.dynamics.spectrum import volume_sign
-from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.section import SuslovSection, mean_divergence
@@ -113,7 +113,8 @@ def _width(part: Array) -> float:
     return float(high - low)
 
 
-def count_attractors(section: SuslovSection, cells: tuple[int, int], crossings: int, span: float, level: Level) -> int:
+def count_attractors(section: SuslovSection, cells: tuple[int, int], crossings: int, span: float, level: Accuracy
+                      ) -> int:
     """How many of the groups of a whole section attract, from the orbits of cells (m, n) across and up.
 
     crossings : of each orbit; span : the time over which the divergence of one motion of each group is averaged.

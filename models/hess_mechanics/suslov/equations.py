@@ -112,6 +112,7 @@ SYSTEM = System(
     labels=("Biz131", "Biz11"),
     variables=("ω1", "ω2", "γ1", "γ2", "γ3"),
     parameters=("I11", "I22", "I13", "I23", "b1", "b2", "b3"),
+    angular_velocities=2,
     field=field,
     integrals=integrals,
     frequency=frequency,

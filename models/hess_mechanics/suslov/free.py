@@ -15,6 +15,7 @@ which is the paper's solution.  γ̇ = γ × ω is linear.  In the frame that ha
 
 V decays on both sides of u = 0, where the integration starts, so neither starts close to the line nor long times cost
 steps or digits.  This rotation is not in the paper: see models/README.md.
+ω(t) is also the motion of the Chaplygin sleigh (I23 = 0), and of the same constraint on E(2) and SO(2,1).
 """
 
 from __future__ import annotations
@@ -30,8 +31,10 @@ import numpy as np
 from hess_mechanics.dynamics.orbit import checked_times, drift_of, require_finite_states, status_of
 from hess_mechanics.dynamics.sampling import MOST_SAMPLES, SAGITTA
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.numerics.accuracy import Level, Status
+from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
+from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
+from hess_mechanics.numerics.measured import measured, nearby
 from hess_mechanics.numerics.results import Array, Complex, Cost, facts_of, frozen, unit_of
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov import additional_integral
@@ -261,10 +264,13 @@ def _log(x: Fraction) -> float:
     return math.log(float(x / Fraction(2) ** shift)) + shift * math.log(2.0)
 
 
-def propagate(of: Shape, arc: int, u: Array, level: Level) -> tuple[Complex, Complex, int]:
+def propagate(of: Shape, arc: int, u: Array, level: Accuracy) -> tuple[Complex, Complex, int]:
     """A and B at each u (m,), in any order, and the Taylor steps this took.  Raises `WorkLimit`."""
+    level = as_level(level)
     inside = np.clip(u, -of.end, of.end)
     start = np.array([0.0, 1.0, arc * of.kappa, 0.0, 1.0, 0.0, 0.0, 0.0])
+    if level.aside:
+        start = nearby(start)
     p = np.array([of.K, arc * of.c])
     out = np.empty((u.size, 8))
     total = 0
@@ -282,24 +288,25 @@ def propagate(of: Shape, arc: int, u: Array, level: Level) -> tuple[Complex, Com
     return out[:, 4] + 1j * out[:, 5], out[:, 6] + 1j * out[:, 7], total
 
 
-def turning(of: Shape, arc: int, u: Array, level: Level) -> tuple[Complex, Complex, float, int]:
+def turning(of: Shape, arc: int, u: Array, level: Accuracy) -> tuple[Complex, Complex, float, int]:
     """A and B at each u (m,), the error estimate of the rotation between any two of them, and all steps.
 
     The error is measured as in `orbit.solve`.  Raises `WorkLimit`.
     """
-    current = level
-    A, B, total = propagate(of, arc, u, current)
-    while True:
-        tighter = current.tightened()
-        fine_A, fine_B, steps = propagate(of, arc, u, tighter)
+    total = 0
+
+    def run(at: Level) -> tuple[Complex, Complex]:
+        nonlocal total
+        A, B, steps = propagate(of, arc, u, at)
         total += steps
-        safety = 4.0 if current.is_floor else 1.25
+        return A, B
+
+    def apart(one: tuple[Complex, Complex], other: tuple[Complex, Complex]) -> float:
         # A rotation is quadratic in A and B, and both its ends have errors: a factor of 4.
-        difference = np.abs(A - fine_A) + np.abs(B - fine_B)
-        error = 4.0 * safety * float(difference.max()) + 1e-15 * (1.0 + of.size)
-        if error <= level.promise or current.is_floor:
-            return A, B, error, total
-        current, A, B = tighter, fine_A, fine_B
+        return 4.0 * float((np.abs(one[0] - other[0]) + np.abs(one[1] - other[1])).max())
+
+    found = measured(as_level(level), run, apart)
+    return *found.result, found.error + 1e-15 * (1.0 + of.size), total
 
 
 @dataclass(frozen=True)
@@ -326,12 +333,13 @@ class Rotation:
         return carried
 
 
-def rotation(body: SuslovBody, omega: Sequence[float], times: Sequence[float] | Array, level: Level) -> Rotation:
+def rotation(body: SuslovBody, omega: Sequence[float], times: Sequence[float] | Array, level: Accuracy) -> Rotation:
     """The rotation along the motion that starts with ω(0), at times as in `orbit.solve`.
 
     Raises `InvalidParameter` (a field, I13 = I23 = 0, ω = 0 or on the line of equilibria, times out of order),
     `WorkLimit`.
     """
+    level = as_level(level)
     start = time.perf_counter()
     t = checked_times(times)
     motion = passage(body, omega)
@@ -425,7 +433,7 @@ class FreeMotion(Result):
 
 
 def free_motion(body: SuslovBody, omega: Sequence[float], gamma: Sequence[float], times: Sequence[float] | Array,
-                level: Level) -> FreeMotion:
+                level: Accuracy) -> FreeMotion:
     """The motion from ω(0) (2,) and γ(0) (3,) at times as in `orbit.solve`.
 
     γ(0) is normalised, with a note where that changed it.  Raises as `rotation`.
@@ -435,6 +443,7 @@ def free_motion(body: SuslovBody, omega: Sequence[float], gamma: Sequence[float]
     >>> free_motion(body, (0.8, -0.4), (0.6, 0.0, 0.8), [0.0, 1.0], level("precise")).level
     'precise'
     """
+    level = as_level(level)
     begun = time.perf_counter()
     unit, note = unit_vector(gamma)
     turned = rotation(body, omega, times, level)
@@ -502,12 +511,12 @@ def sample_times(body: SuslovBody, omega: Sequence[float], span: float, weights:
 
 
 def sampled_motion(body: SuslovBody, omega: Sequence[float], gamma: Sequence[float], span: float,
-                   weights: tuple[float, float], level: Level, most: int = MOST_SAMPLES) -> FreeMotion:
+                   weights: tuple[float, float], level: Accuracy, most: int = MOST_SAMPLES) -> FreeMotion:
     """The motion over `span`, at times as `sample_times` says for pictures of these weights.  Raises as `rotation`."""
     return free_motion(body, omega, gamma, sample_times(body, omega, span, weights, SAGITTA, most), level)
 
 
-def turned_along_circle(body: SuslovBody, omega: Sequence[float], gamma: Sequence[float], turn: float, level: Level
+def turned_along_circle(body: SuslovBody, omega: Sequence[float], gamma: Sequence[float], turn: float, level: Accuracy
                         ) -> tuple[float, float, float]:
     """γ(0) of the motion with the same ω(0) that comes from the same circle Γ^(−), turned along it by `turn` radians.
 

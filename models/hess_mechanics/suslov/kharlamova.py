@@ -26,7 +26,7 @@ from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA, sample_times
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.results import Array, Orbit, frozen
 from hess_mechanics.rigid_body.inertia import require_finite, require_positive_definite
 from hess_mechanics.suslov.equations import SYSTEM
@@ -271,7 +271,7 @@ def periods_all_round(body: PlaneBody, q: Sequence[float], speed: float) -> Arra
     return frozen(np.column_stack([directions, periods(body, q, speed, directions)]))
 
 
-def missed(body: PlaneBody, start: Sequence[float], period: float, accuracy: Level) -> float:
+def missed(body: PlaneBody, start: Sequence[float], period: float, accuracy: Accuracy) -> float:
     """How far from its start (5,) an orbit is after its period, in the largest of the variables."""
     after = solve(SYSTEM, start, body.parameters, [period], accuracy).states[0]
     return float(np.abs(after - np.array(start)).max())
@@ -317,7 +317,7 @@ def forbidden(body: PlaneBody, h: float) -> list[Array]:
     return [body.place(np.outer(np.cos(s), n) + np.outer(np.sin(s), across))]
 
 
-def sampled_orbit(body: PlaneBody, start: Sequence[float], span: float, accuracy: Level) -> tuple[Orbit, Array]:
+def sampled_orbit(body: PlaneBody, start: Sequence[float], span: float, accuracy: Accuracy) -> tuple[Orbit, Array]:
     """The orbit at times that a picture needs, and the mirror image (m, 5) of its past at the same times."""
     weights = np.array(body.pixels_per_unit(body.energy(start)))
     times = sample_times(SYSTEM, np.array(start), np.array(body.parameters), span, weights, SAGITTA, MOST_SAMPLES)

@@ -28,7 +28,7 @@ from hess_mechanics.dynamics.sampling import PIXELS, sampled_orbit
 from hess_mechanics.dynamics.section import MAX_STEPS, Plane, Points, section_points
 from hess_mechanics.dynamics.system import System, in_units_of_time
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
-from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.results import Array, Mask, Orbit, frozen
 from hess_mechanics.rigid_body.inertia import require_comparable, require_finite, require_positive_definite
 
@@ -133,6 +133,7 @@ SYSTEM = System(
     labels=("Biz01", "eqs03"),
     variables=("ω1", "ω2", "γ1", "γ2", "γ3"),
     parameters=("I11", "I22", "c1", "c2", "cubic", "quartic"),
+    angular_velocities=2,
     field=field,
     integrals=integrals,
     frequency=frequency,
@@ -172,7 +173,7 @@ def state_at(body: PotentialBody, E: float, g2: float, w1: float) -> tuple[float
     return (w1, -math.sqrt(left / body.I22), 0.0, g2, math.sqrt(1.0 - g2 * g2))
 
 
-def plane_section(body: PotentialBody, starts: Sequence[Sequence[float]], crossings: int, level: Level,
+def plane_section(body: PotentialBody, starts: Sequence[Sequence[float]], crossings: int, level: Accuracy,
                   most_steps: int = MAX_STEPS) -> Points:
     """The first crossings of γ1 = 0, γ1 growing, of each orbit; (γ2, ω1) are coordinates of the section for γ3 > 0.
 
@@ -211,7 +212,7 @@ class PlaneMotion:
     integral: float
 
 
-def motion_from(body: PotentialBody, start: tuple[float, ...], span: float, level: Level) -> PlaneMotion:
+def motion_from(body: PotentialBody, start: tuple[float, ...], span: float, level: Accuracy) -> PlaneMotion:
     """The motion from a state (5,) over the time `span`, sampled for a picture of the plane.
 
     Raises `InvalidParameter`, `WorkLimit`.

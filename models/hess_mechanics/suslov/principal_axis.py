@@ -18,7 +18,7 @@ import numpy as np
 
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.results import Array, Orbit, frozen
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 
@@ -75,7 +75,7 @@ _SPACING = 0.04
 _MOST = 100_000
 
 
-def conformal(body: SuslovBody, start: Sequence[float], span: float, level: Level) -> Conformal:
+def conformal(body: SuslovBody, start: Sequence[float], span: float, level: Accuracy) -> Conformal:
     """The motion from `start` (5,) over the time `span` ≠ 0 (negative: backwards), with τ and the brackets along it.
 
     Raises `InvalidParameter` unless I13 = I23 = 0, `WorkLimit`.

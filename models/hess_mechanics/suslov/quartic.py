@@ -23,7 +23,7 @@ from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.section import Plane, Points, occupied_cells, section_points
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, NoField, OutsideRegion, WorkLimit
-from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.results import Array, Mask
 from hess_mechanics.rigid_body.inertia import require_finite, require_positive_definite
 from hess_mechanics.suslov.equations import SYSTEM
@@ -262,7 +262,7 @@ def seeds(body: QuarticBody, count: int) -> list[tuple[float, ...]]:
     return found
 
 
-def quartic_section(body: QuarticBody, starts: Sequence[Sequence[float]], crossings: int, level: Level,
+def quartic_section(body: QuarticBody, starts: Sequence[Sequence[float]], crossings: int, level: Accuracy,
                     most_steps: int) -> Points:
     """The first crossings of `body.plane` by each orbit, states as in `section_points`.
 
@@ -279,7 +279,7 @@ def quartic_section(body: QuarticBody, starts: Sequence[Sequence[float]], crossi
                         "a smaller h, or I11 and I22 less different.") from None
 
 
-def spread_section(body: QuarticBody, orbits: int, crossings: int, level: Level, most_steps: int) -> Points:
+def spread_section(body: QuarticBody, orbits: int, crossings: int, level: Accuracy, most_steps: int) -> Points:
     """The section of so many orbits, spread over what is possible of it: `quartic_section` from `seeds`."""
     return quartic_section(body, seeds(body, orbits), crossings, level, most_steps)
 
@@ -321,6 +321,11 @@ class QuarticSection(Sheet):
     def constants(self) -> Mapping[str, float]:
         """Moments of inertia, b3 and h."""
         return vars(self.body)
+
+    @property
+    def integrable(self) -> str:
+        """The case I11 = I22, see `QuarticBody.integrable`."""
+        return "the integrable case I₁₁ = I₂₂" if self.body.integrable else ""
 
     def moved(self, name: str, value: float) -> QuarticSection:
         """With another value of a constant."""

@@ -32,7 +32,8 @@ import numpy as np
 from hess_mechanics.dynamics.cells import centres
 from hess_mechanics.dynamics.orbit import status_of
 from hess_mechanics.errors import InvalidParameter, ModelError
-from hess_mechanics.numerics.accuracy import Level, Status
+from hess_mechanics.numerics.accuracy import Accuracy, Status
+from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, Complex, Cost, facts_of, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
@@ -118,7 +119,7 @@ def _check_arc(arc: int) -> None:
         raise InvalidParameter("An arc is +1 or −1, the sign of I13ω1 + I23ω2 on it.")
 
 
-def scattering(body: SuslovBody, level: Level, arc: int = 1, distance: float | None = None) -> Scattering:
+def scattering(body: SuslovBody, level: Accuracy, arc: int = 1, distance: float | None = None) -> Scattering:
     """The scattering along one arc (σ, the sign of I13ω1 + I23ω2), with asymptotic phases.
 
     distance : if given, phases and θ⁻ are those of a start where the part of ω across ξ is `distance` |ω⁻|; for
@@ -130,6 +131,7 @@ def scattering(body: SuslovBody, level: Level, arc: int = 1, distance: float | N
     >>> bool(0.0 <= found.theta_plus(1.0, 0.5) <= 3.15)
     True
     """
+    level = as_level(level)
     begun = time.perf_counter()
     _check_arc(arc)
     of = shape(body)

@@ -25,7 +25,7 @@ from hess_mechanics.dynamics.return_map import Sheet
 from hess_mechanics.dynamics.section import MAX_STEPS, Plane, Points, section_points
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
-from hess_mechanics.numerics.accuracy import DRAFT, Level
+from hess_mechanics.numerics.accuracy import DRAFT, Accuracy
 from hess_mechanics.numerics.parallel import THREADS
 from hess_mechanics.numerics.results import Array, Mask, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
@@ -175,7 +175,7 @@ def seeds(body: SuslovBody, E: float, k: int, window: Sequence[float], count: in
 
 
 def suslov_points(body: SuslovBody, k: int, starts: Sequence[Sequence[float]], crossings: int, forward: bool,
-                  level: Level, threads: int = THREADS, most_steps: int = MAX_STEPS) -> Points:
+                  level: Accuracy, threads: int = THREADS, most_steps: int = MAX_STEPS) -> Points:
     """The first `crossings` crossings of γ_k = 0 by each orbit, forward or backward in time, as in `section_points`.
 
     Raises `InvalidParameter`, `WorkLimit`.
@@ -241,6 +241,16 @@ class SuslovSection(Sheet):
         """The parameters of the body, and E."""
         return {**vars(self.body), "E": self.E}
 
+    @property
+    def integrable(self) -> str:
+        """Kharlamova's case I13 = I23 = b3 = 0, or I13 = I23 = 0 with I11 = I22 and b along e."""
+        b = self.body
+        if b.I13 == b.I23 == b.b3 == 0.0:
+            return "Kharlamova's integrable case"
+        if b.I13 == b.I23 == b.b1 == b.b2 == 0.0 and b.I11 == b.I22:
+            return "the integrable case I₁₁ = I₂₂, b along e"
+        return ""
+
     def moved(self, name: str, value: float) -> SuslovSection:
         """With another value of a constant."""
         if name == "E":
@@ -276,7 +286,7 @@ class SuslovSection(Sheet):
         return self.states_at(centres(x0, x1, m), np.full(m, centres(y0, y1, n)[row]))
 
     def ends(self, window: Window, cells: tuple[int, int], row: int, crossings: int, most_steps: int = MAX_STEPS,
-             level: Level = DRAFT) -> Array:
+             level: Accuracy = DRAFT) -> Array:
         """The mean of ω1 over the last third of the crossings of the orbits from the cells of a row.
 
         cells : (m, n) across and up the window; of shape (m,), ∞ where there is no orbit.  Raises `WorkLimit`.

@@ -26,8 +26,10 @@ from functools import cached_property
 import numpy as np
 
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.numerics.accuracy import Level, Status
+from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
+from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
+from hess_mechanics.numerics.measured import measured
 from hess_mechanics.numerics.results import Array, Cost, facts_of, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov_hess.bifurcation import turning_points
@@ -35,18 +37,20 @@ from hess_mechanics.suslov_hess.bifurcation_kernels import largest_f
 from hess_mechanics.suslov_hess.circle_map_kernels import images, matrices_into, theta_of
 
 __all__ = [
-    "CircleMap", "FixedPoint", "Phases", "circle_map", "discriminants", "matrices", "rotation_numbers", "theta_at",
+    "CircleMap", "FixedPoint", "Phases", "circle_map", "discriminants", "matrices", "neighbours", "rotation_numbers",
+    "theta_at",
 ]
 
 MAX_A = 1e6
 _MAX_STEPS = 200_000
 
 
-def matrices(h: Array, f: Array, a: float, level: Level) -> Array:
+def matrices(h: Array, f: Array, a: float, level: Accuracy) -> Array:
     """(Re α, Im α, Im β, L, ζ, steps), see `monodromy`, for each torus (h[i], f[i]); shape (n, 6).
 
     All (h[i], f[i]) must be possible, |f| ≤ f_max(h).  Raises `WorkLimit`.
     """
+    level = as_level(level)
     out = np.empty((h.size, 6))
     matrices_into(h, f, float(a), level.order, level.tolerance, _MAX_STEPS, out)
     if np.any(out[:, 5] < 0):
@@ -179,8 +183,9 @@ class Phases:
         return cls(angles, np.cos(angles), np.sin(angles))
 
 
-def theta_at(phases: Phases, a: float, h: float, f: float, level: Level) -> Array:
+def theta_at(phases: Phases, a: float, h: float, f: float, level: Accuracy) -> Array:
     """Θ (n,) at the phases, up to whole turns, at the level's tolerance; no error estimate.  Raises `WorkLimit`."""
+    level = as_level(level)
     x, y = np.empty_like(phases.cos), np.empty_like(phases.cos)
     if images(h, f, a, level.order, level.tolerance, _MAX_STEPS, phases.cos, phases.sin, x, y) < 0:
         raise WorkLimit("This torus needs too many steps: choose smaller a, or (h, f) farther from (1, 0).")
@@ -219,20 +224,22 @@ def _rounding(m: Array) -> float:
     return 2 * 8e-16 * (math.hypot(m[0], m[1]) + abs(float(m[2]))) * _weight(m) if m[0] else 0.0
 
 
-def _neighbour(h: float, f: float) -> tuple[float, float]:
-    """(h, f) with f moved by one double into the region and h by one double.
+def neighbours(h: Array, f: Array, edge: Array) -> tuple[Array, Array]:
+    """Return tori (h, f), each (n,), moved by three units in the last place, as `measured.nearby` moves states.
 
-    h moves into the region near its edge, otherwise away from the separatrix.
+    f moves into the region, which ends at the `edge` f_max(h) (n,); h moves into it near that edge, otherwise away from
+    the separatrix.
     """
-    upwards = h >= 1.0 or abs(f) > 0.5 * largest_f(h)
-    return math.nextafter(h, math.inf if upwards else -1.0) if h > -1.0 + 1e-9 else h, math.nextafter(f, 0.0)
+    upwards = (h >= 1.0) | (np.abs(f) > 0.5 * edge)
+    moved = h + np.where(upwards, 3.0, -3.0) * np.spacing(np.abs(h))
+    return np.where(h > -1.0 + 1e-9, moved, h), f * (1.0 - 3.0 * 2.0**-53)
 
 
-def circle_map(a: float, h: float, f: float, level: Level) -> CircleMap:
+def circle_map(a: float, h: float, f: float, level: Accuracy) -> CircleMap:
     """The circle map of the torus (h, f) at this a.
 
     The error estimate is the difference, in Θ and in the trace (relative where that exceeds 1), from a second run with
-    a hundredth of the tolerance and with h and f moved by one unit in the last place, the accuracy of the input.
+    a hundredth of the tolerance, of one of its `neighbours`: see `numerics.measured`.
     Raises `OutsideRegion`, `Separatrix`, `InvalidParameter`, `WorkLimit`.
 
     >>> from hess_mechanics import circle_map, level
@@ -240,6 +247,7 @@ def circle_map(a: float, h: float, f: float, level: Level) -> CircleMap:
     >>> found.kind, len(found.fixed_points)
     ('elliptic', 0)
     """
+    level = as_level(level)
     start = time.perf_counter()
     try:
         a, h, f = float(a), float(h), float(f) + 0.0  # f = −0.0 is f = 0
@@ -248,26 +256,19 @@ def circle_map(a: float, h: float, f: float, level: Level) -> CircleMap:
         raise
     check_a(a)
     turning = turning_points(h, f)
-    neighbour = _neighbour(h, f)
+    here = np.array([h]), np.array([f])
+    tori = here, neighbours(*here, np.array([largest_f(h)]))
+    total = 0.0
 
-    def run(at: tuple[float, float], chosen: Level) -> Array:
-        row: Array = matrices(np.array([at[0]]), np.array([at[1]]), a, chosen)[0]
+    def run(at: Level) -> Array:
+        nonlocal total
+        energies, fs = tori[at.aside]
+        row: Array = matrices(energies, fs, a, at)[0]
+        total += row[5]
         return row
 
-    current = level
-    coarse = run((h, f), current)
-    total = coarse[5]
-    while True:
-        tighter = current.tightened()
-        fine = run(neighbour, tighter)
-        total += fine[5]
-        error = (4.0 if current.is_floor else 1.25) * _difference(coarse, fine) + _rounding(coarse) + 4e-16
-        if error <= level.promise or current.is_floor:
-            break
-        # Not `fine`, which is the map of the neighbour.
-        current = tighter
-        coarse = run((h, f), current)
-        total += coarse[5]
+    found = measured(level, run, lambda one, other: _difference(one, other) + _rounding(one))
+    coarse, error = found.result, found.error
     re, im, im_beta, log_scale = (float(x) for x in coarse[:4])
     if error <= level.promise:
         status = Status.OK

@@ -2,6 +2,8 @@
 
 I13 = 0, I11 I22 = I22² + I23², b1 = 0, I22 b2 + I23 b3 = 0.  A rotation about Ox1 through arctan a turns the equations
 of the Suslov problem into the reduced ones: state (w1, w2, n1, n2, n3), parameters (a, b).
+Rotations about n3 keep E, F1 and F2, and [u, v] = a w1 u with their field u; at f = 0 a function of n is kept, so the
+system is holonomic there: see models/README.md.
 Corrections to the paper: b = −b3/√(I22²+I23²) without a further mg, w2 = ω2/√(1+a²), and E, F2 of `eq03` are those of
 the Suslov problem divided by I11.
 """
@@ -169,6 +171,7 @@ SYSTEM = System(
     labels=("eq01", "eq03"),
     variables=("w1", "w2", "n1", "n2", "n3"),
     parameters=("a", "b"),
+    angular_velocities=2,
     field=field,
     integrals=integrals,
     frequency=frequency,

@@ -30,7 +30,7 @@ import numpy as np
 
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.results import Array, Complex, frozen
 from hess_mechanics.suslov_hess.bifurcation import turning_points
 from hess_mechanics.suslov_hess.circle_map import CircleMap, discriminants
@@ -136,7 +136,7 @@ class TorusMeasure:
 _CUBE_ROOTS = np.exp(2j * math.pi * np.arange(3) / 3.0)
 
 
-def on_torus(measure: InvariantMeasure, times: Sequence[float] | Array, level: Level) -> TorusMeasure:
+def on_torus(measure: InvariantMeasure, times: Sequence[float] | Array, level: Accuracy) -> TorusMeasure:
     """ζ_s and δ(s) at the times s ≥ 0 (m,), units b = 1.
 
     Found from three motions that from ζ are seen at angles of 120°, as they are from ζ_s: cross-ratios are kept.
@@ -164,7 +164,7 @@ _NARROWEST = 1e-4
 """Of 1 − |ζ_s| found: below it the density is a line too thin to be drawn, or to be found from motions."""
 
 
-def density_on_torus(theta: CircleMap, level: Level, cells: tuple[int, int] = CELLS) -> Array:
+def density_on_torus(theta: CircleMap, level: Accuracy, cells: tuple[int, int] = CELLS) -> Array:
     """The density at the centres of cells (m, n) of the torus, relative to an even one; shape (n, m).
 
     Rows of equal φ and columns of equal σ = 2πs/T, both from −π to π; σ = 0 at the return.  Its mean is 1.

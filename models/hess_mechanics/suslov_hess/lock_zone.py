@@ -1,16 +1,17 @@
-"""The lock zone over (h, f), proved: cells all tori of which have two limit cycles, or all have none.
+"""The lock zone over (h, f), proved: cells of which all tori have two limit cycles, or all have none.
 
 With σ = n1 + n2, α = (1 − n1²)/σ² and β = (1 − n2²)/σ² the linear system of `proof` depends on α and β alone:
 
     u = √(αβ)/(4z√(1 + z)),   v = (a/2)√(z/(1 + z)),   z = α sin²(s/2) + β cos²(s/2),
     dx/ds = (u − v) y,   dy/ds = −(u + v) x,
 
-since n0 = −h − σ, |w|² = 2σz, n3 − n0 = σ(1 + z).  Each torus with f > 0 has one pair α ≥ β > 0, equal on the edge
-of the region, and
+since n0 = −h − σ, |w|² = 2σz, n3 − n0 = σ(1 + z).  Each torus with f > 0 has one pair α > β > 0, and
 
     σ = 2/√((1 + α + β)² − 4αβ),   h = (α + β − 1)σ/2,   f = √(2αβ) σ^(3/2).
 
-Exchanging α and β is s → π − s, which keeps BC and AD: the edge is no end, and a cell may lie across it.
+Exchanging α and β is s → π − s, which keeps BC and AD.  So a cell may lie across α = β, the edge of the region.  Its
+statement is about its tori, α ≠ β.  Where α = β there is no torus but a circle of states, see `edge`: in a cell with
+"two cycles" it has exactly two equilibria, in a cell with "no cycle" it is one periodic orbit.
 
 A cell is a rectangle of (α, β).  Along a straight line of (ln α, ln β) from its centre, P = Pc(1 + Y1 + R), where Pc
 is P at the centre, Y1 is linear, found there with the variational equations (Taylor steps with Cauchy's bound, as in
@@ -22,7 +23,7 @@ logarithmic derivatives of u and v are sums of shares between 0 and 1, hence sma
 error is of second order in the size of the cell, and only cells on the boundary |t| = 2 are left over; these are
 halved, across the side that leaves more doubt.  As that needs small cells, and for large |a| very small ones, each is
 first tried as in `zone_directions`.
-This is not in the paper: see models/README.md.
+The theorem and its proof are in `hess_mechanics/proofs.md`; they are not in the paper.
 """
 
 from __future__ import annotations
@@ -71,9 +72,10 @@ _BEND = 12.0
 
 @dataclass(frozen=True)
 class ZoneCell:
-    """All tori with α and β between these doubles, which are meant exactly, and what is proved of every one of them.
+    """All tori, α ≠ β, with α and β between these doubles, which are meant exactly, and what is proved of all of them.
 
-    across : the side, 0 or 1, across which an undecided one is halved.
+    Where a cell meets the edge, α = β, its statement does not speak of the circles of states there.
+    across : the side, 0 or 1, across which an undecided cell is halved.
     """
 
     alpha: tuple[float, float]

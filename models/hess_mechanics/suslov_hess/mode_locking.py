@@ -13,7 +13,8 @@ import numpy as np
 
 from hess_mechanics.dynamics.cells import centres
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.accuracy import Accuracy, Level
+from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.parallel import share
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
@@ -56,7 +57,7 @@ def _rising_roots(function: Callable[[Array], Array], low: Array, high: Array) -
     return x
 
 
-def rotation_number_grid(a: float, h: Sequence[float] | Array, f: Sequence[float] | Array, level: Level) -> Array:
+def rotation_number_grid(a: float, h: Sequence[float] | Array, f: Sequence[float] | Array, level: Accuracy) -> Array:
     """ρ on the grid h × f, shape (f.size, h.size), read-only; NaN where there is no torus, |f| > f_max(h).
 
     So `np.isfinite` of the result is the mask of what is possible.  At the separatrix, (1, 0), which has no return, it
@@ -67,6 +68,7 @@ def rotation_number_grid(a: float, h: Sequence[float] | Array, f: Sequence[float
     >>> rotation_number_grid(0.5, [0.0, 1.5], [0.2, 0.4, 0.6], level("standard")).shape
     (3, 2)
     """
+    level = as_level(level)
     hs, fs = np.asarray(h, float), np.asarray(f, float)
     filled = _filled_grid(a, hs, fs, level)
     return frozen(np.where(np.abs(fs)[:, None] <= f_max_each(hs), filled, np.nan))
@@ -127,7 +129,7 @@ def lock_boundary_end(a: float) -> float:
     return math.inf if a == 0 else (1 - 2 * a * a) / (2 * a * math.hypot(1.0, a))
 
 
-def lock_boundary(a: float, level: Level, points: int = 48) -> Array:
+def lock_boundary(a: float, level: Accuracy, points: int = 48) -> Array:
     """The curve |t| = 2 with f ≥ 0, from the bifurcation curve down to (1, 0); shape (n, 2), read-only.
 
     The map locks to its right.  Empty for a = 0, where no map locks.  Raises `InvalidParameter` (|a| > 1e5).
@@ -137,6 +139,7 @@ def lock_boundary(a: float, level: Level, points: int = 48) -> Array:
     >>> abs(circle_map(0.5, h, f, level("precise")).trace - 2.0) < 1e-6
     True
     """
+    level = as_level(level)
     check_a(a)
     if abs(a) > _MAX_A_OF_BOUNDARY:
         raise InvalidParameter(f"a = {a:g} is too large for the lock boundary: choose |a| ≤ {_MAX_A_OF_BOUNDARY:g}.")
@@ -167,7 +170,7 @@ def _root(function: Callable[[float], float], low: float, high: float, what: str
     return float(brentq(function, low, high, xtol=1e-15, rtol=1e-14))
 
 
-def lock_boundary_f(a: float, h: float, level: Level) -> float:
+def lock_boundary_f(a: float, h: float, level: Accuracy) -> float:
     """The f > 0 with |t| = 2 at given a and h.  Raises `InvalidParameter` where there is none.
 
     >>> from hess_mechanics import circle_map, level, lock_boundary_f
@@ -175,13 +178,15 @@ def lock_boundary_f(a: float, h: float, level: Level) -> float:
     >>> abs(circle_map(0.5, 0.5, f, level("precise")).trace - 2.0) < 1e-6
     True
     """
+    level = as_level(level)
     check_a(a)
     top = turning_points(h, 0.0 if h != 1.0 else 0.5).f_max
     return _root(lambda f: _locked_at(h, f, a, level), 1e-9 * top, top * (1 - 1e-9), "f")
 
 
-def lock_boundary_h(a: float, f: float, level: Level, low: float, high: float) -> float:
+def lock_boundary_h(a: float, f: float, level: Accuracy, low: float, high: float) -> float:
     """The h between low and high with |t| = 2 at given a and f.  Raises `InvalidParameter`, `OutsideRegion`."""
+    level = as_level(level)
     check_a(a)
     require_finite(f=f)
     for h in (low, high):
@@ -189,7 +194,7 @@ def lock_boundary_h(a: float, f: float, level: Level, low: float, high: float) -
     return _root(lambda h: _locked_at(h, f, a, level), low, high, "h")
 
 
-def critical_a(h: float, f: float, level: Level, high: float = 10.0) -> float:
+def critical_a(h: float, f: float, level: Accuracy, high: float = 10.0) -> float:
     """The a in (0, high) at which the limit cycles of the torus (h, f) appear, |t| = 2.
 
     Raises `OutsideRegion`, `Separatrix`, `InvalidParameter` where there is none.
@@ -199,6 +204,7 @@ def critical_a(h: float, f: float, level: Level, high: float = 10.0) -> float:
     >>> [circle_map(factor * a, 0.5, 0.6, level("precise")).kind for factor in (0.99, 1.01)]
     ['elliptic', 'hyperbolic']
     """
+    level = as_level(level)
     check_a(high)
     turning_points(h, f)
     return _root(lambda a: _locked_at(h, f, a, level), 1e-9, high, "a")
@@ -215,12 +221,13 @@ def affordable_cells(a: float, cells: tuple[int, int]) -> tuple[int, int]:
     return m, n
 
 
-def rotation_number_window(a: float, h: tuple[float, float], f: tuple[float, float], level: Level,
+def rotation_number_window(a: float, h: tuple[float, float], f: tuple[float, float], level: Accuracy,
                            cells: tuple[int, int] = CELLS) -> Array:
     """ρ at the centres of the cells (m, n) of a window, shape (n, m).
 
     Cells outside the region take the value at its edge (same h), so that a picture can be clipped along the
     bifurcation curve.  Raises as `rotation_number_grid`.
     """
+    level = as_level(level)
     m, n = cells
     return frozen(_filled_grid(a, np.maximum(centres(*h, m), -1.0 + 1e-6), centres(*f, n), level))

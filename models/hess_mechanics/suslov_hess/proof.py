@@ -1,4 +1,4 @@
-"""Two limit cycles, none, or undecided: proved for one torus (a, h, f), three rationals taken as exact.
+"""Proofs that one torus (a, h, f), three rationals taken as exact, has exactly two limit cycles, or none.
 
 Units b = 1.  With n3 = n1 + κ(1 − cos s), κ = (n2 − n1)/2, one half period of n3 is s from 0 to π, and the equation of
 φ (`eq0003`), φ' = −a|w| cos φ − f/|w|², |w|² = 2(h + n3), is that of φ = 2 arg(x + iy) along a linear system,
@@ -20,8 +20,10 @@ Proof by balls: each number below is a ball of Arb that contains the true one.  
 s0 the series of n3 is majorized, |n3(s) − n3(s0)| ≤ Δ = κ(|cos s0|(cosh r − 1) + |sin s0| sinh r) for complex
 |s − s0| ≤ r; where Δ is less than h + n3(s0) and n3(s0) − n0 this bounds the coefficients of the system by some K,
 hence its solutions by e^{Kr} and, by Cauchy, the remainder of their Taylor series after N terms at a step δ by
-e^{Kr} τ^N/(1 − τ), τ = δ/r.  Steps and radii are chosen in doubles, which proves nothing and need not.
-This is not in the paper: see models/README.md.
+e^{Kr} τ^N/(1 − τ), τ = δ/r.  Steps and radii are chosen in doubles, which proves nothing and need not: all that the
+proof assumes of them is checked in balls.
+On the edge of the possible (h, f) there is no torus; `edge` has a theorem of its own for it.  The theorems and their
+proofs are in `hess_mechanics/proofs.md`; they are not in the paper.
 """
 
 from __future__ import annotations
@@ -38,17 +40,18 @@ from hess_mechanics.errors import InvalidParameter, OutsideRegion, Separatrix, W
 from hess_mechanics.numerics.balls import Ball, Enclosure, enclosure, exact, rational, working
 from hess_mechanics.suslov_hess.bifurcation import f_max
 from hess_mechanics.suslov_hess.circle_map import MAX_A
+from hess_mechanics.suslov_hess.edge import EdgeProof, prove_edge
 
 __all__ = ["FIRST_BITS", "MOST_BITS", "MOST_WORK", "NO_CYCLE", "TWO_CYCLES", "UNDECIDED", "Proof", "Step",
-           "check_torus", "prove"]
+           "check_possible", "on_edge", "prove"]
 
 TWO_CYCLES, NO_CYCLE, UNDECIDED = "two cycles", "no cycle", "undecided"
 FIRST_BITS, MOST_BITS = 64, 512
 MOST_WORK = 2e7
 """Steps times the square of their terms, of one proof at one precision: some 15 s."""
 _SHARE = 0.8
-_GROWTH = 8.0
-"""At most, K r of a step: with δ = r/4 no direction then turns by more than 2, less than π."""
+_GROWTH = 8
+"""The largest K r of a step: with δ = r/4 no direction then turns by more than 2, less than π."""
 _LEAST_F = Fraction(1, 10**100)
 
 Matrix = tuple[Ball, Ball, Ball, Ball]
@@ -75,7 +78,7 @@ class Proof:
 
     statement : `TWO_CYCLES` (|trace| > 2), `NO_CYCLE` (|trace| < 2) or `UNDECIDED`; trace : of |t|.
     rotation_number : turns per return; None while undecided.  fixed_points, multipliers : the stable cycle first.
-    roots : n0 < n1 ≤ n2 (None for f = 0, h < 1, where the map is a limit in closed form); half : (A, B, C, D).
+    roots : n0 < n1 < n2 (None for f = 0, h < 1, where the map is a limit in closed form); half : (A, B, C, D).
     bits : of precision; seconds : that it took.
     """
 
@@ -106,20 +109,44 @@ class Proof:
 
 
 def prove(a: str | float | Fraction, h: str | float | Fraction, f: str | float | Fraction,
-          most_bits: int = MOST_BITS, most_work: float = MOST_WORK, digits: int = 6) -> Proof:
-    """Prove that the torus (a, h, f) has exactly two limit cycles, or none; texts and doubles are exact decimals.
+          most_bits: int = MOST_BITS, most_work: float = MOST_WORK, digits: int = 6) -> Proof | EdgeProof:
+    """Prove that the torus (a, h, f) has exactly two limit cycles, or none; on the edge, how its circle moves.
 
-    The precision doubles until this is decided and |t| known to so many digits, or `most_bits` or
-    `most_work` is reached.
-    Raises `MissingLibrary`, `InvalidParameter`, `OutsideRegion`, `Separatrix`, `WorkLimit`.
+    The precision doubles until the statement is decided and |t| known to `digits` digits, or until `most_bits` or
+    `most_work` is reached.  (Not in the paper; the equation of φ is `eq0003`.)
+
+    Parameters
+    ----------
+    a, h, f : in units b = 1, taken as exact, see `balls.exact`.
+    most_bits : the largest precision in bits.
+    most_work : the largest number of Taylor steps times the square of their terms, at one precision.
+    digits : of |t| that are asked for.
+
+    Returns
+    -------
+    Proof | EdgeProof
+        An `EdgeProof` exactly where 2(h + n)(1 − n²) − f² has a double root, so that there is no torus.
+
+    Raises
+    ------
+    MissingLibrary
+        Without python-flint.
+    InvalidParameter, OutsideRegion, Separatrix
+        As `check_possible`; `InvalidParameter` also for a number that cannot be taken as exact.
+    WorkLimit
+        If `most_work` is spent at the first precision.
 
     >>> from hess_mechanics import prove
     >>> prove("0.5", "1.5", "0.6").statement
     'two cycles'
+    >>> prove("0.5", "13/8", "15/8").statement
+    'two equilibria'
     """
     begun = time.perf_counter()
     at = exact("a", a), exact("h", h), exact("f", f)
-    check_torus(*at)
+    check_possible(*at)
+    if on_edge(*at[1:]):
+        return prove_edge(*at)
     if at[2] == 0 and at[1] < 1:
         with working(FIRST_BITS):
             return _oscillation(*at, begun)
@@ -145,8 +172,22 @@ def prove(a: str | float | Fraction, h: str | float | Fraction, f: str | float |
         bits *= 2
 
 
-def check_torus(a: Fraction, h: Fraction, f: Fraction) -> None:
-    """Raise unless the torus is possible: by the exact sign of the discriminant of 2(h + n)(1 − n²) − f²."""
+def check_possible(a: Fraction, h: Fraction, f: Fraction) -> None:
+    """Check that a motion has exactly (h, f): by the exact sign of the discriminant of 2(h + n)(1 − n²) − f².
+
+    Parameters
+    ----------
+    a, h, f : in units b = 1.
+
+    Raises
+    ------
+    InvalidParameter
+        If |a| or h is too large, or f too close to 0.
+    OutsideRegion
+        If no motion has this h and f.
+    Separatrix
+        If h = 1 and f = 0.
+    """
     if abs(a) > MAX_A or h > 10**12:
         raise InvalidParameter(f"a = {float(a):g}, h = {float(h):g}: choose |a| ≤ {MAX_A:g} and h ≤ 1e12.")
     if f and abs(f) < _LEAST_F:
@@ -159,6 +200,16 @@ def check_torus(a: Fraction, h: Fraction, f: Fraction) -> None:
         largest = f_max(max(float(h), -1.0 + 1e-16))
         raise OutsideRegion(f"No motion has exactly h = {float(h):.15g} and f = {float(f):.15g}: at this h choose "
                             f"|f| ≤ {largest * (1 - 1e-11):.12g}, or a larger h.")
+
+
+def on_edge(h: Fraction, f: Fraction) -> bool:
+    """Return whether possible h and f lie on the edge, where n3 is constant and there is no torus (`Geq3`).
+
+    Parameters
+    ----------
+    h, f : in units b = 1, as `check_possible` accepts them.
+    """
+    return _discriminant(h, f) == 0
 
 
 def _discriminant(h: Fraction, f: Fraction) -> Fraction:
@@ -183,26 +234,14 @@ def _turns(h: Fraction, f: Fraction, bits: int) -> _Turns:
     while True:
         with working(precision) as library:
             arb, H = library.arb, rational(h)
-            if _discriminant(h, f) == 0:
-                # The double root of the edge is rational, n1 = n2.
-                upper = _rational_root(h, f)
-                roots = [-h - 2 * upper, upper, upper]
-                W = [arb(rational(root + h)) for root in roots]
-                isolated = tuple(Enclosure(root, root) for root in roots)
-            else:
-                cubic = library.fmpq_poly([rational(c) for c in (-f * f, 2 * (1 - h * h), 4 * h, Fraction(-2))])
-                W = sorted((root.real for root, _ in cubic.numer().complex_roots()), key=lambda root: root.mid())
-                isolated = tuple(enclosure(root - arb(H)) for root in W)
+            cubic = library.fmpq_poly([rational(c) for c in (-f * f, 2 * (1 - h * h), 4 * h, Fraction(-2))])
+            W = sorted((root.real for root, _ in cubic.numer().complex_roots()), key=lambda root: root.mid())
             w, gap = W[1], W[1] - W[0]
-            if w > 0 and gap > 0 and min(w.rel_accuracy_bits(), gap.rel_accuracy_bits()) > bits + 16:
-                return _Turns(isolated, w, gap, (W[2] - W[1]) / 2)
+            # Comparisons of balls are true only where they are certain.
+            if w > 0 and gap > 0 and W[1] < W[2] and (
+                    min(w.rel_accuracy_bits(), gap.rel_accuracy_bits()) > bits + 16):
+                return _Turns(tuple(enclosure(root - arb(H)) for root in W), w, gap, (W[2] - W[1]) / 2)
         precision *= 2
-
-
-def _rational_root(h: Fraction, f: Fraction) -> Fraction:
-    """n1 = n2 on the edge: p − n p'/3 is linear in n modulo p', and its root is the double one."""
-    # p = −2n³ − 2hn² + 2n + c, p' = −6n² − 4hn + 2; p − p'(n/3 + h/9) = (4/3 + 4h²/9) n + c − 2h/9.
-    return -(2 * h - f * f - 2 * h / 9) / (Fraction(4, 3) + 4 * h * h / 9)
 
 
 def _plan(a: Fraction, f: Fraction, turns: _Turns, bits: int) -> Iterator[tuple[Fraction, Fraction, int]]:
@@ -244,11 +283,15 @@ def _proof(at: tuple[Fraction, Fraction, Fraction], turns: _Turns, plan: list[tu
         A, B, C, D = p * A + q * C, p * B + q * D, r * A + d * C, r * B + d * D
         theta += arb.atan2(before[0] * C - before[1] * A, before[0] * A + before[1] * C)
         steps.append(Step(start, radius, K, terms, tuple(map(enclosure, matrix))))
-    statement, trace = _decided(A, B, C, D)
-    fixed, multipliers = _cycles(A, B, C, D) if statement == TWO_CYCLES else ((), ())
-    return Proof(*at, statement, trace, _rotation(statement, A, B, C, D, theta), fixed, multipliers,
-                 turns.roots, tuple(map(enclosure, (A, B, C, D))), tuple(steps), bits,
-                 time.perf_counter() - begun)
+    statement, t = _decided(A, B, C, D)
+    rotation = _rotation(statement, t, A, B, C, D, theta)
+    cycles = _cycles(t, A, B, C, D) if statement == TWO_CYCLES else ((), ())
+    if rotation is None or cycles is None:
+        # The sign of the trace is known, but not yet the numbers that belong to it.
+        statement, rotation, cycles = UNDECIDED, None, ((), ())
+    trace = Enclosure(max(Fraction(0), t.low, -t.high), max(abs(t.low), abs(t.high)))
+    return Proof(*at, statement, trace, rotation, *cycles, turns.roots, tuple(map(enclosure, (A, B, C, D))),
+                 tuple(steps), bits, time.perf_counter() - begun)
 
 
 def _step(a: Ball, f: Ball, turns: _Turns, s: Ball, r: Ball, delta: Ball, terms: int) -> tuple[Fraction, Matrix]:
@@ -260,9 +303,10 @@ def _step(a: Ball, f: Ball, turns: _Turns, s: Ball, r: Ball, delta: Ball, terms:
     change = abs(turns.kappa) * (abs(s.cos()) * 2 * (r / 2).sinh() ** 2 + abs(s.sin()) * r.sinh())
     largest = (abs(f) / (2 * (w - change)) + abs(a) * (2 * (w + change)).sqrt()) / (8 * (gap - change)).sqrt()
     K = Fraction(math.nextafter(float(largest) * (1.0 + 1e-12), math.inf))
-    # Comparisons of balls are true only where they are certain.
-    if not (change < w and change < gap and largest < arb(rational(K)) and delta < r):
-        raise ArithmeticError("a step whose disc is too large for its precision")
+    # No direction turns by more than Kδ, and by less than π the angle between its ends tells how far.
+    if not (change < w and change < gap and largest < arb(rational(K)) and 0 < delta < r
+            and arb(rational(K)) * r <= _GROWTH and arb(rational(K)) * delta < arb.pi()):
+        raise WorkLimit("A Taylor step of this proof is too long for its precision: choose (h, f) farther from (1, 0).")
     tau = delta / r
     rest = (arb(rational(K)) * r).exp() * tau**terms / (1 - tau)
 
@@ -296,30 +340,30 @@ def _coefficients(series: Any, terms: int) -> list[Ball]:
 
 
 def _decided(A: Ball, B: Ball, C: Ball, D: Ball) -> tuple[str, Enclosure]:
-    """The statement, and |t|: both forms of t enclose it, the one with the smaller product more closely."""
+    """Return the statement and t: both forms of t enclose it, the one with the smaller product more closely."""
     small, large = enclosure(B * C), enclosure(A * D)
-    product = Enclosure(max(small.low, large.low - 1), min(small.high, large.high - 1))
-    t = Enclosure(2 + 4 * product.low, 2 + 4 * product.high)
-    if product.low > 0:
+    t = Enclosure(2 + 4 * max(small.low, large.low - 1), 2 + 4 * min(small.high, large.high - 1))
+    if t.low > 2 or t.high < -2:
         return TWO_CYCLES, t
-    if product.high < -1:
-        return TWO_CYCLES, Enclosure(-t.high, -t.low)
-    absolute = Enclosure(max(Fraction(0), t.low, -t.high), max(abs(t.low), abs(t.high)))
-    return (NO_CYCLE if product.low > -1 and product.high < 0 else UNDECIDED), absolute
+    return (NO_CYCLE if t.low > -2 and t.high < 2 else UNDECIDED), t
 
 
-def _cycles(A: Ball, B: Ball, C: Ball, D: Ball) -> tuple[tuple[Enclosure, ...], tuple[Enclosure, ...]]:
-    """φ and the multiplier of the stable and of the unstable cycle."""
+def _cycles(t: Enclosure, A: Ball, B: Ball, C: Ball, D: Ball
+            ) -> tuple[tuple[Enclosure, ...], tuple[Enclosure, ...]] | None:
+    """Return φ and the multiplier of the stable and of the unstable cycle; None where these balls do not tell."""
     phi = 2 * (A * C / (B * D)).sqrt().atan()
-    # The eigenvalue of (1, κ), κ = tan(φ/2), is (AD + BC) + 2BDκ: of κ > 0 the larger one where both have one sign.
-    if (A * D > 0) != (B * D > 0):
-        phi = -phi
     multiplier = (abs(A * D).sqrt() + abs(B * C).sqrt()) ** -4
+    if not (phi.is_finite() and multiplier.is_finite() and multiplier > 0):
+        return None
+    # The eigenvalue of (1, κ), κ = tan(φ/2), is (AD + BC) + 2BDκ, and AD + BC = t/2: of κ > 0 it is the larger one
+    # where BD has the sign of t.  BD is not 0, as φ is finite.
+    if (t.low > 0) != (B * D > 0):
+        phi = -phi
     return (enclosure(phi), enclosure(-phi)), (enclosure(multiplier), enclosure(1 / multiplier))
 
 
-def _rotation(statement: str, A: Ball, B: Ball, C: Ball, D: Ball, theta: Ball) -> Enclosure | None:
-    """ρ, or None where these balls do not tell."""
+def _rotation(statement: str, t: Enclosure, A: Ball, B: Ball, C: Ball, D: Ball, theta: Ball) -> Enclosure | None:
+    """Return ρ, or None where these balls do not tell."""
     from flint import arb
 
     quadrants = enclosure(2 * theta / arb.pi()) if theta.is_finite() else None
@@ -328,10 +372,10 @@ def _rotation(statement: str, A: Ball, B: Ball, C: Ball, D: Ball, theta: Ball) -
     m = math.floor(quadrants.low)
     if statement == TWO_CYCLES:
         # Of m and m + 1 the even one for t > 2, the odd one for t < −2.
-        locked = Fraction(m + (m + int(not B * C > 0)) % 2)
+        locked = Fraction(m + (m + int(t.low < 0)) % 2)
         return Enclosure(locked, locked)
     share = 2 * (-(B * C) / (A * D)).sqrt().atan() / arb.pi()
-    return enclosure(m + (share if m % 2 == 0 else 1 - share))
+    return enclosure(m + (share if m % 2 == 0 else 1 - share)) if share.is_finite() else None
 
 
 def _oscillation(a: Fraction, h: Fraction, f: Fraction, begun: float) -> Proof:

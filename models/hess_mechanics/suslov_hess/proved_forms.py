@@ -11,7 +11,7 @@ from typing import Any
 
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.balls import Ball, Enclosure, exact, rational, to_digits
-from hess_mechanics.suslov_hess.proof import check_torus
+from hess_mechanics.suslov_hess.proof import check_possible, on_edge
 
 __all__ = ["proved_torus_period", "proved_trace_on_curve"]
 
@@ -22,11 +22,14 @@ def proved_torus_period(h: Number, f: Number, digits: int = 30) -> Enclosure:
     """The period of n3 on the torus (h, f), units b = 1: T = √2 π/AGM(√(n2 − n0), √(n1 − n0)).
 
     n0 < n1 < n2 are the roots of 2(h + n)(1 − n²) − f², isolated as balls.
-    Raises `MissingLibrary`, `InvalidParameter`, `OutsideRegion`, `Separatrix`, `WorkLimit` (on the edge, where two
-    roots are one).
+    Raises `MissingLibrary`, `InvalidParameter` (also on the edge, where n3 is constant), `OutsideRegion`,
+    `Separatrix`, `WorkLimit`.
     """
     energy, area = exact("h", h), exact("f", f)
-    check_torus(Fraction(0), energy, area)
+    check_possible(Fraction(0), energy, area)
+    if on_edge(energy, area):
+        raise InvalidParameter(f"h = {energy}, f = {area} lies on the edge of the possible (h, f), where n3 is "
+                               "constant and has no period. Choose a smaller |f|, or a larger h.")
 
     def compute(library: Any) -> Ball:
         arb = library.arb
@@ -42,8 +45,9 @@ def proved_torus_period(h: Number, f: Number, digits: int = 30) -> Enclosure:
 
 
 def proved_trace_on_curve(a: Number, n: Number, digits: int = 30) -> Enclosure:
-    """t on the bifurcation curve at n3 = n: 2 cos(π√(n²(1+a²)−a²)/√(1+3n²)), cosh where the radicand is negative.
+    """The limit of t at the point n3 = n of the bifurcation curve: 2 cos(π√(n²(1+a²)−a²)/√(1+3n²)).
 
+    It is cosh where the radicand is negative.  On the curve itself there is no torus, see `edge`.
     Raises `MissingLibrary`, `InvalidParameter`, `WorkLimit`.
     """
     ratio, height = exact("a", a), exact("n", n)

@@ -20,12 +20,22 @@ import numpy as np
 
 from hess_mechanics.dynamics.cells import centres
 from hess_mechanics.errors import InvalidParameter, ModelError, WorkLimit
-from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.accuracy import Accuracy, Level
+from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labelled, Labels
+from hess_mechanics.numerics.measured import SAFETY
 from hess_mechanics.numerics.results import Array, Mask, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov_hess.bifurcation import f_max, f_max_each, h_min
-from hess_mechanics.suslov_hess.circle_map import MAX_A, check_a, circle_map, discriminants, matrices, rotation_numbers
+from hess_mechanics.suslov_hess.circle_map import (
+    MAX_A,
+    check_a,
+    circle_map,
+    discriminants,
+    matrices,
+    neighbours,
+    rotation_numbers,
+)
 from hess_mechanics.suslov_hess.mode_locking import critical_a, lock_boundary
 
 __all__ = [
@@ -132,8 +142,9 @@ def _matrices(a: Array, h: Array, f: Array, level: Level) -> Array:
     return rows
 
 
-def values_at(a: Array | float, h: Array | float, f: Array | float, level: Level) -> TorusValues:
+def values_at(a: Array | float, h: Array | float, f: Array | float, level: Accuracy) -> TorusValues:
     """ρ, |t| and locking of tori (a, h, f), arrays (n,) or numbers.  Raises `InvalidParameter`, `WorkLimit`."""
+    level = as_level(level)
     a, h, f = (np.ascontiguousarray(x, float) for x in np.broadcast_arrays(*np.atleast_1d(a, h, f)))
     if a.ndim != 1 or a.size > MAX_POINTS:
         raise WorkLimit(f"At most {MAX_POINTS} tori at a time: choose fewer points.")
@@ -152,16 +163,19 @@ def values_at(a: Array | float, h: Array | float, f: Array | float, level: Level
     return TorusValues(frozen(rho), frozen(trace), frozen(possible & (discriminant > 0.0)), frozen(possible))
 
 
-def rotation_errors(a: Array | float, h: Array | float, f: Array | float, level: Level) -> Array:
-    """Estimated errors (n,) of ρ as `values_at` finds it, each from a second run with a hundredth of the tolerance.
+def rotation_errors(a: Array | float, h: Array | float, f: Array | float, level: Accuracy) -> Array:
+    """Estimated errors (n,) of ρ as `values_at` finds it, from the `neighbours` with a hundredth of the tolerance.
 
     NaN where there is no torus.  Raises as `values_at`.
     """
-    coarse, fine = (values_at(a, h, f, one).rho for one in (level, level.tightened()))
-    return frozen((4.0 if level.is_floor else 1.25) * np.abs(coarse - fine) + 4e-16)
+    level = as_level(level)
+    energies, fs = np.broadcast_arrays(*np.atleast_1d(h, f))
+    aside = neighbours(energies, fs, f_max_each(np.maximum(energies, -1.0)))
+    coarse, fine = values_at(a, h, f, level).rho, values_at(a, *aside, level.tightened()).rho
+    return frozen(SAFETY * np.abs(coarse - fine) + 4e-16)
 
 
-def lock_curve(plane: str, torus: Torus, window: Sequence[float], level: Level, points: int = 48) -> Array:
+def lock_curve(plane: str, torus: Torus, window: Sequence[float], level: Accuracy, points: int = 48) -> Array:
     """The boundary |t| = 2 in a plane of `PLANES` through the torus, for x0 … x1 of `window`; (n, 2).
 
     In (h, f) it is `lock_boundary`, f ≥ 0; in the other planes a(h) or a(f), where it exists.
@@ -191,12 +205,13 @@ def _abscissas(plane: str, torus: Torus, x0: float, x1: float, points: int) -> A
     return np.asarray(roots * np.abs(roots))
 
 
-def perturbed_rotation(a: Array | float, h: Array | float, f: Array | float, epsilon: float, level: Level,
+def perturbed_rotation(a: Array | float, h: Array | float, f: Array | float, epsilon: float, level: Accuracy,
                        count: int = TURNS) -> Array:
     """ρ (n,) of Θ_ε for possible tori (a, h, f), arrays (n,) or numbers, by a weighted average of `count` turns.
 
     Raises `InvalidParameter` (|ε| ≥ 1/3), `WorkLimit`.
     """
+    level = as_level(level)
     require_finite(epsilon=epsilon)
     if _TERM * abs(epsilon) >= 1.0:
         raise InvalidParameter(f"ε = {epsilon:g} folds the circle map, which then has no rotation number: choose "
@@ -218,7 +233,7 @@ def perturbed_rotation(a: Array | float, h: Array | float, f: Array | float, eps
     return frozen(sign * total / (2.0 * math.pi))
 
 
-def place_of(rho: float, name: str, torus: Torus, low: float, high: float, level: Level) -> float | None:
+def place_of(rho: float, name: str, torus: Torus, low: float, high: float, level: Accuracy) -> float | None:
     """A value of the parameter `name` ("a", "h", "f") between low and high with this ρ; None where none is found."""
     x = np.linspace(low, high, 121)
     values = values_at(**{**vars(torus), name: x}, level=level)
@@ -240,7 +255,7 @@ def place_of(rho: float, name: str, torus: Torus, low: float, high: float, level
     return float(brentq(difference, float(x[i]), float(x[i + 1]), xtol=1e-15, rtol=1e-15))
 
 
-def closed_after(torus: Torus, q: int, level: Level) -> float:
+def closed_after(torus: Torus, q: int, level: Accuracy) -> float:
     """max |Θ^q(φ) − φ| over 64 phases: round-off where every orbit closes after q returns.
 
     Raises `InvalidParameter` for q < 1 or q > 1000.
@@ -256,7 +271,7 @@ def closed_after(torus: Torus, q: int, level: Level) -> float:
 
 
 def rows(plane: str, torus: Torus, window: tuple[tuple[float, float], tuple[float, float]], cells: tuple[int, int],
-         first: int, last: int, level: Level) -> TorusValues:
+         first: int, last: int, level: Accuracy) -> TorusValues:
     """`values_at` the centres of cells (m, n) that fill the window of a plane, from the row `first` to before `last`.
 
     The rows (last − first) × m stand one after the other.
@@ -267,7 +282,7 @@ def rows(plane: str, torus: Torus, window: tuple[tuple[float, float], tuple[floa
     return values_at(**{**vars(torus), names[0]: X.ravel(), names[1]: Y.ravel()}, level=level)
 
 
-def rows_error(plane: str, torus: Torus, window: tuple[tuple[float, float], tuple[float, float]], level: Level
+def rows_error(plane: str, torus: Torus, window: tuple[tuple[float, float], tuple[float, float]], level: Accuracy
                ) -> float:
     """The estimated error of ρ that 99 of 100 cells of a window have at most, from 30 × 20 of them; 0 where none is."""
     names = plane.split(", ")
@@ -283,12 +298,12 @@ def together(parts: Sequence[TorusValues]) -> TorusValues:
                          for name in ("rho", "trace", "locked", "possible")))
 
 
-def along(line: Line, count: int, level: Level) -> TorusValues:
+def along(line: Line, count: int, level: Accuracy) -> TorusValues:
     """`values_at` even places of a line."""
     return values_at(**{**vars(line.torus), line.name: line.places(count)}, level=level)
 
 
-def perturbed_along(line: Line, count: int, epsilon: float, level: Level, turns: int = TURNS) -> Array:
+def perturbed_along(line: Line, count: int, epsilon: float, level: Accuracy, turns: int = TURNS) -> Array:
     """`perturbed_rotation` by so many turns at even places of a line, (count,); NaN where there is no torus."""
     x, possible = line.places(count), along(line, count, level).possible
     out = np.full(count, np.nan)
@@ -298,7 +313,7 @@ def perturbed_along(line: Line, count: int, epsilon: float, level: Level, turns:
     return frozen(out)
 
 
-def periodic_torus(rho: Fraction, line: Line, level: Level) -> PeriodicTorus | None:
+def periodic_torus(rho: Fraction, line: Line, level: Accuracy) -> PeriodicTorus | None:
     """The torus of a line with this ρ, if one is seen."""
     place = place_of(float(rho), line.name, line.torus, line.low, line.high, level)
     if place is None:

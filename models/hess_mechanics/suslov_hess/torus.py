@@ -13,7 +13,8 @@ import numpy as np
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA, sample_times
 from hess_mechanics.errors import Separatrix
-from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.accuracy import Accuracy, Level
+from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.results import Array, Orbit, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, turning_points
@@ -87,11 +88,12 @@ def pixels_per_unit(body: HessBody, half_width: float) -> Array:
     return np.array([w, w * math.hypot(1.0, body.a), radius, radius, radius])
 
 
-def track(body: HessBody, h: float, f: float, phi0: float, span: float, level: Level, half_width: float) -> Track:
+def track(body: HessBody, h: float, f: float, phi0: float, span: float, level: Accuracy, half_width: float) -> Track:
     """The orbit of `start_of_track` over `span` of the body's time, sampled for the pictures of `pixels_per_unit`.
 
     Raises `OutsideRegion`, `NoField`, `InvalidParameter`.
     """
+    level = as_level(level)
     start, length = start_of_track(body, h, f, phi0, span)
     return _solve_reduced(body, start, _times(body, start, length, half_width), level)
 
@@ -101,7 +103,7 @@ def _times(body: HessBody, start: Array, length: float, half_width: float) -> Ar
     return sample_times(SYSTEM, start, np.array([body.a, 1.0]), length, weights, SAGITTA, _MOST)
 
 
-def cycles(body: HessBody, h: float, f: float, stable: FixedPoint, level: Level, half_width: float
+def cycles(body: HessBody, h: float, f: float, stable: FixedPoint, level: Accuracy, half_width: float
            ) -> tuple[Track, Track]:
     """The stable and the unstable limit cycle, over one period each.
 

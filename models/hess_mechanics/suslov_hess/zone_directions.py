@@ -7,7 +7,7 @@ With the angle ψ, tan ψ = √(α/β) tan(s/2), the direction θ of a solution 
 ρ = √(α/β), 0 ≤ ψ ≤ π/2.  A broken line that is everywhere steeper than the right-hand side on it, for all α and β of
 the cell, stays above all solutions; likewise below.  From θ = 0 they lead to the quadrant of (A, C), from π/2 to that
 of (B, D), and these signs decide.  The error is of first order in the size of the cell, but does not grow with e^{πa}:
-where solutions run together, the lines do too.
+where solutions run together, the lines do too.  See `hess_mechanics/proofs.md`.
 """
 
 from __future__ import annotations
@@ -24,7 +24,14 @@ _SIGNS = ((1, 1), (-1, 1), (-1, -1), (1, -1))
 
 
 def proved_by_directions(a: Ball, alpha: tuple[float, float], beta: tuple[float, float], pieces: int) -> str | None:
-    """What is proved of all tori of a cell, a ≥ 0, with so many pieces of each line; None for nothing."""
+    """Return what is proved of all tori, α ≠ β, of a cell; None where nothing is.
+
+    Parameters
+    ----------
+    a : not negative.
+    alpha, beta : the ends of the cell, meant exactly.
+    pieces : of each broken line.
+    """
     from flint import arb
 
     parts = _coefficients(a, alpha, beta, pieces)

@@ -1,4 +1,4 @@
-"""Kinds of motions and of dynamics where they are known: tori by the Möbius matrix, permanent rotations, seas."""
+"""Kinds of motions and of dynamics that are known by other means: Möbius matrix, integrable cases, long runs."""
 
 from __future__ import annotations
 
@@ -6,11 +6,23 @@ import math
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
-from hess_mechanics import HessBody, SuslovBody, circle_map, level, return_map, spectrum, systems
+from hess_mechanics import (
+    HeavyBody,
+    HessBody,
+    QuarticBody,
+    SuslovBody,
+    circle_map,
+    level,
+    megno,
+    return_map,
+    spectrum,
+    systems,
+)
 from hess_mechanics.dynamics.regime import Kind, dynamics_of, regime
 from hess_mechanics.errors import InvalidParameter
-from support.suslov import permanent_rotations
+from support.suslov import field, permanent_rotations
 
 SUSLOV = systems()["suslov"]
 REVERSAL = SuslovBody(1.0, 3.0, 0.6, 0.6, 1.0, 0.7, 0.3)
@@ -46,14 +58,78 @@ def test_a_strange_attractor_is_chaotic_and_shrinks_as_its_exponents_say():
 
 def test_where_volume_is_kept_dynamics_are_conservative_and_curves_stay_curves():
     P = return_map(PLAIN, E=1.5, accuracy="standard")
-    # Each orbit is another sample of the sea.
-    for psi in (1.0, 1.001, 1.002):
-        sea = dynamics_of(P, (psi, 1.0), 100, 2000, 300.0)
-        assert sea.divergence == 0.0
-        assert (sea.verdict, sea.apart.equal) == ("conservative", True)
+    sea = dynamics_of(P, (1.0, 1.0), 100, 600, 300.0)
+    assert (sea.motion.kind, sea.motion.divergence, sea.verdict) == (Kind.CHAOTIC, 0.0, "conservative")
+    assert all(one.equal for one in sea.comparisons)
     curve = regime(return_map(SuslovBody(1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0), E=0.4), (0.3, 1.2), t=300.0)
     # I11 = I22 with b along e: integrable (`QuarticBody.integrable`).
     assert (curve.kind, curve.volume) == (Kind.QUASI_PERIODIC, 0)
+    assert "integrable case I₁₁ = I₂₂" in curve.sentence
+
+
+def test_a_sea_whose_volume_shrinks_is_not_conservative_and_shows_the_number_that_is_judged():
+    """DOP853 with its own divergence: −0.00690 ± 0.00031 over t = 2·10⁵."""
+    P = return_map(SuslovBody(1.5, 1.7, 0.1, -0.3, -1.7, 1.0, 2.0), E=-0.9089144, accuracy="standard")
+    sea = dynamics_of(P, (-1.0063, 1.1872), 500, 1500, 6000.0)
+    assert sea.motion.kind is Kind.CHAOTIC
+    assert abs(sea.motion.divergence + 0.0069) <= 3.0 * math.hypot(sea.motion.divergence_error, 0.00031)
+    assert (sea.verdict, sea.motion.volume) == ("mixed", -1)
+    assert f"{sea.motion.divergence:.3g}" in sea.motion.sentence
+    # Over a short time the same motion is not told apart, and that is said with a bound.
+    short = regime(P, (-1.0063, 1.1872), t=200.0)
+    assert short.volume == 0
+    assert short.bound > 0.0069
+    assert f"|mean divergence| < {short.bound:.1g}" in short.sentence
+
+
+def test_a_slow_motion_is_followed_until_it_returns():
+    """It returns every 26 units of time, and I11 = I22 has q₁p₂ − q₂p₁ for an integral."""
+    P = return_map(QuarticBody(1.3, 1.3, 1.0, 0.999))
+    found = regime(P, (0.01, 0.02))
+    assert found.kind in (Kind.QUASI_PERIODIC, Kind.PERIODIC)
+    assert len(found.places) >= 200
+    assert "I₁₁ = I₂₂" in found.sentence
+
+
+def test_what_is_not_seen_to_return_is_said_with_the_time_waited():
+    """The motion comes to a permanent rotation, which has γ3 = 0 and never crosses γ1 = 0."""
+    P = return_map(REVERSAL, E=REVERSAL_E, plane=1, accuracy="draft")
+    found = regime(P, (1.0, 1.0))
+    assert found.kind is Kind.NO_RETURN
+    assert found.sentence == f"The motion was not seen to return to the section within t = {found.t:.4g}."
+
+    def height(t, y):
+        return y[2]
+
+    height.direction = 1.0
+    # The start lies on the plane, so a crossing at t = 0 is the start itself.
+    start = P.state_at(found.places[-1] if len(found.places) else np.array([1.0, 1.0]))
+    followed = solve_ivp(lambda t, y: field(REVERSAL, y), (0.0, found.t), start, method="DOP853", rtol=1e-10,
+                         atol=1e-11, events=height)
+    assert not np.any(followed.t_events[0] > 1e-3)
+
+
+@pytest.mark.parametrize(("body", "h", "f", "place", "case"), [
+    (HeavyBody((1.0, 0.625, 0.25), (0.0, 0.0, 1.0), 0.0), 1.5, 0.7, (0.001, 0.001), "Euler"),
+    (HeavyBody((1.0, 1.0, 2.0), (0.0, 0.0, 1.0), 1.0), 1.5, 0.5, (0.5, 0.3), "Lagrange"),
+    (HeavyBody((1.0, 1.0, 2.0), (1.0, 0.0, 0.0), 1.0), 1.5, 0.5, (0.5, 0.3), "Kovalevskaya"),
+    (HeavyBody((1.0, 1.0, 4.0), (1.0, 0.0, 0.0), 1.0), 1.5, 0.0, (0.5, 0.3), "Goryachev"),
+])
+def test_integrable_cases_are_named_and_never_chaotic(body, h, f, place, case):
+    found = regime(return_map(body, h=h, f=f), place)
+    assert case in found.integrable
+    assert found.kind in (Kind.FIXED_POINT, Kind.PERIODIC, Kind.QUASI_PERIODIC)
+    # A body next to it is in no such case.
+    assert HeavyBody((1.0, 0.99, 3.0), (0.6, 0.0, 0.8), 1.0).integrable_at(0.0) == ""
+
+
+def test_chaos_next_to_a_separatrix_needs_both_indicators_at_both_times():
+    """Euler's case without its name: MEGNO alone is above 3 there, and falls when the time is doubled."""
+    P = return_map(HeavyBody((1.0, 0.625, 0.25), (0.0, 0.0, 1.0), 0.0), h=1.5, f=0.7)
+    states = [P.state_at(np.array([0.001, 0.001]))]
+    early, late = (megno(P.sheet.system, states, P.sheet.parameters, t).values[0] for t in (200.0, 1600.0))
+    assert late < early
+    assert late < 3.0 < early
 
 
 def test_permanent_rotations_attract_and_repel_apart_from_each_other():
@@ -64,12 +140,12 @@ def test_permanent_rotations_attract_and_repel_apart_from_each_other():
         away = np.abs(np.angle(np.exp(1j * (places[-1, 0] - psi))))
         assert away.min() < 1e-3
     assert found.verdict == "dissipative"
-    assert found.apart.distance > 1.0
+    assert found.distance > 1.0
 
 
 def test_what_cannot_be_told_is_refused():
     P = return_map(PLAIN, E=1.5)
-    with pytest.raises(InvalidParameter, match="from 8 to 50000"):
+    with pytest.raises(InvalidParameter, match="From 8 to 20000"):
         dynamics_of(P, (1.0, 1.0), kept=2)
     with pytest.raises(InvalidParameter, match="looked at"):
         regime(P, (1.0, 1.0), kept=0)

@@ -5,6 +5,7 @@ import os
 import re
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,9 +15,10 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 import oracle
-from hess_mechanics import SuslovBody, level, solve, systems, unit_vector
+from hess_mechanics import SuslovBody, System, level, solve, systems, unit_vector
 from hess_mechanics.dynamics.orbit import MAX_SAMPLES
-from hess_mechanics.errors import InvalidParameter, ModelError, NotPositiveDefinite, WorkLimit
+from hess_mechanics.dynamics.system import in_units_of_time
+from hess_mechanics.errors import InvalidParameter, ModelError, NotPositiveDefinite, WorkLimit, WrongScaling
 from hess_mechanics.numerics.accuracy import LEVELS, Level, Status
 from hess_mechanics.numerics.taylor_kernels import columns_of, compensated, workspace
 from support.mechanics import PROPERTY, ROOT
@@ -214,6 +216,51 @@ def test_orbits_scale_with_the_unit_of_time(system, nu):
     assert np.max(np.abs(image.states * scaled(system, nu) - orbit.states)) < 1e-11
     assert state == pytest.approx(system.example[0], abs=0), "rescale must not write into its arguments"
     assert parameters == pytest.approx(system.example[1], abs=0)
+
+
+def of_ones_own(variables, angular_velocities, field, rescale, frequency):
+    return System(name="own", title="A system of a test", source="", labels=(), variables=variables, parameters=("k",),
+                  angular_velocities=angular_velocities, field=field, integrals=lambda y, p: {}, frequency=frequency,
+                  rescale=rescale, example=((1.0, 0.5)[: len(variables)], (4.0,)))
+
+
+def test_a_variable_whose_name_begins_with_w_is_no_velocity_for_that():
+    grows = of_ones_own(("w",), 0, lambda y, p: (p[0] * y[0],), lambda y, p, nu: (y.copy(), p / nu),
+                        lambda y, p: p[0])
+    assert solve(grows, (1.0,), (4.0,), [0.5], level("precise")).states == pytest.approx(np.e**2, rel=1e-9)
+
+
+def test_an_oscillator_names_its_velocity_by_putting_it_first():
+    def rate(y, p):
+        return np.sqrt(p[0])
+
+    for count in (0, 1, 2):
+        with pytest.raises(WrongScaling, match="`angular_velocities`, which counts the leading variables that scale"):
+            of_ones_own(("x", "w"), count, lambda y, p: (y[1], -p[0] * y[0]),
+                        lambda y, p, nu: ((y.T / [1.0, nu]).T, p / nu**2), rate)
+    swings = of_ones_own(("w", "x"), 1, lambda y, p: (-p[0] * y[1], y[0]),
+                         in_units_of_time(first=0, velocities=1), rate)
+    found = solve(swings, (0.0, 1.0), (4.0,), [0.3], level("precise")).states[0]
+    assert found == pytest.approx([-2.0 * np.sin(0.6), np.cos(0.6)], abs=1e-9)
+    with pytest.raises(WrongScaling, match=r"take states \(d,\) and \(d, n\)"):
+        replace(swings, rescale=lambda y, p, nu: (y / [nu, 1.0], p / nu**2))
+
+
+def unscaled(y, p, nu):
+    return y.copy(), p.copy()
+
+
+@every_system
+def test_a_wrong_scaling_is_refused_when_a_system_is_made(system):
+    n = system.angular_velocities
+    for wrong in ({"angular_velocities": n - 1}, {"angular_velocities": n + 1}, {"rescale": unscaled},
+                  {"rescale": lambda y, p, nu: (system.rescale(y, p, nu)[0], p)},
+                  {"unit": lambda p: 2.0 * system.unit(p)}):
+        with pytest.raises(WrongScaling, match=f"^{re.escape(system.title)}: in units of time 1/ν") as refused:
+            replace(system, **wrong)
+        assert isinstance(refused.value, ModelError)
+    with pytest.raises(WrongScaling, match=f"so it is from 0 to {len(system.variables)}"):
+        replace(system, angular_velocities=len(system.variables) + 1)
 
 
 @pytest.mark.parametrize("b", [1e-6, 0.3, 5.0, 1e8])

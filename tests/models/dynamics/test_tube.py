@@ -11,8 +11,10 @@ import pytest
 
 import oracle
 from hess_mechanics import level, proved_error, right_until, solve, systems, tube
-from hess_mechanics.dynamics.tube import error_bounds
+from hess_mechanics.dynamics.system import System
+from hess_mechanics.dynamics.tube import _Walk, error_bounds
 from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.balls import flint, working
 
 TIMES = [0.0, 0.3, 1.0]
 
@@ -125,6 +127,64 @@ def test_work_is_counted_and_more_of_it_goes_farther():
     many = tube(system, *system.example, np.linspace(0.0, 0.1, 2000), most_work=1e4)
     assert many.spent
     assert 100 < many.times.size < 1000
+
+
+def divides(field):
+    """An own system of x and y whose field divides by x."""
+    return System("divides", "Divides", "", (), ("x", "y"), (), 0, field, lambda y, p: {},
+                  lambda y, p: np.zeros(y[0].shape), lambda y, p, nu: (y, p), ((1.0, 0.0), ()))
+
+
+def test_a_divisor_that_vanishes_ahead_ends_a_tube_and_raises_nothing():
+    """ẋ = −1, ẏ = x (1/x): the Taylor series of x and y end after two terms, so nothing in them warns of x = 0."""
+    system = divides(lambda y, p: (-1 + 0 * y[0], y[0] * (1 / y[0])))
+    found = tube(system, (1.0, 0.0), (), [0.25, 0.5, 2.0], digits=9)
+    assert found.times.tolist() == [0.25, 0.5]
+    assert not found.complete
+    for t, (x, y) in zip(found.times, found.states, strict=True):
+        assert Fraction(1 - t) in x
+        assert Fraction(t) in y
+    # Where it vanishes at once there is no first step.
+    assert tube(system, (0.0, 0.0), (), [0.5], digits=15).states == ()
+
+
+def test_negative_powers_divide():
+    """ẋ = 1, ẏ = x⁻²: y = 1 − 1/(1 + t)."""
+    system = divides(lambda y, p: (1 + 0 * y[0], y[0] ** -2 * y[1] ** 0))
+    found = tube(system, (1.0, 0.0), (), [0.5, 1.0], digits=15)
+    assert found.complete
+    for t, (_, y) in zip((Fraction(1, 2), Fraction(1)), found.states, strict=True):
+        assert 1 - 1 / (1 + t) in y
+
+
+def test_steps_that_are_refused_cost_as_much_as_others(monkeypatch):
+    system, tried = systems()["hess"], []
+    radius = _Walk._radius
+
+    def refusing(self, along, length, sign):
+        """Every first try of a step is refused."""
+        tried.append(length)
+        return None if len(tried) % 2 else radius(self, along, length, sign)
+
+    monkeypatch.setattr(_Walk, "_radius", refusing)
+    with working(96):
+        walk = _Walk(system, list(system.example[0]), list(system.example[1]), np.ones(5), 96)
+        walk.through(np.array([50.0]), 1e-3, 20.5 * walk.cost)
+    assert len(tried) == 21
+    assert walk.spent
+    assert walk.steps == 10
+    assert tube(system, *system.example, [50.0], most_work=1e4).spent
+
+
+def test_sizes_whose_quotient_is_no_double_are_divided_in_balls():
+    """D⁻¹ f′ D for D = (3, 1): 1/3 is no double, and the bound of the growth has to be at least the true one."""
+    system = divides(lambda y, p: (y[1], 0 * y[0]))
+    with working(200):
+        walk = _Walk(system, [0.0, 0.0], [], np.array([3.0, 1.0]), 200)
+        rate = walk._rate([flint().arb(0), flint().arb(0)], 1)
+        # The symmetric part is ((0, 1/6), (1/6, 0)).
+        assert rate >= flint().arb(1) / 6
+        assert rate - flint().arb(1) / 6 < flint().arb(2) ** -45
 
 
 @pytest.mark.parametrize("digits", [40, 100])

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import oracle
-from hess_mechanics.errors import Separatrix
+from hess_mechanics.errors import InvalidParameter, Separatrix
 from hess_mechanics.euler_poisson import proved_manifold
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
 from hess_mechanics.euler_poisson.proved_manifold import cofactor, unsplit_separatrices
@@ -77,6 +77,8 @@ def test_nothing_is_claimed_where_there_are_no_cycles_or_no_invariant_manifold(m
     assert unsplit_separatrices("0.5", "0.2", "0.5") is None
     with pytest.raises(Separatrix):
         unsplit_separatrices("0.5", "1", "0")
+    with pytest.raises(InvalidParameter, match="no torus"):
+        unsplit_separatrices("3", "13/8", "15/8")
     found, claimed = cofactor(1)
     monkeypatch.setattr(proved_manifold, "cofactor", lambda sign: (found, claimed + (sign < 0)))
     assert unsplit_separatrices("0.5", "1.5", "0.6") is None

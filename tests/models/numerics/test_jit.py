@@ -166,8 +166,8 @@ from hess_mechanics import System
 
 def system(field):
     return System(name="same", title="same", source="a test", labels=(), variables=("x",), parameters=("a",),
-                  field=field, integrals=lambda y, p: {}, frequency=lambda y, p: 1.0, rescale=lambda y, p, nu: (y, p),
-                  example=((1.0,), (0.5,)))
+                  angular_velocities=0, field=field, integrals=lambda y, p: {}, frequency=lambda y, p: 1.0,
+                  rescale=lambda y, p, nu: (y, p), example=((1.0,), (0.5,)))
 
 both = {"grows": system(lambda y, p: (p[0] * y[0],)), "falls": system(lambda y, p: (-p[0] * y[0],))}
 found = {}

@@ -167,7 +167,8 @@ def pole(y, p):
 def system_of(field, variables, example):
     return System(
         name=field.__name__, title=field.__name__, source="a test", labels=(), variables=variables,
-        parameters=tuple(f"p{i}" for i in range(len(example[1]))), field=field, integrals=lambda y, p: {},
+        parameters=tuple(f"p{i}" for i in range(len(example[1]))), angular_velocities=0,
+        field=field, integrals=lambda y, p: {},
         frequency=lambda y, p: 1.0, rescale=lambda y, p, nu: (y.copy(), p.copy()), example=example)
 
 

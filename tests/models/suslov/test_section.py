@@ -15,7 +15,7 @@ from hess_mechanics import SuslovBody, solve
 from hess_mechanics.dynamics.lyapunov import largest_exponent
 from hess_mechanics.dynamics.section import Plane, section_points
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.numerics.accuracy import PRECISE, REFERENCE, STANDARD
+from hess_mechanics.numerics.accuracy import DRAFT, PRECISE, REFERENCE, STANDARD
 from hess_mechanics.suslov.basins import groups
 from hess_mechanics.suslov.equations import SYSTEM
 from hess_mechanics.suslov.section import (
@@ -29,6 +29,7 @@ from hess_mechanics.suslov.section import (
     states_at,
     suslov_points,
 )
+from support.suslov import divergence as divergence_of_field
 from support.suslov import energy, field, permanent_rotations
 
 BODY = SuslovBody(1.5, 3.0, 0.4, -0.7, -0.5, 0.6, 0.7)
@@ -311,21 +312,46 @@ def test_the_mean_divergence_of_a_sea_goes_to_zero():
 # ---- exponents ---------------------------------------------------------------------------------------------------
 
 
-def exponent(problem, span, start=(1.0, 1.0)):
+def exponents(problem, span, count=6):
+    """The mean of the largest exponent over an ensemble of orbits, and its standard error."""
     body, E = problem
-    return largest_exponent(SYSTEM, state_at(body, E, 3, *start), body.parameters, span).value
+    found = [largest_exponent(SYSTEM, state_at(body, E, 3, 1.0 + 1e-3 * k, 1.0), body.parameters, span).value
+             for k in range(count)]
+    return np.mean(found), np.std(found, ddof=1) / math.sqrt(count)
 
 
-def test_the_exponents_of_chaotic_examples_are_positive_and_hardly_depend_on_the_time():
+def test_the_exponents_of_chaotic_examples_are_positive_and_do_not_depend_on_the_time():
     for problem in (SEA, STRANGE):
-        shorter, longer = exponent(problem, 5000.0), exponent(problem, 10_000.0)
-        assert shorter > 0.05
-        assert longer == pytest.approx(shorter, rel=0.05)
+        (shorter, off), (longer, less) = exponents(problem, 2500.0), exponents(problem, 5000.0)
+        assert shorter > 0.05 + 3.0 * off
+        assert abs(longer - shorter) < 5.0 * math.hypot(off, less)
+
+
+@pytest.mark.parametrize(("problem", "forward", "backward", "count"), [
+    (SEA, -0.00046, 0.00045, 16),
+    ((SuslovBody(1.5, 1.7, 0.1, -0.3, -1.7, 1.0, 2.0), 1.9 - math.sqrt(1.7**2 + 1.0 + 4.0)), -0.0069, 0.0064, 8),
+], ids=["suslov", "orbit-diagram"])
+def test_the_chaotic_seas_of_the_scenes_keep_no_volume(problem, forward, backward, count):
+    # Of an ensemble, not of one orbit: the mean over pieces of 2000, and its error from how much they differ.
+    body, E = problem
+    slopes = np.array([divergence_of_field(body, one) for one in np.eye(5)])
+    place = (1.0, 1.0) if problem is SEA else (-1.0063, 1.1872)
+    for expected, sense in ((forward, 1.0), (backward, -1.0)):
+        pieces = []
+        for k in range(count):
+            state = state_at(body, E, 3, place[0] + 1e-3 * k, place[1])
+            for _ in range(10):
+                states = solve(SYSTEM, state, body.parameters, sense * np.linspace(0.0, 2000.0, 40_001), DRAFT).states
+                pieces.append(float(np.mean(states[1:] @ slopes)))
+                state = tuple(states[-1])
+        mean, error = np.mean(pieces), np.std(pieces, ddof=1) / math.sqrt(len(pieces))
+        assert abs(mean) > 4.0 * error
+        assert mean == pytest.approx(expected, abs=5.0 * error)
 
 
 def test_a_periodic_attractor_has_no_positive_exponent():
-    assert abs(exponent(CYCLE, 2000.0)) < 2e-3
-    assert exponent(CYCLE, 4000.0) <= 1e-3
+    assert abs(exponents(CYCLE, 2000.0)[0]) < 2e-3
+    assert exponents(CYCLE, 4000.0)[0] <= 1e-3
 
 
 # ---- basins ------------------------------------------------------------------------------------------------------

@@ -12,7 +12,7 @@ import pytest
 from scipy.integrate import quad
 
 import oracle
-from hess_mechanics import circle_map, curve_point, f_max, level, lock_boundary, prove, turning_points
+from hess_mechanics import EdgeProof, circle_map, curve_point, f_max, level, lock_boundary, prove, turning_points
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.numerics.balls import working
 from hess_mechanics.suslov_hess.lock_zone import (
@@ -112,6 +112,20 @@ def test_on_the_edge_the_half_map_is_that_of_its_closed_form():
         trace = abs(2 * mpmath.re(held.A))
     assert abs(2 + 4 * float(found[1].low) * float(found[2].low)) == pytest.approx(float(trace), abs=1e-4)
     assert found[1].width < Fraction(1, 10**4)
+
+
+@pytest.mark.parametrize(("a", "statement", "circle"), [("3", "two cycles", "two equilibria"),
+                                                       ("0.1", "no cycle", "periodic orbit")])
+def test_a_cell_across_the_edge_speaks_of_tori_and_the_circle_there_has_its_own_statement(a, statement, circle):
+    """h = 13/8, f = 15/8 has the double root n3 = 1/4, so α = β = 15/4."""
+    zone = lock_zone(a, 4.0, 60)
+    cell, = (cell for cell in zone.cells if (3.75, 3.75) in cell)
+    assert cell.statement == statement
+    on_it = prove(a, "13/8", "15/8")
+    assert isinstance(on_it, EdgeProof)
+    assert on_it.statement == circle
+    assert on_it.n == Fraction(1, 4)
+    assert prove(a, "13/8", Fraction(15, 8) - Fraction(1, 10**30)).statement == statement
 
 
 def test_what_is_proved_of_cells_holds_for_tori_in_them(zones):

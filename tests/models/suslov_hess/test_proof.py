@@ -4,20 +4,23 @@ from __future__ import annotations
 
 import json
 import random
+import re
+import subprocess
 import sys
 from fractions import Fraction
 
 import mpmath
 import pytest
+from mpmath import iv
 
 import oracle
 from check_certificate import Refused, verify
-from hess_mechanics import certificate, circle_map, curve_point, f_max, level, prove
+from hess_mechanics import EdgeProof, certificate, circle_map, curve_point, f_max, level, prove
 from hess_mechanics.errors import InvalidParameter, MissingLibrary, OutsideRegion, Separatrix, WorkLimit
 from hess_mechanics.numerics.balls import Enclosure, exact
 from hess_mechanics.suslov_hess.certificate import claim
 from oracle.kept import KEPT
-from support.mechanics import REFERENCE
+from support.mechanics import REFERENCE, ROOT
 
 STATEMENTS = {True: "two cycles", False: "no cycle"}
 
@@ -113,20 +116,6 @@ def test_a_pendulum_that_goes_round_has_the_trace_of_its_closed_form(a):
     assert proof.statement == ("undecided" if a == "0" else "two cycles")
 
 
-@pytest.mark.parametrize(("n", "root"), [(Fraction(1, 4), Fraction(1, 2)), (Fraction(1, 9), Fraction(1, 3)),
-                                         (Fraction(64, 100), Fraction(8, 10))])
-@pytest.mark.parametrize("a", ["0.5", "1.5"])
-def test_on_the_edge_exactly_the_trace_is_that_of_its_closed_form(a, n, root):
-    """h = (1 − 3n²)/2n and f = (1 − n²)/√n are rational here; two equal roots, found as such."""
-    proof = prove(a, (1 - 3 * n * n) / (2 * n), (1 - n * n) / root, 128)
-    with mpmath.workdps(60):
-        held = oracle.circle_maps.map_on_the_curve(mpmath.mpf(a), mpmath.mpf(n.numerator) / n.denominator)
-        assert rational(abs(2 * mpmath.re(held.A))) in proof.trace
-    assert proof.roots[1] == proof.roots[2] == Enclosure(n, n)
-    if n == Fraction(1, 9):
-        verify(certificate(prove(a, proof.h, proof.f, 64)))
-
-
 def test_signs_of_a_and_f_change_nothing_but_senses():
     one = prove("0.7", "1.2", "0.4")
     for a, f, side, turn in (("-0.7", "0.4", -1, 1), ("0.7", "-0.4", 1, -1)):
@@ -174,15 +163,19 @@ def test_what_cannot_be_proved_is_refused_with_a_sentence(torus, error, words):
         prove(*torus)
 
 
-def test_the_edge_is_decided_exactly():
-    """Beyond the edge by 1e-60, where no double can tell, nothing moves; before it, there is a torus."""
+def test_the_edge_is_told_exactly_from_both_sides():
+    """Beyond the edge by 1e-60, where no double can tell, nothing moves; before it a torus; on it a circle."""
     h, f = Fraction(13, 8), Fraction(15, 8)
     assert (float(h), float(f)) == pytest.approx(curve_point(0.25), abs=1e-15)
     assert f_max(float(h)) == pytest.approx(float(f), abs=1e-15)
     tiny = Fraction(1, 10**60)
     with pytest.raises(OutsideRegion, match="exactly"):
         prove("0.5", h, f + tiny)
-    assert prove("0.5", h, f - tiny).statement == prove("0.5", h, f).statement == "two cycles"
+    assert prove("0.5", h, f - tiny).statement == "two cycles"
+    on_it = prove("0.5", h, f)
+    assert isinstance(on_it, EdgeProof)
+    assert on_it.statement == "two equilibria"
+    assert "no torus and no limit cycle" in claim(on_it)
 
 
 def test_where_the_trace_is_2_nothing_is_claimed():
@@ -259,6 +252,90 @@ def test_a_certificate_with_a_change_is_refused(path, change):
     changed(found, path, change)
     with pytest.raises(Refused):
         verify(found)
+
+
+FORGED = [
+    ("no roots", LOCKED, {"roots": None}, "only for f = 0, h < 1 is the map a limit"),
+    ("roots is missing", LOCKED, {"roots": ...}, "roots is missing"),
+    ("another format", LOCKED, {"format": "Suslov–Hess torus, 9"}, "the format is neither"),
+    ("no format", LOCKED, {"format": ...}, "format is missing"),
+    ("the format of the edge", LOCKED, {"format": "Suslov–Hess edge, 1"}, "n is missing"),
+    ("no steps", LOCKED, {"steps": []}, "there are no steps"),
+    ("steps is no list", LOCKED, {"steps": {"0": 1}}, "steps is not of its kind"),
+    ("a step is no step", LOCKED, {"steps": [7]}, "start is missing"),
+    ("undecided over two cycles", LOCKED, {"statement": "undecided", "fixed_points": [], "multipliers": [],
+                                           "rotation_number": None}, "undecided is not what the steps prove"),
+    ("undecided over no cycle", TURNING, {"statement": "undecided", "rotation_number": None,
+                                          "trace": ["0", "3"], "trace_ball": ["0", "3"]},
+     "undecided is not what the steps prove: no cycle"),
+    ("no rotation number", TURNING, {"rotation_number": None}, "rotation_number is not of its kind"),
+    ("one fixed point", LOCKED, {"fixed_points": [["0", "1"]]}, "1 entries instead of 2"),
+    ("fixed points of a rotation", TURNING, {"fixed_points": [["0", "1"]]}, "1 entries instead of 0"),
+    ("no bits", LOCKED, {"bits": ...}, "bits is missing"),
+    ("bits of another kind", LOCKED, {"bits": True}, "bits is not of its kind"),
+    ("negative bits", LOCKED, {"bits": -5}, "bits is not between"),
+    ("a number that is none", LOCKED, {"a": 0.5}, "a is not of its kind"),
+    ("a huge exponent", LOCKED, {"a": "1e999999999"}, "a is no number"),
+    ("a fraction over 0", LOCKED, {"h": "1/0"}, "h is no number"),
+    ("a trace that is exchanged", TURNING, {"trace": ["2", "0"]}, "exchanged"),
+    ("a limit with cycles", ("0.3", "0.2", "0"), {"fixed_points": [["0", "1"]]}, "1 entries instead of 0"),
+    ("a limit with another trace", ("0.3", "0.2", "0"), {"trace_ball": ["0", "1"]}, "trace_ball is 0"),
+    ("a limit with steps", ("0.3", "0.2", "0"), {"steps": [1]}, "there are no steps"),
+    ("a torus on the edge", LOCKED, {"a": "1/2", "h": "13/8", "f": "15/8"}, "a root is not isolated"),
+    ("the edge is no torus", ("0.5", "13/8", "15/8"), {"format": "Suslov–Hess torus, 1", "statement": "two cycles"},
+     "roots is missing"),
+    ("the other statement of the edge", ("0.5", "13/8", "15/8"), {"statement": "periodic orbit"},
+     "not what the circle does"),
+    ("another n", ("0.5", "13/8", "15/8"), {"n": "1/3"}, "not on the edge"),
+    ("a period that is none", ("0.5", "13/8", "15/8"), {"period": ["1", "2"]}, "no period"),
+    ("another period", ("0.1", "13/8", "15/8"), {"period": ["1", "2"]}, "the period is not enclosed"),
+    ("equilibria exchanged", ("0.5", "13/8", "15/8"), lambda found: {"fixed_points": found["fixed_points"][::-1]},
+     "wrong side"),
+    ("rates exchanged", ("0.5", "13/8", "15/8"), lambda found: {"rates": found["rates"][::-1]}, "a rate is not"),
+    ("an equilibrium moved", ("0.5", "13/8", "-15/8"), lambda found: {
+        "fixed_points": [pair(found["fixed_points"][0]), found["fixed_points"][1]]}, "an equilibrium is not"),
+]
+
+
+@pytest.mark.parametrize(("torus", "change", "words"), [row[1:] for row in FORGED], ids=[row[0] for row in FORGED])
+def test_a_forged_certificate_is_refused_with_a_sentence(torus, change, words):
+    found = certified(torus)
+    verify(found)
+    for name, value in (change(found) if callable(change) else change).items():
+        found.pop(name, None)
+        if value is not ...:
+            found[name] = value
+    with pytest.raises(Refused, match=re.escape(words)):
+        verify(found)
+
+
+@pytest.mark.parametrize("found", [None, [], "two cycles", 7, {}])
+def test_what_is_no_certificate_is_refused(found):
+    with pytest.raises(Refused, match="format is missing"):
+        verify(found)
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", "{}", '{"format": 1}'])
+def test_the_checker_says_in_a_sentence_what_it_refuses(text, tmp_path):
+    path = tmp_path / "certificate.json"
+    path.write_text(text)
+    for checker in ("check_certificate.py", "check_zone.py"):
+        words = [sys.executable, ROOT / "tests" / checker, path]
+        run = subprocess.run(words, capture_output=True, text=True, check=False)
+        assert run.returncode == 1
+        assert re.fullmatch(r"refused: .+\n", run.stderr)
+        assert run.stdout == ""
+
+
+def test_the_precision_of_a_check_does_not_depend_on_checks_before_it():
+    """The steps are kept from one check to the next; the numbers after them need the precision of this certificate."""
+    found = certified(LOCKED)
+    before = iv.prec
+    for _ in range(2):
+        iv.prec = 8
+        verify(found)
+        assert iv.prec == 8
+    iv.prec = before
 
 
 def test_a_rotation_number_that_was_changed_is_refused():

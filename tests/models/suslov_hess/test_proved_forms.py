@@ -37,14 +37,17 @@ def test_the_period_is_that_of_a_quadrature():
 @pytest.mark.parametrize(("n", "root"), [(Fraction(1, 4), Fraction(1, 2)), (Fraction(1, 9), Fraction(1, 3)),
                                          (Fraction(81, 100), Fraction(9, 10))])
 @pytest.mark.parametrize("a", ["0.5", "-1.5"])
-def test_the_trace_on_the_edge_is_that_of_taylor_steps(a, n, root):
-    """Where h and f of the edge are rational both are proved, by different means: so the intervals meet."""
+def test_the_trace_on_the_edge_is_the_limit_of_the_traces_of_tori(a, n, root):
+    """Both are proved, by different means; next to the edge |t| is off by as much as (h, f) is."""
     found = proved_trace_on_curve(a, n)
-    proof = prove(a, (1 - 3 * n * n) / (2 * n), (1 - n * n) / root, 256)
-    size = (min(abs(found.low), abs(found.high)), max(abs(found.low), abs(found.high)))
-    assert size[0] <= proof.trace.high
-    assert proof.trace.low <= size[1]
+    proof = prove(a, (1 - 3 * n * n) / (2 * n), (1 - n * n) / root - Fraction(1, 10**30), digits=28)
+    assert abs(abs(found.low) - proof.trace.low) < max(1, abs(found.low)) * Fraction(1, 10**27)
     assert found.precision < 1e-29
+
+
+def test_on_the_edge_n3_has_no_period():
+    with pytest.raises(InvalidParameter, match="n3 is constant and has no period"):
+        proved_torus_period("13/8", "15/8")
 
 
 def test_what_has_no_closed_form_is_refused():

@@ -11,7 +11,6 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from hess_explorer.compute.cache import CACHE
 from hess_explorer.protocol.parameters import Values, places, written
 from hess_explorer.scenes.framework.continued import Continued
 from hess_explorer.scenes.framework.one_orbit import Start
@@ -28,7 +27,7 @@ from hess_mechanics.dynamics.orbit_diagram import Cascade
 from hess_mechanics.dynamics.parameter_diagram import AtState, Sets, at_state, sets_of
 from hess_mechanics.dynamics.return_map import Sheet
 from hess_mechanics.errors import OutsideRegion
-from hess_mechanics.numerics.accuracy import Kind, Level
+from hess_mechanics.numerics.accuracy import Kind
 from hess_mechanics.numerics.results import Array, Section, frozen
 from hess_mechanics.rigid_body.inertia import check_body
 from hess_mechanics.rigid_body.reversal import rate, reversals
@@ -116,7 +115,7 @@ class Attracted(Continued):
         if self.dragging:
             return None
         t = self.plan(Kind.EXPONENT).share * self.long
-        return self.work.later(_at_state, self.section, self.place, 500, 1500, t, self.plan(Kind.SECTION).level)
+        return self.work.later(at_state, self.section, self.place, 500, 1500, t, self.plan(Kind.SECTION).level)
 
     @cached_property
     def turned(self) -> Section:
@@ -140,13 +139,18 @@ class Attracted(Continued):
         found = self.kind
         if found is None:
             return self.awaited()
-        kind = found.regime.kind.words if not found.regime.period else f"period {found.regime.period}"
+        motion = found.regime
+        kind = f"period {motion.period}" if motion.period else motion.kind.words
         if found.dynamics is None:
-            return f"The motion: {kind}. Attractor and repeller are not told apart here."
-        apart = found.dynamics.apart
-        return (f"Motion: {kind}, div = {digits(found.regime.divergence, 2)} ± "
-                f"{digits(found.regime.divergence_error, 1)}. Seen: {found.dynamics.verdict}, "
-                f"{digits(apart.distance, 2)} ± {digits(max(apart.error, apart.grain), 1)} apart.")
+            return f"Motion: {kind}. Attractor and repeller: not compared, as the orbit leaves."
+        if found.dynamics.verdict == "not told apart":
+            return (f"Motion: {kind}. Attractor and repeller: not told apart.\n"
+                    f"|mean div| < {digits(motion.bound, 1)}")
+        if motion.volume_kept:
+            return f"Motion: {kind}. Conservative: volume is kept."
+        return (f"Motion: {kind}. Looks {found.dynamics.verdict}.\n"
+                f"div = {digits(motion.divergence, 2)} ± {digits(motion.divergence_error, 1)}, sets "
+                f"{digits(found.dynamics.distance, 2)} ± {digits(found.dynamics.distance_error, 1)} apart")
 
     def _about_turning(self) -> str:
         times = self.turned.times
@@ -170,13 +174,6 @@ class Attracted(Continued):
         yield f"chosen: ψ = {digits(self.place[0])}, δ = {digits(self.place[1])}"
         yield from super().derived()
         yield check_body(*self._scene.body.parameters[:4]).sentence
-
-
-def _at_state(section: _Equator, place: tuple[float, float], transient: int, kept: int, t: float, level: Level
-              ) -> AtState:
-    """`at_state` of the sets that the picture shows, which are computed once."""
-    sets = CACHE.get(sets_of, section, place, transient, kept, level)[0]
-    return at_state(section, place, sets, transient, kept, t, level)
 
 
 def _of(sets: Sets | None, which: str) -> Array:

@@ -22,7 +22,9 @@ from hess_mechanics.euler_poisson.hess_isomorphism import Bridge, largest_area_i
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.balls import Enclosure, exact
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, f_max, turning_points
+from hess_mechanics.suslov_hess.certificate import claim
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
+from hess_mechanics.suslov_hess.edge import TWO_EQUILIBRIA, EdgeProof
 from hess_mechanics.suslov_hess.equations import SYSTEM, HessBody
 from hess_mechanics.suslov_hess.proof import NO_CYCLE, TWO_CYCLES, Proof, prove
 from hess_mechanics.suslov_hess.torus import Track, cycles
@@ -95,6 +97,9 @@ def proved(I22: float, I23: float, h: float, f: float) -> Proved:
         found = prove(exact("I23", I23) / exact("I22", I22), h, f, _MOST_BITS, _MOST_WORK)
     except ModelError as error:
         return Proved("Not proved.", f"Not proved: {error}")
+    if isinstance(found, EdgeProof):
+        moves = "two equilibria" if found.statement == TWO_EQUILIBRIA else "one periodic orbit"
+        return Proved(f"Proved: no torus, but a circle with n₃ constant: {moves}.", claim(found))
     if found.statement == NO_CYCLE:
         # To as many digits as show that it is less than 2.
         least = next(count for count in itertools.count(4) if Fraction(found.trace.decimals(count)[1]) < 2)

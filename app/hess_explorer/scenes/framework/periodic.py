@@ -35,7 +35,7 @@ from hess_explorer.views.text import conjugates, digits, power
 from hess_mechanics.dynamics.manifolds import Crossing, Manifold
 from hess_mechanics.dynamics.periodic import PeriodicOrbit
 from hess_mechanics.dynamics.return_map import ReturnMap, Sheet
-from hess_mechanics.numerics.accuracy import PRECISE
+from hess_mechanics.numerics.accuracy import PRECISE, Status
 
 __all__ = ["NONE", "PeriodicOrbits", "layers", "length_of_manifolds", "plain", "which"]
 
@@ -256,6 +256,9 @@ class PeriodicOrbits(OneOrbit):
             yield self._result.reason
         reasons = {_ended(one) for one in self._branches or ()} - {AT_ITS_LENGTH}
         yield from (f"A branch of a manifold ends early. {reason}" for reason in sorted(reasons))
+        if any(one.status is not Status.OK for one in self.manifolds):
+            yield ("The manifolds are less exact than their picture: choose a shorter length of manifolds, or a higher "
+                   "accuracy.")
         apart = sum(not one.certain for some in self._met or () for one in some)
         if apart:
             yield (f"At {apart} more place{'s' * (apart > 1)} the manifolds meet within their error: whether they "

@@ -18,12 +18,13 @@ from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.shadowing import HALF_A_PIXEL, errors_in_pixels, torn_away
 from hess_mechanics.dynamics.trade import Sample, measure, measure_until
 from hess_mechanics.dynamics.work_precision import longest_span
+from hess_mechanics.dynamics.work_precision import truth as exactly
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.accuracy import LEVELS, PLANS, STANDARD, Kind, Plan
 from hess_mechanics.numerics.results import Array
 
 if TYPE_CHECKING:
-    from hess_explorer.scenes.framework.scene import State
+    from hess_explorer.scenes.framework.scene import Motion, State
 
 __all__ = [
     "Refused", "Trial", "bare", "colour_error", "curve_error", "differing", "measured", "needed", "next_level",
@@ -134,18 +135,23 @@ def differing(trial: Trial[S], state: S, name: str, finer: str) -> Difference | 
     return _unless_refused(found)
 
 
+def _measured_span(motion: Motion) -> float:
+    return min(motion.span, longest_span(*motion.named[:3]))
+
+
 def _orbit(state: State, plan: Plan) -> Array:
     motion = state.motion()
     assert motion is not None, "only scenes with a motion have this trial"
-    span = min(motion.span, longest_span(*motion.named[:3]))
-    times = np.linspace(0.0, span, _SAMPLES)
+    times = np.linspace(0.0, _measured_span(motion), _SAMPLES)
     return solve(motion.system, motion.state, motion.parameters, times, plan.level).states
 
 
-def _orbit_error(state: State, states: Array, truth: Array) -> float:
+def _orbit_error(state: State, states: Array, truth: object) -> float:
     motion = state.motion()
     assert motion is not None
-    away, first = np.abs(states - truth) * np.asarray(motion.weights), motion.system.angular_velocities
+    # With more digits than a run of any level has.
+    exact = exactly(*motion.named[:3], _measured_span(motion), _SAMPLES)
+    away, first = exact.away(states) * np.asarray(motion.weights), motion.system.angular_velocities
     return float(max(np.linalg.norm(part, axis=1).max() for part in (away[:, :first], away[:, first:])))
 
 

@@ -1,0 +1,74 @@
+"""One orbit with twice the digits of a double: what errors of the levels are measured against."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from hess_mechanics.dynamics.orbit import checked_times, require_finite_states
+from hess_mechanics.dynamics.system import Problem, System
+from hess_mechanics.errors import WorkLimit
+from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.results import Array, Complex, frozen
+from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
+
+__all__ = ["Doubled", "doubled"]
+
+_MOST_STEPS = 100_000
+_AT_ONCE = 20
+"""Times between which nobody is asked whether to go on."""
+
+
+@dataclass(frozen=True)
+class Doubled:
+    """An orbit with 31 digits, of which an unstable motion loses some.
+
+    times : (n,); pairs : (n, d), the states, each number as high + i low; scale : (d,), units in which states are O(1).
+    """
+
+    times: Array
+    pairs: Complex
+    scale: Array
+
+    @property
+    def states(self) -> Array:
+        """The states (n, d), rounded to doubles."""
+        return frozen(self.pairs.real.copy())
+
+    def away(self, states: Array) -> Array:
+        """Return |states − truth| (n, d) of computed states (n, d), without rounding the truth first."""
+        return np.abs((states - self.pairs.real) - self.pairs.imag)
+
+
+def doubled(system: System, state: Sequence[float] | Array, parameters: Sequence[float],
+            times: Sequence[float] | Array) -> Doubled:
+    """Return the orbit from just this `state` (d,), with just these parameters, at times (n,) monotonic from 0.
+
+    A Taylor series of order 36 in pairs of doubles (`numerics.doubled_kernels`), of some 40 µs for each step.
+    Nothing is rescaled by numbers that would round it.  Raises `InvalidParameter`, `WorkLimit`.
+
+    >>> from hess_mechanics import level, solve, systems
+    >>> from hess_mechanics.dynamics.doubled import doubled
+    >>> suslov = systems()["suslov"]
+    >>> orbit = solve(suslov, *suslov.example, [0.0, 1.0, 2.0], level("precise"))
+    >>> bool(doubled(suslov, *suslov.example, orbit.times).away(orbit.states).max() < orbit.error_estimate)
+    True
+    """
+    t = checked_times(times)
+    problem = Problem.of(system, [state], parameters)
+    unit = math.ldexp(1.0, -round(math.log2(problem.nu)))
+    p = np.asarray(parameters, complex)
+    out = np.empty((t.size, problem.scale.size), complex)
+    here, start, left = np.array(state, complex), 0.0, _MOST_STEPS
+    for first in range(0, t.size, _AT_ONCE):
+        go_on()
+        part = slice(first, first + _AT_ONCE)
+        steps = system.doubled(here, start, p, problem.scale, unit, t[part], left, out[part])
+        if steps == STEP_LIMIT_REACHED:
+            raise WorkLimit(f"This time span needs more than {_MOST_STEPS} steps with 31 digits: choose a shorter one.")
+        require_finite_states(out[part].real)
+        here, start, left = out[part][-1].copy(), float(t[part][-1]), left - steps
+    return Doubled(frozen(t), frozen(out), frozen(problem.scale))

@@ -1,0 +1,210 @@
+# mypy: allow-untyped-defs
+"""Taylor series with twice the digits of a double, from the same traced fields: the truth that errors are measured by.
+
+A number is the sum of two doubles, high + low, |low| at most half a unit in the last place of high, and has 31 digits;
+a complex number carries the pair, so that arrays, tuples and assignments stay as they are.  Its arithmetic is that of
+Dekker (1971) and Knuth (The Art of Computer Programming 2, 4.2.2).  In the source of a `Recursion` every operation is
+replaced by a call of it.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from hess_mechanics.numerics.jit import as_written, part
+from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED, step_size
+from hess_mechanics.numerics.tracing import Recursion
+from hess_mechanics.numerics.unrolled import compiled, items
+
+__all__ = ["ORDER", "TOLERANCE", "doubled_integrator"]
+
+ORDER, TOLERANCE = 36, 1e-31
+"""Of its series, where the state is O(1)."""
+
+_SPLITTER = 134217729.0
+"""2^27 + 1: splits a double into two halves, whose products are exact."""
+
+
+@as_written
+def add(a, b):
+    """a + b, to 31 digits of the larger one."""
+    total = a.real + b.real
+    part_of_b = total - a.real
+    low = (a.real - (total - part_of_b)) + (b.real - part_of_b)
+    low += a.imag + b.imag
+    high = total + low
+    return complex(high, low - (high - total))
+
+
+@as_written
+def subtract(a, b):
+    """a − b."""
+    return add(a, -b)
+
+
+@as_written
+def multiply(a, b):
+    """a · b."""
+    product = a.real * b.real
+    scaled = _SPLITTER * a.real
+    a_high = scaled - (scaled - a.real)
+    a_low = a.real - a_high
+    scaled = _SPLITTER * b.real
+    b_high = scaled - (scaled - b.real)
+    b_low = b.real - b_high
+    low = ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low
+    low += a.real * b.imag + a.imag * b.real
+    high = product + low
+    return complex(high, low - (high - product))
+
+
+@as_written
+def divide(a, b):
+    """a/b, by long division."""
+    first = complex(a.real / b.real, 0.0)
+    left = subtract(a, multiply(first, b))
+    second = complex(left.real / b.real, 0.0)
+    left = subtract(left, multiply(second, b))
+    return add(add(first, second), complex(left.real / b.real, 0.0))
+
+
+_OPERATIONS = {ast.Add: "add", ast.Sub: "subtract", ast.Mult: "multiply", ast.Div: "divide"}
+_NAMES = {"add": add, "subtract": subtract, "multiply": multiply, "divide": divide}
+
+
+class _Doubled(ast.NodeTransformer):
+    """Calls in the place of operations, pairs in the place of numbers; indices stay as they are."""
+
+    def visit_Subscript(self, node: ast.Subscript) -> ast.AST:
+        return node
+
+    def visit_Constant(self, node: ast.Constant) -> ast.AST:
+        return _call("complex", node, ast.Constant(0.0))
+
+    def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
+        left, right = self.visit(node.left), self.visit(node.right)
+        if any(isinstance(side, ast.Tuple) for side in (left, right)):
+            # A long tuple is a sum of short ones.
+            return ast.BinOp(left, node.op, right)
+        return _call(_OPERATIONS[type(node.op)], left, right)
+
+
+def _call(name: str, *arguments: ast.expr) -> ast.Call:
+    return ast.Call(ast.Name(name, ast.Load()), [*arguments], [])
+
+
+@cache
+def _expansion(recursion: Recursion) -> Callable[..., Any]:
+    """expand(c, p, steps): from the state in c[0] the coefficients c[1 … order, series]; steps[k] = unit of time/(k+1).
+
+    Auxiliary series that are not known yet are 0, so that products lack just what they have to.
+    """
+    tree = ast.fix_missing_locations(_Doubled().visit(ast.parse(recursion.source)))
+    functions = compiled(compile(tree, "<doubled>", "exec"), **_NAMES)
+    n, known, pairs = recursion.variables, recursion.known, recursion.pairs
+    y, q = items(f"c[k, {i}]" for i in range(known[-1])), items(f"q[{j}]" for j in range(len(pairs)))
+    stages = "".join(f"""
+        ends(c, inner, k, q)
+        found = stage{i}(({y}), ({q}), p, one)
+        {"; ".join(f"c[k, {known[i] + j}] = found[{j}]" for j in range(count))}"""
+                     for i, count in enumerate(recursion.stages))
+    left, right = (np.array([pair[side] for pair in pairs], int) for side in (0, 1))
+
+    @part
+    def inside(c, k, inner):
+        for j in range(left.size):
+            inner[j] = 0.0
+        # Products inside: none waits for the sum of another.
+        for m in range(1, k):
+            for j in range(left.size):
+                inner[j] = add(inner[j], multiply(c[m, left[j]], c[k - m, right[j]]))
+
+    @part
+    def ends(c, inner, k, q):
+        for j in range(left.size):
+            q[j] = add(inner[j], multiply(c[0, left[j]], c[k, right[j]]))
+            if k > 0:
+                q[j] = add(q[j], multiply(c[k, left[j]], c[0, right[j]]))
+
+    return compiled(f"""
+def expand(c, p, steps, inner, q):
+    {f"k = 0; p = p + constants(({y}), p)" if recursion.constants else "pass"}
+    for k in range(steps.size):
+        {"; ".join(f"c[k, {i}] = 0.0" for i in range(n, known[-1])) or "pass"}
+        one = complex(1.0, 0.0) if k == 0 else complex(0.0, 0.0)
+        inside(c, k, inner){stages}
+        ends(c, inner, k, q)
+        found = rates(({y}), ({q}), p, one)
+        {"; ".join(f"c[k + 1, {i}] = multiply(found[{i}], steps[k])" for i in range(n))}
+""", inside=inside, ends=ends, **_NAMES, **functions)["expand"]
+
+
+def doubled_integrator(recursion: Recursion) -> Callable[..., Any]:
+    """The compiled solver of ẏ = f(y, p) with 31 digits.
+
+    integrate(state, start, parameters, scale, unit, times, max_steps, out): from the state (d,) at the time `start`,
+    writes the states at the times (n,), which run on from there, into `out` (n, d).  Times are doubles, states and
+    parameters pairs.  unit : of time, a power of two, in which the motion is O(1); scale : (d,), of the state.
+    Returns the number of steps, or `STEP_LIMIT_REACHED`.
+    """
+    n, parameters_count = recursion.variables, recursion.parameters
+    expand = _expansion(recursion)
+    packed = compiled(f"""
+def packed(parameters):
+    return ({items(f"parameters[{i}]" for i in range(parameters_count))})
+""")["packed"]
+    series = recursion.known[-1]
+    products = len(recursion.pairs)
+
+    @part
+    def evaluate(c, s, out):
+        for i in range(n):
+            total = complex(0.0, 0.0)
+            for k in range(ORDER, 0, -1):
+                total = multiply(add(total, c[k, i]), s)
+            out[i] = add(c[0, i], total)
+
+    @part
+    def integrate(state, start, parameters, scale, unit, times, max_steps, out):
+        c = np.zeros((ORDER + 1, series), np.complex128)
+        inner, q = np.zeros(products, np.complex128), np.zeros(products, np.complex128)
+        steps = np.zeros(ORDER, np.complex128)
+        for k in range(ORDER):
+            steps[k] = divide(complex(unit, 0.0), complex(k + 1.0, 0.0))
+        p = packed(parameters)
+        y = state.copy()
+        t = complex(start, 0.0)
+        direction = 1.0 if times[times.size - 1] >= start else -1.0
+        j = 0
+        taken = 0
+        while True:
+            for i in range(n):
+                c[0, i] = y[i]
+            expand(c, p, steps, inner, q)
+            last = 0.0
+            previous = 0.0
+            for i in range(n):
+                last = max(last, abs(c[ORDER, i].real) / scale[i])
+                previous = max(previous, abs(c[ORDER - 1, i].real) / scale[i])
+            h = step_size(last, previous, ORDER, TOLERANCE)
+            taken += 1
+            while j < times.size:
+                left = add(complex(times[j], 0.0), -t)
+                s = complex(left.real / unit, left.imag / unit)
+                if direction * s.real > h:
+                    break
+                evaluate(c, s, out[j])
+                j += 1
+            if j == times.size:
+                return taken
+            if taken >= max_steps or not h > 0.0:
+                return STEP_LIMIT_REACHED
+            evaluate(c, complex(direction * h, 0.0), y)
+            t = add(t, complex(direction * h * unit, 0.0))
+
+    return integrate

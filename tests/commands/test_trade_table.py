@@ -1,0 +1,87 @@
+"""`hess-explorer bench --trade`: every scene runs, no row is lost, and one table says what a level costs."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from hess_explorer.__main__ import main
+from hess_explorer.benchmark import trade as trade_of_scenes
+from hess_explorer.benchmark.trade import Row, _draft_computes, _example, by_kind, names
+from hess_explorer.scenes import scenes
+from hess_mechanics import LEVELS
+from hess_mechanics.dynamics.trade import Sample
+from hess_mechanics.numerics.accuracy import Kind
+from support.mechanics import ROOT
+
+
+@pytest.mark.parametrize("name", names())
+def test_every_computation_of_every_scene_is_shown_by_some_state(name):
+    """Of the Suslov problem the indicator was shown by none of the presets, and all rows were lost."""
+    scene = scenes()[name]
+    for trial in scene.trials:
+        assert trial.shown(_example(scene, trial)), trial.kind
+
+
+def test_a_computation_that_no_state_shows_is_said_and_the_others_stay(monkeypatch, capsys):
+    scene = scenes()["kharlamova"]
+    hidden = replace(scene.trials[0], kind=Kind.SECTION, shown=lambda state: False)
+    monkeypatch.setattr(type(scene), "trials", (hidden, *scene.trials))
+    assert main(["bench", "--trade", "--quick", "--scenes", "kharlamova"]) == 2
+    said = capsys.readouterr()
+    lines = said.out.splitlines()
+    assert lines[2].startswith("| kharlamova | section | – | – | – | – | – | – | No example of the scene kharlamova")
+    assert lines[3].startswith("| kharlamova | orbit | ")
+    assert lines[-1].startswith("| orbit | as much | ")
+    assert said.err.splitlines()[-1].startswith("hess-explorer: kharlamova: section could not be measured (No example")
+
+
+def test_rows_are_printed_as_they_come(monkeypatch, capsys):
+    def broken(name, scene, trial, repeats):
+        if name == "quartic":
+            raise RuntimeError("a fault of the program")
+        return row(name, str(trial.kind))
+
+    monkeypatch.setattr(trade_of_scenes, "_row", broken)
+    with pytest.raises(RuntimeError, match="a fault of the program"):
+        main(["bench", "--trade", "--scenes", "kharlamova,quartic"])
+    assert "| kharlamova | orbit | 1 ms, 0.1 |" in capsys.readouterr().out
+
+
+def row(scene, kind, times=(1.0, 2.0, 3.0, 4.0), errors=(0.1, 0.01, 0.001, 0.0)):
+    return Row(scene, kind, "pixels", tuple(Sample(name, ms, error, True) for name, ms, error in zip(
+        LEVELS, times, errors, strict=True)), "standard")
+
+
+def test_the_table_by_kind_has_the_least_and_most_ratio_and_the_largest_error():
+    table = by_kind([row("a", "section", (1.0, 2.0, 3.0, 20.0), (0.1, 0.5, 0.001, 0.0)), row("b", "orbit"),
+                     row("c", "section", errors=(0.3, 0.01, 0.002, 0.0))])
+    assert table.splitlines()[2:] == [
+        "| orbit | as much | 4 × | 0.1 | 0.01 | 0.001 | 0 | pixels |",
+        "| section | 25 % of the crossings | 4 to 20 × | 0.3 | 0.5 | 0.002 | 0 | pixels |"]
+
+
+def measured_by_kind(file):
+    """The cells of the table of all kinds in a file, by kind."""
+    text = (ROOT / file).read_text(encoding="utf-8")
+    table = text.partition("<!-- measured by tests/benchmarks/benchmark_trade.py -->")[2].partition("<!-- end")[0]
+    lines = [[cell.strip() for cell in line.strip("|").split("|")] for line in table.splitlines() if line[:1] == "|"]
+    return {cells[0]: cells[1:] for cells in lines[2:] if cells[0] in set(Kind)}
+
+
+def test_the_tables_are_one_and_the_selector_and_the_readme_say_what_is_in_it():
+    found = measured_by_kind("app/README.md")
+    assert found.keys() == {str(trial.kind) for name in names() for trial in scenes()[name].trials}
+    for kind, (computed, *_) in found.items():
+        assert computed == _draft_computes(Kind(kind))
+    for words in ("speed_accuracy.md", "speed_accuracy_of_maps.md"):
+        assert measured_by_kind(f"app/hess_explorer/scenes/{words}") == found
+    said = next(spec.doc for spec in scenes()["suslov"].specs if spec.name == "accuracy")
+    readme = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
+    orbit, section, basins = (found[kind] for kind in ("orbit", "section", "basins"))
+    assert orbit[0] == "as much"
+    for text in (said, readme):
+        assert f"reference takes {orbit[1]} as long as draft, whose error is up to {orbit[2]} pixels" in text
+        assert f"of sections {section[0]} ({section[1]}, error up to {section[2]} pixels)" in text
+        assert f"of basins {basins[0]} ({basins[1]}, {basins[2]} % of the cells change)" in text

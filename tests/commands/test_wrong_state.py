@@ -1,0 +1,119 @@
+"""Commands refuse a state that they do not understand; leniently they put it right and say so."""
+
+import json
+
+import pytest
+
+import hess_explorer as hess
+from hess_explorer.__main__ import main
+from hess_explorer.export.shown import address
+from hess_explorer.page.opening import opening
+from hess_explorer.protocol.parameters import CLIENT, PAGE_KEYS, Choice, Link, Names, Number, Places, encode, refusal
+from hess_explorer.scenes import scenes
+from hess_mechanics.errors import InvalidParameter
+
+WRONG = {
+    "scene=nope": "'scene=nope' cannot be used: Scene was not one of suslov-hess, ",
+    "h=abc": "'h=abc' cannot be used: h was not a number, but lies between -1 and 1e+06; correct it",
+    "h=1e9": "'h=1e9' cannot be used: h lies between -1 and 1e+06; correct it",
+    "h=nan": "'h=nan' cannot be used: h was not finite, but lies between -1 and 1e+06",
+    "h=": "'h=' cannot be used: h was not a number",
+    "hh=1.2": "The scene suslov-hess has no parameter 'hh', but I22, I23, ",
+    "h=1&h=2": "The link says 'h' more than once",
+    "v=0&h=1.2": "The link is of another version of this page",
+    "accuracy=best": "'accuracy=best' cannot be used: Accuracy was not one of draft, standard, precise, reference,",
+    "scene=scattering&h=1": "The scene scattering has no parameter 'h', but I22, I13, ",
+    "t=-1": "'t=-1' cannot be used: t lies between 0 and 1e+06",
+    "h=0.2&f=5": "At h = 0.2 only |f| ≤ ",
+    "scene=suslov&starts=1": "'starts=1' cannot be used: The places of the chosen orbits could not be read as",
+}
+COMMANDS = {
+    "export": ("export", "--format", "json"), "figure": ("export", "--format", "svg"),
+    "html": ("export", "--format", "html"), "code": ("code",), "notebook": ("code", "--format", "ipynb"),
+}
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.parametrize("state", WRONG)
+def test_a_command_refuses_what_it_does_not_understand_and_writes_nothing(command, state, tmp_path, capsys):
+    file = tmp_path / "out"
+    assert main([*COMMANDS[command], "--state", state, "--out", str(file)]) == 2
+    said = capsys.readouterr()
+    assert said.err.startswith(f"hess-explorer: {WRONG[state]}")
+    assert said.err.endswith("; correct it, or have it put right with --lenient (in Python lenient=True).\n")
+    assert said.err.count("\n") == 1
+    assert said.out == ""
+    assert not file.exists()
+
+
+@pytest.mark.parametrize("state", [*WRONG, "theme=blue", "large=nothing", "lesson=none", "embed=2"])
+def test_a_shot_of_a_wrong_state_is_refused_before_a_browser_is_started(state, tmp_path, monkeypatch, capsys):
+    from hess_explorer.headless import screenshot
+
+    monkeypatch.setattr(screenshot, "screenshot", lambda *given, **more: pytest.fail("the page was drawn"))
+    assert main(["shot", "--state", state, str(tmp_path / "out.png")]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith(f"hess-explorer: {WRONG.get(state, repr(state))}")
+    assert said.count("\n") == 1
+    assert not list(tmp_path.iterdir())
+
+
+def test_leniently_it_is_put_right_and_noted(capsys):
+    assert main(["export", "--state", "scene=nope&h=abc&hh=1.2&f=1e9&accuracy=draft", "--lenient", "--picture",
+                 "circle", "--format", "json"]) == 0
+    facts = json.loads(capsys.readouterr().out)
+    first = scenes()["suslov-hess"].defaults()
+    assert facts["scene"] == "suslov-hess"
+    assert facts["parameters"]["h"] == first["h"]
+    assert [note.partition(" ")[0] for note in facts["notes"][:3]] == ["Scene", "h", "f"]
+
+
+@pytest.mark.parametrize("state", ["h=1.2&f=0.3", "?h=1.2&f=0.3", "http://localhost:5006/?h=1.2&f=0.3",
+                                   "https://example.org/explorer/?v=1&h=1.2&f=0.3&theme=dark&large=circle&present=1"])
+def test_a_whole_link_of_the_page_is_understood(state, capsys):
+    assert main(["code", "--state", state]) == 0
+    assert "h=1.2, f=0.3" in capsys.readouterr().out.replace("\n", " ").replace("    ", "")
+
+
+@pytest.mark.parametrize("name", scenes())
+def test_every_link_that_the_page_writes_is_accepted(name):
+    scene = scenes()[name]
+    for values in (scene.defaults(), *map(scene.example, scene.presets)):
+        admitted = scene.admit({**scene.defaults(), **values})[0]
+        link = encode(name, admitted)
+        assert address(link).values == admitted
+        assert hess.from_link(link).link == f"?{link}"
+        assert opening(link, None, lenient=False).notes == []
+
+
+@pytest.mark.parametrize("state", WRONG)
+def test_python_refuses_a_wrong_link_too_unless_it_reads_it_leniently(state):
+    with pytest.raises(InvalidParameter, match="lenient=True"):
+        hess.from_link(f"http://localhost:5006/?{state}")
+    assert hess.from_link(state, lenient=True).notes or state in ("hh=1.2", "h=1&h=2", "scene=scattering&h=1")
+
+
+def test_every_note_says_what_was_wrong_before_a_colon_and_then_what_was_done():
+    specs = [*CLIENT, *(spec for scene in scenes().values() for spec in scene.specs),
+             Names("large", "Enlarged pictures", ("a", "b", "c"), 2)]
+    for spec in specs:
+        texts = {Number: ("abc", "nan", "1e300"), Choice: ("nothing like it",), Names: ("d", "a,b,c"),
+                 Places: ("abc", ";".join(["0.1,0.1"] * (getattr(spec, "most", 0) + 1)))}[type(spec)]
+        for text in texts:
+            note = spec.read(text)[1]
+            assert note is not None, (spec, text)
+            wrong = refusal(note)
+            assert wrong != note, note
+            assert wrong.endswith(".")
+
+
+def test_what_a_page_keeps_in_its_link_is_known(monkeypatch):
+    asked, read = set(), Link.value
+
+    def value(link, spec):
+        asked.add(spec.name)
+        return read(link, spec)
+
+    monkeypatch.setattr(Link, "value", value)
+    opening("scene=suslov-hess", None)
+    assert asked - {spec.name for spec in scenes()["suslov-hess"].specs} == set(PAGE_KEYS) - {"v"}

@@ -1,0 +1,88 @@
+"""Orbits with 31 digits against decimals, of which more are computed."""
+
+import decimal
+from decimal import Decimal
+
+import numpy as np
+import pytest
+
+import oracle
+from hess_mechanics import level, solve, systems
+from hess_mechanics.dynamics.doubled import doubled
+from hess_mechanics.dynamics.work_precision import growth, measure_levels
+from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.numerics.accuracy import LEVELS
+
+SYSTEMS = systems()
+every_system = pytest.mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)
+TIMES = [0.0, 1.0, 5.0, 20.0]
+GENERIC = (2.0, 1.0, 0.3, 0.5, 0.3, -0.5, 1.0)
+START = (0.8, -0.4, 0.6, 0.0, 0.8)
+
+
+def away(found, exact):
+    """The largest difference of each component from decimals (n, d), in units in which states are O(1)."""
+    with decimal.localcontext(prec=60):
+        both = [[abs(Decimal(z.real) + Decimal(z.imag) - x) for z, x in zip(*rows, strict=True)]
+                for rows in zip(found.pairs.tolist(), exact, strict=True)]
+    return float(np.max(np.array(both, float) / found.scale))
+
+
+@every_system
+@pytest.mark.parametrize("direction", [1, -1])
+def test_an_orbit_has_all_but_two_of_the_digits_of_a_pair(system, direction):
+    state, parameters = system.example
+    times = [direction * t for t in TIMES]
+    exact = oracle.orbit_in_decimals(system, state, parameters, times, digits=45)
+    assert away(doubled(system, state, parameters, times), exact) < 1e-29
+
+
+@pytest.mark.parametrize(("state", "parameters", "unit"), [
+    ((8e3, -4e3, *START[2:]), (*GENERIC[:4], 3e7, -5e7, 1e8), 1e4),
+    ((8e-5, -4e-5, *START[2:]), (*GENERIC[:4], 3e-9, -5e-9, 1e-8), 1e-4),
+    ((0.0, 0.0, 0.6, -0.8, 0.0), GENERIC, 1.0),
+], ids=["fast", "slow", "from rest"])
+def test_no_unit_of_time_costs_digits(state, parameters, unit):
+    times = [t / unit for t in TIMES]
+    exact = oracle.orbit_in_decimals(SYSTEMS["suslov"], state, parameters, times, digits=45)
+    assert away(doubled(SYSTEMS["suslov"], state, parameters, times), exact) < 1e-29
+
+
+def test_many_times_are_those_of_one_orbit():
+    """Times are worked on in parts, which begin where the one before has ended."""
+    system, times = SYSTEMS["suslov"], np.linspace(0.0, 10.0, 101)
+    many, few = (doubled(system, *system.example, some) for some in (times, times[[0, 33, 100]]))
+    assert np.abs((many.pairs[[0, 33, 100]] - few.pairs).imag).max() < 1e-29
+    assert np.array_equal(many.states[[0, 33, 100]], few.states)
+
+
+@every_system
+def test_an_error_is_the_one_that_decimals_show(system):
+    state, parameters = system.example
+    orbit = solve(system, state, parameters, TIMES, level("reference"))
+    exact = oracle.orbit_in_decimals(system, state, parameters, TIMES, digits=45)
+    found = doubled(system, state, parameters, TIMES).away(orbit.states)
+    assert np.max(found) == pytest.approx(np.max(oracle.distances(orbit.states, exact)), rel=1e-9)
+    # In doubles the truth itself would be off by as much as that.
+    assert 0.0 < np.max(found) < 1e-12
+
+
+def test_the_errors_of_speed_and_accuracy_are_the_true_ones():
+    system = SYSTEMS["suslov"]
+    times = np.linspace(0.0, 20.0, 9)
+    exact = oracle.orbit_in_decimals(system, *system.example, times.tolist(), digits=45)
+    scale = doubled(system, *system.example, times).scale
+    grown = growth("suslov", *system.example, 20.0, (1.0,) * 5, 9)
+    points = {point.setting: point.error for point in measure_levels("suslov", *system.example, 20.0, 9)}
+    for name, one in LEVELS.items():
+        true = np.max(oracle.distances(solve(system, *system.example, times, one).states, exact) / scale, axis=1)
+        assert grown.errors[name] == pytest.approx(true, rel=1e-9, abs=1e-30)
+        assert points[name] == pytest.approx(true.max(), rel=1e-9)
+
+
+def test_what_cannot_be_followed_is_refused():
+    system = SYSTEMS["suslov"]
+    with pytest.raises(WorkLimit, match="choose a shorter one"):
+        doubled(system, *system.example, [1e6])
+    with pytest.raises(InvalidParameter):
+        doubled(system, (np.nan,) * 5, GENERIC, [1.0])

@@ -1,0 +1,129 @@
+"""An accuracy is a level or the name of one, wherever one is taken."""
+
+import importlib
+import inspect
+import pkgutil
+
+import numpy as np
+import pytest
+
+import hess_mechanics as hm
+from hess_mechanics import level
+from hess_mechanics.dynamics.section import Plane
+from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, Kind, Level, plan
+from hess_mechanics.numerics.arguments import as_level, as_level_name
+
+SUSLOV = hm.systems()["suslov"]
+STATE, PARAMETERS = SUSLOV.example
+BODY = hm.SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0)
+FREE = hm.SuslovBody(2.0, 1.0, 0.3, 0.5)
+HEAVY = hm.HeavyBody.hess((1.0, 1.5, 2.0), 0.01)
+FIELD_BALL = hm.BallBody(1.0, 3.0, 0.0, 0.0, 5.0, 0.5, 0.0, 0.8)
+FREE_BALL = hm.BallBody(2.0, 1.0, 0.5, 0.7, 0.0)
+LONG_BALL = hm.BallBody(3.56, 1.0, 0.0, 0.8, 1.0)
+PENDULUM = hm.LoxodromicPendulum(hm.HeavyBody.hess((1.0, 1.5, 2.0), 1.0), 0.5, 0.3)
+EQUATOR = Plane((0.0, 0.0, 0.0, 0.0, 1.0))
+
+# Every function of the package that takes an accuracy, called with the least work.
+CALLS = {
+    "orbit": lambda one: hm.orbit(BODY, STATE, 2.0, one, samples=5).states,
+    "lyapunov_exponent": lambda one: hm.lyapunov_exponent(BODY, STATE, 10.0, one).rates,
+    "lyapunov_spectrum": lambda one: hm.lyapunov_spectrum(BODY, STATE, 50.0, one).values,
+    "andoyer_section": lambda one: hm.andoyer_section(HEAVY, 2.0, 0.5, orbits=1, crossings=5, accuracy=one).orbits[0],
+    "suslov_section": lambda one: hm.suslov_section(BODY, 1.842, orbits=1, crossings=5, accuracy=one).orbits[0],
+    "ball_section": lambda one: hm.ball_section(FIELD_BALL, 2.0, orbits=1, crossings=5, accuracy=one).orbits[0],
+    "basins": lambda one: hm.basins(BODY, 1.842, cells=(2, 2), crossings=20, accuracy=one).mean,
+    "cloud": lambda one: hm.cloud(FREE_BALL, 2.0, 1.0, count=3, accuracy=one).omega,
+    "period": lambda one: hm.period(hm.BallBody(1.3, 0.8, 0.0, 0.0, 0.0, 0.5, -0.2, 0.0), (1.0, -0.5, 0.0, 0.6, 0.8),
+                                    one).value,
+    "rotation_numbers": lambda one: hm.rotation_numbers(0.5, 0.2, 0.6, one).rho,
+    "rotation_along_line": lambda one: hm.rotation_along_line(
+        HEAVY, 2.0, 0.5, ((0.0, 0.85), (0.0, 0.95)), count=4, crossings=300, accuracy=one).to_xarray()["ρ"].values,
+    "return_map": lambda one: hm.return_map(BODY, E=1.842, accuracy=one).image((0.3, 1.2)),
+    "solve": lambda one: hm.solve(SUSLOV, STATE, PARAMETERS, [2.0], one).states,
+    "ensemble": lambda one: hm.ensemble(SUSLOV, [STATE, STATE], PARAMETERS, [2.0], one).states,
+    "section": lambda one: hm.section(SUSLOV, STATE, PARAMETERS, EQUATOR, 20.0, one).states,
+    "sections": lambda one: hm.sections(SUSLOV, [STATE], PARAMETERS, EQUATOR, 20.0, one)[0].states,
+    "section_points": lambda one: hm.section_points(SUSLOV, [STATE], PARAMETERS, EQUATOR, 20.0, one, 3).states[0],
+    "largest_exponent": lambda one: hm.largest_exponent(SUSLOV, STATE, PARAMETERS, 10.0, one).rates,
+    "spectrum": lambda one: hm.spectrum(SUSLOV, STATE, PARAMETERS, 50.0, one).values,
+    "megno": lambda one: hm.megno(SUSLOV, [STATE], PARAMETERS, 20.0, one).values,
+    "transition_matrix": lambda one: hm.transition_matrix(SUSLOV, STATE, PARAMETERS, 2.0, one).matrices,
+    "return_matrix": lambda one: hm.return_matrix(SUSLOV, STATE, PARAMETERS, EQUATOR, 20.0, one).state,
+    "free_motion": lambda one: hm.free_motion(FREE, (0.8, -0.4), (0.6, 0.0, 0.8), [1.0], one).gamma,
+    "scattering": lambda one: hm.scattering(hm.SuslovBody(3.56, 1.0, 0.0, 0.8), one).theta_plus(1.0, 0.0),
+    "circle_map": lambda one: hm.circle_map(0.5, 1.5, 0.6, one).trace,
+    "critical_a": lambda one: hm.critical_a(1.5, 0.6, one),
+    "lock_boundary": lambda one: hm.lock_boundary(0.5, one, 4),
+    "lock_boundary_f": lambda one: hm.lock_boundary_f(0.5, 0.5, one),
+    "rotation_number_grid": lambda one: hm.rotation_number_grid(0.5, [0.2, 1.5], [0.6], one),
+    "ball_scattering": lambda one: hm.ball_scattering(LONG_BALL, 1.0, [0.0], 1.0, 1e-6, one).theta_plus,
+    "loxodromic_motion": lambda one: hm.loxodromic_motion(PENDULUM, 2.0, one).times,
+}
+
+
+def taken(function):
+    """The parameters of a function that are accuracies, by their annotations."""
+    kinds = {name: str(one.annotation) for name, one in inspect.signature(function).parameters.items()}
+    return {name: kind for name, kind in kinds.items()
+            if kind in ("Level", "Accuracy") or (name in ("level", "accuracy") and "str" in kind)}
+
+
+def public():
+    """All public functions, and methods of public classes, of both packages, by their full names."""
+    for package in (hm, importlib.import_module("hess_explorer.sweep")):
+        for found in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
+            module = importlib.import_module(found.name)
+            for name in getattr(module, "__all__", ()):
+                one = getattr(module, name)
+                if getattr(one, "__module__", None) != module.__name__:
+                    continue
+                members = [one] if inspect.isfunction(one) else vars(one).values() if inspect.isclass(one) else ()
+                yield from ((f"{module.__name__}.{member.__qualname__}", member) for member in members
+                            if inspect.isfunction(member) and not member.__name__.startswith("_"))
+
+
+def test_every_function_of_the_package_that_takes_an_accuracy_is_called_here():
+    exported = {name: getattr(hm, name) for name in hm.__all__}
+    assert CALLS.keys() == {name for name, one in exported.items() if inspect.isfunction(one) and taken(one)}
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_the_name_of_a_level_and_the_level_mean_the_same(name):
+    by_name, by_level = (np.asarray(CALLS[name](one)) for one in ("draft", level("draft")))
+    assert by_name.size
+    assert np.array_equal(by_name, by_level, equal_nan=True)
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_a_name_that_no_level_has_is_refused(name):
+    with pytest.raises(InvalidParameter, match="choose one of draft, standard, precise, reference"):
+        CALLS[name]("exact")
+
+
+INTERNAL = {"measured", "status_of", "evaluate", "cost_of_a_cell", "create", "require", "opened"}
+"""What takes the level that was read before, or the name that a store has kept."""
+
+
+def test_every_public_function_says_that_it_takes_either():
+    """Whether each reads it before it asks for order or tolerance, the type checker finds out."""
+    found = {name: taken(one) for name, one in public() if taken(one)}
+    assert len(found) > 80
+    wrong = {name: kinds for name, kinds in found.items()
+             if name.rpartition(".")[2] not in INTERNAL and set(kinds.values()) != {"Accuracy"}}
+    assert not wrong
+
+
+def test_a_level_of_ones_own_is_used_as_it_is():
+    own = Level("own", 1e-5, 1e-7, 14)
+    assert as_level(own) is own
+    assert plan(Kind.BASINS, own).level is own
+    assert plan(Kind.BASINS, DRAFT) is plan(Kind.BASINS, "draft")
+    assert hm.solve(SUSLOV, STATE, PARAMETERS, [2.0], own).level == "own"
+
+
+def test_only_the_four_levels_have_names():
+    assert [as_level_name(one) for one in LEVELS.values()] == list(LEVELS)
+    with pytest.raises(InvalidParameter, match="choose one of draft, standard, precise, reference"):
+        as_level_name(Level("draft", 1e-5, 1e-7, 14))

@@ -1,0 +1,90 @@
+"""The table of app/README.md with the parts of the paper: all are in it, and what it names is on the page."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from hess_explorer.scenes import scenes
+from hess_mechanics import check_body
+from support.mechanics import ROOT
+
+TABLE = (ROOT / "app/README.md").read_text(encoding="utf-8").partition("## The paper, part by part\n")[2].partition(
+    "\n## ")[0]
+LINES = re.findall(r"^\|.*\|$", TABLE, re.MULTILINE)[2:]
+ROWS = [[cell.strip() for cell in line.strip("|").split("|")] for line in LINES]
+SCENES = {name: scene for name, scene in scenes().items() if scene.origin is None}
+
+EQUATIONS = {
+    1: ["eq11", "eq1"],
+    2: ["Eq:SuslovConstraint", "Biz01", "Biz03", "Biz131", "Biz11", "biz132", "biz138", "eq834", "Biz135", "Biz133",
+        "Biz136", "Biz1360", "eqs03", "eqs02", "bizi1", "bizi2", "eq02", "eq01", "eq03", "eq0003", "Geq3", "Geq4"],
+    3: ["eq29", "eq30", "hh01", "hh001", "g2p6f1", "gess-*1", "m15.9", "m15.14", "m15.10", "gess05", "eq6-10", "eq6-11",
+        "eq6-12", "klas-gess-2", "eq6-14", "klas-gess-3", "klas-gess-4"],
+}
+"""Labels of the source by section, in the order in which it numbers them; the appendix goes on with section 3."""
+
+
+def numbers(part):
+    """The (section, number) of equations that a part names, ranges filled."""
+    found = set()
+    for section, first, last in re.findall(r"\((\d)\.(\d+)\)(?:–\(\d\.(\d+)\))?", part):
+        found.update((int(section), k) for k in range(int(first), int(last or first) + 1))
+    return found
+
+
+def test_every_equation_is_in_the_table_once_under_its_number():
+    named = [(label, part) for part, labels, *_ in ROWS for label in re.findall(r"`([^`]+)`", labels)]
+    assert sorted(label for label, _ in named) == sorted(label for one in EQUATIONS.values() for label in one)
+    for label, part in named:
+        section, = (section for section, labels in EQUATIONS.items() if label in labels)
+        assert (section, EQUATIONS[section].index(label) + 1) in numbers(part), label
+    for part, labels, *_ in ROWS:
+        assert len(numbers(part)) == len(re.findall(r"`([^`]+)`", labels)), part
+
+
+def test_every_proposition_remark_theorem_and_open_question_is_in_the_table_once():
+    parts = [part for part, *_ in ROWS]
+    for kind, count in (("Proposition", 7), ("Remark", 7), ("Theorem", 1)):
+        found = [int(number) for part in parts for number in re.findall(rf"{kind} (\d+)", part)]
+        assert found == list(range(1, count + 1)), kind
+    assert sum(part.startswith("Open") for part in parts) == 2
+    assert {"Closing remark", "Introduction", "Section 2.1, case 3"} <= set(parts)
+
+
+@pytest.mark.parametrize("row", ROWS, ids=[row[0][:40] for row in ROWS])
+def test_what_a_row_names_is_on_the_page(row):
+    part, _, said, where = row
+    assert part
+    assert said
+    places = [one.split("/") for one in re.findall(r"`([^`]+)`", where)]
+    assert places
+    mentioned = [SCENES[name] for name, *_ in places]
+    assert all(picture in SCENES[name].pictures for name, *pictures in places for picture in pictures)
+    for title in re.findall(r"\*([^*]+)\*", where):
+        examples = [one.name for scene in {one.name: one for one in mentioned}.values() for one in scene.presets]
+        assert sum(one == title or (title[-1] == "…" and one.startswith(title[:-1])) for one in examples) == 1, title
+    headings = {heading for scene in mentioned for heading in re.findall(r"^#+ (.+)$", scene.words, re.MULTILINE)}
+    assert set(re.findall(r"“([^”]+)”", where)) <= headings
+
+
+def check_of(state):
+    """Whether the body of a state is a rigid body; None where the scene has none of its own."""
+    for one in (getattr(state, "body", None), getattr(getattr(state, "bridge", None), "heavy", None),
+                getattr(getattr(state, "pendulum", None), "body", None)):
+        if hasattr(one, "check"):
+            return one.check.is_body
+        if hasattr(one, "I11"):
+            return check_body(one.I11, one.I22, getattr(one, "I13", 0.0), getattr(one, "I23", 0.0)).is_body
+    return None
+
+
+EXAMPLES = [(scene, preset) for scene in SCENES.values() for preset in scene.presets]
+
+
+@pytest.mark.parametrize(("scene", "preset"), EXAMPLES, ids=[f"{scene.name}: {one.name}" for scene, one in EXAMPLES])
+def test_an_example_says_whether_its_body_is_none(scene, preset):
+    is_body = check_of(scene.of({**scene.defaults(), **preset.values}))
+    assert (is_body is None) == (scene.name == "rotation-number")
+    assert (is_body is False) == ("not a rigid body" in preset.name)
