@@ -115,7 +115,9 @@ def period_of(turns: Sequence[float], places: Array, promise: float = 0.0, most:
         # A multiplier near −1 makes an orbit look twice as long while it is still coming.
         return (m, True) if all(second[k - 1] >= _SETTLING * first[k - 1] for k in range(1, m) if m % k == 0) else (
             0, False)
-    return 0, float(np.median(second / first)) >= _SETTLING
+    # All of them close better and better, or the one that closes best does: then the orbit comes to a periodic one.
+    ratios = second / first
+    return 0, min(float(np.median(ratios)), float(ratios[second.argmin()])) >= _SETTLING
 
 
 def orbit_diagram(family: Callable[[float], Followed], parameter: str, values: Sequence[float] | Array,
