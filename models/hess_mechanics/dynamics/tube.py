@@ -52,6 +52,8 @@ _TERMS = 0.5 * math.log(2.0)
 """Of a bit: then steps are e⁻² of the radius of convergence, which is cheapest where the cost is that square."""
 _PARTS = 2
 """Of a step, for each of which f′ is bounded."""
+_LONGER = 1.15
+"""How much longer than the last step the next one may be: a refused step costs as much as one that is made."""
 _TRIED = 8
 _GUARD_BITS, _LOW_BITS = 32, 64
 
@@ -170,6 +172,7 @@ class _Walk:
         self.scale = [float(x) for x in scale]
         self.t = Fraction(0)
         self.steps, self.work, self.spent = 0, 0.0, False
+        self.last = math.inf
 
     @property
     def lost(self) -> float:
@@ -228,7 +231,7 @@ class _Walk:
 
         series = [[c.mid() * (sign if k % 2 else 1) for k, c in enumerate(one)]
                   for one in _series(self.system.recursion, self.centre, self.p, self.terms)]
-        length = min(left, self._length(series))
+        length = min(left, self._length(series), _LONGER * self.last)
         along = [arb_poly(one) for one in series]
         for _ in range(_TRIED):
             # A step that is refused has cost as much as one that is made.
@@ -239,6 +242,7 @@ class _Walk:
                 # A divisor of the field may vanish on this step; a shorter one can avoid that.
                 radius = None
             if radius is not None:
+                self.last = length
                 return _Step(along, length, radius)
             if self.work > most_work:
                 self.spent = True

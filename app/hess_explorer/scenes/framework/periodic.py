@@ -221,9 +221,10 @@ class PeriodicOrbits(OneOrbit):
             which = "No periodic orbit" if self.periodic == ANY else f"No orbit of {self.periodic}"
             return f"{which} found from here: the chosen one is shown."
         orbit = self.closed.orbit
-        multipliers = ", ".join(conjugates(complex(one)) for one in orbit.multipliers)
-        if orbit.multipliers[0].imag:
-            multipliers = conjugates(complex(orbit.multipliers[0]))
+        # An imaginary part within the error is none: at a double multiplier 1 its sign is left to roundings.
+        first = complex(orbit.multipliers[0])
+        multipliers = conjugates(first) if abs(first.imag) > orbit.multiplier_error else ", ".join(
+            digits(float(one.real)) for one in orbit.multipliers)
         return f"Period {orbit.period}, {orbit.kind}: μ = {multipliers} to {power(orbit.multiplier_error)}."
 
 
