@@ -40,7 +40,7 @@ _MEMBERS = 8
 """Orbits of an ensemble: that all of them agree by chance has a probability of 1/2⁸."""
 _SHIFT = 1e-8
 """How far apart the orbits of an ensemble start: less than a picture shows, enough to part chaotic ones."""
-_ROUNDS = 3
+_ROUNDS = 4
 _LONGER = 4
 """How many times as long an undecided motion is followed in the next round."""
 _RETURNS = 30
@@ -221,9 +221,9 @@ def regime(map_: ReturnMap, start: Sequence[float] | Array, transient: int = 300
     transient : int, default 300
         Crossings that are left out, 0 to 20 000.
     kept : int, default 200
-        Crossings that are looked at, 1 to 20 000; up to sixteen times as many where they do not decide.
+        Crossings that are looked at, 1 to 20 000; up to 64 times as many where they do not decide.
     t : float, default 200
-        Time of the indicator, at least that of 30 returns; up to sixteen times as long where it does not decide.
+        Time of the indicator, at least that of 30 returns; up to 64 times as long where it does not decide.
 
     Returns
     -------
@@ -251,15 +251,17 @@ def regime(map_: ReturnMap, start: Sequence[float] | Array, transient: int = 300
     evidence = _evidence(map_, places, span)
     kind = evidence.kind(integrable)
     for _ in range(_ROUNDS - 1):
-        if kind not in (Kind.UNDECIDED, Kind.SETTLING) or _LONGER * len(places) > _MOST_CROSSINGS:
+        count = min(_LONGER * len(places), _MOST_CROSSINGS)
+        longer = span * count / len(places)
+        if kind not in (Kind.UNDECIDED, Kind.SETTLING) or longer == span:
             break
         go_on()
-        if not may_take(map_.sheet.system, map_.state_at(places[-1]), map_.sheet.parameters, _LONGER * span):
+        if not may_take(map_.sheet.system, map_.state_at(places[-1]), map_.sheet.parameters, longer):
             break
-        following = map_.orbit(places[-1], _LONGER * len(places))
-        if len(following) < _LONGER * len(places):
+        following = map_.orbit(places[-1], count)
+        if len(following) < count:
             return _not_seen(map_, following, places[-1])
-        places, span = following, _LONGER * span
+        places, span = following, longer
         evidence = _evidence(map_, places, span)
         kind = evidence.kind(integrable)
     changes = volume_sign(evidence.divergence, evidence.divergence_error) != 0

@@ -16,7 +16,6 @@ _FREQUENCIES = math.pi * (0.2 + 0.6 * (np.arange(1, 33) * (math.sqrt(5.0) - 1.0)
 _LAGS = 50
 LEAST = 100
 """Crossings that the test needs."""
-_MOST = 2000
 
 
 def zero_one_test(series: Array) -> float:
@@ -29,7 +28,7 @@ def zero_one_test(series: Array) -> float:
     Parameters
     ----------
     series : Array, shape (n,)
-        One number for each crossing, n ≥ 100; of longer series the last 2000 are used.
+        One number for each crossing, n ≥ 100.
 
     Returns
     -------
@@ -56,7 +55,7 @@ def zero_one_test(series: Array) -> float:
     if len(series) < LEAST:
         raise InvalidParameter(f"The 0–1 test needs {LEAST} crossings, and there are {len(series)}: follow the motion "
                                "for longer.")
-    phi = np.array(series[-_MOST:], float)
+    phi = np.array(series, float)
     n = phi.size
     # A mean that is far from 0 drowns the displacement in an oscillation; without it the formula needs no correction.
     phi -= phi.mean()
