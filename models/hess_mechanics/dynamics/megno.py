@@ -33,7 +33,7 @@ from hess_mechanics.numerics.parallel import THREADS, share
 from hess_mechanics.numerics.results import Array, Cost, Mask, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
-__all__ = ["CHAOTIC", "REGULAR", "Megno", "may_take", "megno"]
+__all__ = ["CHAOTIC", "REGULAR", "Megno", "longest_span", "megno"]
 
 CHAOTIC = 3.0
 """Ȳ beyond this is chaotic: regular motions come to 2 from either side within 0.5."""
@@ -79,12 +79,12 @@ class Megno(Result):
                       {"t": self.t, "level": self.level, "steps": self.cost.steps})
 
 
-def may_take(system: System, state: Sequence[float] | Array, parameters: Sequence[float], span: float) -> bool:
-    """Return True if the indicator of a motion next to `state` may take the time `span`.
+def longest_span(system: System, state: Sequence[float] | Array, parameters: Sequence[float]) -> float:
+    """Return the time that the indicator of a motion next to `state` may take.
 
     A third is left free, because ν of neighbouring states differs.
     """
-    return abs(span) * Problem.of(system, [state], parameters).nu <= _LONGEST / 1.5
+    return _LONGEST / (1.5 * Problem.of(system, [state], parameters).nu)
 
 
 def megno(system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float], span: float,

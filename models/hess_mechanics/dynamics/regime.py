@@ -22,7 +22,7 @@ from enum import IntEnum
 import numpy as np
 
 from hess_mechanics.dynamics.birkhoff import agreeing_digits
-from hess_mechanics.dynamics.megno import CHAOTIC, REGULAR, Megno, may_take, megno
+from hess_mechanics.dynamics.megno import CHAOTIC, REGULAR, Megno, longest_span, megno
 from hess_mechanics.dynamics.orbit_diagram import period_of
 from hess_mechanics.dynamics.periodic import MAX_PERIOD, place_units
 from hess_mechanics.dynamics.point_sets import Apart, how_far_apart
@@ -251,13 +251,14 @@ def regime(map_: ReturnMap, start: Sequence[float] | Array, transient: int = 300
     evidence = _evidence(map_, places, span)
     kind = evidence.kind(integrable)
     for _ in range(_ROUNDS - 1):
+        if kind not in (Kind.UNDECIDED, Kind.SETTLING):
+            break
         count = min(_LONGER * len(places), _MOST_CROSSINGS)
-        longer = span * count / len(places)
-        if kind not in (Kind.UNDECIDED, Kind.SETTLING) or longer == span:
+        longest = longest_span(map_.sheet.system, map_.state_at(places[-1]), map_.sheet.parameters)
+        longer = max(span, min(_LONGER * span, longest))
+        if (count, longer) == (len(places), span):
             break
         go_on()
-        if not may_take(map_.sheet.system, map_.state_at(places[-1]), map_.sheet.parameters, longer):
-            break
         following = map_.orbit(places[-1], count)
         if len(following) < count:
             return _not_seen(map_, following, places[-1])
