@@ -34,9 +34,10 @@ from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 __all__ = ["ReturnMap", "Sheet"]
 
 _LONGEST = 400.0
-"""Time allowed for a return, in units of 1/ν times the slowness of the section."""
+"""Time allowed for a return in Newton's method, which tries many places: in units of 1/ν times the slowness of the
+section."""
 _WAIT = 2000.0
-"""Time for which a long orbit is followed in search of its next crossing, in the same units."""
+"""Time for which one motion is followed in search of its next crossing, in the same units."""
 _PIECE = 50
 """Crossings that are followed at once."""
 _STEP = 2e-3
@@ -174,7 +175,7 @@ class ReturnMap:
         """The crossing (k,) after so many returns, one after the other.  Raises as `image`."""
         if count == 0:
             return np.asarray(place, float)
-        problem, _, state = self._crossing(self.state_at(place), count)
+        problem, _, state = self._crossing(self.state_at(place), count, _LONGEST)
         return np.asarray(self.sheet.places_of((state * problem.scale)[None])[0])
 
     def orbit(self, place: Array, count: int) -> Array:
@@ -217,14 +218,17 @@ class ReturnMap:
                                                         self.sheet.parameters).nu
 
     def time_of(self, place: Array, count: int = 1) -> float:
-        """The time that so many returns from a place take.  Raises as `image`."""
-        problem, time, _ = self._crossing(self.state_at(place), count)
+        """The time that so many returns from a place take, each of which may take as long as `wait`.
+
+        Raises as `image`.
+        """
+        problem, time, _ = self._crossing(self.state_at(place), count, _WAIT)
         return time / problem.nu
 
     def with_derivative(self, place: Array) -> tuple[Array, Array]:
         """The next crossing (k,), and DP there (k, k).  Raises as `image`."""
         start = self.state_at(place)
-        problem, time, scaled = self._crossing(start, 1)
+        problem, time, scaled = self._crossing(start, 1, _LONGEST)
         system = self.sheet.system
         steps, _, frames, _ = followed(system, problem, np.array([time]), self.accuracy.order, self.accuracy.tolerance,
                                        MAX_STEPS)
@@ -242,13 +246,13 @@ class ReturnMap:
         problem = Problem.of(self.sheet.system, [start], self.sheet.parameters)
         return problem.nearby() if self.accuracy.aside else problem
 
-    def _crossing(self, start: Array, count: int) -> tuple[Problem, float, Array]:
+    def _crossing(self, start: Array, count: int, longest: float) -> tuple[Problem, float, Array]:
         """The problem in its own units, time and state (d,) of the crossing of this number from a state."""
         go_on()
         sheet = self.sheet
         problem = self._problem(start)
         cross, normal, offset = sheet.surface.scaled(sheet.system, problem)
-        end = _LONGEST * sheet.slowness * count * (-1.0 if self.backward else 1.0)
+        end = longest * sheet.slowness * count * (-1.0 if self.backward else 1.0)
         wanted = count
         while True:
             times, states = np.empty(wanted), np.empty((wanted, start.size))

@@ -20,8 +20,9 @@ from hess_mechanics import (
     spectrum,
     systems,
 )
+from hess_mechanics.dynamics import return_map as return_map_module
 from hess_mechanics.dynamics.regime import Kind, dynamics_of, regime
-from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.errors import InvalidParameter, NoReturn
 from support.suslov import field, permanent_rotations
 
 SUSLOV = systems()["suslov"]
@@ -89,6 +90,16 @@ def test_a_slow_motion_is_followed_until_it_returns():
     assert found.kind in (Kind.QUASI_PERIODIC, Kind.PERIODIC)
     assert len(found.places) >= 200
     assert "I₁₁ = I₂₂" in found.sentence
+
+
+def test_the_time_of_a_return_is_waited_for_as_long_as_its_place(monkeypatch):
+    """Newton's method gives up earlier: it tries many places."""
+    P = return_map(QuarticBody(1.3, 1.3, 1.0, 0.999))
+    monkeypatch.setattr(return_map_module, "_LONGEST", 1.0)
+    with pytest.raises(NoReturn):
+        P.image((0.01, 0.02))
+    assert len(P.orbit(np.array((0.01, 0.02)), 1)) == 1
+    assert 20.0 < P.time_of(np.array((0.01, 0.02))) < 30.0
 
 
 def test_what_is_not_seen_to_return_is_said_with_the_time_waited():
