@@ -8,8 +8,8 @@ as long, and again; what is still unclear then is undecided.
 
 Dynamics are judged by the sets to which orbits come forward and backward in time, and by the mean divergence on the
 first (Gonchenko, Gonchenko, Kazakov 2020).  Both come from an ensemble of orbits.  A verdict is given only where the
-mean clears its confidence interval and all orbits agree about the sets; `conservative` only where the field keeps a
-volume, which makes it a fact.
+mean clears its confidence interval, most orbits have settled and all of those agree about the sets; `conservative` only
+where the field keeps a volume, which makes it a fact.
 """
 
 from __future__ import annotations
@@ -38,6 +38,8 @@ __all__ = ["Dynamics", "Kind", "Regime", "compared", "dynamics_of", "regime"]
 
 _MEMBERS = 8
 """Orbits of an ensemble: that all of them agree by chance has a probability of 1/2⁸."""
+_ENOUGH = 6
+"""Orbits of an ensemble whose sets have settled: the others are still on their way and tell nothing."""
 _SHIFT = 1e-8
 """How far apart the orbits of an ensemble start: less than a picture shows, enough to part chaotic ones."""
 _ROUNDS = 4
@@ -353,30 +355,34 @@ class Dynamics(Result):
     comparisons: tuple[Apart, ...]
 
     @property
+    def settled(self) -> tuple[Apart, ...]:
+        """The comparisons of orbits that have come to their sets; all, where none has."""
+        return tuple(one for one in self.comparisons if one.settled) or self.comparisons
+
+    @property
     def distance(self) -> float:
-        """Between the sets, the mean over the ensemble."""
-        return float(np.mean([one.distance for one in self.comparisons]))
+        """Between the sets, the mean over the orbits that have settled."""
+        return float(np.mean([one.distance for one in self.settled]))
 
     @property
     def distance_error(self) -> float:
         """The largest error, grain or difference from the mean."""
-        return max(max(one.error, one.grain, abs(one.distance - self.distance)) for one in self.comparisons)
+        return max(max(one.error, one.grain, abs(one.distance - self.distance)) for one in self.settled)
 
     @property
     def shared(self) -> float:
-        """Share of the places of one set that lie at the other, the mean over the ensemble."""
-        return float(np.mean([one.shared for one in self.comparisons]))
+        """Share of the places of one set that lie at the other, the mean over the orbits that have settled."""
+        return float(np.mean([one.shared for one in self.settled]))
 
     @property
     def verdict(self) -> str:
         """"conservative", "dissipative", "mixed" or "not told apart"."""
         if self.motion.volume_kept:
             return "conservative"
-        settled = all(one.settled for one in self.comparisons)
-        if settled and self.motion.volume < 0:
-            if all(one.apart for one in self.comparisons):
+        if sum(one.settled for one in self.comparisons) >= _ENOUGH and self.motion.volume < 0:
+            if all(one.apart for one in self.settled):
                 return "dissipative"
-            if all(one.shared >= _TOUCHING for one in self.comparisons):
+            if all(one.shared >= _TOUCHING for one in self.settled):
                 return "mixed"
         return "not told apart"
 

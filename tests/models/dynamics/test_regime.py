@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -21,7 +22,8 @@ from hess_mechanics import (
     systems,
 )
 from hess_mechanics.dynamics import return_map as return_map_module
-from hess_mechanics.dynamics.regime import Kind, dynamics_of, regime
+from hess_mechanics.dynamics.point_sets import Apart
+from hess_mechanics.dynamics.regime import Dynamics, Kind, dynamics_of, regime
 from hess_mechanics.errors import InvalidParameter, NoReturn
 from support.suslov import field, permanent_rotations
 
@@ -81,6 +83,20 @@ def test_a_sea_whose_volume_shrinks_is_not_conservative_and_shows_the_number_tha
     assert short.volume == 0
     assert short.bound > 0.0069
     assert f"|mean divergence| < {short.bound:.1g}" in short.sentence
+
+
+@pytest.mark.parametrize(("settled", "apart", "touching", "verdict"), [
+    (8, 8, 0, "dissipative"), (6, 6, 0, "dissipative"), (5, 5, 0, "not told apart"), (8, 7, 1, "not told apart"),
+    (8, 0, 8, "mixed"), (0, 0, 0, "not told apart")])
+def test_orbits_on_their_way_tell_nothing_and_the_others_must_agree(settled, apart, touching, verdict):
+    motion = replace(regime(return_map(STRANGE, E=1.0), (1.0, 1.0), transient=50), divergence=-0.1,
+                     divergence_error=0.01, volume_kept=False)
+    kinds = [Apart(3.0, 0.01, 0.01, 0.0, True)] * apart + [Apart(0.5, 0.01, 0.01, 0.1, True)] * touching
+    kinds += [Apart(1.0, 0.2, 0.9, 0.0, False)] * (8 - settled)
+    found = Dynamics(motion, np.zeros((1, 2)), np.zeros((1, 2)), tuple(kinds))
+    assert found.verdict == verdict
+    assert found.distance == pytest.approx({8: 3.0, 6: 3.0, 5: 3.0, 0: 1.0}[settled] if not touching else
+                                           (3.0 * apart + 0.5 * touching) / 8)
 
 
 def test_a_slow_motion_is_followed_until_it_returns():

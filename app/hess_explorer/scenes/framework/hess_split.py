@@ -122,7 +122,7 @@ def split_picture() -> Plot[Any]:
         on_click=lambda s, x, y: {"away": x},
         x=lambda s: (-1.1 * s._reach, 1.1 * s._reach),
         y=lambda s: about_0(np.array([one.value for one in s.splits()]), 1e-12) if s.splits() else None,
-        layers=(levels("levels", lambda s: [0.0]),
+        layers=(levels("levels", lambda s: [0.0] if s.splits() else []),
                 curves("slope", within=lambda s, axes: [] if s.slope is None else [
                     np.array([[x, s.slope[0] * x] for x in axes.x])], color=theme.MUTED, dash="dashed",
                     label="in proportion to ε, as next to 0"),
