@@ -45,10 +45,10 @@ def accuracy_level() -> Any:
     """The accuracy level, by its name: in the same words in every scene."""
     return choice("Accuracy", (*LEVELS, AUTO), "standard",
                   doc="Promised error of an orbit: draft 1e-3, standard 1e-6, precise 1e-9; reference: the floor of "
-                      "double precision. One orbit costs about the same at every level: reference takes 0.82 to 2.2 × "
-                      "as long as draft, whose error is up to 0.08 pixels. Draft is cheaper where it computes less: "
-                      "of sections 25 % of the crossings (6.8 to 14 ×, error up to 0.21 pixels), of basins 33 % of "
-                      "the cells along a side (21 ×, 3.8 % of the cells change). Auto: the cheapest that shows all "
+                      "double precision. One orbit costs about the same at every level: reference takes 0.74 to 2.2 × "
+                      "as long as draft, whose error is up to 0.2 pixels. Draft is cheaper where it computes less: "
+                      "of sections 25 % of the crossings (6.3 to 9.2 ×, error up to 6.9 pixels), of basins 33 % of "
+                      "the cells along a side (14 ×, 3.8 % of the cells change). Auto: the cheapest that shows all "
                       "of it right to half a pixel.")
 
 
