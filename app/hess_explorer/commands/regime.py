@@ -33,10 +33,10 @@ def _add_rest(parser: argparse.ArgumentParser, place: str) -> None:
     parser.add_argument("--transient", type=integer(0, 20_000), default=300, metavar="N",
                         help="crossings left out (default 300)")
     parser.add_argument("--crossings", type=integer(8, 20_000), default=200, metavar="N",
-                        help="crossings looked at, up to 16 times as many where they do not decide; a period is seen "
+                        help="crossings looked at, up to 64 times as many where they do not decide; a period is seen "
                              "of which they have three (default 200)")
     parser.add_argument("--t", type=number, default=200.0,
-                        help="the time over which MEGNO and the divergence are averaged; at least 30 returns, up to 16 "
+                        help="the time over which MEGNO and the divergence are averaged; at least 30 returns, up to 64 "
                              "times as long where it does not decide (default 200)")
     parser.add_argument("--dynamics", action="store_true",
                         help="compare what it comes to forward and backward in time")

@@ -223,7 +223,8 @@ def regime(map_: ReturnMap, start: Sequence[float] | Array, transient: int = 300
     transient : int, default 300
         Crossings that are left out, 0 to 20 000.
     kept : int, default 200
-        Crossings that are looked at, 1 to 20 000; up to 64 times as many where they do not decide.
+        Crossings that are looked at, 1 to 20 000; up to 64 times as many where they do not decide, 20 000 at
+        most.
     t : float, default 200
         Time of the indicator, at least that of 30 returns; up to 64 times as long where it does not decide.
 
