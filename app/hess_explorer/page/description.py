@@ -16,7 +16,7 @@ from hess_explorer.lessons import tries
 from hess_explorer.lessons.lesson import Lesson, Step
 from hess_explorer.lessons.markdown import to_html
 from hess_explorer.lessons.reading import without_tries
-from hess_explorer.protocol.parameters import GROUPS, Choice, Number
+from hess_explorer.protocol.parameters import Choice, Number
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.charted import Charted
 from hess_explorer.scenes.framework.scene import Scene
@@ -24,6 +24,7 @@ from hess_explorer.sweep.chart import sides_of_places, swept
 from hess_explorer.sweep.quantities import quantity
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import with_formulas
+from hess_mechanics.parameters import GROUPS
 
 __all__ = ["describe", "describe_lesson"]
 

@@ -9,13 +9,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal, get_args
 from urllib.parse import parse_qsl, urlencode, urlsplit
 
 from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.parameters import Group, Parameter
 
 __all__ = [
-    "CLIENT", "GROUPS", "MAX_QUERY", "PAGE_KEYS", "VERSION", "Choice", "Group", "Link", "Names", "Number", "Places",
+    "CLIENT", "MAX_QUERY", "PAGE_KEYS", "VERSION", "Choice", "Link", "Names", "Number", "Places",
     "Spec", "Value", "Values", "decode", "encode", "places", "query_in", "refusal", "written",
 ]
 
@@ -24,32 +24,13 @@ MAX_QUERY = 2000
 _SHORT = 60
 """So many characters of what a link says are repeated in a message."""
 
-Group = Literal["Body", "State", "Computation"]
-GROUPS: tuple[Group, ...] = get_args(Group)
-"""The controls of a scene are folded in these, in this order."""
-
 Value = float | str
 Values = Mapping[str, Value]
 
 
 @dataclass(frozen=True)
-class Number:
-    """A number with a slider over `softbounds`; values within `bounds` may be typed.
-
-    The words are those of the library param.
-    means : what number it is, where its label does not say that: a scene takes from another one what means the same.
-    """
-
-    name: str
-    symbol: str
-    label: str
-    default: float
-    softbounds: tuple[float, float]
-    step: float
-    bounds: tuple[float, float]
-    doc: str = ""
-    group: Group = "State"
-    means: str = ""
+class Number(Parameter):
+    """A parameter with a slider over `softbounds`; values within `bounds` may be typed."""
 
     def read(self, text: str) -> tuple[float, str | None]:
         """The value that a text from outside means, and a note where it had to be changed."""
@@ -66,13 +47,11 @@ class Number:
         low, high = self.bounds
         clamped = min(max(value, low), high)
         if clamped != value:
-            return clamped, f"{self.symbol} lies between {low:g} and {high:g}: it is {clamped:g} now."
+            return clamped, f"{self.symbol} lies {self.range}: it is {clamped:g} now."
         return value, None
 
     def _default(self, what: str) -> tuple[float, str]:
-        low, high = self.bounds
-        return self.default, (f"{self.symbol} was not {what}, but lies between {low:g} and {high:g}: it is "
-                              f"{self.default:g} now.")
+        return self.default, f"{self.symbol} was not {what}, but lies {self.range}: it is {self.default:g} now."
 
 
 @dataclass(frozen=True)

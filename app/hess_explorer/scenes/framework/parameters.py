@@ -6,13 +6,14 @@ import math
 from dataclasses import field, fields, replace
 from typing import Any
 
-from hess_explorer.protocol.parameters import Choice, Group, Number, Places, Spec, Value
+from hess_explorer.protocol.parameters import Choice, Number, Places, Spec, Value
 from hess_explorer.scenes.framework.work import AUTO
 from hess_mechanics.numerics.accuracy import LEVELS
+from hess_mechanics.parameters import Group, Parameter
 
 __all__ = [
     "Slider", "accuracy_level", "choice", "crossings_of_each", "exponent_time", "like", "number", "orbits_spread",
-    "places", "points_of_each", "slider_within", "specs_of", "time_span",
+    "parameter", "places", "points_of_each", "slider_within", "specs_of", "time_span",
 ]
 
 Slider = tuple[float, float, float]
@@ -21,24 +22,36 @@ Slider = tuple[float, float, float]
 _SPEC = "spec"
 
 
-def _parameter(spec: Spec) -> Any:
+def _field(spec: Spec) -> Any:
     return field(default=spec.default, metadata={_SPEC: spec})
+
+
+def parameter(known: Parameter, default: float | None = None, **changes: Any) -> Any:
+    """Return the field of a parameter from `hess_mechanics.parameters`.
+
+    Parameters
+    ----------
+    known : its description there.
+    default : another default.
+    changes : other fields of `Parameter`, as softbounds, step or doc.  Other bounds need a reason beside them.
+    """
+    return _field(Number(**known.changed(default=known.default if default is None else default, **changes)))
 
 
 def number(symbol: str, default: float, softbounds: tuple[float, float], step: float, *, bounds: tuple[float, float],
            label: str, doc: str, group: Group = "State", means: str = "") -> Any:
     """A number: its slider covers `softbounds` in steps; what is typed, or comes by a link, lies within `bounds`."""
-    return _parameter(Number("", symbol, label, default, softbounds, step, bounds, doc, group, means))
+    return _field(Number("", symbol, label, default, softbounds, step, bounds, doc, group, means))
 
 
 def choice(label: str, options: tuple[str, ...], default: str, *, doc: str, group: Group = "Computation") -> Any:
     """One of a fixed list of names."""
-    return _parameter(Choice("", label, options, default, doc, group))
+    return _field(Choice("", label, options, default, doc, group))
 
 
 def places(label: str, most: int, low: tuple[float, float], high: tuple[float, float], default: str = "") -> Any:
     """Points chosen with the mouse, at most so many, between two corners; they have no control."""
-    return _parameter(Places("", label, most, low, high, default))
+    return _field(Places("", label, most, low, high, default))
 
 
 def accuracy_level() -> Any:
@@ -85,7 +98,7 @@ def time_span(default: float, longest: float, *, step: float = 1.0, most: float 
 def like(state: type[Any], name: str, default: Value | None = None, **changes: Any) -> Any:
     """The parameter of that name of another state; another default, and other words of `number`, where given."""
     spec: Any = next(one for one in specs_of(state) if one.name == name)
-    return _parameter(replace(spec, default=spec.default if default is None else default, **changes))
+    return _field(replace(spec, default=spec.default if default is None else default, **changes))
 
 
 def slider_within(largest: float) -> Slider:

@@ -1,0 +1,60 @@
+"""The table of parameters: each description is consistent, and a value outside its bounds is refused."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from hess_explorer.protocol.parameters import Number
+from hess_explorer.scenes.framework.parameters import parameter
+from hess_mechanics import parameters
+from hess_mechanics.errors import InvalidParameter
+from hess_mechanics.parameters import Parameter
+
+TABLE = {name: value for name, value in vars(parameters).items() if isinstance(value, Parameter)}
+each = pytest.mark.parametrize("known", TABLE.values(), ids=TABLE)
+
+
+@each
+def test_a_slider_spans_allowed_values_and_holds_the_default(known):
+    assert known.bounds[0] <= known.softbounds[0] <= known.default <= known.softbounds[1] <= known.bounds[1]
+    assert 0 < known.step < known.softbounds[1] - known.softbounds[0]
+
+
+@each
+def test_words_are_a_name_for_python_and_a_sentence(known):
+    assert known.name.isidentifier()
+    assert known.label
+    assert known.doc.endswith(".")
+
+
+@each
+def test_both_bounds_are_allowed_and_nothing_beyond_them(known):
+    low, high = known.bounds
+    assert [known.check(low), known.check(high)] == [low, high]
+    for wrong in (math.nextafter(low, -math.inf), math.nextafter(high, math.inf), math.inf, -math.inf, math.nan):
+        with pytest.raises(InvalidParameter, match=f"between {low:g} and {high:g}".replace("+", r"\+")):
+            known.check(wrong)
+
+
+def test_a_whole_number_is_required_where_only_such_ones_mean_something():
+    assert parameters.SHEET.check(1.0) == 1.0
+    with pytest.raises(InvalidParameter, match="but it is a whole number between 0 and 2"):
+        parameters.SHEET.check(0.5)
+
+
+def test_parameters_with_one_label_that_mean_different_things_say_so():
+    by_label = {}
+    for known in TABLE.values():
+        by_label.setdefault((known.name, known.label), set()).add((known.means, known.doc))
+    assert all(len(said) == len({means for means, _ in said}) for said in by_label.values())
+
+
+def test_a_scene_shows_a_parameter_with_its_own_default_and_slider():
+    field = parameter(parameters.I11, 2.0, softbounds=(0.5, 3.0))
+    spec = field.metadata["spec"]
+    assert isinstance(spec, Number)
+    assert (spec.default, field.default, spec.softbounds) == (2.0, 2.0, (0.5, 3.0))
+    assert (spec.symbol, spec.bounds, spec.doc, spec.group) == (
+        "I₁₁", parameters.I11.bounds, parameters.I11.doc, "Body")
