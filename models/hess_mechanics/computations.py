@@ -29,7 +29,7 @@ from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, andoyer_points
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.rotation import Ends, Rotation, on_line, rotation_along
-from hess_mechanics.numerics.accuracy import Accuracy, Kind, plan
+from hess_mechanics.numerics.accuracy import Accuracy, Computation, plan
 from hess_mechanics.numerics.arguments import as_a, as_cells, as_level, as_number, as_pairs, as_whole
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.parallel import share
@@ -170,7 +170,7 @@ def andoyer_section(body: HeavyBody, h: float, f: float, *, starts: Sequence[tup
                              as_whole("sheet", sheet, 0, 2))
     states = _starts(section, starts, orbits, ((-math.pi, -1.0), (math.pi, 1.0)), "this energy and area integral")
     found = andoyer_points(body, h, f, states, as_whole("crossings", crossings, 1, _MOST_CROSSINGS),
-                           plan(Kind.SECTION, accuracy).level)
+                           plan(Computation.SECTION, accuracy).level)
     return _in_plane(found, section, ("l", "L/G"), accuracy)
 
 
@@ -191,7 +191,7 @@ def suslov_section(body: SuslovBody, E: float, *, plane: int = 3, starts: Sequen
     require_reached(section)
     states = _starts(section, starts, orbits, ((-math.pi, 0.0), (math.pi, math.pi)), "this energy")
     found = suslov_points(body, plane, states, as_whole("crossings", crossings, 1, _MOST_CROSSINGS), forward,
-                          plan(Kind.SECTION, accuracy).level)
+                          plan(Computation.SECTION, accuracy).level)
     return _in_plane(found, section, ("ψ", "δ"), accuracy)
 
 
@@ -212,7 +212,7 @@ def ball_section(body: BallBody, h: float, *, starts: Sequence[tuple[float, floa
     states = ([ball.state_at(body, h, *place) for place in as_pairs("starts", starts)] if len(starts) else
               ball.seeds(body, h, as_whole("orbits", orbits, 1, _MOST_ORBITS)))
     found = ball.ball_section(body, h, states, as_whole("crossings", crossings, 1, _MOST_CROSSINGS),
-                              plan(Kind.SECTION, accuracy).level)
+                              plan(Computation.SECTION, accuracy).level)
     return PlanePoints(("ψ", "δ"), tuple(map(ball.coordinates, found.states)), _facts(found, accuracy))
 
 
@@ -233,7 +233,7 @@ def basins(body: SuslovBody, E: float, *, plane: int = 3, cells: tuple[int, int]
     require_reached(section)
     m, n = as_cells(cells)
     (x0, y0), (x1, y1) = _window(window)
-    ends, chosen = np.empty((n, m)), plan(Kind.BASINS, accuracy).level
+    ends, chosen = np.empty((n, m)), plan(Computation.BASINS, accuracy).level
 
     def row(i: int) -> None:
         ends[i] = section.ends(window, (m, n), i, crossings, level=chosen)
@@ -310,7 +310,7 @@ def rotation_along_line(body: HeavyBody, h: float, f: float, ends: Ends, *, coun
     started = on_line(section, (first, last), as_whole("count", count, 1, _MOST_ORBITS))
     if not started:
         raise OutsideRegion("Nowhere on this line does a motion cross the section: choose another line, or a larger h.")
-    chosen = plan(Kind.ROTATION, accuracy)
+    chosen = plan(Computation.ROTATION, accuracy)
     found = andoyer_points(body, h, f, [state for _, state in started], as_whole("crossings", crossings, 20, 10_000),
                            chosen.level)
     return rotation_along((first, last), [one for one, _ in started], [section.places_of(one) for one in found.states],

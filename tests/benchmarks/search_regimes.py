@@ -42,7 +42,7 @@ from hess_mechanics.dynamics.birkhoff import rotation_number
 from hess_mechanics.dynamics.continuation import Bifurcation, continued
 from hess_mechanics.dynamics.orbit_diagram import cascade, hysteresis, orbit_diagram, period_of
 from hess_mechanics.dynamics.periodic import apart, find_periodic
-from hess_mechanics.dynamics.regime import Kind, dynamics_of, regime
+from hess_mechanics.dynamics.regime import MotionKind, dynamics_of, regime
 from hess_mechanics.errors import NotConverged, OutsideRegion
 from hess_mechanics.rigid_body.reversal import reversals
 
@@ -193,7 +193,7 @@ def strange(map_: ReturnMap, draw: np.random.Generator, real: bool) -> str:
     """What the motion from a random place is; of a strange attractor, all that is looked for about it."""
     place = start_of(map_, draw)
     kind = regime(map_, place, 300, 100, 200.0)
-    if not (kind.kind is Kind.CHAOTIC and kind.volume < 0):
+    if not (kind.kind is MotionKind.CHAOTIC and kind.volume < 0):
         return kind.kind.words
     system, p = map_.sheet.system, map_.sheet.parameters
     last = map_.state_at(kind.places[-1])

@@ -13,7 +13,7 @@ from hess_explorer.__main__ import main
 from hess_explorer.sweep import read
 from hess_mechanics import systems
 from hess_mechanics.dynamics.lyapunov import largest_exponent
-from hess_mechanics.numerics.accuracy import PLANS, Kind
+from hess_mechanics.numerics.accuracy import PLANS, Computation
 from support.command_line import replaced, table
 from support.mechanics import ROOT
 from support.processes import interruptible
@@ -115,7 +115,7 @@ def test_a_sweep_that_is_killed_and_then_interrupted_goes_on_and_is_the_loop_by_
     assert done < now < 64
     found = answer(*LAMBDA, "--store", str(store), "--format", "json")
     assert found["status_counts"] == {"ok": 64}
-    suslov, exact = systems()["suslov"], PLANS[Kind.EXPONENT]["draft"].level
+    suslov, exact = systems()["suslov"], PLANS[Computation.EXPONENT]["draft"].level
     state, parameters = suslov.example
     for i in (0, 21, 42, 63):
         by_hand = largest_exponent(suslov, (found["w1"][i], *state[1:]),

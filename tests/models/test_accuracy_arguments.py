@@ -11,7 +11,7 @@ import hess_mechanics as hm
 from hess_mechanics import level
 from hess_mechanics.dynamics.section import Plane
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, Kind, Level, plan
+from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, Computation, Level, plan
 from hess_mechanics.numerics.arguments import as_level, as_level_name
 
 SUSLOV = hm.systems()["suslov"]
@@ -118,8 +118,8 @@ def test_every_public_function_says_that_it_takes_either():
 def test_a_level_of_ones_own_is_used_as_it_is():
     own = Level("own", 1e-5, 1e-7, 14)
     assert as_level(own) is own
-    assert plan(Kind.BASINS, own).level is own
-    assert plan(Kind.BASINS, DRAFT) is plan(Kind.BASINS, "draft")
+    assert plan(Computation.BASINS, own).level is own
+    assert plan(Computation.BASINS, DRAFT) is plan(Computation.BASINS, "draft")
     assert hm.solve(SUSLOV, STATE, PARAMETERS, [2.0], own).level == "own"
 
 

@@ -19,7 +19,7 @@ from hess_mechanics.dynamics.basin_boundary import unsure
 from hess_mechanics.dynamics.birkhoff import rotation_number
 from hess_mechanics.dynamics.lyapunov import largest_exponent
 from hess_mechanics.dynamics.shadowing import away_from, errors_in_pixels, right_crossings, typical
-from hess_mechanics.numerics.accuracy import PLANS, REFERENCE, STANDARD, Kind
+from hess_mechanics.numerics.accuracy import PLANS, REFERENCE, STANDARD, Computation
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 from hess_mechanics.suslov.section import coordinates, seeds, suslov_points
 from hess_mechanics.suslov_hess.mode_locking import lock_boundary
@@ -58,7 +58,7 @@ def followed():
         exact = places(body, starts, REFERENCE)
         truth += exact
         for name, runs in rows.items():
-            level = PLANS[Kind.SECTION][name].level
+            level = PLANS[Computation.SECTION][name].level
             for run, one in zip(runs, (level, level.tightened()), strict=True):
                 run.extend(places(body, starts, one))
         near = [tuple(np.array(start) + 1e-10 * np.array([1.0, 0.7, 0.0, 0.0, 0.0])) for start in starts]
@@ -106,7 +106,7 @@ def test_so_many_crossings_are_right_as_the_plan_promises(followed, name):
     counts = np.array(right_crossings(rows[name][0], truth, PIXELS, PERIODS))
     chaotic = growth > 0.3
     assert chaotic.sum() > 50
-    assert np.mean(counts[chaotic] * growth[chaotic] >= PLANS[Kind.SECTION][name].promise) >= 0.9
+    assert np.mean(counts[chaotic] * growth[chaotic] >= PLANS[Computation.SECTION][name].promise) >= 0.9
 
 
 def test_an_angle_that_passes_the_cut_is_no_error():
@@ -140,7 +140,7 @@ def motion(random):
 def exponents():
     """300 random motions, regular and chaotic: over 200/ν, over five times that; in units of ν."""
     random = np.random.default_rng(7)
-    level, rows = PLANS[Kind.EXPONENT]["draft"].level, []
+    level, rows = PLANS[Computation.EXPONENT]["draft"].level, []
     for _ in range(300):
         state, parameters, nu = motion(random)
         short, long = (largest_exponent(SYSTEM, state, parameters, time / nu, level) for time in (200.0, 1000.0))
@@ -157,22 +157,22 @@ def test_the_spread_of_an_exponent_is_its_error(exponents):
 def test_the_error_of_an_exponent_is_what_its_time_promises():
     """In 99 of 100 motions (of 300 others 99.3 %): an exponent of a chaotic orbit is a mean over it, with no bound."""
     random = np.random.default_rng(8)
-    errors = {name: [] for name in PLANS[Kind.EXPONENT]}
+    errors = {name: [] for name in PLANS[Computation.EXPONENT]}
     for _ in range(40):
         state, parameters, nu = motion(random)
-        found = largest_exponent(SYSTEM, state, parameters, 6000.0 / nu, PLANS[Kind.EXPONENT]["draft"].level)
-        for name, plan in PLANS[Kind.EXPONENT].items():
+        found = largest_exponent(SYSTEM, state, parameters, 6000.0 / nu, PLANS[Computation.EXPONENT]["draft"].level)
+        for name, plan in PLANS[Computation.EXPONENT].items():
             then = found.rates[np.searchsorted(found.times, 2000.0 * plan.share / nu)]
             errors[name].append(abs(then - found.value) / nu)
-    for name, plan in PLANS[Kind.EXPONENT].items():
+    for name, plan in PLANS[Computation.EXPONENT].items():
         assert np.sum(np.array(errors[name]) <= plan.promise) >= 39
 
 
-@pytest.mark.parametrize("name", PLANS[Kind.EXPONENT])
+@pytest.mark.parametrize("name", PLANS[Computation.EXPONENT])
 def test_the_steps_of_an_exponent_matter_less_than_its_spread(name):
     """A chaotic orbit is another one at each level; a regular one has the same exponent."""
     state, parameters, nu = motion(np.random.default_rng(1))
-    exact, found = (largest_exponent(SYSTEM, state, parameters, 1000.0 / nu, PLANS[Kind.EXPONENT][one].level)
+    exact, found = (largest_exponent(SYSTEM, state, parameters, 1000.0 / nu, PLANS[Computation.EXPONENT][one].level)
                     for one in ("reference", name))
     assert abs(found.value - exact.value) <= exact.spread
 
@@ -197,7 +197,7 @@ def test_the_boundary_tells_how_many_cells_a_finer_run_changes(name):
     random = np.random.default_rng(11)
     changed, estimates = [], []
     for _ in range(300):
-        coarse, fine = basins_of_discs(random, PLANS[Kind.BASINS][name].grid((36, 24)))
+        coarse, fine = basins_of_discs(random, PLANS[Computation.BASINS][name].grid((36, 24)))
         changed.append(np.mean(np.kron(coarse, np.ones((2, 2))) != fine))
         estimates.append(unsure(coarse))
     assert within_a_factor_of_ten(changed, estimates)
@@ -227,7 +227,7 @@ def tori():
 @every_level_below_the_floor
 def test_a_rotation_number_of_a_grid_is_as_exact_as_it_says(tori, name):
     *where, exact = tori
-    plan = PLANS[Kind.GRID][name]
+    plan = PLANS[Computation.GRID][name]
     errors = np.abs(values_at(*where, plan.level).rho - exact)
     assert within_a_factor_of_ten(errors, rotation_errors(*where, plan.level))
     assert np.mean(errors <= plan.promise) >= 0.99
@@ -236,7 +236,7 @@ def test_a_rotation_number_of_a_grid_is_as_exact_as_it_says(tori, name):
 def test_the_error_of_a_map_of_rotation_numbers_is_that_of_nearly_all_its_cells():
     window, torus = ((-1.0, 4.0), (-3.0, 3.0)), Torus(0.5, 0.0, 0.0)
     for name in BELOW_THE_FLOOR:
-        level = PLANS[Kind.GRID][name].level
+        level = PLANS[Computation.GRID][name].level
         found, exact = (rows("h, f", torus, window, (60, 40), 0, 40, one).rho for one in (level, REFERENCE))
         away = np.abs(found - exact)[np.isfinite(exact)]
         estimate = rows_error("h, f", torus, window, level)
@@ -263,10 +263,10 @@ def test_a_rotation_number_along_an_orbit_is_as_exact_as_its_halves_agree(tori):
 true_boundary = cache(lambda a: lock_boundary(a, REFERENCE, 1500))
 
 
-@pytest.mark.parametrize("name", PLANS[Kind.CURVE])
+@pytest.mark.parametrize("name", PLANS[Computation.CURVE])
 @pytest.mark.parametrize("a", [0.1, 0.5, 1.0])
 def test_the_boundary_of_the_lock_zone_lies_within_the_promised_pixels(a, name):
-    plan = PLANS[Kind.CURVE][name]
+    plan = PLANS[Computation.CURVE][name]
     exact = true_boundary(a)
     points = plan.side(48)
     scale = 600.0 / np.array([max(4.0, exact[:, 0].max()) + 1.0, 2.0 * max(3.0, exact[:, 1].max())])
@@ -298,7 +298,7 @@ def clouds():
 
 @every_level_below_the_floor
 def test_a_cloud_is_as_exact_as_the_points_that_are_computed_twice_say(clouds, name):
-    level = PLANS[Kind.CLOUD][name].level
+    level = PLANS[Computation.CLOUD][name].level
     errors, estimates = [], []
     for body, states, times, exact in clouds:
         found = carried(body, states, times, level)
@@ -308,4 +308,4 @@ def test_a_cloud_is_as_exact_as_the_points_that_are_computed_twice_say(clouds, n
         estimates.append(found.error_estimate)
     assert within_a_factor_of_ten(errors, estimates)
     # Of a few points only the estimate may be missed by a little.
-    assert np.mean(np.array(errors) <= 3.0 * PLANS[Kind.CLOUD][name].promise) >= 0.99
+    assert np.mean(np.array(errors) <= 3.0 * PLANS[Computation.CLOUD][name].promise) >= 0.99

@@ -15,7 +15,7 @@ from hess_explorer.scenes import scenes
 from hess_mechanics import ReturnMap, check_body, largest_exponent, level, solve, spectrum, systems
 from hess_mechanics.chaplygin_ball.section import coordinates, state_at
 from hess_mechanics.dynamics.orbit_diagram import period_of
-from hess_mechanics.numerics.accuracy import PLANS, Kind
+from hess_mechanics.numerics.accuracy import PLANS, Computation
 from support.ball import energy_of, integrate, rates
 from support.view import View
 
@@ -128,7 +128,7 @@ def test_the_strange_attractor_is_what_its_example_says():
     assert exponents.signs == ("+", "0", "0", "0", "-")
     assert exponents.values[0] == pytest.approx(0.036, abs=0.006)
     # Two orbits side by side, by another algorithm, part as fast.
-    twin = largest_exponent(BALL, last, body.parameters, 2000.0, PLANS[Kind.EXPONENT]["standard"].level)
+    twin = largest_exponent(BALL, last, body.parameters, 2000.0, PLANS[Computation.EXPONENT]["standard"].level)
     assert abs(twin.value - exponents.values[0]) < 4.0 * exponents.errors[0] + 0.01
     assert abs(exponents.dimension[0] - 2.28) < 0.04
     # The mean divergence by a 2 × 2 system solved at every state: ω̇ is quadratic in ω, so differences are derivatives.

@@ -17,7 +17,7 @@ from hess_mechanics import ReturnMap, check_body, largest_exponent, level, solve
 from hess_mechanics.dynamics.birkhoff import rotation_number
 from hess_mechanics.dynamics.continuation import continued
 from hess_mechanics.dynamics.periodic import find_periodic
-from hess_mechanics.numerics.accuracy import PLANS, Kind
+from hess_mechanics.numerics.accuracy import PLANS, Computation
 from hess_mechanics.suslov.section import coordinates, state_at
 from support.suslov import divergence, field, permanent_rotations
 from support.view import View
@@ -110,7 +110,7 @@ def test_attractors_and_repellers_are_what_their_examples_say(name, verdict, dim
     values = np.array([one.values[0] for one in found])
     # Two orbits side by side, by another algorithm, part as fast.
     twins = [largest_exponent(SUSLOV, start, state.body.parameters, 2000.0,
-                              PLANS[Kind.EXPONENT]["standard"].level).value for start in starts]
+                              PLANS[Computation.EXPONENT]["standard"].level).value for start in starts]
     scatter = math.hypot(np.std(values, ddof=1), np.std(twins, ddof=1)) / math.sqrt(len(starts))
     assert abs(np.mean(twins) - values.mean()) < 5.0 * scatter
     # λ1 + λ3 is the divergence: D = 2 + λ1/|λ3| = 3 + div/|λ3| of the means.
@@ -254,7 +254,7 @@ def test_a_torus_is_born_where_multipliers_leave_the_unit_circle_and_locks_and_b
     assert "Motion: chaotic. Looks dissipative.\ndiv = −0." in captions["section"]
     last = state_at(state.body, E, 3, *state.sets.attractor[-1])
     exponents = spectrum(SUSLOV, last, state.body.parameters, 20_000.0)
-    twin = largest_exponent(SUSLOV, last, state.body.parameters, 8000.0, PLANS[Kind.EXPONENT]["standard"].level)
+    twin = largest_exponent(SUSLOV, last, state.body.parameters, 8000.0, PLANS[Computation.EXPONENT]["standard"].level)
     value, error = exponents.values[0], exponents.errors[0]
     assert value == pytest.approx(0.033, abs=0.003)
     assert value > 8.0 * error

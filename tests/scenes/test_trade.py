@@ -18,7 +18,7 @@ from hess_explorer.scenes.framework.trial import Trial, bare, needed, section_er
 from hess_explorer.scenes.framework.work import AUTO, Work, kept_status
 from hess_mechanics.dynamics.trade import Sample
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.numerics.accuracy import LEVELS, PLANS, REFERENCE, Kind
+from hess_mechanics.numerics.accuracy import LEVELS, PLANS, REFERENCE, Computation
 from hess_mechanics.suslov.section import coordinates, suslov_points
 from hess_mechanics.suslov_hess.rotation_number import values_at
 from support.board import Browser
@@ -53,7 +53,7 @@ def test_every_scene_declares_what_it_computes(scene):
 
 
 CHEAP = [(name, trial) for name, scene in SCENES.items() for trial in scene.trials
-         if trial.kind in (Kind.ORBIT, Kind.MAP, Kind.COLOURS)]
+         if trial.kind in (Computation.ORBIT, Computation.MAP, Computation.COLOURS)]
 
 
 @pytest.mark.parametrize(("name", "trial"), CHEAP, ids=[f"{name}-{trial.kind}" for name, trial in CHEAP])
@@ -88,7 +88,7 @@ def test_the_status_line_says_up_to_which_crossing_the_orbit_is_where_it_is_draw
     said = re.search(r"right to ½ pixel: the chosen orbit up to crossing (\d+), others up to crossing (\d+)",
                      report.status)
     own, others = map(int, said.groups())
-    plan = PLANS[Kind.SECTION]["reference"]
+    plan = PLANS[Computation.SECTION]["reference"]
     exact = suslov_points(state.body, 3, [state.start], 60, True, plan.level, threads=1)
     both = min(len(state.own), 60)
     away = state.own[:both] - coordinates(exact.states[0], 3)[:both]
@@ -139,7 +139,7 @@ def test_the_status_line_says_how_exact_a_map_of_rotation_numbers_is():
         _, report = completed(scene, {"accuracy": name}, ("map",))
         said = re.search(r"map \d+ × \d+, ρ to (\d\S+) \(99 of 100 cells\)", report.status)
         errors[name] = float(said[1].replace("−", "-"))
-        assert errors[name] <= PLANS[Kind.GRID][name].promise
+        assert errors[name] <= PLANS[Computation.GRID][name].promise
     assert errors["draft"] > errors["standard"] > errors["precise"] > 0.0
 
 
@@ -180,7 +180,7 @@ def test_what_cannot_be_computed_is_measured_as_standard():
     def refuse(state, plan):
         raise InvalidParameter("No.")
 
-    assert needed(Trial(Kind.MAP, (), refuse, lambda *_: 0.0, refuse), None) == "standard"
+    assert needed(Trial(Computation.MAP, (), refuse, lambda *_: 0.0, refuse), None) == "standard"
 
 
 def test_every_scene_offers_auto_and_all_levels():
@@ -197,8 +197,8 @@ def test_the_cost_of_all_is_measured_when_its_picture_is_unfolded():
     scene = scenes()["scattering-accuracy"]
     assert scene.folded == {"trade": "Measure all that is computed", "difference": "Show what more accuracy changes"}
     state, report = completed(scene, {}, ("trade",))
-    samples = state.costs[Kind.MAP]
-    errors, ms = state.cost_of(Kind.MAP)
+    samples = state.costs[Computation.MAP]
+    errors, ms = state.cost_of(Computation.MAP)
     assert errors == pytest.approx([max(2.0 * one.error, 1e-9) for one in samples])
     assert ms == pytest.approx([one.ms for one in samples])
     assert any(row.startswith("map: ") and row.endswith(" pixels") for row in report.derived)
@@ -270,7 +270,8 @@ def test_the_points_that_move_are_those_of_the_finer_run_that_lie_elsewhere():
     section, shown = SUSLOV.of({**SUSLOV.defaults(), **SMALL}), state.changes
     starts, away, longer = [section.start, *section.section.spread(section.frame, 12)], [], 0
     for forward, some in ((True, starts), (False, starts[1:])):
-        coarse, fine = (suslov_points(section.body, 3, some, count, forward, PLANS[Kind.SECTION][name].level, threads=1)
+        coarse, fine = (suslov_points(section.body, 3, some, count, forward, PLANS[Computation.SECTION][name].level,
+                                      threads=1)
                         for name, count in (("draft", 30), ("standard", 120)))
         for one, other in zip(coarse.states, fine.states, strict=True):
             off = coordinates(one, 3) - coordinates(other, 3)[: len(one)]
@@ -338,7 +339,7 @@ def test_the_error_of_a_cloud_is_measured_on_the_same_points():
     (trial,) = scene.trials
     state = bare(scene.of({**scene.defaults(), "points": "1000", "span": 6.0}))
     for name in ("draft", "standard"):
-        found = trial.run(state, PLANS[Kind.CLOUD][name])
+        found = trial.run(state, PLANS[Computation.CLOUD][name])
         cloud, exact = found.cloud, state.task(1000, LEVELS["reference"]).now().cloud
         radius = 300.0
         # 1.1 × the largest |ω| fits, in round steps, so a unit of ω is between 150 and 300 pixels over it.

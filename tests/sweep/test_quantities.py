@@ -14,7 +14,7 @@ from hess_mechanics import BallBody, Plane, SuslovBody, circle_map, level, scatt
 from hess_mechanics.chaplygin_ball.section import EQUATOR, BallSection
 from hess_mechanics.dynamics.lyapunov import largest_exponent
 from hess_mechanics.euler_poisson.andoyer import AndoyerPlane
-from hess_mechanics.numerics.accuracy import PLANS, Kind
+from hess_mechanics.numerics.accuracy import PLANS, Computation
 from hess_mechanics.suslov.kharlamova import PlaneBody, arc
 from hess_mechanics.suslov_hess.rotation_number import values_at
 
@@ -32,7 +32,7 @@ def theta_plus(I11, phi):
 def exponent(w1, I22, t=20.0):
     state = (w1, -0.4, 0.6, 0.0, 0.8)
     p = (2.0, I22, 0.3, 0.5, 0.3, -0.5, 1.0)
-    return largest_exponent(SUSLOV, state, p, t, PLANS[Kind.EXPONENT]["draft"].level).value
+    return largest_exponent(SUSLOV, state, p, t, PLANS[Computation.EXPONENT]["draft"].level).value
 
 
 def crossings(b3, t=40.0):
@@ -78,7 +78,8 @@ def heavy_state(l, x):
 
 
 def heavy_exponent(l, x, t=10.0):
-    return largest_exponent(HEAVY, heavy_state(l, x), HEAVY.example[1], t, PLANS[Kind.EXPONENT]["draft"].level).value
+    return largest_exponent(HEAVY, heavy_state(l, x), HEAVY.example[1], t,
+                            PLANS[Computation.EXPONENT]["draft"].level).value
 
 
 LOOPS = {
@@ -196,7 +197,7 @@ def test_exponents_at_an_energy_are_those_of_the_state_there():
     gamma, turn = (math.cos(1.0), math.sin(1.0), 0.0), (math.cos(2.0), math.sin(2.0))
     speed = math.sqrt(2.0 * (E - 0.3 * gamma[0] + 0.5 * gamma[1]) / (2.0 * turn[0] ** 2 + turn[1] ** 2))
     state = (speed * turn[0], speed * turn[1], *gamma)
-    by_hand = largest_exponent(SUSLOV, state, SUSLOV.example[1], 20.0, PLANS[Kind.EXPONENT]["draft"].level)
+    by_hand = largest_exponent(SUSLOV, state, SUSLOV.example[1], 20.0, PLANS[Computation.EXPONENT]["draft"].level)
     assert found.lyapunov_suslov_section.values[2] == pytest.approx(by_hand.value, abs=1e-4)
 
 

@@ -13,15 +13,17 @@ from hess_explorer.scenes.framework.trial import Trial, bare
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.trade import Sample, enough, measure
 from hess_mechanics.errors import InvalidParameter, ModelError
-from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, PLANS, REFERENCE, Kind
+from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, PLANS, REFERENCE, Computation
 
 __all__ = ["Failed", "Row", "as_json", "as_text", "by_kind", "costliest", "heading", "line_of", "names", "trade"]
 
-_COUNTED: dict[Kind, tuple[str, str]] = {
-    Kind.ORBIT: ("", ""), Kind.SECTION: ("crossings", ""), Kind.ROTATION: ("crossings", "orbits"),
-    Kind.GRID: ("", "cells along a side"), Kind.LINE: ("turns", "places"), Kind.COLOURS: ("", "cells along a side"),
-    Kind.MAP: ("", "phases"), Kind.CURVE: ("", "tori"), Kind.BASINS: ("", "cells along a side"),
-    Kind.INDICATOR: ("", "cells along a side"), Kind.EXPONENT: ("time", ""), Kind.CLOUD: ("points", "")}
+_COUNTED: dict[Computation, tuple[str, str]] = {
+    Computation.ORBIT: ("", ""), Computation.SECTION: ("crossings", ""), Computation.ROTATION: ("crossings", "orbits"),
+    Computation.GRID: ("", "cells along a side"), Computation.LINE: ("turns", "places"),
+    Computation.COLOURS: ("", "cells along a side"),
+    Computation.MAP: ("", "phases"), Computation.CURVE: ("", "tori"), Computation.BASINS: ("", "cells along a side"),
+    Computation.INDICATOR: ("", "cells along a side"), Computation.EXPONENT: ("time", ""),
+    Computation.CLOUD: ("points", "")}
 """What `Plan.share` and `Plan.cells` are a part of."""
 
 
@@ -136,7 +138,7 @@ def by_kind(rows: Sequence[Row]) -> str:
     most), and the largest error of each level among them.
     """
     lines = [_heading(["computation", "draft computes", "reference takes", *LEVELS, "error in"])]
-    for kind in Kind:
+    for kind in Computation:
         own = [row for row in rows if row.kind == kind]
         if own:
             ratios = sorted(row.ratio for row in own)
@@ -147,7 +149,7 @@ def by_kind(rows: Sequence[Row]) -> str:
     return "".join(lines)
 
 
-def _draft_computes(kind: Kind) -> str:
+def _draft_computes(kind: Computation) -> str:
     draft, last = PLANS[kind][DRAFT.name], PLANS[kind][REFERENCE.name]
     parts = zip((draft.share, draft.cells), (last.share, last.cells), _COUNTED[kind], strict=True)
     return " and ".join(f"{100.0 * one / other:.0f} % of the {what}" for one, other, what in parts if one < other) \

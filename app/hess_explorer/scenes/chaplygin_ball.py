@@ -34,7 +34,7 @@ from hess_mechanics.chaplygin_ball.equations import SYSTEM
 from hess_mechanics.chaplygin_ball.strip_orbits import StripOrbit, largest_distance, strip_orbits
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.errors import WorkLimit
-from hess_mechanics.numerics.accuracy import DRAFT, REFERENCE, Kind, Level
+from hess_mechanics.numerics.accuracy import DRAFT, REFERENCE, Computation, Level
 from hess_mechanics.numerics.results import Array
 
 _ORBITS, _FEW_ORBITS = 18, 8
@@ -92,7 +92,7 @@ class ChaplyginBall(CircleLeft, FreeBall, OneOrbit, ConstrainedBody):
     @cached_property
     def crowd(self) -> tuple[StripOrbit, ...]:
         """Orbits over the strip."""
-        plan = self.plan(Kind.CURVE)
+        plan = self.plan(Computation.CURVE)
         found: tuple[StripOrbit, ...] = self.work.sooner(
             self.strip_orbits(plan.side(_ORBITS), plan.level), self.strip_orbits(_FEW_ORBITS, DRAFT))
         return tuple((math.sqrt(self.h) * track, place) for track, place in found)
@@ -100,7 +100,7 @@ class ChaplyginBall(CircleLeft, FreeBall, OneOrbit, ConstrainedBody):
     @cached_property
     def map_or_reason(self) -> tuple[model.BallScattering | None, str]:
         """θ⁺ over the phases; None where it would take too long, and why."""
-        plan = self.plan(Kind.MAP)
+        plan = self.plan(Computation.MAP)
         whole = plan.side(_PHASES)
         try:
             return self.work.sooner(self.phases(whole, plan.level), self.phases(min(whole, _FEW_PHASES), DRAFT)), ""
@@ -167,11 +167,11 @@ class ChaplyginBall(CircleLeft, FreeBall, OneOrbit, ConstrainedBody):
 
 # The phases and orbits found are not those of the truth: the exact ones are computed again.
 _MEASURES: tuple[Trial[ChaplyginBall], ...] = (
-    Trial(Kind.MAP, ("curve",), lambda s, plan: s.phases(plan.side(_PHASES), plan.level).now(),
+    Trial(Computation.MAP, ("curve",), lambda s, plan: s.phases(plan.side(_PHASES), plan.level).now(),
           lambda s, found, truth: curve_error(
               found.theta_plus, s.phases(found.phis.size, REFERENCE).now().theta_plus, math.pi),
           lambda s, found: Curves(square.FRAME, (found.curve,))),
-    Trial(Kind.CURVE, ("omega",), lambda s, plan: s.strip_orbits(plan.side(_ORBITS), plan.level).now(),
+    Trial(Computation.CURVE, ("omega",), lambda s, plan: s.strip_orbits(plan.side(_ORBITS), plan.level).now(),
           lambda s, found, truth: math.sqrt(s.h) * 0.5 * PIXELS / s.half_width * largest_distance(
               found, s.strip_orbits(len(found), REFERENCE).now()),
           lambda s, found: Curves(plane.frame(s.half_width), tuple(

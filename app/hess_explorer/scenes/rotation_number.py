@@ -23,7 +23,7 @@ from hess_explorer.views.comparison import Frame
 from hess_explorer.views.layers import Axes, Grid
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
-from hess_mechanics.numerics.accuracy import REFERENCE, Kind, Plan
+from hess_mechanics.numerics.accuracy import REFERENCE, Computation, Plan
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess import rotation_number as mechanics
 from hess_mechanics.suslov_hess.circle_map import CircleMap
@@ -124,7 +124,7 @@ class RotationNumber(State):
     def grid(self) -> tuple[TorusValues, tuple[int, int]]:
         """The map and its cells (m, n), coarse first."""
         common = (self.over, self.beside, self.window)
-        plan = self.plan(Kind.GRID)
+        plan = self.plan(Computation.GRID)
         fine = plan.grid(_FINE)
         parts = [] if self.dragging else [
             self.work.later(mechanics.rows, *common, fine, first, min(first + _ROWS, fine[1]), plan.level)
@@ -154,7 +154,7 @@ class RotationNumber(State):
         """|t| = 2 in the map, as soon as it is known."""
         if self.dragging:
             return []
-        task = self.lock(self.plan(Kind.CURVE))
+        task = self.lock(self.plan(Computation.CURVE))
         found: Array | None = self.work.later(task.function, *task.arguments)
         if found is None or not len(found):
             return []
@@ -170,19 +170,19 @@ class RotationNumber(State):
     @property
     def x(self) -> Array:
         """Places (n,) on the line."""
-        return self.on_line.places(_ON_LINE // 4 if self.dragging else self.plan(Kind.LINE).side(_ON_LINE))
+        return self.on_line.places(_ON_LINE // 4 if self.dragging else self.plan(Computation.LINE).side(_ON_LINE))
 
     @cached_property
     def along(self) -> TorusValues:
         """ρ and trace at these places."""
-        return self.work.get(mechanics.along, self.on_line, self.x.size, self.plan(Kind.LINE).level)
+        return self.work.get(mechanics.along, self.on_line, self.x.size, self.plan(Computation.LINE).level)
 
     @cached_property
     def perturbed(self) -> Array | None:
         """ρ of the other family there, as soon as it is known; NaN where there is no torus."""
         return None if self.dragging else self.work.later(
-            mechanics.perturbed_along, self.on_line, self.x.size, self.epsilon, self.plan(Kind.LINE).level,
-            self.plan(Kind.LINE).part(mechanics.TURNS))
+            mechanics.perturbed_along, self.on_line, self.x.size, self.epsilon, self.plan(Computation.LINE).level,
+            self.plan(Computation.LINE).part(mechanics.TURNS))
 
     @property
     def sought(self) -> Fraction:
@@ -250,7 +250,7 @@ class RotationNumber(State):
         if self.known("grid"):
             m, n = self.grid[1]
             error = None if self.dragging else self.work.later(
-                mechanics.rows_error, self.over, self.beside, self.window, self.plan(Kind.GRID).level)
+                mechanics.rows_error, self.over, self.beside, self.window, self.plan(Computation.GRID).level)
             yield f"map {m} × {n}" + (f", ρ to {error:.1e} (99 of 100 cells)" if error is not None else "")
         if self.map is not None:
             yield f"{self.map.level}: circle map error ≤ {self.map.error_estimate:.1e} ({self.map.status})"

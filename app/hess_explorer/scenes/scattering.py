@@ -25,7 +25,7 @@ from hess_explorer.views.text import digits as in_digits
 from hess_explorer.views.text import vector
 from hess_explorer.views.velocity_plane import velocity_columns
 from hess_mechanics.dynamics.sampling import PIXELS
-from hess_mechanics.numerics.accuracy import Kind, Plan
+from hess_mechanics.numerics.accuracy import Computation, Plan
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov import scattering as model
 from hess_mechanics.suslov.free import Equilibria, FreeMotion, equilibria_of_unit_rate, sampled_motion
@@ -125,7 +125,7 @@ class Scattering(CircleLeft, FreeBody, ConstrainedBody):
 
     def grid(self) -> Array:
         """θ⁺ over all circles and phases."""
-        cells = _FEW_CELLS if self.dragging else self.plan(Kind.MAP).grid(_CELLS)
+        cells = _FEW_CELLS if self.dragging else self.plan(Computation.MAP).grid(_CELLS)
         return self.work.get(model.theta_plus_grid, self.map, *cells)
 
     # ---- words --------------------------------------------------------------------------------------------------
@@ -171,7 +171,7 @@ def _map(s: Scattering, plan: Plan) -> Array:
 
 
 _MAP: Trial[Scattering] = Trial(
-    Kind.MAP, ("curve", "map"), _map, lambda s, found, truth: curve_error(found, truth, math.pi),
+    Computation.MAP, ("curve", "map"), _map, lambda s, found, truth: curve_error(found, truth, math.pi),
     lambda s, found: Curves(square.FRAME, (np.column_stack([_PHASES, found]),)))
 
 SCENE = Scene(

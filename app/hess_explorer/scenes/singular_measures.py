@@ -23,7 +23,7 @@ from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Direction, Sphere
 from hess_explorer.views.text import digits, ranging, vector
 from hess_mechanics.chaplygin_ball.phase_cloud_density import Clouds, clouds
-from hess_mechanics.numerics.accuracy import REFERENCE, Kind, Level
+from hess_mechanics.numerics.accuracy import REFERENCE, Computation, Level
 from hess_mechanics.numerics.results import Array
 
 _FEW = 1000
@@ -91,7 +91,7 @@ class SingularMeasures(FreeBall):
     @cached_property
     def clouds(self) -> Clouds:
         """What moves."""
-        plan = self.plan(Kind.CLOUD)
+        plan = self.plan(Computation.CLOUD)
         count = plan.part(int(self.points), _FEW)
         found: Clouds = self.work.sooner(self.task(count, plan.level), self.task(min(count, _FEW), plan.level))
         return found
@@ -164,7 +164,7 @@ def _count(found: Clouds) -> int:
 
 
 _CLOUD: Trial[SingularMeasures] = Trial(
-    Kind.CLOUD, (), lambda s, plan: s.task(plan.part(int(s.points), _FEW), plan.level).now(),
+    Computation.CLOUD, (), lambda s, plan: s.task(plan.part(int(s.points), _FEW), plan.level).now(),
     lambda s, found, truth: compared(cloud.look(found), cloud.look(_exact(s, found))).largest,
     lambda s, found: cloud.look(found), alike=True)
 

@@ -46,7 +46,7 @@ from hess_explorer.views.velocity_plane import orbit_alone, orbit_columns
 from hess_mechanics.dynamics.sampling import HALF_A_PIXEL
 from hess_mechanics.dynamics.section import occupied_cells
 from hess_mechanics.errors import WorkLimit
-from hess_mechanics.numerics.accuracy import Kind, Level, cheapest
+from hess_mechanics.numerics.accuracy import Computation, Level, cheapest
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.rigid_body.inertia import check_body
 from hess_mechanics.suslov.equations import SYSTEM
@@ -167,7 +167,7 @@ class Suslov(HeavySuslov, Basins, ConstrainedBody):
     def course(self) -> Course | None:
         """The mean divergence along the orbit on show, when it is known; not while a slider is held."""
         return None if self.dragging or self.looking or self.closed is not None else self.work.later(
-            mean_divergence, self.body, self.start, self.plan(Kind.EXPONENT).share * self.long)
+            mean_divergence, self.body, self.start, self.plan(Computation.EXPONENT).share * self.long)
 
     # ---- the other pictures -------------------------------------------------------------------------------------
 

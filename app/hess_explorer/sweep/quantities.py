@@ -20,14 +20,14 @@ from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.integrable_cases import period
 from hess_mechanics.chaplygin_ball.scattering import ball_scattering
 from hess_mechanics.chaplygin_ball.section import BallSection
-from hess_mechanics.dynamics.regime import Kind as Regimes
+from hess_mechanics.dynamics.regime import MotionKind as Regimes
 from hess_mechanics.dynamics.regime import regime
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import SYSTEM as HEAVY
 from hess_mechanics.euler_poisson.equations import HeavyBody
-from hess_mechanics.numerics.accuracy import PLANS, Kind, Level
+from hess_mechanics.numerics.accuracy import PLANS, Computation, Level
 from hess_mechanics.suslov.basins import count_attractors
 from hess_mechanics.suslov.equations import SuslovBody, unit_vector
 from hess_mechanics.suslov.kharlamova import PlaneBody, arc
@@ -130,7 +130,7 @@ def _ball_theta_plus(level: Level, I11: float, I22: float, I13: float, I23: floa
 
 
 def _attractors(level: Level, across: float, up: float, crossings: float, t: float, **values: float) -> Cell:
-    plan = PLANS[Kind.BASINS][level.name]
+    plan = PLANS[Computation.BASINS][level.name]
     return Cell(float(count_attractors(suslov_section(values), (int(across), int(up)), int(crossings), t, plan.level)))
 
 

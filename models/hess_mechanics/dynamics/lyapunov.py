@@ -21,7 +21,7 @@ from hess_mechanics.dynamics.orbit import (
 )
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.numerics.accuracy import STANDARD, Accuracy, Kind, plan
+from hess_mechanics.numerics.accuracy import STANDARD, Accuracy, Computation, plan
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
@@ -86,7 +86,7 @@ def largest_exponent(system: System, state: Sequence[float], parameters: Sequenc
     >>> float(largest_exponent(suslov, *suslov.example, 50.0).times[-1])
     50.0
     """
-    level = plan(Kind.EXPONENT, level).level
+    level = plan(Computation.EXPONENT, level).level
     problem, count = _checked(system, state, parameters, span)
     interval = np.array([span * problem.nu / count])
     direction = np.cos(1.0 + np.arange(problem.scale.size) ** 2)

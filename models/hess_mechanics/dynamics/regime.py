@@ -34,7 +34,7 @@ from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, frozen
 
-__all__ = ["Dynamics", "Kind", "Regime", "compared", "dynamics_of", "regime"]
+__all__ = ["Dynamics", "MotionKind", "Regime", "compared", "dynamics_of", "regime"]
 
 _MEMBERS = 8
 """Orbits of an ensemble: that all of them agree by chance has a probability of 1/2⁸."""
@@ -64,7 +64,7 @@ _TOUCHING = 0.005
 to orbit, of sets that are apart 0."""
 
 
-class Kind(IntEnum):
+class MotionKind(IntEnum):
     """Kinds of motions on a section, numbered as in charts."""
 
     NO_RETURN = 0
@@ -83,14 +83,14 @@ class Kind(IntEnum):
 
 
 _WORDS = {
-    Kind.NO_RETURN: "not seen to return to the section",
-    Kind.FIXED_POINT: "fixed point",
-    Kind.PERIODIC: "periodic",
-    Kind.QUASI_PERIODIC: "quasi-periodic",
-    Kind.CHAOTIC: "chaotic",
-    Kind.UNDECIDED: "undecided so far",
-    Kind.NO_PERIOD: f"regular, no period up to {MAX_PERIOD}",
-    Kind.SETTLING: "still settling",
+    MotionKind.NO_RETURN: "not seen to return to the section",
+    MotionKind.FIXED_POINT: "fixed point",
+    MotionKind.PERIODIC: "periodic",
+    MotionKind.QUASI_PERIODIC: "quasi-periodic",
+    MotionKind.CHAOTIC: "chaotic",
+    MotionKind.UNDECIDED: "undecided so far",
+    MotionKind.NO_PERIOD: f"regular, no period up to {MAX_PERIOD}",
+    MotionKind.SETTLING: "still settling",
 }
 
 
@@ -124,7 +124,7 @@ class Regime(Result):
         The accuracy level.
     """
 
-    kind: Kind
+    kind: MotionKind
     period: int
     names: tuple[str, ...]
     places: Array
@@ -150,9 +150,9 @@ class Regime(Result):
     @property
     def sentence(self) -> str:
         """The result in a sentence or two."""
-        if self.kind is Kind.NO_RETURN:
+        if self.kind is MotionKind.NO_RETURN:
             return f"The motion was not seen to return to the section within t = {self.t:.4g}."
-        kind = f"periodic, period {self.period}" if self.kind is Kind.PERIODIC else self.kind.words
+        kind = f"periodic, period {self.period}" if self.kind is MotionKind.PERIODIC else self.kind.words
         case = f" ({self.integrable})" if self.integrable else ""
         if self.volume_kept:
             return f"{kind[0].upper()}{kind[1:]}{case}; phase volume is kept."
@@ -195,19 +195,19 @@ class _Evidence:
         """True if neighbours do not part exponentially."""
         return self.late < max(REGULAR, self.early)
 
-    def kind(self, integrable: bool) -> Kind:
+    def kind(self, integrable: bool) -> MotionKind:
         """The kind of the motion, as far as this tells."""
         if self.grows and self.k > _CHAOTIC_SERIES and not integrable:
-            return Kind.CHAOTIC
+            return MotionKind.CHAOTIC
         if not (self.bounded or integrable):
-            return Kind.UNDECIDED
+            return MotionKind.UNDECIDED
         if self.period:
-            return Kind.FIXED_POINT if self.period == 1 else Kind.PERIODIC
+            return MotionKind.FIXED_POINT if self.period == 1 else MotionKind.PERIODIC
         if not self.settled:
-            return Kind.SETTLING
+            return MotionKind.SETTLING
         if self.crossings >= _FEWEST and (integrable or self.digits > _DIGITS):
-            return Kind.QUASI_PERIODIC
-        return Kind.UNDECIDED
+            return MotionKind.QUASI_PERIODIC
+        return MotionKind.UNDECIDED
 
 
 def regime(map_: ReturnMap, start: Sequence[float] | Array, transient: int = 300, kept: int = 200, t: float = 200.0
@@ -254,7 +254,7 @@ def regime(map_: ReturnMap, start: Sequence[float] | Array, transient: int = 300
     evidence = _evidence(map_, places, span)
     kind = evidence.kind(integrable)
     for _ in range(_ROUNDS - 1):
-        if kind not in (Kind.UNDECIDED, Kind.SETTLING):
+        if kind not in (MotionKind.UNDECIDED, MotionKind.SETTLING):
             break
         count = min(_LONGER * len(places), _MOST_CROSSINGS)
         longest = longest_span(map_.sheet.system, map_.state_at(places[-1]), map_.sheet.parameters)
@@ -269,9 +269,9 @@ def regime(map_: ReturnMap, start: Sequence[float] | Array, transient: int = 300
         evidence = _evidence(map_, places, span)
         kind = evidence.kind(integrable)
     changes = volume_sign(evidence.divergence, evidence.divergence_error) != 0
-    if kind is Kind.QUASI_PERIODIC and changes and not _has_a_curve(map_, places[-1], span):
-        kind = Kind.NO_PERIOD
-    period = evidence.period if kind in (Kind.FIXED_POINT, Kind.PERIODIC) else 0
+    if kind is MotionKind.QUASI_PERIODIC and changes and not _has_a_curve(map_, places[-1], span):
+        kind = MotionKind.NO_PERIOD
+    period = evidence.period if kind in (MotionKind.FIXED_POINT, MotionKind.PERIODIC) else 0
     return Regime(kind, period, map_.names, frozen(places.copy()), span, evidence.late, evidence.k,
                   evidence.divergence, evidence.divergence_error, map_.volume_kept, map_.sheet.integrable,
                   map_.level)
@@ -279,7 +279,7 @@ def regime(map_: ReturnMap, start: Sequence[float] | Array, transient: int = 300
 
 def _not_seen(map_: ReturnMap, places: Array, start: Sequence[float] | Array) -> Regime:
     last = places[-1] if len(places) else np.array(start, float)
-    return Regime(Kind.NO_RETURN, 0, map_.names, frozen(places.copy()), map_.wait(last), 0.0, math.nan, 0.0, 0.0,
+    return Regime(MotionKind.NO_RETURN, 0, map_.names, frozen(places.copy()), map_.wait(last), 0.0, math.nan, 0.0, 0.0,
                   map_.volume_kept, map_.sheet.integrable, map_.level)
 
 

@@ -29,7 +29,7 @@ from hess_mechanics.dynamics.orbit import (
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.dynamics.variation import frame_ahead, neighbours
 from hess_mechanics.errors import WorkLimit
-from hess_mechanics.numerics.accuracy import PLANS, STANDARD, Accuracy, Kind, Status
+from hess_mechanics.numerics.accuracy import PLANS, STANDARD, Accuracy, Computation, Status
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.patience import go_on
@@ -300,7 +300,8 @@ def spectrum(system: System, state: Sequence[float] | Array, parameters: Sequenc
     rates = growth[1:, order] / times[1:, None]
     require_finite_rates(mean, error, rates)
     worst = float(error.max()) + floor
-    promise = PLANS[Kind.EXPONENT][level.name].promise * problem.nu if level.name in PLANS[Kind.EXPONENT] else worst
+    plans = PLANS[Computation.EXPONENT]
+    promise = plans[level.name].promise * problem.nu if level.name in plans else worst
     number = len(system.integrals(list(state), list(parameters)))
     return Spectrum(
         system.name, level.name, frozen(times[1:]), frozen(rates), frozen(mean[order]), frozen(error[order] + floor),

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
-from hess_mechanics.numerics.accuracy import LEVELS, PLANS, REFERENCE, Kind, Plan
+from hess_mechanics.numerics.accuracy import LEVELS, PLANS, REFERENCE, Computation, Plan
 from hess_mechanics.numerics.patience import go_on
 
 __all__ = ["Sample", "beyond", "enough", "measure", "measure_until"]
@@ -25,7 +25,7 @@ class Sample:
     complete: bool
 
 
-def beyond(kind: Kind) -> Plan:
+def beyond(kind: Computation) -> Plan:
     """More exact than `reference`, with other steps, and as fine: what errors are measured against."""
     finest = PLANS[kind][REFERENCE.name]
     return replace(finest, level=finest.level.tightened())
@@ -41,7 +41,7 @@ def _sample(plan: Plan, run: Callable[[Plan], R], error: Callable[[R, R], float]
     return Sample(plan.level.name, 1e3 * best, error(result, truth), plan.share >= 1.0 and plan.cells >= 1.0)
 
 
-def measure(kind: Kind, run: Callable[[Plan], R], error: Callable[[R, R], float], repeats: int = 1
+def measure(kind: Computation, run: Callable[[Plan], R], error: Callable[[R, R], float], repeats: int = 1
             ) -> tuple[Sample, ...]:
     """A computation at each level, from the cheapest on.
 
@@ -52,7 +52,7 @@ def measure(kind: Kind, run: Callable[[Plan], R], error: Callable[[R, R], float]
     return tuple(_sample(PLANS[kind][name], run, error, truth, repeats) for name in LEVELS)
 
 
-def measure_until(kind: Kind, run: Callable[[Plan], R], error: Callable[[R, R], float], largest: float) -> str:
+def measure_until(kind: Computation, run: Callable[[Plan], R], error: Callable[[R, R], float], largest: float) -> str:
     """The level that `enough` finds, without the cost of those above it."""
     truth = run(beyond(kind))
     samples = (_sample(PLANS[kind][name], run, error, truth, 1) for name in LEVELS)

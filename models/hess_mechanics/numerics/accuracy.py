@@ -21,7 +21,7 @@ __all__ = [
     "REFERENCE",
     "STANDARD",
     "Accuracy",
-    "Kind",
+    "Computation",
     "Level",
     "Plan",
     "Status",
@@ -115,7 +115,7 @@ def cheapest(error: float) -> Level:
 # ---- kinds of computation ---------------------------------------------------------------------------------------
 
 
-class Kind(StrEnum):
+class Computation(StrEnum):
     """What is computed, each with its own meaning of the levels."""
 
     ORBIT = "orbit"
@@ -138,18 +138,19 @@ class Kind(StrEnum):
 
 
 _UNITS = {
-    Kind.ORBIT: "error where the state is O(1)",
-    Kind.SECTION: "crossings right to half a pixel where neighbours part e-fold from one to the next",
-    Kind.ROTATION: "error of the rotation number of a closed curve, in turns",
-    Kind.GRID: "error of ρ where |trace| is not within 1e-2 of 2, in turns",
-    Kind.LINE: "error of ρ where |trace| is not within 1e-2 of 2, in turns",
-    Kind.COLOURS: "error of ρ where |trace| is not within 1e-2 of 2, in turns; 256 colours tell 4e-3 apart",
-    Kind.MAP: "error of θ⁺, in radians",
-    Kind.CURVE: "distance from the curve, in pixels, for |a| ≤ 1",
-    Kind.BASINS: "share of the cells that twice as many along each side change, where the boundary is a curve",
-    Kind.INDICATOR: "share of the cells that twice as many along each side change, where the boundary is a curve",
-    Kind.EXPONENT: "error of λ beside the fastest angular velocity ν, for a time of 2000/ν",
-    Kind.CLOUD: "error of ln|s|, of γ, and of ω beside its largest size",
+    Computation.ORBIT: "error where the state is O(1)",
+    Computation.SECTION: "crossings right to half a pixel where neighbours part e-fold from one to the next",
+    Computation.ROTATION: "error of the rotation number of a closed curve, in turns",
+    Computation.GRID: "error of ρ where |trace| is not within 1e-2 of 2, in turns",
+    Computation.LINE: "error of ρ where |trace| is not within 1e-2 of 2, in turns",
+    Computation.COLOURS: "error of ρ where |trace| is not within 1e-2 of 2, in turns; 256 colours tell 4e-3 apart",
+    Computation.MAP: "error of θ⁺, in radians",
+    Computation.CURVE: "distance from the curve, in pixels, for |a| ≤ 1",
+    Computation.BASINS: "share of the cells that twice as many along each side change, where the boundary is a curve",
+    Computation.INDICATOR: "share of the cells that twice as many along each side change, where the boundary is a "
+                           "curve",
+    Computation.EXPONENT: "error of λ beside the fastest angular velocity ν, for a time of 2000/ν",
+    Computation.CLOUD: "error of ln|s|, of γ, and of ω beside its largest size",
 }
 
 
@@ -196,38 +197,39 @@ _CELLS = _plans((_CROSSED, 1.0, 0.5, 0.05), (replace(_CROSSED, name="standard"),
                 (replace(STANDARD, name="precise"), 1.0, 1.0, 0.03),
                 (replace(PRECISE, name="reference"), 1.0, 1.5, 0.02))
 
-PLANS: Mapping[Kind, Mapping[str, Plan]] = {
-    Kind.ORBIT: _plans(*((each, 1.0, 1.0, each.promise) for each in LEVELS.values())),
+PLANS: Mapping[Computation, Mapping[str, Plan]] = {
+    Computation.ORBIT: _plans(*((each, 1.0, 1.0, each.promise) for each in LEVELS.values())),
     # A tolerance above 1e-6 loses crossings.
-    Kind.SECTION: _plans((_CROSSED, 0.25, 1.0, 5), (STANDARD, 1.0, 1.0, 9), (PRECISE, 1.0, 1.0, 13),
-                         (REFERENCE, 1.0, 1.0, 22)),
-    Kind.ROTATION: _plans((_CROSSED, 0.3, 0.5, 1e-3), (STANDARD, 1.0, 1.0, 1e-4), (PRECISE, 1.0, 1.0, 1e-4),
-                          (REFERENCE, 1.0, 1.0, 1e-4)),
-    Kind.GRID: _plans((DRAFT, 1.0, 0.5, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9),
-                      (REFERENCE, 1.0, 1.0, 1e-11)),
+    Computation.SECTION: _plans((_CROSSED, 0.25, 1.0, 5), (STANDARD, 1.0, 1.0, 9), (PRECISE, 1.0, 1.0, 13),
+                                (REFERENCE, 1.0, 1.0, 22)),
+    Computation.ROTATION: _plans((_CROSSED, 0.3, 0.5, 1e-3), (STANDARD, 1.0, 1.0, 1e-4), (PRECISE, 1.0, 1.0, 1e-4),
+                                 (REFERENCE, 1.0, 1.0, 1e-4)),
+    Computation.GRID: _plans((DRAFT, 1.0, 0.5, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9),
+                             (REFERENCE, 1.0, 1.0, 1e-11)),
     # Turns of a perturbed map take the time, whatever the accuracy of the map.
-    Kind.LINE: _plans((DRAFT, 0.15, 0.2, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9),
-                      (REFERENCE, 1.0, 1.0, 1e-11)),
-    Kind.COLOURS: _plans((DRAFT, 1.0, 0.5, 1e-3), (replace(DRAFT, name="standard"), 1.0, 1.0, 1e-3),
-                         (replace(STANDARD, name="precise"), 1.0, 1.0, 1e-6),
-                         (replace(PRECISE, name="reference"), 1.0, 1.5, 1e-9)),
-    Kind.MAP: _plans((DRAFT, 1.0, 0.4, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9),
-                     (REFERENCE, 1.0, 1.0, 1e-11)),
-    Kind.CURVE: _plans((DRAFT, 1.0, 0.5, 0.75), (STANDARD, 1.0, 1.0, 0.25), (PRECISE, 1.0, 1.0, 0.25),
-                       (REFERENCE, 1.0, 2.0, 0.1)),
+    Computation.LINE: _plans((DRAFT, 0.15, 0.2, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9),
+                             (REFERENCE, 1.0, 1.0, 1e-11)),
+    Computation.COLOURS: _plans((DRAFT, 1.0, 0.5, 1e-3), (replace(DRAFT, name="standard"), 1.0, 1.0, 1e-3),
+                                (replace(STANDARD, name="precise"), 1.0, 1.0, 1e-6),
+                                (replace(PRECISE, name="reference"), 1.0, 1.5, 1e-9)),
+    Computation.MAP: _plans((DRAFT, 1.0, 0.4, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9),
+                            (REFERENCE, 1.0, 1.0, 1e-11)),
+    Computation.CURVE: _plans((DRAFT, 1.0, 0.5, 0.75), (STANDARD, 1.0, 1.0, 0.25), (PRECISE, 1.0, 1.0, 0.25),
+                              (REFERENCE, 1.0, 2.0, 0.1)),
     # To which attractor an orbit comes, and whether it is chaotic, needs no digits: more cells tell more.
-    Kind.BASINS: _CELLS,
-    Kind.INDICATOR: _CELLS,
+    Computation.BASINS: _CELLS,
+    Computation.INDICATOR: _CELLS,
     # The neighbour is 1e-7 away, and steps must be exact beside that; the time decides how well λ is known.
-    Kind.EXPONENT: _plans((replace(DRAFT, tolerance=1e-10, order=16), 0.2, 1.0, 0.05),
-                          (replace(STANDARD, tolerance=1e-14, order=24), 1.0, 1.0, 0.02),
-                          (replace(PRECISE, tolerance=1e-15, order=24), 1.0, 1.0, 0.02), (REFERENCE, 1.0, 1.0, 0.02)),
-    Kind.CLOUD: _plans((DRAFT, 0.15, 1.0, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9),
-                       (REFERENCE, 1.0, 1.0, 1e-12)),
+    Computation.EXPONENT: _plans((replace(DRAFT, tolerance=1e-10, order=16), 0.2, 1.0, 0.05),
+                                 (replace(STANDARD, tolerance=1e-14, order=24), 1.0, 1.0, 0.02),
+                                 (replace(PRECISE, tolerance=1e-15, order=24), 1.0, 1.0, 0.02),
+                                 (REFERENCE, 1.0, 1.0, 0.02)),
+    Computation.CLOUD: _plans((DRAFT, 0.15, 1.0, 1e-3), (STANDARD, 1.0, 1.0, 1e-6), (PRECISE, 1.0, 1.0, 1e-9),
+                              (REFERENCE, 1.0, 1.0, 1e-12)),
 }
 
 
-def plan(kind: Kind, accuracy: Accuracy) -> Plan:
+def plan(kind: Computation, accuracy: Accuracy) -> Plan:
     """What a level means for a kind of computation, all of it at a level that is none of the four.
 
     Raises `InvalidParameter`.

@@ -23,7 +23,7 @@ from hess_mechanics import (
 )
 from hess_mechanics.dynamics import return_map as return_map_module
 from hess_mechanics.dynamics.point_sets import Apart
-from hess_mechanics.dynamics.regime import Dynamics, Kind, dynamics_of, regime
+from hess_mechanics.dynamics.regime import Dynamics, MotionKind, dynamics_of, regime
 from hess_mechanics.errors import InvalidParameter, NoReturn
 from support.suslov import field, permanent_rotations
 
@@ -36,19 +36,19 @@ PLAIN = SuslovBody(1.5, 0.7, 0.0, 0.0, 1.4, -1.3, 0.8)
 
 
 @pytest.mark.parametrize(("a", "h", "f", "kind"), [
-    (0.5, 1.5, 0.6, Kind.FIXED_POINT), (0.1, 0.8, 0.6, Kind.QUASI_PERIODIC)])
+    (0.5, 1.5, 0.6, MotionKind.FIXED_POINT), (0.1, 0.8, 0.6, MotionKind.QUASI_PERIODIC)])
 def test_on_a_torus_the_trace_of_the_moebius_matrix_decides(a, h, f, kind):
     exact = circle_map(a, h, f, level("reference"))
-    assert exact.kind == ("hyperbolic" if kind is Kind.FIXED_POINT else "elliptic")
+    assert exact.kind == ("hyperbolic" if kind is MotionKind.FIXED_POINT else "elliptic")
     found = regime(return_map(HessBody(1.0, a, -math.hypot(1.0, a)), h=h, f=f), (0.3,), t=100.0)
     assert found.kind is kind
-    assert found.period == (1 if kind is Kind.FIXED_POINT else 0)
+    assert found.period == (1 if kind is MotionKind.FIXED_POINT else 0)
 
 
 def test_a_strange_attractor_is_chaotic_and_shrinks_as_its_exponents_say():
     P = return_map(STRANGE, E=STRANGE_E, accuracy="standard")
     found = regime(P, (1.0, 1.0), t=2000.0)
-    assert (found.kind, found.volume) == (Kind.CHAOTIC, -1)
+    assert (found.kind, found.volume) == (MotionKind.CHAOTIC, -1)
     # The motion is now and then regular for long: after t = 2000 λ is 0 to three errors on every second one.
     exponents = spectrum(SUSLOV, P.state_at(found.places[-1]), STRANGE.parameters, 16_000.0)
     assert exponents.signs[0] == "+"
@@ -56,17 +56,17 @@ def test_a_strange_attractor_is_chaotic_and_shrinks_as_its_exponents_say():
         found.divergence_error + math.hypot(*exponents.errors))
     assert "shrinks" in found.sentence
     # Backwards in time volume grows.
-    assert regime(P.inverse(), (1.0, 1.0), t=300.0).kind is Kind.CHAOTIC
+    assert regime(P.inverse(), (1.0, 1.0), t=300.0).kind is MotionKind.CHAOTIC
 
 
 def test_where_volume_is_kept_dynamics_are_conservative_and_curves_stay_curves():
     P = return_map(PLAIN, E=1.5, accuracy="standard")
     sea = dynamics_of(P, (1.0, 1.0), 100, 600, 300.0)
-    assert (sea.motion.kind, sea.motion.divergence, sea.verdict) == (Kind.CHAOTIC, 0.0, "conservative")
+    assert (sea.motion.kind, sea.motion.divergence, sea.verdict) == (MotionKind.CHAOTIC, 0.0, "conservative")
     assert all(one.equal for one in sea.comparisons)
     curve = regime(return_map(SuslovBody(1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0), E=0.4), (0.3, 1.2), t=300.0)
     # I11 = I22 with b along e: integrable (`QuarticBody.integrable`).
-    assert (curve.kind, curve.volume) == (Kind.QUASI_PERIODIC, 0)
+    assert (curve.kind, curve.volume) == (MotionKind.QUASI_PERIODIC, 0)
     assert "integrable case I₁₁ = I₂₂" in curve.sentence
 
 
@@ -74,7 +74,7 @@ def test_a_sea_whose_volume_shrinks_is_not_conservative_and_shows_the_number_tha
     """DOP853 with its own divergence: −0.00690 ± 0.00031 over t = 2·10⁵."""
     P = return_map(SuslovBody(1.5, 1.7, 0.1, -0.3, -1.7, 1.0, 2.0), E=-0.9089144, accuracy="standard")
     sea = dynamics_of(P, (-1.0063, 1.1872), 500, 1500, 6000.0)
-    assert sea.motion.kind is Kind.CHAOTIC
+    assert sea.motion.kind is MotionKind.CHAOTIC
     assert abs(sea.motion.divergence + 0.0069) <= 3.0 * math.hypot(sea.motion.divergence_error, 0.00031)
     assert (sea.verdict, sea.motion.volume) == ("mixed", -1)
     assert f"{sea.motion.divergence:.3g}" in sea.motion.sentence
@@ -103,7 +103,7 @@ def test_a_slow_motion_is_followed_until_it_returns():
     """It returns every 26 units of time, and I11 = I22 has q₁p₂ − q₂p₁ for an integral."""
     P = return_map(QuarticBody(1.3, 1.3, 1.0, 0.999))
     found = regime(P, (0.01, 0.02))
-    assert found.kind in (Kind.QUASI_PERIODIC, Kind.PERIODIC)
+    assert found.kind in (MotionKind.QUASI_PERIODIC, MotionKind.PERIODIC)
     assert len(found.places) >= 200
     assert "I₁₁ = I₂₂" in found.sentence
 
@@ -122,7 +122,7 @@ def test_what_is_not_seen_to_return_is_said_with_the_time_waited():
     """The motion comes to a permanent rotation, which has γ3 = 0 and never crosses γ1 = 0."""
     P = return_map(REVERSAL, E=REVERSAL_E, plane=1, accuracy="draft")
     found = regime(P, (1.0, 1.0))
-    assert found.kind is Kind.NO_RETURN
+    assert found.kind is MotionKind.NO_RETURN
     assert found.sentence == f"The motion was not seen to return to the section within t = {found.t:.4g}."
 
     def height(t, y):
@@ -145,7 +145,7 @@ def test_what_is_not_seen_to_return_is_said_with_the_time_waited():
 def test_integrable_cases_are_named_and_never_chaotic(body, h, f, place, case):
     found = regime(return_map(body, h=h, f=f), place)
     assert case in found.integrable
-    assert found.kind in (Kind.FIXED_POINT, Kind.PERIODIC, Kind.QUASI_PERIODIC)
+    assert found.kind in (MotionKind.FIXED_POINT, MotionKind.PERIODIC, MotionKind.QUASI_PERIODIC)
     # A body next to it is in no such case.
     assert HeavyBody((1.0, 0.99, 3.0), (0.6, 0.0, 0.8), 1.0).integrable_at(0.0) == ""
 

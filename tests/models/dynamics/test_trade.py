@@ -5,7 +5,7 @@ import pytest
 
 from hess_mechanics.dynamics import trade
 from hess_mechanics.dynamics.trade import Sample, beyond, enough, measure, measure_until
-from hess_mechanics.numerics.accuracy import LEVELS, PLANS, Kind
+from hess_mechanics.numerics.accuracy import LEVELS, PLANS, Computation
 
 
 def rounded(plan):
@@ -19,11 +19,11 @@ def difference(result, truth):
 
 
 def test_the_error_of_each_level_is_that_against_the_truth():
-    samples = measure(Kind.ORBIT, rounded, difference)
+    samples = measure(Computation.ORBIT, rounded, difference)
     assert [one.level for one in samples] == list(LEVELS)
     for one in samples:
         step = LEVELS[one.level].tolerance
-        assert one.error == pytest.approx(abs(rounded(PLANS[Kind.ORBIT][one.level]) - 1.0 / 3.0), abs=1e-16)
+        assert one.error == pytest.approx(abs(rounded(PLANS[Computation.ORBIT][one.level]) - 1.0 / 3.0), abs=1e-16)
         assert one.error <= 0.5 * step + 1e-16
 
 
@@ -34,12 +34,12 @@ def test_the_time_is_that_of_the_fastest_run(monkeypatch):
     def run(plan):
         now[0] += next(pauses)
 
-    samples = measure(Kind.ORBIT, run, lambda *_: 0.0, repeats=3)
+    samples = measure(Computation.ORBIT, run, lambda *_: 0.0, repeats=3)
     assert [one.ms for one in samples] == [pytest.approx(10.0)] * 4
 
 
 def test_what_leaves_something_out_is_not_complete():
-    complete = {one.level: one.complete for one in measure(Kind.SECTION, lambda plan: None, lambda *_: 0.0)}
+    complete = {one.level: one.complete for one in measure(Computation.SECTION, lambda plan: None, lambda *_: 0.0)}
     assert complete == {"draft": False, "standard": True, "precise": True, "reference": True}
 
 
@@ -61,12 +61,12 @@ def test_measuring_until_one_is_enough_runs_no_finer_level():
         seen.append((plan.level.name, plan.level.order))
         return rounded(plan)
 
-    assert measure_until(Kind.ORBIT, run, difference, 1e-7) == "standard"
+    assert measure_until(Computation.ORBIT, run, difference, 1e-7) == "standard"
     assert seen == [("reference", 21), ("draft", 12), ("standard", 16)]
-    assert enough(measure(Kind.ORBIT, run, difference), 1e-7) == "standard"
+    assert enough(measure(Computation.ORBIT, run, difference), 1e-7) == "standard"
 
 
-@pytest.mark.parametrize("kind", Kind)
+@pytest.mark.parametrize("kind", Computation)
 def test_the_truth_is_more_exact_than_every_level_and_as_fine_as_the_finest(kind):
     truth = beyond(kind)
     assert truth.level.tolerance < min(plan.level.tolerance for plan in PLANS[kind].values())

@@ -6,9 +6,9 @@ from itertools import pairwise
 import pytest
 
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.numerics.accuracy import LEVELS, PLANS, Kind, cheapest, plan
+from hess_mechanics.numerics.accuracy import LEVELS, PLANS, Computation, cheapest, plan
 
-every_kind = pytest.mark.parametrize("kind", Kind)
+every_kind = pytest.mark.parametrize("kind", Computation)
 
 
 @every_kind
@@ -37,27 +37,28 @@ def test_standard_computes_all_that_is_asked_for(kind):
 
 
 def test_no_tolerance_of_a_section_loses_crossings():
-    assert all(PLANS[kind][name].level.tolerance <= 1e-6 for kind in (Kind.SECTION, Kind.ROTATION, Kind.BASINS)
+    assert all(PLANS[kind][name].level.tolerance <= 1e-6 for kind in (Computation.SECTION, Computation.ROTATION,
+                                                                      Computation.BASINS)
                for name in LEVELS)
 
 
 def test_a_part_is_rounded_and_has_a_least_size():
-    draft = PLANS[Kind.SECTION]["draft"]
+    draft = PLANS[Computation.SECTION]["draft"]
     assert draft.part(200) == 50
     assert draft.part(30, least=20) == 20
     assert draft.part(12, least=20) == 12
-    assert PLANS[Kind.SECTION]["standard"].part(200, least=20) == 200
+    assert PLANS[Computation.SECTION]["standard"].part(200, least=20) == 200
 
 
 def test_a_grid_keeps_at_least_one_cell():
-    draft = PLANS[Kind.GRID]["draft"]
+    draft = PLANS[Computation.GRID]["draft"]
     assert draft.grid((300, 200)) == (150, 100)
     assert draft.side(1) == 1
 
 
 def test_a_level_that_is_none_is_refused():
     with pytest.raises(InvalidParameter, match="draft"):
-        plan(Kind.CLOUD, "finest")
+        plan(Computation.CLOUD, "finest")
 
 
 # The promises of the levels as the README states them.

@@ -27,7 +27,7 @@ from hess_mechanics.dynamics.orbit_diagram import Cascade
 from hess_mechanics.dynamics.parameter_diagram import AtState, Sets, at_state, sets_of
 from hess_mechanics.dynamics.return_map import Sheet
 from hess_mechanics.errors import OutsideRegion
-from hess_mechanics.numerics.accuracy import Kind
+from hess_mechanics.numerics.accuracy import Computation
 from hess_mechanics.numerics.results import Array, Section, frozen
 from hess_mechanics.rigid_body.inertia import check_body
 from hess_mechanics.rigid_body.reversal import rate, reversals
@@ -107,15 +107,15 @@ class Attracted(Continued):
     def sets(self) -> Sets | None:
         """Attractor and repeller of the orbit on show."""
         few = (60, 120) if self.dragging else (500, 1500)
-        return self.work.soon(sets_of, self.section, self.place, *few, self.plan(Kind.SECTION).level)
+        return self.work.soon(sets_of, self.section, self.place, *few, self.plan(Computation.SECTION).level)
 
     @cached_property
     def kind(self) -> AtState | None:
         """What kind of motion and of dynamics this is, when it is known."""
         if self.dragging:
             return None
-        t = self.plan(Kind.EXPONENT).share * self.long
-        return self.work.later(at_state, self.section, self.place, 500, 1500, t, self.plan(Kind.SECTION).level)
+        t = self.plan(Computation.EXPONENT).share * self.long
+        return self.work.later(at_state, self.section, self.place, 500, 1500, t, self.plan(Computation.SECTION).level)
 
     @cached_property
     def turned(self) -> Section:

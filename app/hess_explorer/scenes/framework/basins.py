@@ -13,7 +13,7 @@ from hess_explorer.scenes.framework.filled_window import FilledWindow
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.basin_boundary import unsure
-from hess_mechanics.numerics.accuracy import Kind, Plan
+from hess_mechanics.numerics.accuracy import Computation, Plan
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov.basins import Contraction, contraction_at, groups_of_cells, middle_cells
 from hess_mechanics.suslov.section import SuslovSection
@@ -51,7 +51,7 @@ class Basins(FilledWindow):
         """
         if not self.asked or self.dragging:
             return None
-        plan = self.plan(Kind.BASINS)
+        plan = self.plan(Computation.BASINS)
         return found_by_rows(self.work, SuslovSection.ends, _rows(self, plan, COARSE), _rows(self, plan), self.sooner)
 
     @property
@@ -70,7 +70,7 @@ class Basins(FilledWindow):
         ends = self.ends
         if self.basin is None or ends is None:
             return None
-        grid, long = self.plan(Kind.BASINS).grid(CELLS), self.plan(Kind.EXPONENT).share * self.long
+        grid, long = self.plan(Computation.BASINS).grid(CELLS), self.plan(Computation.EXPONENT).share * self.long
         found = [self.work.later(contraction_at, self.section, self.frame, grid, row, column, long)
                  for row, column in middle_cells(ends, self.basin)]
         known = [one for one in found if one is not None]
@@ -117,6 +117,6 @@ def _all_basins(s: Basins, plan: Plan) -> Array:
 
 
 BASINS: Trial[Basins] = Trial(
-    Kind.BASINS, ("section",), _all_basins, lambda s, cells, truth: changed(cells, truth),
+    Computation.BASINS, ("section",), _all_basins, lambda s, cells, truth: changed(cells, truth),
     lambda s, cells: look(s.frame, s.names, cells), unit="% of the cells that change", seen=3.0,
     shown=lambda s: s.asked)

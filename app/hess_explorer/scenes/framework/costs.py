@@ -18,7 +18,7 @@ from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.shadowing import typical
 from hess_mechanics.dynamics.trade import Sample, enough
-from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, Kind
+from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, Computation
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["Costs", "difference_picture", "trade_picture"]
@@ -35,11 +35,11 @@ class Costs(Insight):
 
     # ---- cost against error -------------------------------------------------------------------------------------
 
-    def _samples(self, kind: Kind) -> tuple[Sample, ...] | None:
+    def _samples(self, kind: Computation) -> tuple[Sample, ...] | None:
         found = self.costs.get(kind)
         return None if isinstance(found, Refused) else found
 
-    def cost_of(self, kind: Kind) -> tuple[Array, Array] | None:
+    def cost_of(self, kind: Computation) -> tuple[Array, Array] | None:
         """Errors, as multiples of what can just not be seen, and milliseconds of the levels."""
         samples = self._samples(kind)
         if samples is None:
@@ -59,7 +59,7 @@ class Costs(Insight):
                 if (xy := self.cost_of(kind)) is not None for i in ([*LEVELS].index(level_name),)]
 
     @cached_property
-    def _enough(self) -> dict[Kind, str]:
+    def _enough(self) -> dict[Computation, str]:
         return {trial.kind: enough(samples, trial.seen) for trial in self.trials
                 if (samples := self._samples(trial.kind)) is not None}
 

@@ -23,7 +23,7 @@ from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.section import Points
 from hess_mechanics.dynamics.shadowing import right_crossings, typical
 from hess_mechanics.errors import WorkLimit
-from hess_mechanics.numerics.accuracy import Kind, Level, Plan
+from hess_mechanics.numerics.accuracy import Computation, Level, Plan
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["SECTION", "Crossings"]
@@ -81,11 +81,11 @@ class Crossings(Indicated):
     @property
     def wanted(self) -> int:
         """How many crossings of each orbit."""
-        return self.plan(Kind.SECTION).part(self.count, _FEW)
+        return self.plan(Computation.SECTION).part(self.count, _FEW)
 
     @cached_property
     def _crossed(self) -> _Crossed:
-        few, whole = (self.crossing(count, self.plan(Kind.SECTION).level) for count in (
+        few, whole = (self.crossing(count, self.plan(Computation.SECTION).level) for count in (
             min(self.wanted, _FEW), self.wanted))
         mine = few[0] if self.dragging else whole[0]
         try:
@@ -146,7 +146,7 @@ class Crossings(Indicated):
         if self.dragging or self.closed is not None or crossed.own is None or crossed.others is None:
             return None
         tight: list[Any] = [self.work.later(task.function, *task.arguments) for task in self.crossing(
-            self.wanted, self.plan(Kind.SECTION).level.tightened())]
+            self.wanted, self.plan(Computation.SECTION).level.tightened())]
         if None in tight or self.work.todo:
             # Of the others a few crossings are shown so far.
             return None
@@ -185,7 +185,7 @@ def _small(s: Crossings) -> Crossings:
 
 
 SECTION: Trial[Any] = Trial(
-    Kind.SECTION, ("section",), lambda s, plan: s.orbits_at(plan),
+    Computation.SECTION, ("section",), lambda s, plan: s.orbits_at(plan),
     lambda s, orbits, truth: section_error(orbits, truth, s.pixels, s.periods),
     lambda s, orbits: Marks(Frame(s.section_axes, s.names), tuple(orbits), s.periods, crossings=True),
     small=_small)

@@ -31,7 +31,7 @@ from hess_mechanics.dynamics.return_map import Sheet
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.shadowing import right_crossings, typical
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
-from hess_mechanics.numerics.accuracy import Kind, Level, Plan
+from hess_mechanics.numerics.accuracy import Computation, Level, Plan
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["EXPONENT", "SECTION", "TURN", "FilledWindow", "Piece", "filled_window", "in_pieces"]
@@ -149,11 +149,11 @@ class FilledWindow(Indicated):
         orbits, crossings = int(self.orbits), int(self.count)
         if self.dragging:
             return min(orbits, self.held[0]), min(crossings, self.held[1])
-        return orbits, self.plan(Kind.SECTION).part(crossings, _FEWEST)
+        return orbits, self.plan(Computation.SECTION).part(crossings, _FEWEST)
 
     def follow(self, starts: tuple[Start, ...], forward: bool) -> Piece | None:
         """What is known of these orbits."""
-        task = self.piece(starts, self.wanted[1], forward, self.plan(Kind.SECTION).level)
+        task = self.piece(starts, self.wanted[1], forward, self.plan(Computation.SECTION).level)
         found: Piece | None = self.work.soon(task.function, *task.arguments)
         return found
 
@@ -263,7 +263,7 @@ class FilledWindow(Indicated):
         """
         if self.dragging or self.looking or self.closed is not None:
             return None
-        plan = self.plan(Kind.EXPONENT)
+        plan = self.plan(Computation.EXPONENT)
         return self.work.later(largest_exponent, self.body.system, self.start, self.body.parameters,
                                plan.share * self.long, plan.level)
 
@@ -292,7 +292,7 @@ class FilledWindow(Indicated):
         if self.dragging or self.looking or self.closed is not None:
             return None
         own, around = self._followed
-        level = self.plan(Kind.SECTION).level.tightened()
+        level = self.plan(Computation.SECTION).level.tightened()
         some = [*in_pieces(self._spread(self.wanted[0]))][:_COMPARED]
         tasks = [self.piece(starts, self.wanted[1], True, level) for starts in ((self.picked.states[-1],), *some)]
         fine: list[Piece | None] = [self.work.later(task.function, *task.arguments) for task in tasks]
@@ -379,7 +379,7 @@ def _frame(s: FilledWindow) -> Frame:
 
 
 SECTION: Trial[Any] = Trial(
-    Kind.SECTION, ("section",), lambda s, plan: s.orbits_at(plan),
+    Computation.SECTION, ("section",), lambda s, plan: s.orbits_at(plan),
     lambda s, orbits, truth: section_error(orbits, truth, s.pixels, PERIODS),
     lambda s, orbits: Marks(_frame(s), tuple(orbits), PERIODS, crossings=True),
     small=lambda s: _at_most(s, _LARGE))
@@ -396,7 +396,7 @@ def _over_time(s: FilledWindow, found: Exponent) -> Curves:
 
 
 EXPONENT: Trial[Any] = Trial(
-    Kind.EXPONENT, ("exponent",), _exponent,
+    Computation.EXPONENT, ("exponent",), _exponent,
     lambda s, found, truth: abs(found.value - truth.value) / max(truth.spread, 1e-12), _over_time,
     unit="of what it changes by in the second half of its time", seen=10.0,
     small=lambda s: _at_most(s, _LONG))

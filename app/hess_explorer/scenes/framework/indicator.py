@@ -19,7 +19,7 @@ from hess_explorer.views.layers import Layer
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.megno import CHAOTIC, REGULAR
 from hess_mechanics.dynamics.megno_map import row_of_cells, time_of
-from hess_mechanics.numerics.accuracy import Kind, Plan
+from hess_mechanics.numerics.accuracy import Computation, Plan
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["INDICATOR", "Indicated", "colouring", "indicator_layer"]
@@ -74,7 +74,7 @@ class Indicated(PeriodicOrbits):
         """Ȳ and kind of the cells, (n, 2, m), and how many of their rows are still coarse; None before any is known."""
         if not self.indicated or self.dragging:
             return None
-        plan = self.plan(Kind.INDICATOR)
+        plan = self.plan(Computation.INDICATOR)
         return found_by_rows(self.work, row_of_cells, self.indicator_rows(plan, COARSE), self.indicator_rows(plan),
                              self.sooner)
 
@@ -119,6 +119,6 @@ def _all(s: Indicated, plan: Plan) -> Array:
 
 
 INDICATOR: Trial[Any] = Trial(
-    Kind.INDICATOR, ("section",), _all, lambda s, cells, truth: changed(cells, truth),
+    Computation.INDICATOR, ("section",), _all, lambda s, cells, truth: changed(cells, truth),
     lambda s, cells: look(s.frame, s.names, cells), unit="% of the cells that change", seen=3.0,
     shown=lambda s: s.indicated)

@@ -13,7 +13,7 @@ from hess_explorer.scenes.framework.scene import Motion, Scene, State
 from hess_explorer.scenes.framework.trial import Refused, Trial, bare, differing, measured, next_level
 from hess_explorer.views.comparison import Difference
 from hess_mechanics.dynamics.trade import Sample
-from hess_mechanics.numerics.accuracy import Kind
+from hess_mechanics.numerics.accuracy import Computation
 
 __all__ = ["Insight", "LookingInto"]
 
@@ -21,8 +21,9 @@ I = TypeVar("I", bound="Insight")
 
 COMPARED = "difference"
 """The parameter that says what is compared."""
-_COSTLIEST = (Kind.ROTATION, Kind.BASINS, Kind.INDICATOR, Kind.SECTION, Kind.GRID, Kind.CLOUD, Kind.COLOURS,
-              Kind.MAP, Kind.CURVE, Kind.LINE, Kind.EXPONENT, Kind.ORBIT)
+_COSTLIEST = (Computation.ROTATION, Computation.BASINS, Computation.INDICATOR, Computation.SECTION, Computation.GRID,
+              Computation.CLOUD, Computation.COLOURS,
+              Computation.MAP, Computation.CURVE, Computation.LINE, Computation.EXPONENT, Computation.ORBIT)
 """From what takes longest on: as `hess-explorer bench --trade` measures it."""
 
 
@@ -39,7 +40,7 @@ class Insight(State):
     difference: str
 
     @cached_property
-    def costs(self) -> dict[Kind, tuple[Sample, ...] | Refused | None]:
+    def costs(self) -> dict[Computation, tuple[Sample, ...] | Refused | None]:
         """Time and error of every level, for each kind of computation, or why not; None until it is known."""
         plain = bare(self.shown)
         return {trial.kind: None if self.dragging else self.work.later(measured, trial, plain)

@@ -26,7 +26,7 @@ from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, doubling_seen
 from hess_mechanics.dynamics.parameter_diagram import diagram, doublings, nearest_place
 from hess_mechanics.dynamics.return_map import Sheet
-from hess_mechanics.numerics.accuracy import Kind
+from hess_mechanics.numerics.accuracy import Computation
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["BOUNDS", "OverParameter", "edges", "parameter_of_diagram", "picture"]
@@ -130,7 +130,7 @@ class OverParameter(State):
     @cached_property
     def along_values(self) -> Array:
         """The values of the parameter, rising (n,)."""
-        share = self.plan(Kind.SECTION).share
+        share = self.plan(Computation.SECTION).share
         steps = min(int(self.steps), _FEW) if self.dragging else max(2, round(share * self.steps))
         return np.linspace(self.frame[0][0], self.frame[1][0], steps)
 
@@ -155,7 +155,7 @@ class OverParameter(State):
         for i in range(0, len(values), _TOGETHER):
             one = self.work.soon(
                 diagram, self.family, self.name, tuple(values[i : i + _TOGETHER].tolist()), _end(found) or place,
-                self.place, left, shown, self.begins == _FOLLOWED, backward, self.plan(Kind.SECTION).level)
+                self.place, left, shown, self.begins == _FOLLOWED, backward, self.plan(Computation.SECTION).level)
             if one is None:
                 break
             found.append(one)

@@ -22,7 +22,7 @@ from hess_explorer.views.section_plane import joined
 from hess_explorer.views.text import digits
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, andoyer_points, relation
 from hess_mechanics.euler_poisson.rotation import RESOLVED, Rotation, on_line, rotation_along
-from hess_mechanics.numerics.accuracy import Kind, Level, Plan
+from hess_mechanics.numerics.accuracy import Computation, Level, Plan
 from hess_mechanics.numerics.results import Array, frozen
 
 __all__ = ["ROTATION", "RotationAcross", "rotation_picture"]
@@ -74,7 +74,7 @@ class RotationAcross(FilledWindow):
     @cached_property
     def _orbits_on_line(self) -> tuple[list[tuple[float, Array]], bool]:
         """Shares of the way along the line, with the orbits from there that are known; whether these are all."""
-        plan = self.plan(Kind.ROTATION)
+        plan = self.plan(Computation.ROTATION)
         count, crossings = _HELD[:2] if self.dragging else (plan.side(_ACROSS), self._crossings_on_line(plan))
         starts = self.work.get(on_line, self.section, self.ends, count)
         found: list[tuple[float, Array]] = []
@@ -86,12 +86,12 @@ class RotationAcross(FilledWindow):
         return found, len(found) == len(starts)
 
     def _crossings_on_line(self, plan: Plan) -> int:
-        return max(self.plan(Kind.SECTION).part(self.count), plan.part(_ON_LINE))
+        return max(self.plan(Computation.SECTION).part(self.count), plan.part(_ON_LINE))
 
     @cached_property
     def rotation(self) -> Rotation:
         """Rotation numbers along the line, as far as they are known; of few and short orbits while a slider is held."""
-        count = _HELD[0] if self.dragging else self.plan(Kind.ROTATION).side(_ACROSS)
+        count = _HELD[0] if self.dragging else self.plan(Computation.ROTATION).side(_ACROSS)
         return self._rotation_of(self._orbits_on_line[0], count)
 
     @property
@@ -170,7 +170,8 @@ def _look(s: RotationAcross, found: Rotation) -> Curves:
 
 
 ROTATION: Trial[RotationAcross] = Trial(
-    Kind.ROTATION, ("rotation",), RotationAcross.rotation_at, lambda s, found, truth: found.distance(truth), _look,
+    Computation.ROTATION, ("rotation",), RotationAcross.rotation_at, lambda s, found, truth: found.distance(truth),
+    _look,
     unit="turns, the median", seen=RESOLVED)
 
 

@@ -21,7 +21,7 @@ from hess_explorer.views.picture import Picture
 from hess_explorer.views.theme import in_css
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import ModelError
-from hess_mechanics.numerics.accuracy import LEVELS, Kind, Level, Plan
+from hess_mechanics.numerics.accuracy import LEVELS, Computation, Level, Plan
 
 __all__ = ["Motion", "Preset", "Report", "Scene", "State"]
 
@@ -96,7 +96,7 @@ class State:
         """Whether a slider is held."""
         return self.work.dragging
 
-    def plan(self, kind: Kind, steady: bool = False) -> Plan:
+    def plan(self, kind: Computation, steady: bool = False) -> Plan:
         """What the level means for a kind of computation; steady : for what hardly any slider changes."""
         return self.work.plan(kind, steady)
 

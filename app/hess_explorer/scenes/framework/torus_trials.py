@@ -12,7 +12,7 @@ from hess_explorer.views.comparison import Cells, Curves, Frame, compared
 from hess_explorer.views.graph import pieces
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.rotation_line import JUMP, RHO
-from hess_mechanics.numerics.accuracy import REFERENCE, Kind, Level, Plan
+from hess_mechanics.numerics.accuracy import REFERENCE, Computation, Level, Plan
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess import rotation_number as mechanics
 from hess_mechanics.suslov_hess.rotation_number import Line, TorusValues
@@ -34,7 +34,8 @@ def colours(run: Run, frame: FrameOf) -> Trial[Any]:
         # At the centres of the cells found, which are not those of the truth.
         return colour_error(found, s.colours((m, n), REFERENCE).now())
 
-    return Trial(Kind.COLOURS, ("bifurcation",), run, error, lambda s, found: Cells(frame(s), found, _COLOUR), _UNIT)
+    return Trial(Computation.COLOURS, ("bifurcation",), run, error, lambda s, found: Cells(frame(s), found, _COLOUR),
+                 _UNIT)
 
 
 def boundary(picture: str, run: Run, frame: FrameOf) -> Trial[Any]:
@@ -42,7 +43,7 @@ def boundary(picture: str, run: Run, frame: FrameOf) -> Trial[Any]:
     def look(s: Any, found: Array) -> Curves:
         return Curves(frame(s), (found,) if len(found) else ())
 
-    return Trial(Kind.CURVE, (picture,), run,
+    return Trial(Computation.CURVE, (picture,), run,
                  lambda s, found, truth: compared(look(s, found), look(s, truth)).largest, look)
 
 
@@ -65,7 +66,7 @@ def grid(sides: tuple[int, int], frame: FrameOf) -> Trial[Any]:
         shown = np.where(values.possible, np.where(values.locked, 2.0, values.rho), np.nan)
         return Cells(frame(s), shown.reshape(n, m), _COLOUR)
 
-    return Trial(Kind.GRID, ("map",), run, error, look, _UNIT)
+    return Trial(Computation.GRID, ("map",), run, error, look, _UNIT)
 
 
 def on_line(count: int) -> Trial[Any]:
@@ -87,6 +88,6 @@ def on_line(count: int) -> Trial[Any]:
         return Curves(frame, tuple(part for rho in found for part in pieces(
             np.column_stack([x, np.nan_to_num(rho)]), np.isfinite(rho), JUMP)))
 
-    return Trial(Kind.LINE, ("line", "trace"),
+    return Trial(Computation.LINE, ("line", "trace"),
                  lambda s, plan: at(s.on_line, s.epsilon, plan.side(count), plan.level,
                                      plan.part(mechanics.TURNS)), error, look)

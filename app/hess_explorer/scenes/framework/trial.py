@@ -20,7 +20,7 @@ from hess_mechanics.dynamics.trade import Sample, measure, measure_until
 from hess_mechanics.dynamics.work_precision import longest_span
 from hess_mechanics.dynamics.work_precision import truth as exactly
 from hess_mechanics.errors import ModelError
-from hess_mechanics.numerics.accuracy import LEVELS, PLANS, STANDARD, Kind, Plan
+from hess_mechanics.numerics.accuracy import LEVELS, PLANS, STANDARD, Computation, Plan
 from hess_mechanics.numerics.results import Array
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ class Trial(Generic[S]):
     small(state) : the state with no more of it than is computed in about a second.
     """
 
-    kind: Kind
+    kind: Computation
     pictures: tuple[str, ...]
     run: Callable[[S, Plan], Any]
     error: Callable[[S, Any, Any], float]
@@ -172,7 +172,7 @@ def _orbit_look(state: State, states: Array) -> Marks:
 
 def orbit_trial() -> Trial[Any]:
     """The motion on show."""
-    return Trial(Kind.ORBIT, (), _orbit, _orbit_error, _orbit_look)
+    return Trial(Computation.ORBIT, (), _orbit, _orbit_error, _orbit_look)
 
 
 def curve_error(values: Array, exact: Array, height: float, period: float = math.inf) -> float:

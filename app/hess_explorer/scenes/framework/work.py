@@ -10,7 +10,7 @@ from typing import Any, ParamSpec, TypeVar, cast
 
 from hess_explorer.compute.cache import CACHE, Task
 from hess_mechanics.dynamics.sampling import HALF_A_PIXEL
-from hess_mechanics.numerics.accuracy import STANDARD, Kind, Level, Plan, cheapest, level, plan
+from hess_mechanics.numerics.accuracy import STANDARD, Computation, Level, Plan, cheapest, level, plan
 from hess_mechanics.numerics.jit import seconds_compiling
 from hess_mechanics.numerics.results import Orbit
 from hess_mechanics.suslov.free import FreeMotion
@@ -51,7 +51,7 @@ class Work:
         """The level that "auto" stands for, once it is measured; before that it is `standard`."""
         self._settled, self.chosen, self.level = True, name, level(name)
 
-    def plan(self, kind: Kind, steady: bool = False) -> Plan:
+    def plan(self, kind: Computation, steady: bool = False) -> Plan:
         """What the level means for a kind of computation; a scene itself says how few it asks for during a drag.
 
         steady : for what hardly any slider changes: during a drag it stays as it is, but is no finer than `standard`.
