@@ -27,7 +27,14 @@ from hess_mechanics.numerics.accuracy import REFERENCE, Computation, Plan
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess import rotation_number as mechanics
 from hess_mechanics.suslov_hess.circle_map import CircleMap
-from hess_mechanics.suslov_hess.rotation_number import PLANES, Line, PeriodicTorus, Torus, TorusValues, possible_part
+from hess_mechanics.suslov_hess.rotation_number import (
+    PLANES,
+    ParameterLine,
+    PeriodicTorus,
+    Torus,
+    TorusValues,
+    possible_part,
+)
 
 _COARSE, _FINE = (75, 50), (300, 200)
 _ROWS = 25  # of the fine map that are computed together
@@ -161,11 +168,11 @@ class RotationNumber(State):
         return [found, found * np.array([1.0, -1.0])] if self.sides[1] == "f" else [found]
 
     @cached_property
-    def on_line(self) -> Line:
+    def on_line(self) -> ParameterLine:
         """The tori on the line; as far as the map is seen, where the line lies in its plane."""
         low, high = dict(zip(self.sides, self.window, strict=True)).get(self.line, _FULL[self.line])
         # Only what the line depends on: it stays while the torus moves along it.
-        return possible_part(Line(self.line, self.torus.at(**{self.line: 0.0}), low, high))
+        return possible_part(ParameterLine(self.line, self.torus.at(**{self.line: 0.0}), low, high))
 
     @property
     def x(self) -> Array:
@@ -256,7 +263,7 @@ class RotationNumber(State):
             yield f"{self.map.level}: circle map error ≤ {self.map.error_estimate:.1e} ({self.map.status})"
 
 
-def _periodic(rho: Fraction, line: Line) -> tuple[PeriodicTorus | None]:
+def _periodic(rho: Fraction, line: ParameterLine) -> tuple[PeriodicTorus | None]:
     """In a tuple: None by itself would mean that it is not known yet."""
     return (mechanics.periodic_torus(rho, line, REFERENCE),)
 

@@ -12,12 +12,12 @@ from hess_explorer.views import theme
 from hess_explorer.views.graph import pieces
 from hess_explorer.views.layers import Axes, Layer, curves, levels, ring
 from hess_mechanics.numerics.results import Array
-from hess_mechanics.suslov_hess.rotation_number import Line, TorusValues
+from hess_mechanics.suslov_hess.rotation_number import ParameterLine, TorusValues
 
 __all__ = ["JUMP", "RHO", "TRACE", "rho_layers", "trace_layers"]
 
 S = TypeVar("S")
-LineOf = Callable[[S], Line]
+LineOf = Callable[[S], ParameterLine]
 ValuesOf = Callable[[S], TorusValues]
 
 RHO, TRACE = (-0.52, 0.52), (0.0, 6.0)
@@ -28,7 +28,7 @@ _DRAWN_TRACE = 50.0
 """Larger traces are drawn at this height, which is beyond the frame."""
 
 
-def _curve(line: Line, values: TorusValues, y: Array, jump: float) -> list[Array]:
+def _curve(line: ParameterLine, values: TorusValues, y: Array, jump: float) -> list[Array]:
     return pieces(np.column_stack([line.places(len(y)), y]), values.possible, jump)
 
 

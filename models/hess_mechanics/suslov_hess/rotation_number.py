@@ -39,7 +39,7 @@ from hess_mechanics.suslov_hess.circle_map import (
 from hess_mechanics.suslov_hess.mode_locking import critical_a, lock_boundary
 
 __all__ = [
-    "PLANES", "TURNS", "Line", "PeriodicTorus", "Torus", "TorusValues", "along", "closed_after", "lock_curve",
+    "PLANES", "TURNS", "ParameterLine", "PeriodicTorus", "Torus", "TorusValues", "along", "closed_after", "lock_curve",
     "periodic_torus", "perturbed_along", "perturbed_rotation", "place_of", "plateaus", "possible_part",
     "rotation_errors", "rows", "rows_error", "together", "values_at",
 ]
@@ -69,7 +69,7 @@ class Torus:
 
 
 @dataclass(frozen=True)
-class Line:
+class ParameterLine:
     """The tori whose parameter `name` ("a", "h", "f") lies between low and high, the others as of one torus."""
 
     name: str
@@ -91,7 +91,7 @@ class Line:
         return np.linspace(self.low, self.high, count)
 
 
-def possible_part(line: Line, margin: float = 0.03) -> Line:
+def possible_part(line: ParameterLine, margin: float = 0.03) -> ParameterLine:
     """The line with no more of it where no motion is possible than that share at each end; whole where none is."""
     first, last = -math.inf, math.inf
     if line.name == "h":
@@ -298,12 +298,12 @@ def together(parts: Sequence[TorusValues]) -> TorusValues:
                          for name in ("rho", "trace", "locked", "possible")))
 
 
-def along(line: Line, count: int, level: Accuracy) -> TorusValues:
+def along(line: ParameterLine, count: int, level: Accuracy) -> TorusValues:
     """`values_at` even places of a line."""
     return values_at(**{**vars(line.torus), line.name: line.places(count)}, level=level)
 
 
-def perturbed_along(line: Line, count: int, epsilon: float, level: Accuracy, turns: int = TURNS) -> Array:
+def perturbed_along(line: ParameterLine, count: int, epsilon: float, level: Accuracy, turns: int = TURNS) -> Array:
     """`perturbed_rotation` by so many turns at even places of a line, (count,); NaN where there is no torus."""
     x, possible = line.places(count), along(line, count, level).possible
     out = np.full(count, np.nan)
@@ -313,7 +313,7 @@ def perturbed_along(line: Line, count: int, epsilon: float, level: Accuracy, tur
     return frozen(out)
 
 
-def periodic_torus(rho: Fraction, line: Line, level: Accuracy) -> PeriodicTorus | None:
+def periodic_torus(rho: Fraction, line: ParameterLine, level: Accuracy) -> PeriodicTorus | None:
     """The torus of a line with this ρ, if one is seen."""
     place = place_of(float(rho), line.name, line.torus, line.low, line.high, level)
     if place is None:

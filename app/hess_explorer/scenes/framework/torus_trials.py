@@ -15,7 +15,7 @@ from hess_explorer.views.rotation_line import JUMP, RHO
 from hess_mechanics.numerics.accuracy import REFERENCE, Computation, Level, Plan
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess import rotation_number as mechanics
-from hess_mechanics.suslov_hess.rotation_number import Line, TorusValues
+from hess_mechanics.suslov_hess.rotation_number import ParameterLine, TorusValues
 
 __all__ = ["boundary", "colours", "grid", "on_line"]
 
@@ -71,7 +71,7 @@ def grid(sides: tuple[int, int], frame: FrameOf) -> Trial[Any]:
 
 def on_line(count: int) -> Trial[Any]:
     """ρ of the tori on a line, and that of the other family, at so many places at `standard`."""
-    def at(line: Line, epsilon: float, places: int, level: Level, turns: int) -> Array:
+    def at(line: ParameterLine, epsilon: float, places: int, level: Level, turns: int) -> Array:
         values = mechanics.along(line, places, level)
         return np.stack([np.where(values.possible, values.rho, np.nan),
                          mechanics.perturbed_along(line, places, epsilon, level, turns)])
