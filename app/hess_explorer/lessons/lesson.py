@@ -7,7 +7,7 @@ from typing import Literal
 
 from hess_explorer.protocol.parameters import Values
 
-__all__ = ["TIME", "Animation", "Lesson", "LessonError", "Place", "Prediction", "Step"]
+__all__ = ["TIME", "Animation", "Lesson", "LessonError", "LessonStep", "Prediction", "StateLink"]
 
 TIME = "time"
 """Animated like a parameter: it is that of the player."""
@@ -25,7 +25,7 @@ class LessonError(Exception):
 
 
 @dataclass(frozen=True)
-class Place:
+class StateLink:
     """A state of a scene: all its values, within their bounds."""
 
     scene: str
@@ -56,11 +56,11 @@ class Prediction:
     source: str
     columns: tuple[str, str]
     what: Literal["point", "curve"]
-    then: Place
+    then: StateLink
 
 
 @dataclass(frozen=True)
-class Step:
+class LessonStep:
     """One page of a lesson.
 
     text, answer : Markdown; `answer` is hidden until it is asked for.  look : the picture to look at, "" for all alike.
@@ -68,7 +68,7 @@ class Step:
 
     title: str
     text: str
-    at: Place
+    at: StateLink
     look: str = ""
     animation: Animation | None = None
     question: str = ""
@@ -84,4 +84,4 @@ class Lesson:
     name: str
     title: str
     minutes: float
-    steps: tuple[Step, ...]
+    steps: tuple[LessonStep, ...]

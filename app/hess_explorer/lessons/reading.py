@@ -36,7 +36,7 @@ from urllib.parse import parse_qsl, urlsplit
 import yaml
 from markdown_it.token import Token
 
-from hess_explorer.lessons.lesson import TIME, Animation, Lesson, LessonError, Place, Prediction, Step
+from hess_explorer.lessons.lesson import TIME, Animation, Lesson, LessonError, LessonStep, Prediction, StateLink
 from hess_explorer.lessons.markdown import parser, to_html
 from hess_explorer.protocol.parameters import MAX_QUERY, PAGE_KEYS, Number, decode, refusal
 from hess_explorer.scenes import scenes
@@ -93,7 +93,7 @@ def read_tries(scene: Scene[Any]) -> Lesson | None:
         return None
     # At their lines in the file, for messages.
     text = "\n" * (begin + 1) + "\n".join(lines[begin + 1:end])
-    steps = _steps(text, 4, Place(scene.name, scene.defaults()))
+    steps = _steps(text, 4, StateLink(scene.name, scene.defaults()))
     return Lesson(scene.name, f"{TRY_THIS}: {scene.title}", 0.0, steps)
 
 
@@ -186,8 +186,8 @@ def _is_number(value: Any) -> TypeGuard[float]:
 # ---- steps ----------------------------------------------------------------------------------------------------------
 
 
-def _steps(text: str, level: int, place: Place | None) -> tuple[Step, ...]:
-    steps: list[Step] = []
+def _steps(text: str, level: int, place: StateLink | None) -> tuple[LessonStep, ...]:
+    steps: list[LessonStep] = []
     for part in _parts(text, f"h{level}"):
         step = _step(part, f"h{level + 1}", place)
         steps.append(step)
@@ -199,7 +199,7 @@ def _steps(text: str, level: int, place: Place | None) -> tuple[Step, ...]:
     return tuple(steps)
 
 
-def _step(part: _Part, tag: str, place: Place | None) -> Step:
+def _step(part: _Part, tag: str, place: StateLink | None) -> LessonStep:
     if not part.title:
         raise LessonError("the step has no title: write one after the signs #.", part.line - 1)
     fields = {} if part.fields is None else _fields(part.fields, part.fields_line, _KEYS)
@@ -216,8 +216,8 @@ def _step(part: _Part, tag: str, place: Place | None) -> Step:
     if look != "" and look not in scene.pictures:
         raise LessonError(_not_one("look", look, scene.pictures), line)
     text, asked = _split(part, tag)
-    step = Step(part.title, text, place, look, _animation(fields.get("animate"), scene, line), **asked,
-                prediction=_prediction(fields.get("predict"), place, line))
+    step = LessonStep(part.title, text, place, look, _animation(fields.get("animate"), scene, line), **asked,
+                      prediction=_prediction(fields.get("predict"), place, line))
     for words, first in ((step.title, part.line - 1), (step.text, part.line), (step.question, part.line),
                          (step.answer, part.line)):
         to_html(words, first)
@@ -245,7 +245,7 @@ def _not_one(what: str, given: object, allowed: tuple[str, ...]) -> str:
     return f"{what} is one of {', '.join(allowed)}, not {str(given)[:40]!r}."
 
 
-def _place(link: object, line: int) -> Place:
+def _place(link: object, line: int) -> StateLink:
     """The state that a link names: of a scene, each value within its bounds."""
     query = urlsplit(link).query if isinstance(link, str) else ""
     given = dict(parse_qsl(query, keep_blank_values=True))
@@ -263,17 +263,17 @@ def _place(link: object, line: int) -> Place:
     values, notes = decode(query, scene.specs)
     if notes:
         raise LessonError(f"the link cannot be followed as it is. {refusal(notes[0])}", line)
-    return Place(scene.name, values)
+    return StateLink(scene.name, values)
 
 
-def _example(begins: object, place: Place | None, line: int) -> Place:
+def _example(begins: object, place: StateLink | None, line: int) -> StateLink:
     """The example of the scene whose name begins so."""
     scene = next(iter(scenes().values())) if place is None else scenes()[place.scene]
     found = [one for one in scene.presets if isinstance(begins, str) and begins and one.name.startswith(begins)]
     if len(found) != 1:
         raise LessonError(_not_one(f"example is the beginning of just one of the examples of {scene.name}; it", begins,
                                    tuple(preset.name for preset in scene.presets)), line)
-    return Place(scene.name, scene.defaults() | scene.example(found[0]))
+    return StateLink(scene.name, scene.defaults() | scene.example(found[0]))
 
 
 def _animation(found: object, scene: Scene[Any], line: int) -> Animation | None:
@@ -296,7 +296,7 @@ def _animation(found: object, scene: Scene[Any], line: int) -> Animation | None:
     return Animation(name, float(given["from"]), float(given["to"]), float(given["seconds"]))
 
 
-def _prediction(found: object, place: Place, line: int) -> Prediction | None:
+def _prediction(found: object, place: StateLink, line: int) -> Prediction | None:
     if found is None:
         return None
     given = _only(found, line, "predict", ("picture", "layer", "then"))

@@ -13,7 +13,7 @@ from markdown_it import MarkdownIt
 from markdown_it.token import Token
 
 from hess_explorer.lessons import tries
-from hess_explorer.lessons.lesson import Lesson, Step
+from hess_explorer.lessons.lesson import Lesson, LessonStep
 from hess_explorer.lessons.markdown import to_html
 from hess_explorer.lessons.reading import without_tries
 from hess_explorer.protocol.parameters import Choice, Number
@@ -112,7 +112,7 @@ def _steps(lesson: Lesson | None) -> list[dict[str, Any]]:
     return [_step(step) for step in lesson.steps] if lesson else []
 
 
-def _step(step: Step) -> dict[str, Any]:
+def _step(step: LessonStep) -> dict[str, Any]:
     found: dict[str, Any] = {
         "title": to_html(step.title, inline=True), "text": to_html(step.text), "scene": step.at.scene,
         "look": step.look, "question": to_html(step.question), "answer": to_html(step.answer)}

@@ -16,7 +16,7 @@ import numpy as np
 
 from hess_explorer.compute.budget import Abandoned
 from hess_explorer.lessons import tries
-from hess_explorer.lessons.lesson import Lesson, Place
+from hess_explorer.lessons.lesson import Lesson, StateLink
 from hess_explorer.page.controls import show_controls
 from hess_explorer.page.description import describe, describe_lesson
 from hess_explorer.page.pieces import Pieces
@@ -171,7 +171,7 @@ class Session:
             self._wanted.notes, self._dirty = [str(error)], True
         return {}
 
-    def _place_of(self, step: Any) -> Place | None:
+    def _place_of(self, step: Any) -> StateLink | None:
         """The state that a step [lesson or scene, number, whether its guess is revealed] goes to."""
         match step:
             case [str(name), int(number), bool(revealed)]:
@@ -181,7 +181,7 @@ class Session:
                     return found.prediction.then if revealed and found.prediction else found.at
         return None
 
-    def _go(self, place: Place) -> None:
+    def _go(self, place: StateLink) -> None:
         """Show the state of a step: all of it, whatever was chosen before."""
         scene = scenes()[place.scene]
         if scene is self.scene:

@@ -42,7 +42,7 @@ from hess_mechanics.suslov_hess.bifurcation import f_max
 from hess_mechanics.suslov_hess.circle_map import MAX_A
 from hess_mechanics.suslov_hess.edge import EdgeProof, prove_edge
 
-__all__ = ["FIRST_BITS", "MOST_BITS", "MOST_WORK", "NO_CYCLE", "TWO_CYCLES", "UNDECIDED", "Proof", "Step",
+__all__ = ["FIRST_BITS", "MOST_BITS", "MOST_WORK", "NO_CYCLE", "TWO_CYCLES", "UNDECIDED", "Proof", "ProofStep",
            "check_possible", "on_edge", "prove"]
 
 TWO_CYCLES, NO_CYCLE, UNDECIDED = "two cycles", "no cycle", "undecided"
@@ -59,7 +59,7 @@ Matrix = tuple[Ball, Ball, Ball, Ball]
 
 
 @dataclass(frozen=True)
-class Step:
+class ProofStep:
     """One Taylor step: from `start` (the next one's start, or π, ends it), with what bounds its remainder.
 
     radius : of the disc |s − start| ≤ r; bound : K there; terms : N; matrix : encloses (A, B, C, D) of the step.
@@ -92,7 +92,7 @@ class Proof:
     multipliers: tuple[Enclosure, ...]
     roots: tuple[Enclosure, ...] | None
     half: tuple[Enclosure, ...] | None
-    steps: tuple[Step, ...]
+    steps: tuple[ProofStep, ...]
     bits: int
     seconds: float
 
@@ -282,7 +282,7 @@ def _proof(at: tuple[Fraction, Fraction, Fraction], turns: _Turns, plan: list[tu
         before = A, C
         A, B, C, D = p * A + q * C, p * B + q * D, r * A + d * C, r * B + d * D
         theta += arb.atan2(before[0] * C - before[1] * A, before[0] * A + before[1] * C)
-        steps.append(Step(start, radius, K, terms, tuple(map(enclosure, matrix))))
+        steps.append(ProofStep(start, radius, K, terms, tuple(map(enclosure, matrix))))
     statement, t = _decided(A, B, C, D)
     rotation = _rotation(statement, t, A, B, C, D, theta)
     cycles = _cycles(t, A, B, C, D) if statement == TWO_CYCLES else ((), ())
