@@ -21,7 +21,7 @@ from distributed import Client
 
 from hess_explorer.benchmark.machine import describe
 from hess_explorer.sweep import QUANTITIES, sweep, work, workers
-from hess_explorer.sweep.grid import Grid
+from hess_explorer.sweep.grid import SweepGrid
 from hess_explorer.sweep.result import Store
 from hess_mechanics import level, systems
 from hess_mechanics.dynamics.lyapunov import largest_exponent
@@ -140,7 +140,7 @@ def on_two(case, address):
 def pieces_of_processes():
     """Seconds until two processes are there, and pieces without work through them, a second."""
     tell("processes")
-    grid = Grid.of(QUANTITIES["rotation-number"], {"h": (0.5, 1.5, 2000)}, {"a": 0.5, "f": 0.1}, 10**6)
+    grid = SweepGrid.of(QUANTITIES["rotation-number"], {"h": (0.5, 1.5, 2000)}, {"a": 0.5, "f": 0.1}, 10**6)
     pieces = [(box, work.Piece("rotation-number", "draft", work.version(), grid.pieces(box), grid.fixed))
               for box in grid.boxes((1,))]
     begun = time.perf_counter()
@@ -171,7 +171,7 @@ def rates(address):
 
     def passed(compute, pieces, side, keep):
         tell(f"{pieces} pieces of {side} cells")
-        grid = Grid.of(what, {"h": (0.2, 2.0, pieces), "f": np.linspace(0.01, 1.0, side)}, {"a": 0.5}, 10**10)
+        grid = SweepGrid.of(what, {"h": (0.2, 2.0, pieces), "f": np.linspace(0.01, 1.0, side)}, {"a": 0.5}, 10**10)
         boxes = list(grid.boxes((1, side)))
         work_ = ((box, work.Piece(what.name, "draft", work.version(), grid.pieces(box), grid.fixed)) for box in boxes)
         before = workers.compute, workers._COUNT_AGAIN
@@ -257,7 +257,7 @@ def main():
             f"a cluster that run already | {one:.2f} s, {two:.2f} s, {dask:.2f} s | |",
             f"| – two processes, two workers beside one thread | {one / two:.2f} ×, {one / dask:.2f} × | ≥ 1.8 × |",
             f"| – of the processor, both processes and this one | {spent:.2f} s | |"]
-    grid = Grid.of(QUANTITIES["rotation-number"], cases[0][1], {"a": 0.5}, 10**10)
+    grid = SweepGrid.of(QUANTITIES["rotation-number"], cases[0][1], {"a": 0.5}, 10**10)
     piece = work.Piece("rotation-number", "precise", work.version(), grid.pieces(((0, 500), (0, 500))), grid.fixed)
     lines += [
         f"| two processes: until they have computed the first pieces | {there:.1f} s | |",

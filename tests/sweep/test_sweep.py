@@ -12,7 +12,7 @@ import pytest
 
 from hess_explorer.sweep import QUANTITIES, Interrupted, MissingLibrary, Outcome, Parameter, Quantity, explain, sweep
 from hess_explorer.sweep import run as running
-from hess_explorer.sweep.grid import Grid
+from hess_explorer.sweep.grid import SweepGrid
 from hess_explorer.sweep.quantity import Found
 from hess_explorer.sweep.work import cost_of_a_cell
 from hess_mechanics import level
@@ -171,7 +171,7 @@ def test_pieces_take_as_long_as_they_should(monkeypatch):
     seconds = count(0.0, 0.5)
     monkeypatch.setattr("hess_explorer.sweep.work.time.perf_counter", lambda: next(seconds))
     what = QUANTITIES["rotation-number"]
-    grid = Grid.of(what, {"h": (0.5, 2.0, 300), "f": (0.0, 0.2, 200)}, {"a": 0.5}, 10**6)
+    grid = SweepGrid.of(what, {"h": (0.5, 2.0, 300), "f": (0.0, 0.2, 200)}, {"a": 0.5}, 10**6)
     # By that clock every trial takes half a second, also the first, of one cell.
     assert cost_of_a_cell(what, grid, level("draft")) == 0.5
     assert running._cells_of_a_piece(what, grid, level("draft"), 1) == 4.0
@@ -229,7 +229,8 @@ def test_work_is_capped_before_anything_is_made():
         sweep("limit-cycles", {"h": (0.0, 1.0, 10)}, a=0.5, f=0.1, most_cells=20)
 
 
-@pytest.mark.parametrize(("library", "workers"), [("xarray", None), ("zarr", None), ("distributed", "tcp://127.0.0.1:9")])
+@pytest.mark.parametrize(("library", "workers"), [("xarray", None), ("zarr", None),
+                                                  ("distributed", "tcp://127.0.0.1:9")])
 def test_a_library_that_is_missing_is_named_with_the_command_that_installs_it(monkeypatch, library, workers):
     monkeypatch.setitem(sys.modules, library, None)
     with pytest.raises(MissingLibrary, match=r"pip install 'hess-explorer\[sweep\]'"):

@@ -20,7 +20,7 @@ from hess_explorer.scenes.framework.windows import Window, boxed, inside, tidy_w
 from hess_explorer.views import circle_map as circle
 from hess_explorer.views import rotation_line, rotation_plane
 from hess_explorer.views.comparison import Frame
-from hess_explorer.views.layers import Axes, Grid
+from hess_explorer.views.layers import Axes, CellGrid
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.numerics.accuracy import REFERENCE, Computation, Plan
@@ -142,7 +142,7 @@ class RotationNumber(State):
         return self.work.get(mechanics.rows, *common, _COARSE, 0, _COARSE[1], plan.level), _COARSE
 
     @cached_property
-    def grids(self) -> tuple[Grid, Grid]:
+    def grids(self) -> tuple[CellGrid, CellGrid]:
         """ρ and the zones over the window."""
         return rotation_plane.grids(*self.grid, *self.window)
 

@@ -31,7 +31,7 @@ from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import bifurcation_diagram as diagram
 from hess_explorer.views import circle_map as circle
 from hess_explorer.views import torus_density, torus_plane
-from hess_explorer.views.layers import Columns, Grid
+from hess_explorer.views.layers import CellGrid, Columns
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, parallels
 from hess_explorer.views.text import digits
@@ -209,11 +209,11 @@ class SuslovHess(SuslovBody, ProvedOrbit):
         return Task(rotation_number_window, (self.body.a, axes.x, axes.y, level, cells))
 
     @cached_property
-    def rotation(self) -> Grid:
+    def rotation(self) -> CellGrid:
         """The rotation number over the diagram."""
         axes, plan = diagram.window(self.h), self.plan(Computation.COLOURS, steady=True)
         task = self.colours(affordable_cells(self.body.a, plan.grid(CELLS)), plan.level)
-        return Grid(self.work.get(task.function, *task.arguments), axes.x, axes.y)
+        return CellGrid(self.work.get(task.function, *task.arguments), axes.x, axes.y)
 
     # ---- words --------------------------------------------------------------------------------------------------
 

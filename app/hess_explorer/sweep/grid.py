@@ -13,7 +13,7 @@ from hess_explorer.sweep.quantity import Cells, Parameter, Quantity
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["HARD_LIMIT", "MAX_NUMBERS", "Axis", "Box", "Grid", "check", "expanded"]
+__all__ = ["HARD_LIMIT", "MAX_NUMBERS", "Axis", "Box", "SweepGrid", "check", "expanded"]
 
 MAX_NUMBERS = 10_000_000
 """Of a sweep, unless more are allowed by name: 90 MB, in memory or on disk."""
@@ -28,14 +28,14 @@ Box = tuple[tuple[int, int], ...]
 
 
 @dataclass(frozen=True)
-class Grid:
+class SweepGrid:
     """The product of some axes, by name, and the value of each other parameter."""
 
     axes: Mapping[str, Array]
     fixed: Mapping[str, float]
 
     @classmethod
-    def of(cls, quantity: Quantity, over: Mapping[str, Axis], fixed: Mapping[str, float], most: int) -> Grid:
+    def of(cls, quantity: Quantity, over: Mapping[str, Axis], fixed: Mapping[str, float], most: int) -> SweepGrid:
         """Check everything.  Raises `InvalidParameter`, `WorkLimit`."""
         if not 1 <= len(over) <= _MOST_AXES:
             raise InvalidParameter(f"A sweep goes over one to {_MOST_AXES} parameters, not {len(over)}.")

@@ -18,7 +18,7 @@ import numpy as np
 
 from hess_explorer.sweep.dataset import described
 from hess_explorer.sweep.errors import OtherSweep, StoreError
-from hess_explorer.sweep.grid import MAX_NUMBERS, Box, Grid
+from hess_explorer.sweep.grid import MAX_NUMBERS, Box, SweepGrid
 from hess_explorer.sweep.quantities import QUANTITIES
 from hess_explorer.sweep.quantity import Outcome, Outcomes, Quantity
 from hess_explorer.sweep.work import Done, version
@@ -62,7 +62,7 @@ def _slices(box: Box) -> tuple[slice, ...]:
     return tuple(slice(low, high) for low, high in box)
 
 
-def _described(what: Quantity, grid: Grid, level: str, values: Any, errors: Any, status: Any) -> xr.Dataset:
+def _described(what: Quantity, grid: SweepGrid, level: str, values: Any, errors: Any, status: Any) -> xr.Dataset:
     """A Dataset with names, units and words, around arrays of any kind."""
     known = {one.name: one for one in what.parameters}
     axes = {name: (places, {"long_name": known[name].doc, "symbol": known[name].symbol, "units": known[name].units})
@@ -72,7 +72,7 @@ def _described(what: Quantity, grid: Grid, level: str, values: Any, errors: Any,
                      parameters=json.dumps(dict(grid.fixed), ensure_ascii=False, sort_keys=True))
 
 
-def _arrays(what: Quantity, grid: Grid) -> tuple[tuple[int, ...], tuple[int, ...]]:
+def _arrays(what: Quantity, grid: SweepGrid) -> tuple[tuple[int, ...], tuple[int, ...]]:
     """The shapes of the values and of the status."""
     return (*grid.shape, *((len(what.parts),) if what.parts else ())), grid.shape
 
@@ -82,7 +82,7 @@ class Memory:
 
     said = ""
 
-    def __init__(self, what: Quantity, grid: Grid, level: str, shape: tuple[int, ...]) -> None:
+    def __init__(self, what: Quantity, grid: SweepGrid, level: str, shape: tuple[int, ...]) -> None:
         self.shape = shape
         self._what, self._grid, self._level = what, grid, level
         of_values, of_status = _arrays(what, grid)
@@ -121,7 +121,7 @@ class Store:
         self.shape: tuple[int, ...] = found["status"].chunks
 
     @classmethod
-    def create(cls, path: Path, what: Quantity, grid: Grid, level: str, shape: tuple[int, ...]) -> Store:
+    def create(cls, path: Path, what: Quantity, grid: SweepGrid, level: str, shape: tuple[int, ...]) -> Store:
         """Make a store with boxes of this shape, nothing in it.  Raises `StoreError`."""
         from zarr.codecs import Crc32cCodec, ZstdCodec
 
@@ -152,7 +152,7 @@ class Store:
         """Where it is."""
         return f"What is done is kept in {str(self.path)!r}: the same sweep goes on there."
 
-    def require(self, grid: Grid, level: str) -> None:
+    def require(self, grid: SweepGrid, level: str) -> None:
         """Raise `OtherSweep` unless this is what the store was made for."""
         held = _group(self.path, "r").attrs
         wanted = {"quantity": self._what.name, "level": level, "version": version()}
@@ -239,7 +239,7 @@ def read(path: str | Path) -> xr.Dataset:
                          "anew.") from error
 
 
-def opened(path: Path, what: Quantity, grid: Grid, level: str) -> Store | None:
+def opened(path: Path, what: Quantity, grid: SweepGrid, level: str) -> Store | None:
     """The store of this sweep at a place; None where nothing is yet.  Raises `OtherSweep`, `StoreError`."""
     if not path.exists() or (path.is_dir() and not any(path.iterdir())):
         return None

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hess_explorer.sweep.errors import Interrupted, StoreError, WorkersLost
-from hess_explorer.sweep.grid import MAX_NUMBERS, Axis, Box, Grid, expanded
+from hess_explorer.sweep.grid import MAX_NUMBERS, Axis, Box, SweepGrid, expanded
 from hess_explorer.sweep.progress import Report, reporting
 from hess_explorer.sweep.quantities import quantity as named
 from hess_explorer.sweep.quantity import Outcome, Quantity, evaluate
@@ -47,7 +47,7 @@ def seconds_of_a_piece(work: float, workers: int) -> float:
     return min(max(_LONGEST, least), max(_SHORTEST, least, work / (_PIECES * workers)))
 
 
-def _cells_of_a_piece(what: Quantity, grid: Grid, accuracy: Level, workers: int) -> float:
+def _cells_of_a_piece(what: Quantity, grid: SweepGrid, accuracy: Level, workers: int) -> float:
     cost = cost_of_a_cell(what, grid, accuracy)
     return min(seconds_of_a_piece(cost * grid.cells, workers) / cost, _MOST_NUMBERS / what.numbers)
 
@@ -87,7 +87,7 @@ def sweep(quantity: str, over: Mapping[str, Axis], *, level: Accuracy = "precise
     require_libraries()
     what, level = named(quantity), as_level_name(level)
     accuracy = as_level(level)
-    grid = Grid.of(what, over, fixed, most_cells)
+    grid = SweepGrid.of(what, over, fixed, most_cells)
     path = None if store is None else Path(store)
     kept: Kept | None = None if path is None else opened(path, what, grid, level)
     todo: Iterable[Box] = ()
@@ -172,6 +172,6 @@ def explain(found: xr.Dataset, **cell: float) -> str:
         return chart_of(found).why(*(cell[name] for name in axes))
     what, accuracy = named(found.attrs["quantity"]), as_level(found.attrs["level"])
     fixed = json.loads(found.attrs["parameters"])
-    grid = Grid.of(what, {name: [cell[name]] for name in axes}, fixed, what.numbers)
+    grid = SweepGrid.of(what, {name: [cell[name]] for name in axes}, fixed, what.numbers)
     outcome = evaluate(what, expanded(grid.axes, grid.fixed), accuracy)
     return outcome.why.get(0, f"{Outcome(int(outcome.status[0])).words}.")

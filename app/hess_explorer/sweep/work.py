@@ -11,7 +11,7 @@ from importlib import metadata
 import numpy as np
 
 from hess_explorer.sweep.errors import WorkersLost
-from hess_explorer.sweep.grid import Grid, expanded
+from hess_explorer.sweep.grid import SweepGrid, expanded
 from hess_explorer.sweep.quantities import quantity
 from hess_explorer.sweep.quantity import Outcomes, Quantity, evaluate
 from hess_mechanics.numerics.accuracy import Level, level
@@ -71,7 +71,7 @@ _PART = 128
 _PLACES = 4
 
 
-def cost_of_a_cell(what: Quantity, grid: Grid, accuracy: Level) -> float:
+def cost_of_a_cell(what: Quantity, grid: SweepGrid, accuracy: Level) -> float:
     """Seconds, from trials at random places that grow until they take long enough; ∞ where there are few cells.
 
     The first cell is not counted: its kernels are compiled, or loaded.
@@ -88,7 +88,8 @@ def cost_of_a_cell(what: Quantity, grid: Grid, accuracy: Level) -> float:
         count *= 2
 
 
-def _trial(what: Quantity, grid: Grid, accuracy: Level, count: int, random: np.random.Generator) -> tuple[int, float]:
+def _trial(what: Quantity, grid: SweepGrid, accuracy: Level, count: int, random: np.random.Generator) -> tuple[int,
+                                                                                                               float]:
     """Cells computed, and seconds: of some boxes, as they will be computed together."""
     places = min(_PLACES, count)
     shape = grid.box_of(count / places)

@@ -9,7 +9,7 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.comparison import Frame
-from hess_explorer.views.layers import TURNS, Axes, Grid, Layer, curves, image, points, region, target
+from hess_explorer.views.layers import TURNS, Axes, CellGrid, Layer, curves, image, points, region, target
 from hess_explorer.views.text import digits
 from hess_mechanics.numerics.accuracy import DRAFT
 from hess_mechanics.numerics.results import Array
@@ -58,7 +58,7 @@ def _locked(boundary: Array, axes: Axes) -> list[list[Array]]:
     return [[np.array([*boundary, *mirrored, [h, -top], [far, -top], [far, top], [h, top]])]]
 
 
-def layers(rotation: Callable[[S], Grid], boundary: Callable[[S], Array], curve: Callable[[S], Array],
+def layers(rotation: Callable[[S], CellGrid], boundary: Callable[[S], Array], curve: Callable[[S], Array],
            here: Callable[[S], Sequence[tuple[float, float]]], axes: Callable[[S], Axes],
            proved: Callable[[S], Sequence[Array]]) -> tuple[Layer[S], ...]:
     """Colours: rotation number ρ.  One tone where it is locked.  Grey: no motion.  A ring: the torus on show.

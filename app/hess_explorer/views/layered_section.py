@@ -8,7 +8,7 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
-from hess_explorer.views.layers import Grid, Layer, Sign, dots, image, ring
+from hess_explorer.views.layers import CellGrid, Layer, Sign, dots, image, ring
 from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.numerics.results import Array
 
@@ -35,11 +35,11 @@ def apart(found: Array, window: Window) -> Array:
     return np.asarray(within[np.sort(one[one >= 0])])
 
 
-def _grid(cells: Callable[[S], Array | None], window: Callable[[S], Window]) -> Callable[[S], Grid | None]:
-    def grid(state: S) -> Grid | None:
+def _grid(cells: Callable[[S], Array | None], window: Callable[[S], Window]) -> Callable[[S], CellGrid | None]:
+    def grid(state: S) -> CellGrid | None:
         found = cells(state)
         (x0, y0), (x1, y1) = window(state)
-        return None if found is None else Grid(found, (x0, x1), (y0, y1))
+        return None if found is None else CellGrid(found, (x0, x1), (y0, y1))
 
     return grid
 

@@ -21,8 +21,8 @@ __all__ = [
     "POINT",
     "TURNS",
     "Axes",
+    "CellGrid",
     "Columns",
-    "Grid",
     "Layer",
     "Range",
     "Sign",
@@ -57,7 +57,7 @@ class Axes:
 
 
 @dataclass(frozen=True)
-class Grid:
+class CellGrid:
     """Numbers at the centres of cells (m, n) that fill the rectangle x × y; rows of equal y."""
 
     cells: Array
@@ -138,7 +138,7 @@ def _regions(value: Sequence[Sequence[Array]] | None) -> Columns:
             "ys": [[[curve[1] for curve in one]] for one in polygons]}
 
 
-def _cells(value: Grid | None) -> Columns:
+def _cells(value: CellGrid | None) -> Columns:
     if value is None:
         return {}
     (x0, x1), (y0, y1) = value.x, value.y
@@ -249,7 +249,7 @@ def target(name: str, data: Callable[[S], Sequence[Place]], size: float = 21.0,
             ring(f"{name}-too", data, color="black", size=size, width=2.5, columns=columns))
 
 
-def image(name: str, data: Callable[[S], Grid | None], *, palette: str | tuple[str, ...], low: float, high: float,
+def image(name: str, data: Callable[[S], CellGrid | None], *, palette: str | tuple[str, ...], low: float, high: float,
           smooth: bool = False, cyclic: bool = False, kinds: bool = False, legend: tuple[Sign, ...] = ()) -> Layer[S]:
     """Numbers on a grid, under all other layers.
 

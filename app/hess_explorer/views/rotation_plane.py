@@ -10,7 +10,7 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.bifurcation_diagram import impossible
-from hess_explorer.views.layers import TURNS, Axes, Grid, Layer, Range, Sign, curves, image, region, target
+from hess_explorer.views.layers import TURNS, Axes, CellGrid, Layer, Range, Sign, curves, image, region, target
 from hess_mechanics.numerics.results import Array, Mask, frozen
 from hess_mechanics.suslov_hess.bifurcation import f_max, h_min
 from hess_mechanics.suslov_hess.rotation_number import Torus, TorusValues
@@ -39,7 +39,7 @@ def _filled(values: Array, known: Mask) -> Array:
     return np.where(known, values, 0.0)
 
 
-def grids(values: TorusValues, cells: tuple[int, int], x: Range, y: Range) -> tuple[Grid, Grid]:
+def grids(values: TorusValues, cells: tuple[int, int], x: Range, y: Range) -> tuple[CellGrid, CellGrid]:
     """ρ, and ln |t|/2, which is positive where it locks, at the centres of cells (m, n) that fill a window.
 
     Cells without a torus have the value of one beside them, so that both can be interpolated up to the edge.
@@ -48,7 +48,7 @@ def grids(values: TorusValues, cells: tuple[int, int], x: Range, y: Range) -> tu
     known = values.possible.reshape(n, m)
     with np.errstate(divide="ignore", invalid="ignore"):
         height = np.clip(np.log(0.5 * values.trace), -1.0, 1.0)
-    rho, zones = (Grid(_filled(one.reshape(n, m), known), x, y) for one in (values.rho, height))
+    rho, zones = (CellGrid(_filled(one.reshape(n, m), known), x, y) for one in (values.rho, height))
     return rho, zones
 
 
@@ -92,7 +92,7 @@ def _rectangle(low: float, high: float, y: Range) -> Array:
     return np.array([[low, y[0]], [high, y[0]], [high, y[1]], [low, y[1]]])
 
 
-def layers(grids: Callable[[S], tuple[Grid, Grid]], boundary: Callable[[S], Sequence[Array]],
+def layers(grids: Callable[[S], tuple[CellGrid, CellGrid]], boundary: Callable[[S], Sequence[Array]],
            impossible: Callable[[S], Sequence[Sequence[Array]]], edges: Callable[[S], Sequence[Array]],
            across: Callable[[S], Sequence[Array]], here: Callable[[S], Sequence[tuple[float, float]]]
            ) -> tuple[Layer[S], ...]:

@@ -11,7 +11,7 @@ from bokeh.palettes import Cividis256
 
 from hess_explorer.views import theme
 from hess_explorer.views.comparison import Frame
-from hess_explorer.views.layers import Axes, Grid, Layer, Range, Sign, curves, image, line, ring, target
+from hess_explorer.views.layers import Axes, CellGrid, Layer, Range, Sign, curves, image, line, ring, target
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import nice_above
@@ -44,7 +44,8 @@ def over_square(caption: Callable[[S], str], theta_plus: Callable[[S], Array],
 def _layers(theta_plus: Callable[[S], Array], here: Callable[[S], tuple[float, float]]) -> tuple[Layer[S], ...]:
     """Colours: θ⁺ from 0 to π, at the centres of cells, rows of equal θ⁻.  A ring: (φ, θ⁻); a line: the curve there."""
     return (
-        image("theta", lambda s: Grid(theta_plus(s), AZIMUTH, POLAR), palette=theme.NUMBER_MAP, low=0.0, high=math.pi,
+        image("theta", lambda s: CellGrid(theta_plus(s), AZIMUTH, POLAR), palette=theme.NUMBER_MAP, low=0.0,
+              high=math.pi,
               smooth=True,
               legend=(Sign("θ⁺ from 0 to π", "box rho", f"background: {theme.gradient(Cividis256)}"),)),
         line("line", lambda s: (AZIMUTH, (here(s)[1],) * 2), color="white", dash="dashed"),

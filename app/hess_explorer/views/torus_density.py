@@ -9,7 +9,7 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.circle_map import SIDE, TICKS
-from hess_explorer.views.layers import Grid, Layer, Sign, dots, image
+from hess_explorer.views.layers import CellGrid, Layer, Sign, dots, image
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.numerics.results import Array
@@ -59,9 +59,9 @@ def picture(density: Callable[[S], tuple[Array | None, str]]) -> Plot[S]:
         found, reason = density(state)
         return reason if found is None else about(found)
 
-    def shares(state: S) -> Grid | None:
+    def shares(state: S) -> CellGrid | None:
         found, _ = density(state)
-        return None if found is None else Grid(found / found.max(), SIDE, SIDE)
+        return None if found is None else CellGrid(found / found.max(), SIDE, SIDE)
 
     layers: tuple[Layer[S], ...] = (
         image("density", shares, palette=_SHADES, low=0.0, high=1.0,

@@ -13,7 +13,7 @@ from hess_explorer.scenes.framework.parameters import specs_of
 from hess_explorer.scenes.framework.trial import Refused, Trial, next_level
 from hess_explorer.views import theme
 from hess_explorer.views.comparison import Difference
-from hess_explorer.views.layers import Axes, Grid, Layer, Range, Sign, dots, image, line, points, ring, text
+from hess_explorer.views.layers import Axes, CellGrid, Layer, Range, Sign, dots, image, line, points, ring, text
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.shadowing import typical
@@ -152,12 +152,12 @@ class Costs(Insight):
         found: Range = getattr(self.found_difference.frame.axes, side)
         return found
 
-    def changed_cells(self) -> Grid | None:
+    def changed_cells(self) -> CellGrid | None:
         """1 where a cell changes, 0 where it does not, −1 where nothing is."""
         found = self.found_difference
         if found is None or found.cells is None:
             return None
-        return Grid(found.cells, found.frame.axes.x, found.frame.axes.y)
+        return CellGrid(found.cells, found.frame.axes.x, found.frame.axes.y)
 
     def added_by(self, name: str) -> Array | None:
         """Points (2, n) that only this level has."""
