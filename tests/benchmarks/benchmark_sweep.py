@@ -141,7 +141,7 @@ def pieces_of_processes():
     """Seconds until two processes are there, and pieces without work through them, a second."""
     tell("processes")
     grid = SweepGrid.of(QUANTITIES["rotation-number"], {"h": (0.5, 1.5, 2000)}, {"a": 0.5, "f": 0.1}, 10**6)
-    pieces = [(box, work.Piece("rotation-number", "draft", work.version(), grid.pieces(box), grid.fixed))
+    pieces = [(box, work.Chunk("rotation-number", "draft", work.version(), grid.pieces(box), grid.fixed))
               for box in grid.boxes((1,))]
     begun = time.perf_counter()
     with workers.crew(2, lambda: False) as hands:
@@ -173,7 +173,7 @@ def rates(address):
         tell(f"{pieces} pieces of {side} cells")
         grid = SweepGrid.of(what, {"h": (0.2, 2.0, pieces), "f": np.linspace(0.01, 1.0, side)}, {"a": 0.5}, 10**10)
         boxes = list(grid.boxes((1, side)))
-        work_ = ((box, work.Piece(what.name, "draft", work.version(), grid.pieces(box), grid.fixed)) for box in boxes)
+        work_ = ((box, work.Chunk(what.name, "draft", work.version(), grid.pieces(box), grid.fixed)) for box in boxes)
         before = workers.compute, workers._COUNT_AGAIN
         workers.compute, workers._COUNT_AGAIN = compute, math.inf
         try:
@@ -258,7 +258,7 @@ def main():
             f"| – two processes, two workers beside one thread | {one / two:.2f} ×, {one / dask:.2f} × | ≥ 1.8 × |",
             f"| – of the processor, both processes and this one | {spent:.2f} s | |"]
     grid = SweepGrid.of(QUANTITIES["rotation-number"], cases[0][1], {"a": 0.5}, 10**10)
-    piece = work.Piece("rotation-number", "precise", work.version(), grid.pieces(((0, 500), (0, 500))), grid.fixed)
+    piece = work.Chunk("rotation-number", "precise", work.version(), grid.pieces(((0, 500), (0, 500))), grid.fixed)
     lines += [
         f"| two processes: until they have computed the first pieces | {there:.1f} s | |",
         f"| pieces of one cell through them | {through:.0f} a second | |",

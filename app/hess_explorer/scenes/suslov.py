@@ -14,7 +14,7 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Value
 from hess_explorer.scenes.framework.basins import BASINS, Basins
 from hess_explorer.scenes.framework.charted import Charted, Placed, exponents, motion_of
-from hess_explorer.scenes.framework.filled_window import EXPONENT, SECTION, TURN, Piece, filled_window
+from hess_explorer.scenes.framework.filled_window import EXPONENT, SECTION, TURN, OrbitBatch, filled_window
 from hess_explorer.scenes.framework.heavy_suslov import HeavySuslov
 from hess_explorer.scenes.framework.indicator import INDICATOR, colouring
 from hess_explorer.scenes.framework.inertia import Tensor
@@ -233,11 +233,12 @@ def _later(orbit: Array) -> Array:
     return orbit[len(orbit) // 2 :]
 
 
-def _piece(section: SuslovSection, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Piece:
+def _piece(section: SuslovSection, starts: tuple[Start, ...], crossings: int, forward: bool,
+           level: Level) -> OrbitBatch:
     points = suslov_points(section.body, section.k, starts, crossings, forward, level, threads=1,
                            most_steps=_MOST_STEPS)
-    return Piece(tuple(frozen(section.places_of(states)) for states in points.states), (forward,) * len(starts),
-                 points.drift)
+    return OrbitBatch(tuple(frozen(section.places_of(states)) for states in points.states), (forward,) * len(starts),
+                      points.drift)
 
 
 SCENE = Scene(

@@ -18,7 +18,7 @@ from concurrent.futures import CancelledError, Future, ThreadPoolExecutor
 from contextlib import contextmanager, suppress
 
 from hess_explorer.sweep.errors import WorkersLost
-from hess_explorer.sweep.work import Done, Piece, compute
+from hess_explorer.sweep.work import Chunk, Done, compute
 
 __all__ = ["processes", "serve"]
 
@@ -68,7 +68,7 @@ class _Process:
         return subprocess.Popen([sys.executable, "-c", _PROGRAM], env=environment, stdin=subprocess.PIPE,
                                 stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, start_new_session=True)
 
-    def compute(self, piece: Piece) -> Done:
+    def compute(self, piece: Chunk) -> Done:
         """One piece.  Raises `WorkersLost` where process after process dies of it."""
         for _ in range(_DEATHS):
             child = self._child
@@ -111,7 +111,7 @@ def _kill(child: subprocess.Popen[bytes]) -> None:
 
 
 @contextmanager
-def processes(count: int) -> Iterator[Callable[[Piece], Future[Done]]]:
+def processes(count: int) -> Iterator[Callable[[Chunk], Future[Done]]]:
     """A function that has a piece computed by one of so many processes, which have begun to load meanwhile.
 
     Where it is left they are ended, whatever they compute.
@@ -121,7 +121,7 @@ def processes(count: int) -> Iterator[Callable[[Piece], Future[Done]]]:
     for one in own:
         idle.put(one)
 
-    def computed(piece: Piece) -> Done:
+    def computed(piece: Chunk) -> Done:
         one = idle.get()
         try:
             return one.compute(piece)

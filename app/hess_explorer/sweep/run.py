@@ -20,7 +20,7 @@ from hess_explorer.sweep.progress import Report, reporting
 from hess_explorer.sweep.quantities import quantity as named
 from hess_explorer.sweep.quantity import Outcome, Quantity, evaluate
 from hess_explorer.sweep.result import Kept, Memory, Store, opened, require_libraries
-from hess_explorer.sweep.work import Piece, cost_of_a_cell, version
+from hess_explorer.sweep.work import Chunk, cost_of_a_cell, version
 from hess_explorer.sweep.workers import Workers, crew
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Accuracy, Level
@@ -112,7 +112,7 @@ def sweep(quantity: str, over: Mapping[str, Axis], *, level: Accuracy = "precise
                 kept = Memory(what, grid, level, shape) if path is None else \
                     Store.create(path, what, grid, level, shape)
                 todo = grid.boxes(shape)
-            pieces = ((box, Piece(what.name, level, version(), grid.pieces(box), grid.fixed)) for box in todo)
+            pieces = ((box, Chunk(what.name, level, version(), grid.pieces(box), grid.fixed)) for box in todo)
             report = stack.enter_context(reporting(progress, grid.cells, grid.cells - missing))
             for box, done in hands.run(pieces, stopped):
                 kept.write(box, done)

@@ -17,7 +17,7 @@ from hess_explorer.sweep.quantity import Outcomes, Quantity, evaluate
 from hess_mechanics.numerics.accuracy import Level, level
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Done", "Piece", "compute", "cost_of_a_cell", "version"]
+__all__ = ["Chunk", "Done", "compute", "cost_of_a_cell", "version"]
 
 
 @cache
@@ -30,7 +30,7 @@ def version() -> str:
 
 
 @dataclass(frozen=True)
-class Piece:
+class Chunk:
     """A box of cells: the parts of the axes, in their order, and everything else by name; a few kilobytes."""
 
     quantity: str
@@ -52,7 +52,7 @@ class Done:
     status: Outcomes
 
 
-def compute(piece: Piece) -> Done:
+def compute(piece: Chunk) -> Done:
     """Compute a box.  Raises `WorkersLost` where this process has another version than the one that asks."""
     if piece.version != version():
         raise WorkersLost(f"A worker has version {version()} of hess-explorer, and {piece.version} is asked for: "

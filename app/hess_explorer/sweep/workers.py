@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Protocol
 from hess_explorer.sweep.errors import WorkersLost
 from hess_explorer.sweep.grid import Box
 from hess_explorer.sweep.processes import processes
-from hess_explorer.sweep.work import Done, Piece, compute
+from hess_explorer.sweep.work import Chunk, Done, compute
 from hess_mechanics.errors import InvalidParameter, MissingLibrary
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ __all__ = ["Crew", "Workers", "crew", "here"]
 Workers = str | int | None
 """None: this thread; "all": a process for each core; a number of processes; the address of a Dask scheduler."""
 
-Pieces = Iterable[tuple[Box, Piece]]
+Chunks = Iterable[tuple[Box, Chunk]]
 
 _WAIT = 60.0
 """Seconds that a cluster has to answer, and a worker to appear."""
@@ -47,14 +47,14 @@ class Crew(Protocol):
     def size(self) -> int:
         """How many at a time."""
 
-    def run(self, pieces: Pieces, stopped: Callable[[], bool]) -> Iterator[tuple[Box, Done]]:
+    def run(self, pieces: Chunks, stopped: Callable[[], bool]) -> Iterator[tuple[Box, Done]]:
         """Each piece's outcome as it is done, in any order, until `stopped`.  Raises `WorkersLost`."""
 
 
 class _Here:
     size = 1
 
-    def run(self, pieces: Pieces, stopped: Callable[[], bool]) -> Iterator[tuple[Box, Done]]:
+    def run(self, pieces: Chunks, stopped: Callable[[], bool]) -> Iterator[tuple[Box, Done]]:
         for box, piece in pieces:
             if stopped():
                 return
@@ -69,11 +69,11 @@ def here() -> Crew:
 class _Others:
     """`count` says how many there are, `submit` has a piece computed."""
 
-    def __init__(self, submit: Callable[[Piece], Future[Done]], count: Callable[[], int]) -> None:
+    def __init__(self, submit: Callable[[Chunk], Future[Done]], count: Callable[[], int]) -> None:
         self._submit, self._count = submit, count
         self.size = max(1, count())
 
-    def run(self, pieces: Pieces, stopped: Callable[[], bool]) -> Iterator[tuple[Box, Done]]:
+    def run(self, pieces: Chunks, stopped: Callable[[], bool]) -> Iterator[tuple[Box, Done]]:
         waiting: dict[Future[Done], Box] = {}
         finished: queue.SimpleQueue[Future[Done]] = queue.SimpleQueue()
         left = iter(pieces)

@@ -34,7 +34,7 @@ from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.numerics.accuracy import Computation, Level, Plan
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["EXPONENT", "SECTION", "TURN", "FilledWindow", "Piece", "filled_window", "in_pieces"]
+__all__ = ["EXPONENT", "SECTION", "TURN", "FilledWindow", "OrbitBatch", "filled_window", "in_pieces"]
 
 TURN = 3.14159
 """Half a turn, as a place in a link is written."""
@@ -59,7 +59,7 @@ class _Section(Sheet, Protocol):
 
 
 @dataclass(frozen=True)
-class Piece:
+class OrbitBatch:
     """Some orbits: points (n, 2) of each, as they are passed, and of which of two kinds it is; the largest drifts.
 
     kept : whether all its points lie on its side of the curve that divides the kinds, where there is one;
@@ -112,7 +112,7 @@ class FilledWindow(Indicated):
 
     @abstractmethod
     def piece(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task:
-        """What follows these orbits to so many crossings, as a `Piece`."""
+        """What follows these orbits to so many crossings, as a `OrbitBatch`."""
 
     @property
     @abstractmethod
@@ -151,10 +151,10 @@ class FilledWindow(Indicated):
             return min(orbits, self.held[0]), min(crossings, self.held[1])
         return orbits, self.plan(Computation.SECTION).part(crossings, _FEWEST)
 
-    def follow(self, starts: tuple[Start, ...], forward: bool) -> Piece | None:
+    def follow(self, starts: tuple[Start, ...], forward: bool) -> OrbitBatch | None:
         """What is known of these orbits."""
         task = self.piece(starts, self.wanted[1], forward, self.plan(Computation.SECTION).level)
-        found: Piece | None = self.work.soon(task.function, *task.arguments)
+        found: OrbitBatch | None = self.work.soon(task.function, *task.arguments)
         return found
 
     @cached_property
@@ -207,7 +207,7 @@ class FilledWindow(Indicated):
         return self.work.get(_impossible, self.section, self.frame)
 
     @cached_property
-    def _followed(self) -> tuple[list[Piece | None], list[Piece | None]]:
+    def _followed(self) -> tuple[list[OrbitBatch | None], list[OrbitBatch | None]]:
         """Pieces of the chosen orbits, which come first, and of those all over the window; None where not known yet."""
         seeds = self._spread(self.wanted[0])
         own = self.picked.states if self.closed is None else self.picked.states[:-1]
@@ -215,7 +215,7 @@ class FilledWindow(Indicated):
                 [self.follow(starts, forward) for starts in in_pieces(seeds) for forward in self.ways])
 
     @cached_property
-    def _known(self) -> tuple[list[Piece], list[Piece]]:
+    def _known(self) -> tuple[list[OrbitBatch], list[OrbitBatch]]:
         """Those that are known."""
         own, others = ([piece for piece in some if piece is not None] for some in self._followed)
         return own, others
@@ -225,7 +225,7 @@ class FilledWindow(Indicated):
         return self.pieces
 
     @property
-    def pieces(self) -> list[Piece]:
+    def pieces(self) -> list[OrbitBatch]:
         """What is known of the orbits all over the window."""
         return self._known[1]
 
@@ -295,7 +295,7 @@ class FilledWindow(Indicated):
         level = self.plan(Computation.SECTION).level.tightened()
         some = [*in_pieces(self._spread(self.wanted[0]))][:_COMPARED]
         tasks = [self.piece(starts, self.wanted[1], True, level) for starts in ((self.picked.states[-1],), *some)]
-        fine: list[Piece | None] = [self.work.later(task.function, *task.arguments) for task in tasks]
+        fine: list[OrbitBatch | None] = [self.work.later(task.function, *task.arguments) for task in tasks]
         coarse = [own[-1], *around[:: len(self.ways)]]
         counts = [right_crossings(one.orbits, other.orbits, self.pixels, PERIODS)
                   for one, other in zip(coarse, fine, strict=False) if one is not None and other is not None]

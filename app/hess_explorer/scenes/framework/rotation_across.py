@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.filled_window import FilledWindow, Piece, in_pieces
+from hess_explorer.scenes.framework.filled_window import FilledWindow, OrbitBatch, in_pieces
 from hess_explorer.scenes.framework.one_orbit import Start
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.windows import Window
@@ -147,15 +147,15 @@ class RotationAcross(FilledWindow):
         return digits(round(float(rho) / self._resolved) * self._resolved)
 
 
-def _piece(section: AndoyerSection, starts: tuple[Start, ...], crossings: int, level: Level) -> Piece:
+def _piece(section: AndoyerSection, starts: tuple[Start, ...], crossings: int, level: Level) -> OrbitBatch:
     found = andoyer_points(section.body, section.h, section.f, starts, crossings, level, threads=1,
                            most_steps=_MOST_STEPS)
     signs = np.sign(relation(section.body, np.array(starts)))
     kept = (bool(np.all(sign * relation(section.body, states) >= 0.0))
             for states, sign in zip(found.states, signs, strict=True))
     other = [section.places_of(states)[~section.is_on(states)] for states in found.states]
-    return Piece(tuple(frozen(section.places_of(states)) for states in found.states),
-                 tuple(bool(sign > 0.0) for sign in signs), found.drift, tuple(kept), frozen(joined(other)))
+    return OrbitBatch(tuple(frozen(section.places_of(states)) for states in found.states),
+                      tuple(bool(sign > 0.0) for sign in signs), found.drift, tuple(kept), frozen(joined(other)))
 
 
 def _axis_of(found: Rotation) -> Range:
