@@ -88,8 +88,8 @@ def cost_of_a_cell(what: Quantity, grid: SweepGrid, accuracy: Level) -> float:
         count *= 2
 
 
-def _trial(what: Quantity, grid: SweepGrid, accuracy: Level, count: int, random: np.random.Generator) -> tuple[int,
-                                                                                                               float]:
+def _trial(what: Quantity, grid: SweepGrid, accuracy: Level, count: int,
+           random: np.random.Generator) -> tuple[int, float]:
     """Cells computed, and seconds: of some boxes, as they will be computed together."""
     places = min(_PLACES, count)
     shape = grid.box_of(count / places)
