@@ -16,11 +16,11 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from hess_explorer.library.exploring import explore
-    from hess_explorer.library.state import State, from_link, state
+    from hess_explorer.library.state import SceneState, from_link, state
 
-__all__ = ["State", "explore", "from_link", "state"]
+__all__ = ["SceneState", "explore", "from_link", "state"]
 
-_PLACES = {"State": "state", "explore": "exploring", "from_link": "state", "state": "state"}
+_PLACES = {"SceneState": "state", "explore": "exploring", "from_link": "state", "state": "state"}
 
 
 def __getattr__(name: str) -> Any:

@@ -12,7 +12,7 @@ from types import TracebackType
 from typing import Any
 
 from hess_explorer.headless.screenshot import ServerError, free_port
-from hess_explorer.library.state import State, from_link, state
+from hess_explorer.library.state import SceneState, from_link, state
 from hess_explorer.server.ending import end_with_stdin
 from hess_explorer.server.serving import serve
 
@@ -31,7 +31,7 @@ class Exploration:
     A notebook shows it; `url` opens it in any browser on this machine, `state` is what it shows now.
     """
 
-    def __init__(self, first: State, height: int) -> None:
+    def __init__(self, first: SceneState, height: int) -> None:
         self._height = height
         self._reached = first.link
         self._ready = threading.Event()
@@ -47,7 +47,7 @@ class Exploration:
             raise ServerError("The explorer did not start: try `hess-explorer serve` in a terminal, which says why.")
 
     @property
-    def state(self) -> State:
+    def state(self) -> SceneState:
         """What the page shows now, as `from_link` gives it; the first state until it is looked at."""
         return from_link(self._reached, lenient=True)
 

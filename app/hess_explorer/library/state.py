@@ -25,13 +25,13 @@ from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.arguments import as_level_name
 
-__all__ = ["State", "from_link", "state"]
+__all__ = ["SceneState", "from_link", "state"]
 
 _ENDINGS = holding("data", "figure", "film")
 
 
 @dataclass(frozen=True, eq=False)
-class State:
+class SceneState:
     """One state of a scene; nothing is computed until it is asked for.  Made by `state` and `from_link`.
 
     >>> import hess_explorer as hess
@@ -105,7 +105,7 @@ class State:
         """The names of the pictures."""
         return self._address.scene.pictures
 
-    def but(self, **changes: Any) -> State:
+    def but(self, **changes: Any) -> SceneState:
         """The same with some parameters changed.  Raises `InvalidParameter` as `state` does.
 
         >>> import hess_explorer as hess
@@ -184,7 +184,7 @@ class State:
         return f"hess.state({self.scene!r}, {given})"
 
 
-def state(scene: str = "suslov-hess", /, **parameters: Any) -> State:
+def state(scene: str = "suslov-hess", /, **parameters: Any) -> SceneState:
     """The state of a scene with these parameters, as the page names them; the others are those of a newcomer.
 
     Besides parameters: `t`, the time of clouds; `az`, `el`, from where spheres are seen.
@@ -212,10 +212,10 @@ def state(scene: str = "suslov-hess", /, **parameters: Any) -> State:
     values, notes = found.admit(wanted)
     if notes:
         raise InvalidParameter(" ".join(map(refusal, notes)))
-    return State(Address(found, found.views[0], values, client))
+    return SceneState(Address(found, found.views[0], values, client))
 
 
-def from_link(link: str, *, lenient: bool = False) -> State:
+def from_link(link: str, *, lenient: bool = False) -> SceneState:
     """The state that a link describes, or what follows ? in it.
 
     lenient : whether what is wrong in it is put right, and said in `notes`.  Raises `InvalidParameter` otherwise.
@@ -227,7 +227,7 @@ def from_link(link: str, *, lenient: bool = False) -> State:
     >>> state.notes
     ()
     """
-    return State(address(query_in(link), lenient=lenient))
+    return SceneState(address(query_in(link), lenient=lenient))
 
 
 def _checked(spec: Spec, value: Any) -> Value:
