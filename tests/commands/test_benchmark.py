@@ -23,8 +23,8 @@ from hess_explorer.benchmark.measure import (
     FULL,
     QUICK,
     Chosen,
-    Measured,
-    Sample,
+    MeasuredWorkload,
+    MethodSample,
     Timing,
     cheapest,
     climb,
@@ -34,7 +34,7 @@ from hess_explorer.benchmark.measure import (
 from hess_explorer.benchmark.method import OURS, Method, half_decades, named, short, version
 from hess_explorer.benchmark.peers import PEERS, load
 from hess_explorer.benchmark.peers.scipy_peer import METHOD as SCIPY
-from hess_explorer.benchmark.report import Report, as_json, as_text
+from hess_explorer.benchmark.report import BenchmarkReport, as_json, as_text
 from hess_explorer.benchmark.scaling import Scaling, scaling
 from hess_explorer.benchmark.threads import shared
 from hess_explorer.benchmark.works import REFERENCES, works
@@ -152,7 +152,7 @@ def constant(name, results, ladders):
 
 
 def sample(error, seconds, setting=("a",)):
-    return Sample(setting, error, seconds, run=lambda: None)
+    return MethodSample(setting, error, seconds, run=lambda: None)
 
 
 def test_the_cheapest_setting_is_the_fastest_that_keeps_the_error():
@@ -350,8 +350,8 @@ def made_up(missing=None, threads=()):
     samples = {name: [one.sample for one in by_target.values()] for name, by_target in picked.items()}
     samples["peer"].append(sample(math.inf, 7.0, ("fast", 1e-9)))
     facts = {"date": "2026-01-02", "processor": "Made-up 1", "cores": 2, "python": "3.11"}
-    return Report(facts, {OURS: "0.1", "peer": "7"}, missing or {}, (1e-3, 1e-6),
-                  [Measured(work, samples, picked, ["peer, work C: a sentence."])], threads)
+    return BenchmarkReport(facts, {OURS: "0.1", "peer": "7"}, missing or {}, (1e-3, 1e-6),
+                           [MeasuredWorkload(work, samples, picked, ["peer, work C: a sentence."])], threads)
 
 
 def test_the_table_names_times_errors_settings_and_ratios():

@@ -11,7 +11,7 @@ from hess_explorer.benchmark import trade as trade_of_scenes
 from hess_explorer.benchmark.trade import Row, _draft_computes, _example, by_kind, names
 from hess_explorer.scenes import scenes
 from hess_mechanics import LEVELS
-from hess_mechanics.dynamics.trade import Sample
+from hess_mechanics.dynamics.trade import LevelCost
 from hess_mechanics.numerics.accuracy import Computation
 from support.mechanics import ROOT
 
@@ -50,7 +50,7 @@ def test_rows_are_printed_as_they_come(monkeypatch, capsys):
 
 
 def row(scene, kind, times=(1.0, 2.0, 3.0, 4.0), errors=(0.1, 0.01, 0.001, 0.0)):
-    return Row(scene, kind, "pixels", tuple(Sample(name, ms, error, True) for name, ms, error in zip(
+    return Row(scene, kind, "pixels", tuple(LevelCost(name, ms, error, True) for name, ms, error in zip(
         LEVELS, times, errors, strict=True)), "standard")
 
 

@@ -16,7 +16,7 @@ from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.scenes.framework.stage import Stage
 from hess_explorer.scenes.framework.trial import Trial, bare, needed, section_error
 from hess_explorer.scenes.framework.work import AUTO, Work, kept_status
-from hess_mechanics.dynamics.trade import Sample
+from hess_mechanics.dynamics.trade import LevelCost
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import LEVELS, PLANS, REFERENCE, Computation
 from hess_mechanics.suslov.section import coordinates, suslov_points
@@ -352,8 +352,8 @@ def test_the_error_of_a_cloud_is_measured_on_the_same_points():
 # ---- tables -----------------------------------------------------------------------------------------------------
 
 ROWS = [Row("here", "section", "pixels", tuple(
-    Sample(name, ms, error, name != "draft") for name, ms, error in zip(LEVELS, times, (0.2, 0.02, 0.002, 0.0),
-                                                                        strict=True)), "standard")
+    LevelCost(name, ms, error, name != "draft") for name, ms, error in zip(LEVELS, times, (0.2, 0.02, 0.002, 0.0),
+                                                                           strict=True)), "standard")
         for times in ((1.0, 2.0, 4.0, 8.0), (10.0, 20.0, 40.0, 60.0))]
 
 

@@ -12,7 +12,7 @@ from hess_mechanics.suslov_hess.circle_map import Phases, theta_at
 
 from .method import OURS, Ladder, Method, Run, Setting, half_decades, version
 from .threads import shared
-from .works import Array, MapWork, MotionWork, Work
+from .works import Array, MapWorkload, MotionWorkload, Workload
 
 __all__ = ["METHOD"]
 
@@ -23,11 +23,11 @@ _BLOCK = 64
 _MAX_CROSSINGS = 1000
 
 
-def _ladders(work: Work) -> Sequence[Ladder]:
+def _ladders(work: Workload) -> Sequence[Ladder]:
     return [tuple((order, tolerance) for tolerance in half_decades(2, 17)) for order in _ORDERS]
 
 
-def _orbit(work: MotionWork, order: int, tolerance: float, threads: int) -> Run:
+def _orbit(work: MotionWorkload, order: int, tolerance: float, threads: int) -> Run:
     """A, A2."""
     integrate = systems()["suslov"].orbit
     start, p, out = work.initial[0], np.array(work.parameters), np.empty((work.times.size, 5))
@@ -40,7 +40,7 @@ def _orbit(work: MotionWork, order: int, tolerance: float, threads: int) -> Run:
     return run
 
 
-def _free_ensemble(work: MotionWork, order: int, tolerance: float, threads: int) -> Run:
+def _free_ensemble(work: MotionWorkload, order: int, tolerance: float, threads: int) -> Run:
     """B: all orbits have one ω, and γ̇ = γ × ω is linear, so three of them carry every γ."""
     integrate = systems()["suslov"].ensemble
     p, gamma = np.array(work.parameters), work.initial[:, 2:]
@@ -57,7 +57,7 @@ def _free_ensemble(work: MotionWork, order: int, tolerance: float, threads: int)
     return run
 
 
-def _ensemble(work: MotionWork, order: int, tolerance: float, threads: int) -> Run:
+def _ensemble(work: MotionWorkload, order: int, tolerance: float, threads: int) -> Run:
     """B2."""
     integrate = systems()["suslov"].ensemble
     p, out = np.array(work.parameters), np.empty((len(work.initial), 1, 5))
@@ -77,7 +77,7 @@ def _ensemble(work: MotionWork, order: int, tolerance: float, threads: int) -> R
     return run
 
 
-def _circle_map(work: MapWork, order: int, tolerance: float, threads: int) -> Run:
+def _circle_map(work: MapWorkload, order: int, tolerance: float, threads: int) -> Run:
     """C."""
     phases = Phases.of(work.phi)
     level = Level("benchmark", 0.0, tolerance, order)
@@ -88,7 +88,7 @@ def _circle_map(work: MapWork, order: int, tolerance: float, threads: int) -> Ru
     return run
 
 
-def _crossings(work: MotionWork, order: int, tolerance: float, threads: int) -> Run:
+def _crossings(work: MotionWorkload, order: int, tolerance: float, threads: int) -> Run:
     """D; the crossings of several orbits one after the other."""
     cross = systems()["suslov"].cross
     p, normal, end = np.array(work.parameters), np.array([0.0, 0.0, 0.0, 0.0, 1.0]), float(work.times[0])
@@ -115,7 +115,7 @@ _WAYS: dict[str, Callable[..., Run]] = {
 }
 
 
-def _prepare(work: Work, setting: Setting, threads: int = 1) -> Run:
+def _prepare(work: Workload, setting: Setting, threads: int = 1) -> Run:
     order, tolerance = setting
     run = _WAYS[work.name](work, order, tolerance, threads)
     run()

@@ -9,9 +9,9 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from .method import Method, Run, Setting, named
-from .works import Work
+from .works import Workload
 
-__all__ = ["FULL", "QUICK", "Effort", "Sample", "Timing", "cheapest", "climb", "measure", "race"]
+__all__ = ["FULL", "QUICK", "Effort", "MethodSample", "Timing", "cheapest", "climb", "measure", "race"]
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ QUICK = Effort(tries=1, enough=0.0, slow=0.5, budget=1.0, turns=2, turn=0.0, sha
 
 
 @dataclass(frozen=True)
-class Sample:
+class MethodSample:
     """One setting of a method: its error, the fastest of its first runs in seconds, and the run for more."""
 
     setting: Setting
@@ -55,15 +55,15 @@ class Timing:
     runs: int
 
 
-def cheapest(samples: Iterable[Sample], target: float) -> Sample | None:
+def cheapest(samples: Iterable[MethodSample], target: float) -> MethodSample | None:
     """The fastest sample whose error is at most the target, or None."""
     return min((sample for sample in samples if sample.error <= target), key=lambda sample: sample.seconds,
                default=None)
 
 
-def climb(work: Work, method: Method, effort: Effort) -> tuple[list[Sample], list[str]]:
+def climb(work: Workload, method: Method, effort: Effort) -> tuple[list[MethodSample], list[str]]:
     """One sample for each setting, and a sentence for each that was left out because it would take too long."""
-    samples: list[Sample] = []
+    samples: list[MethodSample] = []
     notes: list[str] = []
     spent = 0.0
     for ladder in method.ladders(work):
@@ -80,7 +80,7 @@ def climb(work: Work, method: Method, effort: Effort) -> tuple[list[Sample], lis
                 if sum(seconds) > effort.enough:
                     break
             spent += sum(seconds)
-            samples.append(Sample(setting, work.error(result), min(seconds), run))
+            samples.append(MethodSample(setting, work.error(result), min(seconds), run))
             if min(seconds) > effort.slow and i + 1 < len(ladder):
                 notes.append(_left_out(method, work, ladder[i + 1:],
                                        f"{named(setting)} takes {min(seconds):.1f} s"))
@@ -88,7 +88,7 @@ def climb(work: Work, method: Method, effort: Effort) -> tuple[list[Sample], lis
     return samples, notes
 
 
-def _left_out(method: Method, work: Work, settings: Sequence[Setting], why: str) -> str:
+def _left_out(method: Method, work: Workload, settings: Sequence[Setting], why: str) -> str:
     return f"{method.name}, work {work.name}: left out {named(settings[0])} to {named(settings[-1])}, as {why}."
 
 
@@ -123,24 +123,24 @@ def _turn(run: Run, seconds: list[float], length: float) -> None:
 class Chosen:
     """The setting that a method needs for one target, and how long it takes."""
 
-    sample: Sample
+    sample: MethodSample
     timing: Timing
 
 
 @dataclass(frozen=True)
-class Measured:
+class MeasuredWorkload:
     """One work: the samples of each method, what each needs for each target (where it reaches it), sentences."""
 
-    work: Work
-    samples: Mapping[str, Sequence[Sample]]
+    work: Workload
+    samples: Mapping[str, Sequence[MethodSample]]
     chosen: Mapping[str, Mapping[float, Chosen]]
     notes: Sequence[str]
 
 
-def measure(work: Work, methods: Sequence[Method], targets: Sequence[float], effort: Effort,
-            progress: Callable[[str], None]) -> Measured:
+def measure(work: Workload, methods: Sequence[Method], targets: Sequence[float], effort: Effort,
+            progress: Callable[[str], None]) -> MeasuredWorkload:
     """All methods in one work."""
-    samples: dict[str, list[Sample]] = {}
+    samples: dict[str, list[MethodSample]] = {}
     notes: list[str] = []
     for method in methods:
         if work.name in method.without:
@@ -157,4 +157,4 @@ def measure(work: Work, methods: Sequence[Method], targets: Sequence[float], eff
     timings = dict(zip(map(id, runners), race([sample.run for sample in runners], effort), strict=True))
     chosen = {name: {target: Chosen(best[name, target], timings[id(best[name, target])])
                      for target in targets if (name, target) in best} for name in samples}
-    return Measured(work, samples, chosen, notes)
+    return MeasuredWorkload(work, samples, chosen, notes)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from importlib import metadata
 from typing import Protocol
 
-from .works import Array, Work
+from .works import Array, Workload
 
 __all__ = [
     "OURS", "Ladder", "Method", "Prepare", "Run", "Setting", "half_decades", "named", "short",
@@ -28,7 +28,7 @@ Run = Callable[[], Array]
 class Prepare(Protocol):
     """prepare(work, setting, threads) → run.  Compiles, so that no run does."""
 
-    def __call__(self, work: Work, setting: Setting, threads: int = 1) -> Run:
+    def __call__(self, work: Workload, setting: Setting, threads: int = 1) -> Run:
         """The prepared run."""
 
 
@@ -42,7 +42,7 @@ class Method:
 
     name: str
     version: str
-    ladders: Callable[[Work], Sequence[Ladder]]
+    ladders: Callable[[Workload], Sequence[Ladder]]
     prepare: Prepare
     without: Mapping[str, str] = field(default_factory=dict)
     threaded: frozenset[str] = frozenset()

@@ -14,7 +14,7 @@ import numpy as np
 
 from hess_mechanics import turning_points
 
-from .works import Array, MapWork
+from .works import Array, MapWorkload
 
 __all__ = ["field", "half_period", "start", "theta_after", "theta_of_matrix"]
 
@@ -35,14 +35,14 @@ def field(y: Sequence[Any], half_a: float) -> tuple[Any, ...]:
     )
 
 
-def start(work: MapWork) -> Array:
+def start(work: MapWorkload) -> Array:
     """The state (9,) at the lower turning point of n3, where A = 1 and B = 0."""
     turning = turning_points(work.h, work.f)
     n2 = math.copysign(math.sqrt(turning.sine_squared), work.f)
     return np.array([0.0, math.sqrt(turning.w_squared), 0.0, n2, turning.roots[1], 1.0, 0.0, 0.0, 0.0])
 
 
-def half_period(work: MapWork) -> float:
+def half_period(work: MapWorkload) -> float:
     """The time to the upper turning point."""
     return 0.5 * turning_points(work.h, work.f).period
 

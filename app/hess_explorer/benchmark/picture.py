@@ -6,22 +6,22 @@ import math
 from collections.abc import Sequence
 from io import BytesIO
 
-from .measure import Sample
-from .report import Report
+from .measure import MethodSample
+from .report import BenchmarkReport
 
 __all__ = ["draw"]
 
 
-def _frontier(samples: Sequence[Sample]) -> list[Sample]:
+def _frontier(samples: Sequence[MethodSample]) -> list[MethodSample]:
     """Those that no other sample beats in both time and error, from the fastest."""
-    kept: list[Sample] = []
+    kept: list[MethodSample] = []
     for sample in sorted(samples, key=lambda sample: (sample.seconds, sample.error)):
         if math.isfinite(sample.error) and (not kept or sample.error < kept[-1].error):
             kept.append(sample)
     return kept
 
 
-def draw(report: Report, suffix: str) -> bytes:
+def draw(report: BenchmarkReport, suffix: str) -> bytes:
     """The picture as a file of this suffix (".svg", ".png").  Raises `ImportError` without Matplotlib."""
     from matplotlib.figure import Figure
 

@@ -7,15 +7,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from .measure import Chosen, Measured
+from .measure import Chosen, MeasuredWorkload
 from .method import OURS, named, short
 from .scaling import Scaling
 
-__all__ = ["Report", "as_json", "as_text"]
+__all__ = ["BenchmarkReport", "as_json", "as_text"]
 
 
 @dataclass(frozen=True)
-class Report:
+class BenchmarkReport:
     """A whole benchmark.
 
     facts : day, machine, Python; versions : by method and library; missing : peers that are not here, and why;
@@ -26,7 +26,7 @@ class Report:
     versions: Mapping[str, str]
     missing: Mapping[str, str]
     targets: Sequence[float]
-    measured: Sequence[Measured]
+    measured: Sequence[MeasuredWorkload]
     scaling: Sequence[Scaling]
 
     @property
@@ -62,7 +62,7 @@ def _ratio(chosen: Chosen, ours: Chosen) -> float:
     return chosen.timing.minimum / ours.timing.minimum
 
 
-def as_text(report: Report) -> str:
+def as_text(report: BenchmarkReport) -> str:
     """Markdown: machine and versions, the works, the table, threads, and what is not in it and why."""
     facts = report.facts
     versions = ", ".join(f"{name} {version}" for name, version in report.versions.items())
@@ -92,7 +92,7 @@ def as_text(report: Report) -> str:
     return "\n\n".join(blocks) + "\n"
 
 
-def as_json(report: Report) -> dict[str, Any]:
+def as_json(report: BenchmarkReport) -> dict[str, Any]:
     """All that was measured, for strict JSON: times in seconds, errors as numbers, null for a result that failed."""
     return {
         **report.facts,
@@ -108,7 +108,7 @@ def as_json(report: Report) -> dict[str, Any]:
     }
 
 
-def _work(one: Measured) -> dict[str, Any]:
+def _work(one: MeasuredWorkload) -> dict[str, Any]:
     ours = one.chosen.get(OURS, {})
     return {
         "name": one.work.name,

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .measure import Effort, Measured, Timing, race
+from .measure import Effort, MeasuredWorkload, Timing, race
 from .method import Method, Setting
-from .works import MotionWork, Work, works
+from .works import MotionWorkload, Workload, works
 
 __all__ = ["Scaling", "scaling"]
 
@@ -30,16 +30,16 @@ class Scaling:
         return self.one.minimum / self.two.minimum
 
 
-def _many(work: Work) -> Work:
+def _many(work: Workload) -> Workload:
     """A work that threads can share: the work itself; for D, which is one orbit, the sections of 64 orbits."""
     ensemble = works()["B2"]
-    if work.name != "D" or not (isinstance(work, MotionWork) and isinstance(ensemble, MotionWork)):
+    if work.name != "D" or not (isinstance(work, MotionWorkload) and isinstance(ensemble, MotionWorkload)):
         return work
     return replace(work, title="crossings of γ3 = 0 by 64 random orbits up to t = 200",
                    initial=ensemble.initial[:64], times=np.array([200.0]))
 
 
-def scaling(measured: Sequence[Measured], methods: Sequence[Method], effort: Effort,
+def scaling(measured: Sequence[MeasuredWorkload], methods: Sequence[Method], effort: Effort,
             progress: Callable[[str], None]) -> list[Scaling]:
     """Every method in the works that it can share between threads, at its setting for the smallest error it reached."""
     found = []

@@ -11,7 +11,7 @@ from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.scenes.framework.trial import Trial, bare
 from hess_explorer.views.text import digits
-from hess_mechanics.dynamics.trade import Sample, enough, measure
+from hess_mechanics.dynamics.trade import LevelCost, enough, measure
 from hess_mechanics.errors import InvalidParameter, ModelError
 from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, PLANS, REFERENCE, Computation
 
@@ -34,7 +34,7 @@ class Row:
     scene: str
     kind: str
     unit: str
-    samples: tuple[Sample, ...]
+    samples: tuple[LevelCost, ...]
     enough: str
 
     @property

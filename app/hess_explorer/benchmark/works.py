@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 
 __all__ = [
-    "FIELD_BODY", "FREE_BODY", "MAP_TORUS", "REFERENCES", "Array", "MapWork", "MotionWork", "Work", "dense_times",
+    "FIELD_BODY", "FREE_BODY", "MAP_TORUS", "REFERENCES", "Array", "MapWorkload", "MotionWorkload", "Workload",
+    "dense_times",
     "end", "long_end", "phases", "works",
 ]
 
@@ -48,7 +49,7 @@ def phases() -> Array:
 
 
 @dataclass(frozen=True, eq=False)
-class Work:
+class Workload:
     """One work.
 
     name, title : identifier and words; shape : of a result; rows : which of its rows the reference holds (all, or
@@ -74,7 +75,7 @@ class Work:
 
 
 @dataclass(frozen=True, eq=False)
-class MotionWork(Work):
+class MotionWorkload(Workload):
     """Motions of the Suslov problem: p (7,), initial states (n, 5), and times: of the results, or the end."""
 
     parameters: tuple[float, ...]
@@ -83,7 +84,7 @@ class MotionWork(Work):
 
 
 @dataclass(frozen=True, eq=False)
-class MapWork(Work):
+class MapWorkload(Workload):
     """The circle map of the torus (h, f), units b = 1, at the angles phi (n,)."""
 
     h: float
@@ -93,7 +94,7 @@ class MapWork(Work):
 
 
 @cache
-def works() -> dict[str, Work]:
+def works() -> dict[str, Workload]:
     """All works by name, with the stored references."""
     with np.load(REFERENCES) as file:
         stored = dict(file)
@@ -101,17 +102,17 @@ def works() -> dict[str, Work]:
     crossings = stored["D"]
     start = stored["A_initial"]
     found = [
-        MotionWork("A", "one orbit, 4000 states up to t = 200", (4000, 5), stored["A_rows"], stored["A"], None,
-                   FIELD_BODY, start, dense_times()),
-        MotionWork("A2", "one orbit, its state at t = 2000", (1, 5), every, stored["A2"], None,
-                   FIELD_BODY, start, long_end()),
-        MotionWork("B", "512 free orbits of one ω, their states at t = 60", (512, 5), every, stored["B"], None,
-                   FREE_BODY, stored["B_initial"], end()),
-        MotionWork("B2", "512 random orbits, their states at t = 60", (512, 5), every, stored["B2"], None,
-                   FIELD_BODY, stored["B2_initial"], end()),
-        MapWork("C", "the circle map at 256 angles", (256,), every, stored["C"], 2 * math.pi,
-                *MAP_TORUS, phases()),
-        MotionWork("D", f"all {len(crossings)} upward crossings of γ3 = 0 up to t = 2000", crossings.shape, every,
-                   crossings, None, FIELD_BODY, start, long_end()),
+        MotionWorkload("A", "one orbit, 4000 states up to t = 200", (4000, 5), stored["A_rows"], stored["A"], None,
+                       FIELD_BODY, start, dense_times()),
+        MotionWorkload("A2", "one orbit, its state at t = 2000", (1, 5), every, stored["A2"], None,
+                       FIELD_BODY, start, long_end()),
+        MotionWorkload("B", "512 free orbits of one ω, their states at t = 60", (512, 5), every, stored["B"], None,
+                       FREE_BODY, stored["B_initial"], end()),
+        MotionWorkload("B2", "512 random orbits, their states at t = 60", (512, 5), every, stored["B2"], None,
+                       FIELD_BODY, stored["B2_initial"], end()),
+        MapWorkload("C", "the circle map at 256 angles", (256,), every, stored["C"], 2 * math.pi,
+                    *MAP_TORUS, phases()),
+        MotionWorkload("D", f"all {len(crossings)} upward crossings of γ3 = 0 up to t = 2000", crossings.shape, every,
+                       crossings, None, FIELD_BODY, start, long_end()),
     ]
     return {work.name: work for work in found}

@@ -10,13 +10,13 @@ from typing import TypeVar
 from hess_mechanics.numerics.accuracy import LEVELS, PLANS, REFERENCE, Computation, Plan
 from hess_mechanics.numerics.patience import go_on
 
-__all__ = ["Sample", "beyond", "enough", "measure", "measure_until"]
+__all__ = ["LevelCost", "beyond", "enough", "measure", "measure_until"]
 
 R = TypeVar("R")
 
 
 @dataclass(frozen=True)
-class Sample:
+class LevelCost:
     """One level: milliseconds, error, and whether all that was asked for is computed, none left out, no cell larger."""
 
     level: str
@@ -31,18 +31,18 @@ def beyond(kind: Computation) -> Plan:
     return replace(finest, level=finest.level.tightened())
 
 
-def _sample(plan: Plan, run: Callable[[Plan], R], error: Callable[[R, R], float], truth: R, repeats: int) -> Sample:
+def _sample(plan: Plan, run: Callable[[Plan], R], error: Callable[[R, R], float], truth: R, repeats: int) -> LevelCost:
     best = float("inf")
     for _ in range(repeats):
         go_on()
         start = time.perf_counter()
         result = run(plan)
         best = min(best, time.perf_counter() - start)
-    return Sample(plan.level.name, 1e3 * best, error(result, truth), plan.share >= 1.0 and plan.cells >= 1.0)
+    return LevelCost(plan.level.name, 1e3 * best, error(result, truth), plan.share >= 1.0 and plan.cells >= 1.0)
 
 
 def measure(kind: Computation, run: Callable[[Plan], R], error: Callable[[R, R], float], repeats: int = 1
-            ) -> tuple[Sample, ...]:
+            ) -> tuple[LevelCost, ...]:
     """A computation at each level, from the cheapest on.
 
     error(result, truth) : how far a result is from that of the plan `beyond`; repeats : of which the fastest counts.
@@ -59,7 +59,7 @@ def measure_until(kind: Computation, run: Callable[[Plan], R], error: Callable[[
     return next((one.level for one in samples if one.complete and one.error <= largest), REFERENCE.name)
 
 
-def enough(samples: Sequence[Sample], largest: float) -> str:
+def enough(samples: Sequence[LevelCost], largest: float) -> str:
     """The first level that computes all that was asked for with an error of at most `largest`; the last if none does.
 
     More accuracy than that changes nothing that can be seen, if `largest` is what can just not be seen.

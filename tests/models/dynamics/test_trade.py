@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hess_mechanics.dynamics import trade
-from hess_mechanics.dynamics.trade import Sample, beyond, enough, measure, measure_until
+from hess_mechanics.dynamics.trade import LevelCost, beyond, enough, measure, measure_until
 from hess_mechanics.numerics.accuracy import LEVELS, PLANS, Computation
 
 
@@ -45,7 +45,7 @@ def test_what_leaves_something_out_is_not_complete():
 
 def test_enough_is_the_cheapest_that_shows_all_without_an_error_that_is_seen():
     def of(*errors, complete=True):
-        return [Sample(name, 1.0, error, complete or name != "draft")
+        return [LevelCost(name, 1.0, error, complete or name != "draft")
                 for name, error in zip(LEVELS, errors, strict=True)]
 
     assert enough(of(0.4, 0.1, 0.0, 0.0), 0.5) == "draft"

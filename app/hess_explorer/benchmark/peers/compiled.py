@@ -11,26 +11,26 @@ from hess_mechanics import systems
 
 from ..moebius import field as map_field
 from ..moebius import start
-from ..works import Array, MapWork, MotionWork, Work
+from ..works import Array, MapWorkload, MotionWorkload, Workload
 
 __all__ = ["dimension", "initial_state", "rates"]
 
 _OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract"}}
 
 
-def dimension(work: Work) -> int:
+def dimension(work: Workload) -> int:
     """The number of variables: 9 for the circle map, 5 for a motion."""
-    return 9 if isinstance(work, MapWork) else 5
+    return 9 if isinstance(work, MapWorkload) else 5
 
 
-def initial_state(work: MapWork | MotionWork) -> Array:
+def initial_state(work: MapWorkload | MotionWorkload) -> Array:
     """The first state, (9,) or (5,)."""
-    return start(work) if isinstance(work, MapWork) else work.initial[0]
+    return start(work) if isinstance(work, MapWorkload) else work.initial[0]
 
 
-def rates(work: MapWork | MotionWork) -> Any:
+def rates(work: MapWorkload | MotionWorkload) -> Any:
     """The compiled rates(y, dy), which fills dy; y and dy are arrays or pointers.  Parameters are compiled in."""
-    if isinstance(work, MapWork):
+    if isinstance(work, MapWorkload):
         map_rates = numba.njit(**_OPTIONS)(map_field)
         half_a = 0.5 * work.a
 

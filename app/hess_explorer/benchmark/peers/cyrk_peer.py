@@ -13,18 +13,18 @@ from CyRK import cyjit, nbsolve2_ivp
 
 from ..method import Ladder, Method, Run, Setting, half_decades, version
 from ..moebius import half_period, start, theta_after
-from ..works import Array, MapWork, MotionWork, Work
+from ..works import Array, MapWorkload, MotionWorkload, Workload
 from .compiled import rates
 
 __all__ = ["METHOD"]
 
 
-def _ladders(work: Work) -> Sequence[Ladder]:
+def _ladders(work: Workload) -> Sequence[Ladder]:
     return [tuple((name, tolerance) for tolerance in half_decades(3, 14)) for name in ("DOP853", "Vern8")]
 
 
 @cache
-def _right_hand_side(work: MapWork | MotionWork) -> Any:
+def _right_hand_side(work: MapWorkload | MotionWorkload) -> Any:
     """The C function, kept: its address is good as long as it lives."""
     field = rates(work)
 
@@ -48,7 +48,7 @@ def _solve(address, method, initial, times, tolerance, out):
         solution.free()
 
 
-def _run(work: MapWork | MotionWork, initial: Array, times: Array, setting: Setting,
+def _run(work: MapWorkload | MotionWorkload, initial: Array, times: Array, setting: Setting,
          finish: Callable[[Array], Array]) -> Run:
     method, tolerance = setting
     address, out = _right_hand_side(work).address, np.empty((len(initial), len(times), initial.shape[1]))
@@ -60,15 +60,15 @@ def _run(work: MapWork | MotionWork, initial: Array, times: Array, setting: Sett
     return run
 
 
-def _dense(work: MotionWork, setting: Setting) -> Run:
+def _dense(work: MotionWorkload, setting: Setting) -> Run:
     return _run(work, work.initial, work.times, setting, lambda out: out[0])
 
 
-def _ends(work: MotionWork, setting: Setting) -> Run:
+def _ends(work: MotionWorkload, setting: Setting) -> Run:
     return _run(work, work.initial, work.times, setting, lambda out: out[:, -1])
 
 
-def _circle_map(work: MapWork, setting: Setting) -> Run:
+def _circle_map(work: MapWorkload, setting: Setting) -> Run:
     theta = theta_after(work.phi)
     return _run(work, start(work)[None], np.array([half_period(work)]), setting, lambda out: theta(out[0, -1]))
 
@@ -76,7 +76,7 @@ def _circle_map(work: MapWork, setting: Setting) -> Run:
 _WAYS: dict[str, Callable[..., Run]] = {"A": _dense, "A2": _ends, "B": _ends, "B2": _ends, "C": _circle_map}
 
 
-def _prepare(work: Work, setting: Setting, threads: int = 1) -> Run:
+def _prepare(work: Workload, setting: Setting, threads: int = 1) -> Run:
     run = _WAYS[work.name](work, setting)
     run()
     return run

@@ -15,7 +15,7 @@ from hess_mechanics import systems
 
 from ..method import Ladder, Method, Run, Setting, half_decades, version
 from ..moebius import field, half_period, start, theta_after
-from ..works import Array, MapWork, MotionWork, Work
+from ..works import Array, MapWorkload, MotionWorkload, Workload
 
 __all__ = ["METHOD"]
 
@@ -25,18 +25,18 @@ _SOLVERS = {"Dopri8": diffrax.Dopri8, "Tsit5": diffrax.Tsit5}
 _MAX_STEPS = 1_000_000
 
 
-def _ladders(work: Work) -> Sequence[Ladder]:
+def _ladders(work: Workload) -> Sequence[Ladder]:
     return [tuple((name, tolerance) for tolerance in half_decades(3, 14)) for name in _SOLVERS]
 
 
-def _rates(work: MapWork | MotionWork) -> Callable[..., Any]:
-    if isinstance(work, MapWork):
+def _rates(work: MapWorkload | MotionWorkload) -> Callable[..., Any]:
+    if isinstance(work, MapWorkload):
         return lambda t, y, args: jnp.stack(field(y, 0.5 * work.a))
     return lambda t, y, args: jnp.stack(systems()["suslov"].field(y, work.parameters))
 
 
 @cache
-def _solver(work: MapWork | MotionWork, name: str) -> Any:
+def _solver(work: MapWorkload | MotionWorkload, name: str) -> Any:
     """(initial (n, d), times, tolerance) → states (n, times, d), compiled once for all tolerances."""
     term, solver = diffrax.ODETerm(_rates(work)), _SOLVERS[name]()
 
@@ -46,12 +46,12 @@ def _solver(work: MapWork | MotionWork, name: str) -> Any:
             stepsize_controller=diffrax.PIDController(rtol=tolerance, atol=tolerance), throw=False)
         return solution.ys
 
-    if isinstance(work, MotionWork) and len(work.initial) > 1:
+    if isinstance(work, MotionWorkload) and len(work.initial) > 1:
         return jax.jit(jax.vmap(one, in_axes=(0, None, None)))
     return jax.jit(lambda initial, times, tolerance: one(initial[0], times, tolerance)[None])
 
 
-def _run(work: MapWork | MotionWork, initial: Array, times: Array, setting: Setting,
+def _run(work: MapWorkload | MotionWorkload, initial: Array, times: Array, setting: Setting,
          finish: Callable[[Array], Array]) -> Run:
     name, tolerance = setting
     solve = _solver(work, name)
@@ -64,15 +64,15 @@ def _run(work: MapWork | MotionWork, initial: Array, times: Array, setting: Sett
     return run
 
 
-def _dense(work: MotionWork, setting: Setting) -> Run:
+def _dense(work: MotionWorkload, setting: Setting) -> Run:
     return _run(work, work.initial, work.times, setting, lambda states: states[0])
 
 
-def _ends(work: MotionWork, setting: Setting) -> Run:
+def _ends(work: MotionWorkload, setting: Setting) -> Run:
     return _run(work, work.initial, work.times, setting, lambda states: states[:, -1])
 
 
-def _circle_map(work: MapWork, setting: Setting) -> Run:
+def _circle_map(work: MapWorkload, setting: Setting) -> Run:
     theta = theta_after(work.phi)
     return _run(work, start(work)[None], np.array([half_period(work)]), setting, lambda states: theta(states[0, -1]))
 
@@ -80,7 +80,7 @@ def _circle_map(work: MapWork, setting: Setting) -> Run:
 _WAYS: dict[str, Callable[..., Run]] = {"A": _dense, "A2": _ends, "B": _ends, "B2": _ends, "C": _circle_map}
 
 
-def _prepare(work: Work, setting: Setting, threads: int = 1) -> Run:
+def _prepare(work: Workload, setting: Setting, threads: int = 1) -> Run:
     return _WAYS[work.name](work, setting)
 
 

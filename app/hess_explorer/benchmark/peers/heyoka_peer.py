@@ -13,7 +13,7 @@ from hess_mechanics import systems
 from ..method import Ladder, Method, Run, Setting, half_decades, version
 from ..moebius import field, half_period, start, theta_after
 from ..threads import shared
-from ..works import Array, MapWork, MotionWork, Work
+from ..works import Array, MapWorkload, MotionWorkload, Workload
 
 __all__ = ["METHOD"]
 
@@ -21,7 +21,7 @@ __all__ = ["METHOD"]
 _ENSEMBLES = frozenset({"B", "B2"})
 
 
-def _ladders(work: Work) -> Sequence[Ladder]:
+def _ladders(work: Workload) -> Sequence[Ladder]:
     plain = [(tolerance,) for tolerance in half_decades(2, 18)]
     ladder: Ladder = (*plain, *((tolerance, "high accuracy") for tolerance in half_decades(15, 18)))
     if work.name == "D":
@@ -37,13 +37,13 @@ def _options(setting: Setting) -> dict[str, float | bool]:
     return {"tol": float(setting[0]), "high_accuracy": "high accuracy" in setting}
 
 
-def _motion_equations(work: MotionWork) -> list[tuple[heyoka.expression, heyoka.expression]]:
+def _motion_equations(work: MotionWorkload) -> list[tuple[heyoka.expression, heyoka.expression]]:
     variables = heyoka.make_vars("w1", "w2", "g1", "g2", "g3")
     # Numbers instead of parameters: factors 0 and 1 fall out.
     return list(zip(variables, systems()["suslov"].field(variables, work.parameters), strict=True))
 
 
-def _dense(work: MotionWork, setting: Setting, threads: int) -> Run:
+def _dense(work: MotionWorkload, setting: Setting, threads: int) -> Run:
     integrator = heyoka.taylor_adaptive(_motion_equations(work), work.initial[0], **_options(setting))
 
     def run() -> Array:
@@ -55,7 +55,7 @@ def _dense(work: MotionWork, setting: Setting, threads: int) -> Run:
     return run
 
 
-def _end(work: MotionWork, setting: Setting, threads: int) -> Run:
+def _end(work: MotionWorkload, setting: Setting, threads: int) -> Run:
     integrator = heyoka.taylor_adaptive(_motion_equations(work), work.initial[0], **_options(setting))
 
     def run() -> Array:
@@ -68,7 +68,7 @@ def _end(work: MotionWork, setting: Setting, threads: int) -> Run:
     return run
 
 
-def _ensemble(work: MotionWork, setting: Setting, threads: int) -> Run:
+def _ensemble(work: MotionWorkload, setting: Setting, threads: int) -> Run:
     """Batch after batch, each lane with its own step."""
     width = int(str(setting[-1]).split()[0])
     blocks = [work.initial[i:i + width].T.copy() for i in range(0, len(work.initial), width)]
@@ -93,7 +93,7 @@ def _ensemble(work: MotionWork, setting: Setting, threads: int) -> Run:
     return run
 
 
-def _circle_map(work: MapWork, setting: Setting, threads: int) -> Run:
+def _circle_map(work: MapWorkload, setting: Setting, threads: int) -> Run:
     variables = heyoka.make_vars("w1", "w2", "n1", "n2", "n3", "ar", "ai", "br", "bi")
     equations = list(zip(variables, field(variables, 0.5 * work.a), strict=True))
     state, end, theta = start(work), half_period(work), theta_after(work.phi)
@@ -108,7 +108,7 @@ def _circle_map(work: MapWork, setting: Setting, threads: int) -> Run:
     return run
 
 
-def _crossings(work: MotionWork, setting: Setting, threads: int) -> Run:
+def _crossings(work: MotionWorkload, setting: Setting, threads: int) -> Run:
     equations = _motion_equations(work)
     found: list[Array] = []
 
@@ -142,7 +142,7 @@ _WAYS: dict[str, Callable[..., Run]] = {
 }
 
 
-def _prepare(work: Work, setting: Setting, threads: int = 1) -> Run:
+def _prepare(work: Workload, setting: Setting, threads: int = 1) -> Run:
     return _WAYS[work.name](work, setting, threads)
 
 

@@ -13,7 +13,7 @@ from numbalsoda import dop853, lsoda, lsoda_sig
 
 from ..method import Ladder, Method, Run, Setting, half_decades, version
 from ..moebius import half_period, theta_after
-from ..works import Array, MapWork, MotionWork, Work
+from ..works import Array, MapWorkload, MotionWorkload, Workload
 from .compiled import initial_state, rates
 
 __all__ = ["METHOD"]
@@ -22,12 +22,12 @@ _SOLVERS = {"lsoda": lsoda, "dop853": dop853}
 _MAX_STEPS = 10_000_000
 
 
-def _ladders(work: Work) -> Sequence[Ladder]:
+def _ladders(work: Workload) -> Sequence[Ladder]:
     return [tuple((name, tolerance) for tolerance in half_decades(3, 14)) for name in _SOLVERS]
 
 
 @cache
-def _right_hand_side(work: MapWork | MotionWork) -> Any:
+def _right_hand_side(work: MapWorkload | MotionWorkload) -> Any:
     """The C function, kept: its address is good as long as it lives."""
     field = rates(work)
 
@@ -52,7 +52,7 @@ def _all_orbits(solver: Any) -> Any:
     return all_orbits
 
 
-def _one(work: MotionWork | MapWork, times: Array, setting: Setting) -> Callable[[], Array]:
+def _one(work: MotionWorkload | MapWorkload, times: Array, setting: Setting) -> Callable[[], Array]:
     """States (n, d) at the times, which start with 0."""
     name, tolerance = setting
     solver, address, state = _SOLVERS[str(name)], _right_hand_side(work).address, initial_state(work)
@@ -64,16 +64,16 @@ def _one(work: MotionWork | MapWork, times: Array, setting: Setting) -> Callable
     return run
 
 
-def _dense(work: MotionWork, setting: Setting) -> Run:
+def _dense(work: MotionWorkload, setting: Setting) -> Run:
     return _one(work, work.times, setting)
 
 
-def _end(work: MotionWork, setting: Setting) -> Run:
+def _end(work: MotionWorkload, setting: Setting) -> Run:
     states = _one(work, np.array([0.0, work.times[0]]), setting)
     return lambda: states()[1:]
 
 
-def _ensemble(work: MotionWork, setting: Setting) -> Run:
+def _ensemble(work: MotionWorkload, setting: Setting) -> Run:
     name, tolerance = setting
     all_orbits, address = _all_orbits(_SOLVERS[str(name)]), _right_hand_side(work).address
     times, out = np.array([0.0, work.times[0]]), np.empty_like(work.initial)
@@ -85,7 +85,7 @@ def _ensemble(work: MotionWork, setting: Setting) -> Run:
     return run
 
 
-def _circle_map(work: MapWork, setting: Setting) -> Run:
+def _circle_map(work: MapWorkload, setting: Setting) -> Run:
     states, theta = _one(work, np.array([0.0, half_period(work)]), setting), theta_after(work.phi)
     return lambda: theta(states()[1])
 
@@ -93,7 +93,7 @@ def _circle_map(work: MapWork, setting: Setting) -> Run:
 _WAYS: dict[str, Callable[..., Run]] = {"A": _dense, "A2": _end, "B": _ensemble, "B2": _ensemble, "C": _circle_map}
 
 
-def _prepare(work: Work, setting: Setting, threads: int = 1) -> Run:
+def _prepare(work: Workload, setting: Setting, threads: int = 1) -> Run:
     run = _WAYS[work.name](work, setting)
     run()
     return run

@@ -13,19 +13,19 @@ from scipy.integrate import solve_ivp
 
 from ..method import Ladder, Method, Run, Setting, version
 from ..moebius import half_period, theta_after
-from ..works import Array, MapWork, MotionWork, Work
+from ..works import Array, MapWorkload, MotionWorkload, Workload
 from .compiled import dimension, initial_state, rates
 
 __all__ = ["METHOD"]
 
 
-def _ladders(work: Work) -> Sequence[Ladder]:
+def _ladders(work: Workload) -> Sequence[Ladder]:
     # solve_ivp takes no relative tolerance below 2.2e-14.
     return [tuple((name, float(f"1e-{k}")) for k in range(3, 14)) for name in ("DOP853", "LSODA")]
 
 
 @cache
-def _right_hand_side(work: MapWork | MotionWork) -> Any:
+def _right_hand_side(work: MapWorkload | MotionWorkload) -> Any:
     """f(t, y) for one state, or for many in a row."""
     field, n = rates(work), dimension(work)
 
@@ -39,7 +39,7 @@ def _right_hand_side(work: MapWork | MotionWork) -> Any:
     return right_hand_side
 
 
-def _solve(work: MotionWork | MapWork, state: Array, times: Array, setting: Setting,
+def _solve(work: MotionWorkload | MapWorkload, state: Array, times: Array, setting: Setting,
            **options: Any) -> Callable[[], Any]:
     """The solution up to the last of the times, with its values at them as `y`, (d, n)."""
     name, tolerance = setting
@@ -52,18 +52,18 @@ def _solve(work: MotionWork | MapWork, state: Array, times: Array, setting: Sett
     return run
 
 
-def _motion(work: MotionWork, setting: Setting) -> Run:
+def _motion(work: MotionWorkload, setting: Setting) -> Run:
     solve = _solve(work, work.initial.ravel(), work.times, setting)
     # One state at many times, or many states at one time.
     return lambda: solve().y.T.reshape(-1, 5)
 
 
-def _circle_map(work: MapWork, setting: Setting) -> Run:
+def _circle_map(work: MapWorkload, setting: Setting) -> Run:
     solve, theta = _solve(work, initial_state(work), np.array([half_period(work)]), setting), theta_after(work.phi)
     return lambda: theta(solve().y[:, -1])
 
 
-def _crossings(work: MotionWork, setting: Setting) -> Run:
+def _crossings(work: MotionWorkload, setting: Setting) -> Run:
     def height(t: float, y: Array) -> float:
         return float(y[4])
 
@@ -78,7 +78,7 @@ _WAYS: dict[str, Callable[..., Run]] = {
 }
 
 
-def _prepare(work: Work, setting: Setting, threads: int = 1) -> Run:
+def _prepare(work: Workload, setting: Setting, threads: int = 1) -> Run:
     return _WAYS[work.name](work, setting)
 
 

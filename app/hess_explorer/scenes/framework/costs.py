@@ -17,7 +17,7 @@ from hess_explorer.views.layers import Axes, CellGrid, Layer, Range, Sign, dots,
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.shadowing import typical
-from hess_mechanics.dynamics.trade import Sample, enough
+from hess_mechanics.dynamics.trade import LevelCost, enough
 from hess_mechanics.numerics.accuracy import DRAFT, LEVELS, Computation
 from hess_mechanics.numerics.results import Array
 
@@ -35,7 +35,7 @@ class Costs(Insight):
 
     # ---- cost against error -------------------------------------------------------------------------------------
 
-    def _samples(self, kind: Computation) -> tuple[Sample, ...] | None:
+    def _samples(self, kind: Computation) -> tuple[LevelCost, ...] | None:
         found = self.costs.get(kind)
         return None if isinstance(found, Refused) else found
 

@@ -12,7 +12,7 @@ from hess_explorer.scenes.framework.parameters import Slider
 from hess_explorer.scenes.framework.scene import Motion, Scene, State
 from hess_explorer.scenes.framework.trial import Refused, Trial, bare, differing, measured, next_level
 from hess_explorer.views.comparison import Difference
-from hess_mechanics.dynamics.trade import Sample
+from hess_mechanics.dynamics.trade import LevelCost
 from hess_mechanics.numerics.accuracy import Computation
 
 __all__ = ["Insight", "LookingInto"]
@@ -40,7 +40,7 @@ class Insight(State):
     difference: str
 
     @cached_property
-    def costs(self) -> dict[Computation, tuple[Sample, ...] | Refused | None]:
+    def costs(self) -> dict[Computation, tuple[LevelCost, ...] | Refused | None]:
         """Time and error of every level, for each kind of computation, or why not; None until it is known."""
         plain = bare(self.shown)
         return {trial.kind: None if self.dragging else self.work.later(measured, trial, plain)

@@ -16,7 +16,7 @@ from hess_explorer.views.layers import Axes
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.shadowing import HALF_A_PIXEL, errors_in_pixels, torn_away
-from hess_mechanics.dynamics.trade import Sample, measure, measure_until
+from hess_mechanics.dynamics.trade import LevelCost, measure, measure_until
 from hess_mechanics.dynamics.work_precision import longest_span
 from hess_mechanics.dynamics.work_precision import truth as exactly
 from hess_mechanics.errors import ModelError
@@ -96,9 +96,9 @@ def _unless_refused(found: Callable[[], T]) -> T | Refused:
         return Refused(str(error))
 
 
-def measured(trial: Trial[S], state: S) -> tuple[Sample, ...] | Refused:
+def measured(trial: Trial[S], state: S) -> tuple[LevelCost, ...] | Refused:
     """Time and error of each level, for a `bare` state.  Raises `OverBudget`."""
-    def found() -> tuple[Sample, ...]:
+    def found() -> tuple[LevelCost, ...]:
         less = trial.small(state)
         return measure(trial.kind, lambda plan: trial.run(less, plan), lambda *both: trial.error(less, *both))
 
