@@ -28,7 +28,7 @@ from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, andoyer_points
 from hess_mechanics.euler_poisson.equations import HeavyBody
-from hess_mechanics.euler_poisson.rotation import Ends, Rotation, on_line, rotation_along
+from hess_mechanics.euler_poisson.rotation import Ends, RotationProfile, on_line, rotation_along
 from hess_mechanics.numerics.accuracy import Accuracy, Computation, plan
 from hess_mechanics.numerics.arguments import as_a, as_cells, as_level, as_number, as_pairs, as_whole
 from hess_mechanics.numerics.labelled import Labels, Result
@@ -294,7 +294,7 @@ def rotation_numbers(a: float | Array, h: float | Array, f: float | Array, accur
 
 
 def rotation_along_line(body: HeavyBody, h: float, f: float, ends: Ends, *, count: int = 24, crossings: int = 300,
-                        about_first: bool = False, accuracy: Accuracy = "standard") -> Rotation:
+                        about_first: bool = False, accuracy: Accuracy = "standard") -> RotationProfile:
     """Rotation numbers of orbits that start on a line of the Andoyer–Deprit section, between places (l, L/G).
 
     about_first : turns are counted about the first end of the line; else by the angle l.

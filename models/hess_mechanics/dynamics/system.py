@@ -21,7 +21,7 @@ import numpy as np
 from hess_mechanics.errors import InvalidParameter, ModelError, WrongScaling
 from hess_mechanics.numerics.batch_kernels import ensemble_integrator, one_by_one
 from hess_mechanics.numerics.doubled_kernels import doubled_integrator
-from hess_mechanics.numerics.events_kernels import PLANE, Surface, crossing_finder
+from hess_mechanics.numerics.events_kernels import PLANE, SurfaceKernels, crossing_finder
 from hess_mechanics.numerics.jit import derived_kernel, inner
 from hess_mechanics.numerics.measured import nearby
 from hess_mechanics.numerics.results import Array
@@ -175,7 +175,7 @@ class System:
         """The kernel of the crossings of a plane by one orbit, see `events_kernels.crossing_finder`."""
         return self.crosses("cross", PLANE)
 
-    def crosses(self, task: str, surface: Surface) -> Callable[..., tuple[int, int]]:
+    def crosses(self, task: str, surface: SurfaceKernels) -> Callable[..., tuple[int, int]]:
         """The same of another surface, made anew by each call; task : its name among the kernels of the system."""
         return self._kernel(task, "y, p, normal, offset, sense, end, order, tolerance, max_steps, times, states",
                             lambda recursion: crossing_finder(recursion, surface))

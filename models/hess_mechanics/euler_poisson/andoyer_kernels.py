@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from hess_mechanics.euler_poisson.equations import SYSTEM
-from hess_mechanics.numerics.events_kernels import Surface, crossing_finder
+from hess_mechanics.numerics.events_kernels import SurfaceKernels, crossing_finder
 from hess_mechanics.numerics.jit import inner, kernel, part
 
 __all__ = ["cross", "least_excess", "roots_into"]
@@ -41,7 +41,7 @@ def _on_this_side(y, normal):
     return y[3] * y[1] - y[4] * y[0] > 0.0
 
 
-_cross = crossing_finder(SYSTEM.recursion, Surface(_along, _height, _on_this_side, curved=True))
+_cross = crossing_finder(SYSTEM.recursion, SurfaceKernels(_along, _height, _on_this_side, curved=True))
 
 
 @kernel

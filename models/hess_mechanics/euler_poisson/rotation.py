@@ -17,7 +17,7 @@ from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["RESOLVED", "Rotation", "on_line", "rotation_along"]
+__all__ = ["RESOLVED", "RotationProfile", "on_line", "rotation_along"]
 
 RESOLVED = 1e-4
 """Where the rotation numbers of both halves of an orbit agree to this, it is taken for a closed curve."""
@@ -27,7 +27,7 @@ Ends = tuple[tuple[float, float], tuple[float, float]]
 
 
 @dataclass(frozen=True)
-class Rotation(Result):
+class RotationProfile(Result):
     """Rotation numbers `rho` (n,) of orbits that start at `along` (n,) on a line, each in parts without a gap.
 
     They lie in (−½, ½]; or, where all are within half a turn of one another, side by side, about a number that does.
@@ -67,7 +67,7 @@ class Rotation(Result):
                 return float(along[i]), float(rho[i])
         return None
 
-    def distance(self, exact: Rotation) -> float:
+    def distance(self, exact: RotationProfile) -> float:
         """The median of the differences over the places where both know ρ; elsewhere the line crosses seas."""
         if not (self.numbers.size and exact.numbers.size):
             return 0.0
@@ -88,7 +88,7 @@ def on_line(section: AndoyerSection, ends: Ends, count: int) -> tuple[tuple[floa
 
 
 def rotation_along(ends: Ends, shares: Sequence[float], orbits: Sequence[Array], about_first: bool, count: int,
-                   resolved: float = RESOLVED) -> Rotation:
+                   resolved: float = RESOLVED) -> RotationProfile:
     """Of orbits (n, 2) that start at these shares of the way, of `count` even ones.
 
     about_first : turns are counted about the first end, and the place is l; else by the angle l, and it is L/G.
@@ -109,7 +109,7 @@ def rotation_along(ends: Ends, shares: Sequence[float], orbits: Sequence[Array],
     at_sea = np.array([share for share, _, spread in found if spread > resolved])
     coasts = np.flatnonzero(np.diff(at_sea) > 1.5 / count) + 1
     seas = [(part[0] - 0.5 / count, part[-1] + 0.5 / count) for part in np.split(at_sea, coasts) if part.size]
-    return Rotation(
+    return RotationProfile(
         tuple(np.split(place(along), cuts)), tuple(np.split(rho, cuts)),
         place(np.array([share for share, turns, spread in found if spread <= resolved and abs(turns) <= resolved])),
         place(np.array(seas).reshape(-1, 2)))

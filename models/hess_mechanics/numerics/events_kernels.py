@@ -28,7 +28,7 @@ from hess_mechanics.numerics.taylor_kernels import (
 from hess_mechanics.numerics.tracing import Recursion
 from hess_mechanics.numerics.unrolled import evaluation
 
-__all__ = ["PLANE", "Surface", "crossing_finder"]
+__all__ = ["PLANE", "SurfaceKernels", "crossing_finder"]
 
 _DEPTH = 45
 """Halvings after which a piece is a point, for double precision."""
@@ -137,7 +137,7 @@ def roots_on_step(e, h, below, end, below_at_end, roots, pieces):
 
 
 @dataclass(frozen=True)
-class Surface:
+class SurfaceKernels:
     """A surface e(y) = offset, by compiled functions with a vector `normal` of constants.
 
     along(c, normal, e, scratch) : the Taylor coefficients of e from those of the state, c[k, variable], into e (n,);
@@ -175,10 +175,10 @@ def _always(y, normal):
     return True
 
 
-PLANE = Surface(_along_plane, _height_over_plane, _always, curved=False)
+PLANE = SurfaceKernels(_along_plane, _height_over_plane, _always, curved=False)
 
 
-def crossing_finder(recursion: Recursion, surface: Surface = PLANE) -> Callable[..., Any]:
+def crossing_finder(recursion: Recursion, surface: SurfaceKernels = PLANE) -> Callable[..., Any]:
     """The compiled search for the crossings of a plane, or of another surface, by one orbit.
 
     cross(state, parameters, normal, offset, sense, end, order, tolerance, max_steps, times, states): the

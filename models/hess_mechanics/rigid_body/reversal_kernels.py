@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from hess_mechanics.numerics.events_kernels import Surface
+from hess_mechanics.numerics.events_kernels import SurfaceKernels
 from hess_mechanics.numerics.jit import part
 
 __all__ = ["NO_TURN"]
@@ -29,5 +29,5 @@ def _any_side(y, normal):
     return True
 
 
-NO_TURN = Surface(_along, _height, _any_side, curved=True)
+NO_TURN = SurfaceKernels(_along, _height, _any_side, curved=True)
 """Where the body does not turn about the vertical."""

@@ -44,9 +44,9 @@ from hess_mechanics.suslov.free_kernels import integrate
 __all__ = [
     "Equilibria",
     "FreeMotion",
+    "FreeRotation",
     "Passage",
-    "Rotation",
-    "Shape",
+    "PassageConstants",
     "arcs",
     "equilibria",
     "equilibria_of_unit_rate",
@@ -67,7 +67,7 @@ _MAX_SHAPE = 1e4
 
 
 @dataclass(frozen=True)
-class Shape:
+class PassageConstants:
     """The constants of a tensor that determine every passage, see the module.
 
     xi, eta : (3,) unit vectors; J, w, K, kappa, c : numbers (c for the arc σ = +1).
@@ -106,7 +106,7 @@ def _gd(u: Array | float) -> Array:
     return 2.0 * np.arctan(np.tanh(0.5 * np.asarray(u)))
 
 
-def shape(body: SuslovBody) -> Shape:
+def shape(body: SuslovBody) -> PassageConstants:
     """K, κ, c and the directions ξ, η of a body without a field.
 
     Raises `InvalidParameter` (a field; I13 = I23 = 0), `WorkLimit` (I13, I23 too small, or I11 and I22 too different).
@@ -131,7 +131,7 @@ def shape(body: SuslovBody) -> Shape:
         raise WorkLimit(
             f"γ turns too often while ω passes from the unstable to the stable point ({about} radians; at most "
             f"{_MAX_SHAPE:g} are computed): choose larger I13, I23, or I11 and I22 less different.")
-    return Shape(frozen(np.array([n2, -n1, 0.0])), frozen(np.array([n1, n2, 0.0])), J, w, K, kappa, c)
+    return PassageConstants(frozen(np.array([n2, -n1, 0.0])), frozen(np.array([n1, n2, 0.0])), J, w, K, kappa, c)
 
 
 @dataclass(frozen=True)
@@ -157,7 +157,7 @@ class Equilibria:
                 across * math.sin(phi))
 
 
-def _rate(body: SuslovBody, of: Shape, r: float) -> float:
+def _rate(body: SuslovBody, of: PassageConstants, r: float) -> float:
     """ω0 for r = √(2h)."""
     return of.J / body.I11 * (r * math.sqrt(of.w) / body.I22)
 
@@ -194,7 +194,7 @@ def arcs(body: SuslovBody, h: float, count: int = 91) -> tuple[Array, Array]:
     return frozen(rate * _omega(of, 1, sin, cos)), frozen(rate * _omega(of, -1, sin, cos))
 
 
-def _omega(of: Shape, arc: int, tanh: Array, sech: Array) -> Array:
+def _omega(of: PassageConstants, arc: int, tanh: Array, sech: Array) -> Array:
     """ω/ω0; shape (m, 2)."""
     along = -of.K * tanh + arc * of.c * sech
     return along[:, None] * of.xi[:2] + (arc * of.kappa) * sech[:, None] * of.eta[:2]
@@ -202,9 +202,9 @@ def _omega(of: Shape, arc: int, tanh: Array, sech: Array) -> Array:
 
 @dataclass(frozen=True)
 class Passage:
-    """One motion ω(t): its tensor's `Shape`, arc σ = ±1, u0 = u(0), rate ω0 and speed |ω^(±)|."""
+    """One motion ω(t): its tensor's `PassageConstants`, arc σ = ±1, u0 = u(0), rate ω0 and speed |ω^(±)|."""
 
-    shape: Shape
+    shape: PassageConstants
     arc: int
     u0: float
     rate: float
@@ -264,7 +264,7 @@ def _log(x: Fraction) -> float:
     return math.log(float(x / Fraction(2) ** shift)) + shift * math.log(2.0)
 
 
-def propagate(of: Shape, arc: int, u: Array, level: Accuracy) -> tuple[Complex, Complex, int]:
+def propagate(of: PassageConstants, arc: int, u: Array, level: Accuracy) -> tuple[Complex, Complex, int]:
     """A and B at each u (m,), in any order, and the Taylor steps this took.  Raises `WorkLimit`."""
     level = as_level(level)
     inside = np.clip(u, -of.end, of.end)
@@ -288,7 +288,7 @@ def propagate(of: Shape, arc: int, u: Array, level: Accuracy) -> tuple[Complex, 
     return out[:, 4] + 1j * out[:, 5], out[:, 6] + 1j * out[:, 7], total
 
 
-def turning(of: Shape, arc: int, u: Array, level: Accuracy) -> tuple[Complex, Complex, float, int]:
+def turning(of: PassageConstants, arc: int, u: Array, level: Accuracy) -> tuple[Complex, Complex, float, int]:
     """A and B at each u (m,), the error estimate of the rotation between any two of them, and all steps.
 
     The error is measured as in `orbit.solve`.  Raises `WorkLimit`.
@@ -310,7 +310,7 @@ def turning(of: Shape, arc: int, u: Array, level: Accuracy) -> tuple[Complex, Co
 
 
 @dataclass(frozen=True)
-class Rotation:
+class FreeRotation:
     """The motion of every γ that shares one ω(0).
 
     times : (m,); omega : (m, 2); matrices : (m, 3, 3), γ(t) = matrix · γ(0).
@@ -333,7 +333,7 @@ class Rotation:
         return carried
 
 
-def rotation(body: SuslovBody, omega: Sequence[float], times: Sequence[float] | Array, level: Accuracy) -> Rotation:
+def rotation(body: SuslovBody, omega: Sequence[float], times: Sequence[float] | Array, level: Accuracy) -> FreeRotation:
     """The rotation along the motion that starts with ω(0), at times as in `orbit.solve`.
 
     Raises `InvalidParameter` (a field, I13 = I23 = 0, ω = 0 or on the line of equilibria, times out of order),
@@ -368,8 +368,8 @@ def rotation(body: SuslovBody, omega: Sequence[float], times: Sequence[float] | 
     require_finite_states(velocity)
     wall_ms = (time.perf_counter() - start) * 1e3
     absolute = error * max(1.0, motion.rate * of.size)
-    return Rotation(frozen(t), frozen(velocity), frozen(found), frozen(limits), motion, status_of(error, level),
-                    absolute, Cost(steps, wall_ms))
+    return FreeRotation(frozen(t), frozen(velocity), frozen(found), frozen(limits), motion, status_of(error, level),
+                        absolute, Cost(steps, wall_ms))
 
 
 def _tail(u: Array | float) -> Array:
@@ -381,7 +381,7 @@ def _elapsed_size(u0: float, u: Array, elapsed: Array) -> Array:
     return np.where(u * np.sign(u0) >= 0.0, math.copysign(1.0, u0) * elapsed, np.abs(u) - abs(u0))
 
 
-def _axes(of: Shape) -> Array:
+def _axes(of: PassageConstants) -> Array:
     """η, e3, ξ as columns."""
     return np.column_stack([of.eta, [0.0, 0.0, 1.0], of.xi])
 

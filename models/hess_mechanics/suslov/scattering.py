@@ -39,7 +39,7 @@ from hess_mechanics.numerics.results import Array, Complex, Cost, facts_of, froz
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov.additional_integral import I11_at
 from hess_mechanics.suslov.equations import SuslovBody
-from hess_mechanics.suslov.free import Shape, equilibria, shape, turning
+from hess_mechanics.suslov.free import PassageConstants, equilibria, shape, turning
 
 __all__ = ["Scattering", "cos_chi", "cos_chi_over", "scattering", "start", "theta_plus_grid"]
 
@@ -97,7 +97,7 @@ def _spherical(theta: Array | float, phi: Array | Sequence[float] | float) -> tu
     return np.cos(theta), np.sin(theta) * np.exp(1j * phi)
 
 
-def _u_at(of: Shape, distance: float) -> float:
+def _u_at(of: PassageConstants, distance: float) -> float:
     """The u < 0 at which the part of ω across ξ, ω0 κ sech u, is `distance` |ω⁻| = `distance` ω0 K.
 
     Raises `InvalidParameter` where ω never gets so far from the line.

@@ -21,7 +21,7 @@ from hess_explorer.views.plot import Plot
 from hess_explorer.views.section_plane import joined
 from hess_explorer.views.text import digits
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, andoyer_points, relation
-from hess_mechanics.euler_poisson.rotation import RESOLVED, Rotation, on_line, rotation_along
+from hess_mechanics.euler_poisson.rotation import RESOLVED, RotationProfile, on_line, rotation_along
 from hess_mechanics.numerics.accuracy import Computation, Level, Plan
 from hess_mechanics.numerics.results import Array, frozen
 
@@ -89,7 +89,7 @@ class RotationAcross(FilledWindow):
         return max(self.plan(Computation.SECTION).part(self.count), plan.part(_ON_LINE))
 
     @cached_property
-    def rotation(self) -> Rotation:
+    def rotation(self) -> RotationProfile:
         """Rotation numbers along the line, as far as they are known; of few and short orbits while a slider is held."""
         count = _HELD[0] if self.dragging else self.plan(Computation.ROTATION).side(_ACROSS)
         return self._rotation_of(self._orbits_on_line[0], count)
@@ -98,11 +98,11 @@ class RotationAcross(FilledWindow):
     def _resolved(self) -> float:
         return _HELD[2] if self.dragging else RESOLVED
 
-    def _rotation_of(self, found: list[tuple[float, Array]], count: int) -> Rotation:
+    def _rotation_of(self, found: list[tuple[float, Array]], count: int) -> RotationProfile:
         return rotation_along(self.ends, [share for share, _ in found], [orbit for _, orbit in found],
                               self.about_middle, count, self._resolved)
 
-    def rotation_at(self, plan: Plan) -> Rotation:
+    def rotation_at(self, plan: Plan) -> RotationProfile:
         """Rotation numbers along the line, computed here and now."""
         count = plan.side(_ACROSS)
         starts = on_line(self.section, self.ends, count)
@@ -158,12 +158,12 @@ def _piece(section: AndoyerSection, starts: tuple[Start, ...], crossings: int, l
                       tuple(bool(sign > 0.0) for sign in signs), found.drift, tuple(kept), frozen(joined(other)))
 
 
-def _axis_of(found: Rotation) -> Range:
+def _axis_of(found: RotationProfile) -> Range:
     shown = np.concatenate([found.numbers, np.zeros(min(1, found.standing.size))])
     return with_room(shown, 0.06, 1e-4) if found.numbers.size else (-0.56, 0.56)
 
 
-def _look(s: RotationAcross, found: Rotation) -> Curves:
+def _look(s: RotationAcross, found: RotationProfile) -> Curves:
     axes = Axes((s.ends[0][s.axis], s.ends[1][s.axis]), _axis_of(found))
     parts = tuple(np.column_stack(part) for part in zip(found.along, found.rho, strict=True))
     return Curves(Frame(axes, ("L/G" if s.axis else "l", "ρ")), parts)
