@@ -36,7 +36,7 @@ from hess_explorer.views.text import digits, ranging
 from hess_explorer.views.velocity_plane import nice_above, picture
 from hess_mechanics.euler_poisson.andoyer import coordinates, hess_circle
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge, largest_distance, share_of
-from hess_mechanics.euler_poisson.hess_manifold import Difference, difference
+from hess_mechanics.euler_poisson.hess_manifold import SuslovDistance, difference
 from hess_mechanics.numerics.accuracy import DRAFT
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, f_max, turning_points
@@ -185,7 +185,7 @@ class BothSides(HeavyMotion, SuslovBody, _Given):
                 Heavy.along(self.bridge.heavy, found.times, self.heavy_states))
 
     @cached_property
-    def difference(self) -> Difference:
+    def difference(self) -> SuslovDistance:
         """How far apart both sides are, computed each by itself."""
         most = min(_IN_A_DRAG if self.dragging else _MOST_PERIODS,
                    _MOST_GROWTH / (1.0 + 2.0 * math.pi * abs(self.bridge.hess.a)))

@@ -46,7 +46,7 @@ class Study(Costs):
         return self.work.get(mechanics.measure_levels, *self.followed.named, SAMPLES) + others
 
     @cached_property
-    def growing(self) -> mechanics.Growth:
+    def growing(self) -> mechanics.ErrorGrowth:
         """Errors and drifts over time."""
         return self.work.get(mechanics.growth, *self.followed.named, self.followed.weights, SAMPLES)
 

@@ -51,7 +51,7 @@ from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.rigid_body.inertia import check_body
 from hess_mechanics.suslov.equations import SYSTEM
 from hess_mechanics.suslov.principal_axis import Conformal, conformal
-from hess_mechanics.suslov.section import Course, SuslovSection, lowest_energy, mean_divergence, suslov_points
+from hess_mechanics.suslov.section import MeanDivergence, SuslovSection, lowest_energy, mean_divergence, suslov_points
 
 _MOST_STEPS = 100_000
 _CELLS = 32
@@ -164,7 +164,7 @@ class Suslov(HeavySuslov, Basins, ConstrainedBody):
         return joined(map(_later, self.kind(True)))
 
     @cached_property
-    def course(self) -> Course | None:
+    def course(self) -> MeanDivergence | None:
         """The mean divergence along the orbit on show, when it is known; not while a slider is held."""
         return None if self.dragging or self.looking or self.closed is not None else self.work.later(
             mean_divergence, self.body, self.start, self.plan(Computation.EXPONENT).share * self.long)

@@ -21,7 +21,7 @@ from hess_mechanics.numerics.results import Array, Ensemble, frozen
 from hess_mechanics.suslov.additional_integral import of_body
 from hess_mechanics.suslov.equations import SuslovBody
 
-__all__ = ["BIN", "SMALLEST", "Clouds", "Course", "Density", "clouds", "course", "density", "sides"]
+__all__ = ["BIN", "SMALLEST", "CloudHistory", "Clouds", "Density", "clouds", "course", "density", "sides"]
 
 BIN = 0.25
 """Of ln|s|."""
@@ -30,7 +30,7 @@ SMALLEST = math.log(1e-30)
 
 
 @dataclass(frozen=True)
-class Course:
+class CloudHistory:
     """Mean, least and largest at each time, (3, m): of div v and of ln s(t)/s(0); volume: (m,), see `Cloud`."""
 
     divergence: Array
@@ -79,7 +79,7 @@ class Clouds:
     """A cloud and what becomes of it, see `sides`; `other`: the one on a principal axis."""
 
     cloud: Cloud
-    course: Course
+    course: CloudHistory
     density: Density
     sides: tuple[int, int, int] | None
     other: Ensemble | None
@@ -93,12 +93,12 @@ class Clouds:
         return max(fastest, float(np.sqrt((self.other.states[..., :2] ** 2).sum(axis=2).max())))
 
 
-def course(cloud: Cloud) -> Course:
+def course(cloud: Cloud) -> CloudHistory:
     """Along all of its times."""
     def of(values: Array) -> Array:
         return frozen(np.stack([values.mean(axis=0), values.min(axis=0), values.max(axis=0)]))
 
-    return Course(of(cloud.divergence), of(cloud.log_growth), frozen(cloud.volume))
+    return CloudHistory(of(cloud.divergence), of(cloud.log_growth), frozen(cloud.volume))
 
 
 def density(cloud: Cloud) -> Density:

@@ -18,7 +18,7 @@ from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, frozen
 
 __all__ = [
-    "SLOW_METHODS", "Growth", "WorkPoint", "growth", "longest_span", "measure_levels", "measure_others",
+    "SLOW_METHODS", "ErrorGrowth", "WorkPoint", "growth", "longest_span", "measure_levels", "measure_others",
     "others_take_long", "quickest_other", "truth",
 ]
 
@@ -36,7 +36,7 @@ _MOST_STEPS_FOR_OTHERS = 1500
 
 
 @dataclass(frozen=True)
-class Growth:
+class ErrorGrowth:
     """Errors along one motion, each by level.
 
     times : (n,); errors : (n,), largest error of any variable where the state is O(1);
@@ -69,7 +69,7 @@ def truth(name: str, state: tuple[float, ...], parameters: tuple[float, ...], sp
 
 
 def growth(name: str, state: tuple[float, ...], parameters: tuple[float, ...], span: float,
-           weights: tuple[float, ...], samples: int) -> Growth:
+           weights: tuple[float, ...], samples: int) -> ErrorGrowth:
     """Errors of all levels at `samples` even times up to `span`.
 
     name : of the system; weights (d,) : pixels per unit of each variable.
@@ -91,7 +91,7 @@ def growth(name: str, state: tuple[float, ...], parameters: tuple[float, ...], s
             key: frozen(np.abs(value - initial[key]) / max(1.0, abs(float(initial[key]))))
             for key, value in system.integrals(list(states.T), parameters).items()
         }
-    return Growth(exact.times, errors, pixels, drifts)
+    return ErrorGrowth(exact.times, errors, pixels, drifts)
 
 
 def _best_of(run: Callable[[], Array], repeats: int) -> tuple[float, Array]:

@@ -28,7 +28,15 @@ from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.equations import SYSTEM as REDUCED
 
 __all__ = [
-    "Difference", "FreeRun", "Growth", "Leak", "difference", "exact_growth", "exact_motion", "growth_of", "on_manifold",
+    "FreeRun",
+    "Leak",
+    "LeakGrowth",
+    "SuslovDistance",
+    "difference",
+    "exact_growth",
+    "exact_motion",
+    "growth_of",
+    "on_manifold",
     "run_free",
 ]
 
@@ -135,7 +143,7 @@ def _fastest(body: HeavyBody, start: tuple[float, ...]) -> float:
 
 
 @dataclass(frozen=True)
-class Difference:
+class SuslovDistance:
     """At even times the distance of Euler–Poisson, held on the manifold and left to itself, from Suslov's motion.
 
     times, held, free : (n,), units b = 1, both at reference; error : the estimate for Suslov's, in its own.
@@ -147,7 +155,7 @@ class Difference:
     error: float
 
 
-def difference(bridge: Bridge, start: tuple[float, ...], end: float, count: int) -> Difference:
+def difference(bridge: Bridge, start: tuple[float, ...], end: float, count: int) -> SuslovDistance:
     """Along the motion from a state (5,) of `eq01` with b = 1, over a time `end` of the bodies.
 
     Raises `InvalidParameter`, `WorkLimit`.
@@ -160,7 +168,7 @@ def difference(bridge: Bridge, start: tuple[float, ...], end: float, count: int)
     heavy = tuple(bridge.from_reduced(reduced).tolist())
     held, free = (bridge.distance(run(bridge.heavy, heavy, end, count, REFERENCE).states, there)
                   for run in (on_manifold, run_free))
-    return Difference(frozen(times), frozen(held), frozen(free), orbit.error_estimate)
+    return SuslovDistance(frozen(times), frozen(held), frozen(free), orbit.error_estimate)
 
 
 _STRAIGHT = (3e-14, 1e-3)
@@ -168,7 +176,7 @@ _STRAIGHT = (3e-14, 1e-3)
 
 
 @dataclass(frozen=True)
-class Growth:
+class LeakGrowth:
     """The growth of ln |(r, M)| per period of n3, measured over `periods` periods from the period `first` on."""
 
     per_period: float
@@ -195,7 +203,7 @@ class Leak:
         return self.bridge.distance(self.run.states, self.exact.states)
 
     @cached_property
-    def growth(self) -> Growth | None:
+    def growth(self) -> LeakGrowth | None:
         """Of (r, M), where it is seen."""
         return growth_of(self.run, self.samples)
 
@@ -224,7 +232,7 @@ def exact_growth(theta: CircleMap) -> float:
     return abs(theta.fixed_points[0].log_multiplier) if theta.fixed_points else 0.0
 
 
-def growth_of(run: FreeRun, samples: int) -> Growth | None:
+def growth_of(run: FreeRun, samples: int) -> LeakGrowth | None:
     """The growth of the leak where it is exponential; None where that lasts less than two periods.
 
     samples : of the run per period of n3.  Least-squares fit of a straight line plus a function of that period: the
@@ -240,4 +248,4 @@ def growth_of(run: FreeRun, samples: int) -> Growth | None:
     if last - first < 2:
         return None
     count = np.arange(last - first) - 0.5 * (last - first - 1)
-    return Growth(float(count @ np.log(table[first:last]).mean(axis=1) / (count @ count)), first, last - first)
+    return LeakGrowth(float(count @ np.log(table[first:last]).mean(axis=1) / (count @ count)), first, last - first)

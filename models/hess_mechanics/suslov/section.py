@@ -33,7 +33,8 @@ from hess_mechanics.suslov import principal_axis
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 
 __all__ = [
-    "Course", "SuslovSection", "coordinates", "divergence", "invariant_density", "lowest_energy", "mean_divergence",
+    "MeanDivergence", "SuslovSection", "coordinates", "divergence", "invariant_density", "lowest_energy",
+    "mean_divergence",
     "plane_of", "possible", "require_reached", "seeds", "state_at", "states_at", "suslov_points",
 ]
 
@@ -193,19 +194,19 @@ def divergence(body: SuslovBody, states: Array) -> Array:
 
 
 @dataclass(frozen=True)
-class Course:
+class MeanDivergence:
     """The mean divergence (n,) along a motion up to the times (n,)."""
 
     times: Array
     mean: Array
 
 
-def mean_divergence(body: SuslovBody, start: Sequence[float], span: float, count: int = 4000) -> Course:
+def mean_divergence(body: SuslovBody, start: Sequence[float], span: float, count: int = 4000) -> MeanDivergence:
     """Along the motion from `start` over the time `span`, up to `count` times.  Raises as `solve`."""
     times = np.linspace(0.0, span, count + 1)
     rates = divergence(body, solve(SYSTEM, start, body.parameters, times, DRAFT).states)
     steps = 0.5 * (rates[1:] + rates[:-1]) * np.diff(times)
-    return Course(frozen(times[1:]), frozen(np.cumsum(steps) / times[1:]))
+    return MeanDivergence(frozen(times[1:]), frozen(np.cumsum(steps) / times[1:]))
 
 
 @dataclass(frozen=True)

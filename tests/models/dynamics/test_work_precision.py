@@ -18,7 +18,7 @@ from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.system import Problem
 from hess_mechanics.dynamics.work_precision import (
-    Growth,
+    ErrorGrowth,
     WorkPoint,
     growth,
     longest_span,
@@ -290,7 +290,7 @@ def made_up(pixels, error=1e-5, drifts=(1e-6, 2e-7, 3e-8)):
     along = (TIMES / 10.0) ** 2
     pixels = pixels if np.ndim(pixels) else pixels * along
     names = ("E", "F1", "F2", "K")
-    return Growth(
+    return ErrorGrowth(
         TIMES, dict.fromkeys(LEVELS, error * along), dict.fromkeys(LEVELS, np.asarray(pixels)),
         {name: {key: drift * along for key, drift in zip(names, drifts, strict=False)} for name in LEVELS})
 
