@@ -38,7 +38,7 @@ from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram
 from hess_mechanics.dynamics.periodic import PeriodicOrbit
 from hess_mechanics.dynamics.regime import Dynamics, Regime
 from hess_mechanics.dynamics.return_map import ReturnMap
-from hess_mechanics.dynamics.section import Plane, Points, section, section_points, sections
+from hess_mechanics.dynamics.section import Plane, SectionPoints, section, section_points, sections
 from hess_mechanics.dynamics.spectrum import Spectrum, spectrum
 from hess_mechanics.dynamics.system import System, systems
 from hess_mechanics.dynamics.tube import Tube, proved_error, right_until, tube
@@ -49,7 +49,7 @@ from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
 from hess_mechanics.euler_poisson.loxodromic_pendulum import LoxodromicMotion, LoxodromicPendulum, loxodromic_motion
 from hess_mechanics.numerics.accuracy import LEVELS, Level, Status, level
-from hess_mechanics.numerics.results import Cost, Ensemble, Orbit, Section
+from hess_mechanics.numerics.results import Cost, Ensemble, Orbit, SectionCrossings
 from hess_mechanics.return_maps import (
     continued_orbit,
     dynamics_of,
@@ -93,7 +93,8 @@ __all__ = [  # noqa: RUF022 (by subject)
     "dynamics_of", "Dynamics",
     # Any system
     "System", "systems", "solve", "Orbit", "ensemble", "Ensemble",
-    "section", "sections", "section_points", "Plane", "Section", "Points", "largest_exponent", "Exponent", "spectrum",
+    "section", "sections", "section_points", "Plane", "SectionCrossings", "SectionPoints", "largest_exponent",
+           "Exponent", "spectrum",
     "tube", "Tube", "proved_error", "right_until",
     "Spectrum", "megno", "Megno", "transition_matrix", "Transition", "return_matrix", "Return",
     # Accuracy, cost, errors

@@ -22,13 +22,13 @@ from hess_mechanics.dynamics.cells import Window, centres
 from hess_mechanics.dynamics.lyapunov import Exponent, largest_exponent
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.periodic import place_units
-from hess_mechanics.dynamics.section import Points
+from hess_mechanics.dynamics.section import SectionPoints
 from hess_mechanics.dynamics.spectrum import Spectrum, spectrum
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, andoyer_points
 from hess_mechanics.euler_poisson.equations import HeavyBody
-from hess_mechanics.euler_poisson.rotation import Ends, RotationProfile, on_line, rotation_along
+from hess_mechanics.euler_poisson.rotation import LineEnds, RotationProfile, on_line, rotation_along
 from hess_mechanics.numerics.accuracy import Accuracy, Computation, plan
 from hess_mechanics.numerics.arguments import as_a, as_cells, as_level, as_number, as_pairs, as_whole
 from hess_mechanics.numerics.labelled import Labels, Result
@@ -293,7 +293,7 @@ def rotation_numbers(a: float | Array, h: float | Array, f: float | Array, accur
     return values_at(a, h, f, as_level(accuracy))
 
 
-def rotation_along_line(body: HeavyBody, h: float, f: float, ends: Ends, *, count: int = 24, crossings: int = 300,
+def rotation_along_line(body: HeavyBody, h: float, f: float, ends: LineEnds, *, count: int = 24, crossings: int = 300,
                         about_first: bool = False, accuracy: Accuracy = "standard") -> RotationProfile:
     """Rotation numbers of orbits that start on a line of the Andoyer–Deprit section, between places (l, L/G).
 
@@ -340,12 +340,12 @@ def _starts(section: AndoyerSection | SuslovSection, places: Sequence[tuple[floa
     return [tuple(map(float, state)) for state in found]
 
 
-def _in_plane(found: Points, section: AndoyerSection | SuslovSection, names: tuple[str, str], accuracy: Accuracy
+def _in_plane(found: SectionPoints, section: AndoyerSection | SuslovSection, names: tuple[str, str], accuracy: Accuracy
               ) -> PlanePoints:
     return PlanePoints(names, tuple(section.places_of(states) for states in found.states), _facts(found, accuracy))
 
 
-def _facts(found: Points, accuracy: Accuracy) -> dict[str, float | str]:
+def _facts(found: SectionPoints, accuracy: Accuracy) -> dict[str, float | str]:
     drifts: dict[str, float | str] = {f"drift of {name}": value for name, value in found.drift.items()}
     return {"level": as_level(accuracy).name, **drifts, "steps": found.cost.steps}
 

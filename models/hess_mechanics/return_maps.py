@@ -24,7 +24,7 @@ from hess_mechanics.dynamics.megno_map import MegnoMap
 from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram
 from hess_mechanics.dynamics.periodic import PeriodicOrbit, find_periodic
 from hess_mechanics.dynamics.regime import Dynamics, Regime
-from hess_mechanics.dynamics.return_map import ReturnMap, Sheet
+from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import HeavyBody
@@ -61,7 +61,7 @@ def return_map(body: Body, *, E: float | None = None, h: float | None = None, f:
     ((2,), ('ψ', 'δ'))
     """
     asked: dict[str, float | None] = {"E": E, "h": h, "f": f}
-    found: Sheet
+    found: PoincareSection
     if isinstance(body, SuslovBody):
         at = _given(asked, "E")
         require_reached(found := SuslovSection(body, at[0], as_whole("plane", plane, 1, 3)))

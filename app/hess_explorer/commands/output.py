@@ -18,7 +18,7 @@ from . import CommandError
 from .arguments import state_of
 
 if TYPE_CHECKING:
-    from hess_mechanics import BodyCheck, CircleMap, Orbit, Section, Spectrum
+    from hess_mechanics import BodyCheck, CircleMap, Orbit, SectionCrossings, Spectrum
     from hess_mechanics.chaplygin_ball.integrable_cases import Period
     from hess_mechanics.chaplygin_ball.phase_cloud import Cloud
     from hess_mechanics.suslov.scattering import Scattering
@@ -108,7 +108,7 @@ def _patience() -> Iterator[None]:
         teller.join()
 
 
-def quality(result: CircleMap | Cloud | Orbit | Period | Scattering | Section | Spectrum) -> dict[str, Any]:
+def quality(result: CircleMap | Cloud | Orbit | Period | Scattering | SectionCrossings | Spectrum) -> dict[str, Any]:
     """How exact a result is and what it cost, as every command reports it."""
     drift = getattr(result, "drift", None)
     return {"error_estimate": result.error_estimate, **({} if drift is None else {"drift": dict(drift)}),

@@ -11,7 +11,7 @@ from .bodies import add_ball, add_end, add_heavy_body, add_start, add_suslov_bod
 from .output import add_options, computing, quality, whether_body, write
 
 if TYPE_CHECKING:
-    from hess_mechanics import BodyCheck, Section
+    from hess_mechanics import BodyCheck, SectionCrossings
 
 __all__ = ["add"]
 
@@ -127,7 +127,7 @@ def _run_plane(options: argparse.Namespace) -> None:
           [*_fewer(result, options.crossings, options.t), *([note] if note else [])])
 
 
-def _facts(result: Section, start: tuple[float, ...], body: BodyCheck) -> Mapping[str, Any]:
+def _facts(result: SectionCrossings, start: tuple[float, ...], body: BodyCheck) -> Mapping[str, Any]:
     return {
         "start": list(start),
         **quality(result),
@@ -135,7 +135,7 @@ def _facts(result: Section, start: tuple[float, ...], body: BodyCheck) -> Mappin
     }
 
 
-def _fewer(result: Section, asked: int, end: float) -> list[str]:
+def _fewer(result: SectionCrossings, asked: int, end: float) -> list[str]:
     """A note if the time ended before all crossings were found."""
     found = len(result.times)
     return [f"Up to t = {end:.6g} there are {found} of {asked} crossings."] if found < asked else []

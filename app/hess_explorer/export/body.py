@@ -13,7 +13,7 @@ from hess_explorer.views import theme
 from hess_explorer.views.layers import Columns
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Body", "placing"]
+__all__ = ["BodyDrawing", "placing"]
 
 _TRAIL, _PIECES = 160, 16
 _WHEEL, _THICK = 0.15, 0.024
@@ -45,7 +45,7 @@ def _turned(directions: Array) -> Array:
     return np.stack([e, -np.cross(g, e), -g], axis=1)
 
 
-class Body:
+class BodyDrawing:
     """A body at a time, to be drawn on a sheet: `half(False)`, `middle()`, `half(True)`.
 
     own : the columns of its picture; attitude : those with its motion, {} where it has none.

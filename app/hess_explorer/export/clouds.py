@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hess_explorer.export.moment import Cloud, clouds_at
+from hess_explorer.export.moment import CloudFrame, clouds_at
 from hess_explorer.export.sheet import LOOKS, Colour, Sheet, seen
 from hess_explorer.export.shown import Shown
 from hess_explorer.views import theme
@@ -46,7 +46,7 @@ def draw_moving(frame: Frame, shown: Shown, colour: Colour, t: float) -> None:
         _dots(frame, cloud.omega, colour(ink), 3.0)
 
 
-def on_sphere(sheet: Sheet, clouds: Sequence[Cloud], near: bool) -> None:
+def on_sphere(sheet: Sheet, clouds: Sequence[CloudFrame], near: bool) -> None:
     """The half of the points that is near, or far."""
     for cloud, ink in zip(clouds, _COLOURS, strict=False):
         x, y, depth = seen(cloud.gamma, *sheet.view).T

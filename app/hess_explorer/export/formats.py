@@ -1,4 +1,4 @@
-"""Formats of files, and how large and long figures and films may be: for commands, server, dialog and `SceneState.save`."""
+"""Formats of files, and how large and long figures and films may be: for commands, server and `SceneState.save`."""
 
 from __future__ import annotations
 

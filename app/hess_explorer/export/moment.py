@@ -11,7 +11,7 @@ import numpy as np
 from hess_explorer.views.layers import Columns
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Cloud", "between", "clouds_at", "density_at", "end", "state_at"]
+__all__ = ["CloudFrame", "between", "clouds_at", "density_at", "end", "state_at"]
 
 
 def between(times: Array, t: float) -> tuple[int, float]:
@@ -41,7 +41,7 @@ def state_at(track: Columns, angles: tuple[str, ...], t: float) -> dict[str, flo
 
 
 @dataclass(frozen=True)
-class Cloud:
+class CloudFrame:
     """Phase points at a time: ω1, ω2 (n, 2), γ (n, 3), and ln|s| (n,) where the motion has no field."""
 
     omega: Array
@@ -49,7 +49,7 @@ class Cloud:
     log_s: Array | None
 
 
-def clouds_at(columns: Columns, t: float) -> list[Cloud]:
+def clouds_at(columns: Columns, t: float) -> list[CloudFrame]:
     """The clouds of the columns of a `CloudPlane` at a time: cubic curves between frames, whose slopes are known."""
     found = []
     for k in (0, 1):
@@ -58,7 +58,7 @@ def clouds_at(columns: Columns, t: float) -> list[Cloud]:
     return found
 
 
-def _cloud(columns: Columns, k: int, t: float) -> Cloud:
+def _cloud(columns: Columns, k: int, t: float) -> CloudFrame:
     times, sense = columns["times"], columns["sense"]
     signs = columns.get(f"signs{k}")
     frames = np.asarray(columns[f"frames{k}"], float).reshape(len(times), 5, -1)
@@ -69,7 +69,7 @@ def _cloud(columns: Columns, k: int, t: float) -> Cloud:
     ends = [_slopes(frames[j], signs, columns["body"]) for j in (i, i + 1)]
     at = (1.0 - b) * frames[i] + b * frames[i + 1] + e * ends[0] + f * ends[1]
     gamma = at[2:] / np.linalg.norm(at[2:], axis=0)
-    return Cloud(_velocities(at[:2], signs, columns["body"]).T, gamma.T, None if signs is None else at[1])
+    return CloudFrame(_velocities(at[:2], signs, columns["body"]).T, gamma.T, None if signs is None else at[1])
 
 
 def _velocities(at: Array, signs: Array | None, body: Any) -> Array:

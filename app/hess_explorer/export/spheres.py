@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from hess_explorer.export.body import Body
+from hess_explorer.export.body import BodyDrawing
 from hess_explorer.export.clouds import on_sphere
 from hess_explorer.export.moment import clouds_at, state_at
 from hess_explorer.export.sheet import LOOKS, Colour, Sheet, circle, graticule
@@ -44,7 +44,7 @@ def draw_moving(frame: Frame, shown: Shown, colour: Colour, t: float, point: boo
     sheet.start(2.0)
     picture, columns = shown.picture, shown.columns
     if isinstance(picture, BodyInSpace):
-        body = Body(sheet, columns.get(picture.name, {}), columns.get(picture.attitude or picture.name, {}), t)
+        body = BodyDrawing(sheet, columns.get(picture.name, {}), columns.get(picture.attitude or picture.name, {}), t)
         body.half(False)
         sheet.outline()
         body.middle()
@@ -65,7 +65,7 @@ def _has_guest(shown: Shown) -> bool:
     return isinstance(picture, BodyInSpace) or (isinstance(picture, Sphere) and bool(picture.clouds))
 
 
-def _half(sheet: Sheet, shown: Shown, near: bool, body: Body | None = None) -> None:
+def _half(sheet: Sheet, shown: Shown, near: bool, body: BodyDrawing | None = None) -> None:
     picture = shown.picture
     own = shown.columns.get(picture.name, {})
     in_space = picture if isinstance(picture, BodyInSpace) else None

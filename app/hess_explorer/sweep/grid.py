@@ -9,7 +9,7 @@ from itertools import product
 
 import numpy as np
 
-from hess_explorer.sweep.quantity import Cells, Parameter, Quantity
+from hess_explorer.sweep.quantity import CellArrays, Parameter, Quantity
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.results import Array
 
@@ -85,7 +85,7 @@ class SweepGrid:
                         for low, side, whole in zip(corner, shape, self.shape, strict=True))
 
 
-def expanded(pieces: Mapping[str, Array], fixed: Mapping[str, float]) -> Cells:
+def expanded(pieces: Mapping[str, Array], fixed: Mapping[str, float]) -> CellArrays:
     """The parameters at each cell of the product of pieces, the last one fastest."""
     swept = np.meshgrid(*pieces.values(), indexing="ij")
     count = swept[0].size

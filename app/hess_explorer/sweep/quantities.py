@@ -14,7 +14,7 @@ import numpy as np
 
 from hess_explorer.sweep.errors import NoValue
 from hess_explorer.sweep.motions import MOTIONS, SUSLOV_ENERGY, suslov_section
-from hess_explorer.sweep.quantity import Cell, Cells, Found, Outcome, Quantity, number, one_by_one, time_of, whole
+from hess_explorer.sweep.quantity import Cell, CellArrays, Found, Outcome, Quantity, number, one_by_one, time_of, whole
 from hess_mechanics.chaplygin_ball.equations import SYSTEM as BALL
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.integrable_cases import period
@@ -59,7 +59,7 @@ _PLANE_START = (
 # ---- Suslov–Hess: tori (a, h, f) --------------------------------------------------------------------------------
 
 
-def _of_tori(value: Callable[[TorusValues], np.ndarray], cells: Cells, level: Level) -> Found:
+def _of_tori(value: Callable[[TorusValues], np.ndarray], cells: CellArrays, level: Level) -> Found:
     found = values_at(cells["a"], cells["h"], cells["f"], level)
     # Where no motion is possible within the region, it is on the separatrix.
     separatrix = np.hypot(cells["h"] - 1.0, cells["f"]) < 1e-6

@@ -24,12 +24,13 @@ from hess_mechanics.errors import (
 from hess_mechanics.numerics.accuracy import Level, Status
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Cell", "Cells", "Found", "Outcome", "Outcomes", "Parameter", "Quantity", "evaluate", "number", "one_by_one",
+__all__ = ["Cell", "CellArrays", "Found", "Outcome", "Outcomes", "Parameter", "Quantity", "evaluate", "number",
+           "one_by_one",
            "refused", "time_of", "whole"]
 
 logger = logging.getLogger("hess_explorer")
 
-Cells = Mapping[str, Array]
+CellArrays = Mapping[str, Array]
 """The value of every parameter at each cell, (n,) each."""
 
 Outcomes = NDArray[np.uint8]
@@ -134,7 +135,7 @@ class Found:
     why: Mapping[int, str] = field(default_factory=dict)
 
 
-Compute = Callable[[Cells, Level], Found]
+Compute = Callable[[CellArrays, Level], Found]
 
 
 @dataclass(frozen=True)
@@ -195,7 +196,7 @@ def refused(error: Exception, cell: Mapping[str, float]) -> tuple[Outcome, str]:
 def one_by_one(function: Callable[..., Cell], parts: int = 0) -> Compute:
     """`Quantity.compute` from a function of one cell, called with the level and the parameters by name."""
 
-    def compute(cells: Cells, level: Level) -> Found:
+    def compute(cells: CellArrays, level: Level) -> Found:
         names = tuple(cells)
         rows = zip(*(cells[name].tolist() for name in names), strict=True)
         count = next(iter(cells.values())).size
@@ -213,7 +214,7 @@ def one_by_one(function: Callable[..., Cell], parts: int = 0) -> Compute:
     return compute
 
 
-def evaluate(quantity: Quantity, cells: Cells, level: Level) -> Found:
+def evaluate(quantity: Quantity, cells: CellArrays, level: Level) -> Found:
     """The quantity at cells.  A cell that has no finite value says why, whatever the function made of it."""
     # The mechanics check their results for overflow themselves.
     with np.errstate(all="ignore"):
@@ -224,7 +225,7 @@ def evaluate(quantity: Quantity, cells: Cells, level: Level) -> Found:
     return Found(found.values, found.errors, status, found.why)
 
 
-def _evaluated(quantity: Quantity, cells: Cells, level: Level) -> Found:
+def _evaluated(quantity: Quantity, cells: CellArrays, level: Level) -> Found:
     count = next(iter(cells.values())).size
     try:
         return quantity.compute(cells, level)

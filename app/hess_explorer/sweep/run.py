@@ -21,7 +21,7 @@ from hess_explorer.sweep.quantities import quantity as named
 from hess_explorer.sweep.quantity import Outcome, Quantity, evaluate
 from hess_explorer.sweep.result import Kept, Memory, Store, opened, require_libraries
 from hess_explorer.sweep.work import Chunk, cost_of_a_cell, version
-from hess_explorer.sweep.workers import Workers, crew
+from hess_explorer.sweep.workers import WorkerCount, crew
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Accuracy, Level
 from hess_mechanics.numerics.arguments import as_level, as_level_name
@@ -53,7 +53,7 @@ def _cells_of_a_piece(what: Quantity, grid: SweepGrid, accuracy: Level, workers:
 
 
 def sweep(quantity: str, over: Mapping[str, Axis], *, level: Accuracy = "precise", store: str | Path | None = None,
-          workers: Workers = None, progress: bool | Report | None = None, most_cells: int = MAX_NUMBERS,
+          workers: WorkerCount = None, progress: bool | Report | None = None, most_cells: int = MAX_NUMBERS,
           stop: threading.Event | None = None, **fixed: float) -> xr.Dataset:
     """A quantity over one to three of its parameters.
 

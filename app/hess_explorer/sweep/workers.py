@@ -23,9 +23,9 @@ from hess_mechanics.errors import InvalidParameter, MissingLibrary
 if TYPE_CHECKING:
     from distributed import Client
 
-__all__ = ["Crew", "Workers", "crew", "here"]
+__all__ = ["Crew", "WorkerCount", "crew", "here"]
 
-Workers = str | int | None
+WorkerCount = str | int | None
 """None: this thread; "all": a process for each core; a number of processes; the address of a Dask scheduler."""
 
 Chunks = Iterable[tuple[Box, Chunk]]
@@ -122,7 +122,7 @@ def _gone() -> WorkersLost:
 
 
 @contextmanager
-def crew(workers: Workers, stopped: Callable[[], bool]) -> Iterator[Crew]:
+def crew(workers: WorkerCount, stopped: Callable[[], bool]) -> Iterator[Crew]:
     """Who computes; it waits for workers until `stopped`.  Raises `InvalidParameter`, `WorkersLost`."""
     wanted = _cores() if workers == "all" else workers
     if wanted is None or wanted == 1:

@@ -10,7 +10,7 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.layers import Axes, Layer, curves, points
-from hess_mechanics.dynamics.manifolds import Crossing, Manifold
+from hess_mechanics.dynamics.manifolds import Intersection, Manifold
 from hess_mechanics.dynamics.periodic import PeriodicOrbit
 from hess_mechanics.numerics.results import Array
 
@@ -47,7 +47,7 @@ def seen(places: Array, turn: float, axes: Axes) -> Array:
 
 
 def layers(orbit: Callable[[S], PeriodicOrbit | None], manifolds: Callable[[S], Sequence[Manifold]],
-           homoclinic: Callable[[S], Sequence[Crossing]]) -> tuple[Layer[S], ...]:
+           homoclinic: Callable[[S], Sequence[Intersection]]) -> tuple[Layer[S], ...]:
     """The places of an orbit, over the manifolds of a saddle and where they cross."""
 
     def parts(stable: bool) -> Callable[[S, Axes], list[Array]]:

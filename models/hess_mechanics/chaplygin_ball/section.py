@@ -19,8 +19,8 @@ from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.chaplygin_ball.integrable_cases import has_area_integral, is_reversible
 from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.dynamics.orbit import solve
-from hess_mechanics.dynamics.return_map import Sheet
-from hess_mechanics.dynamics.section import MAX_STEPS, Plane, Points, section_points
+from hess_mechanics.dynamics.return_map import PoincareSection
+from hess_mechanics.dynamics.section import MAX_STEPS, Plane, SectionPoints, section_points
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, ModelError, WorkLimit
 from hess_mechanics.numerics.accuracy import DRAFT, Accuracy
@@ -95,7 +95,7 @@ def seeds(body: BallBody, h: float, count: int) -> list[tuple[float, ...]]:
 
 
 def ball_section(body: BallBody, h: float, starts: Sequence[Sequence[float]], crossings: int, level: Accuracy,
-                 most_steps: int = MAX_STEPS) -> Points:
+                 most_steps: int = MAX_STEPS) -> SectionPoints:
     """The first `crossings` crossings of each orbit from `starts`, on all cores, as in `section_points`.
 
     most_steps : per orbit.  Raises `InvalidParameter`, `WorkLimit`.
@@ -109,7 +109,8 @@ def ball_section(body: BallBody, h: float, starts: Sequence[Sequence[float]], cr
                         "or smaller I13 and I23.") from None
 
 
-def spread_section(body: BallBody, h: float, orbits: int, crossings: int, level: Accuracy, most_steps: int) -> Points:
+def spread_section(body: BallBody, h: float, orbits: int, crossings: int, level: Accuracy,
+                   most_steps: int) -> SectionPoints:
     """The section of so many orbits, spread over what is possible of it: `ball_section` from `seeds`."""
     return ball_section(body, h, seeds(body, h, orbits), crossings, level, most_steps)
 
@@ -121,7 +122,7 @@ def fastest(body: BallBody, start: tuple[float, ...], span: float) -> float:
 
 
 @dataclass(frozen=True)
-class BallSection(Sheet):
+class BallSection(PoincareSection):
     """The section γ3 = 0 of a ball at the energy h.  Its methods raise `InvalidParameter`."""
 
     body: BallBody

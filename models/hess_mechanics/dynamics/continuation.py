@@ -36,7 +36,7 @@ from hess_mechanics.numerics.measured import SAFETY
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Complex, frozen
 
-__all__ = ["MAX_POINTS", "Bifurcation", "Branch", "Family", "Symmetric", "continued", "gone_on"]
+__all__ = ["MAX_POINTS", "Bifurcation", "Branch", "MapFamily", "Symmetric", "continued", "gone_on"]
 
 MAX_POINTS = 2000
 _FIRST, _LONGEST, _SHORTEST = 0.01, 0.1, 1e-7
@@ -51,7 +51,7 @@ _SINGULAR = (NotConverged, ModelError, np.linalg.LinAlgError)
 _SHARES, _HALVINGS = (0.5, 0.35, 0.65, 0.2, 0.8, 0.05, 0.95), 24
 """Of a bracket, where it is divided, the first that can be; and how often."""
 
-Family = Callable[[float], Map]
+MapFamily = Callable[[float], Map]
 """λ → the map.  Raises a `ModelError` where there is none."""
 
 Symmetric = Callable[[Map, Array], Sequence[str]]
@@ -144,7 +144,7 @@ class _Point:
 class _Track:
     """What it takes to stay on a branch: z holds the places over √m, and λ over the width of its range."""
 
-    family: Family
+    family: MapFamily
     width: float
     m: int
     d: int
@@ -223,7 +223,7 @@ def _happens(kind: str, before: _Point, after: _Point, values: tuple[float, floa
     return True
 
 
-def continued(family: Family, orbit: PeriodicOrbit, parameter: str, start: float, end: float,
+def continued(family: MapFamily, orbit: PeriodicOrbit, parameter: str, start: float, end: float,
               points: int = 200, symmetries: Symmetric | None = None, edge: float | None = None,
               longest: float = _LONGEST) -> Branch:
     """The branch of an orbit of the map at λ = `start`, towards λ = `end`.
@@ -250,7 +250,7 @@ def continued(family: Family, orbit: PeriodicOrbit, parameter: str, start: float
                      symmetries, (min(_FIRST, longest), longest))
 
 
-def gone_on(family: Family, branch: Branch, end: float, edge: float, points: int = 200,
+def gone_on(family: MapFamily, branch: Branch, end: float, edge: float, points: int = 200,
             symmetries: Symmetric | None = None, longest: float = _LONGEST) -> Branch:
     """What follows a branch that has a `heading`, between the same ends of the range; its first point is the last one
     of that.

@@ -28,7 +28,7 @@ from hess_mechanics.numerics.measured import SAFETY
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, frozen
 
-__all__ = ["MAX_POINTS", "MAX_RETURNS", "Crossing", "Manifold", "crossings_of", "grown", "heights_at", "split"]
+__all__ = ["MAX_POINTS", "MAX_RETURNS", "Intersection", "Manifold", "crossings_of", "grown", "heights_at", "split"]
 
 MAX_POINTS = 20_000
 MAX_RETURNS = 2_000_000
@@ -265,7 +265,7 @@ def _error(curve: _Curve, points: Array, parameters: Array) -> float:
 
 
 @dataclass(frozen=True)
-class Crossing:
+class Intersection:
     """Where a manifold crosses another: the place (2,), τ on both, the angle between them, error of the place.
 
     certain : whether a chord before and a chord after it they are on other sides of each other, by more than their
@@ -279,13 +279,13 @@ class Crossing:
     certain: bool
 
 
-def crossings_of(one: Manifold, other: Manifold, most: int = 100) -> list[Crossing]:
+def crossings_of(one: Manifold, other: Manifold, most: int = 100) -> list[Intersection]:
     """Homoclinic or heteroclinic points: where two manifolds cross, in the order of the first one, at most so many.
 
     Segments of the polylines that meet are the beginning, Newton's method on W_1(τ_1) = W_2(τ_2) ends it.  The saddles
     themselves do not count; places closer together than their errors are one.
     """
-    found: list[Crossing] = []
+    found: list[Intersection] = []
     for i, j in _meeting(one, other):
         crossing = _refined(one, other, (i, j))
         if crossing is not None and all(
@@ -312,7 +312,7 @@ def _meeting(one: Manifold, other: Manifold) -> list[tuple[int, int]]:
     return pairs
 
 
-def _refined(one: Manifold, other: Manifold, pair: tuple[int, int]) -> Crossing | None:
+def _refined(one: Manifold, other: Manifold, pair: tuple[int, int]) -> Intersection | None:
     ends = [np.array(curve.parameters[i : i + 2]) for curve, i in zip((one, other), pair, strict=True)]
     tau: Array = np.array([float(end.mean()) for end in ends])
     h = np.array([1e-4 * float(np.ptp(end)) for end in ends])
@@ -340,8 +340,8 @@ def _refined(one: Manifold, other: Manifold, pair: tuple[int, int]) -> Crossing 
     u, v = (slopes[:, k] / np.linalg.norm(slopes[:, k]) for k in (0, 1))
     angle = math.atan2(abs(float(u[0] * v[1] - u[1] * v[0])), abs(float(u @ v)))
     off = (one.error_estimate + other.error_estimate + float(np.abs(left).max())) / max(math.sin(angle), 1e-6)
-    return Crossing(frozen(place), (float(tau[0]), float(tau[1])), angle, off,
-                    _changes_sides(one, other, tau, float(np.ptp(ends[0])), -slopes[:, 1]))
+    return Intersection(frozen(place), (float(tau[0]), float(tau[1])), angle, off,
+                        _changes_sides(one, other, tau, float(np.ptp(ends[0])), -slopes[:, 1]))
 
 
 def _changes_sides(one: Manifold, other: Manifold, tau: Array, chord: float, along: Array) -> bool:

@@ -9,7 +9,7 @@ import numpy as np
 from hess_mechanics.dynamics.cells import Window, centres
 from hess_mechanics.dynamics.megno import megno
 from hess_mechanics.dynamics.periodic import place_units
-from hess_mechanics.dynamics.return_map import Sheet
+from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.errors import OutsideRegion
 from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.arguments import as_level
@@ -49,7 +49,8 @@ class MegnoMap(Result):
                       {**place_units(self.names), "MEGNO": "1"}, {"t": self.t, "level": self.level})
 
 
-def row_of_cells(sheet: Sheet, window: Window, cells: tuple[int, int], row: int, t: float, level: Accuracy) -> Array:
+def row_of_cells(sheet: PoincareSection, window: Window, cells: tuple[int, int], row: int, t: float,
+                 level: Accuracy) -> Array:
     """Ȳ and kind, (2, m), of the motions from the middles of the cells of a row.
 
     cells : (m, n) across and up the window; the row is counted from below.  Raises `InvalidParameter`, `WorkLimit`.
@@ -64,7 +65,7 @@ def row_of_cells(sheet: Sheet, window: Window, cells: tuple[int, int], row: int,
     return frozen(out)
 
 
-def over_section(sheet: Sheet, window: Window, cells: tuple[int, int], t: float, level: Accuracy) -> MegnoMap:
+def over_section(sheet: PoincareSection, window: Window, cells: tuple[int, int], t: float, level: Accuracy) -> MegnoMap:
     """Of all cells, on all cores.  Raises as `row_of_cells`."""
     level = as_level(level)
     (x0, y0), (x1, y1) = window
@@ -80,7 +81,7 @@ def over_section(sheet: Sheet, window: Window, cells: tuple[int, int], t: float,
                     frozen(rows[:, 1].astype(int)), abs(t), level.name)
 
 
-def time_of(sheet: Sheet, turns: float) -> float:
+def time_of(sheet: PoincareSection, turns: float) -> float:
     """So many times 1/ν times the slowness of the section, the median ν of places all over it.
 
     Raises `OutsideRegion` where none of them is possible.

@@ -14,7 +14,7 @@ import numpy as np
 from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, cascade, orbit_diagram
 from hess_mechanics.dynamics.periodic import find_periodic
 from hess_mechanics.dynamics.regime import Dynamics, Regime, compared, regime
-from hess_mechanics.dynamics.return_map import ReturnMap, Sheet
+from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
 from hess_mechanics.errors import ModelError, NoReturn, WorkLimit
 from hess_mechanics.numerics.accuracy import PRECISE, Accuracy
 from hess_mechanics.numerics.arguments import as_level
@@ -23,10 +23,10 @@ from hess_mechanics.numerics.results import Array, frozen
 __all__ = ["AtState", "Sets", "at_state", "diagram", "doublings", "nearest_place", "sets_of"]
 
 Place = tuple[float, ...]
-Family = Callable[[float], Sheet]
+SectionFamily = Callable[[float], PoincareSection]
 
 
-def diagram(family: Family, name: str, values: tuple[float, ...], start: Place, again: Place, transient: int,
+def diagram(family: SectionFamily, name: str, values: tuple[float, ...], start: Place, again: Place, transient: int,
             kept: int, follow: bool, backward: bool, level: Accuracy) -> Diagram:
     """`orbit_diagram` of the sections of a family."""
     level = as_level(level)
@@ -34,7 +34,7 @@ def diagram(family: Family, name: str, values: tuple[float, ...], start: Place, 
                          follow, again)
 
 
-def doublings(family: Family, name: str, at: float, places: tuple[Place, ...], end: float, most: int
+def doublings(family: SectionFamily, name: str, at: float, places: tuple[Place, ...], end: float, most: int
               ) -> Cascade | str:
     """The cascade of the orbit with these places at a value of the parameter, towards another; or why there is none."""
     def map_at(value: float) -> ReturnMap:
@@ -56,7 +56,7 @@ class Sets:
     repeller: Array
 
 
-def sets_of(section: Sheet, start: Place, transient: int, kept: int, level: Accuracy) -> Sets:
+def sets_of(section: PoincareSection, start: Place, transient: int, kept: int, level: Accuracy) -> Sets:
     """Of the orbit from a place.  Raises `OutsideRegion`, `WorkLimit`."""
     level = as_level(level)
     found = (ReturnMap(section, level, backward).orbit(np.array(start), transient + kept)[transient:]
@@ -72,7 +72,7 @@ class AtState:
     dynamics: Dynamics | None
 
 
-def at_state(section: Sheet, start: Place, transient: int, kept: int, t: float, level: Accuracy) -> AtState:
+def at_state(section: PoincareSection, start: Place, transient: int, kept: int, t: float, level: Accuracy) -> AtState:
     """Return both for the orbit from a place; t : the time of the averages.
 
     Raises `OutsideRegion`, `WorkLimit`.

@@ -31,7 +31,7 @@ from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Mask
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
-__all__ = ["ReturnMap", "Sheet"]
+__all__ = ["PoincareSection", "ReturnMap"]
 
 _LONGEST = 400.0
 """Time allowed for a return in Newton's method, which tries many places: in units of 1/ν times the slowness of the
@@ -51,7 +51,7 @@ _AT_ONCE = 1e-8
 """A crossing before this time, in units of 1/ν, is the start itself."""
 
 
-class Sheet(Protocol):
+class PoincareSection(Protocol):
     """A section of a system at fixed values of its integrals, in coordinates that cover it."""
 
     @property
@@ -91,7 +91,7 @@ class Sheet(Protocol):
         """The name of the integrable case that this is, exactly; empty where none is known."""
         return ""
 
-    def moved(self, name: str, value: float) -> Sheet:
+    def moved(self, name: str, value: float) -> PoincareSection:
         """The same section with another value of a constant.  Raises a `ModelError` where there is none."""
 
     @property
@@ -110,7 +110,7 @@ class Sheet(Protocol):
 class ReturnMap:
     """The return map of a section, see `periodic.Map`; forward in time, or backward."""
 
-    sheet: Sheet
+    sheet: PoincareSection
     accuracy: Level
     backward: bool = False
 

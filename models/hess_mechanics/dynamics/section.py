@@ -19,10 +19,11 @@ from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.measured import measured
 from hess_mechanics.numerics.parallel import THREADS, share
 from hess_mechanics.numerics.patience import go_on
-from hess_mechanics.numerics.results import Array, Cost, Section, frozen, unit_of
+from hess_mechanics.numerics.results import Array, Cost, SectionCrossings, frozen, unit_of
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
-__all__ = ["MAX_CROSSINGS", "Plane", "Points", "Surface", "occupied_cells", "section", "section_points", "sections"]
+__all__ = ["MAX_CROSSINGS", "Plane", "SectionPoints", "Surface", "occupied_cells", "section", "section_points",
+           "sections"]
 
 MAX_CROSSINGS = 100_000
 MAX_STEPS = 5_000_000
@@ -151,14 +152,14 @@ class _Search:
         same = len(extra) == 0 or (len(extra) == 1 and abs(extra[0] - self.end) <= 10 * self.level.promise)
         return float(np.abs(states[:both] - others[:both]).max(initial=0.0)) if same else math.inf
 
-    def result(self, i: int, start: Array, parameters: Array, found: _Found) -> Section:
+    def result(self, i: int, start: Array, parameters: Array, found: _Found) -> SectionCrossings:
         """The crossings of orbit i, which starts at `start` (d,), in the user's units."""
         nu, scale = self.problem.nu, self.problem.scale
         states = found.states * scale
         absolute = float((found.difference * scale).max(initial=0.0)) + 2e-16 * max(1.0, nu)
         drift = drift_of(self.system, start, states, parameters)
-        return Section(self.system.name, self.level.name, frozen(found.times / nu), frozen(states),
-                       status_of(found.error, self.level), absolute, drift, found.cost, self.system.variables)
+        return SectionCrossings(self.system.name, self.level.name, frozen(found.times / nu), frozen(states),
+                                status_of(found.error, self.level), absolute, drift, found.cost, self.system.variables)
 
 
 @dataclass(frozen=True)
@@ -173,7 +174,7 @@ class _Found:
 
 
 def section(system: System, state: Sequence[float] | Array, parameters: Sequence[float], plane: Surface,
-            end: float, level: Accuracy, crossings: int = MAX_CROSSINGS) -> Section:
+            end: float, level: Accuracy, crossings: int = MAX_CROSSINGS) -> SectionCrossings:
     """The first `crossings` crossings of the plane from t = 0 to t = `end`, which may be negative.
 
     Crossings are roots of the orbit's own Taylor polynomials.  The error is measured as in `solve`, crossing by
@@ -190,7 +191,8 @@ def section(system: System, state: Sequence[float] | Array, parameters: Sequence
 
 
 def sections(system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float], plane: Surface,
-             end: float, level: Accuracy, crossings: int = MAX_CROSSINGS, threads: int = THREADS) -> list[Section]:
+             end: float, level: Accuracy, crossings: int = MAX_CROSSINGS,
+             threads: int = THREADS) -> list[SectionCrossings]:
     """`section` for each row of `states` (n, d), on all cores; the fastest orbit sets the unit of time for all.
 
     >>> from hess_mechanics import Plane, level, sections, systems
@@ -213,7 +215,7 @@ def sections(system: System, states: Sequence[Sequence[float]] | Array, paramete
 
 
 @dataclass(frozen=True)
-class Points(Result):
+class SectionPoints(Result):
     """Crossings of many orbits, each computed once.
 
     states : a list of (n, d), one per orbit; drift : for each integral the largest.
@@ -239,7 +241,7 @@ class Points(Result):
 
 def section_points(system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float],
                    plane: Surface, end: float, level: Accuracy, crossings: int, threads: int = THREADS,
-                   most_steps: int = MAX_STEPS) -> Points:
+                   most_steps: int = MAX_STEPS) -> SectionPoints:
     """The first `crossings` crossings of the orbits from the rows of `states` (n, d), in one run, for pictures.
 
     An orbit that falls behind the average rate of crossings in one part of the time span ends there.
@@ -291,8 +293,8 @@ def section_points(system: System, states: Sequence[Sequence[float]] | Array, pa
     drifts = [drift_of(system, starts[i], found[i][0], p) for i in range(count) if len(found[i][0])]
     drift = {name: max(one[name] for one in drifts) for name in (drifts[0] if drifts else ())}
     wall_ms = (time.perf_counter() - begun) * 1e3
-    return Points([frozen(found[i][0]) for i in range(count)], drift,
-                  Cost(sum(steps for _, steps in found.values()), wall_ms), system.variables)
+    return SectionPoints([frozen(found[i][0]) for i in range(count)], drift,
+                         Cost(sum(steps for _, steps in found.values()), wall_ms), system.variables)
 
 
 def occupied_cells(points: Array, across: int = 32) -> int:

@@ -26,8 +26,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hess_mechanics.dynamics.cells import Window, centres
-from hess_mechanics.dynamics.return_map import Sheet
-from hess_mechanics.dynamics.section import MAX_STEPS, Points, section_points
+from hess_mechanics.dynamics.return_map import PoincareSection
+from hess_mechanics.dynamics.section import MAX_STEPS, SectionPoints, section_points
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.euler_poisson.andoyer_kernels import cross, least_excess, roots_into
@@ -230,14 +230,14 @@ def time_for(body: HeavyBody, h: float, f: float, crossings: int) -> float:
 
 
 def andoyer_points(body: HeavyBody, h: float, f: float, starts: Sequence[Sequence[float]], crossings: int,
-                   level: Accuracy, threads: int = THREADS, most_steps: int = MAX_STEPS) -> Points:
+                   level: Accuracy, threads: int = THREADS, most_steps: int = MAX_STEPS) -> SectionPoints:
     """The first crossings of g = π/2 by each orbit, as in `section_points`.  Raises `InvalidParameter`, `WorkLimit`."""
     return section_points(SYSTEM, starts, body.parameters, AndoyerPlane(f), time_for(body, h, f, crossings), level,
                           crossings, threads, most_steps)
 
 
 @dataclass(frozen=True)
-class AndoyerSection(Sheet):
+class AndoyerSection(PoincareSection):
     """One sheet of the section g = π/2 of a body at H = h, F1 = f.  Its methods raise `InvalidParameter`."""
 
     body: HeavyBody

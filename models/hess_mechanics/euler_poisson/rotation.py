@@ -23,7 +23,7 @@ RESOLVED = 1e-4
 """Where the rotation numbers of both halves of an orbit agree to this, it is taken for a closed curve."""
 _FEWEST = 20
 
-Ends = tuple[tuple[float, float], tuple[float, float]]
+LineEnds = tuple[tuple[float, float], tuple[float, float]]
 
 
 @dataclass(frozen=True)
@@ -75,7 +75,7 @@ class RotationProfile(Result):
         return float(np.median(np.abs(apart - np.round(apart))))
 
 
-def on_line(section: AndoyerSection, ends: Ends, count: int) -> tuple[tuple[float, tuple[float, ...]], ...]:
+def on_line(section: AndoyerSection, ends: LineEnds, count: int) -> tuple[tuple[float, tuple[float, ...]], ...]:
     """Shares of the way along the line between the ends (l, L/G), at most `count`, and the states there.
 
     Raises `InvalidParameter`.
@@ -87,7 +87,7 @@ def on_line(section: AndoyerSection, ends: Ends, count: int) -> tuple[tuple[floa
                  for share, state in zip(shares[growing], states[growing], strict=True))
 
 
-def rotation_along(ends: Ends, shares: Sequence[float], orbits: Sequence[Array], about_first: bool, count: int,
+def rotation_along(ends: LineEnds, shares: Sequence[float], orbits: Sequence[Array], about_first: bool, count: int,
                    resolved: float = RESOLVED) -> RotationProfile:
     """Of orbits (n, 2) that start at these shares of the way, of `count` even ones.
 

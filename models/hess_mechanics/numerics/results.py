@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from hess_mechanics.numerics.accuracy import Status
 from hess_mechanics.numerics.labelled import Labels, Result
 
-__all__ = ["Array", "Complex", "Cost", "Ensemble", "Mask", "Orbit", "Section", "facts_of", "frozen", "unit_of"]
+__all__ = ["Array", "Complex", "Cost", "Ensemble", "Mask", "Orbit", "SectionCrossings", "facts_of", "frozen", "unit_of"]
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -47,7 +47,7 @@ def facts_of(result: Any) -> dict[str, Any]:
             "steps": result.cost.steps}
 
 
-def _labels(result: Orbit | Ensemble | Section, dims: tuple[str, ...]) -> Labels:
+def _labels(result: Orbit | Ensemble | SectionCrossings, dims: tuple[str, ...]) -> Labels:
     """Times along the last of the dimensions, and a variable for each component of the state."""
     names = result.variables or tuple(f"y{i + 1}" for i in range(result.states.shape[-1]))
     variables = {name: (dims, result.states[..., i]) for i, name in enumerate(names)}
@@ -109,7 +109,7 @@ class Ensemble(Result):
 
 
 @dataclass(frozen=True)
-class Section(Result):
+class SectionCrossings(Result):
     """Crossings of a surface by one orbit: times (n,), states (n, d), the rest as in `Orbit`."""
 
     system: str

@@ -16,7 +16,7 @@ from hess_mechanics.dynamics.section import section
 from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Accuracy
-from hess_mechanics.numerics.results import Array, Section
+from hess_mechanics.numerics.results import Array, SectionCrossings
 from hess_mechanics.rigid_body.reversal_kernels import NO_TURN
 
 __all__ = ["Reversal", "rate", "reversals"]
@@ -61,7 +61,7 @@ def rate(states: Array) -> Array:
     return np.asarray(states[:, 0] * states[:, 2] + states[:, 1] * states[:, 3])
 
 
-def reversals(body: _Body, start: Sequence[float], span: float, level: Accuracy) -> Section:
+def reversals(body: _Body, start: Sequence[float], span: float, level: Accuracy) -> SectionCrossings:
     """The moments from 0 to `span` at which (ω, γ) is 0, and the states there, none lost; see `section`.
 
     Raises `InvalidParameter`, `WorkLimit`.

@@ -25,7 +25,7 @@ import numpy as np
 
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.sampling import PIXELS, sampled_orbit
-from hess_mechanics.dynamics.section import MAX_STEPS, Plane, Points, section_points
+from hess_mechanics.dynamics.section import MAX_STEPS, Plane, SectionPoints, section_points
 from hess_mechanics.dynamics.system import System, in_units_of_time
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.numerics.accuracy import Accuracy
@@ -174,7 +174,7 @@ def state_at(body: PotentialBody, E: float, g2: float, w1: float) -> tuple[float
 
 
 def plane_section(body: PotentialBody, starts: Sequence[Sequence[float]], crossings: int, level: Accuracy,
-                  most_steps: int = MAX_STEPS) -> Points:
+                  most_steps: int = MAX_STEPS) -> SectionPoints:
     """The first crossings of γ1 = 0, γ1 growing, of each orbit; (γ2, ω1) are coordinates of the section for γ3 > 0.
 
     Raises `InvalidParameter`, `WorkLimit`.

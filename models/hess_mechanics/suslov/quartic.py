@@ -18,9 +18,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from hess_mechanics.dynamics.return_map import Sheet
+from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.sampling import PIXELS
-from hess_mechanics.dynamics.section import Plane, Points, occupied_cells, section_points
+from hess_mechanics.dynamics.section import Plane, SectionPoints, occupied_cells, section_points
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, NoField, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy
@@ -263,7 +263,7 @@ def seeds(body: QuarticBody, count: int) -> list[tuple[float, ...]]:
 
 
 def quartic_section(body: QuarticBody, starts: Sequence[Sequence[float]], crossings: int, level: Accuracy,
-                    most_steps: int) -> Points:
+                    most_steps: int) -> SectionPoints:
     """The first crossings of `body.plane` by each orbit, states as in `section_points`.
 
     most_steps : per orbit.  Raises `InvalidParameter`, `WorkLimit`.
@@ -279,13 +279,13 @@ def quartic_section(body: QuarticBody, starts: Sequence[Sequence[float]], crossi
                         "a smaller h, or I11 and I22 less different.") from None
 
 
-def spread_section(body: QuarticBody, orbits: int, crossings: int, level: Accuracy, most_steps: int) -> Points:
+def spread_section(body: QuarticBody, orbits: int, crossings: int, level: Accuracy, most_steps: int) -> SectionPoints:
     """The section of so many orbits, spread over what is possible of it: `quartic_section` from `seeds`."""
     return quartic_section(body, seeds(body, orbits), crossings, level, most_steps)
 
 
 @dataclass(frozen=True)
-class QuarticSection(Sheet):
+class QuarticSection(PoincareSection):
     """The section of a body at its energy, in (q, p) along the longer axis: canonical coordinates.
 
     Its methods raise as `QuarticBody`.

@@ -21,8 +21,8 @@ import numpy as np
 
 from hess_mechanics.dynamics.cells import Window, centres
 from hess_mechanics.dynamics.orbit import solve
-from hess_mechanics.dynamics.return_map import Sheet
-from hess_mechanics.dynamics.section import MAX_STEPS, Plane, Points, section_points
+from hess_mechanics.dynamics.return_map import PoincareSection
+from hess_mechanics.dynamics.section import MAX_STEPS, Plane, SectionPoints, section_points
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.numerics.accuracy import DRAFT, Accuracy
@@ -176,7 +176,7 @@ def seeds(body: SuslovBody, E: float, k: int, window: Sequence[float], count: in
 
 
 def suslov_points(body: SuslovBody, k: int, starts: Sequence[Sequence[float]], crossings: int, forward: bool,
-                  level: Accuracy, threads: int = THREADS, most_steps: int = MAX_STEPS) -> Points:
+                  level: Accuracy, threads: int = THREADS, most_steps: int = MAX_STEPS) -> SectionPoints:
     """The first `crossings` crossings of γ_k = 0 by each orbit, forward or backward in time, as in `section_points`.
 
     Raises `InvalidParameter`, `WorkLimit`.
@@ -210,7 +210,7 @@ def mean_divergence(body: SuslovBody, start: Sequence[float], span: float, count
 
 
 @dataclass(frozen=True)
-class SuslovSection(Sheet):
+class SuslovSection(PoincareSection):
     """The section γ_k = 0 of a body at E = h.  Its methods raise `InvalidParameter`."""
 
     body: SuslovBody

@@ -18,7 +18,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from hess_mechanics.dynamics.return_map import Sheet
+from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.section import Plane
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.numerics.results import Array, Mask
@@ -29,7 +29,7 @@ __all__ = ["TorusSection"]
 
 
 @dataclass(frozen=True)
-class TorusSection(Sheet):
+class TorusSection(PoincareSection):
     """The section of the torus (h, f) of the reduced equations with this a, units b = 1, in φ.
 
     Raises `OutsideRegion`, `Separatrix`, `InvalidParameter` where there is no torus.

@@ -25,10 +25,10 @@ from hess_explorer.views.poisson_sphere import along_the_orbit
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.orbit_diagram import Cascade
 from hess_mechanics.dynamics.parameter_diagram import AtState, Sets, at_state, sets_of
-from hess_mechanics.dynamics.return_map import Sheet
+from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.errors import OutsideRegion
 from hess_mechanics.numerics.accuracy import Computation
-from hess_mechanics.numerics.results import Array, Section, frozen
+from hess_mechanics.numerics.results import Array, SectionCrossings, frozen
 from hess_mechanics.rigid_body.inertia import check_body
 from hess_mechanics.rigid_body.reversal import rate, reversals
 
@@ -39,7 +39,7 @@ _MANY = 24
 _WINDOW = ((-math.pi, 0.0), (math.pi, math.pi))
 
 
-class _Equator(Sheet, Protocol):
+class _Equator(PoincareSection, Protocol):
     """A section γ3 = 0 in (ψ, δ)."""
 
     def __hash__(self) -> int: ...
@@ -118,7 +118,7 @@ class Attracted(Continued):
         return self.work.later(at_state, self.section, self.place, 500, 1500, t, self.plan(Computation.SECTION).level)
 
     @cached_property
-    def turned(self) -> Section:
+    def turned(self) -> SectionCrossings:
         """The moments of reversal of the orbit on show."""
         return self.work.get(reversals, self._scene.body, self.start, self.span, self.level)
 

@@ -20,7 +20,7 @@ from hess_explorer.views.branch import bifurcations
 from hess_explorer.views.text import conjugates, digits, power
 from hess_mechanics.dynamics.continuation import Bifurcation, Branch, continued, gone_on
 from hess_mechanics.dynamics.periodic import Map, apart, find_periodic
-from hess_mechanics.dynamics.return_map import ReturnMap, Sheet
+from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.accuracy import PRECISE
@@ -60,10 +60,10 @@ class Family:
         """About a state; names : of all that the section depends on."""
         return cls(type(state), name, symbol, tuple((one, getattr(state, one)) for one in names if one != name))
 
-    def __call__(self, value: float) -> Sheet:
+    def __call__(self, value: float) -> PoincareSection:
         """The section at a value of the parameter.  Raises `ModelError`."""
         state: Any = self.state  # its fields are known only where the scene declares its parameters
-        found: Sheet = state(**dict(self.others), **{self.name: value}).section
+        found: PoincareSection = state(**dict(self.others), **{self.name: value}).section
         return found
 
     def map_at(self, value: float) -> ReturnMap:

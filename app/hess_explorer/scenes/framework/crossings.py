@@ -20,7 +20,7 @@ from hess_explorer.views.comparison import Frame, Marks
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.section_plane import joined
 from hess_mechanics.dynamics.sampling import PIXELS
-from hess_mechanics.dynamics.section import Points
+from hess_mechanics.dynamics.section import SectionPoints
 from hess_mechanics.dynamics.shadowing import right_crossings, typical
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import Computation, Level, Plan
@@ -38,8 +38,8 @@ _ON = 1e-9
 class _Crossed:
     """Crossings of the orbit on show and of the others; None where they are left out, for that reason."""
 
-    own: Points | None
-    others: Points | None
+    own: SectionPoints | None
+    others: SectionPoints | None
     reason: str
 
 
@@ -89,7 +89,7 @@ class Crossings(Indicated):
             min(self.wanted, _FEW), self.wanted))
         mine = few[0] if self.dragging else whole[0]
         try:
-            own: Points = self.work.get(mine.function, *mine.arguments)
+            own: SectionPoints = self.work.get(mine.function, *mine.arguments)
             return _Crossed(own, self.work.sooner(whole[1], few[1]), "")
         except WorkLimit as error:
             return _Crossed(None, None, f"The section is left out: {error}")
@@ -125,7 +125,7 @@ class Crossings(Indicated):
         """Places (n, 2) of the others; None where the section is left out."""
         return self._places(self._crossed.others)
 
-    def _places(self, points: Points | None) -> Array | None:
+    def _places(self, points: SectionPoints | None) -> Array | None:
         if points is None:
             return None
         first = self.first_shown(max(map(len, points.states), default=0))

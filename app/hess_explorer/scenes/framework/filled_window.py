@@ -27,7 +27,7 @@ from hess_explorer.views.plot import Plot
 from hess_explorer.views.section_plane import joined
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.lyapunov import Exponent, largest_exponent
-from hess_mechanics.dynamics.return_map import Sheet
+from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.shadowing import right_crossings, typical
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
@@ -50,7 +50,7 @@ T = TypeVar("T")
 Place = tuple[float, float]
 
 
-class _Section(Sheet, Protocol):
+class _Section(PoincareSection, Protocol):
     def spread(self, window: Window, count: int) -> tuple[Start, ...]:
         """At most `count` states, spread over what is possible of the window."""
 

@@ -25,7 +25,7 @@ from hess_explorer.views.section_plane import joined
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, doubling_seen
 from hess_mechanics.dynamics.parameter_diagram import diagram, doublings, nearest_place
-from hess_mechanics.dynamics.return_map import Sheet
+from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.numerics.accuracy import Computation
 from hess_mechanics.numerics.results import Array
 
@@ -88,7 +88,7 @@ class OverParameter(State):
 
     @property
     @abstractmethod
-    def section(self) -> Sheet:
+    def section(self) -> PoincareSection:
         """The section.  Raises `ModelError`."""
 
     @property

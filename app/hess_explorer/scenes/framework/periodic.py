@@ -19,7 +19,7 @@ from hess_explorer.scenes.framework.periodic_search import (
     MOST_POINTS,
     NONE,
     PERIODS,
-    Branch,
+    BranchChoice,
     Closed,
     Missed,
     Place,
@@ -32,9 +32,9 @@ from hess_explorer.scenes.framework.scene import Preset
 from hess_explorer.views import periodic as view
 from hess_explorer.views.layers import Layer
 from hess_explorer.views.text import conjugates, digits, power
-from hess_mechanics.dynamics.manifolds import Crossing, Manifold
+from hess_mechanics.dynamics.manifolds import Intersection, Manifold
 from hess_mechanics.dynamics.periodic import PeriodicOrbit
-from hess_mechanics.dynamics.return_map import ReturnMap, Sheet
+from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
 from hess_mechanics.numerics.accuracy import PRECISE, Status
 
 __all__ = ["NONE", "PeriodicOrbits", "layers", "length_of_manifolds", "plain", "which"]
@@ -76,7 +76,7 @@ class PeriodicOrbits(OneOrbit):
 
     @property
     @abstractmethod
-    def section(self) -> Sheet:
+    def section(self) -> PoincareSection:
         """The section.  Raises `ModelError`."""
 
     @property
@@ -145,7 +145,7 @@ class PeriodicOrbits(OneOrbit):
         return None if self.closed is None else [(float(x), float(y)) for x, y in self.closed.orbit.places]
 
     @property
-    def _drawn(self) -> tuple[Search, list[Branch], float] | None:
+    def _drawn(self) -> tuple[Search, list[BranchChoice], float] | None:
         """What the manifolds of a saddle are asked for by: the search, which branches, a pixel; None of no other."""
         orbit = self._saddle
         if orbit is None or self._search is None:
@@ -172,7 +172,7 @@ class PeriodicOrbits(OneOrbit):
         return [one for one in self._branches or () if isinstance(one, Manifold)]
 
     @cached_property
-    def _met(self) -> list[tuple[Crossing, ...]] | None:
+    def _met(self) -> list[tuple[Intersection, ...]] | None:
         """Where each unstable branch meets each stable one, when that is known of all."""
         if self._drawn is None or not self._branches:
             return None
@@ -183,7 +183,7 @@ class PeriodicOrbits(OneOrbit):
         return known if len(known) == len(found) else None
 
     @property
-    def homoclinic(self) -> list[Crossing]:
+    def homoclinic(self) -> list[Intersection]:
         """Where the drawn manifolds of a saddle cross for certain."""
         return [one for some in self._met or () for one in some if one.certain]
 

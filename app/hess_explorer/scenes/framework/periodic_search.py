@@ -8,21 +8,22 @@ from dataclasses import dataclass, replace
 
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.scenes.framework.one_orbit import Start
-from hess_mechanics.dynamics.manifolds import Crossing, Manifold, crossings_of, grown
+from hess_mechanics.dynamics.manifolds import Intersection, Manifold, crossings_of, grown
 from hess_mechanics.dynamics.periodic import PeriodicOrbit, find_periodic
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.patience import go_on
 
 __all__ = [
-    "ANY", "AT_ITS_LENGTH", "MOST_CROSSINGS", "MOST_POINTS", "NONE", "PERIODS", "Branch", "Closed", "Missed", "Place",
+    "ANY", "AT_ITS_LENGTH", "MOST_CROSSINGS", "MOST_POINTS", "NONE", "PERIODS", "BranchChoice", "Closed", "Missed",
+    "Place",
     "Search", "branch_of", "crossings_between", "sought",
 ]
 
 Place = tuple[float, ...]
 Search = tuple[ReturnMap, Place, int | None, bool]
 """The map, where it is begun, the period where one is given, and whether that is all that is tried."""
-Branch = tuple[int, bool, int]
+BranchChoice = tuple[int, bool, int]
 """Of a manifold: from which of the places of the orbit, whether stable, which side."""
 
 NONE, ANY = "none", "any period"
@@ -69,7 +70,7 @@ def sought(map_: ReturnMap, aim: Place, period: int | None, near: bool) -> Close
         return Missed(str(error))
 
 
-def branch_of(search: Search, branch: Branch, length: float, pixel: float) -> Manifold | Missed:
+def branch_of(search: Search, branch: BranchChoice, length: float, pixel: float) -> Manifold | Missed:
     """One branch of a manifold, as far as it is right to half a pixel."""
     found, _ = CACHE.get(sought, *search)
     place, stable, side = branch
@@ -85,8 +86,8 @@ def branch_of(search: Search, branch: Branch, length: float, pixel: float) -> Ma
     return Missed(_UNKNOWN)
 
 
-def crossings_between(search: Search, unstable: Branch, stable: Branch, length: float, pixel: float
-                      ) -> tuple[Crossing, ...]:
+def crossings_between(search: Search, unstable: BranchChoice, stable: BranchChoice, length: float, pixel: float
+                      ) -> tuple[Intersection, ...]:
     """Where two branches cross, as far as they are drawn."""
     one, other = (CACHE.get(branch_of, search, branch, length, pixel)[0] for branch in (unstable, stable))
     if isinstance(one, Missed) or isinstance(other, Missed):
