@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from nbclient import NotebookClient
 
-from hess_explorer import State
+from hess_explorer import SceneState
 from hess_explorer.__main__ import main
 from hess_explorer.export.code import code
 from hess_explorer.export.columns import columns_of
@@ -42,7 +42,7 @@ def link_of(name, number, **more):
 def test_the_lines_leave_what_is_exported_of_every_picture_of_every_preset(name, number, monkeypatch):
     drawn = []
     # Drawing has tests of its own, and takes as long as all the rest.
-    monkeypatch.setattr(State, "plot", lambda self, picture: drawn.append(picture))
+    monkeypatch.setattr(SceneState, "plot", lambda self, picture: drawn.append(picture))
     link = link_of(name, number)
     for view in scenes()[name].views:
         expected = columns_of(shown(link, view.name))
