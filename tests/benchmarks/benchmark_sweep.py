@@ -19,7 +19,7 @@ if __name__ == "__main__":
 import numpy as np
 from distributed import Client
 
-from hess_explorer.benchmark.machine import describe
+from benchmarks.integrators.machine import describe
 from hess_explorer.sweep import QUANTITIES, sweep, work, workers
 from hess_explorer.sweep.grid import SweepGrid
 from hess_explorer.sweep.result import Store

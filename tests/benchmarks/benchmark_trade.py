@@ -10,8 +10,8 @@ from pathlib import Path
 if __name__ == "__main__":
     sys.path[:0] = [str(Path(__file__).parents[1])]
 
-from hess_explorer.benchmark.machine import describe
-from hess_explorer.benchmark.trade import Failed, as_text, by_kind, costliest, heading, line_of, names, trade
+from benchmarks.integrators.machine import describe
+from benchmarks.integrators.trade import Failed, as_text, by_kind, costliest, heading, line_of, names, trade
 from support.measured import write_measured
 
 ROOT = Path(__file__).resolve().parents[2]

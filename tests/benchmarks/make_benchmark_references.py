@@ -1,4 +1,4 @@
-"""Make app/hess_explorer/benchmark/references.npz: `python tests/benchmarks/make_benchmark_references.py` (15 min).
+"""Make tests/benchmarks/integrators/references.npz: `python tests/benchmarks/make_benchmark_references.py` (15 min).
 
 Taylor series in fixed-point numbers: an integer c stands for c/2^bits.  Everything is computed twice, with other
 precision and order and so with other steps, and the two must agree to 1e-30.  Before that the same code must give the
@@ -17,10 +17,13 @@ from operator import mul
 from pathlib import Path
 from typing import Any
 
+if __name__ == "__main__":
+    sys.path[:0] = [str(Path(__file__).parents[1])]
+
 import mpmath
 import numpy as np
 
-from hess_explorer.benchmark.works import (
+from benchmarks.integrators.works import (
     FIELD_BODY,
     FREE_BODY,
     MAP_TORUS,

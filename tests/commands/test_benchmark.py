@@ -15,11 +15,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from benchmarks import bench as bench_command
 from benchmarks import make_benchmark_references as maker
-from hess_explorer.__main__ import main
-from hess_explorer.benchmark import run as benchmark
-from hess_explorer.benchmark.explorer import METHOD as EXPLORER
-from hess_explorer.benchmark.measure import (
+from benchmarks.integrators import run as benchmark
+from benchmarks.integrators.explorer import METHOD as EXPLORER
+from benchmarks.integrators.measure import (
     FULL,
     QUICK,
     Chosen,
@@ -31,14 +31,16 @@ from hess_explorer.benchmark.measure import (
     measure,
     race,
 )
-from hess_explorer.benchmark.method import OURS, Method, half_decades, named, short, version
-from hess_explorer.benchmark.peers import PEERS, load
-from hess_explorer.benchmark.peers.scipy_peer import METHOD as SCIPY
-from hess_explorer.benchmark.report import BenchmarkReport, as_json, as_text
-from hess_explorer.benchmark.scaling import Scaling, scaling
-from hess_explorer.benchmark.threads import shared
-from hess_explorer.benchmark.works import REFERENCES, works
+from benchmarks.integrators.method import OURS, Method, half_decades, named, short, version
+from benchmarks.integrators.peers import PEERS, load
+from benchmarks.integrators.peers.scipy_peer import METHOD as SCIPY
+from benchmarks.integrators.report import BenchmarkReport, as_json, as_text
+from benchmarks.integrators.scaling import Scaling, scaling
+from benchmarks.integrators.threads import shared
+from benchmarks.integrators.works import REFERENCES, works
+from hess_explorer.__main__ import main
 from hess_explorer.commands import CommandError
+from hess_explorer.commands import bench as bench_of_the_wheel
 from hess_explorer.scenes import scenes
 from hess_mechanics import LEVELS, circle_map, level, solve, systems
 from support.mechanics import ROOT
@@ -393,7 +395,7 @@ def test_the_json_holds_everything_and_is_strict():
 
 @pytest.mark.parametrize(("suffix", "begin"), [(".svg", b"<?xml"), (".png", b"\x89PNG")])
 def test_the_picture_is_a_picture(suffix, begin):
-    from hess_explorer.benchmark.picture import draw
+    from benchmarks.integrators.picture import draw
 
     assert draw(made_up(), suffix).startswith(begin)
 
@@ -440,11 +442,17 @@ def test_a_bad_option_gives_one_sentence(words, sentence, capsys):
 
 
 def test_a_picture_without_matplotlib_is_refused_before_measuring(monkeypatch):
-    from hess_explorer.commands import bench as command
-
-    monkeypatch.setattr(command, "find_spec", lambda name: None)
+    monkeypatch.setattr(bench_command, "find_spec", lambda name: None)
     with pytest.raises(CommandError, match=r"--picture needs Matplotlib"):
-        command._require_matplotlib()
+        bench_command._require_matplotlib()
+
+
+def test_without_the_sources_the_command_says_what_to_do(monkeypatch, tmp_path, capsys):
+    monkeypatch.setattr(bench_of_the_wheel, "_TESTS", tmp_path)
+    assert main(["bench"]) == 2
+    assert capsys.readouterr().err == (
+        "hess-explorer: The benchmark is not part of the package: in the folder of the sources, pip install -e "
+        "'.[bench]' and run the command again.\n")
 
 
 def test_the_trade_of_a_scene_is_measured_and_printed(capsys):

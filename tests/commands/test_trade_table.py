@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import pytest
 
+from benchmarks.integrators import trade as trade_of_scenes
+from benchmarks.integrators.trade import Row, _draft_computes, _example, by_kind, names
 from hess_explorer.__main__ import main
-from hess_explorer.benchmark import trade as trade_of_scenes
-from hess_explorer.benchmark.trade import Row, _draft_computes, _example, by_kind, names
 from hess_explorer.scenes import scenes
 from hess_mechanics import LEVELS
 from hess_mechanics.dynamics.trade import LevelCost

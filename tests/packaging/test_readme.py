@@ -13,16 +13,16 @@ from support.mechanics import ROOT
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 DOCUMENTS = [ROOT / name for name in (
-    "README.md", "app/README.md", "models/README.md", "app/hess_explorer/benchmark/README.md", "tests/models/README.md",
-    "tests/benchmarks/README.md", "app/hess_explorer/sweep/README.md", ".github/CONTRIBUTING.md",
-    ".github/CHANGELOG.md")]
+    "README.md", "app/README.md", "models/README.md", "tests/benchmarks/integrators/README.md",
+    "tests/models/README.md", "tests/benchmarks/README.md", "app/hess_explorer/sweep/README.md",
+    ".github/CONTRIBUTING.md", ".github/CHANGELOG.md")]
 MEASURED = {
     "tests/models/README.md": "tests/models/test_extremes.py",
     "tests/benchmarks/README.md": "tests/benchmarks/benchmark_page.py",
     "app/README.md": "tests/benchmarks/benchmark_trade.py",
     "app/hess_explorer/scenes/speed_accuracy.md": "tests/benchmarks/benchmark_trade.py",
     "app/hess_explorer/scenes/speed_accuracy_of_maps.md": "tests/benchmarks/benchmark_trade.py",
-    "app/hess_explorer/benchmark/README.md": "tests/benchmarks/benchmark_peers.py",
+    "tests/benchmarks/integrators/README.md": "tests/benchmarks/benchmark_peers.py",
     "app/hess_explorer/sweep/README.md": "tests/benchmarks/benchmark_sweep.py",
 }
 

@@ -7,7 +7,7 @@ import re
 import numpy as np
 import pytest
 
-from hess_explorer.benchmark.trade import Row, as_json, as_text, costliest, names
+from benchmarks.integrators.trade import Row, as_json, as_text, costliest, names
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.protocol.parameters import decode
 from hess_explorer.protocol.wire import Wire

@@ -1,131 +1,30 @@
-"""`hess-explorer bench`: speed beside other integrators, at the same measured error; and of the accuracy levels."""
+"""`hess-explorer bench`: speed beside other integrators, measured by the scripts in tests/benchmarks."""
 
 from __future__ import annotations
 
 import argparse
-import json
 import sys
-from importlib.util import find_spec
+from importlib import import_module
 from pathlib import Path
 
 from . import CommandError
-from .arguments import number, shown
-from .output import show, write_file
 
 __all__ = ["add"]
 
-_WORKS = ("A", "A2", "B", "B2", "C", "D")
-_PICTURES = (".svg", ".png")
+_TESTS = Path(__file__).resolve().parents[3] / "tests"
 
 
 def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
-    parser = commands.add_parser(
-        "bench", help="speed beside other integrators, at the same measured error",
-        description="Do the same works with this project and with the other integrators that are installed (pip "
-                    "install 'hess-explorer[bench]'), measure each result's error against stored exact ones, and time "
-                    "the cheapest setting of each that keeps the error asked for.  Some minutes; the table goes to "
-                    "standard output.",
-        epilog="Example: hess-explorer bench --works A,C --targets 1e-6,1e-9 --picture bench.svg")
-    parser.add_argument("--works", type=_works, default=_WORKS, metavar="LIST",
-                        help="from A,A2,B,B2,C,D (default: all)")
-    parser.add_argument("--targets", type=_targets, default=(1e-3, 1e-6, 1e-9, 1e-12), metavar="LIST",
-                        help="largest errors (default 1e-3,1e-6,1e-9,1e-12)")
-    parser.add_argument("--quick", action="store_true", help="few repeats: a trial, not a measurement")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write everything measured to this file")
-    parser.add_argument("--trade", action="store_true",
-                        help="instead: cost and error of each accuracy level, for what each scene computes")
-    parser.add_argument("--scenes", type=_scenes, metavar="LIST", help="with --trade: of these scenes (default: all)")
-    parser.add_argument("--format", choices=("text", "json"), default="text",
-                        help="with --trade: a table (default), or scene, kind, level, ms, error as JSON")
-    parser.add_argument("--picture", type=_picture, metavar="FILE", help="draw time over error (.svg or .png)")
-    parser.set_defaults(run=_run)
-
-
-def _works(text: str) -> tuple[str, ...]:
-    names = tuple(text.split(","))
-    for name in names:
-        if name not in _WORKS:
-            raise argparse.ArgumentTypeError(f"{shown(name)} is not a work; choose from {','.join(_WORKS)}")
-    return tuple(name for name in _WORKS if name in names)
-
-
-def _scenes(text: str) -> tuple[str, ...]:
-    from hess_explorer.benchmark.trade import names
-
-    found, known = tuple(text.split(",")), names()
-    for name in found:
-        if name not in known:
-            raise argparse.ArgumentTypeError(f"{shown(name)} is not a scene; choose from {','.join(known)}")
-    return found
-
-
-def _targets(text: str) -> tuple[float, ...]:
-    targets = {number(part) for part in text.split(",")}
-    if min(targets) <= 0.0:
-        raise argparse.ArgumentTypeError(f"{shown(text)} has an error that is not positive; write it like 1e-6,1e-9")
-    return tuple(sorted(targets, reverse=True))
-
-
-def _picture(text: str) -> Path:
-    path = Path(text)
-    if path.suffix not in _PICTURES:
-        raise argparse.ArgumentTypeError(f"{shown(text)} is not a picture; end the name in {' or '.join(_PICTURES)}")
-    return path
-
-
-def _progress(text: str) -> None:
-    print(f"{text} …", file=sys.stderr, flush=True)
-
-
-def _run_trade(options: argparse.Namespace) -> None:
-    from hess_explorer.benchmark.trade import Failed, Row, as_json, by_kind, heading, line_of, names, trade
-
-    in_text = options.format == "text"
-    if in_text:
-        show(heading().encode())
-    rows: list[Row] = []
-    failed: list[Failed] = []
-    for row in trade(options.scenes or names(), 1 if options.quick else 3, _progress):
-        if isinstance(row, Row):
-            rows.append(row)
-        else:
-            failed.append(row)
-        # At once: minutes of measuring are not lost with what fails later.
-        if in_text:
-            show(line_of(row).encode())
-    show((f"\n{by_kind(rows)}" if in_text else _json(as_json(rows))).encode())
-    if failed:
-        raise CommandError("; ".join(f"{one.scene}: {one.kind} could not be measured ({one.why})" for one in failed))
-
-
-def _json(value: object) -> str:
-    return json.dumps(value, ensure_ascii=False, allow_nan=False, indent=1) + "\n"
-
-
-def _run(options: argparse.Namespace) -> None:
-    if options.trade:
-        _run_trade(options)
+    parser = commands.add_parser("bench", help="speed beside other integrators, at the same measured error")
+    if not (_TESTS / "benchmarks" / "bench.py").is_file():
+        parser.set_defaults(run=_refuse)
         return
-    from hess_explorer.benchmark.threads import one_each
-
-    one_each()
-    if options.picture is not None:
-        # Better now than after minutes of measuring.
-        _require_matplotlib()
-    from hess_explorer.benchmark.report import as_json, as_text
-    from hess_explorer.benchmark.run import run
-
-    report = run(options.works, options.targets, options.quick, _progress)
-    show(as_text(report).encode())
-    if options.json is not None:
-        write_file(options.json, _json(as_json(report)).encode())
-    if options.picture is not None:
-        from hess_explorer.benchmark.picture import draw
-
-        write_file(options.picture, draw(report, options.picture.suffix))
+    if str(_TESTS) not in sys.path:
+        sys.path.append(str(_TESTS))
+    import_module("benchmarks.bench").declare(parser)
 
 
-def _require_matplotlib() -> None:
-    if find_spec("matplotlib") is None:
-        raise CommandError("--picture needs Matplotlib: pip install 'hess-explorer[bench]'.")
+def _refuse(options: argparse.Namespace) -> None:
+    raise CommandError("The benchmark is not part of the package: in the folder of the sources, pip install -e "
+                       "'.[bench]' and run the command again.")
