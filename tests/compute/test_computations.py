@@ -471,8 +471,8 @@ def test_another_unit_of_the_same_motion_changes_the_pixels_only(cache):
 def test_what_nobody_sees_is_not_measured(cache, seen):
     study = compute(ACCURACY, SHORT, seen)
     assert cache.take() == needed_for_study(seen)
-    assert (study.known("measured") is None) == ("precision" not in seen)
-    assert (study.known("growing") is None) == (not seen - NOT_OVER_TIME)
+    assert ("measured" in vars(study.precision)) == ("precision" in seen)
+    assert ("growing" in vars(study.precision)) == bool(seen - NOT_OVER_TIME)
 
 
 @every_subset_of_the_study
@@ -520,9 +520,9 @@ def test_over_a_long_span_scipy_is_left_out_and_the_page_says_so(cache):
 def test_levels_of_accuracy_do_not_follow_a_drag_here(cache):
     """Every level is on show: a drag may leave none out."""
     study = compute(ACCURACY, {**SHORT, "accuracy": "reference"}, dragging=True)
-    assert [point.setting for point in study.measured] == ["draft", "standard", "precise", "reference"]
-    assert set(study.growing.errors) == {"draft", "standard", "precise", "reference"}
-    assert study.chosen == "reference"
+    assert [point.setting for point in study.precision.measured] == ["draft", "standard", "precise", "reference"]
+    assert set(study.precision.growing.errors) == {"draft", "standard", "precise", "reference"}
+    assert study.work.chosen == "reference"
 
 
 # --- Through a session -------------------------------------------------------------------------------------

@@ -543,7 +543,8 @@ def test_a_click_on_the_cost_of_a_level_chooses_it(study):
 # --- What cannot be computed -------------------------------------------------------------------------
 
 REFUSING = """
-from hess_explorer.scenes import speed_accuracy, suslov_hess
+from hess_explorer.scenes import suslov_hess
+from hess_explorer.scenes.parts import precision
 from hess_mechanics.errors import WorkLimit
 
 
@@ -555,7 +556,7 @@ def refusing(function, span):
     return refuse
 
 
-speed_accuracy.mechanics.growth = refusing(speed_accuracy.mechanics.growth, 3)
+precision.mechanics.growth = refusing(precision.mechanics.growth, 3)
 suslov_hess.track = refusing(suslov_hess.track, 4)
 """ + UNWARMED[1]
 """The server, of which nobody enters another scene than these two."""

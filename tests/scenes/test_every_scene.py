@@ -23,9 +23,10 @@ from hess_explorer.compute.background import Background
 from hess_explorer.page import session
 from hess_explorer.page.description import describe
 from hess_explorer.protocol.parameters import Number, Places, decode, written
-from hess_explorer.scenes import speed_accuracy, suslov_hess
+from hess_explorer.scenes import suslov_hess
 from hess_explorer.scenes.framework.parameters import number
 from hess_explorer.scenes.framework.scene import Report, Scene
+from hess_explorer.scenes.parts import precision
 from hess_explorer.views import theme
 from hess_explorer.views.text import with_formulas
 from hess_mechanics import circle_map, f_max, level
@@ -576,7 +577,7 @@ def test_a_body_that_is_none_is_shown_and_said():
 def browser():
     with pytest.MonkeyPatch.context() as patch:
         # Many states of "Speed and accuracy" are met here: without SciPy's methods.
-        patch.setattr(speed_accuracy.mechanics, "others_take_long", lambda *_: True)
+        patch.setattr(precision.mechanics, "others_take_long", lambda *_: True)
         yield Browser(HESS)
 
 
@@ -790,7 +791,7 @@ def test_two_sessions_share_nothing_but_results():
 @pytest.fixture
 def quick(monkeypatch):
     """Without the methods of SciPy."""
-    monkeypatch.setattr(speed_accuracy.mechanics, "others_take_long", lambda *_: True)
+    monkeypatch.setattr(precision.mechanics, "others_take_long", lambda *_: True)
 
 
 def unfolded(scene, sources):

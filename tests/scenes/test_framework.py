@@ -11,9 +11,9 @@ import pytest
 
 from hess_explorer.scenes.framework.crossings import Crossings
 from hess_explorer.scenes.framework.filled_window import FilledWindow
-from hess_explorer.scenes.framework.looking_into import Insight, LookingInto
 from hess_explorer.scenes.framework.parameters import accuracy_level, like, number, specs_of
 from hess_explorer.scenes.framework.scene import Motion, Scene, State
+from hess_explorer.scenes.speed_accuracy import speed_and_accuracy
 from hess_mechanics import systems
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.suslov_hess.torus import annulus
@@ -75,25 +75,17 @@ class Shown(Mixed):
                       (1.0,) * 5)
 
 
-@dataclass(frozen=True)
-class Looking(Insight):
-    """A state that looks into it."""
-
-    def derived(self) -> list[str]:
-        """Of the one that looks."""
-        return [f"{self.chosen} {self.shown_motion.span:g}"]
-
-
 def test_no_name_of_a_scene_hides_one_of_the_scene_that_looks_into_it():
     shown = Scene(Shown, "/shown.py", "", "", (), ())
-    looking = LookingInto(Looking, "/looking.py", "", "", (), (), other=shown)
+    looking = speed_and_accuracy(shown)
     # With one kind of computation there is none to choose.
     assert (looking.name, looking.origin, looking.specs) == ("shown-accuracy", "shown", shown.specs)
     assert shown.has_motion
     assert not looking.has_motion
     values = {**looking.defaults(), "first": 1.5, "accuracy": "precise"}
     state = looking.of(values, seen=["a"], dragging=True)
-    assert state.derived() == ["precise 1.5"]
+    assert [*state.status()] == ["precise chosen"]
+    assert state.precision.motion.span == 1.5
     assert (state.shown.chosen, state.shown.derived()) == ("mine", ["mine"])
     assert state.work is state.shown.work
     assert (state.dragging, state.seen) == (True, frozenset({"a"}))

@@ -197,14 +197,15 @@ def test_the_cost_of_all_is_measured_when_its_picture_is_unfolded():
     scene = scenes()["scattering-accuracy"]
     assert scene.folded == {"trade": "Measure all that is computed", "difference": "Show what more accuracy changes"}
     state, report = completed(scene, {}, ("trade",))
-    samples = state.costs[Computation.MAP]
-    errors, ms = state.cost_of(Computation.MAP)
+    trial = next(one for one in state.trials if one.kind == Computation.MAP)
+    samples = state.costs.samples[trial]
+    errors, ms = state.costs.curve(trial)
     assert errors == pytest.approx([max(2.0 * one.error, 1e-9) for one in samples])
     assert ms == pytest.approx([one.ms for one in samples])
     assert any(row.startswith("map: ") and row.endswith(" pixels") for row in report.derived)
     # A draft of the map has a quarter of the cells: it is right, but not all.
     assert samples[0].error < 0.5
-    assert state.about_costs() == "Enough to the eye: orbit draft, map standard."
+    assert state.costs.about() == "Enough to the eye: orbit draft, map standard."
 
 
 def test_what_is_too_large_to_be_measured_or_compared_says_so_and_leaves_no_axes_of_before():
@@ -221,9 +222,9 @@ def test_what_is_too_large_to_be_measured_or_compared_says_so_and_leaves_no_axes
     assert max(shown(points="1000", h=3.0)[2]) > 1.5
     state, report, axes = shown(h=60.0, span=200.0)
     why = "In this time the cloud turns too often for 30 frames: choose a time span below "
-    assert state.about_costs().startswith(f"Cloud cannot be measured: {why}")
-    assert state.about_difference().startswith(why)
-    assert state.difference_message() == "The cloud cannot be compared"
+    assert state.costs.about().startswith(f"Cloud cannot be measured: {why}")
+    assert state.comparison.about().startswith(why)
+    assert state.comparison.message() == "The cloud cannot be compared"
     assert (report.todo, axes) == ((), [-1.0, 1.0, -1.0, 1.0])
 
 
@@ -253,21 +254,21 @@ def test_the_cells_that_change_are_those_of_the_finer_grid_with_another_colour()
     coarse, fine = np.kron(found["draft"], np.ones((2, 2))), found["standard"]
     changed = (np.abs(coarse - fine) > 1.0 / 256.0) | (np.isnan(coarse) ^ np.isnan(fine))
     nothing = np.isnan(coarse) & np.isnan(fine)
-    assert np.array_equal(state.changes.cells, np.where(nothing, -1.0, changed))
+    assert np.array_equal(state.comparison.found.cells, np.where(nothing, -1.0, changed))
     share = 100.0 * changed[~nothing].mean()
     assert 3.0 < share < 12.0
-    assert float(re.search(r"([\d.]+) % of the cells change\.", state.about_difference())[1]) == (
+    assert float(re.search(r"([\d.]+) % of the cells change\.", state.comparison.about())[1]) == (
         pytest.approx(share, rel=0.05))
     assert "difference" in scenes()["rotation-number-accuracy"].open_pictures
     # Of the same cells more digits change none.
     state, _ = difference("rotation-number", "grid", "standard")
-    assert state.about_difference() == "No cell changes."
-    assert not state.changes.cells.max()
+    assert state.comparison.about() == "No cell changes."
+    assert not state.comparison.found.cells.max()
 
 
 def test_the_points_that_move_are_those_of_the_finer_run_that_lie_elsewhere():
     state, report = difference("suslov", "section", "draft", **SMALL)
-    section, shown = SUSLOV.of({**SUSLOV.defaults(), **SMALL}), state.changes
+    section, shown = SUSLOV.of({**SUSLOV.defaults(), **SMALL}), state.comparison.found
     starts, away, longer = [section.start, *section.section.spread(section.frame, 12)], [], 0
     for forward, some in ((True, starts), (False, starts[1:])):
         coarse, fine = (suslov_points(section.body, 3, some, count, forward, PLANS[Computation.SECTION][name].level,
@@ -283,28 +284,28 @@ def test_the_points_that_move_are_those_of_the_finer_run_that_lie_elsewhere():
     first = [int(np.argmax(one > 0.5)) + 1 for one in away if one.max() > 30.0]
     assert len(first) > 15
     said = f"chaos takes {len(shown.lost)} of {len(away)} orbits, from crossing {min(first)}."
-    assert state.about_difference().endswith(said)
+    assert state.comparison.about().endswith(said)
     assert len(shown.lost) >= len(first)
     assert any(row.startswith("Lost to chaos between draft and standard") for row in report.derived)
 
 
 def test_of_a_regular_motion_nothing_moves():
     state, _ = difference("quartic", "section", "standard", ratio=1.0, h=0.6)
-    assert len(state.changes.changed) == len(state.changes.lost) == 0
-    assert len(state.changes.same) > 4000
-    assert state.about_difference().startswith("Nothing moves by more than ")
+    assert len(state.comparison.found.changed) == len(state.comparison.found.lost) == 0
+    assert len(state.comparison.found.same) > 4000
+    assert state.comparison.about().startswith("Nothing moves by more than ")
 
 
 def test_there_is_nothing_beyond_the_last_level_and_nothing_of_what_is_not_shown():
     state, report = difference("scattering", "map", "reference")
-    assert state.changes is None
+    assert state.comparison.found is None
     assert report.todo == ()
-    assert state.about_difference() == "Nothing is more exact than reference: nothing to compare it with."
+    assert state.comparison.about() == "Nothing is more exact than reference: nothing to compare it with."
     state, _ = difference("suslov", "basins", "draft")
-    assert state.about_difference() == "The scene shows no basins now."
+    assert state.comparison.about() == "The scene shows no basins now."
     scene = scenes()["scattering-accuracy"]
     held = scene.compute({**scene.defaults(), "accuracy": "draft"}, ("difference",), True)
-    assert (held.changes, held.about_difference()) == (None, "It is found when a slider is let go.")
+    assert (held.comparison.found, held.comparison.about()) == (None, "It is found when a slider is let go.")
 
 
 def test_what_is_compared_is_one_of_the_kinds_the_costliest_at_first():

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from typing import Any, ClassVar, Generic, TypeVar
+from dataclasses import dataclass, fields, replace
+from typing import Any, ClassVar, Generic, TypeVar, cast
 
-from hess_explorer.views.layers import Axes, Columns, Sign
+from hess_explorer.views.layers import Axes, Columns, Layer, Sign
 
 __all__ = ["Corners", "Picture", "Values"]
 
 S = TypeVar("S")
+H = TypeVar("H")
 Values = Mapping[str, float | str]
 Corners = tuple[float, float, float, float]
 """x0, y0, x1, y1 of two opposite corners."""
@@ -46,6 +47,10 @@ class Picture(ABC, Generic[S]):
 
     kind: ClassVar[str]
     """Who draws it in the browser: "plot" is Bokeh, the others draw on canvases of their own."""
+
+    def of_part(self, part: Callable[[H], S]) -> Picture[H]:
+        """The same picture of a state that holds what is shown as a part of it."""
+        return cast("Picture[H]", _of_part(self, part))
 
     @property
     def needs(self) -> frozenset[str]:
@@ -107,3 +112,12 @@ class Picture(ABC, Generic[S]):
         """The title and the caption."""
         title = self.title if isinstance(self.title, str) else self.title(state)
         return f"{title}\n{self.caption(state)}"
+
+
+def _of_part(shown: Any, part: Callable[[Any], Any]) -> Any:
+    """Turn functions of a part into functions of the state that holds it: in a picture, a layer, or one field."""
+    if isinstance(shown, Picture | Layer):
+        return replace(shown, **{one.name: _of_part(getattr(shown, one.name), part) for one in fields(shown)})
+    if isinstance(shown, tuple):
+        return tuple(_of_part(one, part) for one in shown)
+    return (lambda state, *mouse: shown(part(state), *mouse)) if callable(shown) else shown

@@ -12,7 +12,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import oracle
-from hess_explorer.scenes import scenes, speed_accuracy
+from hess_explorer.scenes import scenes
+from hess_explorer.scenes.parts import precision
 from hess_mechanics import HessBody, systems
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.sampling import PIXELS
@@ -299,7 +300,7 @@ def study(accuracy="standard", motion=MOTION, points=WORK, errors=None):
     """A state of the scene with results that are made up, and what is drawn of them."""
     seen = ACCURACY.pictures if errors is not None else ("precision",)
     state = ACCURACY.of({**ACCURACY.defaults(), "accuracy": accuracy}, seen)
-    vars(state).update(followed=motion, measured=points, **({} if errors is None else {"growing": errors}))
+    vars(state.precision).update(followed=motion, measured=points, **({} if errors is None else {"growing": errors}))
     return ACCURACY.draw(state)
 
 
@@ -354,7 +355,7 @@ def test_the_caption_of_the_cost_compares_with_what_is_as_exact(accuracy, said):
 
 def test_without_scipy_the_caption_compares_with_nobody_and_the_reason_is_a_note(monkeypatch):
     assert list(shown()[2].notes) == []
-    monkeypatch.setattr(speed_accuracy.mechanics, "others_take_long", lambda *_: True)
+    monkeypatch.setattr(precision.mechanics, "others_take_long", lambda *_: True)
     _, captions, report = shown(points=WORK[:4])
     assert captions["precision"] == "Cost against error\nstandard: 2 ms, error 3e−07."
     assert [note.split(":")[0] for note in report.notes] == ["SciPy's methods are left out"]
@@ -457,8 +458,8 @@ def test_a_span_that_would_take_seconds_is_cut_with_a_note():
     assert longest * Problem.of(motion.system, motion.state, motion.parameters).nu == pytest.approx(5000.0)
     free = scenes()["free-suslov"]
     long = scenes()["free-suslov-accuracy"].compute({**free.defaults(), "w1": 1e3, "span": 1e5}, {"growth"}, False)
-    assert long.followed.span < 1e3
-    assert long.growing.times[-1] == pytest.approx(long.followed.span)
+    assert long.precision.followed.span < 1e3
+    assert long.precision.growing.times[-1] == pytest.approx(long.precision.followed.span)
     (note,) = long.notes()
     assert note.startswith("Measured up to t = ")
 
@@ -496,7 +497,8 @@ def test_a_click_on_the_point_of_a_level_chooses_that_level():
     study = ACCURACY.compute(ACCURACY.defaults(), {"precision"}, True)
     board.show(study)
     stage = board.stage
-    chosen = [stage.pick("precision", max(point.error, 1e-17), point.ms) for point in study.measured[: len(LEVELS)]]
+    levels = study.precision.measured[: len(LEVELS)]
+    chosen = [stage.pick("precision", max(point.error, 1e-17), point.ms) for point in levels]
     assert chosen == [{"accuracy": name} for name in LEVELS]
 
 
