@@ -45,7 +45,8 @@ def field(tab):
 
 def start_of(values):
     """The exact start of the chosen orbit, of which the browser has single precision."""
-    return (BALL if "theta" in values else SECTION).compute(values, ("sphere",), False).orbit.states[0]
+    state = (BALL if "theta" in values else SECTION).compute(values, ("sphere",), False)
+    return (state.orbit if "theta" in values else state.orbit.path).states[0]
 
 
 def points(explorer, source):

@@ -275,7 +275,7 @@ def test_the_chosen_orbit_and_its_points_are_those_of_the_energy_in_the_caption(
     values = view.values
     E = values["h"] - math.hypot(values["b1"], values["b2"])
     assert view.numbers("omega", "E = #.") == [shown(E)]
-    orbit = view.result.orbit
+    orbit = view.result.orbit.path
     assert energy_of(values, orbit.states) == pytest.approx(np.full(len(orbit.times), E), abs=2e-6)
     start = orbit.states[0]
     # Next to the chosen place, or there.
@@ -324,7 +324,7 @@ def test_the_numbers_in_the_caption_of_the_section_are_those_of_its_points(name)
     if plain:
         assert np.ptp(own, axis=0) == pytest.approx([0.0, 0.0], abs=1e-4)
     if symmetric:
-        states = view.result.orbit.states
+        states = view.result.orbit.path.states
         area = states[:, 0] * states[:, 2] + states[:, 1] * states[:, 3]
         assert np.ptp(area) <= 1e-5
         assert view.derived("ω₁γ₁ + ω₂γ₂ = #, an integral") == pytest.approx([area[0]], abs=1e-5)
@@ -340,7 +340,7 @@ def test_closed_regular_and_chaotic_examples_look_it():
     assert min(cells["Mixed"], cells["sea nearly"]) > 80
     assert cells["Strange"] < 40
     view = by_word["Regular"]
-    start = view.result.orbit.states[0]
+    start = view.result.orbit.path.states[0]
     (returned,) = angles(first_returns(view.values, start, 1))
     turn = returned[0] - view.values["psi"]
     # A rotation by this turn: all points follow from it.
@@ -349,8 +349,8 @@ def test_closed_regular_and_chaotic_examples_look_it():
         psi = view.values["psi"] + (k + 1) * turn
         assert math.remainder(own[k, 0] - psi, 2.0 * math.pi) == pytest.approx(0.0, abs=1e-3)
     view = by_word["closes"]
-    assert first_returns(view.values, view.result.orbit.states[0], 1)[0] == pytest.approx(
-        view.result.orbit.states[0], abs=1e-8)
+    assert first_returns(view.values, view.result.orbit.path.states[0], 1)[0] == pytest.approx(
+        view.result.orbit.path.states[0], abs=1e-8)
 
 
 @pytest.mark.parametrize("start", [0.05, 1.0, -2.0])
@@ -380,7 +380,7 @@ def test_where_the_energy_forbids_a_place_the_start_moves_to_the_edge_and_it_is_
 @pytest.mark.parametrize("dragging", [False, True])
 def test_what_is_extreme_is_drawn(values, dragging):
     view = View(SECTION, values, dragging)
-    orbit = view.result.orbit
+    orbit = view.result.orbit.path
     E = view.values["h"] - math.hypot(view.values["b1"], view.values["b2"])
     assert np.max(np.abs(energy_of(view.values, orbit.states) - E)) <= 2e-3 * (1.0 + abs(E))
     for name in ("data-orbit", "section-own", "section-others"):

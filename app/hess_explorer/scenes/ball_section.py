@@ -3,45 +3,44 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
 
 import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values
-from hess_explorer.scenes.framework.branched import (
-    Branched,
+from hess_explorer.scenes.framework import ball_parameters as ball
+from hess_explorer.scenes.framework.charted import exponents
+from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number, parameter, time_span
+from hess_explorer.scenes.framework.part import Host, Part
+from hess_explorer.scenes.framework.periodic_search import Closed
+from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
+from hess_explorer.scenes.framework.solid_body import Constrained, constrained_body
+from hess_explorer.scenes.parts.branch import (
+    Branch,
     branch_picture,
     coordinate_of_branch,
     end_of_branch,
     parameter_of_branch,
 )
-from hess_explorer.scenes.framework.charted import exponents
-from hess_explorer.scenes.framework.crossings import SECTION, Crossings
-from hess_explorer.scenes.framework.heavy_ball import PARAMETERS, HeavyBall
-from hess_explorer.scenes.framework.indicator import INDICATOR, colouring, indicator_layer
-from hess_explorer.scenes.framework.one_orbit import Start
-from hess_explorer.scenes.framework.parameters import accuracy_level, choice, crossings_of_each, number, time_span
-from hess_explorer.scenes.framework.periodic import layers, length_of_manifolds, plain, which
-from hess_explorer.scenes.framework.proved_orbit import proved_error_shown
-from hess_explorer.scenes.framework.scene import Preset, Scene
-from hess_explorer.scenes.framework.solid_body import ConstrainedBody, constrained_body
+from hess_explorer.scenes.parts.indicator import MEGNO, Indicator, colouring, indicator_layer, indicator_trial
+from hess_explorer.scenes.parts.orbit import Orbit
+from hess_explorer.scenes.parts.periodic_orbit import PeriodicOrbit, layers, length_of_manifolds, plain, which
+from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
+from hess_explorer.scenes.parts.section import Section, crossings_of_each, section_trial
 from hess_explorer.views import scattering_map as square
 from hess_explorer.views import section_plane
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.poisson_sphere import along_the_orbit
+from hess_explorer.views.poisson_sphere import Direction, along_the_orbit, centre_of_mass
 from hess_explorer.views.text import digits, vector
 from hess_explorer.views.velocity_plane import orbit_alone, orbit_columns, pixels_per_unit, room_for
+from hess_mechanics.chaplygin_ball import section as mechanics
 from hess_mechanics.chaplygin_ball.energy_surface import lowest_energy
-from hess_mechanics.chaplygin_ball.equations import SYSTEM
+from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.chaplygin_ball.integrable_cases import area_integral, has_area_integral, is_reversible
-from hess_mechanics.chaplygin_ball.section import (
-    BallSection as Section,
-)
 from hess_mechanics.chaplygin_ball.section import (
     ball_section,
     fastest,
@@ -53,10 +52,12 @@ from hess_mechanics.chaplygin_ball.section import (
 from hess_mechanics.dynamics.section import occupied_cells
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array
+from hess_mechanics.parameters import H_BALL
 
 _ORBITS = 20
 _CELLS = 32
 _MOST_STEPS = 15_000
+_NAMES = ("ψ", "δ")
 
 _PLAIN = {"I13": 0.0, "I23": 0.0}
 PRESETS = (*map(plain, (
@@ -75,9 +76,18 @@ PRESETS = (*map(plain, (
 
 
 @dataclass(frozen=True)
-class BallSection(HeavyBall, Crossings, Branched, ConstrainedBody):
+class BallSection(State):
     """The orbit from one place of the section, among others of its energy."""
 
+    I11: float = parameter(ball.I11)
+    I22: float = parameter(ball.I22)
+    I13: float = parameter(ball.I13)
+    I23: float = parameter(ball.I23)
+    D: float = parameter(ball.D)
+    b1: float = parameter(ball.B1)
+    b2: float = parameter(ball.B2)
+    b3: float = parameter(ball.B3)
+    h: float = parameter(H_BALL)
     psi: float = number("ψ", 1.0, (-3.14, 3.14), 0.01, bounds=(-math.pi, math.pi), label="Start: ψ, direction of γ",
                         doc="On the section γ = (cos ψ, sin ψ, 0). A click in the section chooses ψ and δ.")
     delta: float = number("δ", 1.5, (0.01, 3.13), 0.01, bounds=(1e-6, math.pi - 1e-6), label="Start: δ, from γ to ω",
@@ -86,26 +96,34 @@ class BallSection(HeavyBall, Crossings, Branched, ConstrainedBody):
     count: float = crossings_of_each()
     indicator: str = colouring()
     reach: float = length_of_manifolds()
-    over: str = parameter_of_branch(tuple(PARAMETERS))
+    over: str = parameter_of_branch(tuple(ball.PARAMETERS))
     low: float = end_of_branch("from")
     high: float = end_of_branch("to")
-    upwards: str = coordinate_of_branch(("ψ", "δ"))
+    upwards: str = coordinate_of_branch(_NAMES)
     span: float = time_span(40.0, 200.0, what="the chosen orbit")
     drop: str = choice("Points shown", ("all", "the later half"), "all", doc="The later half shows what attracts.")
     certain: str = proved_error_shown()
     accuracy: str = accuracy_level()
 
-    section_axes: ClassVar[Axes] = Axes(square.AZIMUTH, square.POLAR)
-    names: ClassVar[tuple[str, str]] = ("ψ", "δ")
-    along: ClassVar[Mapping[str, str]] = PARAMETERS
+    # ---- the motion ---------------------------------------------------------------------------------------------
+
+    @cached_property
+    def body(self) -> BallBody:
+        """The ball.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
+        return BallBody(self.I11, self.I22, self.I13, self.I23, self.D, self.b1, self.b2, self.b3)
+
+    @property
+    def E(self) -> float:
+        """The energy."""
+        return self.h - math.hypot(self.b1, self.b2)
 
     def admitted(self, notes: list[str]) -> BallSection:
-        """ψ outside the band that the energy forbids."""
+        """Move ψ out of the band that the energy forbids."""
         psi = self.psi if self.band is None else outside_band(self.band, self.psi)
         if psi != self.psi:
             notes.append(f"With this energy γ cannot point at ψ = {digits(self.psi)} on the plane: ψ is {digits(psi)} "
                          "now.")
-        return replace(self, psi=psi)
+        return self.changed({"psi": psi})
 
     @cached_property
     def band(self) -> tuple[float, float] | None:
@@ -113,61 +131,125 @@ class BallSection(HeavyBall, Crossings, Branched, ConstrainedBody):
         return forbidden_band(self.body, self.E)
 
     @cached_property
-    def section(self) -> Section:
-        """The section γ3 = 0."""
-        return Section(self.body, self.E)
+    def sheet(self) -> mechanics.BallSection:
+        """The section γ3 = 0 in (ψ, δ)."""
+        return mechanics.BallSection(self.body, self.E)
 
     @cached_property
-    def given(self) -> Start:
+    def given(self) -> tuple[float, ...]:
         """The state at (ψ, δ) of the section."""
         return state_at(self.body, self.E, self.psi, self.delta)
+
+    @property
+    def start(self) -> tuple[float, ...]:
+        """The state from which the orbit on show starts."""
+        return self.periodic_orbit.start
+
+    @property
+    def lasts(self) -> float:
+        """The time for which it is followed."""
+        return self.periodic_orbit.lasts
 
     @cached_property
     def weights(self) -> tuple[float, ...]:
         """From the variables to the pictures, as large as the orbit will be drawn."""
         return pixels_per_unit(room_for(self.work.get(fastest, self.body, self.start, self.lasts)))
 
-    def crossing(self, crossings: int, level: Level) -> tuple[Task, Task]:
-        """What finds so many crossings of the orbit on show, and of the others."""
+    def motion(self) -> Motion:
+        """Return the orbit on show."""
+        return self.orbit.motion()
+
+    # ---- the parts ----------------------------------------------------------------------------------------------
+
+    def parts(self) -> tuple[Part[Host], ...]:
+        """Return what is computed, in the order of its words."""
+        return self.section, self.megno, self.periodic_orbit, self.branch, self.orbit, self.proof
+
+    @cached_property
+    def section(self) -> Section:
+        """The orbit on show among others."""
+        return Section(self, self._crossing, closed=lambda: self.closed, later=self.drop != "all")
+
+    @cached_property
+    def megno(self) -> Indicator:
+        """The cells of the section by MEGNO."""
+        return Indicator(self.section, self.indicator == MEGNO)
+
+    @cached_property
+    def periodic_orbit(self) -> PeriodicOrbit:
+        """The periodic orbit in place of the chosen one."""
+        return PeriodicOrbit(self.section, self.periodic, self.reach, self.span)
+
+    @property
+    def closed(self) -> Closed | None:
+        """The same where it is known."""
+        return self.periodic_orbit.closed
+
+    @cached_property
+    def branch(self) -> Branch:
+        """Its branch over a parameter."""
+        return Branch(self, self.periodic_orbit, ball.PARAMETERS)
+
+    @cached_property
+    def orbit(self) -> Orbit:
+        """The orbit on show."""
+        return Orbit(self)
+
+    @cached_property
+    def proof(self) -> Proof:
+        """Its proved error."""
+        return Proof(self.orbit, self.certain)
+
+    def _crossing(self, crossings: int, level: Level) -> tuple[Task, Task]:
         return (Task(ball_section, (self.body, self.E, (self.given,), crossings, level, _MOST_STEPS)),
                 Task(spread_section, (self.body, self.E, _ORBITS, crossings, level, _MOST_STEPS)))
 
-    def first_shown(self, crossings: int) -> int:
-        """The first one, or the middle one."""
-        return 0 if self.drop == "all" else crossings // 2
+    # ---- the pictures -------------------------------------------------------------------------------------------
+
+    @property
+    def r(self) -> Direction | None:
+        """The direction of the centre of mass; None without a field."""
+        return centre_of_mass((self.b1, self.b2, self.b3))
+
+    @cached_property
+    def solid(self) -> Constrained:
+        """The ball along the orbit."""
+        return Constrained.along(self.work, self.body.parameters, self.orbit.path.times, self.orbit.path.states)
 
     def start_at(self, x: float, y: float) -> Values:
-        """A click in the section."""
+        """Return the start at a place of the section."""
         return {"psi": x, "delta": y}
 
     def half_width(self) -> float:
-        """Of the (ω1, ω2)-plane."""
-        return room_for(float(np.hypot(*self.orbit.states[:, :2].T).max()))
+        """Return half the width of the (ω1, ω2)-plane."""
+        return room_for(float(np.hypot(*self.orbit.path.states[:, :2].T).max()))
 
     def forbidden(self, axes: Axes) -> list[list[Array]]:
-        """The band of ψ that the energy forbids."""
-        return [] if self.band is None or self.own is None else section_plane.band(*self.band, 2.0 * math.pi, axes)
+        """Return the band of ψ that the energy forbids."""
+        if self.band is None or self.section.own is None:
+            return []
+        return section_plane.band(*self.band, 2.0 * math.pi, axes)
 
     def returns(self) -> Array | None:
-        """ψ and the next ψ: which returns belong together only the chosen orbit tells."""
-        if self.own is None:
+        """Return ψ and the next ψ (n, 2); which returns belong together only the chosen orbit tells."""
+        own = self.section.own
+        if own is None:
             return None
-        psi = self.own[:, 0]
+        psi = own[:, 0]
         return np.column_stack([psi[:-1], psi[1:]] if self.closed is None else [psi, np.roll(psi, -1)])
 
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_section(self) -> str:
-        if self.about_closed or self.about_indicator:
-            return self.about_closed or self.about_indicator
-        if self.own is None:
-            return "Left out: it would take too many steps."
+        special = self.periodic_orbit.caption or self.megno.caption
+        if special or self.section.own is None:
+            return special or "Left out: it would take too many steps."
         volume = "the flow keeps volume" if self.I13 == self.I23 == 0.0 else "volume is not kept"
-        visited = occupied_cells(self.own, _CELLS)
-        return f"The chosen orbit: {len(self.own)} points in {visited} of {_CELLS**2} cells; {volume}."
+        visited = occupied_cells(self.section.own, _CELLS)
+        return f"The chosen orbit: {len(self.section.own)} points in {visited} of {_CELLS**2} cells; {volume}."
 
     def _about_returns(self) -> str:
-        if self.own is None:
+        if self.section.own is None:
             return "Left out: it would take too many steps."
         if is_reversible(self.body):
             return "ψ and the next ψ: one point, proved by γ₃ → −γ₃, t → −t."
@@ -187,26 +269,29 @@ class BallSection(HeavyBall, Crossings, Branched, ConstrainedBody):
 
 
 SCENE = Scene(
-    BallSection, __file__, place=10, presets=PRESETS, measures=(SECTION, INDICATOR),
-    charts=exponents(SYSTEM, ("section",)), group="Ball", essential=("h", "I13", "D", "psi"), handle="psi",
+    BallSection, __file__, place=10, presets=PRESETS, measures=(
+        section_trial(lambda s: s.section), indicator_trial(lambda s: s.megno)),
+    charts=exponents(SYSTEM.name, lambda s: s.given, ("section",)), group="Ball",
+    essential=("h", "I13", "D", "psi"), handle="psi",
     title="Ball with a field",
     summary="The ball in a field: a section at one energy shows curves, seas and, with I₁₃ or I₂₃, attractors.",
-    tracks={"orbit": lambda s: orbit_columns(s.orbit)},
+    tracks={"orbit": lambda s: orbit_columns(s.orbit.path)},
     views=(
         constrained_body(ball=True),
         Plot(name="section", title="Section: γ₃ grows through 0", caption=BallSection._about_section,
-             axes=BallSection.names, x=square.AZIMUTH, y=square.POLAR, ticks=square.AZIMUTH_TICKS,
-             y_ticks=square.POLAR_TICKS, message=lambda s: s.reason,
+             axes=_NAMES, x=square.AZIMUTH, y=square.POLAR, ticks=square.AZIMUTH_TICKS,
+             y_ticks=square.POLAR_TICKS, message=lambda s: s.section.reason,
              on_click=BallSection.start_at,
-             layers=(indicator_layer(), *section_plane.layers(
-                 BallSection.points, others=lambda s: s.others, forbidden=BallSection.forbidden,
-                 start=lambda s: [] if s.points() is None else [(s.psi, s.delta)]), *layers())),
+             layers=(indicator_layer(lambda s: s.megno), *section_plane.layers(
+                 lambda s: s.section.points, others=lambda s: s.section.others, forbidden=BallSection.forbidden,
+                 start=lambda s: [] if s.section.points is None else [(s.psi, s.delta)]),
+                 *layers(lambda s: s.periodic_orbit))),
         orbit_alone(BallSection.half_width, energy=lambda s: s.E, label="chosen orbit",
-                    proved=lambda s: s.proved_band),
-        along_the_orbit(lambda s: s.r, lambda s: s.proved_around),
+                    proved=lambda s: s.proof.band),
+        along_the_orbit(lambda s: s.r, lambda s: s.proof.around),
         Plot(name="returns", title="First return", folded="Show the first return", caption=BallSection._about_returns,
              axes=("ψ", "ψ at the next crossing"), x=square.AZIMUTH, y=square.AZIMUTH, ticks=square.AZIMUTH_TICKS,
-             message=lambda s: s.reason, layers=section_plane.layers(BallSection.returns)),
-        branch_picture(BallSection),
+             message=lambda s: s.section.reason, layers=section_plane.layers(BallSection.returns)),
+        branch_picture(lambda s: s.branch),
     ),
 )

@@ -188,7 +188,7 @@ SCENE = Scene(
     ChaplyginBall, __file__, place=9, presets=PRESETS, measures=_MEASURES, charts=(
         Charted("ball-theta-plus", lambda s: {**tensor_of(s.body), "D": s.D, "theta": s.theta, "phi": s.phi,
                                               "distance": s.distance}),
-        *exponents(SYSTEM)),
+        *exponents(SYSTEM.name, lambda s: s.start)),
     group="Ball", essential=("D", "h", "theta", "phi"), handle="phi",
     title="Chaplygin ball",
     summary="A ball rolls inside the body: every orbit crosses a strip between two ellipses, from Nᵘ to Nˢ.",

@@ -192,7 +192,8 @@ class EulerPoisson(SplitSeparatrices, RotationAcross, Branched, HeavySolid):
 
 SCENE = Scene(
     EulerPoisson, __file__, place=11, presets=PRESETS, measures=(SECTION, INDICATOR, EXPONENT, ROTATION),
-    charts=exponents(SYSTEM, ("section",), time=lambda s: s.long), placed=Placed("starts", EulerPoisson.names),
+    charts=exponents(SYSTEM.name, lambda s: s.start_asked_for, ("section",), time=lambda s: s.long),
+    placed=Placed("starts", EulerPoisson.names),
     group="Euler–Poisson", essential=("away", "h", "f"),
     title="Euler–Poisson: sections",
     summary="A heavy body near the Hess case: two stochastic layers with a barrier between them, a meandering torus.",

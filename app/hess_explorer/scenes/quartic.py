@@ -206,7 +206,8 @@ class Quartic(Crossings, Branched, ConstrainedBody):
 
 
 SCENE = Scene(
-    Quartic, __file__, place=7, presets=PRESETS, measures=(SECTION, INDICATOR), charts=exponents(SYSTEM),
+    Quartic, __file__, place=7, presets=PRESETS, measures=(SECTION, INDICATOR),
+    charts=exponents(SYSTEM.name, lambda s: s.given),
     group="Heavy body", essential=("ratio", "h", "Q1", "Q2"),
     title="Principal axis, b₁ = b₂ = 0",
     summary="The body as a point in a quartic potential: integrable for I₁₁ = I₂₂, else curves and seas in a section.",

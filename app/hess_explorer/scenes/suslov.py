@@ -243,8 +243,8 @@ def _piece(section: SuslovSection, starts: tuple[Start, ...], crossings: int, fo
 
 SCENE = Scene(
     Suslov, __file__, place=5, presets=PRESETS, measures=(SECTION, INDICATOR, EXPONENT, BASINS), charts=(
-        *exponents(SYSTEM, ("section",), time=lambda s: s.long),
-        Charted("divergence-suslov", lambda s: {**motion_of(SYSTEM, s), "t": s.long}),
+        *exponents(SYSTEM.name, lambda s: s.start_asked_for, ("section",), time=lambda s: s.long),
+        Charted("divergence-suslov", lambda s: {**motion_of(s.body, s.start_asked_for), "t": s.long}),
         Charted("attractors", lambda s: {
             **dict(zip(SYSTEM.parameters, s.body.parameters, strict=True)), "h": s.h, "k": s.section.k})),
     placed=Placed("starts", Suslov.names),

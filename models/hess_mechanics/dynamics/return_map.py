@@ -54,6 +54,10 @@ _AT_ONCE = 1e-8
 class PoincareSection(Protocol):
     """A section of a system at fixed values of its integrals, in coordinates that cover it."""
 
+    def __hash__(self) -> int:
+        """Return a hash: sections are values, by which results are cached."""
+        return object.__hash__(self)
+
     @property
     def names(self) -> tuple[str, ...]:
         """Of the coordinates."""

@@ -7,10 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from hess_explorer.scenes.framework.windows import Window
+from hess_explorer.scenes.framework.windows import Window, frame_of
 from hess_explorer.scenes.framework.work import Work
-from hess_explorer.views.comparison import Cells, Frame
-from hess_explorer.views.layers import Axes
+from hess_explorer.views.comparison import Cells
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["CELLS", "COARSE", "Arguments", "changed", "found_by_rows", "look"]
@@ -51,7 +50,6 @@ def changed(cells: Array, truth: Array) -> float:
     return 100.0 * float(np.mean(cells[np.ix_(rows, columns)] != truth))
 
 
-def look(frame: Window, names: tuple[str, str], cells: Array) -> Cells:
+def look(frame: Window, names: Sequence[str], cells: Array) -> Cells:
     """How cells whose numbers are names, −1 where there is nothing, are compared: any other one is another colour."""
-    (x0, y0), (x1, y1) = frame
-    return Cells(Frame(Axes((x0, x1), (y0, y1)), names), np.where(cells < 0.0, np.nan, cells), step=0.5)
+    return Cells(frame_of(frame, names), np.where(cells < 0.0, np.nan, cells), step=0.5)

@@ -6,11 +6,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Generic, Protocol, TypeVar
 
-from hess_mechanics.dynamics.system import System
+from hess_explorer.scenes.framework.part import Body
 
 __all__ = ["Charted", "Placed", "exponents", "motion_of", "of_torus", "tensor_of"]
 
 S = TypeVar("S")
+B = TypeVar("B", bound="_Embodied")
 Torus = tuple[float, float, float]
 
 
@@ -26,6 +27,11 @@ class _Tensor(Protocol):
 
     @property
     def I23(self) -> float: ...
+
+
+class _Embodied(Protocol):
+    @property
+    def body(self) -> Body: ...
 
 
 @dataclass(frozen=True)
@@ -77,23 +83,25 @@ def tensor_of(body: _Tensor) -> Mapping[str, float]:
     return {"I11": body.I11, "I22": body.I22, "I13": body.I13, "I23": body.I23}
 
 
-def motion_of(system: System, s: Any) -> Mapping[str, float]:
-    """The body of a state and the start of its orbit, as arguments.  Raises `OutsideRegion` where none is possible."""
-    return dict(zip((*system.parameters, *system.arguments), (*s.body.parameters, *s.start_asked_for), strict=True))
+def motion_of(body: Body, start: tuple[float, ...]) -> Mapping[str, float]:
+    """Return the parameters of a body and the start of a motion, as arguments."""
+    system = body.system
+    return dict(zip((*system.parameters, *system.arguments), (*body.parameters, *start), strict=True))
 
 
-def exponents(system: System, pictures: tuple[str, ...] = (), time: Callable[[Any], float] | None = None
-              ) -> tuple[Charted[Any], ...]:
-    """Lyapunov exponents, MEGNO and crossings of the orbit on show; time : to average over.
+def exponents(name: str, start: Callable[[B], tuple[float, ...]], pictures: tuple[str, ...] = (),
+              time: Callable[[B], float] | None = None) -> tuple[Charted[B], ...]:
+    """Return Lyapunov exponents, MEGNO and crossings of the chosen motion of a system of that name.
 
+    start(state) : where it starts, raises `ModelError` where no motion is possible; time(state) : to average over;
     pictures : those that ask for MEGNO first, which tells regular from chaotic motions soonest.
     """
 
-    def motion(s: Any) -> Mapping[str, float]:
-        return motion_of(system, s)
+    def motion(s: B) -> Mapping[str, float]:
+        return motion_of(s.body, start(s))
 
-    def averaged(s: Any) -> Mapping[str, float]:
+    def averaged(s: B) -> Mapping[str, float]:
         return motion(s) if time is None else {**motion(s), "t": time(s)}
 
-    return (Charted(f"lyapunov-{system.name}", averaged), Charted(f"megno-{system.name}", motion, pictures),
-            Charted(f"spectrum-{system.name}", averaged), Charted(f"crossings-{system.name}", motion))
+    return (Charted(f"lyapunov-{name}", averaged), Charted(f"megno-{name}", motion, pictures),
+            Charted(f"spectrum-{name}", averaged), Charted(f"crossings-{name}", motion))

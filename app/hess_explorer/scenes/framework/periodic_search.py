@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from hess_explorer.compute.cache import CACHE
-from hess_explorer.scenes.framework.one_orbit import Start
 from hess_mechanics.dynamics.manifolds import Intersection, Manifold, crossings_of, grown
 from hess_mechanics.dynamics.periodic import PeriodicOrbit, find_periodic
 from hess_mechanics.dynamics.return_map import ReturnMap
@@ -16,8 +15,7 @@ from hess_mechanics.numerics.patience import go_on
 
 __all__ = [
     "ANY", "AT_ITS_LENGTH", "MOST_CROSSINGS", "MOST_POINTS", "NONE", "PERIODS", "BranchChoice", "Closed", "Missed",
-    "Place",
-    "Search", "branch_of", "crossings_between", "sought",
+    "Place", "Search", "branch_of", "crossings_between", "none_closed", "sought",
 ]
 
 Place = tuple[float, ...]
@@ -46,7 +44,7 @@ class Closed:
     """A periodic orbit, the state at its first place, and the time after which it closes."""
 
     orbit: PeriodicOrbit
-    state: Start
+    state: tuple[float, ...]
     time: float
 
 
@@ -55,6 +53,11 @@ class Missed:
     """Why none was found."""
 
     reason: str
+
+
+def none_closed() -> Closed | None:
+    """Return None: no periodic orbit is shown in place of the chosen one."""
+    return None
 
 
 def sought(map_: ReturnMap, aim: Place, period: int | None, near: bool) -> Closed | Missed:

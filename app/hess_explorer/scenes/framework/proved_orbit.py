@@ -4,50 +4,18 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
-from hess_explorer.compute.cache import CACHE, Task
-from hess_explorer.scenes.framework.parameters import choice
+from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.scene import Motion, State
+from hess_explorer.scenes.parts.proof import SHOWN, ProvedError, judged, proved_error_shown
 from hess_explorer.views.poisson_sphere import Circle
-from hess_explorer.views.text import digits
-from hess_mechanics.dynamics.tube import error_bounds, proved_error, tube
-from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.balls import has_flint
-from hess_mechanics.numerics.results import Array, Orbit
-from hess_mechanics.suslov_hess.torus import Track
+from hess_mechanics.numerics.results import Array
 
-__all__ = ["HIDDEN", "SHOWN", "ProvedError", "ProvedOrbit", "hull", "judged", "proved_error_shown"]
-
-HIDDEN, SHOWN = "not shown", "shown"
-_DIGITS, _MOST_WORK = 16, 1e6
-"""Of a tube: far below the error of a double, and some 1.5 s of a core; 4 s for the ball."""
-_HALF, _FAR = 0.5, 150.0
-"""Pixels from which an error is drawn, and beyond which it would fill the picture."""
-_BOXES, _CIRCLES = 300, 16
-
-
-def proved_error_shown() -> Any:
-    """Whether the orbit on show is judged by its tube."""
-    return choice("Proved error", (HIDDEN, SHOWN), HIDDEN,
-                  doc="How far the orbit on show is off at most, as a theorem, in the status line. Where that is wider "
-                      "than a pixel, a band and circles hold the true orbit at the moments of the samples.")
-
-
-@dataclass(frozen=True)
-class ProvedError:
-    """What is proved: said in the status line; where the true orbit is, if it may be half a pixel off.
-
-    band : convex polygons (n, 2) of (ω1, ω2); around : centres γ (m, 3) and radii (m,).
-    """
-
-    said: str
-    band: tuple[Array, ...] = ()
-    around: tuple[tuple[tuple[float, float, float], float], ...] = ()
+__all__ = ["ProvedOrbit", "proved_error_shown"]
 
 
 class ProvedOrbit(State, ABC):
@@ -96,68 +64,3 @@ class ProvedOrbit(State, ABC):
         """For the status line."""
         if self.proved_error is not None:
             yield self.proved_error.said
-
-
-def judged(finding: Task, motion: Motion, units: tuple[float, float]) -> ProvedError:
-    """What the tube of a motion proves of the orbit found."""
-    found: Orbit | Track = CACHE.get(finding.function, *finding.arguments)[0]
-    orbit, omega, gamma = (found.orbit, found.omega, found.gamma) if isinstance(found, Track) else (
-        found, found.states[:, :2], found.states[:, -3:])
-    try:
-        true = tube(motion.system, motion.state, motion.parameters, orbit.times, _DIGITS, _MOST_WORK)
-    except ModelError as error:
-        return ProvedError(f"not proved: {error}")
-    errors = error_bounds(orbit, true)
-    if len(errors) < 2:
-        return ProvedError("not proved: that would take too long")
-    first, pixels = motion.system.angular_velocities, errors * np.array(motion.weights)
-    sizes = [np.linalg.norm(part, axis=1) for part in (pixels[:, :first], pixels[:, first:])]
-    wrong = np.flatnonzero(np.maximum(*sizes) > _HALF)
-    last = (wrong[0] if wrong.size else len(errors)) - 1
-    whole = len(errors) == orbit.times.size
-    until = "to its end" if whole and not wrong.size else (
-        f"until t = {digits(float(orbit.times[last]) * motion.unit)}"
-        + ("" if wrong.size else ", where the proof breaks off"))
-    said = f"proved error ≤ {errors[: last + 1].max():.1e}, certainly right to ½ pixel {until}"
-    least = proved_error(orbit, true)[0]
-    if least > orbit.error_estimate:
-        said += f"; the estimate is too small, as the error reaches {least:.1e}"
-    band, around = [], []
-    if first == 2 and motion.weights[0] > 0.0:
-        band = _band(omega[: len(errors)], errors[:, :2] * np.array(units), sizes[0])
-    seen = _drawn(sizes[1])
-    for i in seen[:: max(1, -(-len(seen) // _CIRCLES))]:
-        x, y, z = (float(value) for value in gamma[i] / np.linalg.norm(gamma[i]))
-        # An angle is a little more than its chord, and the computed γ a little off the sphere.
-        around.append(((x, y, z), 1.05 * float(np.linalg.norm(errors[i, first:]))))
-    return ProvedError(said, tuple(band), tuple(around))
-
-
-def _drawn(sizes: Array) -> list[int]:
-    """The samples from the first that may be seen to be off up to the first whose error would fill the picture."""
-    far = np.flatnonzero(sizes > _FAR)
-    end = int(far[0]) if far.size else len(sizes)
-    return [int(i) for i in np.flatnonzero(sizes[:end] > _HALF)]
-
-
-def _band(omega: Array, errors: Array, sizes: Array) -> list[Array]:
-    """Hulls of the boxes of neighbouring samples."""
-    seen = _drawn(sizes)
-    step = max(1, -(-len(seen) // _BOXES))
-    found = []
-    for begin in range(0, len(seen), step):
-        some = seen[begin : begin + step + 1]
-        corners = [omega[some] + errors[some] * np.array(signs) for signs in ((1, 1), (1, -1), (-1, -1), (-1, 1))]
-        # Those of two pieces of an orbit are not neighbours.
-        if some[-1] - some[0] == len(some) - 1:
-            found.append(hull(np.vstack(corners)))
-    return found
-
-
-def hull(points: Array) -> Array:
-    """The convex hull (m, 2) of points (n, 2), closed."""
-    from scipy.spatial import ConvexHull  # a band is drawn in few states
-
-    # Joggled in the last digits (QJ), so that points on a line are no error.
-    corners = ConvexHull(points, qhull_options="QJ").vertices
-    return np.asarray(points[[*corners, corners[0]]])

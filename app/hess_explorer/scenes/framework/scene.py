@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from html import escape
 from pathlib import Path
@@ -14,6 +14,7 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Choice, Number, Spec, Value, Values
 from hess_explorer.scenes.framework.charted import Charted, Placed
 from hess_explorer.scenes.framework.parameters import Slider, specs_of
+from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.trial import Trial, bare, needed, orbit_trial
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.layers import Columns, Sign
@@ -105,50 +106,60 @@ class State:
         return vars(self).get(name)
 
     def awaited(self, what: str = "It is") -> str:
-        """What a caption says of what is not known yet."""
-        return f"{what} found when a slider is let go." if self.dragging else f"{what} being computed."
+        """Return what a caption says of a result that is not known yet."""
+        return self.work.awaited(what)
+
+    def parts(self) -> tuple[Part[Host], ...]:
+        """Return the parts that the scene is composed of, in the order of their words."""
+        return ()
+
+    def changed(self, values: Values) -> Self:
+        """Return the state with other values of some parameters."""
+        typed: dict[str, Any] = dict(values)
+        return replace(self, **typed)
 
     def admitted(self, notes: list[str]) -> Self:
-        """The nearest possible state; what was changed is said in the notes."""
-        return self
+        """Clamp the parameters to a valid state; append a note for each change."""
+        return self.changed({name: value for part in self.parts() for name, value in part.admitted(notes).items()})
 
     def limits(self) -> Mapping[str, Slider]:
-        """Ranges of sliders that depend on the state."""
+        """Return the ranges of sliders that depend on the state."""
         return {}
 
     def idle(self) -> Mapping[str, float]:
-        """The numbers that nothing depends on under the choices made, and what their controls show, which are disabled.
+        """Return the numbers without effect in this state, and what their disabled controls show.
 
         Raises `ModelError` where that cannot be told.
         """
-        return {}
+        return {name: value for part in self.parts() for name, value in part.idle().items()}
 
     def means(self) -> Mapping[str, str]:
-        """What the numbers mean whose meaning hangs on the choices made, as `Number.means`."""
-        return {}
+        """Return the meanings, as `Number.means`, of the numbers whose meaning depends on a choice."""
+        return {name: said for part in self.parts() for name, said in part.means().items()}
 
     def carried(self, before: Self) -> Mapping[str, float]:
-        """What has to follow so that the motion goes on when another choice is made in the state before.
+        """Return the parameter changes that keep the motion continuous after a different choice in the state before.
 
         Raises `ModelError` where that cannot be told.
         """
-        return {}
+        return {name: value for part, other in zip(self.parts(), before.parts(), strict=True)
+                for name, value in part.carried(other).items()}
 
     def motion(self) -> Motion | None:
-        """The motion on show, for "Speed and accuracy"; None where there is none.  Raises `ModelError`."""
+        """Return the motion on show, for "Speed and accuracy"; None where there is none.  Raises `ModelError`."""
         return None
 
     def derived(self) -> Iterable[str]:
-        """Quantities that follow from the parameters, a line each."""
-        return ()
+        """Return quantities that follow from the parameters, a line each."""
+        return (line for part in self.parts() for line in part.derived())
 
     def status(self) -> Iterable[str]:
-        """Parts of the status line: size, cost, errors of what was computed."""
-        return ()
+        """Return entries of the status line: size, cost, errors of what was computed."""
+        return (entry for part in self.parts() for entry in part.status())
 
     def notes(self) -> Iterable[str]:
-        """What the user should know of this state."""
-        return ()
+        """Return what the user should know of this state."""
+        return (note for part in self.parts() for note in part.notes())
 
 
 @dataclass(frozen=True, repr=False)

@@ -12,6 +12,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from hess_explorer.scenes.framework.scene import State
+from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.body import BodyInSpace, Rod, Shape, Trail, Wheels
 from hess_explorer.views.layers import Sign
 from hess_explorer.views.poisson_sphere import Direction, centre_of_mass
@@ -80,6 +81,13 @@ class Constrained(Solid):
     tensor: tuple[float, float, float, float]
     b: tuple[float, float, float]
     check: BodyCheck
+
+    @classmethod
+    def along(cls, work: Work, parameters: tuple[float, ...], times: Array, states: Array) -> Constrained:
+        """Return it along states (n, 5) = (ω1, ω2, γ); parameters : I11, I22, I13, I23, …, b1, b2, b3."""
+        I11, I22, I13, I23, *_, b1, b2, b3 = parameters
+        return cls(times, states[:, :2], states[:, 2:], (I11, I22, I13, I23), (b1, b2, b3),
+                   work.get(check_body, I11, I22, I13, I23))
 
     @property
     def mass(self) -> Direction | None:

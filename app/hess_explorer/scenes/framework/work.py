@@ -62,6 +62,10 @@ class Work:
         found = plan(kind, self.level.name)
         return replace(found, share=1.0, cells=1.0) if self.dragging else found
 
+    def awaited(self, what: str = "It is") -> str:
+        """Return what a caption says of a result that is not known yet."""
+        return f"{what} found when a slider is let go." if self.dragging else f"{what} being computed."
+
     def get(self, function: Callable[P, T], *arguments: P.args, **none: P.kwargs) -> T:
         """The cached result of function(*arguments)."""
         value, hit = CACHE.get(function, *arguments)
@@ -95,6 +99,10 @@ class Work:
         if not self.dragging:
             self.later(whole.function, *whole.arguments)
         return found
+
+    def ask(self, task: Task) -> Any:
+        """Return the result of `task` if it is known; else None, and it is left `todo` unless a slider is held."""
+        return (self.known if self.dragging else self.later)(task.function, *task.arguments)
 
     def _spent(self) -> tuple[float, float]:
         """Seconds until now, those for compiling kernels apart: that happens once."""

@@ -1,0 +1,84 @@
+"""A part of a scene: one thing that it computes, with the words on it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Generic, Protocol, Self, TypeVar
+
+from hess_explorer.protocol.parameters import Values
+from hess_explorer.scenes.framework.work import Work
+from hess_mechanics.dynamics.system import System
+
+__all__ = ["Body", "Host", "Part"]
+
+
+class Body(Protocol):
+    """Equations of motion with values of their parameters."""
+
+    @property
+    def system(self) -> System:
+        """The equations."""
+
+    @property
+    def parameters(self) -> tuple[float, ...]:
+        """Their parameters."""
+
+
+class Host(Protocol):
+    """What every part needs: a state, or another part, that computes."""
+
+    @property
+    def work(self) -> Work:
+        """The computation of the state on show."""
+
+
+H_co = TypeVar("H_co", bound=Host, covariant=True)
+
+
+@dataclass(frozen=True, eq=False)
+class Part(Generic[H_co]):
+    """One thing that a scene computes, with the words on it; a scene lists its parts in `State.parts`.
+
+    host : the state or the part that it is made from.  Each class of parts names what it needs of it in a `Protocol`.
+    Results are cached properties, computed when a picture in sight asks for them.
+    """
+
+    host: H_co
+
+    @property
+    def work(self) -> Work:
+        """The computation of the state on show."""
+        return self.host.work
+
+    def asked(self, name: str) -> bool:
+        """Return whether a picture in sight has asked for this cached property; words never ask for one first."""
+        return name in vars(self)
+
+    def admitted(self, notes: list[str]) -> Values:
+        """Return the parameters that have to change for a valid state; append a note for each change."""
+        return {}
+
+    def idle(self) -> Mapping[str, float]:
+        """Return the numbers without effect in this state, and what their disabled controls show."""
+        return {}
+
+    def means(self) -> Mapping[str, str]:
+        """Return the meanings, as `Number.means`, of the numbers whose meaning depends on a choice."""
+        return {}
+
+    def carried(self, before: Self) -> Mapping[str, float]:
+        """Return the parameter changes that keep the motion continuous after a different choice."""
+        return {}
+
+    def derived(self) -> Iterable[str]:
+        """Return quantities that follow from the parameters, a line each."""
+        return ()
+
+    def status(self) -> Iterable[str]:
+        """Return entries of the status line: size, cost and errors of the results."""
+        return ()
+
+    def notes(self) -> Iterable[str]:
+        """Return what the user should know of this state."""
+        return ()

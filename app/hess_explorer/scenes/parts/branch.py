@@ -1,0 +1,553 @@
+"""The branch of a periodic orbit over a parameter of a scene: computed in pieces, chosen from with the mouse."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Protocol, Self, TypeVar
+
+import numpy as np
+
+from hess_explorer.compute.cache import CACHE, Task
+from hess_explorer.protocol.parameters import Number, Values
+from hess_explorer.scenes.framework.families import Family
+from hess_explorer.scenes.framework.parameters import Slider, choice, number, specs_of
+from hess_explorer.scenes.framework.part import Host, Part
+from hess_explorer.scenes.framework.periodic_search import PERIODS, Closed, Missed, Place, sought
+from hess_explorer.scenes.framework.scene import State
+from hess_explorer.scenes.framework.windows import Window
+from hess_explorer.views import branch as view
+from hess_explorer.views import theme
+from hess_explorer.views.branch import bifurcations
+from hess_explorer.views.layers import Axes, curves, points
+from hess_explorer.views.periodic import seen
+from hess_explorer.views.picture import Corners
+from hess_explorer.views.plot import Plot
+from hess_explorer.views.text import conjugates, digits, power
+from hess_mechanics.dynamics import continuation as mechanics
+from hess_mechanics.dynamics.continuation import Bifurcation, continued, gone_on
+from hess_mechanics.dynamics.periodic import Map, apart, find_periodic
+from hess_mechanics.dynamics.return_map import ReturnMap, Sheet
+from hess_mechanics.dynamics.sampling import PIXELS
+from hess_mechanics.errors import ModelError
+from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.results import Array
+
+__all__ = [
+    "Begin", "Branch", "Continuation", "branch_picture", "coordinate_of_branch", "end_of_branch", "parameter_of_branch",
+]
+
+_TOGETHER = 60
+"""Places on a branch that are computed at once: few enough for them to arrive soon."""
+_PARTS = 16
+"""Of a branch in each direction, at most."""
+_STEP = 0.02
+"""Of the width of the range, at most: lines between points are then half a pixel off, as directions differ by 0.3."""
+_CREEPING = 1e-4
+"""Of the width of the range, and of the coordinates: with parts that are shorter nobody sees a branch go on."""
+_NEAR = 12.0
+"""Pixels from a branch within which the mouse means it."""
+_SAID = 8
+"""Bifurcations that are listed."""
+_AROUND = 0.125
+"""Of a slider's range, to each side of the value, where no other range is chosen."""
+_ROOM = 0.08
+_LEAST = 1e-3
+"""Of the section, upwards."""
+_FARTHEST = (-1e5, 1e5)
+
+
+def parameter_of_branch(symbols: tuple[str, ...]) -> Any:
+    """Over what the branch is continued; the first one at first."""
+    return choice("Branch over", symbols, symbols[0],
+                  doc="In “Branch of the periodic orbit”: what changes from left to right. All others are as they "
+                      "stand.")
+
+
+def end_of_branch(word: str) -> Any:
+    """One end of the range; the other end."""
+    return number(word, 0.0, (-1.0, 6.0), 0.01, bounds=_FARTHEST, label=f"Branch {word}", group="Computation",
+                  doc="In “Branch of the periodic orbit”. With both ends alike: about the value that the parameter "
+                      "has.")
+
+
+def coordinate_of_branch(names: tuple[str, str]) -> Any:
+    """What of the section is drawn upwards."""
+    return choice("Branch upwards", names, names[0],
+                  doc="In “Branch of the periodic orbit”: which coordinate of the section.")
+
+
+@dataclass(frozen=True)
+class Begin:
+    """Where a branch begins: the value of the parameter, the place and the period, and the ends of the range."""
+
+    family: Family
+    value: float
+    place: Place
+    period: int | None
+    ends: tuple[float, float]
+
+    @property
+    def map(self) -> ReturnMap:
+        """The return map there.  Raises `ModelError`."""
+        return self.family.map_at(self.value)
+
+    @property
+    def search(self) -> Task:
+        """What finds the orbit there.  Raises `ModelError`."""
+        return Task(sought, (self.map, self.place, self.period, False))
+
+    def orbit(self) -> Closed | Missed:
+        """Return the orbit there.  Raises `ModelError`."""
+        found: Closed | Missed = CACHE.get(self.search.function, *self.search.arguments)[0]
+        return found
+
+
+@dataclass(frozen=True)
+class _Nearest:
+    """The place of a branch that is nearest to the mouse: how far, in pixels, between which points of it, and where."""
+
+    away: float
+    branch: mechanics.Branch
+    i: int
+    share: float
+    j: int
+
+    @property
+    def value(self) -> float:
+        """Of the parameter."""
+        a, b = self.branch.values[self.i : self.i + 2]
+        return float(a + self.share * (b - a))
+
+
+class _Host(Host, Protocol):
+    @property
+    def begin(self) -> Begin | None:
+        """Where the branch begins; None where none is asked for."""
+
+    @property
+    def side(self) -> int:
+        """Which coordinate of the section is drawn, upwards."""
+
+    @property
+    def seen(self) -> Window | None:
+        """What of the picture is seen; None before anything is."""
+
+
+@dataclass(frozen=True, eq=False)
+class Continuation(Part[_Host]):
+    """What is known of a branch; while a slider is held, nothing more is computed."""
+
+    @property
+    def _symbol(self) -> str:
+        return self._begin.family.symbol
+
+    @property
+    def turns(self) -> tuple[float, ...]:
+        """The period of each coordinate, ∞ where it is no angle.  Raises `ModelError`."""
+        return self._begin.map.turns
+
+    @property
+    def _begin(self) -> Begin:
+        assert self.host.begin is not None, "there is a branch"
+        return self.host.begin
+
+    @cached_property
+    def _found(self) -> Closed | Missed | None:
+        """The orbit from which it is continued; None while that is not known."""
+        if self.host.begin is None:
+            return None
+        found: Closed | Missed | None = self.work.ask(self.host.begin.search)
+        return found
+
+    @property
+    def closed(self) -> Closed | None:
+        """The same where there is one."""
+        return self._found if isinstance(self._found, Closed) else None
+
+    @cached_property
+    def _known(self) -> tuple[list[mechanics.Branch], list[str], bool]:
+        """What is known of the branch, why parts of it could not be computed, and whether that is all."""
+        found: list[mechanics.Branch] = []
+        failed: list[str] = []
+        whole = True
+        if self.closed is None:
+            return found, failed, False
+        begin = self._begin
+        for upwards in (True, False):
+            if begin.value == begin.ends[upwards]:
+                continue
+            for k in range(_PARTS):
+                one: mechanics.Branch | Missed | None = self.work.ask(Task(_part, (begin, upwards, k)))
+                if one is None or isinstance(one, Missed):
+                    failed += [] if one is None else [one.reason]
+                    whole = whole and one is not None
+                    break
+                found.append(one)
+                if one.heading is None or self._creeps(one):
+                    break
+        return found, failed, whole
+
+    def _creeps(self, part: mechanics.Branch) -> bool:
+        """Whether it hardly gets on, as where orbits begin to touch the section and the map has no derivative."""
+        low, high = self._begin.ends
+        return max(float(np.ptp(part.values)) / (high - low), float(np.ptp(part.places, axis=0).max())) < _CREEPING
+
+    @property
+    def branches(self) -> list[mechanics.Branch]:
+        """What is known of the branch."""
+        return self._known[0]
+
+    # ---- what the mouse does ------------------------------------------------------------------------------------
+
+    @property
+    def turn(self) -> float:
+        """The period of the coordinate that is drawn."""
+        return self.turns[self.host.side]
+
+    def _nearest(self, x: float, y: float) -> _Nearest | None:
+        if self.closed is None or self.host.seen is None:
+            return None
+        (x0, y0), (x1, y1) = self.host.seen
+        scale = PIXELS / (x1 - x0), PIXELS / (y1 - y0)
+        best: _Nearest | None = None
+        for branch in self.branches:
+            if len(branch.values) < 2:
+                continue
+            for j in range(branch.period):
+                across = apart((self.turn,), branch.places[:, j, self.host.side, None], np.array([y]))[:, 0]
+                at = np.column_stack([(branch.values - x) * scale[0], across * scale[1]])
+                along = np.diff(at, axis=0)
+                length2 = np.maximum(np.sum(along**2, axis=1), 1e-300)
+                share = np.clip(-np.sum(at[:-1] * along, axis=1) / length2, 0.0, 1.0)
+                away = np.hypot(*(at[:-1] + share[:, None] * along).T)
+                i = int(np.argmin(away))
+                if best is None or away[i] < best.away:
+                    best = _Nearest(float(away[i]), branch, i, float(share[i]), j)
+        return best if best is not None and best.away <= _NEAR else None
+
+    def chosen(self, x: float, y: float) -> tuple[float, Place, int] | None:
+        """Of the orbit of the branch at (x, y): the parameter, a place and the period; None away from the branch."""
+        near = self._nearest(x, y)
+        if near is None:
+            return None
+        a, b = near.branch.places[near.i : near.i + 2]
+        between = np.roll(a + near.share * apart(self.turns, b, a), -near.j, axis=0)
+        value, m = near.value, near.branch.period
+        try:
+            place = find_periodic(self._begin.family.map_at(value), between, m).places[0]
+        except ModelError:
+            go_on()
+            value, place = float(near.branch.values[near.i]), a[near.j]
+        # Angles as the section has them.
+        return value, tuple(float(one) if math.isinf(turn) else math.remainder(float(one), turn)
+                            for one, turn in zip(place, self.turns, strict=True)), m
+
+    def about(self, x: float, y: float) -> str:
+        """Return a line on the bifurcation, or the orbit of the branch, under the mouse."""
+        if self.closed is None or self.host.seen is None:
+            return ""
+        (x0, y0), (x1, y1) = self.host.seen
+        for one in bifurcations(self.branches):
+            up = apart((self.turn,), one.places[:, self.host.side, None], np.array([y]))
+            if math.hypot((one.value - x) * PIXELS / (x1 - x0), float(np.abs(up).min()) * PIXELS / (y1 - y0)) <= _NEAR:
+                return self._named(one)
+        near = self._nearest(x, y)
+        if near is None:
+            return ""
+        i = near.i + round(near.share)
+        multipliers = ", ".join(conjugates(complex(one)) for one in near.branch.multipliers[i])
+        return (f"{self._symbol} = {digits(float(near.branch.values[i]), 6)}: period {near.branch.period}, "
+                f"{near.branch.kinds[i]}, μ = {multipliers}")
+
+    # ---- words --------------------------------------------------------------------------------------------------
+
+    def _named(self, one: Bifurcation) -> str:
+        return f"{one.kind} of period {len(one.places)} at {self._symbol} = {digits(one.value, 8)} ± {power(one.error)}"
+
+    @property
+    def caption(self) -> str:
+        """Of the picture; empty while the orbit itself is not known."""
+        if self._found is None:
+            return ""
+        if self.closed is None:
+            return "No periodic orbit is found from here: no branch."
+        found, _, whole = self._known
+        orbit = self.closed.orbit
+        known = bifurcations(found)
+        some = f"{len(known)} bifurcation{'s' * (len(known) != 1)}" if known else "no bifurcation"
+        return f"Period {orbit.period}, {orbit.kind} here; its branch has {some}{'' if whole else ' so far'}."
+
+    def derived(self) -> Iterator[str]:
+        """Yield the bifurcations."""
+        found = bifurcations(self.branches) if self.asked("_known") else []
+        yield from map(self._named, found[:_SAID])
+        if len(found) > _SAID:
+            yield f"and {len(found) - _SAID} more bifurcations of the branch"
+
+    def status(self) -> Iterator[str]:
+        """Yield how exact it is."""
+        if self.asked("_known") and self.branches:
+            yield (f"branch {sum(len(one.values) for one in self.branches)} points, places to "
+                   f"{power(max(one.error_estimate for one in self.branches))}")
+
+    def notes(self) -> Iterator[str]:
+        """Why there is no branch, or why it ends within the range."""
+        if not self.asked("_known"):
+            return
+        if isinstance(self._found, Missed):
+            yield self._found.reason
+        if self.closed is None:
+            return
+        found, failed, whole = self._known
+        yield from failed
+        if whole and not failed and sum(one.heading is None for one in found) < 2 - (
+                self._begin.value in self._begin.ends):
+            yield "The branch goes on: no more of it is computed."
+        ended = [one.ended for one in found if one.heading is None and "the end of the range" not in one.ended]
+        yield from (f"The branch ends. {why}" for why in ended)
+
+
+class _Orbit(Protocol):
+    """The periodic orbit of a section, in place of its chosen one."""
+
+    @property
+    def closing(self) -> bool:
+        """Whether one is asked for."""
+
+    @property
+    def looking(self) -> bool:
+        """Whether it is not known yet."""
+
+    @property
+    def closed(self) -> Closed | None:
+        """The orbit."""
+
+    @property
+    def period(self) -> str:
+        """One of `PERIODS`."""
+
+    @property
+    def aim(self) -> Place | None:
+        """The first place of the chosen orbit."""
+
+
+class _Section(Host, Protocol):
+    @property
+    def sheet(self) -> Sheet:
+        """The section in its coordinates.  Raises `ModelError`."""
+
+    @property
+    def over(self) -> str: ...
+
+    @property
+    def low(self) -> float: ...
+
+    @property
+    def high(self) -> float: ...
+
+    @property
+    def upwards(self) -> str: ...
+
+    def limits(self) -> Mapping[str, Slider]: ...
+
+    def changed(self, values: Values) -> Self: ...
+
+    def start_at(self, x: float, y: float) -> Values:
+        """Return the values with which the chosen orbit starts at a place of the section."""
+
+
+@dataclass(frozen=True, eq=False)
+class Branch(Part[_Section]):
+    """The branch of the periodic orbit of a section over a parameter.
+
+    along : symbols of the parameters of the section → their names; besides : choices on which it depends, too.
+    """
+
+    orbit: _Orbit
+    along: Mapping[str, str]
+    besides: tuple[str, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """The name of the parameter."""
+        return self.along[self.host.over]
+
+    @property
+    def at(self) -> float:
+        """Its value."""
+        return float(getattr(self.host, self.name))
+
+    @property
+    def side(self) -> int:
+        """Which coordinate of the section is drawn, upwards."""
+        return self.host.sheet.names.index(self.host.upwards)
+
+    @cached_property
+    def ends(self) -> tuple[float, float]:
+        """From where to where the parameter goes, within its bounds."""
+        spec = next(one for one in specs_of(type(self.host)) if one.name == self.name)
+        assert isinstance(spec, Number)
+        least, most = spec.bounds
+        first, last, _ = self.host.limits().get(self.name, (*spec.softbounds, spec.step))
+        low, high = (min(max(one, least), most) for one in sorted((self.host.low, self.host.high)))
+        if low == high:
+            away, at = _AROUND * (last - first), self.at
+            # Beyond the ends of the slider there may be no motion at all.
+            low, high = (max(at - away, first) if at > first else at - away), at + away
+            low, high = max(low, least), min(high, most)
+        return low, high
+
+    @cached_property
+    def begin(self) -> Begin | None:
+        """Where it begins; None while there is no periodic orbit."""
+        if self.orbit.aim is None or self.orbit.closed is None:
+            return None
+        low, high = self.ends
+        family = Family.of(self.host, self.name, self.host.over, (*self.along.values(), *self.besides))
+        return Begin(family, self.at, self.orbit.aim, PERIODS[self.orbit.period],
+                     (min(low, self.at), max(high, self.at)))
+
+    @cached_property
+    def continuation(self) -> Continuation:
+        """What is known of it."""
+        return Continuation(self)
+
+    @property
+    def here(self) -> Array | None:
+        """The orbit on show in the picture (2, m)."""
+        closed = self.orbit.closed
+        return None if closed is None else np.array([(self.at, place[self.side]) for place in closed.orbit.places]).T
+
+    @cached_property
+    def upwards_range(self) -> tuple[float, float] | None:
+        """Room for what is known of the branch; None before anything is."""
+        branches = self.continuation.branches
+        if not branches:
+            return None
+        found = np.concatenate([one.places[:, :, self.side].ravel() for one in branches])
+        low, high = self.host.sheet.window[self.side]
+        if found.max() - found.min() >= self.continuation.turn:
+            return low, high
+        middle = 0.5 * float(found.min() + found.max())
+        half = (0.5 + _ROOM) * max(float(found.max() - found.min()), _LEAST * (high - low))
+        return middle - half, middle + half
+
+    @property
+    def seen(self) -> Window | None:
+        """What of the picture is seen; None before anything is."""
+        if self.upwards_range is None:
+            return None
+        return (self.ends[0], self.upwards_range[0]), (self.ends[1], self.upwards_range[1])
+
+    def choose(self, x: float, y: float) -> Values:
+        """Return the parameter and the orbit of the branch at (x, y), in the range that is seen."""
+        found = self.continuation.chosen(x, y)
+        if found is None:
+            return {}
+        value, place, period = found
+        there = self.host.changed({self.name: value})
+        low, high = self.ends
+        return {self.name: value, **there.start_at(place[0], place[1]), "periodic": f"period {period}", "low": low,
+                "high": high}
+
+    def boxed(self, corners: Corners) -> Values:
+        """Return the range of a box."""
+        x0, _, x1, _ = corners
+        return {} if x0 == x1 or not self.continuation.branches else {"low": min(x0, x1), "high": max(x0, x1)}
+
+    # ---- words --------------------------------------------------------------------------------------------------
+
+    @property
+    def caption(self) -> str:
+        """Of the picture."""
+        if not self.orbit.closing:
+            return "No periodic orbit is chosen: choose one, and a click on its branch shows that orbit."
+        found = self.continuation.caption if self.begin is not None else ""
+        if self.orbit.looking or (self.begin is not None and not found):
+            return self.work.awaited("A periodic orbit is")
+        return found or "No periodic orbit is found from here: no branch."
+
+    @property
+    def message(self) -> str:
+        """Why there is nothing to be seen."""
+        if not self.orbit.closing:
+            return "Choose a Periodic orbit, and its branch is continued here"
+        found = self.orbit.looking or self.orbit.closed is not None
+        return "" if found else "No periodic orbit is found from here"
+
+    def means(self) -> Mapping[str, str]:
+        """Return what the range means: in each scene its own."""
+        own = type(self.host).__name__
+        return {name: f"{name} of the branch of {own} over {self.host.over}"
+                for name in ("over", "low", "high", "upwards")}
+
+    def idle(self) -> Mapping[str, float]:
+        """Return the ends of the range where there is no branch."""
+        return {} if self.orbit.closing else {"low": self.host.low, "high": self.host.high}
+
+    def carried(self, before: Self) -> Mapping[str, float]:
+        """Return another range over another parameter."""
+        return {} if self.host.over == before.host.over else {"low": 0.0, "high": 0.0}
+
+    def derived(self) -> Iterator[str]:
+        """Yield the bifurcations."""
+        return self.continuation.derived()
+
+    def status(self) -> Iterator[str]:
+        """Yield how exact it is."""
+        return self.continuation.status()
+
+    def notes(self) -> Iterator[str]:
+        """Yield why it ends within the range."""
+        return self.continuation.notes()
+
+
+S = TypeVar("S", bound=State)
+
+
+def branch_picture(of: Callable[[S], Branch]) -> Plot[S]:
+    """Return the picture of the branch over its parameter."""
+    def at_the_value(s: S, axes: Axes) -> list[Array]:
+        return [np.array([[of(s).at, axes.y[0]], [of(s).at, axes.y[1]]])]
+
+    def shown(s: S, axes: Axes) -> Array | None:
+        here = of(s).here
+        return None if here is None else seen(here[::-1].T, of(s).continuation.turn, Axes(axes.y, axes.x))[:, ::-1].T
+
+    return Plot(
+        name="branch", title="Branch of the periodic orbit", caption=lambda s: of(s).caption,
+        folded="Show the branch of the periodic orbit", axes=lambda s: (of(s).host.over, of(s).host.upwards),
+        message=lambda s: of(s).message, on_click=lambda s, x, y: of(s).choose(x, y),
+        on_box=lambda s, corners: of(s).boxed(corners), on_hover=lambda s, x, y: of(s).continuation.about(x, y),
+        x=lambda s: of(s).ends, y=lambda s: of(s).upwards_range,
+        layers=(curves("value", within=at_the_value, color=theme.INK, width=1.5, label="the state on show"),
+                *view.layers(lambda s: of(s).continuation.branches, lambda s: of(s).side,
+                             lambda s: of(s).continuation.turn),
+                points("shown", within=shown, size=15, color=theme.INK, hollow=True, edge_width=2.0,
+                       label="the periodic orbit on show")))
+
+
+def _symmetries(map_: Map, places: Array) -> tuple[str, ...]:
+    assert isinstance(map_, ReturnMap)
+    return tuple(map_.symmetries_of(places))
+
+
+def _part(begin: Begin, upwards: bool, k: int) -> mechanics.Branch | Missed:
+    """The part of this number of the branch, from its beginning towards larger values of the parameter, or smaller."""
+    found = begin.orbit()
+    if isinstance(found, Missed):
+        return found
+    family, end, edge = begin.family, begin.ends[upwards], begin.ends[not upwards]
+    points = max(6, _TOGETHER // found.orbit.period)
+    try:
+        if k == 0:
+            return continued(family.map_at, found.orbit, family.symbol, begin.value, end, points, _symmetries, edge,
+                             _STEP)
+        before, _ = CACHE.get(_part, begin, upwards, k - 1)
+        return gone_on(family.map_at, before, end, edge, points, _symmetries, _STEP)
+    except ModelError as error:
+        go_on()
+        return Missed(str(error))

@@ -1,0 +1,132 @@
+"""A section whose cells are coloured by MEGNO: regular, chaotic, and where volume about the motion shrinks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Protocol, TypeVar
+
+import numpy as np
+
+from hess_explorer.scenes.framework.cells import CELLS, COARSE, Arguments, changed, found_by_rows, look
+from hess_explorer.scenes.framework.parameters import choice
+from hess_explorer.scenes.framework.part import Host, Part
+from hess_explorer.scenes.framework.scene import State
+from hess_explorer.scenes.framework.trial import Trial
+from hess_explorer.scenes.framework.windows import Window
+from hess_explorer.views import layered_section
+from hess_explorer.views.comparison import Cells
+from hess_explorer.views.layers import Layer
+from hess_explorer.views.text import digits
+from hess_mechanics.dynamics.megno import CHAOTIC, REGULAR
+from hess_mechanics.dynamics.megno_map import row_of_cells, time_of
+from hess_mechanics.dynamics.return_map import Sheet
+from hess_mechanics.numerics.accuracy import Kind, Plan
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["MEGNO", "Indicator", "colouring", "indicator_layer", "indicator_trial"]
+
+NOTHING, MEGNO = "nothing", "MEGNO"
+_TURNS = 300.0
+"""Time of the indicator in 1/ν: some fifty returns."""
+
+
+def colouring() -> Any:
+    """What lies under the points of a section."""
+    return choice("Under the points", (NOTHING, MEGNO), NOTHING,
+                  doc="MEGNO tells after a short time whether the motion from each cell is regular or chaotic, and "
+                      "whether volume about it shrinks.")
+
+
+class _Host(Host, Protocol):
+    @property
+    def sheet(self) -> Sheet:
+        """The section in its coordinates.  Raises `ModelError`."""
+
+    @property
+    def frame(self) -> Window:
+        """What of the section is seen."""
+
+
+def _nothing() -> object:
+    return None
+
+
+@dataclass(frozen=True, eq=False)
+class Indicator(Part[_Host]):
+    """The cells of a section coloured by MEGNO.
+
+    wanted : whether they are shown; sooner() : asks for what is computed before the finer cells.
+    """
+
+    wanted: bool
+    sooner: Callable[[], object] = _nothing
+
+    @cached_property
+    def time(self) -> float:
+        """How long the motion from each cell is followed."""
+        return self.work.get(time_of, self.host.sheet, _TURNS)
+
+    def rows(self, plan: Plan, coarse: int = 1) -> list[Arguments]:
+        """Return the arguments of `row_of_cells` for each row of cells as wide as `coarse` of the finest."""
+        m, n = plan.grid(CELLS)
+        cells = m // coarse, n // coarse
+        return [(self.host.sheet, self.host.frame, cells, row, self.time, plan.level) for row in range(cells[1])]
+
+    @cached_property
+    def _cells(self) -> tuple[Array, int] | None:
+        """Ȳ and kind of the cells, (n, 2, m), and how many of their rows are still coarse; None before any is known."""
+        if not self.wanted or self.work.dragging:
+            return None
+        plan = self.work.plan(Kind.INDICATOR)
+        return found_by_rows(self.work, row_of_cells, self.rows(plan, COARSE), self.rows(plan),
+                             self.sooner)
+
+    @property
+    def kinds(self) -> Array | None:
+        """Cells (n, m): 0 regular, 1 chaotic, 2 more where volume shrinks, −1 where nothing moves."""
+        return None if self._cells is None else self._cells[0][:, 1]
+
+    @property
+    def caption(self) -> str:
+        """The caption of a section with MEGNO; else empty."""
+        if not self.wanted or self.work.dragging:
+            return ""
+        said = f"MEGNO after t = {digits(self.time)}"
+        if self._cells is None or self._cells[1]:
+            return f"{said}, coarse as yet."
+        kinds = self._cells[0][:, 1]
+        there = kinds[kinds >= 0.0]
+        if not there.size:
+            return "Nothing moves in this window."
+        chaotic, shrinks = (100.0 * float(np.mean(one)) for one in (there % 2.0 == 1.0, there >= 2.0))
+        return (f"{said}: {100.0 - chaotic:.0f} % of the cells regular, {chaotic:.0f} % chaotic; volume shrinks about "
+                f"{shrinks:.0f} %.")
+
+    def status(self) -> Iterator[str]:
+        """How many cells lie between what is regular and what is chaotic, when all are known."""
+        if self.asked("_cells") and self._cells is not None and not self._cells[1]:
+            values = self._cells[0][:, 0]
+            n, m = values.shape
+            between = float(np.mean((values > REGULAR) & (values <= CHAOTIC)))
+            yield f"MEGNO {m} × {n} cells, {digits(100.0 * between, 2)} % between {REGULAR:g} and {CHAOTIC:g}"
+
+S = TypeVar("S", bound=State)
+
+
+def indicator_layer(of: Callable[[S], Indicator]) -> Layer[S]:
+    """Return the cells, to be drawn under all points."""
+    return layered_section.indicator(lambda s: of(s).kinds, lambda s: of(s).host.frame)
+
+
+def indicator_trial(of: Callable[[S], Indicator]) -> Trial[S]:
+    """Return how the cells of a state are computed at each level."""
+    def look_of(s: S, cells: Array) -> Cells:
+        host = of(s).host
+        return look(host.frame, host.sheet.names, cells)
+
+    return Trial(Kind.INDICATOR, ("section",),
+                 lambda s, plan: np.stack([row_of_cells(*row)[1] for row in of(s).rows(plan)]),
+                 lambda s, cells, truth: changed(cells, truth), look_of, unit="% of the cells that change", seen=3.0,
+                 shown=lambda s: of(s).wanted)

@@ -1,0 +1,71 @@
+"""One orbit of a body, sampled for the pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Protocol
+
+from hess_explorer.compute.cache import Task
+from hess_explorer.scenes.framework.part import Body, Host, Part
+from hess_explorer.scenes.framework.scene import Motion
+from hess_explorer.scenes.framework.work import orbit_status
+from hess_mechanics.dynamics.sampling import sampled_orbit
+from hess_mechanics.numerics import results
+from hess_mechanics.numerics.accuracy import Level
+
+__all__ = ["Orbit"]
+
+
+class _Host(Host, Protocol):
+    @property
+    def body(self) -> Body:
+        """The equations and their parameters.  Raises `ModelError`."""
+
+    @property
+    def start(self) -> tuple[float, ...]:
+        """The state at t = 0.  Raises `ModelError`."""
+
+    @property
+    def lasts(self) -> float:
+        """The time for which the orbit is followed."""
+
+    @property
+    def weights(self) -> tuple[float, ...]:
+        """From the variables to the pictures, in pixels for a unit."""
+
+
+@dataclass(frozen=True, eq=False)
+class Orbit(Part[_Host]):
+    """The orbit on show, from `start`.
+
+    accuracy : its level, where that is not the one chosen; most : the largest number of samples.
+    """
+
+    accuracy: Callable[[], Level] | None = None
+    most: int = 4000
+
+    @property
+    def finding(self) -> Task:
+        """The computation of its samples."""
+        host = self.host
+        level = self.work.level if self.accuracy is None else self.accuracy()
+        return Task(sampled_orbit, (host.body.system, host.start, host.body.parameters, host.lasts, host.weights, level,
+                                    self.most))
+
+    @cached_property
+    def path(self) -> results.Orbit:
+        """Its samples: `times` (n,) and `states` (n, d)."""
+        found: results.Orbit = self.work.get(self.finding.function, *self.finding.arguments)
+        return found
+
+    def motion(self) -> Motion:
+        """Return the same for "Speed and accuracy"."""
+        host = self.host
+        return Motion(host.body.system, host.start, host.body.parameters, host.lasts, host.weights)
+
+    def status(self) -> Iterator[str]:
+        """Yield size, cost and error."""
+        if self.asked("path"):
+            yield orbit_status(self.path)[0]

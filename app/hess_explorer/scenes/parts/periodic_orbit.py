@@ -1,0 +1,292 @@
+"""The periodic orbit that Newton's method finds from the chosen place, and the manifolds of a saddle."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Protocol, TypeVar
+
+import numpy as np
+
+from hess_explorer.protocol.parameters import Value
+from hess_explorer.scenes.framework.parameters import choice, number
+from hess_explorer.scenes.framework.part import Host, Part
+from hess_explorer.scenes.framework.periodic_search import (
+    ANY,
+    AT_ITS_LENGTH,
+    MOST_CROSSINGS,
+    MOST_POINTS,
+    NONE,
+    PERIODS,
+    Branch,
+    Closed,
+    Missed,
+    Place,
+    Search,
+    branch_of,
+    crossings_between,
+    sought,
+)
+from hess_explorer.scenes.framework.scene import Preset, State
+from hess_explorer.views import periodic as view
+from hess_explorer.views.layers import Layer
+from hess_explorer.views.text import conjugates, digits, power
+from hess_mechanics.dynamics import periodic as mechanics
+from hess_mechanics.dynamics.manifolds import Crossing, Manifold
+from hess_mechanics.dynamics.return_map import ReturnMap, Sheet
+from hess_mechanics.numerics.accuracy import PRECISE, Status
+
+__all__ = ["NONE", "PeriodicOrbit", "layers", "length_of_manifolds", "plain", "which"]
+
+_WHOLE = 3
+"""Periods up to which the manifolds of all places are drawn: those of one are images of those of another."""
+
+
+def which() -> Any:
+    """Whether the periodic orbit next to the chosen place takes its place, and of which period."""
+    return choice("Periodic orbit", (NONE, *PERIODS), NONE, group="State",
+                  doc="In place of the chosen orbit: the periodic one that Newton's method finds from there, with so "
+                      "many points in the section, and the manifolds of a saddle.")
+
+
+def length_of_manifolds() -> Any:
+    """How long the manifolds of a saddle are drawn."""
+    return number("s", 5.0, (0.0, 20.0), 0.5, bounds=(0.0, 100.0), label="Length of manifolds", group="Computation",
+                  doc=f"Of each branch, in units of the axes of the section; at most {MOST_POINTS} points.")
+
+
+def plain(preset: Preset) -> Preset:
+    """An example without a periodic orbit, whatever was chosen before."""
+    values: dict[str, Value] = {"periodic": NONE, **preset.values}
+    return Preset(preset.name, **values)
+
+
+class _Host(Host, Protocol):
+    @property
+    def sheet(self) -> Sheet:
+        """The section in its coordinates.  Raises `ModelError`."""
+
+    @property
+    def given(self) -> tuple[float, ...]:
+        """The state from which the chosen orbit starts.  Raises `ModelError`."""
+
+    @property
+    def aim(self) -> Place | None:
+        """The first place of the chosen orbit in the section; None where that is not known."""
+
+    @property
+    def pixels(self) -> tuple[float, ...]:
+        """Pixels of the picture for a unit of each coordinate."""
+
+
+@dataclass(frozen=True, eq=False)
+class PeriodicOrbit(Part[_Host]):
+    """A periodic orbit in place of the chosen one of a section.
+
+    period : one of `PERIODS`, or `NONE`; reach : the length of the manifolds of a saddle; span : the time for which
+    the chosen orbit is followed.
+    """
+
+    period: str
+    reach: float
+    span: float
+
+    @property
+    def closing(self) -> bool:
+        """Whether a periodic orbit is asked for."""
+        return self.period != NONE
+
+    @property
+    def aim(self) -> Place | None:
+        """The first place of the chosen orbit in the section; None where that is not known."""
+        return self.host.aim
+
+    @property
+    def _search(self) -> Search | None:
+        """The arguments of `sought`."""
+        if not self.closing or self.aim is None:
+            return None
+        # What an unstable orbit is off grows while it is drawn.
+        level, held = self.work.level, self.work.dragging
+        level = level if held else max(level, PRECISE, key=lambda rung: rung.order)
+        return ReturnMap(self.host.sheet, level), self.aim, PERIODS[self.period], held
+
+    @cached_property
+    def _result(self) -> Closed | Missed | None:
+        return None if self._search is None else self.work.soon(sought, *self._search)
+
+    @property
+    def looking(self) -> bool:
+        """Whether a periodic orbit is asked for and not known yet."""
+        return self._search is not None and self._result is None
+
+    @property
+    def closed(self) -> Closed | None:
+        """The periodic orbit; None where none is asked for, or known."""
+        return self._result if isinstance(self._result, Closed) else None
+
+    @property
+    def start(self) -> tuple[float, ...]:
+        """The state from which the orbit on show starts.  Raises `ModelError`."""
+        return self.host.given if self.closed is None else self.closed.state
+
+    @property
+    def lasts(self) -> float:
+        """How long it is followed: a periodic one once round."""
+        return self.span if self.closed is None else self.closed.time
+
+    @property
+    def places(self) -> list[tuple[float, float]] | None:
+        """The places of the periodic orbit; None without one."""
+        return None if self.closed is None else [(float(x), float(y)) for x, y in self.closed.orbit.places]
+
+    @property
+    def _drawn(self) -> tuple[Search, list[Branch], float] | None:
+        """Cache key of a saddle's manifolds: the search, the branches, a pixel; None for any other orbit."""
+        orbit = self._saddle
+        if orbit is None or self._search is None:
+            return None
+        places = range(orbit.period if orbit.period <= _WHOLE else 1)
+        return (self._search, [(place, stable, side) for place in places for stable in (True, False)
+                               for side in (1, -1)], 1.0 / max(self.host.pixels))
+
+    @cached_property
+    def _branches(self) -> tuple[Manifold | Missed, ...] | None:
+        """Of the manifolds of a saddle, when all are known; of no other orbit."""
+        if self._drawn is None:
+            return ()
+        if self.work.dragging:
+            return None
+        search, branches, pixel = self._drawn
+        found = [self.work.later(branch_of, search, one, self.reach, pixel) for one in branches]
+        known = [one for one in found if one is not None]
+        return tuple(known) if len(known) == len(found) else None
+
+    @property
+    def manifolds(self) -> list[Manifold]:
+        """Those branches of a saddle that are drawn."""
+        return [one for one in self._branches or () if isinstance(one, Manifold)]
+
+    @cached_property
+    def _met(self) -> list[tuple[Crossing, ...]] | None:
+        """Where each unstable branch meets each stable one, when that is known of all."""
+        if self._drawn is None or not self._branches:
+            return None
+        search, branches, pixel = self._drawn
+        found = [self.work.later(crossings_between, search, one, other, self.reach, pixel)
+                 for one in branches if not one[1] for other in branches if other[1]]
+        known = [one for one in found if one is not None]
+        return known if len(known) == len(found) else None
+
+    @property
+    def homoclinic(self) -> list[Crossing]:
+        """Where the drawn manifolds of a saddle cross for certain."""
+        return [one for some in self._met or () for one in some if one.certain]
+
+    @property
+    def _saddle(self) -> mechanics.PeriodicOrbit | None:
+        """The orbit, where manifolds of it are to be drawn."""
+        wanted = self.closed is not None and self.closed.orbit.kind.startswith("saddle") and self.reach > 0.0
+        return self.closed.orbit if self.closed is not None and wanted else None
+
+    @property
+    def growth(self) -> tuple[float, float] | None:
+        """ln|μ₁|/T and ln|μ₁μ₂|/T of the periodic orbit: the growth next to it, and its mean divergence; else None."""
+        if self.closed is None:
+            return None
+        sizes = np.abs(self.closed.orbit.multipliers)
+        with np.errstate(divide="ignore"):
+            logarithms = np.log(sizes) / self.closed.time
+        # Where volume is kept, their sum is what round-off leaves.
+        return float(logarithms[0]), round(float(logarithms.sum()), 9) + 0.0
+
+    # ---- words --------------------------------------------------------------------------------------------------
+
+    def idle(self) -> Mapping[str, float]:
+        """Return the length of manifolds where there are none."""
+        return {} if self.closing else {"reach": self.reach}
+
+    @property
+    def caption(self) -> str:
+        """The caption of the section where a periodic orbit is asked for; else empty."""
+        if not self.closing or self.aim is None:
+            return ""
+        if self.looking:
+            return "A periodic orbit is being looked for."
+        if self.closed is None:
+            which = "No periodic orbit" if self.period == ANY else f"No orbit of {self.period}"
+            return f"{which} found from here: the chosen one is shown."
+        orbit = self.closed.orbit
+        # An imaginary part within the error is none: at a double multiplier 1 its sign is left to roundings.
+        first = complex(orbit.multipliers[0])
+        multipliers = conjugates(first) if abs(first.imag) > orbit.multiplier_error else ", ".join(
+            digits(float(one.real)) for one in orbit.multipliers)
+        return f"Period {orbit.period}, {orbit.kind}: μ = {multipliers} to {power(orbit.multiplier_error)}."
+
+    def derived(self) -> Iterator[str]:
+        """Period in time, how exact its places are, symmetries; what is drawn of its manifolds."""
+        if self.closed is None:
+            return
+        orbit = self.closed.orbit
+        yield f"T = {digits(self.closed.time, 6)}, periodic; places to {power(orbit.error_estimate)}"
+        yield from (f"its own image: {name}" for name in orbit.symmetric)
+        if self._saddle is not None and self._branches is None:
+            yield self.work.awaited("Its manifolds are")
+        elif self._branches:
+            whole = sum(_ended(one) == AT_ITS_LENGTH for one in self._branches)
+            yield f"{whole} of {len(self._branches)} branches of its manifolds are {digits(self.reach)} long"
+            yield self._about_crossings()
+
+    def status(self) -> Iterator[str]:
+        """What Newton's method took, and how exact the manifolds are."""
+        if self.closed is not None:
+            orbit = self.closed.orbit
+            yield (f"Newton's method: {orbit.iterations} steps, condition {orbit.condition:.2g} ({orbit.status})")
+        if self.manifolds:
+            yield (f"manifolds {sum(len(one.points) for one in self.manifolds)} points, error across ≤ "
+                   f"{max(one.error_estimate for one in self.manifolds):.1e}")
+
+    def notes(self) -> Iterator[str]:
+        """Why there is no periodic orbit, or why its manifolds end."""
+        if isinstance(self._result, Missed):
+            yield self._result.reason
+        reasons = {_ended(one) for one in self._branches or ()} - {AT_ITS_LENGTH}
+        yield from (f"A branch of a manifold ends early. {reason}" for reason in sorted(reasons))
+        if any(one.status is not Status.OK for one in self.manifolds):
+            yield ("The manifolds are less exact than their picture: choose a shorter length of manifolds, or a higher "
+                   "accuracy.")
+        apart = sum(not one.certain for some in self._met or () for one in some)
+        if apart:
+            yield (f"At {apart} more place{'s' * (apart > 1)} the manifolds meet within their error: whether they "
+                   "cross there is not known.")
+        orbit = self._saddle
+        if orbit is not None and orbit.period > _WHOLE:
+            yield f"Of its {orbit.period} places, one has its manifolds drawn: those of the others are their images."
+
+    def _about_crossings(self) -> str:
+        """How many homoclinic points there are, and how exact."""
+        if self._met is None:
+            return self.work.awaited("Where they cross is")
+        found = self.homoclinic
+        if not found:
+            return "No homoclinic point is seen on what is drawn of them"
+        least = "at least " if any(len(some) == MOST_CROSSINGS for some in self._met) else ""
+        return (f"{least}{len(found)} homoclinic point{'s' * (len(found) > 1)} on what is drawn of them, to "
+                f"{power(max(one.error for one in found))}; longer ones cross more often")
+
+
+def _ended(branch: Manifold | Missed) -> str:
+    return branch.ended if isinstance(branch, Manifold) else branch.reason
+
+
+S = TypeVar("S", bound=State)
+
+
+def layers(of: Callable[[S], PeriodicOrbit]) -> tuple[Layer[S], ...]:
+    """Return what is drawn of it in a section."""
+    def orbit(s: S) -> mechanics.PeriodicOrbit | None:
+        closed = of(s).closed
+        return None if closed is None else closed.orbit
+
+    return view.layers(orbit, lambda s: of(s).manifolds, lambda s: of(s).homoclinic)

@@ -1,0 +1,242 @@
+"""A Poincaré section: the orbit on show among others, of which a few crossings come first."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Protocol, TypeVar
+
+import numpy as np
+
+from hess_explorer.compute.cache import Task
+from hess_explorer.scenes.framework.parameters import number
+from hess_explorer.scenes.framework.part import Host, Part
+from hess_explorer.scenes.framework.periodic_search import Closed, none_closed
+from hess_explorer.scenes.framework.scene import State
+from hess_explorer.scenes.framework.trial import Trial, section_error
+from hess_explorer.scenes.framework.windows import Window, frame_of
+from hess_explorer.scenes.framework.work import drift_status, kept_status
+from hess_explorer.views.comparison import Marks
+from hess_explorer.views.layers import Axes
+from hess_explorer.views.section_plane import joined
+from hess_mechanics.dynamics.return_map import Sheet
+from hess_mechanics.dynamics.sampling import PIXELS
+from hess_mechanics.dynamics.section import Points, section_points
+from hess_mechanics.dynamics.shadowing import right_crossings, typical
+from hess_mechanics.errors import WorkLimit
+from hess_mechanics.numerics.accuracy import Kind, Level, Plan
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["Section", "crossings_of_each", "section_trial"]
+
+_FEW = 30
+"""Crossings of each orbit, while a slider is dragged and until all are known."""
+_ON = 1e-9
+"""A start that is so close to the section, beside its size, is on it."""
+_ORBITS, _MOST_STEPS = 20, 100_000
+"""Of the default section: orbits besides the one on show; Taylor steps of each."""
+_TURNS = 60.0
+"""Time allowed for a crossing, in units of 1/ν times the slowness of the section."""
+_EVENLY = np.array([0.7548776662466927, 0.5698402909980532])
+"""1/ρ and 1/ρ² of the plastic number ρ³ = ρ + 1: multiples of it fill a square evenly."""
+_MOST_COMPARED = 400
+"""Crossings of each orbit for which levels are compared."""
+
+
+def crossings_of_each() -> Any:
+    """Declare how many crossings of a section each orbit leaves, at once."""
+    return number("n", 200.0, (50.0, 600.0), 10.0, bounds=(1.0, 1e3), label="Crossings of each orbit",
+                  doc="Points for each orbit.", group="Computation")
+
+
+class _Host(Host, Protocol):
+    @property
+    def sheet(self) -> Sheet:
+        """The section in its coordinates.  Raises `ModelError`."""
+
+    @property
+    def given(self) -> tuple[float, ...]:
+        """The state from which the chosen orbit starts.  Raises `ModelError`."""
+
+    @property
+    def count(self) -> float:
+        """The number of crossings of each orbit."""
+
+
+@dataclass(frozen=True)
+class _Crossed:
+    """Crossings of the orbit on show and of the others; None where they are left out, for that reason."""
+
+    own: Points | None
+    others: Points | None
+    reason: str
+
+
+@dataclass(frozen=True, eq=False)
+class Section(Part[_Host]):
+    """A section with the orbit on show, and others; of the others a few crossings come first.
+
+    crossing(crossings, level) : finds so many crossings of the orbit on show, and of the others; without it those are
+        spread over the window of the section.
+    axes() : of its picture, where that shows more than that window; closed() : the periodic orbit that is shown in
+        place of the chosen one, if any; later : whether only the later half of the crossings is drawn.
+    periods : of the coordinates when two runs are compared.
+    """
+
+    crossing: Callable[[int, Level], tuple[Task, Task]] | None = None
+    axes: Callable[[], Axes] | None = None
+    closed: Callable[[], Closed | None] = none_closed
+    later: bool = False
+    periods: tuple[float, float] = (math.inf, math.inf)
+
+    @property
+    def sheet(self) -> Sheet:
+        """The section in its coordinates.  Raises `ModelError`."""
+        return self.host.sheet
+
+    @property
+    def given(self) -> tuple[float, ...]:
+        """The state from which the chosen orbit starts.  Raises `ModelError`."""
+        return self.host.given
+
+    @property
+    def frame(self) -> Window:
+        """All of the picture."""
+        (x0, x1), (y0, y1) = self.sheet.window if self.axes is None else (self.axes().x, self.axes().y)
+        return (x0, y0), (x1, y1)
+
+    @property
+    def pixels(self) -> tuple[float, ...]:
+        """Pixels of the picture for a unit of each coordinate."""
+        return tuple(PIXELS / (high - low) for low, high in zip(*self.frame, strict=True))
+
+    @property
+    def wanted(self) -> int:
+        """The number of crossings of each orbit."""
+        return self.work.plan(Kind.SECTION).part(self.host.count, _FEW)
+
+    def _tasks(self, crossings: int, level: Level) -> tuple[Task, Task]:
+        if self.crossing is not None:
+            return self.crossing(crossings, level)
+        return (Task(_crossings, (self.sheet, (self.given,), crossings, level)),
+                Task(_spread, (self.sheet, crossings, level)))
+
+    @cached_property
+    def crossed(self) -> _Crossed:
+        """The crossings that are known."""
+        level = self.work.plan(Kind.SECTION).level
+        few, whole = (self._tasks(count, level) for count in (min(self.wanted, _FEW), self.wanted))
+        mine = few[0] if self.work.dragging else whole[0]
+        try:
+            own: Points = self.work.get(mine.function, *mine.arguments)
+            return _Crossed(own, self.work.sooner(whole[1], few[1]), "")
+        except WorkLimit as error:
+            return _Crossed(None, None, f"The section is left out: {error}")
+
+    @property
+    def reason(self) -> str:
+        """Why the section is left out; empty where it is not."""
+        return self.crossed.reason
+
+    @cached_property
+    def own(self) -> Array | None:
+        """Places (n, 2) of the orbit on show; None where the section is left out."""
+        closed = self.closed()
+        return self._places(self.crossed.own) if closed is None else closed.orbit.places
+
+    @property
+    def points(self) -> Array | None:
+        """The same; None of a periodic orbit, which has signs of its own."""
+        return self.own if self.closed() is None else None
+
+    @cached_property
+    def aim(self) -> tuple[float, ...] | None:
+        """The place where the chosen orbit starts, or else first crosses the section."""
+        given, points = np.array([self.given]), self.crossed.own
+        place = self.sheet.places_of(given)
+        states, there = self.sheet.states_at(*place.T)
+        if not (there[0] and np.abs(states - given).max() < _ON * max(1.0, float(np.abs(given).max()))):
+            if points is None or not len(points.states[0]):
+                return None
+            place = self.sheet.places_of(points.states[0])
+        return tuple(map(float, place[0]))
+
+    @cached_property
+    def others(self) -> Array | None:
+        """Places (n, 2) of the others; None where the section is left out."""
+        return self._places(self.crossed.others)
+
+    def _places(self, points: Points | None) -> Array | None:
+        if points is None:
+            return None
+        first = max(map(len, points.states), default=0) // 2 if self.later else 0
+        return joined(self.sheet.places_of(states[first:]) for states in points.states)
+
+    def orbits_at(self, plan: Plan) -> list[Array]:
+        """Return all orbits of the section (n, 2), that on show first, computed here and now."""
+        tasks = self._tasks(plan.part(min(self.host.count, _MOST_COMPARED), _FEW), plan.level)
+        return [self.sheet.places_of(states) for task in tasks for states in task.now().states]
+
+    @cached_property
+    def kept(self) -> tuple[int, int | None] | None:
+        """Up to which crossing the orbit on show is right to half a pixel, and the median of the others.
+
+        From a second run, with a hundredth of the tolerance; None until it is known, and while a slider is held.
+        """
+        crossed = self.crossed
+        if self.work.dragging or self.closed() is not None or crossed.own is None or crossed.others is None:
+            return None
+        tight: list[Points | None] = [self.work.later(task.function, *task.arguments) for task in self._tasks(
+            self.wanted, self.work.plan(Kind.SECTION).level.tightened())]
+        if self.work.todo:
+            # Of the others a few crossings are shown so far.
+            return None
+        at = self.sheet.places_of
+        own, others = (
+            right_crossings([*map(at, coarse.states)], [*map(at, fine.states)], self.pixels, self.periods)
+            for coarse, fine in zip((crossed.own, crossed.others), tight, strict=True) if fine is not None)
+        return own[0], typical(others)
+
+    def status(self) -> Iterator[str]:
+        """Yield size, cost and drift."""
+        if self.asked("crossed") and self.crossed.own and self.crossed.others:
+            own, others = self.crossed.own, self.crossed.others
+            points = sum(len(one) for one in (self.own, self.others) if one is not None)
+            yield f"section {points} points, {own.cost.steps + others.cost.steps} Taylor steps"
+            yield from drift_status((own.drift, others.drift))
+            yield from kept_status(self.kept, self.wanted)
+
+    def notes(self) -> Iterator[str]:
+        """Yield why the section is left out."""
+        if self.asked("crossed") and self.reason:
+            yield self.reason
+
+
+def _crossings(sheet: Sheet, starts: tuple[tuple[float, ...], ...], crossings: int, level: Level) -> Points:
+    fastest = float(np.max(sheet.system.frequency(np.array(starts).T, np.array(sheet.parameters)), initial=0.0))
+    end = _TURNS * crossings * sheet.slowness / (fastest or 1.0)
+    return section_points(sheet.system, starts, sheet.parameters, sheet.surface, end, level, crossings,
+                          most_steps=_MOST_STEPS)
+
+
+def _spread(sheet: Sheet, crossings: int, level: Level) -> Points:
+    """Return the crossings of orbits spread over the window of the section, where motions cross it."""
+    ways = np.arange(1.0, 8 * _ORBITS)[:, None] * _EVENLY % 1.0
+    low, high = np.array(sheet.window).T
+    states, there = sheet.states_at(*(low + ways * (high - low)).T)
+    return _crossings(sheet, tuple(map(tuple, states[there][:_ORBITS].tolist())), crossings, level)
+
+
+S = TypeVar("S", bound=State)
+
+
+def section_trial(of: Callable[[S], Section]) -> Trial[S]:
+    """Return how the section of a state is computed at each level."""
+    def look(s: S, orbits: list[Array]) -> Marks:
+        section = of(s)
+        return Marks(frame_of(section.frame, section.sheet.names), tuple(orbits), section.periods, crossings=True)
+
+    return Trial(Kind.SECTION, ("section",), lambda s, plan: of(s).orbits_at(plan),
+                 lambda s, orbits, truth: section_error(orbits, truth, of(s).pixels, of(s).periods), look)
