@@ -12,7 +12,7 @@ import pytest
 import oracle
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes import scenes
-from hess_explorer.scenes.framework.proved_orbit import ProvedOrbit, hull, judged
+from hess_explorer.scenes.parts.proof import hull, judged
 from hess_mechanics import circle_map, level
 from hess_mechanics.suslov_hess.equations import SYSTEM
 from support.view import View
@@ -20,7 +20,7 @@ from support.view import View
 SEEN = frozenset({"omega", "sphere"})
 SCENES = {scene.name: scene for scene in scenes().values()}
 HESS = SCENES["suslov-hess"]
-PROVING = [name for name, scene in SCENES.items() if issubclass(scene.state, ProvedOrbit)]
+PROVING = [name for name, scene in SCENES.items() if "certain" in scene.defaults() and scene.origin is None]
 STRONG = {"I22": 0.5, "I23": 1.5, "h": 0.5, "f": 0.3}
 UNSTABLE = {**STRONG, "phi0": circle_map(3.0, 0.5, 0.3, level("reference")).fixed_points[1].phi, "span": 20.0}
 """An orbit that starts on an unstable cycle, as well as a double can: neighbours part by e^12 in each turn."""
