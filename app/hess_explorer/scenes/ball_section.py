@@ -131,7 +131,7 @@ class BallSection(State):
         return forbidden_band(self.body, self.E)
 
     @cached_property
-    def sheet(self) -> mechanics.BallSection:
+    def poincare(self) -> mechanics.BallSection:
         """The section γ3 = 0 in (ψ, δ)."""
         return mechanics.BallSection(self.body, self.E)
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from hess_explorer.protocol.parameters import Value
-from hess_mechanics.dynamics.return_map import ReturnMap, Sheet
+from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
 from hess_mechanics.numerics.accuracy import PRECISE
 
 __all__ = ["Family"]
@@ -17,7 +17,7 @@ class Sectioned(Protocol):
     """A state with a section."""
 
     @property
-    def sheet(self) -> Sheet:
+    def poincare(self) -> PoincareSection:
         """The section in its coordinates.  Raises `ModelError`."""
 
 
@@ -38,9 +38,9 @@ class Family:
         """About a state; names : of all that the section depends on."""
         return cls(type(state), name, symbol, tuple((one, getattr(state, one)) for one in names if one != name))
 
-    def __call__(self, value: float) -> Sheet:
+    def __call__(self, value: float) -> PoincareSection:
         """The section at a value of the parameter.  Raises `ModelError`."""
-        return self.state(**dict(self.others), **{self.name: value}).sheet
+        return self.state(**dict(self.others), **{self.name: value}).poincare
 
     def map_at(self, value: float) -> ReturnMap:
         """The return map there.  Raises `ModelError`."""

@@ -29,7 +29,7 @@ from hess_explorer.views.text import conjugates, digits, power
 from hess_mechanics.dynamics import continuation as mechanics
 from hess_mechanics.dynamics.continuation import Bifurcation, continued, gone_on
 from hess_mechanics.dynamics.periodic import Map, apart, find_periodic
-from hess_mechanics.dynamics.return_map import ReturnMap, Sheet
+from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.patience import go_on
@@ -336,7 +336,7 @@ class _Orbit(Protocol):
 
 class _Section(Host, Protocol):
     @property
-    def sheet(self) -> Sheet:
+    def poincare(self) -> PoincareSection:
         """The section in its coordinates.  Raises `ModelError`."""
 
     @property
@@ -383,7 +383,7 @@ class Branch(Part[_Section]):
     @property
     def side(self) -> int:
         """Which coordinate of the section is drawn, upwards."""
-        return self.host.sheet.names.index(self.host.upwards)
+        return self.host.poincare.names.index(self.host.upwards)
 
     @cached_property
     def ends(self) -> tuple[float, float]:
@@ -428,7 +428,7 @@ class Branch(Part[_Section]):
         if not branches:
             return None
         found = np.concatenate([one.places[:, :, self.side].ravel() for one in branches])
-        low, high = self.host.sheet.window[self.side]
+        low, high = self.host.poincare.window[self.side]
         if found.max() - found.min() >= self.continuation.turn:
             return low, high
         middle = 0.5 * float(found.min() + found.max())

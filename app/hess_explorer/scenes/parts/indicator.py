@@ -21,8 +21,8 @@ from hess_explorer.views.layers import Layer
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.megno import CHAOTIC, REGULAR
 from hess_mechanics.dynamics.megno_map import row_of_cells, time_of
-from hess_mechanics.dynamics.return_map import Sheet
-from hess_mechanics.numerics.accuracy import Kind, Plan
+from hess_mechanics.dynamics.return_map import PoincareSection
+from hess_mechanics.numerics.accuracy import Computation, Plan
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["MEGNO", "Indicator", "colouring", "indicator_layer", "indicator_trial"]
@@ -41,7 +41,7 @@ def colouring() -> Any:
 
 class _Host(Host, Protocol):
     @property
-    def sheet(self) -> Sheet:
+    def poincare(self) -> PoincareSection:
         """The section in its coordinates.  Raises `ModelError`."""
 
     @property
@@ -66,20 +66,20 @@ class Indicator(Part[_Host]):
     @cached_property
     def time(self) -> float:
         """How long the motion from each cell is followed."""
-        return self.work.get(time_of, self.host.sheet, _TURNS)
+        return self.work.get(time_of, self.host.poincare, _TURNS)
 
     def rows(self, plan: Plan, coarse: int = 1) -> list[Arguments]:
         """Return the arguments of `row_of_cells` for each row of cells as wide as `coarse` of the finest."""
         m, n = plan.grid(CELLS)
         cells = m // coarse, n // coarse
-        return [(self.host.sheet, self.host.frame, cells, row, self.time, plan.level) for row in range(cells[1])]
+        return [(self.host.poincare, self.host.frame, cells, row, self.time, plan.level) for row in range(cells[1])]
 
     @cached_property
     def _cells(self) -> tuple[Array, int] | None:
         """Ȳ and kind of the cells, (n, 2, m), and how many of their rows are still coarse; None before any is known."""
         if not self.wanted or self.work.dragging:
             return None
-        plan = self.work.plan(Kind.INDICATOR)
+        plan = self.work.plan(Computation.INDICATOR)
         return found_by_rows(self.work, row_of_cells, self.rows(plan, COARSE), self.rows(plan),
                              self.sooner)
 
@@ -124,9 +124,9 @@ def indicator_trial(of: Callable[[S], Indicator]) -> Trial[S]:
     """Return how the cells of a state are computed at each level."""
     def look_of(s: S, cells: Array) -> Cells:
         host = of(s).host
-        return look(host.frame, host.sheet.names, cells)
+        return look(host.frame, host.poincare.names, cells)
 
-    return Trial(Kind.INDICATOR, ("section",),
+    return Trial(Computation.INDICATOR, ("section",),
                  lambda s, plan: np.stack([row_of_cells(*row)[1] for row in of(s).rows(plan)]),
                  lambda s, cells, truth: changed(cells, truth), look_of, unit="% of the cells that change", seen=3.0,
                  shown=lambda s: of(s).wanted)

@@ -19,7 +19,7 @@ from hess_explorer.scenes.framework.periodic_search import (
     MOST_POINTS,
     NONE,
     PERIODS,
-    Branch,
+    BranchChoice,
     Closed,
     Missed,
     Place,
@@ -33,8 +33,8 @@ from hess_explorer.views import periodic as view
 from hess_explorer.views.layers import Layer
 from hess_explorer.views.text import conjugates, digits, power
 from hess_mechanics.dynamics import periodic as mechanics
-from hess_mechanics.dynamics.manifolds import Crossing, Manifold
-from hess_mechanics.dynamics.return_map import ReturnMap, Sheet
+from hess_mechanics.dynamics.manifolds import Intersection, Manifold
+from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
 from hess_mechanics.numerics.accuracy import PRECISE, Status
 
 __all__ = ["NONE", "PeriodicOrbit", "layers", "length_of_manifolds", "plain", "which"]
@@ -64,7 +64,7 @@ def plain(preset: Preset) -> Preset:
 
 class _Host(Host, Protocol):
     @property
-    def sheet(self) -> Sheet:
+    def poincare(self) -> PoincareSection:
         """The section in its coordinates.  Raises `ModelError`."""
 
     @property
@@ -110,7 +110,7 @@ class PeriodicOrbit(Part[_Host]):
         # What an unstable orbit is off grows while it is drawn.
         level, held = self.work.level, self.work.dragging
         level = level if held else max(level, PRECISE, key=lambda rung: rung.order)
-        return ReturnMap(self.host.sheet, level), self.aim, PERIODS[self.period], held
+        return ReturnMap(self.host.poincare, level), self.aim, PERIODS[self.period], held
 
     @cached_property
     def _result(self) -> Closed | Missed | None:
@@ -142,7 +142,7 @@ class PeriodicOrbit(Part[_Host]):
         return None if self.closed is None else [(float(x), float(y)) for x, y in self.closed.orbit.places]
 
     @property
-    def _drawn(self) -> tuple[Search, list[Branch], float] | None:
+    def _drawn(self) -> tuple[Search, list[BranchChoice], float] | None:
         """Cache key of a saddle's manifolds: the search, the branches, a pixel; None for any other orbit."""
         orbit = self._saddle
         if orbit is None or self._search is None:
@@ -169,7 +169,7 @@ class PeriodicOrbit(Part[_Host]):
         return [one for one in self._branches or () if isinstance(one, Manifold)]
 
     @cached_property
-    def _met(self) -> list[tuple[Crossing, ...]] | None:
+    def _met(self) -> list[tuple[Intersection, ...]] | None:
         """Where each unstable branch meets each stable one, when that is known of all."""
         if self._drawn is None or not self._branches:
             return None
@@ -180,7 +180,7 @@ class PeriodicOrbit(Part[_Host]):
         return known if len(known) == len(found) else None
 
     @property
-    def homoclinic(self) -> list[Crossing]:
+    def homoclinic(self) -> list[Intersection]:
         """Where the drawn manifolds of a saddle cross for certain."""
         return [one for some in self._met or () for one in some if one.certain]
 

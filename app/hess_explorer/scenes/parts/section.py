@@ -21,12 +21,12 @@ from hess_explorer.scenes.framework.work import drift_status, kept_status
 from hess_explorer.views.comparison import Marks
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.section_plane import joined
-from hess_mechanics.dynamics.return_map import Sheet
+from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.sampling import PIXELS
-from hess_mechanics.dynamics.section import Points, section_points
+from hess_mechanics.dynamics.section import SectionPoints, section_points
 from hess_mechanics.dynamics.shadowing import right_crossings, typical
 from hess_mechanics.errors import WorkLimit
-from hess_mechanics.numerics.accuracy import Kind, Level, Plan
+from hess_mechanics.numerics.accuracy import Computation, Level, Plan
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["Section", "crossings_of_each", "section_trial"]
@@ -41,19 +41,19 @@ _TURNS = 60.0
 """Time allowed for a crossing, in units of 1/ν times the slowness of the section."""
 _EVENLY = np.array([0.7548776662466927, 0.5698402909980532])
 """1/ρ and 1/ρ² of the plastic number ρ³ = ρ + 1: multiples of it fill a square evenly."""
-_MOST_COMPARED = 400
+_MOST_COMPARED = 400.0
 """Crossings of each orbit for which levels are compared."""
 
 
 def crossings_of_each() -> Any:
     """Declare how many crossings of a section each orbit leaves, at once."""
     return number("n", 200.0, (50.0, 600.0), 10.0, bounds=(1.0, 1e3), label="Crossings of each orbit",
-                  doc="Points for each orbit.", group="Computation")
+                  doc="SectionPoints for each orbit.", group="Computation")
 
 
 class _Host(Host, Protocol):
     @property
-    def sheet(self) -> Sheet:
+    def poincare(self) -> PoincareSection:
         """The section in its coordinates.  Raises `ModelError`."""
 
     @property
@@ -69,8 +69,8 @@ class _Host(Host, Protocol):
 class _Crossed:
     """Crossings of the orbit on show and of the others; None where they are left out, for that reason."""
 
-    own: Points | None
-    others: Points | None
+    own: SectionPoints | None
+    others: SectionPoints | None
     reason: str
 
 
@@ -92,9 +92,9 @@ class Section(Part[_Host]):
     periods: tuple[float, float] = (math.inf, math.inf)
 
     @property
-    def sheet(self) -> Sheet:
+    def poincare(self) -> PoincareSection:
         """The section in its coordinates.  Raises `ModelError`."""
-        return self.host.sheet
+        return self.host.poincare
 
     @property
     def given(self) -> tuple[float, ...]:
@@ -104,7 +104,7 @@ class Section(Part[_Host]):
     @property
     def frame(self) -> Window:
         """All of the picture."""
-        (x0, x1), (y0, y1) = self.sheet.window if self.axes is None else (self.axes().x, self.axes().y)
+        (x0, x1), (y0, y1) = self.poincare.window if self.axes is None else (self.axes().x, self.axes().y)
         return (x0, y0), (x1, y1)
 
     @property
@@ -115,22 +115,22 @@ class Section(Part[_Host]):
     @property
     def wanted(self) -> int:
         """The number of crossings of each orbit."""
-        return self.work.plan(Kind.SECTION).part(self.host.count, _FEW)
+        return self.work.plan(Computation.SECTION).part(self.host.count, _FEW)
 
     def _tasks(self, crossings: int, level: Level) -> tuple[Task, Task]:
         if self.crossing is not None:
             return self.crossing(crossings, level)
-        return (Task(_crossings, (self.sheet, (self.given,), crossings, level)),
-                Task(_spread, (self.sheet, crossings, level)))
+        return (Task(_crossings, (self.poincare, (self.given,), crossings, level)),
+                Task(_spread, (self.poincare, crossings, level)))
 
     @cached_property
     def crossed(self) -> _Crossed:
         """The crossings that are known."""
-        level = self.work.plan(Kind.SECTION).level
+        level = self.work.plan(Computation.SECTION).level
         few, whole = (self._tasks(count, level) for count in (min(self.wanted, _FEW), self.wanted))
         mine = few[0] if self.work.dragging else whole[0]
         try:
-            own: Points = self.work.get(mine.function, *mine.arguments)
+            own: SectionPoints = self.work.get(mine.function, *mine.arguments)
             return _Crossed(own, self.work.sooner(whole[1], few[1]), "")
         except WorkLimit as error:
             return _Crossed(None, None, f"The section is left out: {error}")
@@ -155,12 +155,12 @@ class Section(Part[_Host]):
     def aim(self) -> tuple[float, ...] | None:
         """The place where the chosen orbit starts, or else first crosses the section."""
         given, points = np.array([self.given]), self.crossed.own
-        place = self.sheet.places_of(given)
-        states, there = self.sheet.states_at(*place.T)
+        place = self.poincare.places_of(given)
+        states, there = self.poincare.states_at(*place.T)
         if not (there[0] and np.abs(states - given).max() < _ON * max(1.0, float(np.abs(given).max()))):
             if points is None or not len(points.states[0]):
                 return None
-            place = self.sheet.places_of(points.states[0])
+            place = self.poincare.places_of(points.states[0])
         return tuple(map(float, place[0]))
 
     @cached_property
@@ -168,16 +168,16 @@ class Section(Part[_Host]):
         """Places (n, 2) of the others; None where the section is left out."""
         return self._places(self.crossed.others)
 
-    def _places(self, points: Points | None) -> Array | None:
+    def _places(self, points: SectionPoints | None) -> Array | None:
         if points is None:
             return None
         first = max(map(len, points.states), default=0) // 2 if self.later else 0
-        return joined(self.sheet.places_of(states[first:]) for states in points.states)
+        return joined(self.poincare.places_of(states[first:]) for states in points.states)
 
     def orbits_at(self, plan: Plan) -> list[Array]:
         """Return all orbits of the section (n, 2), that on show first, computed here and now."""
-        tasks = self._tasks(plan.part(min(self.host.count, _MOST_COMPARED), _FEW), plan.level)
-        return [self.sheet.places_of(states) for task in tasks for states in task.now().states]
+        tasks = self._tasks(plan.part(self.host.count, _FEW), plan.level)
+        return [self.poincare.places_of(states) for task in tasks for states in task.now().states]
 
     @cached_property
     def kept(self) -> tuple[int, int | None] | None:
@@ -188,12 +188,12 @@ class Section(Part[_Host]):
         crossed = self.crossed
         if self.work.dragging or self.closed() is not None or crossed.own is None or crossed.others is None:
             return None
-        tight: list[Points | None] = [self.work.later(task.function, *task.arguments) for task in self._tasks(
-            self.wanted, self.work.plan(Kind.SECTION).level.tightened())]
+        tight: list[SectionPoints | None] = [self.work.later(task.function, *task.arguments) for task in self._tasks(
+            self.wanted, self.work.plan(Computation.SECTION).level.tightened())]
         if self.work.todo:
             # Of the others a few crossings are shown so far.
             return None
-        at = self.sheet.places_of
+        at = self.poincare.places_of
         own, others = (
             right_crossings([*map(at, coarse.states)], [*map(at, fine.states)], self.pixels, self.periods)
             for coarse, fine in zip((crossed.own, crossed.others), tight, strict=True) if fine is not None)
@@ -214,19 +214,20 @@ class Section(Part[_Host]):
             yield self.reason
 
 
-def _crossings(sheet: Sheet, starts: tuple[tuple[float, ...], ...], crossings: int, level: Level) -> Points:
-    fastest = float(np.max(sheet.system.frequency(np.array(starts).T, np.array(sheet.parameters)), initial=0.0))
-    end = _TURNS * crossings * sheet.slowness / (fastest or 1.0)
-    return section_points(sheet.system, starts, sheet.parameters, sheet.surface, end, level, crossings,
+def _crossings(poincare: PoincareSection, starts: tuple[tuple[float, ...], ...], crossings: int, level: Level
+               ) -> SectionPoints:
+    fastest = float(np.max(poincare.system.frequency(np.array(starts).T, np.array(poincare.parameters)), initial=0.0))
+    end = _TURNS * crossings * poincare.slowness / (fastest or 1.0)
+    return section_points(poincare.system, starts, poincare.parameters, poincare.surface, end, level, crossings,
                           most_steps=_MOST_STEPS)
 
 
-def _spread(sheet: Sheet, crossings: int, level: Level) -> Points:
+def _spread(poincare: PoincareSection, crossings: int, level: Level) -> SectionPoints:
     """Return the crossings of orbits spread over the window of the section, where motions cross it."""
     ways = np.arange(1.0, 8 * _ORBITS)[:, None] * _EVENLY % 1.0
-    low, high = np.array(sheet.window).T
-    states, there = sheet.states_at(*(low + ways * (high - low)).T)
-    return _crossings(sheet, tuple(map(tuple, states[there][:_ORBITS].tolist())), crossings, level)
+    low, high = np.array(poincare.window).T
+    states, there = poincare.states_at(*(low + ways * (high - low)).T)
+    return _crossings(poincare, tuple(map(tuple, states[there][:_ORBITS].tolist())), crossings, level)
 
 
 S = TypeVar("S", bound=State)
@@ -236,7 +237,8 @@ def section_trial(of: Callable[[S], Section]) -> Trial[S]:
     """Return how the section of a state is computed at each level."""
     def look(s: S, orbits: list[Array]) -> Marks:
         section = of(s)
-        return Marks(frame_of(section.frame, section.sheet.names), tuple(orbits), section.periods, crossings=True)
+        return Marks(frame_of(section.frame, section.poincare.names), tuple(orbits), section.periods, crossings=True)
 
-    return Trial(Kind.SECTION, ("section",), lambda s, plan: of(s).orbits_at(plan),
-                 lambda s, orbits, truth: section_error(orbits, truth, of(s).pixels, of(s).periods), look)
+    return Trial(Computation.SECTION, ("section",), lambda s, plan: of(s).orbits_at(plan),
+                 lambda s, orbits, truth: section_error(orbits, truth, of(s).pixels, of(s).periods), look,
+                 small=lambda s: s.changed({"count": min(of(s).host.count, _MOST_COMPARED)}))
