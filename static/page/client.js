@@ -10,7 +10,6 @@ import { createCompare } from "./compare.js"
 import { embed, embedded } from "./embedding.js"
 import { createHandout } from "./handout.js"
 import { createHistory } from "./history.js"
-import { createLine } from "./line.js"
 import { joinOther } from "./linked.js"
 import { lifetime } from "./mount.js"
 import { fill, paint } from "./painting.js"
@@ -19,6 +18,7 @@ import { present } from "./presenting.js"
 import { answering } from "./reconnect.js"
 import { createRequests } from "./requests.js"
 import { createSight } from "./sight.js"
+import { openWebsocket } from "./websocket.js"
 import { grantWishes } from "./wishes.js"
 
 // The next pieces are asked for after a pause as long as the last ones took: half of the time is the user's, and a
@@ -49,14 +49,14 @@ export function render({ model, view }) {
   // Pictures of the scene that are not on this page.
   let absent = []
 
-  let line = null
-  listen("ask-chart", (chart) => line.send({ chart }), signal)
+  let send = null
+  listen("ask-chart", (chart) => send({ chart }), signal)
 
   const page = createPage(view)
   const address = createAddress({ query: () => state.query, isDark: page.isDark, own })
   const sight = createSight(() => requests.request(), signal)
   const requests = createRequests({
-    send: (message) => line.send(message),
+    send: (message) => send(message),
     changed: () => { root.dataset.ready = "false" },
     hidden: () => [...sight.hidden(), ...absent],
     known: (name) => descriptions.has(name),
@@ -196,7 +196,7 @@ export function render({ model, view }) {
     tell("client", own)
     // The first state is read when the page stands, even if the user was faster and it is no longer the first.
     if (model.lesson !== "") readLesson(JSON.parse(model.lesson), Number(own.step) - 1)
-    line = createLine({ take: onAnswer, lost: onLost }, signal)
+    send = openWebsocket(onAnswer, onLost, signal)
     requests.begin()
   }
   start()

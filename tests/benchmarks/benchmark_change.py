@@ -16,7 +16,6 @@ import sys
 import threading
 import time
 from pathlib import Path
-from types import SimpleNamespace
 
 SESSIONS, CHANGES = 42, 6
 
@@ -29,20 +28,22 @@ class _Page:
         from hess_explorer.page.session import Session
         from hess_explorer.protocol.parameters import Number
 
-        self.scene = self.lesson = self.state = ""
-        self.block = b""
+        self.size = 0
         self._spec = next(spec for spec in scene.specs if isinstance(spec, Number))
         self._chance = random.Random(5)
-        self.session = Session(self, scene, scene.defaults(), [], shipped())
+        self.session = Session(scene, scene.defaults(), [], shipped())
+        self._send(0, {})
 
-    def on_msg(self, handle):
-        self._handle = handle
+    def _send(self, requested, values):
+        from hess_explorer.protocol.messages import Request
+
+        self.size = len(self.session.answer(Request(requested, values=values)).encode())
+        self.session.start_tasks()
 
     def change(self):
         low, high = self._spec.softbounds
         value = self._spec.default + 0.05 * (high - low) * (self._chance.random() - 0.5)
-        values = {self._spec.name: min(max(value, low), high)}
-        self._handle(SimpleNamespace(data={"requested": 1, "held": False, "values": values}))
+        self._send(1, {self._spec.name: min(max(value, low), high)})
 
     def rest(self):
         while self.session.background.left:
@@ -60,7 +61,7 @@ def alone(scene, changes):
         before = time.thread_time()
         page.change()
         answers += time.thread_time() - before
-        size += len(page.block) + len(page.state)
+        size += page.size
         page.rest()
     whole = time.process_time() - begun
     return 1e3 * answers / changes, 1e3 * whole / changes, size / changes / 1024
@@ -68,7 +69,7 @@ def alone(scene, changes):
 
 def crowd(scenes):
     """Milliseconds of an answer where sessions ask without a pause, each behind its last answer."""
-    from hess_explorer.compute.turns import Turns
+    from hess_explorer.compute.scheduler import RequestQueue
 
     pages = [_Page(scenes[i % len(scenes)]) for i in range(SESSIONS)]
     ended = threading.Semaphore(0)
@@ -76,14 +77,14 @@ def crowd(scenes):
     def ask(page, turns, left):
         page.change()
         if left > 1:
-            turns.take(lambda: ask(page, turns, left - 1))
+            turns.put(lambda: ask(page, turns, left - 1))
         else:
             ended.release()
 
     begun = time.process_time()
     for page in pages:
-        turns = Turns()
-        turns.take(lambda page=page, turns=turns: ask(page, turns, CHANGES))
+        turns = RequestQueue()
+        turns.put(lambda page=page, turns=turns: ask(page, turns, CHANGES))
     for _ in pages:
         ended.acquire()
     spent = time.process_time() - begun

@@ -130,9 +130,8 @@ def test_an_error_reaches_everyone_who_waited_and_is_not_kept():
 
 
 def test_the_least_recently_used_go_first():
-    cache, function = ResultCache(0), Counted()
-    one = size_of(function(0))
-    cache.capacity = 3 * one
+    function = Counted()
+    cache = ResultCache(3 * size_of(function(0)))
     for i in (1, 2, 3):
         cache.get(function, i)
     assert cache.get(function, 1)[1]
@@ -185,7 +184,7 @@ def test_a_result_larger_than_the_cache_is_given_but_not_kept():
     function.size = 20 * KILOBYTE
     result, _ = cache.get(function, "large")
     assert result.array.nbytes == 20 * KILOBYTE
-    assert cache.bytes <= cache.capacity
+    assert cache.bytes <= 10 * KILOBYTE
     assert not cache.get(function, "large")[1]
 
 
@@ -223,9 +222,9 @@ def test_every_array_that_a_scene_shares_is_read_only(name, monkeypatch):
     state = scene.compute(scene.defaults(), scene.pictures, False)
     for task in state.work.todo:
         # What all scenes of costs have, and some of them nothing else.
-        if task.function is differing and not cache._entries:
+        if task.function is differing and not cache._results:
             cache.get(task.function, *task.arguments)
-    arrays = [array for future, _ in cache._entries.values() for array in arrays_in(future.result())]
+    arrays = [array for result in cache._results.values() for array in arrays_in(result)]
     assert len(arrays) > 1
     for array in arrays:
         with pytest.raises(ValueError, match="read-only"):
@@ -254,5 +253,5 @@ def test_the_cache_counts_at_least_the_bytes_of_the_arrays_it_holds(name, monkey
     for module in modules_of_scenes():
         monkeypatch.setattr(module, "CACHE", cache)
     scene.compute(scene.defaults(), scene.pictures, False)
-    held = {id(array): array.nbytes for future, _ in cache._entries.values() for array in arrays_in(future.result())}
+    held = {id(array): array.nbytes for result in cache._results.values() for array in arrays_in(result)}
     assert sum(held.values()) <= cache.bytes <= 2 * sum(held.values()) + 64 * KILOBYTE

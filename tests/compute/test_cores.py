@@ -6,11 +6,11 @@ import subprocess
 import sys
 import threading
 
-from hess_explorer.compute import turns
+from hess_explorer.compute import scheduler
 from hess_explorer.compute.background import Background
 from hess_explorer.compute.cache import Task
 from hess_explorer.compute.cores import CORES, Cores
-from hess_explorer.compute.turns import Turns
+from hess_explorer.compute.scheduler import RequestQueue
 from hess_mechanics.numerics.parallel import THREADS
 
 PATIENCE = 60.0
@@ -81,12 +81,12 @@ def test_processes_share_the_cores_and_fill_no_more_than_their_share():
 def test_pieces_of_one_session_wait_while_others_are_answered():
     go, computed = threading.Event(), threading.Event()
     busy = [threading.Event() for _ in range(THREADS)]
-    sessions = [Turns() for _ in busy]
+    sessions = [RequestQueue() for _ in busy]
     for session, begun in zip(sessions, busy, strict=True):
-        session.take(lambda begun=begun: (begun.set(), waited(go)))
+        session.put(lambda begun=begun: (begun.set(), waited(go)))
     for begun in busy:
         waited(begun)
-    assert turns._pool._max_workers > THREADS
+    assert scheduler._pool._max_workers > THREADS
     work = Background()
     work.follow([Task(computed.set, ())])
     assert not computed.wait(0.05)
@@ -98,8 +98,9 @@ def test_pieces_of_one_session_wait_while_others_are_answered():
 def test_a_program_that_ends_meanwhile_says_nothing():
     ended = subprocess.run([sys.executable, "-c", (
         "import time\n"
-        "from hess_explorer.compute.background import in_turns\n"
-        "from hess_explorer.compute.turns import Turns\n"
-        "in_turns(lambda: time.sleep(0.2) is None)\n"
-        "Turns().take(lambda: time.sleep(0.2))\n")], capture_output=True, text=True, timeout=PATIENCE, check=False)
+        "from hess_explorer.compute.background import run_in_steps\n"
+        "from hess_explorer.compute.scheduler import RequestQueue\n"
+        "run_in_steps(lambda: time.sleep(0.2) is None)\n"
+        "RequestQueue().put(lambda: time.sleep(0.2))\n")],
+        capture_output=True, text=True, timeout=PATIENCE, check=False)
     assert (ended.returncode, ended.stdout, ended.stderr) == (0, "", "")

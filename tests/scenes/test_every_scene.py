@@ -655,7 +655,7 @@ def test_a_number_from_the_wire_is_clamped_by_itself_with_a_note(values, expecte
 def test_a_change_is_drawn_with_the_request_and_not_before():
     browser = Browser(HESS)
     before = browser.state
-    browser.session.change({"h": 0.5})
+    browser.session.requested.change({"h": 0.5})
     assert browser.state is before
     state = browser.ask(requested=3)
     assert (state["number"], state["answers"]) == (before["number"] + 1, 3)
@@ -687,11 +687,10 @@ def test_a_request_without_a_change_computes_nothing(monkeypatch):
 def test_reset_brings_back_the_defaults():
     browser = Browser(HESS)
     browser.ask(values={"h": 0.2, "f": 0.1, "I22": 2.0, "phi0": 3.0, "span": 7.0})
-    browser.session.change({"accuracy": "draft"})
+    browser.session.requested.change({"accuracy": "draft"})
     browser.ask()
     assert browser.session.values != HESS.defaults()
-    browser.session.reset()
-    browser.ask()
+    browser.ask(reset=True)
     assert browser.session.values == HESS.defaults()
     shown_ = {name: one if isinstance(one, str) else one[0] for name, one in browser.controls.items()}
     assert shown_ == {**HESS.defaults(), "preset": HESS.presets[0].name}

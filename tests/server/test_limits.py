@@ -12,7 +12,7 @@ from hess_explorer.server import limits
 from hess_explorer.server.export import Export
 from hess_explorer.server.headers import QUERY_LIMIT
 from hess_explorer.server.limits import MESSAGE_LIMIT
-from hess_explorer.server.line import Line
+from hess_explorer.server.websockets import StateSocket
 from support.asynchronous import finished
 from support.serving import served
 from support.visitor import Closed, Visitor
@@ -61,13 +61,13 @@ def test_who_sends_too_much_reads_why_and_others_are_served(base, monkeypatch):
     assert "h=1.25" in query
 
 
-def test_what_is_no_json_ends_the_line_with_a_sentence_and_whatever_is_json_is_answered(base):
+def test_what_is_no_json_ends_the_websocket_with_a_sentence_and_whatever_is_json_is_answered(base):
     async def visits():
         whys = []
         # The last one is JSON, but of no depth that Python reads.
         for frame in ("{", b"\xff\xfe", "[" * 100_000 + "]" * 100_000):
             visitor = await Visitor.open(base)
-            await visitor._line.write_message(frame, binary=isinstance(frame, bytes))
+            await visitor._states.write_message(frame, binary=isinstance(frame, bytes))
             whys.append(await cut_off(visitor))
         visitor = await Visitor.open(base)
         for data in (17, None, [], "x", {"requested": "no number"}, {"chart": {"start": 3, "id": 1}}):
@@ -141,13 +141,13 @@ def test_of_who_reads_no_answers_nothing_more_is_taken(base, monkeypatch):
     """Else they would be kept until there is no memory left."""
     unread = []
 
-    def write(line, frame, binary, send=Line.write_message):
-        send(line, frame, binary)
+    def write(socket, frame, binary, send=StateSocket.write_message):
+        send(socket, frame, binary)
         # Done once the system has taken it all.
         unread.append((asyncio.get_running_loop(), asyncio.Future()))
         return unread[-1][1]
 
-    monkeypatch.setattr(Line, "write_message", write)
+    monkeypatch.setattr(StateSocket, "write_message", write)
 
     async def visit():
         visitor = await Visitor.open(base)

@@ -12,7 +12,7 @@ import pytest
 from tornado.httpclient import AsyncHTTPClient
 from tornado.websocket import websocket_connect
 
-from hess_explorer.page import desk
+from hess_explorer.page import connection
 from support.asynchronous import finished
 from support.serving import served
 from support.visitor import Closed, Visitor
@@ -22,12 +22,12 @@ def test_a_session_that_is_left_is_freed_and_nothing_watches_for_it(monkeypatch)
     """Panel's pages follow its global state: that must not hold them."""
     opened = []
 
-    class Recorded(desk.Session):
+    class Recorded(connection.Session):
         def __init__(self, *arguments):
             super().__init__(*arguments)
             opened.append(weakref.ref(self))
 
-    monkeypatch.setattr(desk, "Session", Recorded)
+    monkeypatch.setattr(connection, "Session", Recorded)
     watchers = pn.state.param.watchers
     before = len(watchers.get("busy", {}).get("value", ()))
 
@@ -56,8 +56,8 @@ def test_who_finds_no_room_reads_why_and_finds_it_when_another_has_left():
         inside = [await Visitor.open(base) for _ in range(2)]
         with pytest.raises(Closed, match=r"as many pages are open as this server has room for \(2\)"):
             await Visitor.open(base)
-        # Nor is there a line without a page.
-        stray = await websocket_connect(f"ws{base.removeprefix('http')}/line")
+        # Nor is there a session without a page.
+        stray = await websocket_connect(f"ws{base.removeprefix('http')}/states")
         assert await stray.read_message() is None
         assert (stray.close_code, stray.close_reason) == (1013, "The explorer is full: try again in a minute.")
         stray.close()

@@ -9,7 +9,8 @@ import pytest
 from tornado.httpclient import AsyncHTTPClient, HTTPClientError, HTTPRequest
 from tornado.websocket import websocket_connect
 
-from hess_explorer.server.headers import guard, policy
+from hess_explorer.server.handlers import replace_handlers
+from hess_explorer.server.headers import GuardedDocument, policy
 from support.asynchronous import finished
 from support.serving import served
 from support.visitor import Visitor
@@ -22,9 +23,9 @@ def fetched(base, *paths):
     return finished(fetch())
 
 
-async def lined(base, origin):
-    """The first frame of a line that a page of this origin opens, without a page of ours."""
-    request = HTTPRequest(f"ws{base.removeprefix('http')}/line", headers={"Origin": origin})
+async def first_answer(base, origin):
+    """The first frame of a websocket that a page of this origin opens, without a page of ours."""
+    request = HTTPRequest(f"ws{base.removeprefix('http')}/states", headers={"Origin": origin})
     socket = await websocket_connect(request)
     first = await socket.read_message()
     socket.close()
@@ -39,8 +40,8 @@ def test_the_page_runs_its_own_scripts_and_only_its_parts_are_shown_elsewhere():
         with pytest.raises(HTTPClientError, match="403"):
             finished(Visitor.open(base, origin="http://example.org"))
         with pytest.raises(HTTPClientError, match="403"):
-            finished(lined(base, "http://example.org"))
-        assert finished(lined(base, base)) is not None
+            finished(first_answer(base, "http://example.org"))
+        assert finished(first_answer(base, base)) is not None
     policies = [dict(one.split(" ", 1) for one in answer.headers["Content-Security-Policy"].split("; "))
                 for answer in (whole, part, again)]
     for answer, given in zip((whole, part, again), policies, strict=True):
@@ -55,11 +56,9 @@ def test_the_page_runs_its_own_scripts_and_only_its_parts_are_shown_elsewhere():
     assert policies[0]["script-src"] != policies[2]["script-src"]
     assert (policies[0]["frame-ancestors"], whole.headers["X-Frame-Options"]) == ("'self'", "SAMEORIGIN")
     assert policies[1]["frame-ancestors"] == "example.org"
-    guard(["*"])
-    assert "frame-ancestors" not in policy("", embedded=True)
-    assert policy("", embedded=False).endswith("frame-ancestors 'self'")
-    guard([])
-    assert policy("", embedded=True).endswith("frame-ancestors 'none'")
+    assert "frame-ancestors" not in policy("", ("*",))
+    replace_handlers([])
+    assert policy("", GuardedDocument.embedders).endswith("frame-ancestors 'none'")
     assert "X-Frame-Options" not in part.headers
 
 

@@ -5,21 +5,20 @@ from __future__ import annotations
 import dataclasses
 import json
 from functools import cache
-from types import SimpleNamespace
 from urllib.parse import parse_qs
 
 import numpy as np
-import pytest
 
 from hess_explorer.lessons import shipped
 from hess_explorer.page.description import describe
 from hess_explorer.page.session import Session
+from hess_explorer.protocol.messages import Request, parse
 from hess_explorer.protocol.parameters import Number, Places, decode
 from hess_explorer.protocol.wire import Wire
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework import work
 from hess_explorer.scenes.framework.stage import Stage
-from support.wire import read
+from support.wire import read, read_frame
 
 SCENES = scenes()
 HESS = SCENES["suslov-hess"]
@@ -202,30 +201,31 @@ def elsewhere(scene):
 
 
 class Browser:
-    """The other end of a session's wire: sends what it likes, reads what comes, as a browser does."""
+    """The other end of a session: sends what it likes, reads the frames that come, as a browser does."""
 
     def __init__(self, scene, values=None, notes=()):
-        self._receive = None
-        self.block = b""
+        self.state = None
         self.entered, self.described, self.screens = [], [], {}
         self.scene = scene
-        self.session = Session(self, scene, values or scene.defaults(), list(notes), shipped())
-
-    def on_msg(self, callback):
-        self._receive = callback
+        self.session = Session(scene, values or scene.defaults(), list(notes), shipped())
+        self._hear(self.session.answer(Request(requested=0)))
 
     def send(self, message):
-        self._receive(SimpleNamespace(data=message))
+        request = parse(message)
+        if request is not None:
+            self._hear(self.session.answer(request))
 
-    @property
-    def state(self):
-        return self._state
+    def _hear(self, answer):
+        told, block, _ = read_frame(answer.encode())
+        if "scene" in told:
+            self.described.append(told["scene"]["name"])
+        if "state" in told:
+            self._take(told["state"], block)
+        self.session.start_tasks()
 
-    @state.setter
-    def state(self, text):
-        # JSON.parse in a browser refuses NaN and Infinity.
-        self._state = json.loads(text, parse_constant=pytest.fail)
-        name = self._state["scene"]
+    def _take(self, state, block):
+        self.state = state
+        name = state["scene"]
         # It was described before.
         assert name in self.described
         if self.entered[-1:] != [name]:
@@ -233,13 +233,7 @@ class Browser:
             if name != self.scene.name:
                 self.scene = scenes()[name]
         self.screen = self.screens.setdefault(name, Screen(name))
-        self.screen.take(self._state["tree"], self.block)
-
-    def __setattr__(self, name, value):
-        if name == "scene" and isinstance(value, str):
-            self.described.append(json.loads(value)["name"])
-        else:
-            super().__setattr__(name, value)
+        self.screen.take(state["tree"], block)
 
     @property
     def data(self):

@@ -15,17 +15,17 @@ import warnings
 from collections import Counter
 from contextlib import chdir, contextmanager, nullcontext, redirect_stderr, redirect_stdout
 from threading import Barrier, Event
-from types import SimpleNamespace
 from urllib.parse import quote, urlencode
 
 import numpy as np
 
 from hess_explorer.__main__ import _parser, main
 from hess_explorer.commands.output import PATIENCE
-from hess_explorer.compute.background import in_turns
+from hess_explorer.compute.background import run_in_steps
 from hess_explorer.compute.budget import limited
 from hess_explorer.page.charts import Charts
-from hess_explorer.page.session import linked
+from hess_explorer.page.requested import linked
+from hess_explorer.protocol.messages import Answer, parse
 from hess_explorer.protocol.parameters import CLIENT, Choice, Link, Number, Places, written
 from hess_explorer.scenes import scenes
 from hess_explorer.sweep.chart import swept
@@ -296,33 +296,30 @@ class _Chart:
 
     def __init__(self):
         self.cells, self.told = b"", []
-        self.charts = Charts(self)
+        self.charts = Charts()
 
-    def on_msg(self, handle):
-        self._handle = handle
-
-    def __setattr__(self, name, value):
-        if name == "chart":
-            # JSON.parse in a browser refuses NaN and Infinity.
-            self.told.append(json.loads(value, parse_constant=lambda name: float("nan")))
-        else:
-            super().__setattr__(name, value)
+    def _handle(self, asked):
+        request = parse({"chart": asked})
+        answer = self.charts.answer(request) if request is not None else Answer()
+        if answer.chart is not None:
+            self.told.append(json.loads(json.dumps(vars(answer.chart))))
+            self.cells = answer.cells
 
     def ask(self, asked):
         """What is said to this message, and whatever the chart says until it is stopped after some pieces."""
         self.told.clear()
-        self._handle(SimpleNamespace(data={"chart": asked}))
+        self._handle(asked)
         for pause in (0.01, 0.05, 0.1):
             if not (self.told and self.told[-1].get("running")):
                 break
             time.sleep(pause)
-            self._handle(SimpleNamespace(data={"chart": {"more": 0, "id": self.told[-1]["id"]}}))
+            self._handle({"more": 0, "id": self.told[-1]["id"]})
             yield self.told[-1], self.cells
-        self._handle(SimpleNamespace(data={"chart": {"stop": True}}))
+        self._handle({"stop": True})
         # A piece that has begun comes to its end, or is cut off between two parts.
         all_here = Barrier(THREADS + 1)
         for _ in range(THREADS):
-            in_turns(lambda: all_here.wait() < 0)
+            run_in_steps(lambda: all_here.wait() < 0)
         all_here.wait()
         for one in self.told:
             yield one, b""

@@ -10,9 +10,8 @@ import panel as pn
 
 from hess_explorer.headless.screenshot import free_port
 from hess_explorer.server import serving
-from hess_explorer.server.headers import guard
+from hess_explorer.server.handlers import replace_handlers
 from hess_explorer.server.liveness import is_alive
-from hess_explorer.server.page_socket import use
 
 __all__ = ["UNWARMED", "served"]
 
@@ -33,8 +32,7 @@ def served(embedders=("*",), sessions=1000, **changed):
     port = free_port()
     options = {**serving.options(port, "127.0.0.1", [], sessions=sessions), **changed}
     pn.extension()
-    guard(embedders)
-    use()
+    replace_handlers(embedders)
     thread = pn.serve(show=False, threaded=True, **options)
     # What pytest keeps of a log holds what it speaks of.
     logging.disable(logging.INFO)

@@ -38,13 +38,13 @@ def _nodes(item):
 class Visitor:
     """One page: `await Visitor.open(base, query)`, then `await visitor.ask(values={…})`.
 
-    It has two websockets, as in a browser: Panel's, by which it gets the document, and the line.
+    It has two websockets, as in a browser: Panel's, by which it gets the document, and that of states.
     """
 
     def __init__(self, socket, origin):
         self._socket, self.origin = socket, origin
         self._receiver = Receiver(Protocol())
-        self._line = None
+        self._states = None
         self._ended = []
         self._asked = 0
         self.state = None
@@ -79,7 +79,7 @@ class Visitor:
             ready = {"type": "event", "name": "document_ready", "values": {"type": "map", "entries": []}}
             await found.say_to_panel("PATCH-DOC", {"events": [
                 {"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": ready}]})
-            found._line = await connect(f"line?{query}")
+            found._states = await connect(f"states?{query}")
             while found.state is None:
                 await found.hear(timeout)
         except BaseException:
@@ -112,7 +112,7 @@ class Visitor:
     async def end(self, timeout=60.0):
         """What both websockets hear last."""
         heard = []
-        for socket in (self._line, self._socket):
+        for socket in (self._states, self._socket):
             try:
                 while True:
                     await self._read(socket, timeout)
@@ -130,7 +130,7 @@ class Visitor:
 
     async def hear(self, timeout=60.0):
         """The next answer: what is told, by name."""
-        frame = await self._read(self._line, timeout)
+        frame = await self._read(self._states, timeout)
         head, _ = struct.unpack_from("<II", frame)
         told = json.loads(frame[8:8 + head])
         self.state = told.get("state", self.state)
@@ -138,7 +138,7 @@ class Visitor:
 
     async def say(self, data):
         """Send a message, whatever it is."""
-        await self._line.write_message(json.dumps(data))
+        await self._states.write_message(json.dumps(data))
 
     async def ask(self, timeout=60.0, **message):
         """The state that answers this message."""
@@ -157,7 +157,7 @@ class Visitor:
 
     async def leave(self):
         """Close both websockets, as a tab that is closed does."""
-        both = [socket for socket in (self._line, self._socket) if socket is not None]
+        both = [socket for socket in (self._states, self._socket) if socket is not None]
         for socket in both:
             socket.close()
         for socket in both:

@@ -79,11 +79,15 @@ def _run(options: argparse.Namespace) -> None:
     # `hess_explorer.server.warm` turns the collector on again.
     gc.disable()
     with suppress(KeyboardInterrupt):
+        from hess_explorer.server.handlers import HandlerMissing
         from hess_explorer.server.serving import serve
 
         embedders = ["*"] if options.embedders is None else [one for one in options.embedders if one != "none"]
-        serve(port=options.port, address=options.address, show=show, origins=options.origins, ready=ready,
-              lesson=lesson, embedders=embedders, workers=options.workers, sessions=options.sessions)
+        try:
+            serve(port=options.port, address=options.address, show=show, origins=options.origins, ready=ready,
+                  lesson=lesson, embedders=embedders, workers=options.workers, sessions=options.sessions)
+        except HandlerMissing as error:
+            raise CommandError(str(error)) from error
 
 
 def _lesson(path: Path | None) -> Lesson | None:

@@ -16,7 +16,7 @@ from hess_explorer.compute.cores import CORES, queue_again
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.parallel import THREADS
 
-__all__ = ["SECONDS", "Background", "in_turns"]
+__all__ = ["SECONDS", "Background", "run_in_steps"]
 
 SECONDS = 30.0
 """Of the processor, all cores together, for one piece."""
@@ -29,8 +29,8 @@ logger = logging.getLogger("hess_explorer")
 _pool = ThreadPoolExecutor(max_workers=THREADS, thread_name_prefix="background")
 
 
-def in_turns(step: Callable[[], bool]) -> None:
-    """Call step() in the background until it is False, each time behind what others wait for: so all take turns."""
+def run_in_steps(step: Callable[[], bool]) -> None:
+    """Call step() in the background until it returns False, each time behind what others have queued."""
 
     def one() -> None:
         with CORES.fill():
@@ -120,7 +120,7 @@ class Background:
         self._job = job = _Job(wanted, self._begun)
         # No thread is woken for nothing.
         for _ in range(min(THREADS, job.left)):
-            in_turns(job.one)
+            run_in_steps(job.one)
 
     def stop(self) -> None:
         """Discard all tasks; those that have begun end between two parts of their computations."""

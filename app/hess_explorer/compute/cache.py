@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 import dataclasses
-import logging
 import threading
-from collections import OrderedDict
 from collections.abc import Callable, Hashable, Mapping
 from concurrent.futures import Future
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from cachetools import LRUCache
 
 from hess_explorer.compute.budget import Abandoned, OverBudget, check
 
 __all__ = ["CACHE", "ResultCache", "Task", "size_of"]
-
-logger = logging.getLogger("hess_explorer")
 
 _OVERHEAD, _NUMBER = 512, 64
 
@@ -58,30 +56,27 @@ class ResultCache:
     """
 
     def __init__(self, capacity: int) -> None:
-        self.capacity = capacity
-        self.bytes = 0
         self.hits = 0
         self.misses = 0
         self._lock = threading.Lock()
-        self._entries: OrderedDict[Hashable, tuple[Future[Any], int]] = OrderedDict()
+        self._results: LRUCache[Hashable, Any] = LRUCache(capacity, getsizeof=size_of)
+        self._running: dict[Hashable, Future[Any]] = {}
 
     def get(self, function: Callable[..., Any], *arguments: Hashable) -> tuple[Any, bool]:
-        """The result of function(*arguments), and whether it was there already.  Raises as `budget.check`."""
+        """Return function(*arguments), and whether it was there already.  Raises as `budget.check`."""
         check()
         key = _key(function, arguments)
         with self._lock:
-            entry = self._entries.get(key)
-            if entry is not None:
+            if key in self._results:
                 self.hits += 1
-                self._entries.move_to_end(key)
-                future = entry[0]
-            else:
-                self.misses += 1
-                future = Future()
-                self._entries[key] = (future, 0)
-        if entry is not None:
+                return self._results[key], True
+            own: Future[Any] = Future()
+            running = self._running.setdefault(key, own)
+            self.misses += running is own
+            self.hits += running is not own
+        if running is not own:
             try:
-                return future.result(), True
+                return running.result(), True
             except (Abandoned, OverBudget):
                 # That was the end of another session's budget.
                 return self.get(function, *arguments)
@@ -89,29 +84,28 @@ class ResultCache:
             value = function(*arguments)
         except BaseException as error:
             with self._lock:
-                self._entries.pop(key, None)
-            future.set_exception(error)
+                del self._running[key]
+            own.set_exception(error)
             raise
-        size = size_of(value)
         with self._lock:
-            # The entry may have been dropped during the computation: then it is not counted.
-            if key in self._entries:
-                self._entries[key] = (future, size)
-                self.bytes += size
-                self._shrink()
-        future.set_result(value)
+            del self._running[key]
+            # What is larger than the whole cache is not kept.
+            with suppress(ValueError):
+                self._results[key] = value
+        own.set_result(value)
         return value, False
 
     def peek(self, function: Callable[..., Any], *arguments: Hashable) -> Any | None:
-        """The result of function(*arguments) if it is there, which counts as a hit; else None."""
+        """Return function(*arguments) if it is there, which counts as a hit; else None."""
         key = _key(function, arguments)
         with self._lock:
-            entry = self._entries.get(key)
-            if entry is None or not entry[0].done() or entry[0].exception() is not None:
-                return None
-            self.hits += 1
-            self._entries.move_to_end(key)
-            return entry[0].result()
+            self.hits += key in self._results
+            return self._results.get(key)
+
+    @property
+    def bytes(self) -> int:
+        """How much is held."""
+        return int(self._results.currsize)
 
     @property
     def asked(self) -> int:
@@ -121,13 +115,8 @@ class ResultCache:
     def metrics(self) -> dict[str, int]:
         """The counters, all of one moment."""
         with self._lock:
-            return {"cache_hits": self.hits, "cache_misses": self.misses, "cache_entries": len(self._entries),
+            return {"cache_hits": self.hits, "cache_misses": self.misses, "cache_entries": len(self._results),
                     "cache_bytes": self.bytes}
-
-    def _shrink(self) -> None:
-        while self.bytes > self.capacity and self._entries:
-            _, (_, size) = self._entries.popitem(last=False)
-            self.bytes -= size
 
 
 def _key(function: Callable[..., Any], arguments: tuple[Hashable, ...]) -> Hashable:
@@ -135,4 +124,3 @@ def _key(function: Callable[..., Any], arguments: tuple[Hashable, ...]) -> Hasha
 
 
 CACHE = ResultCache(64 * 2**20)
-

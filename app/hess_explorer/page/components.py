@@ -118,7 +118,7 @@ class Prose(JSComponent):
 class Ready(JSComponent):
     """Keeps `<html data-ready data-state>` and the address bar.
 
-    What it asks for and gets goes by a line of its own, see `Desk`, and not by Panel.
+    States come by the websocket of `Connection`, and not by Panel.
     """
 
     lesson = param.String(default="", doc="JSON: the lesson that the link names, see `description`.")

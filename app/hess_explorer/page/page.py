@@ -1,6 +1,6 @@
 """The page: Panel's for the document and its theme, with one component that says where everything stands.
 
-Of states Panel knows nothing: the browser asks for them, and gets them, by a line of its own ("server/line.py").
+Panel knows nothing of states: they come by a websocket of their own ("server/websockets.py").
 """
 
 from __future__ import annotations

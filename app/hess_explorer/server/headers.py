@@ -8,26 +8,22 @@ the browser (`unsafe-eval`), and its styles, as those of Material UI, stand in t
 from __future__ import annotations
 
 import secrets
-from collections.abc import Sequence
+from typing import ClassVar
 
-from bokeh.server.urls import per_app_patterns
 from panel.io.server import DocHandler
 
 from hess_explorer.protocol.parameters import MAX_QUERY
 
-__all__ = ["guard", "policy"]
+__all__ = ["GuardedDocument", "policy"]
 
 QUERY_LIMIT = 4 * MAX_QUERY
 """Characters of a link: the whole of it comes back with the websocket, in a header."""
 
-_embedders: tuple[str, ...] = ("*",)
-"""Who may show a part of the page, `embed=1`."""
 
-
-def policy(nonce: str, embedded: bool) -> str:
-    """The Content-Security-Policy of an answer."""
+def policy(nonce: str, embedders: tuple[str, ...]) -> str:
+    """Return the Content-Security-Policy of an answer; embedders : who may show it."""
     # Where any page may, also one of a file, which "*" does not mean, nothing is said.
-    ancestors = "'self'" if not embedded else "" if "*" in _embedders else " ".join(_embedders)
+    ancestors = "" if "*" in embedders else " ".join(embedders)
     return "; ".join([
         "default-src 'none'",
         # Panel makes modules of texts, as blobs, which import those of this server.
@@ -49,6 +45,9 @@ def policy(nonce: str, embedded: bool) -> str:
 class GuardedDocument(DocHandler):
     """The document of the page, with these headers."""
 
+    embedders: ClassVar[tuple[str, ...]] = ("*",)
+    """Who may show a part of the page, `embed=1`."""
+
     # Before it is chosen Tornado refuses what is no method of it.
     _nonce = ""
 
@@ -64,7 +63,8 @@ class GuardedDocument(DocHandler):
             return
         await super().prepare()  # type: ignore[no-untyped-call]  # Panel declares no types
         embedded = self.get_query_argument("embed", "") == "1"
-        self.set_header("Content-Security-Policy", policy(self._nonce, embedded))
+        self.set_header("Content-Security-Policy",
+                        policy(self._nonce, self.embedders if embedded else ("'self'",)))
         if not embedded:
             # For what does not know the policy.
             self.set_header("X-Frame-Options", "SAMEORIGIN")
@@ -76,12 +76,3 @@ class GuardedDocument(DocHandler):
         if isinstance(chunk, str):
             chunk = chunk.replace("<script", f'<script nonce="{self._nonce}"')
         super().write(chunk)
-
-
-def guard(embedders: Sequence[str]) -> None:
-    """From the next server on; embedders : hosts that may show parts of the page, "*" any, none at all: nobody."""
-    global _embedders  # noqa: PLW0603  # one process serves one explorer
-    _embedders = tuple(embedders) or ("'none'",)
-    for i, route in enumerate(per_app_patterns):
-        if route[1] is DocHandler:
-            per_app_patterns[i] = (route[0], GuardedDocument)

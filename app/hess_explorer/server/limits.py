@@ -11,7 +11,7 @@ import time
 
 from tornado.websocket import WebSocketHandler
 
-__all__ = ["MESSAGE_LIMIT", "THERE", "Meter", "say_goodbye"]
+__all__ = ["MESSAGE_LIMIT", "OPEN_SOCKETS", "RateLimit", "say_goodbye"]
 
 MESSAGE_LIMIT = 256 * 1024
 """Bytes of one frame: slider values and clicks are far smaller."""
@@ -24,11 +24,11 @@ TOO_LARGE = f"A message may have {MESSAGE_LIMIT // 1024} KB: send a smaller one.
 TOO_MANY = f"More than {RATE:.0f} messages in a second: wait for each answer before you ask again."
 ENDING = "The server ends or is started anew: open the page again in a moment."
 
-THERE: set[WebSocketHandler] = set()
+OPEN_SOCKETS: set[WebSocketHandler] = set()
 """All websockets of this process."""
 
 
-class Meter:
+class RateLimit:
     """Counts what comes in by one websocket.
 
     frames : of which a message consists.
@@ -40,7 +40,7 @@ class Meter:
         self._over = False
 
     def takes(self, socket: WebSocketHandler, frame: str | bytes) -> bool:
-        """Whether this frame is taken; if it is one too many or too large, the line is cut with a sentence."""
+        """Whether this frame is taken; if it is one too many or too large, the websocket is closed with a sentence."""
         now = time.monotonic()
         self._room = min(self._frames * BURST, self._room + self._frames * RATE * (now - self._since)) - 1.0
         self._since = now
@@ -57,8 +57,8 @@ class Meter:
 
 async def say_goodbye(seconds: float) -> None:
     """Tell all pages that the server ends, and wait so long at most until they have heard it."""
-    for one in [*THERE]:
+    for one in [*OPEN_SOCKETS]:
         one.close(1001, ENDING)
     ends = time.monotonic() + seconds
-    while THERE and time.monotonic() < ends:
+    while OPEN_SOCKETS and time.monotonic() < ends:
         await asyncio.sleep(0.02)

@@ -22,17 +22,16 @@ from hess_explorer.compute.cores import CORES
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.page import page
 from hess_explorer.server.capacity import Capacity
-from hess_explorer.server.ending import Workers, end_on_signals, leave
 from hess_explorer.server.export import Export
 from hess_explorer.server.garbage import GARBAGE
-from hess_explorer.server.headers import guard
-from hess_explorer.server.limits import MESSAGE_LIMIT, THERE
-from hess_explorer.server.line import Line
+from hess_explorer.server.handlers import replace_handlers
+from hess_explorer.server.limits import MESSAGE_LIMIT, OPEN_SOCKETS
 from hess_explorer.server.liveness import is_alive
 from hess_explorer.server.modules import module_routes
-from hess_explorer.server.page_socket import use
 from hess_explorer.server.qr_code import QrCode
+from hess_explorer.server.shutdown import Workers, end_on_signals, leave
 from hess_explorer.server.warm import warm
+from hess_explorer.server.websockets import StateSocket
 
 __all__ = ["options", "serve"]
 
@@ -55,7 +54,7 @@ class Metrics(RequestHandler):
     def get(self) -> None:
         """Answer with the counters as they are now."""
         self.set_header("Content-Type", "text/plain; version=0.0.4; charset=utf-8")
-        counters = {**CACHE.metrics(), "sessions": self._capacity.there, "websockets": len(THERE),
+        counters = {**CACHE.metrics(), "sessions": self._capacity.there, "websockets": len(OPEN_SOCKETS),
                     "threads": threading.active_count()}
         self.finish("".join(f"hess_explorer_{name} {value}\n" for name, value in counters.items()))
 
@@ -103,12 +102,12 @@ def options(port: int, address: str, origins: Sequence[str], lesson: Lesson | No
         "port": port,
         "address": address,
         "websocket_origin": [f"localhost:{port}", f"127.0.0.1:{port}", *origins],
-        "extra_patterns": [("/line", Line, {"capacity": capacity, "lesson": lesson, "follow": follow}),
+        "extra_patterns": [("/states", StateSocket, {"capacity": capacity, "lesson": lesson, "follow": follow}),
                            ("/metrics", Metrics, {"capacity": capacity}), ("/qr.svg", QrCode), ("/export", Export),
                            *module_routes()],
         "liveness": True,
         "verbose": False,
-        # `Meter` says in a sentence what a frame may have; beyond this Tornado cuts the line with two words.
+        # `RateLimit` says in a sentence what a frame may have; beyond this Tornado closes the websocket with two words.
         "websocket_max_message_size": 4 * MESSAGE_LIMIT,
         # Who is slow to say what is wanted holds a connection for so many seconds.
         "http_server_kwargs": {"max_body_size": BODY_LIMIT, "body_timeout": 20.0, "idle_connection_timeout": 300.0},
@@ -126,7 +125,7 @@ def serve(port: int, address: str, show: bool, origins: Sequence[str], ready: Ca
     address : to listen on; show : open the browser; origins : HOST:PORT pairs whose pages may open a websocket,
     besides this machine's own; ready : called from another thread when the page answers without compiling
     first; lesson : one besides those of the package; embedders : hosts whose pages may show parts of this one, "*" any;
-    workers : processes that serve; a session stays with the one that its line comes to; sessions : as many as each
+    workers : processes that serve; a session stays with the one that its websocket comes to; sessions : as many as each
     of them serves at a time; follow : told the query of every state that a page shows.
     """
     logging.basicConfig(format="%(asctime)s %(name)s %(message)s")
@@ -135,8 +134,7 @@ def serve(port: int, address: str, show: bool, origins: Sequence[str], ready: Ca
     # The thread that serves waits so long for Python's lock behind each that computes; 5 ms otherwise.
     sys.setswitchinterval(0.001)
     pn.extension()
-    use()
-    guard(embedders)
+    replace_handlers(embedders)
     together = Workers() if workers > 1 else None
     # With several workers this comes back in each of them, and the process that began stays behind to watch over them.
     told = options(port, address, origins, lesson, sessions=sessions, follow=follow)

@@ -29,7 +29,7 @@ _COMPILER = """
 import os
 import threading
 
-from hess_explorer.server.ending import end_with_stdin
+from hess_explorer.server.shutdown import end_with_stdin
 
 threading.Thread(target=end_with_stdin, daemon=True).start()
 if os.name == "posix":

@@ -8,7 +8,7 @@ import time
 
 import numpy as np
 
-from hess_explorer.compute.background import in_turns
+from hess_explorer.compute.background import run_in_steps
 from hess_explorer.compute.budget import Abandoned, OverBudget, limited
 from hess_explorer.sweep.chart import Chart, Indices
 from hess_explorer.sweep.progress import Clock, Progress
@@ -49,7 +49,7 @@ class Charting:
         self._lock = threading.Lock()
         self.progress = Progress(0, chart.cells, 0.0, None)
         self._tell = Clock(self._hear, chart.cells, 0)
-        in_turns(self._step)
+        run_in_steps(self._step)
 
     def stop(self) -> None:
         """Leave it at what is known."""

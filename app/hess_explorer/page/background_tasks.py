@@ -1,4 +1,4 @@
-"""What a state still lacks: computed in the background, piece by piece, until it is stopped."""
+"""The tasks that a state still lacks: computed in the background until they are stopped."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ from hess_explorer.compute.background import Background
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.scene import Report
 
-__all__ = ["Pieces"]
+__all__ = ["BackgroundTasks"]
 
 
-class Pieces:
-    """The pieces of the state on show.
+class BackgroundTasks:
+    """The tasks of the state on show.
 
     background : computes them; progress : (done, of) while some are on their way.
     """
@@ -42,18 +42,18 @@ class Pieces:
     def ended(self, more: bool) -> bool:
         """Whether nothing is computed any more; more : whether the state is the same.
 
-        To be asked before pieces are looked for: the last one may come meanwhile.
+        To be asked before the state is computed: the last task may end meanwhile.
         """
         self._left = self.background.left
         return self._left == 0 if more else self._stopped
 
     @property
     def news(self) -> bool:
-        """Whether a piece has come since they were looked for, or none is on its way."""
+        """Whether a task has ended since the state was computed, or none is on its way."""
         return not 0 < self.background.left == self._left
 
     def follow(self, report: Report, more: bool, ended: bool) -> list[str]:
-        """What the report lacks is computed in the background from `begin` on; a note where that had ended early."""
+        """What the report lacks is computed in the background from `start` on; a note where that had ended early."""
         left = len(report.todo)
         if not more:
             self._followed = set()
@@ -73,8 +73,8 @@ class Pieces:
         return [self.background.error or (
             f"Stopped: {report.total - left} of {report.total} parts are drawn. Change a value to compute again.")]
 
-    def begin(self) -> None:
-        """Once the answer is made: what is computed behind it would hold it up for as long as it has Python's lock."""
+    def start(self) -> None:
+        """Start the tasks, once the answer has been sent: they would hold it up while they have Python's lock."""
         if self._next is not None:
             self.background.follow(self._next)
             self._next = None

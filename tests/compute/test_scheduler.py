@@ -9,10 +9,10 @@ from concurrent.futures import ThreadPoolExecutor
 import numba
 import pytest
 
-from hess_explorer.compute import turns
+from hess_explorer.compute import scheduler
 from hess_explorer.compute.budget import Abandoned, OverBudget, check, limited
 from hess_explorer.compute.cache import ResultCache
-from hess_explorer.compute.turns import MOST, Turns
+from hess_explorer.compute.scheduler import MOST, RequestQueue
 from hess_mechanics.dynamics.trade import measure
 from hess_mechanics.numerics.accuracy import Computation
 from hess_mechanics.numerics.parallel import share
@@ -29,11 +29,11 @@ def waited(event):
 
 
 def test_a_session_does_one_thing_at_a_time_in_order_and_elsewhere():
-    session, done, ended, begun = Turns(), [], threading.Event(), []
+    session, done, ended, begun = RequestQueue(), [], threading.Event(), []
 
     def work(n):
         begun.append(n)
-        assert threading.current_thread().name.startswith("turn")
+        assert threading.current_thread().name.startswith("request")
         # Nothing of this session was begun before the one before it ended.
         assert begun == [*done, n]
         done.append(n)
@@ -41,54 +41,54 @@ def test_a_session_does_one_thing_at_a_time_in_order_and_elsewhere():
             ended.set()
 
     for n in range(10):
-        assert session.take(lambda n=n: work(n))
+        assert session.put(lambda n=n: work(n))
     waited(ended)
     assert done == list(range(10))
 
 
 def test_of_too_much_that_waits_the_newest_is_done():
-    session, go, ended, done = Turns(), threading.Event(), threading.Event(), []
+    session, go, ended, done = RequestQueue(), threading.Event(), threading.Event(), []
     started = threading.Event()
-    session.take(lambda: (started.set(), go.wait(PATIENCE)))
+    session.put(lambda: (started.set(), go.wait(PATIENCE)))
     waited(started)
     for n in range(MOST + 5):
-        assert session.take(lambda n=n: done.append(n)) == (n < MOST)
-    session.take(ended.set)
+        assert session.put(lambda n=n: done.append(n)) == (n < MOST)
+    session.put(ended.set)
     go.set()
     waited(ended)
     assert done == list(range(6, MOST + 5))
 
 
 def test_sessions_take_turns_and_an_error_ends_none(caplog):
-    sessions, ended = [Turns() for _ in range(3)], threading.Semaphore(0)
+    sessions, ended = [RequestQueue() for _ in range(3)], threading.Semaphore(0)
 
     def fail():
         raise ZeroDivisionError("secret")
 
     for session in sessions:
-        session.take(fail)
-        session.take(ended.release)
+        session.put(fail)
+        session.put(ended.release)
     for _ in sessions:
         assert ended.acquire(timeout=PATIENCE)
     assert [record.exc_info[0] for record in caplog.records] == [ZeroDivisionError] * 3
 
 
 def test_turns_are_fair_in_seconds_and_not_in_number(monkeypatch):
-    monkeypatch.setattr(turns, "_pool", ThreadPoolExecutor(1, "turn"))
+    monkeypatch.setattr(scheduler, "_pool", ThreadPoolExecutor(1, "request"))
     began, done, everything = threading.Event(), [], threading.Semaphore(0)
-    dear, cheap = Turns(), [Turns() for _ in range(4)]
+    dear, cheap = RequestQueue(), [RequestQueue() for _ in range(4)]
 
     def work(name, seconds):
         busy(seconds)
         done.append(name)
         everything.release()
 
-    dear.take(began.wait)
+    dear.put(began.wait)
     for _ in range(3):
-        dear.take(lambda: work("dear", 0.1))
+        dear.put(lambda: work("dear", 0.1))
     for session in cheap:
         for _ in range(5):
-            session.take(lambda: work("cheap", 0.001))
+            session.put(lambda: work("cheap", 0.001))
     began.set()
     for _ in range(23):
         assert everything.acquire(timeout=PATIENCE)
@@ -99,7 +99,7 @@ def test_turns_are_fair_in_seconds_and_not_in_number(monkeypatch):
 
 
 def test_what_nobody_waits_for_is_not_begun_and_what_runs_ends_at_its_next_computation():
-    session, go, started, found, ended = Turns(), threading.Event(), threading.Event(), [], threading.Event()
+    session, go, started, found, ended = RequestQueue(), threading.Event(), threading.Event(), [], threading.Event()
     cache = ResultCache(2**20)
 
     def work():
@@ -111,15 +111,15 @@ def test_what_nobody_waits_for_is_not_begun_and_what_runs_ends_at_its_next_compu
         finally:
             ended.set()
 
-    session.take(work)
-    session.take(lambda: found.append("the next"))
+    session.put(work)
+    session.put(lambda: found.append("the next"))
     waited(started)
     session.end()
     go.set()
     waited(ended)
-    assert session.take(lambda: found.append("later"))
+    assert session.put(lambda: found.append("later"))
     other = threading.Event()
-    Turns().take(other.set)
+    RequestQueue().put(other.set)
     waited(other)
     assert found == [(4, False)]
 
@@ -213,4 +213,4 @@ def test_the_end_of_one_budget_is_not_that_of_others_who_wait_for_the_same():
 
 def test_there_are_more_threads_than_cores():
     """So that one who asks for what takes long keeps no other waiting."""
-    assert turns._pool._max_workers > turns.THREADS
+    assert scheduler._pool._max_workers > scheduler.THREADS

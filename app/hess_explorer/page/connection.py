@@ -1,0 +1,64 @@
+"""One page: its requests wait in a queue, so that nothing is computed in the thread that serves."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cached_property, partial
+
+from hess_explorer.compute.scheduler import RequestQueue
+from hess_explorer.lessons.lesson import Lesson
+from hess_explorer.page.charts import Charts
+from hess_explorer.page.opening import opening
+from hess_explorer.page.session import Session
+from hess_explorer.protocol.messages import Answer, ChartRequest, Request, parse
+
+__all__ = ["Connection"]
+
+
+class Connection:
+    """Answers the requests of a page one by one, beginning with the state of its query.
+
+    Parameters
+    ----------
+    query, lesson : of the page, see `opening`.
+    send : sends a frame to the page, from any thread.
+    follow : told the query of each state that the page shows.
+    """
+
+    def __init__(self, query: str, lesson: Lesson | None, send: Callable[[bytes], object],
+                 follow: Callable[[str], None] | None) -> None:
+        self._query, self._lesson = query, lesson
+        self._send, self._follow = send, follow
+        self._charts = Charts()
+        self._queue = RequestQueue()
+        self._queue.put(partial(self._answer, Request(requested=0)))
+
+    def receive(self, message: object) -> None:
+        """Queue the request in decoded JSON, which is not trusted."""
+        request = parse(message)
+        if request is not None:
+            self._queue.put(partial(self._answer, request))
+
+    def end(self) -> None:
+        """Drop what waits, and stop what runs: the page is gone."""
+        self._queue.end()
+        self._charts.end()
+
+    @cached_property
+    def _session(self) -> Session:
+        opened = opening(self._query, self._lesson)
+        return Session(opened.scene, opened.values, opened.notes, opened.lessons, opened.pictures)
+
+    def _answer(self, request: Request | ChartRequest) -> None:
+        if isinstance(request, Request):
+            self._tell(self._session.answer(request))
+            self._session.start_tasks()
+        else:
+            self._tell(self._charts.answer(request))
+
+    def _tell(self, answer: Answer) -> None:
+        if answer.state is not None and self._follow is not None:
+            self._follow(answer.state.query)
+        frame = answer.encode()
+        if frame:
+            self._send(frame)

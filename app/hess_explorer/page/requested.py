@@ -1,0 +1,92 @@
+"""The requested state: a scene and its values, as the user has asked for them."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from hess_explorer.lessons.lesson import StateLink
+from hess_explorer.protocol.parameters import Choice, Link, Number, Value, Values
+from hess_explorer.scenes import scenes
+from hess_explorer.scenes.framework.scene import Scene
+
+__all__ = ["RequestedState", "linked"]
+
+
+def linked(link: Link, here: str) -> tuple[Scene[Any], dict[str, Value]]:
+    """Return the scene that a link names, else the one of the name `here`, and its values there."""
+    scene = scenes()[str(link.value(Choice("scene", "Scene", tuple(scenes()), here)))]
+    return scene, link.values(scene.specs)
+
+
+class RequestedState:
+    """The requested scene and values, each value within its bounds; what is possible together, the scene knows.
+
+    notes : on the values that had to be changed, of the last change alone.
+    carried : whether the values were carried over from a scene of another motion, and may be impossible here.
+    """
+
+    def __init__(self, scene: Scene[Any], values: Values, notes: list[str]) -> None:
+        self.scene = scene
+        self._left: dict[str, Values] = {}
+        self._enter(scene, values, notes)
+
+    def _enter(self, scene: Scene[Any], values: Values, notes: list[str]) -> None:
+        """Go to a scene; its defaults where the values say nothing."""
+        if scene is not self.scene:
+            self._left[self.scene.name] = self.values
+        self.scene, self.notes, self.carried = scene, [*notes], False
+        self.specs = {spec.name: spec for spec in scene.specs}
+        self.values: dict[str, Value] = scene.defaults()
+        self._set(values)
+
+    def change(self, values: Values) -> None:
+        """Set these values; a choice carries the numbers along that keep the motion continuous."""
+        before = dict(self.values)
+        self.notes = []
+        self._set(values)
+        if any(isinstance(spec, Choice) and self.values[name] != before[name] for name, spec in self.specs.items()):
+            carried = self.scene.carried(before, self.values)
+            self._set({name: value for name, value in carried.items() if name not in values})
+
+    def change_scene(self, scene: Scene[Any]) -> None:
+        """Go to a scene as it was left, with what was changed in this one and means the same there."""
+        if scene is self.scene:
+            return
+        # "Speed and accuracy" of a scene is of the very same state.
+        carried = (scene.origin or scene.name) != (self.scene.origin or self.scene.name)
+        values = (scene.taken_over(self._left.get(scene.name, scene.defaults()), self.scene, self.values) if carried
+                  else {**self._left.get(scene.name, {}), **self.values})
+        self._enter(scene, values, [])
+        self.carried = carried
+
+    def restore(self, query: str) -> None:
+        """Go to the state of a link, or of a step that is undone."""
+        link = Link(query)
+        scene, values = linked(link, self.scene.name)
+        self.go(StateLink(scene.name, values))
+        self.notes = link.notes
+
+    def go(self, place: StateLink) -> None:
+        """Go to this state: all of its values, whatever was chosen before."""
+        scene = scenes()[place.scene]
+        if scene.name == self.scene.name:
+            self.change(place.values)
+        else:
+            self._enter(scene, place.values, [])
+
+    def start_anew(self) -> None:
+        """Go to the scene's own first state, in place of values that are impossible here."""
+        self._enter(self.scene, {}, [
+            "What was chosen before is not possible here: this is the scene's own first state."])
+
+    def _set(self, values: Values) -> None:
+        """Set values within the bounds of their parameters, and note each number that had to be changed."""
+        for name, value in values.items():
+            match self.specs.get(name):
+                case Number() as spec:
+                    self.values[name], note = spec.admit(float(value) if isinstance(value, int | float) else math.nan)
+                    if note:
+                        self.notes.append(note)
+                case spec if spec is not None:
+                    self.values[name], _ = spec.read(str(value))

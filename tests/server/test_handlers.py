@@ -1,0 +1,26 @@
+"""The handlers that are replaced: all of them, or the server does not start."""
+
+from __future__ import annotations
+
+import pytest
+from panel.io.server import DocHandler, WSHandler
+
+from hess_explorer.server import handlers
+from hess_explorer.server.headers import GuardedDocument
+from hess_explorer.server.websockets import PanelSocket
+
+
+@pytest.mark.parametrize("missing", [DocHandler, WSHandler])
+def test_a_server_whose_handlers_are_others_does_not_start_and_says_which(missing, monkeypatch):
+    there = [(r"/?", DocHandler), (r"/ws", WSHandler)]
+    monkeypatch.setattr(handlers, "per_app_patterns", [route for route in there if route[1] is not missing])
+    with pytest.raises(handlers.HandlerMissing, match=f"no {missing.__name__} of Panel.*install the versions"):
+        handlers.replace_handlers(["*"])
+
+
+def test_both_handlers_are_replaced_and_may_be_again(monkeypatch):
+    routes = [(r"/?", DocHandler), (r"/metadata", object), (r"/ws", WSHandler)]
+    monkeypatch.setattr(handlers, "per_app_patterns", routes)
+    for _ in range(2):
+        handlers.replace_handlers(["*"])
+        assert routes == [(r"/?", GuardedDocument), (r"/metadata", object), (r"/ws", PanelSocket)]
