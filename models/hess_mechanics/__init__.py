@@ -19,9 +19,6 @@ from hess_mechanics.computations import (
     ball_section,
     basins,
     cloud,
-    lyapunov_exponent,
-    lyapunov_spectrum,
-    orbit,
     period,
     rotation_along_line,
     rotation_numbers,
@@ -29,7 +26,7 @@ from hess_mechanics.computations import (
 )
 from hess_mechanics.dynamics.continuation import Branch
 from hess_mechanics.dynamics.ensemble import ensemble
-from hess_mechanics.dynamics.lyapunov import Exponent, largest_exponent
+from hess_mechanics.dynamics.lyapunov import Exponent, lyapunov_exponent
 from hess_mechanics.dynamics.manifolds import Manifold
 from hess_mechanics.dynamics.megno import Megno, megno
 from hess_mechanics.dynamics.megno_map import MegnoMap
@@ -39,8 +36,8 @@ from hess_mechanics.dynamics.periodic import PeriodicOrbit
 from hess_mechanics.dynamics.regime import Dynamics, Regime
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.dynamics.section import Plane, SectionPoints, section, section_points, sections
-from hess_mechanics.dynamics.spectrum import Spectrum, spectrum
-from hess_mechanics.dynamics.system import System, systems
+from hess_mechanics.dynamics.spectrum import Spectrum, lyapunov_spectrum
+from hess_mechanics.dynamics.system import Body, ParametrizedSystem, System, systems
 from hess_mechanics.dynamics.tube import Tube, proved_error, right_until, tube
 from hess_mechanics.dynamics.variation import Return, Transition, return_matrix, transition_matrix
 from hess_mechanics.errors import ModelError
@@ -85,16 +82,16 @@ from hess_mechanics.suslov_hess.proof import Proof, prove
 
 __all__ = [  # noqa: RUF022 (by subject)
     # By a body and words
-    "orbit", "lyapunov_exponent", "lyapunov_spectrum", "andoyer_section", "suslov_section", "ball_section",
+    "andoyer_section", "suslov_section", "ball_section",
     "PlanePoints", "basins", "Basins", "cloud", "period", "rotation_numbers", "rotation_along_line",
     # By the return map of a section
     "return_map", "ReturnMap", "periodic_orbit", "PeriodicOrbit", "continued_orbit", "Branch", "manifold", "Manifold",
     "megno_map", "MegnoMap", "orbit_diagram", "Diagram", "period_doublings", "Cascade", "regime", "Regime",
     "dynamics_of", "Dynamics",
     # Any system
-    "System", "systems", "solve", "Orbit", "ensemble", "Ensemble",
-    "section", "sections", "section_points", "Plane", "SectionCrossings", "SectionPoints", "largest_exponent",
-           "Exponent", "spectrum",
+    "Body", "System", "ParametrizedSystem", "systems", "solve", "Orbit", "ensemble", "Ensemble",
+    "section", "sections", "section_points", "Plane", "SectionCrossings", "SectionPoints", "lyapunov_exponent",
+           "Exponent", "lyapunov_spectrum",
     "tube", "Tube", "proved_error", "right_until",
     "Spectrum", "megno", "Megno", "transition_matrix", "Transition", "return_matrix", "Return",
     # Accuracy, cost, errors

@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol
 
 import numpy as np
 
@@ -19,12 +18,8 @@ from hess_mechanics.chaplygin_ball import section as ball
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud import Cloud
 from hess_mechanics.dynamics.cells import Window, centres
-from hess_mechanics.dynamics.lyapunov import Exponent, largest_exponent
-from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.periodic import place_units
 from hess_mechanics.dynamics.section import SectionPoints
-from hess_mechanics.dynamics.spectrum import Spectrum, spectrum
-from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, andoyer_points
 from hess_mechanics.euler_poisson.equations import HeavyBody
@@ -33,32 +28,20 @@ from hess_mechanics.numerics.accuracy import Accuracy, Computation, plan
 from hess_mechanics.numerics.arguments import as_a, as_cells, as_level, as_number, as_pairs, as_whole
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.parallel import share
-from hess_mechanics.numerics.results import Array, Orbit, frozen
+from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.suslov.basins import Contraction, contraction_at, groups_of_cells, middle_cells
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.section import SuslovSection, require_reached, suslov_points
 from hess_mechanics.suslov_hess.rotation_number import TorusValues, values_at
 
 __all__ = [
-    "Basins", "PlanePoints", "andoyer_section", "ball_section", "basins", "cloud", "lyapunov_exponent",
-    "lyapunov_spectrum", "orbit", "period", "rotation_along_line", "rotation_numbers", "suslov_section",
+    "Basins", "PlanePoints", "andoyer_section", "ball_section", "basins", "cloud", "period", "rotation_along_line",
+    "rotation_numbers", "suslov_section",
 ]
 
 _MOST_ORBITS, _MOST_CROSSINGS = 1000, 10_000
 _LONG = 1000.0
 """Time over which the divergence of one motion of each group is averaged."""
-
-
-class Body(Protocol):
-    """What moves: its equations, and their parameters."""
-
-    @property
-    def system(self) -> System:
-        """The equations of motion."""
-
-    @property
-    def parameters(self) -> tuple[float, ...]:
-        """Their parameters."""
 
 
 @dataclass(frozen=True)
@@ -107,50 +90,6 @@ class Basins(Result):
                       {"mean": (("δ", "ψ"), self.mean), "group": (("δ", "ψ"), self.group)},
                       {"δ": "rad", "ψ": "rad", "mean": "rad/T"},
                       {"groups": len(self.divergence), "attractors": self.attractors, "level": self.level})
-
-
-def orbit(body: Body, state: Sequence[float], t: float | Sequence[float] | Array, accuracy: Accuracy = "precise",
-          samples: int = 500) -> Orbit:
-    """The orbit of a body from a state, at the times t, or at so many samples from 0 to the time t.
-
-    Raises `InvalidParameter`, `WorkLimit`.
-
-    >>> from hess_mechanics import SuslovBody, orbit
-    >>> found = orbit(SuslovBody(2.0, 1.0, 0.3, 0.5, 0.3, -0.5, 1.0), (0.8, -0.4, 0.6, 0.0, 0.8), t=10.0)
-    >>> found.states.shape, str(found.status), found.variables
-    ((500, 5), 'ok', ('ω1', 'ω2', 'γ1', 'γ2', 'γ3'))
-    """
-    times: Any = np.linspace(0.0, as_number("t", t), as_whole("samples", samples, 2, 200_000)) if np.ndim(t) == 0 else t
-    moving = _moving(body)
-    return solve(moving.system, state, moving.parameters, times, as_level(accuracy))
-
-
-def lyapunov_exponent(body: Body, state: Sequence[float], t: float, accuracy: Accuracy = "standard") -> Exponent:
-    """The largest Lyapunov exponent of the orbit from a state, averaged over the time t; backwards for t < 0.
-
-    Raises `InvalidParameter`, `WorkLimit`.
-
-    >>> from hess_mechanics import SuslovBody, lyapunov_exponent
-    >>> found = lyapunov_exponent(SuslovBody(1.5, 1.0, 0.0, 0.0), (0.5, 1.2, 0.6, 0.0, 0.8), t=200.0)
-    >>> found.is_regular
-    True
-    """
-    moving = _moving(body)
-    return largest_exponent(moving.system, state, moving.parameters, as_number("t", t), accuracy)
-
-
-def lyapunov_spectrum(body: Body, state: Sequence[float], t: float, accuracy: Accuracy = "standard") -> Spectrum:
-    """All Lyapunov exponents of the orbit from a state, with errors, over the time t; backwards for t < 0.
-
-    Raises `InvalidParameter`, `WorkLimit`.
-
-    >>> from hess_mechanics import SuslovBody, lyapunov_spectrum
-    >>> found = lyapunov_spectrum(SuslovBody(1.7, 3.0, 0.3, 0.1, -2.0, -2.1, 2.6), (0.8, 1.3, 0.6, 0.0, 0.8), t=2000.0)
-    >>> found.signs, bool(2.0 < found.dimension[0] < 3.0)
-    (('+', '0', '0', '0', '-'), True)
-    """
-    moving = _moving(body)
-    return spectrum(moving.system, state, moving.parameters, as_number("t", t), as_level(accuracy))
 
 
 def andoyer_section(body: HeavyBody, h: float, f: float, *, starts: Sequence[tuple[float, float]] = (),
@@ -348,11 +287,3 @@ def _in_plane(found: SectionPoints, section: AndoyerSection | SuslovSection, nam
 def _facts(found: SectionPoints, accuracy: Accuracy) -> dict[str, float | str]:
     drifts: dict[str, float | str] = {f"drift of {name}": value for name, value in found.drift.items()}
     return {"level": as_level(accuracy).name, **drifts, "steps": found.cost.steps}
-
-
-def _moving(body: Body) -> Body:
-    """What was given, if it moves.  Raises `InvalidParameter`."""
-    if not (isinstance(getattr(body, "system", None), System) and hasattr(body, "parameters")):
-        raise InvalidParameter(f"{body!r} is no body that moves: give a SuslovBody, a PlaneBody, a QuarticBody, "
-                               "a BallBody or a HeavyBody.")
-    return body

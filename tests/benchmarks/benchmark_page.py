@@ -226,12 +226,11 @@ from hess_mechanics import circle_map
 from hess_mechanics.suslov_hess import equations as hess
 start = time.perf_counter()
 which, level = sys.argv[1], hess_mechanics.level("draft")
-system = hess_mechanics.systems()["hess"]
-state, parameters = system.example
-if which == "orbit": hess_mechanics.solve(system, state, parameters, [1.0], level)
-if which == "ensemble": hess_mechanics.ensemble(system, [state], parameters, [1.0], level)
+body, state = hess_mechanics.systems()["hess"].example_motion
+if which == "orbit": hess_mechanics.solve(body, state, [1.0], level)
+if which == "ensemble": hess_mechanics.ensemble(body, [state], [1.0], level)
 if which == "section": hess_mechanics.section(
-    system, state, parameters, hess_mechanics.Plane((1.0, 0, 0, 0, 0)), 1.0, level)
+    body, state, hess_mechanics.Plane((1.0, 0, 0, 0, 0)), 1.0, level)
 if which == "circle map": hess_mechanics.circle_map(0.5, 1.5, 0.6, level).theta([0.0])
 print(time.perf_counter() - start)
 """

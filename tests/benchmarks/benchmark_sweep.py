@@ -24,7 +24,7 @@ from hess_explorer.sweep import QUANTITIES, sweep, work, workers
 from hess_explorer.sweep.grid import SweepGrid
 from hess_explorer.sweep.result import Store
 from hess_mechanics import level, systems
-from hess_mechanics.dynamics.lyapunov import largest_exponent
+from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.numerics.accuracy import PLANS, Computation
 from hess_mechanics.suslov_hess.rotation_number import values_at
 from support.cluster import local_cluster
@@ -62,7 +62,7 @@ def motions(side):
 
     def by_hand():
         places = [np.linspace(*places).tolist() for places in over.values()]
-        return np.array([[largest_exponent(suslov, (w1, *state[1:]), (p[0], I22, *p[2:]), TIME, exact).value
+        return np.array([[lyapunov_exponent(suslov.at((p[0], I22, *p[2:])), (w1, *state[1:]), TIME, exact).value
                           for I22 in places[1]] for w1 in places[0]])
 
     return "lyapunov-suslov", over, {"t": TIME}, "draft", by_hand

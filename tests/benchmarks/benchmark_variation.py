@@ -1,9 +1,9 @@
 """Exponents and transition matrix beside heyoka's variational run: `python tests/benchmarks/benchmark_variation.py`.
 
-Exponents: the run of `spectrum`, and `spectrum` as it is called, with its samples and errors; beside heyoka's run,
-which begins with the same neighbours.  They are made orthogonal at the ends of as many stretches of time, or of more
-where some would come to be 1e6 times as long as others; of heyoka only the integration is counted, not what Python does
-between two pieces of it.  The error is the largest of the growth of all directions until the end.  Transition matrix:
+Exponents: the run of `lyapunov_spectrum`, and `lyapunov_spectrum` as it is called, with its samples and errors; beside
+heyoka's run, which begins with the same neighbours.  They are made orthogonal at the ends of as many stretches of time, or
+of more where some would come to be 1e6 times as long as others; of heyoka only the integration is counted, not what
+Python does between two pieces of it.  The error is the largest of the growth of all directions until the end.  Transition matrix:
 y(T) and ∂y(T)/∂y(0); the error is that of the matrix beside its largest entry.  Both against the mean of the most exact
 runs of both, which also says how exact these are.
 
@@ -13,17 +13,17 @@ line through its own points, both axes logarithmic.  Needs heyoka: pip install h
 2026-11-23, heyoka 7.13.2, two shared cores with other work on them, at draft, standard, precise, reference:
 
     Suslov, exponents, T = 2000        2.46, 3.55, 4.92, 8.63 ms; heyoka takes 3.4, 4.8, 4.5, 3.9 times as long
-        `spectrum` as it is called     4.54, 5.39, 7.23, 11.0 ms; 1.8, 3.1, 3.1, 3.1 times
+        `lyapunov_spectrum` as it is called     4.54, 5.39, 7.23, 11.0 ms; 1.8, 3.1, 3.1, 3.1 times
     Suslov, matrix, T = 200            0.57, 0.40, 0.53, 0.89 ms; 1.5, 3.0, 3.5, 3.9 times
     Euler–Poisson, exponents, T = 200  0.59, 0.71, 1.00, 1.81 ms; 3.1, 3.0, 3.5, 3.4 times
-        `spectrum` as it is called     2.92, 3.09, 3.20, 4.30 ms; 0.6, 0.7, 1.8, 1.4 times
+        `lyapunov_spectrum` as it is called     2.92, 3.09, 3.20, 4.30 ms; 0.6, 0.7, 1.8, 1.4 times
     Euler–Poisson, matrix, T = 20      0.19, 0.15, 0.17, 0.23 ms; 1.0, 1.6, 2.1, 2.6 times
     ball, exponents, T = 2000          15, 24, 40, 77 ms; 4.9, 6.4, 7.8, 4.2 times
-        `spectrum` as it is called     22, 38, 53, 98 ms; 3.3, 3.9, 6.8, 3.3 times
+        `lyapunov_spectrum` as it is called     22, 38, 53, 98 ms; 3.3, 3.9, 6.8, 3.3 times
     ball, matrix, T = 200              1.2, 1.5, 2.4, 9.3 ms; 9, 9, 11, 10 times
 
 Those of Euler–Poisson and of the ball with four tolerances of heyoka only, and on the busiest machine.  Around the run,
-`spectrum` itself takes 2 ms for its samples and errors: over a short time that is most of it.
+`lyapunov_spectrum` itself takes 2 ms for its samples and errors: over a short time that is most of it.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ import time
 import heyoka
 import numpy as np
 
-from hess_mechanics import LEVELS, level, spectrum, systems
+from hess_mechanics import LEVELS, level, lyapunov_spectrum, systems
 from hess_mechanics.dynamics.spectrum import LIMIT, first_frame
 from hess_mechanics.dynamics.system import Problem
 from hess_mechanics.dynamics.variation import followed, neighbours
@@ -97,7 +97,7 @@ def exponents(system, problem, integrators, span):
 
     ours = {f"run, {name}": timed(lambda one=one: run(one)) for name, one in LEVELS.items()}
     ours |= {f"spectrum, {name}": timed(lambda name=name: np.sort(
-        spectrum(system, state, p, span, level(name)).rates[-1] * span)) for name in LEVELS}
+        lyapunov_spectrum(system.at(p), state, span, level(name)).rates[-1] * span)) for name in LEVELS}
     theirs = {tolerance: lambda one=one: their_growth(one, start, frame, end, parts)[:2]
               for tolerance, one in integrators.items()}
     return ours, theirs, f"; heyoka's neighbours are made orthogonal {parts} times"
@@ -146,7 +146,7 @@ def main() -> None:
     print(f"heyoka {heyoka.__version__}, least of {ROUNDS}")
     for name, span in TIMES.items():
         system = systems()[name]
-        problem = Problem.of(system, [system.example[0]], system.example[1])
+        problem = Problem.of(system.at(system.example[1]), [system.example[0]])
         integrators = {tolerance: integrator(system, problem, tolerance) for tolerance in TOLERANCES}
         measured(f"{name}, exponents, T = {span:g}", *exponents(system, problem, integrators, span), lambda exact: 1.0)
         measured(f"{name}, matrix, T = {0.1 * span:g}", *matrices(system, problem, integrators, 0.1 * span),

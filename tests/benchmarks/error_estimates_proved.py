@@ -36,10 +36,10 @@ if __name__ == "__main__":
         system = known[i % len(known)]
         state, parameters, end = motion(rng, system)
         times = np.linspace(0.0, end, 9)
-        found = tube(system, state, parameters, times, most_work=MOST_WORK)
+        found = tube(system.at(parameters), state, times, most_work=MOST_WORK)
         short += not found.complete
         for name in LEVELS:
-            orbit = solve(system, state, parameters, found.times, level(name))
+            orbit = solve(system.at(parameters), state, found.times, level(name))
             low, _ = proved_error(orbit, found)
             ratios[name].append(orbit.error_estimate / max(low, 1e-17))
             if orbit.error_estimate < low:

@@ -37,7 +37,17 @@ from collections import Counter
 import numpy as np
 from scipy.optimize import brentq
 
-from hess_mechanics import BallBody, ModelError, ReturnMap, SuslovBody, check_body, level, return_map, solve, spectrum
+from hess_mechanics import (
+    BallBody,
+    ModelError,
+    ReturnMap,
+    SuslovBody,
+    check_body,
+    level,
+    lyapunov_spectrum,
+    return_map,
+    solve,
+)
 from hess_mechanics.dynamics.birkhoff import rotation_number
 from hess_mechanics.dynamics.continuation import Bifurcation, continued
 from hess_mechanics.dynamics.orbit_diagram import cascade, hysteresis, orbit_diagram, period_of
@@ -176,10 +186,10 @@ def spirals(map_: ReturnMap) -> str:
         told = "not close to a saddle-focus" if told == "no such saddle-focus" else told
         start = root + 1e-2 * direction / np.linalg.norm(direction)
         start[2:] /= np.linalg.norm(start[2:])
-        states = solve(system, start, p, np.linspace(0.0, 1500.0, 30_001), level("draft")).states[15_000:]
+        states = solve(system.at(p), start, np.linspace(0.0, 1500.0, 30_001), level("draft")).states[15_000:]
         if np.linalg.norm(states - root, axis=1).min() > 0.3 or np.ptp(states, axis=0).max() < 0.1:
             continue
-        exponents = spectrum(system, states[-1], p, 1500.0, level("draft"))
+        exponents = lyapunov_spectrum(system.at(p), states[-1], 1500.0, level("draft"))
         if exponents.signs[0] == "+" and exponents.values[0] > 0.01 and exponents.divergence < (
                 -3.0 * exponents.divergence_error):
             told = "strange, close to a saddle-focus"
@@ -197,7 +207,7 @@ def strange(map_: ReturnMap, draw: np.random.Generator, real: bool) -> str:
         return kind.kind.words
     system, p = map_.sheet.system, map_.sheet.parameters
     last = map_.state_at(kind.places[-1])
-    exponents = spectrum(system, last, p, 2000.0)
+    exponents = lyapunov_spectrum(system.at(p), last, 2000.0)
     if exponents.signs[0] != "+":
         return "chaotic at first"
     dimension, error = exponents.dimension
@@ -206,7 +216,7 @@ def strange(map_: ReturnMap, draw: np.random.Generator, real: bool) -> str:
           np.round(exponents.values, 4), found.verdict, f"distance {found.distance:.3f} ± "
           f"{found.distance_error:.2g} shared {found.shared:.2g}", flush=True)
     if system.name == "suslov":
-        states = solve(system, last, p, np.linspace(0.0, 2000.0, 40_001), level("draft")).states
+        states = solve(system.at(p), last, np.linspace(0.0, 2000.0, 40_001), level("draft")).states
         for root, eigenvalues, _ in saddle_foci(map_):
             print("   ", beside(root, eigenvalues, states), flush=True)
     for name in draw.permutation(list(map_.sheet.constants))[:3]:
@@ -260,7 +270,7 @@ def beyond(map_: ReturnMap, name: str, born: Bifurcation, sign: float) -> str:
             if len(places) < 12_000:
                 return f"{letters}-"
             last = there.state_at(places[-1])
-            found = spectrum(there.sheet.system, last, there.sheet.parameters, 2000.0, level("draft"))
+            found = lyapunov_spectrum(there.sheet, last, 2000.0, level("draft"))
         except ModelError:
             return letters
         wide, still = (np.hypot(*apart(map_.turns, part, focus).T).max() for part in (places[3000:6000], places[9000:]))

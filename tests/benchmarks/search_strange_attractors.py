@@ -10,7 +10,7 @@ import argparse
 
 import numpy as np
 
-from hess_mechanics import level, spectrum, systems
+from hess_mechanics import level, lyapunov_spectrum, systems
 
 
 def main() -> None:
@@ -23,9 +23,9 @@ def main() -> None:
     for _ in range(options.count):
         p = np.round([*draw.uniform(0.5, 4.0, 2), *draw.uniform(-1.2, 1.2, 2), *draw.uniform(-3.0, 3.0, 3)], 1).tolist()
         state = (*np.round(draw.uniform(-3.0, 3.0, 2), 1).tolist(), 0.6, 0.0, 0.8)
-        found = spectrum(suslov, state, p, 400.0, level("draft"))
+        found = lyapunov_spectrum(suslov.at(p), state, 400.0, level("draft"))
         if found.values[0] > 0.03 and found.divergence < -5.0 * found.divergence_error - 0.02:
-            found = spectrum(suslov, state, p, 4000.0)
+            found = lyapunov_spectrum(suslov.at(p), state, 4000.0)
             if found.signs[0] == "+" and found.divergence < -3.0 * found.divergence_error:
                 print(state, p, found.values.round(4), found.errors.round(4), "D =", found.dimension, flush=True)
 

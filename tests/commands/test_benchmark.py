@@ -80,7 +80,7 @@ def test_the_stored_long_orbit_begins_as_its_maker_makes_it():
 @pytest.mark.parametrize(("name", "bound"), [("A", 1e-11), ("A2", 1e-8)])
 def test_models_agree_with_the_stored_long_orbit(name, bound):
     work = works()[name]
-    orbit = solve(systems()["suslov"], work.initial[0], work.parameters, work.times, level("reference"))
+    orbit = solve(work, work.initial[0], work.times, level("reference"))
     assert work.error(orbit.states) < bound
 
 
@@ -88,7 +88,7 @@ def test_models_agree_with_the_stored_long_orbit(name, bound):
 def test_models_agree_with_the_stored_ensembles(name):
     work = works()[name]
     for i in (0, 100, 400, 511):
-        orbit = solve(systems()["suslov"], work.initial[i], work.parameters, work.times, level("reference"))
+        orbit = solve(work, work.initial[i], work.times, level("reference"))
         assert np.max(np.abs(orbit.states[0] - work.reference[i])) < 1e-10
 
 
@@ -468,7 +468,7 @@ def test_the_trade_of_a_scene_is_measured_and_printed(capsys):
     times = np.linspace(0.0, motion.span, 400)
     exact = solve_ivp(lambda _, y: motion.system.field(list(y), motion.parameters), (0.0, motion.span), motion.state,
                       method="DOP853", rtol=1e-12, atol=1e-12, t_eval=times).y.T
-    found = solve(motion.system, motion.state, motion.parameters, times, level("draft")).states
+    found = solve(motion, motion.state, times, level("draft")).states
     away = np.abs(found - exact) * motion.weights
     pixels = max(np.linalg.norm(away[:, :2], axis=1).max(), np.linalg.norm(away[:, 2:], axis=1).max())
     assert data[0]["error"] == pytest.approx(pixels, rel=1e-3)

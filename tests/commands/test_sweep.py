@@ -12,7 +12,7 @@ import pytest
 from hess_explorer.__main__ import main
 from hess_explorer.sweep import read
 from hess_mechanics import systems
-from hess_mechanics.dynamics.lyapunov import largest_exponent
+from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.numerics.accuracy import PLANS, Computation
 from support.command_line import replaced, table
 from support.mechanics import ROOT
@@ -118,8 +118,8 @@ def test_a_sweep_that_is_killed_and_then_interrupted_goes_on_and_is_the_loop_by_
     suslov, exact = systems()["suslov"], PLANS[Computation.EXPONENT]["draft"].level
     state, parameters = suslov.example
     for i in (0, 21, 42, 63):
-        by_hand = largest_exponent(suslov, (found["w1"][i], *state[1:]),
-                                   (parameters[0], found["I22"][i], *parameters[2:]), float(T), exact)
+        body = suslov.at((parameters[0], found["I22"][i], *parameters[2:]))
+        by_hand = lyapunov_exponent(body, (found["w1"][i], *state[1:]), float(T), exact)
         assert found["lyapunov_suslov"][i] == by_hand.value
 
 

@@ -14,14 +14,14 @@ WORDS = ("tube", "suslov", "--start", "0.8,-0.4,0.6,0,0.8", "--parameters", "2,1
 def test_a_motion_is_enclosed_and_its_orbit_judged(answer):
     found = answer(*WORDS, "--accuracy", "draft", "--right-to", "1e-12")
     system = systems()["suslov"]
-    fine = solve(system, *system.example, [0.5, 1.0], level("reference"))
+    fine = solve(*system.example_motion, [0.5, 1.0], level("reference"))
     assert found["complete"]
     assert found["variables"] == list(system.variables)
     for row, state in zip(found["tube"], fine.states, strict=True):
         for (low, high), x in zip(row["state"], state, strict=True):
             assert Fraction(low) - Fraction(1, 10**14) <= Fraction(x) <= Fraction(high) + Fraction(1, 10**14)
             assert 0 <= Fraction(high) - Fraction(low) < Fraction(1, 10**17)
-    rough = solve(system, *system.example, [0.5, 1.0], level("draft"))
+    rough = solve(*system.example_motion, [0.5, 1.0], level("draft"))
     low, high = found["orbit"]["proved_error"]
     assert low <= abs(rough.states - fine.states).max() + 1e-14
     assert abs(rough.states - fine.states).max() <= high + 1e-14

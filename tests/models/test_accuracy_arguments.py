@@ -27,9 +27,6 @@ EQUATOR = Plane((0.0, 0.0, 0.0, 0.0, 1.0))
 
 # Every function of the package that takes an accuracy, called with the least work.
 CALLS = {
-    "orbit": lambda one: hm.orbit(BODY, STATE, 2.0, one, samples=5).states,
-    "lyapunov_exponent": lambda one: hm.lyapunov_exponent(BODY, STATE, 10.0, one).rates,
-    "lyapunov_spectrum": lambda one: hm.lyapunov_spectrum(BODY, STATE, 50.0, one).values,
     "andoyer_section": lambda one: hm.andoyer_section(HEAVY, 2.0, 0.5, orbits=1, crossings=5, accuracy=one).orbits[0],
     "suslov_section": lambda one: hm.suslov_section(BODY, 1.842, orbits=1, crossings=5, accuracy=one).orbits[0],
     "ball_section": lambda one: hm.ball_section(FIELD_BALL, 2.0, orbits=1, crossings=5, accuracy=one).orbits[0],
@@ -41,16 +38,16 @@ CALLS = {
     "rotation_along_line": lambda one: hm.rotation_along_line(
         HEAVY, 2.0, 0.5, ((0.0, 0.85), (0.0, 0.95)), count=4, crossings=300, accuracy=one).to_xarray()["ρ"].values,
     "return_map": lambda one: hm.return_map(BODY, E=1.842, accuracy=one).image((0.3, 1.2)),
-    "solve": lambda one: hm.solve(SUSLOV, STATE, PARAMETERS, [2.0], one).states,
-    "ensemble": lambda one: hm.ensemble(SUSLOV, [STATE, STATE], PARAMETERS, [2.0], one).states,
-    "section": lambda one: hm.section(SUSLOV, STATE, PARAMETERS, EQUATOR, 20.0, one).states,
-    "sections": lambda one: hm.sections(SUSLOV, [STATE], PARAMETERS, EQUATOR, 20.0, one)[0].states,
-    "section_points": lambda one: hm.section_points(SUSLOV, [STATE], PARAMETERS, EQUATOR, 20.0, one, 3).states[0],
-    "largest_exponent": lambda one: hm.largest_exponent(SUSLOV, STATE, PARAMETERS, 10.0, one).rates,
-    "spectrum": lambda one: hm.spectrum(SUSLOV, STATE, PARAMETERS, 50.0, one).values,
-    "megno": lambda one: hm.megno(SUSLOV, [STATE], PARAMETERS, 20.0, one).values,
-    "transition_matrix": lambda one: hm.transition_matrix(SUSLOV, STATE, PARAMETERS, 2.0, one).matrices,
-    "return_matrix": lambda one: hm.return_matrix(SUSLOV, STATE, PARAMETERS, EQUATOR, 20.0, one).state,
+    "solve": lambda one: hm.solve(SUSLOV.at(PARAMETERS), STATE, [2.0], one).states,
+    "ensemble": lambda one: hm.ensemble(SUSLOV.at(PARAMETERS), [STATE, STATE], [2.0], one).states,
+    "section": lambda one: hm.section(SUSLOV.at(PARAMETERS), STATE, EQUATOR, 20.0, one).states,
+    "sections": lambda one: hm.sections(SUSLOV.at(PARAMETERS), [STATE], EQUATOR, 20.0, one)[0].states,
+    "section_points": lambda one: hm.section_points(SUSLOV.at(PARAMETERS), [STATE], EQUATOR, 20.0, one, 3).states[0],
+    "lyapunov_exponent": lambda one: hm.lyapunov_exponent(SUSLOV.at(PARAMETERS), STATE, 10.0, one).rates,
+    "lyapunov_spectrum": lambda one: hm.lyapunov_spectrum(SUSLOV.at(PARAMETERS), STATE, 50.0, one).values,
+    "megno": lambda one: hm.megno(SUSLOV.at(PARAMETERS), [STATE], 20.0, one).values,
+    "transition_matrix": lambda one: hm.transition_matrix(SUSLOV.at(PARAMETERS), STATE, 2.0, one).matrices,
+    "return_matrix": lambda one: hm.return_matrix(SUSLOV.at(PARAMETERS), STATE, EQUATOR, 20.0, one).state,
     "free_motion": lambda one: hm.free_motion(FREE, (0.8, -0.4), (0.6, 0.0, 0.8), [1.0], one).gamma,
     "scattering": lambda one: hm.scattering(hm.SuslovBody(3.56, 1.0, 0.0, 0.8), one).theta_plus(1.0, 0.0),
     "circle_map": lambda one: hm.circle_map(0.5, 1.5, 0.6, one).trace,
@@ -120,7 +117,7 @@ def test_a_level_of_ones_own_is_used_as_it_is():
     assert as_level(own) is own
     assert plan(Computation.BASINS, own).level is own
     assert plan(Computation.BASINS, DRAFT) is plan(Computation.BASINS, "draft")
-    assert hm.solve(SUSLOV, STATE, PARAMETERS, [2.0], own).level == "own"
+    assert hm.solve(SUSLOV.at(PARAMETERS), STATE, [2.0], own).level == "own"
 
 
 def test_only_the_four_levels_have_names():

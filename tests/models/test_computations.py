@@ -26,7 +26,7 @@ def test_a_heavy_body_is_the_same_from_moments_and_from_their_inverses():
 
 
 def test_an_orbit_is_that_of_another_integrator_with_names_and_units():
-    found = hm.orbit(SUSLOV, STATE, t=5.0, accuracy="reference", samples=40)
+    found = hm.solve(SUSLOV, STATE, t=5.0, accuracy="reference", samples=40)
     run = solve_ivp(lambda _, y: SUSLOV.system.field(y, SUSLOV.parameters), (0.0, 5.0), STATE, method="DOP853",
                     rtol=1e-12, atol=1e-13, t_eval=found.times)
     whole = found.to_xarray()
@@ -104,17 +104,17 @@ def test_free_motions_periods_and_tori_hand_on_their_arrays():
 
 
 @pytest.mark.parametrize(("call", "sentence"), [
-    (lambda: hm.orbit(SUSLOV, (1.0, 2.0), 5.0), "takes 5 numbers here: ω1, ω2, γ1, γ2, γ3"),
-    (lambda: hm.orbit(SUSLOV, "abc", 5.0), "a state is 5 numbers"),
-    (lambda: hm.orbit(SUSLOV, STATE, "long"), "t = 'long' is not a number; write it like 1.5 or -2e-3."),
-    (lambda: hm.orbit(SUSLOV, STATE, ["a", "b"]), "one or more finite numbers"),
-    (lambda: hm.orbit(SUSLOV, STATE, 5.0, accuracy="best"), "choose one of draft, standard, precise, reference"),
-    (lambda: hm.orbit(SUSLOV, STATE, 5.0, accuracy=[]), "choose one of draft, standard, precise, reference"),
-    (lambda: hm.orbit(SUSLOV, STATE, 5.0, samples=1.5), "is not a whole number from 2 to 200000"),
+    (lambda: hm.solve(SUSLOV, (1.0, 2.0), 5.0), "takes 5 numbers here: ω1, ω2, γ1, γ2, γ3"),
+    (lambda: hm.solve(SUSLOV, "abc", 5.0), "a state is 5 numbers"),
+    (lambda: hm.solve(SUSLOV, STATE, "long"), "t = 'long' is not a number; write it like 1.5 or -2e-3."),
+    (lambda: hm.solve(SUSLOV, STATE, ["a", "b"]), "one or more finite numbers"),
+    (lambda: hm.solve(SUSLOV, STATE, 5.0, accuracy="best"), "choose one of draft, standard, precise, reference"),
+    (lambda: hm.solve(SUSLOV, STATE, 5.0, accuracy=[]), "choose one of draft, standard, precise, reference"),
+    (lambda: hm.solve(SUSLOV, STATE, 5.0, samples=1.5), "is not a whole number from 2 to 200000"),
     (lambda: hm.SuslovBody("2", 1.0, 0.3, 0.5), "I11 = '2' is not a number"),
     (lambda: hm.HeavyBody((1.0, 2.0), (1.0, 0.0, 0.0), 1.0), "a = (1.0, 2.0) are not three numbers"),
     (lambda: hm.lyapunov_exponent("body", (1.0,), 3.0), "'body' is no body that moves: give a SuslovBody"),
-    (lambda: hm.orbit(hm.SuslovBody, (1.0,), 3.0), "is no body that moves"),
+    (lambda: hm.solve(hm.SuslovBody, (1.0,), 3.0), "is no body that moves"),
     (lambda: hm.lyapunov_spectrum(None, (1.0,), 3.0), "None is no body that moves"),
     (lambda: hm.circle_map(0.5, 1.5, "x", hm.level("draft")), "f = 'x' is not a number; write it like 1.5"),
     (lambda: hm.rotation_numbers("a", 1.0, 0.2), "a = 'a' is not a number, nor several"),
@@ -138,4 +138,4 @@ def test_what_cannot_be_is_refused_with_a_sentence(call, sentence):
 def test_without_pandas_a_sentence_names_the_extra(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "pandas", None)
     with pytest.raises(InvalidParameter, match=r"pip install 'hess-explorer\[data\]'"):
-        hm.orbit(SUSLOV, STATE, 1.0).to_pandas()
+        hm.solve(SUSLOV, STATE, 1.0).to_pandas()

@@ -221,7 +221,7 @@ def check(true, estimated, scale, share=0.01):
 @every_level
 def test_the_error_estimates_of_orbits_are_right(orbits, name):
     system, states, parameters, times, exact = orbits
-    found = [solve(system, *case, level(name)) for case in zip(states, parameters, times, strict=True)]
+    found = [solve(system.at(p), y, t, level(name)) for y, p, t in zip(states, parameters, times, strict=True)]
     true = np.array([np.max(oracle.distances(orbit.states, truth)) for orbit, truth in zip(found, exact, strict=True)])
     scale = np.maximum(1.0, np.max(np.abs(exact), axis=(1, 2)))
     # Two runs of a chaotic motion may err alike.  Of the Euler–Poisson equations, which are chaotic for most bodies,

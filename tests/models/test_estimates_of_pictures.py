@@ -17,7 +17,7 @@ from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud import carried, shell
 from hess_mechanics.dynamics.basin_boundary import unsure
 from hess_mechanics.dynamics.birkhoff import rotation_number
-from hess_mechanics.dynamics.lyapunov import largest_exponent
+from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.dynamics.shadowing import away_from, errors_in_pixels, right_crossings, typical
 from hess_mechanics.numerics.accuracy import PLANS, REFERENCE, STANDARD, Computation
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
@@ -143,7 +143,7 @@ def exponents():
     level, rows = PLANS[Computation.EXPONENT]["draft"].level, []
     for _ in range(300):
         state, parameters, nu = motion(random)
-        short, long = (largest_exponent(SYSTEM, state, parameters, time / nu, level) for time in (200.0, 1000.0))
+        short, long = (lyapunov_exponent(SYSTEM.at(parameters), state, time / nu, level) for time in (200.0, 1000.0))
         rows.append((short.value / nu, short.spread / nu, long.value / nu))
     return np.array(rows).T
 
@@ -160,7 +160,7 @@ def test_the_error_of_an_exponent_is_what_its_time_promises():
     errors = {name: [] for name in PLANS[Computation.EXPONENT]}
     for _ in range(40):
         state, parameters, nu = motion(random)
-        found = largest_exponent(SYSTEM, state, parameters, 6000.0 / nu, PLANS[Computation.EXPONENT]["draft"].level)
+        found = lyapunov_exponent(SYSTEM.at(parameters), state, 6000.0 / nu, PLANS[Computation.EXPONENT]["draft"].level)
         for name, plan in PLANS[Computation.EXPONENT].items():
             then = found.rates[np.searchsorted(found.times, 2000.0 * plan.share / nu)]
             errors[name].append(abs(then - found.value) / nu)
@@ -172,7 +172,7 @@ def test_the_error_of_an_exponent_is_what_its_time_promises():
 def test_the_steps_of_an_exponent_matter_less_than_its_spread(name):
     """A chaotic orbit is another one at each level; a regular one has the same exponent."""
     state, parameters, nu = motion(np.random.default_rng(1))
-    exact, found = (largest_exponent(SYSTEM, state, parameters, 1000.0 / nu, PLANS[Computation.EXPONENT][one].level)
+    exact, found = (lyapunov_exponent(SYSTEM.at(parameters), state, 1000.0 / nu, PLANS[Computation.EXPONENT][one].level)
                     for one in ("reference", name))
     assert abs(found.value - exact.value) <= exact.spread
 

@@ -176,8 +176,9 @@ def an_orbit(name, system, state, parameters, times, truth=None, digits=36, agai
     def once():
         return truth() if truth else oracle.orbit_in_decimals(system, state, parameters, times, digits)
 
+    body = system.at(parameters)
     return Row(f"{system.name}: {name}", against or f"Taylor series, {digits} digits",
-               lambda grade: orbit_error(solve(system, state, parameters, times, level(grade)).states, once(), speed),
+               lambda grade: orbit_error(solve(body, state, times, level(grade)).states, once(), speed),
                **options)
 
 
@@ -202,8 +203,8 @@ def symmetric(name, system, state, parameters, times, signs, time, **options):
     signs, times = np.array(signs, float), np.asarray(times)
 
     def error(grade):
-        there = solve(system, state, parameters, times, level(grade)).states
-        image = solve(system, signs * state, parameters, time * times, level(grade)).states
+        there = solve(system.at(parameters), state, times, level(grade)).states
+        image = solve(system.at(parameters), signs * state, time * times, level(grade)).states
         return orbit_error(image, signs * there)
 
     return Row(f"{system.name}: {name}", "its mirror image", error, **options)
@@ -211,8 +212,8 @@ def symmetric(name, system, state, parameters, times, signs, time, **options):
 
 def there_and_back(name, system, state, parameters, span, **options):
     def error(grade):
-        there = solve(system, state, parameters, [span], level(grade)).states[0]
-        back = solve(system, there, parameters, [-span], level(grade)).states
+        there = solve(system.at(parameters), state, [span], level(grade)).states[0]
+        back = solve(system.at(parameters), there, [-span], level(grade)).states
         return orbit_error(back, np.array([state]))
 
     return Row(f"{system.name}, there and back: {name}", "its own start", error, **options)
@@ -248,7 +249,7 @@ def mirrored(name, a, h, f, **options):
 
 def drift(name, system, state, parameters, span, **options):
     def error(grade):
-        orbit = solve(system, state, parameters, np.linspace(0.0, span, 101), level(grade))
+        orbit = solve(system.at(parameters), state, np.linspace(0.0, span, 101), level(grade))
         along, start = (system.integrals(y, parameters) for y in (orbit.states.T, np.array(state)))
         return max(float(np.max(np.abs(along[key] - start[key]))) / max(1.0, abs(start[key])) for key in start)
 
@@ -667,19 +668,19 @@ REFUSALS = [
     Refusal("a = 1.1e6", lambda grade: circle_map(1.1e6, 1.5, 0.6, grade), InvalidParameter, "choose .a. ≤ 1e.06"),
     Refusal("grid, h = −1", lambda grade: rotation_number_grid(0.5, [-1.0], [0.0], grade), InvalidParameter, "−1 < h"),
     Refusal("lock boundary, a = 1.1e6", lambda grade: lock_boundary(1.1e6, grade), InvalidParameter, "choose .a. ≤ 1e"),
-    Refusal("eq01, t = 1e6", lambda grade: solve(HESS, HESS_START, (0.75, 1.0), [1e6], grade), WorkLimit,
+    Refusal("eq01, t = 1e6", lambda grade: solve(HESS.at((0.75, 1.0)), HESS_START, [1e6], grade), WorkLimit,
             "more than 1000000 steps: choose a shorter one"),
-    Refusal("eq01, t = −1e6", lambda grade: solve(HESS, HESS_START, (0.75, 1.0), [-1e6], grade), WorkLimit,
+    Refusal("eq01, t = −1e6", lambda grade: solve(HESS.at((0.75, 1.0)), HESS_START, [-1e6], grade), WorkLimit,
             "choose a shorter one"),
-    Refusal("eq01, a = 1e6, t = 100", lambda grade: solve(HESS, HESS_START, (1e6, 1.0), [100.0], grade), WorkLimit,
+    Refusal("eq01, a = 1e6, t = 100", lambda grade: solve(HESS.at((1e6, 1.0)), HESS_START, [100.0], grade), WorkLimit,
             "choose a shorter one"),
-    Refusal("Biz131, t = 1e6", lambda grade: solve(SUSLOV, START, GENERIC, [1e6], grade), WorkLimit,
+    Refusal("Biz131, t = 1e6", lambda grade: solve(SUSLOV.at(GENERIC), START, [1e6], grade), WorkLimit,
             "choose a shorter one"),
-    Refusal("Biz131, I11 = 0", lambda grade: solve(SUSLOV, START, (0.0, *GENERIC[1:]), [1.0], grade),
+    Refusal("Biz131, I11 = 0", lambda grade: solve(SUSLOV.at((0.0, *GENERIC[1:])), START, [1.0], grade),
             NotPositiveDefinite, "I11 = 0.*choose I11 > 0"),
-    Refusal("Biz131, I22 = −1e-12", lambda grade: solve(SUSLOV, START, (2.0, -1e-12, *GENERIC[2:]), [1.0], grade),
+    Refusal("Biz131, I22 = −1e-12", lambda grade: solve(SUSLOV.at((2.0, -1e-12, *GENERIC[2:])), START, [1.0], grade),
             NotPositiveDefinite, "I22 = -1e-12.*choose I22 > 0"),
-    Refusal("Biz131, I11 = 1e-300", lambda grade: solve(SUSLOV, START, (1e-300, *GENERIC[1:]), [1.0], grade),
+    Refusal("Biz131, I11 = 1e-300", lambda grade: solve(SUSLOV.at((1e-300, *GENERIC[1:])), START, [1.0], grade),
             InvalidParameter, "choose a ratio"),
     Refusal("a body with I22 = 0", lambda _: SuslovBody(1.0, 0.0, 0.0, 0.0), NotPositiveDefinite, "choose I22 > 0"),
     Refusal("check_body, I11 = −1e-12", lambda _: check_body(-1e-12, 1.0, 0.0, 0.0), NotPositiveDefinite,
@@ -746,7 +747,7 @@ def unstable(request):
 def test_next_to_an_unstable_equilibrium_no_error_is_more_than_its_estimate_says(unstable, name):
     """A run makes the same roundings as a more exact one there: with these as only difference 1e5 times too little."""
     system, starts = unstable
-    found = [solve(system, *start, level(name)) for *start, _ in starts]
+    found = [solve(system.at(p), y, t, level(name)) for y, p, t, _ in starts]
     true = np.array([np.max(oracle.distances(orbit.states, exact))
                      for orbit, (*_, exact) in zip(found, starts, strict=True)])
     said = np.array([orbit.error_estimate for orbit in found])
@@ -759,7 +760,7 @@ def test_next_to_an_unstable_equilibrium_no_error_is_more_than_its_estimate_says
 def test_of_many_orbits_each_estimate_next_to_an_equilibrium_is_that_of_one(unstable):
     system, starts = unstable
     for state, parameters, times, exact in starts[:6]:
-        found = ensemble(system, [state, state], parameters, times, level("standard"))
+        found = ensemble(system.at(parameters), [state, state], times, level("standard"))
         true = float(np.max(oracle.distances(found.states[1], exact)))
         assert true < 3.0 * found.errors[1]
 
@@ -774,7 +775,7 @@ def much_slower(ratio):
 @pytest.mark.parametrize("ratio", [1e12, 1e16, 0.99e20])
 def test_a_motion_much_slower_than_its_energy_allows_is_right(ratio, name):
     state, parameters = much_slower(ratio)
-    found = solve(SUSLOV, state, parameters, [1.0, 5.0], level(name))
+    found = solve(SUSLOV.at(parameters), state, [1.0, 5.0], level(name))
     exact = oracle.orbit_in_decimals(SUSLOV, state, parameters, [1.0, 5.0], digits=25)
     assert orbit_error(found.states, exact) <= PROMISE[name]
 
@@ -784,7 +785,7 @@ def test_a_motion_much_slower_than_its_energy_allows_is_right(ratio, name):
 def test_moments_so_different_that_the_unit_of_time_says_nothing_are_refused(ratio, name):
     state, parameters = much_slower(ratio)
     with pytest.raises(InvalidParameter, match=re.escape("choose a ratio below 1e+20.")):
-        solve(SUSLOV, state, parameters, [1.0, 5.0], level(name))
+        solve(SUSLOV.at(parameters), state, [1.0, 5.0], level(name))
 
 
 @every_refusal

@@ -67,14 +67,14 @@ def motions(draw, of=PARAMETERS, longest=60.0):
 def test_a_motion_keeps_its_integrals_within_its_error_or_is_refused_in_a_sentence(motion, name):
     system, state, parameters, span = motion
     try:
-        orbit = solve(system, state, parameters, np.linspace(0.0, span, 20), level(name))
+        orbit = solve(system.at(parameters), state, np.linspace(0.0, span, 20), level(name))
     except ModelError as error:
         assert str(error).endswith(".")
         return
     assert np.all(np.isfinite(orbit.states))
     nu = system.frequency(np.array(state), np.array(parameters))
     scaled, units = system.rescale(np.array(state), np.array(parameters), nu)
-    relative = orbit.states / Problem.of(system, [state], parameters).scale
+    relative = orbit.states / Problem.of(system.at(parameters), [state]).scale
     if orbit.status is Status.OK:
         # An integral moves by at most its gradient times the error; where the state is O(1) the gradient is
         # at most twice the largest parameter.
@@ -89,12 +89,12 @@ def test_a_motion_keeps_its_integrals_within_its_error_or_is_refused_in_a_senten
 def test_there_and_back_returns_within_the_two_errors(motion):
     # Mild motions: what is lost on the way to an attractor does not come back.
     system, state, parameters, span = motion
-    there = solve(system, state, parameters, [span], level("precise"))
-    back = solve(system, there.states[0], parameters, [-span], level("precise"))
+    there = solve(system.at(parameters), state, [span], level("precise"))
+    back = solve(system.at(parameters), there.states[0], [-span], level("precise"))
     # The way back magnifies the error of the way there, in each variable by what neighbouring starts show.
     growth = 0.0
     for change in 1e-6 * np.eye(len(state)):
-        shifted = solve(system, there.states[0] + change, parameters, [-span], level("precise"))
+        shifted = solve(system.at(parameters), there.states[0] + change, [-span], level("precise"))
         growth += np.max(np.abs(shifted.states - back.states)) / 1e-6
     error = (10 * there.error_estimate + 1e-15) * growth + 10 * back.error_estimate
     assert np.max(np.abs(back.states[0] - state)) <= error
@@ -106,9 +106,9 @@ def test_an_ensemble_holds_the_orbits_one_by_one(motion, more):
     system, state, parameters, span = motion
     states = [state, *((*state[:-3], *gamma) for gamma in more)]
     times = [0.5 * span, span]
-    many = ensemble(system, states, parameters, times, level("standard"))
+    many = ensemble(system.at(parameters), states, times, level("standard"))
     for own, start, error in zip(many.states, states, many.errors, strict=True):
-        one = solve(system, start, parameters, times, level("standard"))
+        one = solve(system.at(parameters), start, times, level("standard"))
         assert np.max(np.abs(own - one.states)) <= 10 * (error + one.error_estimate)
 
 
@@ -116,14 +116,14 @@ def test_an_ensemble_holds_the_orbits_one_by_one(motion, more):
 @given(motion=motions(), normal=normals, offset=st.floats(-0.5, 0.5))
 def test_crossings_lie_on_the_plane_and_alternate(motion, normal, offset):
     system, state, parameters, span = motion
-    scale = Problem.of(system, [state], parameters).scale
+    scale = Problem.of(system.at(parameters), [state]).scale
     normal = (*normal, normal[0])[: len(state)]
     plane = Plane(tuple(np.array(normal) / scale), offset, sense=0)
-    found = section(system, state, parameters, plane, span, level("precise"))
+    found = section(system.at(parameters), state, plane, span, level("precise"))
     heights = (found.states / scale) @ np.array(normal) - offset
     assert np.max(np.abs(heights), initial=0.0) <= 1e-9 * max(1.0, np.linalg.norm(normal))
-    upwards = section(system, state, parameters, Plane(plane.normal, offset, 1), span, level("precise"))
-    downwards = section(system, state, parameters, Plane(plane.normal, offset, -1), span, level("precise"))
+    upwards = section(system.at(parameters), state, Plane(plane.normal, offset, 1), span, level("precise"))
+    downwards = section(system.at(parameters), state, Plane(plane.normal, offset, -1), span, level("precise"))
     assert abs(len(upwards.times) - len(downwards.times)) <= 1
     both = np.sort(np.abs(np.concatenate([upwards.times, downwards.times])))
     assert both.shape == found.times.shape
@@ -161,9 +161,9 @@ def test_every_circle_map_is_a_reversible_circle_map_or_is_refused(a, excess, pa
 @pytest.mark.parametrize("name", LEVELS)
 def test_a_result_at_the_floor_is_not_called_right_when_it_is_not(name):
     # Neighbouring orbits part quickly here: no level can keep its promise to the end, and must say so.
-    system = SYSTEMS["suslov"]
-    orbit = solve(system, (0.8, -0.4, 0.6, 0.0, 0.8), (2.0, 1.0, 0.3, 0.5, 0.3, -0.5, 1.0), [0.0, 20000.0], level(name))
-    truth = solve(system, (0.8, -0.4, 0.6, 0.0, 0.8), (2.0, 1.0, 0.3, 0.5, 0.3, -0.5, 1.0), [0.0, 20000.0],
+    body = SYSTEMS["suslov"].at((2.0, 1.0, 0.3, 0.5, 0.3, -0.5, 1.0))
+    orbit = solve(body, (0.8, -0.4, 0.6, 0.0, 0.8), [0.0, 20000.0], level(name))
+    truth = solve(body, (0.8, -0.4, 0.6, 0.0, 0.8), [0.0, 20000.0],
                   level("reference").tightened())
     error = np.max(np.abs(orbit.states - truth.states))
     assert orbit.status is not Status.OK or error <= level(name).promise

@@ -27,7 +27,7 @@ def orbit_and_error(row, name):
     p = row["params"]
     parameters = numbers([*p["I"], *p["b"]]) if row["system"] == "suslov" else numbers([p["a"], p["b"]])
     times = numbers(state["t"] for state in row["states"])
-    orbit = solve(systems()[row["system"]], numbers(row["y0"]), parameters, times, level(name))
+    orbit = solve(systems()[row["system"]].at(parameters), numbers(row["y0"]), times, level(name))
     true = np.array([numbers(state["y"]) for state in row["states"]])
     return orbit, np.max(np.abs(orbit.states - true))
 

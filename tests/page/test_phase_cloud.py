@@ -108,7 +108,7 @@ def test_between_frames_nearly_all_points_are_right_to_a_pixel(cloud, changes):
         expected = [np.hstack([exact.omega[:, 1], exact.gamma[:, 1]])]
         if beside:
             principal = (body.I11, body.I22, 0.0, 0.0, body.D, 0.0, 0.0, values["b3"])
-            there = ensemble(systems()["ball"], states[::EVERY], principal, [sense * t], level("precise"))
+            there = ensemble(systems()["ball"].at(principal), states[::EVERY], [sense * t], level("precise"))
             expected.append(there.states[:, 0])
         half = cloud.page.evaluate("hess.source('omega').data.half")
         for found, right in zip(clouds(cloud), expected, strict=True):

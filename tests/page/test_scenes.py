@@ -15,7 +15,7 @@ from playwright.sync_api import expect
 from hess_explorer.headless.browser import wait_ready
 from hess_explorer.headless.screenshot import running_server
 from hess_explorer.scenes import scenes
-from hess_mechanics import level, solve, systems
+from hess_mechanics import level, solve
 from hess_mechanics.numerics.accuracy import LEVELS
 from support.board import contents, shown
 from support.page import (
@@ -434,7 +434,7 @@ def test_a_link_leads_into_a_scene(explorer):
     assert explorer.text("notes") == ""
     # What is drawn is the difference of two computations.
     truth, drafted = (
-        solve(systems()["suslov"], exact_states(values, [0.0])[0], body_of(values).suslov.parameters,
+        solve(body_of(values).suslov, exact_states(values, [0.0])[0],
               np.linspace(0.0, 60.0, 400), level(name)).states for name in ("reference", "draft"))
     error = np.max(np.abs(drafted - truth))
     shown = explorer.data("growth-draft")

@@ -326,7 +326,7 @@ def test_the_andoyer_picture_of_the_bridge_lies_on_the_hess_relation_and_moves_w
 @pytest.mark.parametrize("scene", [LEAK, BRIDGE], ids=["leak", "bridge"])
 def test_the_motion_for_the_accuracy_scene_is_the_exact_one_on_show(scene):
     motion = scene.of(scene.defaults()).motion()
-    end = solve(motion.system, motion.state, motion.parameters, [motion.span], REFERENCE)
+    end = solve(motion, motion.state, [motion.span], REFERENCE)
     assert max(end.drift.values()) < 1e-12
     energy, _, f = motion.system.integrals(motion.state, motion.parameters).values()
     assert (energy, f) == pytest.approx((5.0125313, -2.0025047), rel=1e-7)

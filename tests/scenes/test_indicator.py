@@ -7,7 +7,7 @@ import pytest
 
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.scenes import scenes
-from hess_mechanics import largest_exponent
+from hess_mechanics import lyapunov_exponent
 from hess_mechanics.dynamics.megno_map import row_of_cells
 from hess_mechanics.numerics.accuracy import PLANS, Computation
 from support.view import View
@@ -48,7 +48,7 @@ def test_cells_that_are_called_chaotic_have_that_exponent_and_the_regular_ones_n
              if kinds[i, j] >= 0.0]
     for i, j in (*order[:2], *order[-2:]):
         states, _ = section.states_at(*(low + (np.array([j, i]) + 0.5) * (high - low) / (18, 12))[:, None])
-        rate = largest_exponent(section.system, states[0], section.parameters, t,
+        rate = lyapunov_exponent(section, states[0], t,
                                 PLANS[Computation.EXPONENT]["draft"].level).value
         if kinds[i, j] % 2.0:
             assert 0.4 < rate / (2.0 * values[i, j] / t) < 2.5

@@ -24,7 +24,7 @@ FLOOR = level("reference")
 def exact(view):
     """The states of the orbit on show, computed by the general system from the first of them."""
     orbit = view.result.orbit
-    return solve(SUSLOV, view.result.start, view.result.body.parameters, orbit.times, FLOOR).states
+    return solve(view.result.body, view.result.start, orbit.times, FLOOR).states
 
 
 @pytest.mark.parametrize("preset", ARC.presets, ids=lambda preset: preset.name)
@@ -42,12 +42,12 @@ def test_an_example_of_b3_0_is_what_its_name_says(preset):
         (shown,) = view.numbers("domain", "to and fro in T = #.")
         period, missed = view.numbers("period", "T = # here; after T back at the start to #.")
         assert shown == period == pytest.approx(found.period, rel=6e-6)
-        assert np.abs(solve(SUSLOV, start, body.parameters, [found.period], FLOOR).states[0] - start).max() <= 1e-9
+        assert np.abs(solve(body, start, [found.period], FLOOR).states[0] - start).max() <= 1e-9
         assert missed <= 1e-6
         # γ̇3 where γ3 = 0, of the integrated orbit: its extremes there.
         speeds = view.numbers("sphere", "|γ̇₃| = # and #.")
         times = np.linspace(0.0, found.period, 4001)
-        all_of_it = solve(SUSLOV, start, body.parameters, times, FLOOR).states
+        all_of_it = solve(body, start, times, FLOOR).states
         g3 = all_of_it[:, 4]
         rate = np.abs(all_of_it[:, 2] * all_of_it[:, 1] - all_of_it[:, 3] * all_of_it[:, 0])
         at = np.flatnonzero(g3[1:] * g3[:-1] < 0.0)
@@ -97,7 +97,7 @@ def test_the_mirror_image_runs_along_the_same_curves():
         assert np.abs(orbit[g3]) == pytest.approx(found.height(orbit[tau]), abs=2e-3)
     # It starts below where the orbit starts, and is where that was.
     assert orbit["mirror_g3"][0] == -orbit["g3"][0]
-    past = solve(SUSLOV, view.result.start, view.result.body.parameters, -view.result.orbit.times, FLOOR).states
+    past = solve(view.result.body, view.result.start, -view.result.orbit.times, FLOOR).states
     assert orbit["mirror_g3"] == pytest.approx(-past[:, 4], abs=2e-6)
 
 
@@ -119,11 +119,11 @@ def test_in_another_potential_the_caption_says_what_the_motion_does(name):
     start = fast.result.start
     period, back = fast.numbers("potential", "It crosses the equator twice and so closes: T = #, back to #.")
     assert back < 1e-6
-    assert solve(POTENTIAL, start, body.parameters, [period], FLOOR).states[0] == pytest.approx(start, abs=2e-4)
+    assert solve(body, start, [period], FLOOR).states[0] == pytest.approx(start, abs=2e-4)
     assert fast.text["potential"].startswith(f"Potential: {name}\n")
     # The orbit that is drawn, by the general kernel; all of it is where U ≤ E.
     x, y = (np.asarray(fast.data["potential-orbit"][axis], float) for axis in "xy")
-    states = solve(POTENTIAL, start, body.parameters, fast.result.other.orbit.times, FLOOR).states
+    states = solve(body, start, fast.result.other.orbit.times, FLOOR).states
     assert np.column_stack([x, y]) == pytest.approx(
         np.column_stack([math.sqrt(1.5) * states[:, 3], -states[:, 2]]), abs=1e-5)
     E = POTENTIAL.integrals(start, body.parameters)["E"]

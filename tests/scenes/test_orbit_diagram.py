@@ -13,7 +13,7 @@ from scipy.integrate import solve_ivp
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.scenes import scenes
 from hess_explorer.views.text import digits
-from hess_mechanics import ReturnMap, check_body, largest_exponent, level, solve, spectrum, systems
+from hess_mechanics import ReturnMap, check_body, level, lyapunov_exponent, lyapunov_spectrum, solve, systems
 from hess_mechanics.dynamics.birkhoff import rotation_number
 from hess_mechanics.dynamics.continuation import continued
 from hess_mechanics.dynamics.periodic import find_periodic
@@ -105,11 +105,11 @@ def test_attractors_and_repellers_are_what_their_examples_say(name, verdict, dim
     assert f"div = {digits(known.motion.divergence, 2)} ± " in captions["section"]
     # Statistics of an ensemble, each orbit from another place: one trajectory proves nothing.
     starts = [state_at(state.body, state.section.E, 3, *place) for place in state.sets.attractor[::250]]
-    found = [spectrum(SUSLOV, start, state.body.parameters, 4000.0) for start in starts]
+    found = [lyapunov_spectrum(state.body, start, 4000.0) for start in starts]
     assert all(one.signs[0] == "+" for one in found)
     values = np.array([one.values[0] for one in found])
     # Two orbits side by side, by another algorithm, part as fast.
-    twins = [largest_exponent(SUSLOV, start, state.body.parameters, 2000.0,
+    twins = [lyapunov_exponent(state.body, start, 2000.0,
                               PLANS[Computation.EXPONENT]["standard"].level).value for start in starts]
     scatter = math.hypot(np.std(values, ddof=1), np.std(twins, ddof=1)) / math.sqrt(len(starts))
     assert abs(np.mean(twins) - values.mean()) < 5.0 * scatter
@@ -121,7 +121,7 @@ def test_attractors_and_repellers_are_what_their_examples_say(name, verdict, dim
     # The mean divergence over the orbits by the trapezoidal rule, which knows no Taylor series.
     t = np.linspace(0.0, 500.0, 2001)
     rates = [np.mean([divergence(state.body, y)
-                      for y in solve(SUSLOV, start, state.body.parameters, t, level("draft")).states])
+                      for y in solve(state.body, start, t, level("draft")).states])
              for start in starts]
     assert abs(np.mean(rates) - known.motion.divergence) < 5.0 * math.hypot(
         np.std(rates, ddof=1) / math.sqrt(len(rates)), known.motion.divergence_error)
@@ -230,7 +230,7 @@ def test_a_torus_is_born_where_multipliers_leave_the_unit_circle_and_locks_and_b
     curve = ReturnMap(at(-0.256), level("standard"))
     focus = find_periodic(curve, born.places, 1).places[0]
     places = curve.orbit(np.array(state.place), 4000)[1000:]
-    exponents = spectrum(SUSLOV, curve.state_at(places[-1]), curve.sheet.parameters, 4000.0)
+    exponents = lyapunov_spectrum(curve.sheet, curve.state_at(places[-1]), 4000.0)
     assert exponents.signs == ("0", "0", "0", "0", "-")
     turns, error = rotation_number(places, tuple(focus))
     assert turns == pytest.approx(0.1066355, abs=6e-8)
@@ -253,8 +253,8 @@ def test_a_torus_is_born_where_multipliers_leave_the_unit_circle_and_locks_and_b
     # The strange attractor: two orbits side by side part as fast.
     assert "Motion: chaotic. Looks dissipative.\ndiv = −0." in captions["section"]
     last = state_at(state.body, E, 3, *state.sets.attractor[-1])
-    exponents = spectrum(SUSLOV, last, state.body.parameters, 20_000.0)
-    twin = largest_exponent(SUSLOV, last, state.body.parameters, 8000.0, PLANS[Computation.EXPONENT]["standard"].level)
+    exponents = lyapunov_spectrum(state.body, last, 20_000.0)
+    twin = lyapunov_exponent(state.body, last, 8000.0, PLANS[Computation.EXPONENT]["standard"].level)
     value, error = exponents.values[0], exponents.errors[0]
     assert value == pytest.approx(0.033, abs=0.003)
     assert value > 8.0 * error
@@ -302,7 +302,7 @@ def test_a_motion_that_comes_to_a_saddle_focus_has_left_it_before():
     assert "Motion: chaotic." in captions["section"]
     last = state_at(body, state.section.E, 3, *state.sets.attractor[-1])
     # Its return to the rotation.
-    orbit = solve(SUSLOV, last, body.parameters, np.linspace(0.0, 4000.0, 80_001), level("draft")).states
+    orbit = solve(body, last, np.linspace(0.0, 4000.0, 80_001), level("draft")).states
     assert np.linalg.norm(orbit - like, axis=1).min() < 0.1
 
 

@@ -419,7 +419,7 @@ def test_the_motion_of_the_scene_is_the_chosen_orbit():
     view = example(STRANGE)
     motion = SCENE.of(view.values).motion()
     assert motion.state == pytest.approx(tuple(start_of(view)), abs=1e-12)
-    states = solve(motion.system, motion.state, motion.parameters, [motion.span], REFERENCE).states
+    states = solve(motion, motion.state, [motion.span], REFERENCE).states
     assert energy(body_of(view), states[0]) == pytest.approx(energy_of(view), abs=1e-12)
     assert len(motion.weights) == 5
 

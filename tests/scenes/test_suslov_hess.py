@@ -56,7 +56,7 @@ def test_the_shade_of_the_torus_is_where_a_long_motion_is(I23, h, f):
     # The orbit on show, at even times by the general kernel.
     turning = turning_points(h, f)
     times = np.linspace(0.0, 700.0 * turning.period, 40_000)
-    states = solve(systems()["hess"], turning.state_at_lower_turn(view.values["phi0"]), (I23, 1.0), times,
+    states = solve(systems()["hess"].at((I23, 1.0)), turning.state_at_lower_turn(view.values["phi0"]), times,
                    level("precise")).states
     sigma = np.remainder(times / turning.period + 0.5, 1.0) - 0.5
     shares = np.histogram2d(np.arctan2(states[:, 0], states[:, 1]), SIDE * sigma, [8, 6], [(-math.pi, math.pi)] * 2)[0]
@@ -64,7 +64,7 @@ def test_the_shade_of_the_torus_is_where_a_long_motion_is(I23, h, f):
     assert shares / times.size == pytest.approx(expected, abs=3e-3 * expected.max() + 1e-3)
     # And the columns that the moving point follows.
     orbit = view.data["data-orbit"]
-    again = solve(systems()["hess"], turning.state_at_lower_turn(view.values["phi0"]), (I23, 1.0),
+    again = solve(systems()["hess"].at((I23, 1.0)), turning.state_at_lower_turn(view.values["phi0"]),
                   view.result.track.orbit.times, level("precise")).states
     away = np.exp(1j * orbit["phi"]) - np.exp(1j * np.arctan2(again[:, 0], again[:, 1]))
     assert np.max(np.abs(away)) < 1e-4

@@ -36,7 +36,7 @@ def gamma_at(values, theta, phi):
 
 def integrate(values, omega, gamma, times):
     """States by the general solver, with the field of gravity 0."""
-    return solve(SUSLOV, [*omega, *gamma], (*tensor_of(values), 0.0, 0.0, 0.0), times, FLOOR).states
+    return solve(SUSLOV.at((*tensor_of(values), 0.0, 0.0, 0.0)), [*omega, *gamma], times, FLOOR).states
 
 
 def rate_of(values, h):

@@ -19,7 +19,7 @@ def exact_states(values, times):
     body = body_of(values)
     start = turning_points(values["h"], values["f"]).state_at_lower_turn(values["phi0"])
     state = body.from_reduced(body.from_units_of_b(start))
-    return solve(systems()["suslov"], state, body.suslov.parameters, times, level("reference")).states
+    return solve(body.suslov, state, times, level("reference")).states
 
 
 def rounding(values, times, states):

@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 from hess_explorer.sweep import QUANTITIES, Outcome, sweep
 from hess_mechanics import BallBody, Plane, SuslovBody, circle_map, level, scattering, section, solve, systems
 from hess_mechanics.chaplygin_ball.section import EQUATOR, BallSection
-from hess_mechanics.dynamics.lyapunov import largest_exponent
+from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.euler_poisson.andoyer import AndoyerPlane
 from hess_mechanics.numerics.accuracy import PLANS, Computation
 from hess_mechanics.suslov.kharlamova import PlaneBody, arc
@@ -32,12 +32,12 @@ def theta_plus(I11, phi):
 def exponent(w1, I22, t=20.0):
     state = (w1, -0.4, 0.6, 0.0, 0.8)
     p = (2.0, I22, 0.3, 0.5, 0.3, -0.5, 1.0)
-    return largest_exponent(SUSLOV, state, p, t, PLANS[Computation.EXPONENT]["draft"].level).value
+    return lyapunov_exponent(SUSLOV.at(p), state, t, PLANS[Computation.EXPONENT]["draft"].level).value
 
 
 def crossings(b3, t=40.0):
     plane = Plane((0.0, 0.0, 0.0, 0.0, 1.0))
-    found = section(SUSLOV, SUSLOV.example[0], (*SUSLOV.example[1][:6], b3), plane, t, level("standard"))
+    found = section(SUSLOV.at((*SUSLOV.example[1][:6], b3)), SUSLOV.example[0], plane, t, level("standard"))
     return float(found.times.size)
 
 
@@ -49,12 +49,12 @@ def plane_period(w1, b1):
 def ball_returns(psi, delta, t=30.0):
     body = BallBody(*systems()["ball"].example[1])
     states, _ = BallSection(body, 2.0 - math.hypot(body.b1, body.b2)).states_at([psi], [delta])
-    return float(section(systems()["ball"], states[0], body.parameters, EQUATOR, t, level("standard")).times.size)
+    return float(section(body, states[0], EQUATOR, t, level("standard")).times.size)
 
 
 def heavy_returns(l, x, t=20.0):
     state = heavy_state(l, x)
-    found = section(HEAVY, state, HEAVY.example[1], AndoyerPlane(0.5), t, level("standard"))
+    found = section(HEAVY.at(HEAVY.example[1]), state, AndoyerPlane(0.5), t, level("standard"))
     return float(found.times.size)
 
 
@@ -78,8 +78,8 @@ def heavy_state(l, x):
 
 
 def heavy_exponent(l, x, t=10.0):
-    return largest_exponent(HEAVY, heavy_state(l, x), HEAVY.example[1], t,
-                            PLANS[Computation.EXPONENT]["draft"].level).value
+    return lyapunov_exponent(HEAVY.at(HEAVY.example[1]), heavy_state(l, x), t,
+                             PLANS[Computation.EXPONENT]["draft"].level).value
 
 
 LOOPS = {
@@ -155,7 +155,7 @@ def test_the_period_is_that_of_the_ball_without_a_ball():
     assert np.all(np.abs(crossed.ball_period.values - closed) <= crossed.error.values + 1e-12)
     # And the motion is back after it.
     start = (0.6, -0.5, 0.0, 0.6, 0.8)
-    after = solve(SUSLOV, start, (1.3, 0.8, 0.0, 0.0, 0.5, -0.3, 0.0), [closed[0, 0]], level("precise")).states[0]
+    after = solve(SUSLOV.at((1.3, 0.8, 0.0, 0.0, 0.5, -0.3, 0.0)), start, [closed[0, 0]], level("precise")).states[0]
     assert after == pytest.approx(start, abs=1e-8)
 
 
@@ -197,7 +197,7 @@ def test_exponents_at_an_energy_are_those_of_the_state_there():
     gamma, turn = (math.cos(1.0), math.sin(1.0), 0.0), (math.cos(2.0), math.sin(2.0))
     speed = math.sqrt(2.0 * (E - 0.3 * gamma[0] + 0.5 * gamma[1]) / (2.0 * turn[0] ** 2 + turn[1] ** 2))
     state = (speed * turn[0], speed * turn[1], *gamma)
-    by_hand = largest_exponent(SUSLOV, state, SUSLOV.example[1], 20.0, PLANS[Computation.EXPONENT]["draft"].level)
+    by_hand = lyapunov_exponent(SUSLOV.at(SUSLOV.example[1]), state, 20.0, PLANS[Computation.EXPONENT]["draft"].level)
     assert found.lyapunov_suslov_section.values[2] == pytest.approx(by_hand.value, abs=1e-4)
 
 

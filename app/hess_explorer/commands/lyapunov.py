@@ -84,13 +84,13 @@ def _run(options: argparse.Namespace) -> None:
         import numpy as np
 
         from hess_mechanics import systems, unit_vector
-        from hess_mechanics.dynamics.lyapunov import largest_exponent
+        from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 
         name, first, parameters = options.prepare(options)
         gamma, note = unit_vector(options.gamma)
         if options.spectrum:
             return _spectrum(options, systems()[name], (*first, *gamma), parameters, [note] if note else [])
-        found = largest_exponent(systems()[name], (*first, *gamma), parameters, options.t)
+        found = lyapunov_exponent(systems()[name].at(parameters), (*first, *gamma), options.t)
         kept = np.unique(np.linspace(0, found.times.size - 1, _SHOWN).astype(int))
     facts = {"exponent": found.value, "spread": found.spread}
     write(options, {"t": found.times[kept].tolist(), "average": found.rates[kept].tolist()}, ("t", "average"), facts,
@@ -99,9 +99,9 @@ def _run(options: argparse.Namespace) -> None:
 
 def _spectrum(options: argparse.Namespace, system: System, state: tuple[float, ...], parameters: tuple[float, ...],
               notes: list[str]) -> None:
-    from hess_mechanics import level, spectrum
+    from hess_mechanics import level, lyapunov_spectrum
 
-    found = spectrum(system, state, parameters, options.t, level(options.accuracy))
+    found = lyapunov_spectrum(system.at(parameters), state, options.t, level(options.accuracy))
     dimension, error = found.dimension
     forced = ("Volume is kept, and all but two exponents are those of integrals and the motion: they must be pairs."
               if found.pairs_forced else "No measure that is known forces them to be pairs.")

@@ -96,7 +96,7 @@ def _run(options: argparse.Namespace) -> None:
         system = systems()[options.system]
         parameters, body = options.parameters(options)
         gamma, note = unit_vector(options.gamma)
-        result = solve(system, (*options.omega, *gamma), parameters, options.t, level(options.accuracy))
+        result = solve(system.at(parameters), (*options.omega, *gamma), options.t, level(options.accuracy))
     facts = {
         "variables": list(system.variables),
         **quality(result),

@@ -92,7 +92,7 @@ def _run_heavy(options: argparse.Namespace) -> None:
         body = HeavyBody(options.A, options.r, options.mu)
         start = state_at(body, options.h, options.f, *options.start)
         end = time_for(body, options.h, options.f, options.crossings) if options.t is None else options.t
-        result = section(SYSTEM, start, body.parameters, AndoyerPlane(options.f), end, accuracy, options.crossings)
+        result = section(body, start, AndoyerPlane(options.f), end, accuracy, options.crossings)
         l, x = coordinates(result.states).T
     series = {"t": result.times.tolist(), "l": l.tolist(), "x": x.tolist(),
               "M": result.states[:, :3].tolist(), "gamma": result.states[:, 3:].tolist()}
@@ -120,7 +120,7 @@ def _run_plane(options: argparse.Namespace) -> None:
         gamma, note = unit_vector(options.gamma)
         start = (*options.omega, *gamma)
         plane = Plane(options.plane, options.offset, options.sense)
-        result = section(system, start, parameters, plane, options.t, accuracy, options.crossings)
+        result = section(system.at(parameters), start, plane, options.t, accuracy, options.crossings)
         check = check_body(*options.I)
     write(options, {"t": result.times.tolist(), "y": result.states.tolist()}, ("t", *system.variables),
           {"variables": list(system.variables), **_facts(result, start, check)},

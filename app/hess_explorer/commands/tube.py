@@ -71,12 +71,12 @@ def _run(options: argparse.Namespace) -> None:
         if not options.seconds > 0.0:
             raise InvalidParameter(f"--seconds {options.seconds:g}: choose a number above 0.")
         system = known[options.system]
-        found = tube(system, options.start, options.parameters, options.t, options.digits,
-                     options.seconds * WORK_PER_SECOND)
+        body = system.at(options.parameters)
+        found = tube(body, options.start, options.t, options.digits, options.seconds * WORK_PER_SECOND)
         notes = [] if found.complete else [_shorter(found, options.t[-1], options.seconds)]
         if not found.times.size:
             raise WorkLimit(notes[0])
-        orbit = solve(system, options.start, options.parameters, found.times, level(options.accuracy))
+        orbit = solve(body, options.start, found.times, level(options.accuracy))
         judged = {"accuracy": options.accuracy, "error_estimate": orbit.error_estimate,
                   "proved_error": list(proved_error(orbit, found)), "right_to": options.right_to,
                   "right_until": right_until(orbit, found, options.right_to)}

@@ -15,11 +15,11 @@ from hess_explorer.sweep.quantity import Cell, Parameter, Quantity, number, one_
 from hess_mechanics.chaplygin_ball import section as of_ball
 from hess_mechanics.chaplygin_ball.equations import SYSTEM as BALL
 from hess_mechanics.chaplygin_ball.equations import BallBody
-from hess_mechanics.dynamics.lyapunov import largest_exponent
+from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.dynamics.megno import megno
 from hess_mechanics.dynamics.section import Plane, Surface, section
-from hess_mechanics.dynamics.spectrum import spectrum
-from hess_mechanics.dynamics.system import System, systems
+from hess_mechanics.dynamics.spectrum import lyapunov_spectrum
+from hess_mechanics.dynamics.system import Body, System, systems
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.euler_poisson import andoyer
 from hess_mechanics.euler_poisson.equations import SYSTEM as HEAVY
@@ -40,8 +40,8 @@ Values = Mapping[str, float]
 class _Motions:
     """Motions of a system by parameters of their own.
 
-    name : that of the system, and by what; parameters : of the body and the start; start : the state and the
-    parameters of the system that values of these mean.  Raises `ModelError`.
+    name : that of the system, and by what; parameters : of the body and the start; start : the body and the state
+    that values of these mean.  Raises `ModelError`.
     surface : the section on which all of them start; none where they start anywhere.
     """
 
@@ -49,7 +49,7 @@ class _Motions:
     title: str
     system: System
     parameters: tuple[Parameter, ...]
-    start: Callable[[Values], tuple[Start, Start]]
+    start: Callable[[Values], tuple[Body, Start]]
     surface: Callable[[Values], Surface] | None = None
 
 
@@ -67,11 +67,11 @@ def _anywhere(system: System) -> _Motions:
     return _Motions(system.name, system.title, system, parameters, partial(_given, system))
 
 
-def _given(system: System, values: Values) -> tuple[Start, Start]:
-    """State and parameters; the vertical, which every state ends with, is normalised."""
+def _given(system: System, values: Values) -> tuple[Body, Start]:
+    """Return body and state; the vertical, which every state ends with, is normalised."""
     *first, g1, g2, g3 = (values[name] for name in system.arguments)
     gamma, _ = unit_vector((g1, g2, g3))
-    return (*first, *gamma), tuple(values[name] for name in system.parameters)
+    return system.at([values[name] for name in system.parameters]), (*first, *gamma)
 
 
 def _body(system: System) -> tuple[Parameter, ...]:
@@ -97,22 +97,21 @@ def suslov_section(values: Values) -> of_suslov.SuslovSection:
     return made
 
 
-def _on_suslov(values: Values) -> tuple[Start, Start]:
+def _on_suslov(values: Values) -> tuple[Body, Start]:
     of = suslov_section(values)
-    return of_suslov.state_at(of.body, of.E, of.k, values["psi"], values["delta"]), of.parameters
+    return of.body, of_suslov.state_at(of.body, of.E, of.k, values["psi"], values["delta"])
 
 
-def _on_ball(values: Values) -> tuple[Start, Start]:
+def _on_ball(values: Values) -> tuple[Body, Start]:
     body = BallBody(*(values[name] for name in BALL.parameters))
     E = values["h"] - math.hypot(body.b1, body.b2)
-    return of_ball.state_at(body, E, values["psi"], values["delta"]), body.parameters
+    return body, of_ball.state_at(body, E, values["psi"], values["delta"])
 
 
-def _on_heavy(values: Values) -> tuple[Start, Start]:
+def _on_heavy(values: Values) -> tuple[Body, Start]:
     a1, a2, a3, r1, r2, r3, mu = (values[name] for name in HEAVY.parameters)
     body = HeavyBody((a1, a2, a3), (r1, r2, r3), mu)
-    return andoyer.state_at(body, values["h"], values["f"], values["l"], values["x"], int(values["sheet"])), \
-        body.parameters
+    return body, andoyer.state_at(body, values["h"], values["f"], values["l"], values["x"], int(values["sheet"]))
 
 
 _ON_SECTIONS = (
@@ -133,40 +132,40 @@ _ON_SECTIONS = (
 
 
 def _lyapunov(of: _Motions, level: Level, t: float, **values: float) -> Cell:
-    found = largest_exponent(of.system, *of.start(values), t, level)
+    found = lyapunov_exponent(*of.start(values), t, level)
     return Cell(found.value, found.spread)
 
 
 def _spectrum(of: _Motions, level: Level, t: float, **values: float) -> Cell:
-    found = spectrum(of.system, *of.start(values), t, level)
+    found = lyapunov_spectrum(*of.start(values), t, level)
     return Cell(tuple(found.values.tolist()), found.error_estimate)
 
 
 def _dimension(of: _Motions, level: Level, t: float, **values: float) -> Cell:
-    return Cell(*spectrum(of.system, *of.start(values), t, level).dimension)
+    return Cell(*lyapunov_spectrum(*of.start(values), t, level).dimension)
 
 
 def _megno(of: _Motions, level: Level, t: float, **values: float) -> Cell:
-    state, p = of.start(values)
-    return Cell(float(megno(of.system, [state], p, t, level, threads=1).values[0]))
+    body, state = of.start(values)
+    return Cell(float(megno(body, [state], t, level, threads=1).values[0]))
 
 
 def _crossings(of: _Motions, level: Level, variable: float, offset: float, sense: float, t: float,
                **values: float) -> Cell:
     plane = Plane(tuple(float(i + 1 == variable) for i in range(len(of.system.variables))), offset, int(sense))
-    found = section(of.system, *of.start(values), plane, t, level)
+    found = section(*of.start(values), plane, t, level)
     return Cell(float(len(found.times)), found.error_estimate, found.status)
 
 
 def _returns(of: _Motions, level: Level, t: float, **values: float) -> Cell:
     assert of.surface is not None
-    found = section(of.system, *of.start(values), of.surface(values), t, level)
+    found = section(*of.start(values), of.surface(values), t, level)
     return Cell(float(len(found.times)), found.error_estimate, found.status)
 
 
 def _divergence(of: _Motions, level: Level, t: float, **values: float) -> Cell:
-    state, p = of.start(values)
-    found = contraction(SuslovBody(*p), state, t)
+    body, state = of.start(values)
+    found = contraction(SuslovBody(*body.parameters), state, t)
     return Cell(found.mean, found.error)
 
 

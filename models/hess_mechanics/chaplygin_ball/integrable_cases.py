@@ -90,7 +90,7 @@ def period(body: BallBody, state: Sequence[float], level: Accuracy) -> Period:
     least = min(body.I11, body.I22)
     nu = float(SYSTEM.frequency(given, p)) or 1.0
     end = _TURNS * math.sqrt(moment / least) / nu
-    coarse, fine = (section(SYSTEM, start, body.parameters, _EITHER_WAY, end, each, crossings=2)
+    coarse, fine = (section(body, start, _EITHER_WAY, end, each, crossings=2)
                     for start, each in ((given, level), (nearby(given), level.tightened())))
     speeds = np.abs(SYSTEM.field(list(coarse.states.T), body.parameters)[4]) if len(coarse.times) else np.zeros(1)
     if min(len(coarse.times), len(fine.times)) < 2 or np.min(speeds) <= _TOUCHES * nu:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
+from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud import Cloud, carried, frame_times, histogram, occupation, patch, shell
 from hess_mechanics.dynamics.ensemble import ensemble
 from hess_mechanics.numerics.accuracy import Accuracy
@@ -126,5 +126,5 @@ def clouds(body: BallBody, h: float, angle: float | None, spread: float, count: 
     cloud, other = carried(body, states, times, level), None
     if field is not None:
         principal = BallBody(body.I11, body.I22, 0.0, 0.0, body.D, 0.0, 0.0, field)
-        other = ensemble(SYSTEM, states, principal.parameters, times, level)
+        other = ensemble(principal, states, times, level)
     return Clouds(cloud, course(cloud), density(cloud), sides(cloud), other)

@@ -206,7 +206,7 @@ def ball_scattering(body: BallBody, theta_minus: float, phis: Sequence[float] | 
     if steps > most_steps:
         raise WorkLimit(f"γ settles on its circle so slowly that θ⁺ takes some {steps:.0e} steps: choose larger I13 or "
                         "I23, or a smaller 𝒟.")
-    found = ensemble(SYSTEM, states, body.parameters, [span], tight)
+    found = ensemble(body, states, [span], tight)
     end = found.states[:, 0]
     along, across = end[:, 2:4] @ xi, np.hypot(end[:, 2:4] @ eta, end[:, 4])
     theta_plus = np.arctan2(across, along)

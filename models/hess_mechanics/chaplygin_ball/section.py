@@ -103,7 +103,7 @@ def ball_section(body: BallBody, h: float, starts: Sequence[Sequence[float]], cr
     speed = math.sqrt(2.0 * (h + math.hypot(*body.parameters[5:])) / min(body.I11, body.I22))
     end = crossings * _TURNS * math.sqrt(1.0 + body.D / min(body.I11, body.I22)) / speed
     try:
-        return section_points(SYSTEM, starts, body.parameters, EQUATOR, end, level, crossings, most_steps=most_steps)
+        return section_points(body, starts, EQUATOR, end, level, crossings, most_steps=most_steps)
     except WorkLimit:
         raise WorkLimit(f"{crossings} crossings take an orbit more than {most_steps} steps here: choose fewer of them, "
                         "or smaller I13 and I23.") from None
@@ -117,7 +117,7 @@ def spread_section(body: BallBody, h: float, orbits: int, crossings: int, level:
 
 def fastest(body: BallBody, start: tuple[float, ...], span: float) -> float:
     """The largest |ω| along the orbit from a state (5,), as far as a few samples show it.  Raises as `solve`."""
-    coarse = solve(SYSTEM, start, body.parameters, np.linspace(0.0, span, _SAMPLES), DRAFT)
+    coarse = solve(body, start, np.linspace(0.0, span, _SAMPLES), DRAFT)
     return float(np.hypot(*coarse.states[:, :2].T).max())
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hess_mechanics.dynamics.orbit import checked_times, require_finite_states
-from hess_mechanics.dynamics.system import Problem, System
+from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Complex, frozen
@@ -43,8 +43,7 @@ class Doubled:
         return np.abs((states - self.pairs.real) - self.pairs.imag)
 
 
-def doubled(system: System, state: Sequence[float] | Array, parameters: Sequence[float],
-            times: Sequence[float] | Array) -> Doubled:
+def doubled(body: Body, state: Sequence[float] | Array, times: Sequence[float] | Array) -> Doubled:
     """Return the orbit from just this `state` (d,), with just these parameters, at times (n,) monotonic from 0.
 
     A Taylor series of order 36 in pairs of doubles (`numerics.doubled_kernels`), of some 40 µs for each step.
@@ -53,20 +52,20 @@ def doubled(system: System, state: Sequence[float] | Array, parameters: Sequence
     >>> from hess_mechanics import level, solve, systems
     >>> from hess_mechanics.dynamics.doubled import doubled
     >>> suslov = systems()["suslov"]
-    >>> orbit = solve(suslov, *suslov.example, [0.0, 1.0, 2.0], level("precise"))
-    >>> bool(doubled(suslov, *suslov.example, orbit.times).away(orbit.states).max() < orbit.error_estimate)
+    >>> orbit = solve(*suslov.example_motion, [0.0, 1.0, 2.0], level("precise"))
+    >>> bool(doubled(*suslov.example_motion, orbit.times).away(orbit.states).max() < orbit.error_estimate)
     True
     """
     t = checked_times(times)
-    problem = Problem.of(system, [state], parameters)
+    problem = Problem.of(body, [state])
     unit = math.ldexp(1.0, -round(math.log2(problem.nu)))
-    p = np.asarray(parameters, complex)
+    p = np.asarray(body.parameters, complex)
     out = np.empty((t.size, problem.scale.size), complex)
     here, start, left = np.array(state, complex), 0.0, _MOST_STEPS
     for first in range(0, t.size, _AT_ONCE):
         go_on()
         part = slice(first, first + _AT_ONCE)
-        steps = system.doubled(here, start, p, problem.scale, unit, t[part], left, out[part])
+        steps = body.system.doubled(here, start, p, problem.scale, unit, t[part], left, out[part])
         if steps == STEP_LIMIT_REACHED:
             raise WorkLimit(f"This time span needs more than {_MOST_STEPS} steps with 31 digits: choose a shorter one.")
         require_finite_states(out[part].real)

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from hess_mechanics.dynamics.orbit import MAX_STEPS, checked_times, drift_of, require_finite_states, status_of
-from hess_mechanics.dynamics.system import Problem, System
+from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level
 from hess_mechanics.numerics.arguments import as_level
@@ -44,8 +44,8 @@ def _run(system: System, problem: Problem, states: Array, times: Array, level: L
     return out, int(steps.sum())
 
 
-def ensemble(system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float],
-             times: Sequence[float] | Array, level: Accuracy, threads: int = THREADS) -> Ensemble:
+def ensemble(body: Body, states: Sequence[Sequence[float]] | Array, times: Sequence[float] | Array, level: Accuracy,
+             threads: int = THREADS) -> Ensemble:
     """The orbits from the rows of `states` (n, d), sampled at the times (m,).
 
     Errors are measured as in `solve`, orbit by orbit; orbits that miss the level's promise are recomputed with
@@ -54,14 +54,14 @@ def ensemble(system: System, states: Sequence[Sequence[float]] | Array, paramete
 
     >>> from hess_mechanics import ensemble, level, systems
     >>> suslov = systems()["suslov"]
-    >>> state, parameters = suslov.example
-    >>> ensemble(suslov, [state, state], parameters, [0.0, 1.0, 2.0], level("precise")).states.shape
+    >>> body, state = suslov.example_motion
+    >>> ensemble(body, [state, state], [0.0, 1.0, 2.0], level("precise")).states.shape
     (2, 3, 5)
     """
     level = as_level(level)
     start = time.perf_counter()
     t = checked_times(times)
-    problem = Problem.of(system, states, parameters)
+    problem = Problem.of(body, states)
     count, dimension = problem.states.shape
     if count == 0:
         raise InvalidParameter("An ensemble needs at least one initial state.")
@@ -70,14 +70,14 @@ def ensemble(system: System, states: Sequence[Sequence[float]] | Array, paramete
     scaled_times = problem.times(t)
 
     starts = (problem.states, problem.nearby().states)
-    out, total = _run(system, problem, starts[level.aside], scaled_times, level, threads)
+    out, total = _run(body.system, problem, starts[level.aside], scaled_times, level, threads)
     errors, scaled_errors = np.zeros(count), np.zeros(count)
     todo, before = np.arange(count), out
     current = level
     # As `measured` does it, for those orbits that are left to do.
     while todo.size:
         tighter = current.tightened()
-        found, steps = _run(system, problem, starts[tighter.aside][todo], scaled_times, tighter, threads)
+        found, steps = _run(body.system, problem, starts[tighter.aside][todo], scaled_times, tighter, threads)
         total += steps
         difference = np.abs(before - found)
         off = difference.max(axis=(1, 2))
@@ -92,7 +92,7 @@ def ensemble(system: System, states: Sequence[Sequence[float]] | Array, paramete
         todo, before, current = todo[missed], found[missed], tighter
 
     out *= problem.scale
-    drift = drift_of(system, np.array(states, float, ndmin=2), out, np.asarray(parameters, float))
+    drift = drift_of(body.system, np.array(states, float, ndmin=2), out, np.asarray(body.parameters, float))
     wall_ms = (time.perf_counter() - start) * 1e3
-    return Ensemble(system.name, level.name, frozen(t), frozen(out), status_of(float(scaled_errors.max()), level),
-                    frozen(errors), drift, Cost(total, wall_ms), system.variables)
+    return Ensemble(body.system.name, level.name, frozen(t), frozen(out), status_of(float(scaled_errors.max()), level),
+                    frozen(errors), drift, Cost(total, wall_ms), body.system.variables)

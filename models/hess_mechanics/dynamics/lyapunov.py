@@ -19,14 +19,14 @@ from hess_mechanics.dynamics.orbit import (
     require_finite_rates,
     require_finite_states,
 )
-from hess_mechanics.dynamics.system import Problem, System
+from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import STANDARD, Accuracy, Computation, plan
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
-__all__ = ["Exponent", "largest_exponent"]
+__all__ = ["Exponent", "lyapunov_exponent"]
 
 MAX_RETURNS = 200_000
 _DISTANCE = 1e-7
@@ -62,10 +62,10 @@ class Exponent(Result):
         return self.value < 2.0 * math.log(max(math.e, self.times.size)) / float(self.times[-1])
 
 
-def _checked(system: System, state: Sequence[float], parameters: Sequence[float], span: float) -> tuple[Problem, int]:
+def _checked(body: Body, state: Sequence[float], span: float) -> tuple[Problem, int]:
     """The problem, and how often neighbours return.  Raises `InvalidParameter`, `WorkLimit`."""
-    checked_span(span, "a Lyapunov exponent")
-    problem = Problem.of(system, [state], parameters)
+    span = checked_span(span, "a Lyapunov exponent")
+    problem = Problem.of(body, [state])
     returns = abs(span) / _INTERVAL * problem.nu
     if not returns <= MAX_RETURNS:
         raise WorkLimit(f"This takes {returns:.3g} returns of the neighbour, at most {MAX_RETURNS} are allowed: choose "
@@ -73,21 +73,20 @@ def _checked(system: System, state: Sequence[float], parameters: Sequence[float]
     return problem, max(1, math.ceil(returns))
 
 
-def largest_exponent(system: System, state: Sequence[float], parameters: Sequence[float], span: float,
-                     level: Accuracy = STANDARD) -> Exponent:
+def lyapunov_exponent(body: Body, state: Sequence[float], span: float, level: Accuracy = STANDARD) -> Exponent:
     """The exponent of the orbit from `state` (d,) over the time `span` (negative: backwards), per unit of time.
 
     level : one of the four is that of its `Plan` for exponents, as those of orbits are too coarse for a neighbour at
         1e-7; any other level is used as it is.
     Raises `InvalidParameter`, `WorkLimit`.
 
-    >>> from hess_mechanics import largest_exponent, systems
+    >>> from hess_mechanics import lyapunov_exponent, systems
     >>> suslov = systems()["suslov"]
-    >>> float(largest_exponent(suslov, *suslov.example, 50.0).times[-1])
+    >>> float(lyapunov_exponent(*suslov.example_motion, 50.0).times[-1])
     50.0
     """
     level = plan(Computation.EXPONENT, level).level
-    problem, count = _checked(system, state, parameters, span)
+    problem, count = _checked(body, state, span)
     interval = np.array([span * problem.nu / count])
     direction = np.cos(1.0 + np.arange(problem.scale.size) ** 2)
     y = problem.states[0].copy()
@@ -97,7 +96,7 @@ def largest_exponent(system: System, state: Sequence[float], parameters: Sequenc
     steps = 0
     for i in range(count):
         for start, end in zip((y, neighbour), ends, strict=True):
-            taken = system.orbit(
+            taken = body.system.orbit(
                 start, problem.parameters, interval, level.order, level.tolerance, MAX_STEPS - steps, end)
             if taken == STEP_LIMIT_REACHED:
                 raise WorkLimit(f"This exponent needs more than {MAX_STEPS} steps: choose a shorter time span.")

@@ -24,7 +24,7 @@ from hess_mechanics.dynamics.orbit import (
     require_finite_states,
 )
 from hess_mechanics.dynamics.spectrum import batch_error, volume_sign
-from hess_mechanics.dynamics.system import Problem, System
+from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import STANDARD, Accuracy
 from hess_mechanics.numerics.arguments import as_level
@@ -79,30 +79,30 @@ class Megno(Result):
                       {"t": self.t, "level": self.level, "steps": self.cost.steps})
 
 
-def longest_span(system: System, state: Sequence[float] | Array, parameters: Sequence[float]) -> float:
+def longest_span(body: Body, state: Sequence[float] | Array) -> float:
     """Return the time that the indicator of a motion next to `state` may take.
 
     A third is left free, because ν of neighbouring states differs.
     """
-    return _LONGEST / (1.5 * Problem.of(system, [state], parameters).nu)
+    return _LONGEST / (1.5 * Problem.of(body, [state]).nu)
 
 
-def megno(system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float], span: float,
-          level: Accuracy = STANDARD, threads: int = THREADS) -> Megno:
+def megno(body: Body, states: Sequence[Sequence[float]] | Array, span: float, level: Accuracy = STANDARD,
+          threads: int = THREADS) -> Megno:
     """Ȳ of the motions from the rows of `states` (n, d) after the time `span` (negative: backwards), on all cores.
 
     Raises `InvalidParameter`, `WorkLimit`.
 
     >>> from hess_mechanics import megno, systems
     >>> suslov = systems()["suslov"]
-    >>> state, parameters = suslov.example
-    >>> megno(suslov, [state], parameters, 100.0).values.shape
+    >>> body, state = suslov.example_motion
+    >>> megno(body, [state], 100.0).values.shape
     (1,)
     """
     level = as_level(level)
     checked_span(span, "an indicator")
     begun = time.perf_counter()
-    problem = Problem.of(system, states, parameters)
+    problem = Problem.of(body, states)
     if abs(span) * problem.nu > _LONGEST:
         raise WorkLimit(f"An indicator takes a time of at most {_LONGEST / problem.nu:.4g} here: it is meant to "
                         "be short.")
@@ -118,8 +118,8 @@ def megno(system: System, states: Sequence[Sequence[float]] | Array, parameters:
     def one(i: int) -> None:
         along, frames = np.empty((samples, size)), np.empty((samples, size, 1))
         grown, volume = np.empty((samples, 1)), np.empty(samples)
-        steps[i] = system.vary_one(problem.states[i], frame, problem.parameters, t, level.order, level.tolerance,
-                                   MAX_STEPS, _LIMIT, along, frames, grown, volume)
+        steps[i] = body.system.vary_one(problem.states[i], frame, problem.parameters, t, level.order, level.tolerance,
+                                        MAX_STEPS, _LIMIT, along, frames, grown, volume)
         if steps[i] == STEP_LIMIT_REACHED:
             raise WorkLimit(f"This indicator needs more than {MAX_STEPS} steps: choose a shorter time span.")
         require_finite_states(along)

@@ -60,7 +60,7 @@ def row_of_cells(sheet: PoincareSection, window: Window, cells: tuple[int, int],
     states, there = sheet.states_at(centres(x0, x1, m), np.full(m, centres(y0, y1, n)[row]))
     out = np.stack([np.full(m, np.nan), np.full(m, float(NOWHERE))])
     if there.any():
-        found = megno(sheet.system, states[there], sheet.parameters, t, level, threads=1)
+        found = megno(sheet, states[there], t, level, threads=1)
         out[:, there] = found.values, found.chaotic + 2.0 * found.attracted
     return frozen(out)
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Sequence
+from numbers import Real
 
 import numpy as np
 
-from hess_mechanics.dynamics.system import Problem, System
+from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
-from hess_mechanics.numerics.arguments import as_level
+from hess_mechanics.numerics.arguments import as_level, as_number, as_whole
 from hess_mechanics.numerics.measured import measured
 from hess_mechanics.numerics.results import Array, Cost, Orbit, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
@@ -25,7 +26,7 @@ _SHORTEST = 1e-290
 """Of a time span over which rates are taken: beside one of 1e-320 the round-off of a 0 leaves double range."""
 
 
-def checked_times(times: Sequence[float] | Array) -> Array:
+def checked_times(times: float | Sequence[float] | Array) -> Array:
     """A copy of the times (n,), checked.  Raises `InvalidParameter`, `WorkLimit`."""
     try:
         t = np.array(times, dtype=float, ndmin=1)
@@ -43,10 +44,10 @@ def checked_times(times: Sequence[float] | Array) -> Array:
 
 def checked_span(span: float, what: str) -> float:
     """The time span over which `what` is taken, checked.  Raises `InvalidParameter`."""
-    if not _SHORTEST <= abs(span) < math.inf:
+    if isinstance(span, Real) and not _SHORTEST <= abs(span) < math.inf:
         raise InvalidParameter(f"The time span of {what} must be a finite number other than 0, of {_SHORTEST:g} or "
                                "more: choose one like 100, or -100 for backwards.")
-    return span
+    return as_number("t", span)
 
 
 def require_finite_states(states: Array) -> None:
@@ -92,33 +93,51 @@ def drift_of(system: System, start: Array, states: Array, parameters: Array) -> 
     return drift
 
 
-def solve(system: System, state: Sequence[float] | Array, parameters: Sequence[float],
-          times: Sequence[float] | Array, level: Accuracy) -> Orbit:
-    """The orbit from `state` (d,) at the given times (n,), monotonic from 0, with a measured error.
+def solve(body: Body, state: Sequence[float] | Array, t: float | Sequence[float] | Array,
+          accuracy: Accuracy = "precise", samples: int = 500) -> Orbit:
+    """Return the orbit of a body from `state` (d,), with a measured error.
+
+    Parameters
+    ----------
+    body : what moves: one of the bodies of this package, or a system with values of its parameters, `System.at`.
+    state : the variables of its system at the time 0, in their order.
+    t : the times (n,) of the result, all forward or all backward from 0; or one number, the end of the time span, over
+        which `samples` times are spread evenly.
+    accuracy : a level or its name, "draft", "standard", "precise" or "reference".
+
+    Returns
+    -------
+    The states at these times, with status, error estimate, drift of the integrals and cost.
+
+    Raises
+    ------
+    `InvalidParameter` (not finite, times out of order), `WorkLimit`.
 
     The orbit is computed twice, the second time with a hundredth of the tolerance and from a start that is moved by a
     few units in the last place; the difference is the error estimate.  If that exceeds the level's promise, more exact
     runs follow, down to the floor of double precision: see `numerics.measured`.
-    Raises `InvalidParameter` (not finite, times out of order), `WorkLimit`.
 
-    >>> from hess_mechanics import level, solve, systems
-    >>> suslov = systems()["suslov"]
-    >>> solve(suslov, *suslov.example, [0.0, 1.0, 2.0], level("precise")).states.shape
+    >>> from hess_mechanics import SuslovBody, solve, systems
+    >>> found = solve(SuslovBody(2.0, 1.0, 0.3, 0.5, 0.3, -0.5, 1.0), (0.8, -0.4, 0.6, 0.0, 0.8), t=10.0)
+    >>> found.states.shape, str(found.status), found.variables
+    ((500, 5), 'ok', ('ω1', 'ω2', 'γ1', 'γ2', 'γ3'))
+    >>> solve(*systems()["suslov"].example_motion, [0.0, 1.0, 2.0], "draft").states.shape
     (3, 5)
     """
-    level = as_level(level)
+    level = as_level(accuracy)
     start = time.perf_counter()
-    t = checked_times(times)
-    problem = Problem.of(system, [state], parameters)
-    scaled_times = problem.times(t)
+    times = checked_times(t if np.ndim(t) else
+                          np.linspace(0.0, as_number("t", t), as_whole("samples", samples, 2, MAX_SAMPLES)))
+    problem = Problem.of(body, [state])
+    scaled_times = problem.times(times)
     starts = (problem.states[0], problem.nearby().states[0])
     total = 0
 
     def run(at: Level) -> Array:
         nonlocal total
-        out = np.empty((t.size, problem.scale.size))
-        steps = system.orbit(starts[at.aside], problem.parameters, scaled_times, at.order, at.tolerance,
-                             MAX_STEPS - total, out)
+        out = np.empty((times.size, problem.scale.size))
+        steps = body.system.orbit(starts[at.aside], problem.parameters, scaled_times, at.order, at.tolerance,
+                                  MAX_STEPS - total, out)
         if steps == STEP_LIMIT_REACHED:
             raise WorkLimit(f"This time span needs more than {MAX_STEPS} steps: choose a shorter one, or a cheaper "
                             "level.")
@@ -128,9 +147,9 @@ def solve(system: System, state: Sequence[float] | Array, parameters: Sequence[f
 
     found = measured(level, run, lambda one, other: float(np.abs(one - other).max()))
     states = found.result * problem.scale
-    drift = drift_of(system, np.asarray(state, float), states, np.asarray(parameters, float))
+    drift = drift_of(body.system, np.asarray(state, float), states, np.asarray(body.parameters, float))
     wall_ms = (time.perf_counter() - start) * 1e3
     absolute = (found.safety * float((np.abs(found.result - found.other) * problem.scale).max())
                 + 2e-16 * max(1.0, problem.nu))
-    return Orbit(system.name, level.name, frozen(t), frozen(states), status_of(found.error, level), absolute, drift,
-                 Cost(total, wall_ms), variables=system.variables)
+    return Orbit(body.system.name, level.name, frozen(times), frozen(states), status_of(found.error, level), absolute,
+                 drift, Cost(total, wall_ms), variables=body.system.variables)

@@ -27,7 +27,7 @@ from hess_mechanics.dynamics.orbit_diagram import period_of
 from hess_mechanics.dynamics.periodic import MAX_PERIOD, place_units
 from hess_mechanics.dynamics.point_sets import Apart, how_far_apart
 from hess_mechanics.dynamics.return_map import ReturnMap
-from hess_mechanics.dynamics.spectrum import ensemble_mean, spectrum, volume_sign
+from hess_mechanics.dynamics.spectrum import ensemble_mean, lyapunov_spectrum, volume_sign
 from hess_mechanics.dynamics.zero_one import LEAST, zero_one_test
 from hess_mechanics.errors import InvalidParameter, NoReturn, OutsideRegion
 from hess_mechanics.numerics.labelled import Labels, Result
@@ -257,7 +257,7 @@ def regime(map_: ReturnMap, start: Sequence[float] | Array, transient: int = 300
         if kind not in (MotionKind.UNDECIDED, MotionKind.SETTLING):
             break
         count = min(_LONGER * len(places), _MOST_CROSSINGS)
-        longest = longest_span(map_.sheet.system, map_.state_at(places[-1]), map_.sheet.parameters)
+        longest = longest_span(map_.sheet, map_.state_at(places[-1]))
         longer = max(span, min(_LONGER * span, longest))
         if (count, longer) == (len(places), span):
             break
@@ -313,7 +313,7 @@ def _ensemble(map_: ReturnMap, places: Array) -> Array:
 
 def _indicated(map_: ReturnMap, places: Array, t: float) -> Megno:
     states = np.array([map_.state_at(place) for place in places])
-    return megno(map_.sheet.system, states, map_.sheet.parameters, -t if map_.backward else t, map_.accuracy,
+    return megno(map_.sheet, states, -t if map_.backward else t, map_.accuracy,
                  threads=1)
 
 
@@ -331,8 +331,8 @@ def _has_a_curve(map_: ReturnMap, place: Array, t: float) -> bool:
 
     An attracting invariant curve has it; an attracting periodic orbit, however long, has not.
     """
-    found = spectrum(map_.sheet.system, map_.state_at(place), map_.sheet.parameters, -t if map_.backward else t,
-                     map_.accuracy)
+    found = lyapunov_spectrum(map_.sheet, map_.state_at(place), -t if map_.backward else t,
+                              map_.accuracy)
     return found.zeros >= found.integrals + 2
 
 

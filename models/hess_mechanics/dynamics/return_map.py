@@ -23,7 +23,7 @@ from hess_mechanics.dynamics.orbit import MAX_STEPS, require_finite_states
 from hess_mechanics.dynamics.periodic import apart
 from hess_mechanics.dynamics.section import Surface
 from hess_mechanics.dynamics.symmetry import Mirror, sign_symmetries
-from hess_mechanics.dynamics.system import Problem, System
+from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.dynamics.variation import followed, onto_surface
 from hess_mechanics.errors import InvalidParameter, NoReturn, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import Level
@@ -51,7 +51,7 @@ _AT_ONCE = 1e-8
 """A crossing before this time, in units of 1/ν, is the start itself."""
 
 
-class PoincareSection(Protocol):
+class PoincareSection(Body, Protocol):
     """A section of a system at fixed values of its integrals, in coordinates that cover it."""
 
     def __hash__(self) -> int:
@@ -69,14 +69,6 @@ class PoincareSection(Protocol):
     @property
     def window(self) -> tuple[tuple[float, float], ...]:
         """From where to where each coordinate goes."""
-
-    @property
-    def system(self) -> System:
-        """The equations of motion."""
-
-    @property
-    def parameters(self) -> tuple[float, ...]:
-        """Their parameters."""
 
     @property
     def surface(self) -> Surface:
@@ -218,8 +210,7 @@ class ReturnMap:
 
     def wait(self, place: Array) -> float:
         """The time for which `orbit` looks for the next crossing from a place.  Raises `OutsideRegion`."""
-        return _WAIT * self.sheet.slowness / Problem.of(self.sheet.system, [self.state_at(place)],
-                                                        self.sheet.parameters).nu
+        return _WAIT * self.sheet.slowness / Problem.of(self.sheet, [self.state_at(place)]).nu
 
     def time_of(self, place: Array, count: int = 1) -> float:
         """The time that so many returns from a place take, each of which may take as long as `wait`.
@@ -247,7 +238,7 @@ class ReturnMap:
         return found, self._in_plane(state, found, self._tangents(place) @ onto.T)
 
     def _problem(self, start: Array) -> Problem:
-        problem = Problem.of(self.sheet.system, [start], self.sheet.parameters)
+        problem = Problem.of(self.sheet, [start])
         return problem.nearby() if self.accuracy.aside else problem
 
     def _crossing(self, start: Array, count: int, longest: float) -> tuple[Problem, float, Array]:

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from hess_mechanics.dynamics.orbit import MAX_STEPS, solve
-from hess_mechanics.dynamics.system import Problem, System
+from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.numerics.accuracy import PRECISE, Accuracy
 from hess_mechanics.numerics.results import Array, Orbit
 
@@ -32,20 +32,19 @@ _MOST_COARSE = 40_000
 _SAMPLES_PER_STEP = 16
 
 
-def sample_times(system: System, state: Array, parameters: Array, span: float, weights: Array, sagitta: float,
-                 most: int) -> Array:
+def sample_times(body: Body, state: Array, span: float, weights: Array, sagitta: float, most: int) -> Array:
     """At most `most` times from 0 to `span` (not 0), both included, at which to sample the orbit from `state`.
 
     weights (d,) : pixels per unit of each variable; sagitta : largest distance between curve and chord, in pixels.
     Where the orbit cannot be computed the times are even; computing the orbit itself then raises the error.
     Raises `InvalidParameter`.
     """
-    problem = Problem.of(system, np.array(state, float, ndmin=2), list(parameters))
+    problem = Problem.of(body, np.array(state, float, ndmin=2))
     count = int(min(_MOST_COARSE, max(64.0, abs(span) * problem.nu / _COARSE))) + 1
     while True:
         even = np.linspace(0.0, span, count)
         states = np.empty((count, problem.scale.size))
-        steps = system.orbit(problem.states[0], problem.parameters, even * problem.nu, PRECISE.order,
+        steps = body.system.orbit(problem.states[0], problem.parameters, even * problem.nu, PRECISE.order,
                              PRECISE.tolerance, MAX_STEPS, states)
         if steps < 0 or not np.all(np.isfinite(states)):
             return np.linspace(0.0, span, min(most, count))
@@ -54,7 +53,7 @@ def sample_times(system: System, state: Array, parameters: Array, span: float, w
         if count >= needed_count:
             break
         count = needed_count
-    rates = np.array(system.field(list((states * problem.scale).T), list(parameters)))
+    rates = np.array(body.system.field(list((states * problem.scale).T), list(body.parameters)))
     accelerations = np.gradient(rates, span / (count - 1), axis=1) * weights[:, None]
     density = np.sqrt(np.linalg.norm(accelerations, axis=0) / (8.0 * sagitta))
     density = np.maximum(density, 16.0 / abs(span))  # some samples for a motion at rest too
@@ -65,11 +64,11 @@ def sample_times(system: System, state: Array, parameters: Array, span: float, w
     return times
 
 
-def sampled_orbit(system: System, state: Sequence[float], parameters: Sequence[float], span: float,
-                  weights: Sequence[float], level: Accuracy, most: int = MOST_SAMPLES) -> Orbit:
+def sampled_orbit(body: Body, state: Sequence[float], span: float, weights: Sequence[float], level: Accuracy,
+                  most: int = MOST_SAMPLES) -> Orbit:
     """The orbit from `state` over `span`, sampled as `sample_times` says for pictures of these weights, in pixels.
 
     Raises as `solve`.
     """
-    times = sample_times(system, np.array(state), np.array(parameters), span, np.array(weights), SAGITTA, most)
-    return solve(system, state, parameters, times, level)
+    times = sample_times(body, np.array(state), span, np.array(weights), SAGITTA, most)
+    return solve(body, state, times, level)

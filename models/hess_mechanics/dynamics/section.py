@@ -11,7 +11,7 @@ from typing import Protocol
 import numpy as np
 
 from hess_mechanics.dynamics.orbit import drift_of, require_finite_states, status_of
-from hess_mechanics.dynamics.system import Problem, System
+from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level
 from hess_mechanics.numerics.arguments import as_level
@@ -95,16 +95,16 @@ class _Search:
     crossings: int
 
     @classmethod
-    def of(cls, system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float], plane: Surface,
-           end: float, level: Level, crossings: int) -> _Search:
+    def of(cls, body: Body, states: Sequence[Sequence[float]] | Array, plane: Surface, end: float, level: Level,
+           crossings: int) -> _Search:
         """Check everything.  Raises `InvalidParameter`, `WorkLimit`."""
         if not math.isfinite(end):
             raise InvalidParameter("The end of the time span must be finite.")
         if not 1 <= crossings <= MAX_CROSSINGS:
             raise WorkLimit(f"The number of crossings lies between 1 and {MAX_CROSSINGS}.")
-        problem = Problem.of(system, states, parameters)
-        cross, normal, offset = plane.scaled(system, problem)
-        return cls(system, problem, cross, normal, offset, plane.sense, end * problem.nu, level, crossings)
+        problem = Problem.of(body, states)
+        cross, normal, offset = plane.scaled(body.system, problem)
+        return cls(body.system, problem, cross, normal, offset, plane.sense, end * problem.nu, level, crossings)
 
     def run(self, i: int, level: Level, max_steps: int, start: Array | None = None) -> tuple[Array, Array, int]:
         """Times, states and steps of the crossings of orbit i, or of the orbit from `start`, at one tolerance."""
@@ -173,8 +173,8 @@ class _Found:
     cost: Cost
 
 
-def section(system: System, state: Sequence[float] | Array, parameters: Sequence[float], plane: Surface,
-            end: float, level: Accuracy, crossings: int = MAX_CROSSINGS) -> SectionCrossings:
+def section(body: Body, state: Sequence[float] | Array, plane: Surface, end: float, level: Accuracy,
+            crossings: int = MAX_CROSSINGS) -> SectionCrossings:
     """The first `crossings` crossings of the plane from t = 0 to t = `end`, which may be negative.
 
     Crossings are roots of the orbit's own Taylor polynomials.  The error is measured as in `solve`, crossing by
@@ -183,26 +183,25 @@ def section(system: System, state: Sequence[float] | Array, parameters: Sequence
 
     >>> from hess_mechanics import Plane, level, section, systems
     >>> suslov = systems()["suslov"]
-    >>> found = section(suslov, *suslov.example, Plane((0.0, 0.0, 0.0, 0.0, 1.0)), 50.0, level("precise"), 5)
+    >>> found = section(*suslov.example_motion, Plane((0.0, 0.0, 0.0, 0.0, 1.0)), 50.0, level("precise"), 5)
     >>> bool(abs(found.states[:, 4]).max() < 1e-9)
     True
     """
-    return sections(system, np.array(state, float)[None], parameters, plane, end, level, crossings, threads=1)[0]
+    return sections(body, np.array(state, float)[None], plane, end, level, crossings, threads=1)[0]
 
 
-def sections(system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float], plane: Surface,
-             end: float, level: Accuracy, crossings: int = MAX_CROSSINGS,
-             threads: int = THREADS) -> list[SectionCrossings]:
+def sections(body: Body, states: Sequence[Sequence[float]] | Array, plane: Surface, end: float, level: Accuracy,
+             crossings: int = MAX_CROSSINGS, threads: int = THREADS) -> list[SectionCrossings]:
     """`section` for each row of `states` (n, d), on all cores; the fastest orbit sets the unit of time for all.
 
     >>> from hess_mechanics import Plane, level, sections, systems
     >>> suslov = systems()["suslov"]
-    >>> state, parameters = suslov.example
-    >>> len(sections(suslov, [state], parameters, Plane((0.0, 0.0, 0.0, 0.0, 1.0)), 50.0, level("precise"), 5))
+    >>> body, state = suslov.example_motion
+    >>> len(sections(body, [state], Plane((0.0, 0.0, 0.0, 0.0, 1.0)), 50.0, level("precise"), 5))
     1
     """
     level = as_level(level)
-    search = _Search.of(system, states, parameters, plane, end, level, crossings)
+    search = _Search.of(body, states, plane, end, level, crossings)
     found: dict[int, _Found] = {}
 
     def part(i: int) -> None:
@@ -210,7 +209,7 @@ def sections(system: System, states: Sequence[Sequence[float]] | Array, paramete
             found[orbit] = search.measured(orbit)
 
     share(part, -(-len(search.problem.states) // _SHARE), threads)
-    starts, p = np.array(states, float, ndmin=2), np.asarray(parameters, float)
+    starts, p = np.array(states, float, ndmin=2), np.asarray(body.parameters, float)
     return [search.result(i, starts[i], p, found[i]) for i in range(len(starts))]
 
 
@@ -239,9 +238,8 @@ class SectionPoints(Result):
             {**{f"drift of {name}": value for name, value in self.drift.items()}, "steps": self.cost.steps})
 
 
-def section_points(system: System, states: Sequence[Sequence[float]] | Array, parameters: Sequence[float],
-                   plane: Surface, end: float, level: Accuracy, crossings: int, threads: int = THREADS,
-                   most_steps: int = MAX_STEPS) -> SectionPoints:
+def section_points(body: Body, states: Sequence[Sequence[float]] | Array, plane: Surface, end: float, level: Accuracy,
+                   crossings: int, threads: int = THREADS, most_steps: int = MAX_STEPS) -> SectionPoints:
     """The first `crossings` crossings of the orbits from the rows of `states` (n, d), in one run, for pictures.
 
     An orbit that falls behind the average rate of crossings in one part of the time span ends there.
@@ -249,14 +247,14 @@ def section_points(system: System, states: Sequence[Sequence[float]] | Array, pa
 
     >>> from hess_mechanics import Plane, level, section_points, systems
     >>> suslov = systems()["suslov"]
-    >>> state, parameters = suslov.example
+    >>> body, state = suslov.example_motion
     >>> plane = Plane((0.0, 0.0, 0.0, 0.0, 1.0))
-    >>> section_points(suslov, [state], parameters, plane, 100.0, level("standard"), 5).states[0].shape
+    >>> section_points(body, [state], plane, 100.0, level("standard"), 5).states[0].shape
     (5, 5)
     """
     level = as_level(level)
     begun = time.perf_counter()
-    search = _Search.of(system, states, parameters, plane, end, level, crossings)
+    search = _Search.of(body, states, plane, end, level, crossings)
     count = len(search.problem.states)
     parts = max(1, min(_PARTS, crossings // 10))
     one_part = replace(search, end=search.end / parts, crossings=-(-crossings // parts))
@@ -289,12 +287,12 @@ def section_points(system: System, states: Sequence[Sequence[float]] | Array, pa
     share(part, -(-count // _SHARE), threads)
     if refused:
         raise refused[0]
-    starts, p = np.array(states, float, ndmin=2), np.asarray(parameters, float)
-    drifts = [drift_of(system, starts[i], found[i][0], p) for i in range(count) if len(found[i][0])]
+    starts, p = np.array(states, float, ndmin=2), np.asarray(body.parameters, float)
+    drifts = [drift_of(body.system, starts[i], found[i][0], p) for i in range(count) if len(found[i][0])]
     drift = {name: max(one[name] for one in drifts) for name in (drifts[0] if drifts else ())}
     wall_ms = (time.perf_counter() - begun) * 1e3
     return SectionPoints([frozen(found[i][0]) for i in range(count)], drift,
-                         Cost(sum(steps for _, steps in found.values()), wall_ms), system.variables)
+                         Cost(sum(steps for _, steps in found.values()), wall_ms), body.system.variables)
 
 
 def occupied_cells(points: Array, across: int = 32) -> int:

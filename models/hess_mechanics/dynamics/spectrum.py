@@ -26,7 +26,7 @@ from hess_mechanics.dynamics.orbit import (
     require_finite_rates,
     require_finite_states,
 )
-from hess_mechanics.dynamics.system import Problem, System
+from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.dynamics.variation import frame_ahead, neighbours
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import PLANS, STANDARD, Accuracy, Computation, Status
@@ -37,7 +37,8 @@ from hess_mechanics.numerics.results import Array, Cost, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
 __all__ = [
-    "LIMIT", "Spectrum", "batch_error", "ensemble_mean", "first_frame", "kaplan_yorke", "spectrum", "volume_sign",
+    "LIMIT", "Spectrum", "batch_error", "ensemble_mean", "first_frame", "kaplan_yorke", "lyapunov_spectrum",
+    "volume_sign",
 ]
 
 _PARTS = 15
@@ -241,21 +242,21 @@ def first_frame(system: System, problem: Problem) -> tuple[Array, float]:
     return frame_ahead(system, problem, np.cos(1.0 + np.arange(size * size).reshape(size, size) ** 2), _SLOW)
 
 
-def spectrum(system: System, state: Sequence[float] | Array, parameters: Sequence[float], span: float,
-             level: Accuracy = STANDARD) -> Spectrum:
+def lyapunov_spectrum(body: Body, state: Sequence[float] | Array, span: float, level: Accuracy = STANDARD) -> Spectrum:
     """All exponents of the orbit from `state` (d,) over the time `span` (negative: backwards).
 
     They are those of the equations in all d variables.  Raises `InvalidParameter`, `WorkLimit`.
 
-    >>> from hess_mechanics import spectrum, systems
+    >>> from hess_mechanics import lyapunov_spectrum, systems
     >>> suslov = systems()["suslov"]
-    >>> spectrum(suslov, *suslov.example, 200.0).values.shape
+    >>> lyapunov_spectrum(*suslov.example_motion, 200.0).values.shape
     (5,)
     """
     level = as_level(level)
     checked_span(span, "Lyapunov exponents")
     begun = time.perf_counter()
-    problem = Problem.of(system, [state], parameters)
+    problem = Problem.of(body, [state])
+    system = body.system
     y, (frame, speed) = problem.states[0], first_frame(system, problem)
     ahead = speed > _SLOW
     part = span * problem.nu / _PARTS * np.arange(1, _SAMPLES + 1) / _SAMPLES
@@ -302,7 +303,7 @@ def spectrum(system: System, state: Sequence[float] | Array, parameters: Sequenc
     worst = float(error.max()) + floor
     plans = PLANS[Computation.EXPONENT]
     promise = plans[level.name].promise * problem.nu if level.name in plans else worst
-    number = len(system.integrals(list(state), list(parameters)))
+    number = len(system.integrals(list(state), list(body.parameters)))
     return Spectrum(
         system.name, level.name, frozen(times[1:]), frozen(rates), frozen(mean[order]), frozen(error[order] + floor),
         float(mean[-1]), float(error[-1]) + floor, number, not np.any(volume),

@@ -14,7 +14,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from threading import RLock
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -29,7 +29,7 @@ from hess_mechanics.numerics.taylor_kernels import orbit_integrator
 from hess_mechanics.numerics.tracing import Field, Recursion, trace
 from hess_mechanics.numerics.variation_kernels import Variation, variation, variation_integrator
 
-__all__ = ["Problem", "System", "in_units_of_time", "systems"]
+__all__ = ["Body", "ParametrizedSystem", "Problem", "System", "in_units_of_time", "systems"]
 
 
 _DERIVING = RLock()
@@ -82,7 +82,7 @@ class System:
     ...     frequency=lambda y, p: (y[0] ** 2 + 4 * p[0]) ** 0.5,
     ...     rescale=in_units_of_time(first=0, velocities=1),
     ...     example=((0.5, 0.0, 1.0), (9.81,)))
-    >>> str(solve(pendulum, *pendulum.example, [1.0], "precise").status)
+    >>> str(solve(*pendulum.example_motion, [1.0], "precise").status)
     'ok'
     """
 
@@ -118,7 +118,7 @@ class System:
             states = state * draw.uniform(0.5, 2.0, shape) + draw.uniform(-0.5, 0.5, shape)
             p = np.where(parameters == 0.0, 1.0, parameters) * draw.uniform(0.5, 2.0, parameters.size)
             try:
-                problem = Problem.of(self, states, p.tolist())
+                problem = Problem.of(self.at(p.tolist()), states)
             except ModelError:
                 continue  # no motion there
             except ValueError as error:
@@ -226,10 +226,50 @@ class System:
                       f"{derived}\n\ndef {name}({arguments}):\n    return run({passed})\n")
             return derived_kernel(name, source, self.field.__module__, **names)
 
+    def at(self, parameters: Sequence[float] | Array) -> ParametrizedSystem:
+        """Return the system with these values of its parameters: a `Body`."""
+        return ParametrizedSystem(self, tuple(map(float, parameters)))
+
+    @property
+    def example_motion(self) -> tuple[ParametrizedSystem, tuple[float, ...]]:
+        """The example as a body and a state, the first two arguments of `solve`, `megno`, `tube` …"""
+        state, parameters = self.example
+        return self.at(parameters), state
+
     @property
     def arguments(self) -> tuple[str, ...]:
         """The variables by names that are easily typed, as commands and sweeps take them: ω1 is w1, γ1 is g1."""
         return tuple(name.replace("ω", "w").replace("γ", "g") for name in self.variables)
+
+
+class Body(Protocol):
+    """Anything that moves: the equations of motion and the values of their parameters.
+
+    >>> from hess_mechanics import SuslovBody
+    >>> body = SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0)
+    >>> body.system.title, len(body.parameters) == len(body.system.parameters)
+    ('Suslov problem with gravity', True)
+    """
+
+    @property
+    def system(self) -> System:
+        """The equations of motion."""
+
+    @property
+    def parameters(self) -> tuple[float, ...]:
+        """The values of their parameters."""
+
+    def __hash__(self) -> int:
+        """Bodies do not change, so they can be parts of cache keys."""
+        return hash((self.system, self.parameters))
+
+
+@dataclass(frozen=True)
+class ParametrizedSystem:
+    """A system with values of its parameters, as `System.at` makes it."""
+
+    system: System
+    parameters: tuple[float, ...]
 
 
 @cache
@@ -258,11 +298,14 @@ class Problem:
     scale: Array
 
     @classmethod
-    def of(cls, system: System, states: Sequence[Sequence[float] | Array] | Array, parameters: Sequence[float]
-           ) -> Problem:
-        """Check states (n, d) and parameters and scale them.  Raises `InvalidParameter`."""
+    def of(cls, body: Body, states: Sequence[Sequence[float] | Array] | Array) -> Problem:
+        """Check a body and states (n, d), and scale them.  Raises `InvalidParameter`."""
+        if not (isinstance(getattr(body, "system", None), System) and hasattr(body, "parameters")):
+            raise InvalidParameter(f"{body!r} is no body that moves: give a SuslovBody, a PlaneBody, a QuarticBody, "
+                                   "a BallBody or a HeavyBody.")
+        system = body.system
         try:
-            given, p = np.array(states, float, ndmin=2), np.asarray(parameters, float)
+            given, p = np.array(states, float, ndmin=2), np.asarray(body.parameters, float)
         except (TypeError, ValueError):
             raise InvalidParameter(f"{system.title}: a state is {len(system.variables)} numbers, "
                                    f"{', '.join(system.variables)}; write them like 1.5 or -2e-3.") from None

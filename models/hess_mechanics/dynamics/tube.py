@@ -33,7 +33,7 @@ import numpy as np
 
 from hess_mechanics.dynamics.orbit import checked_times
 from hess_mechanics.dynamics.polynomials import Along, Slope
-from hess_mechanics.dynamics.system import Problem, System
+from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.balls import Ball, Enclosure, enclosure, rational, working
 from hess_mechanics.numerics.patience import go_on
@@ -79,8 +79,8 @@ class Tube:
     spent: bool = False
 
 
-def tube(system: System, state: Sequence[float], parameters: Sequence[float], times: Sequence[float] | Array,
-         digits: int = 18, most_work: float = MOST_WORK) -> Tube:
+def tube(body: Body, state: Sequence[float], times: Sequence[float] | Array, digits: int = 18,
+         most_work: float = MOST_WORK) -> Tube:
     """Enclose the motion from `state` at time 0, to so many digits at all times; these doubles are taken as exact.
 
     Where that needs more than `most_work` (some 4 s) the tube is shorter.  Raises `MissingLibrary`, `InvalidParameter`,
@@ -95,13 +95,13 @@ def tube(system: System, state: Sequence[float], parameters: Sequence[float], ti
         raise InvalidParameter(f"{digits} digits: choose 1 to 100.")
     begun = time.perf_counter()
     asked = checked_times(times)
-    problem = Problem.of(system, [state], parameters)
+    problem, system = Problem.of(body, [state]), body.system
     length = abs(float(asked[-1]))
     best: Tube | None = None
     bits, left = max(_FIRST_BITS, _whole(3.33 * digits + _GUARD_BITS)), most_work
     while True:
         with working(bits):
-            walk = _Walk(system, [float(x) for x in state], [float(x) for x in parameters], problem.scale, bits)
+            walk = _Walk(system, [float(x) for x in state], [float(x) for x in body.parameters], problem.scale, bits)
             found, width = walk.through(asked, 10.0 ** (-digits), left)
         left -= walk.work
         if best is None or len(found) > len(best.states):
@@ -383,8 +383,8 @@ def proved_error(orbit: Orbit, found: Tube) -> tuple[float, float]:
     Raises `InvalidParameter`, also where the tube ends before the first of them.
 
     >>> from hess_mechanics import level, proved_error, solve, systems, tube
-    >>> hess, motion = systems()["hess"], ((0.3, 0.9, 0.6, 0.0, 0.8), (0.75, 1.0), [0.5])
-    >>> low, high = proved_error(solve(hess, *motion, level("draft")), tube(hess, *motion))
+    >>> motion = systems()["hess"].at((0.75, 1.0)), (0.3, 0.9, 0.6, 0.0, 0.8), [0.5]
+    >>> low, high = proved_error(solve(*motion, level("draft")), tube(*motion))
     >>> 0.0 <= low <= high < 1e-3
     True
     """
@@ -401,8 +401,8 @@ def right_until(orbit: Orbit, found: Tube, error: float) -> float:
     Raises `InvalidParameter`.
 
     >>> from hess_mechanics import level, right_until, solve, systems, tube
-    >>> hess, motion = systems()["hess"], ((0.3, 0.9, 0.6, 0.0, 0.8), (0.75, 1.0), [0.25, 0.5])
-    >>> right_until(solve(hess, *motion, level("reference")), tube(hess, *motion), 1e-12)
+    >>> motion = systems()["hess"].at((0.75, 1.0)), (0.3, 0.9, 0.6, 0.0, 0.8), [0.25, 0.5]
+    >>> right_until(solve(*motion, level("reference")), tube(*motion), 1e-12)
     0.5
     """
     last = 0.0

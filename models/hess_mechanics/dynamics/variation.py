@@ -24,7 +24,7 @@ from hess_mechanics.dynamics.orbit import (
     status_of,
 )
 from hess_mechanics.dynamics.section import Surface, section
-from hess_mechanics.dynamics.system import Problem, System
+from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
 from hess_mechanics.numerics.arguments import as_level
@@ -73,8 +73,8 @@ class Transition(Labelled):
              "error_estimate": self.error_estimate, "steps": self.cost.steps})
 
 
-def transition_matrix(system: System, state: Sequence[float] | Array, parameters: Sequence[float],
-                      times: float | Sequence[float] | Array, level: Accuracy) -> Transition:
+def transition_matrix(body: Body, state: Sequence[float] | Array, times: float | Sequence[float] | Array,
+                      level: Accuracy) -> Transition:
     """∂y(t)/∂y(0) of the orbit from `state` (d,) at the given times (n,), monotonic from 0, or at one time.
 
     As in `solve`, all is computed twice, and again where the level's promise is not kept.
@@ -83,14 +83,14 @@ def transition_matrix(system: System, state: Sequence[float] | Array, parameters
     >>> import numpy as np
     >>> from hess_mechanics import level, systems, transition_matrix
     >>> suslov = systems()["suslov"]
-    >>> found = transition_matrix(suslov, *suslov.example, 2.0, level("precise"))
+    >>> found = transition_matrix(*suslov.example_motion, 2.0, level("precise"))
     >>> bool(abs(np.log(np.linalg.det(found.matrices[-1])) - found.log_volume[-1]) < 1e-9)
     True
     """
     level = as_level(level)
     begun = time.perf_counter()
     t = checked_times(np.atleast_1d(np.asarray(times, float)))
-    problem = Problem.of(system, [state], parameters)
+    problem, system = Problem.of(body, [state]), body.system
     scaled_times = problem.times(t)
     problems = (problem, problem.nearby())
     total = 0
@@ -198,24 +198,24 @@ class Return:
     transition: Transition
 
 
-def return_matrix(system: System, state: Sequence[float] | Array, parameters: Sequence[float], surface: Surface,
-                  end: float, level: Accuracy, returns: int = 1) -> Return | None:
+def return_matrix(body: Body, state: Sequence[float] | Array, surface: Surface, end: float, level: Accuracy,
+                  returns: int = 1) -> Return | None:
     """The return of this number to the surface before the time `end`, which may be negative; None if there is none.
 
     Raises `InvalidParameter`, `WorkLimit`.
 
     >>> from hess_mechanics import Plane, level, return_matrix, systems
     >>> suslov = systems()["suslov"]
-    >>> found = return_matrix(suslov, *suslov.example, Plane((0.0, 0.0, 0.0, 0.0, 1.0)), 50.0, level("precise"))
+    >>> found = return_matrix(*suslov.example_motion, Plane((0.0, 0.0, 0.0, 0.0, 1.0)), 50.0, level("precise"))
     >>> bool(abs(found.matrix[4]).max() < 1e-9)  # where it returns to, γ3 is 0
     True
     """
-    crossings = section(system, state, parameters, surface, end, level, returns)
+    crossings = section(body, state, surface, end, level, returns)
     if len(crossings.times) < returns:
         return None
     moment = float(crossings.times[-1])
-    found = transition_matrix(system, state, parameters, moment, level)
+    found = transition_matrix(body, state, moment, level)
     end_state = crossings.states[-1]
-    rate = np.array(system.field(end_state.tolist(), list(parameters)), float)
+    rate = np.array(body.system.field(end_state.tolist(), list(body.parameters)), float)
     matrix = onto_surface(found.matrices[0], rate, surface.gradient(end_state))
     return Return(moment, end_state, frozen(matrix), found)

@@ -65,7 +65,7 @@ def truth(name: str, state: tuple[float, ...], parameters: tuple[float, ...], sp
 
     name : of the system.  Raises `InvalidParameter`, `WorkLimit`.
     """
-    return doubled(systems()[name], state, parameters, np.linspace(0.0, span, samples))
+    return doubled(systems()[name].at(parameters), state, np.linspace(0.0, span, samples))
 
 
 def growth(name: str, state: tuple[float, ...], parameters: tuple[float, ...], span: float,
@@ -76,11 +76,12 @@ def growth(name: str, state: tuple[float, ...], parameters: tuple[float, ...], s
     Raises `InvalidParameter`, `WorkLimit`.
     """
     system, exact = systems()[name], truth(name, state, parameters, span, samples)
+    body = system.at(parameters)
     first = system.angular_velocities
     errors, pixels, drifts = {}, {}, {}
     for level in LEVELS.values():
         go_on()
-        states = solve(system, state, parameters, exact.times, level).states
+        states = solve(body, state, exact.times, level).states
         difference = exact.away(states)
         errors[level.name] = frozen(np.max(difference / exact.scale, axis=1))
         weighted = difference * np.asarray(weights)
@@ -110,17 +111,17 @@ def _best_of(run: Callable[[], Array], repeats: int) -> tuple[float, Array]:
 def measure_levels(name: str, state: tuple[float, ...], parameters: tuple[float, ...], span: float, samples: int
                    ) -> tuple[WorkPoint, ...]:
     """Cost and error of each level, measured now; the cost includes the error estimate.  Raises as `growth`."""
-    system, exact = systems()[name], truth(name, state, parameters, span, samples)
+    body, exact = systems()[name].at(parameters), truth(name, state, parameters, span, samples)
     points = []
     for level in LEVELS.values():
-        ms, states = _best_of(lambda: solve(system, state, parameters, exact.times, level).states, 3)  # noqa: B023 (called at once)
+        ms, states = _best_of(lambda: solve(body, state, exact.times, level).states, 3)  # noqa: B023 (called at once)
         points.append(WorkPoint("Taylor", level.name, ms, float(np.max(exact.away(states) / exact.scale))))
     return tuple(points)
 
 
 def longest_span(name: str, state: Sequence[float], parameters: Sequence[float]) -> float:
     """The longest time span that all levels integrate in about a second.  Raises `InvalidParameter`."""
-    return _LONGEST / Problem.of(systems()[name], [state], parameters).nu
+    return _LONGEST / Problem.of(systems()[name].at(parameters), [state]).nu
 
 
 def others_take_long(name: str, state: Sequence[float], parameters: Sequence[float], span: float) -> bool:
@@ -128,9 +129,9 @@ def others_take_long(name: str, state: Sequence[float], parameters: Sequence[flo
 
     Decided by steps and not by a clock, so that equal states always show the same.
     """
-    system = systems()[name]
-    return (span * Problem.of(system, [state], parameters).nu > _LONGEST_FOR_OTHERS
-            or solve(system, state, parameters, np.array([0.0, span]), REFERENCE).cost.steps > _MOST_STEPS_FOR_OTHERS)
+    body = systems()[name].at(parameters)
+    return (span * Problem.of(body, [state]).nu > _LONGEST_FOR_OTHERS
+            or solve(body, state, np.array([0.0, span]), REFERENCE).cost.steps > _MOST_STEPS_FOR_OTHERS)
 
 
 def measure_others(name: str, state: tuple[float, ...], parameters: tuple[float, ...], span: float, samples: int

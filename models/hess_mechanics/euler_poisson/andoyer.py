@@ -232,7 +232,7 @@ def time_for(body: HeavyBody, h: float, f: float, crossings: int) -> float:
 def andoyer_points(body: HeavyBody, h: float, f: float, starts: Sequence[Sequence[float]], crossings: int,
                    level: Accuracy, threads: int = THREADS, most_steps: int = MAX_STEPS) -> SectionPoints:
     """The first crossings of g = π/2 by each orbit, as in `section_points`.  Raises `InvalidParameter`, `WorkLimit`."""
-    return section_points(SYSTEM, starts, body.parameters, AndoyerPlane(f), time_for(body, h, f, crossings), level,
+    return section_points(body, starts, AndoyerPlane(f), time_for(body, h, f, crossings), level,
                           crossings, threads, most_steps)
 
 

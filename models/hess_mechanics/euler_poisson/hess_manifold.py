@@ -23,7 +23,6 @@ from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
 from hess_mechanics.numerics.accuracy import REFERENCE, Accuracy, Level
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.results import Array, Orbit, frozen
-from hess_mechanics.suslov.equations import SYSTEM as SUSLOV
 from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.equations import SYSTEM as REDUCED
 
@@ -43,7 +42,7 @@ __all__ = [
 
 def exact_motion(a: float, start: tuple[float, ...], end: float, count: int) -> Orbit:
     """The motion of `eq01` from a state (5,), units b = 1, at even times: on the manifold nothing leaks."""
-    return solve(REDUCED, start, (a, 1.0), np.linspace(0.0, end, count), REFERENCE)
+    return solve(REDUCED.at((a, 1.0)), start, np.linspace(0.0, end, count), REFERENCE)
 
 
 def _relative(body: HeavyBody, states: Array) -> Array:
@@ -94,7 +93,7 @@ def run_free(body: HeavyBody, start: tuple[float, ...], end: float, count: int, 
     """
     level = as_level(level)
     times = frozen(np.linspace(0.0, end, count))
-    problem = Problem.of(SYSTEM, [start], body.parameters)
+    problem = Problem.of(body, [start])
     out = np.empty((count, 6))
     steps = _run(problem, problem.states[0], problem.times(times), level, out)
     return _ended(body, problem, times, out, level, steps)
@@ -113,7 +112,7 @@ def on_manifold(body: HeavyBody, start: tuple[float, ...], end: float, count: in
     """
     level = as_level(level)
     times = frozen(np.linspace(0.0, end, count))
-    problem = Problem.of(SYSTEM, [start], body.parameters)
+    problem = Problem.of(body, [start])
     scaled = problem.times(times)
     axis = np.array(body.r) / math.hypot(*body.r)
     growth = body.hess_a * _fastest(body, start) * end
@@ -163,7 +162,7 @@ def difference(bridge: Bridge, start: tuple[float, ...], end: float, count: int)
     hess = bridge.hess
     reduced = hess.from_units_of_b(np.array(start))
     times = np.linspace(0.0, end, count)
-    orbit = solve(SUSLOV, hess.from_reduced(reduced), hess.suslov.parameters, times, REFERENCE)
+    orbit = solve(hess.suslov, hess.from_reduced(reduced), times, REFERENCE)
     there = hess.in_units_of_b(hess.to_reduced(orbit.states))
     heavy = tuple(bridge.from_reduced(reduced).tolist())
     held, free = (bridge.distance(run(bridge.heavy, heavy, end, count, REFERENCE).states, there)

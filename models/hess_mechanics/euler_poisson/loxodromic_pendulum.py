@@ -188,7 +188,7 @@ def loxodromic_motion(pendulum: LoxodromicPendulum, span: float, level: Accuracy
     """
     require_finite(span=span)
     radius = 0.5 * PIXELS
-    lying = attitude(WITH_ATTITUDE, pendulum.start, (pendulum.a, 1.0), pendulum.length(span), level,
+    lying = attitude(WITH_ATTITUDE.at((pendulum.a, 1.0)), pendulum.start, pendulum.length(span), level,
                      (0.0, 0.0, *(radius,) * 6), SAGITTA, _MOST)
     axes = lying.axes @ pendulum.principal
     axes[:, 2] = np.cross(axes[:, 0], axes[:, 1])

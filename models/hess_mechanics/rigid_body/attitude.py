@@ -14,7 +14,7 @@ import numpy as np
 
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.sampling import sample_times
-from hess_mechanics.dynamics.system import System
+from hess_mechanics.dynamics.system import Body, System
 from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.results import Array, Orbit, frozen
 
@@ -153,15 +153,15 @@ def _turned(u: Array, v: Array, length: Array) -> Array:
     return np.asarray(u + np.sinc(length / np.pi) * first + 0.5 * np.sinc(0.5 * length / np.pi) ** 2 * _cross(first, v))
 
 
-def attitude(system: System, start: Sequence[float] | Array, parameters: Sequence[float], span: float, level: Accuracy,
-             weights: Sequence[float], sagitta: float, most: int) -> Attitude:
-    """The attitude along the orbit of an extended system from `start`, |γ| = |e| = 1, (e, γ) = 0.
+def attitude(body: Body, start: Sequence[float] | Array, span: float, level: Accuracy, weights: Sequence[float],
+             sagitta: float, most: int) -> Attitude:
+    """Return the attitude along the orbit of a body with an extended system from `start`, |γ| = |e| = 1, (e, γ) = 0.
 
     weights, sagitta, most : as for `sample_times`.  Raises `InvalidParameter`, `WorkLimit`.
     """
     state = np.asarray(start, float)
-    times = sample_times(system, state, np.asarray(parameters, float), span, np.asarray(weights), sagitta, most)
-    orbit = solve(system, state, parameters, times, level)
+    times = sample_times(body, state, span, np.asarray(weights), sagitta, most)
+    orbit = solve(body, state, times, level)
     axes, defect = _orthonormal(orbit.states[:, -6:-3], orbit.states[:, -3:])
     return Attitude(orbit.times, frozen(axes), defect, orbit)
 

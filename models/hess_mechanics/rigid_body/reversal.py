@@ -8,12 +8,12 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar
 
 import numpy as np
 
 from hess_mechanics.dynamics.section import section
-from hess_mechanics.dynamics.system import Problem, System
+from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.results import Array, SectionCrossings
@@ -48,22 +48,14 @@ def _cross(system: System) -> Callable[..., Any]:
     return system.crosses("turn", NO_TURN)
 
 
-class _Body(Protocol):
-    @property
-    def system(self) -> System: ...
-
-    @property
-    def parameters(self) -> tuple[float, ...]: ...
-
-
 def rate(states: Array) -> Array:
     """(ω, γ) (n,) of states (n, 5), in rad/T."""
     return np.asarray(states[:, 0] * states[:, 2] + states[:, 1] * states[:, 3])
 
 
-def reversals(body: _Body, start: Sequence[float], span: float, level: Accuracy) -> SectionCrossings:
+def reversals(body: Body, start: Sequence[float], span: float, level: Accuracy) -> SectionCrossings:
     """The moments from 0 to `span` at which (ω, γ) is 0, and the states there, none lost; see `section`.
 
     Raises `InvalidParameter`, `WorkLimit`.
     """
-    return section(body.system, start, body.parameters, Reversal(), span, level, MOST)
+    return section(body, start, Reversal(), span, level, MOST)

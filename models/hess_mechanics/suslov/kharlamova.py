@@ -273,7 +273,7 @@ def periods_all_round(body: PlaneBody, q: Sequence[float], speed: float) -> Arra
 
 def missed(body: PlaneBody, start: Sequence[float], period: float, accuracy: Accuracy) -> float:
     """How far from its start (5,) an orbit is after its period, in the largest of the variables."""
-    after = solve(SYSTEM, start, body.parameters, [period], accuracy).states[0]
+    after = solve(body, start, [period], accuracy).states[0]
     return float(np.abs(after - np.array(start)).max())
 
 
@@ -320,6 +320,6 @@ def forbidden(body: PlaneBody, h: float) -> list[Array]:
 def sampled_orbit(body: PlaneBody, start: Sequence[float], span: float, accuracy: Accuracy) -> tuple[Orbit, Array]:
     """The orbit at times that a picture needs, and the mirror image (m, 5) of its past at the same times."""
     weights = np.array(body.pixels_per_unit(body.energy(start)))
-    times = sample_times(SYSTEM, np.array(start), np.array(body.parameters), span, weights, SAGITTA, MOST_SAMPLES)
-    past = solve(SYSTEM, start, body.parameters, -times, accuracy)
-    return solve(SYSTEM, start, body.parameters, times, accuracy), frozen(mirrored(past.states))
+    times = sample_times(SYSTEM.at(np.array(body.parameters)), np.array(start), span, weights, SAGITTA, MOST_SAMPLES)
+    past = solve(body, start, -times, accuracy)
+    return solve(body, start, times, accuracy), frozen(mirrored(past.states))

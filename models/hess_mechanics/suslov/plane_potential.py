@@ -58,6 +58,11 @@ class PotentialBody:
         require_positive_definite(self.I11, self.I22)
 
     @property
+    def system(self) -> System:
+        """The equations of motion."""
+        return SYSTEM
+
+    @property
     def parameters(self) -> tuple[float, ...]:
         """p = (I11, I22, c1, c2, λ, μ)."""
         return (self.I11, self.I22, self.c1, self.c2, self.cubic, self.quartic)
@@ -182,7 +187,7 @@ def plane_section(body: PotentialBody, starts: Sequence[Sequence[float]], crossi
     p = np.array(body.parameters)
     nu = float(np.max(SYSTEM.frequency(np.array(starts, float).T, p)))
     ratio = math.sqrt(max(body.I11, body.I22) / min(body.I11, body.I22))
-    return section_points(SYSTEM, starts, body.parameters, Plane((0.0, 0.0, 1.0, 0.0, 0.0)),
+    return section_points(body, starts, Plane((0.0, 0.0, 1.0, 0.0, 0.0)),
                           crossings * _TURNS * ratio / max(nu, 1e-300), level, crossings, most_steps=most_steps)
 
 
@@ -217,7 +222,7 @@ def motion_from(body: PotentialBody, start: tuple[float, ...], span: float, leve
 
     Raises `InvalidParameter`, `WorkLimit`.
     """
-    orbit = sampled_orbit(SYSTEM, start, body.parameters, span, (0.0, 0.0, *(0.5 * PIXELS,) * 3), level, MOST_SAMPLES)
+    orbit = sampled_orbit(body, start, span, (0.0, 0.0, *(0.5 * PIXELS,) * 3), level, MOST_SAMPLES)
     energy = float(SYSTEM.integrals(start, body.parameters)["E"])
     fixed = not np.any(np.array(SYSTEM.field(start, body.parameters)))
     F2 = separable_integral(body, orbit.states)
@@ -230,13 +235,13 @@ def motion_from(body: PotentialBody, start: tuple[float, ...], span: float, leve
     def crossed(i: int) -> float:
         t = float(orbit.times[i] + (orbit.times[i + 1] - orbit.times[i]) * g3[i] / (g3[i] - g3[i + 1]))
         for _ in range(_NEWTON if t else 0):
-            y = solve(SYSTEM, start, body.parameters, [t], level).states[0]
+            y = solve(body, start, [t], level).states[0]
             t -= float(y[4] / SYSTEM.field(y, body.parameters)[4])
         return t
 
     first, second = (crossed(int(i)) for i in after[:2])
     period = 2.0 * (second - first)
-    back = solve(SYSTEM, start, body.parameters, [period], level).states[0]
+    back = solve(body, start, [period], level).states[0]
     return PlaneMotion(orbit, energy, int(after.size), period, float(np.abs(back - np.array(start)).max()), False,
                        integral)
 

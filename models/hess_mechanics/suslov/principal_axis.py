@@ -90,7 +90,7 @@ def conformal(body: SuslovBody, start: Sequence[float], span: float, level: Accu
     if not pairs <= _MOST / 2:
         raise WorkLimit(f"This takes more than {_MOST} samples: choose a shorter time span.")
     count = 2 * math.ceil(pairs) + 1
-    orbit = solve(SYSTEM, start, p, np.linspace(0.0, span, count), level)
+    orbit = solve(SYSTEM.at(p), start, np.linspace(0.0, span, count), level)
     y = orbit.states.T
     tau, coarse = (_integral(span, y[4, ::step], np.asarray(SYSTEM.field(list(y[:, ::step]), p)[4])) for step in (1, 2))
     with np.errstate(divide="ignore", invalid="ignore"):

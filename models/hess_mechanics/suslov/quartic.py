@@ -273,7 +273,7 @@ def quartic_section(body: QuarticBody, starts: Sequence[Sequence[float]], crossi
     if not math.isfinite(end):
         raise InvalidParameter("The motion is too slow for double precision: choose less extreme parameters.")
     try:
-        return section_points(SYSTEM, starts, body.parameters, body.plane, end, level, crossings, most_steps=most_steps)
+        return section_points(body, starts, body.plane, end, level, crossings, most_steps=most_steps)
     except WorkLimit:
         raise WorkLimit(f"{crossings} crossings take an orbit more than {most_steps} steps here: choose fewer of them, "
                         "a smaller h, or I11 and I22 less different.") from None

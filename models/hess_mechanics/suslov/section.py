@@ -184,7 +184,7 @@ def suslov_points(body: SuslovBody, k: int, starts: Sequence[Sequence[float]], c
     nu = float(np.max(SYSTEM.frequency(np.array(starts, float).T, np.array(body.parameters))))
     ratio = math.sqrt(max(body.I11, body.I22) / min(body.I11, body.I22))
     end = crossings * _TURNS * ratio / max(nu, 1e-300)
-    return section_points(SYSTEM, starts, body.parameters, plane_of(k), end if forward else -end, level, crossings,
+    return section_points(body, starts, plane_of(k), end if forward else -end, level, crossings,
                           threads, most_steps)
 
 
@@ -204,7 +204,7 @@ class MeanDivergence:
 def mean_divergence(body: SuslovBody, start: Sequence[float], span: float, count: int = 4000) -> MeanDivergence:
     """Along the motion from `start` over the time `span`, up to `count` times.  Raises as `solve`."""
     times = np.linspace(0.0, span, count + 1)
-    rates = divergence(body, solve(SYSTEM, start, body.parameters, times, DRAFT).states)
+    rates = divergence(body, solve(body, start, times, DRAFT).states)
     steps = 0.5 * (rates[1:] + rates[:-1]) * np.diff(times)
     return MeanDivergence(frozen(times[1:]), frozen(np.cumsum(steps) / times[1:]))
 

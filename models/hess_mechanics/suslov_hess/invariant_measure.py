@@ -146,7 +146,7 @@ def on_torus(measure: InvariantMeasure, times: Sequence[float] | Array, level: A
         raise InvalidParameter("f = 0: there w vanishes at the lower turning point, and φ jumps. Choose another f.")
     turning = turning_points(measure.h, measure.f)
     starts = np.angle((_CUBE_ROOTS + measure.zeta) / (1.0 + measure.zeta * _CUBE_ROOTS))
-    found = [solve(SYSTEM, turning.state_at_lower_turn(phi), (measure.a, 1.0), times, level)
+    found = [solve(SYSTEM.at((measure.a, 1.0)), turning.state_at_lower_turn(phi), times, level)
              for phi in starts.tolist()]
     w1, w2 = np.stack([orbit.states[:, :2] for orbit in found]).transpose(2, 0, 1)
     z1, z2, z3 = (w2 + 1j * w1) / np.hypot(w1, w2)

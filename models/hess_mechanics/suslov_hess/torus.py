@@ -59,7 +59,7 @@ def _in_body_units(body: HessBody, orbit: Orbit) -> Track:
 
 
 def _solve_reduced(body: HessBody, start: Array, times: Array, level: Level) -> Track:
-    return _in_body_units(body, solve(SYSTEM, start, (body.a, 1.0), times, level))
+    return _in_body_units(body, solve(SYSTEM.at((body.a, 1.0)), start, times, level))
 
 
 def start_of_track(body: HessBody, h: float, f: float, phi0: float, span: float) -> tuple[Array, float]:
@@ -100,7 +100,7 @@ def track(body: HessBody, h: float, f: float, phi0: float, span: float, level: A
 
 def _times(body: HessBody, start: Array, length: float, half_width: float) -> Array:
     weights = pixels_per_unit(body, half_width)
-    return sample_times(SYSTEM, start, np.array([body.a, 1.0]), length, weights, SAGITTA, _MOST)
+    return sample_times(SYSTEM.at(np.array([body.a, 1.0])), start, length, weights, SAGITTA, _MOST)
 
 
 def cycles(body: HessBody, h: float, f: float, stable: FixedPoint, level: Accuracy, half_width: float
@@ -113,7 +113,7 @@ def cycles(body: HessBody, h: float, f: float, stable: FixedPoint, level: Accura
     turning = turning_points(h, f)
     start = turning.state_at_lower_turn(stable.phi)
     times = _times(body, start, turning.period, half_width)
-    orbit = solve(SYSTEM, start, (body.a, 1.0), times, level)
+    orbit = solve(SYSTEM.at((body.a, 1.0)), start, times, level)
     mirrored = orbit.states[::-1] * np.array([-1.0, 1.0, -1.0, 1.0, 1.0])
     image = Orbit(orbit.system, orbit.level, frozen(turning.period - orbit.times[::-1]), frozen(mirrored), orbit.status,
                   orbit.error_estimate, orbit.drift, orbit.cost)

@@ -70,8 +70,8 @@ def test_the_registry_knows_the_ball():
 def test_orbits_agree_with_the_reference(case, name):
     body, start, states = case
     bound = {"reference": 1e-8}.get(name, 2.0 * level(name).promise)
-    orbit = solve(SYSTEM, start, body.parameters, list(states), level(name))
-    many = ensemble(SYSTEM, [start] * 9, body.parameters, list(states), level(name))
+    orbit = solve(body, start, list(states), level(name))
+    many = ensemble(body, [start] * 9, list(states), level(name))
     assert np.max(np.abs(orbit.states - list(states.values()))) <= bound
     assert np.max(np.abs(many.states - list(states.values()))) <= bound
 
@@ -97,8 +97,8 @@ def test_without_the_inner_ball_it_is_the_suslov_problem(name):
     times = np.linspace(0.0, 10.0, 21)
     for state in random_states(random, 20):
         body = BallBody(*random.uniform(0.5, 2.0, 2), *random.normal(size=5 + 1) * [0.3, 0.3, 0, 1, 1, 1])
-        ball = solve(SYSTEM, state, body.parameters, times, level(name))
-        other = solve(suslov, state, [*body.parameters[:4], *body.parameters[5:]], times, level(name))
+        ball = solve(body, state, times, level(name))
+        other = solve(suslov.at([*body.parameters[:4], *body.parameters[5:]]), state, times, level(name))
         assert ball.cost.steps == other.cost.steps
         assert np.max(np.abs(ball.states - other.states)) <= 1e-10
 
@@ -155,7 +155,7 @@ def test_the_strip_is_never_left():
         strip = Strip(body, h)
         states = spread_states(body, h, 50)
         assert energy(body, states) == pytest.approx(h, rel=1e-14)
-        orbits = ensemble(SYSTEM, states, body.parameters, np.linspace(0.0, 20.0, 60), level("reference")).states
+        orbits = ensemble(body, states, np.linspace(0.0, 20.0, 60), level("reference")).states
         squares = orbits[..., :2] ** 2
         outer = squares @ [body.I11, body.I22]
         assert np.max(outer) <= 2 * h * (1 + 1e-12)
@@ -172,7 +172,7 @@ def test_motions_go_from_the_unstable_half_of_the_line_to_the_stable_one():
     strip = Strip(body, 10.0)
     states = spread_states(body, 10.0, 40)
     for end, half in ((-300.0, strip.unstable), (300.0, strip.stable)):
-        omega = ensemble(SYSTEM, states, body.parameters, [end], level("precise")).states[:, 0, :2]
+        omega = ensemble(body, states, [end], level("precise")).states[:, 0, :2]
         assert np.max(np.abs(omega @ eta)) < 1e-6
         ends = np.sort(half @ xi)
         assert np.all((omega @ xi >= ends[0] - 1e-9) & (omega @ xi <= ends[1] + 1e-9))
@@ -242,7 +242,7 @@ def test_the_kernel_refuses_the_same(place, value, match):
     parameters = np.array(SYSTEM.example[1])
     parameters[place] = value
     with pytest.raises((InvalidParameter, NotPositiveDefinite), match=match):
-        solve(SYSTEM, SYSTEM.example[0], parameters, [1.0], level("draft"))
+        solve(SYSTEM.at(parameters), SYSTEM.example[0], [1.0], level("draft"))
 
 
 EXTREMES = {
@@ -279,7 +279,7 @@ def test_orbits_are_right_at_the_edges(extreme, name):
     state, parameters, nu, runs = extreme
     scale = np.array([nu, nu, 1.0, 1.0, 1.0])
     for times, exact in runs:
-        orbit = solve(SYSTEM, state, parameters, times, level(name))
+        orbit = solve(SYSTEM.at(parameters), state, times, level(name))
         assert orbit.status in (Status.OK, Status.FLOOR)
         error = np.max(oracle.distances(orbit.states, exact) / scale)
         assert error <= (level(name).promise if orbit.status is Status.OK else 1e-9)
@@ -302,7 +302,7 @@ def many():
 @pytest.mark.parametrize("name", LEVELS)
 def test_error_estimates_are_safe(many, name):
     states, parameters, times, exact = many
-    found = [solve(SYSTEM, *case, level(name)) for case in zip(states, parameters, times, strict=True)]
+    found = [solve(SYSTEM.at(p), y, t, level(name)) for y, p, t in zip(states, parameters, times, strict=True)]
     true = np.array([oracle.distances(orbit.states, truth).max() for orbit, truth in zip(found, exact, strict=True)])
     estimates = np.array([orbit.error_estimate for orbit in found])
     # Two runs at the floor share some of their round-off.
@@ -327,7 +327,7 @@ def test_sections_lose_and_double_nothing(body, component):
     plane = Plane(tuple(float(i == component) for i in range(5)), 0.0, 0)
     start = spread_states(body, 2.0, 5)[2]
     end = 60.0 * np.sqrt(1.0 + body.D)
-    found = section(SYSTEM, start, body.parameters, plane, end, level("precise"))
+    found = section(body, start, plane, end, level("precise"))
     assert len(found.times) > 10
     assert np.max(np.abs(found.states[:, component])) <= 1e-9
     assert max(drift_of(SYSTEM, start, found.states, np.array(body.parameters)).values()) <= 1e-9

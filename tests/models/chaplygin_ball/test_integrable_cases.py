@@ -130,11 +130,11 @@ def test_which_bodies_these_are():
 def test_the_area_integral_along_a_motion(D):
     body = BallBody(1.5, 1.5, 0.0, 0.0, D, 0.0, 0.0, -0.8)
     times = np.linspace(0.0, 40.0, 200)
-    states = solve(SYSTEM, (0.5, -1.2, 0.6, 0.0, 0.8), body.parameters, times, level("precise")).states
+    states = solve(body, (0.5, -1.2, 0.6, 0.0, 0.8), times, level("precise")).states
     assert np.ptp(area_integral(states)) <= 1e-9
     assert np.ptp(states[:, 0]) > 0.1
     unequal = BallBody(1.5, 1.7, 0.0, 0.0, D, 0.0, 0.0, -0.8)
-    states = solve(SYSTEM, (0.5, -1.2, 0.6, 0.0, 0.8), unequal.parameters, times, level("precise")).states
+    states = solve(unequal, (0.5, -1.2, 0.6, 0.0, 0.8), times, level("precise")).states
     assert np.ptp(area_integral(states)) > 1e-3
 
 
@@ -158,12 +158,12 @@ def test_after_a_period_a_motion_is_where_it_began_and_at_half_of_it_is_reflecte
     found = period(body, start, level("reference"))
     first = found.crossings[0]
     times = [first, found.value, found.value + 2.0 * first]
-    crossing, after, _ = solve(SYSTEM, start, body.parameters, times, level("reference")).states
+    crossing, after, _ = solve(body, start, times, level("reference")).states
     assert abs(crossing[4]) <= 1e-11
     assert after == pytest.approx(start, abs=1e-9)
     # About a crossing the motion is its own mirror image.
     at = np.array([0.3, 0.7])
-    before, later = (solve(SYSTEM, crossing, body.parameters, sign * at, level("reference")).states for sign in (-1, 1))
+    before, later = (solve(body, crossing, sign * at, level("reference")).states for sign in (-1, 1))
     assert before == pytest.approx(mirrored(later), abs=1e-10)
 
 

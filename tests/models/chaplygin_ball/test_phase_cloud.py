@@ -142,7 +142,7 @@ def jacobian(body, state, t, step=1e-4):
     """The determinant of the flow map from nearby orbits, to about step⁴."""
     columns = []
     for i in range(5):
-        ends = [solve(BALL, state + k * step * np.eye(5)[i], body.parameters, [t], level("reference")).states[0]
+        ends = [solve(body, state + k * step * np.eye(5)[i], [t], level("reference")).states[0]
                 for k in (-2, -1, 1, 2)]
         columns.append((ends[0] - 8 * ends[1] + 8 * ends[2] - ends[3]) / (12 * step))
     return np.linalg.det(np.array(columns))
@@ -166,7 +166,7 @@ def test_on_a_principal_axis_volumes_stay(body):
 
 def test_in_the_general_case_volumes_follow_neither_density():
     s = [state[0] * 0.7 + state[1] * 1.2 for state in
-         (START, solve(BALL, START, GENERAL.parameters, [1.5], level("reference")).states[0])]
+         (START, solve(GENERAL, START, [1.5], level("reference")).states[0])]
     found = jacobian(GENERAL, START, 1.5)
     assert abs(found - 1.0) > 0.01
     assert abs(found - s[1] / s[0]) > 0.01
@@ -223,7 +223,7 @@ def test_s_keeps_its_digits_where_doubles_would_have_lost_it():
     # The errors of the rate grow with time.
     assert found.log_growth[:, 1] == pytest.approx(np.log(exact), abs=1e-9)
     # The orbit computed as one of the general system has none of them there: s is round-off, or 0.
-    general = solve(BALL, states[0], FREE.parameters, [250.0], level("reference")).states[0]
+    general = solve(FREE, states[0], [250.0], level("reference")).states[0]
     s = math.exp(found.log_s[0, 1])
     assert abs(abs(0.5 * general[0] + 0.7 * general[1]) - s) > 0.99 * s
 
@@ -437,7 +437,7 @@ def test_the_captions_say_what_the_general_equations_give(preset):
     states = make[0](body, *make[1], count)
     span = values["span"] * (-1.0 if values["direction"] == "backward" else 1.0)
     # The captions have three digits.
-    end = ensemble(BALL, states, body.parameters, [span], level("standard")).states[:, 0]
+    end = ensemble(body, states, [span], level("standard")).states[:, 0]
     s = [np.abs(body.I13 * y[:, 0] + body.I23 * y[:, 1]) for y in (states, end)]
     xi = np.array([body.I23, -body.I13, 0.0]) / math.hypot(body.I13, body.I23)
     said = captions(values)

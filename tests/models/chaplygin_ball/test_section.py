@@ -21,7 +21,7 @@ from hess_mechanics.chaplygin_ball.section import (
     state_at,
 )
 from hess_mechanics.dynamics.ensemble import ensemble
-from hess_mechanics.dynamics.lyapunov import largest_exponent
+from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.dynamics.section import occupied_cells
 from hess_mechanics.errors import InvalidParameter, OutsideRegion, WorkLimit
 from support.ball import occupied
@@ -118,7 +118,7 @@ def test_seeds_cover_what_the_energy_allows(h):
 def test_points_of_many_orbits_are_the_crossings_of_each(body):
     starts = seeds(body, 1.5, 9)
     many = ball_section(body, 1.5, starts, 12, level("precise"))
-    each = sections(SYSTEM, starts, body.parameters, EQUATOR, 200.0, level("reference"), crossings=12)
+    each = sections(body, starts, EQUATOR, 200.0, level("reference"), crossings=12)
     for points, exact in zip(many.states, each, strict=True):
         assert len(points) == len(exact.states) == 12
         assert np.max(np.abs(points[:5] - exact.states[:5])) <= 1e-7
@@ -166,7 +166,7 @@ def test_an_orbit_that_stops_crossing_is_not_followed_to_the_end():
     # At the lowest energy but little the ball swings beside the plane, and does not come back to it.
     low = BallBody(1.0, 2.0, 0.0, 0.0, 1.0, 0.2, 0.0, 1.0)
     start = state_at(low, -0.199, math.pi, 1.0)
-    exact = section(SYSTEM, start, low.parameters, EQUATOR, 2000.0, level("precise"), crossings=200)
+    exact = section(low, start, EQUATOR, 2000.0, level("precise"), crossings=200)
     found = ball_section(low, -0.199, [start], 200, level("standard"))
     assert len(found.states[0]) <= 200
     # The second crossing comes 440 units of time later, and which it is depends on round-off.
@@ -192,16 +192,16 @@ def late_cells(name, count=24, crossings=1200):
 def test_with_b3_and_I13_and_I23_zero_every_orbit_closes_after_one_turn(body):
     for h in (-0.3, 0.4, 1.7):
         for start in seeds(body, h, 12):
-            found = section(SYSTEM, start, body.parameters, EQUATOR, 1000.0, level("precise"), crossings=3)
+            found = section(body, start, EQUATOR, 1000.0, level("precise"), crossings=3)
             assert len(found.states) == 3
             assert np.max(np.abs(found.states - start)) <= 1e-8
             assert found.error_estimate <= 1e-8
-            again = section(SYSTEM, start, body.parameters, EQUATOR, 1000.0, level("reference"), crossings=1)
+            again = section(body, start, EQUATOR, 1000.0, level("reference"), crossings=1)
             assert np.max(np.abs(again.states[0] - start)) <= 1e-9
     # b3 = 0.3 is enough to open them.
     open_body = BallBody(*body.parameters[:7], 0.3)
     start = seeds(open_body, 1.7, 12)[5]
-    found = section(SYSTEM, start, open_body.parameters, EQUATOR, 1000.0, level("precise"), crossings=1)
+    found = section(open_body, start, EQUATOR, 1000.0, level("precise"), crossings=1)
     assert np.max(np.abs(found.states[0] - start)) > 1e-3
 
 
@@ -227,7 +227,7 @@ def test_mixed_some_orbits_lie_on_curves_and_others_fill_a_sea():
     assert np.count_nonzero(counts >= 120) >= 8
     body, h = example("Mixed")
     exponents = np.array(
-        [largest_exponent(SYSTEM, start, body.parameters, 1500.0).value for start in seeds(body, h, 24)])
+        [lyapunov_exponent(body, start, 1500.0).value for start in seeds(body, h, 24)])
     assert np.mean(exponents[counts <= 80] < 0.007) >= 0.75
     assert np.mean(exponents[counts > 80] > 0.009) >= 0.75
 
@@ -265,11 +265,11 @@ def test_on_an_attractor_neighbours_part_and_volume_shrinks(name):
     starts = ball_section(body, h, seeds(body, h, 32), 200, level("standard")).states
     states = np.array([one[-1] for one in starts])
     apart, span, rates = 1e-7, 3.0, []
-    along = ensemble(SYSTEM, states, body.parameters, np.linspace(0.0, 1500.0, 6001)[1:], level("draft")).states
+    along = ensemble(body, states, np.linspace(0.0, 1500.0, 6001)[1:], level("draft")).states
     shrinking = [divergence(body, orbit.T).mean() for orbit in along]
     shifted = states + apart * np.eye(5)[0]
     for _ in range(100):
-        both = ensemble(SYSTEM, np.vstack([states, shifted]), body.parameters, [span], level("precise")).states[:, 0]
+        both = ensemble(body, np.vstack([states, shifted]), [span], level("precise")).states[:, 0]
         states, others = both[:32], both[32:]
         distance = np.linalg.norm(others - states, axis=1)
         rates.append(np.log(distance / apart) / span)

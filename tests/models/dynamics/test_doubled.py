@@ -34,7 +34,7 @@ def test_an_orbit_has_all_but_two_of_the_digits_of_a_pair(system, direction):
     state, parameters = system.example
     times = [direction * t for t in TIMES]
     exact = oracle.orbit_in_decimals(system, state, parameters, times, digits=45)
-    assert away(doubled(system, state, parameters, times), exact) < 1e-29
+    assert away(doubled(system.at(parameters), state, times), exact) < 1e-29
 
 
 @pytest.mark.parametrize(("state", "parameters", "unit"), [
@@ -45,13 +45,13 @@ def test_an_orbit_has_all_but_two_of_the_digits_of_a_pair(system, direction):
 def test_no_unit_of_time_costs_digits(state, parameters, unit):
     times = [t / unit for t in TIMES]
     exact = oracle.orbit_in_decimals(SYSTEMS["suslov"], state, parameters, times, digits=45)
-    assert away(doubled(SYSTEMS["suslov"], state, parameters, times), exact) < 1e-29
+    assert away(doubled(SYSTEMS["suslov"].at(parameters), state, times), exact) < 1e-29
 
 
 def test_many_times_are_those_of_one_orbit():
     """Times are worked on in parts, which begin where the one before has ended."""
     system, times = SYSTEMS["suslov"], np.linspace(0.0, 10.0, 101)
-    many, few = (doubled(system, *system.example, some) for some in (times, times[[0, 33, 100]]))
+    many, few = (doubled(*system.example_motion, some) for some in (times, times[[0, 33, 100]]))
     assert np.abs((many.pairs[[0, 33, 100]] - few.pairs).imag).max() < 1e-29
     assert np.array_equal(many.states[[0, 33, 100]], few.states)
 
@@ -59,9 +59,9 @@ def test_many_times_are_those_of_one_orbit():
 @every_system
 def test_an_error_is_the_one_that_decimals_show(system):
     state, parameters = system.example
-    orbit = solve(system, state, parameters, TIMES, level("reference"))
+    orbit = solve(system.at(parameters), state, TIMES, level("reference"))
     exact = oracle.orbit_in_decimals(system, state, parameters, TIMES, digits=45)
-    found = doubled(system, state, parameters, TIMES).away(orbit.states)
+    found = doubled(system.at(parameters), state, TIMES).away(orbit.states)
     assert np.max(found) == pytest.approx(np.max(oracle.distances(orbit.states, exact)), rel=1e-9)
     # In doubles the truth itself would be off by as much as that.
     assert 0.0 < np.max(found) < 1e-12
@@ -71,11 +71,11 @@ def test_the_errors_of_speed_and_accuracy_are_the_true_ones():
     system = SYSTEMS["suslov"]
     times = np.linspace(0.0, 20.0, 9)
     exact = oracle.orbit_in_decimals(system, *system.example, times.tolist(), digits=45)
-    scale = doubled(system, *system.example, times).scale
+    scale = doubled(*system.example_motion, times).scale
     grown = growth("suslov", *system.example, 20.0, (1.0,) * 5, 9)
     points = {point.setting: point.error for point in measure_levels("suslov", *system.example, 20.0, 9)}
     for name, one in LEVELS.items():
-        true = np.max(oracle.distances(solve(system, *system.example, times, one).states, exact) / scale, axis=1)
+        true = np.max(oracle.distances(solve(*system.example_motion, times, one).states, exact) / scale, axis=1)
         assert grown.errors[name] == pytest.approx(true, rel=1e-9, abs=1e-30)
         assert points[name] == pytest.approx(true.max(), rel=1e-9)
 
@@ -83,6 +83,6 @@ def test_the_errors_of_speed_and_accuracy_are_the_true_ones():
 def test_what_cannot_be_followed_is_refused():
     system = SYSTEMS["suslov"]
     with pytest.raises(WorkLimit, match="choose a shorter one"):
-        doubled(system, *system.example, [1e6])
+        doubled(*system.example_motion, [1e6])
     with pytest.raises(InvalidParameter):
-        doubled(system, (np.nan,) * 5, GENERIC, [1.0])
+        doubled(system.at(GENERIC), (np.nan,) * 5, [1.0])

@@ -30,7 +30,7 @@ def starts(system, count, seed=1):
 
 
 def one_by_one(system, states, times, name="reference"):
-    return np.array([solve(system, state, system.example[1], times, level(name)).states for state in states])
+    return np.array([solve(system.at(system.example[1]), state, times, level(name)).states for state in states])
 
 
 @cache
@@ -61,7 +61,7 @@ TIMES = [
 @pytest.mark.parametrize("count", [1, LANES - 1, LANES, 3 * LANES + 5])
 def test_the_orbits_of_an_ensemble_are_those_of_solve(system, name, times, count):
     states = starts(system, count)
-    result = ensemble(system, states, system.example[1], times, level(name))
+    result = ensemble(system.at(system.example[1]), states, times, level(name))
     assert result.states.shape == (count, len(times), len(system.variables))
     assert np.array_equal(result.times, times)
     assert result.status is Status.OK
@@ -73,7 +73,7 @@ def test_the_orbits_of_an_ensemble_are_those_of_solve(system, name, times, count
 @every_system
 def test_an_ensemble_agrees_with_an_integrator_of_another_family(system):
     states = starts(system, LANES + 3, seed=2)
-    result = ensemble(system, states, system.example[1], FORWARD, level("reference"))
+    result = ensemble(system.at(system.example[1]), states, FORWARD, level("reference"))
     for state, found in zip(states, result.states, strict=True):
         other = solve_ivp(lambda _, y: system.field(y, system.example[1]), (0.0, 10.0), state, t_eval=FORWARD,
                           method="DOP853", rtol=1e-12, atol=1e-13)
@@ -86,20 +86,20 @@ def test_the_result_depends_neither_on_the_threads_nor_on_the_order_of_the_orbit
     # Three pieces of work for the threads, the last of them small; each orbit meets other neighbours in its lanes.
     states = starts(system, 150, seed=3)
     parameters = system.example[1]
-    one = ensemble(system, states, parameters, FORWARD, level(name), threads=1)
-    two = ensemble(system, states, parameters, FORWARD, level(name), threads=2)
+    one = ensemble(system.at(parameters), states, FORWARD, level(name), threads=1)
+    two = ensemble(system.at(parameters), states, FORWARD, level(name), threads=2)
     assert np.array_equal(one.states, two.states)
     assert np.array_equal(one.errors, two.errors)
     assert (one.drift, one.status, one.cost.steps) == (two.drift, two.status, two.cost.steps)
     for order in (np.random.default_rng(4).permutation(150), np.arange(150)[::-1]):
-        other = ensemble(system, states[order], parameters, FORWARD, level(name), threads=2)
+        other = ensemble(system.at(parameters), states[order], FORWARD, level(name), threads=2)
         assert np.array_equal(other.states, one.states[order])
         assert np.array_equal(other.errors, one.errors[order])
 
 
 @every_system
 def test_equal_orbits_are_equal_in_every_lane(system):
-    result = ensemble(system, [system.example[0]] * 21, system.example[1], FORWARD, level("standard"))
+    result = ensemble(system.at(system.example[1]), [system.example[0]] * 21, FORWARD, level("standard"))
     assert np.array_equal(result.states, np.broadcast_to(result.states[:1], result.states.shape))
     assert np.ptp(result.errors) == 0.0
 
@@ -110,17 +110,17 @@ def test_orbits_do_not_depend_on_their_neighbours(system):
     states = starts(system, 40, seed=5)
     parameters = np.array(system.example[1])
     fastest = int(np.argmax([system.frequency(state, parameters) for state in states]))
-    everything = ensemble(system, states, parameters, FORWARD, level("precise"))
+    everything = ensemble(system.at(parameters), states, FORWARD, level("precise"))
     for i in (0, 17, 39):
-        pair = ensemble(system, states[[i, fastest]], parameters, FORWARD, level("precise"))
+        pair = ensemble(system.at(parameters), states[[i, fastest]], FORWARD, level("precise"))
         assert np.array_equal(pair.states, everything.states[[i, fastest]])
 
 
 @every_system
 def test_orbits_do_not_depend_on_the_other_samples(system):
     states = starts(system, 13, seed=6)
-    dense = ensemble(system, states, system.example[1], FORWARD, level("reference"))
-    sparse = ensemble(system, states, system.example[1], FORWARD[::20], level("reference"))
+    dense = ensemble(system.at(system.example[1]), states, FORWARD, level("reference"))
+    sparse = ensemble(system.at(system.example[1]), states, FORWARD[::20], level("reference"))
     assert np.array_equal(dense.states[:, ::20], sparse.states)
 
 
@@ -132,7 +132,7 @@ def test_orbits_of_very_different_energies_go_together(system, name):
     states = np.repeat(state[None], 19, axis=0)
     states[:, : system.angular_velocities] *= np.geomspace(1e-3, 30.0, 19)[:, None]
     times = np.linspace(0.0, 3.0, 31)
-    result = ensemble(system, states, parameters, times, level(name))
+    result = ensemble(system.at(parameters), states, times, level(name))
     assert result.status is Status.OK
     error = np.abs(result.states - one_by_one(system, states, times))
     assert np.all(error <= (level(name).promise + 1e-12) * unit_of(system, states, parameters))
@@ -142,7 +142,7 @@ def test_orbits_of_very_different_energies_go_together(system, name):
 @every_level
 def test_the_error_estimate_of_each_orbit_is_on_the_safe_side(system, name):
     states = starts(system, 30, seed=7)
-    result = ensemble(system, states, system.example[1], FORWARD, level(name))
+    result = ensemble(system.at(system.example[1]), states, FORWARD, level(name))
     true = np.abs(result.states - one_by_one(system, states, FORWARD)).max(axis=(1, 2))
     assert result.errors.shape == (30,)
     assert np.all(true <= 10 * result.errors)
@@ -157,7 +157,7 @@ def test_the_error_estimate_of_each_orbit_is_on_the_safe_side(system, name):
 @every_level
 def test_the_drift_of_an_ensemble_is_the_largest_of_its_orbits(system, name):
     states, parameters = starts(system, 20, seed=8), system.example[1]
-    result = ensemble(system, states, parameters, FORWARD, level(name))
+    result = ensemble(system.at(parameters), states, FORWARD, level(name))
     along = system.integrals(np.moveaxis(result.states, -1, 0), parameters)
     for key, initial in system.integrals(states.T, parameters).items():
         drift = np.abs(along[key] - initial[:, None]).max(axis=1) / np.maximum(1.0, np.abs(initial))
@@ -176,7 +176,7 @@ def test_the_reference_values_are_met_in_every_lane(row, name):
     true = np.array([numbers(state["y"]) for state in row["states"]])
     # Between slower neighbours, in lanes of the first round and of later ones.
     states = np.concatenate([[y0], y0 * np.linspace(0.5, 0.9, 9)[:, None], [y0] * 9])
-    result = ensemble(SYSTEMS[row["system"]], states, parameters, times, level(name))
+    result = ensemble(SYSTEMS[row["system"]].at(parameters), states, times, level(name))
     same = [0, *range(10, 19)]
     # At the floor chaotic orbits amplify the rounding of their initial data, as in `test_reference`.
     bound = {"reference": 1e-8}.get(name, level(name).promise * max(1.0, np.abs(true[:, :2]).max()))
@@ -192,7 +192,7 @@ def test_states_at_rest_go_along_with_the_others(system, name):
     states = starts(system, 12, seed=9)
     states[3, : system.angular_velocities] = 0.0
     states[[0, 7, 8]] = 0.0
-    result = ensemble(system, states, system.example[1], FORWARD, level(name))
+    result = ensemble(system.at(system.example[1]), states, FORWARD, level(name))
     assert not np.any(result.states[[0, 7, 8]])
     assert np.ptp(result.states[3], axis=0).min() > 1e-3, "it falls"
     error = np.abs(result.states - one_by_one(system, states, FORWARD))
@@ -213,7 +213,7 @@ EQUILIBRIA = {
 def test_an_equilibrium_stays_where_it_is(system, times):
     state, parameters = EQUILIBRIA[system.name]
     assert not any(system.field(state, parameters))
-    result = ensemble(system, [state] * 9, parameters, times, level("precise"))
+    result = ensemble(system.at(parameters), [state] * 9, times, level("precise"))
     assert np.array_equal(result.states, np.broadcast_to(state, result.states.shape))
     assert result.status is Status.OK
 
@@ -223,10 +223,10 @@ def test_an_equilibrium_among_moving_orbits_stays_where_it_is(system):
     state, parameters = EQUILIBRIA[system.name]
     states = starts(system, 10, seed=10)
     states[[2, 9]] = state
-    result = ensemble(system, states, parameters, FORWARD, level("standard"))
+    result = ensemble(system.at(parameters), states, FORWARD, level("standard"))
     assert np.array_equal(result.states[[2, 9]], np.broadcast_to(state, (2, FORWARD.size, len(state))))
     for i in (0, 1, 8):
-        alone = solve(system, states[i], parameters, FORWARD, level("reference")).states
+        alone = solve(system.at(parameters), states[i], FORWARD, level("reference")).states
         assert np.all(np.abs(result.states[i] - alone) <= 1e-6 * unit_of(system, states, parameters))
 
 
@@ -236,11 +236,11 @@ def test_orbits_that_miss_the_promise_are_computed_again(system):
     states = starts(system, 20, seed=11)
     states[4] = 0.0
     careless = Level("standard", 1e-9, 1e-1, 14)
-    result = ensemble(system, states, system.example[1], FORWARD, careless)
+    result = ensemble(system.at(system.example[1]), states, FORWARD, careless)
     truth = one_by_one(system, states, FORWARD)
     assert result.status is Status.OK
     assert np.all(np.abs(result.states - truth) <= 1e-9 * unit_of(system, states, system.example[1]))
-    quickly = ensemble(system, states[4:5], system.example[1], FORWARD, careless)
+    quickly = ensemble(system.at(system.example[1]), states[4:5], FORWARD, careless)
     assert quickly.cost.steps == 2, "once, and once more for the estimate"
 
 
@@ -249,7 +249,7 @@ def test_a_level_that_cannot_keep_its_promise_says_so(system):
     states = starts(system, 3)
     for rung, status in ((Level("standard", 1e-300, 1e-8, 14), Status.PROMISE_NOT_MET),
                          (Level("reference", 1e-300, 1e-17, 24), Status.FLOOR)):
-        result = ensemble(system, states, system.example[1], [1.0], rung)
+        result = ensemble(system.at(system.example[1]), states, [1.0], rung)
         assert result.status is status
         assert np.all(np.isfinite(result.errors))
 
@@ -258,7 +258,7 @@ def test_a_level_that_cannot_keep_its_promise_says_so(system):
 def test_results_are_read_only_and_share_nothing_with_the_caller(system):
     times, states = np.linspace(0.0, 1.0, 5), starts(system, 3)
     given = states.copy()
-    result = ensemble(system, states, system.example[1], times, level("draft"))
+    result = ensemble(system.at(system.example[1]), states, times, level("draft"))
     for array in (result.times, result.states, result.errors):
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 0.0
@@ -276,20 +276,20 @@ def test_results_are_read_only_and_share_nothing_with_the_caller(system):
 @every_system
 def test_states_may_be_lists_or_tables_of_any_layout(system):
     states = starts(system, 11)
-    plain = ensemble(system, states, system.example[1], FORWARD, level("draft"))
+    plain = ensemble(system.at(system.example[1]), states, FORWARD, level("draft"))
     for given in (states.tolist(), np.asfortranarray(states), np.repeat(states, 2, axis=0)[::2]):
-        assert np.array_equal(ensemble(system, given, list(system.example[1]), list(FORWARD), level("draft")).states,
+        assert np.array_equal(ensemble(system.at(list(system.example[1])), given, list(FORWARD), level("draft")).states,
                               plain.states)
-    alone = ensemble(system, states[0], system.example[1], FORWARD, level("draft"))
+    alone = ensemble(system.at(system.example[1]), states[0], FORWARD, level("draft"))
     assert alone.states.shape == (1, FORWARD.size, states.shape[1])
 
 
 @every_system
 def test_an_ensemble_without_orbits_raises_a_sentence(system):
     with pytest.raises(InvalidParameter, match="at least one initial state"):
-        ensemble(system, np.empty((0, len(system.variables))), system.example[1], [1.0], level("draft"))
+        ensemble(system.at(system.example[1]), np.empty((0, len(system.variables))), [1.0], level("draft"))
     with pytest.raises(InvalidParameter, match=re.escape(", ".join(system.variables))):
-        ensemble(system, [], system.example[1], [1.0], level("draft"))
+        ensemble(system.at(system.example[1]), [], [1.0], level("draft"))
 
 
 @every_system
@@ -297,10 +297,10 @@ def test_states_and_parameters_of_the_wrong_shape_raise_a_sentence(system):
     state, parameters = system.example
     for wrong in ([state[:-1]] * 2, [(*state, 0.0)], [[state]], [[]]):
         with pytest.raises(InvalidParameter, match=re.escape(", ".join(system.variables))):
-            ensemble(system, wrong, parameters, [1.0], level("draft"))
+            ensemble(system.at(parameters), wrong, [1.0], level("draft"))
     for wrong in (parameters[:-1], (*parameters, 0.0), (), [parameters]):
         with pytest.raises(InvalidParameter, match=re.escape(", ".join(system.parameters))):
-            ensemble(system, [state], wrong, [1.0], level("draft"))
+            ensemble(system.at(wrong), [state], [1.0], level("draft"))
 
 
 @every_system
@@ -311,10 +311,10 @@ def test_one_number_that_is_not_finite_raises_a_sentence(system, bad, place, row
     states, parameters = starts(system, 10), np.array(system.example[1])
     states[row, place] = bad
     with pytest.raises(InvalidParameter, match="finite number"):
-        ensemble(system, states, parameters, [1.0], level("draft"))
+        ensemble(system.at(parameters), states, [1.0], level("draft"))
     parameters[place] = bad
     with pytest.raises(InvalidParameter, match="finite number"):
-        ensemble(system, starts(system, 10), parameters, [1.0], level("draft"))
+        ensemble(system.at(parameters), starts(system, 10), [1.0], level("draft"))
 
 
 BAD_TIMES = [
@@ -333,7 +333,7 @@ BAD_TIMES = [
 @pytest.mark.parametrize(("times", "error", "words"), BAD_TIMES)
 def test_times_that_cannot_be_computed_raise_a_sentence(system, times, error, words):
     with pytest.raises(error, match=words):
-        ensemble(system, starts(system, 3), system.example[1], times, level("draft"))
+        ensemble(system.at(system.example[1]), starts(system, 3), times, level("draft"))
 
 
 @every_system
@@ -341,7 +341,7 @@ def test_more_numbers_than_one_request_may_have_raise_a_sentence(system):
     times = np.linspace(0.0, 1.0, 100_000)
     count = MAX_NUMBERS // (times.size * len(system.variables)) + 1
     with pytest.raises(WorkLimit, match=f"{count} orbits at {times.size} times are too many: choose fewer"):
-        ensemble(system, starts(system, count), system.example[1], times, level("draft"))
+        ensemble(system.at(system.example[1]), starts(system, count), times, level("draft"))
 
 
 @every_system
@@ -350,7 +350,7 @@ def test_more_numbers_than_one_request_may_have_raise_a_sentence(system):
 def test_a_span_that_needs_too_many_steps_raises_a_sentence(system, threads, end, monkeypatch):
     monkeypatch.setattr(sys.modules["hess_mechanics.dynamics.ensemble"], "MAX_STEPS", 1000)
     with pytest.raises(WorkLimit, match="more than 1000 steps: choose a shorter time span"):
-        ensemble(system, starts(system, 70), system.example[1], [end], level("draft"), threads=threads)
+        ensemble(system.at(system.example[1]), starts(system, 70), [end], level("draft"), threads=threads)
 
 
 @every_system
@@ -371,10 +371,10 @@ def test_the_limit_of_steps_is_for_each_orbit_and_the_cost_is_of_all(system):
 def test_one_orbit_that_needs_too_many_steps_is_enough(system, monkeypatch):
     monkeypatch.setattr(sys.modules["hess_mechanics.dynamics.ensemble"], "MAX_STEPS", 1000)
     states = np.zeros((70, len(system.variables)))
-    assert ensemble(system, states, system.example[1], [1e5], level("draft")).status is Status.OK
+    assert ensemble(system.at(system.example[1]), states, [1e5], level("draft")).status is Status.OK
     states[66] = system.example[0]
     with pytest.raises(WorkLimit, match="choose a shorter time span"):
-        ensemble(system, states, system.example[1], [1e5], level("draft"))
+        ensemble(system.at(system.example[1]), states, [1e5], level("draft"))
 
 
 @every_system
@@ -384,10 +384,10 @@ def test_motions_too_fast_for_double_precision_raise_a_sentence(system, huge, mo
     states = starts(system, 10)
     states[8, 0] = huge
     with pytest.raises(ModelError, match=r"choose (less extreme parameters|a shorter time span)"):
-        ensemble(system, states, system.example[1], [1.0], level("draft"))
+        ensemble(system.at(system.example[1]), states, [1.0], level("draft"))
 
 
 def test_moments_of_inertia_that_are_not_positive_raise_a_sentence():
     suslov = SYSTEMS["suslov"]
     with pytest.raises(NotPositiveDefinite, match="choose I"):
-        ensemble(suslov, starts(suslov, 10), (-1.0, *suslov.example[1][1:]), [1.0], level("draft"))
+        ensemble(suslov.at((-1.0, *suslov.example[1][1:])), starts(suslov, 10), [1.0], level("draft"))

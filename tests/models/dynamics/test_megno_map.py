@@ -29,7 +29,7 @@ def test_each_cell_is_the_motion_from_its_middle(name):
     assert found.values.shape == found.kind.shape == (3, 5)
     i, j = np.argwhere(np.isfinite(found.values))[-1]
     start = P.state_at(np.array([found.x[j], found.y[i]]))
-    alone = megno(P.sheet.system, [start], P.sheet.parameters, 60.0, P.accuracy)
+    alone = megno(P.sheet, [start], 60.0, P.accuracy)
     # Alone it has a unit of time of its own, and so other steps.
     assert found.values[i, j] == pytest.approx(alone.values[0], rel=0.2)
     assert (found.kind[~np.isfinite(found.values)] == -1).all()

@@ -16,9 +16,9 @@ from hess_mechanics import (
     SuslovBody,
     circle_map,
     level,
+    lyapunov_spectrum,
     megno,
     return_map,
-    spectrum,
     systems,
 )
 from hess_mechanics.dynamics import return_map as return_map_module
@@ -50,7 +50,7 @@ def test_a_strange_attractor_is_chaotic_and_shrinks_as_its_exponents_say():
     found = regime(P, (1.0, 1.0), t=2000.0)
     assert (found.kind, found.volume) == (MotionKind.CHAOTIC, -1)
     # The motion is now and then regular for long: after t = 2000 λ is 0 to three errors on every second one.
-    exponents = spectrum(SUSLOV, P.state_at(found.places[-1]), STRANGE.parameters, 16_000.0)
+    exponents = lyapunov_spectrum(STRANGE, P.state_at(found.places[-1]), 16_000.0)
     assert exponents.signs[0] == "+"
     assert abs(found.divergence - exponents.values.sum()) <= 3.0 * (
         found.divergence_error + math.hypot(*exponents.errors))
@@ -154,7 +154,7 @@ def test_chaos_next_to_a_separatrix_needs_both_indicators_at_both_times():
     """Euler's case without its name: MEGNO alone is above 3 there, and falls when the time is doubled."""
     P = return_map(HeavyBody((1.0, 0.625, 0.25), (0.0, 0.0, 1.0), 0.0), h=1.5, f=0.7)
     states = [P.state_at(np.array([0.001, 0.001]))]
-    early, late = (megno(P.sheet.system, states, P.sheet.parameters, t).values[0] for t in (200.0, 1600.0))
+    early, late = (megno(P.sheet, states, t).values[0] for t in (200.0, 1600.0))
     assert late < early
     assert late < 3.0 < early
 

@@ -44,7 +44,7 @@ def between(times):
 
 
 def orbit_of(body, start):
-    return lambda times: solve(SYSTEM, start, (body.a, 1.0), times, REFERENCE).states
+    return lambda times: solve(SYSTEM.at((body.a, 1.0)), start, times, REFERENCE).states
 
 
 def error_of_track(body, h, f, phi0, span):
@@ -131,7 +131,7 @@ def middles(body, h, f, phi0, span):
     """(Times of the samples, how far each chord's middle lies from the curve, in all five variables)."""
     weights = pixels_per_unit(body, half_width(body, h))
     start, length = start_of_track(body, h, f, phi0, span)
-    times = sample_times(SYSTEM, start, np.array([body.a, 1.0]), length, weights, SAGITTA, MOST)
+    times = sample_times(SYSTEM.at(np.array([body.a, 1.0])), start, length, weights, SAGITTA, MOST)
     solution = orbit_of(body, start)
     ends = solution(times) * weights
     apart = solution(0.5 * (times[1:] + times[:-1])) * weights - 0.5 * (ends[1:] + ends[:-1])
@@ -161,7 +161,7 @@ def of_default(span=40.0, factor=1.0, sagitta=SAGITTA, most=10**6):
     body = HessBody(0.96, 0.28, -1.0)
     start, _ = start_of_track(body, 1.5, 0.6, 0.5, span)
     weights = factor * pixels_per_unit(body, 4.0)
-    return sample_times(SYSTEM, start, np.array([body.a, 1.0]), span, weights, sagitta, most)
+    return sample_times(SYSTEM.at(np.array([body.a, 1.0])), start, span, weights, sagitta, most)
 
 
 def test_four_times_the_size_or_a_quarter_of_the_sagitta_takes_twice_the_samples():
@@ -203,7 +203,7 @@ def test_times_run_from_0_to_the_end_and_keep_their_budget(name, seed, span, mos
     system = systems()[name]
     state, parameters = system.example
     state = np.array(state) + np.random.default_rng(seed).uniform(-0.2, 0.2, len(state))
-    times = sample_times(system, state, np.array(parameters), span, np.full(len(state), 300.0), SAGITTA, most)
+    times = sample_times(system.at(np.array(parameters)), state, span, np.full(len(state), 300.0), SAGITTA, most)
     assert times[0] == 0.0
     assert times[-1] == span
     assert 2 <= times.size <= most
@@ -223,8 +223,8 @@ def test_back_in_time_the_samples_lie_at_the_same_places():
     start, _ = start_of_track(body, 1.5, 0.6, 0.5, 12.0)
     weights, parameters = pixels_per_unit(body, 4.0), np.array([body.a, 1.0])
     end = orbit_of(body, start)(np.array([12.0]))[0]
-    forward = sample_times(SYSTEM, start, parameters, 12.0, weights, SAGITTA, MOST)
-    backward = sample_times(SYSTEM, end, parameters, -12.0, weights, SAGITTA, MOST)
+    forward = sample_times(SYSTEM.at(parameters), start, 12.0, weights, SAGITTA, MOST)
+    backward = sample_times(SYSTEM.at(parameters), end, -12.0, weights, SAGITTA, MOST)
     # The same but for the rule by which the density is summed up: to a twentieth of a gap.
     assert 12.0 + backward[::-1] == pytest.approx(forward, abs=0.05 * np.diff(forward).min())
 
@@ -232,7 +232,7 @@ def test_back_in_time_the_samples_lie_at_the_same_places():
 @pytest.mark.parametrize("n3", [-1.0, 1.0])
 def test_at_an_equilibrium_some_even_samples_are_enough(n3):
     state = np.array([0.0, 0.0, 0.0, 0.0, n3])
-    times = sample_times(SYSTEM, state, np.array([0.3, 1.0]), 40.0, np.full(5, 300.0), SAGITTA, MOST)
+    times = sample_times(SYSTEM.at(np.array([0.3, 1.0])), state, 40.0, np.full(5, 300.0), SAGITTA, MOST)
     assert 8 <= len(times) <= 32
     assert np.diff(times) == pytest.approx(40.0 / (len(times) - 1))
 
@@ -242,11 +242,11 @@ def test_absurd_spans_take_no_longer_than_the_budget_allows(name):
     system = systems()[name]
     state, parameters = map(np.array, system.example)
     weights = np.full(len(state), 300.0)
-    sample_times(system, state, parameters, 1.0, weights, SAGITTA, MOST)
+    sample_times(system.at(parameters), state, 1.0, weights, SAGITTA, MOST)
     # The budget of steps ends all long spans alike.
     for span in (1e-300, -1e-300, 1e-12, -1e-12, 1e6, -1e300):
         before = time.process_time()
-        times = sample_times(system, state, parameters, span, weights, SAGITTA, MOST)
+        times = sample_times(system.at(parameters), state, span, weights, SAGITTA, MOST)
         assert time.process_time() - before < 5.0
         assert (times[0], times[-1]) == (0.0, span)
         assert len(times) <= MOST
@@ -256,5 +256,5 @@ def test_absurd_spans_take_no_longer_than_the_budget_allows(name):
 def test_an_orbit_that_cannot_be_followed_is_asked_for_at_even_times():
     # Its computation proper then says why.
     state, parameters = map(np.array, SYSTEM.example)
-    times = sample_times(SYSTEM, state, parameters, 1e12, np.full(5, 300.0), SAGITTA, MOST)
+    times = sample_times(SYSTEM.at(parameters), state, 1e12, np.full(5, 300.0), SAGITTA, MOST)
     assert np.diff(times) == pytest.approx(1e12 / (MOST - 1))

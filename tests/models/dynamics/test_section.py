@@ -75,9 +75,9 @@ def rate(system, parameters, normal, state):
 def example_section(system, end=20.0, name="reference", sense=0):
     """The plane at half the height of the example's last component, and its crossings."""
     state, parameters = system.example
-    last = solve(system, state, parameters, np.linspace(0.0, 20.0, 201), level("standard")).states[:, -1]
+    last = solve(system.at(parameters), state, np.linspace(0.0, 20.0, 201), level("standard")).states[:, -1]
     plane = Plane(axis(system, len(state) - 1), float(0.5 * (last.min() + last.max())), sense)
-    return plane, section(system, state, parameters, plane, end, level(name))
+    return plane, section(system.at(parameters), state, plane, end, level(name))
 
 
 def random_motions(system, count, seed, end=10.0):
@@ -90,7 +90,7 @@ def random_motions(system, count, seed, end=10.0):
         if random.random() < 0.3:
             normal = np.array(axis(system, random.integers(state.size)))
         normal /= np.linalg.norm(normal)
-        along = solve(system, state, parameters, np.linspace(0.0, end, 401), level("standard"))
+        along = solve(system.at(parameters), state, np.linspace(0.0, end, 401), level("standard"))
         yield random, state, parameters, normal, along.states @ normal
 
 
@@ -108,7 +108,7 @@ def crossings_by_scipy(system, state, parameters, normal, offset, end):
 def turning_heights(system, state, parameters, normal, heights, end):
     """The heights at which the orbit turns, to round-off."""
     def at(t):
-        return solve(system, state, parameters, [t], level("reference")).states[0]
+        return solve(system.at(parameters), state, [t], level("reference")).states[0]
 
     times = np.linspace(0.0, end, heights.size)
     rises = np.diff(heights)
@@ -123,7 +123,7 @@ def test_crossings_are_those_that_an_integrator_of_another_family_finds(system):
     end, found = 10.0, 0
     for random, state, parameters, normal, heights in random_motions(system, 20, seed=1):
         offset = float(np.quantile(heights, random.uniform(0.05, 0.95)))
-        result = section(system, state, parameters, Plane(tuple(normal), offset, 0), end, level("precise"))
+        result = section(system.at(parameters), state, Plane(tuple(normal), offset, 0), end, level("precise"))
         times, states = crossings_by_scipy(system, state, parameters, normal, offset, end)
         assert len(result.times) == len(times)
         for t, other, y, expected in zip(result.times, times, result.states, states, strict=True):
@@ -151,7 +151,7 @@ def test_crossings_of_a_uniform_rotation_are_those_of_the_closed_form(system, he
     turns = 2 * np.pi * np.arange(-2, 100)
     for sense, angles in ((-1, phase + math.acos(height) + turns), (1, phase - math.acos(height) + turns)):
         expected = angles[(angles > 0.0) & (angles <= speed * end)] / speed
-        result = section(system, (*omega[:2], *gamma), FREE[system.name], Plane(normal, offset, sense), end,
+        result = section(system.at(FREE[system.name]), (*omega[:2], *gamma), Plane(normal, offset, sense), end,
                          level("reference"))
         assert len(result.times) == len(expected) >= 39
         # Heights are good to some 1e-15 and the phase after 200 to 1e-14; the slope makes a time of the former.
@@ -192,7 +192,7 @@ def test_no_crossing_is_lost_or_doubled_however_long_the_steps(system):
 def test_crossings_lie_on_the_plane_to_round_off_and_on_their_levels_of_the_integrals(system, name):
     for random, state, parameters, normal, heights in random_motions(system, 20, seed=3):
         offset = float(np.quantile(heights, random.uniform(0.1, 0.9)))
-        result = section(system, state, parameters, Plane(tuple(normal), offset, 0), 10.0, level(name))
+        result = section(system.at(parameters), state, Plane(tuple(normal), offset, 0), 10.0, level(name))
         # At every level: they are roots of the very polynomial that their states come from.
         assert np.max(np.abs(result.states @ normal - offset), initial=0.0) < 1e-13
         along = system.integrals(result.states.T, parameters)
@@ -208,7 +208,7 @@ def test_crossings_lie_on_the_plane_to_round_off_and_on_their_levels_of_the_inte
 def test_the_error_estimate_of_a_section_is_on_the_safe_side(system, name):
     for random, state, parameters, normal, heights in random_motions(system, 10, seed=4):
         plane = Plane(tuple(normal), float(np.quantile(heights, random.uniform(0.2, 0.8))), 0)
-        result = section(system, state, parameters, plane, 10.0, level(name))
+        result = section(system.at(parameters), state, plane, 10.0, level(name))
         # Not the level `reference`, which would say of itself that it is right.
         times, states, _ = crossings_by_kernel(system, state, parameters, normal, plane.offset, 10.0, 1e-20)
         assert len(result.times) == len(times)
@@ -250,7 +250,7 @@ def test_both_senses_together_are_all_crossings_in_order(system, end):
 def test_turning_the_plane_over_turns_the_sense(system, sense):
     plane, found = example_section(system, sense=sense)
     over = Plane(tuple(-value for value in plane.normal), -plane.offset, -sense)
-    again = section(system, *system.example, over, 20.0, level("reference"))
+    again = section(*system.example_motion, over, 20.0, level("reference"))
     assert again.times == pytest.approx(found.times, rel=0, abs=1e-13)
 
 
@@ -259,7 +259,7 @@ def test_turning_the_plane_over_turns_the_sense(system, sense):
 def test_the_equation_of_a_plane_may_be_multiplied_by_any_number(system, factor):
     plane, found = example_section(system)
     same = Plane(tuple(factor * value for value in plane.normal), factor * plane.offset, 0)
-    again = section(system, *system.example, same, 20.0, level("reference"))
+    again = section(*system.example_motion, same, 20.0, level("reference"))
     assert again.times == pytest.approx(found.times, rel=0, abs=1e-12)
 
 
@@ -269,13 +269,13 @@ def test_the_way_back_finds_the_same_crossings(system, sense):
     end, found = 20.0, 0
     for random, state, parameters, normal, heights in random_motions(system, 10, seed=5, end=end):
         plane = Plane(tuple(normal), float(np.quantile(heights, random.uniform(0.2, 0.8))), sense)
-        there = section(system, state, parameters, plane, end, level("reference"))
-        last = solve(system, state, parameters, [end], level("reference")).states[0]
-        back = section(system, last, parameters, plane, -end, level("reference"))
+        there = section(system.at(parameters), state, plane, end, level("reference"))
+        last = solve(system.at(parameters), state, [end], level("reference")).states[0]
+        back = section(system.at(parameters), last, plane, -end, level("reference"))
         assert len(back.times) == len(there.times)
         assert np.all(back.times < 0.0)
         # Round-off, and what the motion makes of it all the way there and back.
-        again = solve(system, last, parameters, [-end], level("reference")).states[0]
+        again = solve(system.at(parameters), last, [-end], level("reference")).states[0]
         miss = 10 * np.max(np.abs(again - state)) + 1e-13
         assert miss < 1e-6
         for t, other, y in zip(there.times, back.times[::-1] + end, there.states, strict=True):
@@ -293,7 +293,7 @@ def test_a_start_at_a_crossing_is_not_counted_and_the_next_ones_are(system, dire
         others = (found.times[i + 1 :] if direction > 0 else found.times[:i][::-1]) - found.times[i]
         # As far as the first and the last of them, and a little more.
         end = (others[-1] if others.size else 0.0) + direction * 1e-3
-        again = section(system, start, parameters, plane, end, level("reference"))
+        again = section(system.at(parameters), start, plane, end, level("reference"))
         assert again.times == pytest.approx(others, rel=0, abs=1e-11)
 
 
@@ -301,10 +301,10 @@ def test_a_start_at_a_crossing_is_not_counted_and_the_next_ones_are(system, dire
 def test_a_start_on_an_oblique_plane_is_not_a_crossing(system):
     for _, state, parameters, normal, _ in random_motions(system, 50, seed=6):
         plane = Plane(tuple(normal), float(normal @ state), 0)
-        on_it = section(system, state, parameters, plane, 10.0, level("reference"))
+        on_it = section(system.at(parameters), state, plane, 10.0, level("reference"))
         # The same orbit from a little earlier crosses the plane there, and then where it does from there.
-        before = solve(system, state, parameters, [-1e-3], level("reference")).states[0]
-        earlier = section(system, before, parameters, plane, 10.001, level("reference"))
+        before = solve(system.at(parameters), state, [-1e-3], level("reference")).states[0]
+        earlier = section(system.at(parameters), before, plane, 10.001, level("reference"))
         slow = min(abs(rate(system, parameters, normal, y)) for y in (state, *on_it.states))
         assert earlier.times - 1e-3 == pytest.approx([0.0, *on_it.times], rel=0, abs=1e-12 / min(1.0, slow))
 
@@ -317,11 +317,11 @@ def test_a_motion_from_rest_does_not_cross_the_plane_it_is_released_from(system,
     state, parameters = (np.array(values) for values in system.example)
     state[: system.angular_velocities] = 0.0
     soon = math.copysign(0.05, end)
-    later = solve(system, state, parameters, [soon], level("reference")).states[0]
+    later = solve(system.at(parameters), state, [soon], level("reference")).states[0]
     for component in range(system.angular_velocities, state.size):
         plane = Plane(axis(system, component, sign), sign * state[component], 0)
-        found = ended(lambda plane=plane: section(system, state, parameters, plane, end, level("reference")))
-        expected = section(system, later, parameters, plane, end - soon, level("reference"))
+        found = ended(lambda plane=plane: section(system.at(parameters), state, plane, end, level("reference")))
+        expected = section(system.at(parameters), later, plane, end - soon, level("reference"))
         assert np.all(np.abs(found.times) > 0.05)
         # Where it comes back to rest it may touch the plane again: there round-off decides.
         times, others = (
@@ -337,7 +337,7 @@ def test_a_chain_of_single_crossings_is_the_long_section(system):
     t = 0.0
     assert len(found.times) > 5
     for expected in found.times:
-        one = section(system, state, parameters, plane, 60.0, level("reference"), crossings=1)
+        one = section(system.at(parameters), state, plane, 60.0, level("reference"), crossings=1)
         state, t = one.states[0], t + one.times[0]
         # Round-off, and what the motion makes of it until then.
         assert t == pytest.approx(expected, rel=0, abs=1e-10)
@@ -347,11 +347,11 @@ def test_a_chain_of_single_crossings_is_the_long_section(system):
 @pytest.mark.parametrize("crossings", [1, 3])
 def test_as_many_crossings_as_asked_for_are_the_first_ones(system, crossings):
     plane, found = example_section(system)
-    head = section(system, *system.example, plane, 20.0, level("reference"), crossings)
+    head = section(*system.example_motion, plane, 20.0, level("reference"), crossings)
     assert np.array_equal(head.times, found.times[:crossings])
     assert np.array_equal(head.states, found.states[:crossings])
     assert head.cost.steps < found.cost.steps, "it stops there"
-    exactly = section(system, *system.example, plane, 20.0, level("reference"), len(found.times))
+    exactly = section(*system.example_motion, plane, 20.0, level("reference"), len(found.times))
     assert np.array_equal(exactly.times, found.times)
 
 
@@ -362,7 +362,7 @@ def test_a_span_that_ends_at_a_crossing(system, sense, name):
     plane, found = example_section(system, name=name, sense=sense)
 
     def until(end):
-        return len(ended(lambda: section(system, *system.example, plane, end, level(name))).times)
+        return len(ended(lambda: section(*system.example_motion, plane, end, level(name))).times)
 
     # What the level may err in the height, over the slope there.
     for i, (t, y) in enumerate(zip(found.times, found.states, strict=True)):
@@ -379,7 +379,7 @@ def test_a_span_of_length_zero_has_no_crossings(system, sign):
     for component in range(len(state)):
         for height in (0.0, 0.5):
             plane = Plane(axis(system, component, sign), sign * state[component] + height, 0)
-            result = ended(lambda plane=plane: section(system, state, parameters, plane, 0.0, level("draft")))
+            result = ended(lambda plane=plane: section(system.at(parameters), state, plane, 0.0, level("draft")))
             assert len(result.times) == 0
 
 
@@ -388,7 +388,7 @@ def test_a_span_of_length_zero_has_no_crossings(system, sign):
 @every_level
 def test_a_plane_that_is_never_reached_has_no_crossings(system, side, name):
     plane = Plane(axis(system, len(system.variables) - 1), side * 100.0, 0)
-    result = section(system, *system.example, plane, 20.0, level(name))
+    result = section(*system.example_motion, plane, 20.0, level(name))
     assert result.times.shape == (0,)
     assert result.states.shape == (0, len(system.variables))
     assert result.status is Status.OK
@@ -404,7 +404,7 @@ def test_an_equilibrium_crosses_nothing(system, height, end):
     assert not any(system.field(state, parameters))
     for component in (0, len(state) - 1):
         plane = Plane(axis(system, component), state[component] + height, 0)
-        result = ended(lambda plane=plane: section(system, state, parameters, plane, end, level("precise")))
+        result = ended(lambda plane=plane: section(system.at(parameters), state, plane, end, level("precise")))
         assert len(result.times) == 0
         assert result.status is Status.OK
 
@@ -412,10 +412,11 @@ def test_an_equilibrium_crosses_nothing(system, height, end):
 @every_system
 def test_a_motion_inside_the_plane_crosses_nothing(system):
     state, parameters = PENDULA[system.name]
-    along = solve(system, state, parameters, np.linspace(0.0, 10.0, 101), level("reference")).states
+    body = system.at(parameters)
+    along = solve(body, state, np.linspace(0.0, 10.0, 101), level("reference")).states
     assert not np.any(along[:, 0])
     assert np.ptp(along[:, 1]) > 0.1
-    result = ended(lambda: section(system, state, parameters, Plane(axis(system, 0), 0.0, 0), 10.0, level("precise")))
+    result = ended(lambda: section(body, state, Plane(axis(system, 0), 0.0, 0), 10.0, level("precise")))
     assert len(result.times) == 0
 
 
@@ -423,7 +424,7 @@ def test_a_motion_inside_the_plane_crosses_nothing(system):
 def turnings(system):
     """(component, height) wherever a component of the example turns until t = 20."""
     state, parameters = (np.array(values) for values in system.example)
-    along = solve(system, state, parameters, np.linspace(0.0, 20.0, 401), level("standard")).states
+    along = solve(system.at(parameters), state, np.linspace(0.0, 20.0, 401), level("standard")).states
     return [(i, turning) for i in range(state.size)
             for turning in turning_heights(system, state, parameters, np.array(axis(system, i)), along[:, i], 20.0)]
 
@@ -447,7 +448,7 @@ def test_a_run_that_finds_other_crossings_than_the_more_exact_one_is_replaced_by
                 for rung in (careless, careless.tightened())]
             (count, steps), (other_count, other_steps) = runs
             plane = Plane(tuple(normal), turning + depth, sense)
-            result = section(system, state, parameters, plane, 20.0, careless)
+            result = section(system.at(parameters), state, plane, 20.0, careless)
             assert result.cost.steps >= steps + other_steps
             if count != other_count:
                 differing += 1
@@ -459,7 +460,7 @@ def test_a_run_that_finds_other_crossings_than_the_more_exact_one_is_replaced_by
 def test_a_run_that_misses_its_promise_is_replaced_by_a_tighter_one(system):
     # Steps far too long for the promise.
     plane, truth = example_section(system)
-    result = section(system, *system.example, plane, 20.0, Level("standard", 1e-9, 1e-1, 14))
+    result = section(*system.example_motion, plane, 20.0, Level("standard", 1e-9, 1e-1, 14))
     assert result.status is Status.OK
     assert result.states == pytest.approx(truth.states, rel=0, abs=1e-8)
 
@@ -469,7 +470,7 @@ def test_a_level_that_cannot_keep_its_promise_says_so(system):
     plane, _ = example_section(system)
     for rung, status in ((Level("standard", 1e-300, 1e-8, 14), Status.PROMISE_NOT_MET),
                          (Level("reference", 1e-300, 1e-17, 24), Status.FLOOR)):
-        assert section(system, *system.example, plane, 20.0, rung).status is status
+        assert section(*system.example_motion, plane, 20.0, rung).status is status
 
 
 @every_system
@@ -478,10 +479,10 @@ def test_sections_of_many_orbits_are_those_of_each(system):
     states = np.array(state) * np.random.default_rng(7).uniform(0.7, 1.3, (9, len(state)))
     plane, _ = example_section(system, sense=1)
     for name in ("draft", "precise"):
-        alone = [section(system, start, parameters, plane, 20.0, level(name)) for start in states]
+        alone = [section(system.at(parameters), start, plane, 20.0, level(name)) for start in states]
         assert len({one.times.size for one in alone}) > 1, "they differ"
         for threads in (1, 2):
-            together = sections(system, states, parameters, plane, 20.0, level(name), threads=threads)
+            together = sections(system.at(parameters), states, plane, 20.0, level(name), threads=threads)
             assert len(together) == 9
             # Together they are computed in the unit of time of the fastest: other steps, within the errors.
             for one, other in zip(together, alone, strict=True):
@@ -490,14 +491,14 @@ def test_sections_of_many_orbits_are_those_of_each(system):
                 assert np.max(np.abs(one.states - other.states), initial=0.0) <= errors
                 assert one.status == other.status
     # Whoever computes them, they are the same.
-    one_by_one = sections(system, states, parameters, plane, 20.0, level("precise"), threads=1)
+    one_by_one = sections(system.at(parameters), states, plane, 20.0, level("precise"), threads=1)
     for one, other in zip(one_by_one, together, strict=True):
         assert np.array_equal(one.times, other.times)
         assert np.array_equal(one.states, other.states)
         assert (one.error_estimate, one.drift) == (other.error_estimate, other.drift)
-    first = sections(system, states, parameters, plane, 20.0, level("draft"), crossings=1)
+    first = sections(system.at(parameters), states, plane, 20.0, level("draft"), crossings=1)
     assert all(one.times.size <= 1 for one in first)
-    assert sections(system, np.empty((0, len(state))), parameters, plane, 20.0, level("draft")) == []
+    assert sections(system.at(parameters), np.empty((0, len(state))), plane, 20.0, level("draft")) == []
 
 
 @every_system
@@ -505,7 +506,7 @@ def test_sections_of_many_orbits_are_those_of_each(system):
 def test_an_orbit_of_many_that_is_wrong_raises_its_sentence(system, threads):
     state, parameters = system.example
     with pytest.raises(InvalidParameter, match="finite number"):
-        sections(system, [state, (np.nan, *state[1:])], parameters, Plane(axis(system, 0)), 1.0, level("draft"),
+        sections(system.at(parameters), [state, (np.nan, *state[1:])], Plane(axis(system, 0)), 1.0, level("draft"),
                  threads=threads)
 
 
@@ -547,21 +548,21 @@ def test_a_normal_of_the_wrong_length_raises_a_sentence(system):
     dimension = len(system.variables)
     for length in (1, dimension - 1, dimension + 1):
         with pytest.raises(InvalidParameter, match=f"has {dimension} components"):
-            section(system, *system.example, Plane((1.0,) * length), 1.0, level("draft"))
+            section(*system.example_motion, Plane((1.0,) * length), 1.0, level("draft"))
 
 
 @every_system
 @pytest.mark.parametrize("end", [np.nan, np.inf, -np.inf])
 def test_an_end_that_is_not_finite_raises_a_sentence(system, end):
     with pytest.raises(InvalidParameter, match="end of the time span must be finite"):
-        section(system, *system.example, Plane(axis(system, 0)), end, level("draft"))
+        section(*system.example_motion, Plane(axis(system, 0)), end, level("draft"))
 
 
 @every_system
 @pytest.mark.parametrize("crossings", [0, -1, MAX_CROSSINGS + 1])
 def test_a_number_of_crossings_outside_its_limits_raises_a_sentence(system, crossings):
     with pytest.raises(WorkLimit, match=f"between 1 and {MAX_CROSSINGS}"):
-        section(system, *system.example, Plane(axis(system, 0)), 1.0, level("draft"), crossings)
+        section(*system.example_motion, Plane(axis(system, 0)), 1.0, level("draft"), crossings)
 
 
 @every_system
@@ -570,7 +571,7 @@ def test_a_number_of_crossings_outside_its_limits_raises_a_sentence(system, cros
 def test_a_span_that_is_too_long_raises_a_sentence(system, end, offset, monkeypatch):
     monkeypatch.setattr(sys.modules["hess_mechanics.dynamics.section"], "MAX_STEPS", 10_000)
     with pytest.raises(WorkLimit, match="more than 10000 steps: choose a shorter time span"):
-        section(system, *system.example, Plane(axis(system, 0), offset), end, level("draft"))
+        section(*system.example_motion, Plane(axis(system, 0), offset), end, level("draft"))
 
 
 @every_system
@@ -580,9 +581,9 @@ def test_all_runs_of_one_section_share_one_budget_of_steps(system, monkeypatch):
     # Enough for each run alone but not for all.
     monkeypatch.setattr(limits, "MAX_STEPS", freely.cost.steps - 1)
     with pytest.raises(WorkLimit, match="choose a shorter time span"):
-        section(system, *system.example, plane, 20.0, level("standard"))
+        section(*system.example_motion, plane, 20.0, level("standard"))
     monkeypatch.setattr(limits, "MAX_STEPS", freely.cost.steps)
-    assert np.array_equal(section(system, *system.example, plane, 20.0, level("standard")).times, freely.times)
+    assert np.array_equal(section(*system.example_motion, plane, 20.0, level("standard")).times, freely.times)
 
 
 @every_system
@@ -591,10 +592,10 @@ def test_states_and_parameters_that_cannot_be_computed_raise_a_sentence(system):
     plane = Plane(axis(system, 0))
     for wrong in (state[:-1], (*state, 0.0), (np.nan, *state[1:]), (*state[:-1], np.inf)):
         with pytest.raises(InvalidParameter, match=r"takes \d numbers|finite number"):
-            section(system, wrong, parameters, plane, 1.0, level("draft"))
+            section(system.at(parameters), wrong, plane, 1.0, level("draft"))
     for wrong in (parameters[:-1], (*parameters, 0.0), (*parameters[:-1], np.nan)):
         with pytest.raises(InvalidParameter, match=r"takes \d numbers|finite number"):
-            section(system, state, wrong, plane, 1.0, level("draft"))
+            section(system.at(wrong), state, plane, 1.0, level("draft"))
 
 
 @every_system
@@ -603,4 +604,4 @@ def test_motions_too_fast_for_double_precision_raise_a_sentence(system, huge, mo
     monkeypatch.setattr(sys.modules["hess_mechanics.dynamics.section"], "MAX_STEPS", 10_000)
     state, parameters = system.example
     with pytest.raises(ModelError, match=r"choose (less extreme parameters|a shorter time span)"):
-        section(system, (huge, *state[1:]), parameters, Plane(axis(system, 1)), 1.0, level("draft"))
+        section(system.at(parameters), (huge, *state[1:]), Plane(axis(system, 1)), 1.0, level("draft"))

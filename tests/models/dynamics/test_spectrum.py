@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hess_mechanics import System, largest_exponent, megno, spectrum, systems, transition_matrix
+from hess_mechanics import System, lyapunov_exponent, lyapunov_spectrum, megno, systems, transition_matrix
 from hess_mechanics.dynamics.spectrum import kaplan_yorke
 from hess_mechanics.dynamics.system import Problem
 from hess_mechanics.errors import InvalidParameter, WorkLimit
@@ -46,7 +46,7 @@ LORENZ = a_system(lorenz, "lorenz of a test", 3, ((1.0, 2.0, 20.0), (10.0, 28.0,
 
 
 def test_of_lorenz_they_are_those_of_the_literature():
-    found = spectrum(LORENZ, *LORENZ.example, 4000.0)
+    found = lyapunov_spectrum(*LORENZ.example_motion, 4000.0)
     assert found.values[0] == pytest.approx(0.9056, rel=0.01)
     assert found.values[1] == pytest.approx(0.0, abs=0.01 * 0.9056)
     assert found.values[2] == pytest.approx(-14.572, rel=0.01)
@@ -68,7 +68,7 @@ def test_of_a_linear_system_they_are_its_eigenvalues():
         return a * y[0] + y[1], b * y[1] + y[2], c * y[2] + d * y[0] * 0.0, -y[3]
 
     linear = a_system(field, "linear of a test", 4, ((0.0, 0.0, 0.0, 0.0), (0.7, -0.3, 0.1, 0.0)))
-    found = spectrum(linear, *linear.example, 300.0, REFERENCE)
+    found = lyapunov_spectrum(*linear.example_motion, 300.0, REFERENCE)
     assert found.values == pytest.approx([0.7, 0.1, -0.3, -1.0], abs=1e-12)
     assert found.error_estimate < 1e-11
     assert found.divergence == pytest.approx(-0.5, abs=1e-13)
@@ -79,7 +79,7 @@ def test_of_a_linear_system_they_are_its_eigenvalues():
 
 def test_beside_an_equilibrium_they_are_the_eigenvalues():
     # ω = 0, γ = e3: ω̇1 = γ2/I11, γ̇2 = ω1, and ω̇2 = −γ1/I22, γ̇1 = −ω2; γ3 stays.
-    found = spectrum(SUSLOV, (0.0, 0.0, 0.0, 0.0, 1.0), (1.0, 4.0, 0.3, 0.2, 0.0, 0.0, 1.0), 60.0)
+    found = lyapunov_spectrum(SUSLOV.at((1.0, 4.0, 0.3, 0.2, 0.0, 0.0, 1.0)), (0.0, 0.0, 0.0, 0.0, 1.0), 60.0)
     assert found.values == pytest.approx([1.0, 0.5, 0.0, -0.5, -1.0], abs=1e-4)
     assert np.all(np.abs(found.values - [1.0, 0.5, 0.0, -0.5, -1.0]) <= 3.0 * found.errors + 1e-12)
     assert not found.values.flags.writeable
@@ -89,12 +89,12 @@ def test_of_a_motion_that_comes_to_rest_they_are_the_eigenvalues_there():
     # Near rest at (1, 3, 2) the rate is lost in round-off, and long before the end it is 0.
     comes = a_system(lambda y, p: (p[0] * (1.0 - y[0]), p[1] * (2.0 + y[0] - y[1]), p[2] * (y[1] - 1.0 - y[2])),
                      "rest of a test", 3, ((4.0, -2.0, 1.0), (0.2, 0.5, 0.9)))
-    found = spectrum(comes, *comes.example, 500.0, REFERENCE)
+    found = lyapunov_spectrum(*comes.example_motion, 500.0, REFERENCE)
     assert found.values == pytest.approx([-0.2, -0.5, -0.9], abs=1e-9)
     assert found.values.sum() == pytest.approx(found.divergence, abs=1e-10)
     assert found.signs == ("-", "-", "-")
     alone = a_system(lambda y, p: (p[0] - p[1] * y[0],), "rest of one variable of a test", 1, ((4.0,), (0.3, 0.7)))
-    assert spectrum(alone, *alone.example, 100.0).values == pytest.approx([-0.7], abs=1e-9)
+    assert lyapunov_spectrum(*alone.example_motion, 100.0).values == pytest.approx([-0.7], abs=1e-9)
 
 
 def test_their_sum_is_the_mean_divergence_of_a_hundred_bodies():
@@ -103,7 +103,7 @@ def test_their_sum_is_the_mean_divergence_of_a_hundred_bodies():
         p = (*draw.uniform(0.5, 3.0, 2), *draw.uniform(-0.7, 0.7, 2), *draw.uniform(-1.0, 1.0, 3))
         gamma = draw.normal(size=3)
         start = (*draw.uniform(-1.5, 1.5, 2), *(gamma / np.linalg.norm(gamma)))
-        found = spectrum(SUSLOV, start, p, 60.0, DRAFT)
+        found = lyapunov_spectrum(SUSLOV.at(p), start, 60.0, DRAFT)
         # By SciPy-like sums of div ẏ = I23 ω1/I22 − I13 ω2/I11 along the orbit: no variational equation.
         course = mean_divergence(SuslovBody(*map(float, p)), start, 60.0)
         since = len(course.times) // 5
@@ -114,8 +114,8 @@ def test_their_sum_is_the_mean_divergence_of_a_hundred_bodies():
 
 
 def test_of_a_strange_attractor_three_are_0_and_it_has_a_dimension_between_two_and_three():
-    found = spectrum(SUSLOV, *STRANGE, 3000.0)
-    one = largest_exponent(SUSLOV, *STRANGE, 3000.0)
+    found = lyapunov_spectrum(SUSLOV.at(STRANGE[1]), STRANGE[0], 3000.0)
+    one = lyapunov_exponent(SUSLOV.at(STRANGE[1]), STRANGE[0], 3000.0)
     assert found.values[0] == pytest.approx(one.value, abs=4.0 * found.errors[0] + 2.0 * one.spread)
     # Those of the motion, of E and of γ².
     assert found.signs == ("+", "0", "0", "0", "-")
@@ -126,14 +126,14 @@ def test_of_a_strange_attractor_three_are_0_and_it_has_a_dimension_between_two_a
     assert 2.0 < dimension < 3.0
     assert error < 0.2
     # Time runs the other way in the reversor's image, ω → −ω: the same numbers with the other sign.
-    image = spectrum(SUSLOV, (-0.8, -1.3, 0.6, 0.0, 0.8), STRANGE[1], -20.0, PRECISE)
-    same = spectrum(SUSLOV, *STRANGE, 20.0, PRECISE)
+    image = lyapunov_spectrum(SUSLOV.at(STRANGE[1]), (-0.8, -1.3, 0.6, 0.0, 0.8), -20.0, PRECISE)
+    same = lyapunov_spectrum(SUSLOV.at(STRANGE[1]), STRANGE[0], 20.0, PRECISE)
     assert image.divergence == pytest.approx(same.divergence, abs=1e-7)
     assert image.values.sum() == pytest.approx(same.values.sum(), abs=1e-7)
 
 
 def test_where_a_measure_forces_pairs_they_are_pairs_and_the_sum_is_0():
-    found = spectrum(HEAVY, CHAOTIC_START, CHAOTIC.parameters, 1000.0)
+    found = lyapunov_spectrum(CHAOTIC, CHAOTIC_START, 1000.0)
     assert found.volume_kept
     assert found.pairs_forced
     assert found.divergence == 0.0
@@ -143,14 +143,14 @@ def test_where_a_measure_forces_pairs_they_are_pairs_and_the_sum_is_0():
     assert found.values[0] == pytest.approx(-found.values[-1], abs=3.0 * found.errors[0])
     assert found.dimension[0] == 3.0
     # I13 = I23 = 0 keeps the volume too, but says so by numbers only.
-    conservative = spectrum(SUSLOV, STRANGE[0], (1.7, 3.0, 0.0, 0.0, -2.0, -2.1, 2.6), 100.0, DRAFT)
+    conservative = lyapunov_spectrum(SUSLOV.at((1.7, 3.0, 0.0, 0.0, -2.0, -2.1, 2.6)), STRANGE[0], 100.0, DRAFT)
     assert conservative.volume_kept
     assert conservative.divergence == 0.0
 
 
 def test_a_regular_motion_has_zeros_only_within_errors_that_know_its_growth_like_t():
-    start = (0.5, 1.2, 0.6, 0.0, 0.8), (1.5, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    found = spectrum(SUSLOV, *start, 500.0)
+    body = SUSLOV.at((1.5, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+    found = lyapunov_spectrum(body, (0.5, 1.2, 0.6, 0.0, 0.8), 500.0)
     assert found.signs == ("0",) * 5
     assert found.zeros == 5
     assert found.error_estimate < 0.02
@@ -168,7 +168,7 @@ def test_a_dimension_is_that_of_kaplan_and_yorke():
 
 
 def test_results_know_names_and_say_what_they_cost():
-    found = spectrum(SUSLOV, *SUSLOV.example, 100.0, DRAFT)
+    found = lyapunov_spectrum(*SUSLOV.example_motion, 100.0, DRAFT)
     data = found.to_xarray()
     assert data.exponent.values.tolist() == found.values.tolist()
     assert data.rate.sel(number=1).values[-1] == found.rates[-1, 0]
@@ -177,20 +177,20 @@ def test_results_know_names_and_say_what_they_cost():
     assert len(found.to_pandas()) == found.rates.size
 
 
-@pytest.mark.parametrize("find", [spectrum, lambda system, state, p, span: megno(system, [state], p, span)])
+@pytest.mark.parametrize("find", [lyapunov_spectrum, lambda body, state, span: megno(body, [state], span)])
 def test_a_span_that_is_none_or_too_long_is_refused(find):
     with pytest.raises(InvalidParameter, match="must be a finite number other than 0"):
-        find(SUSLOV, *SUSLOV.example, math.nan)
+        find(*SUSLOV.example_motion, math.nan)
     with pytest.raises(WorkLimit, match="time"):
-        find(SUSLOV, *SUSLOV.example, 1e300)
+        find(*SUSLOV.example_motion, 1e300)
 
 
 @pytest.mark.parametrize("span", [1e-320, -5e-324])
-@pytest.mark.parametrize("find", [spectrum, largest_exponent, lambda system, y, p, span: megno(system, [y], p, span)])
+@pytest.mark.parametrize("find", [lyapunov_spectrum, lyapunov_exponent, lambda body, y, span: megno(body, [y], span)])
 def test_beside_no_time_at_all_there_is_no_rate(find, span):
     # A round-off of 1e-16 over 1e-320 is beyond double range.
     with pytest.raises(InvalidParameter, match="of 1e-290 or more: choose one like 100"):
-        find(SUSLOV, *SUSLOV.example, span)
+        find(*SUSLOV.example_motion, span)
 
 
 EXTREME = [("ball", (1.0, 4.0, 1.37e179, 0.0, 2.0, 0.3, 0.0, 1.0), (0.5, 0.9, 0.6, 0.0, 0.8)),
@@ -200,11 +200,11 @@ EXTREME = [("ball", (1.0, 4.0, 1.37e179, 0.0, 2.0, 0.3, 0.0, 1.0), (0.5, 0.9, 0.
 
 @pytest.mark.parametrize(("name", "parameters", "state"), EXTREME, ids=[name for name, _, _ in EXTREME])
 @pytest.mark.parametrize("find", [
-    largest_exponent, lambda *given: spectrum(*given, DRAFT),
-    lambda system, y, p, t: megno(system, [y], p, t, DRAFT, 1), lambda *given: transition_matrix(*given, DRAFT)])
+    lyapunov_exponent, lambda *given: lyapunov_spectrum(*given, DRAFT),
+    lambda body, y, t: megno(body, [y], t, DRAFT, 1), lambda *given: transition_matrix(*given, DRAFT)])
 def test_of_a_motion_beyond_double_range_there_is_a_sentence_and_no_number(find, name, parameters, state):
     with pytest.raises(InvalidParameter, match="left the range of double precision: choose less extreme parameters"):
-        find(systems()[name], state, parameters, 50.0)
+        find(systems()[name].at(parameters), state, 50.0)
 
 
 GROWS = a_system(lambda y, p: (p[0] * y[0],), "growth of a test", 1, ((0.0,), (0.3,)))
@@ -214,31 +214,31 @@ def test_a_neighbour_that_falls_onto_the_motion_is_refused():
     # As e^(−1000 t): next to 1 nothing is left of it.
     falls = a_system(lambda y, p: (p[0] * (y[0] - 1.0),), "fall of a test", 1, ((1.0,), (-1000.0,)))
     with pytest.raises(InvalidParameter, match="take all exponents, which need no distance"):
-        largest_exponent(falls, *falls.example, 4.0, REFERENCE)
-    assert spectrum(falls, *falls.example, 4.0).values[0] == pytest.approx(-1000.0, rel=1e-6)
+        lyapunov_exponent(*falls.example_motion, 4.0, REFERENCE)
+    assert lyapunov_spectrum(*falls.example_motion, 4.0).values[0] == pytest.approx(-1000.0, rel=1e-6)
 
 
 def test_numbers_that_are_beyond_double_range_in_units_of_the_motion_are_refused():
     # p/ν is infinite.
     slow = replace(GROWS, rescale=lambda y, p, nu: (y, p / nu), frequency=lambda y, p: 1e-310)
     with pytest.raises(InvalidParameter, match="leave the range of double precision: choose less extreme"):
-        Problem.of(slow, [(0.0,)], (0.3,))
+        Problem.of(slow.at((0.3,)), [(0.0,)])
 
 
 # ---- MEGNO ------------------------------------------------------------------------------------------------------
 
 
 def test_megno_tells_regular_motions_from_chaotic_ones_and_from_those_that_are_attracted():
-    chaotic = megno(HEAVY, [CHAOTIC_START], CHAOTIC.parameters, 200.0)
-    rate = largest_exponent(HEAVY, CHAOTIC_START, CHAOTIC.parameters, 1000.0).value
+    chaotic = megno(CHAOTIC, [CHAOTIC_START], 200.0)
+    rate = lyapunov_exponent(CHAOTIC, CHAOTIC_START, 1000.0).value
     assert chaotic.values[0] == pytest.approx(rate * 200.0 / 2.0, rel=0.5)
     assert chaotic.chaotic[0]
     assert not chaotic.attracted[0]
     # b = 0 and I13 = I23 = 0: ω is at rest in the limit, γ turns uniformly.
-    regular = megno(SUSLOV, [STRANGE[0]], (1.5, 1.0, 0.0, 0.0, 0.0, 0.0, 0.5), 300.0)
+    regular = megno(SUSLOV.at((1.5, 1.0, 0.0, 0.0, 0.0, 0.0, 0.5)), [STRANGE[0]], 300.0)
     assert not regular.chaotic[0]
     assert not regular.attracted[0]
-    strange = megno(SUSLOV, [STRANGE[0], STRANGE[0]], STRANGE[1], 400.0)
+    strange = megno(SUSLOV.at(STRANGE[1]), [STRANGE[0], STRANGE[0]], 400.0)
     assert strange.chaotic.all()
     assert strange.attracted.all()
     assert strange.values[0] == strange.values[1]
@@ -246,6 +246,6 @@ def test_megno_tells_regular_motions_from_chaotic_ones_and_from_those_that_are_a
 
 def test_megno_of_uniform_growth_is_known():
     # δ ∝ e^(λt): Y = λt, Ȳ = λt/2.  δ ∝ t: Y → 2.
-    assert megno(GROWS, [(0.0,)], (0.3,), 100.0).values[0] == pytest.approx(0.3 * 100.0 / 2.0, rel=1e-2)
+    assert megno(GROWS.at((0.3,)), [(0.0,)], 100.0).values[0] == pytest.approx(0.3 * 100.0 / 2.0, rel=1e-2)
     shears = a_system(lambda y, p: (y[1] * p[0], 0.0 * y[0]), "shear of a test", 2, ((0.0, 1.0), (1.0,)))
-    assert megno(shears, [(0.0, 1.0)], (1.0,), 1000.0).values[0] == pytest.approx(2.0, abs=0.1)
+    assert megno(shears.at((1.0,)), [(0.0, 1.0)], 1000.0).values[0] == pytest.approx(2.0, abs=0.1)

@@ -81,7 +81,7 @@ def test_names_and_shapes_fit_together(system):
     assert len(system.field(state, parameters)) == len(state)
     assert 0 < system.angular_velocities < len(state)
     assert all(np.isfinite(value) for value in system.integrals(state, parameters).values())
-    orbit = solve(system, state, parameters, [0.0, 0.5, 2.0], level("draft"))
+    orbit = solve(system.at(parameters), state, [0.0, 0.5, 2.0], level("draft"))
     assert orbit.states.shape == (3, len(state))
     assert orbit.times.shape == (3,)
     assert (orbit.system, orbit.level) == (system.name, "draft")
@@ -122,7 +122,7 @@ def test_solve_agrees_with_an_integrator_of_another_family(system):
     times = np.linspace(0.0, 10.0, 21)
     other = solve_ivp(lambda _, y: system.field(y, parameters), (0.0, 10.0), state, t_eval=times,
                       method="DOP853", rtol=1e-12, atol=1e-13)
-    orbit = solve(system, state, parameters, times, level("reference"))
+    orbit = solve(system.at(parameters), state, times, level("reference"))
     assert np.max(np.abs(orbit.states - other.y.T)) < 1e-9
 
 
@@ -134,15 +134,15 @@ results = {}
 for name, system in hess_mechanics.systems().items():
     assert not hasattr(system.orbit, "py_func"), "the JIT is on"
     for grade in ("draft", "reference"):
-        orbit = hess_mechanics.solve(system, *system.example, [0.0, 1.0, 5.0], level(grade))
+        orbit = hess_mechanics.solve(*system.example_motion, [0.0, 1.0, 5.0], level(grade))
         results[f"{name} {grade}"] = [x.hex() for x in orbit.states.ravel().tolist()]
-    state, parameters = system.example
+    body, state = system.example_motion
     starts = [[x * (1 + 0.01 * i) for x in state] for i in range(11)]
-    many = hess_mechanics.ensemble(system, starts, parameters, [0.5, 1.0], level("standard"))
+    many = hess_mechanics.ensemble(body, starts, [0.5, 1.0], level("standard"))
     results[f"{name} ensemble"] = [x.hex() for x in many.states.ravel().tolist()]
-    last = hess_mechanics.solve(system, state, parameters, [0.1 * i for i in range(201)], level("draft")).states[:, -1]
+    last = hess_mechanics.solve(body, state, [0.1 * i for i in range(201)], level("draft")).states[:, -1]
     plane = hess_mechanics.Plane((0.0,) * (len(state) - 1) + (1.0,), offset=0.5 * (last.min() + last.max()), sense=0)
-    found = hess_mechanics.section(system, state, parameters, plane, 20.0, level("standard"))
+    found = hess_mechanics.section(body, state, plane, 20.0, level("standard"))
     assert len(found.times) > 1
     results[f"{name} section"] = [x.hex() for x in [*found.times.tolist(), *found.states.ravel().tolist()]]
 for a, h, f in ((0.5, 1.5, 0.6), (0.7, -0.9, 0.05), (60.0, 1.0, 0.9)):
@@ -176,8 +176,8 @@ def test_kernels_without_the_jit_equal_the_compiled_ones_to_round_off():
 @every_system
 def test_there_and_back_again_returns_to_the_start(system):
     state, parameters = system.example
-    there = solve(system, state, parameters, [15.0], level("reference"))
-    back = solve(system, there.states[0], parameters, [-15.0], level("reference"))
+    there = solve(system.at(parameters), state, [15.0], level("reference"))
+    back = solve(system.at(parameters), there.states[0], [-15.0], level("reference"))
     assert back.states[0] == pytest.approx(state, abs=1e-11)
 
 
@@ -200,8 +200,8 @@ def test_orbits_have_the_symmetry(name, signs, time):
     system = SYSTEMS[name]
     state, parameters = system.example
     times = np.linspace(0.0, 10.0, 11)
-    orbit = solve(system, state, parameters, times, level("reference"))
-    image = solve(system, np.multiply(signs, state), parameters, time * times, level("reference"))
+    orbit = solve(system.at(parameters), state, times, level("reference"))
+    image = solve(system.at(parameters), np.multiply(signs, state), time * times, level("reference"))
     assert np.max(np.abs(image.states - signs * orbit.states)) < 1e-12
 
 
@@ -210,9 +210,9 @@ def test_orbits_have_the_symmetry(name, signs, time):
 def test_orbits_scale_with_the_unit_of_time(system, nu):
     state, parameters = (np.array(values) for values in system.example)
     times = np.linspace(0.0, 10.0, 11)
-    orbit = solve(system, state, parameters, times, level("reference"))
+    orbit = solve(system.at(parameters), state, times, level("reference"))
     state_in_nu, parameters_in_nu = system.rescale(state, parameters, nu)
-    image = solve(system, state_in_nu, parameters_in_nu, times * nu, level("reference"))
+    image = solve(system.at(parameters_in_nu), state_in_nu, times * nu, level("reference"))
     assert np.max(np.abs(image.states * scaled(system, nu) - orbit.states)) < 1e-11
     assert state == pytest.approx(system.example[0], abs=0), "rescale must not write into its arguments"
     assert parameters == pytest.approx(system.example[1], abs=0)
@@ -227,7 +227,7 @@ def of_ones_own(variables, angular_velocities, field, rescale, frequency):
 def test_a_variable_whose_name_begins_with_w_is_no_velocity_for_that():
     grows = of_ones_own(("w",), 0, lambda y, p: (p[0] * y[0],), lambda y, p, nu: (y.copy(), p / nu),
                         lambda y, p: p[0])
-    assert solve(grows, (1.0,), (4.0,), [0.5], level("precise")).states == pytest.approx(np.e**2, rel=1e-9)
+    assert solve(grows.at((4.0,)), (1.0,), [0.5], level("precise")).states == pytest.approx(np.e**2, rel=1e-9)
 
 
 def test_an_oscillator_names_its_velocity_by_putting_it_first():
@@ -240,7 +240,7 @@ def test_an_oscillator_names_its_velocity_by_putting_it_first():
                         lambda y, p, nu: ((y.T / [1.0, nu]).T, p / nu**2), rate)
     swings = of_ones_own(("w", "x"), 1, lambda y, p: (-p[0] * y[1], y[0]),
                          in_units_of_time(first=0, velocities=1), rate)
-    found = solve(swings, (0.0, 1.0), (4.0,), [0.3], level("precise")).states[0]
+    found = solve(swings.at((4.0,)), (0.0, 1.0), [0.3], level("precise")).states[0]
     assert found == pytest.approx([-2.0 * np.sin(0.6), np.cos(0.6)], abs=1e-9)
     with pytest.raises(WrongScaling, match=r"take states \(d,\) and \(d, n\)"):
         replace(swings, rescale=lambda y, p, nu: (y / [nu, 1.0], p / nu**2))
@@ -269,15 +269,15 @@ def test_hess_orbits_with_field_b_are_those_with_field_one(b):
     hess = SYSTEMS["hess"]
     state, (a, _) = hess.example
     times, root = np.linspace(0.0, 10.0, 11), np.sqrt(b)
-    unit = solve(hess, state, (a, 1.0), times, level("reference"))
-    with_b = solve(hess, np.array(state) * [root, root, 1, 1, 1], (a, b), times / root, level("reference"))
+    unit = solve(hess.at((a, 1.0)), state, times, level("reference"))
+    with_b = solve(hess.at((a, b)), np.array(state) * [root, root, 1, 1, 1], times / root, level("reference"))
     assert np.max(np.abs(with_b.states / [root, root, 1, 1, 1] - unit.states)) < 1e-11
 
 
 @every_system
 def test_the_frequency_bounds_every_angular_velocity_of_the_motion(system):
     state, parameters = (np.array(values) for values in system.example)
-    orbit = solve(system, state, parameters, np.linspace(0.0, 50.0, 2001), level("standard"))
+    orbit = solve(system.at(parameters), state, np.linspace(0.0, 50.0, 2001), level("standard"))
     fastest = np.max(np.linalg.norm(orbit.states[:, : system.angular_velocities], axis=1))
     # A bound, and one that is not idle: within a factor of ten here.
     assert fastest <= system.frequency(state, parameters) <= 10 * fastest
@@ -286,7 +286,7 @@ def test_the_frequency_bounds_every_angular_velocity_of_the_motion(system):
 @every_level
 @every_system
 def test_integrals_drift_less_than_the_level_promises(system, name):
-    orbit = solve(system, *system.example, np.linspace(0.0, 40.0, 401), level(name))
+    orbit = solve(*system.example_motion, np.linspace(0.0, 40.0, 401), level(name))
     along = system.integrals(orbit.states.T, system.example[1])
     for key, initial in system.integrals(*system.example).items():
         drift = np.max(np.abs(along[key] - initial)) / max(1.0, abs(initial))
@@ -308,7 +308,7 @@ def test_a_compensated_sum_keeps_what_a_plain_one_loses():
 def test_round_off_does_not_grow_with_the_number_of_steps(system):
     # Compensated sums.  What is left, 3e-19 a step, is the rounding of the factors 1/(k+1) of the series,
     # the same in every step.
-    orbit = solve(system, *system.example, np.linspace(0.0, 30000.0, 50), level("reference"))
+    orbit = solve(*system.example_motion, np.linspace(0.0, 30000.0, 50), level("reference"))
     assert orbit.cost.steps > 150_000
     assert max(orbit.drift.values()) < 4e-19 * orbit.cost.steps
 
@@ -316,16 +316,16 @@ def test_round_off_does_not_grow_with_the_number_of_steps(system):
 @every_system
 def test_dense_output_does_not_depend_on_the_other_samples(system):
     many = np.linspace(0.0, 12.0, 481)
-    dense = solve(system, *system.example, many, level("reference"))
-    sparse = solve(system, *system.example, many[::60], level("reference"))
-    alone = solve(system, *system.example, 12.0, level("reference"))
+    dense = solve(*system.example_motion, many, level("reference"))
+    sparse = solve(*system.example_motion, many[::60], level("reference"))
+    alone = solve(*system.example_motion, 12.0, level("reference"))
     assert np.array_equal(dense.states[::60], sparse.states)
     assert np.array_equal(dense.states[-1:], alone.states)
 
 
 @every_system
 def test_equal_and_zero_times_are_allowed(system):
-    orbit = solve(system, *system.example, [0.0, 0.0, 1.0, 1.0], level("draft"))
+    orbit = solve(*system.example_motion, [0.0, 0.0, 1.0, 1.0], level("draft"))
     assert orbit.states[0] == pytest.approx(system.example[0], abs=1e-15)
     assert np.array_equal(orbit.states[2], orbit.states[3])
 
@@ -333,7 +333,7 @@ def test_equal_and_zero_times_are_allowed(system):
 @every_system
 def test_results_are_read_only_and_share_nothing_with_the_caller(system):
     times = np.linspace(0.0, 1.0, 5)
-    orbit = solve(system, *system.example, times, level("draft"))
+    orbit = solve(*system.example_motion, times, level("draft"))
     for array in (orbit.times, orbit.states):
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 0.0
@@ -347,18 +347,18 @@ def test_results_are_read_only_and_share_nothing_with_the_caller(system):
 def test_a_level_that_cannot_keep_its_promise_says_so(system):
     # A promise no double can keep: the result must come with a status, not with silence.
     impossible = Level("standard", 1e-300, 1e-8, 14)
-    orbit = solve(system, *system.example, [1.0], impossible)
+    orbit = solve(*system.example_motion, [1.0], impossible)
     assert orbit.status is Status.PROMISE_NOT_MET
     floor = Level("reference", 1e-300, 1e-17, 24)
-    assert solve(system, *system.example, [1.0], floor).status is Status.FLOOR
+    assert solve(*system.example_motion, [1.0], floor).status is Status.FLOOR
 
 
 @every_system
 def test_a_run_that_misses_its_promise_is_replaced_by_a_tighter_one(system):
     # Steps far too long for the promise: without the second look the error would be about 1e-2.
     careless = Level("standard", 1e-9, 1e-1, 14)
-    orbit = solve(system, *system.example, [20.0], careless)
-    truth = solve(system, *system.example, [20.0], level("reference"))
+    orbit = solve(*system.example_motion, [20.0], careless)
+    truth = solve(*system.example_motion, [20.0], level("reference"))
     assert orbit.status is Status.OK
     assert np.max(np.abs(orbit.states - truth.states)) <= 1e-9
 
@@ -382,18 +382,18 @@ BAD_TIMES = [
 def test_times_that_cannot_be_computed_raise_a_sentence(system, times, error, words):
     assert issubclass(error, ModelError)
     with pytest.raises(error, match=words):
-        solve(system, *system.example, times, level("draft"))
+        solve(*system.example_motion, times, level("draft"))
 
 
 @every_system
 def test_all_runs_of_one_request_share_one_budget_of_steps(system, monkeypatch):
-    freely = solve(system, *system.example, [100.0], level("standard"))
+    freely = solve(*system.example_motion, [100.0], level("standard"))
     # Enough for the first run alone and for the second alone, but not for both.
     monkeypatch.setattr("hess_mechanics.dynamics.orbit.MAX_STEPS", int(0.75 * freely.cost.steps))
     with pytest.raises(WorkLimit, match="choose a shorter one"):
-        solve(system, *system.example, [100.0], level("standard"))
+        solve(*system.example_motion, [100.0], level("standard"))
     monkeypatch.setattr("hess_mechanics.dynamics.orbit.MAX_STEPS", freely.cost.steps + 2)
-    assert np.array_equal(solve(system, *system.example, [100.0], level("standard")).states, freely.states)
+    assert np.array_equal(solve(*system.example_motion, [100.0], level("standard")).states, freely.states)
 
 
 @every_system
@@ -404,11 +404,11 @@ def test_states_and_parameters_that_are_not_finite_raise_a_sentence(system, bad,
     broken = state.copy()
     broken[place] = bad
     with pytest.raises(InvalidParameter, match="finite number"):
-        solve(system, broken, parameters, [1.0], level("draft"))
+        solve(system.at(parameters), broken, [1.0], level("draft"))
     broken = parameters.copy()
     broken[place] = bad
     with pytest.raises(InvalidParameter, match="finite number"):
-        solve(system, state, broken, [1.0], level("draft"))
+        solve(system.at(broken), state, [1.0], level("draft"))
 
 
 @every_system
@@ -417,7 +417,7 @@ def test_motions_too_fast_for_double_precision_raise_a_sentence(system, huge):
     state, parameters = (np.array(values) for values in system.example)
     state[0] = huge
     with pytest.raises(ModelError, match=r"choose (less extreme parameters|a shorter one)"):
-        solve(system, state, parameters, [1.0], level("draft"))
+        solve(system.at(parameters), state, [1.0], level("draft"))
 
 
 @every_system
@@ -425,10 +425,10 @@ def test_states_and_parameters_of_the_wrong_length_raise_a_sentence(system):
     state, parameters = system.example
     for wrong in (state[:-1], [*state, 0.0], [state]):
         with pytest.raises(InvalidParameter, match=re.escape(", ".join(system.variables))):
-            solve(system, wrong, parameters, [1.0], level("draft"))
+            solve(system.at(parameters), wrong, [1.0], level("draft"))
     for wrong in (parameters[:-1], [*parameters, 0.0], []):
         with pytest.raises(InvalidParameter, match=re.escape(", ".join(system.parameters))):
-            solve(system, state, wrong, [1.0], level("draft"))
+            solve(system.at(wrong), state, [1.0], level("draft"))
 
 
 @pytest.mark.parametrize(("place", "value"), [(0, 0.0), (0, -1.0), (1, 0.0), (1, -2.0)])
@@ -437,7 +437,7 @@ def test_the_suslov_kernel_refuses_moments_that_are_not_positive(place, value):
     parameters = np.array(suslov.example[1])
     parameters[place] = value
     with pytest.raises(NotPositiveDefinite, match="choose I"):
-        solve(suslov, suslov.example[0], parameters, [1.0], level("draft"))
+        solve(suslov.at(parameters), suslov.example[0], [1.0], level("draft"))
 
 
 def test_an_unknown_level_names_those_there_are():

@@ -25,7 +25,7 @@ def test_the_motion_to_thirty_digits_lies_in_its_tube(name, sign):
     """By mpmath's own Taylor series of the plain field."""
     system = systems()[name]
     state, parameters = system.example
-    found = tube(system, state, parameters, [sign * t for t in TIMES], digits=20)
+    found = tube(system.at(parameters), state, [sign * t for t in TIMES], digits=20)
     assert found.complete
     assert found.width < 1e-20
     assert [one.low for one in found.states[0]] == [Fraction(x) for x in state]
@@ -46,7 +46,7 @@ def test_a_long_motion_lies_in_its_tube(name):
     """Where radii have grown by more than the digits that are asked for; by decimals, backward in time."""
     system = systems()[name]
     state, parameters = system.example
-    found = tube(system, state, parameters, [-6.0, -12.0], digits=15)
+    found = tube(system.at(parameters), state, [-6.0, -12.0], digits=15)
     assert found.complete
     known = oracle.orbits.orbit_in_decimals(system, state, parameters, [-6.0, -12.0], 45)
     for values, intervals in zip(known, found.states, strict=True):
@@ -59,7 +59,7 @@ def test_where_work_is_scarce_the_longest_tube_is_kept():
     """More bits would make the whole way, which nobody pays for: the tube is as long as with few, or longer."""
     system = systems()["suslov"]
     times = np.linspace(0.0, 60.0, 61)
-    short = [tube(system, *system.example, times, digits=15, most_work=work) for work in (1e5, 3e5)]
+    short = [tube(*system.example_motion, times, digits=15, most_work=work) for work in (1e5, 3e5)]
     reached = [one.times[-1] for one in short]
     assert 5.0 < reached[0] < reached[1] < 60.0
 
@@ -67,7 +67,7 @@ def test_where_work_is_scarce_the_longest_tube_is_kept():
 def test_integrals_keep_their_values_in_the_tube():
     system = systems()["suslov"]
     state, parameters = system.example
-    found = tube(system, state, parameters, [4.0], digits=15)
+    found = tube(system.at(parameters), state, [4.0], digits=15)
     held = system.integrals([Fraction(x) for x in state], [Fraction(x) for x in parameters])
     end = [(one.low + one.high) / 2 for one in found.states[0]]
     for name, value in system.integrals(end, [Fraction(x) for x in parameters]).items():
@@ -78,8 +78,8 @@ def test_an_orbit_is_judged():
     system = systems()["suslov"]
     state, parameters = system.example
     times = np.linspace(0.0, 3.0, 7)
-    found = tube(system, state, parameters, times)
-    fine, rough = (solve(system, state, parameters, times, level(name)) for name in ("reference", "draft"))
+    found = tube(system.at(parameters), state, times)
+    fine, rough = (solve(system.at(parameters), state, times, level(name)) for name in ("reference", "draft"))
     truth = np.array([[float((one.low + one.high) / 2) for one in row] for row in found.states])
     for orbit in (fine, rough):
         low, high = proved_error(orbit, found)
@@ -101,13 +101,13 @@ def test_an_orbit_is_judged():
 
 def test_a_tube_ends_where_the_work_does():
     system = systems()["hess"]
-    found = tube(system, *system.example, [0.1, 0.5, 50.0], most_work=2e5)
+    found = tube(*system.example_motion, [0.1, 0.5, 50.0], most_work=2e5)
     assert not found.complete
     assert found.times.tolist() == [0.1, 0.5]
     assert len(found.states) == 2
     # Before the first of its times: nothing is proved.
-    none = tube(system, *system.example, [50.0], most_work=1e3)
-    orbit = solve(system, *system.example, [50.0], level("draft"))
+    none = tube(*system.example_motion, [50.0], most_work=1e3)
+    orbit = solve(*system.example_motion, [50.0], level("draft"))
     assert error_bounds(orbit, none).shape == (0, 5)
     assert right_until(orbit, none, 1.0) == 0.0
     with pytest.raises(InvalidParameter, match="allow more work"):
@@ -116,15 +116,15 @@ def test_a_tube_ends_where_the_work_does():
 
 def test_work_is_counted_and_more_of_it_goes_farther():
     system = systems()["hess"]
-    motion = system, (0.3, 1.42, -0.6, 0.0, 0.8), (187.0, 1.0), np.linspace(0.05, 2.0, 40)
+    motion = system.at((187.0, 1.0)), (0.3, 1.42, -0.6, 0.0, 0.8), np.linspace(0.05, 2.0, 40)
     short, again, longer = (tube(*motion, most_work=work) for work in (3e4, 3e4, 1e5))
     assert short.spent
     assert longer.spent
     assert short.times.tolist() == again.times.tolist()
     assert 0 < short.times.size < longer.times.size < 40
-    assert not tube(*motion[:3], [0.05]).spent
+    assert not tube(*motion[:2], [0.05]).spent
     # Each of many times in one step costs something too.
-    many = tube(system, *system.example, np.linspace(0.0, 0.1, 2000), most_work=1e4)
+    many = tube(*system.example_motion, np.linspace(0.0, 0.1, 2000), most_work=1e4)
     assert many.spent
     assert 100 < many.times.size < 1000
 
@@ -138,20 +138,20 @@ def divides(field):
 def test_a_divisor_that_vanishes_ahead_ends_a_tube_and_raises_nothing():
     """ẋ = −1, ẏ = x (1/x): the Taylor series of x and y end after two terms, so nothing in them warns of x = 0."""
     system = divides(lambda y, p: (-1 + 0 * y[0], y[0] * (1 / y[0])))
-    found = tube(system, (1.0, 0.0), (), [0.25, 0.5, 2.0], digits=9)
+    found = tube(system.at(()), (1.0, 0.0), [0.25, 0.5, 2.0], digits=9)
     assert found.times.tolist() == [0.25, 0.5]
     assert not found.complete
     for t, (x, y) in zip(found.times, found.states, strict=True):
         assert Fraction(1 - t) in x
         assert Fraction(t) in y
     # Where it vanishes at once there is no first step.
-    assert tube(system, (0.0, 0.0), (), [0.5], digits=15).states == ()
+    assert tube(system.at(()), (0.0, 0.0), [0.5], digits=15).states == ()
 
 
 def test_negative_powers_divide():
     """ẋ = 1, ẏ = x⁻²: y = 1 − 1/(1 + t)."""
     system = divides(lambda y, p: (1 + 0 * y[0], y[0] ** -2 * y[1] ** 0))
-    found = tube(system, (1.0, 0.0), (), [0.5, 1.0], digits=15)
+    found = tube(system.at(()), (1.0, 0.0), [0.5, 1.0], digits=15)
     assert found.complete
     for t, (_, y) in zip((Fraction(1, 2), Fraction(1)), found.states, strict=True):
         assert 1 - 1 / (1 + t) in y
@@ -173,7 +173,7 @@ def test_steps_that_are_refused_cost_as_much_as_others(monkeypatch):
     assert len(tried) == 21
     assert walk.spent
     assert walk.steps == 10
-    assert tube(system, *system.example, [50.0], most_work=1e4).spent
+    assert tube(*system.example_motion, [50.0], most_work=1e4).spent
 
 
 def test_sizes_whose_quotient_is_no_double_are_divided_in_balls():
@@ -190,7 +190,7 @@ def test_sizes_whose_quotient_is_no_double_are_divided_in_balls():
 @pytest.mark.parametrize("digits", [40, 100])
 def test_many_digits_are_found_within_the_first_step_too(digits):
     system = systems()["hess"]
-    found = tube(system, *system.example, [0.01], digits)
+    found = tube(*system.example_motion, [0.01], digits)
     assert found.complete
     assert found.width < 10.0 ** -digits
     with mpmath.workdps(digits + 10):
@@ -205,8 +205,8 @@ def test_what_has_no_tube_is_refused():
     system = systems()["hess"]
     for words, said in ((([0.1, -0.1],), "away from 0"), (([1.0], 0), "choose 1 to 100")):
         with pytest.raises(InvalidParameter, match=said):
-            tube(system, *system.example, *words)
+            tube(*system.example_motion, *words)
     other = systems()["suslov"]
-    orbit = solve(other, *other.example, [0.1], level("draft"))
+    orbit = solve(*other.example_motion, [0.1], level("draft"))
     with pytest.raises(InvalidParameter, match="same system"):
-        proved_error(orbit, tube(system, *system.example, [0.1]))
+        proved_error(orbit, tube(*system.example_motion, [0.1]))

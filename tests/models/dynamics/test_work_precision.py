@@ -75,7 +75,7 @@ def test_the_motion_looked_into_is_the_one_on_show(values, change):
     values = HESS.admit({**values, **change})[0]
     motion = HESS.of(values).motion()
     shown = HESS.compute(values, HESS.pictures, False).track
-    own = solve(motion.system, motion.state, motion.parameters, shown.orbit.times, LEVELS["standard"])
+    own = solve(motion, motion.state, shown.orbit.times, LEVELS["standard"])
     assert np.array_equal(own.states, shown.orbit.states)
     assert shown.orbit.times[-1] == motion.span
     assert shown.orbit.times * motion.unit == pytest.approx(shown.times, rel=1e-14)
@@ -93,13 +93,13 @@ def test_errors_are_those_against_another_method(values):
         some = found.times[::66]
         truth = oracle.orbit_in_decimals(motion.system, motion.state, motion.parameters, some.tolist(), 45)
         for name, one in LEVELS.items():
-            states = solve(motion.system, motion.state, motion.parameters, found.times, one).states[::66]
+            states = solve(motion, motion.state, found.times, one).states[::66]
             errors = np.max(oracle.distances(states, truth) / scale_of(motion), axis=1)
             assert found.errors[name][::66] == pytest.approx(errors, rel=1e-6, abs=1e-25)
         return
     truth = independent(motion, found.times)
     for name in ("draft", "standard", "precise"):
-        states = solve(motion.system, motion.state, motion.parameters, found.times, LEVELS[name]).states
+        states = solve(motion, motion.state, found.times, LEVELS[name]).states
         errors = np.max(np.abs(states - truth) / scale_of(motion), axis=1)
         assert errors.max() / 2.0 < found.errors[name].max() < errors.max() * 2.0
         assert found.errors[name] == pytest.approx(errors, abs=0.5 * errors.max())
@@ -133,7 +133,7 @@ def test_at_the_start_nothing_is_wrong_and_finer_levels_are_less_so(values):
 def test_the_drifts_are_those_that_the_orbit_itself_reports(values, name):
     motion = HESS.of(values).motion()
     found = growth(*asked(motion), motion.weights, SAMPLES)
-    reported = solve(motion.system, motion.state, motion.parameters, found.times, LEVELS[name]).drift
+    reported = solve(motion, motion.state, found.times, LEVELS[name]).drift
     assert {key: float(drift.max()) for key, drift in found.drifts[name].items()} == dict(reported)
 
 
@@ -149,7 +149,7 @@ def test_pixels_are_distances_in_the_pictures_of_the_scene(change):
     width = board.ranges["omega"][1] - board.ranges["omega"][0]
     truth = result.body.from_reduced(result.body.from_units_of_b(independent(motion, found.times)))
     for name in ("draft", "standard"):
-        states = solve(motion.system, motion.state, motion.parameters, found.times, LEVELS[name]).states
+        states = solve(motion, motion.state, found.times, LEVELS[name]).states
         apart = result.body.from_reduced(result.body.from_units_of_b(states)) - truth
         # The sphere has a radius of half the picture.
         pixels = np.maximum(np.linalg.norm(apart[:, :2], axis=1) * PIXELS / width,
@@ -236,7 +236,7 @@ def test_the_methods_of_scipy_are_left_out_where_the_motion_needs_many_steps():
     """A body so slender that the shortest period does not tell how hard its motion is."""
     motion = HESS.of({**HESS.defaults(), "I22": 1.1, "I23": 107.0, "h": 5e5, "f": -2.2}).motion()
     longest = 149.0 / unit_of(motion)
-    steps = {span: solve(motion.system, motion.state, motion.parameters, [0.0, span], LEVELS["reference"]).cost.steps
+    steps = {span: solve(motion, motion.state, [0.0, span], LEVELS["reference"]).cost.steps
              for span in np.linspace(0.1, 1.0, 10) * longest}
     assert min(steps.values()) < 1500 < max(steps.values())
     for span, count in steps.items():
@@ -455,7 +455,7 @@ def test_a_stage_that_fails_has_no_number_left_in_any_chart():
 def test_a_span_that_would_take_seconds_is_cut_with_a_note():
     motion = HESS.of(HESS.defaults()).motion()
     longest = longest_span(motion.system.name, motion.state, motion.parameters)
-    assert longest * Problem.of(motion.system, motion.state, motion.parameters).nu == pytest.approx(5000.0)
+    assert longest * Problem.of(motion, motion.state).nu == pytest.approx(5000.0)
     free = scenes()["free-suslov"]
     long = scenes()["free-suslov-accuracy"].compute({**free.defaults(), "w1": 1e3, "span": 1e5}, {"growth"}, False)
     assert long.precision.followed.span < 1e3

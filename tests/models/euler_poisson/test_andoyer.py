@@ -185,7 +185,7 @@ def test_a_state_is_a_start_where_g_grows_and_nowhere_else(body, h, f):
         states, G, ok = states_at(body, h, f, l, x, sheet)
         for i in np.flatnonzero(np.isfinite(G)):
             step = 1e-6 / float(SYSTEM.frequency(states[i], np.array(body.parameters)))
-            before, after = (angles(solve(SYSTEM, states[i], body.parameters, [t], PRECISE).states)[1][0]
+            before, after = (angles(solve(body, states[i], [t], PRECISE).states)[1][0]
                              for t in (-step, step))
             grows = math.remainder(after - before, 2.0 * math.pi)
             if abs(grows) > 1e-9:
@@ -273,7 +273,7 @@ def test_an_orbit_from_the_second_sheet_returns_as_scipy_says():
     assert not np.any(AndoyerSection(RIS, 0.5, 1.0).is_on(starts))
     assert np.max(np.abs(energy(RIS, starts) - 0.5)) < 1e-10
     times, _ = crossings_by_scipy(RIS, starts[0], 60.0)
-    result = section(SYSTEM, starts[0], RIS.parameters, AndoyerPlane(1.0), 60.0, level("precise"))
+    result = section(RIS, starts[0], AndoyerPlane(1.0), 60.0, level("precise"))
     assert len(times) >= 3
     assert result.times == pytest.approx(times, abs=1e-6)
     place = tuple(coordinates(starts[:1])[0])
@@ -297,7 +297,7 @@ def test_crossings_are_those_that_scipy_finds_from_the_angle(body, h, f):
     for start in seeds(body, h, f, WHOLE, 3):
         end = 6.0 / math.sqrt(2.0 * max(body.a) * (h + body.strength)) * 4.0
         times, states = crossings_by_scipy(body, start, end)
-        result = section(SYSTEM, start, body.parameters, AndoyerPlane(f), end, level("precise"))
+        result = section(body, start, AndoyerPlane(f), end, level("precise"))
         assert len(result.times) == len(times)
         if len(times):
             assert result.times == pytest.approx(times, abs=1e-7 * end)
@@ -311,7 +311,7 @@ def test_a_start_by_hand_is_the_same_and_its_first_return_too():
     state = state_at(GESS1, 50.0, 5.0, 0.7, -0.3)
     assert state == pytest.approx(by_hand, abs=1e-11)
     times, states = crossings_by_scipy(GESS1, by_hand, 3.0)
-    result = section(SYSTEM, state, GESS1.parameters, AndoyerPlane(5.0), 3.0, level("precise"), 1)
+    result = section(GESS1, state, AndoyerPlane(5.0), 3.0, level("precise"), 1)
     assert result.times[0] == pytest.approx(times[0], abs=1e-8)
     assert coordinates(result.states)[0] == pytest.approx(coordinates(states)[0], abs=1e-7)
 
@@ -320,7 +320,7 @@ def test_a_start_by_hand_is_the_same_and_its_first_return_too():
 def test_points_are_on_the_plane_and_on_their_levels_at_precise(body, h, f):
     end = time_for(body, h, f, 15)
     for start in seeds(body, h, f, WHOLE, 6):
-        result = section(SYSTEM, start, body.parameters, AndoyerPlane(f), end, level("precise"), 15)
+        result = section(body, start, AndoyerPlane(f), end, level("precise"), 15)
         assert len(result.times)
         size = max(1.0, abs(h))
         assert np.max(np.abs(energy(body, result.states) - h)) < 1e-9 * size
@@ -353,12 +353,12 @@ def test_no_crossing_is_lost_or_doubled_against_steps_a_tenth_as_long(body, h, f
 def test_between_two_crossings_of_a_long_chaotic_orbit_there_is_no_other_one():
     """From each crossing the orbit is followed anew, densely: only there and at the next one g is π/2 and grows."""
     start = state_at(GESS1, 50.0, 5.0, 0.0, 0.2)
-    result = section(SYSTEM, start, GESS1.parameters, AndoyerPlane(5.0), 200.0, level("standard"), 300)
+    result = section(GESS1, start, AndoyerPlane(5.0), 200.0, level("standard"), 300)
     assert len(result.times) == 300
     gaps = np.diff(result.times)
     times = np.linspace(0.0, float(gaps.max()), 400)
     for state, gap in zip(result.states[:-1], gaps, strict=True):
-        g = angles(solve(SYSTEM, state, GESS1.parameters, times, STANDARD).states)[1]
+        g = angles(solve(GESS1, state, times, STANDARD).states)[1]
         cos, sin = np.cos(g), np.sin(g)
         rising = (cos[:-1] > 0.0) & (cos[1:] <= 0.0) & (sin[:-1] > 0.0) & (times[:-1] > 1e-3 * gap)
         passed = times[1:][rising]
@@ -404,7 +404,7 @@ def test_points_of_a_picture_are_the_crossings_of_the_orbit_one_after_the_other(
     """They are found in parts; the seams show neither a gap nor a point twice."""
     start = seeds(RIS, 0.0, 0.0, WHOLE, 1)
     points = andoyer_points(RIS, 0.0, 0.0, start, 100, PRECISE).states[0]
-    exact = section(SYSTEM, start[0], RIS.parameters, AndoyerPlane(0.0), time_for(RIS, 0.0, 0.0, 100), PRECISE, 100)
+    exact = section(RIS, start[0], AndoyerPlane(0.0), time_for(RIS, 0.0, 0.0, 100), PRECISE, 100)
     assert len(points) == len(exact.times) == 100
     assert np.max(np.abs(points - exact.states)) < 1e-5
     assert min(np.linalg.norm(b - a) for a, b in pairwise(points)) > 1e-4
@@ -412,11 +412,11 @@ def test_points_of_a_picture_are_the_crossings_of_the_orbit_one_after_the_other(
 
 def test_backward_and_forward_again_the_crossings_are_the_same():
     start = np.array(state_at(GESS1, 50.0, 5.0, 0.4, 0.5))
-    back = section(SYSTEM, start, GESS1.parameters, AndoyerPlane(5.0), -3.0, level("precise"))
+    back = section(GESS1, start, AndoyerPlane(5.0), -3.0, level("precise"))
     assert len(back.times) >= 2
     assert np.all(np.diff(back.times) < 0.0)
     # From the last of them the others come in reverse order, and the start itself.
-    forth = section(SYSTEM, back.states[-1], GESS1.parameters, AndoyerPlane(5.0), -float(back.times[-1]) + 1e-3,
+    forth = section(GESS1, back.states[-1], AndoyerPlane(5.0), -float(back.times[-1]) + 1e-3,
                     level("precise"))
     expected = np.vstack([back.states[-2::-1], start])
     assert forth.states == pytest.approx(expected, abs=1e-6)
@@ -434,7 +434,7 @@ def test_backward_and_forward_again_the_crossings_are_the_same():
     (lambda: state_at(GESS1, 50.0, 5.0, math.nan, 0.5), "l is an angle"),
     (lambda: state_at(GESS1, math.inf, 5.0, 0.0, 0.5), "h is not a finite number"),
     (lambda: state_at(GESS1, 50.0, math.nan, 0.0, 0.5), "f is not a finite number"),
-    (lambda: section(systems()["suslov"], *systems()["suslov"].example, AndoyerPlane(1.0), 1.0, STANDARD),
+    (lambda: section(*systems()["suslov"].example_motion, AndoyerPlane(1.0), 1.0, STANDARD),
      "those of the Euler–Poisson equations"),
 ])
 def test_a_request_that_means_nothing_is_refused_in_a_sentence(request_, words):

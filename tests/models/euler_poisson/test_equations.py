@@ -26,7 +26,7 @@ STATES = {
 
 @pytest.mark.parametrize("name", LEVELS)
 def test_orbits_agree_with_the_reference(name):
-    orbit = solve(SYSTEM, START, FIGURE.parameters, list(STATES), level(name))
+    orbit = solve(FIGURE, START, list(STATES), level(name))
     error = np.max(np.abs(orbit.states - np.array(list(STATES.values()))))
     # Promises are in units of the largest momentum, 12 times the unit here.
     assert error <= (1e-8 if name == "reference" else 12.0 * level(name).promise)
@@ -87,7 +87,7 @@ def test_the_energy_bounds_every_angular_velocity():
         gamma = random.normal(size=3)
         state = np.array([*random.normal(size=3), *gamma / np.linalg.norm(gamma)])
         nu = SYSTEM.frequency(state, np.array(body.parameters))
-        orbit = solve(SYSTEM, state, body.parameters, np.linspace(0.0, 20.0, 200), level("standard")).states
+        orbit = solve(body, state, np.linspace(0.0, 20.0, 200), level("standard")).states
         assert np.max(np.abs(orbit[:, :3] * np.array(body.a))) <= nu
         # And the unit is not idle: a few times the fastest at most.
         assert nu < 40.0 * np.max(np.linalg.norm(orbit[:, :3] * np.array(body.a), axis=1))
@@ -111,7 +111,7 @@ def test_a_plane_pendulum_is_that_of_the_elliptic_functions():
     gamma = np.outer(np.cos(theta), first) + np.outer(np.sin(theta), second)
     M = np.column_stack([np.zeros_like(theta), speed / body.a[1], np.zeros_like(theta)])
     expected = np.column_stack([M, gamma])
-    found = solve(SYSTEM, expected[0], body.parameters, times, level("reference"))
+    found = solve(body, expected[0], times, level("reference"))
     assert found.states == pytest.approx(expected, abs=1e-10)
 
 
@@ -120,7 +120,7 @@ def orbits(body, count=4, span=30.0):
     for _ in range(count):
         gamma = random.normal(size=3)
         state = [*random.normal(size=3), *gamma / np.linalg.norm(gamma)]
-        yield solve(SYSTEM, state, body.parameters, np.linspace(0.0, span, 100), level("reference")).states
+        yield solve(body, state, np.linspace(0.0, span, 100), level("reference")).states
 
 
 def test_a_free_body_keeps_the_length_of_its_momentum():
@@ -147,7 +147,7 @@ def test_goryachev_and_chaplygin_keep_theirs_at_f_0():
         for shift, kept in ((0.0, True), (0.7, False)):
             gamma = states[0, 3:]
             M = states[0, :3] - (states[0, :3] @ gamma - shift) * gamma
-            run = solve(SYSTEM, [*M, *gamma], body.parameters, np.linspace(0.0, 20.0, 100), level("reference")).states
+            run = solve(body, [*M, *gamma], np.linspace(0.0, 20.0, 100), level("reference")).states
             integral = run[:, 2] * (run[:, 0] ** 2 + run[:, 1] ** 2) + 0.8 * run[:, 0] * run[:, 5]
             assert np.ptp(integral) < 1e-11 if kept else np.ptp(integral) > 1e-2
 
@@ -156,7 +156,7 @@ def test_hess_orbits_stay_on_their_manifold_for_a_while():
     """The rate at which an error grows across it is log(multiplier) = 3.09 for each period of n3."""
     gamma = np.array([0.3, 0.4, 0.866])
     M = np.array([0.8 * 2.0, -3.0, -0.6 * 2.0])
-    states = solve(SYSTEM, [*M, *gamma / np.linalg.norm(gamma)], GESS1.parameters, np.linspace(0.0, 3.0, 50),
+    states = solve(GESS1, [*M, *gamma / np.linalg.norm(gamma)], np.linspace(0.0, 3.0, 50),
                    level("reference")).states
     assert np.max(np.abs(0.6 * states[:, 0] + 0.8 * states[:, 2])) < 1e-10
 
@@ -175,7 +175,7 @@ def test_hess_orbits_stay_on_their_manifold_for_a_while():
     (lambda: HeavyBody.hess((1.0, -1.0, 2.0), 1.0), NotPositiveDefinite, "choose I2 > 0"),
     (lambda: HeavyBody.hess((1.0, math.inf, 2.0), 1.0), InvalidParameter, "I2 is not a finite number"),
     (lambda: HeavyBody.hess((1.0, 1.5, 2.0), 1.0, math.nan), InvalidParameter, "away is not a finite number"),
-    (lambda: solve(SYSTEM, [1e200, 0.0, 0.0, 0.0, 0.0, 1.0], GESS1.parameters, [1.0], level("draft")), ModelError,
+    (lambda: solve(GESS1, [1e200, 0.0, 0.0, 0.0, 0.0, 1.0], [1.0], level("draft")), ModelError,
      "less extreme"),
 ])
 def test_what_is_no_body_is_refused_in_a_sentence(request_, error, words):

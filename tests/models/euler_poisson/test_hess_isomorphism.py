@@ -228,7 +228,7 @@ def test_bodies_that_have_no_counterpart_are_refused(body, error, words):
 def test_held_on_the_manifold_euler_poisson_follows_suslov_to_round_off_over_t_50(bridge, H, F1):
     start, _ = on_torus(bridge, H, F1)
     run = on_manifold(bridge.heavy, start, 50.0, 4001, FLOOR)
-    other = solve(SUSLOV, bridge.to_suslov(np.array(start)), bridge.hess.suslov.parameters, run.times, FLOOR)
+    other = solve(bridge.hess.suslov, bridge.to_suslov(np.array(start)), run.times, FLOOR)
     there = bridge.hess.in_units_of_b(bridge.hess.to_reduced(other.states))
     assert np.max(bridge.distance(run.states, there)) <= 1e-11
     assert np.max(np.abs(run.off)) < 1e-14

@@ -58,7 +58,7 @@ def global_error(system, order, tolerance, end=10.0):
     state, parameters = (np.array(values) for values in system.example)
     out = np.empty((1, state.size))
     steps = system.orbit(state, parameters, np.array([end]), order, tolerance, 100_000, out)
-    return np.max(np.abs(out - solve(system, state, parameters, [end], level("reference")).states)), steps
+    return np.max(np.abs(out - solve(system.at(parameters), state, [end], level("reference")).states)), steps
 
 
 @pytest.mark.parametrize("order", sorted({rung.order for rung in LEVELS.values()}))
@@ -81,8 +81,8 @@ def test_a_higher_order_takes_fewer_steps_for_the_same_tolerance(system):
 @every_system
 def test_the_levels_form_a_ladder(system):
     times = np.linspace(0.0, 10.0, 11)
-    truth = solve(system, *system.example, times, level("reference")).states
-    orbits = [solve(system, *system.example, times, level(name)) for name in ("draft", "standard", "precise")]
+    truth = solve(*system.example_motion, times, level("reference")).states
+    orbits = [solve(*system.example_motion, times, level(name)) for name in ("draft", "standard", "precise")]
     errors = [np.max(np.abs(orbit.states - truth)) for orbit in orbits]
     estimates = [orbit.error_estimate for orbit in orbits]
     for values in (errors, estimates):

@@ -179,14 +179,14 @@ def system_of(field, variables, example):
 def test_a_system_of_ones_own_needs_its_field_only(system):
     state, p = system.example
     times = [0.5, 3.0]
-    found = solve(system, state, p, times, level("reference")).states
+    found = solve(system.at(p), state, times, level("reference")).states
     with mpmath.workdps(30):
         exact_solution = mpmath.odefun(lambda _, x: list(system.field(x, p)), 0, [mpmath.mpf(x) for x in state])
         expected = np.array([[float(x) for x in exact_solution(t)] for t in times])
     assert found == pytest.approx(expected, abs=1e-13)
     if system.recursion.is_quadratic:
         starts = np.array(state) * np.linspace(0.9, 1.1, 11)[:, None]
-        many = ensemble(system, starts, p, times, level("reference")).states
+        many = ensemble(system.at(p), starts, times, level("reference")).states
         assert many[5] == pytest.approx(expected, abs=1e-13)
 
 

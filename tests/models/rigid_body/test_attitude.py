@@ -38,7 +38,7 @@ P = (0.75, 1.0)
 
 
 def followed(start, p, span, name, most=400):
-    return attitude(WITH_ATTITUDE, [*start, *across(start[2:])], p, span, level(name), WEIGHTS, 0.25, most)
+    return attitude(WITH_ATTITUDE.at(p), [*start, *across(start[2:])], span, level(name), WEIGHTS, 0.25, most)
 
 
 def turned(velocity, field, start, times):
@@ -84,7 +84,7 @@ def test_how_far_it_was_from_orthonormal_is_said():
 def test_a_steady_rotation_turns_by_its_angle():
     # a = b = 0: ω = (w1, w2, 0) stays.
     w = np.array([0.6, -0.8, 0.0]) * 1.7
-    found = attitude(WITH_ATTITUDE, [w[0], w[1], 0.0, 0.0, 1.0, 1.0, 0.0, 0.0], (0.0, 0.0), 20.0, level("reference"),
+    found = attitude(WITH_ATTITUDE.at((0.0, 0.0)), [w[0], w[1], 0.0, 0.0, 1.0, 1.0, 0.0, 0.0], 20.0, level("reference"),
                      WEIGHTS, 0.25, 200)
     turn = Rotation.from_rotvec(found.times[:, None] * w).as_matrix()
     assert np.max(np.abs(found.axes - found.axes[0] @ turn)) < 1e-14
@@ -131,7 +131,7 @@ def test_what_does_not_turn_e_is_not_computed_for_it(system, parameters, omega):
 def test_the_ball_can_be_followed():
     ball, p = with_attitude(chaplygin_ball.SYSTEM), chaplygin_ball.SYSTEM.example[1]
     start = np.array(ball.example[0])
-    found = attitude(ball, start, p, 12.0, level("precise"), WEIGHTS, 0.25, 400)
+    found = attitude(ball.at(p), start, 12.0, level("precise"), WEIGHTS, 0.25, 400)
     y, turn = turned(lambda x: np.array([x[0], x[1], 0.0]), lambda x: chaplygin_ball.field(x, p), start[:5],
                      found.times)
     assert np.max(np.abs(found.orbit.states[:, :5] - y)) < 1e-9
@@ -156,7 +156,7 @@ def test_attitudes_of_many_are_those_of_each():
                          text=True, timeout=120, check=False)
     assert run.returncode == 0, run.stderr
     for start, states in zip(starts, json.loads(run.stdout), strict=True):
-        exact = solve(WITH_ATTITUDE, start, P, [1.0, 5.0], level("precise")).states
+        exact = solve(WITH_ATTITUDE.at(P), start, [1.0, 5.0], level("precise")).states
         assert np.array(states) == pytest.approx(exact, abs=1e-9)
 
 
@@ -219,7 +219,7 @@ def test_a_motion_with_another_area_integral_draws_no_loxodrome():
     start = one.start
     start[4], start[2] = 0.8, 0.6  # γ elsewhere: f ≠ 0, and e no longer along M
     start[5:] = across(start[2:5])
-    found = attitude(WITH_ATTITUDE, start, (one.a, 1.0), 8.0, level("reference"), WEIGHTS, 0.25, 400)
+    found = attitude(WITH_ATTITUDE.at((one.a, 1.0)), start, 8.0, level("reference"), WEIGHTS, 0.25, 400)
     axes = found.axes @ one.principal
     axes[:, 2] = np.cross(axes[:, 0], axes[:, 1])
     middle = axes @ (0.0, 1.0, 0.0)

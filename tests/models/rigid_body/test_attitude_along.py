@@ -26,7 +26,7 @@ MOTIONS = {
 def along(system, parameters, start, omega, span):
     """The attitude from the samples that the pictures have."""
     weights = (100.0,) * (len(start) - 3) + (300.0,) * 3
-    orbit = sampled_orbit(system, start, parameters, span, weights, level("standard"))
+    orbit = sampled_orbit(system.at(parameters), start, span, weights, level("standard"))
     return attitude_along(orbit.times, np.array([omega(y) for y in orbit.states]), orbit.states[:, -3:])
 
 
@@ -74,7 +74,7 @@ def test_a_body_at_rest_stays_as_it_lies():
 
 def test_samples_too_far_apart_are_told_by_their_defect():
     system, parameters, start, omega = MOTIONS["heavy"]
-    fine = sampled_orbit(system, start, parameters, 40.0, (100.0,) * 3 + (300.0,) * 3, level("standard"))
+    fine = sampled_orbit(system.at(parameters), start, 40.0, (100.0,) * 3 + (300.0,) * 3, level("standard"))
     coarse = slice(None, None, 40)
     found = attitude_along(fine.times[coarse], np.array([omega(y) for y in fine.states])[coarse],
                            fine.states[coarse, -3:])

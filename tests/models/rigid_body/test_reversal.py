@@ -47,4 +47,4 @@ def test_there_are_none_of_a_body_that_may_turn_about_all_axes():
     system = systems()["euler-poisson"]
     state, p = system.example
     with pytest.raises(InvalidParameter, match="ω1, ω2, γ1, γ2, γ3"):
-        section(system, state, p, Reversal(), 1.0, level("draft"))
+        section(system.at(p), state, Reversal(), 1.0, level("draft"))

@@ -119,7 +119,7 @@ def test_F2_stays_along_motions(case, k):
     integral = of_body(body)
     assert (integral.k, integral.permuted) == (k, case is case_2)
     # The general solver, which knows nothing of the passage.
-    orbit = solve(SUSLOV, [0.5, 0.4, *UP], body.parameters, np.linspace(0, 20, 60), level("reference"))
+    orbit = solve(body, [0.5, 0.4, *UP], np.linspace(0, 20, 60), level("reference"))
     values = integral(orbit.states[:, :2], orbit.states[:, 2:])
     size = abs(integral.at_fixed_points(body.I11 * 0.125 + body.I22 * 0.08)[0])
     assert np.max(np.abs(values - values[0])) < 1e-11 * size
@@ -131,7 +131,7 @@ def test_F2_stays_along_motions(case, k):
 def test_F2_is_not_conserved_by_other_bodies():
     body = SuslovBody(I11_of(3, 1.0, 0.4) * 1.01, 1.0, 0.0, 0.4)
     assert of_body(body) is None
-    orbit = solve(SUSLOV, [0.5, 0.4, *UP], body.parameters, [40.0], level("precise"))
+    orbit = solve(body, [0.5, 0.4, *UP], [40.0], level("precise"))
     integral = additional_integral(3, body)
     change = integral(orbit.states[0, :2], orbit.states[0, 2:]) - integral(np.array([0.5, 0.4]), np.array(UP))
     assert abs(change) > 1e-3

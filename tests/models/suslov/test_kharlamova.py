@@ -45,7 +45,7 @@ def random_orbits(count, seed=1):
 
 
 def orbit(body, state, times):
-    return solve(SUSLOV, state, body.parameters, times, FLOOR)
+    return solve(body, state, times, FLOOR)
 
 
 def back(body, state, period):
@@ -93,7 +93,7 @@ def test_the_period_is_that_between_crossings_of_the_equator_and_that_of_a_quadr
     for body, y in random_orbits(12, seed=5):
         found = arc(body, y)
         equator = Plane((0.0, 0.0, 0.0, 0.0, 1.0), sense=1)
-        times = section(SUSLOV, y, body.parameters, equator, 3.5 * found.period, FLOOR, 3).times
+        times = section(body, y, equator, 3.5 * found.period, FLOOR, 3).times
         assert np.diff(times) == pytest.approx(found.period, rel=1e-11)
         assert 2.0 * quad(rate_of, 1e-6, math.pi - 1e-6, (found,), epsabs=1e-9, limit=200)[0] == pytest.approx(
             found.period, rel=1e-4)
@@ -154,8 +154,8 @@ def test_the_mirror_image_of_an_orbit_is_an_orbit_for_b3_0_only():
     times = np.linspace(0.0, 12.0, 50)
     for b3, holds in ((0.0, True), (0.3, False)):
         y, p = np.array([0.3, -0.2, 0.48, 0.6, 0.64]), (1.5, 1.0, 0.0, 0.0, 0.4, 0.7, b3)
-        past = mirrored(solve(SUSLOV, y, p, -times, FLOOR).states)
-        other = solve(SUSLOV, mirrored(y[None])[0], p, times, FLOOR).states
+        past = mirrored(solve(SUSLOV.at(p), y, -times, FLOOR).states)
+        other = solve(SUSLOV.at(p), mirrored(y[None])[0], times, FLOOR).states
         assert bool(np.abs(past - other).max() < 1e-12) is holds
     # As printed, without the sign, it is not: already at the start.
     assert mirrored(y[None])[0][4] == -y[4]

@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 
 from hess_mechanics import level, section, solve, systems
 from hess_mechanics.chaplygin_ball.section import EQUATOR
-from hess_mechanics.dynamics.lyapunov import largest_exponent
+from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, OutsideRegion
 from hess_mechanics.suslov.kharlamova import mirrored
 from hess_mechanics.suslov.plane_potential import (
@@ -72,7 +72,7 @@ def test_in_the_time_tau_it_is_the_natural_system_in_the_plane(name, E, end):
     w1, w2, g1, g2, _ = start
     run = solve_ivp(rate, (0.0, end), [r1 * g2, -r2 * g1, r1 * w1, r2 * w2, 0.0], method="DOP853", rtol=1e-12,
                     atol=1e-13, t_eval=np.linspace(0.1, end, 7))
-    states = solve(SYSTEM, start, body.parameters, run.y[4], level("reference")).states
+    states = solve(body, start, run.y[4], level("reference")).states
     plane = np.column_stack([r1 * states[:, 3], -r2 * states[:, 2], r1 * states[:, 0], r2 * states[:, 1]])
     assert plane == pytest.approx(run.y[:4].T, abs=1e-7)
     assert np.all(states[:, 4] > 0.0)
@@ -88,7 +88,7 @@ def by_hand_gradient(body, g1, g2):
 def test_the_quadratic_potential_has_another_integral_on_both_sides_of_the_equator(I11, I22, c1, c2):
     body = PotentialBody(I11, I22, c1, c2)
     assert body.separates
-    states = solve(SYSTEM, (0.8, -0.5, 0.6, 0.0, 0.8), body.parameters, np.linspace(0.0, 60.0, 300),
+    states = solve(body, (0.8, -0.5, 0.6, 0.0, 0.8), np.linspace(0.0, 60.0, 300),
                    level("precise")).states
     assert np.ptp(separable_integral(body, states)) <= 1e-8
     assert np.ptp(states[:, 0]) > 0.05
@@ -106,7 +106,7 @@ def test_the_quadratic_potential_has_another_integral_on_both_sides_of_the_equat
 def test_the_others_have_not(name):
     body = body_of(name)
     assert not body.separates
-    states = solve(SYSTEM, (0.1, -0.2, 0.2, 0.3, math.sqrt(0.87)), body.parameters, np.linspace(0.0, 60.0, 300),
+    states = solve(body, (0.1, -0.2, 0.2, 0.3, math.sqrt(0.87)), np.linspace(0.0, 60.0, 300),
                    level("precise")).states
     assert np.ptp(separable_integral(body, states)) > 1e-3
 
@@ -120,7 +120,7 @@ def test_below_the_least_potential_on_the_equator_motions_stay_on_one_side(name)
     times = np.linspace(0.0, 300.0, 3000)
     for share in (0.5, 0.99):
         start = state_at(body, share * edge, 0.1, 0.02)
-        states = solve(SYSTEM, start, body.parameters, times, level("standard")).states
+        states = solve(body, start, times, level("standard")).states
         assert states[:, 4].min() > 0.0
 
 
@@ -129,7 +129,7 @@ def test_below_the_least_potential_on_the_equator_motions_stay_on_one_side(name)
 def test_the_integrable_one_is_regular_and_the_others_have_chaos(name, E, chaotic):
     body = body_of(name)
     assert equator_energy(body) > E
-    exponents = [largest_exponent(SYSTEM, state_at(body, E, g2, 0.1), body.parameters, 1500.0).value
+    exponents = [lyapunov_exponent(body, state_at(body, E, g2, 0.1), 1500.0).value
                  for g2 in (-0.2, 0.1, 0.25)]
     # Of a regular motion it falls as ln(t)/t, 0.005 by now.
     assert (max(exponents) > 0.05) is chaotic
@@ -140,13 +140,13 @@ def test_the_integrable_one_is_regular_and_the_others_have_chaos(name, E, chaoti
 @pytest.mark.parametrize("start", [(0.9, -0.7, 0.48, 0.6, 0.64), (1.5, 0.4, 0.0, 0.6, -0.8)])
 def test_an_orbit_that_crosses_the_equator_twice_closes_whatever_the_potential(name, start):
     body = body_of(name, 1.3, 0.8)
-    both = section(SYSTEM, start, body.parameters, EQUATOR, 400.0, level("reference"), crossings=2)
+    both = section(body, start, EQUATOR, 400.0, level("reference"), crossings=2)
     assert both.states[1] == pytest.approx(both.states[0], abs=1e-9)
     period = float(both.times[1] - both.times[0])
-    back = solve(SYSTEM, start, body.parameters, [period], level("reference")).states[0]
+    back = solve(body, start, [period], level("reference")).states[0]
     assert back == pytest.approx(np.array(start), abs=1e-9)
     # Before and after the crossing it is its mirror image.
-    before, after = (solve(SYSTEM, both.states[0], body.parameters, [sign * 0.4], level("reference")).states[0]
+    before, after = (solve(body, both.states[0], [sign * 0.4], level("reference")).states[0]
                      for sign in (-1.0, 1.0))
     assert before == pytest.approx(mirrored(after), abs=1e-10)
 
@@ -155,7 +155,7 @@ def test_an_orbit_that_crosses_the_equator_twice_closes_whatever_the_potential(n
 def test_a_motion_for_a_picture_knows_its_period_and_its_integral(name):
     body = body_of(name, 1.3, 0.8)
     found = motion_from(body, (0.9, -0.7, 0.48, 0.6, 0.64), 40.0, level("precise"))
-    both = section(SYSTEM, (0.9, -0.7, 0.48, 0.6, 0.64), body.parameters, EQUATOR, 400.0, level("reference"), 2)
+    both = section(body, (0.9, -0.7, 0.48, 0.6, 0.64), EQUATOR, 400.0, level("reference"), 2)
     assert found.period == pytest.approx(float(both.times[1] - both.times[0]), abs=1e-8)
     assert found.missed < 1e-8
     assert found.crossings >= 2

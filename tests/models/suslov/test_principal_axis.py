@@ -80,7 +80,7 @@ def test_the_flow_keeps_volume_on_a_principal_axis_only(I23, kept):
     d = 1e-5
 
     def end(start):
-        return solve(SUSLOV, start, p, [3.0], FLOOR).states[0]
+        return solve(SUSLOV.at(p), start, [3.0], FLOOR).states[0]
 
     columns = [(end(y + d * e) - end(y - d * e)) / (2.0 * d) for e in np.eye(5)]
     assert bool(abs(np.linalg.det(np.array(columns)) - 1.0) < 1e-7) is kept
@@ -142,7 +142,7 @@ def test_the_return_map_keeps_its_density(k):
 
     def image(psi, delta):
         start = state_at(GENERAL, E, k, psi, delta)
-        return coordinates(section(SUSLOV, start, p, plane, 100.0, FLOOR, 1).states, k)[0]
+        return coordinates(section(SUSLOV.at(p), start, plane, 100.0, FLOOR, 1).states, k)[0]
 
     def slope(psi, delta, x, y):
         return (image(psi + x, delta + y) - image(psi - x, delta - y)) / (2.0 * (x + y))

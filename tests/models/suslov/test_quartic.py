@@ -107,7 +107,7 @@ def test_an_orbit_of_the_body_is_one_of_the_point(body):
             v = v - 0.5 * step * gradient(x)
         found.append(x)
     extrapolated = found[1] + (found[1] - found[0]) / 3.0
-    states = solve(SUSLOV, y, body.parameters, [span], FLOOR).states
+    states = solve(body, y, [span], FLOOR).states
     assert body.to_plane(states)[0][0] == pytest.approx(extrapolated, abs=1e-9)
 
 
@@ -125,7 +125,7 @@ def test_the_angular_momentum_is_an_integral_for_equal_moments_only():
     for I11, holds in ((1.3, True), (1.301, False)):
         body = QuarticBody(I11, 1.3, -1.2, 0.7)
         y = np.array(state_at(body, (0.5, 0.4), 0.7))
-        states = solve(SUSLOV, y, body.parameters, np.linspace(0.0, 30.0, 200), FLOOR).states
+        states = solve(body, y, np.linspace(0.0, 30.0, 200), FLOOR).states
         G = angular_momentum(body, states)
         assert bool(np.ptp(G) < 1e-12) is holds
         # I(ω1 γ1 + ω2 γ2)/b3.
@@ -183,7 +183,7 @@ def lyapunov(body, y, span=150.0, pieces=150):
     y, d, total = np.array(y), 1e-7, 0.0
     other = y + d * np.array([0.5, -0.3, 0.2, 0.6, 0.1])
     for _ in range(pieces):
-        y, other = (solve(SUSLOV, start, body.parameters, [span / pieces], level("precise")).states[0]
+        y, other = (solve(body, start, [span / pieces], level("precise")).states[0]
                     for start in (y, other))
         distance = float(np.linalg.norm(other - y))
         total += math.log(distance / d)
@@ -244,7 +244,7 @@ def test_a_start_that_the_energy_forbids_moves_along_its_ray_to_the_edge(body):
 @every_body
 def test_motions_keep_to_the_level_one_half_and_others_do_not(body):
     state = starts(body, 1)[0]
-    states = solve(SUSLOV, state, body.parameters, np.linspace(0.0, 10.0, 50), STANDARD).states
+    states = solve(body, state, np.linspace(0.0, 10.0, 50), STANDARD).states
     assert level_error(body, states) < 1e-5
     # Another p at the same q: ½(p² + γ3²) grows by 0.1 |p1| + 0.005 for one of its signs.
     assert max(level_error(body, states + np.array([0.0, 0.0, change, 0.0, 0.0])) for change in (-0.1, 0.1)) >= 0.005

@@ -10,7 +10,7 @@ import pytest
 
 from hess_explorer.commands import CommandError
 from hess_explorer.commands import scattering as command
-from hess_mechanics import SuslovBody, level, solve, systems
+from hess_mechanics import SuslovBody, level, solve
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import LEVELS, Status
 from hess_mechanics.suslov.additional_integral import I11_of
@@ -152,7 +152,7 @@ def test_the_start_leads_to_the_predicted_circle(body, distance, arc):
         eta = np.array([body.I13, body.I23]) / math.hypot(body.I13, body.I23)
         assert arc * np.dot(omega, eta) == pytest.approx(distance * points.speed, rel=1e-10)
         span = 2.0 * abs(passage(body, omega).u0) + 35.0
-        end = solve(systems()["suslov"], [*omega, *gamma], body.parameters, [span / points.rate], level("reference"))
+        end = solve(body, [*omega, *gamma], [span / points.rate], level("reference"))
         Gamma = float(end.states[0, 2:] @ points.xi)
         # Where I13 I23 ≠ 0 the double next to ω(0) has another passage, by 1e-16/1e-5.
         assert found.Gamma_plus(theta, phi) == pytest.approx(Gamma, abs=1e-10)

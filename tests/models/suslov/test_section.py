@@ -12,7 +12,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from hess_mechanics import SuslovBody, solve
-from hess_mechanics.dynamics.lyapunov import largest_exponent
+from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.dynamics.section import Plane, section_points
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import DRAFT, PRECISE, REFERENCE, STANDARD
@@ -219,8 +219,8 @@ def test_backward_points_are_the_mirror_image_of_forward_ones_through_the_other_
     starts = np.array(seeds(body, E, 3, WHOLE, 3))
     nu = float(np.max(SYSTEM.frequency(starts.T, np.array(body.parameters))))
     down, end = Plane(plane_of(3).normal, 0.0, -1), 600.0 / nu
-    back = section_points(SYSTEM, MIRROR * starts, body.parameters, plane_of(3), -end, STANDARD, 9)
-    there = section_points(SYSTEM, starts, body.parameters, down, end, STANDARD, 9)
+    back = section_points(body, MIRROR * starts, plane_of(3), -end, STANDARD, 9)
+    there = section_points(body, starts, down, end, STANDARD, 9)
     for left, right in zip(back.states, there.states, strict=True):
         assert len(left) == len(right) == 9
         assert left == pytest.approx(MIRROR * right, abs=1e-13)
@@ -278,11 +278,11 @@ def test_volume_grows_by_the_integral_of_the_divergence(span):
     small = 1e-6
 
     def end(state):
-        return solve(SYSTEM, state, BODY.parameters, [span], REFERENCE).states[0]
+        return solve(BODY, state, [span], REFERENCE).states[0]
 
     matrix = np.column_stack([(end(start + small * e) - end(start - small * e)) / (2.0 * small) for e in np.eye(5)])
     times = np.linspace(0.0, span, 2001)
-    rates = divergence(BODY, solve(SYSTEM, start, BODY.parameters, times, REFERENCE).states)
+    rates = divergence(BODY, solve(BODY, start, times, REFERENCE).states)
     weights = np.where(np.arange(2001) % 2, 4.0, 2.0)
     weights[[0, -1]] = 1.0
     integral = weights @ rates * span / 2000 / 3.0
@@ -293,7 +293,7 @@ def test_volume_grows_by_the_integral_of_the_divergence(span):
 def mean_divergence(problem, span, start=(1.0, 1.0)):
     body, E = problem
     times = np.linspace(0.0, span, 8001)
-    rates = divergence(body, solve(SYSTEM, state_at(body, E, 3, *start), body.parameters, times, STANDARD).states)
+    rates = divergence(body, solve(body, state_at(body, E, 3, *start), times, STANDARD).states)
     return float(np.mean(0.5 * (rates[1:] + rates[:-1])))
 
 
@@ -315,7 +315,7 @@ def test_the_mean_divergence_of_a_sea_goes_to_zero():
 def exponents(problem, span, count=6):
     """The mean of the largest exponent over an ensemble of orbits, and its standard error."""
     body, E = problem
-    found = [largest_exponent(SYSTEM, state_at(body, E, 3, 1.0 + 1e-3 * k, 1.0), body.parameters, span).value
+    found = [lyapunov_exponent(body, state_at(body, E, 3, 1.0 + 1e-3 * k, 1.0), span).value
              for k in range(count)]
     return np.mean(found), np.std(found, ddof=1) / math.sqrt(count)
 
@@ -341,7 +341,7 @@ def test_the_chaotic_seas_of_the_scenes_keep_no_volume(problem, forward, backwar
         for k in range(count):
             state = state_at(body, E, 3, place[0] + 1e-3 * k, place[1])
             for _ in range(10):
-                states = solve(SYSTEM, state, body.parameters, sense * np.linspace(0.0, 2000.0, 40_001), DRAFT).states
+                states = solve(body, state, sense * np.linspace(0.0, 2000.0, 40_001), DRAFT).states
                 pieces.append(float(np.mean(states[1:] @ slopes)))
                 state = tuple(states[-1])
         mean, error = np.mean(pieces), np.std(pieces, ddof=1) / math.sqrt(len(pieces))

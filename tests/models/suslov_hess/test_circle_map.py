@@ -78,7 +78,7 @@ def test_theta_is_where_the_orbit_of_eq01_comes_back(a, h, f):
     found, turning = circle_map(a, h, f, REFERENCE), turning_points(h, f)
     for phi in PHASES:
         start = turning.state_at_lower_turn(phi)
-        end = solve(HESS, start, (a, 1.0), [turning.period], REFERENCE).states[0]
+        end = solve(HESS.at((a, 1.0)), start, [turning.period], REFERENCE).states[0]
         assert angle_between(math.atan2(end[0], end[1]), found.theta(phi)) < 1e-10
         assert end[4] == pytest.approx(start[4], abs=1e-12)
 
@@ -100,7 +100,7 @@ def test_theta_is_where_the_orbit_comes_back_on_every_torus(torus, phi):
     # At f = 0 inside |h| < 1 the orbit passes w = 0, where φ jumps: an orbit computed from there is not the limit.
     assume(abs(share) > 1e-4 or h > 1)
     found, turning = circle_map(a, h, f, REFERENCE), turning_points(h, f)
-    end = solve(HESS, turning.state_at_lower_turn(phi), (a, 1.0), [turning.period], REFERENCE).states[0]
+    end = solve(HESS.at((a, 1.0)), turning.state_at_lower_turn(phi), [turning.period], REFERENCE).states[0]
     # Where |w| is small an error of the orbit turns w by so much more.
     lever = 1.0 / min(1.0, turning.initial_rho) ** 2
     # Next to the edge the lower turn itself is known to √ε only.
@@ -378,7 +378,7 @@ def test_the_rotation_number_is_the_mean_turn_of_one_long_orbit():
     a, h, f = 0.5, 0.5, 0.5
     turning, returns = turning_points(h, f), 2000
     times = np.linspace(0.0, returns * turning.period, 100 * returns)
-    states = solve(HESS, turning.state_at_lower_turn(0.0), (a, 1.0), times, STANDARD).states
+    states = solve(HESS.at((a, 1.0)), turning.state_at_lower_turn(0.0), times, STANDARD).states
     angle = np.unwrap(np.arctan2(states[:, 0], states[:, 1]))
     mean = (angle[-1] - angle[0]) / (2 * math.pi * returns)
     assert circle_map(a, h, f, REFERENCE).rotation_number == pytest.approx(mean, abs=1.0 / returns)

@@ -129,10 +129,10 @@ def test_in_units_of_b_the_field_and_the_integrals_have_b_one(body, y):
 def test_orbits_of_the_body_and_of_the_reduced_system_are_the_same_motion(body):
     assert {math.copysign(1.0, each.b) for each in BODIES} == {1.0, -1.0}
     times = np.linspace(0.0, 10.0, 41)
-    full = solve(SUSLOV, START, body.suslov.parameters, times, level("reference")).states
-    own_units = solve(HESS, body.to_reduced(START), (body.a, body.b), times, level("reference")).states
+    full = solve(body.suslov, START, times, level("reference")).states
+    own_units = solve(HESS.at((body.a, body.b)), body.to_reduced(START), times, level("reference")).states
     start = body.in_units_of_b(body.to_reduced(START))
-    unit = solve(HESS, start, (body.a, 1.0), times * body.frequency_unit, level("reference")).states
+    unit = solve(HESS.at((body.a, 1.0)), start, times * body.frequency_unit, level("reference")).states
     assert np.max(np.abs(body.to_reduced(full) - own_units)) < 1e-11
     assert np.max(np.abs(body.from_reduced(body.from_units_of_b(unit)) - full)) < 1e-11
 

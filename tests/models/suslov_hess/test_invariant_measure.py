@@ -142,11 +142,11 @@ def test_in_its_angles_the_flow_is_linear(a, h, f):
     times = np.linspace(0.0, 1.7 * turning.period, 60)
     found = on_torus(measure, times, REFERENCE)
     for phi0 in (-2.5, 0.4, 1.9):
-        states = solve(HESS, turning.state_at_lower_turn(phi0), (a, 1.0), times, REFERENCE).states
+        states = solve(HESS.at((a, 1.0)), turning.state_at_lower_turn(phi0), times, REFERENCE).states
         phi = np.arctan2(states[:, 0], states[:, 1])
         assert apart(found.angle(phi), float(measure.angle([phi0])[0])) <= 1e-9
         # All return after the same time.
-        back = solve(HESS, turning.state_at_lower_turn(phi0), (a, 1.0), [turning.period], REFERENCE).states[0]
+        back = solve(HESS.at((a, 1.0)), turning.state_at_lower_turn(phi0), [turning.period], REFERENCE).states[0]
         assert back[4] == pytest.approx(turning.roots[1], abs=1e-11)
 
 
@@ -156,7 +156,7 @@ def test_a_long_motion_is_spread_over_the_torus_as_the_density_says(a, h, f):
     turning = turning_points(h, f)
     count, returns = 40_000, 900
     times = np.linspace(0.0, returns * turning.period, count)
-    states = solve(HESS, turning.state_at_lower_turn(0.3), (a, 1.0), times, level("precise")).states
+    states = solve(HESS.at((a, 1.0)), turning.state_at_lower_turn(0.3), times, level("precise")).states
     s, phi = np.remainder(times / turning.period, 1.0), np.arctan2(states[:, 0], states[:, 1])
     parts, bins = 6, 8
     shares = np.histogram2d(s, phi, [parts, bins], [(0.0, 1.0), (-math.pi, math.pi)])[0] / count
@@ -184,7 +184,7 @@ def test_the_unrolled_density_is_normalised_and_carried_along_by_the_flow(a, h, 
         sigma = -math.pi + (column + 0.5) / 64 * 2.0 * math.pi
         s = sigma % (2.0 * math.pi) / (2.0 * math.pi) * turning.period
         for phi in (-2.0, 0.4, 1.7):
-            ends = [solve(HESS, turning.state_at_lower_turn(phi + sign * step), (a, 1.0), [s], REFERENCE).states[0]
+            ends = [solve(HESS.at((a, 1.0)), turning.state_at_lower_turn(phi + sign * step), [s], REFERENCE).states[0]
                     for sign in (-1, 1)]
             low, high = (math.atan2(state[0], state[1]) for state in ends)
             slope = math.remainder(high - low, 2.0 * math.pi) / (2.0 * step)

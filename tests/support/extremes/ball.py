@@ -78,7 +78,7 @@ def in_the_strip(Row, name, body, h, span, **options):
         states = Strip(body, h).spread(6)
         worst = 0.0
         for state in states:
-            y = solve(SYSTEM, state, body.parameters, np.linspace(0.0, span, 60), level(name)).states
+            y = solve(body, state, np.linspace(0.0, span, 60), level(name)).states
             squares, moments = y[:, :2] ** 2, np.array([body.I11, body.I22])
             outer, inner = np.max(squares @ moments) / (2 * h), np.min(squares @ (moments + body.D)) / (2 * h)
             energy = SYSTEM.integrals(y.T, body.parameters)["E"] / h
@@ -160,7 +160,7 @@ def refusals(Refusal):
     slow, heavy = BallBody(2.0, 1.0, 1e-9, 0.0, 2.0), BallBody(2.0, 1.0, 0.3, 0.5, 2.0, 0.3, -0.5, 1.0)
 
     def orbit(name, parameters, error, words, times=(1.0,)):
-        return Refusal(f"ball, {name}", lambda grade: solve(SYSTEM, START, parameters, times, grade), error, words)
+        return Refusal(f"ball, {name}", lambda grade: solve(SYSTEM.at(parameters), START, times, grade), error, words)
 
     def theta_plus(name, body, distance, error, words):
         return Refusal(f"ball, θ⁺ {name}", lambda grade: ball_scattering(body, 1.0, PHASES, 1.0, distance, grade),

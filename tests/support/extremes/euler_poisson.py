@@ -8,7 +8,7 @@ import numpy as np
 
 import oracle
 from hess_mechanics import level, section, solve
-from hess_mechanics.dynamics.lyapunov import largest_exponent
+from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, WorkLimit
 from hess_mechanics.euler_poisson.andoyer import AndoyerPlane, hess_curve, state_at
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
@@ -34,7 +34,7 @@ def an_orbit(Row, name, body, state, times, truth=None, against=None, digits=40,
         return truth() if truth else oracle.orbit_in_decimals(SYSTEM, state, body.parameters, times, digits)
 
     def error(grade):
-        found = solve(SYSTEM, state, body.parameters, times, level(grade)).states
+        found = solve(body, state, times, level(grade)).states
         apart = oracle.distances(found, once())
         return float(max(np.max(apart[:, :3]) / unit_of(body, state), np.max(apart[:, 3:])))
 
@@ -50,7 +50,7 @@ def crossings(Row, name, body, h, f, place, count, **options):
     truth = oracle.Along(SYSTEM, state, body.parameters, 40)
 
     def error(grade):
-        found = section(SYSTEM, state, body.parameters, AndoyerPlane(f), 1e4, level(grade), count)
+        found = section(body, state, AndoyerPlane(f), 1e4, level(grade), count)
         exact = truth.at(found.times.tolist())
         apart = oracle.distances(found.states, exact)
         M, gamma = exact[:, :3].astype(float), exact[:, 3:].astype(float)
@@ -150,8 +150,8 @@ def refusals(Refusal):
                 InvalidParameter, "choose ratios below 1e"),
         plainly("I2 not between the others", lambda: HeavyBody.hess((1.0, 1.5, 0.4), 1.0), InvalidParameter,
                 "I2 = 1.5 must lie between I1 = 1 and I3 = 0.4"),
-        plainly("exponent up to t = 1e9", lambda: largest_exponent(SYSTEM, START, GESS1.parameters, 1e9), WorkLimit,
+        plainly("exponent up to t = 1e9", lambda: lyapunov_exponent(GESS1, START, 1e9), WorkLimit,
                 "choose a shorter time span"),
-        Refusal("euler-poisson, t = 1e9", lambda grade: solve(SYSTEM, START, GESS1.parameters, [1e9], grade),
+        Refusal("euler-poisson, t = 1e9", lambda grade: solve(GESS1, START, [1e9], grade),
                 WorkLimit, "choose a shorter one"),
     ]

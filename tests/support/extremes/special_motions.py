@@ -34,7 +34,7 @@ def bridge_row(Row, name, bridge, h, share=0.3, periods=20, samples=801):
 
     @cache
     def truth():
-        other = solve(SUSLOV, bridge.to_suslov(np.array(start)), bridge.hess.suslov.parameters,
+        other = solve(bridge.hess.suslov, bridge.to_suslov(np.array(start)),
                       np.linspace(0.0, end, samples), level("reference"))
         return bridge.hess.in_units_of_b(bridge.hess.to_reduced(other.states))
 
@@ -91,7 +91,7 @@ def arc_row(Row, name, body, q, p, floor=1e-12, because=""):
     unit = np.array([arc.rate, arc.rate, 1.0, 1.0, 1.0])
 
     def error(grade):
-        there = solve(SUSLOV, start, body.parameters, [arc.period], level(grade)).states[0]
+        there = solve(body, start, [arc.period], level(grade)).states[0]
         return float(np.max(np.abs(there - start) / unit))
 
     return Row(f"principal axis, b3 = 0: {name}", "closed after the period in closed form", error, floor=floor,
@@ -105,7 +105,7 @@ def quartic_row(Row, name, body, q):
     ratio = abs(body.h / body.b3)
 
     def error(grade):
-        states = solve(SUSLOV, start, body.parameters, times, level(grade)).states
+        states = solve(body, start, times, level(grade)).states
         places, p = body.to_plane(states)
         # The error of γ² is twice that of γ, whose length is at most √3 times a component's.
         length = np.abs(np.sum(p * p, axis=1) + states[:, 4] ** 2 - 1.0) / (2.0 * math.sqrt(3.0))

@@ -8,7 +8,7 @@ import numpy as np
 
 import oracle
 from hess_mechanics import SuslovBody, f_max, level, section
-from hess_mechanics.dynamics.lyapunov import largest_exponent
+from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite, WorkLimit
 from hess_mechanics.suslov.equations import SYSTEM
 from hess_mechanics.suslov.section import lowest_energy, plane_of, seeds, state_at, states_at, suslov_points
@@ -30,7 +30,7 @@ def crossings(Row, name, body, k, E, count=3, sense=1, **options):
     truth = oracle.Along(SYSTEM, start, body.parameters, 30)
 
     def error(grade):
-        found = section(SYSTEM, start, body.parameters, plane_of(k), sense * 400.0 / nu, level(grade), count)
+        found = section(body, start, plane_of(k), sense * 400.0 / nu, level(grade), count)
         if not found.times.size:
             return 1.0
         states = truth.at(found.times.tolist()).astype(float)
@@ -155,9 +155,9 @@ def refusals(Refusal):
         plainly("Suslov section, a body with I22 = 0", lambda: body_of(I22=0.0), "choose", NotPositiveDefinite),
         Refusal("Suslov section of 1e6 crossings",
                 lambda grade: suslov_points(body, 3, [start], 10**6, True, grade), WorkLimit, "number of crossings"),
-        plainly("Lyapunov exponent, t = 1e7", lambda: largest_exponent(SYSTEM, start, body.parameters, 1e7),
+        plainly("Lyapunov exponent, t = 1e7", lambda: lyapunov_exponent(body, start, 1e7),
                 "choose a shorter time span", WorkLimit),
-        plainly("Lyapunov exponent, t = 0", lambda: largest_exponent(SYSTEM, start, body.parameters, 0.0),
+        plainly("Lyapunov exponent, t = 0", lambda: lyapunov_exponent(body, start, 0.0),
                 "finite number other than 0"),
         tori("1e6 + 1 tori", lambda grade: values_at(0.5, np.full(MAX_POINTS + 1, 0.5), 0.1, grade),
              "choose fewer points", WorkLimit),

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Generic, Protocol, TypeVar
 
-from hess_explorer.scenes.framework.part import Body
+from hess_mechanics.dynamics.system import Body
 
 __all__ = ["Charted", "Placed", "exponents", "motion_of", "of_torus", "tensor_of"]
 

@@ -26,7 +26,7 @@ from hess_explorer.views.layers import Axes, Layer
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.section_plane import joined
 from hess_explorer.views.text import digits
-from hess_mechanics.dynamics.lyapunov import Exponent, largest_exponent
+from hess_mechanics.dynamics.lyapunov import Exponent, lyapunov_exponent
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.shadowing import right_crossings, typical
@@ -264,8 +264,7 @@ class FilledWindow(Indicated):
         if self.dragging or self.looking or self.closed is not None:
             return None
         plan = self.plan(Computation.EXPONENT)
-        return self.work.later(largest_exponent, self.body.system, self.start, self.body.parameters,
-                               plan.share * self.long, plan.level)
+        return self.work.later(lyapunov_exponent, self.body, self.start, plan.share * self.long, plan.level)
 
     # ---- how exact it is ----------------------------------------------------------------------------------------
 
@@ -386,7 +385,7 @@ SECTION: Trial[Any] = Trial(
 
 
 def _exponent(s: FilledWindow, plan: Plan) -> Exponent:
-    return largest_exponent(s.body.system, s.start, s.body.parameters, plan.share * s.long, plan.level)
+    return lyapunov_exponent(s.body, s.start, plan.share * s.long, plan.level)
 
 
 def _over_time(s: FilledWindow, found: Exponent) -> Curves:

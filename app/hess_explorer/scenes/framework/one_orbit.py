@@ -5,28 +5,20 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Iterator
 from functools import cached_property
-from typing import ClassVar, Protocol
+from typing import ClassVar
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.proved_orbit import ProvedOrbit
 from hess_explorer.scenes.framework.scene import Motion
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_mechanics.dynamics.sampling import sampled_orbit
-from hess_mechanics.dynamics.system import System
+from hess_mechanics.dynamics.system import Body
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Orbit
 
 __all__ = ["OneOrbit", "Start"]
 
 Start = tuple[float, ...]
-
-
-class _Body(Protocol):
-    @property
-    def system(self) -> System: ...
-
-    @property
-    def parameters(self) -> tuple[float, ...]: ...
 
 
 class OneOrbit(ProvedOrbit):
@@ -38,7 +30,7 @@ class OneOrbit(ProvedOrbit):
 
     @property
     @abstractmethod
-    def body(self) -> _Body:
+    def body(self) -> Body:
         """The body.  Raises `ModelError`."""
 
     @property
@@ -70,8 +62,7 @@ class OneOrbit(ProvedOrbit):
     @property
     def finding(self) -> Task:
         """What finds it."""
-        return Task(sampled_orbit, (self.body.system, self.start, self.body.parameters, self.lasts, self.weights,
-                                    self.orbit_level, self.most))
+        return Task(sampled_orbit, (self.body, self.start, self.lasts, self.weights, self.orbit_level, self.most))
 
     @property
     def orbit_level(self) -> Level:

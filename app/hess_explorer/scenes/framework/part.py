@@ -8,21 +8,8 @@ from typing import Generic, Protocol, Self, TypeVar
 
 from hess_explorer.protocol.parameters import Values
 from hess_explorer.scenes.framework.work import Work
-from hess_mechanics.dynamics.system import System
 
-__all__ = ["Body", "Host", "Part"]
-
-
-class Body(Protocol):
-    """Equations of motion with values of their parameters."""
-
-    @property
-    def system(self) -> System:
-        """The equations."""
-
-    @property
-    def parameters(self) -> tuple[float, ...]:
-        """Their parameters."""
+__all__ = ["Host", "Part"]
 
 
 class Host(Protocol):

@@ -143,7 +143,7 @@ def _orbit(state: State, plan: Plan) -> Array:
     motion = state.motion()
     assert motion is not None, "only scenes with a motion have this trial"
     times = np.linspace(0.0, _measured_span(motion), _SAMPLES)
-    return solve(motion.system, motion.state, motion.parameters, times, plan.level).states
+    return solve(motion, motion.state, times, plan.level).states
 
 
 def _orbit_error(state: State, states: Array, truth: object) -> float:

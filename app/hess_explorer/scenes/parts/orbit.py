@@ -8,10 +8,11 @@ from functools import cached_property
 from typing import Protocol
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.part import Body, Host, Part
+from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.scene import Motion
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_mechanics.dynamics.sampling import sampled_orbit
+from hess_mechanics.dynamics.system import Body
 from hess_mechanics.numerics import results
 from hess_mechanics.numerics.accuracy import Level
 
@@ -51,8 +52,7 @@ class Orbit(Part[_Host]):
         """The computation of its samples."""
         host = self.host
         level = self.work.level if self.accuracy is None else self.accuracy()
-        return Task(sampled_orbit, (host.body.system, host.start, host.body.parameters, host.lasts, host.weights, level,
-                                    self.most))
+        return Task(sampled_orbit, (host.body, host.start, host.lasts, host.weights, level, self.most))
 
     @cached_property
     def path(self) -> results.Orbit:

@@ -101,7 +101,7 @@ def judged(finding: Task, motion: Motion, units: tuple[float, float]) -> ProvedE
     orbit, omega, gamma = (found.orbit, found.omega, found.gamma) if isinstance(found, Track) else (
         found, found.states[:, :2], found.states[:, -3:])
     try:
-        true = tube(motion.system, motion.state, motion.parameters, orbit.times, _DIGITS, _MOST_WORK)
+        true = tube(motion, motion.state, orbit.times, _DIGITS, _MOST_WORK)
     except ModelError as error:
         return ProvedError(f"not proved: {error}")
     errors = error_bounds(orbit, true)

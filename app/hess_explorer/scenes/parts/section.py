@@ -218,8 +218,7 @@ def _crossings(poincare: PoincareSection, starts: tuple[tuple[float, ...], ...],
                ) -> SectionPoints:
     fastest = float(np.max(poincare.system.frequency(np.array(starts).T, np.array(poincare.parameters)), initial=0.0))
     end = _TURNS * crossings * poincare.slowness / (fastest or 1.0)
-    return section_points(poincare.system, starts, poincare.parameters, poincare.surface, end, level, crossings,
-                          most_steps=_MOST_STEPS)
+    return section_points(poincare, starts, poincare.surface, end, level, crossings, most_steps=_MOST_STEPS)
 
 
 def _spread(poincare: PoincareSection, crossings: int, level: Level) -> SectionPoints:
