@@ -1,11 +1,11 @@
 """Exponents and transition matrix beside heyoka's variational run: `python tests/benchmarks/benchmark_variation.py`.
 
 Exponents: the run of `lyapunov_spectrum`, and `lyapunov_spectrum` as it is called, with its samples and errors; beside
-heyoka's run, which begins with the same neighbours.  They are made orthogonal at the ends of as many stretches of time, or
-of more where some would come to be 1e6 times as long as others; of heyoka only the integration is counted, not what
-Python does between two pieces of it.  The error is the largest of the growth of all directions until the end.  Transition matrix:
-y(T) and ∂y(T)/∂y(0); the error is that of the matrix beside its largest entry.  Both against the mean of the most exact
-runs of both, which also says how exact these are.
+heyoka's run, which begins with the same neighbours.  They are made orthogonal at the ends of as many stretches of time,
+or of more where some would come to be 1e6 times as long as others; of heyoka only the integration is counted, not what
+Python does between two pieces of it.  The error is the largest of the growth of all directions until the end.
+Transition matrix: y(T) and ∂y(T)/∂y(0); the error is that of the matrix beside its largest entry.  Both against the
+mean of the most exact runs of both, which also says how exact these are.
 
 For each level the least of many times, one run after the other by turns; heyoka's time at our error is read off the
 line through its own points, both axes logarithmic.  Needs heyoka: pip install heyoka.
