@@ -46,7 +46,7 @@ def field(tab):
 def start_of(values):
     """The exact start of the chosen orbit, of which the browser has single precision."""
     state = (BALL if "theta" in values else SECTION).compute(values, ("sphere",), False)
-    return (state.orbit if "theta" in values else state.orbit.path).states[0]
+    return state.orbit.path.states[0]
 
 
 def points(explorer, source):

@@ -55,7 +55,7 @@ every_ball = pytest.mark.parametrize("name", [one.name for one in BALL.presets])
 def test_the_chosen_orbit_goes_from_its_circle_to_the_one_in_the_captions(name):
     view = ball(name)
     values, xi = view.values, xi_of(view.values)
-    start = view.result.orbit.states[0]
+    start = view.result.orbit.path.states[0]
     assert energy_of(values, start) == pytest.approx(values["h"], rel=1e-12)
     # δ from the line, and, followed back, from the circle θ⁻.
     delta = 10.0 ** -values["digits"]
@@ -90,7 +90,7 @@ def test_theta_plus_over_the_phases_is_that_of_the_orbits_and_its_range_that_of_
     assert (phis[0], phis[-1], len(phis)) == (pytest.approx(-math.pi), pytest.approx(math.pi), 65)
     for phi in (-2.5, 0.0, 1.5):
         at = {**values, "phi": phi}
-        start = BALL.compute(at, ("sphere",), False).orbit.states[0]
+        start = BALL.compute(at, ("sphere",), False).orbit.path.states[0]
         end = integrate(values, start, [1.3 * values["span"]])[-1]
         assert np.interp(phi, phis, curve) == pytest.approx(circle_of(values, end), abs=4e-3)
     numbers = view.numbers("curve", "θ⁻ = #:")
@@ -99,7 +99,7 @@ def test_theta_plus_over_the_phases_is_that_of_the_orbits_and_its_range_that_of_
                  else view.numbers("curve", "θ⁺ from # to #"))
     assert (low, high) == (pytest.approx(curve.min(), abs=6e-4), pytest.approx(curve.max(), abs=6e-4))
     ring = view.data["curve-chosen"]
-    end = integrate(values, view.result.orbit.states[0], [1.3 * values["span"]])[-1]
+    end = integrate(values, view.result.orbit.path.states[0], [1.3 * values["span"]])[-1]
     assert (ring["x"][0], ring["y"][0]) == (values["phi"], pytest.approx(circle_of(values, end), abs=4e-3))
 
 
@@ -201,7 +201,7 @@ def test_every_energy_above_zero_is_drawn():
         span = 60.0 * math.sqrt(10.0 / h)
         # So slow a ball does not arrive within the longest span.
         view = View(BALL, {"h": h, "span": min(span, 1e4)})
-        assert energy_of(view.values, view.result.orbit.states[-1]) == pytest.approx(h, rel=1e-6)
+        assert energy_of(view.values, view.result.orbit.path.states[-1]) == pytest.approx(h, rel=1e-6)
         assert (view.values["span"] < span) == (h == 1e-6)
         # ω and t scale with √h: the same circles.
         if h > 1e-6:
@@ -366,7 +366,7 @@ def test_where_the_energy_forbids_a_place_the_start_moves_to_the_edge_and_it_is_
     else:
         assert (admitted["psi"], notes) == (start, [])
     result = SECTION.compute(admitted, SECTION.pictures, False)
-    assert np.all(np.cos(result.own[:, 0]) <= -0.4 + 1e-3)
+    assert np.all(np.cos(result.section.own[:, 0]) <= -0.4 + 1e-3)
     stage_view = View(SECTION, {"h": 0.3, "psi": 3.0})
     xs = np.array(stage_view.data["section-forbidden"]["xs"]).reshape(3, 4)
     assert sorted(xs[1, :2]) == pytest.approx([-half, half], abs=1e-6)

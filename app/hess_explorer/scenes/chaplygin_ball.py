@@ -10,16 +10,15 @@ from functools import cached_property
 import numpy as np
 
 from hess_explorer.compute.cache import Task
-from hess_explorer.scenes.framework.ball import FreeBall
 from hess_explorer.scenes.framework.charted import Charted, exponents, tensor_of
-from hess_explorer.scenes.framework.circle_left import CircleLeft, sphere
-from hess_explorer.scenes.framework.one_orbit import OneOrbit, Start
-from hess_explorer.scenes.framework.parameters import accuracy_level, time_span
-from hess_explorer.scenes.framework.proved_orbit import proved_error_shown
-from hess_explorer.scenes.framework.scene import Preset, Scene
-from hess_explorer.scenes.framework.solid_body import ConstrainedBody, constrained_body
+from hess_explorer.scenes.framework.circle_left import DIGITS, PHI, sphere
+from hess_explorer.scenes.framework.parameters import accuracy_level, parameter, time_span
+from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
+from hess_explorer.scenes.framework.solid_body import Constrained, constrained_body
 from hess_explorer.scenes.framework.trial import Trial, curve_error
 from hess_explorer.scenes.framework.work import orbit_status
+from hess_explorer.scenes.parts.orbit import Orbit
+from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
 from hess_explorer.views import scattering_map as square
 from hess_explorer.views import theme
 from hess_explorer.views import velocity_plane as plane
@@ -29,8 +28,10 @@ from hess_explorer.views.layers import arrows, curves, levels, names, region, ri
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits as in_digits
 from hess_explorer.views.text import vector
+from hess_mechanics import parameters as known
 from hess_mechanics.chaplygin_ball import scattering as model
-from hess_mechanics.chaplygin_ball.equations import SYSTEM
+from hess_mechanics.chaplygin_ball.energy_surface import Strip
+from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.chaplygin_ball.strip_orbits import StripOrbit, largest_distance, strip_orbits
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.errors import WorkLimit
@@ -54,12 +55,36 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class ChaplyginBall(CircleLeft, FreeBall, OneOrbit, ConstrainedBody):
+class ChaplyginBall(State):
     """The chosen orbit, many over the strip, and the map of the phases."""
 
+    I11: float = parameter(known.I11, 1.0)
+    I22: float = parameter(known.I22)
+    I13: float = parameter(known.I13, 0.7, doc="Product of inertia; with I₂₃ it sets the line I₁₃ω₁ + I₂₃ω₂ = 0.")
+    I23: float = parameter(known.I23, 1.2, doc="Product of inertia; not 0 together with I₁₃.")
+    D: float = parameter(known.D)
+    h: float = parameter(known.H_FREE_BALL)
+    theta: float = parameter(known.THETA)
+    phi: float = parameter(PHI)
+    digits: float = parameter(DIGITS)
     span: float = time_span(60.0, 400.0, what="the chosen orbit")
     certain: str = proved_error_shown()
     accuracy: str = accuracy_level()
+
+    @cached_property
+    def body(self) -> BallBody:
+        """The ball.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
+        return BallBody(self.I11, self.I22, self.I13, self.I23, self.D)
+
+    @cached_property
+    def strip(self) -> Strip:
+        """Where ω may be."""
+        return Strip(self.body, self.h)
+
+    @property
+    def distance(self) -> float:
+        """δ."""
+        return float(10.0**-self.digits)
 
     @cached_property
     def half_width(self) -> float:
@@ -67,7 +92,7 @@ class ChaplyginBall(CircleLeft, FreeBall, OneOrbit, ConstrainedBody):
         return plane.nice_above(1.1 * float(self.strip.outer.max()))
 
     @cached_property
-    def start(self) -> Start:
+    def start(self) -> tuple[float, ...]:
         """Of the chosen orbit."""
         return model.start(self.body, self.h, self.theta, self.phi, self.distance)
 
@@ -76,10 +101,34 @@ class ChaplyginBall(CircleLeft, FreeBall, OneOrbit, ConstrainedBody):
         """From the variables to the pictures, in pixels for a unit."""
         return plane.pixels_per_unit(self.half_width)
 
+    @property
+    def lasts(self) -> float:
+        """How long it is followed."""
+        return self.span
+
+    @cached_property
+    def orbit(self) -> Orbit:
+        """The chosen orbit."""
+        return Orbit(self)
+
+    @cached_property
+    def proof(self) -> Proof:
+        """Its proved error."""
+        return Proof(self.orbit, self.certain)
+
+    def motion(self) -> Motion:
+        """The chosen orbit."""
+        return self.orbit.motion()
+
+    @cached_property
+    def solid(self) -> Constrained:
+        """The ball along it."""
+        return Constrained.along(self.work, self.body.parameters, self.orbit.path.times, self.orbit.path.states)
+
     @cached_property
     def Gamma(self) -> Array:
         """(ξ, γ) along it."""
-        return self.orbit.states[:, 2:] @ self.xi
+        return self.orbit.path.states[:, 2:] @ self.strip.xi
 
     def strip_orbits(self, count: int, level: Level) -> Task:
         """What follows so many orbits over the strip, with E = 1."""
@@ -148,14 +197,14 @@ class ChaplyginBall(CircleLeft, FreeBall, OneOrbit, ConstrainedBody):
         yield f"σ₁: |ω₁| ≤ {most[0]}, |ω₂| ≤ {most[1]}"
         yield f"σ₂: |ω₁| ≥ {least[0]} at ω₂ = 0, |ω₂| ≥ {least[1]} at ω₁ = 0"
         yield f"|ω| on Nˢ and Nᵘ from {slowest} to {fastest}"
-        yield f"ξ = {vector(self.xi)}"
+        yield f"ξ = {vector(self.strip.xi)}"
         yield f"δ = {in_digits(self.distance, 3)}"
 
     def status(self) -> Iterator[str]:
         """The chosen orbit and the map."""
-        if self.known("orbit"):
-            yield from orbit_status(self.orbit)
-            yield from self.certainty()
+        if self.orbit.asked("path"):
+            yield from orbit_status(self.orbit.path)
+            yield from self.proof.status()
         if self.known("map_or_reason") and self.map is not None:
             yield f"{self.map.phis.size} phases, error ≤ {float(self.map.errors.max()):.1e}"
 
@@ -192,7 +241,7 @@ SCENE = Scene(
     group="Ball", essential=("D", "h", "theta", "phi"), handle="phi",
     title="Chaplygin ball",
     summary="A ball rolls inside the body: every orbit crosses a strip between two ellipses, from Nᵘ to Nˢ.",
-    tracks={"orbit": lambda s: plane.orbit_columns(s.orbit, Gamma=s.Gamma)},
+    tracks={"orbit": lambda s: plane.orbit_columns(s.orbit.path, Gamma=s.Gamma)},
     views=(
         constrained_body(ball=True, field=False),
         plane.picture(
@@ -204,14 +253,15 @@ SCENE = Scene(
                 plane.arcs(lambda s: [track for track, _ in s.crowd if len(track) > 1]),
                 *plane.halves(lambda s, _: s.strip.stable, lambda s, _: s.strip.unstable,
                               ("Nˢ, circle joined", "Nᵘ, circle left")),
-                plane.band(lambda s: s.proved_band),
+                plane.band(lambda s: s.proof.band),
                 plane.orbit("orbits; the chosen one bold"),
                 # Not in the middle of each, where all of them are slow, but where the strip is covered evenly.
                 arrows("arrows", lambda s: plane.arrows_at(s.crowd), color=theme.ORBIT, alpha=0.8))),
-        sphere(ChaplyginBall._about_sphere, xi=lambda s: s.xi, Gamma=lambda s: float(np.clip(s.Gamma[-1], -1.0, 1.0))),
+        sphere(ChaplyginBall._about_sphere, xi=lambda s: s.strip.xi, left=lambda s: s.theta,
+               joined=lambda s: float(np.clip(s.Gamma[-1], -1.0, 1.0))),
         square.over_phases(
             ChaplyginBall._about_curve, message=lambda s: s.map_or_reason[1], layers=(
-                levels("levels", lambda s: [] if s.map is None else s.levels),
+                levels("levels", lambda s: [] if s.map is None else [s.theta, math.pi - s.theta]),
                 curves("free", lambda s: s.free(), color=theme.MAP, dash="dashed",
                        label="θ⁺ for 𝒟 = 0"),
                 curves("ball", lambda s: [] if s.map is None else [s.map.curve], color=theme.ORBIT),
@@ -221,6 +271,6 @@ SCENE = Scene(
             folded="Show Γ against time",
             x=lambda s: (0.0, s.span), y=(-1.05, 1.05), dot=("t", "Gamma"),
             layers=(levels("levels", lambda s: [math.cos(s.theta), s.Gamma[-1]]),
-                    over_time("first", lambda s: (s.orbit.times, s.Gamma), color=theme.ORBIT))),
+                    over_time("first", lambda s: (s.orbit.path.times, s.Gamma), color=theme.ORBIT))),
     ),
 )

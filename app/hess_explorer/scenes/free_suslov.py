@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from hess_explorer.protocol.parameters import Values
+from hess_explorer.scenes.framework import free_body
 from hess_explorer.scenes.framework.charted import Charted, tensor_of
-from hess_explorer.scenes.framework.free_body import FreeBody
-from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number, time_span
-from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
-from hess_explorer.scenes.framework.solid_body import ConstrainedBody, constrained_body
+from hess_explorer.scenes.framework.parameters import ONE_TURN, Slider, accuracy_level, choice, parameter, time_span
+from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
+from hess_explorer.scenes.framework.solid_body import Constrained, constrained_body
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import theme
 from hess_explorer.views import velocity_plane as plane
@@ -23,11 +23,13 @@ from hess_explorer.views.layers import Columns, Sign, arrows, curves, levels, li
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, ends
 from hess_explorer.views.text import digits, vector
+from hess_mechanics import parameters as known
 from hess_mechanics.dynamics.sampling import MOST_SAMPLES, PIXELS
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov import free
 from hess_mechanics.suslov.additional_integral import AdditionalIntegral, of_body
+from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 
 _LEVELS = (0.25, 0.6, 1.6)
 """Energies of the other ellipses drawn, in that of the orbit."""
@@ -66,24 +68,33 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class FreeSuslov(FreeBody, ConstrainedBody):
+class FreeSuslov(State):
     """Two orbits from one circle of γ."""
 
-    w1: float = number("ω₁", 2.0, (-4.0, 4.0), 0.01, bounds=(-1e3, 1e3), label="Angular velocity ω₁(0)",
-                       doc="At the start.")
-    w2: float = number("ω₂", 1e-4, (-4.0, 4.0), 0.01, bounds=(-1e3, 1e3), label="Angular velocity ω₂(0)",
-                       doc="At the start; however close to the line of equilibria, 1e-300 too.")
-    Gamma: float = number("Γ", 0.4984, (-1.0, 1.0), 0.01, bounds=(-1.0, 1.0), label="Γ(0) = (ξ, γ)",
-                          doc="Where γ starts: the height along ξ of its circle on the sphere.")
-    phi: float = number("φ", 1.2672, (-3.14, 3.14), 0.01, bounds=(-math.pi, math.pi), label="Phase φ(0)",
-                        doc="Where γ starts on that circle, in radians.")
-    phi2: float = number("φ′", -0.6, (-3.14, 3.14), 0.01, bounds=(-math.pi, math.pi),
-                         label="Phase of the second orbit",
-                         doc="A second orbit with the same ω leaves the same circle Γ⁻, turned along it by φ′ − φ.")
+    I22: float = parameter(free_body.I22)
+    I13: float = parameter(free_body.I13)
+    I23: float = parameter(free_body.I23)
+    k: float = parameter(known.K_DRIVES_I11)
+    w1: float = parameter(known.W1, 2.0)
+    w2: float = parameter(known.W2, 1e-4, doc="At t = 0; however close to the line of equilibria, 1e-300 too.")
+    Gamma: float = parameter(known.GAMMA_CIRCLE)
+    phi: float = parameter(known.CIRCLE_PHASE, 1.2672, label="Phase φ(0)", bounds=ONE_TURN)
+    phi2: float = parameter(
+        known.CIRCLE_PHASE, -0.6, symbol="φ′", label="Phase of the second orbit", bounds=ONE_TURN,
+        doc="A second orbit with the same ω leaves the same circle Γ⁻, turned along it by φ′ − φ.")
     span: float = time_span(30.0, 100.0, most=1e5)
     across: str = choice("γ₁ against", ("time", "phase"), "time",
                          doc="The horizontal axis of the third picture: t or φ.")
     accuracy: str = accuracy_level()
+
+    def limits(self) -> Mapping[str, Slider]:
+        """The slider of k begins where I11 is still positive."""
+        return free_body.limits_of_k(self.I22, self.I13, self.I23)
+
+    @cached_property
+    def body(self) -> SuslovBody:
+        """The body.  Raises `NotPositiveDefinite`, `InvalidParameter`."""
+        return free_body.free_body(self.k, self.I22, self.I13, self.I23)
 
     @property
     def omega(self) -> tuple[float, float]:
@@ -147,7 +158,13 @@ class FreeSuslov(FreeBody, ConstrainedBody):
 
     def motion(self) -> Motion:
         """The orbit as one of the general system."""
-        return self.general_motion(self.omega, self.gamma, self.span, self.half_width)
+        return Motion(SYSTEM, (*self.omega, *self.gamma), self.body.parameters, self.span,
+                      plane.pixels_per_unit(self.half_width))
+
+    @cached_property
+    def solid(self) -> Constrained:
+        """The body along it."""
+        return Constrained.of_free(self.work, self.body, self.orbit)
 
     # ---- what the pictures show --------------------------------------------------------------------------------
 
@@ -201,7 +218,7 @@ class FreeSuslov(FreeBody, ConstrainedBody):
     def derived(self) -> Iterator[str]:
         """I11 and k², energy, rate and directions, F2."""
         points = self.points
-        yield from super().derived()
+        yield from free_body.about_I11(self.k, self.body)
         yield f"E = {digits(self.h, 6)}"
         yield f"ω₀ = {digits(points.rate, 6)}"
         yield f"|ω±| = {digits(points.speed, 6)}"

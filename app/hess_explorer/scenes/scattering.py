@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
+from hess_explorer.scenes.framework import free_body
 from hess_explorer.scenes.framework.charted import Charted, tensor_of
-from hess_explorer.scenes.framework.circle_left import CIRCLES, CircleLeft, sphere
-from hess_explorer.scenes.framework.free_body import FreeBody
-from hess_explorer.scenes.framework.parameters import accuracy_level, like
-from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
-from hess_explorer.scenes.framework.solid_body import ConstrainedBody, constrained_body
+from hess_explorer.scenes.framework.circle_left import CIRCLES, DIGITS, PHI, sphere
+from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, parameter
+from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
+from hess_explorer.scenes.framework.solid_body import Constrained, constrained_body
 from hess_explorer.scenes.framework.trial import Trial, curve_error
 from hess_explorer.scenes.framework.work import drift_status
 from hess_explorer.views import scattering_map as square
@@ -23,11 +23,13 @@ from hess_explorer.views.comparison import Curves
 from hess_explorer.views.layers import curves, levels, ring
 from hess_explorer.views.text import digits as in_digits
 from hess_explorer.views.text import vector
-from hess_explorer.views.velocity_plane import velocity_columns
+from hess_explorer.views.velocity_plane import pixels_per_unit, velocity_columns
+from hess_mechanics import parameters as known
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.numerics.accuracy import Computation, Plan
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov import scattering as model
+from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 from hess_mechanics.suslov.free import Equilibria, FreeMotion, equilibria_of_unit_rate, sampled_motion
 
 _CELLS, _FEW_CELLS = (240, 120), (120, 60)
@@ -47,18 +49,24 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class Scattering(CircleLeft, FreeBody, ConstrainedBody):
+class Scattering(State):
     """One rotation, which gives the curve and the map, and the orbit of the phase chosen."""
 
-    I23: float = like(FreeBody, "I23", 0.8)
-    k: float = like(FreeBody, "k", 2.0, doc="I₁₁ = I₂₂ + k|k| (I₁₃² + I₂₃²)/I₂₂. With I₁₃ = 0 and k odd all orbits are "
-                    "reversed: θ⁺ = π − θ⁻.")
-    theta: float = like(CircleLeft, "theta", math.pi / 2, doc="The angle between ξ and γ at the start, in radians.")
-    phi: float = like(CircleLeft, "phi", label="Phase φ of the orbit shown")
-    digits: float = like(CircleLeft, "digits", 5.30103, softbounds=(1.0, 12.0), bounds=(0.5, 300.0),
-                         doc="The start is δ = 10^−digits of |ω| away from the unstable point; it only shifts the "
-                             "phase.")
+    I22: float = parameter(free_body.I22)
+    I13: float = parameter(free_body.I13)
+    I23: float = parameter(free_body.I23, 0.8)
+    k: float = parameter(known.K_DRIVES_I11, 2.0, doc="I₁₁ = I₂₂ + k|k| (I₁₃² + I₂₃²)/I₂₂. With I₁₃ = 0 and k odd all "
+                         "orbits are reversed: θ⁺ = π − θ⁻.")
+    theta: float = parameter(known.THETA, math.pi / 2)
+    phi: float = parameter(PHI, label="Phase φ of the orbit shown")
+    digits: float = parameter(DIGITS, 5.30103, softbounds=(1.0, 12.0), bounds=(0.5, 300.0),
+                              doc="The start is δ = 10^−digits of |ω| away from the unstable point; it only shifts the "
+                                  "phase.")
     accuracy: str = accuracy_level()
+
+    def limits(self) -> Mapping[str, Slider]:
+        """The slider of k begins where I11 is still positive."""
+        return free_body.limits_of_k(self.I22, self.I13, self.I23)
 
     def admitted(self, notes: list[str]) -> Scattering:
         """Next to a slanting line a double keeps the start to 1e-16 only; on an axis it may be as close as it likes."""
@@ -66,6 +74,16 @@ class Scattering(CircleLeft, FreeBody, ConstrainedBody):
             return self
         notes.append(f"With I₁₃I₂₃ ≠ 0 a start is known to 1e−16 only: its distance is 1e−{_MOST_DIGITS:g} now.")
         return replace(self, digits=_MOST_DIGITS)
+
+    @cached_property
+    def body(self) -> SuslovBody:
+        """The body.  Raises `NotPositiveDefinite`, `InvalidParameter`."""
+        return free_body.free_body(self.k, self.I22, self.I13, self.I23)
+
+    @property
+    def distance(self) -> float:
+        """δ."""
+        return float(10.0**-self.digits)
 
     @cached_property
     def points(self) -> Equilibria:
@@ -119,7 +137,13 @@ class Scattering(CircleLeft, FreeBody, ConstrainedBody):
 
     def motion(self) -> Motion:
         """The orbit as one of the general system."""
-        return self.general_motion(*self.start, self.span, _RADIUS)
+        omega, gamma = self.start
+        return Motion(SYSTEM, (*omega, *gamma), self.body.parameters, self.span, pixels_per_unit(_RADIUS))
+
+    @cached_property
+    def solid(self) -> Constrained:
+        """The body along it."""
+        return Constrained.of_free(self.work, self.body, self.orbit)
 
     # ---- what the pictures show --------------------------------------------------------------------------------
 
@@ -141,7 +165,7 @@ class Scattering(CircleLeft, FreeBody, ConstrainedBody):
 
     def derived(self) -> Iterator[str]:
         """I11 and k², the rotation, the start."""
-        yield from super().derived()
+        yield from free_body.about_I11(self.k, self.body)
         yield f"cos χ = {in_digits(self.limit.cos_chi, 12)}"
         yield f"φ* = {in_digits(self.map.phi_star, 6)}"
         yield f"δ = {in_digits(self.distance, 3)}"
@@ -185,12 +209,12 @@ SCENE = Scene(
     views=(
         constrained_body(field=False),
         square.over_phases(Scattering._about_curve, layers=(
-            levels("levels", lambda s: s.levels),
+            levels("levels", lambda s: (s.theta, math.pi - s.theta)),
             curves("theta", lambda s: [np.column_stack([_PHASES, s.curve])], color=theme.ORBIT, label="θ⁺(φ); orbit"),
             ring("chosen", lambda s: [(s.phi, s.theta_plus)], size=18.0, label="chosen"))),
         square.over_square(Scattering._about_map, Scattering.grid, lambda s: (s.phi, s.theta)),
-        sphere(Scattering._about_sphere, xi=lambda s: s.points.xi, Gamma=lambda s: math.cos(s.theta_plus),
-               signs=CIRCLES),
+        sphere(Scattering._about_sphere, xi=lambda s: s.points.xi, left=lambda s: s.theta,
+               joined=lambda s: math.cos(s.theta_plus), signs=CIRCLES),
         square.over_orders(lambda s: s.k_axis, lambda s: s.orders, lambda s: (s.k, s.limit.cos_chi),
                            closed=lambda s: model.cos_chi(s.body)),
     ),

@@ -11,9 +11,8 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values
-from hess_explorer.scenes.framework.ball import FreeBall
-from hess_explorer.scenes.framework.parameters import accuracy_level, choice, like, number, time_span
-from hess_explorer.scenes.framework.scene import Preset, Scene
+from hess_explorer.scenes.framework.parameters import ONE_TURN, accuracy_level, choice, number, parameter, time_span
+from hess_explorer.scenes.framework.scene import Preset, Scene, State
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.views import cloud
 from hess_explorer.views.comparison import compared
@@ -22,6 +21,9 @@ from hess_explorer.views.layers import Columns, Range, column
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Direction, Sphere
 from hess_explorer.views.text import digits, ranging, vector
+from hess_mechanics import parameters as known
+from hess_mechanics.chaplygin_ball.energy_surface import Strip
+from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud_density import Clouds, clouds
 from hess_mechanics.numerics.accuracy import REFERENCE, Computation, Level
 from hess_mechanics.numerics.results import Array
@@ -45,24 +47,25 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class SingularMeasures(FreeBall):
+class SingularMeasures(State):
     """One cloud, or two, over the time."""
 
-    I11: float = like(FreeBall, "I11", 2.0)
-    I13: float = like(FreeBall, "I13", 0.5,
-                      doc="Product of inertia; with I₂₃ it sets the manifold s = I₁₃ω₁ + I₂₃ω₂ = 0.")
-    I23: float = like(FreeBall, "I23", 0.7)
-    D: float = like(FreeBall, "D", 0.0, bounds=(0.0, 1e3), doc="0: free Suslov problem; otherwise the Chaplygin ball, "
-                    "whose inner ball has this 𝒟.")
-    h: float = like(FreeBall, "h", 2.0, doc="Of the middle of the cloud; without a field h > 0.")
+    I11: float = parameter(known.I11, 2.0)
+    I22: float = parameter(known.I22)
+    I13: float = parameter(known.I13, 0.5,
+                           doc="Product of inertia; with I₂₃ it sets the manifold s = I₁₃ω₁ + I₂₃ω₂ = 0.")
+    I23: float = parameter(known.I23, 0.7, doc="Product of inertia; not 0 together with I₁₃.")
+    D: float = parameter(known.D, 0.0, doc="0: free Suslov problem; otherwise the Chaplygin ball, whose inner ball has "
+                         "this 𝒟.")
+    h: float = parameter(known.H_FREE_BALL, 2.0, doc="Of the middle of the cloud; without a field h > 0.")
     spread: float = number("δ", 0.1, (0.01, 0.5), 0.01, bounds=(1e-3, 0.9), label="Spread δ",
                            doc="Shell: E = h(1 ± δ). Patch: radius of its disc of ω, in |ω|, and of its cap of γ, in "
                                "radians.")
-    angle: float = number("φ", -0.3, (-3.14, 3.14), 0.01, bounds=(-math.pi, math.pi), label="Direction φ of the patch",
+    angle: float = number("φ", -0.3, (-3.14, 3.14), 0.01, bounds=ONE_TURN, label="Direction φ of the patch",
                           doc="Angle of the patch in the plane of ω₁ and ω₂, in radians. A click there chooses it.")
     span: float = time_span(14.0, 40.0, step=0.5, what="the cloud")
-    b3: float = number("b₃", 1.0, (-3.0, 3.0), 0.01, bounds=(-1e3, 1e3), label="Field b₃ of the cloud beside",
-                       doc="With I₁₃ = I₂₃ = 0 nothing would move without a field; the first cloud has none.")
+    b3: float = parameter(known.B3, 1.0, label="Field b₃ of the cloud beside", group="State",
+                          doc="With I₁₃ = I₂₃ = 0 nothing would move without a field; the first cloud has none.")
     start: str = choice("Cloud", ("energy shell", "small patch"), "energy shell",
                         group="State",
                         doc="All states with about the energy h, or those about one state; evenly spread over the "
@@ -81,12 +84,17 @@ class SingularMeasures(FreeBall):
         return {**({} if self.start == "small patch" else {"angle": self.angle}),
                 **({} if self.beside == "principal axis" else {"b3": self.b3})}
 
+    @cached_property
+    def strip(self) -> Strip:
+        """Where ω may be.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
+        return Strip(BallBody(self.I11, self.I22, self.I13, self.I23, self.D), self.h)
+
     def task(self, count: int, level: Level) -> Task:
         """What moves so many points."""
         angle = self.angle if self.start == "small patch" else None
         span = -self.span if self.direction == "backward" else self.span
         field = self.b3 if self.beside == "principal axis" else None
-        return Task(clouds, (self.body, self.h, angle, self.spread, count, span, field, level))
+        return Task(clouds, (self.strip.body, self.h, angle, self.spread, count, span, field, level))
 
     @cached_property
     def clouds(self) -> Clouds:
@@ -122,7 +130,7 @@ class SingularMeasures(FreeBall):
         return cloud.about_ends(self.clouds)
 
     def _about_sphere(self) -> str:
-        first, last = (float(((self.clouds.cloud.gamma[:, i] @ self.xi) ** 2).mean()) for i in (0, -1))
+        first, last = (float(((self.clouds.cloud.gamma[:, i] @ self.strip.xi) ** 2).mean()) for i in (0, -1))
         return f"γ of the same points; mean of (γ, ξ)² {ranging(first, last, 3)}."
 
     def _about_density(self) -> str:
@@ -136,9 +144,9 @@ class SingularMeasures(FreeBall):
     def derived(self) -> Iterator[str]:
         """The system, its invariant density, what becomes of volumes."""
         course = self.clouds.course
-        yield f"System: {'Chaplygin ball, b = 0' if self.body.D else 'free Suslov problem'}"
+        yield f"System: {'Chaplygin ball, b = 0' if self.D else 'free Suslov problem'}"
         yield "Invariant density: 1/|I₁₃ω₁ + I₂₃ω₂|"
-        yield f"ξ = {vector(self.xi)}"
+        yield f"ξ = {vector(self.strip.xi)}"
         yield f"mean of div v: {digits(course.divergence[0, 0], 3)} → {digits(course.divergence[0, -1], 3)}"
         yield f"mean of ln s(t)/s(0): {digits(course.log_growth[0, -1], 5)}"
         if self.start == "small patch":
@@ -180,7 +188,8 @@ SCENE = Scene(
             clouds=lambda s: s.clouds, strip=lambda s: s.strip, b3=lambda s: s.b3, density="density-now",
             half_width=lambda s: cloud.room(s.clouds),
             on_click=lambda s, x, y: {"start": "small patch", "angle": math.atan2(y, x)}),
-        Sphere(caption=SingularMeasures._about_sphere, looks={}, clouds="omega", axis=lambda s: Direction(s.xi, "ξ")),
+        Sphere(caption=SingularMeasures._about_sphere, looks={}, clouds="omega",
+               axis=lambda s: Direction(s.strip.xi, "ξ")),
         Plot(
             name="density", title="Density against |s|", caption=SingularMeasures._about_density, log="xy",
             axes=("|s| = |I₁₃ω₁ + I₂₃ω₂|", "share of points per |s|"), y_tick_count=5, drawn_from=("omega",),

@@ -53,6 +53,11 @@ class Strip:
             raise InvalidParameter(f"h = {self.h:g}: without a field the energy is positive, choose h > 0.")
 
     @property
+    def xi(self) -> Array:
+        """ξ (3,), along the line on which ω is constant.  Raises `InvalidParameter`."""
+        return np.append(line_of_rest(self.body)[0], 0.0)
+
+    @property
     def outer(self) -> Array:
         """The semi-axes of σ1 along ω1 and ω2, (2,)."""
         return self._axes(0.0)

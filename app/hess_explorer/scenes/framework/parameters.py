@@ -12,12 +12,15 @@ from hess_mechanics.numerics.accuracy import LEVELS
 from hess_mechanics.parameters import Group, Parameter
 
 __all__ = [
-    "Slider", "accuracy_level", "choice", "crossings_of_each", "exponent_time", "like", "number", "orbits_spread",
-    "parameter", "places", "points_of_each", "slider_within", "specs_of", "time_span",
+    "ONE_TURN", "Slider", "accuracy_level", "choice", "crossings_of_each", "exponent_time", "like", "number",
+    "orbits_spread", "parameter", "places", "points_of_each", "slider_within", "specs_of", "time_span",
 ]
 
 Slider = tuple[float, float, float]
 """(low, high, step)."""
+
+ONE_TURN = (-math.pi, math.pi)
+"""Bounds of an angle that a click chooses: a picture shows one turn."""
 
 _SPEC = "spec"
 

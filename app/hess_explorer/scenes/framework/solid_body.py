@@ -21,6 +21,8 @@ from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.rigid_body.attitude import Lying, attitude_along
 from hess_mechanics.rigid_body.inertia import BodyCheck, check_body
+from hess_mechanics.suslov.equations import SuslovBody
+from hess_mechanics.suslov.free import FreeMotion
 from hess_mechanics.suslov_hess.equations import HessBody
 
 __all__ = ["Constrained", "ConstrainedBody", "Heavy", "HeavySolid", "Hess", "Solid", "constrained_body", "heavy_solid"]
@@ -88,6 +90,11 @@ class Constrained(Solid):
         I11, I22, I13, I23, *_, b1, b2, b3 = parameters
         return cls(times, states[:, :2], states[:, 2:], (I11, I22, I13, I23), (b1, b2, b3),
                    work.get(check_body, I11, I22, I13, I23))
+
+    @classmethod
+    def of_free(cls, work: Work, body: SuslovBody, motion: FreeMotion) -> Constrained:
+        """Return a body without a field along its motion."""
+        return cls.along(work, body.parameters, motion.times, np.hstack([motion.omega, motion.gamma]))
 
     @property
     def mass(self) -> Direction | None:
