@@ -12,6 +12,8 @@ from html import escape
 import holoviews as hv
 import numpy as np
 import pytest
+from matplotlib.collections import PatchCollection
+from matplotlib.colors import to_hex
 from PIL import Image
 
 import hess_explorer as hess
@@ -119,7 +121,7 @@ def test_a_plot_draws_the_numbers_of_the_data_on_the_axes_of_the_page(scene, pic
     state = hess.state(scene, accuracy="draft")
     plot, data = state.plot(picture), state.data(picture)
     part = data.layer(layer)
-    elements = plot.traverse(lambda one: one, [hv.Path, hv.Points, hv.Image, hv.Polygons])
+    elements = plot.traverse(lambda one: one, [hv.Curve, hv.Path, hv.Points, hv.Image, hv.Polygons])
     drawn = [[one.dimension_values(name) for name in (one.vdims if isinstance(one, hv.Image) else one.dimensions())[
         :len(columns)]] for one in elements]
     drawn = [[one[np.isfinite(one)] for one in found] for found in drawn]
@@ -130,6 +132,28 @@ def test_a_plot_draws_the_numbers_of_the_data_on_the_axes_of_the_page(scene, pic
     assert (figure.x_range.start, figure.x_range.end) == pytest.approx(axes.x)
     assert (figure.y_range.start, figure.y_range.end) == pytest.approx(axes.y)
     assert figure.title.text == data.facts["title"]
+
+
+def test_a_plot_is_drawn_restyled_and_combined_in_either_backend():
+    hv.extension("matplotlib")
+    try:
+        state = hess.state("suslov-hess", accuracy="draft")
+        plot = state.plot("bifurcation")
+        assert hv.Store.current_backend == "matplotlib"
+        axes = shown(state.link, "bifurcation").axes
+        frame = hv.render(plot).axes[0]
+        assert (frame.get_xlim(), frame.get_ylim()) == (axes.x, axes.y)
+        locked, forbidden = (one for one in frame.collections if isinstance(one, PatchCollection))
+        assert (to_hex(locked.get_facecolor()[0]), to_hex(forbidden.get_facecolor()[0])) == ("#b9a7d6", "#ececec")
+        restyled = plot.opts(hv.opts.Polygons(facecolor="red"), hv.opts.Overlay(title="Other words"), clone=True)
+        first, second = hv.render(restyled + plot * hv.HLine(0.0)).axes
+        assert first.get_title() == "Other words"
+        assert to_hex(first.collections[0].get_facecolor()[0]) == "#ff0000"
+        assert len(second.lines) == len(frame.lines) + 1
+    finally:
+        hv.Store.set_current_backend("bokeh")
+    # The same object in the other one.
+    assert hv.render(plot, "bokeh").title.text == state.data("bifurcation").facts["title"]
 
 
 def test_a_sphere_is_the_figure_for_paper_in_pixels():

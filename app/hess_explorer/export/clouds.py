@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hess_explorer.export.moment import CloudFrame, clouds_at
-from hess_explorer.export.sheet import LOOKS, Colour, Sheet, seen
+from hess_explorer.export.sheet import LOOKS, Sheet, seen
 from hess_explorer.export.shown import Shown
 from hess_explorer.views import theme
 from hess_explorer.views.cloud import CloudPlane
+from hess_explorer.views.elements import Colour
 from hess_mechanics.numerics.results import Array
 
 if TYPE_CHECKING:

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 from hess_explorer.export import clouds, plots, spheres
 from hess_explorer.export.formats import WIDTHS, holding
-from hess_explorer.export.sheet import Colour
 from hess_explorer.export.shown import Shown
 from hess_explorer.export.solid import EVEN, ODD
 from hess_explorer.views import theme
 from hess_explorer.views.cloud import CloudPlane
+from hess_explorer.views.elements import Colour, as_it_is
 from hess_explorer.views.plot import Plot
 from hess_mechanics.errors import InvalidParameter
 
@@ -20,8 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes as Frame
     from matplotlib.figure import Figure
 
-__all__ = ["STYLE", "as_file", "as_it_is", "draw", "draw_moving", "draw_still", "in_black",
-           "saved"]
+__all__ = ["STYLE", "as_file", "draw", "draw_moving", "draw_still", "in_black", "saved"]
 
 _DOTS_PER_INCH = 300
 STYLE: Mapping[str, Any] = {
@@ -95,11 +94,6 @@ def draw_moving(frame: Frame, shown: Shown, colour: Colour, t: float, point: boo
         clouds.draw_moving(frame, shown, colour, t)
     else:
         spheres.draw_moving(frame, shown, colour, t, point)
-
-
-def as_it_is(colour: str) -> str:
-    """The colours of the light page."""
-    return colour
 
 
 def in_black(colour: str) -> str:

@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hess_explorer.export.figure import STYLE, as_it_is, draw_moving, draw_still, in_black
+from hess_explorer.export.figure import STYLE, draw_moving, draw_still, in_black
 from hess_explorer.export.formats import FILM_WIDTHS, SECONDS
 from hess_explorer.export.moment import end
 from hess_explorer.export.plots import densities
 from hess_explorer.export.shown import Shown
 from hess_explorer.views.body import BodyInSpace
 from hess_explorer.views.cloud import CloudPlane
+from hess_explorer.views.elements import as_it_is
 from hess_explorer.views.poisson_sphere import Sphere
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.results import Array

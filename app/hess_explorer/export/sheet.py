@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from hess_explorer.views import theme
+from hess_explorer.views.elements import Colour
 from hess_mechanics.numerics.results import Array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes as Frame
 
-__all__ = ["LOOKS", "ROOM", "Colour", "Look", "Sheet", "circle", "graticule", "seen"]
+__all__ = ["LOOKS", "ROOM", "Look", "Sheet", "circle", "graticule", "seen"]
 
-Colour = Callable[[str], str]
 Point = Sequence[float] | Array
 """(3,)."""
 Look = tuple[str, Any, float]

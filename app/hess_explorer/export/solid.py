@@ -9,8 +9,9 @@ import math
 
 import numpy as np
 
-from hess_explorer.export.sheet import Colour, Sheet
+from hess_explorer.export.sheet import Sheet
 from hess_explorer.views import theme
+from hess_explorer.views.elements import Colour
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["EVEN", "ODD", "covers", "leaves", "outline", "paint", "shaded"]

@@ -12,10 +12,11 @@ import numpy as np
 from hess_explorer.export.body import BodyDrawing
 from hess_explorer.export.clouds import on_sphere
 from hess_explorer.export.moment import clouds_at, state_at
-from hess_explorer.export.sheet import LOOKS, Colour, Sheet, circle, graticule
+from hess_explorer.export.sheet import LOOKS, Sheet, circle, graticule
 from hess_explorer.export.shown import Shown
 from hess_explorer.views import theme
 from hess_explorer.views.body import BodyInSpace
+from hess_explorer.views.elements import Colour
 from hess_explorer.views.layers import Columns
 from hess_explorer.views.poisson_sphere import Sphere
 

@@ -114,7 +114,7 @@ def _clouds(columns: Columns, time: float) -> dict[str, Columns]:
 def _axes(shown: Shown) -> dict[str, Any]:
     if shown.axes is None or not isinstance(shown.picture, Plot):
         return {}
-    names = shown.picture.axes if isinstance(shown.picture.axes, tuple) else shown.picture.axes(shown.state)
+    names = shown.picture.names(shown.state)
     return {"axes": {"x": [names[0], *map(float, shown.axes.x)], "y": [names[1], *map(float, shown.axes.y)]}}
 
 

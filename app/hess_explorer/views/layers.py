@@ -6,7 +6,7 @@ A layer is data: `data(state)` gives what it shows of a state, and nothing here 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, Generic, TypeVar
 
 import numpy as np
@@ -45,7 +45,6 @@ S = TypeVar("S")
 Range = tuple[float, float]
 Columns = Mapping[str, Any]
 """Columns of a source by name: arrays, or lists of arrays and plain values."""
-Place = tuple[float, float]
 
 
 @dataclass(frozen=True)
@@ -88,7 +87,7 @@ class Layer(Generic[S]):
     """One layer of glyphs.
 
     name : within the plot; its source is "<plot>-<name>", or "data-<track>" where it draws a track of the scene.
-    glyph : Bokeh's name of it; columns : those of its positions; style : Bokeh's words.
+    glyph : Bokeh's name of it; columns : those of its positions; style : the properties of that glyph.
     data(state) : its columns, none for nothing; within(state, axes) : the same where it depends on the axes.
     moving : whether it changes with every state: such layers lie above axes and background, which then stay painted.
     legend : what it adds to the legend of the scene.
@@ -97,17 +96,13 @@ class Layer(Generic[S]):
     name: str
     glyph: str
     columns: tuple[str, ...]
-    style: Mapping[str, Any]
+    style: Mapping[str, Any] = field(default_factory=dict)
     data: Callable[[S], Columns] | None = None
     within: Callable[[S, Axes], Columns] | None = None
     track: str | None = None
     moving: bool = True
     legend: tuple[Sign, ...] = ()
 
-
-POINT: Layer[Any] = Layer("point", "scatter", ("x", "y"), {
-    "color": theme.POINT, "line_color": theme.INK, "line_width": 1.5, "size": 13})
-"""The moving point of a plot."""
 
 MESSAGE: Layer[Any] = Layer("message", "text", ("x", "y", "text"), {
     "text_color": theme.MUTED, "text_font_style": "bold", "text_font_size": "15px", "text_align": "center",
@@ -116,7 +111,7 @@ MESSAGE: Layer[Any] = Layer("message", "text", ("x", "y", "text"), {
 
 
 def column(values: Any) -> Array:
-    """Numbers side by side, in double precision, for whoever takes them away; the wire sends a screen's single one."""
+    """Return numbers as a contiguous array in double precision; the wire sends a screen's single precision."""
     return np.ascontiguousarray(values, dtype=np.float64)
 
 
@@ -126,16 +121,13 @@ def _positions(columns: Sequence[str], value: Any) -> Columns:
 
 
 def _parts(value: Sequence[Array] | None) -> Columns:
-    curves_ = [column(np.asarray(curve).T) for curve in value or ()]
-    return {"xs": [curve[0] for curve in curves_], "ys": [curve[1] for curve in curves_]} if curves_ else {}
+    turned = [column(np.asarray(curve).T) for curve in value or ()]
+    return {"xs": [x for x, _ in turned], "ys": [y for _, y in turned]} if turned else {}
 
 
 def _regions(value: Sequence[Sequence[Array]] | None) -> Columns:
-    if not value:
-        return {}
-    polygons = [[column(np.asarray(curve).T) for curve in one] for one in value]
-    return {"xs": [[[curve[0] for curve in one]] for one in polygons],
-            "ys": [[[curve[1] for curve in one]] for one in polygons]}
+    found = [_parts(rings) for rings in value or ()]
+    return {name: [[part[name]] for part in found] for name in ("xs", "ys")} if found else {}
 
 
 def _cells(value: CellGrid | None) -> Columns:
@@ -145,53 +137,47 @@ def _cells(value: CellGrid | None) -> Columns:
     return {"image": [column(value.cells)], "x": [x0], "y": [y0], "dw": [x1 - x0], "dh": [y1 - y0]}
 
 
-def _places(value: Sequence[Place] | None) -> Columns:
-    return {"x": [float(x) for x, _ in value], "y": [float(y) for _, y in value]} if value else {}
-
-
-def _dash(dash: str) -> str:
-    """Bokeh's word for dashes in CSS's."""
-    return {"dotdash": "dashed"}.get(dash, dash)
+def _layer(layer: Layer[S], convert: Callable[[Any], Columns], data: Callable[[S], Any] | None,
+           within: Callable[[S, Axes], Any] | None = None) -> Layer[S]:
+    """The layer with its data converted to columns."""
+    return replace(layer, data=None if data is None else lambda state: convert(data(state)),
+                   within=None if within is None else lambda state, axes: convert(within(state, axes)))
 
 
 def _signed(label: str, kind: str, style: str) -> tuple[Sign, ...]:
     return (Sign(label, kind, style),) if label else ()
 
 
-def _layer(layer: Layer[S], convert: Callable[[Any], Columns], data: Callable[[S], Any] | None,
-           within: Callable[[S, Axes], Any] | None) -> Layer[S]:
-    """The layer with its data converted to columns."""
-    return replace(layer, data=None if data is None else lambda state: convert(data(state)),
-                   within=None if within is None else lambda state, axes: convert(within(state, axes)))
+def _stroked(layer: Layer[S], color: str, width: float, dash: str, alpha: float, label: str) -> Layer[S]:
+    # CSS has no word for dashes and dots.
+    sign = f"border-top: {max(2.0, width):g}px {'dashed' if dash == 'dotdash' else dash} {color}"
+    return replace(layer, legend=_signed(label, "line", sign), style={
+        "line_color": color, "line_width": width, "line_dash": dash, "line_alpha": alpha})
 
 
 def line(name: str, data: Callable[[S], Any] | None = None, *, color: str, width: float = 2.0, dash: str = "solid",
          alpha: float = 1.0, label: str = "", moving: bool = True, columns: tuple[str, str] = ("x", "y"),
          track: str | None = None, within: Callable[[S, Axes], Any] | None = None) -> Layer[S]:
     """One curve: data(state) = (x, y), or None; `track`: columns of a track of the scene."""
-    style = {"color": color, "line_width": width, "line_dash": dash, "line_alpha": alpha}
-    sign = _signed(label, "line", f"border-top: {max(2.0, width):g}px {_dash(dash)} {color}")
-    layer: Layer[S] = Layer(name, "line", columns, style, track=track, moving=moving, legend=sign)
-    return _layer(layer, lambda value: _positions(columns, value), data, within)
+    layer: Layer[S] = Layer(name, "line", columns, track=track, moving=moving)
+    return _layer(_stroked(layer, color, width, dash, alpha, label), lambda value: _positions(columns, value), data,
+                  within)
 
 
 def curves(name: str, data: Callable[[S], Sequence[Array]] | None = None, *, color: str, width: float = 2.0,
            dash: str = "solid", alpha: float = 1.0, label: str = "", moving: bool = True,
            within: Callable[[S, Axes], Any] | None = None) -> Layer[S]:
     """Some curves: data(state) = arrays (n, 2)."""
-    style = {"color": color, "line_width": width, "line_dash": dash, "line_alpha": alpha}
-    sign = _signed(label, "line", f"border-top: {max(2.0, width):g}px {_dash(dash)} {color}")
-    layer: Layer[S] = Layer(name, "multi_line", ("xs", "ys"), style, moving=moving, legend=sign)
-    return _layer(layer, _parts, data, within)
+    layer: Layer[S] = Layer(name, "multi_line", ("xs", "ys"), moving=moving)
+    return _layer(_stroked(layer, color, width, dash, alpha, label), _parts, data, within)
 
 
 def region(name: str, data: Callable[[S], Sequence[Sequence[Array]]] | None = None, *, color: str = theme.FORBIDDEN,
            edge: str | None = None, label: str = "", moving: bool = False,
            within: Callable[[S, Axes], Any] | None = None) -> Layer[S]:
     """Filled parts: data(state) = parts, each an outer closed curve (n, 2) and those of its holes."""
-    style = {"fill_color": color, **({"line_alpha": 0} if edge is None else {"line_color": edge})}
-    sign = _signed(label, "box", f"background: {color}")
-    layer: Layer[S] = Layer(name, "multi_polygons", ("xs", "ys"), style, moving=moving, legend=sign)
+    layer: Layer[S] = Layer(name, "multi_polygons", ("xs", "ys"), {"fill_color": color, "line_color": edge},
+                            moving=moving, legend=_signed(label, "box", f"background: {color}"))
     return _layer(layer, _regions, data, within)
 
 
@@ -200,17 +186,14 @@ def points(name: str, data: Callable[[S], Any] | None = None, *, color: str, siz
            moving: bool = True, columns: tuple[str, ...] = ("x", "y"), track: str | None = None,
            within: Callable[[S, Axes], Any] | None = None) -> Layer[S]:
     """Markers: data(state) = (x, y), or (x, y, angle), or None."""
-    style: dict[str, Any] = {"marker": marker, "size": size, "line_width": edge_width, "alpha": alpha,
-                             "fill_color": color, "line_color": edge or color}
-    if hollow:
-        style["fill_alpha"] = 0
-    if "angle" in columns:
-        style["angle"] = "angle"
     small = size < 10 and not hollow
     look = f"background: none; border: {min(3.0, max(2.0, edge_width)):g}px solid {color}" if hollow else (
         f"background: {color}" + (f"; border: 1.5px solid {edge}" if edge else ""))
-    sign = _signed(label, "dot small" if small else "dot", look)
-    layer: Layer[S] = Layer(name, "scatter", columns, style, track=track, moving=moving, legend=sign)
+    layer: Layer[S] = Layer(name, "scatter", columns, {
+        "marker": marker, "size": size, "line_width": edge_width, "fill_color": color, "line_color": edge or color,
+        "fill_alpha": 0.0 if hollow else alpha, "line_alpha": alpha,
+        **({"angle": "angle"} if "angle" in columns else {})}, track=track, moving=moving,
+        legend=_signed(label, "dot small" if small else "dot", look))
     return _layer(layer, lambda value: _positions(columns, value), data, within)
 
 
@@ -218,9 +201,8 @@ def dots(name: str, data: Callable[[S], Any] | None = None, *, color: str, size:
          label: str = "", columns: tuple[str, str] = ("x", "y"), track: str | None = None,
          within: Callable[[S, Axes], Any] | None = None) -> Layer[S]:
     """Points by the thousand, which the page draws itself: data(state) = (x, y), or None."""
-    style = {"size": size, "color": color, "alpha": alpha}
-    sign = _signed(label, "dot small", f"background: {color}")
-    layer: Layer[S] = Layer(name, "dots", columns, style, track=track, legend=sign)
+    layer: Layer[S] = Layer(name, "dots", columns, {"size": size, "color": color, "alpha": alpha}, track=track,
+                            legend=_signed(label, "dot small", f"background: {color}"))
     return _layer(layer, lambda value: _positions(columns, value), data, within)
 
 
@@ -229,20 +211,23 @@ def arrows(name: str, data: Callable[[S], Any] | None = None, *, color: str, siz
     """Triangles that point along a motion: data(state) = (x, y, angle), angle 0 upwards, or None."""
     layer: Layer[S] = points(name, data, color=color, size=size, marker="triangle", alpha=alpha,
                              columns=("x", "y", "angle"), within=within)
-    return replace(layer, style={**layer.style, "line_alpha": 0})
+    return replace(layer, style={**layer.style, "line_alpha": 0.0})
 
 
-def ring(name: str, data: Callable[[S], Sequence[Place]] | None = None, *, color: str = theme.UNSTABLE,
+def ring(name: str, data: Callable[[S], Sequence[tuple[float, float]]] | None = None, *, color: str = theme.UNSTABLE,
          size: float = 16.0, width: float = 3.0, label: str = "", columns: tuple[str, str] = ("x", "y"),
          within: Callable[[S, Axes], Any] | None = None) -> Layer[S]:
     """Rings about some places [(x, y), …]."""
-    style = {"size": size, "fill_alpha": 0, "line_color": color, "line_width": width}
-    sign = _signed(label, "dot", f"background: none; border: 3px solid {color}")
-    layer: Layer[S] = Layer(name, "scatter", columns, style, legend=sign)
-    return _layer(layer, lambda value: dict(zip(columns, _places(value).values(), strict=False)), data, within)
+    layer: Layer[S] = points(name, color=color, size=size, hollow=True, edge_width=width, label=label, columns=columns)
+    return _layer(layer, lambda value: _rows(columns, value), data, within)
 
 
-def target(name: str, data: Callable[[S], Sequence[Place]], size: float = 21.0,
+def _rows(columns: Sequence[str], value: Sequence[Sequence[Any]]) -> Columns:
+    """Lists, one for each column; nothing without rows."""
+    return dict(zip(columns, map(list, zip(*value, strict=True)), strict=False))
+
+
+def target(name: str, data: Callable[[S], Sequence[tuple[float, float]]], size: float = 21.0,
            columns: tuple[str, str] = ("x", "y")) -> tuple[Layer[S], Layer[S]]:
     """A ring that is seen on any colour: white, and black on it."""
     return (ring(name, data, color="white", size=size, width=6.0, columns=columns),
@@ -257,11 +242,10 @@ def image(name: str, data: Callable[[S], CellGrid | None], *, palette: str | tup
     the same; kinds : numbers that are names, with smooth borders between them.
     """
     colors = getattr(palettes, palette) if isinstance(palette, str) else palette
-    style = {"palette": list(colors), "low": low, "high": high, "smooth": smooth or cyclic, "cyclic": cyclic,
-             "kinds": kinds}
-    layer: Layer[S] = Layer(name, "image", ("image", "x", "y", "dw", "dh"), style, moving=False,
-                            legend=legend)
-    return _layer(layer, _cells, data, None)
+    layer: Layer[S] = Layer(name, "image", ("image", "x", "y", "dw", "dh"), {
+        "palette": list(colors), "low": low, "high": high, "smooth": smooth or cyclic, "cyclic": cyclic,
+        "kinds": kinds}, moving=False, legend=legend)
+    return _layer(layer, _cells, data)
 
 
 def levels(name: str, data: Callable[[S], Sequence[float]]) -> Layer[S]:
@@ -273,17 +257,15 @@ def levels(name: str, data: Callable[[S], Sequence[float]]) -> Layer[S]:
         reach = high - low
         return {"x0": [low - reach] * n, "y0": heights, "x1": [high + reach] * n, "y1": heights} if n else {}
 
-    style = {"color": theme.MUTED, "line_dash": "dotted", "line_width": 1.5}
+    style = {"line_color": theme.MUTED, "line_dash": "dotted", "line_width": 1.5}
     return Layer(name, "segment", ("x0", "y0", "x1", "y1"), style, within=across)
 
 
 def names(name: str, data: Callable[[S], Sequence[tuple[float, float, str]]]) -> Layer[S]:
     """Words about places of the part that is impossible: data(state) = [(x, y, word), …]."""
-    columns = ("x", "y", "text")
-    style = {"text_color": theme.INK, "text_font_size": "16px", "text_align": "center",
-             "text_baseline": "middle"}
-    return Layer(name, "text", columns, style,
-                 data=lambda state: dict(zip(columns, map(list, zip(*data(state), strict=True)), strict=False)))
+    layer: Layer[S] = Layer(name, "text", ("x", "y", "text"), {
+        "text_color": theme.INK, "text_font_size": "16px", "text_align": "center", "text_baseline": "middle"})
+    return _layer(layer, lambda value: _rows(layer.columns, value), data)
 
 
 def text(name: str, data: Callable[[S], str]) -> Layer[S]:
@@ -296,3 +278,7 @@ def text(name: str, data: Callable[[S], str]) -> Layer[S]:
     style = {"text_color": theme.MUTED, "text_font_size": theme.FONT_SIZE, "text_align": "right", "x_offset": -6,
              "y_offset": -4}
     return Layer(name, "text", ("x", "y", "text"), style, within=there)
+
+
+POINT: Layer[Any] = points("point", color=theme.POINT, edge=theme.INK, edge_width=1.5, size=13.0)
+"""The moving point of a plot."""

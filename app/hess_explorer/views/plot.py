@@ -98,6 +98,10 @@ class Plot(Picture[S]):
         x, y = ((1.0, 10.0) if side in self.log else (0.0, 1.0) for side in "xy")
         return Axes(x if callable(self.x) else self.x, y if callable(self.y) else self.y)
 
+    def names(self, state: S) -> tuple[str, str]:
+        """Return the names of the axes."""
+        return self.axes(state) if callable(self.axes) else self.axes
+
     def source_of(self, layer: Layer[S]) -> str:
         """The name of the source of a layer."""
         return f"data-{layer.track}" if layer.track else f"{self.name}-{layer.name}"

@@ -1,0 +1,245 @@
+"""A plot as HoloViews elements: the one drawing of its layers for notebooks, figures and films, in either backend.
+
+The page has the same looks: a layer names its style in the words of Bokeh's glyphs, which are those of the elements.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import holoviews as hv
+import numpy as np
+
+from hess_explorer.views.layers import MESSAGE, POINT, Axes, Columns, Layer
+
+if TYPE_CHECKING:
+    from hess_explorer.views.plot import Plot
+
+__all__ = ["SIDE", "Colour", "as_it_is", "frame", "on_paper", "overlay"]
+
+Colour = Callable[[str], str]
+"""The colour that stands for one of the light page."""
+Style = Mapping[str, Any]
+Options = dict[str, Any]
+
+SIDE = 420
+"""Pixels of a picture in a notebook."""
+_PAPER = 0.6
+"""Points of type for a pixel of the page, of lines and markers."""
+_TYPE = 0.75
+"""And of the distance of a word from its place."""
+_DOT = 0.6
+"""Dots of figures are smaller: they have no pixels to fill."""
+_MOST_VECTORS = 5000
+"""More markers than these are pixels in a vector file, which would else take a viewer seconds."""
+_MARKERS = {"circle": "o", "triangle": "^", "diamond": "D", "square": "s"}
+_DASHES: Mapping[str, Any] = {
+    "solid": "-", "dashed": (0, (6, 3)), "dotted": (0, (2, 4)), "dotdash": (0, (2, 4, 6, 4))}
+
+
+def as_it_is(colour: str) -> str:
+    """Return the colour of the light page."""
+    return colour
+
+
+def overlay(plot: Plot[Any], columns: Mapping[str, Columns], axes: Axes, names: tuple[str, str], title: str = "",
+            colour: Colour = as_it_is) -> hv.Overlay:
+    """Return the layers of a plot from the back to the front, with options for all backends that are loaded.
+
+    Parameters
+    ----------
+    plot : the plot; columns : by the names of its sources; layers without columns are left out.
+    axes, names : the ranges and the names of its axes.
+    title : written over it; colour : exchanges the colours of the page.
+    """
+    # Cells lie under everything else.
+    layers = sorted((*plot.layers, POINT, MESSAGE), key=lambda layer: layer.glyph != "image")
+    drawn = [_element(layer, columns[plot.source_of(layer)], colour) for layer in layers
+             if len(columns.get(plot.source_of(layer), {}).get(layer.columns[0], ()))]
+    found = hv.Overlay(drawn or [hv.Curve([])])
+    shared = {**frame(plot, axes, names), "title": title, "show_legend": False}
+    return _with_options(found, {
+        "bokeh": {**shared, "frame_width": SIDE, "frame_height": SIDE, "fontsize": {"labels": 13}},
+        "matplotlib": {**shared, "show_frame": True, "aspect": "auto", "hooks": [_finish]}})
+
+
+def frame(plot: Plot[Any], axes: Axes, names: tuple[str, str]) -> Options:
+    """Return the options of both backends for ranges, names, scales and ticks of the axes."""
+    ticks = [(plot.ticks or plot.x_ticks, "xticks"), (plot.y_ticks or plot.ticks, "yticks")]
+    return {"xlim": axes.x, "ylim": axes.y, "xlabel": names[0], "ylabel": names[1],
+            "logx": "x" in plot.log, "logy": "y" in plot.log,
+            **{name: list(places) for places, name in ticks if places is not None}}
+
+
+def on_paper(layer: Layer[Any], colour: Colour) -> Options:
+    """Return Matplotlib's words for the look of a layer."""
+    return _KINDS[layer.glyph].matplotlib(_exchanged(layer.style, colour))
+
+
+def _exchanged(style: Style, colour: Colour) -> Options:
+    """The style in other colours, but for those that stand for numbers."""
+    found = {name: colour(value) if name.endswith("color") else value for name, value in style.items()}
+    return {**found, "palette": [*map(colour, style["palette"])]} if style.get("kinds") else found
+
+
+def _element(layer: Layer[Any], columns: Columns, colour: Colour) -> hv.Element:
+    kind = _KINDS[layer.glyph]
+    element = kind.element(layer.name.replace("-", " "), *(columns[name] for name in layer.columns))
+    style = _exchanged(layer.style, colour)
+    hooks = {} if kind.hook is None else {"hooks": [kind.hook(style)]}
+    return _with_options(element, {"bokeh": kind.bokeh(style), "matplotlib": {**kind.matplotlib(style), **hooks}})
+
+
+def _with_options(element: Any, options: Mapping[str, Options]) -> Any:
+    # HoloViews refuses options of a backend that is not loaded.
+    for backend in set(options) & set(hv.Store.loaded_backends()):
+        element = element.opts(getattr(hv.opts, type(element).__name__)(backend=backend, **options[backend]))
+    return element
+
+
+def _curve(label: str, x: Any, y: Any) -> hv.Element:
+    return hv.Curve((np.asarray(x, float), np.asarray(y, float)), label=label)
+
+
+def _curves(label: str, xs: Sequence[Any], ys: Sequence[Any]) -> hv.Element:
+    return hv.Path([np.column_stack(part) for part in zip(xs, ys, strict=True)], label=label)
+
+
+def _segments(label: str, x0: Any, y0: Any, x1: Any, y1: Any) -> hv.Element:
+    return _curves(label, [*zip(x0, x1, strict=True)], [*zip(y0, y1, strict=True)])
+
+
+def _areas(label: str, xs: Sequence[Any], ys: Sequence[Any]) -> hv.Element:
+    rings = [[np.column_stack(ring) for ring in zip(x[0], y[0], strict=True)] for x, y in zip(xs, ys, strict=True)]
+    return hv.Polygons([{("x", "y"): outer, "holes": [holes]} for outer, *holes in rings], label=label)
+
+
+def _points(label: str, *columns: Any) -> hv.Element:
+    numbers = tuple(np.asarray(one, float) for one in columns)
+    return hv.Points(numbers, vdims=["angle"][: len(columns) - 2], label=label)
+
+
+def _cells(label: str, image: Any, x: Any, y: Any, dw: Any, dh: Any) -> hv.Element:
+    return hv.Image(image[0][::-1], bounds=(x[0], y[0], x[0] + dw[0], y[0] + dh[0]), vdims="value", label=label)
+
+
+def _labels(label: str, x: Any, y: Any, text: Any) -> hv.Element:
+    return hv.Labels((np.asarray(x, float), np.asarray(y, float), list(text)), vdims="text", label=label)
+
+
+def _stroke(style: Style) -> Options:
+    return {"color": style["line_color"], "linewidth": _PAPER * style["line_width"],
+            "linestyle": _DASHES[style.get("line_dash", "solid")], "alpha": style.get("line_alpha", 1.0)}
+
+
+def _area(style: Style) -> Options:
+    # Without a color of its own: HoloViews has one from its cycle, which would win.
+    return {"color": None, "facecolor": style["fill_color"], "edgecolor": style["line_color"] or "none",
+            "linewidth": 0.6}
+
+
+def _turning(style: Style) -> Options:
+    return {**style, "angle": hv.dim("angle") * (180.0 / math.pi)} if "angle" in style else dict(style)
+
+
+def _marker(style: Style) -> Options:
+    filled, edged = style.get("fill_alpha", 1.0), style.get("line_alpha", 1.0)
+    return {"s": (_PAPER * style["size"]) ** 2, "marker": _MARKERS[style.get("marker", "circle")],
+            "linewidth": _PAPER * style["line_width"], "alpha": max(filled, edged),
+            "facecolors": style["fill_color"] if filled else "none",
+            "edgecolors": style["line_color"] if edged else "none"}
+
+
+def _small(style: Style) -> Options:
+    return {**style, "size": _DOT * style["size"]}
+
+
+def _dot(style: Style) -> Options:
+    return {"s": (_TYPE * _DOT * style["size"]) ** 2, "color": style["color"], "alpha": style["alpha"], "linewidth": 0}
+
+
+def _scale(style: Style) -> Options:
+    return {"cmap": style["palette"], "clim": (style["low"], style["high"]), "clipping_colors": {"NaN": "#00000000"}}
+
+
+def _interpolated(style: Style) -> Options:
+    # Numbers that go round are not to be mixed: −½ and ½ would give 0.
+    even = style["smooth"] and not style["cyclic"]
+    return {**_scale(style), "interpolation": "bilinear" if even else "nearest"}
+
+
+def _word(style: Style) -> Options:
+    return {name: value for name, value in style.items() if not name.endswith("offset")}
+
+
+def _letters(style: Style) -> Options:
+    upright = {"middle": "center"}.get(style.get("text_baseline", "bottom"), "bottom")
+    return {"color": style["text_color"], "size": "medium", "horizontalalignment": style["text_align"],
+            "verticalalignment": upright}
+
+
+def _finish(plot: Any, element: hv.Overlay) -> None:
+    """Draw the frame square and over all layers, and words as long as their places are inside."""
+    axis = plot.handles["axis"]
+    # HoloViews measures a square in the numbers of the axes, also where only one of them is logarithmic.
+    axis.set_box_aspect(1.0)
+    for spine in axis.spines.values():
+        spine.set_zorder(len(element))
+    for text in axis.texts:
+        (x0, x1), (y0, y1), (x, y) = axis.get_xlim(), axis.get_ylim(), text.get_position()
+        text.set(visible=x0 <= x <= x1 and y0 <= y <= y1, in_layout=False)
+
+
+Hook = Callable[[Any, Any], None]
+
+
+def _pixels(style: Style) -> Hook:
+    """Markers point where the layer says, and very many become pixels."""
+
+    def hook(plot: Any, element: hv.Points) -> None:
+        from matplotlib.transforms import Affine2D
+
+        artist = plot.handles["artist"]
+        artist.set_rasterized(len(element) > _MOST_VECTORS)
+        if element.vdims:
+            path, = artist.get_paths()
+            artist.set_paths([path.transformed(Affine2D().rotate(angle)) for angle in element["angle"]])
+
+    return hook
+
+
+def _moved(style: Style) -> Hook:
+    """Words stand beside their places."""
+
+    def hook(plot: Any, element: hv.Labels) -> None:
+        from matplotlib.transforms import ScaledTranslation
+
+        x, y = _TYPE * style.get("x_offset", 0.0), -_TYPE * style.get("y_offset", 0.0)
+        by = ScaledTranslation(x / 72.0, y / 72.0, plot.handles["fig"].dpi_scale_trans)
+        for text in plot.handles["artist"]:
+            text.set_transform(text.get_transform() + by)
+
+    return hook
+
+
+class _Kind(NamedTuple):
+    """Element of the columns of a layer, and its options in the words of each backend."""
+
+    element: Callable[..., hv.Element]
+    bokeh: Callable[[Style], Options]
+    matplotlib: Callable[[Style], Options]
+    hook: Callable[[Style], Hook] | None = None
+
+
+_KINDS: Mapping[str, _Kind] = {
+    "line": _Kind(_curve, dict, _stroke),
+    "multi_line": _Kind(_curves, dict, _stroke),
+    "segment": _Kind(_segments, dict, _stroke),
+    "multi_polygons": _Kind(_areas, dict, _area),
+    "scatter": _Kind(_points, _turning, _marker, _pixels),
+    "dots": _Kind(_points, _small, _dot, _pixels),
+    "image": _Kind(_cells, _scale, _interpolated),
+    "text": _Kind(_labels, _word, _letters, _moved)}
+"""By the glyph of a layer."""
