@@ -44,7 +44,7 @@ def parameter(known: Parameter, default: float | None = None, **changes: Any) ->
 def number(symbol: str, default: float, softbounds: tuple[float, float], step: float, *, bounds: tuple[float, float],
            label: str, doc: str, group: Group = "State", means: str = "") -> Any:
     """A number: its slider covers `softbounds` in steps; what is typed, or comes by a link, lies within `bounds`."""
-    return _field(Number("", symbol, label, default, softbounds, step, bounds, doc, group, means))
+    return _field(Number("", symbol, label, default, softbounds, step, bounds, doc, group, means=means))
 
 
 def choice(label: str, options: tuple[str, ...], default: str, *, doc: str, group: Group = "Computation") -> Any:

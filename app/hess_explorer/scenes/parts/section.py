@@ -48,7 +48,7 @@ _MOST_COMPARED = 400.0
 def crossings_of_each() -> Any:
     """Declare how many crossings of a section each orbit leaves, at once."""
     return number("n", 200.0, (50.0, 600.0), 10.0, bounds=(1.0, 1e3), label="Crossings of each orbit",
-                  doc="SectionPoints for each orbit.", group="Computation")
+                  doc="Points for each orbit.", group="Computation")
 
 
 class _Host(Host, Protocol):
