@@ -10,18 +10,18 @@ from functools import cached_property
 import numpy as np
 
 from hess_explorer.scenes.framework.charted import Charted
-from hess_explorer.scenes.framework.inertia import CentreOfMass, Tensor
 from hess_explorer.scenes.framework.parameters import (
+    ONE_TURN,
     Slider,
     accuracy_level,
     choice,
-    like,
     number,
+    parameter,
     slider_within,
     time_span,
 )
-from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
-from hess_explorer.scenes.framework.solid_body import ConstrainedBody, constrained_body
+from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
+from hess_explorer.scenes.framework.solid_body import Constrained, constrained_body
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import period_graph, plane_domain, plane_potential, theme
 from hess_explorer.views.graph import pieces
@@ -32,6 +32,7 @@ from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import EQUATOR, Direction, Mark, Sphere, centre_of_mass, levels_about
 from hess_explorer.views.text import digits, power, vector
 from hess_explorer.views.velocity_plane import nice_above
+from hess_mechanics import parameters as known
 from hess_mechanics.numerics.results import Array, Orbit
 from hess_mechanics.suslov import kharlamova as mechanics
 from hess_mechanics.suslov.equations import SYSTEM
@@ -56,22 +57,23 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class Kharlamova(ConstrainedBody):
+class Kharlamova(State):
     """One orbit on its arc of a parabola, and the periods in all directions from its start."""
 
-    I11: float = like(Tensor, "I11", bounds=(1e-2, 1e2))
-    I22: float = like(Tensor, "I22", 1.0, bounds=(1e-2, 1e2))
-    b1: float = like(CentreOfMass, "b1", 0.4, softbounds=(-2.0, 2.0), bounds=(-1e2, 1e2),
-                     doc="b = −mg r, r the mass centre; b₃ = 0.")
-    b2: float = like(CentreOfMass, "b2", 0.7, softbounds=(-2.0, 2.0), bounds=(-1e2, 1e2),
-                     doc="b = −mg r; b₁ = b₂ = 0: straight lines.")
+    # These bounds are narrower than in other scenes.
+    I11: float = parameter(known.I11, bounds=(1e-2, 1e2))
+    I22: float = parameter(known.I22, 1.0, bounds=(1e-2, 1e2))
+    b1: float = parameter(known.B1, 0.4, softbounds=(-2.0, 2.0), bounds=(-1e2, 1e2),
+                          doc="b = −mg r, r the mass centre; b₃ = 0.")
+    b2: float = parameter(known.B2, 0.7, softbounds=(-2.0, 2.0), bounds=(-1e2, 1e2),
+                          doc="b = −mg r; b₁ = b₂ = 0: straight lines.")
     q1: float = number("q₁", 0.3, (-1.22, 1.22), 0.01, bounds=(-10.0, 10.0), label="Start q₁ = √I₁₁ γ₂",
                        doc="A click in the plane chooses the start, on the half γ₃ ≥ 0 of the sphere.")
     q2: float = number("q₂", -0.2, (-1.0, 1.0), 0.01, bounds=(-10.0, 10.0), label="Start q₂ = −√I₂₂ γ₁",
                        doc="A click in the plane chooses the start.")
     p: float = number("|p|", 1.0, (0.0, 4.0), 0.01, bounds=(0.0, 1e3), label="Start |p|",
                       doc="p = (√I₁₁ ω₁, √I₂₂ ω₂), at the start.")
-    alpha: float = number("α", 0.5, (-3.14, 3.14), 0.01, bounds=(-math.pi, math.pi), label="Start: direction α",
+    alpha: float = number("α", 0.5, (-3.14, 3.14), 0.01, bounds=ONE_TURN, label="Start: direction α",
                           doc="p = |p| (cos α, sin α), the first direction; a click in the graph of T chooses it.")
     span: float = time_span(20.0, 100.0)
     potential: str = choice("Another potential", tuple(POTENTIALS), "Hénon–Heiles",
@@ -143,6 +145,11 @@ class Kharlamova(ConstrainedBody):
     def other(self) -> PlaneMotion:
         """The motion from the same start in the other potential."""
         return self.work.get(motion_from, self.other_body, self.start, self.span, self.level)
+
+    @cached_property
+    def solid(self) -> Constrained:
+        """The body along it."""
+        return Constrained.along(self.work, self.body.parameters, self.orbit.times, self.orbit.states)
 
     def motion(self) -> Motion:
         """The orbit on show."""

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from hess_explorer.scenes.framework.charted import of_torus
-from hess_explorer.scenes.framework.inertia import Moments
-from hess_explorer.scenes.framework.parameters import accuracy_level, like, number, time_span
-from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
+from hess_explorer.scenes.framework.inertia import limits_of_moments
+from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, parameter, time_span
+from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import theme
 from hess_explorer.views.body import BodyInSpace, Curve, Rod, Shape, Trail
@@ -21,6 +21,7 @@ from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Mark
 from hess_explorer.views.text import digits, power, ranging, vector
 from hess_explorer.views.velocity_plane import pixels_per_unit
+from hess_mechanics import parameters as known
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.loxodromic_pendulum import LoxodromicMotion, LoxodromicPendulum, loxodromic_motion
 from hess_mechanics.numerics.results import Array
@@ -42,22 +43,28 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class Loxodrome(Moments):
+class Loxodrome(State):
     """One motion of one pendulum."""
 
-    I2: float = like(Moments, "I2", 1.5, doc="Middle principal moment: it must lie between I₁ and I₃.")
-    I3: float = like(Moments, "I3", 2.0)
-    m: float = number("μ|r|", 0.7071, (0.05, 20.0), 0.05, bounds=(1e-3, 1e3), group="Body",
-                      label="Weight times distance, μ|r|",
-                      doc="It sets the unit of energy and of time; the direction of r follows from the moments.")
-    energy: float = number("h", 1.5, (-0.95, 4.0), 0.01, bounds=(-1.0 + 1e-4, 1e4), label="Energy h",
-                           doc="In units of μ|r|: −1 hanging at rest, 1 the separatrix, on which it comes to rest "
-                               "upright.")
-    l: float = number("l", 0.15, (0.02, 3.12), 0.01, bounds=(1e-3, math.pi - 1e-3), label="Middle axis l(0)",
-                      doc="Angle of the middle axis from M, which is horizontal, when the centre of mass passes its "
-                          "lowest place.")
+    I1: float = parameter(known.I1)
+    I2: float = parameter(known.I2, 1.5, doc="Middle principal moment: it must lie between I₁ and I₃.")
+    I3: float = parameter(known.I3, 2.0)
+    # Of either sign the pendulum is the same.
+    m: float = parameter(known.MU_R, 0.7071, softbounds=(0.05, 20.0), step=0.05, bounds=(1e-3, 1e3),
+                         doc="It sets the unit of energy and of time; the direction of r follows from the moments.")
+    energy: float = parameter(known.H_PENDULUM)
+    l: float = parameter(known.L_PENDULUM)
     span: float = time_span(30.0, 200.0, what="the motion")
     accuracy: str = accuracy_level()
+
+    @property
+    def moments(self) -> tuple[float, float, float]:
+        """The principal moments of inertia."""
+        return self.I1, self.I2, self.I3
+
+    def limits(self) -> Mapping[str, Slider]:
+        """The moments keep their order."""
+        return limits_of_moments(*self.moments)
 
     @cached_property
     def pendulum(self) -> LoxodromicPendulum:

@@ -12,18 +12,21 @@ import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.charted import of_torus
-from hess_explorer.scenes.framework.hess_case import UNITS_OF_B, map_or_none, possible_f
-from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number, places
+from hess_explorer.scenes.framework.hess_case import map_or_none, possible_f
+from hess_explorer.scenes.framework.parameters import accuracy_level, choice, number, parameter, places
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
-from hess_explorer.scenes.framework.torus_trials import boundary, grid, on_line
+from hess_explorer.scenes.framework.torus_trials import boundary
+from hess_explorer.scenes.framework.trial import COLOUR, COLOUR_UNIT, Trial, colour_error, curve_error
 from hess_explorer.scenes.framework.windows import Window, boxed, inside, tidy_window, window_of
 from hess_explorer.views import circle_map as circle
 from hess_explorer.views import rotation_line, rotation_plane
-from hess_explorer.views.comparison import Frame
+from hess_explorer.views.comparison import Cells, Curves, Frame
+from hess_explorer.views.graph import pieces
 from hess_explorer.views.layers import Axes, CellGrid
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
-from hess_mechanics.numerics.accuracy import REFERENCE, Computation, Plan
+from hess_mechanics import parameters as known
+from hess_mechanics.numerics.accuracy import REFERENCE, Computation, Level, Plan
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess import rotation_number as mechanics
 from hess_mechanics.suslov_hess.circle_map import CircleMap
@@ -70,12 +73,9 @@ PRESETS = (
 class RotationNumber(State):
     """One torus, a map of ρ over two parameters, and a line through the torus along one."""
 
-    a: float = number("a", 0.5, (0.0, 2.0), 0.005, bounds=(-100.0, 100.0), group="Body", label="Inertia parameter a",
-                      doc="a = I₂₃/I₂₂ (Suslov) or √((a₃−a₂)(a₂−a₁))/a₂ (Euler–Poisson); a body has |a| < 1.")
-    h: float = number("h", 0.5, (-0.99, 4.0), 0.005, bounds=(-1.0 + 1e-9, 1e6), label="Energy h",
-                      doc="Energy integral in units b = 1.", means=UNITS_OF_B)
-    f: float = number("f", 0.8, (-3.0, 3.0), 0.005, bounds=(-1e4, 1e4), label="Area integral f",
-                      doc="Area integral in units b = 1.", means=UNITS_OF_B)
+    a: float = parameter(known.A_HESS)
+    h: float = parameter(known.H_HESS, 0.5, step=0.005)
+    f: float = parameter(known.F_HESS, 0.8, step=0.005, doc="Area integral in units b = 1.")
     over: str = choice("Map over", PLANES, "h, f", group="State", doc="The two parameters of the map; the third stays.")
     line: str = choice("Line along", ("f", "h", "a"), "f",
                        group="State", doc="The parameter along which ρ and the trace are drawn.")
@@ -159,10 +159,7 @@ class RotationNumber(State):
     @cached_property
     def boundary(self) -> list[Array]:
         """|t| = 2 in the map, as soon as it is known."""
-        if self.dragging:
-            return []
-        task = self.lock(self.plan(Computation.CURVE))
-        found: Array | None = self.work.later(task.function, *task.arguments)
+        found: Array | None = None if self.dragging else self.work.ask(self.lock(self.plan(Computation.CURVE)))
         if found is None or not len(found):
             return []
         return [found, found * np.array([1.0, -1.0])] if self.sides[1] == "f" else [found]
@@ -268,8 +265,57 @@ def _periodic(rho: Fraction, line: ParameterLine) -> tuple[PeriodicTorus | None]
     return (mechanics.periodic_torus(rho, line, REFERENCE),)
 
 
-_MEASURES = (grid(_FINE, lambda s: s.frame), on_line(_ON_LINE),
-             boundary("map", lambda s, plan: s.lock(plan).now(), lambda s: s.frame))
+# ---- what each level costs --------------------------------------------------------------------------------------
+# Cells and places found are not those of the truth: the exact ones are computed at those found.
+
+Map = tuple[TorusValues, tuple[int, int]]
+
+
+def _rows(s: RotationNumber, cells: tuple[int, int], level: Level) -> TorusValues:
+    return mechanics.rows(s.over, s.beside, s.window, cells, 0, cells[1], level)
+
+
+def _map_error(s: RotationNumber, found: Map, truth: Map) -> float:
+    values, cells = found
+    exact = _rows(s, cells, REFERENCE.tightened())
+    return colour_error(values.rho[values.possible], exact.rho[values.possible])
+
+
+def _map_look(s: RotationNumber, found: Map) -> Cells:
+    values, (m, n) = found
+    # What is locked has a tone of its own, as if its ρ were another one than any.
+    shown = np.where(values.possible, np.where(values.locked, 2.0, values.rho), np.nan)
+    return Cells(s.frame, shown.reshape(n, m), COLOUR)
+
+
+def _line(s: RotationNumber, places: int, level: Level, turns: int = mechanics.TURNS) -> Array:
+    """ρ of the tori on the line, and that of the other family."""
+    values = mechanics.along(s.on_line, places, level)
+    return np.stack([np.where(values.possible, values.rho, np.nan),
+                     mechanics.perturbed_along(s.on_line, places, s.epsilon, level, turns)])
+
+
+def _line_error(s: RotationNumber, found: Array, truth: Array) -> float:
+    exact = _line(s, found.shape[1], REFERENCE.tightened())
+    there = np.isfinite(found) & np.isfinite(exact)
+    low, high = rotation_line.RHO
+    return curve_error(found[there], exact[there], high - low, period=1.0) if there.any() else 0.0
+
+
+def _line_look(s: RotationNumber, found: Array) -> Curves:
+    x = s.on_line.places(found.shape[1])
+    return Curves(Frame(Axes(s.on_line.ends, rotation_line.RHO), (s.line, "ρ")), tuple(
+        part for rho in found
+        for part in pieces(np.column_stack([x, np.nan_to_num(rho)]), np.isfinite(rho), rotation_line.JUMP)))
+
+
+_MEASURES: tuple[Trial[RotationNumber], ...] = (
+    Trial(Computation.GRID, ("map",), lambda s, plan: (_rows(s, plan.grid(_FINE), plan.level), plan.grid(_FINE)),
+          _map_error, _map_look, COLOUR_UNIT),
+    Trial(Computation.LINE, ("line", "trace"),
+          lambda s, plan: _line(s, plan.side(_ON_LINE), plan.level, plan.part(mechanics.TURNS)),
+          _line_error, _line_look),
+    boundary("map", lambda s, plan: s.lock(plan).now(), lambda s: s.frame))
 
 SCENE = Scene(
     RotationNumber, __file__, place=8, presets=PRESETS, measures=_MEASURES,

@@ -25,19 +25,20 @@ from hess_explorer.scenes.framework.proved_orbit import ProvedOrbit, proved_erro
 from hess_explorer.scenes.framework.proved_zone import HIDDEN, SHOWN, ProvedZone, known_zone
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
 from hess_explorer.scenes.framework.solid_body import Hess, constrained_body
-from hess_explorer.scenes.framework.torus_trials import boundary, colours
-from hess_explorer.scenes.framework.trial import Trial, curve_error
+from hess_explorer.scenes.framework.torus_trials import boundary
+from hess_explorer.scenes.framework.trial import COLOUR, COLOUR_UNIT, Trial, colour_error, curve_error
 from hess_explorer.scenes.framework.work import orbit_status
 from hess_explorer.views import bifurcation_diagram as diagram
 from hess_explorer.views import circle_map as circle
 from hess_explorer.views import torus_density, torus_plane
+from hess_explorer.views.comparison import Cells
 from hess_explorer.views.layers import CellGrid, Columns
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, parallels
 from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import nice_above, picture
 from hess_mechanics.errors import InvalidParameter, Separatrix
-from hess_mechanics.numerics.accuracy import DRAFT, Computation, Level
+from hess_mechanics.numerics.accuracy import DRAFT, REFERENCE, Computation, Level
 from hess_mechanics.numerics.balls import has_flint
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, curve, curve_point, f_max, reach, turning_points
@@ -262,8 +263,11 @@ _MEASURES: tuple[Trial[SuslovHess], ...] = (
     Trial(Computation.MAP, ("circle",), lambda s, plan: circle_map(s.body.a, s.h, s.f, plan.level).theta(_PHASES),
           lambda s, theta, truth: curve_error(theta, truth, 2.0 * math.pi, period=2.0 * math.pi),
           lambda s, theta: circle.look(_PHASES, theta)),
-    colours(lambda s, plan: s.colours(affordable_cells(s.body.a, plan.grid(CELLS)), plan.level).now(),
-            lambda s: diagram.frame(s.h)),
+    Trial(Computation.COLOURS, ("bifurcation",),
+          lambda s, plan: s.colours(affordable_cells(s.body.a, plan.grid(CELLS)), plan.level).now(),
+          # At the centres of the cells found, which are not those of the truth.
+          lambda s, found, truth: colour_error(found, s.colours(found.shape[::-1], REFERENCE).now()),
+          lambda s, found: Cells(diagram.frame(s.h), found, COLOUR), COLOUR_UNIT),
     boundary("bifurcation", lambda s, plan: lock_boundary(s.body.a, plan.level, plan.side(_ON_BOUNDARY)),
              lambda s: diagram.frame(s.h)),
 )

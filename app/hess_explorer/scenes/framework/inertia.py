@@ -10,7 +10,7 @@ from hess_explorer.scenes.framework.parameters import Slider, number
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.views.poisson_sphere import Direction, centre_of_mass
 
-__all__ = ["CentreOfMass", "Moments", "Tensor"]
+__all__ = ["CentreOfMass", "Moments", "Tensor", "limits_of_moments"]
 
 
 @dataclass(frozen=True)
@@ -59,15 +59,20 @@ class Moments(State):
                        doc="Third principal moment of inertia.")
 
     def limits(self) -> Mapping[str, Slider]:
-        """Each slider ends where I₂ would no longer lie between the others; a typed value may change their order."""
-        low, high = sorted((self.I1, self.I3))
-        if not (low <= self.I2 <= high and high - low > 2.0 * _STEP):
-            return {}
-        smallest, largest = ("I1", "I3") if self.I1 < self.I3 else ("I3", "I1")
-        return {smallest: (min(_ENDS[0], low), self.I2, _STEP), "I2": (low, high, _STEP),
-                largest: (self.I2, max(_ENDS[1], high), _STEP)}
+        """The moments keep their order."""
+        return limits_of_moments(*self.moments)
 
     @property
     def moments(self) -> tuple[float, float, float]:
         """All three."""
         return self.I1, self.I2, self.I3
+
+
+def limits_of_moments(I1: float, I2: float, I3: float) -> Mapping[str, Slider]:
+    """Return ranges that end where I₂ would no longer lie between the others; a typed value may change their order."""
+    low, high = sorted((I1, I3))
+    if not (low <= I2 <= high and high - low > 2.0 * _STEP):
+        return {}
+    smallest, largest = ("I1", "I3") if I1 < I3 else ("I3", "I1")
+    return {smallest: (min(_ENDS[0], low), I2, _STEP), "I2": (low, high, _STEP),
+            largest: (I2, max(_ENDS[1], high), _STEP)}

@@ -27,16 +27,17 @@ if TYPE_CHECKING:
     from hess_explorer.scenes.framework.scene import Motion, State
 
 __all__ = [
-    "Refused", "Trial", "bare", "colour_error", "curve_error", "differing", "measured", "needed", "next_level",
-    "orbit_trial", "section_error",
+    "COLOUR", "COLOUR_UNIT", "Refused", "Trial", "bare", "colour_error", "curve_error", "differing", "measured",
+    "needed", "next_level", "orbit_trial", "section_error",
 ]
 
 S = TypeVar("S", bound="State")
 T = TypeVar("T")
 
 _SAMPLES = 400
-_COLOURS = 256.0
-"""Steps of a colour map."""
+COLOUR = 1.0 / 256.0
+"""One step of a colour map that covers one turn."""
+COLOUR_UNIT = "steps of the colour, 99 of 100 cells"
 
 
 def _always(state: State) -> bool:
@@ -185,7 +186,7 @@ def curve_error(values: Array, exact: Array, height: float, period: float = math
 
 def colour_error(values: Array, exact: Array) -> float:
     """The error that 99 of 100 values are below, in steps of a colour map that covers one turn; 0.0 without values."""
-    return _COLOURS * float(np.percentile(np.abs(values - exact), 99.0)) if values.size else 0.0
+    return float(np.percentile(np.abs(values - exact), 99.0)) / COLOUR if values.size else 0.0
 
 
 def section_error(orbits: Sequence[Array], truth: Sequence[Array], pixels: Sequence[float],
