@@ -14,26 +14,22 @@ from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.scattering import BallScattering, ball_scattering
 from hess_mechanics.computations import (
     Basins,
-    PlanePoints,
-    andoyer_section,
-    ball_section,
     basins,
     cloud,
     period,
     rotation_along_line,
     rotation_numbers,
-    suslov_section,
 )
 from hess_mechanics.dynamics.continuation import Branch
 from hess_mechanics.dynamics.ensemble import ensemble
 from hess_mechanics.dynamics.lyapunov import Exponent, lyapunov_exponent
 from hess_mechanics.dynamics.manifolds import Manifold
 from hess_mechanics.dynamics.megno import Megno, megno
-from hess_mechanics.dynamics.megno_map import MegnoMap
+from hess_mechanics.dynamics.megno_map import MegnoMap, megno_map
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram
 from hess_mechanics.dynamics.periodic import PeriodicOrbit
-from hess_mechanics.dynamics.regime import Dynamics, Regime
+from hess_mechanics.dynamics.regime import Dynamics, Regime, dynamics_of, regime
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.dynamics.section import Plane, SectionPoints, section, section_points, sections
 from hess_mechanics.dynamics.spectrum import Spectrum, lyapunov_spectrum
@@ -48,15 +44,14 @@ from hess_mechanics.euler_poisson.loxodromic_pendulum import LoxodromicMotion, L
 from hess_mechanics.numerics.accuracy import LEVELS, Level, Status, level
 from hess_mechanics.numerics.results import Cost, Ensemble, Orbit, SectionCrossings
 from hess_mechanics.return_maps import (
+    PlanePoints,
     continued_orbit,
-    dynamics_of,
     manifold,
-    megno_map,
     orbit_diagram,
     period_doublings,
     periodic_orbit,
-    regime,
     return_map,
+    section_orbits,
 )
 from hess_mechanics.rigid_body.inertia import BodyCheck, check_body
 from hess_mechanics.suslov.additional_integral import AdditionalIntegral, additional_integral
@@ -81,11 +76,11 @@ from hess_mechanics.suslov_hess.mode_locking import (
 from hess_mechanics.suslov_hess.proof import Proof, prove
 
 __all__ = [  # noqa: RUF022 (by subject)
-    # By a body and words
-    "andoyer_section", "suslov_section", "ball_section",
-    "PlanePoints", "basins", "Basins", "cloud", "period", "rotation_numbers", "rotation_along_line",
+    # For one kind of body
+    "basins", "Basins", "cloud", "period", "rotation_numbers", "rotation_along_line",
     # By the return map of a section
-    "return_map", "ReturnMap", "periodic_orbit", "PeriodicOrbit", "continued_orbit", "Branch", "manifold", "Manifold",
+    "return_map", "ReturnMap", "section_orbits", "PlanePoints", "periodic_orbit", "PeriodicOrbit", "continued_orbit",
+           "Branch", "manifold", "Manifold",
     "megno_map", "MegnoMap", "orbit_diagram", "Diagram", "period_doublings", "Cascade", "regime", "Regime",
     "dynamics_of", "Dynamics",
     # Any system

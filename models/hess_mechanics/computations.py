@@ -1,8 +1,7 @@
-"""What the scenes compute, asked for by a body and words: orbits, exponents, sections, basins, clouds, periods.
+"""Computations for one kind of body: basins, clouds, periods and rotation numbers.
 
-A body is any of those of this package: `SuslovBody`, `HessBody`, `BallBody`, `HeavyBody`.  `accuracy` is a
-level or its name: "draft", "standard", "precise" or "reference".  Results can be handed on: `.to_pandas()`,
-`.to_xarray()`, `.plot()`.
+`accuracy` is a level or its name: "draft", "standard", "precise" or "reference".  Results can be handed on:
+`.to_pandas()`, `.to_xarray()`, `.plot()`.
 """
 
 from __future__ import annotations
@@ -14,12 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from hess_mechanics.chaplygin_ball import integrable_cases, phase_cloud_density
-from hess_mechanics.chaplygin_ball import section as ball
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud import Cloud
 from hess_mechanics.dynamics.cells import Window, centres
-from hess_mechanics.dynamics.periodic import place_units
-from hess_mechanics.dynamics.section import SectionPoints
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, andoyer_points
 from hess_mechanics.euler_poisson.equations import HeavyBody
@@ -31,37 +27,14 @@ from hess_mechanics.numerics.parallel import share
 from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.suslov.basins import Contraction, contraction_at, groups_of_cells, middle_cells
 from hess_mechanics.suslov.equations import SuslovBody
-from hess_mechanics.suslov.section import SuslovSection, require_reached, suslov_points
+from hess_mechanics.suslov.section import SuslovSection, require_reached
 from hess_mechanics.suslov_hess.rotation_number import TorusValues, values_at
 
-__all__ = [
-    "Basins", "PlanePoints", "andoyer_section", "ball_section", "basins", "cloud", "period", "rotation_along_line",
-    "rotation_numbers", "suslov_section",
-]
+__all__ = ["Basins", "basins", "cloud", "period", "rotation_along_line", "rotation_numbers"]
 
-_MOST_ORBITS, _MOST_CROSSINGS = 1000, 10_000
+_MOST_ORBITS = 1000
 _LONG = 1000.0
 """Time over which the divergence of one motion of each group is averaged."""
-
-
-@dataclass(frozen=True)
-class PlanePoints(Result):
-    """Points of a section in its plane.
-
-    names : of the axes; orbits : the points (n, 2) of each orbit, as they are passed; facts : of the whole.
-    """
-
-    names: tuple[str, str]
-    orbits: tuple[Array, ...]
-    facts: dict[str, float | str]
-
-    def labels(self) -> Labels:
-        """Both coordinates of all points, with the number of the orbit."""
-        number = np.repeat(np.arange(len(self.orbits)), [len(one) for one in self.orbits])
-        points = np.concatenate([np.empty((0, 2)), *self.orbits])
-        return Labels({"orbit": (("point",), number)},
-                      {name: (("point",), points[:, i]) for i, name in enumerate(self.names)},
-                      place_units(self.names), self.facts)
 
 
 @dataclass(frozen=True)
@@ -90,69 +63,6 @@ class Basins(Result):
                       {"mean": (("δ", "ψ"), self.mean), "group": (("δ", "ψ"), self.group)},
                       {"δ": "rad", "ψ": "rad", "mean": "rad/T"},
                       {"groups": len(self.divergence), "attractors": self.attractors, "level": self.level})
-
-
-def andoyer_section(body: HeavyBody, h: float, f: float, *, starts: Sequence[tuple[float, float]] = (),
-                    orbits: int = 20, crossings: int = 200, sheet: int = 0, accuracy: Accuracy = "standard"
-                    ) -> PlanePoints:
-    """The Andoyer–Deprit section g = π/2 of a heavy body at H = h, (M, γ) = f: points (l, L/G).
-
-    starts : places (l, L/G) of orbits; else so many `orbits` are spread over the section.
-    Raises `InvalidParameter`, `WorkLimit`.
-
-    >>> from hess_mechanics import HeavyBody, andoyer_section
-    >>> found = andoyer_section(HeavyBody.hess((1.0, 1.5, 2.0), 1.0), 2.0, 0.5, orbits=3, crossings=50)
-    >>> len(found.orbits), found.names
-    (3, ('l', 'L/G'))
-    """
-    section = AndoyerSection(as_a(HeavyBody, body), as_number("h", h), as_number("f", f),
-                             as_whole("sheet", sheet, 0, 2))
-    states = _starts(section, starts, orbits, ((-math.pi, -1.0), (math.pi, 1.0)), "this energy and area integral")
-    found = andoyer_points(body, h, f, states, as_whole("crossings", crossings, 1, _MOST_CROSSINGS),
-                           plan(Computation.SECTION, accuracy).level)
-    return _in_plane(found, section, ("l", "L/G"), accuracy)
-
-
-def suslov_section(body: SuslovBody, E: float, *, plane: int = 3, starts: Sequence[tuple[float, float]] = (),
-                   orbits: int = 20, crossings: int = 200, forward: bool = True, accuracy: Accuracy = "standard"
-                   ) -> PlanePoints:
-    """The section γ_k = 0, k = `plane`, of the Suslov problem with gravity at the energy E: points (ψ, δ).
-
-    starts : places (ψ, δ) of orbits; else so many `orbits` are spread over the section.
-    Raises `InvalidParameter`, `OutsideRegion`, `WorkLimit`.
-
-    >>> from hess_mechanics import SuslovBody, suslov_section
-    >>> body = SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0)
-    >>> suslov_section(body, 1.842, orbits=4, crossings=30).to_xarray().sizes["point"]
-    120
-    """
-    section = SuslovSection(as_a(SuslovBody, body), as_number("E", E), as_whole("plane", plane, 1, 3))
-    require_reached(section)
-    states = _starts(section, starts, orbits, ((-math.pi, 0.0), (math.pi, math.pi)), "this energy")
-    found = suslov_points(body, plane, states, as_whole("crossings", crossings, 1, _MOST_CROSSINGS), forward,
-                          plan(Computation.SECTION, accuracy).level)
-    return _in_plane(found, section, ("ψ", "δ"), accuracy)
-
-
-def ball_section(body: BallBody, h: float, *, starts: Sequence[tuple[float, float]] = (), orbits: int = 20,
-                 crossings: int = 200, accuracy: Accuracy = "standard") -> PlanePoints:
-    """The section γ3 = 0 of the Chaplygin ball in a field, at the energy h: points (ψ, δ).
-
-    starts : places (ψ, δ) of orbits; else so many `orbits` are spread over the section.
-    Raises `InvalidParameter`, `WorkLimit`.
-
-    >>> from hess_mechanics import BallBody, ball_section
-    >>> found = ball_section(BallBody(1.0, 3.0, 0.0, 0.0, 5.0, 0.5, 0.0, 0.8), 2.0, orbits=3, crossings=20)
-    >>> found.to_pandas().shape
-    (60, 3)
-    """
-    as_a(BallBody, body)
-    as_number("h", h)
-    states = ([ball.state_at(body, h, *place) for place in as_pairs("starts", starts)] if len(starts) else
-              ball.seeds(body, h, as_whole("orbits", orbits, 1, _MOST_ORBITS)))
-    found = ball.ball_section(body, h, states, as_whole("crossings", crossings, 1, _MOST_CROSSINGS),
-                              plan(Computation.SECTION, accuracy).level)
-    return PlanePoints(("ψ", "δ"), tuple(map(ball.coordinates, found.states)), _facts(found, accuracy))
 
 
 def basins(body: SuslovBody, E: float, *, plane: int = 3, cells: tuple[int, int] = (16, 12),
@@ -261,29 +171,3 @@ def _window(window: Window) -> Window:
     if not (x0 < x1 and 0.0 <= y0 < y1 <= math.pi):
         raise InvalidParameter("The window is ψ0 < ψ1 and 0 ≤ δ0 < δ1 ≤ π: choose such angles.")
     return window
-
-
-def _starts(section: AndoyerSection | SuslovSection, places: Sequence[tuple[float, float]], orbits: int,
-            window: Window, there: str) -> Sequence[Sequence[float]]:
-    """The states at these places of a section, or of so many orbits spread over it."""
-    if not len(places):
-        states = section.spread(window, as_whole("orbits", orbits, 1, _MOST_ORBITS))
-        if not states:
-            raise OutsideRegion(f"No motion with {there} crosses the section: choose a larger energy.")
-        return states
-    pairs = np.array(as_pairs("starts", places))
-    found, possible = section.states_at(pairs[:, 0], pairs[:, 1])
-    if not possible.all():
-        x, y = pairs[np.flatnonzero(~possible)[0]]
-        raise OutsideRegion(f"No motion with {there} crosses the section at ({x:g}, {y:g}): choose another place.")
-    return [tuple(map(float, state)) for state in found]
-
-
-def _in_plane(found: SectionPoints, section: AndoyerSection | SuslovSection, names: tuple[str, str], accuracy: Accuracy
-              ) -> PlanePoints:
-    return PlanePoints(names, tuple(section.places_of(states) for states in found.states), _facts(found, accuracy))
-
-
-def _facts(found: SectionPoints, accuracy: Accuracy) -> dict[str, float | str]:
-    drifts: dict[str, float | str] = {f"drift of {name}": value for name, value in found.drift.items()}
-    return {"level": as_level(accuracy).name, **drifts, "steps": found.cost.steps}

@@ -1,4 +1,4 @@
-"""What return maps of sections tell, asked for by a body and words: periodic orbits, manifolds, diagrams, regimes.
+"""Return maps of Poincaré sections: their orbits, periodic orbits, manifolds, orbit diagrams.
 
 A return map is that of a section of a body at fixed values of its integrals, `return_map(body, …)`.  Results can be
 handed on: `.to_pandas()`, `.to_xarray()`, `.plot()`.
@@ -6,30 +6,27 @@ handed on: `.to_pandas()`, `.to_xarray()`, `.plot()`.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.section import BallSection
-from hess_mechanics.dynamics import megno_map as cells_of
-from hess_mechanics.dynamics import orbit_diagram as diagrams
-from hess_mechanics.dynamics import regime as regimes
-from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.dynamics.continuation import Branch, continued
 from hess_mechanics.dynamics.manifolds import Manifold, grown
-from hess_mechanics.dynamics.megno_map import MegnoMap
-from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram
-from hess_mechanics.dynamics.periodic import PeriodicOrbit, find_periodic
-from hess_mechanics.dynamics.regime import Dynamics, Regime
+from hess_mechanics.dynamics.megno_map import require_plane
+from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, cascade, diagram_over
+from hess_mechanics.dynamics.periodic import PeriodicOrbit, find_periodic, place_units
 from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
-from hess_mechanics.errors import InvalidParameter, WorkLimit
+from hess_mechanics.dynamics.section import section_points
+from hess_mechanics.dynamics.system import Problem
+from hess_mechanics.errors import InvalidParameter, OutsideRegion, WorkLimit
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import HeavyBody
-from hess_mechanics.numerics.accuracy import Accuracy
-from hess_mechanics.numerics.arguments import as_a, as_cells, as_level, as_number, as_place, as_whole
+from hess_mechanics.numerics.accuracy import Accuracy, Computation, plan
+from hess_mechanics.numerics.arguments import as_a, as_level, as_number, as_pairs, as_place, as_whole
+from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.quartic import QuarticBody, QuarticSection
@@ -38,15 +35,42 @@ from hess_mechanics.suslov_hess.equations import HessBody
 from hess_mechanics.suslov_hess.section import TorusSection
 
 __all__ = [
-    "continued_orbit", "dynamics_of", "manifold", "megno_map", "orbit_diagram", "period_doublings", "periodic_orbit",
-    "regime", "return_map",
+    "PlanePoints", "continued_orbit", "manifold", "orbit_diagram", "period_doublings", "periodic_orbit", "return_map",
+    "section_orbits",
 ]
 
-Body = SuslovBody | QuarticBody | BallBody | HeavyBody | HessBody
+SectionedBody = SuslovBody | QuarticBody | BallBody | HeavyBody | HessBody
 _MOST_PLACES = 1_000_000
+_MOST_ORBITS, _MOST_CROSSINGS = 1000, 10_000
+_TURNS = 120.0
+"""Time allowed per crossing, in units of 1/ν times the slowness of the section; few orbits take longer."""
+_TRIED = (8, 200)
+"""Places looked at for each orbit: where motions cross a small part of a section only, more of them."""
+_EVENLY = np.array([0.7548776662466927, 0.5698402909980532])
+"""Multiples of these fill the unit square evenly (Roberts, 2018)."""
 
 
-def return_map(body: Body, *, E: float | None = None, h: float | None = None, f: float | None = None,
+@dataclass(frozen=True)
+class PlanePoints(Result):
+    """Points of a section in its plane.
+
+    names : of the axes; orbits : the points (n, 2) of each orbit, as they are passed; facts : of the whole.
+    """
+
+    names: tuple[str, str]
+    orbits: tuple[Array, ...]
+    facts: dict[str, float | str]
+
+    def labels(self) -> Labels:
+        """Both coordinates of all points, with the number of the orbit."""
+        number = np.repeat(np.arange(len(self.orbits)), [len(one) for one in self.orbits])
+        points = np.concatenate([np.empty((0, 2)), *self.orbits])
+        return Labels({"orbit": (("point",), number)},
+                      {name: (("point",), points[:, i]) for i, name in enumerate(self.names)},
+                      place_units(self.names), self.facts)
+
+
+def return_map(body: SectionedBody, *, E: float | None = None, h: float | None = None, f: float | None = None,
                plane: int = 3, sheet: int = 0, accuracy: Accuracy = "precise") -> ReturnMap:
     """The return map of a section of a body at fixed values of its integrals.
 
@@ -78,7 +102,54 @@ def return_map(body: Body, *, E: float | None = None, h: float | None = None, f:
     return ReturnMap(found, as_level(accuracy))
 
 
-def periodic_orbit(section: ReturnMap, at: Sequence[float], period: int | None = None) -> PeriodicOrbit:
+def section_orbits(map_: ReturnMap, *, starts: Sequence[Sequence[float]] = (), orbits: int = 20,
+                   crossings: int = 200) -> PlanePoints:
+    """Return the crossings of many orbits with the section of a `return_map`, each computed once.
+
+    Parameters
+    ----------
+    map_ : its section, direction of time and level of accuracy.
+    starts : places of the section where the orbits start.
+    orbits : how many are spread over the section where no `starts` are given.
+    crossings : of each orbit.
+
+    Raises
+    ------
+    `InvalidParameter`, `OutsideRegion`, `WorkLimit`.
+
+    >>> from hess_mechanics import SuslovBody, return_map, section_orbits
+    >>> P = return_map(SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0), E=1.842, accuracy="standard")
+    >>> section_orbits(P, orbits=4, crossings=30).to_xarray().sizes["point"]
+    120
+    """
+    section = map_.section
+    require_plane(section)
+    count = as_whole("crossings", crossings, 1, _MOST_CROSSINGS)
+    states = (np.array([map_.state_at(np.array(one)) for one in as_pairs("starts", starts)]) if len(starts)
+              else _spread(section, as_whole("orbits", orbits, 1, _MOST_ORBITS)))
+    end = _TURNS * count * section.slowness / Problem.of(section, states).nu
+    found = section_points(section, states, section.surface, -end if map_.backward else end,
+                           plan(Computation.SECTION, map_.accuracy).level, count)
+    x, y = section.names
+    return PlanePoints((x, y), tuple(section.places_of(one) for one in found.states), {
+        "level": map_.level, **{f"drift of {name}": value for name, value in found.drift.items()},
+        "steps": found.cost.steps})
+
+
+def _spread(section: PoincareSection, orbits: int) -> Array:
+    """Return the states of as many orbits as possible, evenly over the window of a section.  Raises `OutsideRegion`."""
+    low, high = np.array(section.window).T
+    for tried in _TRIED:
+        shares = np.arange(1.0, tried * orbits + 1.0)[:, None] * _EVENLY % 1.0
+        states, there = section.states_at(*(low + shares * (high - low)).T)
+        if np.count_nonzero(there) >= orbits:
+            break
+    if not there.any():
+        raise OutsideRegion("No motion crosses the section here: choose a larger energy.")
+    return np.asarray(states[there][:orbits])
+
+
+def periodic_orbit(map_: ReturnMap, at: Sequence[float], period: int | None = None) -> PeriodicOrbit:
     """The periodic orbit of a `return_map` that Newton's method finds from a place, with multipliers and type.
 
     period : the least number of returns; None: found, up to 12.
@@ -89,14 +160,14 @@ def periodic_orbit(section: ReturnMap, at: Sequence[float], period: int | None =
     >>> periodic_orbit(P, (-2.0,)).kind  # the stable limit cycle
     'stable node'
     """
-    found = find_periodic(section, at, None if period is None else as_whole("period", period, 1, 64))
-    return replace(found, symmetric=tuple(section.symmetries_of(found.places)))
+    found = find_periodic(map_, at, None if period is None else as_whole("period", period, 1, 64))
+    return replace(found, symmetric=tuple(map_.symmetries_of(found.places)))
 
 
-def continued_orbit(section: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: float, points: int = 200) -> Branch:
+def continued_orbit(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: float, points: int = 200) -> Branch:
     """The branch of a periodic orbit of a `return_map` over a parameter of it, from its own value towards `to`.
 
-    parameter : one of `section.sheet.constants`.  Folds are passed; bifurcations are found and named.
+    parameter : one of `map_.section.constants`.  Folds are passed; bifurcations are found and named.
     Raises `InvalidParameter`, `NotConverged`, `WorkLimit`.
 
     >>> from hess_mechanics import HessBody, continued_orbit, periodic_orbit, return_map
@@ -105,12 +176,12 @@ def continued_orbit(section: ReturnMap, orbit: PeriodicOrbit, parameter: str, to
     >>> branch.kinds[0], len(branch.bifurcations)
     ('stable node', 0)
     """
-    return continued(lambda value: section.moved(parameter, value), orbit, parameter, section.constant(parameter),
+    return continued(lambda value: map_.moved(parameter, value), orbit, parameter, map_.constant(parameter),
                      as_number("to", to), as_whole("points", points, 2, 2000),
-                     lambda map_, places: map_.symmetries_of(places) if isinstance(map_, ReturnMap) else ())
+                     lambda one, places: one.symmetries_of(places) if isinstance(one, ReturnMap) else ())
 
 
-def manifold(section: ReturnMap, saddle: PeriodicOrbit, length: float, *, stable: bool = False, side: int = 1,
+def manifold(map_: ReturnMap, saddle: PeriodicOrbit, length: float, *, stable: bool = False, side: int = 1,
              place: int = 0, sagitta: float = 1e-3, longest: float = 0.1) -> Manifold:
     """A branch of the unstable or stable manifold of a saddle of a `return_map`, up to a length.
 
@@ -123,60 +194,32 @@ def manifold(section: ReturnMap, saddle: PeriodicOrbit, length: float, *, stable
     >>> manifold(P, saddle, 0.5).length >= 0.5
     True
     """
-    return grown(section, saddle, as_number("length", length), stable, side, place, as_number("sagitta", sagitta),
+    return grown(map_, saddle, as_number("length", length), stable, side, place, as_number("sagitta", sagitta),
                  as_number("longest", longest))
 
 
-def megno_map(section: ReturnMap, cells: tuple[int, int] = (16, 12), window: Window | None = None, t: float = 200.0
-              ) -> MegnoMap:
-    """MEGNO of the motions from the cells of the section of a `return_map` after the time t, on all cores.
-
-    cells : across and up; window : (x0, y0), (x1, y1), by default all of the section.
-    Raises `InvalidParameter`, `WorkLimit`.
-
-    >>> from hess_mechanics import QuarticBody, megno_map, return_map
-    >>> found = megno_map(return_map(QuarticBody(2.0, 1.0, 1.0, 0.8), accuracy="standard"), cells=(6, 4), t=50.0)
-    >>> found.values.shape, found.names
-    ((4, 6), ('q', 'p'))
-    """
-    _of_a_plane(section)
-    sides = section.sheet.window
-    corners = tuple(zip(*sides, strict=True)) if window is None else window
-    (x0, y0), (x1, y1) = (as_place(section.names, corner) for corner in corners)
-    # An angle may begin where it likes.
-    inside = all(math.isfinite(turn) or (low <= a and b <= high) for turn, (low, high), a, b in zip(
-        section.turns, sides, (x0, y0), (x1, y1), strict=True))
-    if not (x0 < x1 and y0 < y1 and inside):
-        across, up = (f"{low:.6g} to {high:.6g}" for low, high in sides)
-        raise InvalidParameter("A window is (x0, y0), (x1, y1) with x0 < x1, y0 < y1: here "
-                               f"{section.names[0]} goes from {across}, {section.names[1]} from {up}.")
-    return cells_of.over_section(section.sheet, ((x0, y0), (x1, y1)), as_cells(cells), as_number("t", t),
-                                 section.accuracy)
-
-
-def orbit_diagram(section: ReturnMap, parameter: str, values: Sequence[float] | Array, at: Sequence[float], *,
+def orbit_diagram(map_: ReturnMap, parameter: str, values: Sequence[float] | Array, at: Sequence[float], *,
                   transient: int = 200, kept: int = 64, follow: bool = True) -> Diagram:
     """Where an orbit of a `return_map` settles over a parameter of it, at each of the values (n,), in their order.
 
     at : where it starts.  transient, kept : crossings that are left out, and shown, at each value.
     follow : it goes on from where it was at the value before; else it starts anew at each.
-    Backward in time, where repellers are: of `section.inverse()`.  Raises `InvalidParameter`, `WorkLimit`.
+    Backward in time, where repellers are: of `map_.inverse()`.  Raises `InvalidParameter`, `WorkLimit`.
 
     >>> from hess_mechanics import SuslovBody, orbit_diagram, return_map
     >>> P = return_map(SuslovBody(1.0, 2.25, 0.6, 0.6, -1.0, -0.5, 0.7), E=0.681, accuracy="standard")
     >>> orbit_diagram(P, "I22", [2.11, 2.2], (0.8, 1.9)).periods.tolist()  # it doubles at 2.126
     [1, 2]
     """
-    section.constant(parameter)
-    place = as_place(section.names, at)
+    map_.constant(parameter)
+    place = as_place(map_.names, at)
     transient, kept = as_whole("transient", transient, 0, 20_000), as_whole("kept", kept, 1, 20_000)
     if len(np.atleast_1d(values)) * kept > _MOST_PLACES:
         raise WorkLimit(f"An orbit diagram has at most {_MOST_PLACES} places: choose fewer values, or crossings kept.")
-    return diagrams.orbit_diagram(lambda value: section.moved(parameter, value), parameter, values, place, transient,
-                                  kept, follow)
+    return diagram_over(lambda value: map_.moved(parameter, value), parameter, values, place, transient, kept, follow)
 
 
-def period_doublings(section: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: float, most: int = 6) -> Cascade:
+def period_doublings(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: float, most: int = 6) -> Cascade:
     """The doublings of the period of an orbit of a `return_map`, over a parameter from its own value towards `to`.
 
     Each is where the orbit of that period has the multiplier −1.  Raises `InvalidParameter`, `NotConverged`.
@@ -187,46 +230,8 @@ def period_doublings(section: ReturnMap, orbit: PeriodicOrbit, parameter: str, t
     >>> found.periods.tolist(), round(float(found.values[0]), 3)
     ([1], 2.126)
     """
-    return diagrams.cascade(lambda value: section.moved(parameter, value), parameter, orbit,
-                            section.constant(parameter), as_number("to", to), as_whole("most", most, 1, 6))
-
-
-def regime(section: ReturnMap, at: Sequence[float], *, transient: int = 300, kept: int = 200, t: float = 200.0
-           ) -> Regime:
-    """The kind of the motion from a place of the section of a `return_map`, after so many crossings left out.
-
-    kept : crossings that are looked at; t : the time over which MEGNO and the divergence are averaged.
-    Raises `InvalidParameter`, `OutsideRegion`, `WorkLimit`.
-
-    >>> from hess_mechanics import HessBody, regime, return_map
-    >>> P = return_map(HessBody(I22=2.0, I23=1.0, b3=-1.0), h=1.5, f=0.6)
-    >>> regime(P, (0.3,), t=100.0).kind.words  # it comes to the stable limit cycle
-    'fixed point'
-    """
-    return regimes.regime(section, as_place(section.names, at), as_whole("transient", transient, 0, 20_000),
-                          as_whole("kept", kept, 1, 20_000), as_number("t", t))
-
-
-def dynamics_of(section: ReturnMap, at: Sequence[float], *, transient: int = 500, kept: int = 2000, t: float = 1000.0
-                ) -> Dynamics:
-    """To what the orbit from a place comes forward and backward in time: conservative, dissipative or mixed.
-
-    Told by the distance of the two sets, with its error, and by the mean divergence over the time t.
-    Raises `InvalidParameter`, `OutsideRegion`, `NoReturn`, `WorkLimit`.
-
-    >>> from hess_mechanics import HessBody, dynamics_of, return_map
-    >>> P = return_map(HessBody(I22=2.0, I23=1.0, b3=-1.0), h=1.5, f=0.6)
-    >>> dynamics_of(P, (0.3,), transient=60, kept=64, t=100.0).verdict  # a stable cycle, and an unstable one
-    'dissipative'
-    """
-    return regimes.dynamics_of(section, as_place(section.names, at), as_whole("transient", transient, 0, 50_000),
-                               as_whole("kept", kept, 8, 50_000), as_number("t", t))
-
-
-def _of_a_plane(section: ReturnMap) -> None:
-    if len(section.names) != 2:
-        raise InvalidParameter(f"The section of this body has the coordinate {section.names[0]} alone: there is no "
-                               "plane to fill with cells.")
+    return cascade(lambda value: map_.moved(parameter, value), parameter, orbit, map_.constant(parameter),
+                   as_number("to", to), as_whole("most", most, 1, 6))
 
 
 def _given(asked: dict[str, float | None], *names: str) -> list[float]:

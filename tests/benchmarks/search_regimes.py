@@ -50,7 +50,7 @@ from hess_mechanics import (
 )
 from hess_mechanics.dynamics.birkhoff import rotation_number
 from hess_mechanics.dynamics.continuation import Bifurcation, continued
-from hess_mechanics.dynamics.orbit_diagram import cascade, hysteresis, orbit_diagram, period_of
+from hess_mechanics.dynamics.orbit_diagram import cascade, diagram_over, hysteresis, period_of
 from hess_mechanics.dynamics.periodic import apart, find_periodic
 from hess_mechanics.dynamics.regime import MotionKind, dynamics_of, regime
 from hess_mechanics.errors import NotConverged, OutsideRegion
@@ -77,7 +77,7 @@ def drawn(draw: np.random.Generator, real: bool = False, ball: bool = False) -> 
 def is_real(map_: ReturnMap) -> bool:
     """Whether this is a rigid body for some I33."""
     try:
-        return check_body(*(map_.sheet.constants[name] for name in ("I11", "I22", "I13", "I23"))).is_body
+        return check_body(*(map_.section.constants[name] for name in ("I11", "I22", "I13", "I23"))).is_body
     except ModelError:
         return False
 
@@ -86,7 +86,7 @@ def start_of(map_: ReturnMap, draw: np.random.Generator) -> np.ndarray:
     """A random place where motions cross."""
     for _ in range(100):
         place = np.array([draw.uniform(-math.pi, math.pi), draw.uniform(0.2, 2.9)])
-        if map_.sheet.states_at(*place[:, None])[1][0]:
+        if map_.section.states_at(*place[:, None])[1][0]:
             return place
     raise OutsideRegion("No motion of this energy reaches the section.")
 
@@ -94,13 +94,13 @@ def start_of(map_: ReturnMap, draw: np.random.Generator) -> np.ndarray:
 def looked_at(map_: ReturnMap, name: str, draw: np.random.Generator, start: np.ndarray | None = None,
               real: bool = False) -> None:
     """Follow an orbit along a parameter there and back; print doublings and hysteresis, of real bodies only."""
-    here, exact = map_.sheet.constants[name], ReturnMap(map_.sheet, level("precise"))
+    here, exact = map_.section.constants[name], ReturnMap(map_.section, level("precise"))
     values = here + np.linspace(-0.5, 0.5, 61)
     if real:
         values = values[[name not in NAMES[:4] or is_real(map_.moved(name, value)) for value in values]]
     if start is None:
         start = start_of(map_, draw)
-    there = orbit_diagram(lambda v: map_.moved(name, v), name, values, start, 300, 64)
+    there = diagram_over(lambda v: map_.moved(name, v), name, values, start, 300, 64)
     periods = there.periods.tolist()
     seen = [k for k in range(len(values) - 1) if periods[k] and periods[k + 1] == 2 * periods[k]] + [
         -k for k in range(1, len(values)) if periods[k] and periods[k - 1] == 2 * periods[k]]
@@ -116,13 +116,13 @@ def looked_at(map_: ReturnMap, name: str, draw: np.random.Generator, start: np.n
         except ModelError as error:
             print("   ", error)
             continue
-        print("CASCADE", name, map_.sheet.constants, "from", values[k], there.ends[k], found.periods, found.values,
+        print("CASCADE", name, map_.section.constants, "from", values[k], there.ends[k], found.periods, found.values,
               found.errors, "ratios", found.ratios, found.ended, flush=True)
-    back = orbit_diagram(lambda v: map_.moved(name, v), name, values[::-1], there.ends[-1], 300, 64)
+    back = diagram_over(lambda v: map_.moved(name, v), name, values[::-1], there.ends[-1], 300, 64)
     both = hysteresis(map_.turns, there, back)
     wide = [one for one in both if one[1] - one[0] > 0.05]
     if wide:
-        print("HYSTERESIS", name, map_.sheet.constants, start, wide, "periods", periods, back.periods[::-1].tolist(),
+        print("HYSTERESIS", name, map_.section.constants, start, wide, "periods", periods, back.periods[::-1].tolist(),
               "chaotic values", chaos, flush=True)
 
 
@@ -132,7 +132,7 @@ def saddle_foci(map_: ReturnMap) -> list[tuple[np.ndarray, np.ndarray, np.ndarra
     They are γ3 = 0, ω = wγ with w²(I13γ1 + I23γ2) = b3.  The real eigenvalue is the last; the direction is in the plane
     of the complex ones.
     """
-    body, E = map_.sheet.body, map_.sheet.E
+    body, E = map_.section.body, map_.section.E
     if body.b3 == 0.0 or body.I13 == body.I23 == 0.0:
         return []
 
@@ -146,7 +146,7 @@ def saddle_foci(map_: ReturnMap) -> list[tuple[np.ndarray, np.ndarray, np.ndarra
         return 0.5 * (body.I11 * w1**2 + body.I22 * w2**2) + body.b1 * g1 + body.b2 * g2 - E
 
     def field(y: np.ndarray) -> np.ndarray:
-        return np.array(map_.sheet.system.field(list(y), list(map_.sheet.parameters)), float)
+        return np.array(map_.section.system.field(list(y), list(map_.section.parameters)), float)
 
     middle = math.atan2(body.I23, body.I13) + (0.0 if body.b3 > 0.0 else math.pi)
     psi = middle + np.linspace(-1.56, 1.56, 401)
@@ -179,7 +179,7 @@ def spirals(map_: ReturnMap) -> str:
     Motions leave it in a spiral and may come back along a line; those within 0.3 of it are printed.
     """
     told = "no such saddle-focus"
-    system, p = map_.sheet.system, map_.sheet.parameters
+    system, p = map_.section.system, map_.section.parameters
     for root, eigenvalues, direction in saddle_foci(map_):
         if not 0.0 < eigenvalues[0].real < -eigenvalues[2].real:
             continue
@@ -194,7 +194,7 @@ def spirals(map_: ReturnMap) -> str:
                 -3.0 * exponents.divergence_error):
             told = "strange, close to a saddle-focus"
             dimension, error = exponents.dimension
-            print("SPIRAL", map_.sheet.constants, beside(root, eigenvalues, states), np.round(exponents.values, 4),
+            print("SPIRAL", map_.section.constants, beside(root, eigenvalues, states), np.round(exponents.values, 4),
                   f"D = {dimension:.3f} ± {error:.3f}", flush=True)
     return told
 
@@ -205,21 +205,21 @@ def strange(map_: ReturnMap, draw: np.random.Generator, real: bool) -> str:
     kind = regime(map_, place, 300, 100, 200.0)
     if not (kind.kind is MotionKind.CHAOTIC and kind.volume < 0):
         return kind.kind.words
-    system, p = map_.sheet.system, map_.sheet.parameters
+    system, p = map_.section.system, map_.section.parameters
     last = map_.state_at(kind.places[-1])
     exponents = lyapunov_spectrum(system.at(p), last, 2000.0)
     if exponents.signs[0] != "+":
         return "chaotic at first"
     dimension, error = exponents.dimension
     found = dynamics_of(map_, place, 500, 1500)
-    print("STRANGE", map_.sheet.constants, np.round(place, 4), f"D = {dimension:.3f} ± {error:.3f}",
+    print("STRANGE", map_.section.constants, np.round(place, 4), f"D = {dimension:.3f} ± {error:.3f}",
           np.round(exponents.values, 4), found.verdict, f"distance {found.distance:.3f} ± "
           f"{found.distance_error:.2g} shared {found.shared:.2g}", flush=True)
     if system.name == "suslov":
         states = solve(system.at(p), last, np.linspace(0.0, 2000.0, 40_001), level("draft")).states
         for root, eigenvalues, _ in saddle_foci(map_):
             print("   ", beside(root, eigenvalues, states), flush=True)
-    for name in draw.permutation(list(map_.sheet.constants))[:3]:
+    for name in draw.permutation(list(map_.section.constants))[:3]:
         looked_at(map_, str(name), draw, place, real)
     return f"strange, {found.verdict}"
 
@@ -230,14 +230,14 @@ def tori(map_: ReturnMap, draw: np.random.Generator, real: bool) -> str:
     first = regime(map_, place, 400, 60, 50.0)
     if first.period not in range(1, 9) or first.volume >= 0:
         return first.kind.words
-    exact = ReturnMap(map_.sheet, level("precise"))
+    exact = ReturnMap(map_.section, level("precise"))
     try:
         orbit = find_periodic(exact, first.places[-first.period :], first.period)
     except NotConverged:
         return "at rest"
     told = orbit.kind
-    for name in draw.permutation(list(map_.sheet.constants))[:4] if told == "stable focus" else ():
-        here = map_.sheet.constants[name]
+    for name in draw.permutation(list(map_.section.constants))[:4] if told == "stable focus" else ():
+        here = map_.section.constants[name]
         for end in (here - 0.6, here + 0.6):
             try:
                 branch = continued(lambda v, name=name: exact.moved(name, v), orbit, name, here, end, 50)
@@ -252,7 +252,7 @@ def tori(map_: ReturnMap, draw: np.random.Generator, real: bool) -> str:
                 letters = beyond(map_, name, one, -1.0 if rising == shrinks else 1.0)
                 if "Q" in letters and told != _BROKEN:
                     told = _BROKEN if "C" in letters.partition("Q")[2] else "torus"
-                print("CURVE", map_.sheet.constants, name, f"{one.value:.8f} ± {one.error:.1g}", "rotation",
+                print("CURVE", map_.section.constants, name, f"{one.value:.8f} ± {one.error:.1g}", "rotation",
                       f"{abs(np.angle(one.multipliers[0])) / math.tau:.5f}", np.round(one.places[0], 4), letters,
                       flush=True)
     return told
@@ -270,7 +270,7 @@ def beyond(map_: ReturnMap, name: str, born: Bifurcation, sign: float) -> str:
             if len(places) < 12_000:
                 return f"{letters}-"
             last = there.state_at(places[-1])
-            found = lyapunov_spectrum(there.sheet, last, 2000.0, level("draft"))
+            found = lyapunov_spectrum(there.section, last, 2000.0, level("draft"))
         except ModelError:
             return letters
         wide, still = (np.hypot(*apart(map_.turns, part, focus).T).max() for part in (places[3000:6000], places[9000:]))
@@ -294,11 +294,12 @@ def reversal(map_: ReturnMap, draw: np.random.Generator) -> str:
     if found.verdict != "dissipative" or np.abs(found.repeller - last).max() > 1e-3:
         return found.verdict
     place = last + np.array([1e-2, 1e-2 if last[1] < 1.0 else -1e-2])
-    body = map_.sheet.body
+    body = map_.section.body
     times = reversals(body, map_.state_at(place), 200.0, level("draft")).times
     if len(times) % 2 == 0:
         return "dissipative, does not turn round in the end"
-    print("REVERSAL", map_.sheet.constants, np.round(place, 5), "attractor", np.round(found.attractor[-1], 5), "times",
+    print("REVERSAL", map_.section.constants, np.round(place, 5), "attractor", np.round(found.attractor[-1], 5),
+          "times",
           np.round(times, 3), flush=True)
     return "turns round"
 
@@ -333,7 +334,7 @@ def main() -> None:
                 place = start_of(map_, draw)
                 found = dynamics_of(map_, place, 500, 2000)
                 print(found.sentence, f"{found.motion.divergence:.4f} ± {found.motion.divergence_error:.4f}",
-                      map_.sheet.constants, place, flush=True)
+                      map_.section.constants, place, flush=True)
             else:
                 looked_at(map_, str(draw.choice(NAMES)), draw, real=options.real)
                 told["followed"] += 1

@@ -27,9 +27,6 @@ EQUATOR = Plane((0.0, 0.0, 0.0, 0.0, 1.0))
 
 # Every function of the package that takes an accuracy, called with the least work.
 CALLS = {
-    "andoyer_section": lambda one: hm.andoyer_section(HEAVY, 2.0, 0.5, orbits=1, crossings=5, accuracy=one).orbits[0],
-    "suslov_section": lambda one: hm.suslov_section(BODY, 1.842, orbits=1, crossings=5, accuracy=one).orbits[0],
-    "ball_section": lambda one: hm.ball_section(FIELD_BALL, 2.0, orbits=1, crossings=5, accuracy=one).orbits[0],
     "basins": lambda one: hm.basins(BODY, 1.842, cells=(2, 2), crossings=20, accuracy=one).mean,
     "cloud": lambda one: hm.cloud(FREE_BALL, 2.0, 1.0, count=3, accuracy=one).omega,
     "period": lambda one: hm.period(hm.BallBody(1.3, 0.8, 0.0, 0.0, 0.0, 0.5, -0.2, 0.0), (1.0, -0.5, 0.0, 0.6, 0.8),

@@ -43,7 +43,8 @@ def test_an_orbit_is_that_of_another_integrator_with_names_and_units():
 
 
 def test_points_lie_on_their_sections_at_their_energies():
-    found = hm.andoyer_section(HEAVY, 2.0, 0.5, starts=[(0.3, 0.4)], crossings=40)
+    P = hm.return_map(HEAVY, h=2.0, f=0.5, accuracy="standard")
+    found = hm.section_orbits(P, starts=[(0.3, 0.4)], crossings=40)
     assert found.orbits[0].shape == (40, 2)
     states, possible = AndoyerSection(HEAVY, 2.0, 0.5).states_at(*found.orbits[0].T)
     # Each of the points is a state of that energy, whose angle and momentum are the point's.
@@ -52,7 +53,8 @@ def test_points_lie_on_their_sections_at_their_energies():
     assert states[:, 2] / G == pytest.approx(found.orbits[0][:, 1], abs=1e-9)
     integrals = HEAVY.system.integrals(list(states.T), HEAVY.parameters)
     assert integrals["H"] == pytest.approx(np.full(40, 2.0), abs=1e-8)
-    section = hm.suslov_section(SUSLOV, 1.842, starts=[(0.5, 1.0)], crossings=40)
+    P = hm.return_map(SUSLOV, E=1.842, accuracy="standard")
+    section = hm.section_orbits(P, starts=[(0.5, 1.0)], crossings=40)
     psi, delta = section.orbits[0].T
     assert np.all((delta >= 0.0) & (delta <= math.pi) & (np.abs(psi) <= math.pi))
     frame = section.to_pandas()
@@ -118,11 +120,12 @@ def test_free_motions_periods_and_tori_hand_on_their_arrays():
     (lambda: hm.lyapunov_spectrum(None, (1.0,), 3.0), "None is no body that moves"),
     (lambda: hm.circle_map(0.5, 1.5, "x", hm.level("draft")), "f = 'x' is not a number; write it like 1.5"),
     (lambda: hm.rotation_numbers("a", 1.0, 0.2), "a = 'a' is not a number, nor several"),
-    (lambda: hm.andoyer_section(SUSLOV, 2.0, 0.5), "is no HeavyBody: give the body as hess_mechanics.HeavyBody"),
-    (lambda: hm.andoyer_section(HEAVY, -5.0, 0.5), "choose a larger energy"),
-    (lambda: hm.suslov_section(SUSLOV, -5.0), "reaches γ3 = 0: choose E above"),
-    (lambda: hm.suslov_section(SUSLOV, 1.8, starts=[1.0, 2.0]), "are no places; write them like [(0.0, 0.5)"),
-    (lambda: hm.suslov_section(SUSLOV, 1.8, starts=[("x", 2.0)]), "starts = 'x' is not a number"),
+    (lambda: hm.return_map(2.0, h=2.0, f=0.5), "is no HessBody: give the body as hess_mechanics.HessBody"),
+    (lambda: hm.section_orbits(hm.return_map(HEAVY, h=-5.0, f=0.5)), "choose a larger energy"),
+    (lambda: hm.return_map(SUSLOV, E=-5.0), "reaches γ3 = 0: choose E above"),
+    (lambda: hm.section_orbits(hm.return_map(SUSLOV, E=1.8), starts=[1.0, 2.0]),
+     "are no places; write them like [(0.0, 0.5)"),
+    (lambda: hm.section_orbits(hm.return_map(SUSLOV, E=1.8), starts=[("x", 2.0)]), "starts = 'x' is not a number"),
     (lambda: hm.basins(SUSLOV, 1.8, cells=(1000, 1000)), "at most 100000 are allowed"),
     (lambda: hm.basins(SUSLOV, 1.8, window=((1.0, 0.0), (0.0, 1.0))), "ψ0 < ψ1"),
     (lambda: hm.period(BALL, STATE), "set these to 0"),

@@ -230,12 +230,12 @@ def test_a_torus_is_born_where_multipliers_leave_the_unit_circle_and_locks_and_b
     curve = ReturnMap(at(-0.256), level("standard"))
     focus = find_periodic(curve, born.places, 1).places[0]
     places = curve.orbit(np.array(state.place), 4000)[1000:]
-    exponents = lyapunov_spectrum(curve.sheet, curve.state_at(places[-1]), 4000.0)
+    exponents = lyapunov_spectrum(curve.section, curve.state_at(places[-1]), 4000.0)
     assert exponents.signs == ("0", "0", "0", "0", "-")
     turns, error = rotation_number(places, tuple(focus))
     assert turns == pytest.approx(0.1066355, abs=6e-8)
     assert error < 5e-8
-    away = returns(curve.sheet.body, curve.state_at(places[-1]), 80) - focus
+    away = returns(curve.section.body, curve.state_at(places[-1]), 80) - focus
     low, high = turns_between(np.unwrap(np.arctan2(away[:, 1], away[:, 0])))
     assert low <= turns <= high < low + 1e-3
     # Locked: SciPy's product of ten derivatives has complex eigenvalues, and 1 at the folds.

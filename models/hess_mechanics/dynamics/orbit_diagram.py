@@ -26,8 +26,9 @@ from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Mask, frozen
 
 __all__ = [
-    "COMPARED", "MAX_VALUES", "Cascade", "Diagram", "Followed", "cascade", "doubling_seen", "hysteresis",
-    "orbit_diagram", "period_of",
+    "COMPARED", "MAX_VALUES", "Cascade", "Diagram", "Followed", "cascade", "diagram_over", "doubling_seen",
+    "hysteresis",
+    "period_of",
 ]
 
 MAX_VALUES, MAX_CROSSINGS = 2000, 20_000
@@ -120,9 +121,9 @@ def period_of(turns: Sequence[float], places: Array, promise: float = 0.0, most:
     return 0, min(float(np.median(ratios)), float(ratios[second.argmin()])) >= _SETTLING
 
 
-def orbit_diagram(family: Callable[[float], Followed], parameter: str, values: Sequence[float] | Array,
-                  start: Sequence[float] | Array, transient: int = 200, kept: int = 64, follow: bool = True,
-                  again: Sequence[float] | Array | None = None) -> Diagram:
+def diagram_over(family: Callable[[float], Followed], parameter: str, values: Sequence[float] | Array,
+                 start: Sequence[float] | Array, transient: int = 200, kept: int = 64, follow: bool = True,
+                 again: Sequence[float] | Array | None = None) -> Diagram:
     """Where the orbit from a place `start` (d,) settles at each of the values (n,), in their order.
 
     family : value → map.  transient, kept : crossings that are left out, and shown.

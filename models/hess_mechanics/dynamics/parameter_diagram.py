@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, cascade, orbit_diagram
+from hess_mechanics.dynamics.orbit_diagram import Cascade, Diagram, cascade, diagram_over
 from hess_mechanics.dynamics.periodic import find_periodic
 from hess_mechanics.dynamics.regime import Dynamics, Regime, compared, regime
 from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
@@ -30,7 +30,7 @@ def diagram(family: SectionFamily, name: str, values: tuple[float, ...], start: 
             kept: int, follow: bool, backward: bool, level: Accuracy) -> Diagram:
     """`orbit_diagram` of the sections of a family."""
     level = as_level(level)
-    return orbit_diagram(lambda value: ReturnMap(family(value), level, backward), name, values, start, transient, kept,
+    return diagram_over(lambda value: ReturnMap(family(value), level, backward), name, values, start, transient, kept,
                          follow, again)
 
 

@@ -29,7 +29,8 @@ from hess_mechanics.dynamics.point_sets import Apart, how_far_apart
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.dynamics.spectrum import ensemble_mean, lyapunov_spectrum, volume_sign
 from hess_mechanics.dynamics.zero_one import LEAST, zero_one_test
-from hess_mechanics.errors import InvalidParameter, NoReturn, OutsideRegion
+from hess_mechanics.errors import NoReturn, OutsideRegion
+from hess_mechanics.numerics.arguments import as_number, as_place, as_whole
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, frozen
@@ -241,14 +242,18 @@ def regime(map_: ReturnMap, start: Sequence[float] | Array, transient: int = 300
         Where no motion crosses at the place.
     WorkLimit
         Where this takes more steps than one request may.
+
+    >>> from hess_mechanics import HessBody, regime, return_map
+    >>> P = return_map(HessBody(I22=2.0, I23=1.0, b3=-1.0), h=1.5, f=0.6)
+    >>> regime(P, (0.3,), t=100.0).kind.words  # it comes to the stable limit cycle
+    'fixed point'
     """
-    if not (1 <= kept <= _MOST_CROSSINGS and 0 <= transient <= _MOST_CROSSINGS):
-        raise InvalidParameter(f"Up to {_MOST_CROSSINGS} crossings are left out, and from 1 to {_MOST_CROSSINGS} "
-                               "looked at.")
-    places = map_.orbit(np.array(start, float), transient + kept)
+    transient, kept = as_whole("transient", transient, 0, _MOST_CROSSINGS), as_whole("kept", kept, 1, _MOST_CROSSINGS)
+    start, t = as_place(map_.names, start), as_number("t", t)
+    places = map_.orbit(np.array(start), transient + kept)
     if len(places) < transient + kept:
         return _not_seen(map_, places, start)
-    places, integrable = places[transient:], bool(map_.sheet.integrable)
+    places, integrable = places[transient:], bool(map_.section.integrable)
     # A time of 0, or none, is refused by the indicator itself.
     span = max(t, _RETURNS * map_.time_of(places[-1])) if t > 0.0 else t
     evidence = _evidence(map_, places, span)
@@ -257,7 +262,7 @@ def regime(map_: ReturnMap, start: Sequence[float] | Array, transient: int = 300
         if kind not in (MotionKind.UNDECIDED, MotionKind.SETTLING):
             break
         count = min(_LONGER * len(places), _MOST_CROSSINGS)
-        longest = longest_span(map_.sheet, map_.state_at(places[-1]))
+        longest = longest_span(map_.section, map_.state_at(places[-1]))
         longer = max(span, min(_LONGER * span, longest))
         if (count, longer) == (len(places), span):
             break
@@ -273,14 +278,14 @@ def regime(map_: ReturnMap, start: Sequence[float] | Array, transient: int = 300
         kind = MotionKind.NO_PERIOD
     period = evidence.period if kind in (MotionKind.FIXED_POINT, MotionKind.PERIODIC) else 0
     return Regime(kind, period, map_.names, frozen(places.copy()), span, evidence.late, evidence.k,
-                  evidence.divergence, evidence.divergence_error, map_.volume_kept, map_.sheet.integrable,
+                  evidence.divergence, evidence.divergence_error, map_.volume_kept, map_.section.integrable,
                   map_.level)
 
 
 def _not_seen(map_: ReturnMap, places: Array, start: Sequence[float] | Array) -> Regime:
     last = places[-1] if len(places) else np.array(start, float)
     return Regime(MotionKind.NO_RETURN, 0, map_.names, frozen(places.copy()), map_.wait(last), 0.0, math.nan, 0.0, 0.0,
-                  map_.volume_kept, map_.sheet.integrable, map_.level)
+                  map_.volume_kept, map_.section.integrable, map_.level)
 
 
 def _evidence(map_: ReturnMap, places: Array, span: float) -> _Evidence:
@@ -313,7 +318,7 @@ def _ensemble(map_: ReturnMap, places: Array) -> Array:
 
 def _indicated(map_: ReturnMap, places: Array, t: float) -> Megno:
     states = np.array([map_.state_at(place) for place in places])
-    return megno(map_.sheet, states, -t if map_.backward else t, map_.accuracy,
+    return megno(map_.section, states, -t if map_.backward else t, map_.accuracy,
                  threads=1)
 
 
@@ -331,7 +336,7 @@ def _has_a_curve(map_: ReturnMap, place: Array, t: float) -> bool:
 
     An attracting invariant curve has it; an attracting periodic orbit, however long, has not.
     """
-    found = lyapunov_spectrum(map_.sheet, map_.state_at(place), -t if map_.backward else t,
+    found = lyapunov_spectrum(map_.section, map_.state_at(place), -t if map_.backward else t,
                               map_.accuracy)
     return found.zeros >= found.integrals + 2
 
@@ -433,9 +438,13 @@ def dynamics_of(map_: ReturnMap, start: Sequence[float] | Array, transient: int 
         Where the motion does not come back so often.
     OutsideRegion, WorkLimit
         As `regime`.
+
+    >>> from hess_mechanics import HessBody, dynamics_of, return_map
+    >>> P = return_map(HessBody(I22=2.0, I23=1.0, b3=-1.0), h=1.5, f=0.6)
+    >>> dynamics_of(P, (0.3,), transient=60, kept=64, t=100.0).verdict  # a stable cycle, and an unstable one
+    'dissipative'
     """
-    if not 8 <= kept <= _MOST_CROSSINGS:
-        raise InvalidParameter(f"From 8 to {_MOST_CROSSINGS} crossings are looked at.")
+    kept = as_whole("kept", kept, 8, _MOST_CROSSINGS)
     return compared(map_, regime(map_, start, transient, min(kept, 400), t), start, transient, kept)
 
 

@@ -106,19 +106,19 @@ class PoincareSection(Body, Protocol):
 class ReturnMap:
     """The return map of a section, see `periodic.Map`; forward in time, or backward."""
 
-    sheet: PoincareSection
+    section: PoincareSection
     accuracy: Level
     backward: bool = False
 
     @property
     def turns(self) -> tuple[float, ...]:
         """The period of each coordinate, ∞ where it is no angle."""
-        return self.sheet.turns
+        return self.section.turns
 
     @property
     def names(self) -> tuple[str, ...]:
         """The names of the coordinates."""
-        return self.sheet.names
+        return self.section.names
 
     @property
     def promise(self) -> float:
@@ -146,18 +146,18 @@ class ReturnMap:
     def moved(self, name: str, value: float) -> ReturnMap:
         """The same map at another value of a constant of the section.  Raises `InvalidParameter`."""
         self.constant(name)
-        return replace(self, sheet=self.sheet.moved(name, value))
+        return replace(self, section=self.section.moved(name, value))
 
     def constant(self, name: str) -> float:
         """A constant of the section.  Raises `InvalidParameter`, which lists them."""
-        if name not in self.sheet.constants:
+        if name not in self.section.constants:
             raise InvalidParameter(f"There is no {name} here to change: choose one of "
-                                   f"{', '.join(self.sheet.constants)}.")
-        return self.sheet.constants[name]
+                                   f"{', '.join(self.section.constants)}.")
+        return self.section.constants[name]
 
     def state_at(self, place: Array) -> Array:
         """The state (d,) at a place of the section.  Raises `OutsideRegion`."""
-        states, there = self.sheet.states_at(*(np.array([x]) for x in place))
+        states, there = self.section.states_at(*(np.array([x]) for x in place))
         if not there[0]:
             where = ", ".join(f"{name} = {x:.6g}" for name, x in zip(self.names, place, strict=True))
             raise OutsideRegion(f"No motion crosses the section at {where}: choose another place, or a larger energy.")
@@ -172,7 +172,7 @@ class ReturnMap:
         if count == 0:
             return np.asarray(place, float)
         problem, _, state = self._crossing(self.state_at(place), count, _LONGEST)
-        return np.asarray(self.sheet.places_of((state * problem.scale)[None])[0])
+        return np.asarray(self.section.places_of((state * problem.scale)[None])[0])
 
     def orbit(self, place: Array, count: int) -> Array:
         """The next `count` crossings (n, k) of this sheet, one after the other; fewer where none is seen for `wait`.
@@ -181,17 +181,17 @@ class ReturnMap:
         likes.  A slow motion is followed as long as each stretch of the time `wait` has a crossing.
         Raises `OutsideRegion`, `WorkLimit`.
         """
-        sheet = self.sheet
+        section = self.section
         parts = [np.empty((0, len(self.turns)))]
         left, place = count, np.asarray(place, float)
         while left > 0:
             go_on()
             problem = self._problem(self.state_at(place))
-            cross, normal, offset = sheet.surface.scaled(sheet.system, problem)
+            cross, normal, offset = section.surface.scaled(section.system, problem)
             wanted = min(left, _PIECE)
-            end = _WAIT * sheet.slowness * (-1.0 if self.backward else 1.0)
+            end = _WAIT * section.slowness * (-1.0 if self.backward else 1.0)
             times, states = np.empty(wanted + 1), np.empty((wanted + 1, problem.scale.size))
-            found, _ = cross(problem.states[0], problem.parameters, normal, offset, sheet.surface.sense, end,
+            found, _ = cross(problem.states[0], problem.parameters, normal, offset, section.surface.sense, end,
                              self.accuracy.order, self.accuracy.tolerance, MAX_STEPS, times, states)
             if found == STEP_LIMIT_REACHED:
                 raise WorkLimit(f"{wanted} returns need more than {MAX_STEPS} steps here: choose another place, or a "
@@ -199,8 +199,8 @@ class ReturnMap:
             first = int(found > 0 and abs(times[0]) < _AT_ONCE)
             states = states[first : min(found, first + wanted)] * problem.scale
             require_finite_states(states)
-            on = np.flatnonzero(sheet.is_on(states))
-            parts.append(np.asarray(sheet.places_of(states[on])))
+            on = np.flatnonzero(section.is_on(states))
+            parts.append(np.asarray(section.places_of(states[on])))
             if not on.size:
                 break
             # Where the last crossings are on another sheet, they are passed once more.
@@ -210,7 +210,7 @@ class ReturnMap:
 
     def wait(self, place: Array) -> float:
         """The time for which `orbit` looks for the next crossing from a place.  Raises `OutsideRegion`."""
-        return _WAIT * self.sheet.slowness / Problem.of(self.sheet, [self.state_at(place)]).nu
+        return _WAIT * self.section.slowness / Problem.of(self.section, [self.state_at(place)]).nu
 
     def time_of(self, place: Array, count: int = 1) -> float:
         """The time that so many returns from a place take, each of which may take as long as `wait`.
@@ -224,7 +224,7 @@ class ReturnMap:
         """The next crossing (k,), and DP there (k, k).  Raises as `image`."""
         start = self.state_at(place)
         problem, time, scaled = self._crossing(start, 1, _LONGEST)
-        system = self.sheet.system
+        system = self.section.system
         steps, _, frames, _ = followed(system, problem, np.array([time]), self.accuracy.order, self.accuracy.tolerance,
                                        MAX_STEPS)
         if steps == STEP_LIMIT_REACHED:
@@ -232,26 +232,26 @@ class ReturnMap:
         require_finite_states(frames)
         state = scaled * problem.scale
         flow = problem.scale[:, None] * frames[0] / problem.scale
-        rate = np.array(system.field(state.tolist(), list(self.sheet.parameters)), float)
-        onto = onto_surface(flow, rate, self.sheet.surface.gradient(state))
-        found = np.asarray(self.sheet.places_of(state[None])[0])
+        rate = np.array(system.field(state.tolist(), list(self.section.parameters)), float)
+        onto = onto_surface(flow, rate, self.section.surface.gradient(state))
+        found = np.asarray(self.section.places_of(state[None])[0])
         return found, self._in_plane(state, found, self._tangents(place) @ onto.T)
 
     def _problem(self, start: Array) -> Problem:
-        problem = Problem.of(self.sheet, [start])
+        problem = Problem.of(self.section, [start])
         return problem.nearby() if self.accuracy.aside else problem
 
     def _crossing(self, start: Array, count: int, longest: float) -> tuple[Problem, float, Array]:
         """The problem in its own units, time and state (d,) of the crossing of this number from a state."""
         go_on()
-        sheet = self.sheet
+        section = self.section
         problem = self._problem(start)
-        cross, normal, offset = sheet.surface.scaled(sheet.system, problem)
-        end = longest * sheet.slowness * count * (-1.0 if self.backward else 1.0)
+        cross, normal, offset = section.surface.scaled(section.system, problem)
+        end = longest * section.slowness * count * (-1.0 if self.backward else 1.0)
         wanted = count
         while True:
             times, states = np.empty(wanted), np.empty((wanted, start.size))
-            found, _ = cross(problem.states[0], problem.parameters, normal, offset, sheet.surface.sense, end,
+            found, _ = cross(problem.states[0], problem.parameters, normal, offset, section.surface.sense, end,
                              self.accuracy.order, self.accuracy.tolerance, MAX_STEPS, times, states)
             # A start that round-off puts a little before a curved surface crosses it at once.
             if not (found and wanted == count and abs(times[0]) < _AT_ONCE):
@@ -263,7 +263,7 @@ class ReturnMap:
             raise NoReturn(f"From here the motion was not seen to return to the section {_times(count)} within t = "
                            f"{abs(end) / problem.nu:.4g}: choose another place.")
         require_finite_states(states)
-        if not sheet.is_on(states[-1:] * problem.scale)[0]:
+        if not section.is_on(states[-1:] * problem.scale)[0]:
             raise NoReturn("From here the motion returns on another sheet of the section: choose another place.")
         return problem, float(times[-1]), states[-1]
 
@@ -274,7 +274,7 @@ class ReturnMap:
         while True:
             sizes = np.array([step, 0.25 * step])
             shifts = (sizes[:, None, None, None] * _SHIFTS[:, None, None] * np.eye(k)).reshape(-1, k)
-            states, there = self.sheet.states_at(*(np.asarray(place, float) + shifts).T)
+            states, there = self.section.states_at(*(np.asarray(place, float) + shifts).T)
             if there.all():
                 both = np.tensordot(states.reshape(2, _SHIFTS.size, k, -1), _WEIGHTS, (1, 0)) / sizes[:, None, None]
                 # Close to the edge, where states change as a root, the step has to be shorter.
@@ -291,7 +291,7 @@ class ReturnMap:
         unit = max(1.0, float(np.abs(state).max()))
         sizes = np.maximum(np.linalg.norm(away, axis=1), 1e-300)
         shifts = _SHIFTS[:, None, None] * _STEP * unit * away / sizes[:, None]
-        places = self.sheet.places_of(state + shifts.reshape(-1, state.size))
+        places = self.section.places_of(state + shifts.reshape(-1, state.size))
         moved = apart(self.turns, places, place).reshape(_SHIFTS.size, len(away), -1)
         return np.asarray((np.tensordot(_WEIGHTS, moved, 1) / (_STEP * unit) * sizes[:, None]).T)
 
@@ -301,7 +301,7 @@ class ReturnMap:
 
         It is found by differences at a few states in general position, which are exact for fields of such low degree.
         """
-        system, p = self.sheet.system, list(self.sheet.parameters)
+        system, p = self.section.system, list(self.section.parameters)
         d = len(system.variables)
         states = np.cos(1.0 + np.arange(3 * d).reshape(3, d) ** 2)
         total = sum(np.array(system.field(list((states + e).T), p)[i])
@@ -312,14 +312,14 @@ class ReturnMap:
     @cached_property
     def mirrors(self) -> tuple[Mirror, ...]:
         """The changes of sign of variables that map the motions, forward or backward in time, and this section."""
-        return tuple(one for one in sign_symmetries(self.sheet.system, self.sheet.parameters)
+        return tuple(one for one in sign_symmetries(self.section.system, self.section.parameters)
                      if self._mirrored(one) is not None)
 
     def mirrored(self, mirror: Mirror, place: Array) -> Array | None:
         """The image (k,) of a place; None where it is not on the section."""
         state = mirror.signs * self.state_at(place)
-        image = np.asarray(self.sheet.places_of(state[None])[0])
-        states, there = self.sheet.states_at(*(np.array([x]) for x in image))
+        image = np.asarray(self.section.places_of(state[None])[0])
+        states, there = self.section.states_at(*(np.array([x]) for x in image))
         size = max(1.0, float(np.abs(state).max()))
         return image if there[0] and float(np.abs(states[0] - state).max()) < 1e-9 * size else None
 
@@ -328,7 +328,7 @@ class ReturnMap:
         for i in range(1, _TRIED):
             shares = np.array([0.7548776662466927, 0.5698402909980532]) * i % 1.0
             place = np.array([low + share * (high - low)
-                              for share, (low, high) in zip(shares, self.sheet.window, strict=False)])
+                              for share, (low, high) in zip(shares, self.section.window, strict=False)])
             try:
                 return self.mirrored(mirror, place)
             except (OutsideRegion, InvalidParameter):

@@ -228,7 +228,7 @@ class System:
 
     def at(self, parameters: Sequence[float] | Array) -> ParametrizedSystem:
         """Return the system with these values of its parameters: a `Body`."""
-        return ParametrizedSystem(self, tuple(map(float, parameters)))
+        return ParametrizedSystem(self, tuple(parameters))
 
     @property
     def example_motion(self) -> tuple[ParametrizedSystem, tuple[float, ...]]:

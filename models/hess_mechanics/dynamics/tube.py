@@ -87,7 +87,7 @@ def tube(body: Body, state: Sequence[float], times: Sequence[float] | Array, dig
     `WorkLimit` (too many times).
 
     >>> from hess_mechanics import systems, tube
-    >>> found = tube(systems()["hess"], (0.3, 0.9, 0.6, 0.0, 0.8), (0.75, 1.0), [1.0])
+    >>> found = tube(systems()["hess"].at((0.75, 1.0)), (0.3, 0.9, 0.6, 0.0, 0.8), [1.0])
     >>> found.complete, found.width < 1e-18
     (True, True)
     """

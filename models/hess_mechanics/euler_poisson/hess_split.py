@@ -94,7 +94,7 @@ def saddles(torus: HessTorus, level: Accuracy) -> Saddles:
         if not len(crossing.states[0]):
             raise OutsideRegion("A limit cycle of the Hess manifold does not cross the section g = π/2 here: choose "
                                 "other h and f.")
-        found.append(find_periodic(map_, map_.sheet.places_of(crossing.states[0])[0], near=True).places)
+        found.append(find_periodic(map_, map_.section.places_of(crossing.states[0])[0], near=True).places)
     repels, attracts = found
     half = 0.5 * math.remainder(float(attracts[0, 0] - repels[0, 0]), 2.0 * math.pi)
     return Saddles(repels, attracts, float(repels[0, 0]) + half)
@@ -120,7 +120,7 @@ def _towards(map_: ReturnMap, places: Array, l: float, stable: bool) -> Manifold
             or np.abs(apart(map_.turns, orbit.places, places)).max() > _ELSEWHERE):
         raise NotConverged("The limit cycles of the Hess manifold are not found as saddles of the section: choose a "
                            "smaller ε, or other h and f.")
-    sheet = map_.sheet
+    sheet = map_.section
     assert isinstance(sheet, AndoyerSection)
     from_ = float(orbit.places[0, 0])
     way = math.remainder(l - from_, 2.0 * math.pi)

@@ -29,7 +29,7 @@ def test_each_cell_is_the_motion_from_its_middle(name):
     assert found.values.shape == found.kind.shape == (3, 5)
     i, j = np.argwhere(np.isfinite(found.values))[-1]
     start = P.state_at(np.array([found.x[j], found.y[i]]))
-    alone = megno(P.sheet, [start], 60.0, P.accuracy)
+    alone = megno(P.section, [start], 60.0, P.accuracy)
     # Alone it has a unit of time of its own, and so other steps.
     assert found.values[i, j] == pytest.approx(alone.values[0], rel=0.2)
     assert (found.kind[~np.isfinite(found.values)] == -1).all()
@@ -37,7 +37,7 @@ def test_each_cell_is_the_motion_from_its_middle(name):
     whole = found.to_xarray()["MEGNO"]
     assert whole.dims == (P.names[1], P.names[0])
     # The middles of cells all over the section.
-    (x0, x1), _ = P.sheet.window
+    (x0, x1), _ = P.section.window
     assert found.x == pytest.approx(x0 + (x1 - x0) * np.array([0.1, 0.3, 0.5, 0.7, 0.9]))
 
 
@@ -51,11 +51,11 @@ def test_integrable_bodies_are_regular_all_over_and_a_sea_is_chaotic():
                                     accuracy="standard"),
     }
     for P in integrable.values():
-        found = megno_map(P, cells=(6, 4), t=time_of(P.sheet, 300.0))
+        found = megno_map(P, cells=(6, 4), t=time_of(P.section, 300.0))
         assert (found.kind >= 0).any()
         assert set(found.kind.ravel().tolist()) <= {-1, 0}
     sea = return_map(QuarticBody(3.0, 1.0, 1.0, 1.2), accuracy="standard")
-    found = megno_map(sea, cells=(6, 4), t=time_of(sea.sheet, 300.0))
+    found = megno_map(sea, cells=(6, 4), t=time_of(sea.section, 300.0))
     assert np.mean(found.kind[found.kind >= 0] == 1) > 0.6
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from hess_mechanics import BallBody, HeavyBody, HessBody, SuslovBody, circle_map, level, return_map
-from hess_mechanics.dynamics.orbit_diagram import cascade, hysteresis, orbit_diagram, period_of
+from hess_mechanics.dynamics.orbit_diagram import cascade, diagram_over, hysteresis, period_of
 from hess_mechanics.dynamics.periodic import find_periodic
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from support.maps import Formula, henon
@@ -50,7 +50,7 @@ def test_a_cascade_says_why_it_ends():
 
 def test_a_diagram_of_the_map_of_henon_has_its_periods():
     values = np.array([0.2, 0.36, 0.5, 0.9, 0.95, 1.02, 1.04, 1.4])
-    found = orbit_diagram(henon, "a", values, (0.5, 0.1), transient=600)
+    found = diagram_over(henon, "a", values, (0.5, 0.1), transient=600)
     assert found.periods.tolist() == [1, 0, 2, 2, 4, 4, 8, 0]
     # Shortly before its doubling at a = 0.3675 the fixed point is still being come to, in turns from either side.
     assert found.settled.tolist() == [True, False, *[True] * 6]
@@ -59,7 +59,7 @@ def test_a_diagram_of_the_map_of_henon_has_its_periods():
     assert np.abs(found.places[0] - (x, B * x)).max() < 1e-12
     assert np.array_equal(found.ends, [one[-1] for one in found.places])
     # Beyond its last attractor places run away: a gap.
-    assert [len(one) for one in orbit_diagram(henon, "a", [1.4, 3.0, 0.2], (0.5, 0.1)).places] == [64, 0, 64]
+    assert [len(one) for one in diagram_over(henon, "a", [1.4, 3.0, 0.2], (0.5, 0.1)).places] == [64, 0, 64]
 
 
 def test_an_orbit_that_has_not_settled_says_so():
@@ -77,14 +77,14 @@ def test_an_orbit_that_has_not_settled_says_so():
 
 def test_the_way_back_is_another_one_between_the_folds():
     values = np.linspace(-0.6, 0.6, 61)
-    there = orbit_diagram(bistable, "r", values, (-1.0, 0.0))
-    back = orbit_diagram(bistable, "r", values[::-1], there.ends[-1])
+    there = diagram_over(bistable, "r", values, (-1.0, 0.0))
+    back = diagram_over(bistable, "r", values[::-1], there.ends[-1])
     fold = 2.0 / (3.0 * math.sqrt(3.0))
     inside = np.abs(values) < fold
     ((low, high),) = hysteresis(PLANE, there, back)
     assert (low, high) == pytest.approx((values[inside][0], values[inside][-1]))
     # From the same place each time there is no memory.
-    anew = [orbit_diagram(bistable, "r", some, (-1.0, 0.0), follow=False) for some in (values, values[::-1])]
+    anew = [diagram_over(bistable, "r", some, (-1.0, 0.0), follow=False) for some in (values, values[::-1])]
     assert hysteresis(PLANE, *anew) == ()
 
 
@@ -108,8 +108,8 @@ def test_an_orbit_is_the_images_one_after_the_other_forward_and_backward(body, c
 def test_the_section_of_a_torus_comes_to_the_limit_cycle_of_the_moebius_matrix_and_backward_to_the_other():
     a, values = 0.5, np.linspace(1.3, 1.7, 5)
     P = return_map(HessBody(1.0, a, -math.hypot(1.0, a)), h=1.3, f=0.6)
-    forward = orbit_diagram(lambda h: P.moved("h", h), "h", values, (0.3,), 60, 16)
-    backward = orbit_diagram(lambda h: P.moved("h", h).inverse(), "h", values, (0.3,), 60, 16)
+    forward = diagram_over(lambda h: P.moved("h", h), "h", values, (0.3,), 60, 16)
+    backward = diagram_over(lambda h: P.moved("h", h).inverse(), "h", values, (0.3,), 60, 16)
     for h, attractor, repeller in zip(values, forward.places, backward.places, strict=True):
         for places, point in zip((attractor, repeller), circle_map(a, h, 0.6, level("reference")).fixed_points,
                                  strict=True):
@@ -121,7 +121,7 @@ def test_the_section_of_a_torus_comes_to_the_limit_cycle_of_the_moebius_matrix_a
 
 def test_what_keeps_volume_says_that_nothing_attracts_there():
     P = return_map(SuslovBody(1.5, 1.0, 0.1, 0.0, 0.3, -0.5, 1.0), E=1.842, accuracy="draft")
-    found = orbit_diagram(lambda value: P.moved("I13", value), "I13", [0.1, 0.0], (0.3, 1.2), 10, 16)
+    found = diagram_over(lambda value: P.moved("I13", value), "I13", [0.1, 0.0], (0.3, 1.2), 10, 16)
     assert found.conservative.tolist() == [False, True]
     assert return_map(HeavyBody.hess((1.0, 1.6, 4.0), 1.0), h=1.5, f=-0.7).volume_kept
     assert return_map(BallBody(1.0, 3.0, 0.0, 0.0, 5.0, 0.5, 0.2, 0.8), h=2.0).volume_kept
@@ -130,6 +130,6 @@ def test_what_keeps_volume_says_that_nothing_attracts_there():
 
 def test_what_is_too_much_is_refused():
     with pytest.raises(InvalidParameter, match="from 1 to 2000"):
-        orbit_diagram(henon, "a", [math.nan], (0.5, 0.1))
+        diagram_over(henon, "a", [math.nan], (0.5, 0.1))
     with pytest.raises(WorkLimit, match="choose fewer"):
-        orbit_diagram(henon, "a", [1.0], (0.5, 0.1), transient=20_000)
+        diagram_over(henon, "a", [1.0], (0.5, 0.1), transient=20_000)

@@ -154,7 +154,7 @@ def test_places_of_the_quartic_section_are_canonical_and_their_states_those_of_c
     assert np.linalg.det(P.with_derivative(np.array(place))[1]) == pytest.approx(1.0, abs=1e-9)
     for name, value in (("h", 1.3), ("b3", 0.9), ("I11", 1.7)):
         moved = P.moved(name, value)
-        assert (moved.sheet.constants[name], moved.sheet.body) == (value, replace(body, **{name: value}))
+        assert (moved.section.constants[name], moved.section.body) == (value, replace(body, **{name: value}))
 
 
 def test_where_every_orbit_closes_each_place_is_one_of_a_family():
