@@ -6,35 +6,11 @@ import argparse
 import io
 import re
 import sys
-from collections.abc import Sequence
-from importlib import metadata
+from collections.abc import Iterable, Sequence
+from importlib import import_module, metadata
 from typing import NoReturn
 
-from hess_explorer.commands import (
-    CommandError,
-    basins,
-    bench,
-    circle_map,
-    cloud,
-    code,
-    docs,
-    export,
-    lyapunov,
-    orbit,
-    orbit_diagram,
-    period,
-    periodic,
-    prove,
-    prove_zone,
-    regime,
-    rotation_number,
-    scattering,
-    section,
-    serve,
-    shot,
-    sweep,
-    tube,
-)
+from hess_explorer.commands import COMMANDS, CommandError
 
 __all__ = ["main"]
 
@@ -53,15 +29,17 @@ def _version() -> str:
         return "run from its source folder, not installed"
 
 
-def _parser() -> argparse.ArgumentParser:
+def _parser(declared: Iterable[str] = COMMANDS) -> argparse.ArgumentParser:
+    """Return the parser of all commands; declared : those whose files are imported and whose options it knows."""
     parser = _Parser(prog="hess-explorer", description="An interactive explorer of the Suslov problem, its Hess case "
                      "and their relatives.  Without a command: serve.", allow_abbrev=False)
     parser.add_argument("--version", action="version", version=f"hess-explorer {_version()}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    for command in (serve, circle_map, orbit, period, periodic, section, orbit_diagram, regime, scattering,
-                    rotation_number, lyapunov, basins, cloud, prove, prove_zone, tube, export, code, docs, sweep, shot,
-                    bench):
-        command.add(commands)
+    for name, purpose in COMMANDS.items():
+        added = commands.add_parser(name, help=purpose)
+        if name in declared:
+            module = import_module(f"hess_explorer.commands.{name.replace('-', '_')}")
+            module.COMMAND.declare(added)
     return parser
 
 
@@ -90,7 +68,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(errors="backslashreplace")
     try:
-        options = _parser().parse_args(_with_negative_values(_with_command(words)))
+        words = _with_negative_values(_with_command(words))
+        options = _parser(words[:1]).parse_args(words)
         options.run(options)
     except CommandError as error:
         print(f"hess-explorer: {error}", file=sys.stderr)

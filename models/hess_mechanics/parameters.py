@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal, get_args
 
 from hess_mechanics.errors import InvalidParameter
@@ -71,8 +71,8 @@ class Parameter:
         """
         low, high = self.bounds
         if not (low <= value <= high and (not self.whole or value == round(value))):
-            kind = "is a whole number" if self.whole else "lies"
-            raise InvalidParameter(f"{self.name} = {value:g}, but it {kind} {self.range}: choose it so.")
+            kind = "is not a whole number" if self.whole else "is not"
+            raise InvalidParameter(f"{self.name} = {value:g} {kind} {self.range}: choose it there.")
         return value
 
     def changed(self, **changes: Any) -> Mapping[str, Any]:
@@ -125,11 +125,13 @@ C1, C2, CUBIC, QUARTIC = _vector(
 # ---- the Suslov–Hess case -------------------------------------------------------------------------------------------
 
 _UNITS_OF_B = "Suslov–Hess, in units b = 1"
-A_HESS = Parameter("a", "a", "Inertia parameter a", 0.5, (0.0, 2.0), 0.005, (-100.0, 100.0),
+A_HESS = Parameter("a", "a", "Inertia parameter a", 0.5, (0.0, 2.0), 0.005, (-1e3, 1e3),
                    "a = I₂₃/I₂₂ (Suslov) or √((a₃−a₂)(a₂−a₁))/a₂ (Euler–Poisson); a body has |a| < 1.", "Body")
 B_HESS = Parameter("b", "b", "Field b", 1.0, (0.05, 3.0), 0.01, (-1e3, 1e3), "Field of the reduced equations.", "Body")
 H_HESS = Parameter("h", "h", "Energy h", 1.5, (-0.99, 4.0), 0.01, (-1.0 + 1e-9, 1e6),
                    "Energy integral in units b = 1: h > −1; separatrix at h = 1, f = 0.", means=_UNITS_OF_B)
+H_PLANE = replace(H_HESS, bounds=(-1e6, 1e6))
+"""h of sweeps and commands, which say themselves that no motion has h ≤ −1."""
 F_HESS = Parameter("f", "f", "Area integral f", 0.6, (-3.0, 3.0), 0.01, (-1e4, 1e4),
                    "Area integral in units b = 1. Its range follows h.", means=_UNITS_OF_B)
 PHI0 = Parameter("phi0", "φ₀", "Phase φ₀", 0.5, _TURN, 0.01, _ANGLES,
@@ -178,6 +180,7 @@ L_PENDULUM = Parameter(
 
 # ---- energies of the other problems ---------------------------------------------------------------------------------
 
+E = Parameter("E", "E", "Energy E", 1.0, (-3.0, 6.0), 0.01, (-1e6, 1e6), "Energy, kinetic and potential.")
 H_SUSLOV = Parameter("h", "h", "Energy above the bottom, h", 1.0, (0.01, 6.0), 0.01, (1e-6, 1e6),
                      "E + |b|, the energy above its smallest possible value.")
 H_BALL = Parameter("h", "h", "Energy above the plane's lowest", 2.0, (0.05, 5.0), 0.01, (1e-3, 1e3),
@@ -204,7 +207,7 @@ CIRCLE_PHASE = Parameter("phi", "φ", "Phase φ", 0.5, _TURN, 0.01, _ANGLES, "Wh
                          unit="rad")
 GAMMA_CIRCLE = Parameter("Gamma", "Γ", "Γ(0) = (ξ, γ)", 0.4984, (-1.0, 1.0), 0.01, (-1.0, 1.0),
                          "Where γ starts: the height along ξ of its circle on the sphere.")
-TIME = Parameter("t", "t", "Time", 50.0, (0.0, 200.0), 1.0, (-1e6, 1e6), "The last time; negative: backward.",
+TIME = Parameter("t", "t", "Time", 50.0, (0.0, 200.0), 1.0, (-1e9, 1e9), "The last time; negative: backward.",
                  "Computation", "time")
 SPAN = Parameter("t", "t", "Time span", 50.0, (1.0, 200.0), 1.0, (1e-3, 1e6), "How long the motion is followed.",
                  "Computation", "time")

@@ -10,33 +10,12 @@ from pathlib import Path
 
 from hess_explorer.commands import CommandError
 from hess_explorer.commands.arguments import number, shown
+from hess_explorer.commands.command import Command, Options, flag, option
 from hess_explorer.commands.output import show, write_file
 
 WORKS = ("A", "A2", "B", "B2", "C", "D")
 TARGETS = (1e-3, 1e-6, 1e-9, 1e-12)
 _PICTURES = (".svg", ".png")
-
-
-def declare(parser: argparse.ArgumentParser) -> None:
-    """Declare the options."""
-    parser.description = (
-        "Do the same works with this project and with the other integrators that are installed (pip install "
-        "'hess-explorer[bench]'), measure each result's error against stored exact ones, and time the cheapest setting "
-        "of each that keeps the error asked for.  Some minutes; the table goes to standard output.")
-    parser.epilog = "Example: hess-explorer bench --works A,C --targets 1e-6,1e-9 --picture bench.svg"
-    parser.add_argument("--works", type=_works, default=WORKS, metavar="LIST",
-                        help="from A,A2,B,B2,C,D (default: all)")
-    parser.add_argument("--targets", type=_targets, default=TARGETS, metavar="LIST",
-                        help="largest errors (default 1e-3,1e-6,1e-9,1e-12)")
-    parser.add_argument("--quick", action="store_true", help="few repeats: a trial, not a measurement")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write everything measured to this file")
-    parser.add_argument("--trade", action="store_true",
-                        help="instead: cost and error of each accuracy level, for what each scene computes")
-    parser.add_argument("--scenes", type=_scenes, metavar="LIST", help="with --trade: of these scenes (default: all)")
-    parser.add_argument("--format", choices=("text", "json"), default="text",
-                        help="with --trade: a table (default), or scene, kind, level, ms, error as JSON")
-    parser.add_argument("--picture", type=_picture, metavar="FILE", help="draw time over error (.svg or .png)")
-    parser.set_defaults(run=_run)
 
 
 def _works(text: str) -> tuple[str, ...]:
@@ -75,7 +54,7 @@ def _progress(text: str) -> None:
     print(f"{text} …", file=sys.stderr, flush=True)
 
 
-def _run_trade(options: argparse.Namespace) -> None:
+def _run_trade(options: Options) -> None:
     from benchmarks.integrators.trade import Failed, Row, as_json, by_kind, heading, line_of, names, trade
 
     in_text = options.format == "text"
@@ -100,7 +79,7 @@ def _json(value: object) -> str:
     return json.dumps(value, ensure_ascii=False, allow_nan=False, indent=1) + "\n"
 
 
-def _run(options: argparse.Namespace) -> None:
+def _run(options: Options) -> None:
     if options.trade:
         _run_trade(options)
         return
@@ -126,3 +105,20 @@ def _run(options: argparse.Namespace) -> None:
 def _require_matplotlib() -> None:
     if find_spec("matplotlib") is None:
         raise CommandError("--picture needs Matplotlib: pip install 'hess-explorer[bench]'.")
+
+
+COMMAND = Command(
+    "Do the same works with this project and with the other integrators that are installed (pip install "
+    "'hess-explorer[bench]'), measure each result's error against stored exact ones, and time the cheapest setting of "
+    "each that keeps the error asked for.  Some minutes; the table goes to standard output.",
+    (option("--works", "from A,A2,B,B2,C,D (default: all)", type=_works, default=WORKS, metavar="LIST"),
+     option("--targets", "largest errors (default 1e-3,1e-6,1e-9,1e-12)", type=_targets, default=TARGETS,
+            metavar="LIST"),
+     flag("--quick", "few repeats: a trial, not a measurement"),
+     option("--json", "write everything measured to this file", type=Path, metavar="FILE"),
+     flag("--trade", "instead: cost and error of each accuracy level, for what each scene computes"),
+     option("--scenes", "with --trade: of these scenes (default: all)", type=_scenes, metavar="LIST"),
+     option("--format", "with --trade: a table (default), or scene, kind, level, ms, error as JSON",
+            choices=("text", "json"), default="text"),
+     option("--picture", "draw time over error (.svg or .png)", type=_picture, metavar="FILE")), _run,
+    "--works A,C --targets 1e-6,1e-9 --picture bench.svg")

@@ -10,8 +10,8 @@ import pytest
 
 from hess_explorer.__main__ import main
 from hess_explorer.commands import CommandError
-from hess_explorer.commands.output import write
-from hess_mechanics import f_max
+from hess_explorer.commands.output import Answer, write
+from hess_mechanics import BallBody, ModelError, SuslovBody, f_max, lyapunov_exponent
 from support.command_line import replaced, strict_json, table
 from support.rotation_number import iterated
 
@@ -143,8 +143,8 @@ def test_all_exponents_with_errors_signs_and_a_dimension(answer, capsys):
 
 
 @pytest.mark.parametrize(("words", "said"), [
-    (replaced(ROTATION, "--h", "2e12"), "1e12"),
-    (replaced(ROTATION, "--a", "2e6"), "choose |a|"),
+    (replaced(ROTATION, "--h", "2e12"), "--h: h = 2e+12 is not between -1e+06 and 1e+06"),
+    (replaced(ROTATION, "--a", "2e6"), "--a: a = 2e+06 is not between -1000 and 1000"),
     (replaced(ROTATION, "--h", "0:1"), "lo:hi:n"),
     (replaced(ROTATION, "--h", "0:1:1"), "whole number from 2"),
     (replaced(ROTATION, "--f", "x"), "is not a number"),
@@ -155,28 +155,32 @@ def test_all_exponents_with_errors_signs_and_a_dimension(answer, capsys):
     (replaced(LYAPUNOV, "--t", "0"), "other than 0"),
     (replaced(LYAPUNOV, "--t", "1e9"), "choose a shorter time span"),
     (replaced(LYAPUNOV, "--gamma", "0,0,0"), "other than 0"),
-    (replaced(LYAPUNOV, "--I", "0,3,0.4,0.4"), "choose I11 > 0"),
+    (replaced(LYAPUNOV, "--I", "0,3,0.4,0.4"), "--I: I11 = 0 is not between 0.001 and 1000"),
     (replaced(LYAPUNOV, "--omega", "1"), "write 2 numbers"),
-    (replaced(HEAVY, "--A", "1,-1,2"), "positive"),
+    (replaced(HEAVY, "--A", "1,-1,2"), "--A: a2 = -1 is not between 0.001 and 1000"),
     (replaced(HEAVY, "--mu", "inf"), "is not a finite number"),
 ])
 def test_what_is_wrong_is_one_sentence(refusal, words, said):
     assert said in refusal(*words)
 
 
-@pytest.mark.parametrize("words", [
-    ["ball", "--I", "1,4,1.37e+179,0", "--D", "2", "--b", "0.3,0,1", "--t", "500"],
-    ["suslov", "--I", "1,2.5,0.6,8.23e+230", "--b=-1,-0.5,0.7", "--t", "2000", "--format", "csv"]])
-def test_no_exponent_of_a_motion_beyond_double_range_is_written(refusal, words):
-    assert "The motion left the range of double precision: choose less extreme parameters" in refusal(
-        "lyapunov", *words, "--omega", "0.5,0.9", "--gamma", "0.6,0,0.8")
+@pytest.mark.parametrize(("body", "words", "t"), [
+    (BallBody(1.0, 4.0, 1.37e179, 0.0, 2.0, 0.3, 0.0, 1.0),
+     ["ball", "--I", "1,4,1.37e+179,0", "--D", "2", "--b", "0.3,0,1", "--t", "500"], 500.0),
+    (SuslovBody(1.0, 2.5, 0.6, 8.23e230, -1.0, -0.5, 0.7),
+     ["suslov", "--I", "1,2.5,0.6,8.23e+230", "--b=-1,-0.5,0.7", "--t", "2000", "--format", "csv"], 2000.0)])
+def test_no_exponent_of_a_motion_beyond_double_range_is_written(refusal, body, words, t):
+    assert "is not between -1000 and 1000" in refusal("lyapunov", *words, "--omega", "0.5,0.9", "--gamma", "0.6,0,0.8")
+    with (np.errstate(all="ignore"),
+          pytest.raises(ModelError, match="The motion left the range of double precision: choose less extreme")):
+        lyapunov_exponent(body, (0.5, 0.9, 0.6, 0.0, 0.8), t)
 
 
 @pytest.mark.parametrize("form", ["json", "csv"])
 @pytest.mark.parametrize("column", [[1.0, math.nan], [[1.0, -math.inf], [0.0, 1.0]]])
 def test_no_column_has_a_number_that_is_none(form, column, capsys):
     with pytest.raises(CommandError, match="rate: a number leaves the range of double precision; choose"):
-        write(Namespace(format=form, out=None), {"t": [0.0, None], "rate": column}, ("t", "rate"), {}, ())
+        write(Namespace(format=form, out=None), Answer({"t": [0.0, None], "rate": column}, {}))
     assert capsys.readouterr().out == ""
 
 

@@ -40,7 +40,7 @@ def test_both_bounds_are_allowed_and_nothing_beyond_them(known):
 
 def test_a_whole_number_is_required_where_only_such_ones_mean_something():
     assert parameters.SHEET.check(1.0) == 1.0
-    with pytest.raises(InvalidParameter, match="but it is a whole number between 0 and 2"):
+    with pytest.raises(InvalidParameter, match="is not a whole number between 0 and 2"):
         parameters.SHEET.check(0.5)
 
 

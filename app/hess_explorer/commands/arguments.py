@@ -4,12 +4,18 @@ from __future__ import annotations
 
 import argparse
 import math
-from collections.abc import Callable
-from typing import NoReturn
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, NoReturn, TypeVar
 from urllib.parse import parse_qsl, urlencode
 
-__all__ = ["integer", "number", "samples", "shown", "state_of", "vector"]
+if TYPE_CHECKING:
+    # Importing the mechanics takes a second, in which `serve` has already said that it starts.
+    from hess_mechanics.parameters import Parameter
 
+__all__ = ["assigned", "checked", "ends", "integer", "listed", "number", "numbers", "samples", "shown", "state_of",
+           "values", "vector"]
+
+T = TypeVar("T")
 _SHOWN, _MAX_STATE = 60, 2000
 
 
@@ -33,6 +39,18 @@ def number(text: str) -> float:
     return value
 
 
+def checked(of: Parameter) -> Callable[[str], float]:
+    """Return the type of a number within the bounds of a parameter."""
+    return lambda text: _within(of, number(text))
+
+
+def _within(of: Parameter, value: float) -> float:
+    try:
+        return of.check(value)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error).removesuffix(".")) from None
+
+
 def integer(low: int, high: int) -> Callable[[str], int]:
     """The type of a whole number from `low` to `high`."""
 
@@ -45,15 +63,33 @@ def integer(low: int, high: int) -> Callable[[str], int]:
     return parse
 
 
-def vector(names: str) -> Callable[[str], tuple[float, ...]]:
-    """The type of a comma list with one number for each of the names ("w1,w2")."""
-    count = names.count(",") + 1
+def numbers(text: str) -> tuple[float, ...]:
+    """Numbers with commas between."""
+    return tuple(map(number, text.split(",")))
+
+
+def vector(of: str | Sequence[Parameter]) -> Callable[[str], tuple[float, ...]]:
+    """Return the type of a list with commas: a number for each parameter, or for each of the names ("w1,w2")."""
+    names = of if isinstance(of, str) else ",".join(one.name for one in of)
+    types = [number] * (names.count(",") + 1) if isinstance(of, str) else [checked(one) for one in of]
 
     def parse(text: str) -> tuple[float, ...]:
         parts = text.split(",")
-        if len(parts) != count:
-            _refuse(text, f"has length {len(parts)}; write {count} numbers {names}")
-        return tuple(number(part) for part in parts)
+        if len(parts) != len(types):
+            _refuse(text, f"has length {len(parts)}; write {len(types)} numbers {names}")
+        return tuple(read(part) for read, part in zip(types, parts, strict=True))
+
+    return parse
+
+
+def assigned(value: Callable[[str], T], example: str) -> Callable[[str], tuple[str, T]]:
+    """Return the type of NAME=VALUE; value : the type of what follows; example : such a text, for the message."""
+
+    def parse(text: str) -> tuple[str, T]:
+        name, _, given = text.partition("=")
+        if not (name and given):
+            _refuse(text, f"is not a parameter; write it like {example}")
+        return name, value(given)
 
     return parse
 
@@ -71,19 +107,33 @@ def state_of(text: str) -> str:
         _refuse(text, "is not a state; write it like 'h=1.2&f=0.3'")
 
 
-def samples(text: str) -> list[float]:
+def ends(text: str, most: int) -> tuple[float, float, int]:
+    """The numbers of lo:hi:n, n at most so many."""
+    parts = text.split(":")
+    if len(parts) != 3:
+        _refuse(text, "is not a range; write it lo:hi:n, like 0:10:101")
+    return number(parts[0]), number(parts[1]), integer(2, most)(parts[2])
+
+
+def listed(text: str, most: int) -> list[float]:
+    """The numbers of a list with commas, at most so many."""
+    parts = text.split(",")
+    if len(parts) > most:
+        _refuse(text, f"has {len(parts)} numbers; at most {most} are allowed in a list, use lo:hi:n")
+    return [number(part) for part in parts]
+
+
+def values(text: str) -> list[float]:
     """A comma list, or `lo:hi:n` for n evenly spaced numbers from lo to hi."""
     from hess_mechanics.dynamics.orbit import MAX_SAMPLES
 
     if ":" not in text:
-        parts = text.split(",")
-        if len(parts) > MAX_SAMPLES:
-            _refuse(text, f"has {len(parts)} numbers; at most {MAX_SAMPLES} are allowed")
-        return [number(part) for part in parts]
-    ends = text.split(":")
-    if len(ends) != 3:
-        _refuse(text, "is not a range; write it lo:hi:n, like 0:10:101")
-    low, high = number(ends[0]), number(ends[1])
-    count = integer(2, MAX_SAMPLES)(ends[2])
+        return listed(text, MAX_SAMPLES)
+    low, high, count = ends(text, MAX_SAMPLES)
     # Weighted, not stepped: both ends are exact, and hi − lo cannot overflow.
     return [low * ((count - 1 - i) / (count - 1)) + high * (i / (count - 1)) for i in range(count)]
+
+
+def samples(of: Parameter) -> Callable[[str], list[float]]:
+    """Return the type of many values of a parameter, `values` within its bounds."""
+    return lambda text: [_within(of, value) for value in values(text)]

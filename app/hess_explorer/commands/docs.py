@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import tempfile
 import webbrowser
 from importlib.resources import files
@@ -11,26 +10,15 @@ from pathlib import Path
 from hess_explorer.api_pages import pages
 
 from . import CommandError
+from .command import Command, Options, option
 from .output import show, write_file
 
-__all__ = ["add"]
+__all__ = ["COMMAND"]
 
 _PACKED = Path(str(files("hess_explorer"))) / "pages"
 
 
-def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    """Declare the command."""
-    parser = commands.add_parser(
-        "docs", help="the pages of the Python packages",
-        description="Open the pages of what can be imported from hess_mechanics and hess_explorer, of the version that "
-                    "is installed, with search, and no host to ask. Where the packages are installed to be edited, the "
-                    "pages are made from the sources, which needs the extra: pip install '.[docs]'.",
-        epilog="Example: hess-explorer docs --out docs")
-    parser.add_argument("--out", type=Path, metavar="FOLDER", help="write them there, and open none")
-    parser.set_defaults(run=_run)
-
-
-def _run(options: argparse.Namespace) -> None:
+def _run(options: Options) -> None:
     if options.out is None and _PACKED.is_dir():
         _open(_PACKED)
         return
@@ -59,3 +47,10 @@ def _pages() -> dict[str, str]:
         return pages([Path(str(files(package))).parent for package in ("hess_explorer", "hess_mechanics")])
     except ImportError as error:
         raise CommandError("The pages need griffelib: pip install 'hess-explorer[docs]'.") from error
+
+
+COMMAND = Command(
+    "Open the pages of what can be imported from hess_mechanics and hess_explorer, of the version that is installed, "
+    "with search, and no host to ask. Where the packages are installed to be edited, the pages are made from the "
+    "sources, which needs the extra: pip install '.[docs]'.",
+    (option("--out", "write them there, and open none", type=Path, metavar="FOLDER"),), _run, "--out docs")

@@ -1,4 +1,4 @@
-"""What the computing commands share: options, and results as strict JSON or CSV on standard output or in a file."""
+"""Results of commands as strict JSON, CSV or text, on standard output or in a file."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ import os
 import sys
 import threading
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from . import CommandError
-from .arguments import state_of
+from hess_explorer.commands import CommandError
 
 if TYPE_CHECKING:
     from hess_mechanics import BodyCheck, CircleMap, Orbit, SectionCrossings, Spectrum
@@ -23,41 +23,53 @@ if TYPE_CHECKING:
     from hess_mechanics.chaplygin_ball.phase_cloud import Cloud
     from hess_mechanics.suslov.scattering import Scattering
 
-__all__ = ["LONG", "PATIENCE", "add_options", "add_picture", "add_state", "computing", "quality", "show",
-           "whether_body", "write", "write_file"]
+__all__ = ["LONG", "PATIENCE", "Answer", "computing", "quality", "show", "table", "text", "whether_body", "write",
+           "write_file"]
 
 LONG = 2.0
 """Seconds after which a command says that it goes on."""
 PATIENCE = "Still computing; Ctrl-C ends it."
 
 
-def add_options(parser: argparse.ArgumentParser) -> None:
-    """The options --accuracy, --format and --out."""
-    parser.add_argument("--accuracy", default="precise", metavar="LEVEL",
-                        help="draft, standard, precise (default) or reference")
-    parser.add_argument("--format", choices=("json", "csv"), default="json",
-                        help="json (default): strict, all digits; csv: a table, the other results as # comments")
-    _add_out(parser)
+Compute = Callable[[argparse.Namespace], "Answer"]
 
 
-def add_state(parser: argparse.ArgumentParser) -> None:
-    """The options --state, a query, and --lenient."""
-    parser.add_argument("--state", type=state_of, default="", metavar="QUERY",
-                        help="a link to the page, or what follows ? in it (default: its first view)")
-    parser.add_argument("--lenient", action="store_true",
-                        help="put right what is wrong in the state, and say so in the notes, instead of refusing it")
+@dataclass(frozen=True)
+class Answer:
+    """What a command computed.
+
+    series : columns of equal length, one row for each sample, None where there is no value (null, in CSV an empty
+    field), and no number that is none.
+    facts : everything else; notes : sentences.
+    columns : the heading of the table in CSV, if not the names of the series.
+    """
+
+    series: Mapping[str, Sequence[Any]]
+    facts: Mapping[str, Any]
+    notes: Sequence[str] = ()
+    columns: Sequence[str] = ()
 
 
-def add_picture(parser: argparse.ArgumentParser, more: str = "") -> None:
-    """The options --state, --lenient, --picture and --out; more : on several pictures."""
-    add_state(parser)
-    parser.add_argument("--picture", default="", metavar="NAME", help="the name of the picture, as in pictures=… of a "
-                        f"link that embeds (default: the first{more})")
-    _add_out(parser)
+def table(compute: Compute) -> Callable[[argparse.Namespace], None]:
+    """Return the function that computes an answer and writes it in the chosen format, to the chosen place."""
+
+    def run(options: argparse.Namespace) -> None:
+        with computing():
+            answer = compute(options)
+        write(options, answer)
+
+    return run
 
 
-def _add_out(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--out", type=Path, metavar="FILE", help="write to this file instead of standard output")
+def text(compute: Callable[[argparse.Namespace], str]) -> Callable[[argparse.Namespace], None]:
+    """Return the function that computes a text and writes it to the chosen place."""
+
+    def run(options: argparse.Namespace) -> None:
+        with computing():
+            found = compute(options)
+        show(f"{found}\n".encode(), options.out)
+
+    return run
 
 
 @contextmanager
@@ -139,14 +151,14 @@ def _is_number(value: Any) -> bool:
     return not isinstance(value, float) or math.isfinite(value)
 
 
-def write(options: argparse.Namespace, series: Mapping[str, Sequence[Any]], columns: Sequence[str],
-          facts: Mapping[str, Any], notes: Sequence[str]) -> None:
+def write(options: argparse.Namespace, answer: Answer) -> None:
     """Write the answer in the chosen format, to the chosen place.
 
-    series : columns of equal length, one row for each sample (in CSV the table, with the heading `columns`), None where
-    there is no value (null, in CSV an empty field), and no number that is none;
-    facts : everything else.  Raises `CommandError`, also if the file cannot be written.
+    Raises
+    ------
+    CommandError : a number of a series leaves the range of double precision, or the file cannot be written.
     """
+    series, facts = answer.series, answer.facts
     for name, column in series.items():
         if not all(map(_is_number, column)):
             raise CommandError(f"{name}: a number leaves the range of double precision; choose less extreme parameters "
@@ -154,16 +166,16 @@ def write(options: argparse.Namespace, series: Mapping[str, Sequence[Any]], colu
     strict = {key: _strict(value) for key, value in facts.items()}
     lost = [f"{key}: null stands for a number beyond the range of double precision."
             for key, value in facts.items() if strict[key] != value]
-    strict["notes"] = [*notes, *lost]
+    strict["notes"] = [*answer.notes, *lost]
     if options.format == "json":
         pairs = {**series, **strict}.items()
         lines = [f"  {json.dumps(key)}: {_json(value)}" for key, value in pairs]
-        text = "{\n" + ",\n".join(lines) + "\n}\n"
+        written = "{\n" + ",\n".join(lines) + "\n}\n"
     else:
         rows = (_row(cells) for cells in zip(*series.values(), strict=True))
         comments = (f"# {key}: {_json(value)}" for key, value in strict.items())
-        text = "\n".join([*comments, ",".join(columns), *rows]) + "\n"
-    show(text.encode(), options.out)
+        written = "\n".join([*comments, ",".join(answer.columns or tuple(series)), *rows]) + "\n"
+    show(written.encode(), options.out)
 
 
 def _json(value: Any) -> str:

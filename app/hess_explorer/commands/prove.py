@@ -2,66 +2,28 @@
 
 from __future__ import annotations
 
-import argparse
 import json
 from collections.abc import Iterator
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from .arguments import integer
-from .output import computing, show, write_file
+from hess_mechanics import EdgeProof, Proof, certificate, prove
+from hess_mechanics.suslov_hess.certificate import claim
 
-if TYPE_CHECKING:
-    from hess_mechanics import EdgeProof, Proof
+from .command import OUT, Command, Options, option, whole
+from .output import text
 
-__all__ = ["add"]
-
-
-def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    """Declare the command."""
-    parser = commands.add_parser(
-        "prove", help="proves that a Suslov–Hess torus has two limit cycles, or none",
-        description="Proves by ball arithmetic that the torus (h, f), units b = 1, has exactly two limit cycles "
-                    "(|trace| > 2 of its circle map) or none (|trace| < 2): for the equations with exactly these "
-                    "numbers, if the balls of the library Arb enclose what they say.  Where |trace| is too close to "
-                    "2 it says “undecided”.  On the edge |f| = f_max(h), where there is no torus but a circle of "
-                    "states, it proves that this has exactly two equilibria or is one periodic orbit.  Multipliers, "
-                    "fixed points and rotation number are enclosed.  The JSON is a certificate: every Taylor step with "
-                    "what bounds its remainder, for an independent check such as tests/check_certificate.py.  "
-                    "Needs the extra: pip install 'hess-explorer[prove]'.",
-        epilog="Example: hess-explorer prove --a 0.5 --h 1.5 --f 0.6 --format json")
-    numbers = {"a": "inertia parameter a = I23/I22", "h": "energy, h > -1", "f": "area integral, |f| ≤ f_max(h)"}
-    for name, text in numbers.items():
-        parser.add_argument(f"--{name}", required=True, metavar="NUMBER", help=f"{text}; exact: 0.1, -2e-3 or 1/3")
-    parser.add_argument("--bits", type=integer(64, 4096), default=512, metavar="N",
-                        help="the precision doubles from 64 bits to at most this (default: 512)")
-    parser.add_argument("--format", choices=("text", "json"), default="text",
-                        help="text (default): what is proved, in words; json: the whole certificate")
-    parser.add_argument("--out", type=Path, metavar="FILE", help="write to this file instead of standard output")
-    parser.set_defaults(run=_run)
+__all__ = ["COMMAND"]
 
 
-def _run(options: argparse.Namespace) -> None:
-    with computing():
-        from hess_mechanics import certificate, prove
-
-        proof = prove(options.a, options.h, options.f, options.bits)
-        found = certificate(proof)
+def _computed(options: Options) -> str:
+    proof = prove(options.a, options.h, options.f, options.bits)
+    found = certificate(proof)
     if options.format == "json":
-        text = json.dumps(found, ensure_ascii=False, allow_nan=False, indent=1)
-    else:
-        text = "\n".join(_words(proof, found))
-    data = f"{text}\n".encode()
-    if options.out is not None:
-        write_file(options.out, data)
-    else:
-        show(data)
+        return json.dumps(found, ensure_ascii=False, allow_nan=False, indent=1)
+    return "\n".join(_words(proof, found))
 
 
 def _words(proof: Proof | EdgeProof, found: dict[str, Any]) -> Iterator[str]:
-    from hess_mechanics import EdgeProof
-    from hess_mechanics.suslov_hess.certificate import claim
-
     yield claim(proof)
     if isinstance(proof, EdgeProof):
         yield from _edge_words(found)
@@ -93,3 +55,18 @@ def _edge_words(found: dict[str, Any]) -> Iterator[str]:
 
 def _interval(pair: list[str]) -> str:
     return f"= {pair[0]}" if pair[0] == pair[1] else f"in [{pair[0]}, {pair[1]}]"
+
+
+COMMAND = Command(
+    "Proves by ball arithmetic that the torus (h, f), units b = 1, has exactly two limit cycles (|trace| > 2 of its "
+    "circle map) or none (|trace| < 2): for the equations with exactly these numbers, if the balls of the library Arb "
+    "enclose what they say.  Where |trace| is too close to 2 it says “undecided”.  On the edge |f| = f_max(h), where "
+    "there is no torus but a circle of states, it proves that this has exactly two equilibria or is one periodic "
+    "orbit.  Multipliers, fixed points and rotation number are enclosed.  The JSON is a certificate: every Taylor step "
+    "with what bounds its remainder, for an independent check such as tests/check_certificate.py.  Needs the extra: "
+    "pip install 'hess-explorer[prove]'.",
+    (*(option(f"--{name}", f"{what}; exact: 0.1, -2e-3 or 1/3", required=True, metavar="NUMBER") for name, what in (
+        ("a", "inertia parameter a = I23/I22"), ("h", "energy, h > -1"), ("f", "area integral, |f| ≤ f_max(h)"))),
+     whole("--bits", 64, 4096, "the precision doubles from 64 bits to at most this", 512),
+     option("--format", "text (default): what is proved, in words; json: the whole certificate",
+            choices=("text", "json"), default="text"), OUT), text(_computed), "--a 0.5 --h 1.5 --f 0.6 --format json")

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-import argparse
 import json
 import time
 from collections.abc import Iterator
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from .arguments import integer, number
-from .output import computing, show, write_file
+from hess_mechanics import LockZone, lock_zone
+from hess_mechanics.numerics.balls import flint
+from hess_mechanics.parameters import H_PLANE
+from hess_mechanics.suslov_hess.lock_zone import refined, region_area
 
-if TYPE_CHECKING:
-    from hess_mechanics import LockZone
+from .arguments import number as any_number
+from .command import OUT, Command, Options, number, option, whole
+from .output import text
 
-__all__ = ["add"]
+__all__ = ["COMMAND"]
 
 _ROUND = 100
 """Proofs between two looks at the share decided."""
@@ -24,56 +25,20 @@ _MEANS = ("alpha = (1 - n1^2)/(n1 + n2)^2, beta = (1 - n2^2)/(n1 + n2)^2 with n1
           "; a statement is about the tori of a cell, alpha > beta or exchanged; alpha = beta is the edge: no torus")
 
 
-def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    """Declare the command."""
-    parser = commands.add_parser(
-        "prove-zone", help="proves where over (h, f) tori have two limit cycles, and where none",
-        description="Proves by ball arithmetic for cells of the bifurcation diagram (h, f), units b = 1, f > 0, that "
-                    "every torus of a cell has exactly two limit cycles, or none.  The largest undecided cell always "
-                    "comes first, so the share decided grows, and undecided cells close in on the boundary.  A cell "
-                    "is a rectangle of two numbers α, β that name a torus (the JSON says how); its ends are doubles, "
-                    "meant exactly.  Where a cell meets the edge |f| = f_max(h), its statement is about its tori "
-                    "only: on the edge there is none.  Areas are computed, not proved.  "
-                    "Needs the extra: pip install 'hess-explorer[prove]'.",
-        epilog="Example: hess-explorer prove-zone --a 0.5 --cells 50 --format json")
-    parser.add_argument("--a", required=True, metavar="NUMBER",
-                        help="inertia parameter a = I23/I22, |a| ≤ 3; exact: 0.1, -2e-3 or 1/3")
-    parser.add_argument("--h-end", type=number, default=4.0, metavar="H", help="up to this energy h (default: 4)")
-    parser.add_argument("--cells", type=integer(1, 100_000), default=400, metavar="N",
-                        help="at most so many proofs, of some 15 ms each (default: 400)")
-    parser.add_argument("--share", type=number, default=1.0, metavar="S",
-                        help="stop when this share of the area is decided, looked at after each 100 proofs")
-    parser.add_argument("--format", choices=("text", "json", "csv"), default="text",
-                        help="text (default): the shares; json: all cells and the share over time; csv: all cells")
-    parser.add_argument("--out", type=Path, metavar="FILE", help="write to this file instead of standard output")
-    parser.set_defaults(run=_run)
-
-
-def _run(options: argparse.Namespace) -> None:
-    with computing():
-        from hess_mechanics import lock_zone
-        from hess_mechanics.suslov_hess.lock_zone import refined
-
-        zone = lock_zone(options.a, options.h_end, 0)
-        begun, progress = time.perf_counter(), []
-        while zone.tried < options.cells and zone.decided < options.share:
-            before = zone.tried
-            zone = refined(zone, min(_ROUND, options.cells - zone.tried))
-            if zone.tried == before:
-                break
-            progress.append({"cells": zone.tried, "seconds": round(time.perf_counter() - begun, 2),
-                             "decided": round(zone.decided, 6)})
-        lines = {"text": _words, "json": _json, "csv": _csv}[options.format](zone, progress)
-        data = "".join(f"{line}\n" for line in lines).encode()
-    if options.out is not None:
-        write_file(options.out, data)
-    else:
-        show(data)
+def _computed(options: Options) -> str:
+    zone = lock_zone(options.a, options.h_end, 0)
+    begun, progress = time.perf_counter(), []
+    while zone.tried < options.cells and zone.decided < options.share:
+        before = zone.tried
+        zone = refined(zone, min(_ROUND, options.cells - zone.tried))
+        if zone.tried == before:
+            break
+        progress.append({"cells": zone.tried, "seconds": round(time.perf_counter() - begun, 2),
+                         "decided": round(zone.decided, 6)})
+    return "\n".join(_FORMATS[options.format](zone, progress))
 
 
 def _words(zone: LockZone, progress: list[dict[str, Any]]) -> Iterator[str]:
-    from hess_mechanics.suslov_hess.lock_zone import region_area
-
     area = region_area(zone.h_end)
     shares = {statement: 100.0 * part / area for statement, part in zone.areas.items()}
     yield f"Proved for a = {float(zone.a):g}, of the area of possible (h, f) up to h = {zone.h_end:g}:"
@@ -85,8 +50,6 @@ def _words(zone: LockZone, progress: list[dict[str, Any]]) -> Iterator[str]:
 
 
 def _json(zone: LockZone, progress: list[dict[str, Any]]) -> Iterator[str]:
-    from hess_mechanics.numerics.balls import flint
-
     library = flint()
     cells = [{"alpha": list(cell.alpha), "beta": list(cell.beta), "statement": cell.statement} for cell in zone.cells]
     yield json.dumps({
@@ -100,3 +63,22 @@ def _csv(zone: LockZone, progress: list[dict[str, Any]]) -> Iterator[str]:
     yield "alpha_low,alpha_high,beta_low,beta_high,statement"
     for cell in zone.cells:
         yield ",".join([*(repr(x) for x in (*cell.alpha, *cell.beta)), cell.statement])
+
+
+_FORMATS = {"text": _words, "json": _json, "csv": _csv}
+
+COMMAND = Command(
+    "Proves by ball arithmetic for cells of the bifurcation diagram (h, f), units b = 1, f > 0, that every torus of a "
+    "cell has exactly two limit cycles, or none.  The largest undecided cell always comes first, so the share decided "
+    "grows, and undecided cells close in on the boundary.  A cell is a rectangle of two numbers α, β that name a torus "
+    "(the JSON says how); its ends are doubles, meant exactly.  Where a cell meets the edge |f| = f_max(h), its "
+    "statement is about its tori only: on the edge there is none.  Areas are computed, not proved.  Needs the extra: "
+    "pip install 'hess-explorer[prove]'.",
+    (option("--a", "inertia parameter a = I23/I22, |a| ≤ 3; exact: 0.1, -2e-3 or 1/3", required=True,
+            metavar="NUMBER"),
+     number(H_PLANE, 4.0, name="--h-end", help="up to this energy h"),
+     whole("--cells", 1, 100_000, "at most so many proofs, of some 15 ms each", 400),
+     option("--share", "stop when this share of the area is decided, looked at after each 100 proofs", type=any_number,
+            default=1.0, metavar="S"),
+     option("--format", "text (default): the shares; json: all cells and the share over time; csv: all cells",
+            choices=tuple(_FORMATS), default="text"), OUT), text(_computed), "--a 0.5 --cells 50 --format json")

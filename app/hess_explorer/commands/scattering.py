@@ -2,55 +2,41 @@
 
 from __future__ import annotations
 
-import argparse
+from hess_mechanics import SuslovBody, level, scattering
+from hess_mechanics.parameters import CIRCLE_PHASE, THETA
+from hess_mechanics.suslov.scattering import cos_chi
 
-from .arguments import number, samples
-from .bodies import add_free_body
-from .output import add_options, computing, quality, whether_body, write
+from .arguments import number as any_number
+from .command import OUTPUT, Command, Options, number, option, samples
+from .motions import FREE_TENSOR, check_of
+from .output import Answer, quality, table, whether_body
 
-__all__ = ["add"]
-
-
-def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    """Declare the command."""
-    parser = commands.add_parser(
-        "scattering", help="the scattering θ⁺(φ) of the free Suslov problem",
-        description="The free Suslov problem (b = 0): every motion comes from a circle at the angle θ⁻ from ξ round "
-                    "the unstable point, with a phase φ, and goes to one at the angle θ⁺ round the stable point.  "
-                    "cos_chi, sin_chi, phi_star: cos θ⁺ = cos χ cos θ⁻ + sin χ sin θ⁻ cos(φ − φ*).",
-        epilog="Example: hess-explorer scattering --I 3.56,1,0,0.8 --theta 1.0 --phi 0,1,2 --accuracy reference")
-    add_free_body(parser)
-    parser.add_argument("--theta", type=number, required=True, help="θ⁻ in radians")
-    parser.add_argument("--phi", type=samples, default=[], metavar="LIST",
-                        help="phases in radians, 0,1,2 or lo:hi:n (default: none)")
-    parser.add_argument("--arc", type=int, choices=(1, -1), default=1,
-                        help="the sign of I13ω1 + I23ω2 on the way (default 1)")
-    parser.add_argument("--distance", type=number,
-                        help="phases of starts where the part of ω across ξ is this times the angular velocity at the "
-                             "unstable point (default: phases for t → −∞)")
-    add_options(parser)
-    parser.set_defaults(run=_run)
+__all__ = ["COMMAND"]
 
 
-def _run(options: argparse.Namespace) -> None:
-    with computing():
-        from hess_mechanics import SuslovBody, check_body, level
-        from hess_mechanics.suslov.scattering import cos_chi, scattering
-
-        body = SuslovBody(*options.I)
-        result = scattering(body, level(options.accuracy), options.arc, options.distance)
-        theta_plus = result.theta_plus(options.theta, options.phi).tolist()
-        closed_form = cos_chi(body)
-        check = check_body(*options.I)
-    facts = {
+def _computed(options: Options) -> Answer:
+    body = SuslovBody(*options.I)
+    result = scattering(body, level(options.accuracy), options.arc, options.distance)
+    return Answer({"phi": options.phi, "theta_plus": result.theta_plus(options.theta, options.phi).tolist()}, {
         "theta": options.theta,
         "cos_chi": result.cos_chi,
-        "cos_chi_closed_form": closed_form,
+        "cos_chi_closed_form": cos_chi(body),
         "sin_chi": result.sin_chi,
         "phi_star": result.phi_star,
         "arc": result.arc,
         "distance": result.distance,
         **quality(result),
-        **whether_body(check),
-    }
-    write(options, {"phi": options.phi, "theta_plus": theta_plus}, ("phi", "theta_plus"), facts, notes=())
+        **whether_body(check_of(body)),
+    })
+
+
+COMMAND = Command(
+    "The free Suslov problem (b = 0): every motion comes from a circle at the angle θ⁻ from ξ round the unstable "
+    "point, with a phase φ, and goes to one at the angle θ⁺ round the stable point.  cos_chi, sin_chi, phi_star: cos "
+    "θ⁺ = cos χ cos θ⁻ + sin χ sin θ⁻ cos(φ − φ*).",
+    (FREE_TENSOR, number(THETA, help="θ⁻ in radians"),
+     samples(CIRCLE_PHASE, "phases in radians (default: none)", []),
+     option("--arc", "the sign of I13ω1 + I23ω2 on the way (default 1)", type=int, choices=(1, -1), default=1),
+     option("--distance", "phases of starts where the part of ω across ξ is this times the angular velocity at the "
+            "unstable point (default: phases for t → −∞)", type=any_number),
+     *OUTPUT), table(_computed), "--I 3.56,1,0,0.8 --theta 1.0 --phi 0,1,2 --accuracy reference")

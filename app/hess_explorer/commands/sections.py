@@ -2,134 +2,109 @@
 
 from __future__ import annotations
 
-import argparse
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from functools import partial
 
-from .arguments import number, vector
-from .bodies import add_ball, add_heavy_body, add_suslov_body, ball_of
+from hess_mechanics import HessBody, QuarticBody, ReturnMap, return_map
+from hess_mechanics.parameters import B3, F_HEAVY, H_HEAVY, H_QUARTIC, TENSOR, E
 
-if TYPE_CHECKING:
-    from hess_mechanics import ReturnMap
+from .circle_map import TORUS
+from .command import OUTPUT, Command, Option, Options, number, option, vector
+from .motions import BALL, HEAVY, SUSLOV, ball_of, heavy_of, suslov_of
+from .output import Answer, table
 
-__all__ = ["add_systems"]
-
-Options = argparse.Namespace
+__all__ = ["command_of_sections"]
 
 
 @dataclass(frozen=True)
 class _System:
     """One system.
 
-    where : its section, in words, and its place; place : as options name it; add, made : its options, and their map.
-    example : values of them.
+    purpose : a few words on it; where : its section, in words, and its place; place : as options name it.
+    options, made : its options, and their map; example : values of them.
     """
 
-    help: str
+    purpose: str
     where: tuple[str, str]
     place: str
-    add: Callable[[argparse.ArgumentParser], None]
+    options: tuple[Option, ...]
     made: Callable[[Options], ReturnMap]
     example: str
 
 
-def _add_suslov(parser: argparse.ArgumentParser) -> None:
-    add_suslov_body(parser)
-    parser.add_argument("--E", type=number, required=True, help="energy")
-    parser.add_argument("--plane", type=int, choices=(1, 2, 3), default=3, help="k of γ_k = 0 (default 3)")
-
-
 def _suslov(options: Options) -> ReturnMap:
-    from hess_mechanics import SuslovBody, return_map
-
-    return return_map(SuslovBody(*options.I, *options.b), E=options.E, plane=options.plane, accuracy=options.accuracy)
-
-
-def _add_quartic(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--I", type=vector("I11,I22"), required=True, metavar="I11,I22", help="moments of inertia")
-    parser.add_argument("--b3", type=number, required=True, help="field, not 0")
-    parser.add_argument("--h", type=number, required=True, help="energy, h > -|b3|")
+    return return_map(suslov_of(options), E=options.E, plane=options.plane, accuracy=options.accuracy)
 
 
 def _quartic(options: Options) -> ReturnMap:
-    from hess_mechanics import QuarticBody, return_map
-
-    I11, I22 = options.I
-    return return_map(QuarticBody(I11, I22, options.b3, options.h), accuracy=options.accuracy)
-
-
-def _add_ball(parser: argparse.ArgumentParser) -> None:
-    add_ball(parser)
-    parser.add_argument("--h", type=number, required=True, help="energy")
+    return return_map(QuarticBody(*(*options.I, options.b3, options.h)), accuracy=options.accuracy)
 
 
 def _ball(options: Options) -> ReturnMap:
-    from hess_mechanics import return_map
-
     return return_map(ball_of(options), h=options.h, accuracy=options.accuracy)
 
 
-def _add_heavy(parser: argparse.ArgumentParser) -> None:
-    add_heavy_body(parser)
-    parser.add_argument("--h", type=number, required=True, help="energy")
-    parser.add_argument("--f", type=number, required=True, help="area integral (M, γ)")
-    parser.add_argument("--sheet", type=int, choices=(0, 1, 2), default=0,
-                        help="of the momenta G with this energy, 0 (default): the largest, 1: the second, 2: the third")
-
-
 def _heavy(options: Options) -> ReturnMap:
-    from hess_mechanics import HeavyBody, return_map
-
-    return return_map(HeavyBody(options.A, options.r, options.mu), h=options.h, f=options.f, sheet=options.sheet,
-                      accuracy=options.accuracy)
-
-
-def _add_hess(parser: argparse.ArgumentParser) -> None:
-    for name, help_ in (("a", "inertia parameter a = I23/I22"), ("h", "energy, h > -1"), ("f", "area integral")):
-        parser.add_argument(f"--{name}", type=number, required=True, help=help_)
+    return return_map(heavy_of(options), h=options.h, f=options.f, sheet=options.sheet, accuracy=options.accuracy)
 
 
 def _hess(options: Options) -> ReturnMap:
-    from hess_mechanics import HessBody, return_map
-
     # I22 = 1, and b3 such that b = 1.
     return return_map(HessBody(1.0, options.a, -math.hypot(1.0, options.a)), h=options.h, f=options.f,
                       accuracy=options.accuracy)
 
 
 _SYSTEMS: Mapping[str, _System] = {
-    "suslov": _System("the Suslov problem with gravity", ("the section γ_k = 0 at the energy E", "(ψ, δ)"), "psi,delta",
-                      _add_suslov, _suslov, "--I 1.5,1,0,0 --b 0.3,-0.5,1 --E 1.842"),
-    "quartic": _System("the Suslov problem with b1 = b2 = 0, as a point in a quartic potential",
-                       ("the section along the axis of the region that a point may enter", "(q, p)"), "q,p",
-                       _add_quartic, _quartic, "--I 2,1 --b3 1 --h 0.8"),
-    "ball": _System("the Chaplygin ball with Suslov's constraint, in a field",
-                    ("the section γ3 = 0 at the energy h", "(ψ, δ)"), "psi,delta", _add_ball, _ball,
-                    "--I 1,3,0.2,-0.1 --D 5 --b 0.5,0.2,0.8 --h 2"),
-    "euler-poisson": _System("a heavy body with a fixed point",
-                             ("the Andoyer–Deprit section g = π/2 at H = h, (M, γ) = f", "(l, L/G)"), "l,x",
-                             _add_heavy, _heavy, "--A 1,0.625,0.25 --r 0.6,0,0.8 --mu 1 --h 1.5 --f -0.7"),
-    "hess": _System("the Suslov–Hess case, on a torus",
-                    ("the torus (h, f) of the Suslov–Hess case, units b = 1, where n3 rises through the middle of its "
-                     "range,", "φ, the angle of w"), "phi", _add_hess, _hess, "--a 0.7 --h 0.5 --f 0.6"),
+    "suslov": _System(
+        "the Suslov problem with gravity", ("the section γ_k = 0 at the energy E", "(ψ, δ)"), "psi,delta",
+        (*SUSLOV, number(E, help="energy"),
+         option("--plane", "k of γ_k = 0 (default 3)", type=int, choices=(1, 2, 3), default=3)),
+        _suslov, "--I 1.5,1,0,0 --b 0.3,-0.5,1 --E 1.842"),
+    "quartic": _System(
+        "the Suslov problem with b1 = b2 = 0, as a point in a quartic potential",
+        ("the section along the axis of the region that a point may enter", "(q, p)"), "q,p",
+        (vector("--I", TENSOR[:2], "moments of inertia"), number(B3, help="field, not 0"),
+         number(H_QUARTIC, help="energy, h > -|b3|")), _quartic, "--I 2,1 --b3 1 --h 0.8"),
+    "ball": _System(
+        "the Chaplygin ball with Suslov's constraint, in a field", ("the section γ3 = 0 at the energy h", "(ψ, δ)"),
+        "psi,delta", (*BALL, number(E, name="--h", help="energy")), _ball,
+        "--I 1,3,0.2,-0.1 --D 5 --b 0.5,0.2,0.8 --h 2"),
+    "euler-poisson": _System(
+        "a heavy body with a fixed point", ("the Andoyer–Deprit section g = π/2 at H = h, (M, γ) = f", "(l, L/G)"),
+        "l,x",
+        (*HEAVY, number(H_HEAVY, help="energy"), number(F_HEAVY, help="area integral (M, γ)"),
+         option("--sheet", "of the momenta G with this energy, 0 (default): the largest, 1: the second, 2: the third",
+                type=int, choices=(0, 1, 2), default=0)),
+        _heavy, "--A 1,0.625,0.25 --r 0.6,0,0.8 --mu 1 --h 1.5 --f -0.7"),
+    "hess": _System(
+        "the Suslov–Hess case, on a torus",
+        ("the torus (h, f) of the Suslov–Hess case, units b = 1, where n3 rises through the middle of its range,",
+         "φ, the angle of w"), "phi", TORUS, _hess, "--a 0.7 --h 0.5 --f 0.6"),
 }
 
 
-def add_systems(parser: argparse.ArgumentParser, what: str, examples: Mapping[str, str],
-                rest: Callable[[argparse.ArgumentParser, str], None], run: Callable[[Options], None]) -> None:
-    """A command for each system, which has `options.prepare(options)`, its return map.
+def command_of_sections(
+        what: str, at: str, options: Sequence[Option], examples: Mapping[str, str],
+        compute: Callable[[ReturnMap, Options], Answer], exclusive: Sequence[str] = ()) -> Command:
+    """Return a command with a choice of systems.
 
-    what : the description, with {section} and {place}; examples : what follows the body in the example of each;
-    rest : adds the other options, of a place with these coordinates.
+    Parameters
+    ----------
+    what : its description, with {section} and {place}.
+    at : what the option --at means, a place of the section.
+    options : the others besides those of the system.
+    examples : by system, what follows the body in the example.
+    compute : called with the return map.
+    exclusive : names of options of which at most one may be given.
     """
-    systems = parser.add_subparsers(required=True, metavar="SYSTEM")
-    for name, of in _SYSTEMS.items():
-        section, place = of.where
-        added = systems.add_parser(
-            name, help=of.help, description=what.format(section=section, place=place),
-            epilog=f"Example: hess-explorer {parser.prog.split()[-1]} {name} {of.example} {examples[name]}")
-        of.add(added)
-        rest(added, of.place)
-        added.set_defaults(run=run, prepare=of.made)
+
+    def run(system: _System, options: Options) -> Answer:
+        return compute(system.made(options), options)
+
+    return Command(systems={
+        name: Command(what.format(section=of.where[0], place=of.where[1]),
+                      (*of.options, vector("--at", of.place, at), *options, *OUTPUT), table(partial(run, of)),
+                      f"{of.example} {examples[name]}", of.purpose, exclusive=exclusive)
+        for name, of in _SYSTEMS.items()})

@@ -15,34 +15,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from . import CommandError
-from .arguments import integer, shown
+from .arguments import shown
+from .command import Command, Options, option, whole
 
 if TYPE_CHECKING:
     from hess_explorer.lessons.lesson import Lesson
 
-__all__ = ["add"]
-
-
-def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    """Declare the command."""
-    parser = commands.add_parser("serve", help="show the explorer in the browser (the default)",
-                                 description="Serve the explorer on this machine and open it in the browser.")
-    parser.add_argument("--port", type=integer(1, 65535), default=5006, metavar="N", help="default 5006")
-    parser.add_argument("--address", default="127.0.0.1",
-                        help="address to listen on (default 127.0.0.1, this machine only; 0.0.0.0: every network)")
-    parser.add_argument("--no-browser", dest="browser", action="store_false", help="do not open a browser")
-    parser.add_argument("--allow-origin", dest="origins", type=_origin, nargs="+", action="extend", default=[],
-                        metavar="HOST:PORT", help="host and port in the browser's address bar, if not this machine's")
-    parser.add_argument("--embed-in", dest="embedders", type=_embedder, nargs="+", action="extend", metavar="HOST",
-                        help="whose pages may show parts of this one (embed=1): hosts like example.org or "
-                             "*.example.org, or none (default: any)")
-    parser.add_argument("--workers", type=integer(1, 64), default=1, metavar="N",
-                        help="processes that serve (default 1; for a class about as many as there are cores)")
-    parser.add_argument("--sessions", type=integer(1, 100_000), default=1000, metavar="N",
-                        help="pages that each of them serves at a time (default 1000, for some 3 GB of memory)")
-    parser.add_argument("--lesson", type=Path, metavar="FILE",
-                        help="a lesson of your own, in Markdown, to begin with (see app/README.md)")
-    parser.set_defaults(run=_run)
+__all__ = ["COMMAND"]
 
 
 def _origin(text: str) -> str:
@@ -57,7 +36,7 @@ def _embedder(text: str) -> str:
     return text
 
 
-def _run(options: argparse.Namespace) -> None:
+def _run(options: Options) -> None:
     lesson = _lesson(options.lesson)
     _require_free(options.address, options.port)
     if options.workers > 1 and not hasattr(os, "fork"):
@@ -141,3 +120,21 @@ def _has_browser() -> bool:
         return False
     # Without a display only text browsers are found; they would hold the terminal and cannot draw the page.
     return type(found) is not webbrowser.GenericBrowser or "BROWSER" in os.environ
+
+
+_HOSTS = {"nargs": "+", "action": "extend"}
+
+COMMAND = Command(
+    "Serve the explorer on this machine and open it in the browser.",
+    (whole("--port", 1, 65535, "to listen on", 5006),
+     option("--address", "address to listen on (default 127.0.0.1, this machine only; 0.0.0.0: every network)",
+            default="127.0.0.1"),
+     option("--no-browser", "do not open a browser", dest="browser", action="store_false"),
+     option("--allow-origin", "host and port in the browser's address bar, if not this machine's", dest="origins",
+            type=_origin, default=[], metavar="HOST:PORT", **_HOSTS),
+     option("--embed-in", "whose pages may show parts of this one (embed=1): hosts like example.org or *.example.org, "
+            "or none (default: any)", dest="embedders", type=_embedder, metavar="HOST", **_HOSTS),
+     whole("--workers", 1, 64, "processes that serve; for a class about as many as there are cores", 1),
+     whole("--sessions", 1, 100_000, "pages that each of them serves at a time, 1000 for some 3 GB of memory", 1000),
+     option("--lesson", "a lesson of your own, in Markdown, to begin with (see app/README.md)", type=Path,
+            metavar="FILE")), _run)

@@ -9,24 +9,12 @@ from urllib.parse import parse_qsl, urlencode
 
 from . import CommandError
 from .arguments import shown
-from .output import add_state, computing, write_file
+from .command import STATE, Command, Options, flag, option
+from .output import computing, write_file
 
-__all__ = ["add"]
+__all__ = ["COMMAND"]
 
 _SIDE = range(200, 8001)
-
-
-def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    """Declare the command."""
-    parser = commands.add_parser("shot", help="a picture of the page, as PNG",
-                                 description="Draw the page in a headless Chromium and save it as PNG.",
-                                 epilog="Example: hess-explorer shot --state 'h=1.2&f=0.3' --size 1600x950 out.png")
-    add_state(parser)
-    parser.add_argument("--size", type=_size, default=(1600, 950), metavar="WxH",
-                        help=f"pixels, each side {_SIDE[0]} to {_SIDE[-1]} (default 1600x950)")
-    parser.add_argument("--dark", action="store_true", help="in dark colours")
-    parser.add_argument("out", type=Path, metavar="FILE", help="the PNG file to write")
-    parser.set_defaults(run=_run)
 
 
 def _size(text: str) -> tuple[int, int]:
@@ -47,7 +35,7 @@ def _require_right(query: str) -> None:
         opening(query, None, lenient=False)
 
 
-def _run(options: argparse.Namespace) -> None:
+def _run(options: Options) -> None:
     from hess_explorer.headless.browser import BrowserError
     from hess_explorer.headless.screenshot import ServerError, screenshot
 
@@ -60,3 +48,12 @@ def _run(options: argparse.Namespace) -> None:
     except (BrowserError, ServerError) as error:
         raise CommandError(str(error)) from error
     write_file(options.out, picture)
+
+
+COMMAND = Command(
+    "Draw the page in a headless Chromium and save it as PNG.",
+    (*STATE,
+     option("--size", f"pixels, each side {_SIDE[0]} to {_SIDE[-1]} (default 1600x950)", type=_size,
+            default=(1600, 950), metavar="WxH"),
+     flag("--dark", "in dark colours"), option("out", "the PNG file to write", type=Path, metavar="FILE")), _run,
+    "--state 'h=1.2&f=0.3' --size 1600x950 out.png")

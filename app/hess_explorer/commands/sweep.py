@@ -2,80 +2,32 @@
 
 from __future__ import annotations
 
-import argparse
 import json
 import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from . import CommandError
-from .arguments import integer, number, shown
-from .output import add_options, computing, show, write
+from .arguments import assigned, ends, integer, listed
+from .arguments import number as any_number
+from .command import OUTPUT, Command, Options, flag, option, whole
+from .output import Answer, computing, show, write
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from hess_explorer.sweep import Quantity
 
-__all__ = ["add"]
+__all__ = ["COMMAND"]
 
 _MOST_ROWS = 1_000_000
 _MOST_VALUES = 10_000
 
 
-def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    """Declare the command."""
-    parser = commands.add_parser(
-        "sweep", help="a quantity over one to three parameters",
-        description="A quantity (--list names them) for every combination of the values of one to three of its "
-                    "parameters.  status: how each cell ended; cells without a number have null, in CSV an empty "
-                    "field.  With --store every finished part is kept in that folder, and the same command goes on "
-                    "where it was ended; the table is then printed with --format.  Ctrl-C ends it, what is done is "
-                    "kept.  Needs the extra: pip install 'hess-explorer[sweep]'.",
-        epilog="Example: hess-explorer sweep rotation-number --over h=-0.9:2:30 --over f=0:1:20 --set a=0.5 "
-               "--format csv")
-    parser.add_argument("quantity", nargs="?", metavar="QUANTITY", help="what is computed, see --list")
-    parser.add_argument("--list", action="store_true", help="name all quantities; with one, its parameters")
-    parser.add_argument("--over", action="append", type=_axis, default=[], metavar="NAME=VALUES",
-                        help="sweep this parameter over lo:hi:n, or a list 1,2,3; up to three times")
-    parser.add_argument("--set", action="append", type=_setting, default=[], metavar="NAME=NUMBER",
-                        help="a parameter that stays, if not the default")
-    parser.add_argument("--store", type=Path, metavar="FOLDER", help="keep what is done here (Zarr), and go on with it")
-    parser.add_argument("--read", type=Path, metavar="PLACE",
-                        help="compute nothing: write the table of this store, or of a chart that the page has saved")
-    parser.add_argument("--workers", type=_workers, metavar="WHO",
-                        help="all: a process for each core; a number of processes; or the address of a Dask scheduler, "
-                             "tcp://host:8786 (default: one thread)")
-    parser.add_argument("--most-cells", type=integer(1, 9_999_999_999), metavar="N",
-                        help="how many numbers are allowed (default 10000000)")
-    add_options(parser)
-    parser.set_defaults(run=_run, format=None)
-
-
-def _split(text: str) -> tuple[str, str]:
-    name, sign, value = text.partition("=")
-    if not (name and sign and value):
-        raise argparse.ArgumentTypeError(f"{shown(text)} is not a parameter; write it like h=1.5")
-    return name, value
-
-
-def _axis(text: str) -> tuple[str, tuple[float, float, int] | list[float]]:
-    name, values = _split(text)
-    if ":" not in values:
-        parts = values.split(",")
-        if len(parts) > _MOST_VALUES:
-            raise argparse.ArgumentTypeError(f"{shown(text)} has {len(parts)} numbers; at most {_MOST_VALUES} are "
-                                             "allowed in a list, use lo:hi:n")
-        return name, [number(part) for part in parts]
-    ends = values.split(":")
-    if len(ends) != 3:
-        raise argparse.ArgumentTypeError(f"{shown(text)} is not a range; write it like h=0:2:30")
-    return name, (number(ends[0]), number(ends[1]), integer(2, 9_999_999_999)(ends[2]))
-
-
-def _setting(text: str) -> tuple[str, float]:
-    name, value = _split(text)
-    return name, number(value)
+def _values(text: str) -> tuple[float, float, int] | list[float]:
+    return ends(text, 9_999_999_999) if ":" in text else listed(text, _MOST_VALUES)
 
 
 def _workers(text: str) -> str | int:
@@ -91,7 +43,7 @@ def _once(pairs: list[tuple[str, Any]], option: str) -> dict[str, Any]:
     return found
 
 
-def _run(options: argparse.Namespace) -> None:
+def _run(options: Options) -> None:
     # A sweep shows its own progress.
     with computing(told=True):
         if options.list:
@@ -110,7 +62,7 @@ def _run(options: argparse.Namespace) -> None:
     _write(options, found, table)
 
 
-def _swept(options: argparse.Namespace) -> xr.Dataset:
+def _swept(options: Options) -> xr.Dataset:
     from hess_explorer.sweep import Interrupted, sweep
     from hess_explorer.sweep.grid import MAX_NUMBERS
     from hess_explorer.sweep.quantities import quantity
@@ -148,10 +100,8 @@ def _listed(name: str | None) -> str:
     return f"{one.name}\n    {one.symbol}: {one.title}, {one.units}\n    {one.doc}\n\n{''.join(rows)}"
 
 
-def _write(options: argparse.Namespace, found: xr.Dataset, table: bool) -> None:
+def _write(options: Options, found: xr.Dataset, table: bool) -> None:
     """The table of a sweep, or what is said of it."""
-    import numpy as np
-
     from hess_explorer.sweep import Outcome
     from hess_explorer.sweep.quantities import quantity
 
@@ -165,12 +115,10 @@ def _write(options: argparse.Namespace, found: xr.Dataset, table: bool) -> None:
              **{name: found.attrs[name] for name in ("link", "largest_error") if name in found.attrs},
              **({} if options.store is None else {"store": str(options.store)})}
     series = _series(what, found) if table else {}
-    write(options, series, tuple(series), facts, notes=())
+    write(options, Answer(series, facts))
 
 
 def _series(what: Quantity, found: xr.Dataset) -> dict[str, list[Any]]:
-    import numpy as np
-
     from hess_explorer.sweep import Outcome
 
     status = found.status.values
@@ -191,3 +139,24 @@ def _series(what: Quantity, found: xr.Dataset) -> dict[str, list[Any]]:
         series[name] = [value if math.isfinite(value) else None for value in column.ravel().tolist()]
     series["status"] = [Outcome(code).words for code in status.ravel().tolist()]
     return series
+
+
+COMMAND = Command(
+    "A quantity (--list names them) for every combination of the values of one to three of its parameters.  status: "
+    "how each cell ended; cells without a number have null, in CSV an empty field.  With --store every finished part "
+    "is kept in that folder, and the same command goes on where it was ended; the table is then printed with "
+    "--format.  Ctrl-C ends it, what is done is kept.  Needs the extra: pip install 'hess-explorer[sweep]'.",
+    (option("quantity", "what is computed, see --list", nargs="?", metavar="QUANTITY"),
+     flag("--list", "name all quantities; with one, its parameters"),
+     option("--over", "sweep this parameter over lo:hi:n, or a list 1,2,3; up to three times", action="append",
+            type=assigned(_values, "h=0:2:30"), default=[], metavar="NAME=VALUES"),
+     option("--set", "a parameter that stays, if not the default", action="append",
+            type=assigned(any_number, "h=1.5"), default=[], metavar="NAME=NUMBER"),
+     option("--store", "keep what is done here (Zarr), and go on with it", type=Path, metavar="FOLDER"),
+     option("--read", "compute nothing: write the table of this store, or of a chart that the page has saved",
+            type=Path, metavar="PLACE"),
+     option("--workers", "all: a process for each core; a number of processes; or the address of a Dask scheduler, "
+            "tcp://host:8786 (default: one thread)", type=_workers, metavar="WHO"),
+     whole("--most-cells", 1, 9_999_999_999, "how many numbers are allowed (default 10000000)"),
+     OUTPUT[0], option("--format", OUTPUT[1].settings["help"], choices=("json", "csv")), OUTPUT[2]), _run,
+    "rotation-number --over h=-0.9:2:30 --over f=0:1:20 --set a=0.5 --format csv")

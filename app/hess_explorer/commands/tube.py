@@ -2,46 +2,18 @@
 
 from __future__ import annotations
 
-import argparse
 import json
-from pathlib import Path
-from typing import TYPE_CHECKING
 
-from .arguments import integer, number, samples
-from .output import computing, show, write_file
+from hess_mechanics import LEVELS, Tube, level, proved_error, right_until, solve, systems, tube
+from hess_mechanics.dynamics.tube import WORK_PER_SECOND
+from hess_mechanics.errors import InvalidParameter, WorkLimit
 
-if TYPE_CHECKING:
-    from hess_mechanics import Tube
+from .arguments import number, numbers
+from .command import OUT, Command, Options, option, whole
+from .orbit import TIMES
+from .output import text
 
-__all__ = ["add"]
-
-
-def add(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    """Declare the command."""
-    parser = commands.add_parser(
-        "tube", help="intervals that contain one motion, as a theorem",
-        description="Encloses one motion of any system by ball arithmetic: at each time intervals that contain the "
-                    "true state, if the balls of the library Arb enclose what they say; start and parameters are taken "
-                    "as exactly these doubles.  Says up to which of the times the orbit of `hess-explorer orbit` is "
-                    "certainly right.  Needs the extra: pip install 'hess-explorer[prove]'.",
-        epilog="Example: hess-explorer tube hess --start 0.3,0.9,0.6,0,0.8 --parameters 0.75,1 --t 0:2:5")
-    parser.add_argument("system", metavar="SYSTEM", help="suslov, ball, hess, euler-poisson or plane-potential")
-    parser.add_argument("--start", required=True, type=_numbers, metavar="NUMBERS",
-                        help="the state at t = 0, in the order of the system's variables")
-    parser.add_argument("--parameters", required=True, type=_numbers, metavar="NUMBERS",
-                        help="its parameters, likewise")
-    parser.add_argument("--t", type=samples, required=True, metavar="TIMES",
-                        help="times away from 0, 10,50 or lo:hi:n")
-    parser.add_argument("--digits", type=integer(1, 100), default=18, help="how narrow intervals are (default: 18)")
-    parser.add_argument("--accuracy", choices=("draft", "standard", "precise", "reference"), default="standard",
-                        help="of the orbit that is judged (default: standard)")
-    parser.add_argument("--right-to", type=number, default=1e-6, metavar="ERROR",
-                        help="the error up to which the orbit counts as right (default: 1e-6)")
-    parser.add_argument("--seconds", type=number, default=4.0, metavar="S",
-                        help="work allowed, in seconds of an ordinary core; it is counted, not timed, so the answer is "
-                             "the same everywhere (default: 4)")
-    parser.add_argument("--out", type=Path, metavar="FILE", help="write to this file instead of standard output")
-    parser.set_defaults(run=_run)
+__all__ = ["COMMAND"]
 
 
 def _shorter(found: Tube, end: float, seconds: float) -> str:
@@ -55,32 +27,23 @@ def _shorter(found: Tube, end: float, seconds: float) -> str:
             "extreme parameters.")
 
 
-def _numbers(text: str) -> tuple[float, ...]:
-    return tuple(map(number, text.split(",")))
-
-
-def _run(options: argparse.Namespace) -> None:
-    with computing():
-        from hess_mechanics import level, proved_error, right_until, solve, systems, tube
-        from hess_mechanics.dynamics.tube import WORK_PER_SECOND
-        from hess_mechanics.errors import InvalidParameter, WorkLimit
-
-        known = systems()
-        if options.system not in known:
-            raise InvalidParameter(f"There is no system {options.system[:40]!r}: choose one of {', '.join(known)}.")
-        if not options.seconds > 0.0:
-            raise InvalidParameter(f"--seconds {options.seconds:g}: choose a number above 0.")
-        system = known[options.system]
-        body = system.at(options.parameters)
-        found = tube(body, options.start, options.t, options.digits, options.seconds * WORK_PER_SECOND)
-        notes = [] if found.complete else [_shorter(found, options.t[-1], options.seconds)]
-        if not found.times.size:
-            raise WorkLimit(notes[0])
-        orbit = solve(body, options.start, found.times, level(options.accuracy))
-        judged = {"accuracy": options.accuracy, "error_estimate": orbit.error_estimate,
-                  "proved_error": list(proved_error(orbit, found)), "right_to": options.right_to,
-                  "right_until": right_until(orbit, found, options.right_to)}
-    text = json.dumps({
+def _computed(options: Options) -> str:
+    known = systems()
+    if options.system not in known:
+        raise InvalidParameter(f"There is no system {options.system[:40]!r}: choose one of {', '.join(known)}.")
+    if not options.seconds > 0.0:
+        raise InvalidParameter(f"--seconds {options.seconds:g}: choose a number above 0.")
+    system = known[options.system]
+    body = system.at(options.parameters)
+    found = tube(body, options.start, options.t, options.digits, options.seconds * WORK_PER_SECOND)
+    notes = [] if found.complete else [_shorter(found, options.t[-1], options.seconds)]
+    if not found.times.size:
+        raise WorkLimit(notes[0])
+    orbit = solve(body, options.start, found.times, level(options.accuracy))
+    judged = {"accuracy": options.accuracy, "error_estimate": orbit.error_estimate,
+              "proved_error": list(proved_error(orbit, found)), "right_to": options.right_to,
+              "right_until": right_until(orbit, found, options.right_to)}
+    return json.dumps({
         "system": system.name, "variables": list(system.variables), "start": list(options.start),
         "parameters": list(options.parameters), "complete": found.complete,
         "tube": [{"t": t, "state": [list(one.decimals(options.digits + 3)) for one in state]}
@@ -88,8 +51,22 @@ def _run(options: argparse.Namespace) -> None:
         "orbit": judged, "steps": found.steps, "bits": found.bits, "seconds": round(found.seconds, 3),
         "notes": notes,
     }, ensure_ascii=False, allow_nan=False, indent=1)
-    data = f"{text}\n".encode()
-    if options.out is not None:
-        write_file(options.out, data)
-    else:
-        show(data)
+
+
+COMMAND = Command(
+    "Encloses one motion of any system by ball arithmetic: at each time intervals that contain the true state, if the "
+    "balls of the library Arb enclose what they say; start and parameters are taken as exactly these doubles.  Says up "
+    "to which of the times the orbit of `hess-explorer orbit` is certainly right.  Needs the extra: pip install "
+    "'hess-explorer[prove]'.",
+    (option("system", "suslov, ball, hess, euler-poisson or plane-potential", metavar="SYSTEM"),
+     option("--start", "the state at t = 0, in the order of the system's variables", required=True, type=numbers,
+            metavar="NUMBERS"),
+     option("--parameters", "its parameters, likewise", required=True, type=numbers, metavar="NUMBERS"), TIMES,
+     whole("--digits", 1, 100, "how narrow intervals are", 18),
+     option("--accuracy", "of the orbit that is judged (default: standard)", choices=tuple(LEVELS),
+            default="standard"),
+     option("--right-to", "the error up to which the orbit counts as right (default: 1e-6)", type=number, default=1e-6,
+            metavar="ERROR"),
+     option("--seconds", "work allowed, in seconds of an ordinary core; it is counted, not timed, so the answer is the "
+            "same everywhere (default: 4)", type=number, default=4.0, metavar="S"), OUT), text(_computed),
+    "hess --start 0.3,0.9,0.6,0,0.8 --parameters 0.75,1 --t 0:2:5")

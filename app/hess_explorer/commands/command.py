@@ -1,0 +1,123 @@
+"""A command as data: its description, its options, and the function that runs it."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from hess_explorer.commands import arguments
+
+if TYPE_CHECKING:
+    from hess_mechanics.parameters import Parameter
+
+__all__ = ["OUT", "OUTPUT", "STATE", "Command", "Option", "Options", "flag", "number", "option", "picture", "samples",
+           "vector", "whole"]
+
+Options = argparse.Namespace
+"""What was given."""
+
+
+@dataclass(frozen=True)
+class Option:
+    """One option: its name with the dashes (without them a word that stands alone), and what argparse takes for it."""
+
+    name: str
+    settings: Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class Command:
+    """One command.
+
+    description, example : its help; example : the words after the program's name and the command's.
+    run : carries it out.  Raises `CommandError`.
+    purpose : a few words, of one of several systems.
+    systems : by name, where the next word chooses one; then the other fields are empty.
+    exclusive : names of options of which at most one may be given.
+    """
+
+    description: str = ""
+    options: Sequence[Option] = ()
+    run: Callable[[Options], None] | None = None
+    example: str = ""
+    purpose: str = ""
+    systems: Mapping[str, Command] = field(default_factory=dict)
+    exclusive: Sequence[str] = ()
+
+    def declare(self, parser: argparse.ArgumentParser) -> None:
+        """Declare everything in a parser."""
+        if self.systems:
+            systems = parser.add_subparsers(required=True, metavar="SYSTEM")
+            for name, one in self.systems.items():
+                one.declare(systems.add_parser(name, help=one.purpose))
+            return
+        parser.description = self.description
+        if self.example:
+            parser.epilog = f"Example: {parser.prog} {self.example}"
+        group = parser.add_mutually_exclusive_group() if self.exclusive else parser
+        for each in self.options:
+            (group if each.name in self.exclusive else parser).add_argument(each.name, **each.settings)
+        parser.set_defaults(run=self.run)
+
+
+def option(name: str, help: str, **settings: Any) -> Option:
+    """Return an option; settings : as of `ArgumentParser.add_argument`."""
+    return Option(name, {"help": help, **settings})
+
+
+def flag(name: str, help: str) -> Option:
+    """Return an option without a value."""
+    return option(name, help, action="store_true")
+
+
+def _required(default: object) -> dict[str, Any]:
+    return {"required": True} if default is None else {"default": default}
+
+
+def number(of: Parameter, default: float | None = None, *, name: str = "", help: str = "", **settings: Any) -> Option:
+    """Return the option of a parameter, required unless it has a default; name, help : if not the parameter's."""
+    said = help or of.doc
+    if default is not None:
+        said += f" (default {default:g})"
+    return option(name or f"--{of.name}", said, type=arguments.checked(of), metavar=of.name.upper(),
+                  **{**_required(default), **settings})
+
+
+def vector(name: str, of: str | Sequence[Parameter], help: str, default: tuple[float, ...] | None = None,
+           **settings: Any) -> Option:
+    """Return the option of several numbers, as one list with commas: parameters, or what has these names ("w1,w2")."""
+    names = of if isinstance(of, str) else ",".join(one.name for one in of)
+    return option(name, help, type=arguments.vector(of), metavar=names, **{**_required(default), **settings})
+
+
+def whole(name: str, low: int, high: int, help: str, default: int | None = None) -> Option:
+    """Return the option of a whole number between these, by default this one."""
+    said = help if default is None else f"{help} (default {default})"
+    return option(name, said, type=arguments.integer(low, high), metavar="N", default=default)
+
+
+def samples(of: Parameter, help: str, default: list[float] | None = None) -> Option:
+    """Return the option of many values of a parameter: a list, or lo:hi:n."""
+    return option(f"--{of.name}", f"{help}: a number, a list 1,2,3 or lo:hi:n", type=arguments.samples(of),
+                  metavar="VALUES", **_required(default))
+
+
+OUT = option("--out", "write to this file instead of standard output", type=Path, metavar="FILE")
+OUTPUT = (
+    option("--accuracy", "draft, standard, precise (default) or reference", default="precise", metavar="LEVEL"),
+    option("--format", "json (default): strict, all digits; csv: a table, the other results as # comments",
+           choices=("json", "csv"), default="json"),
+    OUT)
+STATE = (
+    option("--state", "a link to the page, or what follows ? in it (default: its first view)", type=arguments.state_of,
+           default="", metavar="QUERY"),
+    flag("--lenient", "put right what is wrong in the state, and say so in the notes, instead of refusing it"))
+
+
+def picture(more: str = "") -> tuple[Option, ...]:
+    """Return the options of a state, of a picture of it and of a file; more : on several pictures."""
+    return (*STATE, option("--picture", "the name of the picture, as in pictures=… of a link that embeds (default: the "
+                           f"first{more})", default="", metavar="NAME"), OUT)
