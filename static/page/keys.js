@@ -14,3 +14,8 @@ export function isTaken(event) {
   const typed = event.key.length === 1 && event.key !== " " ? `dialog, [popover], select, ${TEXT_BOX}` : `dialog, [popover], ${TEXT_BOX}`
   return event.composedPath().some((item) => item instanceof HTMLElement && item.matches(typed))
 }
+
+const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }
+
+/** Return where an arrow key points, as [right, up]; undefined for any other key. */
+export const arrowOf = ({ key }) => ARROWS[key]

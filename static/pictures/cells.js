@@ -1,41 +1,36 @@
 // Numbers on a grid as coloured cells, or, of a continuous function, without steps.
 
-import { onDark, shade } from "./looks.js"
+import { element } from "../page/mount.js"
+import { bytesOf, onDark, shade } from "./looks.js"
 
 const UNKNOWN = "#808080"
+const MOST_PIXELS = 1200
 
-// "#rrggbb" or "#rrggbbaa" → the bytes in the order of memory, as all browsers' machines have it: alpha last.
-function bytes(colour) {
-  const value = Number.parseInt(colour.slice(1).padEnd(8, "f"), 16)
-  const [red, green, blue, alpha] = [24, 16, 8, 0].map((shift) => (value >>> shift) & 255)
+// A colour as a number: its bytes in the order of memory of all browsers' machines, alpha last.
+function packed(colour) {
+  const [red, green, blue, alpha] = bytesOf(colour)
   return ((alpha << 24) | (blue << 16) | (green << 8) | red) >>> 0
 }
 
-// A sheet of so many pixels, filled by fill(out, colours, colourOf), row 0 the highest.
-function sheetOf(columns, rows, { palette, low, high }, fill) {
-  const sheet = document.createElement("canvas")
-  ;[sheet.width, sheet.height] = [columns, rows]
+// A sheet of so many pixels, row 0 the highest, whose colours are those of the numbers valueAt(row from below, column).
+function sheetOf(columns, rows, { palette, low, high, smooth, kinds }, valueAt) {
+  const sheet = element("canvas", { width: columns, height: rows })
   const paper = sheet.getContext("2d")
   const pixels = paper.createImageData(columns, rows)
-  const colours = Uint32Array.from(palette, (colour) => bytes(shade(colour)))
+  const out = new Uint32Array(pixels.data.buffer)
+  const colours = Uint32Array.from(palette, (colour) => packed(shade(colour)))
+  // Between the centres of cells nothing is drawn where one has no number.
+  const unknown = smooth || kinds ? 0 : packed(UNKNOWN)
   const last = colours.length - 1
   const scale = colours.length / (high - low)
-  fill(new Uint32Array(pixels.data.buffer),
-    (value) => colours[Math.max(0, Math.min(last, Math.floor((value - low) * scale)))])
+  for (let row = 0, i = 0; row < rows; row++) {
+    for (let column = 0; column < columns; column++, i++) {
+      const value = valueAt(rows - 1 - row, column)
+      out[i] = Number.isNaN(value) ? unknown : colours[Math.max(0, Math.min(last, Math.floor((value - low) * scale)))]
+    }
+  }
   paper.putImageData(pixels, 0, 0)
   return sheet
-}
-
-function inCells({ rows, columns, numbers }, layer) {
-  const unknown = bytes(UNKNOWN)
-  return sheetOf(columns, rows, layer, (out, colourOf) => {
-    for (let row = 0; row < rows; row++) {
-      for (let i = 0, from = row * columns, to = (rows - 1 - row) * columns; i < columns; i++) {
-        const value = numbers[from + i]
-        out[to + i] = Number.isNaN(value) ? unknown : colourOf(value)
-      }
-    }
-  })
 }
 
 // Where the pixels of a row of `size` lie among the centres of `count` cells: the cell before, and the share of the next.
@@ -49,75 +44,53 @@ function between(size, count) {
   return [cells, shares]
 }
 
-// Interpolated in each of width × height pixels; with `cyclic` the nearest way round.
-function interpolated(cells, layer, width, height) {
-  const { rows, columns, numbers } = cells
-  const { low, high, cyclic } = layer
+// mix(a, b, c, d, right, up) in each pixel: of the four centres around it, below and above, and the shares of the further ones.
+function resampled({ rows, columns, numbers }, layer, width, height, mix) {
+  const [ys, ups] = between(height, rows)
+  const [xs, rights] = between(width, columns)
+  const [right, above] = [columns > 1 ? 1 : 0, rows > 1 ? columns : 0]
+  return sheetOf(width, height, layer, (y, x) => {
+    const at = ys[y] * columns + xs[x]
+    return mix(numbers[at], numbers[at + right], numbers[at + above], numbers[at + above + right], rights[x], ups[y])
+  })
+}
+
+// Interpolates; with `cyclic` the nearest way round.
+function interpolation({ low, high, cyclic }) {
   const period = high - low
-  const [ys, ups] = between(height, rows)
-  const [xs, rights] = between(width, columns)
-  const [right, above] = [columns > 1 ? 1 : 0, rows > 1 ? columns : 0]
-  const mix = (a, b, share) => {
-    let step = b - a
-    if (cyclic) step -= period * Math.round(step / period)
-    return a + share * step
+  const mix = (a, b, share) => a + share * (b - a - (cyclic ? period * Math.round((b - a) / period) : 0))
+  return (a, b, c, d, right, up) => {
+    const value = mix(mix(a, b, right), mix(c, d, right), up)
+    return cyclic ? value - period * Math.floor((value - low) / period) : value
   }
-  return sheetOf(width, height, layer, (out, colourOf) => {
-    for (let y = 0; y < height; y++) {
-      const [row, up] = [ys[height - 1 - y] * columns, ups[height - 1 - y]]
-      for (let x = 0; x < width; x++) {
-        const at = row + xs[x]
-        const value = mix(mix(numbers[at], numbers[at + right], rights[x]),
-          mix(numbers[at + above], numbers[at + above + right], rights[x]), up)
-        out[y * width + x] = colourOf(cyclic ? value - period * Math.floor((value - low) / period) : value)
-      }
-    }
-  })
 }
 
-// Kinds, not numbers: in each pixel the kind that has most of the centres around it, by their shares; so that a border
-// between two kinds runs straight between cells instead of around them.
-function divided(cells, layer, width, height) {
-  const { rows, columns, numbers } = cells
-  const [ys, ups] = between(height, rows)
-  const [xs, rights] = between(width, columns)
-  const [right, above] = [columns > 1 ? 1 : 0, rows > 1 ? columns : 0]
-  return sheetOf(width, height, layer, (out, colourOf) => {
-    for (let y = 0; y < height; y++) {
-      const [row, up] = [ys[height - 1 - y] * columns, ups[height - 1 - y]]
-      for (let x = 0; x < width; x++) {
-        const at = row + xs[x]
-        const [a, b] = [numbers[at], numbers[at + right]]
-        const [c, d] = [numbers[at + above], numbers[at + above + right]]
-        let most = a
-        if (a !== b || a !== c || a !== d) {
-          const [p, q] = [rights[x], up]
-          const shares = [(1 - p) * (1 - q), p * (1 - q), (1 - p) * q, p * q]
-          const kinds = [a, b, c, d]
-          let largest = -1
-          for (let i = 0; i < 4; i++) {
-            let share = 0
-            for (let j = 0; j < 4; j++) if (kinds[j] === kinds[i]) share += shares[j]
-            if (share > largest) [largest, most] = [share, kinds[i]]
-          }
-        }
-        out[y * width + x] = colourOf(most)
-      }
-    }
-  })
+// Kinds, not numbers: the kind that has most of the centres around it, by their shares; so that a border between two kinds
+// runs straight between cells instead of around them.
+function majority(a, b, c, d, right, up) {
+  if (a === b && a === c && a === d) return a
+  const shares = [(1 - right) * (1 - up), right * (1 - up), (1 - right) * up, right * up]
+  const kinds = [a, b, c, d]
+  const shareOf = (kind) => shares.reduce((sum, share, i) => (kinds[i] === kind ? sum + share : sum), 0)
+  return kinds.reduce((most, kind) => (shareOf(kind) > shareOf(most) ? kind : most))
 }
 
-// layers: [{source, palette, low, high, smooth, cyclic, kinds}]; a source holds image, x, y, dw, dh, as Bokeh's glyph "image".
+/**
+ * Return what paints layers of cells, see "frame_canvas.js".
+ * @param {{source: string, palette: string[], low: number, high: number, smooth?: boolean, cyclic?: boolean, kinds?: boolean}[]} layers
+ * @param {(name: string) => {data: any}} source its data hold image, x, y, dw, dh, as Bokeh's glyph "image"
+ */
 export function cellsPainter(layers, source) {
   const sheets = new Map()
 
   function sheetFor(layer, cells, width, height) {
-    const size = layer.smooth || layer.kinds ? [Math.min(1200, width), Math.min(1200, height)] : []
-    const key = [onDark(), ...size].join()
+    const mix = layer.smooth ? interpolation(layer) : layer.kinds ? majority : null
+    const [wide, high] = mix === null ? [cells.columns, cells.rows] : [width, height].map((side) => Math.min(MOST_PIXELS, side))
+    const key = [onDark(), wide, high].join()
     const before = sheets.get(layer.source)
     if (before?.cells === cells && before.key === key) return before.sheet
-    const sheet = layer.smooth ? interpolated(cells, layer, ...size)
-      : layer.kinds ? divided(cells, layer, ...size) : inCells(cells, layer)
+    const sheet = mix === null ? sheetOf(wide, high, layer, (row, column) => cells.numbers[row * cells.columns + column])
+      : resampled(cells, layer, wide, high, mix)
     sheets.set(layer.source, { cells, key, sheet })
     return sheet
   }

@@ -1,10 +1,15 @@
-// A chart as a picture: coloured cells, axes, a bar of the colours, and where the state on show is.
+// A chart as a picture: coloured cells, axes, a bar of the colours, and where the state on show is.  The pointer and the
+// arrow keys move a cursor from cell to cell; a drag draws a box.
 
-import { element } from "../page/mount.js"
+import { onDrag } from "../page/drag.js"
+import { arrowOf } from "../page/keys.js"
 import { zoom } from "../page/presenting.js"
+import { drawTicks } from "./axes.js"
+import { liveCanvas } from "./canvas.js"
 import { cellsPainter } from "./cells.js"
-import { isDark, POINT, setDark } from "./looks.js"
-import { tickLabels } from "./ticks.js"
+import { coloursOf, filled } from "./chart_colours.js"
+import { circlePath, POINT } from "./looks.js"
+import { roundNumbers, tickLabels } from "./ticks.js"
 
 // In units of the type's size.
 const LEFT = 4.6
@@ -12,168 +17,118 @@ const RIGHT = 6.6
 const TOP = 0.8
 const BOTTOM = 3.6
 const BAR = 1.1
-// Cells along a side that come first, see "sweep/chart.py".
-const COARSE = 24
-// Of the numbers so many lie beyond each end of the colours: one that is far off would take all of them.
-const BEYOND = 0.01
 // Pixels that a click may slip.
 const SLIP = 6
+const DARK = "#101010"
 
-// About `count` round numbers from low to high.
-function ticks(low, high, count) {
-  const rough = (high - low) / count
-  const power = 10 ** Math.floor(Math.log10(rough))
-  const step = [1, 2, 5, 10].map((one) => one * power).find((one) => one >= rough)
-  const found = []
-  for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; i++) found.push(i * step)
-  return found
-}
-
-// The colours' ends: all numbers but a few, and whether there are some beyond.
-function endsOf(values) {
-  const sorted = values.filter(Number.isFinite).sort()
-  if (sorted.length === 0) return { low: 0, high: 1, isBelow: false, isAbove: false }
-  const at = (share) => sorted[Math.round(share * (sorted.length - 1))]
-  let [low, high] = [at(BEYOND), at(1 - BEYOND)]
-  if (!(high > low)) [low, high] = [sorted[0], sorted[sorted.length - 1]]
-  const isFlat = !(high > low)
-  if (isFlat) {
-    const room = Math.max(Math.abs(low) * 1e-6, 1e-9)
-    ;[low, high] = [low - room, high + room]
-  }
-  return { low, high, isBelow: sorted[0] < low, isAbove: sorted[sorted.length - 1] > high }
-}
-
-// Every cell that is not computed looks like the nearest one that is, but no farther away than the coarse ones are.
-function filled({ values, status, x: { count: columns }, y: { count: rows } }) {
-  let coarse = 1
-  while (Math.max(rows, columns) > COARSE * coarse) coarse *= 2
-  const out = new Float32Array(values.length)
-  const nearest = (i, step, count) => Math.min(Math.round(i / step) * step, Math.floor((count - 1) / step) * step)
-  for (let row = 0; row < rows; row++) {
-    for (let column = 0; column < columns; column++) {
-      let at = row * columns + column
-      const own = at
-      for (let step = 2; status[at] === 0 && step <= coarse; step *= 2) {
-        at = nearest(row, step, rows) * columns + nearest(column, step, columns)
-      }
-      out[own] = status[at] === 0 ? NaN : values[at]
-    }
-  }
-  return out
-}
-
-const place = ({ low, high, count }, i) => low + (high - low) * i / (count - 1)
 const stepOf = ({ low, high, count }) => (high - low) / (count - 1)
+const within = (value, low, high) => Math.max(low, Math.min(high, value))
 
-// hands: pointed([column, row] or null), chosen([column, row]), boxed({x: [low, high], y: [low, high]}).
-// {canvas, show(chart), mark([x, y] or null, whether all else is as in the chart), cursor, moveTo, request()}.
-// palettes: {plain, round}, the second for numbers that come round, as those that differ by a turn are the same.
+// From values to a line of the canvas.
+const scaleOf = (low, size, from, to) => ({
+  compute: (value) => from + (value - low) / size * (to - from), invert: (at) => low + (at - from) / (to - from) * size,
+})
+
+const labelled = (ticks, scale, letters = 1e9) => {
+  const labels = tickLabels(ticks, letters)
+  return ticks.map((tick, i) => [scale.compute(tick), labels[i]])
+}
+
+function drawBox(ctx, [x0, y0, x1, y1]) {
+  ctx.fillStyle = "rgba(255, 255, 255, 0.25)"
+  ctx.fillRect(x0, y0, x1 - x0, y1 - y0)
+  ctx.strokeStyle = DARK
+  ctx.lineWidth = 1.5
+  ctx.setLineDash([4, 3])
+  ctx.strokeRect(x0, y0, x1 - x0, y1 - y0)
+}
+
+/**
+ * Return {canvas, show(chart), mark([x, y] or null, whether all else is as in the chart), cursor}.
+ * @param {{plain: string[], round: string[]}} palettes `round` for numbers that differ by turns
+ * @param {{pointed: (cell: number[] | null) => void, chosen: (cell: number[]) => void, boxed: (box: {x: number[], y: number[]}) => void}} hands
+ *   hear of [column, row], and of a box as [low, high] on both sides
+ * @param {AbortSignal} signal
+ */
 export function chartCanvas(palettes, hands, signal) {
-  const canvas = element("canvas", {
-    className: "map", tabIndex: 0, role: "application", "aria-label": "Chart: arrow keys move, Enter opens the state, plus zooms, minus goes back",
-  })
-  const ctx = canvas.getContext("2d")
   let chart = null
   let mark = null
   let cursor = null
+  /** @type {any} */
   let box = null
-  let painter = null
+  // {palette, low, high, isBelow, isAbove, painter}
+  /** @type {any} */
   let colours = null
-  let palette = palettes.plain
+  // A layer of cells, see "cells.js".
+  /** @type {any} */
   let data = null
-  let frame = null
-  let requested = false
+  // {frame, xs, ys: from values to the canvas}
+  /** @type {any} */
+  let place = null
 
-  const request = () => {
-    if (requested) return
-    requested = true
-    requestAnimationFrame(draw)
-  }
+  const { canvas, request } = liveCanvas({
+    className: "map", tabIndex: 0, role: "application",
+    ariaLabel: "Chart: arrow keys move, Enter opens the state, plus zooms, minus goes back",
+  }, paint, signal)
 
   function renew() {
     if (chart?.values == null) return
-    const { turn } = chart
-    palette = turn > 0 ? palettes.round : palettes.plain
-    colours = turn > 0 ? { low: -turn / 2, high: turn / 2, isBelow: false, isAbove: false } : endsOf(chart.values)
-    const numbers = filled(chart)
-    const { x, y } = chart
+    const { x, y, turn } = chart
     const [wide, high] = [stepOf(x), stepOf(y)]
     data = {
-      image: [{ rows: y.count, columns: x.count, numbers }], x: [x.low - wide / 2], y: [y.low - high / 2],
+      image: [{ rows: y.count, columns: x.count, numbers: filled(chart) }], x: [x.low - wide / 2], y: [y.low - high / 2],
       dw: [x.high - x.low + wide], dh: [y.high - y.low + high],
     }
-    painter = cellsPainter([{ source: "chart", palette, ...colours }], () => ({ data }))
+    const own = { palette: turn > 0 ? palettes.round : palettes.plain, ...coloursOf(chart) }
+    colours = { ...own, painter: cellsPainter([{ source: "chart", ...own }], () => ({ data })) }
   }
 
-  const scaleOf = (low, size, from, to) => ({ compute: (value) => from + (value - low) / size * (to - from) })
-  const scales = () => [scaleOf(data.x[0], data.dw[0], frame.left, frame.right), scaleOf(data.y[0], data.dh[0], frame.bottom, frame.top)]
-
-  function draw() {
-    requested = false
-    const { clientWidth: width, clientHeight: height } = canvas
-    if (width === 0 || height === 0) return
-    const ratio = window.devicePixelRatio || 1
-    ;[canvas.width, canvas.height] = [Math.round(ratio * width), Math.round(ratio * height)]
-    ctx.setTransform(ratio, 0, 0, ratio, 0, 0)
-    const style = getComputedStyle(canvas)
-    const ink = style.color
-    setDark(isDark(ink))
-    const em = Number.parseFloat(style.fontSize)
-    frame = { left: LEFT * em, right: width - RIGHT * em, top: TOP * em, bottom: height - BOTTOM * em }
-    ctx.font = `${0.9 * em}px system-ui, sans-serif`
-    ctx.fillStyle = ctx.strokeStyle = ink
-    ctx.lineWidth = 1
+  function paint(ctx, { width, height, text, dark }) {
     if (data === null) return
-    const [xs, ys] = scales()
-    painter(ctx, xs, ys)
-    ctx.fillStyle = ctx.strokeStyle = ink
-    ctx.strokeRect(frame.left, frame.top, frame.right - frame.left, frame.bottom - frame.top)
-    drawAxes(xs, ys, em)
-    drawBar(em, ink)
-    ctx.save()
+    const em = Number.parseFloat(getComputedStyle(canvas).fontSize)
+    const frame = { left: LEFT * em, right: width - RIGHT * em, top: TOP * em, bottom: height - BOTTOM * em }
+    const xs = scaleOf(data.x[0], data.dw[0], frame.left, frame.right)
+    const ys = scaleOf(data.y[0], data.dh[0], frame.bottom, frame.top)
+    place = { frame, xs, ys }
+    colours.painter(ctx, xs, ys)
+    ctx.font = `${0.9 * em}px system-ui, sans-serif`
+    ctx.fillStyle = ctx.strokeStyle = text
+    const edges = [frame.left, frame.top, frame.right - frame.left, frame.bottom - frame.top]
+    ctx.strokeRect(...edges)
+    drawAxes(ctx, em)
+    drawBar(ctx, em)
     ctx.beginPath()
-    ctx.rect(frame.left, frame.top, frame.right - frame.left, frame.bottom - frame.top)
+    ctx.rect(...edges)
     ctx.clip()
-    drawMark(xs, ys, em, ink)
-    drawCursor(xs, ys)
-    if (box !== null) drawBox()
-    ctx.restore()
+    if (mark !== null) drawMark(ctx, em, dark)
+    if (cursor !== null) drawCursor(ctx)
+    if (box !== null) drawBox(ctx, box)
   }
 
-  function drawAxes(xs, ys, em) {
+  function drawAxes(ctx, em) {
     const { x, y } = chart
+    const { frame, xs, ys } = place
     const [across, up] = [(frame.right - frame.left) / em, (frame.bottom - frame.top) / em]
-    const alongX = ticks(x.low, x.high, Math.max(2, across / 5))
-    const alongY = ticks(y.low, y.high, Math.max(2, up / 4))
-    // Letters: of the horizontal ones there must be room for all.
-    const [labelsX, labelsY] = [tickLabels(alongX, 1.5 * across), tickLabels(alongY, 1e9)]
+    drawTicks(ctx, frame,
+      // Letters: of the horizontal ones there must be room for all.
+      labelled(roundNumbers(x.low, x.high, Math.max(2, across / 5)), xs, 1.5 * across),
+      labelled(roundNumbers(y.low, y.high, Math.max(2, up / 4)), ys), { length: 0.35 * em, gap: 0.5 * em })
     ctx.textAlign = "center"
     ctx.textBaseline = "top"
-    alongX.forEach((tick, i) => {
-      const at = xs.compute(tick)
-      line(at, frame.bottom, at, frame.bottom + 0.35 * em)
-      ctx.fillText(labelsX[i], at, frame.bottom + 0.5 * em)
-    })
     ctx.fillText(x.symbol, (frame.left + frame.right) / 2, frame.bottom + 2 * em)
-    ctx.textAlign = "right"
-    ctx.textBaseline = "middle"
-    alongY.forEach((tick, i) => {
-      const at = ys.compute(tick)
-      line(frame.left - 0.35 * em, at, frame.left, at)
-      ctx.fillText(labelsY[i], frame.left - 0.5 * em, at)
-    })
     ctx.save()
     ctx.translate(0.7 * em, (frame.top + frame.bottom) / 2)
     ctx.rotate(-Math.PI / 2)
-    ctx.textAlign = "center"
+    ctx.textBaseline = "middle"
     ctx.fillText(y.symbol, 0, 0)
     ctx.restore()
   }
 
-  function drawBar(em) {
-    const { low, high, isBelow, isAbove } = colours
+  function drawBar(ctx, em) {
+    const { low, high, isBelow, isAbove, palette } = colours
+    const { frame } = place
     const left = frame.right + em
+    const right = left + BAR * em
     const top = frame.top + 1.4 * em
     const size = frame.bottom - top
     palette.forEach((colour, i) => {
@@ -182,15 +137,13 @@ export function chartCanvas(palettes, hands, signal) {
     })
     ctx.fillStyle = ctx.strokeStyle
     ctx.strokeRect(left, top, BAR * em, size)
-    const along = ticks(low, high, Math.max(3, size / em / 2.5))
-    const labels = tickLabels(along, 1e9)
     ctx.textAlign = "left"
     ctx.textBaseline = "middle"
-    along.forEach((tick, i) => {
-      const at = top + size * (1 - (tick - low) / (high - low))
-      line(left + BAR * em, at, left + (BAR + 0.3) * em, at)
-      ctx.fillText(labels[i], left + (BAR + 0.45) * em, at)
-    })
+    const scale = scaleOf(low, high - low, frame.bottom, top)
+    for (const [at, label] of labelled(roundNumbers(low, high, Math.max(3, size / em / 2.5)), scale)) {
+      ctx.fillRect(right, at - 0.5, 0.3 * em, 1)
+      ctx.fillText(label, right + 0.45 * em, at)
+    }
     ctx.textBaseline = "alphabetic"
     ctx.fillText(chart.symbol, left, frame.top + 0.9 * em)
     // That some numbers are beyond the colours.
@@ -199,62 +152,37 @@ export function chartCanvas(palettes, hands, signal) {
     if (isBelow) ctx.fillText("▾", left + BAR * em / 2, frame.bottom + 0.9 * em)
   }
 
-  function drawMark(xs, ys, em, ink) {
-    if (mark === null) return
-    const [at, up] = [xs.compute(mark.place[0]), ys.compute(mark.place[1])]
-    for (const [colour, width] of [[isDark(ink) ? "#000" : "#fff", 4], [isDark(ink) ? POINT : "#101010", 2]]) {
-      ctx.beginPath()
-      ctx.arc(at, up, 0.55 * em * zoom(), 0, 2 * Math.PI)
+  function drawMark(ctx, em, dark) {
+    const { xs, ys } = place
+    ctx.setLineDash(mark.isOfChart ? [] : [3, 3])
+    for (const [colour, width] of [[dark ? "#000" : "#fff", 4], [dark ? POINT : DARK, 2]]) {
+      circlePath(ctx, xs.compute(mark.at[0]), ys.compute(mark.at[1]), 0.55 * em * zoom())
       ctx.strokeStyle = colour
       ctx.lineWidth = width
-      ctx.setLineDash(mark.isOfChart ? [] : [3, 3])
       ctx.stroke()
     }
     ctx.setLineDash([])
   }
 
-  function drawCursor(xs, ys) {
-    if (cursor === null) return
-    const [wide, high] = [stepOf(chart.x), stepOf(chart.y)]
-    const [x, y] = [place(chart.x, cursor[0]), place(chart.y, cursor[1])]
-    const [left, right] = [xs.compute(x - wide / 2), xs.compute(x + wide / 2)]
-    const [bottom, top] = [ys.compute(y - high / 2), ys.compute(y + high / 2)]
-    for (const [colour, room] of [["#fff", 2], ["#101010", 1]]) {
+  function drawCursor(ctx) {
+    const { xs, ys } = place
+    // The ends of the cell along a side.
+    /** @returns {number[]} */
+    const ends = (side, i, scale) => [i - 0.5, i + 0.5].map((at) => scale.compute(side.low + stepOf(side) * at))
+    const [left, right] = ends(chart.x, cursor[0], xs)
+    const [bottom, top] = ends(chart.y, cursor[1], ys)
+    ctx.lineWidth = 1
+    for (const [colour, room] of [["#fff", 2], [DARK, 1]]) {
       ctx.strokeStyle = colour
-      ctx.lineWidth = 1
       ctx.strokeRect(left - room, top - room, right - left + 2 * room, bottom - top + 2 * room)
     }
   }
 
-  function drawBox() {
-    const [x0, y0, x1, y1] = box
-    ctx.fillStyle = "rgba(255, 255, 255, 0.25)"
-    ctx.fillRect(x0, y0, x1 - x0, y1 - y0)
-    ctx.strokeStyle = "#101010"
-    ctx.lineWidth = 1.5
-    ctx.setLineDash([4, 3])
-    ctx.strokeRect(x0, y0, x1 - x0, y1 - y0)
-    ctx.setLineDash([])
-  }
-
-  function line(x0, y0, x1, y1) {
-    ctx.beginPath()
-    ctx.moveTo(x0, y0)
-    ctx.lineTo(x1, y1)
-    ctx.stroke()
-  }
-
-  // Where in the chart a place of the canvas is, within it.
-  function valueAt(px, py) {
-    const share = [(px - frame.left) / (frame.right - frame.left), (frame.bottom - py) / (frame.bottom - frame.top)]
-    return [data.x[0] + data.dw[0] * share[0], data.y[0] + data.dh[0] * share[1]]
-  }
-
-  function cellAt(px, py) {
-    if (data === null || frame === null) return null
-    const [x, y] = valueAt(px, py)
-    const [column, row] = [[chart.x, x], [chart.y, y]].map(([side, value]) => Math.round((value - side.low) / stepOf(side)))
-    return column < 0 || row < 0 || column >= chart.x.count || row >= chart.y.count ? null : [column, row]
+  function cellAt({ offsetX, offsetY }) {
+    if (place === null) return null
+    const cell = [[chart.x, place.xs.invert(offsetX)], [chart.y, place.ys.invert(offsetY)]]
+      .map(([side, value]) => Math.round((value - side.low) / stepOf(side)))
+    return cell.every((i, k) => i >= 0 && i < [chart.x, chart.y][k].count) ? cell : null
   }
 
   function moveTo(cell) {
@@ -263,63 +191,42 @@ export function chartCanvas(palettes, hands, signal) {
     hands.pointed(cell)
   }
 
-  let from = null
-  canvas.addEventListener("pointerdown", ({ offsetX, offsetY, button, pointerId }) => {
-    if (button !== 0 || cellAt(offsetX, offsetY) === null) return
-    from = [offsetX, offsetY]
-    canvas.setPointerCapture(pointerId)
-  })
-  canvas.addEventListener("pointermove", ({ offsetX, offsetY }) => {
-    if (from !== null && Math.hypot(offsetX - from[0], offsetY - from[1]) > SLIP) box = [...from, offsetX, offsetY]
-    moveTo(cellAt(offsetX, offsetY))
-  })
-  canvas.addEventListener("pointerup", ({ offsetX, offsetY }) => {
-    const [begun, drawn] = [from, box]
-    from = box = null
-    request()
-    if (begun === null) return
-    if (drawn === null) {
-      const cell = cellAt(offsetX, offsetY)
-      if (cell === null) return
-      moveTo(cell)
-      hands.chosen(cell)
-      return
-    }
-    const corners = [valueAt(drawn[0], drawn[1]), valueAt(drawn[2], drawn[3])]
-    const within = ({ low, high }, i) => {
-      const ends = corners.map((corner) => Math.min(high, Math.max(low, corner[i])))
-      return [Math.min(...ends), Math.max(...ends)]
-    }
-    hands.boxed({ x: within(chart.x, 0), y: within(chart.y, 1) })
-  })
-  canvas.addEventListener("pointercancel", () => {
-    from = box = null
-    request()
-  })
-  canvas.addEventListener("pointerleave", () => { if (from === null) moveTo(null) })
-  canvas.addEventListener("keydown", (event) => {
-    const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] }[event.key]
-    if (step === undefined || chart?.values == null) return
-    event.preventDefault()
-    const middle = [Math.floor(chart.x.count / 2), Math.floor(chart.y.count / 2)]
-    const [column, row] = cursor ?? middle
-    const far = event.shiftKey ? 10 : 1
-    const within = (i, count) => Math.max(0, Math.min(count - 1, i))
-    moveTo([within(column + far * step[0], chart.x.count), within(row + far * step[1], chart.y.count)])
-  })
-  const theme = new MutationObserver(request)
-  for (const item of [document.documentElement, document.body]) {
-    theme.observe(item, { attributes: true, attributeFilter: ["data-theme", "class", "style"] })
+  // [low, high] between two places of the canvas, within a side.
+  const between = ({ low, high }, scale, places) => (
+    places.map((at) => within(scale.invert(at), low, high)).sort((one, other) => one - other))
+
+  onDrag(canvas, (event) => (event.button === 0 && cellAt(event) !== null ? [event.offsetX, event.offsetY] : null),
+    ([x, y], { offsetX, offsetY }) => { if (Math.hypot(offsetX - x, offsetY - y) > SLIP) box = [x, y, offsetX, offsetY] },
+    (from, event) => {
+      const cell = cellAt(event)
+      if (box !== null) {
+        const [x0, y0, x1, y1] = box
+        hands.boxed({ x: between(chart.x, place.xs, [x0, x1]), y: between(chart.y, place.ys, [y0, y1]) })
+      } else if (cell !== null) {
+        moveTo(cell)
+        hands.chosen(cell)
+      }
+    })
+  canvas.addEventListener("pointermove", (event) => moveTo(cellAt(event)))
+  for (const name of ["pointerup", "pointercancel"]) {
+    canvas.addEventListener(name, () => {
+      box = null
+      request()
+    })
   }
-  const resize = new ResizeObserver(request)
-  resize.observe(canvas)
-  signal.addEventListener("abort", () => {
-    theme.disconnect()
-    resize.disconnect()
+  canvas.addEventListener("pointerleave", () => { if (box === null) moveTo(null) })
+  canvas.addEventListener("keydown", (event) => {
+    const arrow = arrowOf(event)
+    if (arrow === undefined || chart?.values == null) return
+    event.preventDefault()
+    const sides = [chart.x, chart.y]
+    const from = cursor ?? sides.map(({ count }) => Math.floor(count / 2))
+    const far = event.shiftKey ? 10 : 1
+    moveTo(sides.map(({ count }, k) => within(from[k] + far * arrow[k], 0, count - 1)))
   })
 
   return {
-    canvas, request,
+    canvas,
     get cursor() { return cursor },
     show(next) {
       if (chart !== next) cursor = null
@@ -327,8 +234,8 @@ export function chartCanvas(palettes, hands, signal) {
       renew()
       request()
     },
-    mark(place, isOfChart) {
-      mark = place === null ? null : { place, isOfChart }
+    mark(at, isOfChart) {
+      mark = at === null ? null : { at, isOfChart }
       request()
     },
   }

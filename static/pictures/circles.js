@@ -1,12 +1,12 @@
 // Circles on the unit sphere, as columns [xs, ys, zs].
 
-// The circle (γ, axis) = height.
+import { cross, unit } from "./vectors.js"
+
+/** Return the circle (γ, axis) = height. */
 export function circle(axis, height, count = 96) {
   const [a, b, c] = axis
-  const u = Math.abs(a) < 0.9 ? [0, c, -b] : [-c, 0, a]
-  const length = Math.hypot(...u)
-  const e = u.map((x) => x / length)
-  const g = [b * e[2] - c * e[1], c * e[0] - a * e[2], a * e[1] - b * e[0]]
+  const e = unit(Math.abs(a) < 0.9 ? [0, c, -b] : [-c, 0, a])
+  const g = cross(axis, e)
   const radius = Math.sqrt(Math.max(0, 1 - height * height))
   const points = [[], [], []]
   for (let i = 0; i <= count; i++) {
@@ -18,7 +18,7 @@ export function circle(axis, height, count = 96) {
   return points
 }
 
-// Three parallels and six meridians.
+/** Return three parallels and six meridians. */
 export function graticule() {
   const lines = [-0.5, 0, 0.5].map((height) => circle([0, 0, 1], height))
   for (let i = 0; i < 6; i++) {

@@ -7,25 +7,37 @@
 
 class Cloud {
   constructor(frames, signs, body, times, sense) {
-    Object.assign(this, { frames, signs, body, times, sense })
+    this.frames = frames
+    this.signs = signs
+    this.body = body
+    this.times = times
+    this.sense = sense
     this.count = frames.length / (5 * times.length)
     this.size = 5 * this.count
     this.step = times[1] - times[0]
     const column = () => new Float32Array(this.count)
-    for (const name of ["w1", "w2", "g1", "g2", "g3", "x", "y"]) this[name] = column()
+    this.x = column()
+    this.y = column()
+    this.w1 = column()
+    this.w2 = column()
+    this.g1 = column()
+    this.g2 = column()
+    this.g3 = column()
     // Both ends of an interval: slopes of x and y, and ω.
     this.ends = [0, 1].map(() => ({ x: column(), y: column(), w1: column(), w2: column() }))
     this.left = -1
     this.t = null
-  }
-
-  get axes() {
-    const J = Math.hypot(this.body[2], this.body[3])
-    return [J, this.body[2] / J, this.body[3] / J]
+    // Of s, as [its largest slope, its direction].
+    const J = Math.hypot(body[2], body[3])
+    this.axes = [J, body[2] / J, body[3] / J]
   }
 
   velocities(x, y, w1, w2) {
-    if (this.signs === undefined) return void (w1.set(x), w2.set(y))
+    if (this.signs === undefined) {
+      w1.set(x)
+      w2.set(y)
+      return
+    }
     const [J, n1, n2] = this.axes
     for (let i = 0; i < this.count; i++) {
       const across = (this.signs[i] * Math.exp(y[i])) / J
@@ -41,17 +53,17 @@ class Cloud {
     const [I11, I22, I13, I23, D, b3] = body
     const [, n1, n2] = this.axes
     const at = frame * size
+    const isFree = signs !== undefined
     this.velocities(frames.subarray(at, at + count), frames.subarray(at + count, at + 2 * count), end.w1, end.w2)
     for (let i = 0; i < count; i++) {
       const [g1, g2, g3] = [frames[at + 2 * count + i], frames[at + 3 * count + i], frames[at + 4 * count + i]]
       const [a11, a12, a22] = [I11 + D * (g2 * g2 + g3 * g3), -D * g1 * g2, I22 + D * (g1 * g1 + g3 * g3)]
       const det = a11 * a22 - a12 * a12
-      const free = signs !== undefined
-      const [f1, f2] = free ? [-end.w2[i], end.w1[i]] : [b3 * g2, -b3 * g1]
+      const [f1, f2] = isFree ? [-end.w2[i], end.w1[i]] : [b3 * g2, -b3 * g1]
       const [h1, h2] = [(a22 * f1 - a12 * f2) / det, (a11 * f2 - a12 * f1) / det]
-      const s = free ? signs[i] * Math.exp(frames[at + count + i]) : 1
-      end.x[i] = free ? s * (n2 * h1 - n1 * h2) : h1
-      end.y[i] = free ? I13 * h1 + I23 * h2 : h2
+      const s = isFree ? signs[i] * Math.exp(frames[at + count + i]) : 1
+      end.x[i] = isFree ? s * (n2 * h1 - n1 * h2) : h1
+      end.y[i] = isFree ? I13 * h1 + I23 * h2 : h2
     }
   }
 
@@ -59,21 +71,19 @@ class Cloud {
   moveTo(t) {
     if (t === this.t) return
     this.t = t
-    const { frames, count, size, times, step } = this
+    const { frames, count, size, times, step, sense } = this
     const left = Math.max(0, Math.min(times.length - 2, Math.floor((t - times[0]) / step)))
+    const [from, to] = this.ends
     if (left !== this.left) {
       this.left = left
-      this.prepare(left, this.ends[0])
-      this.prepare(left + 1, this.ends[1])
+      this.prepare(left, from)
+      this.prepare(left + 1, to)
     }
     const u = Math.max(0, Math.min(1, (t - times[left]) / step))
     const b = u * u * (3 - 2 * u)
     const a = 1 - b
-    const [e, f] = [u * (1 - u) * (1 - u) * step * this.sense, u * u * (u - 1) * step * this.sense]
-    const [from, to] = this.ends
-    const at = left * size
-    for (let i = 0; i < count; i++) {
-      const p = at + i
+    const [e, f] = [u * (1 - u) * (1 - u) * step * sense, u * u * (u - 1) * step * sense]
+    for (let i = 0, p = left * size; i < count; i++, p++) {
       const q = p + size
       this.x[i] = a * frames[p] + b * frames[q] + e * from.x[i] + f * to.x[i]
       this.y[i] = a * frames[p + count] + b * frames[q + count] + e * from.y[i] + f * to.y[i]
@@ -94,7 +104,7 @@ class Cloud {
 
 const allClouds = new WeakMap()
 
-// The clouds of a source, for all pictures that draw them; `at(t)` gives them at that time, each moved once.
+/** Return the clouds of a source, for all pictures that draw them; `at(t)` gives them at that time, each moved once. */
 export function cloudsOf(source) {
   if (allClouds.has(source)) return allClouds.get(source)
   let [data, clouds] = [null, []]

@@ -6,7 +6,8 @@ import { element, lifetime } from "../page/mount.js"
 import { wear } from "../page/presenting.js"
 import { cloudPlane } from "./cloud_plane.js"
 import { planeGhost } from "./ghost.js"
-import { onDark, setDark } from "./looks.js"
+import { onDark, setDark, setShades, watchTheme } from "./looks.js"
+import { captionOf, createCell, fillTexts, isFolded, isInSight, nameOf, titleOf } from "./picture.js"
 import { buildPlot, colourPlot } from "./plot.js"
 import { shootPlot } from "./shots.js"
 import { Source } from "./sources.js"
@@ -16,12 +17,6 @@ import { createStage } from "./stage.js"
 // Milliseconds until the last colour of a theme has come.
 const LATE = 2000
 const KINDS = { sphere, cloud: cloudPlane }
-// What the mouse does in a picture.
-const HINTS = {
-  drag: "Drag or click: what you point at is chosen",
-  box: "Click: what you point at is chosen. Drag a box: a closer look",
-  click: "Click: what you point at is chosen",
-}
 
 const built = new Map()
 let shelf = null
@@ -34,28 +29,16 @@ let stage = null
 export const gallery = {
   standing: new Promise((resolve) => { stand = resolve }),
   has: (name) => built.has(name),
+  // Of the scene on show.
   source: (name) => shown?.sources.get(name),
+  cell: (name) => shown.cells.find((cell) => nameOf(cell) === name),
+  plot: (name) => shown.plots.find(({ model }) => model.name === name),
+  cellsInSight: () => shown.cells.filter(isInSight),
+  openCells: () => shown.cells.filter((cell) => !isFolded(cell)),
   get shown() { return shown },
   // The picture of the scene on show that was last under the mouse.
   pointed: null,
   build, enter, takeGhost, showGhost, shoot,
-}
-
-// [cell, host]: caption, place for the picture, line about what is under the mouse.
-function cellOf({ name, folded, hands }) {
-  const host = element("div", { className: `host hands-${hands}`, title: HINTS[hands] ?? "" })
-  const under = element("output", { className: "text hover", hidden: true })
-  const cell = element("section", { className: `picture picture-${name}` },
-    element("h2", { className: "text caption" },
-      element("span", { className: "title" }), "\n", element("span", { className: "said" })),
-    stage.cornerFor(name), host, under)
-  cell.dataset.name = name
-  cell.classList.toggle("folded", folded !== null)
-  // Until it is unfolded the server does not draw it.
-  if (folded !== null) cell.dataset.late = ""
-  cell.addEventListener("pointerenter", () => { gallery.pointed = name })
-  cell.addEventListener("mouseleave", () => { under.hidden = true })
-  return [cell, host]
 }
 
 // The colours of text and of what is less important, by this theme.
@@ -90,10 +73,12 @@ function followThemeForAWhile() {
 
 // The pictures of a scene that the server has described, not seen yet: {name, grid, cells, plots, sources, …}.
 async function build(description) {
+  setShades(description.shades)
   const grid = element("div", { className: "gallery" })
   const scene = { name: description.name, grid, sources: new Map(), cells: [], plots: [], ghosts: [], shots: new Map(), painted: false }
   const places = description.pictures.map((picture) => {
-    const [cell, host] = cellOf(picture)
+    const { name } = picture
+    const [cell, host] = createCell(picture, stage.cornerFor(name), () => { gallery.pointed = name })
     grid.append(cell)
     scene.cells.push(cell)
     return [host, picture]
@@ -140,8 +125,7 @@ function showGhost(taken) {
 function shoot(side) {
   const wasDark = onDark()
   setDark(false)
-  const shots = shown.cells.filter((cell) => cell.checkVisibility()).map((cell) => [
-    cell.querySelector(".title").textContent, cell.querySelector(".said").textContent, shown.shots.get(cell.dataset.name)(side)])
+  const shots = gallery.cellsInSight().map((cell) => [titleOf(cell), captionOf(cell), shown.shots.get(nameOf(cell))(side)])
   setDark(wasDark)
   colour(shown)
   return shots
@@ -159,31 +143,15 @@ function enter(name) {
 
 // Beside the first of what a layer draws.
 function besideLayer({ picture, source, columns }) {
-  const plot = shown.plots.find(({ model }) => model.name === picture)
-  const place = columns?.map((column) => shown.sources.get(source).data[column]?.[0])
-  const cell = shown.cells.find(({ dataset }) => dataset.name === picture)
-  if (place?.[0] === undefined || !cell.checkVisibility()) return null
+  const place = columns?.map((column) => gallery.source(source).data[column]?.[0])
+  const cell = gallery.cell(picture)
+  if (place?.[0] === undefined || !isInSight(cell)) return null
+  const { frame, repainted: moved } = gallery.plot(picture)
   return {
-    host: cell.querySelector(".host"), moved: plot.repainted,
+    host: cell.querySelector(".host"), moved,
     place: () => ({
-      left: `calc(${plot.frame.x_scale.compute(place[0])}px + 1.2em)`, top: `${plot.frame.y_scale.compute(place[1])}px`,
+      left: `calc(${frame.x_scale.compute(place[0])}px + 1.2em)`, top: `${frame.y_scale.compute(place[1])}px`,
     }),
-  }
-}
-
-function showTexts(texts) {
-  for (const cell of shown?.cells ?? []) {
-    const { [cell.dataset.name]: text, [`hover-${cell.dataset.name}`]: hover } = texts
-    if (text !== undefined) {
-      const [title, ...said] = text.split("\n")
-      cell.querySelector(".title").textContent = title
-      cell.querySelector(".said").textContent = said.join(" ")
-    }
-    if (hover !== undefined) {
-      const under = cell.querySelector(".hover")
-      under.textContent = hover
-      under.hidden = hover === "" || !cell.matches(":hover")
-    }
   }
 }
 
@@ -196,13 +164,9 @@ export function render({ model, view, el }) {
   wear(el, signal)
   stage = createStage(shelf, () => shown, signal)
   sayDragMe(besideLayer, signal)
-  listen("texts", showTexts, signal)
-  const theme = new MutationObserver(followThemeForAWhile)
-  for (const item of [document.documentElement, document.body]) {
-    theme.observe(item, { attributes: true, attributeFilter: ["data-theme", "class", "style"] })
-  }
+  listen("texts", (texts) => { for (const cell of shown?.cells ?? []) fillTexts(cell, texts) }, signal)
+  watchTheme(followThemeForAWhile, signal)
   // In the frame after a state: the browser looks up styles then in any case.
   listen("painted", () => requestAnimationFrame(followTheme), signal)
-  signal.addEventListener("abort", () => theme.disconnect())
   stand()
 }

@@ -1,10 +1,11 @@
 // A faint copy of an earlier state under or over the one on show: drawn once, and again only where axes or sizes change.
 
+import { element } from "../page/mount.js"
 import { frameCanvas } from "./frame_canvas.js"
 
 export const FAINT = 0.4
 
-// The canvases of a plot from the back to the front: Bokeh's layers and ours between them, but no ghost.
+/** Return the canvases of a plot from the back to the front: Bokeh's layers and ours between them, but no ghost. */
 export function layersOf(plot) {
   const { primary, overlays } = plot.canvas_view
   const layers = [...primary.el.parentNode.children]
@@ -12,7 +13,7 @@ export function layersOf(plot) {
     layer instanceof HTMLCanvasElement && layer.width > 0 && !layer.classList.contains("ghost")))
 }
 
-// Of the lines and points of a Bokeh plot, as they are painted: {take() → what is on show, show(that, or null)}.
+/** Return the ghost of a Bokeh plot: take() copies what is on show, show(copy, or null) draws it. */
 export function planeGhost(plot) {
   let canvas = null
   let kept = null
@@ -27,19 +28,18 @@ export function planeGhost(plot) {
 
   return {
     take() {
-      const { primary } = plot.canvas_view
+      const { primary: { el } } = plot.canvas_view
       const { x_range: x, y_range: y } = plot.model
       const { x0, y0, x1, y1 } = plot.frame.bbox
       // Folded, or of a window without room.
-      if (!(x1 > x0 && y1 > y0 && primary.el.width > 0)) return null
-      const sheet = document.createElement("canvas")
-      const ratio = primary.el.width / plot.bbox.width
+      if (!(x1 > x0 && y1 > y0 && el.width > 0)) return null
+      const ratio = el.width / plot.bbox.width
       const [width, height] = [x1 - x0, y1 - y0].map((side) => Math.ceil(ratio * side))
-      Object.assign(sheet, { width, height })
+      const sheet = element("canvas", { width, height })
       const paper = sheet.getContext("2d")
       // What fills the frame under Bokeh's own would hide the state on show.
       const layers = layersOf(plot)
-      for (const layer of layers.slice(layers.indexOf(primary.el))) {
+      for (const layer of layers.slice(layers.indexOf(el))) {
         paper.drawImage(layer, ratio * x0, ratio * y0, width, height, 0, 0, width, height)
       }
       return { sheet, x: [x.start, x.end], y: [y.start, y.end] }

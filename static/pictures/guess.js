@@ -1,6 +1,10 @@
 // A guess in a picture: the audience clicks where something will be, then the truth is drawn with the distance to it.
 
+import { arrowOf } from "../page/keys.js"
+import { element } from "../page/mount.js"
+import { fit } from "./canvas.js"
 import { gallery } from "./gallery.js"
+import { circlePath } from "./looks.js"
 
 const RING = 9
 const MOST = 40
@@ -10,20 +14,22 @@ const STEP = 8
 
 const shown = (value) => value.toPrecision(2).replace("-", "−")
 const mean = (values) => values.reduce((sum, one) => sum + one, 0) / values.length
+const within = (value, low, high) => Math.max(low, Math.min(high, value))
 
-// The nearest to [x, y] of a polyline's points, or of places between them.
+/**
+ * The nearest to [x, y] of a polyline's points, or of places between them.
+ * @param {number[][]} line
+ * @param {number[]} place
+ */
 function nearestOn(line, [x, y]) {
   let best = { distance: Infinity, place: null }
-  const take = (place) => {
+  line.forEach(([x1, y1], i) => {
+    const [x0, y0] = line[Math.max(0, i - 1)]
+    const squared = (x1 - x0) ** 2 + (y1 - y0) ** 2
+    const share = squared > 0 ? within(((x - x0) * (x1 - x0) + (y - y0) * (y1 - y0)) / squared, 0, 1) : 0
+    const place = [x0 + share * (x1 - x0), y0 + share * (y1 - y0)]
     const distance = Math.hypot(place[0] - x, place[1] - y)
     if (distance < best.distance) best = { distance, place }
-  }
-  line.forEach(([x1, y1], i) => {
-    if (i === 0) return take([x1, y1])
-    const [x0, y0] = line[i - 1]
-    const squared = (x1 - x0) ** 2 + (y1 - y0) ** 2
-    const share = squared > 0 ? Math.max(0, Math.min(1, ((x - x0) * (x1 - x0) + (y - y0) * (y1 - y0)) / squared)) : 0
-    take([x0 + share * (x1 - x0), y0 + share * (y1 - y0)])
   })
   return best
 }
@@ -37,17 +43,32 @@ function linesOf({ source, columns: [x, y], what }) {
   return typeof xs[0] === "number" ? [zip(xs, ys)] : Array.from(xs, (part, i) => zip(part, ys[i]))
 }
 
-// prediction: {picture, source, columns, what}; say(text) tells what is to be done, and how near the guess was.
+function drawRing(ctx, place, colour, dash) {
+  for (const [weight, style] of [[6, "white"], [3, colour]]) {
+    circlePath(ctx, ...place, RING)
+    ctx.setLineDash(dash)
+    ctx.lineWidth = weight
+    ctx.strokeStyle = style
+    ctx.stroke()
+  }
+}
+
+/**
+ * Return what takes a guess: begin(), wait(), reveal(), end() are called in this order.
+ * @param {{picture: string, source: string, columns: [string, string], what: string}} prediction
+ * @param {(text: string) => void} say tells what is to be done, and how near the guess was
+ */
 export function createGuess(prediction, say) {
   const isCurve = prediction.what === "curve"
   let plot = null
   let sheet = null
+  // In data, as the truth.
   let clicks = []
   let truth = null
 
   const scales = () => [plot.frame.x_scale, plot.frame.y_scale]
-  const toPixels = ([x, y]) => scales().map((scale, i) => scale.compute([x, y][i]))
-  const toData = ([x, y]) => scales().map((scale, i) => scale.invert([x, y][i]))
+  const toPixels = (place) => scales().map((scale, i) => scale.compute(place[i]))
+  const toData = (place) => scales().map((scale, i) => scale.invert(place[i]))
 
   // What is to be guessed is not seen.
   function hide(isHidden) {
@@ -57,22 +78,7 @@ export function createGuess(prediction, say) {
   }
 
   function draw() {
-    const ratio = window.devicePixelRatio || 1
-    const { width, height } = plot.bbox
-    sheet.width = Math.round(ratio * width)
-    sheet.height = Math.round(ratio * height)
-    const ctx = sheet.getContext("2d")
-    ctx.scale(ratio, ratio)
-    const ring = ([x, y], colour, isDashed) => {
-      for (const [weight, style] of [[6, "white"], [3, colour]]) {
-        ctx.beginPath()
-        ctx.setLineDash(isDashed ? [4, 4] : [])
-        ctx.arc(x, y, RING, 0, 2 * Math.PI)
-        ctx.lineWidth = weight
-        ctx.strokeStyle = style
-        ctx.stroke()
-      }
-    }
+    const ctx = fit(sheet, plot.bbox.width, plot.bbox.height)
     for (const [i, click] of clicks.map(toPixels).entries()) {
       if (truth !== null) {
         const place = toPixels(truth[i])
@@ -83,29 +89,27 @@ export function createGuess(prediction, say) {
         ctx.lineWidth = 2
         ctx.strokeStyle = GUESS
         ctx.stroke()
-        ring(place, TRUTH, false)
+        drawRing(ctx, place, TRUTH, [])
       }
-      ring(click, GUESS, true)
+      drawRing(ctx, click, GUESS, [4, 4])
     }
   }
 
-  function add(place) {
+  // A place of the picture, or the nearest in the frame.
+  function add(x, y) {
+    const { x0, x1, y0, y1 } = plot.frame.bbox
+    const place = toData([within(x, x0, x1), within(y, y0, y1)])
     clicks = isCurve ? [...clicks, place].slice(-MOST) : [place]
     draw()
     say(isCurve ? `Your curve: ${clicks.length} point${clicks.length === 1 ? "" : "s"}.` : "Your guess is set.")
   }
 
-  const inside = ([x, y]) => {
-    const { x0, x1, y0, y1 } = plot.frame.bbox
-    return [Math.max(x0, Math.min(x1, x)), Math.max(y0, Math.min(y1, y))]
-  }
-
-  function onKey(event) {
-    const move = { ArrowLeft: [-STEP, 0], ArrowRight: [STEP, 0], ArrowUp: [0, -STEP], ArrowDown: [0, STEP] }[event.key]
-    if (move === undefined) return
+  function onkeydown(event) {
+    const arrow = arrowOf(event)
+    if (arrow === undefined) return
     const { x0, x1, y0, y1 } = plot.frame.bbox
     const [x, y] = clicks.length > 0 ? toPixels(clicks.at(-1)) : [(x0 + x1) / 2, (y0 + y1) / 2]
-    add(toData(inside([x + move[0], y + move[1]])))
+    add(x + STEP * arrow[0], y - STEP * arrow[1])
     event.preventDefault()
     event.stopPropagation()
   }
@@ -114,38 +118,31 @@ export function createGuess(prediction, say) {
     isRevealed: false,
     // The state of the step is on show.
     begin() {
-      plot = gallery.shown.plots.find(({ model }) => model.name === prediction.picture)
+      plot = gallery.plot(prediction.picture)
       hide(true)
-      sheet = document.createElement("canvas")
-      sheet.className = "guess"
+      sheet = element("canvas", {
+        className: "guess", tabIndex: 0, role: "application", ariaLabel: "Your guess: click, or move it with the arrow keys",
+        title: isCurve ? "Click along the curve as you expect it" : "Click where you expect it", onkeydown,
+        onclick: ({ offsetX, offsetY }) => { if (!this.isRevealed) add(offsetX, offsetY) },
+      })
       sheet.style.cssText = "position: absolute; inset: 0; width: 100%; height: 100%; cursor: crosshair; touch-action: none"
-      sheet.tabIndex = 0
-      sheet.setAttribute("role", "application")
-      sheet.setAttribute("aria-label", "Your guess: click, or move it with the arrow keys")
-      sheet.title = isCurve ? "Click along the curve as you expect it" : "Click where you expect it"
       plot.canvas_view.overlays.el.parentNode.append(sheet)
       // Not a click or a drag of the picture.
       for (const name of ["pointerdown", "pointermove", "pointerup", "wheel"]) {
         sheet.addEventListener(name, (event) => event.stopPropagation())
       }
-      sheet.addEventListener("click", (event) => {
-        if (!this.isRevealed) add(toData(inside([event.offsetX, event.offsetY])))
-      })
-      sheet.addEventListener("keydown", onKey)
       plot.repainted.connect(draw)
       draw()
       say(`${sheet.title}, then reveal.`)
     },
     // The truth is on its way: nothing is taken any more.
-    wait() {
-      this.isRevealed = true
-    },
+    wait() { this.isRevealed = true },
     // The state that is revealed is on show.
-    reveal: () => {
+    reveal() {
       hide(false)
       sheet.style.pointerEvents = "none"
-      const lines = linesOf(prediction).map((line) => line.map((place) => ({ place, at: toPixels(place) })))
-      const found = clicks.map((click) => lines.map((line) => nearestOn(line.map(({ at }) => at), toPixels(click)))
+      const lines = linesOf(prediction).map((line) => line.map(toPixels))
+      const found = clicks.map((click) => lines.map((line) => nearestOn(line, toPixels(click)))
         .reduce((best, one) => (one.distance < best.distance ? one : best), { distance: Infinity, place: null }))
       if (found.length === 0) return say("Revealed. Nobody has guessed.")
       if (found.some(({ place }) => place === null)) return say("Revealed: there is none here.")

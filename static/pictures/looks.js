@@ -1,63 +1,99 @@
-// Colours, dashes and weights on our own canvases; "theme.py" has the same for Bokeh.  null: the colour of text.
+// Colours, dashes and weights on our own canvases.  "theme.py" describes the colours; a scene's description brings them.
 
-// Name in CSS, on a light page, on a dark one.
-const SHADES = [
-  ["orbit", "#0072B2", "#4DAEEB"],
-  ["stable", "#009E73", "#1DBE8F"],
-  ["unstable", "#D55E00", "#F07A22"],
-  ["second", "#BF6699", "#DE97C0"],
-  ["sheet", "#56B4E9", "#B3DFFF"],
-  ["forbidden", "#ECECEC", "#2B2B2B"],
-  ["locked", "#B9A7D6", "#6F6190"],
-  ["muted", "#808080", "#949494"],
-  ["ink", "#101010", "#F2F2F2"],
-  ["paper", "#FFFFFF", "#121212"],
-]
-const NAMED = new Map(SHADES.map(([name, light]) => [name, light]))
-const ON_DARK = new Map(SHADES.map(([, light, dark]) => [light, dark]))
+// The colour of text in print.
+export const INK = "rgb(16, 16, 16)"
+export const POINT = "#F0E442"
 
+// Name in CSS → [on a light page, on a dark one].
+let shades = {}
+// Colour on a light page → on a dark one.
+let onDarkPage = new Map()
 let dark = null
 
-// Whether a page is dark whose text has this colour, in CSS.
+/** Take the shades of "theme.py": {name in CSS: [on a light page, on a dark one]}. */
+export function setShades(given) {
+  shades = given
+  onDarkPage = new Map(Object.values(given))
+  showShades()
+}
+
+function showShades() {
+  for (const [name, colour] of shadesOf(dark)) document.documentElement.style.setProperty(`--${name}`, colour)
+}
+
+/** Return whether a page is dark whose text has this colour, in CSS. */
 export function isDark(text) {
   const [red, green, blue] = text.match(/[\d.]+/g).map(Number)
   return red + green + blue > 382
 }
 
-// The page has become dark or light: what asks for colours from now on, and legends, get those for it.
+/** Give everything that asks for colours from now on, and legends, those of a dark or a light page. */
 export function setDark(value) {
   if (value === dark) return
   dark = value
-  for (const [name, shade] of shadesOf(dark)) document.documentElement.style.setProperty(`--${name}`, shade)
+  showShades()
 }
 
-// [name, colour] of all, on a dark page or a light one.
-export const shadesOf = (isDarkPage) => SHADES.map(([name, ...shades]) => [name, shades[isDarkPage ? 1 : 0]])
+/** Return [name, colour] of all shades, on a dark page or a light one. */
+export const shadesOf = (isDarkPage) => Object.entries(shades).map(([name, pair]) => [name, pair[isDarkPage ? 1 : 0]])
 
-// "#rrggbb" or "#rrggbbaa" of "theme.py" → as it is on this page.
+/** Return a colour of "theme.py", "#rrggbb" or "#rrggbbaa", as it is on this page. */
 export function shade(colour) {
   if (!dark) return colour
-  return (ON_DARK.get(colour.slice(0, 7).toUpperCase()) ?? colour.slice(0, 7)) + colour.slice(7)
+  return (onDarkPage.get(colour.slice(0, 7).toUpperCase()) ?? colour.slice(0, 7)) + colour.slice(7)
 }
 
 export const onDark = () => dark === true
 
-const look = (name, dash, weight) => ({ get colour() { return shade(NAMED.get(name)) }, dash, weight })
+/** Call `act` whenever the theme of the page may have changed. */
+export function watchTheme(act, signal) {
+  const observer = new MutationObserver(act)
+  for (const item of [document.documentElement, document.body]) {
+    observer.observe(item, { attributes: true, attributeFilter: ["data-theme", "class", "style"] })
+  }
+  signal.addEventListener("abort", () => observer.disconnect())
+}
 
+const look = (name, dash, weight) => ({ get colour() { return shade(shades[name][0]) }, dash, weight })
+
+// Without a colour: that of text.
 export const LOOKS = {
   orbit: look("orbit", [], 2.2),
   second: look("second", [], 2.2),
   stable: look("stable", [], 3),
   unstable: look("unstable", [7, 5], 3),
-  limit: { colour: null, dash: [2, 3], weight: 1 },
+  limit: { dash: [2, 3], weight: 1 },
   muted: look("muted", [], 1),
-  axis: { colour: null, dash: [], weight: 2.5 },
-  mass: { colour: "#F0E442", dash: [], weight: 3 },
+  axis: { dash: [], weight: 2.5 },
+  mass: { colour: POINT, dash: [], weight: 3 },
 }
-export const POINT = "#F0E442"
 
-const bytes = (colour) => [1, 3, 5].map((at) => Number.parseInt(colour.slice(at, at + 2), 16))
-export const CLOUDS = {
-  get 0() { return bytes(LOOKS.orbit.colour) },
-  get 1() { return bytes(LOOKS.second.colour) },
+/** Take the dash, the weight and the colour of a look; `text` is the colour of text. */
+export function useLook(ctx, { colour = null, dash = [], weight }, text) {
+  ctx.setLineDash(dash)
+  ctx.lineWidth = weight
+  ctx.strokeStyle = colour ?? text
 }
+
+/** Begin a path with a circle. */
+export function circlePath(ctx, x, y, radius) {
+  ctx.beginPath()
+  ctx.arc(x, y, radius, 0, 2 * Math.PI)
+}
+
+/** Draw a point of a phase portrait: a dot, or a ring where it is unstable. */
+export function drawMark(ctx, x, y, name, text) {
+  circlePath(ctx, x, y, 5)
+  ctx.setLineDash([])
+  ctx.lineWidth = 2.5
+  ctx.strokeStyle = ctx.fillStyle = LOOKS[name].colour ?? text
+  if (name !== "unstable") ctx.fill()
+  ctx.stroke()
+}
+
+/** Return [red, green, blue, alpha] of "#rrggbb" or "#rrggbbaa". */
+export const bytesOf = (colour) => [1, 3, 5, 7].map((at) => Number.parseInt(colour.slice(at, at + 2) || "ff", 16))
+
+// Of the first cloud of points, and of the second.
+const CLOUDS = ["orbit", "second"]
+export const cloudColour = (i) => bytesOf(LOOKS[CLOUDS[i]].colour)

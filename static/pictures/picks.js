@@ -4,8 +4,13 @@ import { tell } from "../page/bus.js"
 
 const NOTHING = { left: [], right: [], top: [], bottom: [] }
 
-// picks: Bokeh's events that choose a point ("tap", "doubletap", "pan"); "box": a drag draws a box, in the source
-// `box`, and chooses its corners; "hover": where the mouse is.
+/**
+ * Connect the events of a plot.
+ * @param {any} model Bokeh's model of it
+ * @param {string[]} picks Bokeh's events that choose a point ("tap", "doubletap", "pan"); "box": a drag draws a box and
+ *   chooses its corners; "hover": where the mouse is
+ * @param {import("./sources.js").Source} box gets the box that is drawn
+ */
 export function connectPicks(model, picks, box) {
   const { name } = model
   const callbacks = {}

@@ -54,7 +54,13 @@ function nameAxes({ below: [x], left: [y] }, names, signal) {
   }, signal)
 }
 
-// source(name) gives the source of that name, a new one if there is none.  The plot's view.
+/**
+ * Draw a picture in an element, and return Bokeh's view of the plot.
+ * @param {HTMLElement} host
+ * @param {any} picture from the description of the scene
+ * @param {(name: string) => import("./sources.js").Source} source makes a new one where there is none of that name
+ * @param {AbortSignal} signal
+ */
 export async function buildPlot(host, picture, source, signal) {
   waitLongForPress()
   const views = await Bokeh.embed.embed_item(picture.item, host)
@@ -91,16 +97,15 @@ const weightsOf = (part) => Object.fromEntries(WEIGHTS.filter((name) => part[nam
   .map((name) => [name, part[name].value ?? part[name]]).filter(([, value]) => typeof value !== "object"))
 const made = new WeakMap()
 
-// Sizes of texts, in pixels, for type of this size beside the pictures; lines and dots for the mode that is on.
+/** Give a plot sizes of texts for type of this size, in pixels, and lines and dots for the mode that is on. */
 export function sizePlot(plot, type) {
   for (const part of plot.model.references()) {
     if (!made.has(part)) made.set(part, weightsOf(part))
     const wide = Object.entries(made.get(part)).map(([name, value]) => [name, times(zoom(), value)])
     part.setv(Object.fromEntries(wide))
-    if (part.axis_label_text_font_size === undefined) continue
-    part.setv({
-      axis_label_text_font_size: `${type}px`, major_label_text_font_size: `${Math.round(TICKS * type)}px`,
-    })
+    if (part.axis_label_text_font_size !== undefined) {
+      part.setv({ axis_label_text_font_size: `${type}px`, major_label_text_font_size: `${Math.round(TICKS * type)}px` })
+    }
   }
 }
 
@@ -122,7 +127,7 @@ function shadeGlyph(glyph) {
   if (changed.length > 0) glyph.setv(Object.fromEntries(changed))
 }
 
-// Colours of the page's theme, on whatever Bokeh draws itself.
+/** Give whatever Bokeh itself draws the colours of the page's theme: of text, and of what is less important. */
 export function colourPlot(plot, text, muted) {
   setDark(isDark(text))
   for (const part of plot.model.references()) {

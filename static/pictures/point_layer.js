@@ -1,35 +1,52 @@
 // Thousands of points, written into the pixels of a sheet: drawing each one would take many times as long.
 
-// A transparent layer of points, each a small square: where many lie together it is opaque.
+import { element } from "../page/mount.js"
+import { cloudColour } from "./looks.js"
+
+/**
+ * Return what draws clouds as a transparent layer, each point a small square: where many lie together it is opaque.
+ *
+ * draw(ctx, size, ratio, clouds, places): a picture of `size` device pixels, `ratio` of them in a unit; places(cloud, add)
+ * calls add(x, y) in device pixels for each point.
+ */
 export function pointLayer() {
-  const sheet = document.createElement("canvas")
+  const sheet = element("canvas")
   const paper = sheet.getContext("2d")
   let pixels = null
+
+  /** @param {number} size @param {number[]} colour */
+  function begin(size, [red, green, blue]) {
+    if (sheet.width !== size || pixels === null) {
+      sheet.width = sheet.height = size
+      pixels = paper.createImageData(size, size)
+    }
+    // Bytes in the order of memory, as all browsers' machines have it: alpha last.
+    new Uint32Array(pixels.data.buffer).fill((blue << 16) | (green << 8) | red)
+  }
+
   return {
-    begin(size, [red, green, blue]) {
-      if (sheet.width !== size || pixels === null) {
-        sheet.width = sheet.height = size
-        pixels = paper.createImageData(size, size)
-      }
-      // Bytes in the order of memory, as all browsers' machines have it: alpha last.
-      new Uint32Array(pixels.data.buffer).fill((blue << 16) | (green << 8) | red)
-    },
-    add(x, y, side, alpha) {
-      const size = sheet.width
-      const [left, top] = [Math.round(x - side / 2), Math.round(y - side / 2)]
-      if (!(left >= 0 && top >= 0 && left + side <= size && top + side <= size)) return
-      for (let row = 0; row < side; row++) {
-        const at = 4 * ((top + row) * size + left) + 3
-        for (let i = 0; i < side; i++) pixels.data[at + 4 * i] += alpha
-      }
-    },
-    end(ctx) {
-      paper.putImageData(pixels, 0, 0)
-      ctx.drawImage(sheet, 0, 0)
+    draw(ctx, size, ratio, clouds, places) {
+      const side = Math.round(1.6 * ratio)
+      clouds.forEach((cloud, k) => {
+        begin(size, cloudColour(k))
+        const { data } = pixels
+        // The fewer, the darker.
+        const alpha = Math.max(110, Math.min(230, 1_100_000 / cloud.count))
+        places(cloud, (x, y) => {
+          const [left, top] = [Math.round(x - side / 2), Math.round(y - side / 2)]
+          if (!(left >= 0 && top >= 0 && left + side <= size && top + side <= size)) return
+          for (let row = 0; row < side; row++) {
+            const at = 4 * ((top + row) * size + left) + 3
+            for (let i = 0; i < side; i++) data[at + 4 * i] += alpha
+          }
+        })
+        paper.putImageData(pixels, 0, 0)
+        // Pixel by pixel, whatever the unit.
+        ctx.save()
+        ctx.setTransform(1, 0, 0, 1, 0, 0)
+        ctx.drawImage(sheet, 0, 0)
+        ctx.restore()
+      })
     },
   }
 }
-
-// Side of a point in device pixels, and its opacity (0 … 255): the fewer, the darker.
-export const sideOf = (ratio) => Math.round(1.6 * ratio)
-export const alphaOf = (cloud) => Math.max(110, Math.min(230, 1_100_000 / cloud.count))

@@ -1,17 +1,15 @@
-// The pictures as they are printed: dark on white in both themes, sharper than on a screen.
+// Plots of Bokeh as they are printed: dark on white in both themes, sharper than on a screen.
 
+import { element } from "../page/mount.js"
 import { atRatio, takeColours } from "./bokeh_private.js"
 import { layersOf } from "./ghost.js"
+import { INK } from "./looks.js"
 import { colourPlot } from "./plot.js"
-
-const INK = "rgb(16, 16, 16)"
 
 function composed(plot, side, ratio) {
   const { primary } = plot.canvas_view
   const { x0, y0, x1, y1 } = plot.frame.bbox
-  const sheet = document.createElement("canvas")
-  sheet.width = side
-  sheet.height = Math.round(ratio * plot.bbox.height)
+  const sheet = element("canvas", { width: side, height: Math.round(ratio * plot.bbox.height) })
   const paper = sheet.getContext("2d")
   for (const layer of layersOf(plot)) {
     paper.save()
@@ -26,8 +24,10 @@ function composed(plot, side, ratio) {
   return sheet
 }
 
-// A plot of Bokeh's with our canvases in it, `side` pixels wide.  It is painted as it is printed, and left in the colours
-// of print: all in one task, so that nobody sees it.
+/**
+ * Return a plot with our canvases in it, `side` pixels wide.  It is painted for print and left in the colours of print:
+ * all in one task, so that nobody sees it.
+ */
 export function shootPlot(plot, side) {
   const repaint = () => {
     plot.canvas_view.resize()
@@ -42,13 +42,5 @@ export function shootPlot(plot, side) {
     return composed(plot, side, ratio)
   })
   repaint()
-  return sheet
-}
-
-// What is painted by paint(ctx, {size, ratio, text, dark}), see "square_canvas.js".
-export function shootSquare(paint, side, ratio) {
-  const sheet = document.createElement("canvas")
-  sheet.width = sheet.height = side
-  paint(sheet.getContext("2d"), { size: side, ratio, text: INK, dark: false })
   return sheet
 }

@@ -3,6 +3,9 @@
 //
 // Vectors are those of the view: to the right, upwards, towards the eye; lengths are radii of the sphere around it.
 
+import { element } from "../page/mount.js"
+import { dot, unit } from "./vectors.js"
+
 // Pixels of the shading on a side, at most, and pixels of the picture for each of them: shades change slowly.
 const MOST = 128
 const COARSE = 2
@@ -16,8 +19,6 @@ const TONES = {
 }
 const GLASS = 0.22
 
-export const dot = (u, v) => u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
-const unit = (v) => v.map((x) => x / Math.hypot(...v))
 const [LIGHT_X, LIGHT_Y, LIGHT_Z] = unit(LIGHT)
 const [HALF_X, HALF_Y, HALF_Z] = unit(HALFWAY)
 
@@ -58,8 +59,7 @@ export function leaves(axes, semi, v) {
 
 // Paints such ellipsoids; `glass`: one through which what lies behind is seen.
 export function createSolid() {
-  const canvas = document.createElement("canvas")
-  canvas.width = canvas.height = MOST
+  const canvas = element("canvas", { width: MOST, height: MOST })
   const shade = canvas.getContext("2d")
   const image = shade.createImageData(MOST, MOST)
 
@@ -116,10 +116,10 @@ export function createSolid() {
 
   return {
     // `axes` in the view.
-    paint({ ctx, half, scale, ratio, text, dark }, axes, semi, glass = false) {
+    paint({ ctx, half, scale, ratio, dark, use }, axes, semi, glass = false) {
       const { halves, angle, width, height } = outline(axes, semi)
       const [columns, rows] = [width, height].map((length) =>
-        Math.max(16, Math.min(MOST, Math.ceil((2 * length * scale) / COARSE))))
+        Math.max(16, Math.min(MOST, Math.ceil((2 * length * scale * ratio) / COARSE))))
       cast(axes, semi, width, height, columns, rows, TONES[dark ? "dark" : "light"], glass)
       const edge = new Path2D()
       edge.ellipse(half, half, scale * halves[0], scale * halves[1], -angle, 0, 2 * Math.PI)
@@ -131,9 +131,7 @@ export function createSolid() {
       ctx.restore()
       ctx.save()
       ctx.globalAlpha = 0.55
-      ctx.setLineDash([])
-      ctx.lineWidth = 1.25 * ratio
-      ctx.strokeStyle = text
+      use({ weight: 1.25 })
       ctx.stroke(edge)
       ctx.restore()
     },

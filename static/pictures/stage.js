@@ -3,12 +3,14 @@
 // A picture is enlarged by the button in its corner or the key of its number; Shift adds a second one; Escape brings all
 // back.  On a phone one picture is seen at a time, chosen by its number below it.
 
+import { button, icon, relabel } from "../page/buttons.js"
 import { listen, tell } from "../page/bus.js"
 import { isTaken } from "../page/keys.js"
 import { element } from "../page/mount.js"
 import { isPresenting, setType, zoom } from "../page/presenting.js"
 import { PHONE } from "../page/windows.js"
 import { arrange } from "./arrange.js"
+import { isFolded, nameOf } from "./picture.js"
 import { sizePlot } from "./plot.js"
 
 const MOST_LARGE = 2
@@ -42,22 +44,21 @@ function captions(type) {
   return Object.assign((width) => high(lines(width), own(width)), { title: high(1, type), wide: WIDEST * type })
 }
 
-function cornerButton(toggle) {
-  const button = element("button", { type: "button", className: "corner" })
-  button.innerHTML = `<svg viewBox="0 0 24 24" width="1.3em" height="1.3em" aria-hidden="true"><path fill="currentColor"/></svg>`
-  button.addEventListener("click", (event) => toggle(event.shiftKey))
-  return button
-}
-
-// `shelf` holds the pictures; shown() is the scene on show.
+/**
+ * Return {place(scene), size(scene), cornerFor(name), enter(scene)}.
+ * @param {HTMLElement} shelf holds the pictures
+ * @param {() => any} shown returns the scene on show
+ * @param {AbortSignal} signal
+ */
 export function createStage(shelf, shown, signal) {
   let large = []
   let wanted = ""
-  const chips = element("div", { className: "chips", role: "group", "aria-label": "Picture" })
+  const chips = element("div", { className: "chips", role: "group", ariaLabel: "Picture" })
   shelf.after(chips)
 
-  const openCells = (scene) => scene.cells.filter((cell) => !cell.classList.contains("folded"))
-  const nameOf = (cell) => cell.dataset.name
+  const openCells = (scene) => scene.cells.filter((cell) => !isFolded(cell))
+  const cellOf = (name) => shown().cells.find((cell) => nameOf(cell) === name)
+  const placeShown = () => { if (shown() !== null) place(shown()) }
 
   // Only what changes is written: a plot whose size is set is laid out again.
   function put(cell, { x, y, width, edge, caption, small }, type) {
@@ -109,26 +110,17 @@ export function createStage(shelf, shown, signal) {
 
   function label(cell, i, isLarge) {
     const corner = cell.querySelector(".corner")
-    const said = `${isLarge ? "Beside the others again" : "Enlarge"} (${i + 1})`
-    if (corner.title === said) return
-    corner.title = said
-    corner.setAttribute("aria-label", `${isLarge ? "Reduce" : "Enlarge"} picture ${i + 1}`)
-    corner.setAttribute("aria-pressed", String(isLarge))
-    corner.querySelector("path").setAttribute("d", isLarge ? REDUCE : ENLARGE)
+    const title = `${isLarge ? "Beside the others again" : "Enlarge"} (${i + 1})`
+    if (corner.title === title) return
+    relabel(corner, isLarge ? REDUCE : ENLARGE, title, `${isLarge ? "Reduce" : "Enlarge"} picture ${i + 1}`)
+    corner.ariaPressed = isLarge
   }
 
   function showChips(cells, seen) {
-    chips.replaceChildren(...cells.map((cell, i) => {
-      const chip = element("button", {
-        type: "button", className: "chip", textContent: i + 1, "aria-pressed": String(cell === seen),
-        "aria-label": `Picture ${i + 1}`,
-      })
-      chip.addEventListener("click", () => {
-        if (cell.classList.contains("folded")) tell("fold", nameOf(cell))
-        else enlarge([nameOf(cell)])
-      })
-      return chip
-    }))
+    chips.replaceChildren(...cells.map((cell, i) => button("chip", () => {
+      if (isFolded(cell)) tell("fold", nameOf(cell))
+      else enlarge([nameOf(cell)])
+    }, { textContent: i + 1, ariaPressed: cell === seen, ariaLabel: `Picture ${i + 1}` })))
   }
 
   function enlarge(names) {
@@ -161,32 +153,31 @@ export function createStage(shelf, shown, signal) {
   listen("client", (own) => { wanted = own.large ?? "" }, signal)
   // What a lesson looks at.
   listen("look", (name) => {
-    const cell = shown().cells.find((one) => nameOf(one) === name)
-    if (cell.classList.contains("folded")) tell("fold", name)
+    if (isFolded(cellOf(name))) tell("fold", name)
     enlarge([name])
   }, signal)
   listen("fold", (name) => {
-    const cell = shown().cells.find((one) => nameOf(one) === name)
-    const folded = cell.classList.toggle("folded")
+    const folded = cellOf(name).classList.toggle("folded")
     if (folded) large = large.filter((one) => one !== name)
     else if (PHONE.matches) large = [name]
     place(shown())
     tell("folded", { name, folded })
   }, signal)
 
-  const resize = new ResizeObserver(() => { if (shown() !== null) place(shown()) })
+  const resize = new ResizeObserver(placeShown)
   resize.observe(shelf)
   // When all of the page has its new sizes.
-  listen("presenting", () => requestAnimationFrame(() => { if (shown() !== null) place(shown()) }), signal)
+  listen("presenting", () => requestAnimationFrame(placeShown), signal)
   signal.addEventListener("abort", () => resize.disconnect())
 
   return {
-    place, size, cornerFor: (name) => cornerButton((isAdded) => toggle(name, isAdded)),
+    place, size,
+    cornerFor: (name) => button("corner", (event) => toggle(name, event.shiftKey), { innerHTML: icon("", "1.3em") }),
     // The scene is on show: what its link has enlarged is so at first.
     enter(scene) {
       const names = scene.cells.map(nameOf)
       large = wanted.split(",").filter((name) => names.includes(name)).slice(0, MOST_LARGE)
-      for (const name of large) scene.cells[names.indexOf(name)].classList.remove("folded")
+      for (const name of large) cellOf(name).classList.remove("folded")
       wanted = ""
       tell("url", { large: large.join(",") })
       place(scene)

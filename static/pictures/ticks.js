@@ -3,7 +3,17 @@
 const FAR_BELOW = 1e-3
 const FAR_ABOVE = 1e5
 
-// As short as they can be, and where they have more than so many `letters` only each second or third.
+/** Return about `count` round numbers from low to high. */
+export function roundNumbers(low, high, count) {
+  const rough = (high - low) / count
+  const power = 10 ** Math.floor(Math.log10(rough))
+  const step = [1, 2, 5, 10].map((one) => one * power).find((one) => one >= rough)
+  const found = []
+  for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; i++) found.push(i * step)
+  return found
+}
+
+/** Return the labels of ticks, as short as they can be; where they have more than so many `letters`, of each second or third. */
 export function tickLabels(ticks, letters) {
   const most = Math.max(...ticks.map(Math.abs))
   const far = most < FAR_BELOW || most >= FAR_ABOVE
@@ -17,7 +27,7 @@ export function tickLabels(ticks, letters) {
   return labels.map((label, i) => (i % every === 0 ? label : ""))
 }
 
-// A formatter of Bokeh that writes them; letters() is for how many there is room.
+/** Return a formatter of Bokeh that writes them; letters() is for how many there is room. */
 export function tickFormatter(letters) {
   class ShortNumbers extends Bokeh.Models.BasicTickFormatter {
     doFormat(ticks) { return tickLabels(ticks, letters()) }

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import json
 import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from hess_explorer.page.description import describe
+from hess_explorer.scenes import scenes
 from hess_explorer.views import theme
 
 LOOKS = Path(__file__).resolve().parents[2] / "static/pictures/looks.js"
@@ -44,9 +47,14 @@ def test_lines_stand_out_and_what_is_impossible_is_quiet(page):
         luminance(shades[name]) < luminance(shades["orbit"]) for name in ("forbidden", "locked", "muted", "unstable"))
 
 
-def test_the_browser_has_the_same_shades():
-    rows = re.findall(r'\["(\w+)", "(#\w{6})", "(#\w{6})"\]', LOOKS.read_text(encoding="utf-8"))
-    assert {name: pair for name, *pair in rows} == {name: list(pair) for name, pair in theme.SHADES.items()}
+def test_the_browser_gets_its_shades_from_here():
+    described = json.loads(describe(next(iter(scenes()))))
+    assert described["shades"] == {name: list(pair) for name, pair in theme.SHADES.items()}
+    script = LOOKS.read_text(encoding="utf-8")
+    named = set(re.findall(r'look\("(\w+)"', script))
+    assert {"orbit", "stable", "unstable", "second", "muted"} <= named <= theme.SHADES.keys()
+    # It repeats none of them.
+    assert not {colour for pair in theme.SHADES.values() for colour in pair} & set(re.findall(r"#[0-9A-F]{6}", script))
 
 
 def test_legends_follow_the_page():

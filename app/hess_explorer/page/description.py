@@ -24,6 +24,7 @@ from hess_explorer.sweep.chart import sides_of_places, swept
 from hess_explorer.sweep.quantities import quantity
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import with_formulas
+from hess_explorer.views.theme import SHADES
 from hess_mechanics.parameters import GROUPS
 
 __all__ = ["describe", "describe_lesson"]
@@ -61,6 +62,7 @@ def _describe(name: str) -> str:
         "tracks": [f"data-{name}" for name in scene.tracks],
         "dots": {source: list(columns) for source, columns in scene.dots.items()},
         "angles": list(scene.angles),
+        "shades": SHADES,
     })
 
 

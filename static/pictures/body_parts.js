@@ -1,0 +1,83 @@
+// What stands out of a body: rods, the ball of its mass, wheels, and the arrow below it.
+
+import { circle } from "./circles.js"
+import { circlePath, LOOKS } from "./looks.js"
+import { cross, plus, scaled, unit } from "./vectors.js"
+
+// The radius of a wheel, and half of its thickness.
+export const WHEEL = 0.15
+const THICK = 0.024
+
+/** Draw a straight line with round ends. */
+export function drawLine({ ctx, line, use }, from, to, look) {
+  use({ colour: look.colour, weight: look.weight })
+  ctx.lineCap = "round"
+  line(from, to)
+  ctx.lineCap = "butt"
+}
+
+/** Draw a ball, lit from above; its colour is plain up to the share `plain` of its radius. */
+export function drawBall(ctx, x, y, colour, radius, ink, plain = 0.62) {
+  const light = ctx.createRadialGradient(x - 0.45 * radius, y - 0.5 * radius, 0, x - 0.1 * radius, y - 0.1 * radius,
+    1.1 * radius)
+  light.addColorStop(0, "white")
+  light.addColorStop(0.35, colour)
+  light.addColorStop(plain, colour)
+  light.addColorStop(1, "#443")
+  circlePath(ctx, x, y, radius)
+  ctx.fillStyle = light
+  ctx.fill()
+  ctx.setLineDash([])
+  ctx.lineWidth = 1.5
+  ctx.strokeStyle = ink
+  ctx.stroke()
+}
+
+/** Draw a wheel that touches the sphere at a place and rolls along a direction. */
+export function drawWheel({ ctx, text, dark, depth, at, use }, touching, along) {
+  const axle = unit(cross(touching, along))
+  const middle = scaled(touching, 1 - WHEEL)
+  const side = depth(...axle) >= 0 ? THICK : -THICK
+  const [X, Y, Z] = circle(axle, 0, 40)
+  // Adds to the path the disc of a radius, aside along the axle.
+  const disc = (aside, radius) => {
+    const centre = plus(middle, axle, aside)
+    for (let i = 0; i < X.length; i++) {
+      const place = at(plus(centre, [X[i], Y[i], Z[i]], radius))
+      if (i === 0) ctx.moveTo(...place)
+      else ctx.lineTo(...place)
+    }
+    ctx.closePath()
+  }
+  const fill = (colour, asides, radius) => {
+    ctx.fillStyle = colour
+    ctx.beginPath()
+    for (const aside of asides) disc(aside * side, radius)
+    ctx.fill()
+  }
+  use({ weight: 2.5 })
+  ctx.lineJoin = "round"
+  // The tread is what its discs cover: one path of all of them.
+  fill(text, [-1, -0.6, -0.2, 0.2, 0.6], WHEEL)
+  ctx.stroke()
+  fill(dark ? "#C8C8C8" : "#EEE", [1], WHEEL)
+  ctx.stroke()
+  fill(text, [1], 0.25 * WHEEL)
+}
+
+/** Draw an arrow from the sphere outwards, with the label beside its head. */
+export function drawArrow(sheet, along, label) {
+  const { ctx, text, at, write } = sheet
+  const [from, to] = [scaled(along, 1.02), scaled(along, 1.15)]
+  drawLine(sheet, from, to, LOOKS.axis)
+  const [x0, y0] = at(from)
+  const [x, y] = at(to)
+  if (Math.hypot(x - x0, y - y0) > 6) {
+    const angle = Math.atan2(y - y0, x - x0)
+    ctx.fillStyle = text
+    ctx.beginPath()
+    for (const turned of [0, 2.4, -2.4]) ctx.lineTo(x + 7 * Math.cos(angle + turned), y + 7 * Math.sin(angle + turned))
+    ctx.fill()
+  }
+  write(label, x + 14 + ctx.measureText(label).width / 2, y)
+}

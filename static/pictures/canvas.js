@@ -1,0 +1,86 @@
+// Canvases that the page paints itself: sharp on every screen, and painted again when their data, their size or the theme
+// of the page change.
+
+import { listen } from "../page/bus.js"
+import { element } from "../page/mount.js"
+import { zoom } from "../page/presenting.js"
+import { INK, isDark, setDark, watchTheme } from "./looks.js"
+
+const pixelRatio = () => window.devicePixelRatio || 1
+
+/** Give a canvas the pixels of the screen for a size in CSS pixels.  Return its context, empty, whose unit is a CSS pixel. */
+export function fit(canvas, width, height) {
+  const ctx = canvas.getContext("2d")
+  const ratio = pixelRatio()
+  const [columns, rows] = [width, height].map((side) => Math.round(ratio * side))
+  if (canvas.width !== columns || canvas.height !== rows) Object.assign(canvas, { width: columns, height: rows })
+  ctx.reset()
+  ctx.scale(ratio, ratio)
+  return ctx
+}
+
+/**
+ * Return a canvas that paints itself.
+ * @param {object} properties see `element`
+ * @param {(ctx: CanvasRenderingContext2D, look: {width: number, height: number, text: string, dark: boolean}) => void} paint
+ *   gets the size in CSS pixels, the colour of text, and whether the page is dark
+ * @param {AbortSignal} signal
+ */
+export function liveCanvas(properties, paint, signal) {
+  const canvas = element("canvas", properties)
+  // To ask for the size in each frame would lay out the page.
+  const own = { canvas, width: 0, height: 0, request }
+  let requested = false
+
+  function draw() {
+    if (!requested) return
+    requested = false
+    const { width, height } = own
+    if (width === 0 || height === 0) return
+    const text = getComputedStyle(canvas).color
+    const dark = isDark(text)
+    setDark(dark)
+    paint(fit(canvas, width, height), { width, height, text, dark })
+  }
+
+  function request() {
+    if (requested) return
+    requested = true
+    requestAnimationFrame(draw)
+  }
+
+  // With all the others of a state, rather than in the next frame.
+  listen("paint", draw, signal)
+  listen("presenting", request, signal)
+  watchTheme(request, signal)
+  const resize = new ResizeObserver(() => {
+    Object.assign(own, { width: canvas.clientWidth, height: canvas.clientHeight })
+    request()
+  })
+  resize.observe(canvas)
+  signal.addEventListener("abort", () => resize.disconnect())
+  return own
+}
+
+/**
+ * Add a square canvas to an element, as wide as that.
+ *
+ * paint(ctx, {edge, ratio, text, dark}): the unit of lengths is a CSS pixel, larger in present mode; `edge` is the side in
+ * units, `ratio` the number of device pixels in a unit.  shoot(side) returns the picture for print, `side` pixels wide.
+ */
+export function squareCanvas(el, properties, paint, signal) {
+  const own = liveCanvas(properties, (ctx, { width, text, dark }) => {
+    ctx.scale(zoom(), zoom())
+    paint(ctx, { edge: width / zoom(), ratio: pixelRatio() * zoom(), text, dark })
+  }, signal)
+  el.append(own.canvas)
+  const shoot = (side) => {
+    const sheet = element("canvas", { width: side, height: side })
+    const ctx = sheet.getContext("2d")
+    const ratio = zoom() * side / own.width
+    ctx.scale(ratio, ratio)
+    paint(ctx, { edge: side / ratio, ratio, text: INK, dark: false })
+    return sheet
+  }
+  return Object.assign(own, { shoot })
+}

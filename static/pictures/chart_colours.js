@@ -1,0 +1,43 @@
+// Which colours the numbers of a chart have, and what is shown where a cell is not computed yet.
+
+// Cells along a side that come first, see "sweep/chart.py".
+const COARSE = 24
+// Of the numbers so many lie beyond each end of the colours: one that is far off would take all of them.
+const BEYOND = 0.01
+
+/**
+ * Return the ends of the colours, and whether some numbers lie beyond: those of a turn, or all numbers but a few.
+ * @param {{values: Float64Array, turn: number}} chart
+ */
+export function coloursOf({ values, turn }) {
+  if (turn > 0) return { low: -turn / 2, high: turn / 2, isBelow: false, isAbove: false }
+  const sorted = values.filter(Number.isFinite).sort()
+  if (sorted.length === 0) return { low: 0, high: 1, isBelow: false, isAbove: false }
+  const at = (share) => sorted[Math.round(share * (sorted.length - 1))]
+  const [least, most] = [at(0), at(1)]
+  let [low, high] = [at(BEYOND), at(1 - BEYOND)]
+  if (!(high > low)) [low, high] = [least, most]
+  if (!(high > low)) {
+    const room = Math.max(Math.abs(low) * 1e-6, 1e-9)
+    ;[low, high] = [low - room, high + room]
+  }
+  return { low, high, isBelow: least < low, isAbove: most > high }
+}
+
+/**
+ * Return the numbers of all cells: one that is not computed looks like the nearest one that is, but no farther away than
+ * the coarse ones are.
+ */
+export function filled({ values, status, x: { count: columns }, y: { count: rows } }) {
+  let coarse = 1
+  while (Math.max(rows, columns) > COARSE * coarse) coarse *= 2
+  const nearest = (i, step, count) => Math.min(Math.round(i / step) * step, Math.floor((count - 1) / step) * step)
+  return Float32Array.from(values, (_, own) => {
+    const [row, column] = [Math.floor(own / columns), own % columns]
+    let at = own
+    for (let step = 2; status[at] === 0 && step <= coarse; step *= 2) {
+      at = nearest(row, step, rows) * columns + nearest(column, step, columns)
+    }
+    return status[at] === 0 ? NaN : values[at]
+  })
+}
