@@ -1,5 +1,6 @@
 // The bar: the menu of scenes with the name of the one on show, and what can be done with the page.
 
+import { button, icon } from "../page/buttons.js"
 import { listen, tell } from "../page/bus.js"
 import { element, lifetime } from "../page/mount.js"
 import { isPresenting, wear } from "../page/presenting.js"
@@ -13,13 +14,13 @@ const MORE = "M5 10a2 2 0 1 0 0 4 2 2 0 0 0 0-4zm7 0a2 2 0 1 0 0 4 2 2 0 0 0 0-4
 const MENU = "M4 6h16v2H4zm0 5h16v2H4zm0 5h16v2H4z"
 
 // In groups; each tells its name.  isDrawn: only where clicks and boxes are drawn;
-// isStep: enabled where there is such a step, `without` says why it is not; isFar: on a phone in the menu More.
+// without: why it is disabled where there is no such step; isFar: on a phone in the menu More.
 const TOOLS = [
   [
-    { name: "undo", label: "Undo", title: "Take back the last change (Ctrl+Z)", isStep: true,
+    { name: "undo", label: "Undo", title: "Take back the last change (Ctrl+Z)",
       without: "nothing has been changed yet",
       icon: "M9 5 3 10l6 5v-4h5a3.5 3.5 0 0 1 0 7H8v2h6a5.5 5.5 0 0 0 0-11H9z" },
-    { name: "redo", label: "Redo", title: "The change that was taken back (Ctrl+Shift+Z)", isStep: true, isFar: true,
+    { name: "redo", label: "Redo", title: "The change that was taken back (Ctrl+Shift+Z)", isFar: true,
       without: "nothing has been taken back",
       icon: "M15 5l6 5-6 5v-4h-5a3.5 3.5 0 0 0 0 7h6v2h-6a5.5 5.5 0 0 1 0-11h5z" },
     { name: "clear", label: "Clear", title: "Without all clicks and boxes", isDrawn: true, isFar: true,
@@ -28,7 +29,7 @@ const TOOLS = [
       icon: "M12 5a7 7 0 1 1-6.7 9h2.1A5 5 0 1 0 12 7v3.5L6.5 6 12 1.5z" },
   ],
   [
-    { name: "pin", label: "Pin", title: "Keep this state, to compare others with it", isPin: true, isFar: true,
+    { name: "pin", label: "Pin", title: "Keep this state, to compare others with it", isFar: true,
       icon: "M9 3h6v2l-1 1v5l3 3v2h-4v5h-2v-5H7v-2l3-3V6L9 5z" },
     { name: "chart", label: "Chart", title: "A quantity over two parameters, computed while you go on", isFar: true,
       icon: "M3 3h2v16h16v2H3zm4 2h4v4H7zm5 0h4v4h-4zm5 0h4v4h-4zM7 10h4v4H7zm5 0h4v4h-4zm0 5h4v3h-4zm5-5h4v4h-4z" },
@@ -47,14 +48,9 @@ const TOOLS = [
   ],
 ]
 
-const icon = (path) => `<svg viewBox="0 0 24 24" width="1.4em" height="1.4em" aria-hidden="true"><path fill="currentColor" d="${path}"/></svg>`
-
 function tool({ name, label, title, icon: path }) {
-  const button = element("button", { type: "button", className: `tool param-${name}`, title, "aria-label": label })
-  button.innerHTML = icon(path)
-  button.append(element("span", { className: "label", textContent: label }))
-  button.addEventListener("click", () => tell(name))
-  return button
+  return button(`tool param-${name}`, () => tell(name), { title, ariaLabel: label, innerHTML: icon(path) },
+    element("span", { className: "label", textContent: label }))
 }
 
 export function render({ model, view, el }) {
@@ -64,58 +60,40 @@ export function render({ model, view, el }) {
   const taking = exportDialog(model.files)
   const chart = chartPanel(model.palettes, signal)
   const heading = element("h1", { className: "heading" })
-  const open = element("button", {
-    type: "button", className: "tool param-scenes", title: "Choose a scene", "aria-haspopup": "dialog",
-  })
-  open.innerHTML = icon(MENU)
-  open.append(element("span", { textContent: "Scenes" }))
-  open.addEventListener("click", menu.open)
-
-  const drawn = []
-  const far = []
-  const steps = new Map()
-  const groups = TOOLS.map((group) => element("div", { className: "group" }, ...group.map((one) => {
-    const button = tool(one)
-    if (one.isDrawn) drawn.push(button)
-    if (one.isFar) far.push(button)
-    if (one.isStep) steps.set(one.name, [button, one])
-    if (one.name === "present") sayPresenting(button)
-    if (one.name === "chart") sayCharting(button, one)
-    if (one.isPin) listen("compared", (compared) => button.setAttribute("aria-pressed", String(compared !== null)), signal)
-    return button
-  })))
-  const more = moreMenu(far, icon(MORE), signal)
+  const open = button("tool param-scenes", menu.open, { title: "Choose a scene", ariaHasPopup: "dialog", innerHTML: icon(MENU) },
+    element("span", { textContent: "Scenes" }))
+  // Name → [button, its description].
+  const tools = new Map(TOOLS.flat().map((one) => [one.name, [tool(one), one]]))
+  const those = (property) => [...tools.values()].filter(([, one]) => one[property])
+  const groups = TOOLS.map((group) => element("div", { className: "group" }, ...group.map(({ name }) => tools.get(name)[0])))
+  const more = moreMenu(those("isFar").map(([item]) => item), icon(MORE), signal)
   el.append(
     element("div", { className: "tools" }, open, heading, element("span", { className: "room" }), ...groups, ...more),
     menu.dialog, share.dialog, taking.dialog, chart.panel)
 
   // How far a chart is whose panel may be closed.
-  function sayCharting(button, { label, title }) {
-    listen("charting", (share) => {
-      const said = share === null ? "" : ` ${Math.floor(100 * share)} %`
-      button.querySelector(".label").textContent = label + said
-      button.title = share === null ? title : `The chart on its way:${said}`
-    }, signal)
-  }
+  listen("charting", (share) => {
+    const [item, { label, title }] = tools.get("chart")
+    const said = share === null ? "" : ` ${Math.floor(100 * share)} %`
+    item.querySelector(".label").textContent = label + said
+    item.title = share === null ? title : `The chart on its way:${said}`
+  }, signal)
 
-  function sayPresenting(button) {
-    const say = (on) => button.setAttribute("aria-pressed", String(on))
-    listen("presenting", say, signal)
-    say(isPresenting())
-  }
+  const press = (name, on) => { tools.get(name)[0].ariaPressed = on }
+  listen("presenting", (on) => press("present", on), signal)
+  press("present", isPresenting())
+  listen("compared", (compared) => press("pin", compared !== null), signal)
 
   const show = (scene) => {
     heading.textContent = scene.title
-    for (const button of drawn) button.hidden = !scene.drawn
+    for (const [item] of those("isDrawn")) item.hidden = !scene.drawn
     menu.show(scene.name)
-    share.show(scene)
-    taking.show(scene)
-    chart.show(scene)
+    for (const part of [share, taking, chart]) part.show(scene)
   }
   const enable = (counts) => {
-    for (const [name, [button, { title, without }]] of steps) {
-      button.disabled = counts[name] === 0
-      button.title = button.disabled ? `Disabled: ${without}` : title
+    for (const [item, { name, title, without }] of those("without")) {
+      item.disabled = counts[name] === 0
+      item.title = item.disabled ? `Disabled: ${without}` : title
     }
   }
   enable({ undo: 0, redo: 0 })

@@ -8,6 +8,8 @@ import { HALF } from "../page/linked.js"
 import { element } from "../page/mount.js"
 import { PHONE } from "../page/windows.js"
 import { gallery } from "../pictures/gallery.js"
+import { nameOf } from "../pictures/picture.js"
+import { dialogOf, section } from "./dialog.js"
 
 // So wide a page must be to show all its pictures at once.
 const LEAST = 804
@@ -21,23 +23,16 @@ function addressOf(query) {
   const url = new URL(`?${query}&embed=1`, here)
   for (const key of SHARED) if (here.searchParams.has(key)) url.searchParams.set(key, here.searchParams.get(key))
   if (url.searchParams.get("scene") === gallery.shown.name) {
-    const inSight = gallery.shown.cells.filter((cell) => cell.checkVisibility())
-    url.searchParams.set("pictures", inSight.map((cell) => cell.dataset.name).join(","))
+    url.searchParams.set("pictures", gallery.cellsInSight().map(nameOf).join(","))
   }
   return url.href
 }
 
-// {dialog, open([query of A, query of B])}.
+/** Return {dialog, open([query of A, query of B])}. */
 export function besideDialog(signal) {
-  const close = element("button", { type: "button", className: "button", textContent: "Close" })
   const halves = ["A, pinned", "B"].map((title) => element("iframe", { title, name: HALF, className: "half" }))
-  const dialog = element("dialog", { className: "beside", "aria-label": "Side by side" },
-    element("div", { className: "head" }, element("h2", { textContent: "Side by side" }), close),
-    element("div", { className: "halves" }, ...halves.map((half) => (
-      element("section", { "aria-label": half.title }, element("h3", { textContent: half.title }), half)))))
-  close.addEventListener("click", () => dialog.close())
-  // Nothing of it is for the page beneath.
-  dialog.addEventListener("keydown", (event) => event.stopPropagation())
+  const dialog = dialogOf("Side by side", "beside", [],
+    element("div", { className: "halves" }, ...halves.map((half) => section(half.title, half.title, half))))
   dialog.addEventListener("close", () => { for (const half of halves) half.src = "about:blank" })
   window.addEventListener("message", ({ source, origin, data }) => {
     if (origin !== window.location.origin || !halves.some(({ contentWindow }) => contentWindow === source)) return

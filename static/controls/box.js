@@ -15,29 +15,34 @@ function numberOf(text) {
   return plain === "" || !Number.isFinite(Number(plain)) ? Number.NaN : Number(plain)
 }
 
-// value() is the number that the control shows; change(value) takes one that was typed, nudge(value) one by an arrow,
-// stepOf() says how far.  {box, put(value), show(value, isIdle), refuse(sentence), rest(why or ""), forget()}.
+/**
+ * Return {box, put(value), show(value before, value, isIdle), refuse(sentence), rest(why or ""), forget()}.
+ * @param {{name: string, symbol: string, help: string, value: () => number, change: (value: number) => void,
+ *   nudge: (value: number) => void, stepOf: () => number}} number value() is what the control shows; change takes a value
+ *   that was typed, nudge one by an arrow, stepOf() says how far
+ */
 export function exactBox({ name, symbol, help, value, change, nudge, stepOf }) {
   const box = element("input", {
-    type: "text", inputMode: "decimal", spellcheck: false, title: `${help} ${TYPE}`, "aria-label": `${symbol}, exact value`,
-    className: "exact",
+    type: "text", inputMode: "decimal", spellcheck: false, title: `${help} ${TYPE}`, ariaLabel: `${symbol}, exact value`,
+    className: "exact", onchange: take, oninput: () => box.setCustomValidity(""), onkeydown,
   })
   // Whether the server is reading what was typed.
   let isAsked = false
 
+  const isFocused = () => box.getRootNode().activeElement === box
   // `why`: what is wrong, "" for nothing.
   const mark = (why) => {
-    box.setAttribute("aria-invalid", String(why !== ""))
+    box.ariaInvalid = why !== ""
     box.setCustomValidity(why)
   }
   const put = (shown) => {
     isAsked = false
     box.value = String(shown)
-    mark("")
-    box.removeAttribute("aria-invalid")
+    box.setCustomValidity("")
+    box.ariaInvalid = null
   }
 
-  box.addEventListener("change", () => {
+  function take() {
     const text = box.value.trim()
     const typed = numberOf(text)
     if (text !== "" && Number.isNaN(typed)) {
@@ -49,40 +54,38 @@ export function exactBox({ name, symbol, help, value, change, nudge, stepOf }) {
     if (typed !== value()) change(typed)
     // As the server will write it: from here on another text is one that is being typed.
     box.value = String(typed)
-  })
-  box.addEventListener("input", () => box.setCustomValidity(""))
-  box.addEventListener("keydown", (event) => {
+  }
+
+  function onkeydown(event) {
     // While a text is typed the browser itself undoes.
     if ((event.ctrlKey || event.metaKey) && box.value !== String(value())) event.stopPropagation()
     if (event.key in STEPS) {
       const typed = numberOf(box.value)
       nudge((Number.isNaN(typed) ? value() : typed) + STEPS[event.key] * stepOf() * (event.shiftKey ? 10 : 1))
-      event.preventDefault()
-    }
-    if (event.key !== "Escape") return
-    put(value())
+    } else if (event.key === "Escape") put(value())
+    else return
     event.preventDefault()
-  })
+  }
 
   return {
     box, put,
     // Of a state: those may come while a number is typed, piece by piece of a section, and leave it alone.
     show(before, shown, isIdle) {
-      if (!isAsked && box.getRootNode().activeElement === box && box.value !== String(before)) return
+      if (!isAsked && isFocused() && box.value !== String(before)) return
       isAsked = false
       // Nobody can look along a disabled box for digits that it has no room for.
       box.value = String(isIdle ? Number(shown.toPrecision(6)) : shown)
-      box.removeAttribute("aria-invalid")
+      box.ariaInvalid = null
     },
     refuse(sentence) {
       if (!isAsked) return
       isAsked = false
       mark(sentence)
-      if (box.getRootNode().activeElement === box) box.reportValidity()
+      if (isFocused()) box.reportValidity()
     },
     rest(why) {
       box.disabled = why !== ""
-      box.title = why === "" ? `${help} ${TYPE}` : why
+      box.title = why || `${help} ${TYPE}`
     },
     forget() { isAsked = false },
   }

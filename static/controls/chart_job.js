@@ -8,14 +8,18 @@ const PAUSE = 200
 const sideOf = ({ name, low, high, count }) => [name, low, high, count]
 // What the server is asked, see "sweep/chart.py".
 const asked = ({ state, quantity, part, x, y }) => ({ state, quantity, part, x: sideOf(x), y: sideOf(y) })
+const ask = (what) => tell("ask-chart", what)
 
-// changed(chart, said) is called when cells have come, and at the end; explained(sentence, [x, y]) with how a cell ends.
+/**
+ * Return {running: the chart that is computed or null, start(chart), stop(), why(chart, [x, y])}.
+ * @param {(chart: any) => void} changed is called when cells have come, and at the end
+ * @param {(sentence: string, place: [number, number]) => void} explained is told how a cell ends
+ * @param {AbortSignal} signal
+ */
 export function chartJob(changed, explained, signal) {
   let chart = null
   let timer = null
   let number = 0
-
-  const ask = (what) => tell("ask-chart", what)
 
   // Cells that follow those which are known.
   function take({ cells, first, done, of, left, level, error, version, x, y }, block) {
@@ -28,11 +32,11 @@ export function chartJob(changed, explained, signal) {
     if (first !== chart.known) return
     const numbers = new Float64Array(block.slice(0, 8 * cells))
     const places = new Int32Array(block.slice(8 * cells, 12 * cells))
-    const status = new Uint8Array(block.slice(12 * cells, 13 * cells))
-    for (let i = 0; i < cells; i++) {
-      chart.values[places[i]] = numbers[i]
-      chart.status[places[i]] = status[i]
-    }
+    const status = new Uint8Array(block, 12 * cells, cells)
+    places.forEach((place, i) => {
+      chart.values[place] = numbers[i]
+      chart.status[place] = status[i]
+    })
     chart.known += cells
   }
 
@@ -61,7 +65,7 @@ export function chartJob(changed, explained, signal) {
     start(next) {
       if (chart !== null) end("Stopped.")
       number += 1
-      chart = Object.assign(next, { id: number, known: 0, share: 0, left: null, said: "" })
+      chart = Object.assign(next, { id: number })
       ask({ start: asked(chart), id: number })
       tell("charting", 0)
     },

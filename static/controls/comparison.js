@@ -1,29 +1,28 @@
 // What the pinned state and the one on show differ in, in a table under the controls.
 
+import { button } from "../page/buttons.js"
 import { listen, tell } from "../page/bus.js"
 import { element } from "../page/mount.js"
 import { besideDialog } from "./beside.js"
 
+const cell = (tag, textContent, scope = "") => element(tag, { textContent, ...(scope && { scope }) })
+
+/** Return the section, hidden while no state is pinned. */
 export function comparison(signal) {
-  const said = element("p", { className: "text", role: "status" })
-  const flip = element("button", {
-    type: "button", className: "button param-flip", textContent: "A | B", title: "The pinned state, and back (C)",
-  })
-  const beside = besideDialog(signal)
-  const apart = element("button", {
-    type: "button", className: "button param-beside", textContent: "Side by side", title: "Both, linked in time and rotation",
-  })
-  const unpin = element("button", { type: "button", className: "button param-unpin", textContent: "Unpin" })
-  const body = element("tbody")
-  const table = element("table", {}, element("thead", {}, element("tr", {},
-    ...["", "A", "B"].map((text) => element(text === "" ? "td" : "th", { textContent: text })))), body)
-  const box = element("section", { className: "comparison", hidden: true, "aria-label": "Comparison" },
-    said, element("div", { className: "comparing" }, flip, apart, unpin), table, beside.dialog)
-  flip.addEventListener("click", () => tell("flip"))
   let queries = []
-  apart.addEventListener("click", () => beside.open(queries))
-  unpin.addEventListener("click", () => tell("pin"))
   let shown = ""
+  const beside = besideDialog(signal)
+  const said = element("p", { className: "text", role: "status" })
+  const flip = button("button param-flip", () => tell("flip"), { textContent: "A | B", title: "The pinned state, and back (C)" })
+  const apart = button("button param-beside", () => beside.open(queries), {
+    textContent: "Side by side", title: "Both, linked in time and rotation",
+  })
+  const unpin = button("button param-unpin", () => tell("pin"), { textContent: "Unpin" })
+  const body = element("tbody")
+  const table = element("table", {},
+    element("thead", {}, element("tr", {}, cell("td", ""), cell("th", "A"), cell("th", "B"))), body)
+  const box = element("section", { className: "comparison", hidden: true, ariaLabel: "Comparison" },
+    said, element("div", { className: "comparing" }, flip, apart, unpin), table, beside.dialog)
   listen("compared", (compared) => {
     // It comes with every state.
     const text = JSON.stringify(compared)
@@ -34,10 +33,10 @@ export function comparison(signal) {
     const { title, isPinnedShown, rows } = compared
     queries = compared.queries
     said.textContent = title !== null ? `A: ${title}` : isPinnedShown ? "A, pinned, is on show" : "B is on show, A is pinned"
-    flip.setAttribute("aria-pressed", String(isPinnedShown))
+    flip.ariaPressed = isPinnedShown
     table.hidden = rows.length === 0
-    body.replaceChildren(...rows.map(([name, one, two]) => element("tr", {},
-      element("th", { scope: "row", textContent: name }), element("td", { textContent: one }), element("td", { textContent: two }))))
+    body.replaceChildren(...rows.map(([name, one, two]) => (
+      element("tr", {}, cell("th", name, "row"), cell("td", one), cell("td", two)))))
   }, signal)
   return box
 }

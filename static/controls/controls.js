@@ -3,6 +3,7 @@
 // What the server says of all values comes by "controls": {name: [value, low, high, step,
 // whether it is disabled] or option}.
 
+import { button } from "../page/buttons.js"
 import { listen, tell } from "../page/bus.js"
 import { sayDragMe } from "../page/handle.js"
 import { element, lifetime } from "../page/mount.js"
@@ -12,9 +13,11 @@ import { comparison } from "./comparison.js"
 import { menu } from "./menu.js"
 import { number } from "./number.js"
 
+const twice = (names) => names.map((name) => [name, name])
+
+// [element, show(option)].
 function choice({ name, label, options, help }) {
-  const plain = options.map((option) => [option, option])
-  const [frame, show] = menu(name, label, plain, help, (option) => tell("change", { [name]: option }))
+  const [frame, show] = menu(name, label, twice(options), help, (option) => tell("change", { [name]: option }))
   return [element("div", {}, frame, element("p", { className: "text help", textContent: help })), show]
 }
 
@@ -23,7 +26,7 @@ const EXAMPLES = "preset"
 export function render({ model, view, el }) {
   const signal = lifetime({ model, view })
   const column = element("div", { className: "board" })
-  const chooser = element("div", { className: "chooser", role: "group", "aria-label": "Control at hand" })
+  const chooser = element("div", { className: "chooser", role: "group", ariaLabel: "Control at hand" })
   el.append(chooser, column, comparison(signal))
   let shows = {}
   let refusals = {}
@@ -35,7 +38,7 @@ export function render({ model, view, el }) {
   function take(name) {
     atHand = items.has(name) ? name : items.keys().next().value
     for (const [other, item] of items) item.classList.toggle("at-hand", other === atHand)
-    for (const chip of chooser.children) chip.setAttribute("aria-pressed", String(chip.dataset.name === atHand))
+    for (const chip of chooser.children) chip.ariaPressed = chip.dataset.name === atHand
   }
 
   function groupOf(name, members) {
@@ -51,8 +54,8 @@ export function render({ model, view, el }) {
   }
 
   function build(scene) {
-    const [examples, showExample] = menu(EXAMPLES, "Example",
-      [["Choose an example…", ""], ...scene.presets.map((name) => [name, name])],
+    const isEssential = (name) => scene.essential.includes(name)
+    const [examples, showExample] = menu(EXAMPLES, "Example", [["", "Choose an example…"], ...twice(scene.presets)],
       "States to begin with", (name) => { if (name !== "") tell("preset", name) })
     shows = { [EXAMPLES]: showExample }
     refusals = {}
@@ -65,22 +68,17 @@ export function render({ model, view, el }) {
       items.set(control.name, item)
       signs.set(control.name, control.symbol ?? control.label)
     }
-    const essential = scene.essential.map((name) => items.get(name))
-    const groups = scene.groups.map((group) => [group, scene.controls.filter((control) => (
-      control.group === group && !scene.essential.includes(control.name))).map(({ name }) => items.get(name))])
+    const further = scene.controls.filter(({ name }) => !isEssential(name))
+    const groups = scene.groups.map((group) => [group, further.filter((control) => control.group === group)])
+      .filter(([, members]) => members.length > 0)
     column.replaceChildren(
-      element("div", { className: "column" }, examples, ...essential),
-      ...groups.filter(([, members]) => members.length > 0).map(([group, members]) => groupOf(group, members)))
-    const order = [...scene.essential, EXAMPLES, ...[...items.keys()].filter((name) => (
-      name !== EXAMPLES && !scene.essential.includes(name)))]
-    chooser.replaceChildren(...order.map((name) => {
-      const chip = element("button", { type: "button", className: "chip", textContent: signs.get(name) })
-      chip.dataset.name = name
-      chip.classList.toggle("further", !scene.essential.includes(name))
-      chip.addEventListener("click", () => take(name))
-      return chip
-    }))
-    take(scene.essential.includes(atHand) ? atHand : order[0])
+      element("div", { className: "column" }, examples, ...scene.essential.map((name) => items.get(name))),
+      ...groups.map(([group, members]) => groupOf(group, members.map(({ name }) => items.get(name)))))
+    const order = [...scene.essential, EXAMPLES, ...further.map(({ name }) => name)]
+    chooser.replaceChildren(...order.map((name) => button(`chip${isEssential(name) ? "" : " further"}`, () => take(name), {
+      textContent: signs.get(name), "data-name": name,
+    })))
+    take(isEssential(atHand) ? atHand : order[0])
   }
   const show = (values) => {
     for (const [name, value] of Object.entries(values)) shows[name]?.(value)

@@ -1,78 +1,53 @@
 // The dialog Export: the data, a figure or a film of one picture, or all of a state in one file, made by the server; the
 // command that makes it, and the lines of Python that compute the same.
 
+import { button } from "../page/buttons.js"
 import { tell } from "../page/bus.js"
 import { linkTo } from "../page/embedding.js"
 import { element } from "../page/mount.js"
 import { gallery } from "../pictures/gallery.js"
-import { dialogOf } from "./dialog.js"
+import { nameOf, titleOf } from "../pictures/picture.js"
+import { dialogOf, optionsOf, saveFile, section, snippet } from "./dialog.js"
+import { filmOf } from "./film.js"
 
-const options = (pairs) => pairs.map(([value, textContent]) => element("option", { value, textContent }))
-
-// The film out of an answer that says in lines before it how far it is, see "server/export.py": {file} or {why}.
-async function filmOf(answer, tell) {
-  const reader = answer.body.getReader()
-  const parts = []
-  let [begun, length, line] = [false, 0, []]
-  for (;;) {
-    const { value, done } = await reader.read()
-    if (done) break
-    let from = 0
-    while (!begun) {
-      const at = value.indexOf(10, from)
-      line.push(...value.subarray(from, at < 0 ? value.length : at))
-      if (at < 0) break
-      const [word, ...rest] = new TextDecoder().decode(Uint8Array.from(line)).split(" ")
-      ;[from, line] = [at + 1, []]
-      if (word === "why") return { why: rest.join(" ") }
-      if (word === "file") [begun, length] = [true, Number(rest[0])]
-      else if (word !== "queued") tell(word.split("/").map(Number))
-    }
-    if (begun) parts.push(value.subarray(from))
-  }
-  const file = new Blob(parts)
-  return begun && file.size === length ? { file } : { why: "The film broke off: there is no file." }
-}
-
-// files: {formats: [[kind, words, what it holds], …], width and seconds: [least, most, usual]}.
-// {dialog, open(), show(description of the scene on show)}.
+/**
+ * Return {dialog, open(), show(description of the scene on show)}.
+ * @param {{formats: [string, string, string][], width: [number, number, number], seconds: [number, number, number]}} files kind, words and contents of each
+ *   format; least, most and usual of the numbers
+ */
 export function exportDialog(files) {
   const holds = Object.fromEntries(files.formats.map(([kind, , what]) => [kind, what]))
   const isFilm = (kind) => holds[kind] === "film"
   const isDrawn = (kind) => isFilm(kind) || holds[kind] === "figure"
   let scene = null
   let running = null
-  const picture = element("select", { className: "param-picture" })
-  const format = element("select", { className: "param-format" }, ...options(files.formats))
+  const picture = element("select", { className: "param-picture", onchange: writePython })
+  const format = element("select", { className: "param-format" }, ...optionsOf(files.formats))
   const number = (name, step, [min, max, value]) => (
     element("input", { type: "number", className: `param-${name}`, min, max, step, value }))
   const width = number("width", 5, files.width)
   const seconds = number("seconds", 1, files.seconds)
-  const frames = element("progress", { "aria-label": "Frames of the film", hidden: true })
+  const frames = element("progress", { ariaLabel: "Frames of the film", hidden: true })
   const black = element("input", { type: "checkbox", className: "param-black" })
-  const command = element("textarea", { className: "snippet", readOnly: true, rows: 4, "aria-label": "Command" })
-  const python = element("textarea", { className: "snippet", readOnly: true, rows: 6, "aria-label": "Python" })
-  const copy = element("button", { type: "button", className: "button param-copy-python", textContent: "Copy Python" })
-  const book = element("button", { type: "button", className: "button param-notebook", textContent: "Open as notebook" })
-  const save = element("button", { type: "button", className: "button param-save", textContent: "Save file" })
-  const stop = element("button", { type: "button", className: "button param-cancel", textContent: "Stop", hidden: true })
+  const command = snippet("Command", 4)
+  const python = element("textarea", { className: "snippet", readOnly: true, rows: 6, ariaLabel: "Python" })
+  const copy = button("button param-copy-python", copyPython, { textContent: "Copy Python" })
+  const book = button("button param-notebook", () => make({ picture: picture.value, format: "ipynb" }), { textContent: "Open as notebook" })
+  const save = button("button param-save", () => make(wanted()), { textContent: "Save file" })
+  const stop = button("button param-cancel", () => running.abort(), { textContent: "Stop", hidden: true })
   const said = element("p", { className: "why", role: "status" })
   const figure = element("div", { className: "figure" },
     element("label", {}, "Width, mm ", width), element("label", {}, black, " Black on white"))
   const one = element("label", {}, "Picture ", picture)
   const film = element("div", { className: "figure" }, element("label", {}, "Seconds for all of the motion ", seconds))
-  const dialog = dialogOf("Export", "menu-of-scenes share export", [],
-    element("div", { className: "parts" },
-      element("section", { "aria-label": "File" }, element("h3", { textContent: "What a picture shows, as a file" }),
-        one, element("label", {}, "Format ", format), figure, film,
-        element("span", {}, save, stop), frames, said),
-      element("section", { "aria-label": "Command" }, element("h3", { textContent: "The same at the command line" }),
-        command),
-      element("section", { "aria-label": "Python" }, element("h3", { textContent: "The same numbers in Python" }),
-        python, element("span", {}, copy, book))))
+  const dialog = dialogOf("Export", "menu-of-scenes share export", [], element("div", { className: "parts" },
+    section("File", "What a picture shows, as a file", one, element("label", {}, "Format ", format), figure, film,
+      element("span", {}, save, stop), frames, said),
+    section("Command", "The same at the command line", command),
+    section("Python", "The same numbers in Python", python, element("span", {}, copy, book))))
+  dialog.addEventListener("close", () => running?.abort())
+  dialog.addEventListener("input", write)
 
-  const openOnes = () => gallery.shown.cells.filter((cell) => !cell.classList.contains("folded"))
-  const nameOf = (cell) => cell.dataset.name
   const isAll = () => format.value === "html"
   const fileName = ({ picture: name, format: kind }) => `${scene.name}${kind === "html" ? "" : `-${name}`}.${kind}`
 
@@ -80,9 +55,9 @@ export function exportDialog(files) {
   function wanted() {
     const drawn = isDrawn(format.value)
     return {
-      picture: isAll() ? openOnes().map(nameOf).join(",") : picture.value, format: format.value,
-      ...(drawn ? { width: width.value } : {}), ...(drawn && black.checked ? { black: "1" } : {}),
-      ...(isFilm(format.value) ? { seconds: seconds.value } : {}),
+      picture: isAll() ? gallery.openCells().map(nameOf).join(",") : picture.value, format: format.value,
+      ...(drawn && { width: width.value }), ...(drawn && black.checked && { black: "1" }),
+      ...(isFilm(format.value) && { seconds: seconds.value }),
     }
   }
 
@@ -93,9 +68,9 @@ export function exportDialog(files) {
     figure.hidden = !isDrawn(format.value)
     one.hidden = isAll()
     film.hidden = !isFilm(format.value)
-    const { picture: name, format: kind, width: wide, black: isBlack, seconds: long } = wanted()
-    command.value = `hess-explorer export --state '${state().replaceAll("'", "%27")}' --picture ${name} --format ${kind}` +
-      `${wide ? ` --width ${wide}` : ""}${isBlack ? " --black" : ""}${long ? ` --seconds ${long}` : ""} --out ${fileName(wanted())}`
+    const what = wanted()
+    const options = Object.entries(what).filter(([, value]) => value !== "").map(([name, value]) => (name === "black" ? " --black" : ` --${name} ${value}`)).join("")
+    command.value = `hess-explorer export --state '${state().replaceAll("'", "%27")}'${options} --out ${fileName(what)}`
   }
 
   // The lines of Python, one picture after the other: the newest is the one that stays.
@@ -106,8 +81,18 @@ export function exportDialog(files) {
     if (name === picture.value) python.value = text
   }
 
+  async function copyPython() {
+    python.select()
+    try {
+      await navigator.clipboard.writeText(python.value)
+      said.textContent = "The lines of Python are copied."
+    } catch {
+      said.textContent = "The browser does not allow it: copy the lines that are selected."
+    }
+  }
+
   async function fetched(what, signal) {
-    const query = new URLSearchParams({ ...what, ...(isFilm(what.format) ? { progress: "1" } : {}) })
+    const query = new URLSearchParams({ ...what, ...(isFilm(what.format) && { progress: "1" }) })
     try {
       const answer = await fetch(new URL(`export?${state()}&${query}`, document.baseURI), { signal })
       if (!answer.ok) return { why: await answer.text() }
@@ -118,7 +103,7 @@ export function exportDialog(files) {
   }
 
   function count([done, of]) {
-    ;[frames.hidden, frames.max, frames.value] = [false, of, done]
+    Object.assign(frames, { hidden: false, max: of, value: done })
     said.textContent = `Frame ${done} of ${of}.`
   }
 
@@ -129,35 +114,15 @@ export function exportDialog(files) {
   }
 
   async function make(what) {
-    const file = fileName(what)
+    const name = fileName(what)
     running = new AbortController()
     busy(true)
     said.textContent = "Being made…"
-    const { file: content, why } = await fetched(what, running.signal)
+    const { file, why } = await fetched(what, running.signal)
     busy(false)
-    said.textContent = why ?? `${file}: ${Math.ceil(content.size / 1024)} kB.`
-    if (why !== undefined) return
-    const address = URL.createObjectURL(content)
-    element("a", { href: address, download: file }).click()
-    URL.revokeObjectURL(address)
+    said.textContent = why ?? `${name}: ${Math.ceil(file.size / 1024)} kB.`
+    if (why === undefined) saveFile(file, name)
   }
-
-  save.addEventListener("click", () => make(wanted()))
-  book.addEventListener("click", () => make({ picture: picture.value, format: "ipynb" }))
-  copy.addEventListener("click", async () => {
-    python.select()
-    try {
-      await navigator.clipboard.writeText(python.value)
-      said.textContent = "The lines of Python are copied."
-    } catch {
-      said.textContent = "The browser does not allow it: copy the lines that are selected."
-    }
-  })
-  picture.addEventListener("change", writePython)
-  stop.addEventListener("click", () => running.abort())
-  dialog.addEventListener("close", () => running?.abort())
-  dialog.addEventListener("input", write)
-  command.addEventListener("focus", () => command.select())
 
   return {
     dialog,
@@ -165,11 +130,10 @@ export function exportDialog(files) {
     open() {
       // Of what is on the screen, not of what the address bar has come to.
       tell("address")
-      const open = openOnes()
+      const open = gallery.openCells()
       const before = picture.value
-      picture.replaceChildren(...options(
-        open.map((cell) => [nameOf(cell), cell.querySelector(".title").textContent])))
-      if (open.some((cell) => cell.dataset.name === before)) picture.value = before
+      picture.replaceChildren(...optionsOf(open.map((cell) => [nameOf(cell), titleOf(cell)])))
+      if (open.some((cell) => nameOf(cell) === before)) picture.value = before
       said.textContent = ""
       write()
       writePython()

@@ -1,18 +1,19 @@
 // The tools of the bar for which a phone has no room, in a menu at its end.
 
+import { button } from "../page/buttons.js"
 import { element } from "../page/mount.js"
 import { PHONE } from "../page/windows.js"
 
-// tools: buttons that stand in the bar, each in its group; [button, menu], to be put at the end of the bar.
+/** Return [button, menu], to be put at the end of the bar; `tools` are buttons that stand in the bar, each in its group. */
 export function moreMenu(tools, icon, signal) {
   const places = tools.map((tool) => ({ tool, mark: document.createComment("") }))
-  const menu = element("div", { className: "more", popover: "auto", role: "group", "aria-label": "More tools" })
-  const button = element("button", {
-    type: "button", className: "tool param-more", title: "More", "aria-label": "More", innerHTML: icon, popoverTargetElement: menu,
-    "aria-expanded": "false",
+  const menu = element("div", {
+    className: "more", popover: "auto", role: "group", ariaLabel: "More tools", onclick: () => menu.hidePopover(),
+    ontoggle: ({ newState }) => { more.ariaExpanded = newState === "open" },
   })
-  menu.addEventListener("toggle", ({ newState }) => button.setAttribute("aria-expanded", String(newState === "open")))
-  menu.addEventListener("click", () => menu.hidePopover())
+  const more = button("tool param-more", null, {
+    title: "More", ariaLabel: "More", innerHTML: icon, popoverTargetElement: menu, ariaExpanded: false,
+  })
   const place = () => {
     for (const { tool, mark } of places) {
       if (PHONE.matches) {
@@ -20,10 +21,10 @@ export function moreMenu(tools, icon, signal) {
         menu.append(tool)
       } else if (mark.parentNode !== null) mark.replaceWith(tool)
     }
-    button.hidden = !PHONE.matches
+    more.hidden = !PHONE.matches
   }
   PHONE.addEventListener("change", place, { signal })
   // When they stand in the bar.
   queueMicrotask(place)
-  return [button, menu]
+  return [more, menu]
 }

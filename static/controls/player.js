@@ -2,12 +2,14 @@
 // samples of the orbit that the page already has: no traffic while it plays.
 // Tells "time" {t, state} to whoever draws the point, and moves the sources of one point.
 
+import { button, icon, relabel } from "../page/buttons.js"
 import { listen, tell } from "../page/bus.js"
-import { isTaken } from "../page/keys.js"
+import { arrowOf, isTaken } from "../page/keys.js"
 import { element, lifetime } from "../page/mount.js"
 import { wear } from "../page/presenting.js"
 import { gallery } from "../pictures/gallery.js"
 import { between } from "../pictures/moment.js"
+import { isFolded } from "../pictures/picture.js"
 import { opening } from "./opening.js"
 
 const SPEEDS = [0.25, 0.5, 1, 2, 4, 8]
@@ -15,26 +17,13 @@ const SPEEDS = [0.25, 0.5, 1, 2, 4, 8]
 const GENTLE = 20
 // Where an arrow means something already.
 const OWN_ARROWS = "input, button, a, summary, [role=slider]"
-const ICONS = {
-  play: "M8 5v14l11-7z",
-  pause: "M6 5h4v14H6zm8 0h4v14h-4z",
-  back: "M6 6h2v12H6zm3.5 6 8.5 6V6z",
-  forward: "M16 6h2v12h-2zM6 18l8.5-6L6 6z",
-}
+const PLAY = "M8 5v14l11-7z"
+const PAUSE = "M6 5h4v14H6zm8 0h4v14h-4z"
+const BACK = "M6 6h2v12H6zm3.5 6 8.5 6V6z"
+const FORWARD = "M16 6h2v12h-2zM6 18l8.5-6L6 6z"
 
-// [button, set(icon, label)].
-function button(name, label, onClick) {
-  const item = element("button", { type: "button", className: `transport param-${name}` })
-  item.innerHTML = `<svg viewBox="0 0 24 24" width="1.6em" height="1.6em" aria-hidden="true"><path fill="currentColor"/></svg>`
-  item.addEventListener("click", onClick)
-  const set = (icon, text) => {
-    item.querySelector("path").setAttribute("d", ICONS[icon])
-    item.setAttribute("aria-label", text)
-    item.title = text
-  }
-  set(name, label)
-  return [item, set]
-}
+const transport = (name, path, title, onclick) => (
+  button(`transport param-${name}`, onclick, { innerHTML: icon(path, "1.6em"), title, ariaLabel: title }))
 
 // The columns of `data` at a time; `angles`: those that may jump by a turn.
 function stateAt(data, angles, time) {
@@ -50,36 +39,35 @@ function stateAt(data, angles, time) {
 }
 
 // A button that shows a picture which is not seen at first, or folds it again.
-function unfolding({ name, folded: label }) {
-  const cell = gallery.shown.cells.find((one) => one.dataset.name === name)
-  const item = element("button", {
-    type: "button", className: `button unfold unfold-${name}`, title: label, "aria-label": label,
-    textContent: `+ ${label.replace(/^Show (the )?/, "")}`,
-  })
-  item.setAttribute("aria-expanded", String(!cell.classList.contains("folded")))
-  item.addEventListener("click", () => tell("fold", name))
-  return item
-}
+const unfolding = ({ name, folded: label }) => button(`button unfold unfold-${name}`, () => tell("fold", name), {
+  title: label, ariaLabel: label, textContent: `+ ${label.replace(/^Show (the )?/, "")}`, ariaExpanded: !isFolded(gallery.cell(name)),
+})
 
 export function render({ model, view, el }) {
   const signal = lifetime({ model, view })
-  const slider = element("input", { type: "range", className: "param-t", min: 0, step: "any", "aria-label": "Time t" })
+  const slider = element("input", {
+    type: "range", className: "param-t", min: 0, step: "any", ariaLabel: "Time t", onchange: writeTime,
+    oninput: () => {
+      play(false)
+      move(Number(slider.value))
+    },
+  })
   const output = element("output")
   const speed = element("select", {
-    className: "param-speed", "aria-label": "Speed", title: "Speed: units of t per second",
-  }, ...SPEEDS.map((value) => new Option(`${value}×`, value)))
-  const bar = element("div", { className: "player", role: "group", "aria-label": "Motion in time" })
+    className: "param-speed", ariaLabel: "Speed", title: "Speed: units of t per second", onchange: () => announce({ speed: speed.value }),
+  }, ...SPEEDS.map((value) => new Option(`${value}×`, String(value))))
+  const back = transport("back", BACK, "Step back (←)", () => step(-1))
+  const toggle = transport("play", PLAY, "Play (Space)", () => play(!playing))
+  const forward = transport("forward", FORWARD, "Step forward (→)", () => step(1))
+  const folds = element("span", { className: "folds" })
+  const items = [back, toggle, forward, slider, output, speed]
+  const bar = element("div", { className: "player", role: "group", ariaLabel: "Motion in time" }, ...items, folds)
+  el.append(bar)
 
   let scene = { dots: {}, angles: [], pictures: [] }
   let source = null
   let watching = null
   let t = 0
-  const begin = (own) => {
-    t = Number(own.t)
-    // A link that names a time is one to that moment.
-    if (t !== 0) start.rest()
-    speed.value = SPEEDS.includes(Number(own.speed)) ? Number(own.speed) : 1
-  }
   let playing = false
   let last = null
   // Of a lesson: from, to, in so many seconds.
@@ -87,21 +75,24 @@ export function render({ model, view, el }) {
   // Units of t per second while nobody has touched anything, see "opening.js"; else null.
   let gentle = null
 
-  const end = () => {
-    const times = source?.data.t
-    return times?.length ? times[times.length - 1] : 0
+  const begin = (own) => {
+    t = Number(own.t)
+    // A link that names a time is one to that moment.
+    if (t !== 0) start.rest()
+    speed.value = String(SPEEDS.includes(Number(own.speed)) ? Number(own.speed) : 1)
   }
+  const end = () => source?.data.t?.at(-1) ?? 0
   const announce = (keys) => tell("url", keys)
-
+  function writeTime() { announce({ t: t.toFixed(3) }) }
   function show() {
     const usable = source !== null && source.data.t?.length > 1
     const state = usable ? stateAt(source.data, scene.angles, t) : null
     for (const [name, [x, y]] of Object.entries(scene.dots)) {
       gallery.source(name).put(state ? { x: [state[x]], y: [state[y]] } : { x: [], y: [] })
     }
-    slider.value = t
+    slider.value = String(t)
     output.textContent = `t = ${t.toFixed(2)}`
-    slider.setAttribute("aria-valuetext", `t = ${t.toFixed(2)} of ${end().toFixed(2)}`)
+    slider.ariaValueText = `${output.textContent} of ${end().toFixed(2)}`
     tell("time", { t, state })
   }
 
@@ -127,41 +118,29 @@ export function render({ model, view, el }) {
     playing = on
     if (!on) run = gentle = null
     last = null
-    setPlay(on ? "pause" : "play", on ? "Pause (Space)" : "Play (Space)")
-    bar.dataset.playing = on
+    relabel(toggle, on ? PAUSE : PLAY, on ? "Pause (Space)" : "Play (Space)")
+    bar.dataset.playing = String(on)
     if (on) requestAnimationFrame(frame)
-    else announce({ t: t.toFixed(3) })
+    else writeTime()
   }
 
-  const step = (direction) => {
+  function step(direction) {
     play(false)
     move(t + direction * end() / 200)
-    announce({ t: t.toFixed(3) })
+    writeTime()
   }
-
-  const [back] = button("back", "Step back (←)", () => step(-1))
-  const [toggle, setPlay] = button("play", "Play (Space)", () => play(!playing))
-  const [forward] = button("forward", "Step forward (→)", () => step(1))
-  slider.addEventListener("input", () => { play(false); move(Number(slider.value)) })
-  slider.addEventListener("change", () => announce({ t: t.toFixed(3) }))
-  speed.addEventListener("change", () => announce({ speed: speed.value }))
-  const folds = element("span", { className: "folds" })
-  bar.append(back, toggle, forward, slider, output, speed, folds)
-  el.append(bar)
 
   // Space plays whatever has the focus but a text box; arrows step where they mean nothing else.
-  const onKey = (event) => {
-    const target = event.composedPath()[0]
+  document.addEventListener("keydown", (event) => {
     if (isTaken(event) || toggle.hidden) return
+    const [across] = arrowOf(event) ?? [0]
+    const target = event.composedPath()[0]
     if (event.key === " ") {
       if (!event.repeat) play(!playing)
-    } else if (target instanceof HTMLElement && target.closest(OWN_ARROWS)) return
-    else if (event.key === "ArrowLeft") step(-1)
-    else if (event.key === "ArrowRight") step(1)
-    else return
+    } else if (across === 0 || (target instanceof HTMLElement && target.closest(OWN_ARROWS))) return
+    else step(across)
     event.preventDefault()
-  }
-  document.addEventListener("keydown", onKey, { signal })
+  }, { signal })
   // A button would be pressed when the key is let go.
   document.addEventListener("keyup", (event) => {
     if (event.key === " " && !isTaken(event) && !toggle.hidden) event.preventDefault()
@@ -191,7 +170,7 @@ export function render({ model, view, el }) {
   }, signal)
 
   const onData = () => {
-    slider.max = end()
+    slider.max = String(end())
     // Where there is nothing to see the time waits.
     if (end() > 0 && t > end()) t = end()
     show()
@@ -203,14 +182,12 @@ export function render({ model, view, el }) {
     scene = entered
     source = gallery.source("data-orbit") ?? null
     // A scene without a motion needs no time.
-    for (const item of [back, toggle, forward, slider, output, speed]) item.hidden = source === null
+    for (const item of items) item.hidden = source === null
     folds.replaceChildren(...entered.pictures.filter(({ folded }) => folded !== null).map(unfolding))
     source?.watch(onData, watching.signal)
     onData()
   }
-  listen("folded", ({ name, folded }) => {
-    folds.querySelector(`.unfold-${name}`).setAttribute("aria-expanded", String(!folded))
-  }, signal)
+  listen("folded", ({ name, folded }) => { folds.querySelector(`.unfold-${name}`).ariaExpanded = !folded }, signal)
   wear(el, signal)
   listen("client", begin, signal)
   listen("enter", enter, signal)

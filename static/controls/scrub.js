@@ -1,20 +1,19 @@
 // A number by dragging its label: across so many pixels it goes from end to end, where steps are not longer.
 
+import { onDrag } from "../page/drag.js"
+
 const FULL_DRAG = 400
 
-// limits() → [low, high]; stepOf() is that of the slider, or 0; value() is where it stands; move(value) takes a place.
+/**
+ * Let a label be dragged.
+ * @param {HTMLElement} label
+ * @param {{limits: () => number[], stepOf: () => number, value: () => number, move: (value: number) => void, isIdle: () => boolean}} number
+ */
 export function scrub(label, { limits, stepOf, value, move, isIdle }) {
-  let grabbed = null
-  label.addEventListener("pointerdown", (event) => {
-    if (isIdle() || event.button !== 0) return
-    label.setPointerCapture(event.pointerId)
-    grabbed = [event.clientX, value()]
-  })
-  label.addEventListener("pointermove", (event) => {
-    if (grabbed === null) return
-    const [low, high] = limits()
-    const steps = Math.max(1, Math.round((high - low) / FULL_DRAG / stepOf())) * (event.shiftKey ? 10 : 1)
-    move(grabbed[1] + Math.round(event.clientX - grabbed[0]) * steps * stepOf())
-  })
-  for (const event of ["pointerup", "pointercancel"]) label.addEventListener(event, () => { grabbed = null })
+  onDrag(label, ({ button, clientX }) => (isIdle() || button !== 0 ? null : [clientX, value()]),
+    ([x, from], { clientX, shiftKey }) => {
+      const [low, high] = limits()
+      const steps = Math.max(1, Math.round((high - low) / FULL_DRAG / stepOf())) * (shiftKey ? 10 : 1)
+      move(from + Math.round(clientX - x) * steps * stepOf())
+    })
 }

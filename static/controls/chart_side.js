@@ -1,0 +1,46 @@
+// One side of a chart in its form: the parameter, from where to where, and how many cells.
+
+import { element } from "../page/mount.js"
+import { optionsOf } from "./dialog.js"
+
+const CELLS = 192
+const MOST_SIDE = 256
+const DIGITS = 6
+
+/**
+ * Return {frame, name, offer(controls), choose(name, low, high), value()}.
+ * @param {string} label "x" or "y"
+ * @param {(name: string) => [number, number]} ends returns the ends of a parameter
+ * @param {() => void} chosen is called when the user has chosen another parameter
+ */
+export function sideForm(label, ends, chosen) {
+  const name = element("select", {
+    className: `param-${label}`, ariaLabel: `Parameter ${label}`,
+    onchange: () => {
+      put(...ends(name.value))
+      chosen()
+    },
+  })
+  const box = (what, properties) => element("input", {
+    type: "number", className: `param-${label}-${what}`, ariaLabel: `${label} ${what}`, ...properties,
+  })
+  const [low, high] = ["from", "to"].map((what) => box(what, { step: "any" }))
+  const count = box("cells", { min: 2, max: MOST_SIDE, step: 1, value: CELLS })
+  const put = (from, to) => {
+    ;[low.value, high.value] = [from, to].map((end) => String(Number(end.toPrecision(DIGITS))))
+  }
+  return {
+    frame: element("div", { className: "side" }, name, element("label", {}, "from ", low), element("label", {}, "to ", high),
+      element("label", {}, "cells ", count)),
+    offer(controls) { name.replaceChildren(...optionsOf(controls.map((one) => [one.name, one.symbol]))) },
+    get name() { return name.value },
+    choose(wanted, from, to) {
+      name.value = wanted
+      put(from, to)
+    },
+    value: () => ({
+      name: name.value, symbol: name.selectedOptions[0]?.textContent ?? "", low: low.valueAsNumber, high: high.valueAsNumber,
+      count: count.valueAsNumber,
+    }),
+  }
+}
