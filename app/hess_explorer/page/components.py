@@ -69,7 +69,7 @@ class Bar(JSComponent):
                             "seconds: least, most and usual.")
 
     _esm = _module("controls/bar.js")
-    _stylesheets = _css("controls/bar.css")
+    _stylesheets = _css("controls/dialog.css", "controls/bar.css")
 
 
 class Controls(JSComponent):
@@ -80,7 +80,7 @@ class Controls(JSComponent):
     """
 
     _esm = _module("controls/controls.js")
-    _stylesheets = _css("controls/controls.css")
+    _stylesheets = _css("controls/dialog.css", "controls/controls.css")
 
 
 class Pictures(JSComponent):
