@@ -26,18 +26,16 @@ window.addEventListener("keydown", (event) => {
 /**
  * Return [button, menu of paces].
  * @param {HTMLElement} frame all of the control
- * @param {string} label
- * @param {() => [number, number, number]} limits returns low, high, value
- * @param {(value: number) => void} move takes a place between them
+ * @param {import("./number.js").Controlled} number
  */
-export function animation(frame, label, limits, move) {
+export function animation(frame, { symbol, value, limits, stepOf, move }) {
   const sway = button("sway", () => (stop === end ? end : begin)(), { innerHTML: icon("", "1.2em") })
   const menu = element("select", {
-    className: "pace", ariaLabel: `Pace of ${label}`, title: "Pace", onchange: () => { pace = Number(menu.value) },
+    className: "pace", ariaLabel: `Pace of ${symbol}`, title: "Pace", onchange: () => { pace = Number(menu.value) },
   }, ...PACES.map((value) => new Option(`${value}×`, String(value))))
 
   function show(on) {
-    relabel(sway, on ? STOP : PLAY, on ? `Stop ${label} (Escape)` : `Move ${label} to and fro`)
+    relabel(sway, on ? STOP : PLAY, on ? `Stop ${symbol} (Escape)` : `Move ${symbol} to and fro`)
     sway.ariaPressed = on
     menu.hidden = !on
     menu.value = String(pace)
@@ -55,16 +53,17 @@ export function animation(frame, label, limits, move) {
     stop = end
     show(true)
     tell("animated", true)
-    const [from, to, value] = limits()
+    const [from, to] = limits()
     // 0 at the lower end, π at the upper one.
-    let phase = to > from ? Math.acos(1 - 2 * Math.min(1, Math.max(0, (value - from) / (to - from)))) : 0
+    let phase = to > from ? Math.acos(1 - 2 * Math.min(1, Math.max(0, (value() - from) / (to - from)))) : 0
     let last = null
     const step = (now) => {
       if (stop !== end) return
       if (last !== null) phase += (Math.PI * pace * Math.min(100, now - last)) / SWEEP
       last = now
       const [low, high] = limits()
-      move(low + (high - low) * (1 - Math.cos(phase)) / 2)
+      const place = low + (high - low) * (1 - Math.cos(phase)) / 2
+      move(Math.round(place / stepOf()) * stepOf())
       requestAnimationFrame(step)
     }
     requestAnimationFrame(step)

@@ -17,9 +17,7 @@ function numberOf(text) {
 
 /**
  * Return {box, put(value), show(value before, value, isIdle), refuse(sentence), rest(why or ""), forget()}.
- * @param {{name: string, symbol: string, help: string, value: () => number, change: (value: number) => void,
- *   nudge: (value: number) => void, stepOf: () => number}} number value() is what the control shows; change takes a value
- *   that was typed, nudge one by an arrow, stepOf() says how far
+ * @param {import("./number.js").Controlled} number
  */
 export function exactBox({ name, symbol, help, value, change, nudge, stepOf }) {
   const box = element("input", {

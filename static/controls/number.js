@@ -27,47 +27,61 @@ export function scaleOf([own, end], low, high, value) {
 }
 
 /**
+ * What the parts of a number know of it: value() is what it shows, limits() → [low, high] what is possible, stepOf() the
+ * step of an arrow; change(value) takes what was typed, nudge(value) what an arrow gives, move(value) a place within the
+ * limits.
+ * @typedef {{name: string, symbol: string, help: string, value: () => number, limits: () => number[], stepOf: () => number,
+ *   change: (value: number) => void, nudge: (value: number) => void, move: (value: number) => void,
+ *   isIdle: () => boolean}} Controlled
+ */
+
+/**
  * Return [element, show([value, low, high, step, whether it is disabled]), refuse(sentence on the expression)].
  * @param {{name: string, label: string, symbol: string, help: string, range: [number, number]}} description
  */
 export function number({ name, label, symbol, help, range }) {
-  const title = element("span", { className: "label scrub", textContent: label, title: help })
-  const slider = element("input", { type: "range", className: "hand", title: help, ariaLabel: label, ariaDescription: help })
   let shown = null
   let [low, high] = range
-  const value = () => shown
-  const stepOf = () => Number(slider.step) || (high - low) / PARTS
-  const within = (wanted) => Math.min(Math.max(wanted, low), high)
-  const change = (wanted) => {
-    shown = wanted
-    exact.forget()
-    tell("change", { [name]: wanted })
-  }
+  let track = ""
+  const within = (value) => Math.min(Math.max(value, low), high)
   // Slider and box follow, as after a drag.
-  const take = (wanted) => {
-    if (wanted === shown) return
-    slider.value = wanted
-    exact.put(wanted)
-    change(wanted)
+  const take = (value) => {
+    if (value === shown) return
+    slider.value = value
+    exact.put(value)
+    controlled.change(value)
   }
-  const move = (wanted) => take(within(tidy(wanted)))
-  const exact = exactBox({ name, symbol, help, value, change, nudge: (wanted) => take(tidy(wanted)), stepOf })
-  slider.addEventListener("input", () => {
-    const wanted = within(Number(slider.value))
-    if (wanted !== Number(slider.value)) slider.value = wanted
-    exact.put(wanted)
-    change(wanted)
+  /** @type {Controlled} */
+  const controlled = {
+    name, symbol, help, value: () => shown, limits: () => [low, high], stepOf: () => Number(slider.step) || (high - low) / PARTS,
+    change(value) {
+      shown = value
+      exact.forget()
+      tell("change", { [name]: value })
+    },
+    nudge: (value) => take(tidy(value)), move: (value) => take(within(tidy(value))), isIdle: () => slider.disabled,
+  }
+
+  const title = element("span", { className: "label scrub", textContent: label, title: help })
+  const slider = element("input", {
+    type: "range", className: "hand", title: help, ariaLabel: label, ariaDescription: help,
+    oninput() {
+      const value = within(Number(slider.value))
+      if (value !== Number(slider.value)) slider.value = value
+      exact.put(value)
+      controlled.change(value)
+    },
+    onkeydown(event) {
+      const arrow = arrowOf(event)
+      if (!event.shiftKey || arrow === undefined) return
+      controlled.move(shown + 10 * (arrow[0] + arrow[1]) * controlled.stepOf())
+      event.preventDefault()
+    },
   })
-  slider.addEventListener("keydown", (event) => {
-    const arrow = arrowOf(event)
-    if (!event.shiftKey || arrow === undefined) return
-    move(shown + 10 * (arrow[0] + arrow[1]) * stepOf())
-    event.preventDefault()
-  })
-  scrub(title, { limits: () => [low, high], stepOf, value, move, isIdle: () => slider.disabled })
+  const exact = exactBox(controlled)
+  scrub(title, controlled)
   const frame = element("div", { className: `number param-${name}` })
-  const [sway, pace] = animation(frame, symbol, () => [low, high, shown], (wanted) => (
-    move(Math.round(wanted / stepOf()) * stepOf())))
+  const [sway, pace] = animation(frame, controlled)
   const moves = sway.title
   frame.append(title, pace, sway, exact.box, slider)
 
@@ -80,14 +94,13 @@ export function number({ name, label, symbol, help, range }) {
     title.title = slider.title = slider.ariaDescription = why || help
     sway.title = why || moves
   }
-  let track = ""
-  const show = ([wanted, from, to, step, idle = false]) => {
+  const show = ([value, from, to, step, idle = false]) => {
     rest(idle)
-    exact.show(shown, wanted, idle)
-    shown = wanted
-    ;[low, high] = [Math.min(from, wanted), Math.max(to, wanted)]
-    const [min, max] = scaleOf(range, from, to, wanted)
-    Object.assign(slider, { min, max, step, value: wanted })
+    exact.show(shown, value, idle)
+    shown = value
+    ;[low, high] = [Math.min(from, value), Math.max(to, value)]
+    const [min, max] = scaleOf(range, from, to, value)
+    Object.assign(slider, { min, max, step, value })
     const parts = [low, high].map((edge) => `${(100 * (edge - min) / (max - min)).toFixed(2)}%`)
     if (track !== (track = parts.join())) {
       slider.style.setProperty("--from", parts[0])

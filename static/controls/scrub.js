@@ -7,7 +7,7 @@ const FULL_DRAG = 400
 /**
  * Let a label be dragged.
  * @param {HTMLElement} label
- * @param {{limits: () => number[], stepOf: () => number, value: () => number, move: (value: number) => void, isIdle: () => boolean}} number
+ * @param {import("./number.js").Controlled} number
  */
 export function scrub(label, { limits, stepOf, value, move, isIdle }) {
   onDrag(label, ({ button, clientX }) => (isIdle() || button !== 0 ? null : [clientX, value()]),

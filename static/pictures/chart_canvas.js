@@ -172,7 +172,7 @@ export function chartCanvas(palettes, hands, signal) {
     const [left, right] = ends(chart.x, cursor[0], xs)
     const [bottom, top] = ends(chart.y, cursor[1], ys)
     ctx.lineWidth = 1
-    for (const [colour, room] of [["#fff", 2], [DARK, 1]]) {
+    for (const { colour, room } of [{ colour: "#fff", room: 2 }, { colour: DARK, room: 1 }]) {
       ctx.strokeStyle = colour
       ctx.strokeRect(left - room, top - room, right - left + 2 * room, bottom - top + 2 * room)
     }

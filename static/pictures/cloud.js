@@ -18,62 +18,60 @@ class Cloud {
     const column = () => new Float32Array(this.count)
     this.x = column()
     this.y = column()
-    this.w1 = column()
-    this.w2 = column()
     this.g1 = column()
     this.g2 = column()
     this.g3 = column()
-    // Both ends of an interval: slopes of x and y, and ω.
-    this.ends = [0, 1].map(() => ({ x: column(), y: column(), w1: column(), w2: column() }))
+    this.w1 = column()
+    this.w2 = column()
+    // At the moment t, and the slopes at both ends of the interval in which it lies.
+    this.columns = [this.x, this.y, this.g1, this.g2, this.g3]
+    this.slopes = [0, 1].map(() => this.columns.map(column))
     this.left = -1
     this.t = null
-    // Of s, as [its largest slope, its direction].
+    // Of s: its largest slope, and the direction of that.
     const J = Math.hypot(body[2], body[3])
     this.axes = [J, body[2] / J, body[3] / J]
   }
 
-  velocities(x, y, w1, w2) {
-    if (this.signs === undefined) {
-      w1.set(x)
-      w2.set(y)
-      return
-    }
+  // ω1 and ω2 of a point at x, y.
+  velocity(x, y, i) {
+    if (this.signs === undefined) return [x, y]
     const [J, n1, n2] = this.axes
-    for (let i = 0; i < this.count; i++) {
-      const across = (this.signs[i] * Math.exp(y[i])) / J
-      w1[i] = n2 * x[i] + n1 * across
-      w2[i] = n2 * across - n1 * x[i]
-    }
+    const across = (this.signs[i] * Math.exp(y)) / J
+    return [n2 * x + n1 * across, n2 * across - n1 * x]
   }
 
-  // ω and the slopes of x and y at a frame, by `eq29`: ω̇ = s h with h = Î⁻¹(−ω2, ω1), so that d ln|s|/dt = (I13, I23)·h;
-  // or Îω̇ = (b3γ2, −b3γ1).
-  prepare(frame, end) {
+  // The slopes at a frame, by `eq29`: ω̇ = s h with h = Î⁻¹(−ω2, ω1), so that d ln|s|/dt = (I13, I23)·h; or
+  // Îω̇ = (b3γ2, −b3γ1); and γ̇ = γ × ω.
+  prepare(frame, slopes) {
+    const [dx, dy, d1, d2, d3] = slopes
     const { frames, count, size, signs, body } = this
     const [I11, I22, I13, I23, D, b3] = body
     const [, n1, n2] = this.axes
-    const at = frame * size
     const isFree = signs !== undefined
-    this.velocities(frames.subarray(at, at + count), frames.subarray(at + count, at + 2 * count), end.w1, end.w2)
-    for (let i = 0; i < count; i++) {
-      const [g1, g2, g3] = [frames[at + 2 * count + i], frames[at + 3 * count + i], frames[at + 4 * count + i]]
+    for (let i = 0, at = frame * size; i < count; i++, at++) {
+      const [x, y] = [frames[at], frames[at + count]]
+      const [g1, g2, g3] = [frames[at + 2 * count], frames[at + 3 * count], frames[at + 4 * count]]
+      const [w1, w2] = this.velocity(x, y, i)
       const [a11, a12, a22] = [I11 + D * (g2 * g2 + g3 * g3), -D * g1 * g2, I22 + D * (g1 * g1 + g3 * g3)]
       const det = a11 * a22 - a12 * a12
-      const [f1, f2] = isFree ? [-end.w2[i], end.w1[i]] : [b3 * g2, -b3 * g1]
+      const [f1, f2] = isFree ? [-w2, w1] : [b3 * g2, -b3 * g1]
       const [h1, h2] = [(a22 * f1 - a12 * f2) / det, (a11 * f2 - a12 * f1) / det]
-      const s = isFree ? signs[i] * Math.exp(frames[at + count + i]) : 1
-      end.x[i] = isFree ? s * (n2 * h1 - n1 * h2) : h1
-      end.y[i] = isFree ? I13 * h1 + I23 * h2 : h2
+      dx[i] = isFree ? signs[i] * Math.exp(y) * (n2 * h1 - n1 * h2) : h1
+      dy[i] = isFree ? I13 * h1 + I23 * h2 : h2
+      d1[i] = -g3 * w2
+      d2[i] = g3 * w1
+      d3[i] = g1 * w2 - g2 * w1
     }
   }
 
-  // Cubic curves between two frames, where all slopes are known: γ̇ = γ × ω.
+  // Cubic curves between two frames, where all slopes are known.
   moveTo(t) {
     if (t === this.t) return
     this.t = t
-    const { frames, count, size, times, step, sense } = this
+    const { frames, count, size, times, step, sense, g1, g2, g3 } = this
     const left = Math.max(0, Math.min(times.length - 2, Math.floor((t - times[0]) / step)))
-    const [from, to] = this.ends
+    const [from, to] = this.slopes
     if (left !== this.left) {
       this.left = left
       this.prepare(left, from)
@@ -81,24 +79,20 @@ class Cloud {
     }
     const u = Math.max(0, Math.min(1, (t - times[left]) / step))
     const b = u * u * (3 - 2 * u)
-    const a = 1 - b
     const [e, f] = [u * (1 - u) * (1 - u) * step * sense, u * u * (u - 1) * step * sense]
-    for (let i = 0, p = left * size; i < count; i++, p++) {
-      const q = p + size
-      this.x[i] = a * frames[p] + b * frames[q] + e * from.x[i] + f * to.x[i]
-      this.y[i] = a * frames[p + count] + b * frames[q + count] + e * from.y[i] + f * to.y[i]
-      const [p1, p2, p3] = [frames[p + 2 * count], frames[p + 3 * count], frames[p + 4 * count]]
-      const [q1, q2, q3] = [frames[q + 2 * count], frames[q + 3 * count], frames[q + 4 * count]]
-      const [v1, v2, w1, w2] = [from.w1[i], from.w2[i], to.w1[i], to.w2[i]]
-      const g1 = a * p1 + b * q1 - e * p3 * v2 - f * q3 * w2
-      const g2 = a * p2 + b * q2 + e * p3 * v1 + f * q3 * w1
-      const g3 = a * p3 + b * q3 + e * (p1 * v2 - p2 * v1) + f * (q1 * w2 - q2 * w1)
-      const inverse = 1 / Math.sqrt(g1 * g1 + g2 * g2 + g3 * g3)
-      this.g1[i] = g1 * inverse
-      this.g2[i] = g2 * inverse
-      this.g3[i] = g3 * inverse
+    this.columns.forEach((column, k) => {
+      const [rise, fall] = [from[k], to[k]]
+      for (let i = 0, p = left * size + k * count; i < count; i++, p++) {
+        column[i] = (1 - b) * frames[p] + b * frames[p + size] + e * rise[i] + f * fall[i]
+      }
+    })
+    for (let i = 0; i < count; i++) {
+      const inverse = 1 / Math.sqrt(g1[i] * g1[i] + g2[i] * g2[i] + g3[i] * g3[i])
+      g1[i] *= inverse
+      g2[i] *= inverse
+      g3[i] *= inverse
+      ;[this.w1[i], this.w2[i]] = this.velocity(this.x[i], this.y[i], i)
     }
-    this.velocities(this.x, this.y, this.w1, this.w2)
   }
 }
 

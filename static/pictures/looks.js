@@ -54,18 +54,18 @@ export function watchTheme(act, signal) {
   signal.addEventListener("abort", () => observer.disconnect())
 }
 
-const look = (name, dash, weight) => ({ get colour() { return shade(shades[name][0]) }, dash, weight })
+const look = (name, weight, dash = []) => ({ get colour() { return shade(shades[name][0]) }, dash, weight })
 
 // Without a colour: that of text.
 export const LOOKS = {
-  orbit: look("orbit", [], 2.2),
-  second: look("second", [], 2.2),
-  stable: look("stable", [], 3),
-  unstable: look("unstable", [7, 5], 3),
-  limit: { dash: [2, 3], weight: 1 },
-  muted: look("muted", [], 1),
-  axis: { dash: [], weight: 2.5 },
-  mass: { colour: POINT, dash: [], weight: 3 },
+  orbit: look("orbit", 2.2),
+  second: look("second", 2.2),
+  stable: look("stable", 3),
+  unstable: look("unstable", 3, [7, 5]),
+  muted: look("muted", 1),
+  limit: { weight: 1, dash: [2, 3] },
+  axis: { weight: 2.5 },
+  mass: { weight: 3, colour: POINT },
 }
 
 /** Take the dash, the weight and the colour of a look; `text` is the colour of text. */
