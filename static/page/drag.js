@@ -5,7 +5,7 @@
  * @param {HTMLElement} handle
  * @param {(event: PointerEvent) => any} start returns what `move` and `end` need, or null where nothing is dragged
  * @param {(held: any, event: PointerEvent) => void} move
- * @param {(held: any, event: PointerEvent) => void} [end] not called when the browser cancels the drag
+ * @param {(held: any, event: PointerEvent | null) => void} [end] without an event where the browser cancels the drag
  */
 export function onDrag(handle, start, move, end = () => {}) {
   let held = null
@@ -14,9 +14,10 @@ export function onDrag(handle, start, move, end = () => {}) {
     if (held !== null) handle.setPointerCapture(event.pointerId)
   })
   handle.addEventListener("pointermove", (event) => { if (held !== null) move(held, event) })
-  handle.addEventListener("pointerup", (event) => {
+  const release = (event) => {
     if (held !== null) end(held, event)
     held = null
-  })
-  handle.addEventListener("pointercancel", () => { held = null })
+  }
+  handle.addEventListener("pointerup", release)
+  handle.addEventListener("pointercancel", () => release(null))
 }

@@ -55,50 +55,46 @@ function largest({ width, height, gap, caption }, leading) {
   return Math.floor(Math.min(wide, height - caption(Math.min(wide, height))))
 }
 
-const better = (one, other, ...measures) => {
-  if (other === null) return true
-  for (const measure of measures) {
-    const [mine, its] = [measure(one), measure(other)]
-    if (Math.abs(mine - its) >= 1) return mine > its
-  }
-  return false
-}
-
 const area = ({ boxes }) => boxes.reduce((sum, { edge }) => sum + edge * edge, 0) / 1000
 
-// Nobody is enlarged: the arrangement whose smallest picture is largest.
-function even(place) {
-  let best = null
-  const consider = (found) => { if (better(found, best, ({ smallest }) => smallest, area)) best = found }
-  for (let columns = 1; columns <= place.count; columns++) consider(grid(place, columns))
-  if (place.count > 2) {
-    const most = largest(place, 1)
-    for (let lead = most; lead > 0.4 * most; lead -= STEP) {
-      for (const isBeside of [true, false]) consider(strip(place, 1, lead, isBeside, false))
-    }
+// The arrangement whose smallest picture is largest; of those, the one that fills most.
+function best(arrangements) {
+  return arrangements.reduce((found, one) => {
+    const larger = one.smallest - found.smallest
+    return larger >= 1 || (larger > -1 && area(one) - area(found) >= 1) ? one : found
+  })
+}
+
+// The first `leading` pictures from as large as can be to at least `least`, the rest beside or below.
+function strips(place, leading, least, titlesOnly) {
+  const found = []
+  for (let lead = largest(place, leading); lead >= least; lead -= STEP) {
+    found.push(strip(place, leading, lead, true, titlesOnly), strip(place, leading, lead, false, titlesOnly))
   }
-  return best
+  return found
+}
+
+// Nobody is enlarged.
+function even(place) {
+  const grids = Array.from({ length: place.count }, (_, i) => grid(place, i + 1))
+  return best(place.count > 2 ? [...grids, ...strips(place, 1, Math.floor(0.4 * largest(place, 1)) + 1, false)] : grids)
 }
 
 // The first `leading` pictures are enlarged: those of at least `LARGE` of the height that leave the rest most room.
 function enlarged(place, leading) {
-  const most = largest(place, leading)
   if (leading === place.count) return grid(place, leading)
-  const least = Math.min(LARGE * place.height, 0.94 * most)
-  let best = null
-  for (let lead = most; lead >= least; lead -= STEP) {
-    for (const isBeside of [true, false]) {
-      const found = strip(place, leading, lead, isBeside, true)
-      if (better(found, best, ({ smallest }) => smallest, area)) best = found
-    }
-  }
-  return best
+  return best(strips(place, leading, Math.min(LARGE * place.height, 0.94 * largest(place, leading)), true))
 }
 
-// place: {width, height, count, gap, caption}.  caption(width) is the height of a caption over a picture in a cell so
-// wide; `caption.title` that of its title alone, which is what stands over a small picture beside an enlarged one;
-// `caption.wide`: a cell that is wider than its picture need be no wider than this.  large: the numbers of the pictures enlarged.
-// One {x, y, width, edge, caption, small} for each picture, in their order.
+/**
+ * Return one {x, y, width, edge, caption, small} for each picture, in their order.
+ *
+ * caption(width) is the height of a caption over a picture in a cell so wide; `caption.title` that of its title alone, which
+ * is what stands over a small picture beside an enlarged one; `caption.wide`: a cell that is wider than its picture need be
+ * no wider than this.
+ * @param {{width: number, height: number, count: number, gap: number, caption: any}} place
+ * @param {number[]} large the numbers of the pictures enlarged
+ */
 export function arrange(place, large = []) {
   if (place.count === 0) return []
   const order = [...large, ...Array.from({ length: place.count }, (_, i) => i).filter((i) => !large.includes(i))]

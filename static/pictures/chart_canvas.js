@@ -69,6 +69,16 @@ export function chartCanvas(palettes, hands, signal) {
   const { canvas, request } = liveCanvas({
     className: "map", tabIndex: 0, role: "application",
     ariaLabel: "Chart: arrow keys move, Enter opens the state, plus zooms, minus goes back",
+    onpointermove: (event) => moveTo(cellAt(event)), onpointerleave: () => { if (box === null) moveTo(null) },
+    onkeydown(event) {
+      const arrow = arrowOf(event)
+      if (arrow === undefined || chart?.values == null) return
+      event.preventDefault()
+      const sides = [chart.x, chart.y]
+      const from = cursor ?? sides.map(({ count }) => Math.floor(count / 2))
+      const far = event.shiftKey ? 10 : 1
+      moveTo(sides.map(({ count }, k) => within(from[k] + far * arrow[k], 0, count - 1)))
+    },
   }, paint, signal)
 
   function renew() {
@@ -198,32 +208,18 @@ export function chartCanvas(palettes, hands, signal) {
   onDrag(canvas, (event) => (event.button === 0 && cellAt(event) !== null ? [event.offsetX, event.offsetY] : null),
     ([x, y], { offsetX, offsetY }) => { if (Math.hypot(offsetX - x, offsetY - y) > SLIP) box = [x, y, offsetX, offsetY] },
     (from, event) => {
-      const cell = cellAt(event)
-      if (box !== null) {
-        const [x0, y0, x1, y1] = box
+      const drawn = box
+      const cell = event && cellAt(event)
+      box = null
+      request()
+      if (drawn !== null && event !== null) {
+        const [x0, y0, x1, y1] = drawn
         hands.boxed({ x: between(chart.x, place.xs, [x0, x1]), y: between(chart.y, place.ys, [y0, y1]) })
       } else if (cell !== null) {
         moveTo(cell)
         hands.chosen(cell)
       }
     })
-  canvas.addEventListener("pointermove", (event) => moveTo(cellAt(event)))
-  for (const name of ["pointerup", "pointercancel"]) {
-    canvas.addEventListener(name, () => {
-      box = null
-      request()
-    })
-  }
-  canvas.addEventListener("pointerleave", () => { if (box === null) moveTo(null) })
-  canvas.addEventListener("keydown", (event) => {
-    const arrow = arrowOf(event)
-    if (arrow === undefined || chart?.values == null) return
-    event.preventDefault()
-    const sides = [chart.x, chart.y]
-    const from = cursor ?? sides.map(({ count }) => Math.floor(count / 2))
-    const far = event.shiftKey ? 10 : 1
-    moveTo(sides.map(({ count }, k) => within(from[k] + far * arrow[k], 0, count - 1)))
-  })
 
   return {
     canvas,

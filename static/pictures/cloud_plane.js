@@ -74,6 +74,10 @@ export function cloudPlane(el, options, source, signal, isShown) {
   let range = 1
   const { canvas, request, shoot } = squareCanvas(el, {
     className: "sphere cloud", role: "img", ariaLabel: "Cloud of phase points on the plane of ω₁ and ω₂",
+    onclick({ offsetX, offsetY }) {
+      const picked = place(canvas.clientWidth / zoom()).invert(offsetX / zoom(), offsetY / zoom())
+      tell("pick", { pick: [options.name, ...picked], drag: false })
+    },
   }, paint, signal)
   const place = (edge) => {
     range = own.data.half ?? range
@@ -101,10 +105,6 @@ export function cloudPlane(el, options, source, signal, isShown) {
     })
   }
 
-  canvas.addEventListener("click", ({ offsetX, offsetY }) => {
-    const picked = place(canvas.clientWidth / zoom()).invert(offsetX / zoom(), offsetY / zoom())
-    tell("pick", { pick: [options.name, ...picked], drag: false })
-  })
   const refresh = () => {
     request()
     source(options.density).put(densityOf(clouds.at(t)[0], own.data.bins))

@@ -16,7 +16,14 @@ import { createStage } from "./stage.js"
 
 // Milliseconds until the last colour of a theme has come.
 const LATE = 2000
-const KINDS = { sphere, cloud: cloudPlane }
+// Each draws a picture: {shoot(side), and where it has a ghost take(), show(…); the view of a plot}.
+const KINDS = {
+  sphere, cloud: cloudPlane,
+  async plot(host, picture, source, signal) {
+    const plot = await buildPlot(host, picture, source, signal)
+    return { plot, shoot: (side) => shootPlot(plot, side), ...planeGhost(plot) }
+  },
+}
 
 const built = new Map()
 let shelf = null
@@ -93,16 +100,13 @@ async function build(description) {
   grid.classList.add("away")
   shelf.append(grid)
   stage.place(scene)
-  for (const [host, picture] of places) {
-    const drawn = KINDS[picture.kind]?.(host, picture, source, signal, () => shown === scene)
-    if (drawn === undefined) continue
-    scene.shots.set(picture.name, drawn.shoot)
-    if (drawn.take) scene.ghosts.push(drawn)
-  }
-  scene.plots = await Promise.all(places.filter(([, { kind }]) => kind === "plot")
-    .map(([host, picture]) => buildPlot(host, picture, source, signal)))
-  for (const plot of scene.plots) scene.shots.set(plot.model.name, (side) => shootPlot(plot, side))
-  scene.ghosts.push(...scene.plots.map(planeGhost))
+  const drawn = await Promise.all(places.map(([host, picture]) => (
+    KINDS[picture.kind](host, picture, source, signal, () => shown === scene))))
+  drawn.forEach((one, i) => {
+    scene.shots.set(description.pictures[i].name, one.shoot)
+    if (one.take) scene.ghosts.push(one)
+    if (one.plot) scene.plots.push(one.plot)
+  })
   colour(scene)
   stage.size(scene)
   while (!scene.plots.every((plot) => plot.has_finished())) await new Promise(requestAnimationFrame)

@@ -54,6 +54,14 @@ export function sphere(el, options, source, signal, isShown) {
     className: inSpace ? "solid" : "sphere", tabIndex: 0, role: "application", ariaRoleDescription: "rotatable sphere",
     ariaLabel: `${options.title ?? "Poisson sphere"}: arrow keys turn it, Home turns it back`,
     title: "Drag: it turns. So it does by arrow keys; Home turns it back",
+    onkeydown(event) {
+      const arrow = arrowOf(event)
+      if (event.key === "Home") rotate(...HOME)
+      else if (arrow !== undefined) rotate(turn[0] - STEP * arrow[0], turn[1] + STEP * arrow[1])
+      else return
+      event.preventDefault()
+      event.stopPropagation()
+    },
   }, paint, signal)
   const lines = options.bare ? [circle([0, 0, 1], 0)] : graticule()
   let turn = HOME
@@ -151,14 +159,6 @@ export function sphere(el, options, source, signal, isShown) {
   onDrag(canvas, ({ clientX, clientY }) => [clientX, clientY, ...turn], ([x, y, azimuth, elevation], { clientX, clientY }) => {
     const perPixel = 2 / (canvas.clientWidth * RADIUS)
     rotate(azimuth - (clientX - x) * perPixel, elevation + (clientY - y) * perPixel)
-  })
-  canvas.addEventListener("keydown", (event) => {
-    const arrow = arrowOf(event)
-    if (event.key === "Home") rotate(...HOME)
-    else if (arrow !== undefined) rotate(turn[0] - STEP * arrow[0], turn[1] + STEP * arrow[1])
-    else return
-    event.preventDefault()
-    event.stopPropagation()
   })
 
   listen("turn", ([name, ...turned]) => {
