@@ -8,8 +8,12 @@ import { CALM } from "../page/windows.js"
 
 const TOUCHES = ["pointerdown", "keydown", "wheel"]
 
-// begin() sets the player going, end() stops it; isOwn(event): the player itself answers this touch.
-// {enter(name): the scene is on show; rest(): the first one begins at rest}.
+/**
+ * Return {enter(name): the scene is on show; rest(): the first one begins at rest}.
+ * @param {{begin: () => void, end: () => void, isOwn: (event: any) => boolean}} player begin() sets it going, end() stops
+ *   it; isOwn(event): it answers this touch itself
+ * @param {AbortSignal} signal
+ */
 export function opening({ begin, end, isOwn }, signal) {
   // Scenes that have begun once.
   const begun = new Set()

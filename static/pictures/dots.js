@@ -6,7 +6,11 @@ import { shade } from "./looks.js"
 // As large as a circle of Bokeh's marker "dot", whose diameter is a quarter of `size`.
 const sideOf = (size) => (size / 8) * Math.sqrt(Math.PI)
 
-// layers: [{source, x, y, size, color, alpha}] with the names of their columns.
+/**
+ * Return what paints layers of dots, see "frame_canvas.js".
+ * @param {{source: string, x: string, y: string, size: number, color: string, alpha: number}[]} layers x and y are columns
+ * @param {(name: string) => import("./sources.js").Source} source
+ */
 export function dotsPainter(layers, source) {
   return (ctx, xScale, yScale) => {
     for (const { source: name, x, y, size, color, alpha } of layers) {

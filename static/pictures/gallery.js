@@ -166,7 +166,7 @@ export function render({ model, view, el }) {
   shelf = element("div", { className: "shelf" })
   el.append(shelf)
   wear(el, signal)
-  stage = createStage(shelf, () => shown, signal)
+  stage = createStage(shelf, gallery, signal)
   sayDragMe(besideLayer, signal)
   listen("texts", (texts) => { for (const cell of shown?.cells ?? []) fillTexts(cell, texts) }, signal)
   watchTheme(followThemeForAWhile, signal)

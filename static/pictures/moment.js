@@ -1,7 +1,11 @@
 // A moment between the samples of an orbit.
 
-// [i, s]: t lies between the samples i and i + 1, the share s of the way; at an end where it lies beyond.  Samples are
-// closer where the curve bends.  `times` has two samples at least.
+/**
+ * Return [i, s]: t lies between the samples i and i + 1, the share s of the way; at an end where it lies beyond.  Samples are
+ * closer where the curve bends.
+ * @param {ArrayLike<number>} times two samples at least
+ * @param {number} t
+ */
 export function between(times, t) {
   let i = 0
   let above = times.length - 1

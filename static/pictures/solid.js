@@ -22,8 +22,12 @@ const GLASS = 0.22
 const [LIGHT_X, LIGHT_Y, LIGHT_Z] = unit(LIGHT)
 const [HALF_X, HALF_Y, HALF_Z] = unit(HALFWAY)
 
-// The ellipse in which an ellipsoid with these axes, unit vectors, and half lengths is seen: both halves, the angle of
-// the first one from the right, and half of the width and the height around it.
+/**
+ * Return the ellipse in which an ellipsoid is seen: both halves, the angle of the first one from the right, and half of the
+ * width and the height around it.
+ * @param {number[][]} axes unit vectors
+ * @param {number[]} semi half of its length along each axis
+ */
 export function outline(axes, semi) {
   let [xx, xy, yy] = [0, 0, 0]
   for (let k = 0; k < 3; k++) {
@@ -39,14 +43,14 @@ export function outline(axes, semi) {
   }
 }
 
-// Whether the place (x, y) is hidden by it, or would be if it were larger all round by `margin`.
+/** Return whether the place (x, y) is hidden by it, or would be if it were larger all round by `margin`. */
 export function covers(axes, semi, x, y, margin = 0) {
   const { halves, angle } = outline(axes, semi)
   const [c, s] = [Math.cos(angle), Math.sin(angle)]
   return Math.hypot((c * x + s * y) / (halves[0] + margin), (c * y - s * x) / (halves[1] + margin)) < 1
 }
 
-// Where a ray from its middle along v leaves it: as a multiple of v, and whether that is on the side that is seen.
+/** Return where a ray from its middle along v leaves it: as a multiple of v, and whether that is on the side that is seen. */
 export function leaves(axes, semi, v) {
   let [square, towards] = [0, 0]
   for (let k = 0; k < 3; k++) {
@@ -57,7 +61,7 @@ export function leaves(axes, semi, v) {
   return { at: 1 / Math.sqrt(square), near: towards >= 0 }
 }
 
-// Paints such ellipsoids; `glass`: one through which what lies behind is seen.
+/** Return what paints such ellipsoids; `glass`: one through which what lies behind is seen. */
 export function createSolid() {
   const canvas = element("canvas", { width: MOST, height: MOST })
   const shade = canvas.getContext("2d")

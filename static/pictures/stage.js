@@ -47,18 +47,16 @@ function captions(type) {
 /**
  * Return {place(scene), size(scene), cornerFor(name), enter(scene)}.
  * @param {HTMLElement} shelf holds the pictures
- * @param {() => any} shown returns the scene on show
+ * @param {any} gallery see "gallery.js"
  * @param {AbortSignal} signal
  */
-export function createStage(shelf, shown, signal) {
+export function createStage(shelf, gallery, signal) {
   let large = []
   let wanted = ""
   const chips = element("div", { className: "chips", role: "group", ariaLabel: "Picture" })
   shelf.after(chips)
 
-  const openCells = (scene) => scene.cells.filter((cell) => !isFolded(cell))
-  const cellOf = (name) => shown().cells.find((cell) => nameOf(cell) === name)
-  const placeShown = () => { if (shown() !== null) place(shown()) }
+  const placeShown = () => { if (gallery.shown !== null) place(gallery.shown) }
 
   // Only what changes is written: a plot whose size is set is laid out again.
   function put(cell, { x, y, width, edge, caption, small }, type) {
@@ -89,8 +87,8 @@ export function createStage(shelf, shown, signal) {
     const { clientWidth: width, clientHeight: height } = shelf
     if (width === 0) return
     const type = size(scene)
-    const cells = openCells(scene)
-    const own = scene === shown() ? large.map((name) => cells.findIndex((cell) => nameOf(cell) === name)) : []
+    const cells = scene.cells.filter((cell) => !isFolded(cell))
+    const own = scene === gallery.shown ? large.map((name) => cells.findIndex((cell) => nameOf(cell) === name)) : []
     const chosen = own.filter((i) => i >= 0)
     // From afar nothing is seen of a small one beside.
     const isAlone = isPresenting() && chosen.length > 0
@@ -105,7 +103,7 @@ export function createStage(shelf, shown, signal) {
       if (at >= 0) put(cell, { ...boxes[at], small: boxes[at].small || boxes[at].caption <= caption.title }, type)
       label(cell, i, chosen.includes(i))
     })
-    if (scene === shown() && PHONE.matches) showChips(scene.cells, cells[seen[0]])
+    if (scene === gallery.shown && PHONE.matches) showChips(scene.cells, cells[seen[0]])
   }
 
   function label(cell, i, isLarge) {
@@ -126,7 +124,7 @@ export function createStage(shelf, shown, signal) {
   function enlarge(names) {
     large = names
     tell("url", { large: names.join(",") })
-    place(shown())
+    placeShown()
   }
 
   // Another one in its place, or with it; the same one again: all are equal.
@@ -136,9 +134,9 @@ export function createStage(shelf, shown, signal) {
   }
 
   document.addEventListener("keydown", (event) => {
-    if (isTaken(event) || shown() === null) return
+    if (isTaken(event) || gallery.shown === null) return
     const [, digit] = /^(?:Digit|Numpad)([1-9])$/.exec(event.code) ?? []
-    const cell = openCells(shown())[Number(digit) - 1]
+    const cell = gallery.openCells()[Number(digit) - 1]
     if (cell === undefined) return
     event.preventDefault()
     toggle(nameOf(cell), event.shiftKey)
@@ -153,14 +151,14 @@ export function createStage(shelf, shown, signal) {
   listen("client", (own) => { wanted = own.large ?? "" }, signal)
   // What a lesson looks at.
   listen("look", (name) => {
-    if (isFolded(cellOf(name))) tell("fold", name)
+    if (isFolded(gallery.cell(name))) tell("fold", name)
     enlarge([name])
   }, signal)
   listen("fold", (name) => {
-    const folded = cellOf(name).classList.toggle("folded")
+    const folded = gallery.cell(name).classList.toggle("folded")
     if (folded) large = large.filter((one) => one !== name)
     else if (PHONE.matches) large = [name]
-    place(shown())
+    placeShown()
     tell("folded", { name, folded })
   }, signal)
 
@@ -177,7 +175,7 @@ export function createStage(shelf, shown, signal) {
     enter(scene) {
       const names = scene.cells.map(nameOf)
       large = wanted.split(",").filter((name) => names.includes(name)).slice(0, MOST_LARGE)
-      for (const name of large) cellOf(name).classList.remove("folded")
+      for (const name of large) gallery.cell(name).classList.remove("folded")
       wanted = ""
       tell("url", { large: large.join(",") })
       place(scene)
