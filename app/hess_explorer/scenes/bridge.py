@@ -9,20 +9,10 @@ from functools import cached_property
 
 import numpy as np
 
+from hess_explorer.scenes.framework import hess_case
 from hess_explorer.scenes.framework.charted import of_torus
-from hess_explorer.scenes.framework.hess_case import (
-    BY_THE_UNSTABLE_CYCLE,
-    OF_HEAVY,
-    RIS,
-    UNITS_OF_B,
-    UNSURE,
-    HeavyMotion,
-    SuslovBody,
-    limit_cycles,
-    possible_f,
-    reduced_motion,
-)
-from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, choice, like, number, slider_within
+from hess_explorer.scenes.framework.hess_case import HeavyHess
+from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, choice, number, parameter, slider_within
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.solid_body import Heavy, Hess, constrained_body, heavy_solid
 from hess_explorer.scenes.framework.work import orbit_status
@@ -34,12 +24,15 @@ from hess_explorer.views.layers import Columns
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits, ranging
 from hess_explorer.views.velocity_plane import nice_above, picture
+from hess_mechanics import parameters as known
 from hess_mechanics.euler_poisson.andoyer import coordinates, hess_circle
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge, largest_distance, share_of
 from hess_mechanics.euler_poisson.hess_manifold import SuslovDistance, difference
 from hess_mechanics.numerics.accuracy import DRAFT
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, f_max, turning_points
+from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
+from hess_mechanics.suslov_hess.equations import HessBody
 from hess_mechanics.suslov_hess.torus import MAX_RETURNS, Track, annulus, track
 
 SUSLOV, HEAVY = "Suslov–Hess", "Euler–Poisson"
@@ -57,7 +50,7 @@ PRESETS = (
     Preset("No cycles, given in Suslov–Hess", given=SUSLOV, h=0.2, f=0.5),
     Preset("f = 0: loxodromic pendulum", given=HEAVY, h=20.0, f=0.0),
     Preset("f = 0: it swings", given=HEAVY, h=5.0, f=0.0),
-    Preset("Body of figure 14, f = 1", given=HEAVY, **RIS, h=2.0, f=1.0),
+    Preset("Body of figure 14, f = 1", given=HEAVY, **hess_case.RIS, h=2.0, f=1.0),
 )
 
 
@@ -68,41 +61,49 @@ def _without_round_off(value: float) -> float:
 
 
 @dataclass(frozen=True)
-class _Given(State):
-    given: str = choice("Given in", (SUSLOV, HEAVY), HEAVY,
-                        group="State",
+class BothSides(State):
+    """One motion on both sides."""
+
+    given: str = choice("Given in", (SUSLOV, HEAVY), HEAVY, group="State",
                         doc="Whose parameters and integrals the sliders mean; those of the other side show its body. A "
                             "change of sides keeps the motion.")
-
-
-@dataclass(frozen=True)
-class BothSides(HeavyMotion, SuslovBody, _Given):
-    """One motion on both sides.  The parameters of the bases come first, those of the last one before the others."""
-
-    h: float = like(HeavyMotion, "h", doc="Of the side that is given: in units b = 1 for Suslov–Hess, H itself for "
-                    "Euler–Poisson.")
-    f: float = like(HeavyMotion, "f", doc="Of the side that is given: in units b = 1 for Suslov–Hess, (M, γ) for "
-                    "Euler–Poisson.")
-    phi0: float = like(HeavyMotion, "phi0", doc="Phase of the orbit on the section n₃ = n₃⁽¹⁾, in radians.")
+    I22: float = parameter(hess_case.I22)
+    I23: float = parameter(hess_case.I23)
+    b3: float = parameter(hess_case.B3)
+    I1: float = parameter(known.I1)
+    I2: float = parameter(known.I2)
+    I3: float = parameter(known.I3)
+    m: float = parameter(known.MU_R)
+    h: float = parameter(known.H_HEAVY, doc="Of the side that is given: in units b = 1 for Suslov–Hess, H itself for "
+                         "Euler–Poisson.")
+    f: float = parameter(known.F_HEAVY, doc="Of the side that is given: in units b = 1 for Suslov–Hess, (M, γ) for "
+                         "Euler–Poisson.")
+    phi0: float = parameter(hess_case.PHI0)
     share: float = number("x", 0.5, (0.01, 1.0), 0.01, bounds=(1e-6, 1.0), label="Free moment, x",
                           doc="Suslov–Hess leaves a moment of Euler–Poisson free: x = 1 is a flat body, where |a| < 1.")
     span: float = number("t", 50.0, (1.0, 200.0), 1.0, bounds=(0.01, 1e5), group="Computation", label="Time span",
                          doc="How long the motion is followed, in the time that both sides share.")
     accuracy: str = accuracy_level()
 
+    @cached_property
+    def heavy(self) -> HeavyHess:
+        """The motion as one of Euler–Poisson, where that is given."""
+        return HeavyHess((self.I1, self.I2, self.I3), self.m, self.h, self.f)
+
     def admitted(self, notes: list[str]) -> BothSides:
         """What is possible together on the side that is given."""
         if self.given == HEAVY:
-            return super().admitted(notes)
+            return self.changed(self.heavy.admitted(notes))
         h = max(self.h, _BOTTOM)
         if self.h < _BOTTOM:
             notes.append("In units b = 1 the energy is above −1: h is there now.")
-        return replace(self, h=h, I23=self.possible_I23(notes), f=possible_f(h, self.f, notes))
+        return replace(self, h=h, I23=hess_case.possible_I23(self.I22, self.I23, notes),
+                       f=hess_case.possible_f(h, self.f, notes))
 
     def limits(self) -> Mapping[str, Slider]:
         """The ranges of h and f on the side that is given."""
         if self.given == HEAVY:
-            return super().limits()
+            return self.heavy.limits()
         f = {"f": slider_within(f_max(self.h))} if self.h > -1.0 else {}
         return {"h": (-0.99, max(4.0, self.h), 0.01), **f}
 
@@ -117,7 +118,7 @@ class BothSides(HeavyMotion, SuslovBody, _Given):
 
     def means(self) -> Mapping[str, str]:
         """h and f are those of the side that is given."""
-        return dict.fromkeys("hf", OF_HEAVY if self.given == HEAVY else UNITS_OF_B)
+        return dict.fromkeys("hf", (known.H_HEAVY if self.given == HEAVY else known.H_HESS).means)
 
     def carried(self, before: BothSides) -> Mapping[str, float]:
         """The same motion, given on the other side.  Raises `ModelError`."""
@@ -133,12 +134,23 @@ class BothSides(HeavyMotion, SuslovBody, _Given):
     @cached_property
     def bridge(self) -> Bridge:
         """Both bodies.  Raises `ModelError`."""
-        return super().bridge if self.given == HEAVY else Bridge.of_suslov(self.body, self.share)
+        return self.heavy.bridge if self.given == HEAVY else Bridge.of_suslov(
+            HessBody(self.I22, self.I23, self.b3), self.share)
 
     @cached_property
     def turning(self) -> TurningPoints:
         """(h, f) in units b = 1, and where n3 turns.  Raises `ModelError`."""
-        return super().turning if self.given == HEAVY else turning_points(self.h, self.f)
+        return self.heavy.turning if self.given == HEAVY else turning_points(self.h, self.f)
+
+    @cached_property
+    def map(self) -> CircleMap:
+        """The circle map of the torus."""
+        return self.work.get(circle_map, self.bridge.hess.a, self.turning.h, self.turning.f, self.level)
+
+    @property
+    def period(self) -> float:
+        """One period of n3, in the time of the body."""
+        return self.map.period / self.bridge.hess.frequency_unit
 
     def ring(self) -> tuple[Array, Array]:
         """The ellipses between which ω lies."""
@@ -159,7 +171,7 @@ class BothSides(HeavyMotion, SuslovBody, _Given):
     @cached_property
     def cycles(self) -> tuple[Track, Track] | None:
         """The stable and the unstable limit cycle, where there are two."""
-        return limit_cycles(self.work, self.bridge.hess, self.map, self.level, self.half_width)
+        return hess_case.limit_cycles(self.work, self.bridge.hess, self.map, self.level, self.half_width)
 
     @cached_property
     def iterates(self) -> Array:
@@ -190,13 +202,14 @@ class BothSides(HeavyMotion, SuslovBody, _Given):
         most = min(_IN_A_DRAG if self.dragging else _MOST_PERIODS,
                    _MOST_GROWTH / (1.0 + 2.0 * math.pi * abs(self.bridge.hess.a)))
         end = min(self.span, most * self.period)
+        start = tuple(self.turning.state_at_lower_turn(self.phi0).tolist())
         count = max(64, math.ceil(end / self.period * _IN_A_PERIOD)) + 1
-        return self.work.get(difference, self.bridge, self.start, end, count)
+        return self.work.get(difference, self.bridge, start, end, count)
 
     def motion(self) -> Motion:
         """The motion that both sides share, reduced."""
         length = min(self.span * self.bridge.hess.frequency_unit, MAX_RETURNS * self.turning.period)
-        return reduced_motion(self.bridge.hess, self.turning, self.phi0, length)
+        return hess_case.reduced_motion(self.bridge.hess, self.turning, self.phi0, length)
 
     def orbit_columns(self) -> Columns:
         """The orbit, and what the moving points of the other pictures follow."""
@@ -261,8 +274,8 @@ class BothSides(HeavyMotion, SuslovBody, _Given):
         shown = float(self.track.times[-1]) if self.known("track") else math.inf
         if shown < self.span * (1.0 - 1e-9):
             yield f"The orbit is drawn up to t = {digits(shown)}: {MAX_RETURNS} returns."
-        if self.known("difference") and self.difference.error > UNSURE:
-            yield BY_THE_UNSTABLE_CYCLE
+        if self.known("difference") and self.difference.error > hess_case.UNSURE:
+            yield hess_case.BY_THE_UNSTABLE_CYCLE
 
 
 SCENE = Scene(

@@ -21,16 +21,15 @@ from hess_explorer.scenes.framework.branched import (
 from hess_explorer.scenes.framework.charted import Placed, exponents
 from hess_explorer.scenes.framework.exponent import exponent_picture
 from hess_explorer.scenes.framework.filled_window import EXPONENT, SECTION, TURN, filled_window
-from hess_explorer.scenes.framework.hess_case import HeavyMotion
 from hess_explorer.scenes.framework.hess_split import SplitSeparatrices, split_picture
 from hess_explorer.scenes.framework.indicator import INDICATOR, colouring
 from hess_explorer.scenes.framework.parameters import (
     accuracy_level,
     choice,
     exponent_time,
-    like,
     number,
     orbits_spread,
+    parameter,
     places,
     points_of_each,
     time_span,
@@ -45,6 +44,7 @@ from hess_explorer.views import andoyer
 from hess_explorer.views.layers import Columns, column
 from hess_explorer.views.poisson_sphere import Direction, along_the_orbit, gamma_columns
 from hess_explorer.views.text import digits, vector
+from hess_mechanics import parameters as known
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.euler_poisson.andoyer import AndoyerSection, hess_curve
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
@@ -93,9 +93,9 @@ class EulerPoisson(SplitSeparatrices, RotationAcross, Branched, HeavySolid):
     away: float = number("ε", 0.0, (-0.5, 0.5), 0.005, bounds=(-math.pi, math.pi), label="Distance from Hess, ε",
                          doc="The angle, in radians, by which the centre of mass r is turned away from the direction "
                              "that the Hess condition asks for. At 0 the barrier r·M = 0 cannot be crossed.")
-    m: float = like(HeavyMotion, "m")
-    h: float = like(HeavyMotion, "h", softbounds=(-1.0, 60.0), doc="H = h.")
-    f: float = like(HeavyMotion, "f", doc="(M, γ) = f; the section needs G ≥ |f|.")
+    m: float = parameter(known.MU_R)
+    h: float = parameter(known.H_HEAVY, softbounds=(-1.0, 60.0), doc="H = h.")
+    f: float = parameter(known.F_HEAVY, doc="(M, γ) = f; the section needs G ≥ |f|.")
     periodic: str = which()
     indicator: str = colouring()
     orbits: float = orbits_spread(60.0, 200.0, 400.0)

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from hess_explorer.scenes.framework.charted import of_torus
-from hess_explorer.scenes.framework.hess_case import BY_THE_UNSTABLE_CYCLE, RIS, UNSURE, HeavyMotion, reduced_motion
-from hess_explorer.scenes.framework.parameters import accuracy_level, number
-from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
+from hess_explorer.scenes.framework.hess_case import BY_THE_UNSTABLE_CYCLE, PHI0, RIS, UNSURE, HeavyHess, reduced_motion
+from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, number, parameter
+from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.solid_body import Heavy, heavy_solid
 from hess_explorer.views import andoyer, theme
 from hess_explorer.views.chart import LG_OF_0, lg, lg_axis
@@ -21,9 +21,10 @@ from hess_explorer.views.leak import distances
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, gamma_columns, parallels
 from hess_explorer.views.text import digits, ranging
+from hess_mechanics import parameters as known
 from hess_mechanics.euler_poisson import hess_manifold as mechanics
 from hess_mechanics.euler_poisson.andoyer import hess_circle
-from hess_mechanics.euler_poisson.hess_isomorphism import largest_distance
+from hess_mechanics.euler_poisson.hess_isomorphism import Bridge, largest_distance
 from hess_mechanics.numerics.accuracy import REFERENCE, level
 from hess_mechanics.numerics.results import Array, Orbit
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
@@ -42,20 +43,51 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class HessLeak(HeavyMotion):
+class HessLeak(State):
     """One motion, left to itself at the chosen accuracy and at reference, and the exact one at the same times.
 
     A slider that is held keeps the accuracy, which is what is looked at.
     """
 
+    I1: float = parameter(known.I1)
+    I2: float = parameter(known.I2)
+    I3: float = parameter(known.I3)
+    m: float = parameter(known.MU_R)
+    h: float = parameter(known.H_HEAVY)
+    f: float = parameter(known.F_HEAVY)
+    phi0: float = parameter(PHI0, doc="Phase of the start on the torus, at the lowest place of the centre of mass, in "
+                            "radians.")
     returns: float = number("N", 20.0, (5.0, 60.0), 1.0, bounds=(1.0, 200.0), group="Computation", label="Periods",
                             doc="How many periods of n₃ are followed.")
     accuracy: str = accuracy_level()
 
     @cached_property
+    def hess(self) -> HeavyHess:
+        """The motion on the Hess manifold."""
+        return HeavyHess((self.I1, self.I2, self.I3), self.m, self.h, self.f)
+
+    def admitted(self, notes: list[str]) -> HessLeak:
+        """h above the bottom, and f inside the region of this h."""
+        return self.changed(self.hess.admitted(notes))
+
+    def limits(self) -> Mapping[str, Slider]:
+        """The sliders span what is possible."""
+        return self.hess.limits()
+
+    @property
+    def bridge(self) -> Bridge:
+        """The heavy body, and the Suslov body of its motions.  Raises `InvalidParameter`, `NoField`."""
+        return self.hess.bridge
+
+    @cached_property
     def map(self) -> CircleMap:
         """The circle map, with the multipliers of the cycles."""
-        return self.work.get(circle_map, self.bridge.hess.a, self.turning.h, self.turning.f, REFERENCE)
+        return self.work.get(circle_map, self.bridge.hess.a, self.hess.turning.h, self.hess.turning.f, REFERENCE)
+
+    @property
+    def period(self) -> float:
+        """One period of n3, in the time of the body."""
+        return self.map.period / self.bridge.hess.frequency_unit
 
     @property
     def _periods(self) -> int:
@@ -64,7 +96,8 @@ class HessLeak(HeavyMotion):
     @cached_property
     def exact(self) -> Orbit:
         """The motion of the reduced system, in units b = 1."""
-        return self.work.get(mechanics.exact_motion, self.bridge.hess.a, self.start, self._periods * self.map.period,
+        start = tuple(self.hess.turning.state_at_lower_turn(self.phi0).tolist())
+        return self.work.get(mechanics.exact_motion, self.bridge.hess.a, start, self._periods * self.map.period,
                              self._periods * _IN_A_PERIOD + 1)
 
     @cached_property
@@ -88,7 +121,7 @@ class HessLeak(HeavyMotion):
 
     def motion(self) -> Motion:
         """The exact motion, of the reduced system."""
-        return reduced_motion(self.bridge.hess, self.turning, self.phi0, self._periods * self.turning.period)
+        return reduced_motion(self.bridge.hess, self.hess.turning, self.phi0, self._periods * self.hess.turning.period)
 
     @cached_property
     def solid(self) -> Heavy:
@@ -115,7 +148,7 @@ class HessLeak(HeavyMotion):
     def heights(self) -> list[Circle]:
         """The circles between which n3 swings."""
         r, sign = self.bridge.heavy.r, math.copysign(1.0, self.bridge.hess.b)
-        return parallels(r, [sign * n3 for n3 in self.turning.roots[1:]])
+        return parallels(r, [sign * n3 for n3 in self.hess.turning.roots[1:]])
 
     # ---- words --------------------------------------------------------------------------------------------------
 
@@ -141,7 +174,7 @@ class HessLeak(HeavyMotion):
                 f"{' and stays in it' if stays else ', and changes it later'}.")
 
     def _about_sphere(self) -> str:
-        return f"The exact γ, n₃ {ranging(*self.turning.roots[1:])}, and the one that leaks."
+        return f"The exact γ, n₃ {ranging(*self.hess.turning.roots[1:])}, and the one that leaks."
 
     def derived(self) -> Iterator[str]:
         """The reduced body and torus, the exact growth, and what was measured of it."""
@@ -177,7 +210,7 @@ class HessLeak(HeavyMotion):
 
 SCENE = Scene(
     HessLeak, __file__, place=12, presets=PRESETS,
-    charts=of_torus(lambda s: (s.bridge.hess.a, s.turning.h, s.turning.f)),
+    charts=of_torus(lambda s: (s.bridge.hess.a, s.hess.turning.h, s.hess.turning.f)),
     group="Euler–Poisson", essential=("h", "f", "phi0", "returns"),
     title="Leak off the Hess manifold",
     summary="An orbit on the Hess manifold of Euler–Poisson leaves it by round-off alone, at the rate of the cycle.",

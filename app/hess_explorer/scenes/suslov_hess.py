@@ -10,24 +10,17 @@ from functools import cached_property
 import numpy as np
 
 from hess_explorer.compute.cache import Task
+from hess_explorer.scenes.framework import hess_case
 from hess_explorer.scenes.framework.charted import of_torus
-from hess_explorer.scenes.framework.hess_case import (
-    UNITS_OF_B,
-    Proved,
-    SuslovBody,
-    limit_cycles,
-    map_or_none,
-    possible_f,
-    proved,
-)
-from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, choice, number, slider_within
-from hess_explorer.scenes.framework.proved_orbit import ProvedOrbit, proved_error_shown
+from hess_explorer.scenes.framework.hess_case import Proved, limit_cycles, map_or_none, possible_f, possible_I23, proved
+from hess_explorer.scenes.framework.parameters import Slider, accuracy_level, choice, number, parameter, slider_within
 from hess_explorer.scenes.framework.proved_zone import HIDDEN, SHOWN, ProvedZone, known_zone
-from hess_explorer.scenes.framework.scene import Motion, Preset, Scene
+from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.solid_body import Hess, constrained_body
 from hess_explorer.scenes.framework.torus_trials import boundary
 from hess_explorer.scenes.framework.trial import COLOUR, COLOUR_UNIT, Trial, colour_error, curve_error
 from hess_explorer.scenes.framework.work import orbit_status
+from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
 from hess_explorer.views import bifurcation_diagram as diagram
 from hess_explorer.views import circle_map as circle
 from hess_explorer.views import torus_density, torus_plane
@@ -37,13 +30,14 @@ from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Circle, Direction, Sphere, parallels
 from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import nice_above, picture
+from hess_mechanics import parameters as known
 from hess_mechanics.errors import InvalidParameter, Separatrix
 from hess_mechanics.numerics.accuracy import DRAFT, REFERENCE, Computation, Level
 from hess_mechanics.numerics.balls import has_flint
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, curve, curve_point, f_max, reach, turning_points
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
-from hess_mechanics.suslov_hess.equations import SYSTEM
+from hess_mechanics.suslov_hess.equations import SYSTEM, HessBody
 from hess_mechanics.suslov_hess.invariant_measure import density_on_torus, invariant_measure
 from hess_mechanics.suslov_hess.mode_locking import CELLS, affordable_cells, lock_boundary, rotation_number_window
 from hess_mechanics.suslov_hess.torus import MAX_RETURNS, Track, annulus, pixels_per_unit, start_of_track, track
@@ -66,15 +60,15 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class SuslovHess(SuslovBody, ProvedOrbit):
+class SuslovHess(State):
     """One orbit on one torus M²(h, f), all tori beside it."""
 
-    h: float = number("h", 1.5, (-0.99, 4.0), 0.01, bounds=(-1.0 + 1e-9, 1e6), label="Energy h",
-                      doc="Energy integral in units b = 1: h > −1; separatrix at h = 1, f = 0.", means=UNITS_OF_B)
-    f: float = number("f", 0.6, (-3.0, 3.0), 0.01, bounds=(-1e4, 1e4), label="Area integral f",
-                      doc="Area integral in units b = 1. Its range follows h.", means=UNITS_OF_B)
-    phi0: float = number("φ₀", 0.5, (-3.14, 3.14), 0.01, bounds=(-math.pi, math.pi), label="Phase φ₀",
-                         doc="Phase of the orbit on the section n₃ = n₃⁽¹⁾, in radians.")
+    I22: float = parameter(hess_case.I22)
+    I23: float = parameter(hess_case.I23)
+    b3: float = parameter(hess_case.B3)
+    h: float = parameter(known.H_HESS)
+    f: float = parameter(known.F_HESS)
+    phi0: float = parameter(hess_case.PHI0)
     span: float = number("t", 40.0, (1.0, 200.0), 1.0, bounds=(0.01, 1e5), group="Computation", label="Time span",
                          doc="How long the orbit is followed, in the time of the body (at most 100 returns).")
     cells: str = choice("Proved cells", (HIDDEN, SHOWN), HIDDEN,
@@ -85,11 +79,16 @@ class SuslovHess(SuslovBody, ProvedOrbit):
 
     def admitted(self, notes: list[str]) -> SuslovHess:
         """|a| ≤ 100, and f inside the region of this h."""
-        return replace(self, I23=self.possible_I23(notes), f=possible_f(self.h, self.f, notes))
+        return replace(self, I23=possible_I23(self.I22, self.I23, notes), f=possible_f(self.h, self.f, notes))
 
     def limits(self) -> Mapping[str, Slider]:
         """The slider of f spans the region at this h, in round steps."""
         return {"f": slider_within(f_max(self.h))}
+
+    @cached_property
+    def body(self) -> HessBody:
+        """The body."""
+        return HessBody(self.I22, self.I23, self.b3)
 
     @cached_property
     def turning(self) -> TurningPoints | None:
@@ -133,6 +132,12 @@ class SuslovHess(SuslovBody, ProvedOrbit):
     def finding(self) -> Task:
         """What finds it."""
         return Task(track, (self.body, self.h, self.f, self.phi0, self.span, self.level, self.half_width))
+
+    @cached_property
+    def orbit_proof(self) -> Proof:
+        """Its proved error."""
+        unit = self.body.frequency_unit
+        return Proof(self, self.certain, (unit, unit * math.hypot(1.0, self.body.a)))
 
     @cached_property
     def cycles(self) -> tuple[Track, Track] | None:
@@ -202,7 +207,7 @@ class SuslovHess(SuslovBody, ProvedOrbit):
     def heights(self) -> list[Circle]:
         """The circles between which n3 swings; where the true γ is."""
         ends = (-1.0, 1.0) if self.turning is None else self.turning.roots[1:]
-        return [*parallels(self.body.n3, ends), *self.proved_around]
+        return [*parallels(self.body.n3, ends), *self.orbit_proof.around]
 
     def colours(self, cells: tuple[int, int], level: Level) -> Task:
         """What finds the rotation number over the diagram."""
@@ -241,7 +246,7 @@ class SuslovHess(SuslovBody, ProvedOrbit):
         """The orbit, the circle map."""
         if self.known("track"):
             yield from orbit_status(self.track.orbit)
-            yield from self.certainty()
+            yield from self.orbit_proof.status()
         if self.map is None:
             yield "circle map: separatrix, no return"
         else:
@@ -284,7 +289,7 @@ SCENE = Scene(
     views=(
         constrained_body(section=True),
         picture(lambda s: torus_plane.about(s.map, s.turning), lambda s: s.half_width, torus_plane.layers(
-            lambda s: annulus(s.body, s.h, s.turning), lambda s: s.half_width, proved=lambda s: s.proved_band)),
+            lambda s: annulus(s.body, s.h, s.turning), lambda s: s.half_width, proved=lambda s: s.orbit_proof.band)),
         Sphere(caption=lambda s: torus_plane.about_heights(s.turning), circles=SuslovHess.heights,
                axis=lambda s: Direction(s.body.n3, "n₃"), looks={one: one for one in ("orbit", "stable", "unstable")}),
         Plot(name="bifurcation", title="Bifurcation diagram", axes=("h", "f"),

@@ -1,4 +1,4 @@
-"""What the scenes of the Hess case have in common: the parameters of both bodies, what is possible, words."""
+"""What the scenes of the Hess case have in common: parameters, what is possible, words."""
 
 from __future__ import annotations
 
@@ -8,14 +8,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Self
 
-from hess_explorer.scenes.framework.inertia import CentreOfMass, Moments, Tensor
-from hess_explorer.scenes.framework.parameters import Slider, like, number, slider_within
-from hess_explorer.scenes.framework.scene import Motion, State
+from hess_explorer.protocol.parameters import Values
+from hess_explorer.scenes.framework.inertia import limits_of_moments
+from hess_explorer.scenes.framework.parameters import ONE_TURN, Slider, slider_within
+from hess_explorer.scenes.framework.scene import Motion
 from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.text import digits
 from hess_explorer.views.velocity_plane import pixels_per_unit
+from hess_mechanics import parameters as known
 from hess_mechanics.errors import ModelError, NoField, Separatrix
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge, largest_area_integral
@@ -30,8 +31,21 @@ from hess_mechanics.suslov_hess.proof import NO_CYCLE, TWO_CYCLES, Proof, prove
 from hess_mechanics.suslov_hess.torus import Track, cycles
 
 __all__ = [
-    "BY_THE_UNSTABLE_CYCLE", "OF_HEAVY", "RIS", "UNITS_OF_B", "UNSURE", "HeavyMotion", "Proved", "SuslovBody",
-    "limit_cycles", "map_or_none", "possible_f", "proved", "reduced_motion",
+    "B3",
+    "BY_THE_UNSTABLE_CYCLE",
+    "I22",
+    "I23",
+    "PHI0",
+    "RIS",
+    "UNSURE",
+    "HeavyHess",
+    "Proved",
+    "limit_cycles",
+    "map_or_none",
+    "possible_I23",
+    "possible_f",
+    "proved",
+    "reduced_motion",
 ]
 
 _MAX_A = 100.0
@@ -44,8 +58,14 @@ _INSIDE = 1.0 - 1e-12
 UNSURE = 1e-9
 BY_THE_UNSTABLE_CYCLE = "This motion starts next to the unstable cycle: on the torus too any round-off grows there."
 
-UNITS_OF_B, OF_HEAVY = "Suslov–Hess, in units b = 1", "Euler–Poisson"
-"""Whose energy and area integral h and f are."""
+I22 = replace(known.I22, default=0.96, softbounds=(0.2, 3.0),
+              doc="Moment of inertia about the second body axis. I₁₁ follows from it and I₂₃.")
+I23 = replace(known.I23, default=0.28,
+              doc="Product of inertia. a = I₂₃/I₂₂ tilts the circular section; a = 0 decouples the motion.")
+# Without a field in this direction there is no Hess case.
+B3 = replace(known.B3, default=-1.0, softbounds=(-3.0, -0.05), bounds=(-1e3, -1e-3),
+             doc="Third component of b = −mg r. It sets the unit of time; b₂ follows from it.")
+PHI0 = replace(known.PHI0, bounds=ONE_TURN)
 
 RIS = {"I1": 1.0, "I2": 1.5, "I3": 2.0, "m": math.sqrt(0.5)}
 """The body of figures 13 and 14, after half a turn about its middle axis."""
@@ -65,6 +85,16 @@ def possible_f(h: float, f: float, notes: list[str]) -> float:
         return f
     notes.append(f"At h = {digits(h)} only |f| ≤ {digits(largest)} is possible: f is at that edge now.")
     return math.copysign(largest, f)
+
+
+def possible_I23(I22: float, I23: float, notes: list[str]) -> float:
+    """I23 with |a| ≤ 100; what was changed is said in the notes."""
+    bound = _MAX_A * I22
+    if abs(I23) <= bound:
+        return I23
+    I23 = math.copysign(bound, I23)
+    notes.append(f"a = I₂₃/I₂₂ is kept within ±{_MAX_A:g}: I₂₃ is {digits(I23)} now.")
+    return I23
 
 
 def map_or_none(work: Work, a: float, h: float, f: float, level: Level) -> CircleMap | None:
@@ -121,82 +151,44 @@ def _costs(found: Proof) -> str:
 
 
 @dataclass(frozen=True)
-class SuslovBody(State):
-    """The body of a motion in the Suslov problem; mixed into the state of a scene."""
+class HeavyHess:
+    """A motion of Euler–Poisson on the Hess manifold: the moments of inertia, μ|r|, energy and area integral."""
 
-    I22: float = like(Tensor, "I22", 0.96, softbounds=(0.2, 3.0),
-                      doc="Moment of inertia about the second body axis. I₁₁ follows from it and I₂₃.")
-    I23: float = like(Tensor, "I23", 0.28,
-                      doc="Product of inertia. a = I₂₃/I₂₂ tilts the circular section; a = 0 decouples the motion.")
-    b3: float = like(CentreOfMass, "b3", -1.0, softbounds=(-3.0, -0.05), bounds=(-1e3, -1e-3),
-                     doc="Third component of b = −mg r. It sets the unit of time; b₂ follows from it.")
-
-    @cached_property
-    def body(self) -> HessBody:
-        """The body."""
-        return HessBody(self.I22, self.I23, self.b3)
-
-    @property
-    def units(self) -> tuple[float, float]:
-        """Of w1 and w2, in those of ω1 and ω2."""
-        return self.body.frequency_unit, self.body.frequency_unit * math.hypot(1.0, self.body.a)
-
-    def possible_I23(self, notes: list[str]) -> float:
-        """I23 with |a| ≤ 100; what was changed is said in the notes."""
-        bound = _MAX_A * self.I22
-        if abs(self.I23) <= bound:
-            return self.I23
-        I23 = math.copysign(bound, self.I23)
-        notes.append(f"a = I₂₃/I₂₂ is kept within ±{_MAX_A:g}: I₂₃ is {digits(I23)} now.")
-        return I23
-
-
-@dataclass(frozen=True)
-class HeavyMotion(Moments):
-    """A motion of Euler–Poisson on the Hess manifold: body, integrals, phase; mixed into the state of a scene."""
-
-    m: float = number("μ|r|", 9.975, (-20.0, 20.0), 0.005, bounds=(-1e3, 1e3), group="Body",
-                      label="Weight times distance, μ|r|",
-                      doc="The potential is −μ(r, γ). Its sign is that of r.")
-    h: float = number("h", 50.0, (-9.0, 100.0), 0.05, bounds=(-1e3, 1e5), label="Energy h", doc="H = h; above −μ|r|.",
-                      means=OF_HEAVY)
-    f: float = number("f", 5.0, (-8.0, 8.0), 0.05, bounds=(-1e3, 1e3), label="Area integral f",
-                      doc="(M, γ) = f. Its range follows h.", means=OF_HEAVY)
-    phi0: float = number("φ₀", 0.5, (-3.14, 3.14), 0.01, bounds=(-math.pi, math.pi), label="Phase φ₀",
-                         doc="Phase of the start on the torus, at the lowest place of the centre of mass, in radians.")
+    moments: tuple[float, float, float]
+    m: float
+    h: float
+    f: float
 
     @property
     def _least_weight(self) -> float:
         """So that h in units of μ|r| is a number to compute with."""
         return max(1e-3, 1e-9 * abs(self.h))
 
-    @property
-    def _largest_f(self) -> float:
-        return largest_area_integral(self.m, self.I2, self.h) * _INSIDE
+    def _largest_f(self, h: float) -> float:
+        return largest_area_integral(self.m, self.moments[1], h) * _INSIDE
 
-    def admitted(self, notes: list[str]) -> Self:
-        """h above the bottom, and f inside the region of this h."""
-        state, bottom = self, -abs(self.m) * _INSIDE
+    def admitted(self, notes: list[str]) -> Values:
+        """Return h above the bottom, and f inside the region of this h; append a note for each change."""
         if abs(self.m) < self._least_weight:
-            return self
-        if self.h < bottom:
-            state = replace(state, h=bottom)
-            notes.append(f"The energy is above −μ|r|: h is {digits(bottom)} now.")
-        largest = state._largest_f
-        if abs(self.f) > largest:
-            state = replace(state, f=math.copysign(largest, self.f))
-            notes.append(f"At h = {digits(state.h)} only |f| ≤ {digits(largest)} is possible on the Hess manifold: "
-                         "f is at that edge now.")
-        return state
+            return {}
+        h, f = max(self.h, -abs(self.m) * _INSIDE), self.f
+        if h > self.h:
+            notes.append(f"The energy is above −μ|r|: h is {digits(h)} now.")
+        largest = self._largest_f(h)
+        if abs(f) > largest:
+            f = math.copysign(largest, f)
+            notes.append(f"At h = {digits(h)} only |f| ≤ {digits(largest)} is possible on the Hess manifold: f is at "
+                         "that edge now.")
+        return {"h": h, "f": f}
 
     def limits(self) -> Mapping[str, Slider]:
-        """The sliders of h and f span what is possible, in round steps; the moments keep their order."""
-        m, moments = abs(self.m), super().limits()
+        """Return ranges of h and f that span what is possible, in round steps; the moments keep their order."""
+        m, moments = abs(self.m), limits_of_moments(*self.moments)
         if m < self._least_weight or self.h <= -m:
             return moments
         step = 10.0 ** (math.floor(math.log10(m)) - 2)
         low = -math.floor(m / step * 0.995) * step
-        return {**moments, "h": (low, max(10.0 * m, self.h), step), "f": slider_within(self._largest_f)}
+        return {**moments, "h": (low, max(10.0 * m, self.h), step), "f": slider_within(self._largest_f(self.h))}
 
     @cached_property
     def bridge(self) -> Bridge:
@@ -214,18 +206,3 @@ class HeavyMotion(Moments):
         except Separatrix:
             raise Separatrix("h = μ|r|, f = 0 is the separatrix: n₃ has no period. Choose another h, or f other than "
                              "0.") from None
-
-    @cached_property
-    def map(self) -> CircleMap:
-        """The circle map of the torus."""
-        return self.work.get(circle_map, self.bridge.hess.a, self.turning.h, self.turning.f, self.level)
-
-    @property
-    def period(self) -> float:
-        """One period of n3, in the time of the body."""
-        return self.map.period / self.bridge.hess.frequency_unit
-
-    @cached_property
-    def start(self) -> tuple[float, ...]:
-        """The state of the reduced system where n3 turns below, in units b = 1."""
-        return tuple(self.turning.state_at_lower_turn(self.phi0).tolist())
