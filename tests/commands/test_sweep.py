@@ -69,7 +69,8 @@ def test_quantities_and_their_parameters_are_listed(capsys):
     assert "rotation-number\n    ρ: Rotation number" in said
     assert "lyapunov-euler-poisson" in said
     assert main(["sweep", "--list", "theta-plus"]) == 0
-    assert "theta = 1: angle of the circle from ξ" in capsys.readouterr().out
+    listed = capsys.readouterr().out
+    assert "theta = 1: The angle between ξ and γ on the circle that the motion leaves. (0 … 3.14159)" in listed
 
 
 T = "3000"

@@ -10,13 +10,14 @@ from itertools import count
 import numpy as np
 import pytest
 
-from hess_explorer.sweep import QUANTITIES, Interrupted, MissingLibrary, Outcome, Parameter, Quantity, explain, sweep
+from hess_explorer.sweep import QUANTITIES, Interrupted, MissingLibrary, Outcome, Quantity, explain, sweep
 from hess_explorer.sweep import run as running
 from hess_explorer.sweep.grid import SweepGrid
 from hess_explorer.sweep.quantity import Found
 from hess_explorer.sweep.work import cost_of_a_cell
 from hess_mechanics import level
 from hess_mechanics.errors import InvalidParameter, ModelError, NoField, WorkLimit
+from hess_mechanics.parameters import Parameter
 
 TORI = {"h": (-1.2, 2.0, 12), "f": (0.0, 1.2, 9)}
 
@@ -31,7 +32,7 @@ def in_pieces(monkeypatch):
 
 def own(compute, parts=()):
     """A quantity that exists only here, of x and y."""
-    x, y = (Parameter(name, name, 0.0, -10.0, 10.0, "a number") for name in "xy")
+    x, y = (Parameter(name, name, name, 0.0, (-1.0, 1.0), 0.1, (-10.0, 10.0), "A number.") for name in "xy")
     return Quantity("own", "q", "A quantity of this test", "1", "of x and y", (x, y), compute, parts)
 
 
@@ -50,7 +51,7 @@ def test_a_dataset_says_what_it_is():
     assert found.attrs["version"]
     assert found.rotation_number.attrs["units"] == "turns per return"
     assert found.rotation_number.attrs["symbol"] == "ρ"
-    assert found.h.attrs["long_name"].startswith("energy")
+    assert found.h.attrs["long_name"].startswith("Energy")
     words = dict(zip(found.status.attrs["flag_values"], found.status.attrs["flag_meanings"].split(), strict=True))
     assert words[1] == "ok"
     assert words[10] == "no_such_motion"
@@ -191,7 +192,7 @@ WRONG = [
     (("rotation-number", {"h": [1.0], "f": [0.1], "a": [0.5], "x": [1.0]}, {}), "one to 3 parameters, not 4"),
     (("rotation-number", {"x": [1.0]}, {}), "no parameter 'x'; choose from a, h, f"),
     (("rotation-number", {"h": [1.0]}, {"g": 1.0}), "no parameter 'g'"),
-    (("rotation-number", {"h": [1.0]}, {"a": 0.5}), "needs f, area integral"),
+    (("rotation-number", {"h": [1.0]}, {"a": 0.5}), r"needs f \(Area integral f\)"),
     (("rotation-number", {"h": [1.0], "f": [0.1]}, {"h": 1.0, "a": 0.5}), "h is swept and has one value too"),
     (("rotation-number", {"h": (0.0, 1.0, 1)}, {"a": 0.5, "f": 0.1}), "has 1 values: choose 2 or more"),
     (("rotation-number", {"h": []}, {"a": 0.5, "f": 0.1}), "one or more numbers in a row"),
@@ -199,12 +200,12 @@ WRONG = [
     (("rotation-number", {"h": ["x"]}, {"a": 0.5, "f": 0.1}), "are not all numbers"),
     (("rotation-number", {"h": 1.0}, {"a": 0.5, "f": 0.1}), "give one of these"),
     (("rotation-number", {"h": [1.0, 1.0]}, {"a": 0.5, "f": 0.1}), "is there twice"),
-    (("rotation-number", {"h": [np.nan]}, {"a": 0.5, "f": 0.1}), "h = nan, but it lies between"),
-    (("rotation-number", {"h": (0.0, np.inf, 5)}, {"a": 0.5, "f": 0.1}), "h = inf, but it lies between"),
-    (("rotation-number", {"h": [1.0]}, {"a": 1e9, "f": 0.1}), "a = 1e\\+09, but it lies between -1e\\+06 and 1e\\+06"),
+    (("rotation-number", {"h": [np.nan]}, {"a": 0.5, "f": 0.1}), "h = nan is not between"),
+    (("rotation-number", {"h": (0.0, np.inf, 5)}, {"a": 0.5, "f": 0.1}), "h = inf is not between"),
+    (("rotation-number", {"h": [1.0]}, {"a": 1e9, "f": 0.1}), "a = 1e\\+09 is not between -1000 and 1000"),
     (("rotation-number", {"h": [1.0]}, {"a": "much", "f": 0.1}), "a is a number, not 'much'"),
-    (("crossings-suslov", {"variable": [1.5]}, {}), "variable is a whole number"),
-    (("crossings-suslov", {"w1": [1.0]}, {"sense": 0.5}), "sense is a whole number, not 0.5"),
+    (("crossings-suslov", {"variable": [1.5]}, {}), "variable = 1.5 is not a whole number between 1 and 5"),
+    (("crossings-suslov", {"w1": [1.0]}, {"sense": 0.5}), "sense = 0.5 is not a whole number between -1 and 1"),
     (("rotation-number", {"h": [1.0]}, {"a": 0.5, "f": 0.1, "level": "sloppy"}), "choose one of draft"),
     (("rotation-number", {"h": [1.0]}, {"a": 0.5, "f": 0.1, "workers": "many"}), "no address of a Dask scheduler"),
     (("rotation-number", {"h": [1.0]}, {"a": 0.5, "f": 0.1, "workers": 10_000}), "or the address of a Dask cluster"),

@@ -95,8 +95,8 @@ def _listed(name: str | None) -> str:
     if name is None:
         return "".join(f"{one.name}\n    {one.symbol}: {one.title}\n" for one in QUANTITIES.values())
     one = quantity(name)
-    rows = (f"    {each.name}{'' if each.default is None else f' = {each.default:g}'}: {each.doc} "
-            f"({each.low:g} … {each.high:g})\n" for each in one.parameters)
+    rows = (f"    {each.name}{'' if each.name in one.needed else f' = {each.default:g}'}: {each.doc} "
+            f"({each.bounds[0]:g} … {each.bounds[1]:g})\n" for each in one.parameters)
     return f"{one.name}\n    {one.symbol}: {one.title}, {one.units}\n    {one.doc}\n\n{''.join(rows)}"
 
 

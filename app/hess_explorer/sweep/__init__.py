@@ -16,7 +16,7 @@ from hess_explorer.sweep.errors import (
 )
 from hess_explorer.sweep.progress import Progress
 from hess_explorer.sweep.quantities import QUANTITIES
-from hess_explorer.sweep.quantity import Outcome, Parameter, Quantity
+from hess_explorer.sweep.quantity import Outcome, Quantity
 from hess_explorer.sweep.result import read
 from hess_explorer.sweep.run import explain, sweep
 from hess_mechanics.errors import MissingLibrary
@@ -28,7 +28,6 @@ __all__ = [
     "NoValue",
     "OtherSweep",
     "Outcome",
-    "Parameter",
     "Progress",
     "Quantity",
     "StoreError",

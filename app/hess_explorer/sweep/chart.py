@@ -19,7 +19,6 @@ from hess_explorer.protocol.parameters import Link, Number, Places, Value, place
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.charted import Charted
 from hess_explorer.scenes.framework.scene import Scene
-from hess_explorer.sweep.grid import check
 from hess_explorer.sweep.quantities import quantity as named
 from hess_explorer.sweep.quantity import Found, Outcome, Outcomes, Quantity, evaluate, refused
 from hess_mechanics.errors import InvalidParameter, ModelError
@@ -190,13 +189,7 @@ def _numbers(scene: Scene[Any]) -> dict[str, tuple[str, Ends, Ends]]:
 def _arguments(scene: Scene[Any], charted: Charted[Any], values: Mapping[str, Value]) -> Mapping[str, float]:
     """Those of the quantity in a state, each within its bounds.  Raises `ModelError`."""
     found = charted.arguments(scene.of(values))
-    cell = {}
-    for one in named(charted.quantity).parameters:
-        value = found.get(one.name, one.default)
-        assert value is not None, (charted.quantity, one.name)
-        check(one, value)
-        cell[one.name] = value
-    return cell
+    return {one.name: one.check(found.get(one.name, one.default)) for one in named(charted.quantity).parameters}
 
 
 def sides_of_places(scene: Scene[Any]) -> list[dict[str, Any]]:

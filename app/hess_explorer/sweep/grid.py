@@ -9,11 +9,12 @@ from itertools import product
 
 import numpy as np
 
-from hess_explorer.sweep.quantity import CellArrays, Parameter, Quantity
+from hess_explorer.sweep.quantity import CellArrays, Quantity
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.results import Array
+from hess_mechanics.parameters import Parameter
 
-__all__ = ["HARD_LIMIT", "MAX_NUMBERS", "Axis", "Box", "SweepGrid", "check", "expanded"]
+__all__ = ["HARD_LIMIT", "MAX_NUMBERS", "Axis", "Box", "SweepGrid", "expanded"]
 
 MAX_NUMBERS = 10_000_000
 """Of a sweep, unless more are allowed by name: 90 MB, in memory or on disk."""
@@ -115,7 +116,7 @@ def _axis(one: Parameter, values: Axis) -> Array:
     if _is_range(values):
         low, high, count = float(values[0]), float(values[1]), int(values[2])
         for end in (low, high):
-            check(one, end)
+            one.check(end)
         found = np.linspace(low, high, count)
     else:
         try:
@@ -124,30 +125,19 @@ def _axis(one: Parameter, values: Axis) -> Array:
             raise InvalidParameter(f"The values of {one.name} are not all numbers.") from None
     if found.ndim != 1 or found.size == 0:
         raise InvalidParameter(f"The values of {one.name} are one or more numbers in a row.")
-    for value in (float(found.min()), float(found.max())):
-        check(one, value)
-    if one.whole and np.any(found != np.round(found)):
-        raise InvalidParameter(f"{one.name} is a whole number: choose such values.")
+    # Bounds first: of many values the least and the largest are named.
+    for value in (float(found.min()), float(found.max()), *(found.tolist() if one.whole else ())):
+        one.check(value)
     if np.unique(found).size < found.size:
         raise InvalidParameter(f"A value of {one.name} is there twice: give each once.")
     return found
 
 
 def _value(one: Parameter, quantity: Quantity, fixed: Mapping[str, float]) -> float:
-    if one.name not in fixed and one.default is None:
-        raise InvalidParameter(f"{quantity.name} needs {one.name}, {one.doc}: sweep over it, or give it a value.")
+    if one.name not in fixed and one.name in quantity.needed:
+        raise InvalidParameter(f"{quantity.name} needs {one.name} ({one.label}): sweep over it, or give it a value.")
     try:
-        value = float(fixed.get(one.name, one.default or 0.0))
+        value = float(fixed.get(one.name, one.default))
     except (TypeError, ValueError):
         raise InvalidParameter(f"{one.name} is a number, not {fixed[one.name]!r}.") from None
-    check(one, value)
-    if one.whole and value != round(value):
-        raise InvalidParameter(f"{one.name} is a whole number, not {value:g}.")
-    return value
-
-
-def check(one: Parameter, value: float) -> None:
-    """Raise `InvalidParameter` where a parameter may not have this value."""
-    if not one.low <= value <= one.high:
-        raise InvalidParameter(f"{one.name} = {value:g}, but it lies between {one.low:g} and {one.high:g}: choose it "
-                               "there.")
+    return one.check(value)

@@ -11,7 +11,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 
-from hess_explorer.sweep.quantity import Cell, Parameter, Quantity, number, one_by_one, time_of, whole
+from hess_explorer.sweep.quantity import Cell, Quantity, one_by_one, usual, whole
+from hess_mechanics import parameters as known
 from hess_mechanics.chaplygin_ball import section as of_ball
 from hess_mechanics.chaplygin_ball.equations import SYSTEM as BALL
 from hess_mechanics.chaplygin_ball.equations import BallBody
@@ -25,6 +26,7 @@ from hess_mechanics.euler_poisson import andoyer
 from hess_mechanics.euler_poisson.equations import SYSTEM as HEAVY
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.parameters import Parameter
 from hess_mechanics.suslov import section as of_suslov
 from hess_mechanics.suslov.basins import contraction
 from hess_mechanics.suslov.equations import SYSTEM as SUSLOV
@@ -56,15 +58,17 @@ class _Motions:
 # ---- where motions start ----------------------------------------------------------------------------------------
 
 
+_OF_SYSTEMS: Mapping[str, Parameter] = {one.name: one for one in (
+    *known.TENSOR, *known.FIELD, known.D, *known.INVERSE_MOMENTS, *known.CENTRE, known.MU, known.A_HESS, known.B_HESS,
+    known.C1, known.C2, known.CUBIC, known.QUARTIC, *known.OMEGA, *known.GAMMA, *known.MOMENTUM, *known.REDUCED_GAMMA)}
+"""Parameters and variables of the systems, by name."""
+
+
 def _anywhere(system: System) -> _Motions:
     """By default that of its example."""
-    state, _ = system.example
-    last = len(state) - 3
-    parameters = (
-        *_body(system),
-        *(number(argument, name, value, f"{name} at t = 0" + ("; normalised" if i >= last else ""))
-          for i, (argument, name, value) in enumerate(zip(system.arguments, system.variables, state, strict=True))))
-    return _Motions(system.name, system.title, system, parameters, partial(_given, system))
+    variables = {**_OF_SYSTEMS, **({one.name: one for one in known.REDUCED_OMEGA} if system.name == "hess" else {})}
+    start = (usual(variables[name], value) for name, value in zip(system.arguments, system.example[0], strict=True))
+    return _Motions(system.name, system.title, system, (*_body(system), *start), partial(_given, system))
 
 
 def _given(system: System, values: Values) -> tuple[Body, Start]:
@@ -76,15 +80,13 @@ def _given(system: System, values: Values) -> tuple[Body, Start]:
 
 def _body(system: System) -> tuple[Parameter, ...]:
     """Its parameters, by default those of its example."""
-    return tuple(number(name, name, value, "parameter of the system")
+    return tuple(usual(_OF_SYSTEMS[name], value)
                  for name, value in zip(system.parameters, system.example[1], strict=True))
 
 
-_PLACE = (number("psi", "ψ", 1.0, "angle of γ in the plane of the section, at t = 0", units="rad"),
-          number("delta", "δ", 1.0, "angle of ω from the direction that keeps γ_k, at t = 0", 0.0, math.pi, "rad"))
+_PLACE = (known.PSI, known.DELTA)
 
-SUSLOV_ENERGY = (*_body(SUSLOV), number("h", "h", 1.0, "energy above the bottom, E + |b|", 0.0),
-                 whole("k", "k", 3, 1, 3, "the section is γ_k = 0, γ_k growing"))
+SUSLOV_ENERGY = (*_body(SUSLOV), known.H_SUSLOV, whole("k", "k", 3, 1, 3, "The section is γ_k = 0, γ_k growing."))
 """The parameters of a section of the Suslov problem."""
 
 
@@ -118,15 +120,15 @@ _ON_SECTIONS = (
     _Motions("suslov-section", "Suslov problem, a place of a section", SUSLOV, (*SUSLOV_ENERGY, *_PLACE), _on_suslov,
              lambda values: of_suslov.plane_of(int(values["k"]))),
     _Motions("ball-section", "Chaplygin ball, a place of a section", BALL,
-             (*_body(BALL), number("h", "h", 2.0, "energy above the lowest on γ₃ = 0, E + √(b₁² + b₂²)", 0.0), *_PLACE),
+             (*_body(BALL), known.H_BALL, *_PLACE),
              _on_ball, lambda values: of_ball.EQUATOR),
     _Motions("euler-poisson-section", "Euler–Poisson, a place of the Andoyer–Deprit section", HEAVY,
-             (*_body(HEAVY), number("h", "h", 2.0, "energy"), number("f", "f", 0.5, "area integral (M, γ)"),
-              number("l", "l", 0.0, "Andoyer–Deprit angle of M about axis 3, at t = 0", units="rad"),
-              number("x", "L/G", 0.2, "M₃/|M| at t = 0", -1.0, 1.0),
-              whole("sheet", "sheet", 0, 0, andoyer.SHEETS - 1, "which momentum G of this energy, the largest is 0")),
+             (*_body(HEAVY), usual(known.H_HEAVY, 2.0), usual(known.F_HEAVY, 0.5), known.L, known.X, known.SHEET),
              _on_heavy, lambda values: andoyer.AndoyerPlane(values["f"])),
 )
+
+_OFFSET = Parameter("offset", "c", "Offset of the plane", 0.0, (-1.0, 1.0), 0.01, (-1e3, 1e3),
+                    "The value of that variable on the plane.")
 
 # ---- what is computed of them -----------------------------------------------------------------------------------
 
@@ -171,8 +173,8 @@ def _divergence(of: _Motions, level: Level, t: float, **values: float) -> Cell:
 
 def _quantities(of: _Motions) -> tuple[Quantity, ...]:
     size = len(of.system.variables)
-    long = time_of(500.0, "time over which to average")
-    counted = time_of(100.0, "time up to which crossings are counted")
+    long = usual(known.SPAN, 500.0, "Time over which to average.")
+    counted = usual(known.SPAN, 100.0, "Time up to which crossings are counted.")
 
     def one(name: str, symbol: str, title: str, units: str, doc: str, function: Callable[..., Cell],
             *parameters: Parameter, parts: tuple[str, ...] = (), error: str = "") -> Quantity:
@@ -192,15 +194,14 @@ def _quantities(of: _Motions) -> tuple[Quantity, ...]:
             long, error="from those of the exponents"),
         one("megno", "Ȳ", "MEGNO", "1",
             "Mean exponential growth of nearby orbits: 2 at the most on regular motions, λt/2 on chaotic ones.", _megno,
-            time_of(200.0, "time")),
+            usual(known.SPAN, 200.0)),
     ]
     if of.surface is None:
         found.append(one(
             "crossings", "n", "Crossings of a plane", "1",
             "How often the motion crosses the plane y_variable = offset up to the time t.", _crossings,
-            whole("variable", "i", size, 1, size, "which of the variables, counted from 1"),
-            number("offset", "c", 0.0, "its value on the plane"),
-            whole("sense", "s", 1, -1, 1, "1: crossed from below, −1: from above, 0: both"), counted,
+            whole("variable", "i", size, 1, size, "Which of the variables, counted from 1."), _OFFSET,
+            whole("sense", "s", 1, -1, 1, "1: crossed from below, −1: from above, 0: both."), counted,
             error="of the states at the crossings"))
     else:
         found.append(one("crossings", "n", "Returns to the section", "1",
@@ -210,7 +211,7 @@ def _quantities(of: _Motions) -> tuple[Quantity, ...]:
         found.append(one(
             "divergence", "⟨div ẏ⟩", "Mean divergence", "1/time",
             "Mean of div ẏ over the later two thirds of the time t: negative where phase volume shrinks.", _divergence,
-            time_of(1000.0, "time"), error="standard error of the mean, from 12 stretches of time"))
+            usual(known.SPAN, 1000.0), error="standard error of the mean, from 12 stretches of time"))
     return tuple(found)
 
 

@@ -14,7 +14,8 @@ import numpy as np
 
 from hess_explorer.sweep.errors import NoValue
 from hess_explorer.sweep.motions import MOTIONS, SUSLOV_ENERGY, suslov_section
-from hess_explorer.sweep.quantity import Cell, CellArrays, Found, Outcome, Quantity, number, one_by_one, time_of, whole
+from hess_explorer.sweep.quantity import Cell, CellArrays, Found, Outcome, Quantity, one_by_one, usual, whole
+from hess_mechanics import parameters as known
 from hess_mechanics.chaplygin_ball.equations import SYSTEM as BALL
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.integrable_cases import period
@@ -28,6 +29,7 @@ from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.euler_poisson.equations import SYSTEM as HEAVY
 from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.numerics.accuracy import PLANS, Computation, Level
+from hess_mechanics.parameters import Parameter
 from hess_mechanics.suslov.basins import count_attractors
 from hess_mechanics.suslov.equations import SuslovBody, unit_vector
 from hess_mechanics.suslov.kharlamova import PlaneBody, arc
@@ -40,21 +42,17 @@ __all__ = ["QUANTITIES", "quantity"]
 
 # ---- parameters -------------------------------------------------------------------------------------------------
 
-_H = number("h", "h", None, "energy, units b = 1; motions have h > −1")
-_F = number("f", "f", None, "area integral, units b = 1; |f| ≤ f_max(h)")
-_A = number("a", "a", None, "inertia parameter a = I23/I22")
-_TENSOR = (number("I11", "I₁₁", 2.0, "moment of inertia, > 0"), number("I22", "I₂₂", 1.0, "moment of inertia, > 0"),
-           number("I13", "I₁₃", 0.3, "product of inertia"), number("I23", "I₂₃", 0.5, "product of inertia"))
-_D = number("D", "𝒟", 1.0, "moment of inertia of the ball inside times (R/R_s)², ≥ 0", 0.0)
-_THETA = number("theta", "θ⁻", 1.0, "angle of the circle from ξ that motions come from", 0.0, math.pi, "rad")
-_PHI = number("phi", "φ", 0.0, "phase on that circle", units="rad")
-_PLANE_BODY = (
-    number("I11", "I₁₁", 1.3, "moment of inertia, > 0"), number("I22", "I₂₂", 0.8, "moment of inertia, > 0"),
-    number("b1", "b₁", 0.5, "field, b = −mg r"), number("b2", "b₂", -0.2, "field, b = −mg r"))
-_PLANE_START = (
-    number("w1", "ω₁", 1.0, "angular velocity at t = 0"), number("w2", "ω₂", -0.5, "angular velocity at t = 0"),
-    *(number(f"g{i}", f"γ{sub}", value, "vertical at t = 0; normalised")
-      for i, sub, value in ((1, "₁", 0.0), (2, "₂", 0.6), (3, "₃", 0.8))))
+_GIVEN = ("a", "h", "f")
+_TORUS = (known.A_HESS, known.H_PLANE, known.F_HESS)
+_TENSOR = tuple(usual(one, value) for one, value in zip(known.TENSOR, (2.0, 1.0, 0.3, 0.5), strict=True))
+_D = usual(known.D, 1.0)
+_CIRCLE = (usual(known.THETA, 1.0), usual(known.CIRCLE_PHASE, 0.0))
+_PLANE_BODY = tuple(usual(one, value) for one, value in zip(
+    (*known.TENSOR[:2], *known.FIELD[:2]), (1.3, 0.8, 0.5, -0.2), strict=True))
+_PLANE_START = tuple(usual(one, value) for one, value in zip(
+    (*known.OMEGA, *known.GAMMA), (1.0, -0.5, 0.0, 0.6, 0.8), strict=True))
+_DISTANCE = Parameter("distance", "δ", "Distance of the start", 1e-3, (-0.1, 0.1), 1e-3, (-0.1, 0.1),
+                      "Distance of the start from N^u.")
 
 # ---- Suslov–Hess: tori (a, h, f) --------------------------------------------------------------------------------
 
@@ -172,9 +170,9 @@ def _regimes(of: str) -> Quantity:
         "Kind: 0 not seen to return, 1 fixed point, 2 periodic, 3 quasi-periodic, 4 chaotic, 6 regular without a "
         "period up to 64; period, 0 where none is seen; volume: −1 shrinks about the motion, 1 grows, 0 neither to "
         "three times the error. What is undecided has no value.",
-        (*megno.parameters[:-1], whole("transient", "N₀", 300, 0, 20_000, "crossings left out"),
-         whole("kept", "N", 200, 8, 20_000, "crossings looked at"),
-         time_of(200.0, "time of MEGNO and of the mean divergence")),
+        (*megno.parameters[:-1], whole("transient", "N₀", 300, 0, 20_000, "Crossings left out."),
+         whole("kept", "N", 200, 8, 20_000, "Crossings looked at."),
+         usual(known.SPAN, 200.0, "Time of MEGNO and of the mean divergence.")),
         one_by_one(partial(_regime, of), 3), ("kind", "period", "volume"))
 
 
@@ -182,29 +180,29 @@ def _regimes(of: str) -> Quantity:
 
 _TABLE: tuple[Quantity, ...] = (
     Quantity("rotation-number", "ρ", "Rotation number of Suslov–Hess tori", "turns per return",
-             "Rotation number of the circle map of the torus (h, f).", (_A, _H, _F),
-             partial(_of_tori, lambda found: found.rho), turn=1.0),
+             "Rotation number of the circle map of the torus (h, f).", _TORUS,
+             partial(_of_tori, lambda found: found.rho), turn=1.0, needed=_GIVEN),
     Quantity("trace", "|t|", "Trace of the circle map of Suslov–Hess tori", "1",
-             "|trace| of the circle map as a matrix of SU(1,1): above 2 it has two limit cycles.", (_A, _H, _F),
-             partial(_of_tori, lambda found: found.trace)),
+             "|trace| of the circle map as a matrix of SU(1,1): above 2 it has two limit cycles.", _TORUS,
+             partial(_of_tori, lambda found: found.trace), needed=_GIVEN),
     Quantity("locked", "locked", "Mode locking of Suslov–Hess tori", "1",
-             "1 where the circle map has two limit cycles, 0 elsewhere.", (_A, _H, _F),
-             partial(_of_tori, lambda found: found.locked.astype(float))),
+             "1 where the circle map has two limit cycles, 0 elsewhere.", _TORUS,
+             partial(_of_tori, lambda found: found.locked.astype(float)), needed=_GIVEN),
     Quantity("limit-cycles", "φ*", "Limit cycles of Suslov–Hess tori", "rad, the last 1",
              "Angles of the stable and of the unstable limit cycle, and the logarithm of the multiplier of the stable "
-             "one.", (_A, _H, _F), one_by_one(_limit_cycles, 3), ("stable", "unstable", "log_multiplier"),
-             error="of Θ and of the trace"),
+             "one.", _TORUS, one_by_one(_limit_cycles, 3), ("stable", "unstable", "log_multiplier"),
+             error="of Θ and of the trace", needed=_GIVEN),
     Quantity("critical-a", "a*", "Birth of the limit cycles of Suslov–Hess tori", "1",
-             "The a at which the limit cycles of the torus (h, f) appear, |trace| = 2.", (_H, _F),
-             one_by_one(_critical_a)),
+             "The a at which the limit cycles of the torus (h, f) appear, |trace| = 2.", _TORUS[1:],
+             one_by_one(_critical_a), needed=_GIVEN[1:]),
     Quantity("theta-plus", "θ⁺", "Scattering of the free Suslov problem", "rad",
              "Angle of the circle that the motion from the circle θ⁻ with the phase φ goes to.",
-             (*_TENSOR, _THETA, _PHI), one_by_one(_theta_plus), error="of cos θ⁺"),
+             (*_TENSOR, *_CIRCLE), one_by_one(_theta_plus), error="of cos θ⁺"),
     Quantity("cos-chi", "cos χ", "Angle of scattering of the free Suslov problem", "1",
              "cos χ in closed form: cos θ⁺ = cos χ cos θ⁻ + sin χ sin θ⁻ cos(φ − φ*).", _TENSOR, one_by_one(_cos_chi)),
     Quantity("ball-theta-plus", "θ⁺", "Scattering of the Chaplygin ball", "rad",
              "Angle of the circle that the motion from the circle θ⁻ with the phase φ goes to, without a field.",
-             (*_TENSOR, _D, _THETA, _PHI, number("distance", "δ", 1e-3, "of the start from N^u", -0.1, 0.1)),
+             (*_TENSOR, _D, *_CIRCLE, _DISTANCE),
              one_by_one(_ball_theta_plus), error="of θ⁺"),
     Quantity("period", "T", "Period with b₃ = 0 on a principal axis", "time",
              "Period of the motion with I₁₃ = I₂₃ = 0 and b₃ = 0, by arithmetic-geometric means (Kharlamova's case).",
@@ -214,10 +212,10 @@ _TABLE: tuple[Quantity, ...] = (
              (*_PLANE_BODY, _D, *_PLANE_START), one_by_one(_ball_period), error="of T"),
     Quantity("attractors", "N", "Number of attractors: Suslov problem with gravity", "1",
              "Groups of motions of a section whose mean divergence is negative by three times its error.",
-             (*SUSLOV_ENERGY, whole("across", "m", 8, 2, 400, "orbits across the section"),
-              whole("up", "n", 6, 2, 400, "orbits up the section"),
-              whole("crossings", "N", 150, 100, 10_000, "of each orbit"),
-              time_of(1000.0, "time over which the divergence is averaged")), one_by_one(_attractors)),
+             (*SUSLOV_ENERGY, whole("across", "m", 8, 2, 400, "Orbits across the section."),
+              whole("up", "n", 6, 2, 400, "Orbits up the section."),
+              whole("crossings", "N", 150, 100, 10_000, "Crossings of each orbit."),
+              usual(known.SPAN, 1000.0, "Time over which the divergence is averaged.")), one_by_one(_attractors)),
     *MOTIONS,
     *map(_regimes, _MAPS),
 )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import IntEnum
 
 import numpy as np
@@ -23,10 +23,10 @@ from hess_mechanics.errors import (
 )
 from hess_mechanics.numerics.accuracy import Level, Status
 from hess_mechanics.numerics.results import Array
+from hess_mechanics.parameters import Parameter
 
-__all__ = ["Cell", "CellArrays", "Found", "Outcome", "Outcomes", "Parameter", "Quantity", "evaluate", "number",
-           "one_by_one",
-           "refused", "time_of", "whole"]
+__all__ = ["Cell", "CellArrays", "Found", "Outcome", "Outcomes", "Quantity", "evaluate", "one_by_one", "refused",
+           "usual", "whole"]
 
 logger = logging.getLogger("hess_explorer")
 
@@ -83,37 +83,14 @@ _OF_ERROR: tuple[tuple[type[Exception], Outcome], ...] = (
     (InvalidParameter, Outcome.INVALID_PARAMETER), (ArithmeticError, Outcome.BEYOND_RANGE))
 
 
-@dataclass(frozen=True)
-class Parameter:
-    """A parameter of a quantity: its bounds (both allowed), and its default (None: it has to be given)."""
-
-    name: str
-    symbol: str
-    default: float | None
-    low: float
-    high: float
-    doc: str
-    units: str = "1"
-    whole: bool = False
-
-
-_WIDE = 1e6
-
-
-def number(name: str, symbol: str, default: float | None, doc: str, low: float = -_WIDE, high: float = _WIDE,
-           units: str = "1") -> Parameter:
-    """A parameter between wide bounds."""
-    return Parameter(name, symbol, default, low, high, doc, units)
+def usual(of: Parameter, default: float, doc: str = "") -> Parameter:
+    """Return a parameter with another default; doc : its meaning here, if it says more."""
+    return replace(of, default=default, doc=doc or of.doc)
 
 
 def whole(name: str, symbol: str, default: float, low: float, high: float, doc: str) -> Parameter:
-    """A parameter that is a whole number."""
-    return Parameter(name, symbol, default, low, high, doc, whole=True)
-
-
-def time_of(default: float, doc: str) -> Parameter:
-    """A parameter t that is a time."""
-    return number("t", "t", default, doc, 1e-3)
+    """Return a parameter of the computation that is a whole number."""
+    return Parameter(name, symbol, doc, default, (low, high), 1.0, (low, high), doc, "Computation", whole=True)
 
 
 @dataclass(frozen=True)
@@ -147,6 +124,7 @@ class Quantity:
     parts : the names of the numbers at one cell; none for a scalar.
     error : what its error estimate is; empty where there is none.
     turn : numbers that differ by it are the same, as rotation numbers by 1; 0 where all differ.
+    needed : parameters that have no usual value here and must be given.
     """
 
     name: str
@@ -159,6 +137,7 @@ class Quantity:
     parts: tuple[str, ...] = ()
     error: str = ""
     turn: float = 0.0
+    needed: tuple[str, ...] = ()
 
     @property
     def variable(self) -> str:

@@ -65,7 +65,8 @@ def _slices(box: Box) -> tuple[slice, ...]:
 def _described(what: Quantity, grid: SweepGrid, level: str, values: Any, errors: Any, status: Any) -> xr.Dataset:
     """A Dataset with names, units and words, around arrays of any kind."""
     known = {one.name: one for one in what.parameters}
-    axes = {name: (places, {"long_name": known[name].doc, "symbol": known[name].symbol, "units": known[name].units})
+    axes = {name: (places, {"long_name": known[name].label, "description": known[name].doc,
+                            "symbol": known[name].symbol, "units": known[name].unit})
             for name, places in grid.axes.items()}
     return described(what, axes, values, status, errors if what.error else None, parts=what.parts, program=_PROGRAM,
                      version=version(), level=level,
