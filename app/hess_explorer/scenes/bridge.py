@@ -86,6 +86,11 @@ class BothSides(State):
     accuracy: str = accuracy_level()
 
     @cached_property
+    def body(self) -> HessBody:
+        """The body of Suslov–Hess, where that is given."""
+        return HessBody(self.I22, self.I23, self.b3)
+
+    @cached_property
     def heavy(self) -> HeavyHess:
         """The motion as one of Euler–Poisson, where that is given."""
         return HeavyHess((self.I1, self.I2, self.I3), self.m, self.h, self.f)
@@ -134,8 +139,7 @@ class BothSides(State):
     @cached_property
     def bridge(self) -> Bridge:
         """Both bodies.  Raises `ModelError`."""
-        return self.heavy.bridge if self.given == HEAVY else Bridge.of_suslov(
-            HessBody(self.I22, self.I23, self.b3), self.share)
+        return self.heavy.bridge if self.given == HEAVY else Bridge.of_suslov(self.body, self.share)
 
     @cached_property
     def turning(self) -> TurningPoints:

@@ -85,16 +85,21 @@ class SingularMeasures(State):
                 **({} if self.beside == "principal axis" else {"b3": self.b3})}
 
     @cached_property
+    def body(self) -> BallBody:
+        """The ball.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
+        return BallBody(self.I11, self.I22, self.I13, self.I23, self.D)
+
+    @cached_property
     def strip(self) -> Strip:
-        """Where ω may be.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
-        return Strip(BallBody(self.I11, self.I22, self.I13, self.I23, self.D), self.h)
+        """Where ω may be."""
+        return Strip(self.body, self.h)
 
     def task(self, count: int, level: Level) -> Task:
         """What moves so many points."""
         angle = self.angle if self.start == "small patch" else None
         span = -self.span if self.direction == "backward" else self.span
         field = self.b3 if self.beside == "principal axis" else None
-        return Task(clouds, (self.strip.body, self.h, angle, self.spread, count, span, field, level))
+        return Task(clouds, (self.body, self.h, angle, self.spread, count, span, field, level))
 
     @cached_property
     def clouds(self) -> Clouds:
