@@ -8,7 +8,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from typing import Any, Self
 
-from hess_mechanics.numerics.balls import Ball
+from hess_mechanics.numerics.balls import ArbBall
 
 __all__ = ["Along", "Slope"]
 
@@ -48,18 +48,18 @@ class Along(_Number):
 
     __slots__ = ("_most", "delta", "polynomial", "rest", "terms")
 
-    def __init__(self, polynomial: Ball, delta: Ball, terms: int, rest: Ball | None = None) -> None:
+    def __init__(self, polynomial: ArbBall, delta: ArbBall, terms: int, rest: ArbBall | None = None) -> None:
         self.polynomial, self.delta, self.terms, self.rest = polynomial, delta, terms, rest
-        self._most: Ball | None = None
+        self._most: ArbBall | None = None
 
     @classmethod
-    def number(cls, value: Any, delta: Ball, terms: int) -> Along:
+    def number(cls, value: Any, delta: ArbBall, terms: int) -> Along:
         """A constant."""
         from flint import arb_poly
 
         return cls(arb_poly([value]), delta, terms)
 
-    def _with(self, polynomial: Ball, rest: Ball | None) -> Along:
+    def _with(self, polynomial: ArbBall, rest: ArbBall | None) -> Along:
         if len(polynomial) > 2 * self.terms:
             from flint import arb_poly
 
@@ -70,13 +70,13 @@ class Along(_Number):
         return Along(polynomial, self.delta, self.terms, rest)
 
     @property
-    def most(self) -> Ball:
+    def most(self) -> ArbBall:
         """A bound of the polynomial."""
         if self._most is None:
             self._most = _size(self.polynomial.coeffs(), self.delta)
         return self._most
 
-    def distance(self, other: Ball) -> Ball:
+    def distance(self, other: ArbBall) -> ArbBall:
         """A bound of the distance from a polynomial."""
         found = _size((self.polynomial - other).coeffs(), self.delta)
         return found if self.rest is None else found + self.rest
@@ -135,7 +135,7 @@ class Along(_Number):
         return self.inverse().__mul__(other)
 
 
-def _size(coefficients: list[Ball], delta: Ball) -> Ball:
+def _size(coefficients: list[ArbBall], delta: ArbBall) -> ArbBall:
     """Σ|c_k| δ^k."""
     from flint import arb_poly
 
@@ -147,11 +147,11 @@ class Slope(_Number):
 
     __slots__ = ("slopes", "value")
 
-    def __init__(self, value: Ball, slopes: list[Ball]) -> None:
+    def __init__(self, value: ArbBall, slopes: list[ArbBall]) -> None:
         self.value, self.slopes = value, slopes
 
     @classmethod
-    def of(cls, value: Ball, i: int, count: int) -> Slope:
+    def of(cls, value: ArbBall, i: int, count: int) -> Slope:
         """The i-th of so many variables."""
         return cls(value, [value * 0 + (1 if i == j else 0) for j in range(count)])
 

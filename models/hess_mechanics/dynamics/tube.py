@@ -35,7 +35,7 @@ from hess_mechanics.dynamics.orbit import checked_times
 from hess_mechanics.dynamics.polynomials import Along, Slope
 from hess_mechanics.dynamics.system import Body, Problem, System
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.numerics.balls import Ball, Enclosure, enclosure, rational, working
+from hess_mechanics.numerics.balls import ArbBall, Enclosure, enclosure, rational, working
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Orbit, frozen
 from hess_mechanics.numerics.tracing import Recursion
@@ -154,9 +154,9 @@ def _functions(recursion: Recursion) -> dict[str, Callable[..., Any]]:
 class _Step:
     """Polynomials along a step of that length, and a bound of |e| over all of it."""
 
-    series: list[Ball]
+    series: list[ArbBall]
     length: float
-    radius: Ball
+    radius: ArbBall
 
 
 class _Walk:
@@ -250,7 +250,7 @@ class _Walk:
             length *= 0.5
         return None
 
-    def _length(self, series: list[list[Ball]]) -> float:
+    def _length(self, series: list[list[ArbBall]]) -> float:
         """At which the last terms are as small as a rounding; this proves nothing, and need not."""
         shortest = 1e6
         for k in (self.terms - 1, self.terms - 2):
@@ -260,7 +260,7 @@ class _Walk:
                     shortest = min(shortest, math.exp((-self.bits * math.log(2.0) - last + math.log(size)) / k))
         return shortest
 
-    def _radius(self, along: list[Ball], length: float, sign: int) -> Ball | None:
+    def _radius(self, along: list[ArbBall], length: float, sign: int) -> ArbBall | None:
         """A bound of |e| over a step; None for one that is too long."""
         from flint import arb, ctx
 
@@ -286,7 +286,7 @@ class _Walk:
             most = (start * growth.exp()).upper()
         return most if most < R else None
 
-    def _rate(self, box: list[Ball], sign: int) -> Ball | None:
+    def _rate(self, box: list[ArbBall], sign: int) -> ArbBall | None:
         """Return a bound of the eigenvalues of the symmetric part of ±D⁻¹ f′ D over a box; None without one.
 
         Raises `ZeroDivisionError` where a divisor may vanish.
@@ -310,11 +310,12 @@ class _Walk:
         return found
 
 
-def _norm(sizes: Sequence[Ball]) -> Ball:
+def _norm(sizes: Sequence[ArbBall]) -> ArbBall:
     return sum(map(mul, sizes, sizes), 0 * sizes[0]).sqrt().upper()
 
 
-def _series(recursion: Recursion, y: Sequence[Ball], parameters: Sequence[Ball], terms: int) -> list[list[Ball]]:
+def _series(recursion: Recursion, y: Sequence[ArbBall], parameters: Sequence[ArbBall],
+            terms: int) -> list[list[ArbBall]]:
     """The first Taylor coefficients of each variable, by the recursion in balls."""
     from flint import arb
 
@@ -323,13 +324,13 @@ def _series(recursion: Recursion, y: Sequence[Ball], parameters: Sequence[Ball],
     p = tuple(parameters)
     if recursion.constants:
         p += tuple(functions["constants"](tuple(y), p))
-    series: list[list[Ball]] = [[] for _ in range(recursion.known[-1])]
+    series: list[list[ArbBall]] = [[] for _ in range(recursion.known[-1])]
     now = list(y)
     for k in range(terms):
         one = arb(1 if k == 0 else 0)
         middle = [sum(map(mul, series[a][1:k], series[b][k - 1 : 0 : -1]), zero) for a, b in recursion.pairs]
 
-        def products(now: list[Ball], k: int = k, middle: list[Ball] = middle) -> tuple[Ball, ...]:
+        def products(now: list[ArbBall], k: int = k, middle: list[ArbBall] = middle) -> tuple[ArbBall, ...]:
             """Of order k, without the terms of order k that are not known yet."""
             if k == 0:
                 return tuple(now[a] * now[b] if max(a, b) < len(now) else zero for a, b in recursion.pairs)

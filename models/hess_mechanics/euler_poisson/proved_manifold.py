@@ -20,7 +20,7 @@ from typing import Any
 
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.euler_poisson.equations import SYSTEM
-from hess_mechanics.numerics.balls import Enclosure, flint
+from hess_mechanics.numerics.balls import Enclosure, ExactNumber, flint
 from hess_mechanics.suslov_hess.edge import EdgeProof
 from hess_mechanics.suslov_hess.proof import TWO_CYCLES, Proof, prove
 
@@ -53,7 +53,7 @@ class Unsplit:
     multipliers: tuple[Enclosure, Enclosure]
 
 
-def unsplit_separatrices(a: str | float | Fraction, h: str | float | Fraction, f: str | float | Fraction,
+def unsplit_separatrices(a: ExactNumber, h: ExactNumber, f: ExactNumber,
                          digits: int = 30) -> Unsplit | None:
     """Prove that the separatrices of two saddles coincide on the torus (h, f), for all bodies with a = s t/a2.
 

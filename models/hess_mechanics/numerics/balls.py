@@ -19,10 +19,14 @@ from typing import Any
 
 from hess_mechanics.errors import InvalidParameter, MissingLibrary, WorkLimit
 
-__all__ = ["Ball", "Enclosure", "enclosure", "exact", "flint", "has_flint", "rational", "to_digits", "working"]
+__all__ = ["ArbBall", "Enclosure", "ExactNumber", "coefficients", "enclosure", "exact", "flint", "has_flint",
+           "rational", "to_digits", "working"]
 
-Ball = Any
+ArbBall = Any
 """An `arb` of python-flint, which is imported only where it is needed."""
+
+ExactNumber = str | float | Fraction
+"""A number that proofs take as exact, see `exact`."""
 
 _MOST_DIGITS, _MOST_EXPONENT = 100, 200
 _MOST_BITS = 1 << 14
@@ -54,7 +58,7 @@ def working(bits: int) -> Iterator[Any]:
             library.ctx.cap = before
 
 
-def exact(name: str, value: str | float | Fraction | Decimal) -> Fraction:
+def exact(name: str, value: ExactNumber | Decimal) -> Fraction:
     """The rational that a text (1.5, -2e-3, 3/4) or number is; of a double its shortest decimal, as a box shows it.
 
     Raises `InvalidParameter`.
@@ -143,7 +147,7 @@ def _rounded(number: Fraction, digits: int, rounding: str) -> str:
     return f"{found:f}" if -6 < found.adjusted() < digits + 6 else str(found)
 
 
-def enclosure(ball: Ball) -> Enclosure:
+def enclosure(ball: ArbBall) -> Enclosure:
     """The interval of a ball, exactly.  Raises `ArithmeticError` for one that is not finite."""
     if not ball.is_finite():
         raise ArithmeticError("a ball without end")
@@ -156,7 +160,7 @@ def _dyadic(mantissa: Any, exponent: Any) -> Fraction:
     return Fraction(m << e) if e >= 0 else Fraction(m, 1 << -e)
 
 
-def to_digits(digits: int, compute: Callable[[Any], Ball]) -> Enclosure:
+def to_digits(digits: int, compute: Callable[[Any], ArbBall]) -> Enclosure:
     """What `compute` encloses, to so many digits.  Raises `WorkLimit`."""
     bits = 128
     while bits <= _MOST_BITS:
@@ -166,3 +170,9 @@ def to_digits(digits: int, compute: Callable[[Any], Ball]) -> Enclosure:
                 return enclosure(found)
         bits *= 2
     raise WorkLimit("These numbers need more precision than a closed form may take: choose less extreme ones.")
+
+
+def coefficients(series: Any, terms: int) -> list[ArbBall]:
+    """Return the first coefficients of a power series, with the zeros that python-flint leaves out."""
+    found = series.coeffs()
+    return [*found, *([0 * series[0]] * (terms - len(found)))]

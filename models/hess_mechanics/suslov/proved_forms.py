@@ -9,11 +9,10 @@ from fractions import Fraction
 from typing import Any
 
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite
-from hess_mechanics.numerics.balls import Ball, Enclosure, exact, rational, to_digits
+from hess_mechanics.numerics.balls import ArbBall, Enclosure, ExactNumber, exact, rational, to_digits
 
 __all__ = ["proved_cos_chi", "proved_period", "proved_radial_period"]
 
-Number = str | float | Fraction
 
 
 def _positive(**moments: Fraction) -> None:
@@ -22,7 +21,8 @@ def _positive(**moments: Fraction) -> None:
             raise NotPositiveDefinite(f"{name} = {float(value):g}: choose {name} > 0.")
 
 
-def proved_cos_chi(I11: Number, I22: Number, I13: Number, I23: Number, digits: int = 30) -> Enclosure:
+def proved_cos_chi(I11: ExactNumber, I22: ExactNumber, I13: ExactNumber, I23: ExactNumber,
+                   digits: int = 30) -> Enclosure:
     """cos χ of the free problem for every tensor, see `scattering`: 2|A|² − 1,
 
     |A|² = (Re C/cosh(πK/2))² + (Im C/sinh(πK/2))², C = cos(π/2 √(κ² − (K + ic)²)).
@@ -35,7 +35,7 @@ def proved_cos_chi(I11: Number, I22: Number, I13: Number, I23: Number, digits: i
         raise InvalidParameter("I13 = I23 = 0: there ω is constant and nothing is scattered. Choose one of them not 0.")
     w = (two * q * q + one * r * r) / J2
 
-    def compute(library: Any) -> Ball:
+    def compute(library: Any) -> ArbBall:
         arb, acb = library.arb, library.acb
         J = arb(rational(J2)).sqrt()
         K, kappa = rational(one * two / w) / J, arb(rational(one * two)).sqrt() / J
@@ -48,8 +48,9 @@ def proved_cos_chi(I11: Number, I22: Number, I13: Number, I23: Number, digits: i
     return to_digits(digits, compute)
 
 
-def proved_period(I11: Number, I22: Number, b1: Number, b2: Number, omega: tuple[Number, Number],
-                  gamma: tuple[Number, Number], digits: int = 30) -> Enclosure:
+def proved_period(I11: ExactNumber, I22: ExactNumber, b1: ExactNumber, b2: ExactNumber,
+                  omega: tuple[ExactNumber, ExactNumber], gamma: tuple[ExactNumber, ExactNumber], digits: int = 30
+                  ) -> Enclosure:
     """The period T of an orbit of Kharlamova's case, b3 = 0, from (ω1, ω2) and (γ1, γ2) off the equator, |γ| = 1.
 
     T = 2πs/AGM(√((A − C + √(R₊R₋))/2), (R₊R₋)^¼), see `kharlamova`.  An orbit that is asymptotic has none.
@@ -66,7 +67,7 @@ def proved_period(I11: Number, I22: Number, b1: Number, b2: Number, omega: tuple
         raise InvalidParameter("ω = 0 without a field is at rest: choose ω or b not 0.")
     P = [1 - _dot(u, u), -2 * _dot(u, v), -_dot(v, v) - _dot(u, a), -_dot(v, a), -_dot(a, a) / 4]
 
-    def compute(library: Any) -> Ball:
+    def compute(library: Any) -> ArbBall:
         arb = library.arb
         quartic = library.fmpq_poly([rational(c) for c in P])
         roots = [root.real for root, _ in quartic.numer().complex_roots() if root.imag.contains(0)]
@@ -87,8 +88,8 @@ def _dot(x: list[Fraction], y: list[Fraction]) -> Fraction:
     return x[0] * y[0] + x[1] * y[1]
 
 
-def proved_radial_period(inertia: Number, b3: Number, omega: tuple[Number, Number],
-                         gamma: tuple[Number, Number], digits: int = 30) -> Enclosure:
+def proved_radial_period(inertia: ExactNumber, b3: ExactNumber, omega: tuple[ExactNumber, ExactNumber],
+                         gamma: tuple[ExactNumber, ExactNumber], digits: int = 30) -> Enclosure:
     """The time T in which |ω| and γ3 come back for b1 = b2 = 0, I11 = I22 = I, from ω and (γ1, γ2), γ3 > 0, |γ| = 1.
 
     With h = E and ρ = |q|², q as in `quartic`, γ3 = e − kρ, e = h/b3, k = b3/(2I), and M = (ω1γ1 + ω2γ2) I/b3,
@@ -108,7 +109,7 @@ def proved_radial_period(inertia: Number, b3: Number, omega: tuple[Number, Numbe
     # e = γ3 + kρ, and γ3 is a root.
     rise, square = k * _dot(w, w) * (own / field) ** 2, 1 - _dot(u, u)
 
-    def compute(library: Any) -> Ball:
+    def compute(library: Any) -> ArbBall:
         arb = library.arb
         e = arb(rational(square)).sqrt() + rational(rise)
         slope = arb(rational(k))

@@ -22,7 +22,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from hess_mechanics.numerics.balls import Ball, Enclosure, rational, to_digits
+from hess_mechanics.numerics.balls import ArbBall, Enclosure, rational, to_digits
 
 __all__ = ["PERIODIC_ORBIT", "TWO_EQUILIBRIA", "EdgeProof", "prove_edge"]
 
@@ -71,7 +71,7 @@ def prove_edge(a: Fraction, h: Fraction, f: Fraction) -> EdgeProof:
     n = _double_root(h, f)
     radicand = n * n * (1 + a * a) - a * a
 
-    def rate(library: Any) -> Ball:
+    def rate(library: Any) -> ArbBall:
         return library.arb(rational(abs(radicand) / n)).sqrt()
 
     if radicand > 0:

@@ -40,7 +40,16 @@ from typing import Any
 import numpy as np
 
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
-from hess_mechanics.numerics.balls import Ball, Enclosure, enclosure, exact, rational, working
+from hess_mechanics.numerics.balls import (
+    ArbBall,
+    Enclosure,
+    ExactNumber,
+    coefficients,
+    enclosure,
+    exact,
+    rational,
+    working,
+)
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.proof import NO_CYCLE, TWO_CYCLES, UNDECIDED
@@ -115,7 +124,7 @@ class LockZone:
         return 1.0 - self.areas[UNDECIDED] / region_area(self.h_end)
 
 
-def lock_zone(a: str | float | Fraction, h_end: float = 4.0, cells: int = 200) -> LockZone:
+def lock_zone(a: ExactNumber, h_end: float = 4.0, cells: int = 200) -> LockZone:
     """The lock zone up to h = h_end, after so many proofs of cells; a is exact, see `balls.exact`.
 
     Raises `MissingLibrary`, `InvalidParameter`, `OutsideRegion`.
@@ -247,7 +256,7 @@ def region_area(h_end: float) -> float:
 # ---- the proof of one cell ------------------------------------------------------------------------------------------
 
 
-def half_over(a: str | float | Fraction, cell: ZoneCell) -> tuple[Enclosure, ...] | None:
+def half_over(a: ExactNumber, cell: ZoneCell) -> tuple[Enclosure, ...] | None:
     """What encloses (A, B, C, D) of `proof` for all tori of a cell; None where it is too large, or too close to f = 0.
 
     Raises `MissingLibrary`, `InvalidParameter`.
@@ -279,12 +288,12 @@ def _proved(a: Fraction, cell: ZoneCell) -> ZoneCell:
         return replace(cell, across=across)
 
 
-Pair = tuple[Ball, Ball]
-Column = tuple[list[Any], list[list[Any]], Ball]
+Pair = tuple[ArbBall, ArbBall]
+Column = tuple[list[Any], list[list[Any]], ArbBall]
 """Polynomials of a step: x and y; of each derivative; the ball of their remainder."""
 
 
-def _half_over(a: Fraction, cell: ZoneCell) -> tuple[tuple[Ball, ...], int] | None:
+def _half_over(a: Fraction, cell: ZoneCell) -> tuple[tuple[ArbBall, ...], int] | None:
     """(A, B, C, D) over a cell, and the side, 0 or 1, that leaves more of their width."""
     from flint import arb
 
@@ -324,8 +333,8 @@ def _half_over(a: Fraction, cell: ZoneCell) -> tuple[tuple[Ball, ...], int] | No
     return tuple(found), int(doubt[1] > doubt[0])
 
 
-def _with_rest(rest: list[list[Ball]], step: list[Column], part: Ball, width: Ball, first: Pair, second: Pair
-               ) -> list[list[Ball]]:
+def _with_rest(rest: list[list[ArbBall]], step: list[Column], part: ArbBall, width: ArbBall, first: Pair, second: Pair
+               ) -> list[list[ArbBall]]:
     """Bounds of R at the end of a part of a step, from those at its beginning."""
     X = [[step[k][0][i](part) + step[k][2] for k in (0, 1)] for i in (0, 1)]
     inverse = [[X[1][1], -X[0][1]], [-X[1][0], X[0][0]]]
@@ -363,8 +372,8 @@ def _plan(a: float, alpha: float, beta: float) -> list[tuple[float, float, int]]
     return found
 
 
-def _step(A: Ball, centre: list[Ball], radii: list[Ball], s: Ball, r: Ball, delta: Ball, terms: int,
-          columns: list[tuple[list[Ball], list[list[Ball]]]]) -> list[Column] | None:
+def _step(A: ArbBall, centre: list[ArbBall], radii: list[ArbBall], s: ArbBall, r: ArbBall, delta: ArbBall, terms: int,
+          columns: list[tuple[list[ArbBall], list[list[ArbBall]]]]) -> list[Column] | None:
     """The columns of P and of its derivatives ∂/∂ ln α · radius, ∂/∂ ln β · radius, along a step; None if too long."""
     from flint import arb, arb_poly, arb_series, ctx
 
@@ -383,7 +392,7 @@ def _step(A: Ball, centre: list[Ball], radii: list[Ball], s: Ball, r: Ball, delt
     z = arb_series([z0, *(-k * c for c in cosine[1:])])
     root, inverse = (1 + z).rsqrt(), 1 / z
     u, v = q * root * inverse / 4, A / 2 * root * z.sqrt()
-    upper, lower = (_coefficients(series, terms) for series in (u - v, -u - v))
+    upper, lower = (coefficients(series, terms) for series in (u - v, -u - v))
     one = arb_series([(1 - cosine[0]) / 2, *(-c / 2 for c in cosine[1:])])
     derivatives, most = [], zero
     for number, radius, shape in ((alpha, radii[0], one), (beta, radii[1], 1 - one)):
@@ -391,7 +400,7 @@ def _step(A: Ball, centre: list[Ball], radii: list[Ball], s: Ball, r: Ball, delt
         share = number * shape * inverse
         du = radius * u * (arb_series([arb(1) / 2]) - share * (1 + z * root * root / 2))
         dv = radius * v * share * root * root / 2
-        derivatives.append([_coefficients(series, terms) for series in (du - dv, -du - dv)])
+        derivatives.append([coefficients(series, terms) for series in (du - dv, -du - dv)])
         largest = number * (abs(shape.coeffs()[0]) + change / 2) / low
         most = _largest(most, radius * (u_most * (largest * (1 + high / (2 * (1 + low))) + 0.5)
                           + v_most * largest / (2 * (1 + low))))
@@ -417,7 +426,7 @@ def _step(A: Ball, centre: list[Ball], radii: list[Ball], s: Ball, r: Ball, delt
     return found
 
 
-def _largest(*numbers: Ball) -> Ball:
+def _largest(*numbers: ArbBall) -> ArbBall:
     """The largest of some sizes, not rounded."""
     found = numbers[0].abs_upper()
     for number in numbers[1:]:
@@ -425,13 +434,8 @@ def _largest(*numbers: Ball) -> Ball:
     return found
 
 
-def _coefficients(series: Any, terms: int) -> list[Ball]:
-    found = series.coeffs()
-    return [*found, *([0 * found[0]] * (terms - len(found)))]
-
-
-def _bounds(A: Ball, centre: list[Ball], ends: list[list[Ball]], radii: list[Ball], s: Ball
-            ) -> tuple[Pair, Pair, list[Ball]]:
+def _bounds(A: ArbBall, centre: list[ArbBall], ends: list[list[ArbBall]], radii: list[ArbBall], s: ArbBall
+            ) -> tuple[Pair, Pair, list[ArbBall]]:
     """Over a cell and a part of a step: bounds of |u'|, |v'|; of ½|u''|, ½|v''|; of |u'| + |v'| along either side."""
     from flint import arb
 
@@ -462,7 +466,7 @@ def _bounds(A: Ball, centre: list[Ball], ends: list[list[Ball]], radii: list[Bal
     return first, second, [(u_most * du[i] + v_most * dv[i]).upper() for i in (0, 1)]
 
 
-def _nonnegative(x: Ball) -> tuple[Ball, Ball]:
+def _nonnegative(x: ArbBall) -> tuple[ArbBall, ArbBall]:
     """The ends of a ball of a number that is not negative."""
     from flint import arb
 
@@ -470,7 +474,7 @@ def _nonnegative(x: Ball) -> tuple[Ball, Ball]:
     return low if low > 0 else arb(0), x.upper()
 
 
-def _turned(X: list[list[Ball]], most: Pair) -> list[list[Ball]]:
+def _turned(X: list[list[ArbBall]], most: Pair) -> list[list[ArbBall]]:
     """|P⁻¹ E P| for E = ((0, e − g), (−e − g, 0)), |e| and |g| bounded."""
     (A, B), (C, D) = X
     e, g = most
@@ -480,7 +484,7 @@ def _turned(X: list[list[Ball]], most: Pair) -> list[list[Ball]]:
     return [[(abs(p) * e + abs(q) * g).upper() for p, q in row] for row in entries]
 
 
-def _grown(F: list[list[Ball]], width: Ball, R: list[list[Ball]]) -> list[list[Ball]]:
+def _grown(F: list[list[ArbBall]], width: ArbBall, R: list[list[ArbBall]]) -> list[list[ArbBall]]:
     """Bounds of e^(F width) R, of matrices without negative entries."""
     T = [[width * x for x in row] for row in F]
     norm = _largest(T[0][0] + T[0][1], T[1][0] + T[1][1])

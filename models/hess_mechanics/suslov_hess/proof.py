@@ -34,10 +34,18 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from operator import mul
-from typing import Any
 
 from hess_mechanics.errors import InvalidParameter, OutsideRegion, Separatrix, WorkLimit
-from hess_mechanics.numerics.balls import Ball, Enclosure, enclosure, exact, rational, working
+from hess_mechanics.numerics.balls import (
+    ArbBall,
+    Enclosure,
+    ExactNumber,
+    coefficients,
+    enclosure,
+    exact,
+    rational,
+    working,
+)
 from hess_mechanics.suslov_hess.bifurcation import f_max
 from hess_mechanics.suslov_hess.circle_map import MAX_A
 from hess_mechanics.suslov_hess.edge import EdgeProof, prove_edge
@@ -54,7 +62,7 @@ _GROWTH = 8
 """The largest K r of a step: with δ = r/4 no direction then turns by more than 2, less than π."""
 _LEAST_F = Fraction(1, 10**100)
 
-Matrix = tuple[Ball, Ball, Ball, Ball]
+Matrix = tuple[ArbBall, ArbBall, ArbBall, ArbBall]
 """(A, B, C, D) by rows."""
 
 
@@ -108,7 +116,7 @@ class Proof:
         return low, high
 
 
-def prove(a: str | float | Fraction, h: str | float | Fraction, f: str | float | Fraction,
+def prove(a: ExactNumber, h: ExactNumber, f: ExactNumber,
           most_bits: int = MOST_BITS, most_work: float = MOST_WORK, digits: int = 6) -> Proof | EdgeProof:
     """Prove that the torus (a, h, f) has exactly two limit cycles, or none; on the edge, how its circle moves.
 
@@ -223,9 +231,9 @@ class _Turns:
     """n0, n1, n2; balls: w = h + n1 and gap = n1 − n0 with small relative radii; κ."""
 
     roots: tuple[Enclosure, ...]
-    w: Ball
-    gap: Ball
-    kappa: Ball
+    w: ArbBall
+    gap: ArbBall
+    kappa: ArbBall
 
 
 def _turns(h: Fraction, f: Fraction, bits: int) -> _Turns:
@@ -294,7 +302,8 @@ def _proof(at: tuple[Fraction, Fraction, Fraction], turns: _Turns, plan: list[tu
                  tuple(steps), bits, time.perf_counter() - begun)
 
 
-def _step(a: Ball, f: Ball, turns: _Turns, s: Ball, r: Ball, delta: Ball, terms: int) -> tuple[Fraction, Matrix]:
+def _step(a: ArbBall, f: ArbBall, turns: _Turns, s: ArbBall, r: ArbBall, delta: ArbBall, terms: int
+          ) -> tuple[Fraction, Matrix]:
     """K, and the matrix of the step δ from s, by its Taylor series about s and Cauchy's bound of the rest."""
     from flint import arb, arb_series, ctx
 
@@ -316,7 +325,7 @@ def _step(a: Ball, f: Ball, turns: _Turns, s: Ball, r: Ball, delta: Ball, terms:
     w_squared = 2 * arb_series([w, *change_of_n3])
     q = (8 * arb_series([gap, *change_of_n3])).rsqrt()
     drift, drive = q * f / w_squared, q * a * w_squared.sqrt()
-    upper, lower = (_coefficients(series, terms) for series in (drift - drive, -drift - drive))
+    upper, lower = (coefficients(series, terms) for series in (drift - drive, -drift - drive))
     powers = [arb(1)]
     for _ in range(terms - 1):
         powers.append(powers[-1] * delta)
@@ -334,12 +343,7 @@ def _step(a: Ball, f: Ball, turns: _Turns, s: Ball, r: Ball, delta: Ball, terms:
     return K, (A, B, C, D)
 
 
-def _coefficients(series: Any, terms: int) -> list[Ball]:
-    found = series.coeffs()
-    return [*found, *([0 * series[0]] * (terms - len(found)))]
-
-
-def _decided(A: Ball, B: Ball, C: Ball, D: Ball) -> tuple[str, Enclosure]:
+def _decided(A: ArbBall, B: ArbBall, C: ArbBall, D: ArbBall) -> tuple[str, Enclosure]:
     """Return the statement and t: both forms of t enclose it, the one with the smaller product more closely."""
     small, large = enclosure(B * C), enclosure(A * D)
     t = Enclosure(2 + 4 * max(small.low, large.low - 1), 2 + 4 * min(small.high, large.high - 1))
@@ -348,7 +352,7 @@ def _decided(A: Ball, B: Ball, C: Ball, D: Ball) -> tuple[str, Enclosure]:
     return (NO_CYCLE if t.low > -2 and t.high < 2 else UNDECIDED), t
 
 
-def _cycles(t: Enclosure, A: Ball, B: Ball, C: Ball, D: Ball
+def _cycles(t: Enclosure, A: ArbBall, B: ArbBall, C: ArbBall, D: ArbBall
             ) -> tuple[tuple[Enclosure, ...], tuple[Enclosure, ...]] | None:
     """Return φ and the multiplier of the stable and of the unstable cycle; None where these balls do not tell."""
     phi = 2 * (A * C / (B * D)).sqrt().atan()
@@ -362,7 +366,8 @@ def _cycles(t: Enclosure, A: Ball, B: Ball, C: Ball, D: Ball
     return (enclosure(phi), enclosure(-phi)), (enclosure(multiplier), enclosure(1 / multiplier))
 
 
-def _rotation(statement: str, t: Enclosure, A: Ball, B: Ball, C: Ball, D: Ball, theta: Ball) -> Enclosure | None:
+def _rotation(statement: str, t: Enclosure, A: ArbBall, B: ArbBall, C: ArbBall, D: ArbBall,
+              theta: ArbBall) -> Enclosure | None:
     """Return ρ, or None where these balls do not tell."""
     from flint import arb
 

@@ -10,15 +10,14 @@ from itertools import pairwise
 from typing import Any
 
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.numerics.balls import Ball, Enclosure, exact, rational, to_digits
+from hess_mechanics.numerics.balls import ArbBall, Enclosure, ExactNumber, exact, rational, to_digits
 from hess_mechanics.suslov_hess.proof import check_possible, on_edge
 
 __all__ = ["proved_torus_period", "proved_trace_on_curve"]
 
-Number = str | float | Fraction
 
 
-def proved_torus_period(h: Number, f: Number, digits: int = 30) -> Enclosure:
+def proved_torus_period(h: ExactNumber, f: ExactNumber, digits: int = 30) -> Enclosure:
     """The period of n3 on the torus (h, f), units b = 1: T = √2 π/AGM(√(n2 − n0), √(n1 − n0)).
 
     n0 < n1 < n2 are the roots of 2(h + n)(1 − n²) − f², isolated as balls.
@@ -31,7 +30,7 @@ def proved_torus_period(h: Number, f: Number, digits: int = 30) -> Enclosure:
         raise InvalidParameter(f"h = {energy}, f = {area} lies on the edge of the possible (h, f), where n3 is "
                                "constant and has no period. Choose a smaller |f|, or a larger h.")
 
-    def compute(library: Any) -> Ball:
+    def compute(library: Any) -> ArbBall:
         arb = library.arb
         cubic = library.fmpq_poly([rational(c) for c in (2 * energy - area * area, Fraction(2), -2 * energy,
                                                          Fraction(-2))])
@@ -44,7 +43,7 @@ def proved_torus_period(h: Number, f: Number, digits: int = 30) -> Enclosure:
     return to_digits(digits, compute)
 
 
-def proved_trace_on_curve(a: Number, n: Number, digits: int = 30) -> Enclosure:
+def proved_trace_on_curve(a: ExactNumber, n: ExactNumber, digits: int = 30) -> Enclosure:
     """The limit of t at the point n3 = n of the bifurcation curve: 2 cos(π√(n²(1+a²)−a²)/√(1+3n²)).
 
     It is cosh where the radicand is negative.  On the curve itself there is no torus, see `edge`.
@@ -57,7 +56,7 @@ def proved_trace_on_curve(a: Number, n: Number, digits: int = 30) -> Enclosure:
         raise InvalidParameter(f"a = {float(ratio):g}: choose |a| ≤ 1000.")
     radicand = height**2 * (1 + ratio**2) - ratio**2
 
-    def compute(library: Any) -> Ball:
+    def compute(library: Any) -> ArbBall:
         arb = library.arb
         angle = arb.pi() * (arb(rational(abs(radicand))) / rational(1 + 3 * height**2)).sqrt()
         return 2 * (angle.cos() if radicand >= 0 else angle.cosh())

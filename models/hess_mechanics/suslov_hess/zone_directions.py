@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 
-from hess_mechanics.numerics.balls import Ball
+from hess_mechanics.numerics.balls import ArbBall
 from hess_mechanics.suslov_hess.proof import NO_CYCLE, TWO_CYCLES
 
 __all__ = ["proved_by_directions"]
@@ -23,7 +23,7 @@ _SIGNS = ((1, 1), (-1, 1), (-1, -1), (1, -1))
 """Of cos θ and sin θ, by quadrants."""
 
 
-def proved_by_directions(a: Ball, alpha: tuple[float, float], beta: tuple[float, float], pieces: int) -> str | None:
+def proved_by_directions(a: ArbBall, alpha: tuple[float, float], beta: tuple[float, float], pieces: int) -> str | None:
     """Return what is proved of all tori, α ≠ β, of a cell; None where nothing is.
 
     Parameters
@@ -50,8 +50,8 @@ def proved_by_directions(a: Ball, alpha: tuple[float, float], beta: tuple[float,
     return TWO_CYCLES if B * C > 0 or A * D < 0 else NO_CYCLE
 
 
-def _coefficients(a: Ball, alpha: tuple[float, float], beta: tuple[float, float], pieces: int
-                  ) -> list[tuple[Ball, Ball]]:
+def _coefficients(a: ArbBall, alpha: tuple[float, float], beta: tuple[float, float], pieces: int
+                  ) -> list[tuple[ArbBall, ArbBall]]:
     """½√(1 − ζ) and a√ζ q on each piece, over the cell."""
     from flint import arb
 
@@ -68,7 +68,7 @@ def _coefficients(a: Ball, alpha: tuple[float, float], beta: tuple[float, float]
     return found
 
 
-def _end(parts: list[tuple[Ball, Ball]], width: Ball, theta: Ball, sense: int) -> Ball:
+def _end(parts: list[tuple[ArbBall, ArbBall]], width: ArbBall, theta: ArbBall, sense: int) -> ArbBall:
     """Where the line above (1) or below (−1) all solutions from there ends."""
     for turn, drive in parts:
         # A slope no solution has is always good; others are tried, from the slopes that solutions have next to it.
@@ -84,7 +84,7 @@ def _end(parts: list[tuple[Ball, Ball]], width: Ball, theta: Ball, sense: int) -
     return theta
 
 
-def _slope(turn: Ball, drive: Ball, theta: Ball, sense: int) -> Ball:
+def _slope(turn: ArbBall, drive: ArbBall, theta: ArbBall, sense: int) -> ArbBall:
     """The most, or the least, of the right-hand side over these angles."""
     found = -turn - drive * (2 * theta).cos()
     return found.upper() if sense > 0 else found.lower()
