@@ -22,7 +22,7 @@ def _computed(name: str, options: Options) -> Answer:
     result = solve(body, start, options.t, level(options.accuracy))
     return Answer({"t": result.times.tolist(), "y": result.states.tolist()},
                   {"variables": list(body.system.variables), **quality(result), **whether_body(check)},
-                  [*result.notes, *notes], ("t", *body.system.variables))
+                  notes, ("t", *body.system.variables))
 
 
 COMMAND = Command(systems={

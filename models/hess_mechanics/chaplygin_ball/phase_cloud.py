@@ -27,21 +27,20 @@ import numpy as np
 
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud_kernels import integrate
-from hess_mechanics.dynamics.orbit import checked_times, require_finite_states, status_of
+from hess_mechanics.dynamics.ensemble import integrated
+from hess_mechanics.dynamics.orbit import checked_times, status_of
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.measured import SAFETY, nearby
-from hess_mechanics.numerics.parallel import THREADS, share
+from hess_mechanics.numerics.parallel import THREADS
 from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array, Cost, facts_of, frozen, unit_of
-from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 from hess_mechanics.rigid_body.inertia import require_finite
 
 __all__ = ["Cloud", "carried", "divergence", "frame_times", "histogram", "occupation", "patch", "shell"]
 
-_SHARE = 64
 _CLOSEST = 1e-300
 """Least |s|: below it doubles lose digits."""
 _CHECKED, _CLOSE, _FEWEST_CLOSE = 16, 64, 4
@@ -218,24 +217,14 @@ def frame_times(body: BallBody, states: Array, span: float, field: float = 0.0) 
 
 
 def _run(states: Array, p: Array, times: Array, level: Level, max_steps: int) -> tuple[Array, int]:
-    out = np.empty((len(states), times.size, 5))
-    parts = -(-len(states) // _SHARE)
-    steps = np.zeros(parts, int)
-
-    def part(i: int) -> None:
-        own = slice(i * _SHARE, (i + 1) * _SHARE)
-        steps[i] = integrate(states[own], p, times, level.order, level.tolerance, max_steps, out[own])
-
-    share(part, parts, THREADS)
-    if np.any(steps == STEP_LIMIT_REACHED):
-        raise WorkLimit(
-            f"Points of this cloud need more than {max_steps} steps each: choose a shorter time span, a smaller 𝒟 or "
-            "fewer points.")
-    require_finite_states(out)
+    out, steps = integrated(
+        integrate, states, p, times, level, max_steps, THREADS,
+        f"Points of this cloud need more than {max_steps} steps each: choose a shorter time span, a smaller 𝒟 or fewer "
+        "points.")
     if not np.all(np.abs(out[..., 1]) > _CLOSEST):
         raise WorkLimit("The cloud comes closer to N than double precision can say: choose a shorter time span.")
     out[..., 1] = np.log(np.abs(out[..., 1]))
-    return out, int(steps.sum())
+    return out, steps
 
 
 def carried(body: BallBody, states: Array, times: Array, level: Accuracy) -> Cloud:

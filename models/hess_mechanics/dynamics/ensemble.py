@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 
 import numpy as np
 
 from hess_mechanics.dynamics.orbit import MAX_STEPS, checked_times, drift_of, require_finite_states, status_of
-from hess_mechanics.dynamics.system import Body, Problem, System
+from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level
 from hess_mechanics.numerics.arguments import as_level
@@ -17,7 +18,7 @@ from hess_mechanics.numerics.parallel import THREADS, share
 from hess_mechanics.numerics.results import Array, Cost, Ensemble, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
-__all__ = ["MAX_NUMBERS", "ensemble"]
+__all__ = ["MAX_NUMBERS", "ensemble", "integrated"]
 
 MAX_NUMBERS = 20_000_000
 """Numbers in all states at all times: 160 MB."""
@@ -26,20 +27,23 @@ _SHARE = 64
 """Orbits per piece of work: enough to fill the lanes, few enough for the threads to finish together."""
 
 
-def _run(system: System, problem: Problem, states: Array, times: Array, level: Level, threads: int
-         ) -> tuple[Array, int]:
-    out = np.empty((len(states), times.size, problem.scale.size))
+def integrated(kernel: Callable[..., int], states: Array, parameters: Array, times: Array, level: Level,
+               most_steps: int, threads: int, too_long: str) -> tuple[Array, int]:
+    """Return the states (n, m, d) of many orbits at the times (m,), and the steps taken, on so many threads.
+
+    Raises `WorkLimit` with the sentence `too_long`, and `InvalidParameter`.
+    """
+    out = np.empty((len(states), times.size, states.shape[1]))
     parts = -(-len(states) // _SHARE)
     steps = np.zeros(parts, int)
 
     def part(i: int) -> None:
         own = slice(i * _SHARE, (i + 1) * _SHARE)
-        steps[i] = system.ensemble(
-            states[own], problem.parameters, times, level.order, level.tolerance, MAX_STEPS, out[own])
+        steps[i] = kernel(states[own], parameters, times, level.order, level.tolerance, most_steps, out[own])
 
     share(part, parts, threads)
     if np.any(steps == STEP_LIMIT_REACHED):
-        raise WorkLimit(f"One of these orbits needs more than {MAX_STEPS} steps: choose a shorter time span.")
+        raise WorkLimit(too_long)
     require_finite_states(out)
     return out, int(steps.sum())
 
@@ -70,14 +74,17 @@ def ensemble(body: Body, states: Sequence[Sequence[float]] | Array, times: Seque
     scaled_times = problem.times(t)
 
     starts = (problem.states, problem.nearby().states)
-    out, total = _run(body.system, problem, starts[level.aside], scaled_times, level, threads)
+    run = partial(integrated, body.system.ensemble, parameters=problem.parameters, times=scaled_times,
+                  most_steps=MAX_STEPS, threads=threads,
+                  too_long=f"One of these orbits needs more than {MAX_STEPS} steps: choose a shorter time span.")
+    out, total = run(states=starts[level.aside], level=level)
     errors, scaled_errors = np.zeros(count), np.zeros(count)
     todo, before = np.arange(count), out
     current = level
     # As `measured` does it, for those orbits that are left to do.
     while todo.size:
         tighter = current.tightened()
-        found, steps = _run(body.system, problem, starts[tighter.aside][todo], scaled_times, tighter, threads)
+        found, steps = run(states=starts[tighter.aside][todo], level=tighter)
         total += steps
         difference = np.abs(before - found)
         off = difference.max(axis=(1, 2))

@@ -187,12 +187,8 @@ class ReturnMap:
         while left > 0:
             go_on()
             problem = self._problem(self.state_at(place))
-            cross, normal, offset = section.surface.scaled(section.system, problem)
             wanted = min(left, _PIECE)
-            end = _WAIT * section.slowness * (-1.0 if self.backward else 1.0)
-            times, states = np.empty(wanted + 1), np.empty((wanted + 1, problem.scale.size))
-            found, _ = cross(problem.states[0], problem.parameters, normal, offset, section.surface.sense, end,
-                             self.accuracy.order, self.accuracy.tolerance, MAX_STEPS, times, states)
+            found, times, states = self._crossed(problem, wanted + 1, _WAIT)
             if found == STEP_LIMIT_REACHED:
                 raise WorkLimit(f"{wanted} returns need more than {MAX_STEPS} steps here: choose another place, or a "
                                 "cheaper level.")
@@ -241,18 +237,22 @@ class ReturnMap:
         problem = Problem.of(self.section, [start])
         return problem.nearby() if self.accuracy.aside else problem
 
+    def _crossed(self, problem: Problem, wanted: int, longest: float) -> tuple[int, Array, Array]:
+        """Return how many of so many crossings are found in this time, and times and states, in the problem's units."""
+        section, accuracy = self.section, self.accuracy
+        cross, normal, offset = section.surface.scaled(section.system, problem)
+        end = longest * section.slowness * (-1.0 if self.backward else 1.0)
+        times, states = np.empty(wanted), np.empty((wanted, problem.scale.size))
+        found, _ = cross(problem.states[0], problem.parameters, normal, offset, section.surface.sense, end,
+                         accuracy.order, accuracy.tolerance, MAX_STEPS, times, states)
+        return found, times, states
+
     def _crossing(self, start: Array, count: int, longest: float) -> tuple[Problem, float, Array]:
         """The problem in its own units, time and state (d,) of the crossing of this number from a state."""
         go_on()
-        section = self.section
-        problem = self._problem(start)
-        cross, normal, offset = section.surface.scaled(section.system, problem)
-        end = longest * section.slowness * count * (-1.0 if self.backward else 1.0)
-        wanted = count
+        problem, wanted = self._problem(start), count
         while True:
-            times, states = np.empty(wanted), np.empty((wanted, start.size))
-            found, _ = cross(problem.states[0], problem.parameters, normal, offset, section.surface.sense, end,
-                             self.accuracy.order, self.accuracy.tolerance, MAX_STEPS, times, states)
+            found, times, states = self._crossed(problem, wanted, longest * count)
             # A start that round-off puts a little before a curved surface crosses it at once.
             if not (found and wanted == count and abs(times[0]) < _AT_ONCE):
                 break
@@ -261,9 +261,9 @@ class ReturnMap:
             raise WorkLimit(f"This return needs more than {MAX_STEPS} steps: choose another place, or a cheaper level.")
         if found < wanted:
             raise NoReturn(f"From here the motion was not seen to return to the section {_times(count)} within t = "
-                           f"{abs(end) / problem.nu:.4g}: choose another place.")
+                           f"{longest * count * self.section.slowness / problem.nu:.4g}: choose another place.")
         require_finite_states(states)
-        if not section.is_on(states[-1:] * problem.scale)[0]:
+        if not self.section.is_on(states[-1:] * problem.scale)[0]:
             raise NoReturn("From here the motion returns on another sheet of the section: choose another place.")
         return problem, float(times[-1]), states[-1]
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, TypeVar
 
 import numpy as np
@@ -72,7 +72,6 @@ class Orbit(Result):
     error_estimate: float
     drift: Mapping[str, float]
     cost: Cost
-    notes: tuple[str, ...] = field(default=())
     variables: tuple[str, ...] = ()
 
     def labels(self) -> Labels:

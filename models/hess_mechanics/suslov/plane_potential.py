@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from typing import Any
 
 import numpy as np
@@ -65,7 +65,7 @@ class PotentialBody:
     @property
     def parameters(self) -> tuple[float, ...]:
         """p = (I11, I22, c1, c2, λ, μ)."""
-        return (self.I11, self.I22, self.c1, self.c2, self.cubic, self.quartic)
+        return astuple(self)
 
     @property
     def separates(self) -> bool:

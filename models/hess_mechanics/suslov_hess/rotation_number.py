@@ -12,13 +12,13 @@ the paper's appendix for these tori.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import numpy as np
 
-from hess_mechanics.dynamics.cells import centres
+from hess_mechanics.dynamics.cells import Window, centres
 from hess_mechanics.errors import InvalidParameter, ModelError, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level
 from hess_mechanics.numerics.arguments import as_level
@@ -142,10 +142,15 @@ def _matrices(a: Array, h: Array, f: Array, level: Level) -> Array:
     return rows
 
 
+def _together(*numbers: Array | float) -> Iterator[Array]:
+    """Yield arrays of equal length (n,)."""
+    return (np.ascontiguousarray(x, float) for x in np.broadcast_arrays(*np.atleast_1d(*numbers)))
+
+
 def values_at(a: Array | float, h: Array | float, f: Array | float, level: Accuracy) -> TorusValues:
     """ρ, |t| and locking of tori (a, h, f), arrays (n,) or numbers.  Raises `InvalidParameter`, `WorkLimit`."""
     level = as_level(level)
-    a, h, f = (np.ascontiguousarray(x, float) for x in np.broadcast_arrays(*np.atleast_1d(a, h, f)))
+    a, h, f = _together(a, h, f)
     if a.ndim != 1 or a.size > MAX_POINTS:
         raise WorkLimit(f"At most {MAX_POINTS} tori at a time: choose fewer points.")
     if not (np.all(np.isfinite(h)) and np.all(np.isfinite(f)) and np.all(np.abs(h) <= 1e12)):
@@ -216,7 +221,7 @@ def perturbed_rotation(a: Array | float, h: Array | float, f: Array | float, eps
     if _TERM * abs(epsilon) >= 1.0:
         raise InvalidParameter(f"ε = {epsilon:g} folds the circle map, which then has no rotation number: choose "
                                "|ε| < 1/3.")
-    a, h, f = (np.ascontiguousarray(x, float) for x in np.broadcast_arrays(*np.atleast_1d(a, h, f)))
+    a, h, f = _together(a, h, f)
     sign = np.where(f < 0.0, -1.0, 1.0)
     re, im, im_beta, _, zeta, _ = _matrices(a, h, f, level).T
     ratio = 1j * im_beta / (re + 1j * im)
@@ -270,24 +275,26 @@ def closed_after(torus: Torus, q: int, level: Accuracy) -> float:
     return float(np.max(np.abs(np.angle(np.exp(1j * (image - phi))))))
 
 
-def rows(plane: str, torus: Torus, window: tuple[tuple[float, float], tuple[float, float]], cells: tuple[int, int],
-         first: int, last: int, level: Accuracy) -> TorusValues:
+def rows(plane: str, torus: Torus, window: Window, cells: tuple[int, int], first: int, last: int, level: Accuracy
+         ) -> TorusValues:
     """`values_at` the centres of cells (m, n) that fill the window of a plane, from the row `first` to before `last`.
 
     The rows (last − first) × m stand one after the other.
     """
+    return values_at(**_tori(plane, torus, window, cells, slice(first, last)), level=level)
+
+
+def _tori(plane: str, torus: Torus, window: Window, cells: tuple[int, int], own: slice) -> dict[str, Array]:
+    """Return the parameters of the tori at the centres of cells, in some of their rows."""
     names = plane.split(", ")
     x, y = (centres(*window[i], cells[i]) for i in (0, 1))
-    X, Y = np.meshgrid(x, y[first:last])
-    return values_at(**{**vars(torus), names[0]: X.ravel(), names[1]: Y.ravel()}, level=level)
+    X, Y = np.meshgrid(x, y[own])
+    return {**vars(torus), names[0]: X.ravel(), names[1]: Y.ravel()}
 
 
-def rows_error(plane: str, torus: Torus, window: tuple[tuple[float, float], tuple[float, float]], level: Accuracy
-               ) -> float:
+def rows_error(plane: str, torus: Torus, window: Window, level: Accuracy) -> float:
     """The estimated error of ρ that 99 of 100 cells of a window have at most, from 30 × 20 of them; 0 where none is."""
-    names = plane.split(", ")
-    X, Y = np.meshgrid(*(centres(*window[i], count) for i, count in enumerate((30, 20))))
-    errors = rotation_errors(**{**vars(torus), names[0]: X.ravel(), names[1]: Y.ravel()}, level=level)
+    errors = rotation_errors(**_tori(plane, torus, window, (30, 20), slice(None)), level=level)
     known = errors[np.isfinite(errors)]
     return float(np.quantile(known, 0.99)) if known.size else 0.0
 
