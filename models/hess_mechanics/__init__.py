@@ -11,12 +11,12 @@ models/README.md lists them with the paper's equations.
 
 from hess_mechanics.chaplygin_ball.energy_surface import Strip
 from hess_mechanics.chaplygin_ball.equations import BallBody
+from hess_mechanics.chaplygin_ball.integrable_cases import period
 from hess_mechanics.chaplygin_ball.scattering import BallScattering, ball_scattering
 from hess_mechanics.computations import (
     Basins,
     basins,
     cloud,
-    period,
     rotation_along_line,
     rotation_numbers,
 )

@@ -1,4 +1,4 @@
-"""Computations for one kind of body: basins, clouds, periods and rotation numbers.
+"""Computations for one kind of body: basins, clouds and rotation numbers.
 
 `accuracy` is a level or its name: "draft", "standard", "precise" or "reference".  Results can be handed on:
 `.to_pandas()`, `.to_xarray()`, `.plot()`.
@@ -7,12 +7,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from hess_mechanics.chaplygin_ball import integrable_cases, phase_cloud_density
+from hess_mechanics.chaplygin_ball import phase_cloud_density
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud import Cloud
 from hess_mechanics.dynamics.cells import Window, centres
@@ -30,7 +29,7 @@ from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.section import SuslovSection, require_reached
 from hess_mechanics.suslov_hess.rotation_number import TorusValues, values_at
 
-__all__ = ["Basins", "basins", "cloud", "period", "rotation_along_line", "rotation_numbers"]
+__all__ = ["Basins", "basins", "cloud", "rotation_along_line", "rotation_numbers"]
 
 _MOST_ORBITS = 1000
 _LONG = 1000.0
@@ -108,18 +107,6 @@ def cloud(body: BallBody, h: float, t: float, *, count: int = 1000, spread: floa
     found = phase_cloud_density.clouds(as_a(BallBody, body), as_number("h", h), angle, as_number("spread", spread),
                                        as_whole("count", count, 1, 20_000), as_number("t", t), None, as_level(accuracy))
     return found.cloud
-
-
-def period(body: BallBody, state: Sequence[float], accuracy: Accuracy = "precise") -> integrable_cases.Period:
-    """The period of an orbit of the ball with I13 = I23 = 0, b3 = 0, where every orbit across the equator closes.
-
-    Raises `InvalidParameter`, `WorkLimit`.
-
-    >>> from hess_mechanics import BallBody, period
-    >>> period(BallBody(1.3, 0.8, 0.0, 0.0, 0.0, 0.5, -0.2, 0.0), (1.0, -0.5, 0.0, 0.6, 0.8)).value > 0
-    True
-    """
-    return integrable_cases.period(as_a(BallBody, body), state, as_level(accuracy))
 
 
 def rotation_numbers(a: float | Array, h: float | Array, f: float | Array, accuracy: Accuracy = "precise"

@@ -27,7 +27,7 @@ from hess_mechanics.chaplygin_ball.equations import SYSTEM, BallBody
 from hess_mechanics.dynamics.section import Plane, section
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Accuracy, Status
-from hess_mechanics.numerics.arguments import as_level
+from hess_mechanics.numerics.arguments import as_a, as_level
 from hess_mechanics.numerics.labelled import Labelled, Labels
 from hess_mechanics.numerics.measured import nearby
 from hess_mechanics.numerics.results import Array, Cost, facts_of
@@ -76,14 +76,18 @@ class Period(Labelled):
                       {"period": self.value, **facts_of(self)})
 
 
-def period(body: BallBody, state: Sequence[float], level: Accuracy) -> Period:
-    """The period of the orbit from `state` (5,): twice the time between its first two crossings of the equator.
+def period(body: BallBody, state: Sequence[float], accuracy: Accuracy = "precise") -> Period:
+    """Return the period of the orbit from `state` (5,): twice the time between its first two crossings of the equator.
 
     The error is the difference from a second run with a hundredth of the tolerance, from a start `nearby`.
     Raises `InvalidParameter` unless the body `is_reversible` and the orbit crosses the equator twice, `WorkLimit`.
+
+    >>> from hess_mechanics import BallBody, period
+    >>> period(BallBody(1.3, 0.8, 0.0, 0.0, 0.0, 0.5, -0.2, 0.0), (1.0, -0.5, 0.0, 0.6, 0.8)).value > 0
+    True
     """
-    level = as_level(level)
-    if not is_reversible(body):
+    level = as_level(accuracy)
+    if not is_reversible(as_a(BallBody, body)):
         raise InvalidParameter("Orbits close only with I13 = I23 = 0 and b3 = 0: set these to 0.")
     p, given = np.array(body.parameters), np.array(state, float)
     moment = max(body.I11, body.I22) + body.D

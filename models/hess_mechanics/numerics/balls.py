@@ -19,8 +19,19 @@ from typing import Any
 
 from hess_mechanics.errors import InvalidParameter, MissingLibrary, WorkLimit
 
-__all__ = ["ArbBall", "Enclosure", "ExactNumber", "coefficients", "enclosure", "exact", "flint", "has_flint",
-           "rational", "to_digits", "working"]
+__all__ = [
+    "ArbBall",
+    "Enclosure",
+    "ExactNumber",
+    "enclosure",
+    "exact",
+    "flint",
+    "has_flint",
+    "rational",
+    "series_coefficients",
+    "to_digits",
+    "working",
+]
 
 ArbBall = Any
 """An `arb` of python-flint, which is imported only where it is needed."""
@@ -172,7 +183,7 @@ def to_digits(digits: int, compute: Callable[[Any], ArbBall]) -> Enclosure:
     raise WorkLimit("These numbers need more precision than a closed form may take: choose less extreme ones.")
 
 
-def coefficients(series: Any, terms: int) -> list[ArbBall]:
+def series_coefficients(series: Any, terms: int) -> list[ArbBall]:
     """Return the first coefficients of a power series, with the zeros that python-flint leaves out."""
     found = series.coeffs()
     return [*found, *([0 * series[0]] * (terms - len(found)))]

@@ -37,7 +37,7 @@ from hess_mechanics.suslov_hess.bifurcation_kernels import largest_f
 from hess_mechanics.suslov_hess.circle_map_kernels import images, matrices_into, theta_of
 
 __all__ = [
-    "CircleMap", "FixedPoint", "Phases", "circle_map", "discriminants", "matrices", "neighbours", "rotation_numbers",
+    "CircleMap", "FixedPoint", "Phases", "circle_map", "discriminants", "matrices", "neighbours", "rotation_numbers_of",
     "theta_at",
 ]
 
@@ -70,7 +70,7 @@ def discriminants(rows: Array) -> Array:
     return found
 
 
-def rotation_numbers(rows: Array) -> Array:
+def rotation_numbers_of(rows: Array) -> Array:
     """ρ from the rows of `matrices`: an integer where the map locks, otherwise k + arccos(±Re α)/π; shape (n,)."""
     re, _, _, _, zeta, _ = rows.T
     discriminant = discriminants(rows)
@@ -292,7 +292,7 @@ def circle_map(a: float, h: float, f: float, level: Accuracy) -> CircleMap:
         fixed = (FixedPoint(phi, log_multiplier), FixedPoint(-phi, -log_multiplier))
     else:
         kind = "elliptic"
-    rho = float(rotation_numbers(coarse[None])[0])
+    rho = float(rotation_numbers_of(coarse[None])[0])
     if kind == "parabolic":
         rho = round(rho) + 0.0
     wall_ms = (time.perf_counter() - start) * 1e3

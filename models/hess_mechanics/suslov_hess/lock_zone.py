@@ -44,10 +44,10 @@ from hess_mechanics.numerics.balls import (
     ArbBall,
     Enclosure,
     ExactNumber,
-    coefficients,
     enclosure,
     exact,
     rational,
+    series_coefficients,
     working,
 )
 from hess_mechanics.numerics.patience import go_on
@@ -392,7 +392,7 @@ def _step(A: ArbBall, centre: list[ArbBall], radii: list[ArbBall], s: ArbBall, r
     z = arb_series([z0, *(-k * c for c in cosine[1:])])
     root, inverse = (1 + z).rsqrt(), 1 / z
     u, v = q * root * inverse / 4, A / 2 * root * z.sqrt()
-    upper, lower = (coefficients(series, terms) for series in (u - v, -u - v))
+    upper, lower = (series_coefficients(series, terms) for series in (u - v, -u - v))
     one = arb_series([(1 - cosine[0]) / 2, *(-c / 2 for c in cosine[1:])])
     derivatives, most = [], zero
     for number, radius, shape in ((alpha, radii[0], one), (beta, radii[1], 1 - one)):
@@ -400,7 +400,7 @@ def _step(A: ArbBall, centre: list[ArbBall], radii: list[ArbBall], s: ArbBall, r
         share = number * shape * inverse
         du = radius * u * (arb_series([arb(1) / 2]) - share * (1 + z * root * root / 2))
         dv = radius * v * share * root * root / 2
-        derivatives.append([coefficients(series, terms) for series in (du - dv, -du - dv)])
+        derivatives.append([series_coefficients(series, terms) for series in (du - dv, -du - dv)])
         largest = number * (abs(shape.coeffs()[0]) + change / 2) / low
         most = _largest(most, radius * (u_most * (largest * (1 + high / (2 * (1 + low))) + 0.5)
                           + v_most * largest / (2 * (1 + low))))

@@ -20,7 +20,7 @@ from hess_mechanics.numerics.results import Array, frozen
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov_hess.bifurcation import f_max, f_max_each, turning_points
 from hess_mechanics.suslov_hess.bifurcation_kernels import largest_f
-from hess_mechanics.suslov_hess.circle_map import check_a, matrices, rotation_numbers
+from hess_mechanics.suslov_hess.circle_map import check_a, matrices, rotation_numbers_of
 
 __all__ = [
     "CELLS", "affordable_cells", "critical_a", "lock_boundary", "lock_boundary_end", "lock_boundary_f",
@@ -98,7 +98,7 @@ def _filled_grid(a: float, hs: Array, fs: Array, level: Level) -> Array:
         own = np.arange(H.size) % 2 == i
         for points, chosen in ((own & ~near, level), (own & near, exact)):
             if points.any():
-                out[points] = rotation_numbers(matrices(H[points], F[points], a, chosen))
+                out[points] = rotation_numbers_of(matrices(H[points], F[points], a, chosen))
 
     share(part, 2)
     signed: Array = np.where(fs < 0, -1.0, 1.0)[:, None] * out.reshape(magnitudes.size, hs.size)[back]

@@ -40,10 +40,10 @@ from hess_mechanics.numerics.balls import (
     ArbBall,
     Enclosure,
     ExactNumber,
-    coefficients,
     enclosure,
     exact,
     rational,
+    series_coefficients,
     working,
 )
 from hess_mechanics.suslov_hess.bifurcation import f_max
@@ -325,7 +325,7 @@ def _step(a: ArbBall, f: ArbBall, turns: _Turns, s: ArbBall, r: ArbBall, delta: 
     w_squared = 2 * arb_series([w, *change_of_n3])
     q = (8 * arb_series([gap, *change_of_n3])).rsqrt()
     drift, drive = q * f / w_squared, q * a * w_squared.sqrt()
-    upper, lower = (coefficients(series, terms) for series in (drift - drive, -drift - drive))
+    upper, lower = (series_coefficients(series, terms) for series in (drift - drive, -drift - drive))
     powers = [arb(1)]
     for _ in range(terms - 1):
         powers.append(powers[-1] * delta)

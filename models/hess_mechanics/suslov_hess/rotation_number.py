@@ -34,7 +34,7 @@ from hess_mechanics.suslov_hess.circle_map import (
     discriminants,
     matrices,
     neighbours,
-    rotation_numbers,
+    rotation_numbers_of,
 )
 from hess_mechanics.suslov_hess.mode_locking import critical_a, lock_boundary
 
@@ -162,7 +162,7 @@ def values_at(a: Array | float, h: Array | float, f: Array | float, level: Accur
     rows = np.zeros((a.size, 6))
     rows[possible] = _matrices(a[possible], h[possible], f[possible], level)
     discriminant = discriminants(rows)
-    rho = np.where(possible, np.where(f < 0.0, -1.0, 1.0) * rotation_numbers(rows), np.nan)
+    rho = np.where(possible, np.where(f < 0.0, -1.0, 1.0) * rotation_numbers_of(rows), np.nan)
     with np.errstate(over="ignore"):
         trace = np.where(possible, 2.0 * np.abs(rows[:, 0]) * np.exp(np.minimum(rows[:, 3], 710.0)), np.nan)
     return TorusValues(frozen(rho), frozen(trace), frozen(possible & (discriminant > 0.0)), frozen(possible))
