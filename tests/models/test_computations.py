@@ -63,6 +63,33 @@ def test_points_lie_on_their_sections_at_their_energies():
     assert np.array_equal(section.plot().dimension_values("ψ"), psi)
 
 
+SECTIONS = [hm.return_map(HEAVY, h=2.0, f=0.5, accuracy="standard"),
+            hm.return_map(SUSLOV, E=1.842, accuracy="standard"), hm.return_map(BALL, h=2.0, accuracy="standard"),
+            hm.return_map(hm.QuarticBody(2.0, 1.0, 1.0, 0.8), accuracy="standard")]
+
+
+@pytest.mark.parametrize("P", SECTIONS, ids=lambda P: type(P.section).__name__)
+def test_orbits_of_a_section_are_those_of_its_return_map_forward_and_backward(P):
+    found = hm.section_orbits(P, orbits=3, crossings=6)
+    assert [len(orbit) for orbit in found.orbits] == [6, 6, 6]
+    start = found.orbits[0][1]
+    apart = np.abs(np.exp(1j * hm.section_orbits(P, starts=[start], crossings=4).orbits[0])
+                   - np.exp(1j * found.orbits[0][2:6]))
+    # A start on the plane may be its own first crossing.
+    assert min(apart.max(), np.abs(np.exp(1j * hm.section_orbits(P, starts=[start], crossings=5).orbits[0][1:])
+                                   - np.exp(1j * found.orbits[0][2:6])).max()) < 1e-3
+    back = hm.section_orbits(P.inverse(), starts=[found.orbits[0][3]], crossings=3).orbits[0]
+    assert np.abs(np.exp(1j * back) - np.exp(1j * start)).max(axis=1).min() < 1e-3
+
+
+def test_a_system_with_values_of_its_parameters_moves_as_the_body_does():
+    system = SUSLOV.system.at(np.array(SUSLOV.parameters))
+    one, other = hm.solve(SUSLOV, STATE, [1.0, 2.0]), hm.solve(system, STATE, [1.0, 2.0])
+    assert np.array_equal(one.states, other.states)
+    assert hash(system) == hash(SUSLOV.system.at(SUSLOV.parameters))
+    assert SUSLOV.system.example_motion == (SUSLOV.system.at(SUSLOV.system.example[1]), SUSLOV.system.example[0])
+
+
 def test_basins_clouds_and_maps_have_coordinates():
     basins = hm.basins(SUSLOV, 1.842, cells=(6, 4), accuracy="draft").to_xarray()
     assert basins["group"].dims == ("δ", "ψ")
@@ -120,6 +147,7 @@ def test_free_motions_periods_and_tori_hand_on_their_arrays():
     (lambda: hm.lyapunov_spectrum(None, (1.0,), 3.0), "None is no body that moves"),
     (lambda: hm.circle_map(0.5, 1.5, "x", hm.level("draft")), "f = 'x' is not a number; write it like 1.5"),
     (lambda: hm.rotation_numbers("a", 1.0, 0.2), "a = 'a' is not a number, nor several"),
+    (lambda: hm.section_orbits(hm.return_map(hm.HessBody(2.0, 1.0, -1.0), h=1.5, f=0.6)), "φ alone: there is no plane"),
     (lambda: hm.return_map(2.0, h=2.0, f=0.5), "is no HessBody: give the body as hess_mechanics.HessBody"),
     (lambda: hm.section_orbits(hm.return_map(HEAVY, h=-5.0, f=0.5)), "choose a larger energy"),
     (lambda: hm.return_map(SUSLOV, E=-5.0), "reaches γ3 = 0: choose E above"),
