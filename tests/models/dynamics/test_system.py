@@ -318,7 +318,7 @@ def test_dense_output_does_not_depend_on_the_other_samples(system):
     many = np.linspace(0.0, 12.0, 481)
     dense = solve(*system.example_motion, many, level("reference"))
     sparse = solve(*system.example_motion, many[::60], level("reference"))
-    alone = solve(*system.example_motion, 12.0, level("reference"))
+    alone = solve(*system.example_motion, [12.0], level("reference"))
     assert np.array_equal(dense.states[::60], sparse.states)
     assert np.array_equal(dense.states[-1:], alone.states)
 
