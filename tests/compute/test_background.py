@@ -15,7 +15,7 @@ from hess_explorer.compute import background
 from hess_explorer.compute.background import Background
 from hess_explorer.compute.cache import ResultCache, Task
 from hess_explorer.protocol.parameters import MAX_QUERY, Places, decode, encode, places, written
-from hess_explorer.scenes.framework import rotation_across
+from hess_explorer.scenes import euler_poisson
 from hess_explorer.scenes.framework.work import Work
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.parallel import THREADS
@@ -468,7 +468,7 @@ def test_a_newer_state_ends_the_work_for_the_older_one(gate):
     assert state["progress"] == [0, PIECES]
     gate.let(1000)
     completed(browser)
-    energies = Counter(arguments[0].h for function, arguments in gate.calls if function is rotation_across._piece)
+    energies = Counter(arguments[0].h for function, arguments in gate.calls if function is euler_poisson._batch)
     assert energies[50.0] <= THREADS
     assert energies[45.0] == PIECES - 1
 
@@ -510,7 +510,7 @@ def test_the_last_piece_may_come_while_its_picture_is_drawn(gate):
 
 
 def test_a_refusal_in_the_background_is_said(free_gate, monkeypatch):
-    monkeypatch.setattr(rotation_across, "_MOST_STEPS", 30)
+    monkeypatch.setattr(euler_poisson, "_MOST_STEPS", 30)
     browser = Browser(EP, SMALL)
     completed(browser)
     assert "choose a shorter time span" in browser.texts["notes"]

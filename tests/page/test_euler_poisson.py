@@ -163,9 +163,9 @@ HELD_BACK = """
 import functools, sys, time
 from collections import Counter
 from pathlib import Path
-from hess_explorer.scenes.framework import rotation_across
+from hess_explorer.scenes import euler_poisson
 
-gate, piece, begun = Path(sys.argv.pop(1)), rotation_across._piece, Counter()
+gate, piece, begun = Path(sys.argv.pop(1)), euler_poisson._batch, Counter()
 
 @functools.wraps(piece)
 def held(section, starts, crossings, level):
@@ -174,7 +174,7 @@ def held(section, starts, crossings, level):
         time.sleep(0.02)
     return piece(section, starts, crossings, level)
 
-rotation_across._piece = held
+euler_poisson._batch = held
 """ + UNWARMED[1]
 """The server; a section of 4000 crossings at 20 < h < 21 stops growing after six pieces, while a file is there."""
 

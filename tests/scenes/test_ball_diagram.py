@@ -66,8 +66,8 @@ def multipliers(values, body, E, places):
 @pytest.mark.parametrize("preset", SCENE.presets, ids=lambda preset: preset.name)
 def test_all_examples_are_rigid_bodies_from_one_edge_of_their_diagram_to_the_other(preset):
     state = SCENE.of({**SCENE.defaults(), **preset.values}, (), True)
-    for value in (state.first, state.at, state.last):
-        there = replace(state, **{state.name: value})
+    for value in (state.first, state.diagram.at, state.last):
+        there = replace(state, **{state.diagram.name: value})
         I33 = check_body(there.I11, there.I22, there.I13, there.I23).I33
         # The principal moments of the whole tensor, by their eigenvalues, and the triangle inequality.
         first, second, third = np.linalg.eigvalsh([[there.I11, 0.0, there.I13], [0.0, there.I22, there.I23],
@@ -79,7 +79,7 @@ def test_all_examples_are_rigid_bodies_from_one_edge_of_their_diagram_to_the_oth
 
 def test_where_periods_double_along_the_ball_inside_another_integrator_finds_the_multiplier_minus_one():
     state, captions = complete("Period doubling", ("diagram", "section"))
-    found = state.cascade
+    found = state.diagram.cascade
     assert found.periods.tolist() == [2, 4, 8, 16]
     assert "4 doublings located, the first of period 2 at 𝒟 = 1.58721; ratio 4.676 ±" in captions["diagram"]
     # The numbers of the words beside the pictures.
@@ -87,7 +87,7 @@ def test_where_periods_double_along_the_ball_inside_another_integrator_finds_the
     assert found.ratios == pytest.approx([5.032, 4.676], abs=6e-4)
     for value, places in zip(found.values[:2], found.places[:2], strict=True):
         assert multipliers(*at(state, "D", float(value)), places).real.min() == pytest.approx(-1.0, abs=1e-5)
-    drawn = state.points("rising")
+    drawn = state.diagram.points("rising")
     for low, high, count in ((1.6, 1.75, 2), (1.44, 1.57, 4)):
         values = np.unique(drawn[0][(drawn[0] > low) & (drawn[0] < high)])
         assert len(values) > 30
@@ -102,17 +102,17 @@ def test_where_periods_double_along_the_ball_inside_another_integrator_finds_the
 def test_near_a_doubling_the_period_is_that_of_its_side(D, period):
     # What disturbs an orbit dies out slowly there, in turns to either side, and made it look twice as long, or endless.
     state = SCENE.compute({**SCENE.defaults(), "D": D}, (), True)
-    map_ = ReturnMap(state.section, level("standard"))
-    assert period_of(map_.turns, map_.orbit(np.array(state.place), 700)[500:], map_.promise) == (period, True)
+    map_ = ReturnMap(state.poincare, level("standard"))
+    assert period_of(map_.turns, map_.orbit(np.array(state.diagram.place), 700)[500:], map_.promise) == (period, True)
 
 
 def test_the_orbit_of_period_one_doubles_first_and_goes_on_as_a_saddle():
     view = View(SCENE, {"branch": "period 1", "chosen": "-2.7743,1.0236", "last": 3.0, "window": "", "steps": 2.0,
                         "ways": "there and back"}, seen=["diagram"])
-    (flip,) = (one for part in view.result.continued for one in part.bifurcations)
+    (flip,) = (one for part in view.result.continuation.branches for one in part.bifurcations)
     assert (flip.kind, flip.value) == ("flip", pytest.approx(2.7347985, abs=6e-8))
     assert multipliers(*at(view.result, "D", flip.value), flip.places).real.min() == pytest.approx(-1.0, abs=1e-5)
-    for part in view.result.continued:
+    for part in view.result.continuation.branches:
         for value, kind in zip(part.values, part.kinds, strict=True):
             assert abs(value - flip.value) < 1e-6 or kind.startswith("stable" if value > flip.value else "saddle")
 
@@ -123,7 +123,7 @@ def test_the_strange_attractor_is_what_its_example_says():
     assert float(said[1]) == pytest.approx(0.0925, abs=1e-3)
     assert float(said[2]) < 1e-3
     values, body, E = at(state, "D", state.D)
-    last = state_at(body, E, *state.sets.attractor[-1])
+    last = state_at(body, E, *state.regime.sets.attractor[-1])
     exponents = lyapunov_spectrum(body, last, 4000.0)
     assert exponents.signs == ("+", "0", "0", "0", "-")
     assert exponents.values[0] == pytest.approx(0.036, abs=0.006)
@@ -138,12 +138,12 @@ def test_the_strange_attractor_is_what_its_example_says():
                for y in states]
     assert np.mean(shrinks) == pytest.approx(-0.0925, abs=0.02)
     # The distance, all pairs compared.
-    a, b = state.sets.attractor[::3], state.sets.repeller[::3]
+    a, b = state.regime.sets.attractor[::3], state.regime.sets.repeller[::3]
     away = a[:, None] - b[None]
     away[..., 0] = np.arctan2(np.sin(away[..., 0]), np.cos(away[..., 0]))
     pairs = np.linalg.norm(away, axis=2)
     distance = max(np.quantile(pairs.min(axis=1), 0.95), np.quantile(pairs.min(axis=0), 0.95))
-    known = state.kind.dynamics
+    known = state.regime.kind.dynamics
     assert abs(distance - known.distance) <= known.distance_error + 0.05
     assert pairs.min() > 0.1
 
@@ -152,7 +152,7 @@ def test_a_ball_that_turns_the_wrong_way_turns_round_to_a_permanent_rotation():
     state, captions = complete("Apart: permanent", ("section", "reversal"))
     assert "It turns round once, at first at t = 80.7" in captions["reversal"]
     values, body, E = at(state, "D", state.D)
-    moment, orbit = float(state.turned.times[0]), state.orbit
+    moment, orbit = float(state.turned.times[0]), state.orbit.path
     assert state.turning[0] > 0.0 > state.turning[-1]
     # SciPy, from a little before: (ω, γ) changes its sign then.
     before = int(np.searchsorted(orbit.times, moment - 2.0))
@@ -161,7 +161,7 @@ def test_a_ball_that_turns_the_wrong_way_turns_round_to_a_permanent_rotation():
     (crossing,) = np.flatnonzero(turning[1:] * turning[:-1] < 0.0)
     assert times[crossing] - 1e-6 <= moment - orbit.times[before] <= times[crossing + 1] + 1e-6
     # What it comes to, and what it comes from: γ3 = 0, ω = wγ, w²(I13γ1 + I23γ2) = b3, of this energy.
-    for places, sense in ((state.sets.attractor, -1.0), (state.sets.repeller, 1.0)):
+    for places, sense in ((state.regime.sets.attractor, -1.0), (state.regime.sets.repeller, 1.0)):
         psi = float(places[-1, 0])
         g = np.array([math.cos(psi), math.sin(psi)])
         w = sense * math.sqrt(body.b3 / (body.I13 * g[0] + body.I23 * g[1]))
@@ -174,21 +174,21 @@ def test_a_ball_that_turns_the_wrong_way_turns_round_to_a_permanent_rotation():
 def test_volume_that_is_kept_is_said():
     state, captions = complete("Equal: volume", ("diagram", "section"), steps=30.0)
     assert captions["diagram"].endswith("Volume is kept: each value shows one orbit, and nothing attracts.")
-    assert state.kind.regime.divergence == 0.0
+    assert state.regime.kind.regime.divergence == 0.0
     assert "Motion: chaotic. Conservative: volume is kept." in captions["section"]
 
 
 def test_where_no_motion_crosses_at_the_chosen_place_another_one_is_taken_and_that_is_grey():
     state = SCENE.compute({**SCENE.defaults(), "h": 0.3, "chosen": "-0.61,1"}, (), True)
-    body, E = state.body, state.section.h
+    body, E = state.body, state.poincare.h
 
     def height(psi):
         return body.b1 * math.cos(psi) + body.b2 * math.sin(psi)
 
-    assert height(-0.61) > E > height(state.place[0])
+    assert height(-0.61) > E > height(state.diagram.place[0])
     window = ((-math.pi, 0.0), (math.pi, math.pi))
-    grey, = state.section.impossible(window)
+    grey, = state.poincare.impossible(window)
     middles = (np.arange(grey.size) + 0.5) * 2.0 * math.pi / grey.size - math.pi
     assert grey.tolist() == [float(height(psi) >= E) for psi in middles]
     assert 0 < grey.sum() < grey.size
-    assert replace(state.section, h=-2.0).somewhere() is None
+    assert replace(state.poincare, h=-2.0).somewhere() is None

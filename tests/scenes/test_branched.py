@@ -47,7 +47,7 @@ def marks(view):
 
 def points_of(view):
     """Of all points of the branch: the parameter, the places (m, 2), the multipliers."""
-    return [point for part in view.result.continued
+    return [point for part in view.result.branch.continuation.branches
             for point in zip(part.values.tolist(), part.places, part.multipliers, strict=True)]
 
 
@@ -147,7 +147,7 @@ def test_an_orbit_of_the_ball_doubles_where_another_integrator_finds_the_multipl
     ((kind, value, error),) = marks(view)
     assert kind == "flip"
     assert error < 1e-8
-    (flip,) = (one for part in view.result.continued for one in part.bifurcations)
+    (flip,) = (one for part in view.result.branch.continuation.branches for one in part.bifurcations)
     values = {**view.values, "I13": flip.value}
     assert returned(values, flip.places[0]) == pytest.approx(flip.places[0], abs=1e-8)
     assert np.linalg.eigvals(derivative(values, flip.places[0])).real.min() == pytest.approx(-1.0, abs=1e-5)
@@ -167,7 +167,7 @@ def test_a_click_on_the_branch_shows_that_orbit_and_away_from_it_nothing_happens
     view = shown(name)
     state = view.result
     picture = next(one for one in SCENES[name].views if one.name == "branch")
-    side = state.names.index(state.upwards)
+    side = state.poincare.names.index(state.upwards)
     value, there, _ = max(points_of(view), key=lambda one: one[0] < 0.9 * view.values["high"] and one[0])
     place = there[0]
     chosen = picture.on_click(state, value, place[side])
@@ -177,8 +177,8 @@ def test_a_click_on_the_branch_shows_that_orbit_and_away_from_it_nothing_happens
     assert (chosen["low"], chosen["high"]) == state.branch_ends
     near = {"low": chosen[parameter] - 0.01, "high": chosen[parameter] + 0.01}
     after = View(SCENES[name], {**view.values, **chosen, **near}, seen=["branch"])
-    orbit = after.result.closed.orbit
-    assert np.abs(apart(state.section.turns, orbit.places, place)).max(axis=1).min() < 0.02
+    orbit = after.result.periodic_orbit.closed.orbit
+    assert np.abs(apart(state.poincare.turns, orbit.places, place)).max(axis=1).min() < 0.02
     # The orbit is marked.
     assert after.data["branch-shown"]["x"][0] == pytest.approx(chosen[parameter], abs=1e-6)
     assert after.data["branch-shown"]["y"] == pytest.approx(orbit.places[:, side], abs=1e-6)
@@ -247,14 +247,14 @@ def test_while_a_slider_is_held_only_what_is_known_is_drawn():
         assert one == pytest.approx(other)
     moved = View(SCENES["ball-section"], {**values, "b3": 0.71}, seen=["branch"], dragging=True, whole=False)
     assert moved.text["branch"].split("\n")[1] == "A periodic orbit is found when a slider is let go."
-    assert moved.result.continued == []
+    assert moved.result.branch.continuation.branches == []
     assert moved.report.todo == ()
 
 
 def test_where_a_branch_hardly_gets_on_no_more_of_it_is_computed():
     # At h = 1.4435 an orbit begins to touch the section: steps are of 1e-10, and sixteen parts were asked for.
     view = View(SCENES["ball-section"], {"periodic": "period 1", "reach": 0.0}, seen=["branch"])
-    downwards = [part for part in view.result.continued if part.values[-1] < 2.0]
+    downwards = [part for part in view.result.branch.continuation.branches if part.values[-1] < 2.0]
     assert len(downwards) == 2
     assert downwards[-1].values[-1] == pytest.approx(1.44351, abs=1e-5)
     assert "The branch goes on: no more of it is computed." in view.report.notes

@@ -14,8 +14,8 @@ from scipy.integrate import quad
 
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.protocol.parameters import places
-from hess_explorer.scenes.framework import filled_window
 from hess_explorer.scenes.framework.periodic_search import NONE
+from hess_explorer.scenes.parts import filled_section
 from hess_mechanics import circle_map, f_max, level, solve
 from hess_mechanics.dynamics.birkhoff import rotation_number
 from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
@@ -97,7 +97,7 @@ def test_an_example_shows_what_its_name_and_its_captions_promise(preset):
 def test_the_example_of_a_periodic_orbit_closes_and_says_how_fast_its_neighbours_leave():
     (preset,) = (one for one in EP.presets if one.values["periodic"] != NONE)
     view = EulerPoisson(preset.values, seen={"section", "exponent"})
-    closed = view.result.closed
+    closed = view.result.periodic_orbit.closed
     slow = math.sqrt(2.0 * max(view.body.a) * (view.h + view.body.strength))
     times, states = crossings_by_scipy(view.body, closed.state, 30.0 / slow)
     assert coordinates(states)[0] == pytest.approx(closed.orbit.places[0], abs=1e-6)
@@ -144,7 +144,7 @@ def test_at_the_meandering_torus_the_rotation_number_turns_round_at_an_eighth():
     view = EulerPoisson({**EP.presets[1].values, "orbits": 0.0}, seen={"rotation"})
     place, rho = view.numbers("rotation", "turns round at # (ρ = #): no twist.")
     assert rho == pytest.approx(0.125, abs=1e-4)
-    centre = view.result.ends[0]
+    centre = view.result.rotation.ends[0]
 
     def exact(l):
         start = [state_at(GESS1, 50.0, 5.0, l, centre[1])]
@@ -364,7 +364,7 @@ def test_a_window_is_filled_with_orbits_of_its_own():
 
 
 def seeds_of(view):
-    return filled_window._seeds, view.result.section, view.result.frame, int(view.values["orbits"])
+    return filled_section._seeds, view.result.poincare, view.result.section.frame, int(view.values["orbits"])
 
 
 def test_a_drag_shows_the_section_at_once_with_fewer_orbits():

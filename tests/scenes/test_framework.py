@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
+from typing import Protocol, get_args, get_origin
 
 import numpy as np
 import pytest
 
-from hess_explorer.scenes.framework.crossings import Crossings
-from hess_explorer.scenes.framework.filled_window import FilledWindow
 from hess_explorer.scenes.framework.parameters import accuracy_level, like, number, specs_of
+from hess_explorer.scenes.framework.part import Part
 from hess_explorer.scenes.framework.scene import Motion, Scene, State
 from hess_explorer.scenes.speed_accuracy import speed_and_accuracy
 from hess_mechanics import systems
@@ -46,14 +46,30 @@ def test_a_parameter_that_is_declared_again_keeps_its_place_and_what_is_not_chan
     assert Base().second == specs_of(Base)[1].default == 2.0
 
 
-@pytest.mark.parametrize(("base", "missing"), [
-    (Crossings, ["body", "crossing", "given", "section", "section_axes", "weights"]),
-    (FilledWindow, ["body", "piece", "impossible_here", "section", "weights"])])
-def test_a_section_that_lacks_a_member_cannot_be_made(base, missing):
-    incomplete = dataclass(frozen=True)(type("Incomplete", (base,), {}))
-    with pytest.raises(TypeError) as refused:
-        incomplete()
-    assert all(name in str(refused.value) for name in missing)
+def protocol_of(part):
+    """The protocol that a part names for its host."""
+    base = next(base for base in type(part).__orig_bases__ if get_origin(base) is Part)
+    return get_args(base)[0]
+
+
+COMPOSED = [name for name, scene in SCENES.items() if scene.of(scene.defaults()).parts()]
+
+
+@pytest.mark.parametrize("name", COMPOSED)
+def test_each_host_has_all_that_its_parts_ask_of_it(name):
+    scene = SCENES[name]
+    for part in scene.of(scene.defaults()).parts():
+        needed = {member for base in protocol_of(part).__mro__ if Protocol in base.__bases__
+                  for member in vars(base) if not member.startswith("_")}
+        assert "work" in needed
+        there = set(dir(type(part.host))) | {one.name for one in fields(part.host)}
+        assert needed <= there, (part, needed - there)
+
+
+def test_no_state_has_more_than_three_own_classes():
+    for name in COMPOSED:
+        own = [one for one in SCENES[name].state.__mro__ if one.__module__.startswith("hess_explorer")]
+        assert len(own) <= 3, own
 
 
 @dataclass(frozen=True)

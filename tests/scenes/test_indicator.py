@@ -32,7 +32,7 @@ def shown(name, **values):
 @pytest.mark.parametrize("name", NAMES)
 def test_cells_that_are_called_chaotic_have_that_exponent_and_the_regular_ones_none(name):
     view = shown(name, **example(name, EXAMPLES[name]))
-    kinds, values = view.result.kinds, view.result._cells[0][:, 0]
+    kinds, values = view.result.megno.kinds, view.result.megno._cells[0][:, 0]
     assert kinds.shape == (12, 18)
     image = np.asarray(view.data["section-megno"]["image"][0]).reshape(12, 18)
     assert image == pytest.approx(kinds + 1.5)
@@ -43,7 +43,7 @@ def test_cells_that_are_called_chaotic_have_that_exponent_and_the_regular_ones_n
     assert regular + chaotic == pytest.approx(100.0, abs=1.1)
     assert shrinks == pytest.approx(100.0 * np.mean(there >= 2.0), abs=0.51)
     # Two orbits side by side, by another algorithm: Ȳ comes to λt/2 on chaotic motions.
-    section, (low, high) = view.result.section, np.array(view.result.frame)
+    section, (low, high) = view.result.poincare, np.array(view.result.section.frame)
     order = [(i, j) for i, j in np.column_stack(np.unravel_index(np.argsort(values, axis=None), values.shape))
              if kinds[i, j] >= 0.0]
     for i, j in (*order[:2], *order[-2:]):
@@ -58,7 +58,7 @@ def test_cells_that_are_called_chaotic_have_that_exponent_and_the_regular_ones_n
 
 def test_integrable_examples_are_regular_all_over():
     for name, beginning in (("quartic", "Integrable: "), ("ball-section", "Regular")):
-        kinds = shown(name, **example(name, beginning)).result.kinds
+        kinds = shown(name, **example(name, beginning)).result.megno.kinds
         assert set(np.unique(kinds)) <= {-1.0, 0.0}
 
 
@@ -84,6 +84,6 @@ def test_coarse_cells_come_first_and_a_slider_that_is_held_has_none():
 
 def test_basins_are_shown_in_place_of_it():
     view = shown("suslov", colours="basins", long=300.0)
-    assert view.result.kinds is None
+    assert view.result.megno.kinds is None
     assert "MEGNO" not in view.text["section"]
-    assert view.result.basin is not None
+    assert view.result.basins.basin is not None

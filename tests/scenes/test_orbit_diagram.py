@@ -41,7 +41,7 @@ def complete(beginning, seen=("diagram", "section"), **changes):
 
 def moved(state, name, value):
     """The section of the same state at another value of a parameter."""
-    return replace(state, **{name: value}).section
+    return replace(state, **{name: value}).poincare
 
 
 def returns(body, state, times):
@@ -59,8 +59,8 @@ def returns(body, state, times):
 @pytest.mark.parametrize("preset", SCENE.presets, ids=lambda preset: preset.name)
 def test_all_examples_are_rigid_bodies_from_one_edge_of_their_diagram_to_the_other(preset):
     state = SCENE.compute({**SCENE.defaults(), **preset.values}, (), True)
-    for value in (state.first, state.at, state.last):
-        b = moved(state, state.name, value).body
+    for value in (state.first, state.diagram.at, state.last):
+        b = moved(state, state.diagram.name, value).body
         I33 = check_body(b.I11, b.I22, b.I13, b.I23).I33
         assert I33 is not None
         # The principal moments of the whole tensor, by their eigenvalues, and the triangle inequality.
@@ -72,13 +72,13 @@ def test_all_examples_are_rigid_bodies_from_one_edge_of_their_diagram_to_the_oth
 
 def test_where_periods_double_another_integrator_finds_the_multiplier_minus_one():
     state, captions = complete("Period doubling")
-    found = state.cascade
+    found = state.diagram.cascade
     assert found.periods.tolist() == [1, 2, 4, 8]
     assert "4 doublings located, the first of period 1 at I₂₃ = −0.0498281" in captions["diagram"]
     # The numbers of the words beside the pictures.
     assert found.values == pytest.approx([-0.0498281, 0.0873376, 0.1281912, 0.1376316], abs=6e-8)
     assert found.ratios == pytest.approx([3.357, 4.328], abs=6e-4)
-    E = state.section.E
+    E = state.poincare.E
     for value, places in zip(found.values[:2], found.places[:2], strict=True):
         body = replace(state.body, I23=float(value))
         M, m, h = np.eye(2), len(places), 1e-4
@@ -89,7 +89,7 @@ def test_where_periods_double_another_integrator_finds_the_multiplier_minus_one(
             M = np.column_stack([(a - b) / (2.0 * h) for a, b in sides]) @ M
         assert np.linalg.eigvals(M).real.min() == pytest.approx(-1.0, abs=1e-5)
     # Before the first doubling a diagram shows one place, between the first two two of them.
-    drawn = state.points("rising")
+    drawn = state.diagram.points("rising")
     for low, high, count in ((-0.12, -0.07, 1), (0.0, 0.06, 2), (0.1, 0.12, 4)):
         for x in np.unique(drawn[0][(drawn[0] > low) & (drawn[0] < high)]):
             assert len(np.unique(np.round(drawn[1][drawn[0] == x], 4))) == count
@@ -101,10 +101,10 @@ def test_where_periods_double_another_integrator_finds_the_multiplier_minus_one(
 def test_attractors_and_repellers_are_what_their_examples_say(name, verdict, dimension):
     state, captions = complete(name, ("section",))
     assert f"Motion: chaotic. Looks {verdict}." in captions["section"]
-    known = state.kind.dynamics
+    known = state.regime.kind.dynamics
     assert f"div = {digits(known.motion.divergence, 2)} ± " in captions["section"]
     # Statistics of an ensemble, each orbit from another place: one trajectory proves nothing.
-    starts = [state_at(state.body, state.section.E, 3, *place) for place in state.sets.attractor[::250]]
+    starts = [state_at(state.body, state.poincare.E, 3, *place) for place in state.regime.sets.attractor[::250]]
     found = [lyapunov_spectrum(state.body, start, 4000.0) for start in starts]
     assert all(one.signs[0] == "+" for one in found)
     values = np.array([one.values[0] for one in found])
@@ -166,7 +166,7 @@ def multipliers(body, E, place):
 def test_the_branch_of_a_periodic_orbit_goes_on_as_a_saddle_where_the_diagram_doubles():
     view = View(SCENE, {**LIGHT, "branch": "period 1"}, seen=["diagram", "section"])
     state = view.result
-    (flip,) = (one for part in state.continued for one in part.bifurcations)
+    (flip,) = (one for part in state.continuation.branches for one in part.bifurcations)
     (said, value) = view.derived("flip of period # at I₂₂ = # ± ")
     assert (said, value) == (1.0, pytest.approx(flip.value, abs=1e-7))
     assert view.text["diagram"].split("\n")[1] == "Period 1, saddle with reflection here; its branch has 1 bifurcation."
@@ -177,8 +177,8 @@ def test_the_branch_of_a_periodic_orbit_goes_on_as_a_saddle_where_the_diagram_do
     assert (view.data["diagram-bifurcations"]["x"][0], view.data["diagram-bifurcation-names"]["text"]) == (
         pytest.approx(flip.value, abs=1e-6), ["flip"])
     # SciPy: the orbits close, and the multiplier passes −1 at the mark.
-    E = state.section.E
-    orbits = [(float(value), places[0]) for part in state.continued
+    E = state.poincare.E
+    orbits = [(float(value), places[0]) for part in state.continuation.branches
               for value, places in zip(part.values, part.places, strict=True)]
     ends = (choose(orbits, key=lambda one: one[0]) for choose in (min, max))
     for value, place in (*ends, (flip.value, flip.places[0])):
@@ -188,7 +188,7 @@ def test_the_branch_of_a_periodic_orbit_goes_on_as_a_saddle_where_the_diagram_do
         assert found[0].real == pytest.approx(-1.0, abs=1e-5) if value == flip.value else (
             (found[0].real > -1.0) == (value < flip.value))
     # The diagram shows it as long as it attracts.
-    drawn = state.points("rising")
+    drawn = state.diagram.points("rising")
     for x in np.unique(drawn[0][drawn[0] < 2.11]):
         assert np.interp(x, *np.array(sorted((v, p[0]) for v, p in orbits)).T) == pytest.approx(
             drawn[1][drawn[0] == x][-1], abs=2e-3)
@@ -205,31 +205,31 @@ def turns_between(angles):
 
 def test_a_torus_is_born_where_multipliers_leave_the_unit_circle_and_locks_and_breaks_up():
     state, captions = complete("A torus")
-    E = state.section.E
+    E = state.poincare.E
 
     def at(value):
         return moved(state, "I13", value)
 
     # Where it is born: SciPy's multipliers have the size 1 there, and the orbit closes.
-    (born,) = (one for part in state.continued for one in part.bifurcations)
+    (born,) = (one for part in state.continuation.branches for one in part.bifurcations)
     assert (born.kind, born.value) == ("Neimark–Sacker", pytest.approx(-0.24899620, abs=5e-9))
     found, there = multipliers(at(born.value).body, E, born.places[0])
     assert there == pytest.approx(born.places[0], abs=1e-8)
     assert np.abs(found) == pytest.approx(1.0, abs=1e-6)
     assert found[0].imag != 0.0
-    for part in state.continued:
+    for part in state.continuation.branches:
         for value, kind in zip(part.values, part.kinds, strict=True):
             assert abs(value - born.value) < 1e-6 or kind == (
                 "unstable focus" if value < born.value else "stable focus")
     # The band of the diagram: narrow where the focus attracts, wider and wider beyond.
-    x, y = state.points("falling")
+    x, y = state.diagram.points("falling")
     wide = [np.ptp(y[np.abs(x - value) < 6e-5]) for value in (-0.2475, -0.252, -0.256, -0.26)]
     assert wide[0] < 0.01
     assert 0.1 < wide[1] < wide[2] - 0.1 < wide[3] - 0.2
     # The torus: exponents, and the rotation number, by an average and by the order of SciPy's places on the curve.
     curve = ReturnMap(at(-0.256), level("standard"))
     focus = find_periodic(curve, born.places, 1).places[0]
-    places = curve.orbit(np.array(state.place), 4000)[1000:]
+    places = curve.orbit(np.array(state.diagram.place), 4000)[1000:]
     exponents = lyapunov_spectrum(curve.section, curve.state_at(places[-1]), 4000.0)
     assert exponents.signs == ("0", "0", "0", "0", "-")
     turns, error = rotation_number(places, tuple(focus))
@@ -240,7 +240,7 @@ def test_a_torus_is_born_where_multipliers_leave_the_unit_circle_and_locks_and_b
     assert low <= turns <= high < low + 1e-3
     # Locked: SciPy's product of ten derivatives has complex eigenvalues, and 1 at the folds.
     locked = ReturnMap(at(-0.257), level("precise"))
-    orbit = find_periodic(locked, locked.orbit(np.array(state.place), 2000)[-10:], 10)
+    orbit = find_periodic(locked, locked.orbit(np.array(state.diagram.place), 2000)[-10:], 10)
     assert orbit.kind == "stable focus"
     for end, fold in ((-0.258, -0.2574134), (-0.256, -0.2569055)):
         branch = continued(lambda v: ReturnMap(at(v), level("precise")), orbit, "I13", -0.257, end, 30)
@@ -252,7 +252,7 @@ def test_a_torus_is_born_where_multipliers_leave_the_unit_circle_and_locks_and_b
     assert np.abs(found) == pytest.approx(np.abs(orbit.multipliers), abs=1e-4)
     # The strange attractor: two orbits side by side part as fast.
     assert "Motion: chaotic. Looks dissipative.\ndiv = −0." in captions["section"]
-    last = state_at(state.body, E, 3, *state.sets.attractor[-1])
+    last = state_at(state.body, E, 3, *state.regime.sets.attractor[-1])
     exponents = lyapunov_spectrum(state.body, last, 20_000.0)
     twin = lyapunov_exponent(state.body, last, 8000.0, PLANS[Computation.EXPONENT]["standard"].level)
     value, error = exponents.values[0], exponents.errors[0]
@@ -263,7 +263,7 @@ def test_a_torus_is_born_where_multipliers_leave_the_unit_circle_and_locks_and_b
     assert abs(dimension - 2.25) < 0.02
     assert error < 0.03
     # Motions stay there, and later leave it.
-    stays, leaves = (ReturnMap(at(value), level("draft")).orbit(np.array(state.place), 10_000)[:, 0]
+    stays, leaves = (ReturnMap(at(value), level("draft")).orbit(np.array(state.diagram.place), 10_000)[:, 0]
                      for value in (-0.261, -0.2612))
     assert 0.6 < stays.min() < stays.max() < 2.2 < leaves.max()
 
@@ -300,7 +300,7 @@ def test_a_motion_that_comes_to_a_saddle_focus_has_left_it_before():
     (one,) = (k for k in range(2) if low[k][0] < 0.05 and high[k][0] < 0.05)
     assert low[one][1] * high[one][1] == -1.0
     assert "Motion: chaotic." in captions["section"]
-    last = state_at(body, state.section.E, 3, *state.sets.attractor[-1])
+    last = state_at(body, state.poincare.E, 3, *state.regime.sets.attractor[-1])
     # Its return to the rotation.
     orbit = solve(body, last, np.linspace(0.0, 4000.0, 80_001), level("draft")).states
     assert np.linalg.norm(orbit - like, axis=1).min() < 0.1
@@ -314,16 +314,16 @@ def test_a_click_on_a_branch_shows_that_orbit_and_the_mouse_is_told_what_it_is_o
     assert chosen["I22"] == pytest.approx(x, abs=2e-3)
     body = type(view.result.body)(1.0, chosen["I22"], 0.6, 0.6, -1.0, -0.5, 0.7)
     place = np.array([float(part) for part in chosen["chosen"].split(",")])
-    found, there = multipliers(body, view.result.section.E, place)
+    found, there = multipliers(body, view.result.poincare.E, place)
     assert there == pytest.approx(place, abs=1e-7)
-    hover = view.result.about(x, y)
+    hover = view.result.continuation.about(x, y)
     assert re.match(r"I₂₂ = 2\.2[78]\d*: period 1, saddle with reflection, μ = −[\d.]+, −[\d.]+$", hover)
     assert float(hover.split("μ = −")[1].split(",")[0]) == pytest.approx(-found[0].real, rel=0.03)
-    assert view.result.about(2.126, 0.69).startswith("flip of period 1 at I₂₂ = 2.1260498 ± ")
-    assert view.result.about(2.3, -2.0) == ""
+    assert view.result.continuation.about(2.126, 0.69).startswith("flip of period 1 at I₂₂ = 2.1260498 ± ")
+    assert view.result.continuation.about(2.3, -2.0) == ""
     # The state that it chooses shows the orbit itself, though nothing stays there.
     after = View(SCENE, {**values, **chosen}, seen=["diagram", "section"])
-    assert after.result.closed.orbit.places[0] == pytest.approx(place, abs=1e-7)
+    assert after.result.continuation.closed.orbit.places[0] == pytest.approx(place, abs=1e-7)
     assert after.points("repels") == pytest.approx(place[None], abs=1e-5)
     # Away from the branch a click means the diagram.
     assert view.result.choose(2.2801, 2.5)["chosen"] != chosen["chosen"]
@@ -335,10 +335,11 @@ def test_a_branch_folds_and_where_there_is_none_that_is_said():
     m, fold = view.derived("fold of period # at h = # ± ")
     assert m == view.numbers("diagram", "\nPeriod #, saddle")[0] > 1
     # No orbit of the branch is beyond the fold, and there are two of each value before it.
-    values = np.concatenate([part.values for part in view.result.continued])
+    values = np.concatenate([part.values for part in view.result.continuation.branches])
     near = fold + 1e-3 * (1.0 if values.mean() > fold else -1.0)
     assert (values.min() if values.mean() > fold else -values.max()) >= (fold if values.mean() > fold else -fold) - 1e-7
-    crossed = sum(int(np.count_nonzero(np.diff(np.sign(part.values - near)))) for part in view.result.continued)
+    crossed = sum(int(np.count_nonzero(np.diff(np.sign(part.values - near))))
+                  for part in view.result.continuation.branches)
     assert crossed == 2
     none = View(SCENE, {**LIGHT, **dict(next(one for one in SCENE.presets if one.name.startswith("Equal: v")).values),
                         "branch": "period 1", "steps": 2.0}, seen=["diagram"])
@@ -349,7 +350,7 @@ def test_a_branch_folds_and_where_there_is_none_that_is_said():
 def test_volume_that_is_kept_is_said():
     state, captions = complete("Equal: volume")
     assert captions["diagram"].endswith("Volume is kept: each value shows one orbit, and nothing attracts.")
-    assert state.kind.regime.divergence == 0.0
+    assert state.regime.kind.regime.divergence == 0.0
 
 
 def test_a_click_chooses_a_state_that_is_there_and_a_box_looks_closer():
@@ -376,7 +377,7 @@ def test_a_click_chooses_a_state_that_is_there_and_a_box_looks_closer():
 
 def test_reversals_are_where_the_rate_about_the_vertical_is_zero():
     state, captions = complete("Apart: permanent", ("reversal",))
-    times, rate = state.orbit.times, state.turning
+    times, rate = state.orbit.path.times, state.turning
     crossings = np.flatnonzero(rate[1:] * rate[:-1] < 0.0)
     said = int(re.search(r"turns round (\d+) times", captions["reversal"])[1])
     assert len(crossings) == len(state.turned.times) == said

@@ -10,7 +10,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from hess_explorer.scenes import scenes
-from hess_explorer.scenes.framework.periodic import NONE
+from hess_explorer.scenes.framework.periodic_search import NONE
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.periodic import within
 from hess_mechanics import circle_map, level
@@ -74,7 +74,7 @@ def test_a_periodic_orbit_of_the_suslov_problem_is_one_and_has_its_multipliers(p
     given = {**preset("suslov", example), **LIGHT["suslov"], "colours": "forward only", "starts": start}
     view = shown("suslov", periodic, *given.items())
     state = view.result
-    orbit, m = state.closed.orbit, state.closed.orbit.period
+    orbit, m = state.periodic_orbit.closed.orbit, state.periodic_orbit.closed.orbit.period
     assert orbit.kind == kind
     for i, place in enumerate(orbit.places):
         there, _ = returned(state.body, state.E, place, 1)
@@ -101,7 +101,7 @@ def test_a_periodic_orbit_of_the_suslov_problem_is_one_and_has_its_multipliers(p
     assert np.unique(view.curve("exponent-lambda")[1]) == pytest.approx([across], abs=1e-4)
     # Its points have the sign of its kind, and the linked pictures show it, once round.
     assert drawn(view) == ({"attracts"} if kind.startswith("stable") else {
-        *SADDLE, *({"homoclinic"} if state.homoclinic else ())})
+        *SADDLE, *({"homoclinic"} if state.periodic_orbit.homoclinic else ())})
     sign = "attracts" if kind.startswith("stable") else "repels"
     assert view.points(sign) == pytest.approx(orbit.places)
     track = view.data["data-orbit"]
@@ -115,28 +115,29 @@ def test_a_periodic_orbit_of_the_suslov_problem_is_one_and_has_its_multipliers(p
 def test_points_of_the_manifolds_are_taken_along_them():
     view = shown("suslov", "period 1", *{**preset("suslov", "A chaotic"), **LIGHT["suslov"]}.items())
     state = view.result
-    for curve in state.manifolds:
+    manifolds = state.periodic_orbit.manifolds
+    for curve in manifolds:
         sense = -1.0 if curve.stable else 1.0
-        others = [one.points for one in state.manifolds if one.stable is curve.stable and one.side != curve.side]
+        others = [one.points for one in manifolds if one.stable is curve.stable and one.side != curve.side]
         # Of a saddle with reflection one branch is taken to the other.
         # An image is five times as far.
         some = curve.points[(curve.lengths > 0.01) & (curve.lengths < 0.2)]
         assert len(some) > 3
         for point in some[:: len(some) // 3]:
             there, _ = returned(state.body, state.E, point, 1, sense)
-            assert min(_distance(one, there) for one in others) < 0.5 / max(state.pixels), (curve.stable, point)
+            assert min(_distance(one, there) for one in others) < 0.5 / max(state.section.pixels), (curve.stable, point)
     columns = view.data["section-unstable-manifold"]
-    assert sum(map(len, columns["xs"])) >= sum(len(one.points) for one in state.manifolds if not one.stable)
+    assert sum(map(len, columns["xs"])) >= sum(len(one.points) for one in manifolds if not one.stable)
 
 
 def test_a_manifold_ends_where_the_map_jumps_and_no_line_is_drawn_across():
     view = shown("suslov", "any period")
-    ends = [one for one in view.result.manifolds if "the map jumps" in one.ended]
+    ends = [one for one in view.result.periodic_orbit.manifolds if "the map jumps" in one.ended]
     assert len(ends) == 4
     assert any("the map jumps: an orbit touches the plane of the section" in note for note in view.report.notes)
-    for curve in view.result.manifolds:
+    for curve in view.result.periodic_orbit.manifolds:
         # Chords of ten pixels at most: before, one of 1.7 led from the edge δ = π through the middle of the section.
-        assert np.hypot(*np.diff(curve.points, axis=0).T).max() <= 10.0 / max(view.result.pixels) * (1.0 + 1e-9)
+        assert np.hypot(*np.diff(curve.points, axis=0).T).max() <= 10.0 / max(view.result.section.pixels) * (1.0 + 1e-9)
     for curve in ends:
         # Further on by a hundredth of the return it is somewhere else.
         before, after = curve.at(curve.parameters[-1]), curve.at(curve.parameters[-1] + 0.01)
@@ -158,23 +159,24 @@ def meetings(one, other):
 def test_homoclinic_points_come_from_the_saddle_and_go_to_it():
     view = shown("ball-section", "period 1")
     state = view.result
-    found = state.homoclinic
+    found = state.periodic_orbit.homoclinic
     said, error = view.derived("# homoclinic points on what is drawn of them, to #; longer ones cross more often")
     assert said == len(found) == len(view.points("homoclinic")) > 20
     assert error == pytest.approx(max(one.error for one in found), rel=0.5)
     # As many as the curves have that are drawn, with those that are not certain.
-    stable, unstable = ([one.points for one in state.manifolds if one.stable is kind] for kind in (True, False))
+    stable, unstable = ([one.points for one in state.periodic_orbit.manifolds if one.stable is kind]
+                        for kind in (True, False))
     shifts = 2.0 * math.pi * np.arange(-2, 3)
     drawn_ = sum(meetings(one, other + np.array([shift, 0.0]))
                  for one in unstable for other in stable for shift in shifts)
     assert sum(map(len, state._met)) == drawn_
     (unsure,) = (int(note.split()[1]) for note in view.report.notes if "within their error" in note)
     assert said + unsure == drawn_
-    saddle = state.closed.orbit.places[0]
+    saddle = state.periodic_orbit.closed.orbit.places[0]
     for one in (found[0], found[-1]):
         # The wire has single precision.
         assert np.abs(view.points("homoclinic") - one.place).max(axis=1).min() < 1e-6
-        start = state.section.states_at(*one.place[:, None])[0][0]
+        start = state.poincare.states_at(*one.place[:, None])[0][0]
         for sense in (1.0, -1.0):
             run = solve_ivp(lambda t, y, sense=sense: sense * np.array(rates(view.values)(t, y)), (0.0, 100.0), start,
                             "DOP853", rtol=1e-9, atol=1e-11, events=height)
@@ -201,15 +203,15 @@ def test_in_the_hess_case_the_saddle_has_the_multipliers_of_the_moebius_matrix_a
     bridge = Bridge.of_heavy(body)
     h, f = bridge.in_units_of_b(state.h, state.f)
     exact = max(one.multiplier for one in circle_map(bridge.hess.a, h, f, level("reference")).fixed_points)
-    assert np.abs(state.closed.orbit.multipliers - (exact, 1.0 / exact)).max() < 1e-9 * exact
+    assert np.abs(state.periodic_orbit.closed.orbit.multipliers - (exact, 1.0 / exact)).max() < 1e-9 * exact
     said = view.numbers("section", "\nPeriod #, saddle: μ = #, # to")
     assert said == pytest.approx([1, exact, 1.0 / exact], rel=1e-3)
     # One of its manifolds is the Hess manifold itself.
     off = {stable: max(float(np.abs(one.points[:, 1] - hess_curve(body, one.points[:, 0])).max())
-                       for one in state.manifolds if one.stable is stable) for stable in (True, False)}
-    assert min(off.values()) < 0.5 / max(state.pixels) < 0.1 < max(off.values())
+                       for one in state.periodic_orbit.manifolds if one.stable is stable) for stable in (True, False)}
+    assert min(off.values()) < 0.5 / max(state.section.pixels) < 0.1 < max(off.values())
     assert view.numbers("exponent", "\nNext to the periodic orbit: ln|μ₁|/T = #,") == pytest.approx(
-        [math.log(exact) / state.closed.time], rel=1e-3)
+        [math.log(exact) / state.periodic_orbit.closed.time], rel=1e-3)
 
 
 def test_where_every_orbit_of_the_ball_closes_the_chosen_one_is_parabolic():
@@ -225,7 +227,7 @@ def test_where_every_orbit_of_the_ball_closes_the_chosen_one_is_parabolic():
 
 def test_a_point_in_the_quartic_potential_goes_round():
     view = shown("quartic", "period 3")
-    orbit = view.result.closed.orbit
+    orbit = view.result.periodic_orbit.closed.orbit
     assert (orbit.period, orbit.kind, drawn(view)) == (3, "saddle", SADDLE | {"homoclinic"})
     assert complex(orbit.multipliers.prod()).real == pytest.approx(1.0, abs=1e-8)
     track = view.data["data-orbit"]
@@ -234,7 +236,7 @@ def test_a_point_in_the_quartic_potential_goes_round():
     assert (track["q1"][-1], track["q2"][-1]) == pytest.approx((0.0, orbit.places[0, 0]), abs=1e-3)
     ring = view.data["domain-start"]
     assert (ring["x"][0], ring["y"][0]) == pytest.approx((0.0, orbit.places[0, 0]), abs=1e-6)
-    assert len(view.result.manifolds) == 12
+    assert len(view.result.periodic_orbit.manifolds) == 12
     assert [line for line in view.report.derived if line.startswith("its own image")] == [
         "its own image: ω1, ω2, t → −"]
 
@@ -293,7 +295,7 @@ def test_a_branch_that_ends_early_says_why():
     assert view.report.notes[0] == "A branch of a manifold ends early. After 20000 returns of the map."
     assert "0 of 4 branches of its manifolds are 30 long" in view.report.derived
     assert view.derived("at least # homoclinic points on what is drawn of them, to")[0] > 60
-    assert max(len(one.points) for one in view.result.manifolds) <= 2002
+    assert max(len(one.points) for one in view.result.periodic_orbit.manifolds) <= 2002
     assert not any("early" in note for note in shown("ball-section", "period 1").report.notes)
     assert drawn(shown("ball-section", "period 1", ("reach", 0.0))) == {"repels"}
 

@@ -15,6 +15,7 @@ from scipy.integrate import solve_ivp
 from hess_explorer.compute.cache import CACHE
 from hess_explorer.protocol.parameters import places
 from hess_explorer.scenes import scenes
+from hess_explorer.views.section_plane import joined
 from hess_mechanics import SuslovBody, solve
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import REFERENCE
@@ -96,7 +97,7 @@ def test_an_example_is_complete_and_counts_its_points(name):
         said = view.numbers("section", "\n# points forward")
         assert said == [len(forward)]
         cells, of = view.numbers("section", "forward ones lie in # of # cells.")
-        later = view.result.later
+        later = joined(orbit[len(orbit) // 2 :] for orbit in view.result.section.kind(True))
         assert len(later) == pytest.approx(len(forward) * (0.5 if view.values["drop"] == "all" else 1.0), rel=0.01)
         counted, _, _ = np.histogram2d(*later.T, bins=32, range=[[-math.pi, math.pi], [0.0, math.pi]])
         # A point in double precision may fall into the next cell.
@@ -199,7 +200,7 @@ def test_what_attracts_and_repels_in_the_reversal_are_permanent_rotations():
 def test_the_basins_of_the_example_are_those_that_scipy_finds():
     view = example(TWO)
     share, rest = view.numbers("section", "Two attractors, with # % and # % of the cells.")
-    cells = view.result.basin
+    cells = view.result.basins.basin
     assert cells.shape == (24, 36)
     assert set(np.unique(cells)) == {0.0, 1.0}
     assert share == pytest.approx(100.0 * np.mean(cells == 1.0), abs=0.51)
@@ -261,7 +262,7 @@ def test_where_volume_is_kept_no_attractor_is_claimed():
 
 def test_a_sea_that_is_its_own_mirror_image_is_no_attractor_also_where_part_of_the_window_is_impossible():
     view = View(SCENE, {**FEW, "colours": "basins", "long": 1000.0})
-    cells = view.result.basin
+    cells = view.result.basins.basin
     assert 0.1 < np.mean(cells == -1.0) < 0.9
     assert set(np.unique(cells)) == {-1.0, 0.0}
     mean, error = view.numbers("section", "Nothing attracts here, as far as it is seen: mean div = # ± #.")
@@ -290,7 +291,7 @@ def test_every_plane_and_choice_is_shown(plane, colours):
     assert plane in view.text["section"]
     assert len(view.points("first")) > 10
     assert (len(view.points("second")) > 10) == (colours == "forward and backward in time")
-    assert (view.result.basin is not None) == (colours == "basins")
+    assert (view.result.basins.basin is not None) == (colours == "basins")
     psi, delta = view.points("chosen")[0]
     assert (psi, delta) == pytest.approx((-0.3, 1.0), abs=1e-6)
     # The chosen orbit starts in the plane.
@@ -333,7 +334,7 @@ def test_a_click_adds_an_orbit_and_a_box_is_the_window():
     assert len(both.points("own")) == 2 * len(view.points("own"))
     assert both.points("chosen") == pytest.approx(np.array([[1.0, 1.0], [0.3, 2.0]]), abs=1e-6)
     closer = View(SCENE, {**FEW, "window": "-0.5,2;1,3"})
-    assert closer.result.frame == ((-0.5, 2.0), (1.0, 3.0))
+    assert closer.result.section.frame == ((-0.5, 2.0), (1.0, 3.0))
 
 
 def test_a_start_where_nothing_is_possible_is_replaced_and_said():

@@ -77,7 +77,7 @@ def test_a_draft_follows_orbits_for_a_quarter_of_the_crossings():
         counts = {}
         for name in ("draft", "standard", "reference"):
             state, _ = completed(scene, {**(SMALL if scene is SUSLOV else {}), "accuracy": name}, seen)
-            counts[name] = len(state.own)
+            counts[name] = len(state.section.own)
         asked = 120 if scene is SUSLOV else 200
         assert counts == {"draft": asked // 4, "standard": asked, "reference": asked}
 
@@ -90,8 +90,8 @@ def test_the_status_line_says_up_to_which_crossing_the_orbit_is_where_it_is_draw
     own, others = map(int, said.groups())
     plan = PLANS[Computation.SECTION]["reference"]
     exact = suslov_points(state.body, 3, [state.start], 60, True, plan.level, threads=1)
-    both = min(len(state.own), 60)
-    away = state.own[:both] - coordinates(exact.states[0], 3)[:both]
+    both = min(len(state.section.own), 60)
+    away = state.section.own[:both] - coordinates(exact.states[0], 3)[:both]
     away[:, 0] -= 2.0 * math.pi * np.round(away[:, 0] / (2.0 * math.pi))
     pixels = np.linalg.norm(away * [300.0 / math.pi, 600.0 / math.pi], axis=1)
     # The estimate of two runs: one crossing more or less.
@@ -128,7 +128,7 @@ def test_the_status_line_says_how_much_of_the_basins_hangs_on_their_cells():
     state, report = completed(SUSLOV, values, ("section",))
     said = re.search(r"basins 18 × 12, twice as many cells would change ([\d.]+) % of it", report.status)
     finer, _ = completed(SUSLOV, {**values, "accuracy": "standard"}, ("section",))
-    changed = 100.0 * np.mean(np.kron(state.basin, np.ones((2, 2))) != finer.basin)
+    changed = 100.0 * np.mean(np.kron(state.basins.basin, np.ones((2, 2))) != finer.basins.basin)
     assert changed / 3.0 < float(said[1]) < 3.0 * changed
 
 

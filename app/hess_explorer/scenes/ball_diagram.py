@@ -9,19 +9,14 @@ from functools import cached_property
 from typing import ClassVar
 
 from hess_explorer.protocol.parameters import Value
-from hess_explorer.scenes.framework.attracted import Attracted, pictures
-from hess_explorer.scenes.framework.charted import Charted
-from hess_explorer.scenes.framework.heavy_ball import PARAMETERS, HeavyBall
-from hess_explorer.scenes.framework.one_orbit import OneOrbit
-from hess_explorer.scenes.framework.over_parameter import BOUNDS, parameter_of_diagram
-from hess_explorer.scenes.framework.parameters import accuracy_level, exponent_time, like, time_span
-from hess_explorer.scenes.framework.parameters import places as chosen_places
-from hess_explorer.scenes.framework.proved_orbit import proved_error_shown
+from hess_explorer.scenes.diagrams import DiagramState, charts, parameter_of_diagram, pictures
+from hess_explorer.scenes.framework import ball_parameters as ball
+from hess_explorer.scenes.framework.parameters import like, parameter
 from hess_explorer.scenes.framework.scene import Preset, Scene
-from hess_explorer.scenes.framework.solid_body import ConstrainedBody
 from hess_explorer.views.velocity_plane import orbit_columns, pixels_per_unit, room_for
-from hess_mechanics.chaplygin_ball.equations import SYSTEM
+from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.section import BallSection
+from hess_mechanics.parameters import H_BALL
 
 
 def _ball(I11: float, I22: float, I13: float, I23: float, D: float, b1: float, b2: float, b3: float, h: float
@@ -42,30 +37,38 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class BallDiagram(Attracted, HeavyBall, OneOrbit, ConstrainedBody):
-    """Where orbits of a section settle over one parameter, and the orbit on show at the value that this one has."""
+class BallDiagram(DiagramState):
+    """The diagram of the ball."""
 
-    I11: float = like(HeavyBall, "I11", 1.5)
-    I13: float = like(HeavyBall, "I13", -0.3)
-    D: float = like(HeavyBall, "D", 1.5)
-    b1: float = like(HeavyBall, "b1", 1.0, softbounds=(-2.0, 2.0))
-    b2: float = like(HeavyBall, "b2", -0.7, softbounds=(-2.0, 2.0))
-    b3: float = like(HeavyBall, "b3", 0.7, softbounds=(-2.0, 2.0))
-    h: float = like(HeavyBall, "h", 2.72)
-    along: str = parameter_of_diagram(tuple(PARAMETERS), "𝒟")
-    first: float = like(Attracted, "first", 1.34)
-    last: float = like(Attracted, "last", 1.75)
-    window: str = like(Attracted, "window", "1.34,-2.9;1.75,-2.65")
-    span: float = time_span(60.0, 400.0, what="the chosen orbit")
-    long: float = exponent_time(4000.0, 5000.0, 2e4, "the mean divergence is")
-    certain: str = proved_error_shown()
-    accuracy: str = accuracy_level()
-    chosen: str = chosen_places("The place of the chosen orbit", 1, *BOUNDS, "-2.6813,0.9923")
+    I11: float = parameter(ball.I11, 1.5)
+    I22: float = parameter(ball.I22)
+    I13: float = parameter(ball.I13, -0.3)
+    I23: float = parameter(ball.I23)
+    D: float = parameter(ball.D, 1.5)
+    b1: float = parameter(ball.B1, 1.0, softbounds=(-2.0, 2.0))
+    b2: float = parameter(ball.B2, -0.7, softbounds=(-2.0, 2.0))
+    b3: float = parameter(ball.B3, 0.7, softbounds=(-2.0, 2.0))
+    h: float = parameter(H_BALL, 2.72)
+    along: str = parameter_of_diagram(tuple(ball.PARAMETERS), "𝒟")
+    first: float = like(DiagramState, "first", 1.34)
+    last: float = like(DiagramState, "last", 1.75)
+    window: str = like(DiagramState, "window", "1.34,-2.9;1.75,-2.65")
+    chosen: str = like(DiagramState, "chosen", "-2.6813,0.9923")
 
-    parameters_of_section: ClassVar[Mapping[str, str]] = PARAMETERS
+    symbols: ClassVar[Mapping[str, str]] = ball.PARAMETERS
 
     @cached_property
-    def section(self) -> BallSection:
+    def body(self) -> BallBody:
+        """The ball.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
+        return BallBody(self.I11, self.I22, self.I13, self.I23, self.D, self.b1, self.b2, self.b3)
+
+    @property
+    def E(self) -> float:
+        """The energy."""
+        return self.h - math.hypot(self.b1, self.b2)
+
+    @cached_property
+    def poincare(self) -> BallSection:
         """The section γ3 = 0."""
         return BallSection(self.body, self.E)
 
@@ -78,12 +81,10 @@ class BallDiagram(Attracted, HeavyBall, OneOrbit, ConstrainedBody):
 
 SCENE = Scene(
     BallDiagram, __file__, place=17, presets=PRESETS, group="Ball",
-    charts=(Charted("regime-ball-section", lambda s: {
-        **dict(zip(SYSTEM.parameters, s.body.parameters, strict=True)), "h": s.h, "psi": s.place[0],
-        "delta": s.place[1]}, pictures=("diagram", "section")),),
+    charts=charts(BallDiagram, "regime-ball-section"),
     essential=("D", "first", "last", "I13"), handle="D",
     title="Orbit diagram of the ball",
     summary="The ball in a field over a parameter: doublings along 𝒟, a strange attractor and its repeller, reversal.",
-    tracks={"orbit": lambda s: orbit_columns(s.orbit, turning=s.turning)},
+    tracks={"orbit": lambda s: orbit_columns(s.orbit.path, turning=s.turning)},
     views=pictures(BallDiagram, ball=True),
 )

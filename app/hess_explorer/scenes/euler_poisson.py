@@ -4,52 +4,66 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
 
-from hess_explorer.protocol.parameters import Value, written
-from hess_explorer.scenes.framework.branched import (
-    Branched,
+from hess_explorer.compute.cache import Task
+from hess_explorer.protocol.parameters import Value, Values, written
+from hess_explorer.scenes.framework.charted import Placed, exponents
+from hess_explorer.scenes.framework.moments import limits_of_moments
+from hess_explorer.scenes.framework.orbit_batches import OrbitBatch
+from hess_explorer.scenes.framework.parameters import (
+    TURN,
+    Slider,
+    accuracy_level,
+    choice,
+    number,
+    parameter,
+    places,
+    time_span,
+)
+from hess_explorer.scenes.framework.part import Host, Part, Start
+from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
+from hess_explorer.scenes.framework.solid_body import Heavy, heavy_solid
+from hess_explorer.scenes.framework.windows import inside
+from hess_explorer.scenes.parts.branch import (
+    Branch,
     branch_picture,
     coordinate_of_branch,
     end_of_branch,
     parameter_of_branch,
 )
-from hess_explorer.scenes.framework.charted import Placed, exponents
-from hess_explorer.scenes.framework.exponent import exponent_picture
-from hess_explorer.scenes.framework.filled_window import EXPONENT, SECTION, TURN, filled_window
-from hess_explorer.scenes.framework.hess_split import SplitSeparatrices, split_picture
-from hess_explorer.scenes.framework.indicator import INDICATOR, colouring
-from hess_explorer.scenes.framework.parameters import (
-    accuracy_level,
-    choice,
-    exponent_time,
-    number,
+from hess_explorer.scenes.parts.exponent import Exponent, exponent_picture, exponent_time, exponent_trial
+from hess_explorer.scenes.parts.filled_section import (
+    FilledSection,
+    filled_picture,
+    filled_trial,
     orbits_spread,
-    parameter,
-    places,
     points_of_each,
-    time_span,
 )
-from hess_explorer.scenes.framework.periodic import length_of_manifolds, plain, which
-from hess_explorer.scenes.framework.proved_orbit import proved_error_shown
-from hess_explorer.scenes.framework.rotation_across import ROTATION, RotationAcross, rotation_picture
-from hess_explorer.scenes.framework.scene import Preset, Scene
-from hess_explorer.scenes.framework.solid_body import HeavySolid, heavy_solid
-from hess_explorer.scenes.framework.windows import Window, inside
+from hess_explorer.scenes.parts.hess_split import HessSplit, split_picture
+from hess_explorer.scenes.parts.indicator import MEGNO, Indicator, colouring, indicator_layer, indicator_trial
+from hess_explorer.scenes.parts.orbit import Orbit
+from hess_explorer.scenes.parts.periodic_orbit import PeriodicOrbit, layers, length_of_manifolds, plain, which
+from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
+from hess_explorer.scenes.parts.rotation_across import RotationAcross, rotation_picture, rotation_trial
 from hess_explorer.views import andoyer
 from hess_explorer.views.layers import Columns, column
 from hess_explorer.views.poisson_sphere import Direction, along_the_orbit, gamma_columns
+from hess_explorer.views.section_plane import joined
 from hess_explorer.views.text import digits, vector
-from hess_mechanics import parameters as known
 from hess_mechanics.dynamics.sampling import PIXELS
-from hess_mechanics.euler_poisson.andoyer import AndoyerSection, hess_curve
+from hess_mechanics.euler_poisson.andoyer import AndoyerSection, andoyer_points, hess_curve, relation
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
-from hess_mechanics.numerics.results import Array
+from hess_mechanics.numerics.accuracy import Level
+from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.parameters import F_HEAVY, H_HEAVY, I1, I2, I3, MU_R
 
+_MOST_STEPS = 200_000
+_NAMES = ("l", "L/G")
 _BOUNDS = ((-TURN, -1.0), (TURN, 1.0))
 _OVER = {"ε": "away", "h": "h", "f": "f", "μ|r|": "m", "I₁": "I1", "I₂": "I2", "I₃": "I3"}
 _ALONG, _ABOUT = "along l", "about the middle"
@@ -87,15 +101,18 @@ PRESETS = (*map(plain, (
 
 
 @dataclass(frozen=True)
-class EulerPoisson(SplitSeparatrices, RotationAcross, Branched, HeavySolid):
+class EulerPoisson(State):
     """A section of one body at one energy and area integral, filled with orbits on both sides of the barrier."""
 
+    I1: float = parameter(I1)
+    I2: float = parameter(I2)
+    I3: float = parameter(I3)
     away: float = number("ε", 0.0, (-0.5, 0.5), 0.005, bounds=(-math.pi, math.pi), label="Distance from Hess, ε",
                          doc="The angle, in radians, by which the centre of mass r is turned away from the direction "
                              "that the Hess condition asks for. At 0 the barrier r·M = 0 cannot be crossed.")
-    m: float = parameter(known.MU_R)
-    h: float = parameter(known.H_HEAVY, softbounds=(-1.0, 60.0), doc="H = h.")
-    f: float = parameter(known.F_HEAVY, doc="(M, γ) = f; the section needs G ≥ |f|.")
+    m: float = parameter(MU_R)
+    h: float = parameter(H_HEAVY, softbounds=(-1.0, 60.0), doc="H = h.")
+    f: float = parameter(F_HEAVY, doc="(M, γ) = f; the section needs G ≥ |f|.")
     periodic: str = which()
     indicator: str = colouring()
     orbits: float = orbits_spread(60.0, 200.0, 400.0)
@@ -104,7 +121,7 @@ class EulerPoisson(SplitSeparatrices, RotationAcross, Branched, HeavySolid):
     over: str = parameter_of_branch(tuple(_OVER))
     low: float = end_of_branch("from")
     high: float = end_of_branch("to")
-    upwards: str = coordinate_of_branch(("l", "L/G"))
+    upwards: str = coordinate_of_branch(_NAMES)
     span: float = time_span(20.0, 200.0, what="the chosen orbit")
     long: float = exponent_time(200.0, 1000.0, 1e4, "the Lyapunov exponent is")
     turns: str = choice("Rotation number", (_ALONG, _ABOUT), _ALONG,
@@ -118,19 +135,20 @@ class EulerPoisson(SplitSeparatrices, RotationAcross, Branched, HeavySolid):
     starts: str = places("The places of the chosen orbits", 12, *_BOUNDS, "0,0.2")
     window: str = places("The window of the section", 2, *_BOUNDS)
 
-    names: ClassVar[tuple[str, str]] = ("l", "L/G")
-    along: ClassVar[Mapping[str, str]] = _OVER
-    besides: ClassVar[tuple[str, ...]] = ("sheet",)
-    excuse: ClassVar[str] = "no motion with this h and f crosses the section"
-    full: ClassVar[Window] = ((-math.pi, -1.0), (math.pi, 1.0))
-    bounds: ClassVar[Window] = _BOUNDS
-    held: ClassVar[tuple[int, int]] = (16, 40)
     weights: ClassVar[tuple[float, ...]] = (0.0, 0.0, 0.0, *(0.5 * PIXELS,) * 3)
 
-    def limits(self) -> Mapping[str, tuple[float, float, float]]:
-        """The energy from where the bottom of the potential is, and the moments in their order."""
+    def limits(self) -> Mapping[str, Slider]:
+        """Return the sliders of the energy, from the bottom of the potential, and of the moments in their order."""
         bottom = -math.floor(100.0 * abs(self.m)) / 100.0
-        return {**super().limits(), "h": (bottom, max(60.0 if abs(self.m) > 2.0 else 6.0, bottom + 1.0), 0.01)}
+        return {**limits_of_moments(*self.moments),
+                "h": (bottom, max(60.0 if abs(self.m) > 2.0 else 6.0, bottom + 1.0), 0.01)}
+
+    # ---- the motion ---------------------------------------------------------------------------------------------
+
+    @property
+    def moments(self) -> tuple[float, float, float]:
+        """The principal moments of inertia."""
+        return self.I1, self.I2, self.I3
 
     @cached_property
     def body(self) -> HeavyBody:
@@ -138,9 +156,83 @@ class EulerPoisson(SplitSeparatrices, RotationAcross, Branched, HeavySolid):
         return HeavyBody.hess(self.moments, self.m, self.away)
 
     @cached_property
-    def section(self) -> AndoyerSection:
-        """The section."""
+    def poincare(self) -> AndoyerSection:
+        """The section in (l, L/G)."""
         return AndoyerSection(self.body, self.h, self.f, (_LARGEST, _SECOND).index(self.sheet))
+
+    @property
+    def start(self) -> Start:
+        """The state from which the orbit on show starts."""
+        return self.periodic_orbit.start
+
+    @property
+    def lasts(self) -> float:
+        """The time for which it is followed."""
+        return self.periodic_orbit.lasts
+
+    def motion(self) -> Motion:
+        """Return the orbit on show."""
+        return self.orbit.motion()
+
+    # ---- the parts ----------------------------------------------------------------------------------------------
+
+    def parts(self) -> tuple[Part[Host], ...]:
+        """Return what is computed, in the order of its words."""
+        return (self.split, self.section, self.megno, self.periodic_orbit, self.branch, self.orbit, self.proof,
+                self.exponent, self.rotation)
+
+    @cached_property
+    def section(self) -> FilledSection:
+        """The orbits of the section."""
+        return FilledSection(self, "no motion with this h and f crosses the section", _BOUNDS, (16, 40))
+
+    @cached_property
+    def megno(self) -> Indicator:
+        """The cells of the section by MEGNO."""
+        return Indicator(self.section, self.indicator == MEGNO, lambda: self.section.batches)
+
+    @cached_property
+    def periodic_orbit(self) -> PeriodicOrbit:
+        """The periodic orbit in place of the last chosen one."""
+        return PeriodicOrbit(self.section, self.periodic, self.reach, self.span)
+
+    @cached_property
+    def branch(self) -> Branch:
+        """Its branch over a parameter."""
+        return Branch(self, self.periodic_orbit, _OVER, ("sheet",))
+
+    @cached_property
+    def orbit(self) -> Orbit:
+        """The orbit on show."""
+        return Orbit(self)
+
+    @cached_property
+    def proof(self) -> Proof:
+        """Its proved error."""
+        return Proof(self.orbit, self.certain)
+
+    @cached_property
+    def exponent(self) -> Exponent:
+        """Its largest Lyapunov exponent."""
+        return Exponent(self)
+
+    @cached_property
+    def rotation(self) -> RotationAcross:
+        """Rotation numbers along a line across the section."""
+        return RotationAcross(self, self.section, self.turns == _ABOUT)
+
+    @cached_property
+    def split(self) -> HessSplit:
+        """The split of the separatrices."""
+        return HessSplit(self)
+
+    def batch(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task:
+        """Return the computation of so many crossings of the orbits from there."""
+        return Task(_batch, (self.poincare, starts, crossings, level))
+
+    def start_at(self, x: float, y: float) -> Values:
+        """Return the start at a place of the section."""
+        return self.section.start_at(x, y)
 
     @property
     def impossible_here(self) -> str:
@@ -151,67 +243,81 @@ class EulerPoisson(SplitSeparatrices, RotationAcross, Branched, HeavySolid):
         return (f"Nothing is possible here with h = {self.h:.6g} and f = {self.f:.6g}: choose a larger h, a smaller "
                 "|f|, or press Clear for the whole section.")
 
-    @property
-    def about_middle(self) -> bool:
-        """Whether turns are counted about the middle of the window."""
-        return self.turns == _ABOUT
-
     # ---- what the pictures show ---------------------------------------------------------------------------------
 
     def track(self) -> Columns:
         """The orbit on show."""
-        l, x = self.section.places_of(self.orbit.states).T
-        orbit = self.orbit
+        orbit = self.orbit.path
+        l, x = self.poincare.places_of(orbit.states).T
         return {"t": column(orbit.times), "l": column(l), "x": column(x), **gamma_columns(orbit.states[:, 3:])}
+
+    @cached_property
+    def solid(self) -> Heavy:
+        """The body along the orbit."""
+        return Heavy.along(self.body, self.orbit.path.times, self.orbit.path.states)
 
     def hess_curve(self) -> tuple[Array, Array]:
         """The Hess manifold across the window."""
-        l = np.linspace(self.frame[0][0], self.frame[1][0], 241)
+        l = np.linspace(self.section.frame[0][0], self.section.frame[1][0], 241)
         return l, hess_curve(self.body, l)
 
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _about_section(self) -> str:
-        if self.about_closed or self.about_indicator:
-            return self.about_closed or self.about_indicator
-        kept = [one for piece in self.pieces for one in piece.kept]
+        special = self.periodic_orbit.caption or self.megno.caption
+        if special:
+            return special
+        kept = [one for batch in self.section.batches for one in batch.kept]
         mixed = ": the layers never mix." if self.away == 0.0 else "."
-        other = len(inside([(float(l), float(x)) for l, x in self.elsewhere], self.frame))
+        other = len(inside([(float(l), float(x)) for l, x in self.section.elsewhere], self.section.frame))
         apart = f" {other} on another sheet." if other else ""
         return f"r·M keeps its sign along {sum(kept)} of {len(kept)} orbits{mixed}{apart}"
 
     def derived(self) -> Iterator[str]:
         """a and r, the start of the orbit on show, whether this is a rigid body."""
         yield f"a = {digits(self.body.hess_a)}, r = {vector(self.body.r)}"
-        yield f"chosen: {self.at(self.chosen)}"
+        yield f"chosen: {self.section.at(self.section.chosen)}"
         yield from super().derived()
-        if self.known("_known") and len(self.elsewhere):
-            yield f"on another sheet: {len(self.elsewhere)} points"
+        if self.section.asked("_known") and len(self.section.elsewhere):
+            yield f"on another sheet: {len(self.section.elsewhere)} points"
         yield self.body.check.sentence
 
 
+def _batch(section: AndoyerSection, starts: tuple[Start, ...], crossings: int, level: Level) -> OrbitBatch:
+    found = andoyer_points(section.body, section.h, section.f, starts, crossings, level, threads=1,
+                           most_steps=_MOST_STEPS)
+    signs = np.sign(relation(section.body, np.array(starts)))
+    kept = (bool(np.all(sign * relation(section.body, states) >= 0.0))
+            for states, sign in zip(found.states, signs, strict=True))
+    other = [section.places_of(states)[~section.is_on(states)] for states in found.states]
+    return OrbitBatch(tuple(frozen(section.places_of(states)) for states in found.states),
+                      tuple(bool(sign > 0.0) for sign in signs), found.drift, tuple(kept), frozen(joined(other)))
+
+
 SCENE = Scene(
-    EulerPoisson, __file__, place=11, presets=PRESETS, measures=(SECTION, INDICATOR, EXPONENT, ROTATION),
-    charts=exponents(SYSTEM.name, lambda s: s.start_asked_for, ("section",), time=lambda s: s.long),
-    placed=Placed("starts", EulerPoisson.names),
-    group="Euler–Poisson", essential=("away", "h", "f"),
+    EulerPoisson, __file__, place=11, presets=PRESETS, measures=(
+        filled_trial(lambda s: s.section), indicator_trial(lambda s: s.megno), exponent_trial(lambda s: s.exponent),
+        rotation_trial(lambda s: s.rotation)),
+    charts=exponents(SYSTEM.name, lambda s: s.section.asked_start, ("section",), time=lambda s: s.long),
+    placed=Placed("starts", _NAMES), group="Euler–Poisson", essential=("away", "h", "f"),
     title="Euler–Poisson: sections",
     summary="A heavy body near the Hess case: two stochastic layers with a barrier between them, a meandering torus.",
     tracks={"orbit": EulerPoisson.track},
     angles=("l",),
     views=(
-        filled_window(
-            title="Section g = π/2 (Andoyer–Deprit)", caption=EulerPoisson._about_section, scene=EulerPoisson,
-            labels=("r·M > 0", "r·M < 0"), dot=("l", "x"),
-            between=andoyer.between(
-                elsewhere=lambda s: s.elsewhere, curve=EulerPoisson.hess_curve,
-                across=lambda s: inside(s.ends, s.frame))),
+        filled_picture(
+            lambda s: s.section, ((-math.pi, -1.0), (math.pi, 1.0)), axes=_NAMES,
+            title="Section g = π/2 (Andoyer–Deprit)", caption=EulerPoisson._about_section,
+            labels=("r·M > 0", "r·M < 0"), dot=("l", "x"), under=(indicator_layer(lambda s: s.megno),),
+            over=layers(lambda s: s.periodic_orbit), between=andoyer.between(
+                elsewhere=lambda s: s.section.elsewhere, curve=EulerPoisson.hess_curve,
+                across=lambda s: inside(s.rotation.ends, s.section.frame))),
         heavy_solid(),
-        rotation_picture(),
+        rotation_picture(lambda s: s.rotation),
         along_the_orbit(lambda s: Direction(math.copysign(1.0, s.m) * np.array(s.body.r), "r"),
-                        lambda s: s.proved_around),
-        replace(exponent_picture(), folded="Show the Lyapunov exponent"),
-        split_picture(),
-        branch_picture(EulerPoisson),
+                        lambda s: s.proof.around),
+        exponent_picture(lambda s: s.exponent, folded="Show the Lyapunov exponent"),
+        split_picture(lambda s: s.split),
+        branch_picture(lambda s: s.branch),
     ),
 )

@@ -2,25 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
 
 from hess_explorer.protocol.parameters import Value
-from hess_explorer.scenes.framework.attracted import Attracted, pictures
-from hess_explorer.scenes.framework.charted import Charted
-from hess_explorer.scenes.framework.heavy_suslov import HeavySuslov
-from hess_explorer.scenes.framework.inertia import CentreOfMass, Tensor
-from hess_explorer.scenes.framework.one_orbit import OneOrbit
-from hess_explorer.scenes.framework.over_parameter import BOUNDS, parameter_of_diagram
-from hess_explorer.scenes.framework.parameters import accuracy_level, exponent_time, like, number, time_span
-from hess_explorer.scenes.framework.parameters import places as chosen_places
-from hess_explorer.scenes.framework.proved_orbit import proved_error_shown
+from hess_explorer.scenes.diagrams import DiagramState, charts, parameter_of_diagram, pictures
+from hess_explorer.scenes.framework.parameters import like
 from hess_explorer.scenes.framework.scene import Preset, Scene
-from hess_explorer.scenes.framework.solid_body import ConstrainedBody
-from hess_explorer.views.velocity_plane import orbit_columns
-from hess_mechanics.suslov.equations import SYSTEM
+from hess_explorer.views.velocity_plane import nice_above, orbit_columns, pixels_per_unit
+from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.section import SuslovSection
 
 _PARAMETERS = {"h": "h", "I₁₁": "I11", "I₂₂": "I22", "I₁₃": "I13", "I₂₃": "I23", "b₁": "b1", "b₂": "b2", "b₃": "b3"}
@@ -52,41 +45,49 @@ PRESETS = (
 
 
 @dataclass(frozen=True)
-class OrbitDiagram(Attracted, HeavySuslov, OneOrbit, ConstrainedBody):
-    """Where orbits of a section settle over one parameter, and the orbit on show at the value that this one has."""
+class SuslovDiagram(DiagramState):
+    """The diagram of the Suslov problem."""
 
-    I11: float = like(Tensor, "I11", 1.1)
-    I22: float = like(Tensor, "I22", 2.9)
-    I13: float = like(Tensor, "I13", -0.9)
-    I23: float = like(Tensor, "I23", 0.2)
-    b1: float = like(CentreOfMass, "b1", -1.7)
-    b2: float = like(CentreOfMass, "b2", -1.6)
-    b3: float = like(CentreOfMass, "b3", 1.2)
+    I11: float = like(DiagramState, "I11", 1.1)
+    I22: float = like(DiagramState, "I22", 2.9)
+    I13: float = like(DiagramState, "I13", -0.9)
+    I23: float = like(DiagramState, "I23", 0.2)
+    b1: float = like(DiagramState, "b1", -1.7)
+    b2: float = like(DiagramState, "b2", -1.6)
+    b3: float = like(DiagramState, "b3", 1.2)
+    h: float = like(DiagramState, "h", 2.3)
     along: str = parameter_of_diagram(tuple(_PARAMETERS), "I₂₃")
-    h: float = number("h", 2.3, (0.01, 6.0), 0.01, bounds=(1e-6, 1e6), label="Energy above the bottom, h",
-                      doc="E + |b|, the energy above its smallest possible value.")
-    span: float = time_span(60.0, 400.0, what="the chosen orbit")
-    long: float = exponent_time(4000.0, 5000.0, 2e4, "the mean divergence is")
-    certain: str = proved_error_shown()
-    accuracy: str = accuracy_level()
-    chosen: str = chosen_places("The place of the chosen orbit", 1, *BOUNDS, "0.7248,1.8925")
+    chosen: str = like(DiagramState, "chosen", "0.7248,1.8925")
 
-    parameters_of_section: ClassVar[Mapping[str, str]] = _PARAMETERS
+    symbols: ClassVar[Mapping[str, str]] = _PARAMETERS
 
     @cached_property
-    def section(self) -> SuslovSection:
+    def body(self) -> SuslovBody:
+        """The body.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
+        return SuslovBody(self.I11, self.I22, self.I13, self.I23, self.b1, self.b2, self.b3)
+
+    @property
+    def E(self) -> float:
+        """The energy."""
+        return self.h - math.hypot(self.b1, self.b2, self.b3)
+
+    @cached_property
+    def poincare(self) -> SuslovSection:
         """The section γ3 = 0."""
         return SuslovSection(self.body, self.E, 3)
 
+    @property
+    def weights(self) -> tuple[float, ...]:
+        """From the variables to the pictures, in pixels for a unit: with room for all motions of this energy."""
+        return pixels_per_unit(nice_above(1.05 * math.sqrt(2.0 * self.h / min(self.I11, self.I22))))
+
 
 SCENE = Scene(
-    OrbitDiagram, __file__, place=15, presets=PRESETS, group="Heavy body",
-    charts=(Charted("regime-suslov-section", lambda s: {
-        **dict(zip(SYSTEM.parameters, s.body.parameters, strict=True)), "h": s.h, "k": s.section.k, "psi": s.place[0],
-        "delta": s.place[1]}, pictures=("diagram", "section")),),
+    SuslovDiagram, __file__, place=15, presets=PRESETS, group="Heavy body",
+    charts=charts(SuslovDiagram, "regime-suslov-section", k=3.0),
     essential=("h", "first", "last", "I13"), handle="h",
     title="Orbit diagram",
     summary="Attractors and repellers over a parameter: doublings, hysteresis, reversal.",
-    tracks={"orbit": lambda s: orbit_columns(s.orbit, turning=s.turning)},
-    views=pictures(OrbitDiagram),
+    tracks={"orbit": lambda s: orbit_columns(s.orbit.path, turning=s.turning)},
+    views=pictures(SuslovDiagram),
 )

@@ -4,39 +4,38 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
 
 import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Values
-from hess_explorer.scenes.framework.branched import (
-    Branched,
+from hess_explorer.scenes.framework.charted import exponents
+from hess_explorer.scenes.framework.parameters import (
+    Slider,
+    accuracy_level,
+    number,
+    parameter,
+    slider_within,
+    time_span,
+)
+from hess_explorer.scenes.framework.part import Host, Part, Start
+from hess_explorer.scenes.framework.periodic_search import Closed
+from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
+from hess_explorer.scenes.framework.solid_body import Constrained, constrained_body
+from hess_explorer.scenes.parts.branch import (
+    Branch,
     branch_picture,
     coordinate_of_branch,
     end_of_branch,
     parameter_of_branch,
 )
-from hess_explorer.scenes.framework.charted import exponents
-from hess_explorer.scenes.framework.crossings import SECTION, Crossings
-from hess_explorer.scenes.framework.indicator import INDICATOR, colouring, indicator_layer
-from hess_explorer.scenes.framework.inertia import CentreOfMass, Tensor
-from hess_explorer.scenes.framework.one_orbit import Start
-from hess_explorer.scenes.framework.parameters import (
-    Slider,
-    accuracy_level,
-    crossings_of_each,
-    like,
-    number,
-    slider_within,
-    time_span,
-)
-from hess_explorer.scenes.framework.periodic import layers, length_of_manifolds, plain, which
-from hess_explorer.scenes.framework.proved_orbit import proved_error_shown
-from hess_explorer.scenes.framework.scene import Preset, Scene
-from hess_explorer.scenes.framework.solid_body import ConstrainedBody, constrained_body
+from hess_explorer.scenes.parts.indicator import MEGNO, Indicator, colouring, indicator_layer, indicator_trial
+from hess_explorer.scenes.parts.orbit import Orbit
+from hess_explorer.scenes.parts.periodic_orbit import PeriodicOrbit, layers, length_of_manifolds, plain, which
+from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
+from hess_explorer.scenes.parts.section import Section, crossings_of_each, section_trial
 from hess_explorer.views import plane_domain, section_plane
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.plot import Plot
@@ -46,12 +45,14 @@ from hess_explorer.views.velocity_plane import centred, nice_above
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array
+from hess_mechanics.parameters import B3, H_QUARTIC, I22, RATIO
 from hess_mechanics.suslov import quartic as model
 from hess_mechanics.suslov.equations import SYSTEM
 
 _ORBITS = 20
 _MOST_STEPS = 40_000
 _CELLS = 32
+_NAMES = ("q", "p")
 _ALONG = {"h": "h", "I₁₁/I₂₂": "ratio", "b₃": "b3"}
 _P_AXIS = centred(1.05)
 _HEIGHTS = (-0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75)
@@ -70,15 +71,14 @@ PRESETS = (*map(plain, (
 
 
 @dataclass(frozen=True)
-class Quartic(Crossings, Branched, ConstrainedBody):
+class Quartic(State):
     """The orbit of one point in the potential, among others of its energy."""
 
-    I22: float = like(Tensor, "I22", 1.0, softbounds=(0.2, 3.0), bounds=(1e-2, 1e2))
-    ratio: float = number("I₁₁/I₂₂", 2.0, (0.2, 5.0), 0.01, bounds=(1e-2, 1e2), group="Body", label="Ratio I₁₁/I₂₂",
-                          doc="At 1 the potential is central and the motion integrable.")
-    b3: float = like(CentreOfMass, "b3", 1.0, bounds=(-1e2, 1e2), doc="b = −mg r; not 0 here, b₁ = b₂ = 0.")
-    h: float = number("h", 0.8, (-0.9, 4.0), 0.01, bounds=(-1e2, 1e3), label="Energy E = h",
-                      doc="Above −|b₃|. Beyond |b₃| the point may not come near the middle.")
+    # Within narrower bounds than elsewhere: beyond them a section takes too many Taylor steps.
+    I22: float = parameter(I22, 1.0, softbounds=(0.2, 3.0), bounds=(1e-2, 1e2))
+    ratio: float = parameter(RATIO)
+    b3: float = parameter(B3, 1.0, bounds=(-1e2, 1e2), doc="b = −mg r; not 0 here, b₁ = b₂ = 0.")
+    h: float = parameter(H_QUARTIC)
     Q1: float = number("q₁", 0.6, (-2.0, 2.0), 0.01, bounds=(-1e30, 1e30), label="Start q₁ = I₂₂ω₂/b₃",
                        doc="A click in the plane chooses the start.")
     Q2: float = number("q₂", 0.3, (-2.0, 2.0), 0.01, bounds=(-1e30, 1e30), label="Start q₂ = −I₁₁ω₁/b₃",
@@ -93,7 +93,7 @@ class Quartic(Crossings, Branched, ConstrainedBody):
     over: str = parameter_of_branch(tuple(_ALONG))
     low: float = end_of_branch("from")
     high: float = end_of_branch("to")
-    upwards: str = coordinate_of_branch(("q", "p"))
+    upwards: str = coordinate_of_branch(_NAMES)
     span: float = time_span(40.0, 200.0, most=1e3, what="the chosen orbit")
     certain: str = proved_error_shown()
     accuracy: str = accuracy_level()
@@ -103,7 +103,7 @@ class Quartic(Crossings, Branched, ConstrainedBody):
         q = self.body.inside((self.Q1, self.Q2))
         if q != (self.Q1, self.Q2):
             notes.append(f"With this energy the point cannot be at the start: it is at the edge now, q = {vector(q)}.")
-        return replace(self, Q1=q[0], Q2=q[1])
+        return self.changed({"Q1": q[0], "Q2": q[1]})
 
     def limits(self) -> Mapping[str, Slider]:
         """The slider of h begins above −|b3|, those of q span the region."""
@@ -117,7 +117,7 @@ class Quartic(Crossings, Branched, ConstrainedBody):
         return model.QuarticBody(self.ratio * self.I22, self.I22, self.b3, self.h)
 
     @cached_property
-    def section(self) -> model.QuarticSection:
+    def poincare(self) -> model.QuarticSection:
         """The section, along the longer axis of the region."""
         return model.QuarticSection(self.body)
 
@@ -125,6 +125,20 @@ class Quartic(Crossings, Branched, ConstrainedBody):
     def given(self) -> Start:
         """The state at q with the direction β."""
         return model.state_at(self.body, (self.Q1, self.Q2), self.beta)
+
+    @property
+    def start(self) -> Start:
+        """The state from which the orbit on show starts."""
+        return self.periodic_orbit.start
+
+    @property
+    def lasts(self) -> float:
+        """The time for which it is followed."""
+        return self.periodic_orbit.lasts
+
+    def motion(self) -> Motion:
+        """Return the orbit on show."""
+        return self.orbit.motion()
 
     @property
     def half_width(self) -> float:
@@ -136,24 +150,66 @@ class Quartic(Crossings, Branched, ConstrainedBody):
         """From the variables to the pictures, in pixels for a unit."""
         return self.body.pixels_per_unit(self.half_width)
 
-    def crossing(self, crossings: int, level: Level) -> tuple[Task, Task]:
-        """What finds so many crossings of the orbit on show, and of the others."""
+    # ---- the parts ----------------------------------------------------------------------------------------------
+
+    def parts(self) -> tuple[Part[Host], ...]:
+        """Return what is computed, in the order of its words."""
+        return self.section, self.megno, self.periodic_orbit, self.branch, self.orbit, self.proof
+
+    @cached_property
+    def section(self) -> Section:
+        """The orbit on show among others."""
+        return Section(self, self._crossing, self.section_axes, lambda: self.closed)
+
+    @cached_property
+    def megno(self) -> Indicator:
+        """The cells of the section by MEGNO."""
+        return Indicator(self.section, self.indicator == MEGNO)
+
+    @cached_property
+    def periodic_orbit(self) -> PeriodicOrbit:
+        """The periodic orbit in place of the chosen one."""
+        return PeriodicOrbit(self.section, self.periodic, self.reach, self.span)
+
+    @property
+    def closed(self) -> Closed | None:
+        """The same where it is known."""
+        return self.periodic_orbit.closed
+
+    @cached_property
+    def branch(self) -> Branch:
+        """Its branch over a parameter."""
+        return Branch(self, self.periodic_orbit, _ALONG, ("I22",))
+
+    @cached_property
+    def orbit(self) -> Orbit:
+        """The orbit on show."""
+        return Orbit(self)
+
+    @cached_property
+    def proof(self) -> Proof:
+        """Its proved error."""
+        return Proof(self.orbit, self.certain)
+
+    def _crossing(self, crossings: int, level: Level) -> tuple[Task, Task]:
         return (Task(model.quartic_section, (self.body, (self.given,), crossings, level, _MOST_STEPS)),
                 Task(model.spread_section, (self.body, _ORBITS, crossings, level, _MOST_STEPS)))
 
-    names: ClassVar[tuple[str, str]] = ("q", "p")
-    along: ClassVar[Mapping[str, str]] = _ALONG
-    besides: ClassVar[tuple[str, ...]] = ("I22",)
+    # ---- the pictures -------------------------------------------------------------------------------------------
 
-    @property
     def section_axes(self) -> Axes:
-        """Room for all q and p."""
+        """Return axes with room for all q and p."""
         return Axes(centred(nice_above(1.05 * self.body.longest)), _P_AXIS)
+
+    @cached_property
+    def solid(self) -> Constrained:
+        """The body along the orbit."""
+        return Constrained.along(self.work, self.body.parameters, self.orbit.path.times, self.orbit.path.states)
 
     @cached_property
     def momentum(self) -> Array:
         """q1p2 − q2p1 along the orbit (n,)."""
-        return model.angular_momentum(self.body, self.orbit.states)
+        return model.angular_momentum(self.body, self.orbit.path.states)
 
     def first(self) -> tuple[float, float]:
         """The q from which the orbit on show starts."""
@@ -165,7 +221,7 @@ class Quartic(Crossings, Branched, ConstrainedBody):
     def impossible(self, axes: Axes) -> list[list[Array]]:
         """All of the section but the inside of its boundary."""
         reach = 4.0 * max(axes.x[1], self.body.longest)
-        return [] if self.own is None else section_plane.outside(self.body.section_boundaries(), reach, 4.0)
+        return [] if self.section.own is None else section_plane.outside(self.body.section_boundaries(), reach, 4.0)
 
     def start_at(self, x: float, y: float) -> Values:
         """A click in the section: the start and its direction; nothing where that is impossible."""
@@ -182,15 +238,14 @@ class Quartic(Crossings, Branched, ConstrainedBody):
         return f"Level ½, half axes {first} and {second}, {ring}."
 
     def _about_section(self) -> str:
-        if self.about_closed or self.about_indicator:
-            return self.about_closed or self.about_indicator
-        if self.own is None:
-            return self.reason
-        visited = model.visited(self.body, self.own, _CELLS)
-        return f"The orbit: {len(self.own)} points in {visited} of {_CELLS * _CELLS} cells."
+        special = self.periodic_orbit.caption or self.megno.caption
+        if special or self.section.own is None:
+            return special or self.section.reason
+        visited = model.visited(self.body, self.section.own, _CELLS)
+        return f"The orbit: {len(self.section.own)} points in {visited} of {_CELLS * _CELLS} cells."
 
     def _about_sphere(self) -> str:
-        return f"Back to the body: γ = (p₁, p₂, γ₃), γ₃ {staying(self.orbit.states[:, 4])}."
+        return f"Back to the body: γ = (p₁, p₂, γ₃), γ₃ {staying(self.orbit.path.states[:, 4])}."
 
     def derived(self) -> Iterator[str]:
         """Moment of inertia, energy, start; how well the point stays on its level."""
@@ -199,20 +254,21 @@ class Quartic(Crossings, Branched, ConstrainedBody):
         yield f"h/|b₃| = {digits(self.h / abs(self.b3), 6)}"
         yield f"Start: γ₃ = {digits(self.start[4], 6)}"
         yield f"ω(0) = {vector(self.start[:2])}"
-        if self.known("orbit"):
-            yield f"H = ½ to {power(model.level_error(self.body, self.orbit.states))}"
+        if self.orbit.asked("path"):
+            yield f"H = ½ to {power(model.level_error(self.body, self.orbit.path.states))}"
         yield "Integrable" if self.body.integrable else "Not integrable"
         yield "div v = 0: the standard measure"
 
 
 SCENE = Scene(
-    Quartic, __file__, place=7, presets=PRESETS, measures=(SECTION, INDICATOR),
+    Quartic, __file__, place=7, presets=PRESETS, measures=(
+        section_trial(lambda s: s.section), indicator_trial(lambda s: s.megno)),
     charts=exponents(SYSTEM.name, lambda s: s.given),
     group="Heavy body", essential=("ratio", "h", "Q1", "Q2"),
     title="Principal axis, b₁ = b₂ = 0",
     summary="The body as a point in a quartic potential: integrable for I₁₁ = I₂₂, else curves and seas in a section.",
     tracks={"orbit": lambda s: plane_domain.plane_columns(
-        s.orbit, s.body.to_plane(s.orbit.states)[0], momentum=s.momentum)},
+        s.orbit.path, s.body.to_plane(s.orbit.path.states)[0], momentum=s.momentum)},
     views=(
         constrained_body(),
         plane_domain.picture(
@@ -220,16 +276,18 @@ SCENE = Scene(
             layers=(*plane_domain.ground(lambda s: s.body.ellipse(), lambda s: s.body.holes(),
                                          lambda s: s.body.equipotentials(_HEIGHTS)),
                     *plane_domain.orbit(Quartic.first, label="where it starts"))),
-        Plot(name="section", caption=Quartic._about_section, axes=Quartic.names,
+        Plot(name="section", caption=Quartic._about_section, axes=_NAMES,
              on_click=Quartic.start_at,
              title=lambda s: "Section {0} = 0, {0} growing".format("q₂" if s.body.across else "q₁"),
-             x=lambda s: s.section_axes.x, y=_P_AXIS, message=lambda s: s.reason,
-             layers=(indicator_layer(), *section_plane.layers(
-                 Quartic.points, others=lambda s: s.others, forbidden=Quartic.impossible), *layers())),
+             x=lambda s: s.section_axes().x, y=_P_AXIS, message=lambda s: s.section.reason,
+             layers=(indicator_layer(lambda s: s.megno), *section_plane.layers(
+                 lambda s: s.section.points, others=lambda s: s.section.others, forbidden=Quartic.impossible),
+                 *layers(lambda s: s.periodic_orbit))),
         Sphere(caption=Quartic._about_sphere, looks={"orbit": "orbit"}, axis=lambda s: centre_of_mass((0.0, 0.0, s.b3)),
-               circles=lambda s: [*parallels((0.0, 0.0, 1.0), [s.body.h / s.body.b3]), *s.proved_around]),
-        plane_domain.momentum_picture(lambda s: (s.orbit.times, s.momentum), least=lambda s: 1e-3 * max(s.body.axes),
-                                      is_integral=lambda s: s.body.integrable),
-        branch_picture(Quartic),
+               circles=lambda s: [*parallels((0.0, 0.0, 1.0), [s.body.h / s.body.b3]), *s.proof.around]),
+        plane_domain.momentum_picture(
+            lambda s: (s.orbit.path.times, s.momentum), least=lambda s: 1e-3 * max(s.body.axes),
+            is_integral=lambda s: s.body.integrable),
+        branch_picture(lambda s: s.branch),
     ),
 )

@@ -6,55 +6,52 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import ClassVar
 
 import numpy as np
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Value
-from hess_explorer.scenes.framework.basins import BASINS, Basins
 from hess_explorer.scenes.framework.charted import Charted, Placed, exponents, motion_of
-from hess_explorer.scenes.framework.filled_window import EXPONENT, SECTION, TURN, OrbitBatch, filled_window
-from hess_explorer.scenes.framework.heavy_suslov import HeavySuslov
-from hess_explorer.scenes.framework.indicator import INDICATOR, colouring
-from hess_explorer.scenes.framework.inertia import Tensor
-from hess_explorer.scenes.framework.one_orbit import Start
-from hess_explorer.scenes.framework.parameters import (
-    accuracy_level,
-    choice,
-    exponent_time,
-    like,
-    number,
+from hess_explorer.scenes.framework.orbit_batches import OrbitBatch
+from hess_explorer.scenes.framework.parameters import TURN, accuracy_level, choice, parameter, places, time_span
+from hess_explorer.scenes.framework.part import Host, Part, Start
+from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
+from hess_explorer.scenes.framework.solid_body import Constrained, constrained_body
+from hess_explorer.scenes.parts.basins import Basins, basins_trial
+from hess_explorer.scenes.parts.exponent import Exponent, exponent_time, exponent_trial
+from hess_explorer.scenes.parts.filled_section import (
+    FilledSection,
+    filled_picture,
+    filled_trial,
     orbits_spread,
-    places,
     points_of_each,
-    time_span,
 )
-from hess_explorer.scenes.framework.periodic import length_of_manifolds, plain, which
-from hess_explorer.scenes.framework.proved_orbit import proved_error_shown
-from hess_explorer.scenes.framework.scene import Preset, Scene
-from hess_explorer.scenes.framework.solid_body import ConstrainedBody, constrained_body
-from hess_explorer.scenes.framework.windows import Window
+from hess_explorer.scenes.parts.indicator import MEGNO, Indicator, colouring, indicator_layer, indicator_trial
+from hess_explorer.scenes.parts.orbit import Orbit
+from hess_explorer.scenes.parts.periodic_orbit import PeriodicOrbit, layers, length_of_manifolds, plain, which
+from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
 from hess_explorer.views import conformal_time, layered_section, theme
 from hess_explorer.views.graph import over_time, settled_range, thinned
 from hess_explorer.views.layers import Axes, levels
 from hess_explorer.views.plot import Plot
-from hess_explorer.views.poisson_sphere import along_the_orbit
+from hess_explorer.views.poisson_sphere import along_the_orbit, centre_of_mass
 from hess_explorer.views.section_plane import joined
 from hess_explorer.views.text import digits
-from hess_explorer.views.velocity_plane import orbit_alone, orbit_columns
+from hess_explorer.views.velocity_plane import nice_above, orbit_alone, orbit_columns, pixels_per_unit
 from hess_mechanics.dynamics.sampling import HALF_A_PIXEL
 from hess_mechanics.dynamics.section import occupied_cells
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import Computation, Level, cheapest
 from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.parameters import B1, B2, B3, H_SUSLOV, I11, I13, I22, I23
 from hess_mechanics.rigid_body.inertia import check_body
-from hess_mechanics.suslov.equations import SYSTEM
+from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 from hess_mechanics.suslov.principal_axis import Conformal, conformal
 from hess_mechanics.suslov.section import MeanDivergence, SuslovSection, lowest_energy, mean_divergence, suslov_points
 
 _MOST_STEPS = 100_000
 _CELLS = 32
+_NAMES = ("ψ", "δ")
 _BOUNDS = ((-TURN, 0.0), (TURN, TURN))
 _PLANES = {"γ₃ = 0": 3, "γ₁ = 0": 1, "γ₂ = 0": 2}
 _BOTH = "forward and backward in time"
@@ -82,12 +79,17 @@ PRESETS = (*map(plain, (
 
 
 @dataclass(frozen=True)
-class Suslov(HeavySuslov, Basins, ConstrainedBody):
+class Suslov(State):
     """A section of one body at one energy, filled with orbits forward and backward in time."""
 
-    I22: float = like(Tensor, "I22", 3.0)
-    h: float = number("h", 1.0, (0.01, 6.0), 0.01, bounds=(1e-6, 1e6), label="Energy above the bottom, h",
-                      doc="E + |b|, the energy above its smallest possible value.")
+    I11: float = parameter(I11)
+    I22: float = parameter(I22, 3.0)
+    I13: float = parameter(I13)
+    I23: float = parameter(I23)
+    b1: float = parameter(B1)
+    b2: float = parameter(B2)
+    b3: float = parameter(B3)
+    h: float = parameter(H_SUSLOV)
     plane: str = choice("Section", tuple(_PLANES), "γ₃ = 0",
                         doc="The plane is crossed while that component of γ grows.")
     colours: str = choice("Show", (_BOTH, "forward only", "basins"), _BOTH,
@@ -105,14 +107,8 @@ class Suslov(HeavySuslov, Basins, ConstrainedBody):
     starts: str = places("The places of the chosen orbits", 12, *_BOUNDS, "1,1")
     window: str = places("The window of the section", 2, *_BOUNDS)
 
-    names: ClassVar[tuple[str, str]] = ("ψ", "δ")
-    excuse: ClassVar[str] = "no motion has this energy"
-    full: ClassVar[Window] = ((-math.pi, 0.0), (math.pi, math.pi))
-    bounds: ClassVar[Window] = _BOUNDS
-    held: ClassVar[tuple[int, int]] = (12, 40)
-
     def admitted(self, notes: list[str]) -> Suslov:
-        """A window that is one, at least one start, an energy that reaches the plane."""
+        """Return a state with a valid window, at least one start, and an energy that reaches the plane."""
         state = super().admitted(notes)
         bottom = lowest_energy(self.body, _PLANES[self.plane]) + math.hypot(self.b1, self.b2, self.b3)
         if self.h <= bottom * (1.0 + 1e-9):
@@ -121,27 +117,101 @@ class Suslov(HeavySuslov, Basins, ConstrainedBody):
                 f"Motions reach {self.plane} only for h > {digits(bottom)}: h is {digits(state.h)} now.")
         return state
 
-    @property
-    def asked(self) -> bool:
-        """Whether basins are to be shown."""
-        return self.colours == "basins"
+    # ---- the motion ---------------------------------------------------------------------------------------------
 
     @cached_property
-    def section(self) -> SuslovSection:
-        """The section."""
+    def body(self) -> SuslovBody:
+        """The body.  Raises `InvalidParameter`, `NotPositiveDefinite`."""
+        return SuslovBody(self.I11, self.I22, self.I13, self.I23, self.b1, self.b2, self.b3)
+
+    @property
+    def E(self) -> float:
+        """The energy."""
+        return self.h - math.hypot(self.b1, self.b2, self.b3)
+
+    @cached_property
+    def poincare(self) -> SuslovSection:
+        """The section in (ψ, δ)."""
         return SuslovSection(self.body, self.E, _PLANES[self.plane])
 
     @property
+    def start(self) -> Start:
+        """The state from which the orbit on show starts."""
+        return self.periodic_orbit.start
+
+    @property
+    def lasts(self) -> float:
+        """The time for which it is followed."""
+        return self.periodic_orbit.lasts
+
+    def motion(self) -> Motion:
+        """Return the orbit on show."""
+        return self.orbit.motion()
+
+    @property
+    def half_width(self) -> float:
+        """Half the width of the (ω1, ω2)-plane: room for all motions of this energy."""
+        return nice_above(1.05 * math.sqrt(2.0 * self.h / min(self.I11, self.I22)))
+
+    @property
+    def weights(self) -> tuple[float, ...]:
+        """From the variables to the pictures, in pixels for a unit."""
+        return pixels_per_unit(self.half_width)
+
     def orbit_level(self) -> Level:
-        """Near the bottom the motion is small beside the velocities of which a level promises a part."""
+        """Return the level of the orbit on show.
+
+        Near the bottom the motion is small beside the velocities of which a level promises a part.
+        """
         share = self.half_width / float(SYSTEM.frequency(np.array(self.start), np.array(self.body.parameters)))
         return max(self.level, cheapest(HALF_A_PIXEL * share), key=lambda rung: rung.order)
 
-    # ---- the section --------------------------------------------------------------------------------------------
+    # ---- the parts ----------------------------------------------------------------------------------------------
 
-    def piece(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task:
-        """What follows these orbits."""
-        return Task(_piece, (self.section, starts, crossings, forward, level))
+    def parts(self) -> tuple[Part[Host], ...]:
+        """Return what is computed, in the order of its words."""
+        return (self.section, self.megno, self.periodic_orbit, self.orbit, self.proof, self.exponent, self.basins)
+
+    @cached_property
+    def section(self) -> FilledSection:
+        """The orbits of the section."""
+        ways = (True, False) if self.colours == _BOTH else (True,)
+        return FilledSection(self, "no motion has this energy", _BOUNDS, (12, 40), ways, self.drop != "all")
+
+    @cached_property
+    def megno(self) -> Indicator:
+        """The cells of the section by MEGNO, unless basins are shown."""
+        return Indicator(self.section, self.indicator == MEGNO and not self.basins.wanted,
+                         lambda: self.section.batches)
+
+    @cached_property
+    def basins(self) -> Basins:
+        """The cells of the section by where they lead."""
+        return Basins(self, self.section, self.colours == "basins")
+
+    @cached_property
+    def periodic_orbit(self) -> PeriodicOrbit:
+        """The periodic orbit in place of the last chosen one."""
+        return PeriodicOrbit(self.section, self.periodic, self.reach, self.span)
+
+    @cached_property
+    def orbit(self) -> Orbit:
+        """The orbit on show."""
+        return Orbit(self, self.orbit_level)
+
+    @cached_property
+    def proof(self) -> Proof:
+        """Its proved error."""
+        return Proof(self.orbit, self.certain)
+
+    @cached_property
+    def exponent(self) -> Exponent:
+        """Its largest Lyapunov exponent."""
+        return Exponent(self)
+
+    def batch(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task:
+        """Return the computation of so many crossings of the orbits from there."""
+        return Task(_batch, (self.poincare, starts, crossings, forward, level))
 
     @property
     def impossible_here(self) -> str:
@@ -149,24 +219,10 @@ class Suslov(HeavySuslov, Basins, ConstrainedBody):
         return (f"Nothing is possible in this window with the energy E = {self.E:.6g}: choose a larger h, or press "
                 "Clear for the whole section.")
 
-    @property
-    def ways(self) -> tuple[bool, ...]:
-        """Whether orbits are followed forward in time, or both forward and backward."""
-        return (True, False) if self.colours == _BOTH else (True,)
-
-    def shown(self, orbit: Array) -> Array:
-        """All points of an orbit, or the later half of them."""
-        return orbit if self.drop == "all" else _later(orbit)
-
-    @cached_property
-    def later(self) -> Array:
-        """The later halves of the forward orbits, which show what attracts."""
-        return joined(map(_later, self.kind(True)))
-
     @cached_property
     def course(self) -> MeanDivergence | None:
         """The mean divergence along the orbit on show, when it is known; not while a slider is held."""
-        return None if self.dragging or self.looking or self.closed is not None else self.work.later(
+        return None if self.exponent.later else self.work.later(
             mean_divergence, self.body, self.start, self.plan(Computation.EXPONENT).share * self.long)
 
     # ---- the other pictures -------------------------------------------------------------------------------------
@@ -177,15 +233,20 @@ class Suslov(HeavySuslov, Basins, ConstrainedBody):
 
         Those of a periodic orbit are its own.
         """
-        if self.growth is not None:
-            return tuple((np.array([0.0, self.long]), np.full(2, rate)) for rate in self.growth)
-        exponent, course = self.exponent, self.course
+        if self.exponent.growth is not None:
+            return tuple((np.array([0.0, self.long]), np.full(2, rate)) for rate in self.exponent.growth)
+        exponent, course = self.exponent.found, self.course
         return () if exponent is None or course is None else (
             (exponent.times, exponent.rates), (course.times, course.mean))
 
     def rate(self, i: int) -> tuple[Array, Array] | None:
-        """The curve of the exponent (0), or of the mean divergence (1)."""
+        """Return the curve of the exponent (0), or of the mean divergence (1)."""
         return thinned(*self.rates[i]) if self.rates else None
+
+    @cached_property
+    def solid(self) -> Constrained:
+        """The body along the orbit."""
+        return Constrained.along(self.work, self.body.parameters, self.orbit.path.times, self.orbit.path.states)
 
     @cached_property
     def _conformal(self) -> tuple[Conformal | None, str]:
@@ -193,29 +254,33 @@ class Suslov(HeavySuslov, Basins, ConstrainedBody):
         if self.I13 != 0.0 or self.I23 != 0.0:
             return None, "Only for I₁₃ = I₂₃ = 0, as in the example “On a principal axis”."
         try:
-            return self.work.get(conformal, self.body, self.start, self.lasts, self.orbit_level), ""
+            return self.work.get(conformal, self.body, self.start, self.lasts, self.orbit_level()), ""
         except WorkLimit as error:
             return None, str(error)
 
     # ---- words --------------------------------------------------------------------------------------------------
 
     def _section_title(self) -> str:
-        return f"Section {self.plane}, growing" if self.basin is None else f"Section {self.plane}: basins"
+        return f"Section {self.plane}, growing" if self.basins.basin is None else f"Section {self.plane}: basins"
 
     def _about_section(self) -> str:
-        if self.about_closed or self.about_indicator:
-            return self.about_closed or self.about_indicator
-        if self.basin is not None:
-            return self.about_basins(self.basin)
-        backward = f", {len(self.second)} backward" if len(self.second) else ""
-        return (f"{len(self.first)} points forward{backward}; the later forward ones lie in "
-                f"{occupied_cells(self.later, _CELLS)} of {_CELLS**2} cells.")
+        special = self.periodic_orbit.caption or self.megno.caption
+        if special:
+            return special
+        if self.basins.basin is not None:
+            return self.basins.about(self.basins.basin)
+        first, second = self.section.first, self.section.second
+        backward = f", {len(second)} backward" if len(second) else ""
+        # The later halves of the forward orbits show what attracts.
+        later = joined(orbit[len(orbit) // 2 :] for orbit in self.section.kind(True))
+        return (f"{len(first)} points forward{backward}; the later forward ones lie in "
+                f"{occupied_cells(later, _CELLS)} of {_CELLS**2} cells.")
 
     def _about_rates(self) -> str:
-        if self.growth is not None:
-            across, divergence = map(digits, self.growth)
+        if self.exponent.growth is not None:
+            across, divergence = map(digits, self.exponent.growth)
             return f"Next to the periodic orbit: ln|μ₁|/T = {across}, div = ln|μ₁μ₂|/T = {divergence}."
-        exponent, course = self.exponent, self.course
+        exponent, course = self.exponent.found, self.course
         if exponent is None or course is None:
             return self.awaited("They are")
         return (f"λ = {digits(exponent.value, 3)} ± {digits(exponent.spread, 2)}, "
@@ -224,16 +289,12 @@ class Suslov(HeavySuslov, Basins, ConstrainedBody):
     def derived(self) -> Iterator[str]:
         """The energy, the start of the orbit on show, whether this is a rigid body."""
         yield f"E = {digits(self.E, 6)}"
-        yield f"chosen: {self.at(self.chosen)}"
+        yield f"chosen: {self.section.at(self.section.chosen)}"
         yield from super().derived()
         yield check_body(self.I11, self.I22, self.I13, self.I23).sentence
 
 
-def _later(orbit: Array) -> Array:
-    return orbit[len(orbit) // 2 :]
-
-
-def _piece(section: SuslovSection, starts: tuple[Start, ...], crossings: int, forward: bool,
+def _batch(section: SuslovSection, starts: tuple[Start, ...], crossings: int, forward: bool,
            level: Level) -> OrbitBatch:
     points = suslov_points(section.body, section.k, starts, crossings, forward, level, threads=1,
                            most_steps=_MOST_STEPS)
@@ -242,20 +303,25 @@ def _piece(section: SuslovSection, starts: tuple[Start, ...], crossings: int, fo
 
 
 SCENE = Scene(
-    Suslov, __file__, place=5, presets=PRESETS, measures=(SECTION, INDICATOR, EXPONENT, BASINS), charts=(
-        *exponents(SYSTEM.name, lambda s: s.start_asked_for, ("section",), time=lambda s: s.long),
-        Charted("divergence-suslov", lambda s: {**motion_of(s.body, s.start_asked_for), "t": s.long}),
+    Suslov, __file__, place=5, presets=PRESETS, measures=(
+        filled_trial(lambda s: s.section), indicator_trial(lambda s: s.megno), exponent_trial(lambda s: s.exponent),
+        basins_trial(lambda s: s.basins)),
+    charts=(
+        *exponents(SYSTEM.name, lambda s: s.section.asked_start, ("section",), time=lambda s: s.long),
+        Charted("divergence-suslov", lambda s: {**motion_of(s.body, s.section.asked_start), "t": s.long}),
         Charted("attractors", lambda s: {
-            **dict(zip(SYSTEM.parameters, s.body.parameters, strict=True)), "h": s.h, "k": s.section.k})),
-    placed=Placed("starts", Suslov.names),
+            **dict(zip(SYSTEM.parameters, s.body.parameters, strict=True)), "h": s.h, "k": s.poincare.k})),
+    placed=Placed("starts", _NAMES),
     group="Heavy body", essential=("h", "I13", "I23", "b3"),
     title="Suslov problem with gravity",
     summary="Regular orbits, seas, strange attractors: sections forward and backward in time.",
-    tracks={"orbit": lambda s: orbit_columns(s.orbit)},
+    tracks={"orbit": lambda s: orbit_columns(s.orbit.path)},
     views=(
-        filled_window(title=Suslov._section_title, caption=Suslov._about_section, scene=Suslov,
-                      labels=("forward in time", "backward"),
-                      under=(layered_section.basins(lambda s: s.basin, lambda s: s.frame),)),
+        filled_picture(
+            lambda s: s.section, ((-math.pi, 0.0), (math.pi, math.pi)), axes=_NAMES, title=Suslov._section_title,
+            caption=Suslov._about_section, labels=("forward in time", "backward"),
+            under=(layered_section.basins(lambda s: s.basins.basin, lambda s: s.section.frame),
+                   indicator_layer(lambda s: s.megno)), over=layers(lambda s: s.periodic_orbit)),
         constrained_body(),
         Plot(name="exponent", title="Lyapunov exponent and divergence", caption=Suslov._about_rates,
              axes=("t", "λ"), first=Axes((0.0, 1000.0), (-0.2, 0.2)), x=lambda s: (0.0, s.long),
@@ -264,8 +330,8 @@ SCENE = Scene(
                      over_time("divergence", lambda s: s.rate(1), color=theme.MAP, dash="dashed",
                                label="mean divergence"),
                      over_time("lambda", lambda s: s.rate(0), color=theme.ORBIT, label="exponent λ"))),
-        along_the_orbit(lambda s: s.r, lambda s: s.proved_around),
-        replace(orbit_alone(lambda s: s.half_width, energy=lambda s: s.E, proved=lambda s: s.proved_band),
+        along_the_orbit(lambda s: centre_of_mass((s.b1, s.b2, s.b3)), lambda s: s.proof.around),
+        replace(orbit_alone(lambda s: s.half_width, energy=lambda s: s.E, proved=lambda s: s.proof.band),
                 folded="Show the angular velocity"),
         conformal_time.picture(lambda s: s._conformal[0], lambda s: s._conformal[1], lambda s: s.lasts),
     ),

@@ -1,4 +1,4 @@
-"""A section over one of the parameters of its scene."""
+"""A section over one of the parameters of its scene, and where the branch of a periodic orbit begins on it."""
 
 from __future__ import annotations
 
@@ -6,11 +6,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
+from hess_explorer.compute.cache import CACHE, Task
 from hess_explorer.protocol.parameters import Value
+from hess_explorer.scenes.framework.periodic_search import Closed, Missed, Place, sought
 from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
 from hess_mechanics.numerics.accuracy import PRECISE
 
-__all__ = ["Family"]
+__all__ = ["Begin", "Family"]
 
 
 class Sectioned(Protocol):
@@ -45,3 +47,29 @@ class Family:
     def map_at(self, value: float) -> ReturnMap:
         """The return map there.  Raises `ModelError`."""
         return ReturnMap(self(value), PRECISE)
+
+
+@dataclass(frozen=True)
+class Begin:
+    """Where a branch begins: the value of the parameter, the place and the period, and the ends of the range."""
+
+    family: Family
+    value: float
+    place: Place
+    period: int | None
+    ends: tuple[float, float]
+
+    @property
+    def map(self) -> ReturnMap:
+        """The return map there.  Raises `ModelError`."""
+        return self.family.map_at(self.value)
+
+    @property
+    def search(self) -> Task:
+        """What finds the orbit there.  Raises `ModelError`."""
+        return Task(sought, (self.map, self.place, self.period, False))
+
+    def orbit(self) -> Closed | Missed:
+        """Return the orbit there.  Raises `ModelError`."""
+        found: Closed | Missed = CACHE.get(self.search.function, *self.search.arguments)[0]
+        return found

@@ -12,8 +12,8 @@ from hess_mechanics.numerics.accuracy import LEVELS
 from hess_mechanics.parameters import Group, Parameter
 
 __all__ = [
-    "ONE_TURN", "Slider", "accuracy_level", "choice", "crossings_of_each", "exponent_time", "like", "number",
-    "orbits_spread", "parameter", "places", "points_of_each", "slider_within", "specs_of", "time_span",
+    "ONE_TURN", "TURN", "Slider", "accuracy_level", "choice", "exponent_time", "like", "number", "parameter", "places",
+    "slider_within", "specs_of", "time_span",
 ]
 
 Slider = tuple[float, float, float]
@@ -22,6 +22,8 @@ Slider = tuple[float, float, float]
 ONE_TURN = (-math.pi, math.pi)
 """Bounds of an angle that a click chooses: a picture shows one turn."""
 
+TURN = 3.14159
+"""Half a turn, as a place in a link is written."""
 _SPEC = "spec"
 
 
@@ -66,24 +68,6 @@ def accuracy_level() -> Any:
                       "of sections 25 % of the crossings (6.3 to 9.2 ×, error up to 6.9 pixels), of basins 33 % of "
                       "the cells along a side (14 ×, 3.8 % of the cells change). Auto: the cheapest that shows all "
                       "of it right to half a pixel.")
-
-
-def crossings_of_each() -> Any:
-    """How many crossings of a section each orbit leaves, at once."""
-    return number("n", 200.0, (50.0, 600.0), 10.0, bounds=(1.0, 1e3), label="Crossings of each orbit",
-                  doc="Points for each orbit.", group="Computation")
-
-
-def orbits_spread(default: float, longest: float, most: float) -> Any:
-    """How many orbits fill a window."""
-    return number("n", default, (0.0, longest), 1.0, bounds=(0.0, most), label="Orbits",
-                  group="Computation", doc="How many orbits are spread over the window.")
-
-
-def points_of_each(default: float) -> Any:
-    """How many points each orbit leaves in a window, which come piece by piece."""
-    return number("N", default, (20.0, 1000.0), 10.0, bounds=(2.0, 4000.0), label="Crossings",
-                  group="Computation", doc="How many points each orbit leaves.")
 
 
 def exponent_time(default: float, longest: float, most: float, what: str) -> Any:

@@ -9,7 +9,10 @@ from typing import Generic, Protocol, Self, TypeVar
 from hess_explorer.protocol.parameters import Values
 from hess_explorer.scenes.framework.work import Work
 
-__all__ = ["Host", "Part"]
+__all__ = ["Host", "Part", "Start"]
+
+Start = tuple[float, ...]
+"""A state in which a motion starts."""
 
 
 class Host(Protocol):

@@ -12,10 +12,10 @@ import numpy as np
 
 from hess_explorer.compute.cache import CACHE, Task
 from hess_explorer.protocol.parameters import Number, Values
-from hess_explorer.scenes.framework.families import Family
+from hess_explorer.scenes.framework.families import Begin, Family
 from hess_explorer.scenes.framework.parameters import Slider, choice, number, specs_of
 from hess_explorer.scenes.framework.part import Host, Part
-from hess_explorer.scenes.framework.periodic_search import PERIODS, Closed, Missed, Place, sought
+from hess_explorer.scenes.framework.periodic_search import PERIODS, Closed, Missed, Place
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views import branch as view
@@ -36,7 +36,7 @@ from hess_mechanics.numerics.patience import go_on
 from hess_mechanics.numerics.results import Array
 
 __all__ = [
-    "Begin", "Branch", "Continuation", "branch_picture", "coordinate_of_branch", "end_of_branch", "parameter_of_branch",
+    "Branch", "Continuation", "branch_picture", "coordinate_of_branch", "end_of_branch", "parameter_of_branch",
 ]
 
 _TOGETHER = 60
@@ -77,32 +77,6 @@ def coordinate_of_branch(names: tuple[str, str]) -> Any:
     """What of the section is drawn upwards."""
     return choice("Branch upwards", names, names[0],
                   doc="In “Branch of the periodic orbit”: which coordinate of the section.")
-
-
-@dataclass(frozen=True)
-class Begin:
-    """Where a branch begins: the value of the parameter, the place and the period, and the ends of the range."""
-
-    family: Family
-    value: float
-    place: Place
-    period: int | None
-    ends: tuple[float, float]
-
-    @property
-    def map(self) -> ReturnMap:
-        """The return map there.  Raises `ModelError`."""
-        return self.family.map_at(self.value)
-
-    @property
-    def search(self) -> Task:
-        """What finds the orbit there.  Raises `ModelError`."""
-        return Task(sought, (self.map, self.place, self.period, False))
-
-    def orbit(self) -> Closed | Missed:
-        """Return the orbit there.  Raises `ModelError`."""
-        found: Closed | Missed = CACHE.get(self.search.function, *self.search.arguments)[0]
-        return found
 
 
 @dataclass(frozen=True)

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Protocol, TypeVar
 
 import numpy as np
 
-from hess_explorer.scenes.framework.inertia import Moments
+from hess_explorer.scenes.framework.part import Host, Part
 from hess_explorer.scenes.framework.periodic_search import Missed
+from hess_explorer.scenes.framework.scene import State
 from hess_explorer.views import theme
 from hess_explorer.views.graph import about_0
 from hess_explorer.views.layers import Axes, curves, levels, points, ring
@@ -19,8 +21,9 @@ from hess_mechanics.errors import ModelError
 from hess_mechanics.euler_poisson.hess_split import HessTorus, Split, slope_of, split_at
 from hess_mechanics.numerics.accuracy import PRECISE
 from hess_mechanics.numerics.patience import go_on
+from hess_mechanics.numerics.results import Array
 
-__all__ = ["SplitSeparatrices", "split_picture"]
+__all__ = ["HessSplit", "split_picture"]
 
 _QUARTERS = np.arange(-4, 5) / 4.0
 _WIDE = 0.02
@@ -29,28 +32,38 @@ _CLOSE = (1e-3, -1e-3, 2e-3, -2e-3)
 """Where the slope at ε = 0 is taken from."""
 
 
-class SplitSeparatrices(Moments):
-    """A body near the Hess case: the separatrices of the Hess manifold at its h and f.
-
-    The scene declares the parameters that stand here without a value.
-    """
-
-    away: float
-    m: float
-    h: float
-    f: float
+class _Host(Host, Protocol):
+    @property
+    def moments(self) -> tuple[float, float, float]: ...
 
     @property
-    def _reach(self) -> float:
+    def away(self) -> float: ...
+
+    @property
+    def m(self) -> float: ...
+
+    @property
+    def h(self) -> float: ...
+
+    @property
+    def f(self) -> float: ...
+
+
+@dataclass(frozen=True, eq=False)
+class HessSplit(Part[_Host]):
+    """How far apart the separatrices of the Hess manifold are, at the h and f of a body near the Hess case."""
+
+    @property
+    def reach(self) -> float:
         """How far the graph goes."""
-        return abs(self.away) or _WIDE
+        return abs(self.host.away) or _WIDE
 
     @cached_property
     def _splits(self) -> list[Split | Missed] | None:
         """At the values of the graph and those for the slope; None until all are known."""
-        torus = HessTorus(self.moments, self.m, self.h, self.f)
-        asked = dict.fromkeys([*(self._reach * _QUARTERS).tolist(), *_CLOSE])
-        ask = self.work.known if self.dragging else self.work.later
+        torus = HessTorus(self.host.moments, self.host.m, self.host.h, self.host.f)
+        asked = dict.fromkeys([*(self.reach * _QUARTERS).tolist(), *_CLOSE])
+        ask = self.work.known if self.work.dragging else self.work.later
         # Where it fails at ε = 0 there is nothing to be split.
         first = ask(_split, torus, 0.0)
         if first is None or isinstance(first, Missed):
@@ -61,13 +74,13 @@ class SplitSeparatrices(Moments):
 
     def splits(self) -> list[Split]:
         """Those that are known and drawn, by ε."""
-        found = [one for one in self._splits or () if isinstance(one, Split) and abs(one.away) <= self._reach]
+        found = [one for one in self._splits or () if isinstance(one, Split) and abs(one.away) <= self.reach]
         return sorted(found, key=lambda one: one.away)
 
     @property
     def split(self) -> Split | None:
         """That of this state, where it is known."""
-        return next((one for one in self.splits() if one.away == self.away), None)
+        return next((one for one in self.splits() if self.host.away), None)
 
     @property
     def slope(self) -> tuple[float, float] | None:
@@ -75,9 +88,10 @@ class SplitSeparatrices(Moments):
         close = {one.away: one for one in self._splits or () if isinstance(one, Split) and one.away in _CLOSE}
         return slope_of([close[value] for value in _CLOSE]) if len(close) == len(_CLOSE) else None
 
-    def _about_split(self) -> str:
+    def caption(self) -> str:
+        """Return the caption of the picture."""
         if self._splits is None:
-            return self.awaited("They are")
+            return self.work.awaited("They are")
         if self.split is None or self.slope is None:
             return "No separatrices are found here."
         value, error = self.split.value, self.split.error
@@ -86,23 +100,21 @@ class SplitSeparatrices(Moments):
             return f"Not split, to {power(error)}, at l = {digits(self.split.l)}; {near}."
         return f"{digits(value, 5)} ± {power(error)} at l = {digits(self.split.l)}; {near}."
 
-    def _no_split(self) -> str:
+    def message(self) -> str:
         """Why there is nothing to be seen."""
         reasons = [one.reason for one in self._splits or () if isinstance(one, Missed)]
         return reasons[0] if reasons and not self.splits() else ""
 
     def derived(self) -> Iterator[str]:
         """How fast the split begins."""
-        if self.known("_splits") and self.slope is not None:
+        if self.asked("_splits") and self.slope is not None:
             yield f"split/ε → {digits(self.slope[0], 7)} ± {power(self.slope[1])}"
-        yield from super().derived()
 
     def notes(self) -> Iterator[str]:
         """Where on the graph nothing is known."""
-        reasons = {one.reason for one in self.known("_splits") or () if isinstance(one, Missed)}
-        if self.known("_splits") and self.splits():
+        if self.asked("_splits") and self.splits():
+            reasons = {one.reason for one in self._splits or () if isinstance(one, Missed)}
             yield from (f"Some splits are not known. {reason}" for reason in sorted(reasons))
-        yield from super().notes()
 
 
 def _split(torus: HessTorus, away: float) -> Split | Missed:
@@ -113,20 +125,31 @@ def _split(torus: HessTorus, away: float) -> Split | Missed:
         return Missed(str(error))
 
 
-def split_picture() -> Plot[Any]:
-    """The split over ε."""
+S = TypeVar("S", bound=State)
+
+
+def split_picture(of: Callable[[S], HessSplit]) -> Plot[S]:
+    """Return the picture of the split over ε."""
+    def values(s: S) -> Array:
+        return np.array([(one.away, one.value) for one in of(s).splits()]).reshape(-1, 2).T
+
+    def slope(s: S, axes: Axes) -> list[Array]:
+        found = of(s).slope
+        return [] if found is None else [np.array([[x, found[0] * x] for x in axes.x])]
+
+    def here(s: S) -> list[tuple[float, float]]:
+        split = of(s).split
+        return [] if split is None else [(split.away, split.value)]
+
     return Plot(
-        name="split", title="Split of the separatrices", caption=SplitSeparatrices._about_split,
+        name="split", title="Split of the separatrices", caption=lambda s: of(s).caption(),
         folded="Show the split of the separatrices", axes=("ε", "split in L/G"),
-        first=Axes((-_WIDE, _WIDE), (-1.0, 1.0)), message=SplitSeparatrices._no_split,
-        on_click=lambda s, x, y: {"away": x},
-        x=lambda s: (-1.1 * s._reach, 1.1 * s._reach),
-        y=lambda s: about_0(np.array([one.value for one in s.splits()]), 1e-12) if s.splits() else None,
-        layers=(levels("levels", lambda s: [0.0] if s.splits() else []),
-                curves("slope", within=lambda s, axes: [] if s.slope is None else [
-                    np.array([[x, s.slope[0] * x] for x in axes.x])], color=theme.MUTED, dash="dashed",
-                    label="in proportion to ε, as next to 0"),
-                points("splits", lambda s: (np.array([[one.away, one.value] for one in s.splits()]).T
-                                            if s.splits() else None), color=theme.UNSTABLE, size=10,
+        first=Axes((-_WIDE, _WIDE), (-1.0, 1.0)), message=lambda s: of(s).message(),
+        on_click=lambda s, x, y: {"away": x}, x=lambda s: (-1.1 * of(s).reach, 1.1 * of(s).reach),
+        y=lambda s: about_0(values(s)[1], 1e-12) if of(s).splits() else None,
+        layers=(levels("levels", lambda s: [0.0] if of(s).splits() else []),
+                curves("slope", within=slope, color=theme.MUTED, dash="dashed",
+                       label="in proportion to ε, as next to 0"),
+                points("splits", lambda s: values(s) if of(s).splits() else None, color=theme.UNSTABLE, size=10,
                        label="how far apart the separatrices are"),
-                ring("here", lambda s: [] if s.split is None else [(s.away, s.split.value)], color=theme.INK)))
+                ring("here", here, color=theme.INK)))

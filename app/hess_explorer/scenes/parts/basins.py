@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from functools import cached_property
+from typing import Protocol, TypeVar
 
 import numpy as np
 
 from hess_explorer.scenes.framework.cells import CELLS, COARSE, Arguments, changed, found_by_rows, look
-from hess_explorer.scenes.framework.filled_window import FilledWindow
+from hess_explorer.scenes.framework.part import Host, Part
+from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.trial import Trial
+from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.basin_boundary import unsure
 from hess_mechanics.numerics.accuracy import Computation, Plan
@@ -18,30 +21,42 @@ from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov.basins import Contraction, contraction_at, groups_of_cells, middle_cells
 from hess_mechanics.suslov.section import SuslovSection
 
-__all__ = ["BASINS", "Basins"]
+__all__ = ["Basins", "basins_trial"]
 
 _CROSSINGS = 240
 _MOST_STEPS = 100_000
 _NUMBERS = {2: "Two", 3: "Three", 4: "Four"}
 
 
-class Basins(FilledWindow):
-    """A filled window of the Suslov problem whose cells may be coloured by the group of motions that they lead to."""
+class _Window(Protocol):
+    @property
+    def frame(self) -> Window:
+        """What of the section is seen."""
 
     @property
-    @abstractmethod
-    def section(self) -> SuslovSection:
-        """The section.  Raises `ModelError`."""
+    def batches(self) -> object:
+        """The orbits of the section, which come before finer cells."""
+
+
+class _Host(Host, Protocol):
+    @property
+    def poincare(self) -> SuslovSection:
+        """The section in its coordinates.  Raises `ModelError`."""
 
     @property
-    @abstractmethod
-    def asked(self) -> bool:
-        """Whether basins are to be shown."""
+    def long(self) -> float:
+        """The time over which the divergence is averaged."""
 
-    @property
-    def indicated(self) -> bool:
-        """Basins are shown in place of MEGNO."""
-        return super().indicated and not self.asked
+
+@dataclass(frozen=True, eq=False)
+class Basins(Part[_Host]):
+    """The cells of a section of the Suslov problem by the group of motions that they lead to.
+
+    wanted : whether they are shown.
+    """
+
+    section: _Window
+    wanted: bool
 
     @cached_property
     def _found(self) -> tuple[Array, int] | None:
@@ -49,10 +64,11 @@ class Basins(FilledWindow):
 
         None before the coarse ones are known, of which each is the middle one of `COARSE`² cells.
         """
-        if not self.asked or self.dragging:
+        if not self.wanted or self.work.dragging:
             return None
-        plan = self.plan(Computation.BASINS)
-        return found_by_rows(self.work, SuslovSection.ends, _rows(self, plan, COARSE), _rows(self, plan), self.sooner)
+        plan = self.work.plan(Computation.BASINS)
+        return found_by_rows(self.work, SuslovSection.ends, self.rows(plan, COARSE), self.rows(plan),
+                             lambda: self.section.batches)
 
     @property
     def ends(self) -> Array | None:
@@ -70,13 +86,14 @@ class Basins(FilledWindow):
         ends = self.ends
         if self.basin is None or ends is None:
             return None
-        grid, long = self.plan(Computation.BASINS).grid(CELLS), self.plan(Computation.EXPONENT).share * self.long
-        found = [self.work.later(contraction_at, self.section, self.frame, grid, row, column, long)
+        grid = self.work.plan(Computation.BASINS).grid(CELLS)
+        long = self.work.plan(Computation.EXPONENT).share * self.host.long
+        found = [self.work.later(contraction_at, self.host.poincare, self.section.frame, grid, row, column, long)
                  for row, column in middle_cells(ends, self.basin)]
         known = [one for one in found if one is not None]
         return known if len(known) == len(found) else None
 
-    def about_basins(self, cells: Array) -> str:
+    def about(self, cells: Array) -> str:
         """The caption of the basins."""
         found = self.contractions
         if found is None:
@@ -98,25 +115,27 @@ class Basins(FilledWindow):
         return f"{_NUMBERS.get(len(drawn), len(drawn))} attractors, with {', '.join(parts)} and {last} of the cells."
 
     def status(self) -> Iterator[str]:
-        """The section, the orbit on show, the basins when all of them are known."""
-        yield from super().status()
-        if self.known("basin") is not None and self.basin is not None and self.ends is not None:
+        """Yield how much depends on the size of the cells, when all of them are known."""
+        if self.asked("basin") and self.basin is not None and self.ends is not None:
             n, m = self.basin.shape
             yield f"basins {m} × {n}, twice as many cells would change {digits(100.0 * unsure(self.basin), 2)} % of it"
 
 
-def _rows(s: Basins, plan: Plan, coarse: int = 1) -> list[Arguments]:
-    """What `SuslovSection.ends` is asked for, for each row of cells, of which one is as wide as `coarse` of them."""
-    m, n = plan.grid(CELLS)
-    cells = m // coarse, n // coarse
-    return [(s.section, s.frame, cells, row, _CROSSINGS, _MOST_STEPS, plan.level) for row in range(cells[1])]
+    def rows(self, plan: Plan, coarse: int = 1) -> list[Arguments]:
+        """Return the arguments of `SuslovSection.ends` for each row of cells as wide as `coarse` of the finest."""
+        m, n = plan.grid(CELLS)
+        cells = m // coarse, n // coarse
+        return [(self.host.poincare, self.section.frame, cells, row, _CROSSINGS, _MOST_STEPS, plan.level)
+                for row in range(cells[1])]
 
 
-def _all_basins(s: Basins, plan: Plan) -> Array:
-    return groups_of_cells(np.stack([SuslovSection.ends(*row) for row in _rows(s, plan)]))
+S = TypeVar("S", bound=State)
 
 
-BASINS: Trial[Basins] = Trial(
-    Computation.BASINS, ("section",), _all_basins, lambda s, cells, truth: changed(cells, truth),
-    lambda s, cells: look(s.frame, s.names, cells), unit="% of the cells that change", seen=3.0,
-    shown=lambda s: s.asked)
+def basins_trial(of: Callable[[S], Basins]) -> Trial[S]:
+    """Return how the basins of a state are computed at each level."""
+    return Trial(Computation.BASINS, ("section",),
+                 lambda s, plan: groups_of_cells(np.stack([SuslovSection.ends(*row) for row in of(s).rows(plan)])),
+                 lambda s, cells, truth: changed(cells, truth),
+                 lambda s, cells: look(of(s).section.frame, of(s).host.poincare.names, cells),
+                 unit="% of the cells that change", seen=3.0, shown=lambda s: of(s).wanted)

@@ -1,0 +1,286 @@
+"""Where the orbits of a section γ₃ = 0 settle over a parameter, and one of these orbits: two scenes, of two systems."""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import ClassVar, Protocol, TypeVar
+
+import numpy as np
+
+from hess_explorer.protocol.parameters import Values, written
+from hess_explorer.scenes.framework.charted import Charted
+from hess_explorer.scenes.framework.parameters import (
+    accuracy_level,
+    choice,
+    number,
+    parameter,
+    places,
+    time_span,
+)
+from hess_explorer.scenes.framework.part import Host, Part, Start
+from hess_explorer.scenes.framework.periodic_search import NONE, PERIODS
+from hess_explorer.scenes.framework.scene import Motion, State
+from hess_explorer.scenes.framework.solid_body import Constrained, constrained_body
+from hess_explorer.scenes.framework.windows import Window
+from hess_explorer.scenes.parts.branch import Continuation
+from hess_explorer.scenes.parts.exponent import exponent_time
+from hess_explorer.scenes.parts.orbit import Orbit
+from hess_explorer.scenes.parts.orbit_diagram import (
+    ANEW,
+    BOUNDS,
+    FARTHEST,
+    FOLLOWED,
+    WAYS,
+    OrbitDiagram,
+    diagram_picture,
+)
+from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
+from hess_explorer.scenes.parts.regime import Regime, few
+from hess_explorer.views import branch, layered_section, periodic, theme
+from hess_explorer.views.graph import about_0, over_time
+from hess_explorer.views.layers import Axes, levels, points
+from hess_explorer.views.picture import Picture
+from hess_explorer.views.plot import Plot
+from hess_explorer.views.poisson_sphere import along_the_orbit, centre_of_mass
+from hess_explorer.views.text import digits
+from hess_mechanics.dynamics.periodic import PeriodicOrbit
+from hess_mechanics.dynamics.return_map import PoincareSection
+from hess_mechanics.dynamics.system import Body
+from hess_mechanics.numerics.results import Array, SectionCrossings
+from hess_mechanics.parameters import B1, B2, B3, H_SUSLOV, I11, I13, I22, I23
+from hess_mechanics.rigid_body.inertia import check_body
+from hess_mechanics.rigid_body.reversal import rate, reversals
+
+__all__ = ["DiagramState", "charts", "parameter_of_diagram", "pictures"]
+
+_WINDOW = ((-math.pi, 0.0), (math.pi, math.pi))
+_COORDINATES = ("ψ", "δ")
+
+
+def parameter_of_diagram(symbols: tuple[str, ...], default: str) -> str:
+    """Declare over what the diagram is."""
+    declared: str = choice("Parameter of the diagram", symbols, default,
+                           doc="What changes from left to right. All others are as they stand.")
+    return declared
+
+
+class _Equator(PoincareSection, Protocol):
+    """A section γ3 = 0 in (ψ, δ)."""
+
+    def somewhere(self) -> Start | None:
+        """Return a state of it; None where no motion crosses."""
+
+    def impossible(self, window: Window) -> Array:
+        """Return cells (1, n) over the window: 1 where the energy does not allow ψ."""
+
+
+@dataclass(frozen=True)
+class DiagramState(State, ABC):
+    """Where orbits of a section settle over one parameter, and the orbit on show at the value that this one has.
+
+    symbols : of all on which the section depends → their names.
+    """
+
+    I11: float = parameter(I11)
+    I22: float = parameter(I22)
+    I13: float = parameter(I13)
+    I23: float = parameter(I23)
+    b1: float = parameter(B1)
+    b2: float = parameter(B2)
+    b3: float = parameter(B3)
+    h: float = parameter(H_SUSLOV)
+    along: str = parameter_of_diagram(("h",), "h")
+    first: float = number("from", -0.15, (-3.0, 6.0), 0.01, bounds=FARTHEST, label="Diagram from",
+                          doc="The value at its left edge.")
+    last: float = number("to", 0.3, (-3.0, 6.0), 0.01, bounds=FARTHEST, label="Diagram to",
+                         doc="The value at its right edge.")
+    shown: str = choice("Coordinate of the section", _COORDINATES, "ψ", doc="What the diagram shows, upwards.")
+    ways: str = choice("Followed", tuple(WAYS), next(iter(WAYS)),
+                       doc="There: the parameter rises; back: it falls. Backward in time motions come to repellers.")
+    begins: str = choice("Each value starts", (FOLLOWED, ANEW), FOLLOWED,
+                         doc="Followed, an orbit stays with its attractor, and the way back may be another one.")
+    steps: float = number("n", 150.0, (30.0, 300.0), 10.0, bounds=(2.0, 600.0), label="Values of the parameter",
+                          doc="At how many even values.", group="Computation")
+    transient: float = number("N₀", 300.0, (0.0, 1000.0), 10.0, bounds=(0.0, 5000.0), label="Crossings left out",
+                              doc="Until the orbit has settled, at each value.", group="Computation")
+    count: float = number("N", 60.0, (10.0, 200.0), 5.0, bounds=(2.0, 500.0), label="Crossings shown",
+                          doc="At each value, after those left out.", group="Computation")
+    window: str = places("The window of the diagram", 2, *BOUNDS)
+    branch: str = choice("Branch of a periodic orbit", (NONE, *PERIODS), NONE, group="State",
+                         doc="Over the diagram: the periodic orbit that Newton's method finds from the chosen place, "
+                             "continued in the parameter, through folds. A click on it shows that orbit.")
+    span: float = time_span(60.0, 400.0, what="the chosen orbit")
+    long: float = exponent_time(4000.0, 5000.0, 2e4, "the mean divergence is")
+    certain: str = proved_error_shown()
+    accuracy: str = accuracy_level()
+    chosen: str = places("The place of the chosen orbit", 1, *BOUNDS)
+
+    symbols: ClassVar[Mapping[str, str]]
+
+    @property
+    @abstractmethod
+    def body(self) -> Body:
+        """The body.  Raises `ModelError`."""
+
+    @property
+    @abstractmethod
+    def E(self) -> float:
+        """The energy."""
+
+    @property
+    @abstractmethod
+    def poincare(self) -> _Equator:
+        """The section γ3 = 0.  Raises `ModelError`."""
+
+    @property
+    @abstractmethod
+    def weights(self) -> tuple[float, ...]:
+        """From the variables to the pictures, in pixels for a unit."""
+
+    @property
+    def start(self) -> Start:
+        """The state from which the orbit on show starts: that of the periodic orbit, where its branch is shown."""
+        closed = self.continuation.closed
+        return self.diagram.start if closed is None else closed.state
+
+    @property
+    def lasts(self) -> float:
+        """The time for which it is followed."""
+        return self.span
+
+    def motion(self) -> Motion:
+        """Return the orbit on show."""
+        return self.orbit.motion()
+
+    # ---- the parts ----------------------------------------------------------------------------------------------
+
+    def parts(self) -> tuple[Part[Host], ...]:
+        """Return what is computed, in the order of its words."""
+        return self.diagram, self.continuation, self.orbit, self.proof, self.regime
+
+    @cached_property
+    def diagram(self) -> OrbitDiagram:
+        """Where orbits settle."""
+        return OrbitDiagram(self, self.symbols)
+
+    @cached_property
+    def continuation(self) -> Continuation:
+        """The branch of a periodic orbit over it."""
+        return Continuation(self.diagram)
+
+    @cached_property
+    def orbit(self) -> Orbit:
+        """The orbit on show."""
+        return Orbit(self)
+
+    @cached_property
+    def proof(self) -> Proof:
+        """Its proved error."""
+        return Proof(self.orbit, self.certain)
+
+    @cached_property
+    def regime(self) -> Regime:
+        """What kind of motion it is."""
+        return Regime(self.diagram, self.long)
+
+    # ---- the pictures -------------------------------------------------------------------------------------------
+
+    @cached_property
+    def solid(self) -> Constrained:
+        """The body along the orbit."""
+        return Constrained.along(self.work, self.body.parameters, self.orbit.path.times, self.orbit.path.states)
+
+    @cached_property
+    def turned(self) -> SectionCrossings:
+        """The moments of reversal of the orbit on show."""
+        return self.work.get(reversals, self.body, self.start, self.span, self.level)
+
+    @cached_property
+    def turning(self) -> Array:
+        """(ω, γ) along it (n,)."""
+        return rate(self.orbit.path.states)
+
+    def choose(self, x: float, y: float) -> Values:
+        """Return the parameter and the orbit of the branch at (x, y), or away from it those of the diagram."""
+        found = self.continuation.chosen(x, y)
+        if found is None:
+            return self.diagram.choose(x, y)
+        value, place, period = found
+        return {self.diagram.name: value, "chosen": written([place]), "branch": f"period {period}"}
+
+    def start_here(self, x: float, y: float) -> Values:
+        """Return the start of the orbit from a place of the section."""
+        return {"chosen": written([(x, min(max(y, 1e-6), math.pi - 1e-6))])}
+
+    # ---- words --------------------------------------------------------------------------------------------------
+
+    def _about_diagram(self) -> str:
+        if self.branch == NONE:
+            return self.diagram.caption()
+        return self.continuation.caption or self.work.awaited("A periodic orbit is")
+
+    def _about_turning(self) -> str:
+        times = self.turned.times
+        if not len(times):
+            return "The body does not turn round in this time."
+        many = "once" if len(times) == 1 else f"{len(times)} times"
+        return (f"It turns round {many}, at first at t = {digits(float(times[0]), 6)}, "
+                f"to {digits(self.turned.error_estimate, 1)}.")
+
+    def derived(self) -> list[str]:
+        """Return the energy, the place on show, the bifurcations of the branch, whether this is a rigid body."""
+        psi, delta = map(digits, self.diagram.place)
+        return [f"E = {digits(self.E, 6)}", f"chosen: ψ = {psi}, δ = {delta}", *super().derived(),
+                check_body(*self.body.parameters[:4]).sentence]
+
+
+S = TypeVar("S", bound=DiagramState)
+
+
+def charts(state: type[S], quantity: str, **more: float) -> tuple[Charted[S]]:
+    """Return what can be charted of such states: the regime of the motion."""
+    def arguments(s: S) -> Mapping[str, float]:
+        psi, delta = s.diagram.place
+        return {**dict(zip(s.body.system.parameters, s.body.parameters, strict=True)), "h": s.h, "psi": psi,
+                "delta": delta, **more}
+
+    return (Charted(quantity, arguments, pictures=("diagram", "section")),)
+
+
+def pictures(state: type[S], ball: bool = False) -> tuple[Picture[S], ...]:
+    """Return the diagram with its branch, the body, its section, its turning, and its Poisson sphere folded."""
+    def closed(s: S) -> PeriodicOrbit | None:
+        found = s.continuation.closed
+        return None if found is None else found.orbit
+
+    return (
+        diagram_picture(
+            lambda s: s.diagram, (state.first, state.last), caption=lambda s: s._about_diagram(),
+            on_click=lambda s, x, y: s.choose(x, y), on_hover=lambda s, x, y: s.continuation.about(x, y),
+            over=branch.layers(lambda s: s.continuation.branches, lambda s: s.diagram.side,
+                               lambda s: s.poincare.turns[s.diagram.side])),
+        constrained_body(ball=ball),
+        Plot(name="section", title="Its section γ₃ = 0, growing", caption=lambda s: s.regime.caption,
+             axes=_COORDINATES, x=(-math.pi, math.pi), y=(0.0, math.pi), on_click=lambda s, x, y: s.start_here(x, y),
+             layers=(*layered_section.layers(
+                 lambda s: s.regime.attractor, lambda s: s.regime.repeller, lambda s: np.empty((0, 2)),
+                 chosen=lambda s: [s.diagram.place], window=lambda s: _WINDOW,
+                 impossible=lambda s: s.poincare.impossible(_WINDOW), labels=("attractor", "repeller")),
+                 points("few", lambda s: few(s.regime.attractor), color=theme.ORBIT, size=9),
+                 *periodic.places(closed),
+                 points("few-repelling", lambda s: few(s.regime.repeller), color=theme.UNSTABLE, size=9))),
+        Plot(name="reversal", title="Turning about the vertical, (ω, γ)", caption=lambda s: s._about_turning(),
+             axes=("t", "(ω, γ)"), dot=("t", "turning"), first=Axes((0.0, 60.0), (-2.0, 2.0)),
+             x=lambda s: (0.0, s.span), y=lambda s: about_0(s.turning, 1e-6),
+             layers=(levels("levels", lambda s: [0.0]),
+                     over_time("turning", lambda s: (s.orbit.path.times, s.turning), color=theme.ORBIT,
+                               label="(ω, γ) of the chosen orbit"),
+                     points("moments", lambda s: (s.turned.times, np.zeros(len(s.turned.times))), color=theme.UNSTABLE,
+                            size=11, hollow=True, edge_width=2.5, label="moments of reversal"))),
+        replace(along_the_orbit(lambda s: centre_of_mass((s.b1, s.b2, s.b3)), lambda s: s.proof.around),
+                folded="Show the Poisson sphere"),
+    )

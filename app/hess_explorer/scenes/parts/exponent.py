@@ -1,0 +1,146 @@
+"""The largest Lyapunov exponent of the orbit on show."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Protocol, TypeVar
+
+import numpy as np
+
+from hess_explorer.scenes.framework.parameters import number
+from hess_explorer.scenes.framework.part import Host, Part, Start
+from hess_explorer.scenes.framework.scene import State
+from hess_explorer.scenes.framework.trial import Trial
+from hess_explorer.views import theme
+from hess_explorer.views.comparison import Curves, Frame
+from hess_explorer.views.graph import over_time, settled_range, thinned, with_room
+from hess_explorer.views.layers import Axes, Range
+from hess_explorer.views.plot import Plot
+from hess_explorer.views.text import digits
+from hess_explorer.views.velocity_plane import nice_above
+from hess_mechanics.dynamics import lyapunov
+from hess_mechanics.dynamics.system import Body
+from hess_mechanics.numerics.accuracy import Computation, Plan
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["Exponent", "exponent_picture", "exponent_time", "exponent_trial"]
+
+_LONG = 2000.0
+"""The longest time for which levels are compared."""
+
+
+def exponent_time(default: float, longest: float, most: float, what: str) -> Any:
+    """Declare how long something is averaged along the orbit on show."""
+    return number("T", default, (10.0, longest), 10.0, bounds=(1.0, most), label="Time of the exponent",
+                  group="Computation", doc=f"How long {what} averaged.")
+
+
+class _Periodic(Protocol):
+    @property
+    def growth(self) -> tuple[float, float] | None:
+        """ln|μ₁|/T and ln|μ₁μ₂|/T of the periodic orbit on show; None where none is."""
+
+    @property
+    def looking(self) -> bool:
+        """Whether a periodic orbit is asked for and not known yet."""
+
+
+class _Host(Host, Protocol):
+    @property
+    def body(self) -> Body:
+        """The equations and their parameters.  Raises `ModelError`."""
+
+    @property
+    def start(self) -> Start:
+        """The state at t = 0.  Raises `ModelError`."""
+
+    @property
+    def long(self) -> float:
+        """The time over which it is averaged."""
+
+    @property
+    def periodic_orbit(self) -> _Periodic:
+        """The periodic orbit on show, if any."""
+
+
+@dataclass(frozen=True, eq=False)
+class Exponent(Part[_Host]):
+    """The largest Lyapunov exponent; that of a periodic orbit is known from its multipliers."""
+
+    @property
+    def growth(self) -> tuple[float, float] | None:
+        """ln|μ₁|/T and ln|μ₁μ₂|/T of the periodic orbit on show; None where none is."""
+        return self.host.periodic_orbit.growth
+
+    @property
+    def later(self) -> bool:
+        """Whether nothing is computed now: a slider is held, or a periodic orbit is shown or looked for."""
+        return self.work.dragging or self.host.periodic_orbit.looking or self.growth is not None
+
+    @cached_property
+    def found(self) -> lyapunov.Exponent | None:
+        """The exponent of any other orbit, when it is known."""
+        if self.later:
+            return None
+        plan = self.work.plan(Computation.EXPONENT)
+        return self.work.later(lyapunov.lyapunov_exponent, self.host.body, self.host.start,
+                               plan.share * self.host.long, plan.level)
+
+    def at(self, plan: Plan) -> lyapunov.Exponent:
+        """Return it, computed here and now."""
+        return lyapunov.lyapunov_exponent(self.host.body, self.host.start, plan.share * self.host.long, plan.level)
+
+    @property
+    def rates(self) -> tuple[Array, Array] | None:
+        """The mean growth rate over time."""
+        if self.growth is not None:
+            return np.array([0.0, self.host.long]), np.full(2, self.growth[0])
+        return None if self.found is None else thinned(self.found.times, self.found.rates)
+
+    @property
+    def axis(self) -> Range | None:
+        """Room for it; None while it is not known."""
+        if self.growth is not None:
+            return with_room(np.array([0.0, self.growth[0]]), 0.1, 1e-6)
+        if self.found is None:
+            return None
+        later = self.found.rates[len(self.found.rates) // 10 :]
+        return min(0.0, 1.05 * float(later.min())), nice_above(1.05 * max(1e-6, float(later.max())))
+
+    @property
+    def caption(self) -> str:
+        """Of the picture."""
+        if self.growth is not None:
+            return f"Next to the periodic orbit: ln|μ₁|/T = {digits(self.growth[0])}, from its multipliers."
+        found = self.found
+        if found is None:
+            return self.work.awaited()
+        end = float(found.times[-1])
+        kind = "falling as ln(t)/t: regular so far" if found.is_regular else "chaotic"
+        return f"λ = {digits(found.value, 3)} after t = {digits(end)}, ± {digits(found.spread, 2)} lately: {kind}."
+
+
+S = TypeVar("S", bound=State)
+
+
+def exponent_picture(of: Callable[[S], Exponent], folded: str = "") -> Plot[S]:
+    """Return the picture of the mean growth rate over time."""
+    return Plot(
+        name="exponent", title="Largest Lyapunov exponent", caption=lambda s: of(s).caption, axes=("t", "λ"),
+        folded=folded, first=Axes((0.0, 200.0), (0.0, 1.0)), x=lambda s: (0.0, of(s).host.long),
+        y=lambda s: of(s).axis, layers=(over_time("lambda", lambda s: of(s).rates, color=theme.ORBIT),))
+
+
+def exponent_trial(of: Callable[[S], Exponent]) -> Trial[S]:
+    """Return how the exponent of a state is computed at each level."""
+    def look(s: S, found: lyapunov.Exponent) -> Curves:
+        # With room for all but the first tenth of the time.
+        axes = Axes((0.0, of(s).host.long), settled_range([found.rates]))
+        return Curves(Frame(axes, ("t", "λ")), (np.column_stack(thinned(found.times, found.rates)),))
+
+    return Trial(Computation.EXPONENT, ("exponent",), lambda s, plan: of(s).at(plan),
+                 lambda s, found, truth: abs(found.value - truth.value) / max(truth.spread, 1e-12), look,
+                 unit="of what it changes by in the second half of its time", seen=10.0,
+                 small=lambda s: s.changed({"long": min(of(s).host.long, _LONG)}))

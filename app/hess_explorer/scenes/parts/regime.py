@@ -1,0 +1,93 @@
+"""The regime of a motion: what kind it is, and what attracts and repels next to it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Protocol
+
+import numpy as np
+
+from hess_explorer.scenes.framework.part import Host, Part
+from hess_explorer.views.text import digits
+from hess_mechanics.dynamics.parameter_diagram import AtState, Sets, at_state, sets_of
+from hess_mechanics.dynamics.return_map import PoincareSection
+from hess_mechanics.numerics.accuracy import Computation
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["Regime"]
+
+_NOTHING = np.empty((0, 2))
+_MANY = 24
+"""Places that are drawn large, as dots would hardly be seen."""
+
+
+class _Host(Host, Protocol):
+    @property
+    def poincare(self) -> PoincareSection:
+        """The section in its coordinates.  Raises `ModelError`."""
+
+    @property
+    def place(self) -> tuple[float, float]:
+        """Where the motion starts.  Raises `ModelError`."""
+
+
+@dataclass(frozen=True, eq=False)
+class Regime(Part[_Host]):
+    """What kind of motion starts at a place of a section, with its attractor and its repeller.
+
+    long : the time over which the divergence is averaged.
+    """
+
+    long: float
+
+    @cached_property
+    def sets(self) -> Sets | None:
+        """Attractor and repeller, when they are known."""
+        few = (60, 120) if self.work.dragging else (500, 1500)
+        return self.work.soon(sets_of, self.host.poincare, self.host.place, *few,
+                              self.work.plan(Computation.SECTION).level)
+
+    @property
+    def attractor(self) -> Array:
+        """Places (n, 2) of the attractor."""
+        return _NOTHING if self.sets is None else self.sets.attractor
+
+    @property
+    def repeller(self) -> Array:
+        """Places (n, 2) of the repeller."""
+        return _NOTHING if self.sets is None else self.sets.repeller
+
+    @cached_property
+    def kind(self) -> AtState | None:
+        """What kind of motion and of dynamics this is, when it is known."""
+        if self.work.dragging:
+            return None
+        t = self.work.plan(Computation.EXPONENT).share * self.long
+        return self.work.later(at_state, self.host.poincare, self.host.place, 500, 1500, t,
+                               self.work.plan(Computation.SECTION).level)
+
+    @property
+    def caption(self) -> str:
+        """The kind of motion, and whether it is dissipative."""
+        found = self.kind
+        if found is None:
+            return self.work.awaited()
+        motion = found.regime
+        kind = f"period {motion.period}" if motion.period else motion.kind.words
+        if found.dynamics is None:
+            return f"Motion: {kind}. Attractor and repeller: not compared, as the orbit leaves."
+        if found.dynamics.verdict == "not told apart":
+            return (f"Motion: {kind}. Attractor and repeller: not told apart.\n"
+                    f"|mean div| < {digits(motion.bound, 1)}")
+        if motion.volume_kept:
+            return f"Motion: {kind}. Conservative: volume is kept."
+        return (f"Motion: {kind}. Looks {found.dynamics.verdict}.\n"
+                f"div = {digits(motion.divergence, 2)} ± {digits(motion.divergence_error, 1)}, sets "
+                f"{digits(found.dynamics.distance, 2)} ± {digits(found.dynamics.distance_error, 1)} apart")
+
+
+def few(found: Array) -> Array | None:
+    """Return places (2, m) that would hardly be seen as dots; None of more."""
+    _, first = np.unique(np.round(found, 4), axis=0, return_index=True)
+    return found[first].T if 0 < len(first) <= _MANY else None

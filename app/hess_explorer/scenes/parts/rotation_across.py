@@ -1,0 +1,204 @@
+"""Rotation numbers of the orbits that start on a line across a section g = π/2, as they become known."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Protocol, TypeVar
+
+import numpy as np
+
+from hess_explorer.compute.cache import Task
+from hess_explorer.scenes.framework.orbit_batches import in_batches
+from hess_explorer.scenes.framework.part import Host, Part, Start
+from hess_explorer.scenes.framework.scene import State
+from hess_explorer.scenes.framework.trial import Trial
+from hess_explorer.scenes.framework.windows import Window
+from hess_explorer.views import theme
+from hess_explorer.views.comparison import Curves, Frame
+from hess_explorer.views.graph import with_room
+from hess_explorer.views.layers import Axes, Range, curves, points, region
+from hess_explorer.views.plot import Plot
+from hess_explorer.views.text import digits
+from hess_mechanics.euler_poisson.andoyer import AndoyerSection
+from hess_mechanics.euler_poisson.rotation import RESOLVED, RotationProfile, on_line, rotation_along
+from hess_mechanics.numerics.accuracy import Computation, Level, Plan
+from hess_mechanics.numerics.results import Array
+
+__all__ = ["RotationAcross", "rotation_picture", "rotation_trial"]
+
+_ACROSS = 48
+"""Orbits on the line along which the rotation number is looked at."""
+_ON_LINE = 3000
+"""Crossings of each: with fewer the rotation number in a chain of islands is not known to `RESOLVED`."""
+_HELD = (16, 40, 1e-2)
+"""While a slider is held: orbits, crossings of each, and to what both halves of a closed curve then agree."""
+
+
+class _Window(Protocol):
+    @property
+    def frame(self) -> Window:
+        """What of the section is seen."""
+
+    @property
+    def first_chosen(self) -> tuple[float, float]:
+        """The place of the first chosen orbit."""
+
+
+class _Host(Host, Protocol):
+    @property
+    def poincare(self) -> AndoyerSection:
+        """The section in its coordinates.  Raises `ModelError`."""
+
+    @property
+    def count(self) -> float:
+        """The number of crossings of each orbit of the section."""
+
+    def batch(self, starts: tuple[Start, ...], crossings: int, forward: bool, level: Level) -> Task:
+        """Return the computation of an `OrbitBatch`, so many crossings of the orbits from there."""
+
+
+@dataclass(frozen=True, eq=False)
+class RotationAcross(Part[_Host]):
+    """Rotation numbers along a line across the Andoyer–Deprit section.
+
+    about_middle : whether turns are counted about the middle of the window, on a line from there to the right; else by
+    the angle l, on a vertical line through the first chosen start: another one leaves it where it is.
+    """
+
+    section: _Window
+    about_middle: bool
+
+    @property
+    def axis(self) -> int:
+        """The coordinate along the line: l (0) or L/G (1)."""
+        return 0 if self.about_middle else 1
+
+    @cached_property
+    def ends(self) -> Window:
+        """Of the line along which the rotation number is looked at."""
+        (l0, x0), (l1, x1) = self.section.frame
+        if not self.about_middle:
+            l = self.section.first_chosen[0]
+            return (l, x0), (l, x1)
+        middle = 0.5 * (x0 + x1)
+        return (0.5 * (l0 + l1), middle), (l1, middle)
+
+    @cached_property
+    def _orbits_on_line(self) -> tuple[list[tuple[float, Array]], bool]:
+        """Shares of the way along the line, with the orbits from there that are known; whether these are all."""
+        plan = self.work.plan(Computation.ROTATION)
+        count, crossings = _HELD[:2] if self.work.dragging else (plan.side(_ACROSS), self._crossings_on_line(plan))
+        starts = self.work.get(on_line, self.host.poincare, self.ends, count)
+        found: list[tuple[float, Array]] = []
+        for some in in_batches(starts):
+            task = self.host.batch(tuple(state for _, state in some), crossings, True, plan.level)
+            piece = self.work.soon(task.function, *task.arguments)
+            if piece is not None:
+                found += zip((share for share, _ in some), piece.orbits, strict=True)
+        return found, len(found) == len(starts)
+
+    def _crossings_on_line(self, plan: Plan) -> int:
+        return max(self.work.plan(Computation.SECTION).part(self.host.count), plan.part(_ON_LINE))
+
+    @cached_property
+    def found(self) -> RotationProfile:
+        """Rotation numbers along the line, as far as they are known; of few and short orbits while a slider is held."""
+        count = _HELD[0] if self.work.dragging else self.work.plan(Computation.ROTATION).side(_ACROSS)
+        return self._rotation_of(self._orbits_on_line[0], count)
+
+    @property
+    def _resolved(self) -> float:
+        return _HELD[2] if self.work.dragging else RESOLVED
+
+    def _rotation_of(self, found: list[tuple[float, Array]], count: int) -> RotationProfile:
+        return rotation_along(self.ends, [share for share, _ in found], [orbit for _, orbit in found],
+                              self.about_middle, count, self._resolved)
+
+    def at(self, plan: Plan) -> RotationProfile:
+        """Rotation numbers along the line, computed here and now."""
+        count = plan.side(_ACROSS)
+        starts = on_line(self.host.poincare, self.ends, count)
+        orbits = [orbit for some in in_batches(starts) for orbit in self.host.batch(
+            tuple(state for _, state in some), self._crossings_on_line(plan), True, plan.level).now().orbits]
+        return self._rotation_of([(share, orbit) for (share, _), orbit in zip(starts, orbits, strict=True)], count)
+
+    def message(self) -> str:
+        """Why there is nothing to see, when all is known."""
+        if self.found.numbers.size or not self._orbits_on_line[1]:
+            return ""
+        return ("No closed curve of the line goes round" if self.found.standing.size else
+                "No orbit of the line is a closed curve")
+
+    @property
+    def along(self) -> Range:
+        """From where to where the line goes, in its coordinate."""
+        return self.ends[0][self.axis], self.ends[1][self.axis]
+
+    @property
+    def names(self) -> tuple[str, str]:
+        """The names of the axes of its picture."""
+        return ("L/G" if self.axis else "l"), "ρ"
+
+    def parts_at_sea(self, axes: Axes) -> list[list[Array]]:
+        """Those of the line, as rectangles."""
+        low, high = axes.y
+        return [[np.array([[a, low], [b, low], [b, high], [a, high]])] for a, b in self.found.sea]
+
+    def caption(self) -> str:
+        """The caption."""
+        if not self.found.numbers.size:
+            return self.message() + "." if self._orbits_on_line[1] else "It is being computed."
+        rho = self.found.numbers
+        # A line through all of the section meets orbits of many kinds, whose numbers are no one function of the place.
+        turning = self.found.extremum if self.about_middle else None
+        still = self.found.standing.size
+        standing = f"; {still} {'does' if still == 1 else 'do'} not go round." if still else "."
+        low, high = self._turns(rho.min()), self._turns(rho.max())
+        if low == high:
+            return f"All closed curves have ρ = {low}{standing}"
+        return f"Closed curves: ρ = {low} … {high}" + (
+            standing if turning is None else
+            f", turns round at {digits(turning[0])} (ρ = {self._turns(turning[1])}): no twist.")
+
+    def _turns(self, rho: float) -> str:
+        """A rotation number, to what is known of it."""
+        return digits(round(float(rho) / self._resolved) * self._resolved)
+
+
+def _axis_of(found: RotationProfile) -> Range:
+    shown = np.concatenate([found.numbers, np.zeros(min(1, found.standing.size))])
+    return with_room(shown, 0.06, 1e-4) if found.numbers.size else (-0.56, 0.56)
+
+
+S = TypeVar("S", bound=State)
+
+
+def rotation_trial(of: Callable[[S], RotationAcross]) -> Trial[S]:
+    """Return how the rotation numbers of a state are computed at each level."""
+    def look(s: S, found: RotationProfile) -> Curves:
+        return Curves(Frame(Axes(of(s).along, _axis_of(found)), of(s).names), tuple(_branches(found)))
+
+    return Trial(Computation.ROTATION, ("rotation",), lambda s, plan: of(s).at(plan),
+                 lambda s, found, truth: found.distance(truth), look, unit="turns, the median", seen=RESOLVED)
+
+
+def _branches(found: RotationProfile) -> list[Array]:
+    return [np.column_stack(part) for part in zip(found.along, found.rho, strict=True)]
+
+
+def rotation_picture(of: Callable[[S], RotationAcross]) -> Plot[S]:
+    """Return ρ along the line, in branches, the orbits that it is known from, and where on the line there is none."""
+    return Plot(
+        name="rotation", title="Rotation number across the section", caption=lambda s: of(s).caption(),
+        axes=lambda s: of(s).names, first=Axes((-1.0, 1.0), (-0.5, 0.5)), message=lambda s: of(s).message(),
+        x=lambda s: of(s).along, y=lambda s: _axis_of(of(s).found),
+        layers=(
+            region("sea", within=lambda s, axes: of(s).parts_at_sea(axes), color=theme.MUTED + "38", moving=True,
+                   label="ρ does not settle"),
+            points("standing", lambda s: (of(s).found.standing, np.zeros(of(s).found.standing.size)), size=7,
+                   hollow=True, color=theme.MUTED, edge_width=1.5, label="does not go round: 0 turns"),
+            curves("rho", lambda s: _branches(of(s).found), color=theme.ORBIT),
+            # An orbit between two gaps is a curve of one point.
+            points("orbits", lambda s: (of(s).found.places, of(s).found.numbers), size=4, color=theme.ORBIT)))
