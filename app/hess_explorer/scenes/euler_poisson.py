@@ -13,7 +13,7 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.protocol.parameters import Value, Values, written
 from hess_explorer.scenes.framework.charted import Placed, exponents
-from hess_explorer.scenes.framework.moments import limits_of_moments
+from hess_explorer.scenes.framework.inertia import limits_of_moments
 from hess_explorer.scenes.framework.orbit_batches import OrbitBatch
 from hess_explorer.scenes.framework.parameters import (
     TURN,

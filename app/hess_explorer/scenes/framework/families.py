@@ -4,23 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol
 
 from hess_explorer.compute.cache import CACHE, Task
 from hess_explorer.protocol.parameters import Value
+from hess_explorer.scenes.framework.part import Sectioned
 from hess_explorer.scenes.framework.periodic_search import Closed, Missed, Place, sought
 from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
 from hess_mechanics.numerics.accuracy import PRECISE
 
 __all__ = ["Begin", "Family"]
-
-
-class Sectioned(Protocol):
-    """A state with a section."""
-
-    @property
-    def poincare(self) -> PoincareSection:
-        """The section in its coordinates.  Raises `ModelError`."""
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,9 @@ from typing import Generic, Protocol, Self, TypeVar
 
 from hess_explorer.protocol.parameters import Values
 from hess_explorer.scenes.framework.work import Work
+from hess_mechanics.dynamics.return_map import PoincareSection
 
-__all__ = ["Host", "Part", "Start"]
+__all__ = ["Host", "Part", "Sectioned", "Start"]
 
 Start = tuple[float, ...]
 """A state in which a motion starts."""
@@ -21,6 +22,14 @@ class Host(Protocol):
     @property
     def work(self) -> Work:
         """The computation of the state on show."""
+
+
+class Sectioned(Host, Protocol):
+    """A host with a section."""
+
+    @property
+    def poincare(self) -> PoincareSection:
+        """The section in its coordinates.  Raises `ModelError`."""
 
 
 H_co = TypeVar("H_co", bound=Host, covariant=True)

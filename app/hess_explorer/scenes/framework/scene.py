@@ -27,6 +27,7 @@ from hess_mechanics.numerics.accuracy import LEVELS, Computation, Level, Plan
 __all__ = ["Motion", "Preset", "Report", "Scene", "State"]
 
 S = TypeVar("S", bound="State")
+T = TypeVar("T")
 
 
 class Preset:
@@ -330,25 +331,16 @@ class Scene(Generic[S]):
         return {spec.name: cast(Value, getattr(state, spec.name)) for spec in self.specs}, notes
 
     def limits(self, values: Values) -> Mapping[str, Slider]:
-        """Slider ranges (low, high, step) that depend on the state of admitted values."""
-        try:
-            return self.of(values).limits()
-        except ModelError:
-            return {}
+        """Return slider ranges (low, high, step) that depend on the state of admitted values."""
+        return _or_nothing(lambda: self.of(values).limits())
 
     def idle(self, values: Values) -> Mapping[str, float]:
-        """The numbers that nothing depends on in the state of admitted values, and what they show."""
-        try:
-            return self.of(values).idle()
-        except ModelError:
-            return {}
+        """Return the numbers without effect in the state of admitted values, and what they show."""
+        return _or_nothing(lambda: self.of(values).idle())
 
     def carried(self, before: Values, values: Values) -> Mapping[str, float]:
-        """What has to follow so that the motion of the values before goes on with these, of other choices."""
-        try:
-            return self.of(values).carried(self.of(self.admit(before)[0]))
-        except ModelError:
-            return {}
+        """Return the changes with which the motion of the values before goes on with these, of other choices."""
+        return _or_nothing(lambda: self.of(values).carried(self.of(self.admit(before)[0])))
 
     def _meanings(self, values: Values) -> Mapping[str, str]:
         """What each number and choice of a state means, by its name; without those that nothing depends on."""
@@ -398,3 +390,11 @@ class Scene(Generic[S]):
         known = [name for name in found if name is not None]
         if known and len(known) == len(found):
             state.work.settle(max(known, key=[*LEVELS].index))
+
+
+def _or_nothing(found: Callable[[], Mapping[str, T]]) -> Mapping[str, T]:
+    """Return the mapping, or an empty one where it cannot be told."""
+    try:
+        return found()
+    except ModelError:
+        return {}

@@ -25,7 +25,7 @@ from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.free import FreeMotion
 from hess_mechanics.suslov_hess.equations import HessBody
 
-__all__ = ["Constrained", "ConstrainedBody", "Heavy", "HeavySolid", "Hess", "Solid", "constrained_body", "heavy_solid"]
+__all__ = ["Constrained", "Heavy", "Hess", "Solid", "constrained_body", "heavy_solid"]
 
 _LOST = 0.02
 """The largest step of γ, in radians, between a sample and the one that follows from it, of a motion that is drawn."""
@@ -185,29 +185,6 @@ class Heavy(Solid):
             return "No rigid body has these moments: no ellipsoid. r: the centre of mass."
         normal = "normal" if self.body.is_hess else "not normal"
         return f"Gyration ellipsoid; r, the centre of mass, is {normal} to its circular section."
-
-
-class ConstrainedBody(State):
-    """A state with a `body` of the Suslov problem, or a ball, and an `orbit`: states (ω1, ω2, γ), or a `FreeMotion`."""
-
-    @cached_property
-    def solid(self) -> Constrained:
-        """The body along it."""
-        scene: Any = self
-        orbit, p = scene.orbit, scene.body.parameters
-        omega, gamma = ((orbit.states[:, :2], orbit.states[:, 2:]) if hasattr(orbit, "states")
-                        else (orbit.omega, orbit.gamma))
-        return Constrained(orbit.times, omega, gamma, tuple(p[:4]), tuple(p[-3:]), self.work.get(check_body, *p[:4]))
-
-
-class HeavySolid(State):
-    """A state with a heavy `body` and an `orbit` with states (M, γ)."""
-
-    @cached_property
-    def solid(self) -> Heavy:
-        """The body along it."""
-        scene: Any = self
-        return Heavy.along(scene.body, scene.orbit.times, scene.orbit.states)
 
 
 S = TypeVar("S", bound=State)

@@ -14,7 +14,7 @@ from hess_explorer.compute.cache import CACHE, Task
 from hess_explorer.protocol.parameters import Number, Values
 from hess_explorer.scenes.framework.families import Begin, Family
 from hess_explorer.scenes.framework.parameters import Slider, choice, number, specs_of
-from hess_explorer.scenes.framework.part import Host, Part
+from hess_explorer.scenes.framework.part import Host, Part, Sectioned
 from hess_explorer.scenes.framework.periodic_search import PERIODS, Closed, Missed, Place
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.windows import Window
@@ -29,7 +29,7 @@ from hess_explorer.views.text import conjugates, digits, power
 from hess_mechanics.dynamics import continuation as mechanics
 from hess_mechanics.dynamics.continuation import Bifurcation, continued, gone_on
 from hess_mechanics.dynamics.periodic import Map, apart, find_periodic
-from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
+from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.errors import ModelError
 from hess_mechanics.numerics.patience import go_on
@@ -308,11 +308,7 @@ class _Orbit(Protocol):
         """The first place of the chosen orbit."""
 
 
-class _Section(Host, Protocol):
-    @property
-    def poincare(self) -> PoincareSection:
-        """The section in its coordinates.  Raises `ModelError`."""
-
+class _Section(Sectioned, Protocol):
     @property
     def over(self) -> str: ...
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from hess_explorer.scenes.framework.cells import CELLS, COARSE, Arguments, changed, found_by_rows, look
 from hess_explorer.scenes.framework.parameters import choice
-from hess_explorer.scenes.framework.part import Host, Part
+from hess_explorer.scenes.framework.part import Part, Sectioned
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.trial import Trial
 from hess_explorer.scenes.framework.windows import Window
@@ -21,7 +21,6 @@ from hess_explorer.views.layers import Layer
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.megno import CHAOTIC, REGULAR
 from hess_mechanics.dynamics.megno_map import row_of_cells, time_of
-from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.numerics.accuracy import Computation, Plan
 from hess_mechanics.numerics.results import Array
 
@@ -39,11 +38,7 @@ def colouring() -> Any:
                       "whether volume about it shrinks.")
 
 
-class _Host(Host, Protocol):
-    @property
-    def poincare(self) -> PoincareSection:
-        """The section in its coordinates.  Raises `ModelError`."""
-
+class _Host(Sectioned, Protocol):
     @property
     def frame(self) -> Window:
         """What of the section is seen."""

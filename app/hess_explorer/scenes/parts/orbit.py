@@ -5,18 +5,23 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol
+from typing import Protocol, TypeVar
 
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.part import Host, Part
-from hess_explorer.scenes.framework.scene import Motion
+from hess_explorer.scenes.framework.scene import Motion, State
 from hess_explorer.scenes.framework.work import orbit_status
+from hess_explorer.views import theme
+from hess_explorer.views.graph import with_room
+from hess_explorer.views.layers import Columns, Range, column, line
+from hess_explorer.views.plot import Plot
+from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.sampling import sampled_orbit
 from hess_mechanics.dynamics.system import Body
 from hess_mechanics.numerics import results
 from hess_mechanics.numerics.accuracy import Level
 
-__all__ = ["Orbit"]
+__all__ = ["Orbit", "orbit_picture"]
 
 
 class _Host(Host, Protocol):
@@ -69,3 +74,23 @@ class Orbit(Part[_Host]):
         """Yield size, cost and error."""
         if self.asked("path"):
             yield orbit_status(self.path)[0]
+
+    @property
+    def columns(self) -> Columns:
+        """The track of the orbit: t and each variable, by name."""
+        states = zip(self.host.body.system.variables, self.path.states.T, strict=True)
+        return {"t": column(self.path.times), **{name: column(values) for name, values in states}}
+
+
+S = TypeVar("S", bound=State)
+
+
+def orbit_picture(of: Callable[[S], Orbit], x: str, y: str, title: str = "The orbit") -> Plot[S]:
+    """Return the picture of the orbit in the plane of two variables; the scene has `columns` as its track "orbit"."""
+    def room_for(name: str) -> Callable[[S], Range]:
+        return lambda s: with_room(of(s).columns[name], 0.06, 1e-3)
+
+    return Plot(
+        name="orbit", title=title, caption=lambda s: f"From t = 0 to t = {digits(of(s).host.lasts)}.", axes=(x, y),
+        x=room_for(x), y=room_for(y), dot=(x, y),
+        layers=(line("orbit", track="orbit", columns=(x, y), color=theme.ORBIT, width=2.5, label="orbit"),))

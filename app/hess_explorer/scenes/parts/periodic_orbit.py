@@ -11,7 +11,7 @@ import numpy as np
 
 from hess_explorer.protocol.parameters import Value
 from hess_explorer.scenes.framework.parameters import choice, number
-from hess_explorer.scenes.framework.part import Host, Part
+from hess_explorer.scenes.framework.part import Part, Sectioned
 from hess_explorer.scenes.framework.periodic_search import (
     ANY,
     AT_ITS_LENGTH,
@@ -34,7 +34,7 @@ from hess_explorer.views.layers import Layer
 from hess_explorer.views.text import conjugates, digits, power
 from hess_mechanics.dynamics import periodic as mechanics
 from hess_mechanics.dynamics.manifolds import Intersection, Manifold
-from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
+from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.numerics.accuracy import PRECISE, Status
 
 __all__ = ["NONE", "PeriodicOrbit", "layers", "length_of_manifolds", "plain", "which"]
@@ -62,11 +62,7 @@ def plain(preset: Preset) -> Preset:
     return Preset(preset.name, **values)
 
 
-class _Host(Host, Protocol):
-    @property
-    def poincare(self) -> PoincareSection:
-        """The section in its coordinates.  Raises `ModelError`."""
-
+class _Host(Sectioned, Protocol):
     @property
     def given(self) -> tuple[float, ...]:
         """The state from which the chosen orbit starts.  Raises `ModelError`."""

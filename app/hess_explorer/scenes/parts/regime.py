@@ -8,10 +8,9 @@ from typing import Protocol
 
 import numpy as np
 
-from hess_explorer.scenes.framework.part import Host, Part
+from hess_explorer.scenes.framework.part import Part, Sectioned
 from hess_explorer.views.text import digits
 from hess_mechanics.dynamics.parameter_diagram import AtState, Sets, at_state, sets_of
-from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.numerics.accuracy import Computation
 from hess_mechanics.numerics.results import Array
 
@@ -22,11 +21,7 @@ _MANY = 24
 """Places that are drawn large, as dots would hardly be seen."""
 
 
-class _Host(Host, Protocol):
-    @property
-    def poincare(self) -> PoincareSection:
-        """The section in its coordinates.  Raises `ModelError`."""
-
+class _Host(Sectioned, Protocol):
     @property
     def place(self) -> tuple[float, float]:
         """Where the motion starts.  Raises `ModelError`."""

@@ -11,25 +11,28 @@ from typing import Any, Protocol, TypeVar
 import numpy as np
 
 from hess_explorer.compute.cache import Task
+from hess_explorer.protocol.parameters import places, written
 from hess_explorer.scenes.framework.parameters import number
-from hess_explorer.scenes.framework.part import Host, Part
+from hess_explorer.scenes.framework.part import Part, Sectioned, Start
 from hess_explorer.scenes.framework.periodic_search import Closed, none_closed
 from hess_explorer.scenes.framework.scene import State
 from hess_explorer.scenes.framework.trial import Trial, section_error
 from hess_explorer.scenes.framework.windows import Window, frame_of
 from hess_explorer.scenes.framework.work import drift_status, kept_status
+from hess_explorer.views import section_plane
 from hess_explorer.views.comparison import Marks
-from hess_explorer.views.layers import Axes
+from hess_explorer.views.layers import Axes, Range
+from hess_explorer.views.plot import Plot
 from hess_explorer.views.section_plane import joined
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.sampling import PIXELS
 from hess_mechanics.dynamics.section import SectionPoints, section_points
 from hess_mechanics.dynamics.shadowing import right_crossings, typical
-from hess_mechanics.errors import WorkLimit
+from hess_mechanics.errors import OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import Computation, Level, Plan
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["Section", "crossings_of_each", "section_trial"]
+__all__ = ["Section", "crossings_of_each", "section_picture", "section_trial", "start_on"]
 
 _FEW = 30
 """Crossings of each orbit, while a slider is dragged and until all are known."""
@@ -51,13 +54,18 @@ def crossings_of_each() -> Any:
                   doc="Points for each orbit.", group="Computation")
 
 
-class _Host(Host, Protocol):
-    @property
-    def poincare(self) -> PoincareSection:
-        """The section in its coordinates.  Raises `ModelError`."""
+def start_on(section: PoincareSection, text: str) -> Start:
+    """Return the state at the last of some places, written as in a link.  Raises `OutsideRegion`, without any too."""
+    states, there = section.states_at(*np.array(places(text)[-1:]).reshape(-1, 2).T)
+    if not there.any():
+        names = " and ".join(section.names)
+        raise OutsideRegion(f"No motion crosses the section at this {names}: choose another place, or a larger energy.")
+    return tuple(map(float, states[0]))
 
+
+class _Host(Sectioned, Protocol):
     @property
-    def given(self) -> tuple[float, ...]:
+    def given(self) -> Start:
         """The state from which the chosen orbit starts.  Raises `ModelError`."""
 
     @property
@@ -97,7 +105,7 @@ class Section(Part[_Host]):
         return self.host.poincare
 
     @property
-    def given(self) -> tuple[float, ...]:
+    def given(self) -> Start:
         """The state from which the chosen orbit starts.  Raises `ModelError`."""
         return self.host.given
 
@@ -199,6 +207,13 @@ class Section(Part[_Host]):
             for coarse, fine in zip((crossed.own, crossed.others), tight, strict=True) if fine is not None)
         return own[0], typical(others)
 
+    @property
+    def caption(self) -> str:
+        """How much is drawn, or why nothing is."""
+        if self.own is None or self.others is None:
+            return self.reason
+        return f"{len(self.own)} crossings of the chosen orbit, {len(self.others)} of others."
+
     def status(self) -> Iterator[str]:
         """Yield size, cost and drift."""
         if self.asked("crossed") and self.crossed.own and self.crossed.others:
@@ -230,6 +245,24 @@ def _spread(poincare: PoincareSection, crossings: int, level: Level) -> SectionP
 
 
 S = TypeVar("S", bound=State)
+
+
+def section_picture(of: Callable[[S], Section], start: str, title: str = "Poincaré section") -> Plot[S]:
+    """Return the picture of a section, in which a click chooses where the orbit starts.
+
+    start : the name of the parameter with its place, see `places`.
+    """
+    def range_of(axis: int) -> Callable[[S], Range]:
+        return lambda s: (of(s).frame[0][axis], of(s).frame[1][axis])
+
+    def names(s: S) -> tuple[str, str]:
+        first, second = of(s).poincare.names
+        return first, second
+
+    return Plot(
+        name="section", title=title, caption=lambda s: of(s).caption, axes=names, x=range_of(0), y=range_of(1),
+        message=lambda s: of(s).reason, on_click=lambda s, x, y: {start: written([(x, y)])},
+        layers=section_plane.layers(lambda s: of(s).points, others=lambda s: of(s).others))
 
 
 def section_trial(of: Callable[[S], Section]) -> Trial[S]:
