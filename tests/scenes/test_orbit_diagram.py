@@ -359,10 +359,10 @@ def test_a_click_chooses_a_state_that_is_there_and_a_box_looks_closer():
     assert chosen["I23"] == pytest.approx(0.0501, abs=0.0016)
     there = SCENE.compute({**SCENE.defaults(), **chosen}, ("section",), True)
     # The motion there is on its attractor from the beginning, at the upper of its two places; of a drag, to 1e-3.
-    orbit = there.sets.attractor
-    assert np.abs(orbit - there.place).max(axis=1).min() < 1e-4
+    orbit = there.regime.sets.attractor
+    assert np.abs(orbit - there.diagram.place).max(axis=1).min() < 1e-4
     assert len(np.unique(np.round(orbit[-20:, 0], 3))) == 2
-    assert there.place[0] == pytest.approx(orbit[-20:, 0].max(), abs=1e-3)
+    assert there.diagram.place[0] == pytest.approx(orbit[-20:, 0].max(), abs=1e-3)
     view = next(one for one in SCENE.views if one.name == "diagram")
     box = view.on_box(state, (0.05, 0.6, 0.15, 1.1))
     assert box == {"window": "0.05,0.6;0.15,1.1"}
