@@ -367,7 +367,7 @@ def test_a_click_chooses_a_state_that_is_there_and_a_box_looks_closer():
     box = view.on_box(state, (0.05, 0.6, 0.15, 1.1))
     assert box == {"window": "0.05,0.6;0.15,1.1"}
     closer = SCENE.compute({**SCENE.defaults(), **box}, ("diagram",), True)
-    assert (closer.along_values[0], closer.along_values[-1]) == (0.05, 0.15)
+    assert (closer.diagram.along_values[0], closer.diagram.along_values[-1]) == (0.05, 0.15)
     # Edges beyond the bounds are one value there.
     beyond, _ = SCENE.admit({**SCENE.defaults(), "first": 1000.0, "last": 1422.5})
     assert (beyond["first"], beyond["last"]) == (999.0, 1000.0)
