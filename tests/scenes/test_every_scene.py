@@ -467,7 +467,8 @@ def assert_drawn(scene, values, seen, dragging):
         assert orbit["t"][0] == 0.0
         assert np.all(np.diff(orbit["t"]) >= 0.0)
         # A periodic orbit is followed once round, however long that takes.
-        closed = admitted.get("periodic", "none") != "none" and (state.shown if scene.origin else state).periodic_orbit.closed
+        shown = state.shown if scene.origin else state
+        closed = admitted.get("periodic", "none") != "none" and shown.periodic_orbit.closed
         assert 0.0 < orbit["t"][-1] <= (closed.time if closed else admitted.get("span", math.inf)) * (1.0 + 1e-6)
 
 
