@@ -32,6 +32,7 @@ from hess_explorer.scenes.parts.proof import Proof, proved_error_shown
 from hess_explorer.scenes.parts.section import Section, crossings_of_each, section_trial
 from hess_explorer.views import scattering_map as square
 from hess_explorer.views import section_plane
+from hess_explorer.views.graph import ANGLE, ANGLE_TICKS
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.poisson_sphere import Direction, along_the_orbit, centre_of_mass
@@ -279,7 +280,7 @@ SCENE = Scene(
     views=(
         constrained_body(ball=True),
         Plot(name="section", title="Section: γ₃ grows through 0", caption=BallSection._about_section,
-             axes=_NAMES, x=square.AZIMUTH, y=square.POLAR, ticks=square.AZIMUTH_TICKS,
+             axes=_NAMES, x=ANGLE, y=square.POLAR, ticks=ANGLE_TICKS,
              y_ticks=square.POLAR_TICKS, message=lambda s: s.section.reason,
              on_click=BallSection.start_at,
              layers=(indicator_layer(lambda s: s.megno), *section_plane.layers(
@@ -290,7 +291,7 @@ SCENE = Scene(
                     proved=lambda s: s.proof.band),
         along_the_orbit(lambda s: s.r, lambda s: s.proof.around),
         Plot(name="returns", title="First return", folded="Show the first return", caption=BallSection._about_returns,
-             axes=("ψ", "ψ at the next crossing"), x=square.AZIMUTH, y=square.AZIMUTH, ticks=square.AZIMUTH_TICKS,
+             axes=("ψ", "ψ at the next crossing"), x=ANGLE, y=ANGLE, ticks=ANGLE_TICKS,
              message=lambda s: s.section.reason, layers=section_plane.layers(BallSection.returns)),
         branch_picture(lambda s: s.branch),
     ),

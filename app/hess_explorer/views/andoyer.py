@@ -9,6 +9,7 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
+from hess_explorer.views.graph import ANGLE, ANGLE_TICKS
 from hess_explorer.views.layers import Layer, curves, dots, line, ring
 from hess_explorer.views.plot import Plot
 from hess_mechanics.numerics.results import Array
@@ -17,7 +18,6 @@ __all__ = ["between", "picture"]
 
 S = TypeVar("S")
 
-_L_TICKS = [(-math.pi, "−π"), (-math.pi / 2, "−π/2"), (0.0, "0"), (math.pi / 2, "π/2"), (math.pi, "π")]
 _X_TICKS = [(-1.0, "−1"), (-0.5, "−½"), (0.0, "0"), (0.5, "½"), (1.0, "1")]
 
 
@@ -25,8 +25,8 @@ def picture(title: str, caption: Callable[[S], str], relation: Callable[[S], Arr
             color: str = theme.ORBIT) -> Plot[S]:
     """The Hess relation and an orbit, (l, L/G) in rows (n, 2) of each, with a ring where the orbit starts."""
     return Plot(
-        name="andoyer", title=title, caption=caption, axes=("l", "L/G"), x=(-math.pi, math.pi), y=(-1.0, 1.0),
-        ticks=_L_TICKS, y_ticks=_X_TICKS, dot=("l", "x"), layers=(
+        name="andoyer", title=title, caption=caption, axes=("l", "L/G"), x=ANGLE, y=(-1.0, 1.0),
+        ticks=ANGLE_TICKS, y_ticks=_X_TICKS, dot=("l", "x"), layers=(
             curves("hess", lambda s: _parts(relation(s)), color=theme.STABLE, label="Hess manifold, r·M = 0"),
             curves("orbit", lambda s: _parts(orbit(s)), color=color),
             ring("chosen", lambda s: [(float(orbit(s)[0, 0]), float(orbit(s)[0, 1]))], size=18, label="start")))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from typing import TypeVar
 
 import numpy as np
@@ -79,7 +78,6 @@ def layers(branches: Callable[[S], Sequence[Branch]], side: Callable[[S], int], 
         found = [(x, y) for x, y, _ in marked(state, axes)]
         return np.array(found).T if found else None
 
-    words: Layer[S] = names("bifurcation-names", lambda state: [])
     return (
         curves("branch-attracts", within=parts("attracts"), color=theme.STABLE, width=3.0,
                label="branch of a stable periodic orbit"),
@@ -89,9 +87,7 @@ def layers(branches: Callable[[S], Sequence[Branch]], side: Callable[[S], int], 
                label="of an unstable one"),
         points("bifurcations", within=places, size=10, color=theme.POINT, edge=theme.INK, edge_width=1.5,
                label="its bifurcations"),
-        replace(words, style={**words.style, "text_font_size": "13px", "text_baseline": "bottom", "y_offset": -7},
-                data=None, within=lambda state, axes: dict(zip(words.columns, map(list, zip(
-                    *marked(state, axes), strict=True)), strict=False))),
+        names("bifurcation-names", within=marked, size=13, above=7),
     )
 
 

@@ -10,7 +10,8 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.comparison import Curves, Frame
-from hess_explorer.views.layers import Axes, Layer, curves, line, points
+from hess_explorer.views.graph import ANGLE, ANGLE_TICKS
+from hess_explorer.views.layers import Axes, Layer, curves, line, mapped, points
 from hess_explorer.views.picture import Values
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
@@ -18,18 +19,16 @@ from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.invariant_measure import invariant_measure
 
-__all__ = ["EVENLY", "SIDE", "TICKS", "about", "cobweb", "look", "picture", "riccati_matrix"]
+__all__ = ["EVENLY", "about", "cobweb", "look", "picture", "riccati_matrix"]
 
 S = TypeVar("S")
 Click = Callable[[S, float, float], Values]
 
-SIDE = (-math.pi, math.pi)
-TICKS = [(-math.pi, "−π"), (-math.pi / 2, "−π/2"), (0.0, "0"), (math.pi / 2, "π/2"), (math.pi, "π")]
 _COBWEB = 60
 """Returns that are drawn."""
 EVENLY = 0.25
 """Where an even density is drawn, as a share of the height of the frame; 0 is at its bottom."""
-_DENSITY = np.linspace(*SIDE, 241)
+_DENSITY = np.linspace(*ANGLE, 241)
 _BEYOND = 100.0
 """A density, relative to an even one, that is beyond the frame."""
 
@@ -39,23 +38,20 @@ def cobweb(iterates: Array) -> tuple[Array, Array]:
     return np.repeat(iterates, 2)[:-1], np.repeat(iterates, 2)[1:]
 
 
-def _copies(circle_map: CircleMap | None) -> list[Array]:
+def _copies(circle_map: CircleMap) -> list[Array]:
     """The graph and its copies one turn up and down: the frame cuts out the square."""
-    if circle_map is None:
-        return []
     phi, theta = circle_map.graph
     return [np.column_stack([phi, theta + turn]) for turn in (0.0, -2 * math.pi, 2 * math.pi)]
 
 
-def _fixed(circle_map: CircleMap | None, stable: bool) -> tuple[list[float], list[float]]:
-    found = [point.phi for point in (circle_map.fixed_points if circle_map else ())
-             if (point.log_multiplier <= 0) == stable]
+def _fixed(circle_map: CircleMap, stable: bool) -> tuple[list[float], list[float]]:
+    found = [point.phi for point in circle_map.fixed_points if (point.log_multiplier <= 0) == stable]
     return found, found
 
 
-def _density(circle_map: CircleMap | None) -> list[Array]:
+def _density(circle_map: CircleMap) -> list[Array]:
     """The invariant density over the bottom of the frame, if there is a smooth one."""
-    if circle_map is None or circle_map.kind != "elliptic":
+    if circle_map.kind != "elliptic":
         return []
     relative = np.minimum(_BEYOND, 2.0 * math.pi * invariant_measure(circle_map).density(_DENSITY))
     return [np.column_stack([_DENSITY, -math.pi + EVENLY * 2.0 * math.pi * relative])]
@@ -64,36 +60,33 @@ def _density(circle_map: CircleMap | None) -> list[Array]:
 def picture(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array | None], caption: Callable[[S], str],
             title: str = "Circle map", dot: tuple[str, str] | None = None, on_click: Click[S] | None = None) -> Plot[S]:
     """The map of a torus, None on the separatrix, with fixed points or density and the cobweb of the first iterates."""
-    return Plot(name="circle", title=title, caption=caption, axes=("φ", "Θ(φ)"), x=SIDE, y=SIDE, ticks=TICKS, dot=dot,
-                message=lambda s: "" if map(s) is not None else "Separatrix: no return", on_click=on_click,
-                layers=_layers(map, iterates))
+    return Plot(name="circle", title=title, caption=caption, axes=("φ", "Θ(φ)"), x=ANGLE, y=ANGLE, ticks=ANGLE_TICKS,
+                dot=dot, message=lambda s: "" if map(s) is not None else "Separatrix: no return",
+                on_click=on_click, layers=_layers(map, iterates))
 
 
 def look(phi: Array, theta: Array) -> Curves:
     """Θ (n,) over the phases (n,) and its copies, for comparisons."""
     lifted = np.unwrap(theta)
     lifted = lifted - 2.0 * math.pi * np.round(lifted[len(lifted) // 2] / (2.0 * math.pi))
-    return Curves(Frame(Axes(SIDE, SIDE), ("φ", "Θ(φ)")), tuple(
+    return Curves(Frame(Axes(ANGLE, ANGLE), ("φ", "Θ(φ)")), tuple(
         np.column_stack([phi, lifted + turn]) for turn in (0.0, -2.0 * math.pi, 2.0 * math.pi)))
 
 
 def _layers(map: Callable[[S], CircleMap | None], iterates: Callable[[S], Array | None]) -> tuple[Layer[S], ...]:
     """Θ, the diagonal, fixed points, stable ones filled and unstable ones hollow, or the density; the cobweb."""
     here = ("phi", "theta")
-
-    def staircase(state: S) -> tuple[Array, Array] | None:
-        found = iterates(state)
-        return None if found is None else cobweb(found[: _COBWEB + 1])
-
     return (
-        line("diagonal", lambda s: None if map(s) is None else (SIDE, SIDE), columns=here, moving=False,
+        line("diagonal", mapped(map, lambda theta: (ANGLE, ANGLE)), columns=here, moving=False,
              color=theme.MUTED, dash="dotted", width=1.5),
-        curves("density", lambda s: _density(map(s)), color=theme.STABLE, width=1.5, label="invariant density"),
-        line("cobweb", staircase, columns=here, color=theme.ORBIT, width=1),
-        curves("map", lambda s: _copies(map(s)), color=theme.MAP, width=2.5, label="circle map Θ"),
-        points("stable", lambda s: _fixed(map(s), True), columns=here, size=12, edge_width=3, color=theme.STABLE),
-        points("unstable", lambda s: _fixed(map(s), False), columns=here, size=12, edge_width=3, hollow=True,
-               color=theme.UNSTABLE),
+        curves("density", mapped(map, _density), color=theme.STABLE, width=1.5, label="invariant density"),
+        line("cobweb", mapped(iterates, lambda found: cobweb(found[: _COBWEB + 1])), columns=here,
+             color=theme.ORBIT, width=1),
+        curves("map", mapped(map, _copies), color=theme.MAP, width=2.5, label="circle map Θ"),
+        points("stable", mapped(map, lambda theta: _fixed(theta, True)), columns=here, size=12, edge_width=3,
+               color=theme.STABLE),
+        points("unstable", mapped(map, lambda theta: _fixed(theta, False)), columns=here, size=12, edge_width=3,
+               hollow=True, color=theme.UNSTABLE),
     )
 
 

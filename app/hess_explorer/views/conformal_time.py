@@ -9,7 +9,7 @@ import numpy as np
 
 from hess_explorer.views import theme
 from hess_explorer.views.graph import about_0, over_time, pieces, thinned
-from hess_explorer.views.layers import Axes, Layer, Range, curves, levels
+from hess_explorer.views.layers import Axes, Layer, curves, levels, mapped
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import power
 from hess_mechanics.numerics.results import Array
@@ -49,20 +49,14 @@ def picture(found: Found[S], reason: Callable[[S], str], span: Callable[[S], flo
         motion = found(state)
         return reason(state) if motion is None else about(motion)
 
-    def height(state: S) -> Range | None:
-        motion = found(state)
-        return None if motion is None else about_0(motion.tau, _LEAST)
-
-    def tau(state: S) -> tuple[Array, Array] | None:
-        motion = found(state)
-        return None if motion is None else thinned(motion.orbit.times, motion.tau)
-
     layers: tuple[Layer[S], ...] = (
         levels("levels", lambda s: [] if found(s) is None else [0.0]),
         curves("first", within=_bracket(found, 2), color=theme.MAP, width=1.5, label="{ω₁, γ₃} = γ₂/(I₁₁γ₃)"),
         curves("second", within=_bracket(found, 3), color=theme.MUTED, width=1.5, dash="dashed",
                label="{ω₂, γ₃} = −γ₁/(I₂₂γ₃)"),
-        over_time("tau", tau, color=theme.ORBIT, label="conformal time τ"))
+        over_time("tau", mapped(found, lambda motion: thinned(motion.orbit.times, motion.tau)), color=theme.ORBIT,
+                  label="conformal time τ"))
     return Plot(name="conformal", title="Conformal time and brackets", caption=caption, axes=("t", "τ"),
-                first=Axes((0.0, 60.0), (-3.0, 3.0)), x=lambda s: (0.0, span(s)), y=height, layers=layers,
-                folded="Show the conformal time")
+                first=Axes((0.0, 60.0), (-3.0, 3.0)), x=lambda s: (0.0, span(s)),
+                y=mapped(found, lambda motion: about_0(motion.tau, _LEAST)),
+                layers=layers, folded="Show the conformal time")

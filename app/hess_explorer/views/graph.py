@@ -8,14 +8,18 @@ from typing import TypeVar
 
 import numpy as np
 
-from hess_explorer.views.layers import Layer, Range, curves
+from hess_explorer.views.layers import Layer, Range, curves, mapped
 from hess_explorer.views.velocity_plane import centred, nice_above
 from hess_mechanics.numerics.results import Array, Mask
 
-__all__ = ["about_0", "branches", "over_time", "pieces", "settled_range", "thinned", "with_room"]
+__all__ = ["ANGLE", "ANGLE_TICKS", "about_0", "branches", "over_time", "pieces", "settled_range", "thinned",
+           "with_room"]
 
 S = TypeVar("S")
 
+ANGLE: Range = (-math.pi, math.pi)
+"""The axis of an angle."""
+ANGLE_TICKS = ((-math.pi, "−π"), (-math.pi / 2, "−π/2"), (0.0, "0"), (math.pi / 2, "π/2"), (math.pi, "π"))
 _POINTS = 600
 """Of a curve over a long time, as many as a picture shows."""
 
@@ -23,11 +27,7 @@ _POINTS = 600
 def over_time(name: str, data: Callable[[S], tuple[Array, Array] | None], *, color: str, dash: str = "solid",
               label: str = "") -> Layer[S]:
     """A graph: data(state) = times and values (n,), or None where it is not known."""
-    def graph(state: S) -> list[Array]:
-        found = data(state)
-        return [] if found is None else [np.column_stack(found)]
-
-    return curves(name, graph, color=color, dash=dash, label=label)
+    return curves(name, mapped(data, lambda found: [np.column_stack(found)]), color=color, dash=dash, label=label)
 
 
 def settled_range(curves: Sequence[Array]) -> Range:

@@ -8,7 +8,7 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
-from hess_explorer.views.layers import CellGrid, Layer, Sign, dots, image, ring
+from hess_explorer.views.layers import CellGrid, Layer, Sign, dots, image, mapped, ring
 from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.numerics.results import Array
 
@@ -47,11 +47,7 @@ def _grid(cells: Callable[[S], Array | None], window: Callable[[S], Window]) -> 
 def _kinds(name: str, cells: Callable[[S], Array | None], window: Callable[[S], Window], colors: tuple[str, ...],
            labels: tuple[str, ...]) -> Layer[S]:
     """Cells (m, n) over the window: 0, 1, … by the kind of each, any others as the last; −1 where there is nothing."""
-
-    def shifted(state: S) -> Array | None:
-        found = cells(state)
-        return None if found is None else np.minimum(found, len(colors) - 1) + 1.5
-
+    shifted = mapped(cells, lambda found: np.minimum(found, len(colors) - 1) + 1.5)
     return image(name, _grid(shifted, window), palette=(_CLEAR, *colors), low=0.0, high=len(colors) + 1.0, kinds=True,
                  legend=tuple(Sign(label, "box", f"background: {color}", i + 1.0)
                               for i, (label, color) in enumerate(zip(labels, colors, strict=True))))

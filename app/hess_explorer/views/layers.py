@@ -33,6 +33,7 @@ __all__ = [
     "image",
     "levels",
     "line",
+    "mapped",
     "names",
     "points",
     "region",
@@ -42,6 +43,8 @@ __all__ = [
 ]
 
 S = TypeVar("S")
+T = TypeVar("T")
+U = TypeVar("U")
 Range = tuple[float, float]
 Columns = Mapping[str, Any]
 """Columns of a source by name: arrays, or lists of arrays and plain values."""
@@ -110,6 +113,16 @@ MESSAGE: Layer[Any] = Layer("message", "text", ("x", "y", "text"), {
 """A sentence where there is nothing to see."""
 
 
+def mapped(get: Callable[[S], T | None], make: Callable[[T], U]) -> Callable[[S], U | None]:
+    """Return the function of a state that makes something of what `get` finds there; None where that is None."""
+
+    def of(state: S) -> U | None:
+        found = get(state)
+        return None if found is None else make(found)
+
+    return of
+
+
 def column(values: Any) -> Array:
     """Return numbers as a contiguous array in double precision; the wire sends a screen's single precision."""
     return np.ascontiguousarray(values, dtype=np.float64)
@@ -164,10 +177,10 @@ def line(name: str, data: Callable[[S], Any] | None = None, *, color: str, width
                   within)
 
 
-def curves(name: str, data: Callable[[S], Sequence[Array]] | None = None, *, color: str, width: float = 2.0,
+def curves(name: str, data: Callable[[S], Sequence[Array] | None] | None = None, *, color: str, width: float = 2.0,
            dash: str = "solid", alpha: float = 1.0, label: str = "", moving: bool = True,
            within: Callable[[S, Axes], Any] | None = None) -> Layer[S]:
-    """Some curves: data(state) = arrays (n, 2)."""
+    """Some curves: data(state) = arrays (n, 2), or None."""
     layer: Layer[S] = Layer(name, "multi_line", ("xs", "ys"), moving=moving)
     return _layer(_stroked(layer, color, width, dash, alpha, label), _parts, data, within)
 
@@ -261,11 +274,13 @@ def levels(name: str, data: Callable[[S], Sequence[float]]) -> Layer[S]:
     return Layer(name, "segment", ("x0", "y0", "x1", "y1"), style, within=across)
 
 
-def names(name: str, data: Callable[[S], Sequence[tuple[float, float, str]]]) -> Layer[S]:
-    """Words about places of the part that is impossible: data(state) = [(x, y, word), …]."""
+def names(name: str, data: Callable[[S], Sequence[tuple[float, float, str]]] | None = None, *, size: int = 16,
+          above: int = 0, within: Callable[[S, Axes], Any] | None = None) -> Layer[S]:
+    """Words at places, or so many pixels above them: data(state) = [(x, y, word), …]."""
     layer: Layer[S] = Layer(name, "text", ("x", "y", "text"), {
-        "text_color": theme.INK, "text_font_size": "16px", "text_align": "center", "text_baseline": "middle"})
-    return _layer(layer, lambda value: _rows(layer.columns, value), data)
+        "text_color": theme.INK, "text_font_size": f"{size}px", "text_align": "center",
+        "text_baseline": "bottom" if above else "middle", "y_offset": -above})
+    return _layer(layer, lambda value: _rows(layer.columns, value), data, within)
 
 
 def text(name: str, data: Callable[[S], str]) -> Layer[S]:

@@ -120,20 +120,21 @@ class Plot(Picture[S]):
         assert axes is not None
         found = {self.source_of(layer): layer.within(state, axes) for layer in self.layers if layer.within is not None}
         sentence = "" if self.message is None else self.message(state)
-        names = {} if isinstance(self.axes, tuple) else {f"{self.name}-axes": {"text": list(self.axes(state))}}
-        return {**found, **names, f"{self.name}-message": self._said(sentence, axes)}
+        return {**found, **self._words(self.names(state), sentence, axes)}
 
     def nothing(self, sentence: str, axes: Axes | None) -> dict[str, Columns]:
         """The columns of all its sources where there is nothing to see but the reason."""
         assert axes is not None
         empty: dict[str, Columns] = {self.source_of(layer): {} for layer in (*self.layers, POINT)}
-        names = {} if isinstance(self.axes, tuple) else {f"{self.name}-axes": {"text": [" ", " "]}}
-        return {**empty, **names, f"{self.name}-message": self._said(sentence, axes)}
+        return {**empty, **self._words((" ", " "), sentence, axes)}
 
-    def _said(self, sentence: str, axes: Axes) -> Columns:
-        return {} if not sentence else {
+    def _words(self, names: tuple[str, str], sentence: str, axes: Axes) -> dict[str, Columns]:
+        """The columns of the names of its axes, where those depend on the state, and of the message."""
+        message: Columns = {} if not sentence else {
             "x": [_middle(axes.x, "x" in self.log)], "y": [_middle(axes.y, "y" in self.log)],
             "text": [textwrap.fill(sentence, 24)]}
+        renamed = {f"{self.name}-axes": {"text": list(names)}} if callable(self.axes) else {}
+        return {**renamed, f"{self.name}-message": message}
 
 
 def _has(columns: Columns, layer: Layer[Any], sign: Sign) -> bool:

@@ -11,6 +11,7 @@ from bokeh.palettes import Cividis256
 
 from hess_explorer.views import theme
 from hess_explorer.views.comparison import Frame
+from hess_explorer.views.graph import ANGLE, ANGLE_TICKS
 from hess_explorer.views.layers import Axes, CellGrid, Layer, Range, Sign, curves, image, line, ring, target
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
@@ -18,16 +19,14 @@ from hess_explorer.views.velocity_plane import nice_above
 from hess_mechanics.numerics.results import Array
 
 __all__ = [
-    "AZIMUTH", "AZIMUTH_TICKS", "FRAME", "POLAR", "POLAR_TICKS", "cosine_axis", "over_orders", "over_phases",
+    "FRAME", "POLAR", "POLAR_TICKS", "cosine_axis", "over_orders", "over_phases",
     "over_square", "spread",
 ]
 
 S = TypeVar("S")
 
-AZIMUTH: Range = (-math.pi, math.pi)
 POLAR: Range = (0.0, math.pi)
-AZIMUTH_TICKS = ((-math.pi, "−π"), (-math.pi / 2, "−π/2"), (0.0, "0"), (math.pi / 2, "π/2"), (math.pi, "π"))
-FRAME = Frame(Axes(AZIMUTH, POLAR), ("φ", "θ⁺"))
+FRAME = Frame(Axes(ANGLE, POLAR), ("φ", "θ⁺"))
 """Of a curve θ⁺(φ)."""
 POLAR_TICKS = ((0.0, "0"), (math.pi / 4, "π/4"), (math.pi / 2, "π/2"), (3 * math.pi / 4, "3π/4"), (math.pi, "π"))
 
@@ -36,19 +35,19 @@ def over_square(caption: Callable[[S], str], theta_plus: Callable[[S], Array],
                 here: Callable[[S], tuple[float, float]]) -> Plot[S]:
     """θ⁺ over (φ, θ⁻); a click or a drag chooses both."""
     return Plot(
-        name="map", title="θ⁺ over (φ, θ⁻)", caption=caption, axes=("φ", "θ⁻"), x=AZIMUTH, y=POLAR,
-        ticks=AZIMUTH_TICKS, y_ticks=POLAR_TICKS, on_click=lambda s, x, y: {"phi": x, "theta": y}, on_drag=True,
+        name="map", title="θ⁺ over (φ, θ⁻)", caption=caption, axes=("φ", "θ⁻"), x=ANGLE, y=POLAR,
+        ticks=ANGLE_TICKS, y_ticks=POLAR_TICKS, on_click=lambda s, x, y: {"phi": x, "theta": y}, on_drag=True,
         layers=_layers(theta_plus, here))
 
 
 def _layers(theta_plus: Callable[[S], Array], here: Callable[[S], tuple[float, float]]) -> tuple[Layer[S], ...]:
     """Colours: θ⁺ from 0 to π, at the centres of cells, rows of equal θ⁻.  A ring: (φ, θ⁻); a line: the curve there."""
     return (
-        image("theta", lambda s: CellGrid(theta_plus(s), AZIMUTH, POLAR), palette=theme.NUMBER_MAP, low=0.0,
+        image("theta", lambda s: CellGrid(theta_plus(s), ANGLE, POLAR), palette=theme.NUMBER_MAP, low=0.0,
               high=math.pi,
               smooth=True,
               legend=(Sign("θ⁺ from 0 to π", "box rho", f"background: {theme.gradient(Cividis256)}"),)),
-        line("line", lambda s: (AZIMUTH, (here(s)[1],) * 2), color="white", dash="dashed"),
+        line("line", lambda s: (ANGLE, (here(s)[1],) * 2), color="white", dash="dashed"),
         *target("here", lambda s: [here(s)], size=19.0),
     )
 
@@ -57,8 +56,8 @@ def over_phases(caption: Callable[[S], str], layers: tuple[Layer[S], ...],
                 message: Callable[[S], str] | None = None) -> Plot[S]:
     """Curves θ⁺(φ); a click or a drag chooses the phase."""
     return Plot(
-        name="curve", title="θ⁺ against the phase φ", caption=caption, axes=("φ", "θ⁺"), x=AZIMUTH, y=POLAR,
-        ticks=AZIMUTH_TICKS, y_ticks=POLAR_TICKS, message=message, on_click=lambda s, x, y: {"phi": x}, on_drag=True,
+        name="curve", title="θ⁺ against the phase φ", caption=caption, axes=("φ", "θ⁺"), x=ANGLE, y=POLAR,
+        ticks=ANGLE_TICKS, y_ticks=POLAR_TICKS, message=message, on_click=lambda s, x, y: {"phi": x}, on_drag=True,
         layers=layers)
 
 

@@ -8,7 +8,7 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
-from hess_explorer.views.layers import Axes, Layer, dots, points, region, ring
+from hess_explorer.views.layers import Axes, Layer, dots, mapped, points, region, ring
 from hess_mechanics.numerics.results import Array
 
 __all__ = ["band", "joined", "layers", "outside"]
@@ -39,11 +39,7 @@ def layers(own: Points[S], others: Points[S] | None = None,
 
 
 def _points(name: str, of: Points[S], color: str, size: float, label: str) -> Layer[S]:
-    def columns(state: S) -> Array | None:
-        found = of(state)
-        return None if found is None else found.T
-
-    return dots(name, columns, color=color, size=size, label=label)
+    return dots(name, mapped(of, np.transpose), color=color, size=size, label=label)
 
 
 def _few(found: Array | None) -> Array | None:

@@ -8,7 +8,7 @@ from typing import TypeVar
 import numpy as np
 
 from hess_explorer.views import theme
-from hess_explorer.views.circle_map import SIDE, TICKS
+from hess_explorer.views.graph import ANGLE, ANGLE_TICKS
 from hess_explorer.views.layers import CellGrid, Layer, Sign, dots, image
 from hess_explorer.views.plot import Plot
 from hess_explorer.views.text import digits
@@ -61,11 +61,11 @@ def picture(density: Callable[[S], tuple[Array | None, str]]) -> Plot[S]:
 
     def shares(state: S) -> CellGrid | None:
         found, _ = density(state)
-        return None if found is None else CellGrid(found / found.max(), SIDE, SIDE)
+        return None if found is None else CellGrid(found / found.max(), ANGLE, ANGLE)
 
     layers: tuple[Layer[S], ...] = (
         image("density", shares, palette=_SHADES, low=0.0, high=1.0,
               legend=(Sign("density on the torus", "box", f"background: {theme.STABLE}"),)),
         dots("path", track="orbit", columns=("sigma", "phi"), color=theme.ORBIT, size=8))
-    return Plot(name="torus", title="Density on the torus", caption=caption, axes=("σ", "φ"), x=SIDE, y=SIDE,
-                ticks=TICKS, dot=("sigma", "phi"), folded="Show the density on the torus", layers=layers)
+    return Plot(name="torus", title="Density on the torus", caption=caption, axes=("σ", "φ"), x=ANGLE, y=ANGLE,
+                ticks=ANGLE_TICKS, dot=("sigma", "phi"), folded="Show the density on the torus", layers=layers)

@@ -148,34 +148,28 @@ def arcs(data: Callable[[S], Sequence[Array]]) -> Layer[S]:
     return curves("arcs", data, color=theme.ORBIT, width=1, alpha=0.5)
 
 
-def arrows_at(places: Sequence[tuple[Array, int]]) -> tuple[list[float], list[float], list[float]]:
+def arrows_at(places: Sequence[tuple[Array, int]]) -> Array:
     """For `arrows`: x, y, angle at the i-th point of each curve (m, 2), or the next one that is not its end."""
-    x, y, angle = [], [], []
+    found = []
     for curve, place in places:
         if len(curve) > 2:
             i = min(max(place, 1), len(curve) - 2)
-            step = curve[i + 1] - curve[i - 1]
-            x.append(float(curve[i, 0]))
-            y.append(float(curve[i, 1]))
-            angle.append(_angle(step))
-    return x, y, angle
+            found.append((curve[i], curve[i + 1] - curve[i - 1]))
+    return _arrows(found)
 
 
-def _angle(step: Array) -> float:
-    """Of a triangle, which points upwards at angle 0."""
-    return float(np.arctan2(step[1], step[0]) - np.pi / 2)
-
-
-def arrows_on(curves: Sequence[Array], half_width: float) -> tuple[list[float], list[float], list[float]]:
+def arrows_on(curves: Sequence[Array], half_width: float) -> Array:
     """For `arrows`: x, y, angle in the middle of each curve (m, 2) that is long enough for one."""
-    x, y, angle = [], [], []
+    found = []
     for curve in curves:
         length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(curve, axis=0), axis=1))])
         if length[-1] < 0.02 * half_width:
             continue
         i = min(int(np.searchsorted(length, 0.5 * length[-1])), len(curve) - 1)
-        step = curve[i] - curve[i - 1]
-        x.append(float(curve[i, 0]))
-        y.append(float(curve[i, 1]))
-        angle.append(_angle(step))
-    return x, y, angle
+        found.append((curve[i], curve[i] - curve[i - 1]))
+    return _arrows(found)
+
+
+def _arrows(found: Sequence[tuple[Array, Array]]) -> Array:
+    """x, y, angle (3, n) of triangles at these places along these steps, which point upwards at angle 0."""
+    return np.array([(*place, np.arctan2(*step[::-1]) - np.pi / 2) for place, step in found]).reshape(-1, 3).T
