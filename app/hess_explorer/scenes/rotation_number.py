@@ -73,7 +73,7 @@ PRESETS = (
 class RotationNumber(State):
     """One torus, a map of ρ over two parameters, and a line through the torus along one."""
 
-    a: float = parameter(known.A_HESS)
+    a: float = parameter(known.A_HESS, bounds=_AT_MOST["a"])  # as far as the map goes
     h: float = parameter(known.H_HESS, 0.5, step=0.005)
     f: float = parameter(known.F_HESS, 0.8, step=0.005, doc="Area integral in units b = 1.")
     over: str = choice("Map over", PLANES, "h, f", group="State", doc="The two parameters of the map; the third stays.")
