@@ -117,7 +117,7 @@ class _Search:
                 start, self.problem.parameters, self.normal, self.offset, self.sense, self.end,
                 level.order, level.tolerance, max_steps - total, times, states)
             if found == STEP_LIMIT_REACHED:
-                raise WorkLimit(f"This section needs more than {MAX_STEPS} steps: choose a shorter time span.")
+                raise WorkLimit(f"This section needs more than {max_steps} steps: choose a shorter time span.")
             total += steps
             if found < room or room == self.crossings:
                 break
