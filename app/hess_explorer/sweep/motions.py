@@ -1,4 +1,4 @@
-"""Quantities of motions: exponents, dimension, MEGNO, crossings.
+"""Quantities of motions: exponents, dimension, MEGNO, crossings, kinds.
 
 Of any system, by the parameters of the body and the state at the start; and by the place of the start on a section,
 at values of the integrals, in the coordinates that the section has.
@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 
+from hess_explorer.sweep.errors import NoValue
 from hess_explorer.sweep.quantity import Cell, Quantity, one_by_one, usual, whole
 from hess_mechanics import parameters as known
 from hess_mechanics.chaplygin_ball import section as of_ball
@@ -18,7 +19,9 @@ from hess_mechanics.chaplygin_ball.equations import SYSTEM as BALL
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.dynamics.lyapunov import lyapunov_exponent
 from hess_mechanics.dynamics.megno import megno
-from hess_mechanics.dynamics.section import Plane, Surface, section
+from hess_mechanics.dynamics.regime import MotionKind, regime
+from hess_mechanics.dynamics.return_map import PoincareSection, ReturnMap
+from hess_mechanics.dynamics.section import Plane, section
 from hess_mechanics.dynamics.spectrum import lyapunov_spectrum
 from hess_mechanics.dynamics.system import Body, System, systems
 from hess_mechanics.errors import InvalidParameter
@@ -44,7 +47,7 @@ class _Motions:
 
     name : that of the system, and by what; parameters : of the body and the start; start : the body and the state
     that values of these mean.  Raises `ModelError`.
-    surface : the section on which all of them start; none where they start anywhere.
+    section : that on which all of them start, place : the names of its coordinates; none where they start anywhere.
     """
 
     name: str
@@ -52,7 +55,8 @@ class _Motions:
     system: System
     parameters: tuple[Parameter, ...]
     start: Callable[[Values], tuple[Body, Start]]
-    surface: Callable[[Values], Surface] | None = None
+    section: Callable[[Values], PoincareSection] | None = None
+    place: tuple[str, ...] = ()
 
 
 # ---- where motions start ----------------------------------------------------------------------------------------
@@ -84,8 +88,6 @@ def _body(system: System) -> tuple[Parameter, ...]:
                  for name, value in zip(system.parameters, system.example[1], strict=True))
 
 
-_PLACE = (known.PSI, known.DELTA)
-
 SUSLOV_ENERGY = (*_body(SUSLOV), known.H_SUSLOV, whole("k", "k", 3, 1, 3, "The section is γ_k = 0, γ_k growing."))
 """The parameters of a section of the Suslov problem."""
 
@@ -104,27 +106,35 @@ def _on_suslov(values: Values) -> tuple[Body, Start]:
     return of.body, of_suslov.state_at(of.body, of.E, of.k, values["psi"], values["delta"])
 
 
-def _on_ball(values: Values) -> tuple[Body, Start]:
+def _ball_section(values: Values) -> of_ball.BallSection:
     body = BallBody(*(values[name] for name in BALL.parameters))
-    E = values["h"] - math.hypot(body.b1, body.b2)
-    return body, of_ball.state_at(body, E, values["psi"], values["delta"])
+    return of_ball.BallSection(body, values["h"] - math.hypot(body.b1, body.b2))
+
+
+def _on_ball(values: Values) -> tuple[Body, Start]:
+    of = _ball_section(values)
+    return of.body, of_ball.state_at(of.body, of.h, values["psi"], values["delta"])
+
+
+def _heavy_section(values: Values) -> andoyer.AndoyerSection:
+    a1, a2, a3, r1, r2, r3, mu = (values[name] for name in HEAVY.parameters)
+    return andoyer.AndoyerSection(HeavyBody((a1, a2, a3), (r1, r2, r3), mu), values["h"], values["f"],
+                                  int(values["sheet"]))
 
 
 def _on_heavy(values: Values) -> tuple[Body, Start]:
-    a1, a2, a3, r1, r2, r3, mu = (values[name] for name in HEAVY.parameters)
-    body = HeavyBody((a1, a2, a3), (r1, r2, r3), mu)
-    return body, andoyer.state_at(body, values["h"], values["f"], values["l"], values["x"], int(values["sheet"]))
+    of = _heavy_section(values)
+    return of.body, andoyer.state_at(of.body, of.h, of.f, values["l"], values["x"], of.sheet)
 
 
 _ON_SECTIONS = (
-    _Motions("suslov-section", "Suslov problem, a place of a section", SUSLOV, (*SUSLOV_ENERGY, *_PLACE), _on_suslov,
-             lambda values: of_suslov.plane_of(int(values["k"]))),
+    _Motions("suslov-section", "Suslov problem, a place of a section", SUSLOV,
+             (*SUSLOV_ENERGY, known.PSI, known.DELTA), _on_suslov, suslov_section, ("psi", "delta")),
     _Motions("ball-section", "Chaplygin ball, a place of a section", BALL,
-             (*_body(BALL), known.H_BALL, *_PLACE),
-             _on_ball, lambda values: of_ball.EQUATOR),
+             (*_body(BALL), known.H_BALL, known.PSI, known.DELTA), _on_ball, _ball_section, ("psi", "delta")),
     _Motions("euler-poisson-section", "Euler–Poisson, a place of the Andoyer–Deprit section", HEAVY,
              (*_body(HEAVY), usual(known.H_HEAVY, 2.0), usual(known.F_HEAVY, 0.5), known.L, known.X, known.SHEET),
-             _on_heavy, lambda values: andoyer.AndoyerPlane(values["f"])),
+             _on_heavy, _heavy_section, ("l", "x")),
 )
 
 _OFFSET = Parameter("offset", "c", "Offset of the plane", 0.0, (-1.0, 1.0), 0.01, (-1e3, 1e3),
@@ -160,8 +170,8 @@ def _crossings(of: _Motions, level: Level, variable: float, offset: float, sense
 
 
 def _returns(of: _Motions, level: Level, t: float, **values: float) -> Cell:
-    assert of.surface is not None
-    found = section(*of.start(values), of.surface(values), t, level)
+    assert of.section is not None
+    found = section(*of.start(values), of.section(values).surface, t, level)
     return Cell(float(len(found.times)), found.error_estimate, found.status)
 
 
@@ -196,7 +206,7 @@ def _quantities(of: _Motions) -> tuple[Quantity, ...]:
             "Mean exponential growth of nearby orbits: 2 at the most on regular motions, λt/2 on chaotic ones.", _megno,
             usual(known.SPAN, 200.0)),
     ]
-    if of.surface is None:
+    if of.section is None:
         found.append(one(
             "crossings", "n", "Crossings of a plane", "1",
             "How often the motion crosses the plane y_variable = offset up to the time t.", _crossings,
@@ -215,6 +225,30 @@ def _quantities(of: _Motions) -> tuple[Quantity, ...]:
     return tuple(found)
 
 
-MOTIONS: tuple[Quantity, ...] = tuple(
-    one for of in (*map(_anywhere, systems().values()), *_ON_SECTIONS) for one in _quantities(of))
+def _regime(of: _Motions, level: Level, transient: float, kept: float, t: float, **values: float) -> Cell:
+    assert of.section is not None
+    place = tuple(values[name] for name in of.place)
+    found = regime(ReturnMap(of.section(values), level), place, int(transient), int(kept), t)
+    if found.kind in (MotionKind.UNDECIDED, MotionKind.SETTLING):
+        raise NoValue(f"The motion is {found.kind.words}: MEGNO is {found.megno:.3g} after t = {found.t:.4g}. Choose a "
+                      "longer time, or leave more crossings out.")
+    return Cell((float(found.kind), float(found.period), float(found.volume)))
+
+
+def _regimes(of: _Motions) -> Quantity:
+    """Return the kind of the motion from a place of a section."""
+    return Quantity(
+        f"regime-{of.name}", "kind", f"Kind of the motion: {of.title}", "1",
+        "Kind: 0 not seen to return, 1 fixed point, 2 periodic, 3 quasi-periodic, 4 chaotic, 6 regular without a "
+        "period up to 64; period, 0 where none is seen; volume: −1 shrinks about the motion, 1 grows, 0 neither to "
+        "three times the error. What is undecided has no value.",
+        (*of.parameters, whole("transient", "N₀", 300, 0, 20_000, "Crossings left out."),
+         whole("kept", "N", 200, 8, 20_000, "Crossings looked at."),
+         usual(known.SPAN, 200.0, "Time of MEGNO and of the mean divergence.")),
+        one_by_one(partial(_regime, of), 3), ("kind", "period", "volume"))
+
+
+MOTIONS: tuple[Quantity, ...] = (
+    *(one for of in (*map(_anywhere, systems().values()), *_ON_SECTIONS) for one in _quantities(of)),
+    *map(_regimes, _ON_SECTIONS))
 """Of every system, then of every section."""

@@ -6,7 +6,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from functools import lru_cache, partial
 
@@ -16,18 +15,10 @@ from hess_explorer.sweep.errors import NoValue
 from hess_explorer.sweep.motions import MOTIONS, SUSLOV_ENERGY, suslov_section
 from hess_explorer.sweep.quantity import Cell, CellArrays, Found, Outcome, Quantity, one_by_one, usual, whole
 from hess_mechanics import parameters as known
-from hess_mechanics.chaplygin_ball.equations import SYSTEM as BALL
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.integrable_cases import period
 from hess_mechanics.chaplygin_ball.scattering import ball_scattering
-from hess_mechanics.chaplygin_ball.section import BallSection
-from hess_mechanics.dynamics.regime import MotionKind as Regimes
-from hess_mechanics.dynamics.regime import regime
-from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.euler_poisson.andoyer import AndoyerSection
-from hess_mechanics.euler_poisson.equations import SYSTEM as HEAVY
-from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.numerics.accuracy import PLANS, Computation, Level
 from hess_mechanics.parameters import Parameter
 from hess_mechanics.suslov.basins import count_attractors
@@ -132,50 +123,6 @@ def _attractors(level: Level, across: float, up: float, crossings: float, t: flo
     return Cell(float(count_attractors(suslov_section(values), (int(across), int(up)), int(crossings), t, plan.level)))
 
 
-# ---- kinds of motions -------------------------------------------------------------------------------------------
-
-
-def _suslov_map(level: Level, v: Mapping[str, float]) -> tuple[ReturnMap, tuple[float, float]]:
-    return ReturnMap(suslov_section(v), level), (v["psi"], v["delta"])
-
-
-def _ball_map(level: Level, v: Mapping[str, float]) -> tuple[ReturnMap, tuple[float, float]]:
-    body = BallBody(*(v[name] for name in BALL.parameters))
-    return ReturnMap(BallSection(body, v["h"] - math.hypot(body.b1, body.b2)), level), (v["psi"], v["delta"])
-
-
-def _heavy_map(level: Level, v: Mapping[str, float]) -> tuple[ReturnMap, tuple[float, float]]:
-    a1, a2, a3, r1, r2, r3, mu = (v[name] for name in HEAVY.parameters)
-    section = AndoyerSection(HeavyBody((a1, a2, a3), (r1, r2, r3), mu), v["h"], v["f"], int(v["sheet"]))
-    return ReturnMap(section, level), (v["l"], v["x"])
-
-
-_MAPS = {"suslov-section": _suslov_map, "ball-section": _ball_map, "euler-poisson-section": _heavy_map}
-
-
-def _regime(of: str, level: Level, transient: float, kept: float, t: float, **values: float) -> Cell:
-    map_, place = _MAPS[of](level, values)
-    found = regime(map_, place, int(transient), int(kept), t)
-    if found.kind in (Regimes.UNDECIDED, Regimes.SETTLING):
-        raise NoValue(f"The motion is {found.kind.words}: MEGNO is {found.megno:.3g} after t = {found.t:.4g}. Choose a "
-                      "longer time, or leave more crossings out.")
-    return Cell((float(found.kind), float(found.period), float(found.volume)))
-
-
-def _regimes(of: str) -> Quantity:
-    """Of the motion from a place of a section, with the parameters of its MEGNO."""
-    megno = next(one for one in MOTIONS if one.name == f"megno-{of}")
-    return Quantity(
-        f"regime-{of}", "kind", megno.title.replace("MEGNO", "Kind of the motion"), "1",
-        "Kind: 0 not seen to return, 1 fixed point, 2 periodic, 3 quasi-periodic, 4 chaotic, 6 regular without a "
-        "period up to 64; period, 0 where none is seen; volume: −1 shrinks about the motion, 1 grows, 0 neither to "
-        "three times the error. What is undecided has no value.",
-        (*megno.parameters[:-1], whole("transient", "N₀", 300, 0, 20_000, "Crossings left out."),
-         whole("kept", "N", 200, 8, 20_000, "Crossings looked at."),
-         usual(known.SPAN, 200.0, "Time of MEGNO and of the mean divergence.")),
-        one_by_one(partial(_regime, of), 3), ("kind", "period", "volume"))
-
-
 # ---- the table --------------------------------------------------------------------------------------------------
 
 _TABLE: tuple[Quantity, ...] = (
@@ -217,7 +164,6 @@ _TABLE: tuple[Quantity, ...] = (
               whole("crossings", "N", 150, 100, 10_000, "Crossings of each orbit."),
               usual(known.SPAN, 1000.0, "Time over which the divergence is averaged.")), one_by_one(_attractors)),
     *MOTIONS,
-    *map(_regimes, _MAPS),
 )
 
 QUANTITIES: Mapping[str, Quantity] = {one.name: one for one in _TABLE}
