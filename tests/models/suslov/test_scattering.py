@@ -253,7 +253,7 @@ WORDS = ["scattering", "--I", "3.56,1,0,0.8", "--theta", "1.0", "--phi", "0,1,2"
 
 def run(*words):
     parser = argparse.ArgumentParser()
-    command.add(parser.add_subparsers(required=True))
+    command.COMMAND.declare(parser.add_subparsers(required=True).add_parser("scattering"))
     options = parser.parse_args(list(words))
     options.run(options)
 
@@ -298,7 +298,6 @@ def test_the_command_without_phases_and_as_a_table(capsys):
     ("tensor", "extra", "words"),
     [
         ("2,1,0,0", [], "Choose I13 or I23 other than 0"),
-        ("-2,1,0,0.5", [], "choose I11 > 0"),
         ("2,1,0,1e-9", [], "choose larger I13, I23"),
         ("2,1,0.3,0.5", ["--distance", "7"], "choose one above 0 and up to"),
         ("2,1,0.3,0.5", ["--accuracy", "best"], "choose one of draft"),
@@ -307,6 +306,12 @@ def test_the_command_without_phases_and_as_a_table(capsys):
 def test_the_command_refuses_in_one_sentence(tensor, extra, words):
     with pytest.raises(CommandError, match=words):
         run("scattering", f"--I={tensor}", "--theta", "1", *extra)
+
+
+def test_the_command_refuses_a_moment_that_is_not_positive(capsys):
+    with pytest.raises(SystemExit):
+        run("scattering", "--I=-2,1,0,0.5", "--theta", "1")
+    assert "I11 = -2 is not between 0.001 and 1000: choose it there" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("tensor", [(3.56, 1.0, 0.0, 0.8), (2.0, 1.0, 0.3, 0.5)])
