@@ -80,7 +80,7 @@ class HessSplit(Part[_Host]):
     @property
     def split(self) -> Split | None:
         """That of this state, where it is known."""
-        return next((one for one in self.splits() if self.host.away), None)
+        return next((one for one in self.splits() if one.away == self.host.away), None)
 
     @property
     def slope(self) -> tuple[float, float] | None:
