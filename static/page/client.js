@@ -11,7 +11,6 @@ import { embed, embedded } from "./embedding.js"
 import { createHandout } from "./handout.js"
 import { createHistory } from "./history.js"
 import { joinOther } from "./linked.js"
-import { lifetime } from "./mount.js"
 import { fill, paint } from "./painting.js"
 import { createPage } from "./panel_page.js"
 import { present } from "./presenting.js"
@@ -26,11 +25,10 @@ import { grantWishes } from "./wishes.js"
 const PAUSE_BETWEEN_PIECES = 80
 const LOST = "The connection to the server is lost. As soon as it answers, this page goes on in the same state."
 
-export function render({ model, view }) {
-  const signal = lifetime({ model, view })
+// model.client: what the browser itself keeps of the address: t, speed, az, el, large, present; embed, pictures, controls;
+// lesson, step.
+export function startClient(model, view, signal) {
   const root = document.documentElement
-  // What the browser itself keeps of the address: t, speed, az, el, large, present; embed, pictures, controls;
-  // lesson, step.
   const own = model.client
   // Scene → its description.
   const descriptions = new Map()

@@ -1,6 +1,6 @@
-// What every component of Panel on this page begins with.
+// How the parts of the page are mounted, and the elements that they are made of.
 
-// The signal that aborts when the component is removed, or rendered once more: its listeners go with it.
+// The signal that aborts when a part is removed, or rendered once more: its listeners go with it.
 const controllers = new WeakMap()
 
 export function lifetime({ model, view }) {
@@ -20,4 +20,29 @@ export function element(tag, properties = {}, ...children) {
   }
   item.append(...children)
   return item
+}
+
+// Which style sheets each part has besides "page/base.css".
+const SHEETS = {
+  bar: ["controls/dialog.css", "controls/bar.css"],
+  controls: ["controls/dialog.css", "controls/controls.css"],
+  pictures: ["pictures/pictures.css"],
+  player: ["controls/controls.css", "controls/player.css"],
+  lessons: ["page/page.css", "page/lessons.css"],
+}
+
+/**
+ * Mounts parts of the page, each in a shadow of its own, where its styles are its alone.
+ *
+ * @param {Record<string, string>} sheets - path → style sheet
+ * @param {AbortSignal} [signal] - aborts when they are removed
+ */
+export function createMount(sheets, signal) {
+  return (name, render, properties = {}, host = element("div")) => {
+    const el = element("div", { className: name })
+    host.attachShadow({ mode: "open" }).append(
+      ...["page/base.css", ...(SHEETS[name] ?? ["page/page.css"])].map((path) => element("style", { textContent: sheets[path] })), el)
+    render({ model: { on: (_, removed) => signal?.addEventListener("abort", removed), ...properties }, view: {}, el })
+    return host
+  }
 }

@@ -4,21 +4,13 @@
 import { render as renderPlayer } from "../controls/player.js"
 import { gallery, render as renderPictures } from "../pictures/gallery.js"
 import { listen, tell } from "./bus.js"
-import { element } from "./mount.js"
+import { createMount, element } from "./mount.js"
 import { fill, paint } from "./painting.js"
 import { render as renderProse } from "./prose.js"
 import { render as renderStatus } from "./status.js"
 import { render as renderText } from "./text.js"
 
 const text = (id) => document.getElementById(id).textContent
-
-// A component of the page, in a shadow of its own as there; nothing removes it.
-function mount(id, render, styles, properties = {}) {
-  const el = element("div")
-  const shadow = document.getElementById(id).attachShadow({ mode: "open" })
-  shadow.append(...styles.map((textContent) => element("style", { textContent })), el)
-  render({ model: { on() {}, ...properties }, view: {}, el })
-}
 
 // What a control of the page shows, not to be changed here.
 function controlOf({ name, label, kind }, shown) {
@@ -31,14 +23,16 @@ function controlOf({ name, label, kind }, shown) {
 }
 
 async function start() {
-  const { description, tree, client, styles } = JSON.parse(text("state"))
+  const { description, tree, client, sheets } = JSON.parse(text("state"))
   const block = Uint8Array.from(atob(text("block")), (letter) => letter.charCodeAt(0)).buffer
   listen("mounted", ({ kind, show }) => { if (kind === "client") show(client) })
-  mount("pictures", renderPictures, styles.pictures)
-  mount("player", renderPlayer, styles.player)
-  for (const part of ["legend", "words"]) mount(part, renderProse, styles.text, { part })
-  for (const key of ["derived", "notes"]) mount(key, renderText, styles.text, { key, look: key, tag: "div", live: false })
-  mount("status", renderStatus, styles.text)
+  const mount = createMount(sheets)
+  const place = (id) => document.getElementById(id)
+  mount("pictures", renderPictures, {}, place("pictures"))
+  mount("player", renderPlayer, {}, place("player"))
+  for (const part of ["legend", "words"]) mount("prose", renderProse, { part }, place(part))
+  for (const key of ["derived", "notes"]) mount("text", renderText, { key, look: key, tag: "div", live: false }, place(key))
+  mount("status", renderStatus, {}, place("status"))
   document.getElementById("controls").append(...description.controls.filter(({ name }) => name in tree.controls)
     .map((control) => controlOf(control, tree.controls[control.name])))
   const scene = await gallery.build(description)

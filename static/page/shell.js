@@ -2,11 +2,21 @@
 // pictures.  Where there is no room for both columns they are tabs of one; on a phone the picture stays above, the
 // control at hand below, and the text scrolls between them.
 
+import { render as renderBar } from "../controls/bar.js"
+import { render as renderControls } from "../controls/controls.js"
+import { render as renderPlayer } from "../controls/player.js"
+import { render as renderPictures } from "../pictures/gallery.js"
 import { listen, tell } from "./bus.js"
-import { element, lifetime } from "./mount.js"
+import { startClient } from "./client.js"
 import { linkTo } from "./embedding.js"
 import { isTaken } from "./keys.js"
+import { render as renderLessons } from "./lessons.js"
+import { createMount, element, lifetime } from "./mount.js"
 import { spot, wear } from "./presenting.js"
+import { render as renderProgress } from "./progress.js"
+import { render as renderProse } from "./prose.js"
+import { render as renderStatus } from "./status.js"
+import { render as renderText } from "./text.js"
 import { NARROW, PHONE } from "./windows.js"
 
 // The tabs of the two columns: {tab id: column}.
@@ -88,26 +98,32 @@ function sayWhatMoves(stage, reading, signal) {
 
 export function render({ model, view, el }) {
   const signal = lifetime({ model, view })
-  const children = (...names) => names.map((name) => model.get_child(name))
-  const box = (className, ...names) => element("div", { className }, ...children(...names))
-  const controls = element("section", { className: "controls column", id: "controls" }, ...children("controls", "derived"))
-  const text = element("section", { className: "reader column", id: "text" },
-    box("reading", "lessons", "words"), box("signs", "legend"))
+  const mount = createMount(model.sheets, signal)
+  const text = (key, look, tag = "p") => mount("text", renderText, { key, look, tag, live: tag === "p" })
+  const box = (className, ...parts) => element("div", { className }, ...parts)
+  const controls = element("section", { className: "controls column", id: "controls" },
+    mount("controls", renderControls), text("derived", "derived", "div"))
+  const reader = element("section", { className: "reader column", id: "text" },
+    box("reading", mount("lessons", renderLessons, { index: model.lessons }), mount("prose", renderProse, { part: "words" })),
+    box("signs", mount("prose", renderProse, { part: "legend" })))
   // What scrolls is reached by keys.
-  for (const column of [controls, ...text.children]) column.tabIndex = 0
-  const stage = box("stage", "pictures", "player")
+  for (const column of [controls, ...reader.children]) column.tabIndex = 0
+  const stage = box("stage", mount("pictures", renderPictures), mount("player", renderPlayer))
+  const { scenes, files, palettes } = model
   el.classList.add("frame")
   el.append(
-    element("header", { className: "bar" }, ...children("bar"), box("news", "busy", "progress")),
-    tabsOf({ Controls: controls, Text: text }, signal), controls,
-    stage, text, box("foot", "notes", "status"), box("unseen", "ready"), opener(), spot(signal))
-  sayWhatMoves(stage, text.firstChild, signal)
+    element("header", { className: "bar" }, mount("bar", renderBar, { scenes, files, palettes }),
+      box("news", text("busy", "busy"), mount("progress", renderProgress))),
+    tabsOf({ Controls: controls, Text: reader }, signal), controls, stage, reader,
+    box("foot", text("notes", "notes"), mount("status", renderStatus, {}, box("status-line"))), opener(), spot(signal))
+  sayWhatMoves(stage, reader.firstChild, signal)
   wear(el, signal)
   listen("reading", (on) => el.classList.toggle("in-lesson", on), signal)
   document.addEventListener("keydown", (event) => {
-    const wish = { f: "fullscreen", p: "present" }[event.key.toLowerCase()]
-    if (isTaken(event) || wish === undefined) return
+    const command = { f: "fullscreen", p: "present" }[event.key.toLowerCase()]
+    if (isTaken(event) || command === undefined) return
     event.preventDefault()
-    tell(wish)
+    tell(command)
   }, { signal })
+  startClient(model, view, signal)
 }

@@ -15,6 +15,7 @@ from bokeh.resources import Resources
 
 from hess_explorer.assets import STATIC
 from hess_explorer.export.shown import address, complete, picture_of
+from hess_explorer.page.component import styles
 from hess_explorer.page.controls import show_controls
 from hess_explorer.page.description import describe
 from hess_explorer.protocol.wire import Wire
@@ -27,8 +28,6 @@ HOME = "http://localhost:5006/"
 
 _ENTRY = "page/offline.js"
 _IMPORT = re.compile(r'(?<=from )"(\.{1,2}/[\w./]+\.js)"')
-_STYLES = {"pictures": ("pictures/pictures.css",), "player": ("controls/controls.css", "controls/player.css"),
-           "text": ("page/page.css",)}
 _POLICY = "default-src 'none'; script-src 'unsafe-inline' data:; style-src 'unsafe-inline'; img-src data: blob:"
 """The browser itself refuses whatever would ask another host."""
 
@@ -97,9 +96,6 @@ def as_html(query: str, pictures: Sequence[str] = (), home: str = HOME, *, lenie
     description["handle"] = None
     description["pictures"] = [{**one, "folded": None, "hands": "", **({"picks": []} if "picks" in one else {})}
                                for one in description["pictures"] if one["name"] in chosen]
-    base = (STATIC / "page/base.css").read_text(encoding="utf-8")
-    styles = {part: [base, *((STATIC / name).read_text(encoding="utf-8") for name in names)]
-              for part, names in _STYLES.items()}
     program = f"hess-explorer {version('hess-explorer')}"
     facts: dict[str, Any] = {
         "link": link, "scene": scene.name, "title": scene.title, "pictures": chosen, "parameters": dict(values),
@@ -112,7 +108,7 @@ def as_html(query: str, pictures: Sequence[str] = (), home: str = HOME, *, lenie
         said=escape(f"{program}, ?{link} | {parameters} | {'; '.join(facts['status'])}"),
         link=escape(f"{home}?{link}"), style=(STATIC / "page/offline.css").read_text(encoding="utf-8"),
         modules=json.dumps({"imports": bundled(_ENTRY)}), facts=_json(facts), block=base64.b64encode(block).decode(),
-        state=_json({"description": description, "tree": tree, "client": looks, "styles": styles}),
+        state=_json({"description": description, "tree": tree, "client": looks, "sheets": styles()}),
         bokeh="\n".join(Resources(mode="inline", components=["bokeh"]).js_raw).replace("</script", "<\\/script"))
     return scene.name, page.encode()
 

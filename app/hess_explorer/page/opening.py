@@ -9,7 +9,6 @@ from urllib.parse import urlencode
 
 from hess_explorer.lessons import shipped
 from hess_explorer.lessons.lesson import Lesson
-from hess_explorer.page.components import Player
 from hess_explorer.page.requested import linked
 from hess_explorer.protocol.parameters import CLIENT, Choice, Link, Names, Number, Values
 from hess_explorer.scenes import scenes
@@ -17,6 +16,8 @@ from hess_explorer.scenes.framework.scene import Scene
 
 __all__ = ["THEME", "Opening", "opening", "query_of"]
 
+SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
+"""Of the player."""
 THEME = Choice("theme", "Theme", ("light", "dark"), "light")
 PRESENT = Choice("present", "Present mode", ("0", "1"), "0")
 EMBED = Choice("embed", "Embedding", ("0", "1"), "0")
@@ -69,7 +70,7 @@ def opening(query: str, own: Lesson | None, *, lenient: bool = True) -> Opening:
     embedded = _embedded(scene)
     looks = link.values((*CLIENT, large, THEME, PRESENT, EMBED, *embedded))
     kept = {spec.name: float(looks[spec.name]) for spec in CLIENT}
-    kept["speed"] = min(Player.SPEEDS, key=lambda speed: abs(speed - kept["speed"]))
+    kept["speed"] = min(SPEEDS, key=lambda speed: abs(speed - kept["speed"]))
     client = {**{name: repr(value) for name, value in kept.items()}, large.name: str(looks[large.name]),
               "lesson": reading.name if reading else "", "step": str(at) if reading else ""}
     # What is not written into the address is empty.

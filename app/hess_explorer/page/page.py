@@ -1,4 +1,4 @@
-"""The page: Panel's for the document and its theme, with one component that says where everything stands.
+"""The page: Panel's for the document and its theme, with one component that holds everything.
 
 Panel knows nothing of states: they come by a websocket of their own ("server/websockets.py").
 """
@@ -15,19 +15,7 @@ from panel.util import edit_readonly
 
 from hess_explorer.export.formats import FORMATS, SERVED_SECONDS, WIDTHS, Wish
 from hess_explorer.lessons.lesson import Lesson
-from hess_explorer.page.components import (
-    Bar,
-    Controls,
-    Lessons,
-    Pictures,
-    Player,
-    Progress,
-    Prose,
-    Ready,
-    Shell,
-    Status,
-    Text,
-)
+from hess_explorer.page.component import Explorer, styles
 from hess_explorer.page.description import describe_lesson
 from hess_explorer.page.opening import opening, query_of
 from hess_explorer.scenes import scenes
@@ -72,22 +60,14 @@ def _query() -> str:
 def _page(query: str, own: Lesson | None) -> pmui.Page:
     opened = opening(query, own)
     reading = opened.reading
-    ready = Ready(client=opened.client, lesson=describe_lesson(reading) if reading else "")
-    shell = Shell(
-        bar=Bar(scenes=[_entry(one) for one in scenes().values()], files=_FILES, palettes=_PALETTES),
-        controls=Controls(),
-        derived=Text(key="derived", look="derived", tag="div"),
-        pictures=Pictures(),
-        player=Player(),
-        lessons=Lessons(index=[{"name": one.name, "title": one.title, "minutes": one.minutes}
-                               for one in opened.lessons.values()]),
-        words=Prose(part="words"),
-        legend=Prose(part="legend"),
-        notes=Text(key="notes", look="notes", live=True),
-        status=Status(css_classes=["status-line"]),
-        busy=Text(key="busy", look="busy", live=True),
-        progress=Progress(),
-        ready=ready,
+    explorer = Explorer(
+        client=opened.client,
+        lesson=describe_lesson(reading) if reading else "",
+        lessons=[{"name": one.name, "title": one.title, "minutes": one.minutes} for one in opened.lessons.values()],
+        scenes=[_entry(one) for one in scenes().values()],
+        palettes=_PALETTES,
+        files=_FILES,
+        sheets=styles(),
         sizing_mode="stretch_both",
     )
     result = pmui.Page(
@@ -96,7 +76,7 @@ def _page(query: str, own: Lesson | None) -> pmui.Page:
         meta_description=opened.scene.summary,
         dark_theme=opened.dark,
         theme_config={"typography": {"fontFamily": FONT}},
-        main=[shell],
+        main=[explorer],
         busy_indicator=None,
         sx=BARE,
     )
@@ -104,7 +84,7 @@ def _page(query: str, own: Lesson | None) -> pmui.Page:
     # time (100 ms); `data-ready` says the same.  It follows Panel's global state, whose watcher would keep every page
     # alive: a reference to what lives as long as this page takes its place, for setting a value would leave it there.
     with edit_readonly(result):
-        result.busy = ready.param.loading
+        result.busy = explorer.param.loading
         result.busy = False
     return result
 
