@@ -2,7 +2,7 @@
 
 import { button, icon } from "../page/buttons.js"
 import { listen, tell } from "../page/bus.js"
-import { element, lifetime } from "../page/mount.js"
+import { element } from "../page/mount.js"
 import { isPresenting, wear } from "../page/presenting.js"
 import { chartPanel } from "./chart.js"
 import { exportDialog } from "./export.js"
@@ -53,12 +53,11 @@ function tool({ name, label, title, icon: path }) {
     element("span", { className: "label", textContent: label }))
 }
 
-export function render({ model, view, el }) {
-  const signal = lifetime({ model, view })
-  const menu = sceneMenu(model.scenes)
+export function render({ scenes, files, palettes, el, signal }) {
+  const menu = sceneMenu(scenes)
   const share = shareDialog(signal)
-  const taking = exportDialog(model.files)
-  const chart = chartPanel(model.palettes, signal)
+  const taking = exportDialog(files)
+  const chart = chartPanel(palettes, signal)
   const heading = element("h1", { className: "heading" })
   const open = button("tool param-scenes", menu.open, { title: "Choose a scene", ariaHasPopup: "dialog", innerHTML: icon(MENU) },
     element("span", { textContent: "Scenes" }))
@@ -103,5 +102,4 @@ export function render({ model, view, el }) {
   listen("share", share.open, signal)
   listen("export", taking.open, signal)
   listen("chart", chart.open, signal)
-  tell("mounted", { kind: "scene", show })
 }

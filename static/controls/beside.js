@@ -4,7 +4,7 @@
 // half is all that a page is; what goes to and fro is small ("linked.js").
 
 import { linkTo } from "../page/embedding.js"
-import { HALF } from "../page/linked.js"
+import { HALF } from "../page/side_by_side.js"
 import { element } from "../page/mount.js"
 import { PHONE } from "../page/windows.js"
 import { gallery } from "../pictures/gallery.js"

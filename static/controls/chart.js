@@ -253,7 +253,6 @@ export function chartPanel(palettes, signal) {
     Object.assign(values, changed)
     mark()
   }, signal)
-  tell("mounted", { kind: "controls", show: (known) => { values = { ...known } } })
   follow()
 
   return {

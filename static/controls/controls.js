@@ -6,7 +6,7 @@
 import { button } from "../page/buttons.js"
 import { listen, tell } from "../page/bus.js"
 import { sayDragMe } from "../page/handle.js"
-import { element, lifetime } from "../page/mount.js"
+import { element } from "../page/mount.js"
 import { wear } from "../page/presenting.js"
 import { PHONE } from "../page/windows.js"
 import { comparison } from "./comparison.js"
@@ -23,8 +23,7 @@ function choice({ name, label, options, help }) {
 
 const EXAMPLES = "preset"
 
-export function render({ model, view, el }) {
-  const signal = lifetime({ model, view })
+export function render({ el, signal }) {
   const column = element("div", { className: "board" })
   const chooser = element("div", { className: "chooser", role: "group", ariaLabel: "Control at hand" })
   el.append(chooser, column, comparison(signal))
@@ -102,6 +101,4 @@ export function render({ model, view, el }) {
   // What is wrong with an expression is said by "error-" and the name of the number.
   listen("texts", (texts) => { for (const [key, text] of Object.entries(texts)) refusals[key]?.(text) }, signal)
   listen("controls", show, signal)
-  tell("mounted", { kind: "scene", show: build })
-  tell("mounted", { kind: "controls", show })
 }

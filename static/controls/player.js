@@ -5,7 +5,7 @@
 import { button, icon, relabel } from "../page/buttons.js"
 import { listen, tell } from "../page/bus.js"
 import { arrowOf, isTaken } from "../page/keys.js"
-import { element, lifetime } from "../page/mount.js"
+import { element } from "../page/mount.js"
 import { wear } from "../page/presenting.js"
 import { gallery } from "../pictures/gallery.js"
 import { between } from "../pictures/moment.js"
@@ -43,8 +43,7 @@ const unfolding = ({ name, folded: label }) => button(`button unfold unfold-${na
   title: label, ariaLabel: label, textContent: `+ ${label.replace(/^Show (the )?/, "")}`, ariaExpanded: !isFolded(gallery.cell(name)),
 })
 
-export function render({ model, view, el }) {
-  const signal = lifetime({ model, view })
+export function render({ el, signal }) {
   const slider = element("input", {
     type: "range", className: "param-t", min: 0, step: "any", ariaLabel: "Time t", onchange: writeTime,
     oninput: () => {
@@ -191,8 +190,6 @@ export function render({ model, view, el }) {
   wear(el, signal)
   listen("client", begin, signal)
   listen("enter", enter, signal)
-  tell("mounted", { kind: "client", show: begin })
-  tell("mounted", { kind: "scene", show: enter })
   signal.addEventListener("abort", () => {
     playing = false
     watching?.abort()

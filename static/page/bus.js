@@ -4,8 +4,8 @@
 //                                         expression {name: text}, reset, undo, redo, clear, stop, link, address,
 //                                         copy text, theme, fullscreen, present, print, pick {pick, drag}, hover [picture, x, y],
 //                                         animated boolean, pin, flip, folded {name, folded}, url {key: text}, lesson name,
-//                                         step [lesson, number, revealed], mounted {kind, key, show},
-//                                         ask-chart message, see "page/charts.py"
+//                                         step [lesson, number, revealed], ask-client hear(client),
+//                                         ask-chart message, see "protocol/messages.py"
 // From the client to whoever is concerned: enter description, texts {key: text}, controls {name: value},
 //                                         progress [done, of] or null, client {key: text}, paint,
 //                                         copied {text or null, said}, steps {undo: number, redo: number},

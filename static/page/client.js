@@ -10,15 +10,15 @@ import { createCompare } from "./compare.js"
 import { embed, embedded } from "./embedding.js"
 import { createHandout } from "./handout.js"
 import { createHistory } from "./history.js"
-import { joinOther } from "./linked.js"
+import { joinOther } from "./side_by_side.js"
 import { fill, paint } from "./painting.js"
 import { createPage } from "./panel_page.js"
 import { present } from "./presenting.js"
 import { answering } from "./reconnect.js"
 import { createRequests } from "./requests.js"
-import { createSight } from "./sight.js"
+import { createVisibility } from "./visibility.js"
 import { openWebsocket } from "./websocket.js"
-import { grantWishes } from "./wishes.js"
+import { handleCommands } from "./commands.js"
 
 // The next pieces are asked for after a pause as long as the last ones took: half of the time is the user's, and a
 // server that is slow is asked less often.
@@ -35,9 +35,7 @@ export function startClient(model, view, signal) {
   let scene = null
   let state = null
   let more = null
-  // The lesson that nobody has read yet.
-  let unread = null
-  // What has been said of the scene on show, for what is mounted later (controls in a drawer that opens).
+  // What has been said of the scene on show.
   let latest = { scene: null, texts: {}, controls: {} }
   root.dataset.ready = "false"
   root.dataset.state = "0"
@@ -52,11 +50,11 @@ export function startClient(model, view, signal) {
 
   const page = createPage(view)
   const address = createAddress({ query: () => state.query, isDark: page.isDark, own })
-  const sight = createSight(() => requests.request(), signal)
+  const visibility = createVisibility(() => requests.request(), signal)
   const requests = createRequests({
     send: (message) => send(message),
     changed: () => { root.dataset.ready = "false" },
-    hidden: () => [...sight.hidden(), ...absent],
+    hidden: () => [...visibility.hidden(), ...absent],
     known: (name) => descriptions.has(name),
   }, signal)
 
@@ -68,7 +66,7 @@ export function startClient(model, view, signal) {
     query: state.query, scene: latest.scene, derived: latest.texts.derived ?? "",
   }), signal)
 
-  grantWishes({ address, page }, signal)
+  handleCommands({ address, page }, signal)
   createHandout(() => latest, signal)
   joinOther(signal)
 
@@ -77,11 +75,7 @@ export function startClient(model, view, signal) {
     // The first state brings the others.
     if (state !== null) address.write()
   }, signal)
-  listen("reading", () => { unread = null }, signal)
-  listen("mounted", ({ kind, key, show }) => {
-    const known = kind === "client" ? own : kind === "lesson" ? unread : kind === "texts" ? latest.texts[key] : latest[kind]
-    if (known != null) show(known)
-  }, signal)
+  listen("ask-client", (hear) => hear(own), signal)
 
   // The plots that a state gives other axes or other data; all of them at first.
   const touchedPlots = ({ ranges, sources }) => {
@@ -104,7 +98,7 @@ export function startClient(model, view, signal) {
   const enter = (name) => {
     scene = gallery.enter(name)
     latest = { scene: descriptions.get(name), texts: {}, controls: {} }
-    sight.watch(scene.cells)
+    visibility.watch(scene.cells)
     requests.entered(name)
     root.dataset.scene = name
     document.title = `Hess Explorer · ${latest.scene.title}`
@@ -160,14 +154,8 @@ export function startClient(model, view, signal) {
     })
   }
 
-  // A lesson that was asked for; at first the one that the link names, with its step.
-  const readLesson = (lesson, step) => {
-    unread = { lesson, step }
-    tell("lesson-read", unread)
-  }
-
   const onAnswer = ({ state: next = null, scene: described = null, lesson = null, chart = null }, block, cells) => {
-    if (lesson !== null) readLesson(lesson, null)
+    if (lesson !== null) tell("lesson-read", { lesson, step: null })
     if (next !== null) onState(next, described, block)
     if (chart !== null) tell("charted", { head: chart, cells })
   }
@@ -193,7 +181,7 @@ export function startClient(model, view, signal) {
     })
     tell("client", own)
     // The first state is read when the page stands, even if the user was faster and it is no longer the first.
-    if (model.lesson !== "") readLesson(JSON.parse(model.lesson), Number(own.step) - 1)
+    if (model.lesson !== "") tell("lesson-read", { lesson: JSON.parse(model.lesson), step: Number(own.step) - 1 })
     send = openWebsocket(onAnswer, onLost, signal)
     requests.begin()
   }

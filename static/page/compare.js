@@ -2,7 +2,7 @@
 
 import { gallery } from "../pictures/gallery.js"
 import { listen, tell } from "./bus.js"
-import { isTaken } from "./keys.js"
+import { onKeys } from "./keys.js"
 
 const SAID_OF_THE_PAGE = new Set(["v", "scene"])
 
@@ -54,11 +54,12 @@ export function createCompare(now, signal) {
   const keep = () => ({ ...now(), ghost: gallery.takeGhost() })
 
   function flip() {
-    if (pinned === null) return
+    if (pinned === null) return false
     if (!isPinnedShown()) {
       other = keep()
       tell("restore", pinned.query)
     } else if (other !== null) tell("restore", other.query)
+    return true
   }
 
   // Before the first answer paints over it; the request goes first.
@@ -87,11 +88,7 @@ export function createCompare(now, signal) {
     refresh()
   }, signal)
   listen("flip", flip, signal)
-  document.addEventListener("keydown", (event) => {
-    if (isTaken(event) || event.key.toLowerCase() !== "c" || pinned === null) return
-    event.preventDefault()
-    flip()
-  }, { signal })
+  onKeys({ c: flip }, signal)
   // A state is painted.
   return { painted: () => { if (pinned !== null) refresh() } }
 }

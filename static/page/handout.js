@@ -6,6 +6,7 @@ import { shadesOf } from "../pictures/looks.js"
 import { listen, tell } from "./bus.js"
 import { linkTo } from "./embedding.js"
 import { element } from "./mount.js"
+import { showSigns } from "./prose.js"
 import { qrCode } from "./qr.js"
 
 // Pixels of a picture that is printed 88 mm wide: 340 to an inch.
@@ -27,8 +28,7 @@ function figureOf([title, said, canvas]) {
 
 function legendOf({ legend }, signs) {
   const box = element("div", { innerHTML: legend })
-  const there = new Set(signs.split(","))
-  for (const [i, entry] of box.querySelectorAll(".legend li").entries()) entry.hidden = !there.has(String(i))
+  showSigns(box, signs)
   return box
 }
 

@@ -7,6 +7,14 @@ export function isTyped(event) {
   return event.composedPath().some((item) => item instanceof HTMLElement && item.matches(`dialog, :is(${TEXT_BOX}):not(.exact)`))
 }
 
+// act() for a key of the page, {key in lower case: act}; false where it means nothing now.
+export function onKeys(actions, signal) {
+  document.addEventListener("keydown", (event) => {
+    const act = actions[event.key.toLowerCase()]
+    if (act !== undefined && !isTaken(event) && act() !== false) event.preventDefault()
+  }, { signal })
+}
+
 // Whether the key is one that is typed, belongs to the browser, or to a dialog that covers the page.
 export function isTaken(event) {
   if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey) return true

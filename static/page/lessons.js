@@ -7,8 +7,8 @@ import { gallery } from "../pictures/gallery.js"
 import { createGuess } from "../pictures/guess.js"
 import { createAnimation } from "./animation.js"
 import { listen, tell } from "./bus.js"
-import { isTaken } from "./keys.js"
-import { element, lifetime } from "./mount.js"
+import { onKeys } from "./keys.js"
+import { element } from "./mount.js"
 import { CALM } from "./windows.js"
 
 const SECOND = 1000
@@ -36,8 +36,7 @@ function questionOf({ question, answer }) {
   }
 }
 
-export function render({ model, view, el }) {
-  const signal = lifetime({ model, view })
+export function render({ index, el, signal }) {
   const menu = element("details", { className: "lesson-menu" })
   const panel = element("section", { className: "lesson", hidden: true, "aria-label": "Lesson" })
   const tries = element("section", { className: "tries", hidden: true, "aria-label": "Try this" })
@@ -162,7 +161,7 @@ export function render({ model, view, el }) {
     tell("url", { lesson: "", step: "" })
   }
 
-  menu.append(element("summary", { textContent: "Lessons" }), element("ul", {}, ...model.index.map(({ name, title, minutes }) => (
+  menu.append(element("summary", { textContent: "Lessons" }), element("ul", {}, ...index.map(({ name, title, minutes }) => (
     element("li", {}, button(`lesson-${name}`, `${title} (${minutes} min)`, () => {
       wanted = name
       tell("lesson", name)
@@ -203,7 +202,6 @@ export function render({ model, view, el }) {
   }
 
   listen("enter", showTries, signal)
-  tell("mounted", { kind: "scene", show: showTries })
   listen("painted", () => {
     const then = arriving
     arriving = null
@@ -214,14 +212,7 @@ export function render({ model, view, el }) {
     else if (given.name === wanted) begin(given, 0, false)
     wanted = null
   }, signal)
-  tell("mounted", { kind: "lesson", show: ({ lesson: given, step }) => begin(given, step, true) })
-  document.addEventListener("keydown", (event) => {
-    if (lesson === null || isTaken(event)) return
-    if (event.key === "PageDown") next()
-    else if (event.key === "PageUp") turnTo(at - 1)
-    else return
-    event.preventDefault()
-  }, { signal })
+  onKeys({ pagedown: () => lesson !== null && next(), pageup: () => lesson !== null && turnTo(at - 1) }, signal)
   signal.addEventListener("abort", () => {
     clearInterval(ticking)
     leaveStep()

@@ -1,16 +1,5 @@
 // How the parts of the page are mounted, and the elements that they are made of.
 
-// The signal that aborts when a part is removed, or rendered once more: its listeners go with it.
-const controllers = new WeakMap()
-
-export function lifetime({ model, view }) {
-  controllers.get(view)?.abort()
-  const controller = new AbortController()
-  controllers.set(view, controller)
-  model.on("remove", () => controller.abort())
-  return controller.signal
-}
-
 // An element with these properties, attributes ("aria-…", "role") among them, and children.
 export function element(tag, properties = {}, ...children) {
   const item = document.createElement(tag)
@@ -35,14 +24,14 @@ const SHEETS = {
  * Mounts parts of the page, each in a shadow of its own, where its styles are its alone.
  *
  * @param {Record<string, string>} sheets - path → style sheet
- * @param {AbortSignal} [signal] - aborts when they are removed
+ * @param {AbortSignal} [signal] - aborts when they are removed: their listeners go with them
  */
-export function createMount(sheets, signal) {
+export function createMount(sheets, signal = new AbortController().signal) {
   return (name, render, properties = {}, host = element("div")) => {
     const el = element("div", { className: name })
     host.attachShadow({ mode: "open" }).append(
       ...["page/base.css", ...(SHEETS[name] ?? ["page/page.css"])].map((path) => element("style", { textContent: sheets[path] })), el)
-    render({ model: { on: (_, removed) => signal?.addEventListener("abort", removed), ...properties }, view: {}, el })
+    render({ ...properties, el, signal })
     return host
   }
 }

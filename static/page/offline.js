@@ -25,7 +25,7 @@ function controlOf({ name, label, kind }, shown) {
 async function start() {
   const { description, tree, client, sheets } = JSON.parse(text("state"))
   const block = Uint8Array.from(atob(text("block")), (letter) => letter.charCodeAt(0)).buffer
-  listen("mounted", ({ kind, show }) => { if (kind === "client") show(client) })
+  listen("ask-client", (hear) => hear(client))
   const mount = createMount(sheets)
   const place = (id) => document.getElementById(id)
   mount("pictures", renderPictures, {}, place("pictures"))
@@ -35,6 +35,7 @@ async function start() {
   mount("status", renderStatus, {}, place("status"))
   document.getElementById("controls").append(...description.controls.filter(({ name }) => name in tree.controls)
     .map((control) => controlOf(control, tree.controls[control.name])))
+  tell("client", client)
   const scene = await gallery.build(description)
   gallery.enter(description.name)
   tell("enter", description)

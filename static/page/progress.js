@@ -1,12 +1,11 @@
 // How much of the state on show is computed while the rest is on its way.  Stop, or Escape, leaves it at that.
 
 import { listen, tell } from "./bus.js"
-import { element, lifetime } from "./mount.js"
+import { element } from "./mount.js"
 
 const SHOWN_AFTER = 300
 
-export function render({ model, view, el }) {
-  const signal = lifetime({ model, view })
+export function render({ el, signal }) {
   const bar = element("progress", { "aria-label": "Computed" })
   const stop = element("button", {
     type: "button", className: "button param-stop", textContent: "Stop", title: "Leave it at what is drawn (Escape)",

@@ -1,12 +1,17 @@
 // HTML of the scene on show, from the project's own files: its legend or its words.
 
-import { listen, tell } from "./bus.js"
-import { element, lifetime } from "./mount.js"
+import { listen } from "./bus.js"
+import { element } from "./mount.js"
 
-export function render({ model, view, el }) {
-  const signal = lifetime({ model, view })
-  const item = element("div", { className: model.part })
-  const show = (scene) => { item.innerHTML = scene[model.part] }
+// Of the entries of a legend, show those whose numbers are there.
+export function showSigns(box, signs) {
+  const there = new Set(signs.split(","))
+  for (const [i, entry] of box.querySelectorAll(".legend li").entries()) entry.hidden = !there.has(String(i))
+}
+
+export function render({ part, el, signal }) {
+  const item = element("div", { className: part })
+  const show = (scene) => { item.innerHTML = scene[part] }
   // A formula or a table that scrolls by itself is reached by the keyboard.
   const resize = new ResizeObserver(() => {
     for (const wide of item.querySelectorAll('math[display="block"], table')) {
@@ -16,17 +21,8 @@ export function render({ model, view, el }) {
   resize.observe(item)
   signal.addEventListener("abort", () => resize.disconnect())
   listen("enter", show, signal)
-  // Of the legend, only what is there.
-  const showSigns = (said) => {
-    const there = new Set(said.split(","))
-    for (const [i, entry] of item.querySelectorAll(".legend li").entries()) entry.hidden = !there.has(String(i))
-  }
-  if (model.part === "legend") {
-    listen("texts", ({ signs }) => { if (signs !== undefined) showSigns(signs) }, signal)
-    tell("mounted", { kind: "texts", key: "signs", show: showSigns })
-  }
+  if (part === "legend") listen("texts", ({ signs }) => { if (signs !== undefined) showSigns(item, signs) }, signal)
   // A lesson has the place of the words.
-  if (model.part === "words") listen("reading", (on) => { item.hidden = on }, signal)
-  tell("mounted", { kind: "scene", show })
+  if (part === "words") listen("reading", (on) => { item.hidden = on }, signal)
   el.append(item)
 }

@@ -1,4 +1,4 @@
-// What the user has asked for since the last request, and when the next one goes.
+// The changes since the last request, and when the next request goes.
 //
 // One request at a time: the next one goes when the answer to the last is painted.  So nothing queues, however fast a
 // slider is dragged, and the newest values win.
@@ -22,8 +22,8 @@ export function createRequests({ send, changed, hidden, known }, signal) {
   let grasped = false
   let animated = false
   let touched = false
-  let wish = {}
-  let values = {}
+  // What the next request says besides.
+  let pending = {}
   let shown = null
   let chosen = null
   let target = null
@@ -51,10 +51,10 @@ export function createRequests({ send, changed, hidden, known }, signal) {
       sent = performance.now()
       const entering = chosen !== null && chosen !== shown
       send({
-        requested, held: grasped || animated, values, ...wish, scene: entering ? chosen : null, hidden: entering ? null : hidden(),
+        requested, held: grasped || animated, values: {}, ...pending, scene: entering ? chosen : null,
+        hidden: entering ? null : hidden(),
       })
-      values = {}
-      wish = {}
+      pending = {}
       chosen = null
       wait()
     })
@@ -65,14 +65,18 @@ export function createRequests({ send, changed, hidden, known }, signal) {
     ask()
   }
   const want = (what) => {
-    Object.assign(wish, what)
+    Object.assign(pending, what)
     request()
+  }
+  // What is no change of the state.
+  const add = (what) => {
+    Object.assign(pending, what)
+    ask()
   }
   // A preset or reset discards pending changes.
   const restart = (what) => {
     moved.set("preset", requested + 1)
-    values = {}
-    wish = {}
+    pending = {}
     want(what)
   }
 
@@ -93,16 +97,15 @@ export function createRequests({ send, changed, hidden, known }, signal) {
     request()
   }, signal)
   listen("change", (changes) => {
-    Object.assign(values, changes)
     for (const name of Object.keys(changes)) {
       moved.set(name, requested + 1)
-      delete wish.expressions?.[name]
+      delete pending.expressions?.[name]
     }
-    request()
+    want({ values: { ...pending.values, ...changes } })
   }, signal)
   listen("expression", (texts) => {
     for (const name of Object.keys(texts)) moved.set(name, requested + 1)
-    want({ expressions: { ...wish.expressions, ...texts } })
+    want({ expressions: { ...pending.expressions, ...texts } })
   }, signal)
   listen("preset", (preset) => restart({ preset }), signal)
   for (const what of ["reset", "clear"]) listen(what, () => restart({ [what]: true }), signal)
@@ -115,10 +118,7 @@ export function createRequests({ send, changed, hidden, known }, signal) {
     chosen = target = null
     restart({ step })
   }, signal)
-  listen("lesson", (lesson) => {
-    wish.lesson = lesson
-    ask()
-  }, signal)
+  listen("lesson", (lesson) => add({ lesson }), signal)
   listen("stop", () => want({ stop: true }), signal)
   listen("pick", ({ pick, drag }) => {
     // A finger that moves scrolls the page.
@@ -126,20 +126,14 @@ export function createRequests({ send, changed, hidden, known }, signal) {
     want({ picked: pick })
   }, signal)
   listen("hover", (place) => {
-    if (!place.slice(1).every(Number.isFinite)) return
-    wish.hover = place
-    ask()
+    if (place.slice(1).every(Number.isFinite)) add({ hover: place })
   }, signal)
-  listen("near", (scene) => {
-    if (known(scene)) return
-    wish.near = scene
-    ask()
-  }, signal)
+  listen("near", (near) => { if (!known(near)) add({ near }) }, signal)
   listen("scene", (scene) => {
     // The scene chosen last, though its pictures may still be on their way.
     if (scene === (target ?? shown)) return
     chosen = target = scene
-    delete wish.restore
+    delete pending.restore
     request()
   }, signal)
 

@@ -9,9 +9,9 @@ import { render as renderPictures } from "../pictures/gallery.js"
 import { listen, tell } from "./bus.js"
 import { startClient } from "./client.js"
 import { linkTo } from "./embedding.js"
-import { isTaken } from "./keys.js"
+import { onKeys } from "./keys.js"
 import { render as renderLessons } from "./lessons.js"
-import { createMount, element, lifetime } from "./mount.js"
+import { createMount, element } from "./mount.js"
 import { spot, wear } from "./presenting.js"
 import { render as renderProgress } from "./progress.js"
 import { render as renderProse } from "./prose.js"
@@ -85,19 +85,22 @@ function opener() {
 // The sentence on what moves what: over the stage; on a phone it scrolls with the text.
 function sayWhatMoves(stage, reading, signal) {
   const sentence = element("p", { className: "text moves" })
-  const enter = ({ moves }) => { sentence.textContent = moves }
   const place = () => {
     if (PHONE.matches) reading.prepend(sentence)
     else stage.before(sentence)
   }
-  listen("enter", enter, signal)
-  tell("mounted", { kind: "scene", show: enter })
+  listen("enter", ({ moves }) => { sentence.textContent = moves }, signal)
   PHONE.addEventListener("change", place, { signal })
   place()
 }
 
+let controller = null
+
+// Called by Panel; what was rendered before goes.
 export function render({ model, view, el }) {
-  const signal = lifetime({ model, view })
+  controller?.abort()
+  controller = new AbortController()
+  const { signal } = controller
   const mount = createMount(model.sheets, signal)
   const text = (key, look, tag = "p") => mount("text", renderText, { key, look, tag, live: tag === "p" })
   const box = (className, ...parts) => element("div", { className }, ...parts)
@@ -119,11 +122,6 @@ export function render({ model, view, el }) {
   sayWhatMoves(stage, reader.firstChild, signal)
   wear(el, signal)
   listen("reading", (on) => el.classList.toggle("in-lesson", on), signal)
-  document.addEventListener("keydown", (event) => {
-    const command = { f: "fullscreen", p: "present" }[event.key.toLowerCase()]
-    if (isTaken(event) || command === undefined) return
-    event.preventDefault()
-    tell(command)
-  }, { signal })
+  onKeys({ f: () => tell("fullscreen"), p: () => tell("present") }, signal)
   startClient(model, view, signal)
 }

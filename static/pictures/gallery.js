@@ -2,7 +2,7 @@
 
 import { listen } from "../page/bus.js"
 import { sayDragMe } from "../page/handle.js"
-import { element, lifetime } from "../page/mount.js"
+import { element } from "../page/mount.js"
 import { wear } from "../page/presenting.js"
 import { cloudPlane } from "./cloud_plane.js"
 import { planeGhost } from "./ghost.js"
@@ -159,10 +159,8 @@ function besideLayer({ picture, source, columns }) {
   }
 }
 
-export function render({ model, view, el }) {
-  // Rendered once more: the same pictures in the new place.
-  if (shelf !== null) return void el.append(shelf)
-  signal = lifetime({ model, view })
+export function render({ el, signal: removed }) {
+  signal = removed
   shelf = element("div", { className: "shelf" })
   el.append(shelf)
   wear(el, signal)

@@ -3,7 +3,7 @@
 import { listen } from "../page/bus.js"
 import { element } from "../page/mount.js"
 import { isPresenting, zoom } from "../page/presenting.js"
-import { waitLongForPress } from "./bokeh_private.js"
+import { checkBokeh, waitLongForPress } from "./bokeh_private.js"
 import { cellsPainter } from "./cells.js"
 import { dotsPainter } from "./dots.js"
 import { frameCanvas } from "./frame_canvas.js"
@@ -65,6 +65,7 @@ export async function buildPlot(host, picture, source, signal) {
   waitLongForPress()
   const views = await Bokeh.embed.embed_item(picture.item, host)
   const [plot] = views.roots
+  checkBokeh(plot)
   const { model } = plot
   for (const one of model.document.all_models) {
     if (one.data !== undefined && one.name !== null) source(one.name).add(one, plot)

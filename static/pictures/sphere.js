@@ -66,7 +66,7 @@ export function sphere(el, options, source, signal, isShown) {
   const lines = options.bare ? [circle([0, 0, 1], 0)] : graticule()
   let turn = HOME
   const beginTurn = (keys) => { turn = [Number(keys.az), Number(keys.el)] }
-  const askForTurn = () => tell("mounted", { kind: "client", show: beginTurn })
+  const askForTurn = () => tell("ask-client", beginTurn)
   askForTurn()
   // The sphere of another scene may have been turned since.
   listen("enter", () => { if (isShown()) askForTurn() }, signal)

@@ -2,11 +2,11 @@
 
 import pytest
 
-from support.page import default_state, first_on_phone, one_phone, one_tab, page_on_a_line, tab_on_a_line
+from support.page import default_state, first_on_phone, one_phone, one_tab, page_with_websocket, tab_with_websocket
 
 tab = pytest.fixture(scope="session")(one_tab)
 explorer = pytest.fixture(default_state)
 phone_tab = pytest.fixture(scope="session")(one_phone)
 phone = pytest.fixture(first_on_phone)
-line_tab = pytest.fixture(scope="session")(tab_on_a_line)
-on_a_line = pytest.fixture(page_on_a_line)
+websocket_tab = pytest.fixture(scope="session")(tab_with_websocket)
+with_websocket = pytest.fixture(page_with_websocket)

@@ -6,12 +6,14 @@
 from __future__ import annotations
 
 import math
+import re
 import time
 from urllib.parse import quote, urlencode, urlsplit
 
 import numpy as np
 import pytest
 
+from hess_explorer.assets import modules_path
 from hess_explorer.headless.browser import wait_ready
 from hess_explorer.headless.screenshot import running_server
 from hess_explorer.protocol.parameters import MAX_QUERY
@@ -110,13 +112,13 @@ def test_changes_of_several_sliders_at_once_are_one_state(explorer):
     assert_orbit(explorer, {**DEFAULTS, **values})
 
 
-def test_an_answer_that_takes_long_is_said_to_be_under_way(on_a_line):
-    explorer, line = on_a_line
+def test_an_answer_that_takes_long_is_said_to_be_under_way(with_websocket):
+    explorer, websocket = with_websocket
     page = explorer.page
     sign = page.locator(".text.busy")
     assert sign.is_hidden()
     assert sign.get_attribute("role") == "status"
-    line.hold()
+    websocket.hold()
     before = explorer.state
     explorer.slide(h=0.9)
     sign.wait_for(state="visible")
@@ -126,7 +128,7 @@ def test_an_answer_that_takes_long_is_said_to_be_under_way(on_a_line):
     assert min(box["width"], box["height"]) > 20
     assert 0 < box["x"] < box["x"] + box["width"] <= 1600
     assert 0 < box["y"] < box["y"] + box["height"] <= 950
-    line.release()
+    websocket.release()
     wait_ready(page, after=before)
     assert sign.is_hidden()
     assert_orbit(explorer, {**DEFAULTS, "h": 0.9})
@@ -151,8 +153,8 @@ def test_an_answer_that_takes_long_is_said_to_be_under_way(on_a_line):
     assert page.evaluate("said") == []
 
 
-def test_a_page_that_has_lost_its_server_says_so_and_goes_on_in_the_same_state_when_it_is_back(on_a_line):
-    explorer, line = on_a_line
+def test_a_page_that_has_lost_its_server_says_so_and_goes_on_in_the_same_state_when_it_is_back(with_websocket):
+    explorer, websocket = with_websocket
     page = explorer.page
     sign = page.locator(".text.busy")
     explorer.change(lambda: explorer.slide(f=0.5))
@@ -163,7 +165,7 @@ def test_a_page_that_has_lost_its_server_says_so_and_goes_on_in_the_same_state_w
 
     # The server does not answer yet.
     page.route("**/liveness", keep)
-    line.cut()
+    websocket.cut()
     sign.wait_for(state="visible")
     assert sign.inner_text().startswith("The connection to the server is lost.")
     # What is chosen now cannot be shown, and is not said to be under way.
@@ -400,3 +402,41 @@ def test_a_page_whose_server_has_ended_keeps_its_pictures_and_plays_on(browser, 
     explorer.errors[:] = [error for error in explorer.errors if "ERR_CONNECTION_REFUSED" not in error]
     explorer.assert_quiet()
     context.close()
+
+
+# --- What the page needs of Bokeh beyond its documentation ---------------------------------------------
+
+MISSING = """async (modules) => {
+  const { missing } = await importShim(new URL(`${modules}/pictures/bokeh_private.js`, document.baseURI).href)
+  const { UIGestures } = Bokeh.require("core/ui_gestures")
+  const [plot] = hess.plots
+  const found = [missing(plot)]
+  const threshold = UIGestures.press_threshold
+  UIGestures.press_threshold = undefined
+  found.push(missing(plot))
+  UIGestures.press_threshold = threshold
+  const { glyph } = plot.computed_renderer_views[0]
+  glyph.set_visuals = undefined
+  found.push(missing(plot))
+  delete glyph.set_visuals
+  found.push(missing(plot))
+  return found
+}"""
+
+
+def test_each_private_member_of_bokeh_that_is_not_there_is_named(explorer):
+    assert explorer.page.evaluate(MISSING, modules_path()) == [
+        [], ["UIGestures.press_threshold"],
+        ["GlyphRendererView.all_indices, GlyphView.set_visuals and after_visuals"], []]
+
+
+def test_a_page_that_lacks_one_says_so_when_it_opens(browser, server):
+    context = browser.new_context(viewport={"width": 1600, "height": 950}, reduced_motion="reduce")
+    context.add_init_script(
+        "Object.defineProperty(window, 'devicePixelRatio', { configurable: false, get: () => 1 })")
+    explorer = Explorer(context.new_page(), server).goto("/")
+    errors = explorer.errors.copy()
+    context.close()
+    assert len(errors) == 1
+    assert re.fullmatch(r"BokehJS \S+ is none that this page knows: there is no window\.devicePixelRatio that can be "
+                        r"replaced\.", errors[0])

@@ -354,15 +354,15 @@ def test_a_choice_that_is_taken_back_at_once_changes_nothing(explorer):
     assert_drawn(explorer, HESS, {**DEFAULTS, "h": 0.75})
 
 
-def test_the_last_scene_that_was_clicked_counts_even_while_another_is_computed(on_a_line):
-    explorer, line = on_a_line
+def test_the_last_scene_that_was_clicked_counts_even_while_another_is_computed(with_websocket):
+    explorer, websocket = with_websocket
     if explorer.page.evaluate("name => hess.has(name)", STUDY):
         explorer.open()
     # Not built yet, then built already.
     for h in (1.5, 0.9):
         if h != 1.5:
             explorer.change(explorer.type, "h", str(h))
-        line.hold()
+        websocket.hold()
         before = explorer.state
         explorer.page.locator(f".param-scene-{STUDY}").dispatch_event("click")
         wait_frames(explorer, 3)
@@ -370,7 +370,7 @@ def test_the_last_scene_that_was_clicked_counts_even_while_another_is_computed(o
         assert explorer.scene == HESS
         explorer.page.locator(f".param-scene-{HESS}").dispatch_event("click")
         wait_frames(explorer, 3)
-        line.release()
+        websocket.release()
         # One answer for each click.
         wait_ready(explorer.page, after=before + 1)
         assert explorer.scene == HESS
@@ -378,10 +378,10 @@ def test_the_last_scene_that_was_clicked_counts_even_while_another_is_computed(o
         assert explorer.shown("h") == (h, h)
 
 
-def test_a_slider_that_is_only_touched_while_a_scene_is_on_its_way_leaves_the_new_controls_whole(on_a_line):
-    explorer, line = on_a_line
+def test_a_slider_that_is_only_touched_while_a_scene_is_on_its_way_leaves_the_new_controls_whole(with_websocket):
+    explorer, websocket = with_websocket
     for scene in (STUDY, HESS):
-        line.hold()
+        websocket.hold()
         before = explorer.state
         explorer.page.locator(f".param-scene-{scene}").dispatch_event("click")
         wait_frames(explorer, 3)
@@ -389,16 +389,16 @@ def test_a_slider_that_is_only_touched_while_a_scene_is_on_its_way_leaves_the_ne
         x = box["x"] + 8 + (1.5 + 0.99) / 4.99 * (box["width"] - 16)
         explorer.page.mouse.click(x, box["y"] + box["height"] / 2)
         wait_frames(explorer, 3)
-        line.release()
+        websocket.release()
         wait_ready(explorer.page, after=before + 1)
         assert_defaults(explorer, scene, h=explorer.shown("h")[0])
         assert explorer.shown("h")[0] == pytest.approx(1.5, abs=0.1)
         assert explorer.chosen("preset") in (SCENES[HESS].presets[0].name, "Choose an example…")
 
 
-def test_a_control_that_is_moved_on_is_not_moved_back_by_an_older_answer_and_the_others_follow(on_a_line):
-    explorer, line = on_a_line
-    line.hold()
+def test_a_control_that_is_moved_on_is_not_moved_back_by_an_older_answer_and_the_others_follow(with_websocket):
+    explorer, websocket = with_websocket
+    websocket.hold()
     before = explorer.state
     explorer.choose("preset", "No cycle: every orbit winds")
     wait_frames(explorer, 3)
@@ -407,7 +407,7 @@ def test_a_control_that_is_moved_on_is_not_moved_back_by_an_older_answer_and_the
       window.shown = []
       hess.listen("controls", () => shown.push(Number(slider.value)))
     }""")
-    line.release()
+    websocket.release()
     wait_ready(explorer.page, after=before + 1)
     assert_drawn(explorer, HESS, {**DEFAULTS, "h": 0.2, "f": 0.5, "phi0": 1.0})
     assert set(explorer.page.evaluate("shown")) == {1.0}

@@ -400,12 +400,12 @@ def first_on_phone(phone_tab):
     phone_tab.assert_quiet()
 
 
-class Line:
+class Websocket:
     """Between a page and its server: can hold back what the server says."""
 
     def __init__(self, page):
         self._socket, self._held, self._holding = None, [], False
-        page.route_web_socket(re.compile(r"/line(\?|$)"), self._connect)
+        page.route_web_socket(re.compile(r"/states(\?|$)"), self._connect)
 
     def _connect(self, socket):
         self._socket = socket
@@ -430,21 +430,21 @@ class Line:
             self._socket.send(self._held.pop(0))
 
 
-def tab_on_a_line(browser, server):
-    """(explorer, line): a tab for many tests, and what is between it and the server."""
+def tab_with_websocket(browser, server):
+    """(explorer, websocket): a tab for many tests, and what is between it and the server."""
     context = browser.new_context(viewport={"width": WIDE[0], "height": WIDE[1]}, reduced_motion="reduce")
     page = context.new_page()
-    yield Explorer(page, server), Line(page)
+    yield Explorer(page, server), Websocket(page)
     context.close()
 
 
-def page_on_a_line(line_tab):
-    """(explorer, line): the page in its default state, and what is between it and the server."""
-    explorer, line = line_tab
+def page_with_websocket(websocket_tab):
+    """(explorer, websocket): the page in its default state, and what is between it and the server."""
+    explorer, websocket = websocket_tab
     explorer.fresh()
     explorer.assert_quiet()
-    yield explorer, line
-    line.release()
+    yield explorer, websocket
+    websocket.release()
     explorer.assert_quiet()
 
 

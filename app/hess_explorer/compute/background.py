@@ -41,99 +41,79 @@ def run_in_steps(step: Callable[[], bool]) -> None:
     _pool.submit(one)
 
 
-class _Begun:
-    """The pieces of a session that have begun, each with what ends it."""
-
-    def __init__(self) -> None:
-        self._lock = threading.Lock()
-        self._all: list[tuple[Task, threading.Event]] = []
-
-    def compute(self, task: Task) -> None:
-        """The result of this task for the cache.  Raises as the task and `budget.check`."""
-        one = (task, threading.Event())
-        with self._lock:
-            self._all.append(one)
-        try:
-            # The mechanics check their results for overflow themselves.
-            with np.errstate(all="ignore"), limited(one[1], SECONDS, WAIT, "A part of this state"):
-                CACHE.get(task.function, *task.arguments)
-        finally:
-            with self._lock:
-                self._all.remove(one)
-
-    def abandon(self, but: Collection[Task]) -> None:
-        """End all but these, each between two parts of its computation."""
-        with self._lock:
-            for task, left in self._all:
-                if task not in but:
-                    left.set()
-
-
 class _Job:
-    def __init__(self, tasks: Iterable[Task], begun: _Begun) -> None:
+    """The tasks of one state."""
+
+    def __init__(self, tasks: Iterable[Task]) -> None:
         self.tasks = deque(tasks)
+        self.running = 0
         self.error = ""
-        self._begun = begun
-        self._lock = threading.Lock()
-        self._running = 0
 
-    def one(self) -> bool:
-        """Do one task; whether there may be more."""
-        with self._lock:
-            if not self.tasks:
-                return False
-            task = self.tasks.popleft()
-            self._running += 1
-        try:
-            self._begun.compute(task)
-        except Abandoned:
-            pass
-        except ModelError as error:
-            self.error = str(error)
-            self.tasks.clear()
-        # A worker that died silently would leave the page waiting for ever: report here, details in the log.
-        except Exception:
-            logger.exception("a computation in the background failed: %s", task.function.__qualname__)
-            self.error = "A part of this state could not be computed. Please report the link."
-            self.tasks.clear()
-        with self._lock:
-            self._running -= 1
-        return True
-
-    @property
-    def left(self) -> int:
-        with self._lock:
-            return len(self.tasks) + self._running
+    def fail(self, error: str) -> None:
+        """Leave out the tasks that have not begun."""
+        self.error = error
+        self.tasks.clear()
 
 
 class Background:
     """The background work of one session: a new state discards what is left of the previous one."""
 
     def __init__(self) -> None:
-        self._begun = _Begun()
-        self._job = _Job((), self._begun)
+        self._lock = threading.Lock()
+        self._job = _Job(())
+        # The tasks that have begun, of earlier states too, each with what ends it.
+        self._begun: list[tuple[Task, threading.Event]] = []
 
     def follow(self, tasks: Iterable[Task]) -> None:
         """Compute these into the cache, and discard all earlier tasks but those of them that have begun."""
         wanted = list(tasks)
         self._discard(wanted)
-        self._job = job = _Job(wanted, self._begun)
+        self._job = job = _Job(wanted)
         # No thread is woken for nothing.
-        for _ in range(min(THREADS, job.left)):
-            run_in_steps(job.one)
+        for _ in range(min(THREADS, len(wanted))):
+            run_in_steps(lambda: self._step(job))
 
     def stop(self) -> None:
         """Discard all tasks; those that have begun end between two parts of their computations."""
         self._discard(())
 
     def _discard(self, but: Collection[Task]) -> None:
-        self._job.tasks.clear()
-        self._begun.abandon(but)
+        with self._lock:
+            self._job.tasks.clear()
+            for task, left in self._begun:
+                if task not in but:
+                    left.set()
+
+    def _step(self, job: _Job) -> bool:
+        """Do one task; return whether there may be more."""
+        with self._lock:
+            if not job.tasks:
+                return False
+            task, left = begun = job.tasks.popleft(), threading.Event()
+            job.running += 1
+            self._begun.append(begun)
+        try:
+            # The mechanics check their results for overflow themselves.
+            with np.errstate(all="ignore"), limited(left, SECONDS, WAIT, "A part of this state"):
+                CACHE.get(task.function, *task.arguments)
+        except Abandoned:
+            pass
+        except ModelError as error:
+            job.fail(str(error))
+        # A worker that died silently would leave the page waiting for ever: report here, details in the log.
+        except Exception:
+            logger.exception("a computation in the background failed: %s", task.function.__qualname__)
+            job.fail("A part of this state could not be computed. Please report the link.")
+        with self._lock:
+            job.running -= 1
+            self._begun.remove(begun)
+        return True
 
     @property
     def left(self) -> int:
         """The number of tasks not finished."""
-        return self._job.left
+        with self._lock:
+            return len(self._job.tasks) + self._job.running
 
     @property
     def error(self) -> str:

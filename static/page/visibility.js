@@ -1,7 +1,7 @@
 // Which pictures are out of sight or folded: those are not computed, and what comes into sight is asked for.
 
 // appeared() is called when a picture comes into sight.
-export function createSight(appeared, signal) {
+export function createVisibility(appeared, signal) {
   const hidden = new Set()
   const observer = new IntersectionObserver((entries) => {
     let found = false

@@ -1,4 +1,4 @@
-// What the user asks of the page itself rather than of the state: its link, its theme, the full screen, present mode.
+// Commands to the page itself rather than to the state: its link, its theme, the full screen, present mode.
 
 import { listen, tell } from "./bus.js"
 import { isPresenting, present } from "./presenting.js"
@@ -13,22 +13,21 @@ async function copy(text, instead) {
   }
 }
 
-export function grantWishes({ address, page }, signal) {
-  const grant = (name, wish) => listen(name, wish, signal)
-  grant("link", async () => {
+export function handleCommands({ address, page }, signal) {
+  listen("link", async () => {
     // The link of what is on the screen, not of what the address bar has come to.
     address.writeNow()
     tell("copied", { text: null, said: await copy(window.location.href, "It is in the address bar") })
-  })
-  grant("address", address.writeNow)
-  grant("copy", async (text) => tell("copied", { text, said: await copy(text, "Copy it by hand") }))
-  grant("theme", page.turnTheme)
-  grant("present", () => {
+  }, signal)
+  listen("address", address.writeNow, signal)
+  listen("copy", async (text) => tell("copied", { text, said: await copy(text, "Copy it by hand") }), signal)
+  listen("theme", page.turnTheme, signal)
+  listen("present", () => {
     present(!isPresenting())
     tell("url", { present: isPresenting() ? "1" : "" })
-  })
-  grant("fullscreen", () => {
+  }, signal)
+  listen("fullscreen", () => {
     if (document.fullscreenElement === null) document.documentElement.requestFullscreen().catch(console.warn)
     else document.exitFullscreen()
-  })
+  }, signal)
 }
