@@ -42,8 +42,6 @@ export function startClient(model, view, signal) {
   present(own.present === "1")
   const isPart = own.embed === "1"
   if (isPart) embed()
-  // Pictures of the scene that are not on this page.
-  let absent = []
 
   let send = null
   listen("ask-chart", (chart) => send({ chart }), signal)
@@ -54,7 +52,7 @@ export function startClient(model, view, signal) {
   const requests = createRequests({
     send: (message) => send(message),
     changed: () => { root.dataset.ready = "false" },
-    hidden: () => [...visibility.hidden(), ...absent],
+    hidden: () => [...visibility.hidden(), ...(latest.scene.absent ?? [])],
     known: (name) => descriptions.has(name),
   }, signal)
 
@@ -134,15 +132,8 @@ export function startClient(model, view, signal) {
   let arriving = Promise.resolve()
   // The newest description comes with a state of its scene, or of one that may be chosen before it.
   const onState = (next, described, block) => {
-    let description = described
-    if (description !== null) {
-      if (isPart) {
-        const whole = description
-        description = embedded(whole, own)
-        absent = whole.pictures.filter(({ name }) => !own.pictures.split(",").includes(name)).map(({ name }) => name)
-      }
-      descriptions.set(description.name, description)
-    }
+    const description = described !== null && isPart ? embedded(described, own) : described
+    if (description !== null) descriptions.set(description.name, description)
     arriving = arriving.then(async () => {
       await build(descriptions.get(next.scene))
       await show(next, block)

@@ -22,12 +22,14 @@ export function linkTo(parts = null) {
   return url.href.replaceAll("%2C", ",")
 }
 
-// Of the description of a scene what these keys of the address name: pictures are open, controls essential.
+// Of the description of a scene what these keys of the address name: pictures are open, controls essential; the names of
+// the other pictures are `absent`.
 export function embedded(description, { pictures, controls }) {
-  const chosen = (list, names) => list.filter(({ name }) => names.split(",").includes(name))
-  const kept = chosen(description.controls, controls)
+  const isIn = (names) => ({ name }) => names.split(",").includes(name)
+  const kept = description.controls.filter(isIn(controls))
+  const [there, absent] = [true, false].map((is) => description.pictures.filter((one) => isIn(pictures)(one) === is))
   return {
-    ...description, pictures: chosen(description.pictures, pictures).map((picture) => ({ ...picture, folded: null })),
+    ...description, pictures: there.map((picture) => ({ ...picture, folded: null })), absent: absent.map(({ name }) => name),
     controls: kept, essential: kept.map(({ name }) => name), presets: [],
   }
 }

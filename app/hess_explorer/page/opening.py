@@ -67,21 +67,20 @@ def opening(query: str, own: Lesson | None, *, lenient: bool = True) -> Opening:
     else:
         scene, state = linked(link, next(iter(scenes())))
     large = Names("large", "Enlarged pictures", scene.pictures, most=2)
-    embedded = _embedded(scene)
-    looks = link.values((*CLIENT, large, THEME, PRESENT, EMBED, *embedded))
-    kept = {spec.name: float(looks[spec.name]) for spec in CLIENT}
-    kept["speed"] = min(SPEEDS, key=lambda speed: abs(speed - kept["speed"]))
-    client = {**{name: repr(value) for name, value in kept.items()}, large.name: str(looks[large.name]),
+    numbers = link.values(CLIENT)
+    numbers["speed"] = min(SPEEDS, key=lambda speed: abs(speed - float(numbers["speed"])))
+    client = {**{name: repr(value) for name, value in numbers.items()}, large.name: str(link.value(large)),
               "lesson": reading.name if reading else "", "step": str(at) if reading else ""}
+    dark = link.value(THEME) == "dark"
     # What is not written into the address is empty.
-    for spec in (PRESENT, EMBED):
-        client[spec.name] = str(looks[spec.name]).strip("0")
+    client |= {spec.name: str(link.value(spec)).strip("0") for spec in (PRESENT, EMBED)}
     # None at all is none meant.
-    parts = {spec.name: str(looks[spec.name]) or spec.default for spec in embedded}
-    pictures = parts["pictures"].split(",") if client[EMBED.name] else scene.open_pictures
+    parts = {spec.name: str(link.value(spec)) or spec.default for spec in _embedded(scene)}
+    pictures = scene.open_pictures
     if client[EMBED.name]:
         client |= parts
-    return Opening(scene, state, link.notes, lessons, reading, pictures, client, looks["theme"] == "dark")
+        pictures = tuple(parts["pictures"].split(","))
+    return Opening(scene, state, link.notes, lessons, reading, pictures, client, dark)
 
 
 def _embedded(scene: Scene[Any]) -> tuple[Names, Names]:

@@ -21,6 +21,7 @@ from hess_explorer.page.offline import as_html
 from hess_explorer.protocol.parameters import MAX_QUERY, Choice, Number, decode
 from hess_explorer.scenes import scenes
 from hess_explorer.server.film import Film
+from hess_explorer.server.refusal import refuse
 from hess_mechanics.errors import ModelError
 
 __all__ = ["Export"]
@@ -63,7 +64,7 @@ class Export(RequestHandler):
         """Answer with the file; 400 and a sentence for what cannot be computed or drawn, 503 where too many wait."""
         self.set_header("X-Content-Type-Options", "nosniff")
         if len(self.request.query) > MAX_QUERY:
-            self._refuse(400, f"The link is longer than {MAX_QUERY} characters: export from a state of fewer clicks.")
+            refuse(self, 400, f"The link is longer than {MAX_QUERY} characters: export from a state of fewer clicks.")
             return
         given = {name: self.get_query_argument(name) for name in self.request.query_arguments}
         read, _ = decode(self.request.query, _SPECS)
@@ -71,7 +72,7 @@ class Export(RequestHandler):
         state, picture = {name: value for name, value in given.items() if name not in own}, given.get("picture", "")
         is_film = read["format"] in holding("film")
         if (Export.filming >= _MOST_FILMS) if is_film else (Export.waiting >= _MOST):
-            self._refuse(503, "Too many files are being made at the moment: try again in a minute.")
+            refuse(self, 503, "Too many files are being made at the moment: try again in a minute.")
             return
         Export.filming += is_film
         Export.waiting += not is_film
@@ -85,7 +86,7 @@ class Export(RequestHandler):
         except (Abandoned, StreamClosedError):
             return
         except ModelError as error:
-            self._refuse(400, str(error))
+            refuse(self, 400, str(error))
         finally:
             Export.filming -= is_film
             Export.waiting -= not is_film
@@ -140,8 +141,3 @@ class Export(RequestHandler):
         self.set_header("Content-Type", FORMATS[kind].media)
         self.set_header("Content-Disposition", f'attachment; filename="{name}.{kind}"')
         self.finish(data)
-
-    def _refuse(self, status: int, sentence: str) -> None:
-        self.set_status(status)
-        self.set_header("Content-Type", "text/plain; charset=utf-8")
-        self.finish(sentence)

@@ -13,6 +13,7 @@ from typing import ClassVar
 from panel.io.server import DocHandler
 
 from hess_explorer.protocol.parameters import MAX_QUERY
+from hess_explorer.server.refusal import refuse
 
 __all__ = ["GuardedDocument", "policy"]
 
@@ -56,10 +57,8 @@ class GuardedDocument(DocHandler):
         self._nonce = secrets.token_urlsafe(16)
         # Before anything is made of it; what is a little too long opens the page, with a note.
         if len(self.request.query) > QUERY_LIMIT:
-            self.set_status(414)
-            self.set_header("Content-Type", "text/plain; charset=utf-8")
-            self.finish(f"The link is longer than {QUERY_LIMIT} characters, and the explorer's own are shorter than "
-                        f"{MAX_QUERY}: open the page without the part of its address after “?”.")
+            refuse(self, 414, f"The link is longer than {QUERY_LIMIT} characters, and the explorer's own are shorter "
+                              f"than {MAX_QUERY}: open the page without the part of its address after “?”.")
             return
         await super().prepare()  # type: ignore[no-untyped-call]  # Panel declares no types
         embedded = self.get_query_argument("embed", "") == "1"

@@ -8,6 +8,8 @@ import io
 import segno
 from tornado.web import RequestHandler
 
+from hess_explorer.server.refusal import refuse
+
 __all__ = ["MOST", "QrCode", "drawing"]
 
 MOST = 1500
@@ -31,10 +33,8 @@ class QrCode(RequestHandler):
         length = len(text.encode())
         self.set_header("X-Content-Type-Options", "nosniff")
         if not 0 < length <= MOST:
-            self.set_status(400)
-            self.set_header("Content-Type", "text/plain; charset=utf-8")
-            self.finish(f"The link has {length} characters, and a QR code that a camera reads at most {MOST}: "
-                        "share the link itself.")
+            refuse(self, 400, f"The link has {length} characters, and a QR code that a camera reads at most {MOST}: "
+                              "share the link itself.")
             return
         # The largest takes a tenth of a second, in which the page of others should not wait.
         svg = await asyncio.get_running_loop().run_in_executor(None, drawing, text)
