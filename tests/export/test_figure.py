@@ -13,8 +13,8 @@ from PIL import Image
 from scipy.spatial.transform import Rotation
 
 from hess_explorer.export.figure import as_file, draw
-from hess_explorer.export.sheet import seen
 from hess_explorer.export.shown import shown
+from hess_explorer.export.sphere_canvas import seen
 from hess_mechanics.errors import ModelError
 
 DRAFT = "accuracy=draft"

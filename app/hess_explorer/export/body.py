@@ -8,7 +8,7 @@ import numpy as np
 
 from hess_explorer.export import solid
 from hess_explorer.export.moment import between
-from hess_explorer.export.sheet import LOOKS, Look, Sheet, circle, seen
+from hess_explorer.export.sphere_canvas import LOOKS, Look, SphereCanvas, circle, seen
 from hess_explorer.views import theme
 from hess_explorer.views.layers import Columns
 from hess_mechanics.numerics.results import Array
@@ -46,13 +46,13 @@ def _turned(directions: Array) -> Array:
 
 
 class BodyDrawing:
-    """A body at a time, to be drawn on a sheet: `half(False)`, `middle()`, `half(True)`.
+    """A body at a time, to be drawn on a canvas: `half(False)`, `middle()`, `half(True)`.
 
     own : the columns of its picture; attitude : those with its motion, {} where it has none.
     """
 
-    def __init__(self, sheet: Sheet, own: Columns, attitude: Columns, t: float) -> None:
-        self.sheet, self.own = sheet, own
+    def __init__(self, canvas: SphereCanvas, own: Columns, attitude: Columns, t: float) -> None:
+        self.canvas, self.own = canvas, own
         self.turn: Array | None = None
         self.path = np.empty((0, 3))
         semi = own.get("semi", ())
@@ -63,7 +63,7 @@ class BodyDrawing:
         self.semi = np.array(semi, float)
         # The principal axes in space and in the view.
         self.axes = np.array(own["axes"]) @ self.turn.T if self.turn is not None and len(semi) == 3 else None
-        self.seen = None if self.axes is None else seen(self.axes, *sheet.view)
+        self.seen = None if self.axes is None else seen(self.axes, *canvas.view)
 
     def _path(self, attitude: Columns, t: float) -> Array:
         tip, (i, _) = np.array(self.own["trail"][:3], float), between(attitude["t"], t)
@@ -75,7 +75,7 @@ class BodyDrawing:
         """All of it on this side but the solid itself."""
         for look, weight, *curve in self.own.get("curves", ()):
             ink, dash, usual = LOOKS[look]
-            self.sheet.stroke(np.array(curve).T, (ink, dash, 0.6 * weight or usual), near, 1.0 if near else 0.45)
+            self.canvas.stroke(np.array(curve).T, (ink, dash, 0.6 * weight or usual), near, 1.0 if near else 0.45)
         if self.turn is None:
             return
         self._trail(near)
@@ -85,7 +85,7 @@ class BodyDrawing:
         self._wheels(near)
         for x, y, z, look, label in self.own.get("rods", ()):
             self._rod(self.turn @ np.array([x, y, z]), LOOKS[look], label, near, ball=look == "mass")
-        if len(self.own.get("axis", ())) == 3 and self.sheet.is_near(self.own["axis"]) == near:
+        if len(self.own.get("axis", ())) == 3 and self.canvas.is_near(self.own["axis"]) == near:
             self._arrow(np.array(self.own["axis"]), self.own.get("label", ""))
 
     def middle(self) -> None:
@@ -95,29 +95,29 @@ class BodyDrawing:
         hollow = bool(self.own.get("hollow"))
         if hollow:
             self._inside()
-        solid.paint(self.sheet, self.seen, self.semi, hollow, _SHADES)
+        solid.paint(self.canvas, self.seen, self.semi, hollow, _SHADES)
 
     def _inside(self) -> None:
         """The cavity of a ball of glass, and the ball that it rolls on."""
-        sheet = self.sheet
+        canvas = self.canvas
         from matplotlib.patches import Circle
 
-        sheet.frame.add_patch(Circle((0.0, 0.0), _CAVITY, facecolor="none", edgecolor=sheet.colour(theme.INK),
-                                     linewidth=0.7, alpha=0.5, zorder=sheet.above()))
-        x, y, _ = sheet.at((0.0, 0.0, _INNER - _CAVITY))
+        canvas.frame.add_patch(Circle((0.0, 0.0), _CAVITY, facecolor="none", edgecolor=canvas.colour(theme.INK),
+                                     linewidth=0.7, alpha=0.5, zorder=canvas.above()))
+        x, y, _ = canvas.at((0.0, 0.0, _INNER - _CAVITY))
         self._ball(x, y, _INNER, "#9AA0AA")
-        x, y, _ = sheet.at((0.0, 0.0, -_CAVITY))
-        sheet.dot(x, y, 3.0, color=sheet.colour(theme.INK))
+        x, y, _ = canvas.at((0.0, 0.0, -_CAVITY))
+        canvas.dot(x, y, 3.0, color=canvas.colour(theme.INK))
 
     def _ball(self, x: float, y: float, radius: float, colour: str) -> None:
         from matplotlib.patches import Circle
 
-        sheet = self.sheet
-        sheet.frame.add_patch(Circle((x, y), radius, facecolor=sheet.colour(colour), edgecolor=sheet.colour(theme.INK),
-                                     linewidth=0.9, zorder=sheet.above()))
+        canvas = self.canvas
+        canvas.frame.add_patch(Circle((x, y), radius, facecolor=canvas.colour(colour), linewidth=0.9,
+                                      edgecolor=canvas.colour(theme.INK), zorder=canvas.above()))
         # The light comes over the left shoulder of whoever looks.
-        sheet.frame.add_patch(Circle((x - 0.35 * radius, y + 0.38 * radius), 0.28 * radius, facecolor="white",
-                                     edgecolor="none", alpha=0.85, zorder=sheet.above()))
+        canvas.frame.add_patch(Circle((x - 0.35 * radius, y + 0.38 * radius), 0.28 * radius, facecolor="white",
+                                     edgecolor="none", alpha=0.85, zorder=canvas.above()))
 
     def _trail(self, near: bool) -> None:
         count, most = len(self.path), _TRAIL // _PIECES
@@ -130,7 +130,7 @@ class BodyDrawing:
             if last < 1:
                 break
             share = 1.0 - k / _PIECES
-            self.sheet.stroke(self.path[first : last + 1], (ink, dash, 0.7 + 1.4 * share), near,
+            self.canvas.stroke(self.path[first : last + 1], (ink, dash, 0.7 + 1.4 * share), near,
                               (1.0 if near else 0.4) * share)
 
     def _section(self) -> None:
@@ -140,7 +140,7 @@ class BodyDrawing:
         *normal, radius = self.own["section"]
         ring = circle(self.turn @ np.array(normal), 0.0)
         sides = (ring @ self.axes.T / self.semi**2) @ self.axes
-        self.sheet.stroke(radius * ring, (LOOKS["second"][0], "-", 1.5), True, sides=sides)
+        self.canvas.stroke(radius * ring, (LOOKS["second"][0], "-", 1.5), True, sides=sides)
 
     def _principal_axes(self, near: bool) -> None:
         if self.axes is None:
@@ -152,16 +152,16 @@ class BodyDrawing:
 
     def _rod(self, to: Array, look: Look, label: str, near: bool, ball: bool = False) -> None:
         """From the surface to its end, on the side where it leaves that."""
-        sheet = self.sheet
-        at, is_near = (0.0, sheet.is_near(to)) if self.seen is None else solid.leaves(
-            self.seen, self.semi, seen(to[None, :], *sheet.view)[0])
+        canvas = self.canvas
+        at, is_near = (0.0, canvas.is_near(to)) if self.seen is None else solid.leaves(
+            self.seen, self.semi, seen(to[None, :], *canvas.view)[0])
         if is_near != near or at >= 1.0:
             return
-        sheet.line(0.99 * at * to, to, look)
-        x, y, _ = sheet.at(to)
+        canvas.line(0.99 * at * to, to, look)
+        x, y, _ = canvas.at(to)
         if ball:
             self._ball(x, y, _BALL, look[0])
-        right, up, _ = sheet.at((1.0 + 0.12 / float(np.linalg.norm(to))) * to)
+        right, up, _ = canvas.at((1.0 + 0.12 / float(np.linalg.norm(to))) * to)
         if ball:
             # Beyond the ball, also where the rod points to the eye.
             far = math.hypot(x, y)
@@ -169,7 +169,7 @@ class BodyDrawing:
             right, up = (at + (2.5 * _BALL) * one for at, one in zip((x, y), along, strict=True))
         # What is half hidden cannot be read.
         if near or self.seen is None or not solid.covers(self.seen, self.semi, right, up, 0.05):
-            sheet.write(label, right, up)
+            canvas.write(label, right, up)
 
     def _wheels(self, near: bool) -> None:
         if len(self.own.get("wheels", ())) != 6:
@@ -178,18 +178,18 @@ class BodyDrawing:
         at, e = np.array(self.own["wheels"]).reshape(2, 3) @ self.turn.T
         for touching in (at, -at):
             self._rod((1.0 - _WHEEL) * touching, (theme.INK, "-", 1.8), "", near)
-            if self.sheet.is_near(touching) == near:
+            if self.canvas.is_near(touching) == near:
                 self._wheel(touching, e)
 
     def _wheel(self, touching: Array, e: Array) -> None:
-        sheet = self.sheet
+        canvas = self.canvas
         axle = np.cross(touching, e)
         axle /= np.linalg.norm(axle)
-        side = _THICK if sheet.is_near(axle) else -_THICK
-        rim, middle, ink = circle(axle, 0.0)[::4], (1.0 - _WHEEL) * touching, sheet.colour(theme.INK)
+        side = _THICK if canvas.is_near(axle) else -_THICK
+        rim, middle, ink = circle(axle, 0.0)[::4], (1.0 - _WHEEL) * touching, canvas.colour(theme.INK)
 
         def disc(along: float, size: float, face: str) -> None:
-            sheet.area(seen(middle + along * axle + size * rim, *sheet.view)[:, :2], facecolor=face, edgecolor=ink,
+            canvas.area(seen(middle + along * axle + size * rim, *canvas.view)[:, :2], facecolor=face, edgecolor=ink,
                        linewidth=1.3, joinstyle="round")
 
         # The tread is what its discs cover.
@@ -200,11 +200,11 @@ class BodyDrawing:
 
     def _arrow(self, along: Array, label: str) -> None:
         """From the sphere outwards, with the label beside its head."""
-        sheet = self.sheet
-        sheet.line(1.02 * along, 1.15 * along, (theme.INK, "-", 1.5))
-        (x, y, _), (x0, y0, _) = sheet.at(1.15 * along), sheet.at(1.02 * along)
-        if math.hypot(x - x0, y - y0) > 3.0 * sheet.point:
-            angle, size = math.atan2(y - y0, x - x0), 4.2 * sheet.point
+        canvas = self.canvas
+        canvas.line(1.02 * along, 1.15 * along, (theme.INK, "-", 1.5))
+        (x, y, _), (x0, y0, _) = canvas.at(1.15 * along), canvas.at(1.02 * along)
+        if math.hypot(x - x0, y - y0) > 3.0 * canvas.point:
+            angle, size = math.atan2(y - y0, x - x0), 4.2 * canvas.point
             corners = np.array([[math.cos(angle + turned), math.sin(angle + turned)] for turned in (0.0, 2.4, -2.4)])
-            sheet.area(np.array([x, y]) + size * corners, color=sheet.colour(theme.INK), linewidth=0)
-        sheet.write(label, x + (8.0 + 2.8 * len(label)) * sheet.point, y)
+            canvas.area(np.array([x, y]) + size * corners, color=canvas.colour(theme.INK), linewidth=0)
+        canvas.write(label, x + (8.0 + 2.8 * len(label)) * canvas.point, y)

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hess_explorer.export.moment import CloudFrame, clouds_at
-from hess_explorer.export.sheet import LOOKS, Sheet, seen
 from hess_explorer.export.shown import Shown
+from hess_explorer.export.sphere_canvas import LOOKS, SphereCanvas, seen
 from hess_explorer.views import theme
 from hess_explorer.views.cloud import CloudPlane
 from hess_explorer.views.elements import Colour
@@ -47,12 +47,12 @@ def draw_moving(frame: Frame, shown: Shown, colour: Colour, t: float) -> None:
         _dots(frame, cloud.omega, colour(ink), 3.0)
 
 
-def on_sphere(sheet: Sheet, clouds: Sequence[CloudFrame], near: bool) -> None:
+def on_sphere(canvas: SphereCanvas, clouds: Sequence[CloudFrame], near: bool) -> None:
     """The half of the points that is near, or far."""
     for cloud, ink in zip(clouds, _COLOURS, strict=False):
-        x, y, depth = seen(cloud.gamma, *sheet.view).T
+        x, y, depth = seen(cloud.gamma, *canvas.view).T
         there = (depth >= 0.0) == near
-        _dots(sheet.frame, np.column_stack([x, y])[there], sheet.colour(ink), sheet.above(), 1.0 if near else 0.3)
+        _dots(canvas.frame, np.column_stack([x, y])[there], canvas.colour(ink), canvas.above(), 1.0 if near else 0.3)
 
 
 def _dots(frame: Frame, places: Array, colour: str, order: float, faint: float = 1.0) -> None:

@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from hess_explorer.export.sheet import Sheet
+from hess_explorer.export.sphere_canvas import SphereCanvas
 from hess_explorer.views import theme
 from hess_explorer.views.elements import Colour
 from hess_mechanics.numerics.results import Array
@@ -81,20 +81,20 @@ def shaded(axes: Array, semi: Array, tones: tuple[str, str], side: int, glass: b
     return np.clip(np.concatenate([colours, alpha[..., None]], axis=-1), 0.0, 1.0), float(width), float(height)
 
 
-def paint(sheet: Sheet, axes: Array, semi: Array, glass: bool, side: int) -> None:
-    """On the sheet; its shades are pixels in a vector file too, its outline is a line."""
+def paint(canvas: SphereCanvas, axes: Array, semi: Array, glass: bool, side: int) -> None:
+    """On the canvas; its shades are pixels in a vector file too, its outline is a line."""
     from matplotlib.image import AxesImage
     from matplotlib.patches import Ellipse
 
-    colour: Colour = sheet.colour
+    colour: Colour = canvas.colour
     colours, width, height = shaded(axes, semi, (colour(EVEN), colour(ODD)), side, glass)
     a, b, angle = outline(axes, semi)
     edge = Ellipse((0.0, 0.0), 2.0 * a, 2.0 * b, angle=math.degrees(angle), facecolor="none",
                    edgecolor=colour(theme.INK), linewidth=0.7, alpha=0.55)
-    image = AxesImage(sheet.frame, extent=(-width, width, -height, height), origin="lower", interpolation="bilinear",
-                      zorder=sheet.above())
+    image = AxesImage(canvas.frame, extent=(-width, width, -height, height), origin="lower", interpolation="bilinear",
+                      zorder=canvas.above())
     image.set_data(colours)
-    edge.set_zorder(sheet.above())
-    sheet.frame.add_patch(edge)
-    sheet.frame.add_image(image)
+    edge.set_zorder(canvas.above())
+    canvas.frame.add_patch(edge)
+    canvas.frame.add_image(image)
     image.set_clip_path(edge)

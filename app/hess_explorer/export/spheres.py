@@ -12,8 +12,8 @@ import numpy as np
 from hess_explorer.export.body import BodyDrawing
 from hess_explorer.export.clouds import on_sphere
 from hess_explorer.export.moment import clouds_at, state_at
-from hess_explorer.export.sheet import LOOKS, Sheet, circle, graticule
 from hess_explorer.export.shown import Shown
+from hess_explorer.export.sphere_canvas import LOOKS, SphereCanvas, circle, graticule
 from hess_explorer.views import theme
 from hess_explorer.views.body import BodyInSpace
 from hess_explorer.views.elements import Colour
@@ -30,35 +30,35 @@ _FAINT = 0.3
 
 def draw_still(frame: Frame, shown: Shown, colour: Colour) -> None:
     """What no motion changes, and lies beneath what moves: the far half, and the near one where only a point moves."""
-    sheet = Sheet(frame, (shown.client["az"], shown.client["el"]), colour)
-    sheet.prepare()
-    _half(sheet, shown, False)
+    canvas = SphereCanvas(frame, (shown.client["az"], shown.client["el"]), colour)
+    canvas.prepare()
+    _half(canvas, shown, False)
     if not _has_guest(shown):
-        sheet.outline()
-        _half(sheet, shown, True)
+        canvas.outline()
+        _half(canvas, shown, True)
 
 
 def draw_moving(frame: Frame, shown: Shown, colour: Colour, t: float, point: bool) -> None:
     """The body or the clouds at a time, with what lies over them; point : the moving point too."""
-    sheet = Sheet(frame, (shown.client["az"], shown.client["el"]), colour)
+    canvas = SphereCanvas(frame, (shown.client["az"], shown.client["el"]), colour)
     # Over all that is still.
-    sheet.start(2.0)
+    canvas.start(2.0)
     picture, columns = shown.picture, shown.columns
     if isinstance(picture, BodyInSpace):
-        body = BodyDrawing(sheet, columns.get(picture.name, {}), columns.get(picture.attitude or picture.name, {}), t)
+        body = BodyDrawing(canvas, columns.get(picture.name, {}), columns.get(picture.attitude or picture.name, {}), t)
         body.half(False)
-        sheet.outline()
+        canvas.outline()
         body.middle()
-        _half(sheet, shown, True, body)
+        _half(canvas, shown, True, body)
     elif isinstance(picture, Sphere) and picture.clouds:
         clouds = clouds_at(columns.get(picture.clouds, {}), t)
-        on_sphere(sheet, clouds, False)
-        sheet.outline()
-        _half(sheet, shown, True)
-        on_sphere(sheet, clouds, True)
+        on_sphere(canvas, clouds, False)
+        canvas.outline()
+        _half(canvas, shown, True)
+        on_sphere(canvas, clouds, True)
     state = state_at(columns.get("data-orbit", {}), shown.scene.angles, t) if point else {}
     if isinstance(picture, Sphere) and "g1" in state:
-        _point(sheet, [state[name] for name in ("g1", "g2", "g3")])
+        _point(canvas, [state[name] for name in ("g1", "g2", "g3")])
 
 
 def _has_guest(shown: Shown) -> bool:
@@ -66,59 +66,59 @@ def _has_guest(shown: Shown) -> bool:
     return isinstance(picture, BodyInSpace) or (isinstance(picture, Sphere) and bool(picture.clouds))
 
 
-def _half(sheet: Sheet, shown: Shown, near: bool, body: BodyDrawing | None = None) -> None:
+def _half(canvas: SphereCanvas, shown: Shown, near: bool, body: BodyDrawing | None = None) -> None:
     picture = shown.picture
     own = shown.columns.get(picture.name, {})
     in_space = picture if isinstance(picture, BodyInSpace) else None
     for line in [circle(np.array([0.0, 0.0, 1.0]), 0.0)] if in_space and in_space.bare else graticule():
-        sheet.stroke(line, (theme.INK, "-", 0.4), near, 0.25 if near else 0.1)
+        canvas.stroke(line, (theme.INK, "-", 0.4), near, 0.25 if near else 0.1)
     if in_space is None:
         for axis, label in zip(np.eye(3), ("γ₁", "γ₂", "γ₃"), strict=True):
-            _axis(sheet, axis, label, near)
+            _axis(canvas, axis, label, near)
         if len(own.get("axis", ())):
-            _axis(sheet, np.array(own["axis"]), own["label"], near)
+            _axis(canvas, np.array(own["axis"]), own["label"], near)
     faint = 1.0 if near else _FAINT
     for a, b, c, height, look in own.get("circles", ()):
-        sheet.stroke(circle(np.array([a, b, c]), height), LOOKS[look], near, faint)
+        canvas.stroke(circle(np.array([a, b, c]), height), LOOKS[look], near, faint)
     for track, look in (picture.looks if isinstance(picture, Sphere) else {}).items():
         columns = shown.columns.get(f"data-{track}", {})
         if len(columns.get("g1", ())) > 1:
-            sheet.stroke(_gamma(columns), LOOKS[look], near, faint)
+            canvas.stroke(_gamma(columns), LOOKS[look], near, faint)
     if body is not None:
         body.half(near)
     for x, y, z, look, label in own.get("marks", ()):
-        if sheet.is_near((x, y, z)) == near:
-            _mark(sheet, (x, y, z), look, label, faint)
+        if canvas.is_near((x, y, z)) == near:
+            _mark(canvas, (x, y, z), look, label, faint)
 
 
 def _gamma(columns: Columns) -> Any:
     return np.column_stack([columns[name] for name in ("g1", "g2", "g3")])
 
 
-def _axis(sheet: Sheet, axis: Any, label: str, near: bool) -> None:
-    if sheet.is_near(axis) != near:
+def _axis(canvas: SphereCanvas, axis: Any, label: str, near: bool) -> None:
+    if canvas.is_near(axis) != near:
         return
     alpha = 0.9 if near else 0.4
-    sheet.line(axis, 1.12 * axis, (theme.INK, "-", 0.8), alpha)
-    x, y, _ = sheet.at(1.2 * axis)
-    sheet.write(label, x, y, alpha)
+    canvas.line(axis, 1.12 * axis, (theme.INK, "-", 0.8), alpha)
+    x, y, _ = canvas.at(1.2 * axis)
+    canvas.write(label, x, y, alpha)
 
 
-def _mark(sheet: Sheet, at: tuple[float, float, float], look: str, label: str, alpha: float) -> None:
-    x, y, _ = sheet.at(at)
-    ink = sheet.colour(LOOKS[look][0])
-    sheet.dot(x, y, 4.5, markerfacecolor="none" if look == "unstable" else ink, markeredgecolor=ink,
+def _mark(canvas: SphereCanvas, at: tuple[float, float, float], look: str, label: str, alpha: float) -> None:
+    x, y, _ = canvas.at(at)
+    ink = canvas.colour(LOOKS[look][0])
+    canvas.dot(x, y, 4.5, markerfacecolor="none" if look == "unstable" else ink, markeredgecolor=ink,
               markeredgewidth=1.4, alpha=alpha)
-    sheet.write(label, 1.15 * x, 1.15 * y)
+    canvas.write(label, 1.15 * x, 1.15 * y)
 
 
-def _point(sheet: Sheet, at: list[float]) -> None:
+def _point(canvas: SphereCanvas, at: list[float]) -> None:
     """Seen on the far side too, with a dashed ring about it that says so."""
-    x, y, depth = sheet.at(at)
-    ink = sheet.colour(theme.INK)
-    sheet.dot(x, y, 6.5, markerfacecolor=theme.POINT, markeredgecolor=ink, markeredgewidth=0.9)
+    x, y, depth = canvas.at(at)
+    ink = canvas.colour(theme.INK)
+    canvas.dot(x, y, 6.5, markerfacecolor=theme.POINT, markeredgecolor=ink, markeredgewidth=0.9)
     if depth < 0.0:
-        radius = 6.6 * sheet.point
+        radius = 6.6 * canvas.point
         angles = np.linspace(0.0, 2.0 * np.pi, 49)
-        sheet.frame.plot(x + radius * np.cos(angles), y + radius * np.sin(angles), color=ink, linewidth=0.9,
-                         linestyle=(0, (2.2, 2.1)), zorder=sheet.above())
+        canvas.frame.plot(x + radius * np.cos(angles), y + radius * np.sin(angles), color=ink, linewidth=0.9,
+                         linestyle=(0, (2.2, 2.1)), zorder=canvas.above())

@@ -15,7 +15,7 @@ from hess_mechanics.numerics.results import Array
 if TYPE_CHECKING:
     from matplotlib.axes import Axes as Frame
 
-__all__ = ["LOOKS", "ROOM", "Look", "Sheet", "circle", "graticule", "seen"]
+__all__ = ["LOOKS", "ROOM", "Look", "SphereCanvas", "circle", "graticule", "seen"]
 
 Point = Sequence[float] | Array
 """(3,)."""
@@ -61,7 +61,7 @@ def graticule() -> Iterator[Array]:
         yield circle(np.array([-math.sin(angle), math.cos(angle), 0.0]), 0.0)
 
 
-class Sheet:
+class SphereCanvas:
     """A frame of Matplotlib in which a sphere of radius 1 is seen from a direction: azimuth and elevation in radians.
 
     What is drawn later lies above what was drawn before; lengths of type are in points, all others in radii.
