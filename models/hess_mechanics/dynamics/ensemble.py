@@ -18,7 +18,7 @@ from hess_mechanics.numerics.parallel import THREADS, share
 from hess_mechanics.numerics.results import Array, Cost, Ensemble, frozen
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 
-__all__ = ["MAX_NUMBERS", "ensemble", "integrated"]
+__all__ = ["MAX_NUMBERS", "ensemble"]
 
 MAX_NUMBERS = 20_000_000
 """Numbers in all states at all times: 160 MB."""
