@@ -66,7 +66,7 @@ class SceneState:
     @property
     def section(self) -> Any:
         """The section that the scene draws, of the mechanics; None without one.  Raises `ModelError`."""
-        return _first(self._state, ("section",))
+        return _first(self._state, ("poincare",))
 
     @property
     def periodic(self) -> Any:
