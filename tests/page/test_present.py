@@ -33,7 +33,7 @@ STROKES = """item => new Promise((resolve) => {
   const widths = new Set()
   const { stroke } = ctx
   ctx.stroke = (...path) => {
-    widths.add(ctx.lineWidth)
+    widths.add(ctx.lineWidth * ctx.getTransform().a)
     stroke.apply(ctx, path)
   }
   item.dispatchEvent(new KeyboardEvent("keydown", { key: "Home" }))
