@@ -324,7 +324,7 @@ def test_on_the_second_sheet_orbits_start_with_the_smaller_momentum():
 
 def test_where_there_is_no_second_sheet_that_is_said():
     with pytest.raises(ModelError, match=r"No motion crosses a second sheet here.*choose the largest G"):
-        _ = EP.of({**EP.defaults(), "sheet": "second G"}).picked
+        _ = EP.of({**EP.defaults(), "sheet": "second G"}).section.picked
 
 
 def test_curves_that_do_not_go_round_have_no_rotation_number():
@@ -426,7 +426,7 @@ def test_what_is_not_seen_is_not_left_to_do(seen):
     names = {task.function.__name__ for task in result.work.todo}
     expected = set()
     if seen & {"section", "rotation"}:
-        expected.add("_piece")
+        expected.add("_batch")
     if "exponent" in seen:
         expected.add("lyapunov_exponent")
     assert names == expected

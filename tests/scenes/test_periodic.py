@@ -169,7 +169,7 @@ def test_homoclinic_points_come_from_the_saddle_and_go_to_it():
     shifts = 2.0 * math.pi * np.arange(-2, 3)
     drawn_ = sum(meetings(one, other + np.array([shift, 0.0]))
                  for one in unstable for other in stable for shift in shifts)
-    assert sum(map(len, state._met)) == drawn_
+    assert sum(map(len, state.periodic_orbit._met)) == drawn_
     (unsure,) = (int(note.split()[1]) for note in view.report.notes if "within their error" in note)
     assert said + unsure == drawn_
     saddle = state.periodic_orbit.closed.orbit.places[0]

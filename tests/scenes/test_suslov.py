@@ -361,7 +361,7 @@ def test_a_window_without_a_point_says_so_when_no_more_will_come(count):
     # While more may come, it is not said; nor where there is one.
     waiting = SCENE.compute({**view.values, "h": 1.01 + 1e-5 * count}, ("section",), False)
     assert waiting.work.todo
-    assert waiting.nothing_seen() == ""
+    assert waiting.section.nothing_seen() == ""
     whole = View(SCENE, {**values, "window": ""}, seen=("section",))
     assert "section-message" not in whole.data
 
