@@ -1,5 +1,5 @@
-// A slider is moved to and fro, one at a time, at a chosen pace.  It stops at the first touch of that slider, at Escape,
-// and where another state is chosen.
+// Moves a slider to and fro at a chosen pace, one slider at a time.  A touch of that slider, Escape, and the choice of
+// another state stop it.
 
 import { button, icon, relabel } from "../page/buttons.js"
 import { listen, tell } from "../page/bus.js"

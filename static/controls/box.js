@@ -1,4 +1,5 @@
-// The box of a number: exact values, and expressions, which the server reads; arrows move it by steps, by ten with Shift.
+// The text box of a number: takes exact values, and expressions, which the server evaluates.  Arrow keys step, with Shift by
+// ten steps.
 
 import { tell } from "../page/bus.js"
 import { element } from "../page/mount.js"

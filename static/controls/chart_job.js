@@ -1,4 +1,4 @@
-// The chart that the server computes for this page: asked for, heard of, stopped.  It goes on whatever is on the screen.
+// The request for a chart: starts it on the server, polls for new cells, stops it.  It goes on whatever is on the screen.
 
 import { listen, tell } from "../page/bus.js"
 

@@ -1,4 +1,4 @@
-// A menu with its label.
+// A select element with its label.
 
 import { element } from "../page/mount.js"
 import { optionsOf } from "./dialog.js"

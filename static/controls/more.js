@@ -1,4 +1,4 @@
-// The tools of the bar for which a phone has no room, in a menu at its end.
+// The overflow menu at the end of the bar: the tools for which a phone has no room.
 
 import { button } from "../page/buttons.js"
 import { element } from "../page/mount.js"

@@ -1,4 +1,5 @@
-// A number: a slider for the hand, with a box ("box.js"), a label to be dragged and a button that moves it to and fro.
+// The control of a number: a slider, a box for exact values ("box.js"), a label that can be dragged ("scrub.js"), and a
+// button that moves the slider to and fro ("animation.js").
 
 import { tell } from "../page/bus.js"
 import { arrowOf } from "../page/keys.js"

@@ -1,6 +1,6 @@
-// A scene begins in gentle motion: what moves is seen before anything is asked.  The first touch ends it.
+// Plays a scene gently when it is first shown, so that newcomers see what moves.  The first touch ends it.
 //
-// Not where less motion is preferred, nor inside another page, nor in a lesson, which says itself what moves.
+// Not where the user prefers reduced motion, nor inside another page, nor in a lesson, which says itself what moves.
 
 import { listen } from "../page/bus.js"
 import { isEmbedded } from "../page/embedding.js"

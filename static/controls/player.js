@@ -1,6 +1,6 @@
-// Play, pause, step, speed and the time slider.  The moving point is computed here, from the
-// samples of the orbit that the page already has: no traffic while it plays.
-// Tells "time" {t, state} to whoever draws the point, and moves the sources of one point.
+// The player: play, pause, step, speed and the time slider.  It interpolates the moving point from the samples of the orbit
+// that the page already has, so nothing is requested while it plays.
+// Tells "time" {t, state} to whatever draws the point, and fills the sources of single points.
 
 import { button, icon, relabel } from "../page/buttons.js"
 import { listen, tell } from "../page/bus.js"

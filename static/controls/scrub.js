@@ -1,4 +1,5 @@
-// A number by dragging its label: across so many pixels it goes from end to end, where steps are not longer.
+// Scrubbing: a number follows the pointer while its label is dragged.  A full drag goes from one end to the other, where
+// steps are not longer.
 
 import { onDrag } from "../page/drag.js"
 

@@ -1,4 +1,4 @@
-// Where square pictures stand: side by side, as large as their place allows.  Pure: numbers in, numbers out.
+// Layout of square pictures in a viewport: side by side, as large as the room allows.  Pure: numbers in, numbers out.
 
 // Of the height: so large is a picture that is enlarged, if the width allows.
 const LARGE = 0.82

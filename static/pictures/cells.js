@@ -1,4 +1,4 @@
-// Numbers on a grid as coloured cells, or, of a continuous function, without steps.
+// Draws numbers on a grid as coloured cells, or, for a continuous function, interpolated in each pixel.
 
 import { element } from "../page/mount.js"
 import { bytesOf, onDark, shade } from "./looks.js"

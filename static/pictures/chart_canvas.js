@@ -1,5 +1,5 @@
-// A chart as a picture: coloured cells, axes, a bar of the colours, and where the state on show is.  The pointer and the
-// arrow keys move a cursor from cell to cell; a drag draws a box.
+// Draws a chart: coloured cells, axes, a colour bar, and a ring at the state on show.  The pointer and the arrow keys move
+// a cursor from cell to cell (the hit test is `cellAt`); a drag draws a box.
 
 import { onDrag } from "../page/drag.js"
 import { arrowOf } from "../page/keys.js"
@@ -46,11 +46,11 @@ function drawBox(ctx, [x0, y0, x1, y1]) {
 /**
  * Return {canvas, show(chart), mark([x, y] or null, whether all else is as in the chart), cursor}.
  * @param {{plain: string[], round: string[]}} palettes `round` for numbers that differ by turns
- * @param {{pointed: (cell: number[] | null) => void, chosen: (cell: number[]) => void, boxed: (box: {x: number[], y: number[]}) => void}} hands
+ * @param {{pointed: (cell: number[] | null) => void, chosen: (cell: number[]) => void, boxed: (box: {x: number[], y: number[]}) => void}} handlers
  *   hear of [column, row], and of a box as [low, high] on both sides
  * @param {AbortSignal} signal
  */
-export function chartCanvas(palettes, hands, signal) {
+export function chartCanvas(palettes, handlers, signal) {
   let chart = null
   let mark = null
   let cursor = null
@@ -198,7 +198,7 @@ export function chartCanvas(palettes, hands, signal) {
   function moveTo(cell) {
     cursor = cell
     request()
-    hands.pointed(cell)
+    handlers.pointed(cell)
   }
 
   // [low, high] between two places of the canvas, within a side.
@@ -214,10 +214,10 @@ export function chartCanvas(palettes, hands, signal) {
       request()
       if (drawn !== null && event !== null) {
         const [x0, y0, x1, y1] = drawn
-        hands.boxed({ x: between(chart.x, place.xs, [x0, x1]), y: between(chart.y, place.ys, [y0, y1]) })
+        handlers.boxed({ x: between(chart.x, place.xs, [x0, x1]), y: between(chart.y, place.ys, [y0, y1]) })
       } else if (cell !== null) {
         moveTo(cell)
-        hands.chosen(cell)
+        handlers.chosen(cell)
       }
     })
 

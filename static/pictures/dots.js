@@ -1,4 +1,4 @@
-// Thousands of dots of one colour as squares; Bokeh paints each as a circle with colours of its own.
+// Draws thousands of dots of one colour as squares; Bokeh paints each as a circle with colours of its own.
 
 import { zoom } from "../page/presenting.js"
 import { shade } from "./looks.js"

@@ -1,4 +1,4 @@
-// A faint copy of an earlier state under or over the one on show: drawn once, and again only where axes or sizes change.
+// Ghosts: faint copies of an earlier state, drawn once, and again only where axes or sizes change.
 
 import { element } from "../page/mount.js"
 import { frameCanvas } from "./frame_canvas.js"

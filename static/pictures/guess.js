@@ -1,4 +1,4 @@
-// A guess in a picture: the audience clicks where something will be, then the truth is drawn with the distance to it.
+// A guess in a picture: the audience clicks where it expects something, then the truth is drawn with the distance to it.
 
 import { arrowOf } from "../page/keys.js"
 import { element } from "../page/mount.js"

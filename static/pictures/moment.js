@@ -1,4 +1,4 @@
-// A moment between the samples of an orbit.
+// Finds the samples of an orbit around a time.
 
 /**
  * Return [i, s]: t lies between the samples i and i + 1, the share s of the way; at an end where it lies beyond.  Samples are

@@ -1,4 +1,4 @@
-// What the mouse does in a Bokeh plot: clicks, drags and boxes choose, and a place is looked at.
+// Pointer events of a Bokeh plot: a click, a drag or a box chooses values; hovering asks what is under the pointer.
 
 import { tell } from "../page/bus.js"
 

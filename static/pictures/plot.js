@@ -1,13 +1,12 @@
-// A picture that Bokeh draws: axes, lines and markers, from the description that "figure.py" makes of it.
+// A picture that Bokeh draws: axes, lines and markers, from the description that "bokeh_figure.py" makes of it.
 
 import { listen } from "../page/bus.js"
 import { element } from "../page/mount.js"
-import { isPresenting, zoom } from "../page/presenting.js"
+import { isPresenting } from "../page/presenting.js"
 import { checkBokeh, waitLongForPress } from "./bokeh_private.js"
 import { cellsPainter } from "./cells.js"
 import { dotsPainter } from "./dots.js"
 import { frameCanvas } from "./frame_canvas.js"
-import { isDark, setDark, shade } from "./looks.js"
 import { connectPicks } from "./picks.js"
 import { tickFormatter } from "./ticks.js"
 
@@ -84,66 +83,4 @@ export async function buildPlot(host, picture, source, signal) {
   if (picture.renamed) nameAxes(model, source(`${picture.name}-axes`), signal)
   connectPicks(model, picture.picks, source(`${picture.name}-box`))
   return plot
-}
-
-const TICKS = 0.86
-
-const WEIGHTS = ["line_width", "axis_line_width", "major_tick_line_width", "outline_line_width", "size", "text_font_size"]
-
-const times = (factor, value) => (typeof value === "number" ? factor * value
-  : typeof value === "string" ? `${factor * Number.parseFloat(value)}px` : value)
-
-// What Bokeh draws with as it was made; those of columns are no numbers.
-const weightsOf = (part) => Object.fromEntries(WEIGHTS.filter((name) => part[name] != null)
-  .map((name) => [name, part[name].value ?? part[name]]).filter(([, value]) => typeof value !== "object"))
-const made = new WeakMap()
-
-/** Give a plot sizes of texts for type of this size, in pixels, and lines and dots for the mode that is on. */
-export function sizePlot(plot, type) {
-  for (const part of plot.model.references()) {
-    if (!made.has(part)) made.set(part, weightsOf(part))
-    const wide = Object.entries(made.get(part)).map(([name, value]) => [name, times(zoom(), value)])
-    part.setv(Object.fromEntries(wide))
-    if (part.axis_label_text_font_size !== undefined) {
-      part.setv({ axis_label_text_font_size: `${type}px`, major_label_text_font_size: `${Math.round(TICKS * type)}px` })
-    }
-  }
-}
-
-// Of each glyph, its colours as "theme.py" has them.
-const given = new WeakMap()
-
-// The shades of a glyph's colours for this page.
-function shadeGlyph(glyph) {
-  if (!given.has(glyph)) {
-    const colours = {}
-    for (const name of ["line_color", "fill_color"]) {
-      const value = glyph[name]?.value ?? glyph[name]
-      if (typeof value === "string" && value.startsWith("#")) colours[name] = value
-    }
-    given.set(glyph, colours)
-  }
-  const changed = Object.entries(given.get(glyph)).map(([name, colour]) => [name, shade(colour)])
-    .filter(([name, colour]) => (glyph[name].value ?? glyph[name]) !== colour)
-  if (changed.length > 0) glyph.setv(Object.fromEntries(changed))
-}
-
-/** Give whatever Bokeh itself draws the colours of the page's theme: of text, and of what is less important. */
-export function colourPlot(plot, text, muted) {
-  setDark(isDark(text))
-  for (const part of plot.model.references()) {
-    if (part.axis_label_text_color !== undefined) {
-      part.setv({
-        axis_label_text_color: text, axis_label_text_font_style: "normal", axis_label_text_font: "system-ui, sans-serif",
-        major_label_text_color: muted, major_label_text_font: "system-ui, sans-serif",
-        axis_line_color: muted, axis_line_alpha: 0.4, major_tick_line_color: muted, major_tick_line_alpha: 0.4,
-        minor_tick_line_alpha: 0,
-      })
-    } else if (part.text_color !== undefined && part.text_baseline !== undefined) {
-      part.setv({ text_color: text })
-    } else if (part.line_color !== undefined && part.type !== "Plot") {
-      shadeGlyph(part)
-    }
-  }
-  plot.model.setv({ outline_line_color: muted, outline_line_alpha: 0.4 })
 }

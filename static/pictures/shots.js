@@ -4,7 +4,7 @@ import { element } from "../page/mount.js"
 import { atRatio, takeColours } from "./bokeh_private.js"
 import { layersOf } from "./ghost.js"
 import { INK } from "./looks.js"
-import { colourPlot } from "./plot.js"
+import { colourPlot } from "./plot_looks.js"
 
 function composed(plot, side, ratio) {
   const { primary } = plot.canvas_view

@@ -1,5 +1,6 @@
-// Where the data of pictures are: `data` by column, `put` for new ones, `watch` to be told of them.
+// Data sources of pictures: columns by name, shared by all plots and canvases that draw them.
 
+/** `data` holds the columns; `put` replaces them; `watch` calls a function when that happens. */
 export class Source {
   data = {}
   // The plots of Bokeh that draw these data.
@@ -7,7 +8,7 @@ export class Source {
   #models = []
   #watchers = new Set()
 
-  // A source of Bokeh's that gets the same data: one for each plot that draws them.
+  // Feed a data source of Bokeh's too: one for each plot that draws the data.
   add(model, plot) {
     this.#models.push(model)
     this.plots.add(plot)

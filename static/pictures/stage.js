@@ -1,4 +1,4 @@
-// Where the pictures of a scene stand, and which of them are large.
+// Lays out the pictures of a scene in the viewport, and enlarges some of them.
 //
 // A picture is enlarged by the button in its corner or the key of its number; Shift adds a second one; Escape brings all
 // back.  On a phone one picture is seen at a time, chosen by its number below it.
@@ -11,7 +11,7 @@ import { isPresenting, setType, zoom } from "../page/presenting.js"
 import { PHONE } from "../page/windows.js"
 import { arrange } from "./arrange.js"
 import { isFolded, nameOf } from "./picture.js"
-import { sizePlot } from "./plot.js"
+import { sizePlot } from "./plot_looks.js"
 
 const MOST_LARGE = 2
 const ENLARGE = "M4 4h6v2H6v4H4zm10 0h6v6h-2V6h-4zM4 14h2v4h4v2H4zm14 0h2v6h-6v-2h4z"
