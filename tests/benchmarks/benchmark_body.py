@@ -19,11 +19,11 @@ FRAMES = """async (count) => {
     [item, ...(item.shadowRoot ? all(item.shadowRoot) : [])])
   const canvas = all(document).find((item) => item.matches(".gallery:not(.away) canvas.solid"))
   const ctx = canvas.getContext("2d")
-  const clear = ctx.clearRect.bind(ctx)
+  const reset = ctx.reset.bind(ctx)
   let begun = null
-  ctx.clearRect = (...box) => {
+  ctx.reset = () => {
     begun = performance.now()
-    clear(...box)
+    reset()
   }
   const times = []
   for (let i = 0; i < count; i++) {

@@ -559,7 +559,7 @@ def test_on_a_large_screen_lines_are_as_much_wider_as_the_type(look_at):
           const ctx = canvas.getContext("2d")
           const widths = []
           ctx.stroke = (...path) => {
-            widths.push(ctx.lineWidth)
+            widths.push(ctx.lineWidth * ctx.getTransform().a)
             CanvasRenderingContext2D.prototype.stroke.apply(ctx, path)
           }
           canvas.dispatchEvent(new KeyboardEvent("keydown", { key: "Home", bubbles: true }))
