@@ -80,7 +80,7 @@ def test_the_stored_long_orbit_begins_as_its_maker_makes_it():
 @pytest.mark.parametrize(("name", "bound"), [("A", 1e-11), ("A2", 1e-8)])
 def test_models_agree_with_the_stored_long_orbit(name, bound):
     work = works()[name]
-    orbit = solve(work, work.initial[0], work.times, level("reference"))
+    orbit = solve(systems()["suslov"].at(work.parameters), work.initial[0], work.times, level("reference"))
     assert work.error(orbit.states) < bound
 
 
@@ -88,7 +88,7 @@ def test_models_agree_with_the_stored_long_orbit(name, bound):
 def test_models_agree_with_the_stored_ensembles(name):
     work = works()[name]
     for i in (0, 100, 400, 511):
-        orbit = solve(work, work.initial[i], work.times, level("reference"))
+        orbit = solve(systems()["suslov"].at(work.parameters), work.initial[i], work.times, level("reference"))
         assert np.max(np.abs(orbit.states[0] - work.reference[i])) < 1e-10
 
 
