@@ -171,10 +171,10 @@ def test_a_click_on_the_branch_shows_that_orbit_and_away_from_it_nothing_happens
     value, there, _ = max(points_of(view), key=lambda one: one[0] < 0.9 * view.values["high"] and one[0])
     place = there[0]
     chosen = picture.on_click(state, value, place[side])
-    parameter = state.along[state.over]
+    parameter = state.branch.along[state.over]
     assert chosen[parameter] == pytest.approx(value, abs=1e-3)
     # The range stays as it was; a narrow one is enough here.
-    assert (chosen["low"], chosen["high"]) == state.branch_ends
+    assert (chosen["low"], chosen["high"]) == state.branch.ends
     near = {"low": chosen[parameter] - 0.01, "high": chosen[parameter] + 0.01}
     after = View(SCENES[name], {**view.values, **chosen, **near}, seen=["branch"])
     orbit = after.result.periodic_orbit.closed.orbit
@@ -185,9 +185,9 @@ def test_a_click_on_the_branch_shows_that_orbit_and_away_from_it_nothing_happens
     # What stands in the way of clicks: other chosen orbits stay.
     if "starts" in chosen:
         assert len(places(chosen["starts"])) == len(places(view.values["starts"]))
-    low, high = state.upwards_range
-    assert picture.on_click(state, *state.branch_ends[:1], high + (high - low)) == {}
-    assert picture.on_hover(state, *state.branch_ends[:1], high + (high - low)) == ""
+    low, high = state.branch.upwards_range
+    assert picture.on_click(state, *state.branch.ends[:1], high + (high - low)) == {}
+    assert picture.on_hover(state, *state.branch.ends[:1], high + (high - low)) == ""
     assert picture.on_hover(state, value, place[side]).startswith(f"{state.over} = ")
     kind, at, _ = marks(view)[0]
     mark = view.data["branch-bifurcations"]
@@ -216,17 +216,17 @@ def test_without_a_periodic_orbit_the_picture_says_what_to_do(name):
 def test_the_range_is_within_what_is_possible_and_about_the_value_where_none_is_chosen(name):
     scene = SCENES[name]
     defaults = scene.defaults()
-    for over, parameter in scene.state.along.items():
-        low, high = scene.of({**defaults, "over": over}).branch_ends
+    for over, parameter in scene.of(scene.defaults()).branch.along.items():
+        low, high = scene.of({**defaults, "over": over}).branch.ends
         assert low < defaults[parameter] < high
         spec = next(one for one in scene.specs if one.name == parameter)
         # Ends in the wrong order, and beyond the bounds of the parameter.
-        ends = scene.of({**defaults, "over": over, "low": 1e5, "high": -1e5}).branch_ends
+        ends = scene.of({**defaults, "over": over, "low": 1e5, "high": -1e5}).branch.ends
         assert ends == (max(spec.bounds[0], -1e5), min(spec.bounds[1], 1e5))
     values, notes = scene.admit({**defaults, "low": math.inf, "high": 1e9})
     assert (values["low"], values["high"], len(notes)) == (0.0, 1e5, 2)
     # Over another parameter the range is about that one.
-    other = [*scene.state.along][1]
+    other = [*scene.of(scene.defaults()).branch.along][1]
     assert scene.carried({**defaults, "low": 1.0, "high": 2.0}, {**defaults, "over": other}) == {
         "low": 0.0, "high": 0.0}
     assert scene.carried(defaults, {**defaults, "low": 1.0}) == {}
