@@ -66,12 +66,6 @@ def test_each_host_has_all_that_its_parts_ask_of_it(name):
         assert needed <= there, (part, needed - there)
 
 
-def test_no_state_has_more_than_three_own_classes():
-    for scene in SCENES.values():
-        own = [one for one in scene.state.__mro__ if one.__module__.startswith("hess_explorer")]
-        assert len(own) <= 3, own
-
-
 @dataclass(frozen=True)
 class Shown(Mixed):
     """A state with names that those who look into it use too."""
