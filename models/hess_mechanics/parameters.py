@@ -111,7 +111,7 @@ B2 = Parameter("b2", "b₂", "Centre of mass b₂", -0.5, (-3.0, 3.0), 0.01, (-1
 B3 = Parameter("b3", "b₃", "Centre of mass b₃", 0.7, (-3.0, 3.0), 0.01, (-1e3, 1e3), "Third component of b.", "Body")
 FIELD = (B1, B2, B3)
 
-D = Parameter("D", "𝒟", "Ball inside, 𝒟", 10.0, (0.0, 20.0), 0.05, (0.0, 1e3),
+D = Parameter("D", "𝒟", "Ball inside, 𝒟", 10.0, (0.0, 20.0), 0.05, (0.0, 300.0),
               "𝒟 = (R/Rₛ)² Iₛ of the ball that rolls inside; 0 is the free Suslov problem.", "Body")
 K_DRIVES_I11 = Parameter(
     "k", "k", "k, drives I₁₁", 2.4, (-2.0, 7.0), 0.05, (-50.0, 50.0),

@@ -217,14 +217,14 @@ def test_csv_and_json_say_the_same(answer, capsys, words):
 
 
 @pytest.mark.parametrize(("words", "said"), [
-    (replaced(SECTION, "--D", "-1"), "--D: D = -1 is not between 0 and 1000"),
+    (replaced(SECTION, "--D", "-1"), "--D: D = -1 is not between 0 and 300"),
     (replaced(SECTION, "--I", "1,3"), "write 4 numbers"),
     ([*SECTION, "--plane", "0,0,0,0,0"], "normal other than 0"),
     (replaced(LYAPUNOV, "--D", "x"), "is not a number"),
     (replaced(LYAPUNOV, "--t", "0"), "other than 0"),
     (replaced(PERIOD, "--gamma", "0,0,0"), "other than 0"),
     (replaced(PERIOD, "--I", "1.3,-0.8"), "I22 = -0.8 is not between 0.001 and 1000"),
-    ([*PERIOD, "--D", "-2"], "--D: D = -2 is not between 0 and 1000"),
+    ([*PERIOD, "--D", "-2"], "--D: D = -2 is not between 0 and 300"),
     (["period", "--I", "1,2", "--omega", "0.6,0.8", "--gamma", "0.6,0.8,0"], "rests on the equator and has no period"),
     (["period", "--I", "1,1", "--D", "1", "--omega", "0,0", "--gamma", "0.6,0,0.8"], "choose another start"),
     (replaced(CLOUD, "--I", "2,1,0,0"), "Choose I13 or I23 other than 0"),

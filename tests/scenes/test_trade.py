@@ -269,7 +269,7 @@ def test_the_cells_that_change_are_those_of_the_finer_grid_with_another_colour()
 def test_the_points_that_move_are_those_of_the_finer_run_that_lie_elsewhere():
     state, report = difference("suslov", "section", "draft", **SMALL)
     section, shown = SUSLOV.of({**SUSLOV.defaults(), **SMALL}), state.comparison.found
-    starts, away, longer = [section.start, *section.section.spread(section.frame, 12)], [], 0
+    starts, away, longer = [section.start, *section.poincare.spread(section.section.frame, 12)], [], 0
     for forward, some in ((True, starts), (False, starts[1:])):
         coarse, fine = (suslov_points(section.body, 3, some, count, forward, PLANS[Computation.SECTION][name].level,
                                       threads=1)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from functools import cache
 from importlib.util import find_spec
 from typing import Any
 
@@ -22,11 +23,19 @@ _MILLIMETRES = 71.0
 """Two pixels of the image for one of the picture."""
 
 
+@cache
+def _show_in_notebooks() -> None:
+    """Have notebooks show elements, once; a backend that the user has chosen stays."""
+    if hv.Store.current_backend == "bokeh":
+        hv.extension("bokeh", logo=False)
+
+
 def draw(shown: Shown) -> Any:
     """A picture in the page's colours: a plot as an overlay of its layers; spheres, bodies and clouds as an image.
 
     Raises `InvalidParameter`: an image needs Matplotlib.
     """
+    _show_in_notebooks()
     plot = shown.picture
     if not isinstance(plot, Plot):
         return _painted(shown)
@@ -53,6 +62,7 @@ def draw_result(result: Result) -> Any:
 
     What has no coordinate are points of a plane, whose first two variables are the axes.
     """
+    _show_in_notebooks()
     known = result.labels()
     axes = [dims[0] for name, (dims, _) in known.coords.items() if dims == (name,)]
     if not axes:

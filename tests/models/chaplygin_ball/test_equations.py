@@ -360,4 +360,4 @@ def test_the_command_prints_the_orbit(capsys):
 def test_the_command_refuses_in_a_sentence(capsys):
     words = ["orbit", "ball", "--I", "1,1,0,0", "--D", "-2", "--omega", "0.5,0.8", "--gamma", "0,0,1", "--t", "10"]
     assert main(words) == 2
-    assert "choose 𝒟 ≥ 0" in capsys.readouterr().err
+    assert "D = -2 is not between 0 and 300" in capsys.readouterr().err

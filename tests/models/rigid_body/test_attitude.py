@@ -143,7 +143,7 @@ import json, sys
 from hess_mechanics import ensemble, level
 from hess_mechanics.suslov_hess.equations import WITH_ATTITUDE
 starts, parameters, times = json.loads(sys.argv[1])
-print(json.dumps(ensemble(WITH_ATTITUDE, starts, parameters, times, level("precise")).states.tolist()))
+print(json.dumps(ensemble(WITH_ATTITUDE.at(parameters), starts, times, level("precise")).states.tolist()))
 """
 
 
