@@ -118,11 +118,13 @@ def test_attractors_and_repellers_are_what_their_examples_say(name, verdict, dim
     off = known.motion.divergence_error / (values.mean() - known.motion.divergence)
     assert abs(D - dimension[0]) < 3.0 * math.hypot(off, dimension[1])
     assert D + 3.0 * off < 3.0
-    # The mean divergence over the orbits by the trapezoidal rule, which knows no Taylor series.
+    # The mean divergence over the orbits by the trapezoidal rule, which knows no Taylor series.  Of many orbits, as the
+    # scatter of six is too uncertain to judge by; without their beginnings, as a start on the section is no typical
+    # moment: the first 25 units of time shift the mean over 500 by 0.0027.
     t = np.linspace(0.0, 500.0, 2001)
-    rates = [np.mean([divergence(state.body, y)
-                      for y in solve(state.body, start, t, level("draft")).states])
-             for start in starts]
+    many = [state_at(state.body, state.poincare.E, 3, *place) for place in state.regime.sets.attractor[::60]]
+    rates = [np.mean([divergence(state.body, y) for y in solve(state.body, start, t, level("draft")).states[100:]])
+             for start in many]
     assert abs(np.mean(rates) - known.motion.divergence) < 5.0 * math.hypot(
         np.std(rates, ddof=1) / math.sqrt(len(rates)), known.motion.divergence_error)
     assert known.motion.volume == -1
