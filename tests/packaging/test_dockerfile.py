@@ -3,6 +3,7 @@
 import re
 import signal
 import subprocess
+import tomllib
 import zipfile
 from pathlib import Path
 
@@ -131,3 +132,10 @@ def test_the_lock_file_names_no_host_and_has_a_hash_for_everything():
         assert "==" in block
         assert " --hash=sha256:" in block
         assert "://" not in block
+
+
+def test_every_dependency_is_in_the_lock_file():
+    """The image installs no others, so one that is missing there would fail as it starts."""
+    locked = set(re.findall(r"^([a-z0-9-]+)==", (ROOT / "app" / "requirements.lock").read_text(), re.MULTILINE))
+    asked = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["dependencies"]
+    assert {re.match(r"[A-Za-z0-9-]+", one)[0].lower() for one in asked} <= locked
