@@ -124,13 +124,19 @@ def test_the_strange_attractor_is_what_its_example_says():
     assert float(said[2]) < 1e-3
     values, body, E = at(state, "D", state.D)
     last = state_at(body, E, *state.regime.sets.attractor[-1])
-    exponents = lyapunov_spectrum(body, last, 4000.0)
-    assert exponents.signs == ("+", "0", "0", "0", "-")
-    assert exponents.values[0] == pytest.approx(0.036, abs=0.006)
+    # Of six orbits: the error of a single one, 0.004 to 0.015 here, may leave its sign open.
+    starts = [state_at(body, E, *place) for place in state.regime.sets.attractor[::250]]
+    found = [lyapunov_spectrum(body, start, 4000.0) for start in starts]
+    assert all(one.signs[1:] == ("0", "0", "0", "-") for one in found)
+    largest = np.array([one.values[0] for one in found])
+    scatter = np.std(largest, ddof=1) / math.sqrt(len(largest))
+    assert largest.mean() > 5.0 * scatter
+    assert largest.mean() == pytest.approx(0.036, abs=0.006)
     # Two orbits side by side, by another algorithm, part as fast.
-    twin = lyapunov_exponent(body, last, 2000.0, PLANS[Computation.EXPONENT]["standard"].level)
-    assert abs(twin.value - exponents.values[0]) < 4.0 * exponents.errors[0] + 0.01
-    assert abs(exponents.dimension[0] - 2.28) < 0.04
+    twins = [lyapunov_exponent(body, start, 2000.0, PLANS[Computation.EXPONENT]["standard"].level).value
+             for start in starts]
+    assert abs(np.mean(twins) - largest.mean()) < 4.0 * scatter + 0.01
+    assert np.mean([one.dimension[0] for one in found]) == pytest.approx(2.28, abs=0.04)
     # The mean divergence by a 2 × 2 system solved at every state: ω̇ is quadratic in ω, so differences are derivatives.
     field = rates(values)
     states = solve(body, last, np.linspace(0.0, 500.0, 2001), level("draft")).states
