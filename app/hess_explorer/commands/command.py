@@ -17,7 +17,7 @@ __all__ = ["OUT", "OUTPUT", "STATE", "Command", "Option", "Options", "flag", "nu
            "vector", "whole"]
 
 Options = argparse.Namespace
-"""What was given."""
+"""The parsed options of a command."""
 
 
 @dataclass(frozen=True)

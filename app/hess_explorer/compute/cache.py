@@ -89,7 +89,7 @@ class ResultCache:
             raise
         with self._lock:
             del self._running[key]
-            # What is larger than the whole cache is not kept.
+            # A result larger than the whole cache is not kept.
             with suppress(ValueError):
                 self._results[key] = value
         own.set_result(value)

@@ -49,7 +49,7 @@ class BackgroundTasks:
 
     @property
     def news(self) -> bool:
-        """Whether a task has ended since the state was computed, or none is on its way."""
+        """Return whether a task has ended since the state was computed, or none is running."""
         return not 0 < self.background.left == self._left
 
     def follow(self, report: Report, more: bool, ended: bool) -> list[str]:

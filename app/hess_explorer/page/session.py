@@ -78,11 +78,11 @@ class Session:
 
     @property
     def background(self) -> Background:
-        """What computes the tasks of the state on show."""
+        """The background work of the state on show."""
         return self._tasks.background
 
     def answer(self, request: Request) -> Answer:
-        """Do what a request says, and return what the page is told; whoever waits for a state gets one."""
+        """Carry out a request and return the answer; a request for a state is always answered with one."""
         scene = self.scene
         try:
             # The mechanics check their results for overflow themselves: NumPy's warnings would only be noise.
