@@ -139,8 +139,8 @@ def solve(body: Body, state: Sequence[float] | Array, t: float | Sequence[float]
         steps = body.system.orbit(starts[at.aside], problem.parameters, scaled_times, at.order, at.tolerance,
                                   MAX_STEPS - total, out)
         if steps == STEP_LIMIT_REACHED:
-            raise WorkLimit(f"This time span needs more than {MAX_STEPS} steps: choose a shorter one, or a cheaper "
-                            "level.")
+            raise WorkLimit(f"This motion needs more than {MAX_STEPS} steps: choose a shorter time span or a cheaper "
+                            "accuracy.")
         require_finite_states(out)
         total += steps
         return out

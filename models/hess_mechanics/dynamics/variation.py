@@ -100,8 +100,8 @@ def transition_matrix(body: Body, state: Sequence[float] | Array, times: float |
         steps, states, frames, volume = followed(system, problems[level.aside], scaled_times, level.order,
                                                  level.tolerance, MAX_STEPS - total)
         if steps == STEP_LIMIT_REACHED:
-            raise WorkLimit(f"This time span needs more than {MAX_STEPS} steps: choose a shorter one, or a cheaper "
-                            "level.")
+            raise WorkLimit(f"This motion needs more than {MAX_STEPS} steps: choose a shorter time span or a cheaper "
+                            "accuracy.")
         require_finite_states(states)
         require_finite_neighbours(frames, volume)
         total += steps

@@ -74,7 +74,7 @@ class FreeRun:
 def _run(problem: Problem, start: Array, times: Array, level: Level, out: Array) -> int:
     steps = SYSTEM.orbit(start, problem.parameters, times, level.order, level.tolerance, MAX_STEPS, out)
     if steps < 0:
-        raise WorkLimit(f"This time span needs more than {MAX_STEPS} steps: choose a shorter one, or a cheaper level.")
+        raise WorkLimit(f"This motion needs more than {MAX_STEPS} steps: choose a shorter time span.")
     require_finite_states(out)
     return steps
 
